@@ -1,0 +1,168 @@
+//! Simulated time that keeps its digits.
+
+use core::cmp::Ordering;
+use core::ops::{Add, AddAssign, Sub};
+
+use crate::{two_product, two_sum};
+
+/// An instant of simulated time: whole units of 2⁻⁶ s and a rest.
+///
+/// The rest lies in 0..2⁻⁶ s, so an instant is right to 3.5e-18 s however late it is, and the
+/// difference of two near instants is exact: one ulp of a plain `f64` is 1.8e-12 s after 10,000 s.
+///
+/// # Examples
+/// ```
+/// use carom_math::SimTime;
+/// let late = SimTime::from_secs(10_000.0);
+/// assert_eq!((late + 1e-15) - late, 1e-15);                   // plain doubles give 0
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SimTime {
+    units: i64,
+    rest: f64,
+}
+
+const UNITS_PER_SECOND: f64 = 64.0;
+const UNIT: f64 = 1.0 / UNITS_PER_SECOND;
+
+impl SimTime {
+    /// The start of time.
+    pub const ZERO: Self = Self {
+        units: 0,
+        rest: 0.0,
+    };
+
+    /// Later than any instant that a world reaches (4.6e16 s).
+    pub const NEVER: Self = Self {
+        units: i64::MAX,
+        rest: 0.0,
+    };
+
+    /// The instant `secs` seconds after the start.
+    #[must_use]
+    pub fn from_secs(secs: f64) -> Self {
+        Self::ZERO + secs
+    }
+
+    /// The instant `count · interval`, rounded once: no error adds up over the counts.
+    #[must_use]
+    pub fn multiple(count: u64, interval: f64) -> Self {
+        #[expect(
+            clippy::cast_precision_loss,
+            reason = "the high part is a multiple of 2^32, the low part below it: both are exact"
+        )]
+        let (high, low) = ((count >> 32 << 32) as f64, (count & 0xFFFF_FFFF) as f64);
+        let (product, error) = two_product(low, interval);
+        let (upper, upper_error) = two_product(high, interval);
+        Self::ZERO + upper + product + (error + upper_error)
+    }
+
+    /// Seconds since the start, rounded to one `f64`.
+    #[must_use]
+    #[expect(
+        clippy::cast_precision_loss,
+        reason = "units stay below 2^53 for 4 million years"
+    )]
+    pub fn as_secs(self) -> f64 {
+        self.units as f64 * UNIT + self.rest
+    }
+}
+
+impl Add<f64> for SimTime {
+    type Output = Self;
+
+    /// The instant `secs` later (earlier if negative), right to one rounding of the rest.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_precision_loss,
+        reason = "a float cast saturates, which is as late as NEVER; whole units up to 2^53 are exact"
+    )]
+    fn add(self, secs: f64) -> Self {
+        let whole = (secs * UNITS_PER_SECOND).floor();
+        // Exact: both terms are multiples of the last bit of `secs`, and the result is smaller.
+        let part = secs - whole * UNIT;
+        let units = self.units.saturating_add(whole as i64);
+        // The rest may reach past the unit; its rounding error would be lost at the border.
+        let (rest, error) = two_sum(self.rest, part);
+        if rest >= UNIT {
+            let over = (rest - UNIT) + error;
+            if over >= 0.0 {
+                return Self {
+                    units: units.saturating_add(1),
+                    rest: over,
+                };
+            }
+        }
+        let rest = if rest < UNIT { rest } else { UNIT.next_down() };
+        Self { units, rest }
+    }
+}
+
+impl AddAssign<f64> for SimTime {
+    fn add_assign(&mut self, secs: f64) {
+        *self = *self + secs;
+    }
+}
+
+impl Sub for SimTime {
+    type Output = f64;
+
+    /// Seconds from `earlier` to `self`.
+    #[expect(
+        clippy::cast_precision_loss,
+        reason = "differences stay below 2^53 units for 4 million years"
+    )]
+    fn sub(self, earlier: Self) -> f64 {
+        self.units.saturating_sub(earlier.units) as f64 * UNIT + (self.rest - earlier.rest)
+    }
+}
+
+impl Eq for SimTime {}
+
+impl PartialOrd for SimTime {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for SimTime {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.units
+            .cmp(&other.units)
+            .then(self.rest.total_cmp(&other.rest))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn a_day_of_sixtieths_ends_on_the_day() {
+        let ticks = 24 * 3600 * 60;
+        let day = SimTime::multiple(ticks, 1.0 / 60.0);
+        // 1/60 is not a double; its error times the count is all that is left.
+        assert!((day - SimTime::from_secs(86400.0)).abs() < 2e-12);
+        assert_eq!(SimTime::multiple(ticks, 0.25).as_secs(), 0.25 * 5_184_000.0);
+    }
+
+    proptest! {
+        #[test]
+        fn differences_are_exact_when_near(start in 0.0..1e4_f64, dt in 0.0..1.0_f64) {
+            let at = SimTime::from_secs(start);
+            prop_assert!(((at + dt) - at - dt).abs() <= 4e-18);
+        }
+
+        #[test]
+        fn order_follows_seconds(a in 0.0..1e4_f64, b in 0.0..1e4_f64) {
+            prop_assert_eq!(SimTime::from_secs(a).cmp(&SimTime::from_secs(b)), a.total_cmp(&b));
+        }
+
+        #[test]
+        fn there_and_back(start in 0.0..1e4_f64, dt in -1e3..1e3_f64) {
+            let at = SimTime::from_secs(start);
+            prop_assert!((((at + dt) + -dt) - at).abs() <= 8e-18);
+        }
+    }
+}
