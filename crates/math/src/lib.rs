@@ -13,6 +13,8 @@
 //! assert!((pose.point(vec2(2.0, 0.0)) - vec2(1.0, 2.0)).length() < 1e-15);
 //! ```
 
+#![cfg_attr(test, allow(clippy::float_cmp, reason = "tests compare exact results"))]
+
 mod cross;
 mod hash;
 mod pose;

@@ -86,7 +86,8 @@ impl Rot {
     /// The principal angle, in radians, in (−π, π].
     #[must_use]
     pub fn angle(self) -> f64 {
-        trig::atan2(self.sin, self.cos)
+        // −0 + 0 is +0: half a turn is +π from either side.
+        trig::atan2(self.sin + 0.0, self.cos)
     }
 
     /// The opposite rotation.

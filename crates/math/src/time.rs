@@ -74,8 +74,7 @@ impl Add<f64> for SimTime {
     /// The instant `secs` later (earlier if negative), right to one rounding of the rest.
     #[expect(
         clippy::cast_possible_truncation,
-        clippy::cast_precision_loss,
-        reason = "a float cast saturates, which is as late as NEVER; whole units up to 2^53 are exact"
+        reason = "the cast saturates, which is as late as NEVER"
     )]
     fn add(self, secs: f64) -> Self {
         let whole = (secs * UNITS_PER_SECOND).floor();
