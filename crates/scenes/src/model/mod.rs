@@ -1,0 +1,264 @@
+//! The tables of a scene file, as they are written. What they may hold is checked when a scene is built.
+
+mod body;
+mod generate;
+mod shape;
+mod value;
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+use serde::de::{Deserializer, Error, MapAccess, Visitor, value::MapAccessDeserializer};
+
+pub(crate) use body::{BodyTable, Kind, MaterialChoice, MaterialTable};
+pub(crate) use generate::{
+    GridTable, PopulationTable, PyramidTable, RandomShape, StackTable, WallsTable,
+};
+pub(crate) use shape::{RegularTable, ShapeTable, StarTable, TriangleTable};
+pub(crate) use value::{Corners, CountRange, Pixels, Point, Range};
+
+/// The parameters of the original program, which `--set` takes without a table's name.
+pub(crate) const PARAMETERS: [&str; 10] = [
+    "n",
+    "radius",
+    "v",
+    "fconst",
+    "fnewt",
+    "delta",
+    "restitution",
+    "collisions",
+    "stats",
+    "face",
+];
+
+/// A whole file.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SceneFile {
+    /// Checked before anything else is read.
+    #[serde(rename = "version")]
+    pub(crate) _version: u32,
+    #[serde(default)]
+    pub(crate) name: Option<String>,
+    #[serde(default)]
+    pub(crate) description: String,
+    #[serde(default)]
+    pub(crate) seed: u64,
+    #[serde(default = "ten_seconds")]
+    pub(crate) duration: f64,
+    #[serde(default = "thirty")]
+    pub(crate) fps: u32,
+    #[serde(default)]
+    pub(crate) gravity: Option<Point>,
+    #[serde(default)]
+    pub(crate) settings: SettingsTable,
+    #[serde(default)]
+    pub(crate) parameters: ParametersTable,
+    #[serde(default)]
+    pub(crate) camera: CameraTable,
+    #[serde(default)]
+    pub(crate) look: LookTable,
+    #[serde(default)]
+    pub(crate) materials: BTreeMap<String, MaterialTable>,
+    #[serde(default)]
+    pub(crate) field: Vec<FieldTable>,
+    #[serde(default)]
+    pub(crate) walls: Option<WallsTable>,
+    #[serde(default)]
+    pub(crate) body: Vec<BodyTable>,
+    #[serde(default)]
+    pub(crate) stack: Vec<StackTable>,
+    #[serde(default)]
+    pub(crate) pyramid: Vec<PyramidTable>,
+    #[serde(default)]
+    pub(crate) grid: Vec<GridTable>,
+    #[serde(default)]
+    pub(crate) population: Vec<PopulationTable>,
+}
+
+fn ten_seconds() -> f64 {
+    10.0
+}
+
+fn thirty() -> u32 {
+    30
+}
+
+/// `[settings]`: what is not given is the engine's default.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(crate) struct SettingsTable {
+    pub(crate) tick: Option<f64>,
+    pub(crate) substep: Option<f64>,
+    pub(crate) mode: Option<ModeName>,
+    pub(crate) pairs: Option<PairsName>,
+    pub(crate) impact_law: Option<LawName>,
+    pub(crate) sleep: Option<SleepChoice>,
+    pub(crate) contact: ContactTable,
+    pub(crate) history: Option<usize>,
+    pub(crate) events: Option<usize>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum ModeName {
+    Hybrid,
+    Exact,
+    Stepped,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum PairsName {
+    None,
+    All,
+    Indexed,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum LawName {
+    Newton,
+    Poisson,
+    Stronge,
+}
+
+/// `sleep = true`, `false` or `{ speed, time }`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum SleepChoice {
+    Never,
+    Default,
+    After(SleepTable),
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(crate) struct SleepTable {
+    pub(crate) speed: Option<f64>,
+    pub(crate) time: Option<f64>,
+}
+
+impl<'de> Deserialize<'de> for SleepChoice {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Choice;
+        impl<'de> Visitor<'de> for Choice {
+            type Value = SleepChoice;
+            fn expecting(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+                f.write_str("true, false or { speed, time }")
+            }
+            fn visit_bool<E: Error>(self, sleeps: bool) -> Result<SleepChoice, E> {
+                Ok(if sleeps { SleepChoice::Default } else { SleepChoice::Never })
+            }
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<SleepChoice, A::Error> {
+                SleepTable::deserialize(MapAccessDeserializer::new(map)).map(SleepChoice::After)
+            }
+        }
+        deserializer.deserialize_any(Choice)
+    }
+}
+
+/// `[settings.contact]`: the soft law of lasting contacts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(crate) struct ContactTable {
+    pub(crate) frequency: Option<f64>,
+    pub(crate) damping_ratio: Option<f64>,
+    pub(crate) compliance: Option<f64>,
+    pub(crate) over_relaxation: Option<f64>,
+    pub(crate) push_out: Option<f64>,
+}
+
+/// `[parameters]`: the original program's names for things that stand elsewhere in the file.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(crate) struct ParametersTable {
+    pub(crate) n: Option<u64>,
+    pub(crate) radius: Option<Range>,
+    pub(crate) v: Option<Range>,
+    pub(crate) fconst: Option<Point>,
+    pub(crate) fnewt: Option<f64>,
+    pub(crate) delta: Option<f64>,
+    pub(crate) restitution: Option<f64>,
+    pub(crate) collisions: Option<PairsName>,
+    pub(crate) stats: Option<bool>,
+    pub(crate) face: Option<String>,
+}
+
+/// `[camera]`.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(crate) struct CameraTable {
+    pub(crate) centre: Option<Point>,
+    pub(crate) height: Option<f64>,
+    pub(crate) fit: Option<Corners>,
+    pub(crate) size: Pixels,
+    pub(crate) background: Option<String>,
+}
+
+impl Default for CameraTable {
+    fn default() -> Self {
+        Self {
+            centre: None,
+            height: None,
+            fit: None,
+            size: Pixels {
+                width: 800,
+                height: 600,
+            },
+            background: None,
+        }
+    }
+}
+
+/// `[look]`.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(crate) struct LookTable {
+    pub(crate) theme: ThemeName,
+    pub(crate) palette: Option<u64>,
+    pub(crate) shaded: bool,
+    pub(crate) face: Option<String>,
+    pub(crate) centroids: bool,
+    pub(crate) velocities: bool,
+    pub(crate) velocity_scale: Option<f64>,
+    pub(crate) contacts: bool,
+    pub(crate) normals: bool,
+    pub(crate) boxes: bool,
+    pub(crate) gravity: bool,
+    pub(crate) restitution: bool,
+    pub(crate) field: bool,
+    pub(crate) stats: bool,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum ThemeName {
+    #[default]
+    Light,
+    Dark,
+}
+
+/// `[[field]]`.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct FieldTable {
+    /// One kind so far; it is written so that files stay clear when there are more.
+    #[serde(rename = "kind")]
+    pub(crate) _kind: FieldKind,
+    pub(crate) centre: Point,
+    pub(crate) strength: f64,
+    pub(crate) core: f64,
+    /// Whether the core is a fixed disc that bodies bounce off.
+    #[serde(default)]
+    pub(crate) solid: bool,
+    #[serde(default)]
+    pub(crate) material: MaterialChoice,
+    #[serde(default)]
+    pub(crate) colour: Option<String>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum FieldKind {
+    Radial,
+}

@@ -1,0 +1,110 @@
+//! A scene: the text of a file and what was set over it.
+
+use std::fs;
+use std::io::{ErrorKind, Read as _};
+use std::path::Path;
+
+use crate::document::{Document, MAX_BYTES};
+use crate::error::{Problem, SceneError};
+use crate::model::SceneFile;
+
+/// A scene that was read: all its fields are known and of the right type.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    pub(crate) document: Document,
+    pub(crate) file: SceneFile,
+    /// The folder that faces are looked up in.
+    pub(crate) folder: Option<std::path::PathBuf>,
+}
+
+impl Scene {
+    /// Reads a scene from text; `origin` names it in errors.
+    ///
+    /// # Errors
+    /// Everything that can be said without building it: bytes that are no TOML, unknown fields, wrong types, numbers
+    /// that are not finite, a version from the future.
+    pub fn from_toml(text: &str, origin: impl AsRef<Path>) -> Result<Self, SceneError> {
+        let document = Document::new(&origin.as_ref().to_string_lossy(), text)?;
+        let file = document.read()?;
+        Ok(Self {
+            document,
+            file,
+            folder: None,
+        })
+    }
+
+    /// Reads a scene file.
+    ///
+    /// # Errors
+    /// If the file is missing, a folder, unreadable, over [`MAX_BYTES`] or not UTF-8, and as [`Self::from_toml`].
+    pub fn load(path: impl AsRef<Path>) -> Result<Self, SceneError> {
+        let path = path.as_ref();
+        let origin = path.to_string_lossy();
+        let text = read_text(path).map_err(|problem| SceneError::file(&origin, problem))?;
+        let mut scene = Self::from_toml(&text, path)?;
+        scene.folder = path.parent().map(Path::to_path_buf);
+        Ok(scene)
+    }
+
+    /// Lays one setting over the file: any dotted path of it, tables of a list by number from 0 or by name.
+    ///
+    /// The value is TOML; what is no TOML counts as a string, so `settings.pairs=none` needs no quotes. A parameter of
+    /// the original program needs no table: `n=50` is `parameters.n=50`.
+    ///
+    /// # Errors
+    /// As for a file, with the setting in place of line and column; the scene is as it was.
+    pub fn set(&mut self, key: &str, value: &str) -> Result<(), SceneError> {
+        let mut document = self.document.clone();
+        document.lay_over(key, value);
+        self.file = document.read()?;
+        self.document = document;
+        Ok(())
+    }
+
+    /// The scene's name: the file's `name`, else what it was read from.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        self.file.name.as_deref().unwrap_or(&self.document.origin)
+    }
+
+    /// What the scene shows, in a sentence or two; may be empty.
+    #[must_use]
+    pub fn description(&self) -> &str {
+        &self.file.description
+    }
+}
+
+fn read_text(path: &Path) -> Result<String, Problem> {
+    let missing = |error: std::io::Error| match error.kind() {
+        ErrorKind::NotFound | ErrorKind::NotADirectory => Problem::Missing,
+        ErrorKind::IsADirectory => Problem::Folder,
+        _ => Problem::Io(error),
+    };
+    let about = fs::metadata(path).map_err(missing)?;
+    if about.is_dir() {
+        return Err(Problem::Folder);
+    }
+    let too_large = |bytes| Problem::TooLarge {
+        bytes,
+        limit: MAX_BYTES,
+    };
+    if about.len() > MAX_BYTES {
+        return Err(too_large(about.len()));
+    }
+    // A pipe or a file that grows says nothing true about its size: read no more than the limit.
+    let mut bytes = Vec::new();
+    let file = fs::File::open(path).map_err(missing)?;
+    file.take(MAX_BYTES + 1)
+        .read_to_end(&mut bytes)
+        .map_err(missing)?;
+    if bytes.len() as u64 > MAX_BYTES {
+        return Err(too_large(bytes.len() as u64));
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        let offset = error.utf8_error().valid_up_to();
+        Problem::NotText {
+            offset,
+            byte: error.as_bytes().get(offset).copied().unwrap_or_default(),
+        }
+    })
+}
