@@ -1,1 +1,39 @@
-//! carom-render.
+//! Pictures of rigid bodies without a screen.
+
+#![cfg_attr(
+    test,
+    allow(
+        clippy::float_cmp,
+        clippy::cast_possible_truncation,
+        reason = "tests compare exact results"
+    )
+)]
+
+mod apng;
+mod camera;
+mod clip;
+mod colour;
+mod error;
+mod face;
+mod font;
+mod frame;
+mod glyphs;
+mod output;
+mod paint;
+mod picture;
+mod png;
+mod size;
+mod style;
+mod svg;
+
+pub use apng::Animation;
+pub use camera::Camera;
+pub use colour::{BODY_COLOURS, Colour};
+pub use error::RenderError;
+pub use face::{Face, MAX_FACE_SIDE};
+pub use frame::{Frame, Label, Op, Paint};
+pub use output::write_file;
+pub use picture::Picture;
+pub use png::Packing;
+pub use size::{FrameRate, MAX_PIXELS, MAX_RATE, MAX_SIDE, Size};
+pub use style::{Ink, Style};

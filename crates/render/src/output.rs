@@ -1,0 +1,130 @@
+//! Files that appear whole or not at all.
+
+use std::ffi::OsString;
+use std::fs::{self, File};
+use std::io::{BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use crate::RenderError;
+
+/// A file under a temporary name beside its place: [`Draft::finish`] gives it its name, dropping it removes it.
+#[derive(Debug)]
+pub(crate) struct Draft {
+    place: PathBuf,
+    temporary: PathBuf,
+    writer: Option<BufWriter<File>>,
+}
+
+impl Draft {
+    /// Opens the file that will become `place`.
+    pub(crate) fn create(place: &Path) -> Result<Self, RenderError> {
+        let name = place.file_name().ok_or_else(|| RenderError::Name {
+            name: place.display().to_string(),
+        })?;
+        let mut hidden = OsString::from(".");
+        hidden.push(name);
+        hidden.push(".part");
+        let temporary = place.with_file_name(hidden);
+        if place.is_dir() {
+            let source = std::io::Error::from(std::io::ErrorKind::IsADirectory);
+            return Err(RenderError::io("write", place)(source));
+        }
+        let file = File::create(&temporary).map_err(RenderError::io("write", place))?;
+        Ok(Self {
+            place: place.to_path_buf(),
+            temporary,
+            writer: Some(BufWriter::with_capacity(1 << 16, file)),
+        })
+    }
+
+    /// Appends bytes.
+    pub(crate) fn write(&mut self, bytes: &[u8]) -> Result<(), RenderError> {
+        match &mut self.writer {
+            Some(writer) => writer
+                .write_all(bytes)
+                .map_err(RenderError::io("write", &self.place)),
+            None => Ok(()),
+        }
+    }
+
+    /// Hands over the file with everything written so far in it, to change what lies behind.
+    pub(crate) fn file(&mut self) -> Result<Option<&mut File>, RenderError> {
+        let Some(writer) = &mut self.writer else {
+            return Ok(None);
+        };
+        writer
+            .flush()
+            .map_err(RenderError::io("write", &self.place))?;
+        Ok(Some(writer.get_mut()))
+    }
+
+    /// Closes the file and gives it its name.
+    pub(crate) fn finish(mut self) -> Result<(), RenderError> {
+        self.file()?;
+        // Closed before it is renamed: some systems ask for it.
+        drop(self.writer.take());
+        let renamed = fs::rename(&self.temporary, &self.place);
+        if renamed.is_err() {
+            let _gone = fs::remove_file(&self.temporary);
+        }
+        renamed.map_err(RenderError::io("write", &self.place))
+    }
+}
+
+impl Drop for Draft {
+    fn drop(&mut self) {
+        if self.writer.take().is_some() {
+            // Nobody is left to hear of a failure; a hidden file may stay.
+            let _gone = fs::remove_file(&self.temporary);
+        }
+    }
+}
+
+/// Writes a whole file under a temporary name first.
+///
+/// # Errors
+/// [`RenderError::Io`] with the path; nothing is left behind then, and what was there before is untouched.
+pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), RenderError> {
+    let mut draft = Draft::create(path)?;
+    draft.write(bytes)?;
+    draft.finish()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(folder: &Path) -> Vec<String> {
+        let mut names: Vec<_> = fs::read_dir(folder)
+            .unwrap()
+            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+            .collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn a_dropped_draft_leaves_the_old_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let place = folder.path().join("a.txt");
+        write_file(&place, b"old").unwrap();
+        let mut draft = Draft::create(&place).unwrap();
+        draft.write(b"half of the n").unwrap();
+        assert_eq!(names(folder.path()), [".a.txt.part", "a.txt"]);
+        drop(draft);
+        assert_eq!(names(folder.path()), ["a.txt"]);
+        assert_eq!(fs::read(&place).unwrap(), b"old");
+        write_file(&place, b"new").unwrap();
+        assert_eq!(fs::read(&place).unwrap(), b"new");
+    }
+
+    #[test]
+    fn a_folder_in_the_place_of_a_file_is_named() {
+        let folder = tempfile::tempdir().unwrap();
+        let place = folder.path().join("film.png");
+        fs::create_dir(&place).unwrap();
+        let error = write_file(&place, b"x").unwrap_err().to_string();
+        assert!(error.contains("film.png"), "{error}");
+        assert_eq!(names(folder.path()), ["film.png"]);
+    }
+}

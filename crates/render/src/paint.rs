@@ -1,0 +1,432 @@
+//! From marks to pixels: the only file that talks to tiny-skia.
+//!
+//! Everything is cut in `f64` first ([`clip`](crate::clip)); strokes become outlines that are filled, whatever their
+//! width, because tiny-skia's own hairlines jump in brightness at one pixel.
+
+use carom_math::{Rot, Vec2};
+use tiny_skia::{
+    Color, FillRule, FilterQuality, GradientStop, LineCap, LineJoin, Path, PathBuilder,
+    PathStroker, Pattern, PixmapMut, PixmapRef, Point, RadialGradient, Shader, SpreadMode, Stroke,
+    Transform,
+};
+
+use crate::camera::narrow;
+use crate::clip::{Cover, Window};
+use crate::frame::arrow_outline;
+use crate::{Colour, Face, Ink, Label, Op, Picture, Style, font};
+
+/// Widest stroke, in pixels; wider ones are drawn as wide as this.
+pub(crate) const MAX_STROKE: f64 = 256.0;
+
+/// Room around the canvas that marks are cut to, in pixels: half the widest stroke, and as much again.
+const MARGIN: f64 = 256.0;
+
+/// Discs up to this radius, in pixels, go to the rasteriser as circles, larger ones as the arc that is seen.
+const LARGE_DISC: f64 = 2048.0;
+
+/// Shortest dash, in pixels.
+const SHORTEST_DASH: f64 = 1.0;
+
+/// The shading of a ball, in radii: full colour up to `INNER` around a point moved by `SHIFT` in x and y, a third
+/// of the colour at `OUTER` (the flying balls' own numbers).
+pub(crate) const INNER: f64 = 0.2;
+pub(crate) const OUTER: f64 = 1.3;
+pub(crate) const SHIFT: f64 = -0.2;
+
+/// The dark end of a ball's shading.
+pub(crate) fn shade(colour: Colour) -> Colour {
+    Colour {
+        red: colour.red / 3,
+        green: colour.green / 3,
+        blue: colour.blue / 3,
+        alpha: colour.alpha,
+    }
+}
+
+/// Paints the marks over `picture`, in order.
+pub(crate) fn paint(ops: &[Op], style: &Style, picture: &mut Picture) {
+    let size = picture.size();
+    let Some(map) = PixmapMut::from_bytes(picture.rgba_mut(), size.width(), size.height()) else {
+        return;
+    };
+    let mut painter = Painter {
+        map,
+        style,
+        window: Window::new(size.corner(), MARGIN),
+        stroker: PathStroker::new(),
+        builder: PathBuilder::new(),
+        ring: Vec::new(),
+        spare: Vec::new(),
+        line: Vec::new(),
+    };
+    for op in ops {
+        painter.op(op);
+    }
+}
+
+struct Painter<'a> {
+    map: PixmapMut<'a>,
+    style: &'a Style,
+    window: Window,
+    stroker: PathStroker,
+    /// The path under construction; its memory goes from mark to mark.
+    builder: PathBuilder,
+    ring: Vec<Vec2>,
+    spare: Vec<Vec2>,
+    line: Vec<Vec2>,
+}
+
+impl Painter<'_> {
+    fn op(&mut self, op: &Op) {
+        match op {
+            Op::Polygon { points, paint } => {
+                self.fill_ring(points, paint.fill);
+                let outline = paint
+                    .outline
+                    .unwrap_or_else(|| self.style.outline_of(paint.fill));
+                self.outline_ring(points, self.style.outline, outline);
+            }
+            Op::Disc {
+                centre,
+                radius,
+                paint,
+            } => {
+                if paint.shaded {
+                    self.fill_disc(*centre, *radius, ball(*centre, *radius, paint.fill));
+                } else {
+                    self.fill_disc(*centre, *radius, flat(paint.fill));
+                }
+                let outline = paint.outline.unwrap_or_else(|| {
+                    let edge = if paint.shaded {
+                        shade(paint.fill)
+                    } else {
+                        paint.fill
+                    };
+                    self.style.outline_of(edge)
+                });
+                self.ring(*centre, *radius, self.style.outline, outline);
+            }
+            Op::Dot {
+                centre,
+                radius,
+                ink,
+            } => self.fill_disc(*centre, *radius, flat(self.style.colour(*ink))),
+            Op::Ring {
+                centre,
+                radius,
+                width,
+                ink,
+            } => self.ring(*centre, *radius, *width, self.style.colour(*ink)),
+            Op::Line {
+                points,
+                width,
+                dash,
+                ink,
+            } => self.polyline(points, *width, *dash, self.style.colour(*ink)),
+            Op::Arrow {
+                from,
+                to,
+                width,
+                ink,
+            } => {
+                if let Some(outline) = arrow_outline(*from, *to, *width) {
+                    self.fill_ring(&outline, self.style.colour(*ink));
+                }
+            }
+            Op::Face {
+                centre,
+                radius,
+                turn,
+                face,
+            } => self.face(*centre, *radius, *turn, face),
+            Op::Box {
+                min,
+                max,
+                fill,
+                border,
+                width,
+                dash,
+            } => self.rectangle(*min, *max, *fill, *border, *width, *dash),
+            Op::Label(label) => self.label(label),
+        }
+    }
+
+    fn fill_ring(&mut self, points: &[Vec2], colour: Colour) {
+        self.window.polygon(points, &mut self.ring, &mut self.spare);
+        if self.ring.len() > 2 {
+            push(&mut self.builder, &self.ring, true);
+            self.fill(flat(colour));
+        }
+    }
+
+    fn outline_ring(&mut self, points: &[Vec2], width: f64, colour: Colour) {
+        let mut line = core::mem::take(&mut self.line);
+        line.clear();
+        line.extend_from_slice(points);
+        line.extend(points.first());
+        self.polyline(&line, width, None, colour);
+        self.line = line;
+    }
+
+    /// A line through points; one that ends where it began is closed without caps.
+    fn polyline(&mut self, points: &[Vec2], width: f64, dash: Option<f64>, colour: Colour) {
+        let Some(width) = usable_width(width) else {
+            return;
+        };
+        let (builder, spare) = (&mut self.builder, &mut self.spare);
+        let closed = points.len() > 3 && points.first() == points.last();
+        self.window.polyline(points, spare, |part| match dash {
+            Some(dash) => push_dashes(builder, part, dash),
+            None if closed && part.len() == points.len() => push(builder, &part[1..], true),
+            None => push(builder, part, false),
+        });
+        // Dashes end flat, everything else round.
+        let cap = if dash.is_some() {
+            LineCap::Butt
+        } else {
+            LineCap::Round
+        };
+        self.stroke(width, cap, colour);
+    }
+
+    fn fill_disc(&mut self, centre: Vec2, radius: f64, shader: Shader<'_>) {
+        match self.window.disc(centre, radius) {
+            Cover::None => return,
+            Cover::All => push(&mut self.builder, &self.window.ring(), true),
+            Cover::Some if radius <= LARGE_DISC => {
+                let (x, y) = (narrow(centre.x), narrow(centre.y));
+                self.builder.push_circle(x, y, narrow(radius));
+            }
+            Cover::Some => {
+                let mut sector = core::mem::take(&mut self.line);
+                if !self.window.arc(centre, radius, &mut sector) {
+                    sector.push(centre);
+                }
+                self.window
+                    .polygon(&sector, &mut self.ring, &mut self.spare);
+                self.line = sector;
+                push(&mut self.builder, &self.ring, true);
+            }
+        }
+        self.fill(shader);
+    }
+
+    fn ring(&mut self, centre: Vec2, radius: f64, width: f64, colour: Colour) {
+        let (Cover::Some, Some(width)) = (self.window.disc(centre, radius), usable_width(width))
+        else {
+            return;
+        };
+        if radius <= LARGE_DISC {
+            let (x, y) = (narrow(centre.x), narrow(centre.y));
+            self.builder.push_circle(x, y, narrow(radius));
+            self.stroke(width, LineCap::Butt, colour);
+        } else {
+            let mut arc = core::mem::take(&mut self.line);
+            self.window.arc(centre, radius, &mut arc);
+            self.polyline(&arc, width, None, colour);
+            self.line = arc;
+        }
+    }
+
+    fn rectangle(
+        &mut self,
+        min: Vec2,
+        max: Vec2,
+        fill: Option<Ink>,
+        border: Option<Ink>,
+        width: f64,
+        dash: Option<f64>,
+    ) {
+        if let (Some(ink), Some((min, max))) = (fill, self.window.rectangle(min, max)) {
+            let corners = [min, Vec2::new(max.x, min.y), max, Vec2::new(min.x, max.y)];
+            push(&mut self.builder, &corners, true);
+            self.fill(flat(self.style.colour(ink)));
+        }
+        if let Some(ink) = border {
+            let corners = [
+                min,
+                Vec2::new(max.x, min.y),
+                max,
+                Vec2::new(min.x, max.y),
+                min,
+            ];
+            self.polyline(&corners, width, dash, self.style.colour(ink));
+        }
+    }
+
+    /// A picture on a disc, at the level of detail that suits its size.
+    fn face(&mut self, centre: Vec2, radius: f64, turn: Rot, face: &Face) {
+        if self.window.disc(centre, radius) == Cover::None {
+            return;
+        }
+        let (level, scale) = face.level(radius);
+        let Some(pixels) = PixmapRef::from_bytes(&level.rgba, level.width, level.height) else {
+            return;
+        };
+        // The picture's middle comes to the centre, scaled and turned: p = c + s R (q - m).
+        let middle = 0.5 * Vec2::new(f64::from(level.width), f64::from(level.height));
+        let (x, y) = (turn.x_axis() * scale, turn.y_axis() * scale);
+        let origin = centre - x * middle.x - y * middle.y;
+        let place = Transform::from_row(
+            narrow(x.x),
+            narrow(x.y),
+            narrow(y.x),
+            narrow(y.y),
+            narrow(origin.x),
+            narrow(origin.y),
+        );
+        let shader = Pattern::new(pixels, SpreadMode::Pad, FilterQuality::Bilinear, 1.0, place);
+        self.fill_disc(centre, radius, shader);
+    }
+
+    fn label(&mut self, label: &Label) {
+        if !(label.height > 0.0 && label.height <= MAX_STROKE) {
+            return;
+        }
+        let weight = font::weight(label.height);
+        let seam = weight + (0.3 * label.height).clamp(2.0, 6.0);
+        if label.halo {
+            let ground = self.style.background;
+            self.label_strokes(label);
+            self.stroke(seam, LineCap::Round, ground);
+        }
+        self.label_strokes(label);
+        self.stroke(weight, LineCap::Round, self.style.colour(label.ink));
+    }
+
+    fn label_strokes(&mut self, label: &Label) {
+        let (window, builder, spare) = (self.window, &mut self.builder, &mut self.spare);
+        label.strokes(|stroke| window.polyline(stroke, spare, |part| push(builder, part, false)));
+    }
+
+    /// Fills the path under construction.
+    fn fill(&mut self, shader: Shader<'_>) {
+        let Some(path) = core::mem::take(&mut self.builder).finish() else {
+            return;
+        };
+        self.fill_path(&path, shader);
+        self.builder = path.clear();
+    }
+
+    /// Strokes the path under construction, as the filling of its outline.
+    fn stroke(&mut self, width: f64, line_cap: LineCap, colour: Colour) {
+        let Some(path) = core::mem::take(&mut self.builder).finish() else {
+            return;
+        };
+        let stroke = Stroke {
+            width: narrow(width),
+            line_cap,
+            line_join: LineJoin::Round,
+            ..Stroke::default()
+        };
+        if let Some(outline) = self.stroker.stroke(&path, &stroke, 1.0) {
+            self.fill_path(&outline, flat(colour));
+        }
+        self.builder = path.clear();
+    }
+
+    fn fill_path(&mut self, path: &Path, shader: Shader<'_>) {
+        let paint = tiny_skia::Paint {
+            shader,
+            anti_alias: true,
+            ..tiny_skia::Paint::default()
+        };
+        self.map
+            .fill_path(path, &paint, FillRule::Winding, Transform::identity(), None);
+    }
+}
+
+/// A width that draws something: positive, and cut at [`MAX_STROKE`].
+pub(crate) fn usable_width(width: f64) -> Option<f64> {
+    (width > 0.0).then(|| {
+        if width < MAX_STROKE {
+            width
+        } else {
+            MAX_STROKE
+        }
+    })
+}
+
+/// Hands over the dashes of a line: `dash` drawn, `dash` left out, from its start.
+pub(crate) fn dashes(points: &[Vec2], dash: f64, mut each: impl FnMut(&[Vec2])) {
+    let dash = if dash > SHORTEST_DASH {
+        dash
+    } else {
+        SHORTEST_DASH
+    };
+    let (mut drawn, mut left) = (true, dash);
+    let mut piece: Vec<Vec2> = points.first().copied().into_iter().collect();
+    for pair in points.windows(2) {
+        let length = (pair[1] - pair[0]).length();
+        let mut done = 0.0;
+        while length - done > left {
+            done += left;
+            let point = pair[0].lerp(pair[1], done / length);
+            if drawn {
+                piece.push(point);
+                each(&piece);
+            }
+            piece.clear();
+            piece.push(point);
+            (drawn, left) = (!drawn, dash);
+        }
+        left -= length - done;
+        piece.push(pair[1]);
+        if !drawn {
+            piece.clear();
+        }
+    }
+    if drawn && piece.len() > 1 {
+        each(&piece);
+    }
+}
+
+fn push_dashes(builder: &mut PathBuilder, points: &[Vec2], dash: f64) {
+    dashes(points, dash, |piece| push(builder, piece, false));
+}
+
+fn push(builder: &mut PathBuilder, points: &[Vec2], closed: bool) {
+    for (i, point) in points.iter().enumerate() {
+        let (x, y) = (narrow(point.x), narrow(point.y));
+        if i == 0 {
+            builder.move_to(x, y);
+        } else {
+            builder.line_to(x, y);
+        }
+    }
+    if closed && !points.is_empty() {
+        builder.close();
+    }
+}
+
+fn flat(colour: Colour) -> Shader<'static> {
+    Shader::SolidColor(skia(colour))
+}
+
+fn ball(centre: Vec2, radius: f64, colour: Colour) -> Shader<'static> {
+    let focus = centre + Vec2::splat(SHIFT * radius);
+    let stops = vec![
+        GradientStop::new(narrow(INNER / OUTER), skia(colour)),
+        GradientStop::new(1.0, skia(shade(colour))),
+    ];
+    let at = Point::from_xy(narrow(focus.x), narrow(focus.y));
+    let outer = narrow(OUTER * radius);
+    // Too large or too small to have a gradient: flat.
+    if !(radius > 0.01 && radius < 1e6) {
+        return flat(shade(colour));
+    }
+    RadialGradient::new(
+        at,
+        0.0,
+        at,
+        outer,
+        stops,
+        SpreadMode::Pad,
+        Transform::identity(),
+    )
+    .unwrap_or_else(|| flat(colour))
+}
+
+fn skia(colour: Colour) -> Color {
+    Color::from_rgba8(colour.red, colour.green, colour.blue, colour.alpha)
+}
