@@ -13,9 +13,9 @@ use crate::glyphs::{DRAWINGS, MISSING};
 /// Height of a capital on the grid of the drawings.
 const CAPITAL: f64 = 10.0;
 /// Room beside a straight stem, on the grid: a bit over one stroke.
-const BEARING: f64 = 1.3;
+const BEARING: f64 = 1.35;
 /// Room that a digit takes, on the grid.
-const DIGIT_ADVANCE: f64 = 8.6;
+const DIGIT_ADVANCE: f64 = 8.1;
 /// Room of a space, on the grid.
 const SPACE_ADVANCE: f64 = 4.4;
 /// Arcs are cut into chords of at most this many degrees: 1/500 of the radius from the arc.
@@ -33,6 +33,12 @@ struct Glyph {
 pub(crate) fn weight(height: f64) -> f64 {
     let weight = 0.118 * height;
     if weight > 1.05 { weight } else { 1.05 }
+}
+
+/// What the seam of a text with a halo adds to its strokes, in pixels.
+#[must_use]
+pub(crate) fn seam(height: f64) -> f64 {
+    (0.22 * height).clamp(2.0, 5.0)
 }
 
 /// Width of `text` in pixels, with capitals of `height` pixels.

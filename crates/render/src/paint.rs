@@ -284,7 +284,7 @@ impl Painter<'_> {
             return;
         }
         let weight = font::weight(label.height);
-        let seam = weight + (0.3 * label.height).clamp(2.0, 6.0);
+        let seam = weight + font::seam(label.height);
         if label.halo {
             let ground = self.style.background;
             self.label_strokes(label);

@@ -179,7 +179,7 @@ impl Svg<'_> {
             r#"<g role="img" aria-label="{name}" fill="none" stroke-linecap="round" stroke-linejoin="round">"#
         ));
         if label.halo {
-            let seam = weight + (0.3 * label.height).clamp(2.0, 6.0);
+            let seam = weight + font::seam(label.height);
             let stroke = stroke(self.style.background, seam);
             self.line(format_args!(r#"<path d="{path}" {stroke}/>"#));
         }

@@ -1,0 +1,234 @@
+//! Uncompressed film for encoders: YUV4MPEG2, the format that film tools read from a pipe.
+
+use std::io::{self, Write};
+
+use crate::{FrameRate, Picture, RenderError, Size};
+
+/// How much colour a film keeps.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Chroma {
+    /// One colour for two by two pixels (4:2:0): half the bytes, what most players expect.
+    #[default]
+    Quarter,
+    /// A colour for every pixel (4:4:4).
+    Full,
+}
+
+/// A stream of frames in YUV4MPEG2: Rec. 601 in studio range (luma 16..=235), by whole numbers only.
+///
+/// # Examples
+/// ```
+/// use carom_render::{Chroma, Colour, Film, FrameRate, Picture, Size};
+/// let size = Size::new(4, 2)?;
+/// let mut film = Film::new(Vec::new(), size, FrameRate::per_second(25)?, Chroma::Quarter)?;
+/// film.push(&Picture::new(size, Colour::WHITE))?;
+/// let bytes = film.finish()?;
+/// assert!(bytes.starts_with(b"YUV4MPEG2 W4 H2 F25:1 Ip A1:1 C420jpeg\nFRAME\n\xEB\xEB"));   // white is 235
+/// # Ok::<(), carom_render::RenderError>(())
+/// ```
+#[derive(Debug)]
+pub struct Film<W: Write> {
+    out: W,
+    size: Size,
+    chroma: Chroma,
+    frames: u64,
+    /// One frame, used again and again.
+    planes: Vec<u8>,
+}
+
+impl<W: Write> Film<W> {
+    /// Writes the header.
+    ///
+    /// # Errors
+    /// [`RenderError::Io`] from the stream.
+    pub fn new(
+        mut out: W,
+        size: Size,
+        rate: FrameRate,
+        chroma: Chroma,
+    ) -> Result<Self, RenderError> {
+        let name = match chroma {
+            Chroma::Quarter => "420jpeg",
+            Chroma::Full => "444",
+        };
+        let (width, height, rate) = (size.width(), size.height(), rate.get());
+        writeln!(
+            out,
+            "YUV4MPEG2 W{width} H{height} F{rate}:1 Ip A1:1 C{name}"
+        )
+        .map_err(broken)?;
+        Ok(Self {
+            out,
+            size,
+            chroma,
+            frames: 0,
+            planes: Vec::new(),
+        })
+    }
+
+    /// Appends a picture.
+    ///
+    /// # Errors
+    /// [`RenderError::SizeChanged`] if its size is not the film's, [`RenderError::Io`] from the stream.
+    pub fn push(&mut self, picture: &Picture) -> Result<(), RenderError> {
+        if picture.size() != self.size {
+            return Err(RenderError::SizeChanged {
+                index: self.frames,
+                expected: self.size,
+                found: picture.size(),
+            });
+        }
+        self.planes.clear();
+        self.planes.extend(picture.rgba().chunks_exact(4).map(luma));
+        for weights in [BLUE_DIFFERENCE, RED_DIFFERENCE] {
+            match self.chroma {
+                Chroma::Full => {
+                    let plane = picture.rgba().chunks_exact(4);
+                    self.planes.extend(
+                        plane.map(|p| difference(weights, [p[0], p[1], p[2]].map(i32::from), 1)),
+                    );
+                }
+                Chroma::Quarter => quarter_plane(picture, weights, &mut self.planes),
+            }
+        }
+        self.out
+            .write_all(b"FRAME\n")
+            .and_then(|()| self.out.write_all(&self.planes))
+            .map_err(broken)?;
+        self.frames += 1;
+        Ok(())
+    }
+
+    /// Frames so far.
+    #[must_use]
+    pub const fn frames(&self) -> u64 {
+        self.frames
+    }
+
+    /// Flushes the stream and hands it back.
+    ///
+    /// # Errors
+    /// [`RenderError::Io`] from the stream.
+    pub fn finish(mut self) -> Result<W, RenderError> {
+        self.out.flush().map_err(broken)?;
+        Ok(self.out)
+    }
+}
+
+/// Rec. 601 in 1/256: 16 + 219 (0.299 R + 0.587 G + 0.114 B) / 255, rounded.
+fn luma(pixel: &[u8]) -> u8 {
+    let [red, green, blue] = [pixel[0], pixel[1], pixel[2]].map(u32::from);
+    let scaled = 66 * red + 129 * green + 25 * blue + 128;
+    u8::try_from(16 + (scaled >> 8)).unwrap_or(235)
+}
+
+/// Weights of red, green and blue in 1/256; they add up to 0, so that grey has no colour.
+const BLUE_DIFFERENCE: [i32; 3] = [-38, -74, 112];
+const RED_DIFFERENCE: [i32; 3] = [112, -94, -18];
+
+/// Colour difference of `count` pixels whose channels add up to `sum`: 128 is none.
+fn difference(weights: [i32; 3], sum: [i32; 3], count: i32) -> u8 {
+    let scaled = weights[0] * sum[0] + weights[1] * sum[1] + weights[2] * sum[2];
+    // Rounded to the nearest; the shift of a negative number rounds down, the half makes it the nearest.
+    let value = 128 + (scaled + 128 * count).div_euclid(256 * count);
+    u8::try_from(value.clamp(16, 240)).unwrap_or(128)
+}
+
+/// Means of two by two pixels; an odd last row or column stands for itself.
+fn quarter_plane(picture: &Picture, weights: [i32; 3], out: &mut Vec<u8>) {
+    let (width, height) = (
+        picture.size().width() as usize,
+        picture.size().height() as usize,
+    );
+    let rgba = picture.rgba();
+    for y in (0..height).step_by(2) {
+        for x in (0..width).step_by(2) {
+            let (mut sum, mut count) = ([0; 3], 0);
+            for row in y..(y + 2).min(height) {
+                for column in x..(x + 2).min(width) {
+                    let at = 4 * (row * width + column);
+                    for channel in 0..3 {
+                        sum[channel] += i32::from(rgba[at + channel]);
+                    }
+                    count += 1;
+                }
+            }
+            out.push(difference(weights, sum, count));
+        }
+    }
+}
+
+fn broken(source: io::Error) -> RenderError {
+    RenderError::Io {
+        action: "write",
+        path: "the film".into(),
+        source,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Colour;
+    use proptest::prelude::*;
+
+    fn one_frame(width: u32, height: u32, colour: Colour, chroma: Chroma) -> Vec<u8> {
+        let size = Size::new(width, height).unwrap();
+        let mut film =
+            Film::new(Vec::new(), size, FrameRate::per_second(30).unwrap(), chroma).unwrap();
+        film.push(&Picture::new(size, colour)).unwrap();
+        film.finish().unwrap()
+    }
+
+    #[test]
+    fn known_colours() {
+        // Rec. 601, studio range: black, white, pure red, green and blue.
+        let known = [
+            (0x000000, [16, 128, 128]),
+            (0xFFFFFF, [235, 128, 128]),
+            (0xFF0000, [82, 90, 240]),
+            (0x00FF00, [144, 54, 34]),
+            (0x0000FF, [41, 240, 110]),
+        ];
+        for (rgb, yuv) in known {
+            let bytes = one_frame(1, 1, Colour::hex(rgb), Chroma::Full);
+            let found = &bytes[bytes.len() - 3..];
+            let apart = found
+                .iter()
+                .zip(yuv)
+                .map(|(&a, b)| i32::from(a).abs_diff(b))
+                .max();
+            assert!(apart <= Some(1), "{rgb:06x}: {found:?}, expected {yuv:?}");
+        }
+    }
+
+    #[test]
+    fn a_pipe_that_closes_is_an_error() {
+        let size = Size::new(64, 64).unwrap();
+        let mut room = [0_u8; 100];
+        let mut film = Film::new(
+            &mut room[..],
+            size,
+            FrameRate::per_second(1).unwrap(),
+            Chroma::Full,
+        )
+        .unwrap();
+        assert!(film.push(&Picture::new(size, Colour::WHITE)).is_err());
+    }
+
+    proptest! {
+        #[test]
+        fn frames_have_their_size_and_grey_no_colour(width in 1..9_u32, height in 1..9_u32, grey: u8) {
+            for (chroma, planes) in [
+                (Chroma::Full, 3 * width * height),
+                (Chroma::Quarter, width * height + 2 * width.div_ceil(2) * height.div_ceil(2)),
+            ] {
+                let bytes = one_frame(width, height, Colour::rgb(grey, grey, grey), chroma);
+                let head = bytes.iter().position(|&b| b == b'\n').unwrap() + 1;
+                prop_assert_eq!(bytes.len(), head + 6 + planes as usize);
+                let luma = (width * height) as usize;
+                prop_assert!(bytes[head + 6 + luma..].iter().all(|&b| b == 128));
+            }
+        }
+    }
+}
