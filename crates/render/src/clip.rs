@@ -23,6 +23,11 @@ impl Window {
         }
     }
 
+    /// The rectangle between two corners.
+    pub(crate) const fn between(min: Vec2, max: Vec2) -> Self {
+        Self { min, max }
+    }
+
     fn centre(self) -> Vec2 {
         0.5 * (self.min + self.max)
     }
@@ -32,7 +37,7 @@ impl Window {
         0.5 * (self.max - self.min).length()
     }
 
-    fn contains(self, point: Vec2) -> bool {
+    pub(crate) fn contains(self, point: Vec2) -> bool {
         point.cmpge(self.min).all() && point.cmple(self.max).all()
     }
 

@@ -214,8 +214,9 @@ mod tests {
             })
             .collect();
         assert_eq!(means.len(), 7, "256 down to 4");
+        // Rounding a half up adds an eighth of a step a channel and level: four channels, six levels.
         for mean in &means {
-            assert!((mean - means[0]).abs() < 1.0, "{means:?}");
+            assert!((mean - means[0]).abs() < 3.0, "{means:?}");
         }
     }
 

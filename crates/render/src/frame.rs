@@ -76,6 +76,13 @@ pub enum Op {
         /// Fill and outline.
         paint: Paint,
     },
+    /// A closed ring of points, filled, without an outline.
+    Area {
+        /// The ring, either way round.
+        points: Vec<Vec2>,
+        /// Its colour.
+        ink: Ink,
+    },
     /// A dot without an outline.
     Dot {
         /// Its centre.

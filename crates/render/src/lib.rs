@@ -10,7 +10,9 @@
 )]
 
 mod apng;
+mod axis;
 mod camera;
+mod chart;
 mod clip;
 mod colour;
 mod error;
@@ -31,7 +33,9 @@ mod svg;
 mod y4m;
 
 pub use apng::Animation;
+pub use axis::{Axis, Scale};
 pub use camera::Camera;
+pub use chart::{Chart, Marker, Series};
 pub use colour::{BODY_COLOURS, Colour};
 pub use error::RenderError;
 pub use face::{Face, MAX_FACE_SIDE};

@@ -71,6 +71,12 @@ impl Svg<'_> {
                     self.line(format_args!("<circle {circle} {inside} {stroke}/>"));
                 }
             }
+            Op::Area { points, ink } => {
+                if let Some(path) = path(points, true) {
+                    let inside = fill(self.style.colour(*ink));
+                    self.line(format_args!(r#"<path d="{path}" {inside}/>"#));
+                }
+            }
             Op::Dot {
                 centre,
                 radius,
