@@ -1,1 +1,49 @@
-//! carom-geometry.
+//! Shapes in the plane and their exact mass properties.
+//!
+//! Circles, segments, convex polygons and any simple polygon, concave ones too; convex hulls,
+//! convex pieces without new vertices; area, centroid and moments to the last digits, for slivers
+//! and far from the origin. Constructors check once, by exact predicates: what exists is valid,
+//! and an error names the vertex.
+//!
+//! Metres, radians, counter-clockwise. A shape knows no motion and no partner.
+//!
+//! # Examples
+//! ```
+//! use carom_geometry::Polygon;
+//! use carom_math::vec2;
+//! // An arrowhead of 2 kg, given clockwise.
+//! let arrow = Polygon::new([vec2(0.0, 0.0), vec2(-1.0, 1.0), vec2(2.0, 0.0), vec2(-1.0, -1.0)])?;
+//! let mass = arrow.area_properties().with_mass(2.0);
+//! assert!((mass.centroid - vec2(1.0 / 3.0, 0.0)).length() < 1e-15);    // m
+//! assert_eq!(arrow.area_properties().area, 2.0);                        // m²
+//! # Ok::<(), carom_geometry::PolygonError>(())
+//! ```
+
+#![cfg_attr(test, allow(clippy::float_cmp, reason = "tests compare exact results"))]
+
+mod aabb;
+mod area;
+mod circle;
+mod convex;
+mod error;
+mod generate;
+mod hull;
+pub mod inertia;
+mod mass;
+mod pieces;
+mod polygon;
+mod ring;
+mod segment;
+mod shape;
+
+pub use aabb::Aabb;
+pub use area::{AreaProperties, ring_properties};
+pub use carom_math as math;
+pub use circle::Circle;
+pub use convex::ConvexPolygon;
+pub use error::{COORDINATE_LIMIT, LENGTH_LIMIT, PolygonError, ShapeError, VERTEX_LIMIT};
+pub use mass::MassProperties;
+pub use pieces::{Cone, ConvexPiece};
+pub use polygon::Polygon;
+pub use segment::Segment;
+pub use shape::{Outline, RayHit, Shape};

@@ -1,0 +1,106 @@
+//! Boxes along the axes.
+
+use carom_math::Vec2;
+
+/// An axis-aligned box: all points between `min` and `max`, both included, in m.
+///
+/// # Examples
+/// ```
+/// use carom_geometry::Aabb;
+/// use carom_math::vec2;
+/// let a = Aabb::from_points([vec2(0.0, 0.0), vec2(2.0, 1.0)]);
+/// let b = Aabb::new(vec2(2.0, 0.5), vec2(3.0, 4.0));
+/// assert!(a.overlaps(b));                                      // a common edge is enough
+/// assert_eq!(a.union(b).extents(), vec2(3.0, 4.0));            // m
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Aabb {
+    /// Lower left corner, in m.
+    pub min: Vec2,
+    /// Upper right corner, in m.
+    pub max: Vec2,
+}
+
+impl Aabb {
+    /// The box of no points: it overlaps nothing, and any union leaves it.
+    pub const EMPTY: Self = Self {
+        min: Vec2::INFINITY,
+        max: Vec2::NEG_INFINITY,
+    };
+
+    /// The box between two corners.
+    #[must_use]
+    pub const fn new(min: Vec2, max: Vec2) -> Self {
+        Self { min, max }
+    }
+
+    /// The smallest box around `points`.
+    #[must_use]
+    pub fn from_points(points: impl IntoIterator<Item = Vec2>) -> Self {
+        points.into_iter().fold(Self::EMPTY, |all, p| Self {
+            min: all.min.min(p),
+            max: all.max.max(p),
+        })
+    }
+
+    /// The smallest box around both.
+    #[must_use]
+    pub fn union(self, other: Self) -> Self {
+        Self {
+            min: self.min.min(other.min),
+            max: self.max.max(other.max),
+        }
+    }
+
+    /// Whether the boxes have a point in common.
+    #[must_use]
+    pub fn overlaps(self, other: Self) -> bool {
+        self.min.x <= other.max.x
+            && other.min.x <= self.max.x
+            && self.min.y <= other.max.y
+            && other.min.y <= self.max.y
+    }
+
+    /// Whether `other` lies within this box.
+    #[must_use]
+    pub fn contains(self, other: Self) -> bool {
+        self.min.x <= other.min.x
+            && other.max.x <= self.max.x
+            && self.min.y <= other.min.y
+            && other.max.y <= self.max.y
+    }
+
+    /// Whether `point` lies within this box.
+    #[must_use]
+    pub fn contains_point(self, point: Vec2) -> bool {
+        self.contains(Self::new(point, point))
+    }
+
+    /// The box with every side moved out by `margin`, in m.
+    #[must_use]
+    pub fn grown(self, margin: f64) -> Self {
+        Self {
+            min: self.min - Vec2::splat(margin),
+            max: self.max + Vec2::splat(margin),
+        }
+    }
+
+    /// Middle of the box, in m.
+    #[must_use]
+    pub fn centre(self) -> Vec2 {
+        // Halved first, so that corners near the largest double do not overflow.
+        self.min * 0.5 + self.max * 0.5
+    }
+
+    /// Width and height, in m.
+    #[must_use]
+    pub fn extents(self) -> Vec2 {
+        self.max - self.min
+    }
+
+    /// Whether all corners are finite (those of [`Self::EMPTY`] are not).
+    #[must_use]
+    pub fn is_finite(self) -> bool {
+        self.min.is_finite() && self.max.is_finite()
+    }
+}

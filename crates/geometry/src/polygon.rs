@@ -1,0 +1,114 @@
+//! Polygons: any simple ring, concave ones too.
+
+use carom_math::{Vec2, orient2d};
+
+use crate::area::shoelace;
+use crate::pieces::{ConvexPiece, decompose};
+use crate::ring::Ring;
+use crate::{AreaProperties, ConvexPolygon, PolygonError};
+
+/// A polygon whose ring does not touch itself: convex or concave, counter-clockwise.
+///
+/// Its convex pieces are made with it; they add no vertices, and know which edges are cuts.
+///
+/// # Examples
+/// ```
+/// use carom_geometry::Polygon;
+/// use carom_math::vec2;
+/// let l = Polygon::new([
+///     vec2(0.0, 0.0), vec2(3.0, 0.0), vec2(3.0, 1.0), vec2(1.0, 1.0), vec2(1.0, 2.0), vec2(0.0, 2.0),
+/// ])?;
+/// assert_eq!(l.area_properties().area, 4.0);                       // m²
+/// assert_eq!(l.pieces().len(), 2);
+/// assert!(l.contains(vec2(0.5, 1.5)) && !l.contains(vec2(2.0, 1.5)));
+/// # Ok::<(), carom_geometry::PolygonError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Polygon {
+    vertices: Vec<Vec2>,
+    pieces: Vec<ConvexPiece>,
+}
+
+impl Polygon {
+    /// The polygon with the given vertices, in m, in either order of turn.
+    ///
+    /// Points that repeat their neighbour are dropped; points on a straight edge stay.
+    ///
+    /// # Errors
+    /// If a point is not finite or too large, fewer than three differ, all lie on one line, or two
+    /// edges cross, touch or overlap: the error names the vertex or both edges.
+    pub fn new(points: impl Into<Vec<Vec2>>) -> Result<Self, PolygonError> {
+        let ring = Ring::new(&points.into())?;
+        ring.check_simple()?;
+        let pieces = decompose(&ring.without_straight().points);
+        Ok(Self {
+            vertices: ring.points,
+            pieces,
+        })
+    }
+
+    /// The outline, counter-clockwise, in m.
+    #[must_use]
+    pub fn vertices(&self) -> &[Vec2] {
+        &self.vertices
+    }
+
+    /// Convex pieces that cover the polygon without overlap.
+    #[must_use]
+    pub fn pieces(&self) -> &[ConvexPiece] {
+        &self.pieces
+    }
+
+    /// Area and its moments.
+    #[must_use]
+    pub fn area_properties(&self) -> AreaProperties {
+        shoelace(&self.vertices)
+    }
+
+    /// Whether `point` lies inside or on the outline; exact.
+    #[must_use]
+    pub fn contains(&self, point: Vec2) -> bool {
+        winds_around(&self.vertices, point)
+    }
+
+    /// The same polygon moved by `offset`, in m.
+    #[must_use]
+    pub fn translated(&self, offset: Vec2) -> Self {
+        Self {
+            vertices: self.vertices.iter().map(|v| *v + offset).collect(),
+            pieces: self
+                .pieces
+                .iter()
+                .map(|piece| piece.translated(offset))
+                .collect(),
+        }
+    }
+}
+
+/// A convex polygon is a polygon of one piece.
+impl From<ConvexPolygon> for Polygon {
+    fn from(convex: ConvexPolygon) -> Self {
+        let vertices = convex.vertices().to_vec();
+        let pieces = decompose(&vertices);
+        Self { vertices, pieces }
+    }
+}
+
+/// Whether a simple counter-clockwise ring winds around `point`, its edges included; exact.
+pub(crate) fn winds_around(ring: &[Vec2], point: Vec2) -> bool {
+    let mut turns = 0;
+    for (a, b) in ring.iter().zip(ring.iter().cycle().skip(1)) {
+        let side = orient2d(*a, *b, point);
+        let within = |low: f64, x: f64, high: f64| low.min(high) <= x && x <= low.max(high);
+        if side == 0.0 && within(a.x, point.x, b.x) && within(a.y, point.y, b.y) {
+            return true;
+        }
+        // Upward edges that have the point on their left, less downward ones on their right.
+        if a.y <= point.y && b.y > point.y && side > 0.0 {
+            turns += 1;
+        } else if a.y > point.y && b.y <= point.y && side < 0.0 {
+            turns -= 1;
+        }
+    }
+    turns != 0
+}

@@ -1,0 +1,73 @@
+//! Segments: walls without thickness.
+
+use carom_math::{Vec2, vec2};
+
+use crate::ShapeError;
+use crate::circle::check_point;
+
+/// A straight wall from `a` to `b`, solid from both sides; it has no area and no mass.
+///
+/// # Examples
+/// ```
+/// use carom_geometry::Segment;
+/// use carom_math::{Vec2, vec2};
+/// let floor = Segment::new(vec2(-5.0, 0.0), vec2(5.0, 0.0))?;
+/// assert_eq!(floor.normals(), &[-Vec2::Y, Vec2::Y]);
+/// # Ok::<(), carom_geometry::ShapeError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Segment {
+    vertices: [Vec2; 2],
+    normals: [Vec2; 2],
+}
+
+impl Segment {
+    /// The segment from `a` to `b`, in m.
+    ///
+    /// # Errors
+    /// If a number is not finite or too large, or both ends are at one place.
+    pub fn new(a: Vec2, b: Vec2) -> Result<Self, ShapeError> {
+        check_point(["a.x", "a.y"], a)?;
+        check_point(["b.x", "b.y"], b)?;
+        let Some(along) = (b - a).try_normalize() else {
+            return Err(ShapeError::NoLength { x: a.x, y: a.y });
+        };
+        Ok(Self {
+            vertices: [a, b],
+            normals: [vec2(along.y, -along.x), vec2(-along.y, along.x)],
+        })
+    }
+
+    /// One end, in m.
+    #[must_use]
+    pub const fn a(&self) -> Vec2 {
+        self.vertices[0]
+    }
+
+    /// The other end, in m.
+    #[must_use]
+    pub const fn b(&self) -> Vec2 {
+        self.vertices[1]
+    }
+
+    /// Both ends, in m.
+    #[must_use]
+    pub const fn vertices(&self) -> &[Vec2; 2] {
+        &self.vertices
+    }
+
+    /// Unit normals of the two sides: of `a → b` and of `b → a`.
+    #[must_use]
+    pub const fn normals(&self) -> &[Vec2; 2] {
+        &self.normals
+    }
+
+    /// The same segment moved by `offset`, in m.
+    #[must_use]
+    pub fn translated(&self, offset: Vec2) -> Self {
+        Self {
+            vertices: self.vertices.map(|v| v + offset),
+            normals: self.normals,
+        }
+    }
+}
