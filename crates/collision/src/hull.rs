@@ -1,0 +1,167 @@
+//! The one convex view that every shape reduces to.
+//!
+//! A circle is a point with a radius, a segment a polygon of two vertices and two opposite
+//! normals, a concave polygon several convex pieces. What comes after this file knows one case.
+
+use carom_geometry::{Aabb, Circle, ConvexPiece, ConvexPolygon, Segment, Shape};
+use carom_math::{Pose, Vec2};
+
+/// A borrowed convex shape: the convex hull of `vertices`, grown by `radius`.
+///
+/// Either there is one vertex and no normal (a circle), or vertex and normal `i` belong to the
+/// edge `i → i + 1`, counter-clockwise. Lengths in metres, in the frame of the shape.
+#[derive(Clone, Copy, Debug)]
+pub struct Hull<'a> {
+    /// One vertex for a circle (its centre), two for a segment, the corners of a polygon.
+    pub vertices: &'a [Vec2],
+    /// Outward unit normals; normal `i` belongs to the edge `i → i + 1`. Empty for a circle.
+    pub normals: &'a [Vec2],
+    /// Radius of a circle in metres, 0 for everything else.
+    pub radius: f64,
+    /// The piece of a concave polygon that this is: it knows which edges are cuts.
+    pub boundary: Option<&'a ConvexPiece>,
+}
+
+impl<'a> Hull<'a> {
+    /// Whether edge `i` belongs to the outline of its shape, and is no cut through it.
+    #[must_use]
+    pub fn is_boundary(&self, edge: usize) -> bool {
+        self.boundary.is_none_or(|piece| piece.is_boundary(edge))
+    }
+
+    /// Whether the true outline can be touched at vertex `i` with a normal along `direction`.
+    ///
+    /// `direction` points away from the shape, in its frame. A whole convex shape always can; a
+    /// piece of a concave one where the direction lies between the normals of the outline there.
+    #[must_use]
+    pub fn allows(&self, vertex: usize, direction: Vec2) -> bool {
+        self.boundary
+            .is_none_or(|piece| piece.cones()[vertex].contains(direction))
+    }
+
+    /// Both ends of edge `i`.
+    #[must_use]
+    pub fn edge(&self, i: usize) -> (Vec2, Vec2) {
+        (self.vertices[i], self.vertices[self.next(i)])
+    }
+
+    /// The vertex farthest along `direction` (the first of equals) and how far it is.
+    #[must_use]
+    pub fn support(&self, direction: Vec2) -> (usize, f64) {
+        let mut best = (0, f64::NEG_INFINITY);
+        for (i, v) in self.vertices.iter().enumerate() {
+            let along = v.dot(direction);
+            if along > best.1 {
+                best = (i, along);
+            }
+        }
+        best
+    }
+
+    /// The box of the shape when its frame is at `pose`.
+    #[must_use]
+    pub fn aabb(&self, pose: Pose) -> Aabb {
+        let mut min = Vec2::INFINITY;
+        let mut max = Vec2::NEG_INFINITY;
+        for v in self.vertices {
+            let p = pose.point(*v);
+            min = min.min(p);
+            max = max.max(p);
+        }
+        Aabb::new(min, max).grown(self.radius)
+    }
+
+    /// Index after `i`, around the corner.
+    pub(crate) fn next(&self, i: usize) -> usize {
+        if i + 1 == self.vertices.len() { 0 } else { i + 1 }
+    }
+
+    /// Index before `i`, around the corner.
+    pub(crate) fn previous(&self, i: usize) -> usize {
+        if i == 0 { self.vertices.len() - 1 } else { i - 1 }
+    }
+}
+
+/// A shape that is one convex hull.
+pub trait Convex {
+    /// The shape as vertices, normals and a radius.
+    fn hull(&self) -> Hull<'_>;
+}
+
+impl Convex for Circle {
+    fn hull(&self) -> Hull<'_> {
+        Hull {
+            vertices: self.vertices(),
+            normals: &[],
+            radius: self.radius(),
+            boundary: None,
+        }
+    }
+}
+
+impl Convex for Segment {
+    fn hull(&self) -> Hull<'_> {
+        Hull {
+            vertices: self.vertices(),
+            normals: self.normals(),
+            radius: 0.0,
+            boundary: None,
+        }
+    }
+}
+
+impl Convex for ConvexPolygon {
+    fn hull(&self) -> Hull<'_> {
+        Hull {
+            vertices: self.vertices(),
+            normals: self.normals(),
+            radius: 0.0,
+            boundary: None,
+        }
+    }
+}
+
+impl Convex for ConvexPiece {
+    fn hull(&self) -> Hull<'_> {
+        Hull {
+            vertices: self.vertices(),
+            normals: self.normals(),
+            radius: 0.0,
+            boundary: Some(self),
+        }
+    }
+}
+
+impl Convex for Hull<'_> {
+    fn hull(&self) -> Hull<'_> {
+        *self
+    }
+}
+
+/// How many convex parts a shape has: 1, or the pieces of a concave polygon.
+#[must_use]
+pub fn part_count(shape: &Shape) -> usize {
+    match shape {
+        Shape::Circle(_) | Shape::Segment(_) | Shape::Convex(_) => 1,
+        Shape::Polygon(polygon) => polygon.pieces().len(),
+    }
+}
+
+/// Convex part `i` of a shape.
+///
+/// # Panics
+/// If `i` is not below [`part_count`].
+#[must_use]
+pub fn part(shape: &Shape, i: usize) -> Hull<'_> {
+    match shape {
+        Shape::Circle(circle) => circle.hull(),
+        Shape::Segment(segment) => segment.hull(),
+        Shape::Convex(polygon) => polygon.hull(),
+        Shape::Polygon(polygon) => polygon.pieces()[i].hull(),
+    }
+}
+
+/// The convex parts of a shape, in order.
+pub fn hulls(shape: &Shape) -> impl ExactSizeIterator<Item = Hull<'_>> {
+    (0..part_count(shape)).map(move |i| part(shape, i))
+}
