@@ -2,6 +2,7 @@
 
 use core::ops::Range;
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 
 use serde::Deserialize;
 use toml::Spanned;
@@ -82,8 +83,33 @@ impl Document {
             return Err(self.error_in(&tree, &span, Problem::NotFinite(number)));
         }
         let root = Spanned::new(0..0, tree);
-        SceneFile::deserialize(toml::de::Deserializer::from(root))
-            .map_err(|error| self.translate(&error))
+        let file = SceneFile::deserialize(toml::de::Deserializer::from(root))
+            .map_err(|error| self.translate(&error))?;
+        self.check_names(&file)?;
+        Ok(file)
+    }
+
+    /// Bodies, and what makes many of them, share one set of names.
+    fn check_names(&self, file: &SceneFile) -> Result<(), SceneError> {
+        let mut seen: BTreeMap<&str, FieldPath> = BTreeMap::new();
+        for (table, index, name) in file.names() {
+            let field = FieldPath::root(table).index(index).key("name");
+            if name.is_empty() || name.contains('/') {
+                let problem = format!(
+                    "\"{name}\" is no name: it needs a letter, and / is for generated bodies"
+                );
+                return Err(self.error(&field, Problem::Refused(problem)));
+            }
+            if let Some(first) = seen.get(name) {
+                let problem = Problem::DuplicateName {
+                    name: name.to_owned(),
+                    first: self.words_for(first),
+                };
+                return Err(self.error(&field, problem));
+            }
+            seen.insert(name, field);
+        }
+        Ok(())
     }
 
     /// An error about a field, with its place.
@@ -100,12 +126,12 @@ impl Document {
         }
     }
 
-    /// The place of a field as words: `line 12`.
+    /// A field and its place as words: `body.name in line 12`.
     pub(crate) fn words_for(&self, field: &FieldPath) -> String {
         match self.error(field, Problem::Empty).place {
-            Place::At { line, .. } => format!("the body in line {line}"),
-            Place::Set(text) => format!("the body of --set {text}"),
-            Place::File => "another body".to_owned(),
+            Place::At { line, .. } => format!("{field} in line {line}"),
+            Place::Set(text) => format!("{field} by --set {text}"),
+            Place::File => field.to_string(),
         }
     }
 
@@ -142,7 +168,10 @@ impl Document {
         let value = shifted(value, over.offset);
         let path = full_path(&over.key);
         let Some((last, parents)) = path.split_last() else {
-            return Err(wrong("", Problem::MissingField("a key before the =".to_owned())));
+            return Err(wrong(
+                "",
+                Problem::MissingField("a key before the =".to_owned()),
+            ));
         };
         let mut place = Slot::Table(tree);
         for (depth, step) in parents.iter().enumerate() {
@@ -158,7 +187,10 @@ impl Document {
     fn check_version(&self, tree: &DeTable<'_>) -> Result<(), SceneError> {
         let field = FieldPath::root("version");
         let Some(value) = tree.get("version") else {
-            return Err(self.error(&field, Problem::MissingField("write `version = 1`".to_owned())));
+            return Err(self.error(
+                &field,
+                Problem::MissingField("write `version = 1`".to_owned()),
+            ));
         };
         let DeValue::Integer(version) = value.get_ref() else {
             return Err(self.error(&field, Problem::Type("expected a whole number".to_owned())));
@@ -216,12 +248,13 @@ impl Document {
         }
         if message.starts_with("missing field") {
             let name = names.next().unwrap_or_default();
-            let mut error = self.error_in(&tree, &span, Problem::Empty);
-            if !error.field.is_empty() {
-                error.field.push('.');
-            }
-            error.field.push_str(&name);
-            *error.problem = Problem::MissingField("this field must be given".to_owned());
+            let problem = Problem::MissingField("this field must be given".to_owned());
+            let mut error = self.error_in(&tree, &span, problem);
+            let table = Places::of(&tree)
+                .field_at(&span)
+                .cloned()
+                .unwrap_or_default();
+            error.field = table.key(&name).to_string();
             return error;
         }
         self.error_in(&tree, &span, Problem::Type(plain_words(message)))
@@ -229,10 +262,14 @@ impl Document {
 
     fn error_in(&self, tree: &DeTable<'_>, span: &Range<usize>, problem: Problem) -> SceneError {
         let places = Places::of(tree);
-        let field = if span.is_empty() { None } else { places.field_at(span) };
+        let field = if span.is_empty() {
+            None
+        } else {
+            places.field_at(span)
+        };
         SceneError {
             origin: self.origin.clone(),
-            place: if span.is_empty() {
+            place: if span.is_empty() && span.start <= self.text.len() {
                 Place::File
             } else {
                 self.place(span.start)
@@ -243,7 +280,11 @@ impl Document {
     }
 
     fn place(&self, offset: usize) -> Place {
-        let over = self.overrides.iter().rev().find(|over| over.offset <= offset);
+        let over = self
+            .overrides
+            .iter()
+            .rev()
+            .find(|over| over.offset <= offset);
         if let Some(over) = over {
             return Place::Set(format!("{}={}", over.key, over.value));
         }
@@ -326,7 +367,9 @@ fn position_in<'v, 'a: 'v>(
         if index < count {
             return Ok(index);
         }
-        return Err(Problem::Refused(format!("there are {count} items, numbered from 0")));
+        return Err(Problem::Refused(format!(
+            "there are {count} items, numbered from 0"
+        )));
     }
     let mut names = Vec::with_capacity(count);
     for (index, item) in items.enumerate() {
@@ -381,9 +424,7 @@ fn shifted(value: Spanned<DeValue<'_>>, by: usize) -> Spanned<DeValue<'_>> {
 
 /// Turns −0 into 0; answers with the first number that is not finite.
 fn clean_numbers_in(table: &mut DeTable<'_>) -> Option<(Range<usize>, String)> {
-    table
-        .iter_mut()
-        .find_map(|(_, value)| clean_numbers(value))
+    table.iter_mut().find_map(|(_, value)| clean_numbers(value))
 }
 
 fn clean_numbers(value: &mut Spanned<DeValue<'_>>) -> Option<(Range<usize>, String)> {
@@ -429,7 +470,10 @@ fn plain_words(message: &str) -> String {
         ("expected struct ", "expected a table for "),
         ("expected u64", "expected a whole number from 0 up"),
         ("expected usize", "expected a whole number from 0 up"),
-        ("expected u32", "expected a whole number from 0 to 4294967295"),
+        (
+            "expected u32",
+            "expected a whole number from 0 to 4294967295",
+        ),
         ("wanted string or table", "expected a string"),
     ] {
         words = words.replace(theirs, ours);

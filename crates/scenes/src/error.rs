@@ -209,16 +209,18 @@ fn one_line(text: &str) -> String {
 }
 
 /// The known name nearest to `name`, if it is near enough to be meant.
-pub(crate) fn nearest<'a>(
-    name: &str,
-    known: impl IntoIterator<Item = &'a str>,
-) -> Option<&'a str> {
+pub(crate) fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let wanted = name.to_lowercase();
     known
         .into_iter()
-        .map(|candidate| (strsim::damerau_levenshtein(&wanted, &candidate.to_lowercase()), candidate))
+        .map(|candidate| {
+            (
+                strsim::damerau_levenshtein(&wanted, &candidate.to_lowercase()),
+                candidate,
+            )
+        })
         // One slip in three letters still reads as the same word.
-        .filter(|&(slips, candidate)| slips <= candidate.len().max(name.len()).div_ceil(3))
+        .filter(|&(slips, candidate)| slips <= (candidate.len().max(name.len()) / 3).max(1))
         .min_by_key(|&(slips, _)| slips)
         .map(|(_, candidate)| candidate)
 }

@@ -39,16 +39,8 @@ impl FieldPath {
         Self(steps)
     }
 
-    /// The last key of the path, if it ends with one.
-    pub(crate) fn last_key(&self) -> Option<&str> {
-        match self.0.last() {
-            Some(Step::Key(key)) => Some(key),
-            _ => None,
-        }
-    }
-
     /// The table or list that holds this field.
-    pub(crate) fn parent(&self) -> Self {
+    fn parent(&self) -> Self {
         let mut steps = self.0.clone();
         steps.pop();
         Self(steps)
@@ -58,17 +50,22 @@ impl FieldPath {
 /// The number of a table in a list like `[[body]]` is left out: the line says which one is meant.
 impl fmt::Display for FieldPath {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let of_tables =
+            matches!(self.0.first(), Some(Step::Key(key)) if LISTS.contains(&key.as_str()));
         for (depth, step) in self.0.iter().enumerate() {
             match step {
                 Step::Key(key) if depth == 0 => f.write_str(key)?,
                 Step::Key(key) => write!(f, ".{key}")?,
-                Step::Index(_) if depth == 1 => {}
+                Step::Index(_) if depth == 1 && of_tables => {}
                 Step::Index(index) => write!(f, "[{index}]")?,
             }
         }
         Ok(())
     }
 }
+
+/// Fields of the root that are lists of tables.
+const LISTS: [&str; 6] = ["body", "field", "stack", "pyramid", "grid", "population"];
 
 /// Where every field of a document is: in the order of the tree, parents before children.
 pub(crate) struct Places(Vec<Entry>);
@@ -120,9 +117,8 @@ impl Places {
     /// else the smallest around it.
     pub(crate) fn field_at(&self, span: &Range<usize>) -> Option<&FieldPath> {
         let exact = |entry: &&Entry| entry.key.as_ref() == Some(span) || &entry.value == span;
-        let around = |entry: &&Entry| {
-            entry.value.start <= span.start && span.end <= entry.value.end
-        };
+        let around =
+            |entry: &&Entry| entry.value.start <= span.start && span.end <= entry.value.end;
         let found = self.0.iter().rfind(exact).or_else(|| {
             self.0
                 .iter()
@@ -149,13 +145,18 @@ impl Places {
 mod tests {
     use super::*;
 
-    const TEXT: &str = "version = 1\n[[body]]\nname = 'a'\n[[body]]\nshape = { polygon = [[1, 2], [3, 4]] }\n";
+    const TEXT: &str =
+        "version = 1\n[[body]]\nname = 'a'\n[[body]]\nshape = { polygon = [[1, 2], [3, 4]] }\n";
 
     #[test]
     fn fields_and_places_belong_together() {
         let root = DeTable::parse(TEXT).unwrap();
         let places = Places::of(root.get_ref());
-        let point = FieldPath::root("body").index(1).key("shape").key("polygon").index(1);
+        let point = FieldPath::root("body")
+            .index(1)
+            .key("shape")
+            .key("polygon")
+            .index(1);
         assert_eq!(point.to_string(), "body.shape.polygon[1]");
         let start = places.start_of(&point).unwrap();
         assert_eq!(&TEXT[start..start + 6], "[3, 4]");

@@ -81,7 +81,10 @@ mod tests {
         // Five standard deviations of the mean, 1/√(12 n), and of a count.
         assert!((sum / f64::from(n) - 0.5).abs() < 5.0 / (12.0 * f64::from(n)).sqrt());
         for count in counts {
-            assert!((f64::from(count) - 14_286.0).abs() < 5.0 * 111.0, "{counts:?}");
+            assert!(
+                (f64::from(count) - 14_286.0).abs() < 5.0 * 111.0,
+                "{counts:?}"
+            );
         }
     }
 }

@@ -1,9 +1,10 @@
 //! A scene: the text of a file and what was set over it.
 
 use std::fs;
-use std::io::{ErrorKind, Read as _};
-use std::path::Path;
+use std::io::{self, ErrorKind, Read as _};
+use std::path::{Path, PathBuf};
 
+use crate::Built;
 use crate::document::{Document, MAX_BYTES};
 use crate::error::{Problem, SceneError};
 use crate::model::SceneFile;
@@ -14,7 +15,7 @@ pub struct Scene {
     pub(crate) document: Document,
     pub(crate) file: SceneFile,
     /// The folder that faces are looked up in.
-    pub(crate) folder: Option<std::path::PathBuf>,
+    pub(crate) folder: Option<PathBuf>,
 }
 
 impl Scene {
@@ -61,6 +62,15 @@ impl Scene {
         Ok(())
     }
 
+    /// Makes the world and its look.
+    ///
+    /// # Errors
+    /// Values that geometry, dynamics or pictures refuse, names of materials that are not there, populations that do not
+    /// fit: with the place in the file.
+    pub fn build(&self) -> Result<Built, SceneError> {
+        crate::build::build(self)
+    }
+
     /// The scene's name: the file's `name`, else what it was read from.
     #[must_use]
     pub fn name(&self) -> &str {
@@ -75,12 +85,23 @@ impl Scene {
 }
 
 fn read_text(path: &Path) -> Result<String, Problem> {
-    let missing = |error: std::io::Error| match error.kind() {
+    String::from_utf8(read_bytes(path)?).map_err(|error| {
+        let offset = error.utf8_error().valid_up_to();
+        Problem::NotText {
+            offset,
+            byte: error.as_bytes().get(offset).copied().unwrap_or_default(),
+        }
+    })
+}
+
+/// A whole file of at most [`MAX_BYTES`].
+pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>, Problem> {
+    let problem = |error: io::Error| match error.kind() {
         ErrorKind::NotFound | ErrorKind::NotADirectory => Problem::Missing,
         ErrorKind::IsADirectory => Problem::Folder,
         _ => Problem::Io(error),
     };
-    let about = fs::metadata(path).map_err(missing)?;
+    let about = fs::metadata(path).map_err(problem)?;
     if about.is_dir() {
         return Err(Problem::Folder);
     }
@@ -93,18 +114,12 @@ fn read_text(path: &Path) -> Result<String, Problem> {
     }
     // A pipe or a file that grows says nothing true about its size: read no more than the limit.
     let mut bytes = Vec::new();
-    let file = fs::File::open(path).map_err(missing)?;
+    let file = fs::File::open(path).map_err(problem)?;
     file.take(MAX_BYTES + 1)
         .read_to_end(&mut bytes)
-        .map_err(missing)?;
+        .map_err(problem)?;
     if bytes.len() as u64 > MAX_BYTES {
         return Err(too_large(bytes.len() as u64));
     }
-    String::from_utf8(bytes).map_err(|error| {
-        let offset = error.utf8_error().valid_up_to();
-        Problem::NotText {
-            offset,
-            byte: error.as_bytes().get(offset).copied().unwrap_or_default(),
-        }
-    })
+    Ok(bytes)
 }

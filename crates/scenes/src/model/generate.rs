@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-use super::body::MaterialChoice;
+use super::body::{Kind, MaterialChoice};
 use super::shape::ShapeTable;
 use super::value::{Corners, CountRange, Point, Range};
 
@@ -120,6 +120,8 @@ pub(crate) struct PyramidTable {
 #[serde(deny_unknown_fields)]
 pub(crate) struct GridTable {
     pub(crate) name: String,
+    #[serde(default)]
+    pub(crate) kind: Kind,
     pub(crate) columns: u64,
     pub(crate) rows: u64,
     /// Origin of the lower left body.

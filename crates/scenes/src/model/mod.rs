@@ -14,8 +14,8 @@ pub(crate) use body::{BodyTable, Kind, MaterialChoice, MaterialTable};
 pub(crate) use generate::{
     GridTable, PopulationTable, PyramidTable, RandomShape, StackTable, WallsTable,
 };
-pub(crate) use shape::{RegularTable, ShapeTable, StarTable, TriangleTable};
-pub(crate) use value::{Corners, CountRange, Pixels, Point, Range};
+pub(crate) use shape::ShapeTable;
+pub(crate) use value::{Corners, Pixels, Point, Range};
 
 /// The parameters of the original program, which `--set` takes without a table's name.
 pub(crate) const PARAMETERS: [&str; 10] = [
@@ -74,6 +74,40 @@ pub(crate) struct SceneFile {
     pub(crate) grid: Vec<GridTable>,
     #[serde(default)]
     pub(crate) population: Vec<PopulationTable>,
+}
+
+impl SceneFile {
+    /// Every name that is given: the list that it is in, the number there, the name.
+    pub(crate) fn names(&self) -> impl Iterator<Item = (&'static str, usize, &str)> {
+        let bodies = self.body.iter().map(|body| body.name.as_deref());
+        let bodies = bodies
+            .enumerate()
+            .filter_map(|(index, name)| name.map(|name| ("body", index, name)));
+        let stacks = self.stack.iter().map(|stack| stack.name.as_str());
+        let pyramids = self.pyramid.iter().map(|pyramid| pyramid.name.as_str());
+        let grids = self.grid.iter().map(|grid| grid.name.as_str());
+        let populations = self
+            .population
+            .iter()
+            .map(|population| population.name.as_str());
+        bodies
+            .chain(
+                stacks
+                    .enumerate()
+                    .map(|(index, name)| ("stack", index, name)),
+            )
+            .chain(
+                pyramids
+                    .enumerate()
+                    .map(|(index, name)| ("pyramid", index, name)),
+            )
+            .chain(grids.enumerate().map(|(index, name)| ("grid", index, name)))
+            .chain(
+                populations
+                    .enumerate()
+                    .map(|(index, name)| ("population", index, name)),
+            )
+    }
 }
 
 fn ten_seconds() -> f64 {
@@ -147,7 +181,11 @@ impl<'de> Deserialize<'de> for SleepChoice {
                 f.write_str("true, false or { speed, time }")
             }
             fn visit_bool<E: Error>(self, sleeps: bool) -> Result<SleepChoice, E> {
-                Ok(if sleeps { SleepChoice::Default } else { SleepChoice::Never })
+                Ok(if sleeps {
+                    SleepChoice::Default
+                } else {
+                    SleepChoice::Never
+                })
             }
             fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<SleepChoice, A::Error> {
                 SleepTable::deserialize(MapAccessDeserializer::new(map)).map(SleepChoice::After)
@@ -217,17 +255,20 @@ pub(crate) struct LookTable {
     pub(crate) theme: ThemeName,
     pub(crate) palette: Option<u64>,
     pub(crate) shaded: bool,
+    pub(crate) spokes: Option<bool>,
     pub(crate) face: Option<String>,
     pub(crate) centroids: bool,
     pub(crate) velocities: bool,
     pub(crate) velocity_scale: Option<f64>,
     pub(crate) contacts: bool,
-    pub(crate) normals: bool,
     pub(crate) boxes: bool,
+    pub(crate) asleep: bool,
+    pub(crate) time: bool,
     pub(crate) gravity: bool,
     pub(crate) restitution: bool,
     pub(crate) field: bool,
     pub(crate) stats: bool,
+    pub(crate) caption: String,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]

@@ -120,7 +120,10 @@ trait End: Copy + for<'de> Deserialize<'de> {
 }
 
 impl End for f64 {
-    #[expect(clippy::cast_precision_loss, reason = "whole numbers in a scene are small")]
+    #[expect(
+        clippy::cast_precision_loss,
+        reason = "whole numbers in a scene are small"
+    )]
     fn whole(value: i64) -> Option<Self> {
         Some(value as Self)
     }

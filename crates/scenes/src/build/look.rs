@@ -1,0 +1,200 @@
+//! Colours, faces, overlays and the camera.
+
+use std::path::Path;
+
+use carom_dynamics::{BodyId, World};
+use carom_geometry::Aabb;
+use carom_math::Vec2;
+use carom_render::{Camera, Colour, Face, FieldMark, FrameRate, Look, Overlay, Style};
+
+use super::plan::Planned;
+use crate::document::Document;
+use crate::error::{Problem, SceneError};
+use crate::model::{CameraTable, MaterialChoice, SceneFile, ThemeName};
+use crate::path::FieldPath;
+use crate::scene::read_bytes;
+use crate::{Built, Scene};
+
+/// Length of a velocity arrow over the velocity, in s.
+const VELOCITY_SCALE: f64 = 0.2;
+
+pub(super) fn dress(
+    scene: &Scene,
+    file: &SceneFile,
+    world: World,
+    bodies: &[Planned],
+    names: Vec<(String, BodyId)>,
+) -> Result<Built, SceneError> {
+    let document = &scene.document;
+    let rate = FrameRate::per_second(file.fps).map_err(|error| {
+        document.error(&FieldPath::root("fps"), Problem::Refused(error.to_string()))
+    })?;
+    let camera = camera(document, file, &world)?;
+    let mut look = look(scene, file)?;
+    for (body, &(_, id)) in bodies.iter().zip(&names) {
+        if let Some(text) = &body.colour {
+            look.set_colour(id, colour(document, &body.field.key("colour"), text)?);
+        }
+        if let Some(name) = &body.face {
+            look.set_face(id, face(scene, &body.field.key("face"), name)?);
+        }
+    }
+    Ok(Built {
+        world,
+        look,
+        camera,
+        duration: file.duration,
+        rate,
+        names,
+        stats: file.look.stats,
+    })
+}
+
+fn look(scene: &Scene, file: &SceneFile) -> Result<Look, SceneError> {
+    let table = &file.look;
+    let common = match &table.face {
+        Some(name) => Some(face(scene, &face_field(file), name)?),
+        None => None,
+    };
+    let default = Look::seeded(table.palette.unwrap_or(file.seed));
+    Ok(Look {
+        shaded: table.shaded,
+        spokes: table.spokes.unwrap_or(default.spokes),
+        face: common,
+        overlay: Overlay {
+            centroids: table.centroids,
+            velocities: table
+                .velocities
+                .then_some(table.velocity_scale.unwrap_or(VELOCITY_SCALE)),
+            contacts: table.contacts,
+            bounds: table.boxes,
+            asleep: table.asleep,
+            gravity: table.gravity,
+            time: table.time,
+            restitution: table.restitution.then(|| restitution(file)),
+            field: field_mark(file),
+            caption: table.caption.clone(),
+        },
+        style: style(&scene.document, file)?,
+        ..default
+    })
+}
+
+/// The bar's value: the parameter, else the largest coefficient of the file.
+fn restitution(file: &SceneFile) -> f64 {
+    let choices = file
+        .body
+        .iter()
+        .map(|body| &body.material)
+        .chain(
+            file.population
+                .iter()
+                .map(|population| &population.material),
+        )
+        .chain(file.walls.iter().map(|walls| &walls.material));
+    let coefficients = choices.filter_map(|choice| match choice {
+        MaterialChoice::Inline(table) => table.restitution,
+        MaterialChoice::Named(name) => file.materials.get(name).and_then(|table| table.restitution),
+    });
+    let largest = coefficients.fold(0.0, f64::max);
+    file.parameters.restitution.unwrap_or(largest)
+}
+
+/// A circle around the core of the first field that is on.
+fn field_mark(file: &SceneFile) -> Option<FieldMark> {
+    let on = file.field.iter().find(|field| field.strength != 0.0);
+    on.filter(|_| file.look.field).map(|field| FieldMark {
+        centre: field.centre.0,
+        radius: field.core,
+        label: format!("GM = {} m^3/s^2", field.strength),
+    })
+}
+
+fn face_field(file: &SceneFile) -> FieldPath {
+    let table = if file.parameters.face.is_some() {
+        "parameters"
+    } else {
+        "look"
+    };
+    FieldPath::root(table).key("face")
+}
+
+/// `builtin`, or a PNG beside the scene file.
+fn face(scene: &Scene, field: &FieldPath, name: &str) -> Result<Face, SceneError> {
+    if name == "builtin" {
+        return Ok(Face::smile());
+    }
+    let refuse = |reason: String| {
+        let problem = Problem::Refused(format!("cannot read {name}: {reason}"));
+        scene.document.error(field, problem)
+    };
+    let path = scene.folder.as_deref().unwrap_or(Path::new("")).join(name);
+    let bytes = read_bytes(&path).map_err(|problem| refuse(problem.to_string()))?;
+    Face::from_png(&bytes).map_err(|error| refuse(error.to_string()))
+}
+
+fn style(document: &Document, file: &SceneFile) -> Result<Style, SceneError> {
+    let style = match file.look.theme {
+        ThemeName::Light => Style::light(),
+        ThemeName::Dark => Style::dark(),
+    };
+    let field = FieldPath::root("camera").key("background");
+    Ok(match &file.camera.background {
+        Some(text) => Style {
+            background: colour(document, &field, text)?,
+            ..style
+        },
+        None => style,
+    })
+}
+
+fn colour(document: &Document, field: &FieldPath, text: &str) -> Result<Colour, SceneError> {
+    text.parse::<Colour>()
+        .map_err(|error| document.error(field, Problem::Refused(error.to_string())))
+}
+
+fn camera(document: &Document, file: &SceneFile, world: &World) -> Result<Camera, SceneError> {
+    let table = &file.camera;
+    let field = FieldPath::root("camera");
+    let made = made_camera(table, file, world);
+    made.map_err(|(key, reason)| document.error(&field.key(key), Problem::Refused(reason)))
+}
+
+fn made_camera(
+    table: &CameraTable,
+    file: &SceneFile,
+    world: &World,
+) -> Result<Camera, (&'static str, String)> {
+    let (width, height) = (table.size.width, table.size.height);
+    carom_render::Size::new(width, height).map_err(|error| ("size", error.to_string()))?;
+    if let Some(fit) = table.fit {
+        if table.centre.is_some() || table.height.is_some() {
+            return Err(("fit", "fit is given beside centre or height".to_owned()));
+        }
+        return Camera::fit(Aabb::new(fit.min, fit.max), width, height)
+            .map_err(|error| ("fit", error.to_string()));
+    }
+    match (table.centre, table.height) {
+        (Some(centre), Some(metres)) => {
+            Camera::new(centre.0, f64::from(height) / metres, width, height)
+                .map_err(|error| ("height", error.to_string()))
+        }
+        (None, None) => Camera::fit(surroundings(file, world), width, height)
+            .map_err(|error| ("fit", error.to_string())),
+        (Some(_), None) => Err(("height", "centre is given without height".to_owned())),
+        (None, Some(_)) => Err(("centre", "height is given without centre".to_owned())),
+    }
+}
+
+/// What there is to see at the start: the room between the walls, else all bodies, with a margin.
+fn surroundings(file: &SceneFile, world: &World) -> Aabb {
+    let bodies = world.bodies().map(|body| body.aabb());
+    let bounds = match &file.walls {
+        Some(walls) => Aabb::new(walls.inner.min, walls.inner.max),
+        None => bodies.fold(Aabb::EMPTY, |all, next| all.union(next)),
+    };
+    if !bounds.is_finite() {
+        return Aabb::new(Vec2::splat(-1.0), Vec2::splat(1.0));
+    }
+    bounds.grown(0.04 * bounds.extents().max_element())
+}

@@ -1,0 +1,69 @@
+//! Materials by value or by name.
+
+use carom_dynamics::Material;
+
+use crate::document::Document;
+use crate::error::{Problem, SceneError, nearest};
+use crate::model::{MaterialChoice, MaterialTable, SceneFile};
+use crate::path::FieldPath;
+
+/// A material and where in the file it was written.
+#[derive(Clone, Debug)]
+pub(crate) struct Resolved {
+    pub(crate) material: Material,
+    pub(crate) field: FieldPath,
+    /// Whether `parameters.restitution` stands in for the material's own.
+    pub(crate) by_parameter: bool,
+}
+
+impl Resolved {
+    /// Where `density`, `friction` or `restitution` was written.
+    pub(crate) fn field_of(&self, key: &str) -> FieldPath {
+        if self.by_parameter && key == "restitution" {
+            FieldPath::root("parameters").key(key)
+        } else {
+            self.field.key(key)
+        }
+    }
+}
+
+/// The material that is chosen at `field`.
+pub(crate) fn resolve(
+    document: &Document,
+    file: &SceneFile,
+    choice: &MaterialChoice,
+    field: FieldPath,
+) -> Result<Resolved, SceneError> {
+    match choice {
+        MaterialChoice::Inline(table) => Ok(filled(*table, field)),
+        MaterialChoice::Named(name) => {
+            let Some(table) = file.materials.get(name) else {
+                let expected: Vec<String> = file.materials.keys().cloned().collect();
+                let close = nearest(name, expected.iter().map(String::as_str)).map(str::to_owned);
+                return Err(document.error(
+                    &field,
+                    Problem::Unknown {
+                        what: "material",
+                        nearest: close,
+                        expected,
+                    },
+                ));
+            };
+            Ok(filled(*table, FieldPath::root("materials").key(name)))
+        }
+    }
+}
+
+/// The engine's default for what is not given. Values are checked by the engine, on insertion.
+fn filled(table: MaterialTable, field: FieldPath) -> Resolved {
+    let default = Material::default();
+    Resolved {
+        material: Material {
+            density: table.density.unwrap_or(default.density),
+            friction: table.friction.unwrap_or(default.friction),
+            restitution: table.restitution.unwrap_or(default.restitution),
+        },
+        field,
+        by_parameter: false,
+    }
+}

@@ -1,0 +1,312 @@
+//! From the tables of a file to a world and its look.
+
+mod boxes;
+mod look;
+mod material;
+mod plan;
+mod populate;
+mod settings;
+mod shape;
+
+use carom_dynamics::{
+    BodyDef, BodyError, BodyId, BodyKind, Impulse, RadialField, SettingsError, World,
+};
+use carom_geometry::Circle;
+
+use crate::document::Document;
+use crate::error::{Problem, SceneError};
+use crate::model::{BodyTable, FieldTable, Kind, SceneFile};
+use crate::path::FieldPath;
+use crate::{Built, Scene};
+use material::Resolved;
+use plan::{Planned, Planner};
+
+impl From<Kind> for BodyKind {
+    fn from(kind: Kind) -> Self {
+        match kind {
+            Kind::Dynamic => Self::Dynamic,
+            Kind::Fixed => Self::Fixed,
+            Kind::Kinematic => Self::Kinematic,
+        }
+    }
+}
+
+/// Builds the world and how it looks.
+pub(crate) fn build(scene: &Scene) -> Result<Built, SceneError> {
+    let document = &scene.document;
+    let file = with_parameters(document, &scene.file)?;
+    check_times(document, &file)?;
+    let planned = plan(document, &file)?;
+    let mut world = new_world(document, &file)?;
+    let mut names = Vec::with_capacity(planned.len());
+    for body in &planned {
+        names.push((body.name.clone(), insert(document, &mut world, body)?));
+    }
+    look::dress(scene, &file, world, &planned, names)
+}
+
+/// The file with the original program's parameters in the places that they name.
+fn with_parameters(document: &Document, file: &SceneFile) -> Result<SceneFile, SceneError> {
+    let mut file = file.clone();
+    let parameters = file.parameters.clone();
+    let refuse = |key: &str, reason: &str| {
+        let field = FieldPath::root("parameters").key(key);
+        Err(document.error(&field, Problem::Refused(reason.to_owned())))
+    };
+    if let Some(population) = file.population.first_mut() {
+        population.count = parameters.n.unwrap_or(population.count);
+        population.radius = parameters.radius.unwrap_or(population.radius);
+        population.speed = parameters.v.or(population.speed);
+    } else if let Some((key, _)) = [
+        ("n", parameters.n.is_some()),
+        ("radius", parameters.radius.is_some()),
+        ("v", parameters.v.is_some()),
+    ]
+    .iter()
+    .find(|(_, given)| *given)
+    {
+        return refuse(
+            key,
+            "the scene has no [[population]] that it could be about",
+        );
+    }
+    match (parameters.fnewt, file.field.first_mut()) {
+        (Some(strength), Some(field)) => field.strength = strength,
+        (Some(_), None) => {
+            return refuse("fnewt", "the scene has no [[field]] that it could be about");
+        }
+        (None, _) => {}
+    }
+    if parameters.fconst.is_some() && file.gravity.is_some() {
+        // In one file a mistake; over a file `--set fconst` is meant to win.
+        file.gravity = None;
+    }
+    file.look.stats = parameters.stats.unwrap_or(file.look.stats);
+    file.look.face = parameters.face.or(file.look.face);
+    Ok(file)
+}
+
+fn check_times(document: &Document, file: &SceneFile) -> Result<(), SceneError> {
+    /// Ten million seconds: above it frames are counted in billions.
+    const LONGEST: f64 = 1e7;
+    if file.duration > 0.0 && file.duration <= LONGEST {
+        return Ok(());
+    }
+    let reason = format!(
+        "{} s is not above 0 and at most {LONGEST:e} s",
+        file.duration
+    );
+    Err(document.error(&FieldPath::root("duration"), Problem::Refused(reason)))
+}
+
+/// All bodies, in the order in which the world gets them.
+fn plan(document: &Document, file: &SceneFile) -> Result<Vec<Planned>, SceneError> {
+    let mut planner = Planner {
+        document,
+        file,
+        bodies: Vec::new(),
+    };
+    if let Some(table) = &file.walls {
+        boxes::walls(&mut planner, table)?;
+    }
+    for (index, table) in file.field.iter().enumerate() {
+        core_of_field(&mut planner, index, table)?;
+    }
+    for (index, table) in file.body.iter().enumerate() {
+        written_body(&mut planner, index, table)?;
+    }
+    for (index, table) in file.stack.iter().enumerate() {
+        boxes::stack(&mut planner, index, table)?;
+    }
+    for (index, table) in file.pyramid.iter().enumerate() {
+        boxes::pyramid(&mut planner, index, table)?;
+    }
+    for (index, table) in file.grid.iter().enumerate() {
+        boxes::grid(&mut planner, index, table)?;
+    }
+    for (index, table) in file.population.iter().enumerate() {
+        populate::populate(&mut planner, index, table)?;
+    }
+    Ok(planner.bodies)
+}
+
+/// The solid core of a field: a fixed disc.
+fn core_of_field(
+    planner: &mut Planner<'_>,
+    index: usize,
+    table: &FieldTable,
+) -> Result<(), SceneError> {
+    if !table.solid || table.strength == 0.0 {
+        return Ok(());
+    }
+    let field = FieldPath::root("field").index(index);
+    let disc = Circle::new(table.core)
+        .map_err(|error| planner.refuse(&field.key("core"), error.to_string()))?;
+    let material = planner.material(&table.material, field.key("material"))?;
+    let mut body = Planned::new(format!("core/{index}"), field);
+    body.kind = BodyKind::Fixed;
+    body.position = table.centre.0;
+    body.shapes = vec![(disc.into(), material)];
+    body.colour.clone_from(&table.colour);
+    planner.add(body)
+}
+
+/// A `[[body]]`.
+fn written_body(
+    planner: &mut Planner<'_>,
+    index: usize,
+    table: &BodyTable,
+) -> Result<(), SceneError> {
+    let field = FieldPath::root("body").index(index);
+    let document = planner.document;
+    let material = planner.material(&table.material, field.key("material"))?;
+    let mut body = Planned::new(
+        table
+            .name
+            .clone()
+            .unwrap_or_else(|| format!("body/{index}")),
+        field.clone(),
+    );
+    let single = table.shape.iter().map(|shape| (shape, field.key("shape")));
+    let several = table.shapes.iter().enumerate();
+    let several = several.map(|(k, shape)| (shape, field.key("shapes").index(k)));
+    for (shape_table, place) in single.chain(several) {
+        let surface = match &shape_table.material {
+            Some(own) => planner.material(own, place.key("material"))?,
+            None => material.clone(),
+        };
+        body.shapes
+            .push((shape::shape(document, shape_table, &place)?, surface));
+    }
+    if body.shapes.is_empty() {
+        let problem = Problem::MissingField("a body needs a shape".to_owned());
+        return Err(document.error(&field.key("shape"), problem));
+    }
+    body.kind = table.kind.into();
+    body.position = table.position.map_or(body.position, |position| position.0);
+    body.angle = shape::angle(document, &field, "angle", table.angle, table.angle_deg)?;
+    body.velocity = table.velocity.map_or(body.velocity, |velocity| velocity.0);
+    body.spin = table.spin;
+    body.mass = table.mass;
+    body.inertia = table.inertia;
+    body.locked_rotation = table.locked_rotation;
+    body.gravity_scale = table.gravity_scale;
+    body.impulse = table.impulse.map(|impulse| (impulse.at.0, impulse.value.0));
+    body.colour.clone_from(&table.colour);
+    body.face.clone_from(&table.face);
+    planner.add(body)
+}
+
+fn new_world(document: &Document, file: &SceneFile) -> Result<World, SceneError> {
+    let mut world = World::new(settings::settings(file)).map_err(|error| {
+        let (SettingsError::NotFinite { field, .. }
+        | SettingsError::NotPositive { field, .. }
+        | SettingsError::OutOfRange { field, .. }) = &error
+        else {
+            return document.error(
+                &FieldPath::root("settings"),
+                Problem::Refused(error.to_string()),
+            );
+        };
+        let path = match *field {
+            "tick" if file.parameters.delta.is_some() => FieldPath::root("parameters").key("delta"),
+            "tick / substep" => FieldPath::root("settings").key("substep"),
+            field => field
+                .split('.')
+                .fold(FieldPath::root("settings"), |path, key| path.key(key)),
+        };
+        document.error(&path, Problem::Refused(error.to_string()))
+    })?;
+    for (index, table) in file.field.iter().enumerate() {
+        if table.strength == 0.0 {
+            continue;
+        }
+        let path = FieldPath::root("field").index(index);
+        let field =
+            RadialField::new(table.centre.0, table.strength, table.core).map_err(|error| {
+                let key = field_of(&error)
+                    .and_then(|name| name.split('.').nth(1))
+                    .unwrap_or("strength");
+                document.error(&path.key(key), Problem::Refused(error.to_string()))
+            })?;
+        world.add_field(field);
+    }
+    Ok(world)
+}
+
+fn insert(document: &Document, world: &mut World, body: &Planned) -> Result<BodyId, SceneError> {
+    let def = BodyDef {
+        position: body.position,
+        angle: body.angle,
+        velocity: body.velocity,
+        spin: body.spin,
+        mass: body.mass,
+        inertia: body.inertia,
+        locked_rotation: body.locked_rotation,
+        gravity_scale: body.gravity_scale,
+        ..BodyDef::new(body.kind)
+    };
+    let shapes = body.shapes.iter();
+    let shapes = shapes
+        .map(|(shape, surface)| (shape.clone(), surface.material))
+        .collect();
+    let refused = |error: BodyError| {
+        let problem = Problem::Refused(format!("{error} (body \"{}\")", body.name));
+        document.error(&origin_of(&error, body), problem)
+    };
+    let id = world.insert_compound(def, shapes).map_err(refused)?;
+    if let Some((point, impulse)) = body.impulse {
+        world
+            .apply(id, Impulse::at(point, impulse))
+            .map_err(|error| {
+                let problem = Problem::Refused(format!("{error} (body \"{}\")", body.name));
+                document.error(&body.field.key("impulse"), problem)
+            })?;
+    }
+    Ok(id)
+}
+
+/// Where the file has the value that a body was refused for.
+fn origin_of(error: &BodyError, body: &Planned) -> FieldPath {
+    let surface = |wrong: &dyn Fn(&Resolved) -> bool| {
+        let surfaces = body.shapes.iter().map(|(_, surface)| surface);
+        surfaces
+            .clone()
+            .find(|surface| wrong(surface))
+            .or_else(|| surfaces.clone().next())
+    };
+    let of_material = |key: &str, value: f64| {
+        let found = surface(&|surface| {
+            let material = &surface.material;
+            let held = match key {
+                "density" => material.density,
+                "friction" => material.friction,
+                _ => material.restitution,
+            };
+            held.to_bits() == value.to_bits()
+        });
+        found.map_or_else(|| body.field.clone(), |surface| surface.field_of(key))
+    };
+    match *error {
+        BodyError::Restitution { value } => of_material("restitution", value),
+        BodyError::NoMass { density } => of_material("density", density),
+        BodyError::NotFinite { field, value }
+        | BodyError::TooLarge { field, value, .. }
+        | BodyError::Negative { field, value }
+        | BodyError::NotPositive { field, value } => match field {
+            "density" | "friction" | "restitution" => of_material(field, value),
+            _ => body.field.key(field.split('.').next().unwrap_or(field)),
+        },
+        _ => body.field.clone(),
+    }
+}
+
+fn field_of(error: &BodyError) -> Option<&'static str> {
+    match error {
+        BodyError::NotFinite { field, .. }
+        | BodyError::TooLarge { field, .. }
+        | BodyError::Negative { field, .. }
+        | BodyError::NotPositive { field, .. } => Some(field),
+        _ => None,
+    }
+}

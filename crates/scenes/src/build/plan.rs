@@ -1,0 +1,111 @@
+//! The bodies of a scene before a world exists: what generators make and what is written out look the same here.
+
+use carom_dynamics::BodyKind;
+use carom_geometry::Shape;
+use carom_math::{Pose, Rot, Vec2};
+
+use super::material::{Resolved, resolve};
+use crate::document::Document;
+use crate::error::{Problem, SceneError};
+use crate::model::{MaterialChoice, SceneFile};
+use crate::path::FieldPath;
+
+/// Most bodies of a scene.
+pub(crate) const MAX_BODIES: u64 = 1_000_000;
+
+/// One body.
+#[derive(Clone, Debug)]
+pub(crate) struct Planned {
+    pub(crate) name: String,
+    /// Where in the file it comes from.
+    pub(crate) field: FieldPath,
+    pub(crate) kind: BodyKind,
+    /// Where the shapes' own origin is, in m.
+    pub(crate) position: Vec2,
+    /// How they are turned about it, in rad.
+    pub(crate) angle: f64,
+    pub(crate) velocity: Vec2,
+    pub(crate) spin: f64,
+    pub(crate) shapes: Vec<(Shape, Resolved)>,
+    pub(crate) mass: Option<f64>,
+    pub(crate) inertia: Option<f64>,
+    pub(crate) locked_rotation: bool,
+    pub(crate) gravity_scale: f64,
+    /// Point and impulse.
+    pub(crate) impulse: Option<(Vec2, Vec2)>,
+    pub(crate) colour: Option<String>,
+    pub(crate) face: Option<String>,
+}
+
+impl Planned {
+    /// A dynamic body at rest at the origin, without shapes.
+    pub(crate) fn new(name: String, field: FieldPath) -> Self {
+        Self {
+            name,
+            field,
+            kind: BodyKind::Dynamic,
+            position: Vec2::ZERO,
+            angle: 0.0,
+            velocity: Vec2::ZERO,
+            spin: 0.0,
+            shapes: Vec::new(),
+            mass: None,
+            inertia: None,
+            locked_rotation: false,
+            gravity_scale: 1.0,
+            impulse: None,
+            colour: None,
+            face: None,
+        }
+    }
+
+    /// The frame of the shapes.
+    pub(crate) fn pose(&self) -> Pose {
+        Pose::new(self.position, Rot::from_angle(self.angle))
+    }
+}
+
+/// Collects the bodies of a file.
+pub(crate) struct Planner<'a> {
+    pub(crate) document: &'a Document,
+    pub(crate) file: &'a SceneFile,
+    pub(crate) bodies: Vec<Planned>,
+}
+
+impl Planner<'_> {
+    /// A material as it is written.
+    pub(crate) fn material(
+        &self,
+        choice: &MaterialChoice,
+        field: FieldPath,
+    ) -> Result<Resolved, SceneError> {
+        resolve(self.document, self.file, choice, field)
+    }
+
+    /// The material of walls and generated bodies, whose restitution a parameter may set.
+    pub(crate) fn surface(
+        &self,
+        choice: &MaterialChoice,
+        field: FieldPath,
+    ) -> Result<Resolved, SceneError> {
+        let mut resolved = self.material(choice, field)?;
+        if let Some(restitution) = self.file.parameters.restitution {
+            resolved.material.restitution = restitution;
+            resolved.by_parameter = true;
+        }
+        Ok(resolved)
+    }
+
+    pub(crate) fn add(&mut self, body: Planned) -> Result<(), SceneError> {
+        if self.bodies.len() as u64 >= MAX_BODIES {
+            let reason = format!("a scene holds at most {MAX_BODIES} bodies");
+            return Err(self.refuse(&body.field, reason));
+        }
+        self.bodies.push(body);
+        Ok(())
+    }
+
+    pub(crate) fn refuse(&self, field: &FieldPath, reason: String) -> SceneError {
+        self.document.error(field, Problem::Refused(reason))
+    }
+}
