@@ -1,5 +1,6 @@
 //! From metres to pixels: the only place that flips y or narrows to `f32`.
 
+use carom_geometry::Aabb;
 use carom_math::{Rot, Vec2, vec2};
 
 use crate::{RenderError, Size};
@@ -50,12 +51,13 @@ impl Camera {
         })
     }
 
-    /// The camera that shows all of the box from `min` to `max` (m), as large as it goes.
+    /// The camera that shows all of a box (m), as large as it goes; [`Aabb::grown`] leaves room around it.
     ///
     /// # Errors
     /// [`RenderError::EmptyBounds`] unless the box is finite and wider or higher than nothing; else as [`Camera::new`].
-    pub fn fit_corners(min: Vec2, max: Vec2, width: u32, height: u32) -> Result<Self, RenderError> {
+    pub fn fit(bounds: Aabb, width: u32, height: u32) -> Result<Self, RenderError> {
         let size = Size::new(width, height)?;
+        let Aabb { min, max } = bounds;
         let extent = max - min;
         if !(extent.is_finite() && extent.min_element() >= 0.0 && extent.max_element() > 0.0) {
             return Err(RenderError::EmptyBounds {
@@ -130,11 +132,14 @@ impl Camera {
         rotation.inverse()
     }
 
-    /// The lower left and upper right corner of what is seen, in metres.
+    /// What is seen of the world, in metres.
     #[must_use]
-    pub fn corners(&self) -> (Vec2, Vec2) {
+    pub fn view(&self) -> Aabb {
         let half = 0.5 * self.size.corner() / self.scale;
-        (self.centre - half, self.centre + half)
+        Aabb {
+            min: self.centre - half,
+            max: self.centre + half,
+        }
     }
 }
 
@@ -151,6 +156,10 @@ pub(crate) fn narrow(pixels: f64) -> f32 {
 mod tests {
     use super::*;
     use proptest::prelude::*;
+
+    fn fit(min: Vec2, max: Vec2, width: u32, height: u32) -> Result<Camera, RenderError> {
+        Camera::fit(Aabb { min, max }, width, height)
+    }
 
     #[test]
     fn bad_cameras_are_refused() {
@@ -171,12 +180,12 @@ mod tests {
 
     #[test]
     fn a_fitted_box_touches_two_sides() {
-        let camera = Camera::fit_corners(vec2(-1.0, 0.0), vec2(3.0, 1.0), 400, 400).unwrap();
+        let camera = fit(vec2(-1.0, 0.0), vec2(3.0, 1.0), 400, 400).unwrap();
         assert_eq!(camera.scale(), 100.0);
         assert_eq!(camera.point(vec2(-1.0, 0.5)), vec2(0.0, 200.0));
         assert_eq!(camera.point(vec2(3.0, 0.5)), vec2(400.0, 200.0));
         // A level segment has no height, and still fits.
-        let flat = Camera::fit_corners(vec2(0.0, 2.0), vec2(4.0, 2.0), 400, 100).unwrap();
+        let flat = fit(vec2(0.0, 2.0), vec2(4.0, 2.0), 400, 100).unwrap();
         assert_eq!(flat.scale(), 100.0);
     }
 
@@ -189,7 +198,7 @@ mod tests {
             (Vec2::ZERO, vec2(f64::INFINITY, 1.0)),
         ];
         for (min, max) in wrong {
-            let error = Camera::fit_corners(min, max, 10, 10).unwrap_err();
+            let error = fit(min, max, 10, 10).unwrap_err();
             assert!(matches!(error, RenderError::EmptyBounds { .. }), "{error}");
         }
     }

@@ -377,7 +377,7 @@ impl Layout {
             (&self.y, vec2(min.x, min.y - 0.7 * TEXT), vec2(0.0, 0.0)),
         ] {
             if ruler.exponent != 0 {
-                draw_power("x 10", ruler.exponent, at, anchor, frame);
+                draw_power("×10", ruler.exponent, at, anchor, frame);
             }
         }
         let middle = 0.5 * (min + max);

@@ -1,4 +1,4 @@
-//! A stroke font of printable ASCII: no font file, the same text on every machine.
+//! A stroke font of printable ASCII and a few signs of units (° ² ³ µ · × − –): no font file, the same text on every machine.
 //!
 //! A glyph is a few polylines on a grid where a capital is 10 high, a small letter 7, and the base line is 0;
 //! [`glyphs`](crate::glyphs) holds the drawings. Spacing follows from the shapes: a side that leans or bulges away
@@ -8,7 +8,7 @@ use std::sync::OnceLock;
 
 use carom_math::{Rot, Vec2, vec2};
 
-use crate::glyphs::{DRAWINGS, MISSING};
+use crate::glyphs::{DRAWINGS, EXTRA, MISSING};
 
 /// Height of a capital on the grid of the drawings.
 const CAPITAL: f64 = 10.0;
@@ -17,7 +17,7 @@ const BEARING: f64 = 1.35;
 /// Room that a digit takes, on the grid.
 const DIGIT_ADVANCE: f64 = 8.1;
 /// Room of a space, on the grid.
-const SPACE_ADVANCE: f64 = 4.4;
+const SPACE_ADVANCE: f64 = 4.8;
 /// Arcs are cut into chords of at most this many degrees: 1/500 of the radius from the arc.
 const CHORD_DEGREES: f64 = 7.5;
 
@@ -71,12 +71,16 @@ fn glyph(character: char) -> &'static Glyph {
             let digit = (16..26).contains(&i); // '0' is the seventeenth printable character
             build(drawing, digit)
         });
-        drawn.chain([build(MISSING, false)]).collect()
+        let extra = EXTRA.iter().map(|(_, drawing)| build(drawing, false));
+        drawn.chain(extra).chain([build(MISSING, false)]).collect()
     });
-    let index = (character as usize)
+    let printable = (character as usize)
         .checked_sub(32)
-        .filter(|&i| i < DRAWINGS.len())
-        .unwrap_or(DRAWINGS.len());
+        .filter(|&i| i < DRAWINGS.len());
+    let index = printable.unwrap_or_else(|| {
+        let extra = EXTRA.iter().position(|(other, _)| *other == character);
+        DRAWINGS.len() + extra.unwrap_or(EXTRA.len())
+    });
     &glyphs[index]
 }
 
@@ -178,7 +182,8 @@ mod tests {
     use super::*;
 
     fn printable() -> impl Iterator<Item = char> {
-        (32..127_u8).map(char::from)
+        let extra = EXTRA.iter().map(|(character, _)| *character);
+        (32..127_u8).map(char::from).chain(extra)
     }
 
     #[test]
@@ -232,6 +237,7 @@ mod tests {
     fn other_characters_are_a_box() {
         assert_eq!(glyph('é').strokes, glyph('\n').strokes);
         assert_eq!(glyph('é').strokes.len(), 1);
+        assert_ne!(glyph('²').strokes, glyph('é').strokes);
     }
 
     #[test]

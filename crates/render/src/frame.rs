@@ -160,7 +160,7 @@ pub enum Op {
 pub struct Label {
     /// Where its anchor is, in pixels.
     pub at: Vec2,
-    /// The text; what is not printable ASCII is drawn as a small box.
+    /// The text; what is neither printable ASCII nor one of ° ² ³ µ · × − – is drawn as a small box.
     pub text: String,
     /// Height of a capital, in pixels.
     pub height: f64,

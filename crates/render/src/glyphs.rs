@@ -105,5 +105,23 @@ pub(crate) const DRAWINGS: [&str; 95] = [
     "A 1.6 3.7 1.6 1.4 190 20 A 4.6 4.65 1.6 1.4 200 370",
 ];
 
+/// What units and products need beyond ASCII.
+pub(crate) const EXTRA: [(char, &str); 8] = [
+    ('°', "A 1.5 8.4 1.5 1.6 90 450"),
+    ('²', "A 1.6 8.7 1.4 1.4 160 -36 L 0.1 5.2 L 3.1 5.2"),
+    (
+        '³',
+        "A 1.5 8.9 1.3 1.25 155 -90 L 1.2 7.65 M 1.5 7.65 A 1.5 6.3 1.5 1.35 90 -155",
+    ),
+    (
+        'µ',
+        "M 0 7 L 0 -3 M 0 2.9 A 2.7 2.9 2.7 3 180 360 M 5.4 7 L 5.4 0",
+    ),
+    ('·', "M 0 4 L 0 4.3"),
+    ('×', "M 0 6.6 L 4.8 1.8 M 4.8 6.6 L 0 1.8"),
+    ('−', "M 0 4.2 L 5.6 4.2"),
+    ('–', "M 0 3.9 L 6 3.9"),
+];
+
 /// What stands for any other character.
 pub(crate) const MISSING: &str = "M 0 0 L 0 10 L 5.6 10 L 5.6 0 L 0 0";

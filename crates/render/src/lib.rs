@@ -1,4 +1,35 @@
-//! Pictures of rigid bodies without a screen.
+//! Pictures of rigid bodies without a screen: PNG, APNG, SVG, film and charts.
+//!
+//! Three stages, each of use alone. A [`Camera`] says what is seen and a [`Look`] what bodies wear;
+//! [`Frame::capture`] turns a world into a plain list of marks, which can as well be built by hand; a [`Style`]
+//! paints the list to a [`Picture`], which goes to a file. No window, no font file, no clock: the same
+//! frame gives the same bytes.
+//!
+//! ```text
+//! World ─ Camera, Look ─► Frame ─ Style ─► Picture ─► PNG, Sequence, Animation, Film, Sheet
+//! Chart ────────────────► Frame ─ Style ─► SVG
+//! ```
+//!
+//! A frame may hold any numbers. What is not finite is left out and what lies far outside is cut away before the
+//! rasteriser sees it; canvas sizes are checked before memory is taken; files appear whole or not at all.
+//!
+//! # Examples
+//! ```
+//! use carom_render::{Camera, Colour, Frame, Op, Paint, Style};
+//! use carom_math::vec2;
+//!
+//! let camera = Camera::new(vec2(0.0, 0.0), 100.0, 200, 200)?;              // m, px/m, px
+//! let mut frame = Frame::new(camera.size());
+//! frame.push(Op::Disc {
+//!     centre: camera.point(vec2(0.5, 0.5)),                                 // up and right of the middle
+//!     radius: camera.length(0.25),
+//!     paint: Paint::flat(Colour::hex(0x3FA796)),
+//! });
+//! let picture = frame.paint(&Style::light());
+//! assert_eq!(picture.pixel(150, 50), Some(Colour::hex(0x3FA796)));
+//! assert_eq!(picture.pixel(50, 150), Some(Colour::WHITE));
+//! # Ok::<(), carom_render::RenderError>(())
+//! ```
 
 #![cfg_attr(
     test,
@@ -12,6 +43,7 @@
 mod apng;
 mod axis;
 mod camera;
+mod capture;
 mod chart;
 mod clip;
 mod colour;
@@ -21,6 +53,7 @@ mod folder;
 mod font;
 mod frame;
 mod glyphs;
+mod look;
 mod output;
 mod paint;
 mod picture;
@@ -41,6 +74,7 @@ pub use error::RenderError;
 pub use face::{Face, MAX_FACE_SIDE};
 pub use folder::{Existing, MANIFEST, OutputFolder};
 pub use frame::{Frame, Label, Op, Paint};
+pub use look::{FIXED_COLOUR, FieldMark, KINEMATIC_COLOUR, Look, Overlay};
 pub use output::write_file;
 pub use picture::Picture;
 pub use png::Packing;
@@ -49,3 +83,7 @@ pub use sheet::Sheet;
 pub use size::{FrameRate, MAX_PIXELS, MAX_RATE, MAX_SIDE, Size};
 pub use style::{Ink, Style};
 pub use y4m::{Chroma, Film};
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadmeDocTests;

@@ -1,8 +1,8 @@
 //! Contact sheets: many pictures small on one, each with a line below.
 
-use carom_math::vec2;
+use carom_math::{Vec2, vec2};
 
-use crate::{Frame, Ink, Label, Picture, RenderError, Size, Style};
+use crate::{Frame, Ink, Label, Op, Picture, RenderError, Size, Style};
 
 /// Pictures in a grid, scaled down by exact means of the area that a pixel covers.
 ///
@@ -108,7 +108,20 @@ impl Sheet {
         }
         let places = (0..count).map(|i| (GAP + i % columns * step_x, top + i / columns * step_y));
         for ((x, y), (_, caption)) in places.clone().zip(&self.tiles) {
-            let at = vec2(f64::from(x), f64::from(y + tile_height) + 1.75 * CAPTION);
+            let (min, max) = (
+                vec2(f64::from(x), f64::from(y)),
+                vec2(f64::from(x + tile_width), f64::from(y + tile_height)),
+            );
+            // A border of one pixel around the tile, which covers the inside.
+            frame.push(Op::Box {
+                min: min - Vec2::splat(1.0),
+                max: max + Vec2::splat(1.0),
+                fill: Some(Ink::Grid),
+                border: None,
+                width: 0.0,
+                dash: None,
+            });
+            let at = vec2(min.x, max.y + 1.75 * CAPTION);
             frame.push(Label::new(at, caption.clone(), CAPTION, Ink::Muted));
         }
         let mut sheet = frame.paint(style);

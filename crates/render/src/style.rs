@@ -100,6 +100,7 @@ impl Style {
             Ink::Contact => self.contact,
             Ink::Field => self.field,
             Ink::Bar => self.bar,
+            Ink::Outline(fill) => self.outline_of(fill),
             Ink::Series(index) => self.series[index % self.series.len()],
         }
     }
@@ -139,6 +140,8 @@ pub enum Ink {
     Field,
     /// [`Style::bar`].
     Bar,
+    /// [`Style::outline_of`] a fill.
+    Outline(Colour),
     /// [`Style::series`], by index.
     Series(usize),
 }
