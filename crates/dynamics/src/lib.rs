@@ -1,1 +1,74 @@
-//! carom-dynamics.
+//! Rigid bodies in the plane: how they fly, strike, rest and sleep, and where their energy goes.
+//!
+//! A body's state is a [`Motion`]: a closed form in time. Free flight is computed by it and never
+//! stepped; impacts happen at their instants, by one of the laws in [`impact`]; contacts that last
+//! are solved for in sub-steps. [`World::step`] asks where everything is `dt` later: `dt` only
+//! observes.
+//!
+//! # Examples
+//! An elastic ball is back where it was dropped.
+//! ```
+//! use carom_dynamics::{BodyDef, Material, Settings, World};
+//! use carom_geometry::{Circle, ConvexPolygon};
+//! use carom_math::vec2;
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let mut world = World::new(Settings { gravity: vec2(0.0, -10.0), ..Settings::default() })?;
+//! let elastic = Material { restitution: 1.0, friction: 0.0, ..Material::default() };
+//! world.insert(BodyDef::fixed().at(vec2(0.0, -1.0)), ConvexPolygon::rectangle(20.0, 2.0)?, elastic)?;
+//! let drop = BodyDef::dynamic().at(vec2(0.0, 5.5));            // 5 m below the ball's rim
+//! let ball = world.insert(drop, Circle::new(0.5)?, elastic)?;
+//! world.step(2.0);                                             // 1 s down, 1 s up
+//! let height = world.body(ball).ok_or("it is there")?.centre().y;
+//! assert!((height - 5.5).abs() < 1e-12);
+//! # Ok(())
+//! # }
+//! ```
+
+mod agenda;
+mod bodies;
+mod body;
+mod body_def;
+mod broad;
+mod clock;
+mod contact;
+mod error;
+mod event;
+mod field;
+mod flight;
+mod force;
+mod groups;
+mod history;
+mod id;
+pub mod impact;
+mod ledger;
+mod material;
+mod narrow;
+mod pairs;
+mod predict;
+mod query;
+mod report;
+mod resolve;
+mod settings;
+mod sleep;
+mod solver;
+mod step;
+mod world;
+
+pub use body::Body;
+pub use body_def::{BodyDef, BodyKind};
+pub use carom_collision::Motion;
+pub use carom_geometry as geometry;
+pub use carom_math as math;
+pub use contact::{Contact, ContactPoint};
+pub use error::{BodyError, SettingsError, WORLD_LIMIT};
+pub use event::{Event, EventKind, Events};
+pub use field::{Field, RadialField};
+pub use force::{Force, Impulse};
+pub use id::BodyId;
+pub use impact::ImpactLaw;
+pub use ledger::{EnergyLedger, Momentum};
+pub use material::{Material, PairMaterial};
+pub use query::{RayHit, ShapeHit};
+pub use report::{Refusal, StepReport};
+pub use settings::{Mode, PairSearch, Settings, Sleep, Softness};
+pub use world::World;

@@ -1,0 +1,247 @@
+//! The store of bodies, and the one door through which a motion changes.
+
+use std::sync::Arc;
+
+use carom_collision::Motion;
+use carom_math::{SimTime, Sum, Vec2};
+
+use crate::body::BodyState;
+use crate::history::History;
+use crate::{BodyError, BodyId, BodyKind, EnergyLedger, Field};
+
+/// Running sums of the energy ledger's columns, with twice the digits.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct EnergyBook {
+    pub(crate) impacts: Sum,
+    pub(crate) friction: Sum,
+    pub(crate) forces: Sum,
+    pub(crate) external: Sum,
+    pub(crate) scheme: Sum,
+}
+
+/// What pulls on every body.
+#[derive(Clone, Debug)]
+pub(crate) struct Pull {
+    pub(crate) gravity: Vec2,
+    pub(crate) fields: Vec<Arc<dyn Field>>,
+}
+
+impl Pull {
+    /// Acceleration by gravity and fields at `position`, before the body's own scale.
+    pub(crate) fn at(&self, position: Vec2) -> Vec2 {
+        let fields = self.fields.iter();
+        fields.fold(self.gravity, |sum, field| {
+            sum + field.acceleration(position)
+        })
+    }
+
+    /// Potential of gravity and fields, in J/kg.
+    pub(crate) fn potential(&self, position: Vec2) -> f64 {
+        let fields = self.fields.iter();
+        fields.fold(-self.gravity.dot(position), |sum, field| {
+            sum + field.potential(position)
+        })
+    }
+
+    /// Bound on the gradient of all fields, in 1/s².
+    pub(crate) fn gradient_bound(&self, position: Vec2, radius: f64) -> f64 {
+        let fields = self.fields.iter();
+        fields
+            .map(|field| field.gradient_bound(position, radius))
+            .sum()
+    }
+}
+
+/// All bodies of a world, with the places that removed ones left.
+#[derive(Clone, Debug)]
+pub(crate) struct Bodies {
+    list: Vec<BodyState>,
+    alive: Vec<bool>,
+    free: Vec<u32>,
+    pub(crate) history: History,
+    pub(crate) book: EnergyBook,
+    pub(crate) pull: Pull,
+}
+
+impl Bodies {
+    pub(crate) fn new(gravity: Vec2, history: usize) -> Self {
+        Self {
+            list: Vec::new(),
+            alive: Vec::new(),
+            free: Vec::new(),
+            history: History::new(history),
+            book: EnergyBook::default(),
+            pull: Pull {
+                gravity,
+                fields: Vec::new(),
+            },
+        }
+    }
+
+    /// The id that the next body gets.
+    pub(crate) fn next_id(&self) -> Result<BodyId, BodyError> {
+        const LIMIT: usize = u32::MAX as usize;
+        if let Some(&index) = self.free.last() {
+            let generation = self.list[index as usize].id.generation + 1;
+            return Ok(BodyId { index, generation });
+        }
+        let index = u32::try_from(self.list.len()).map_err(|_| BodyError::Full {
+            what: "bodies",
+            limit: LIMIT,
+        })?;
+        Ok(BodyId {
+            index,
+            generation: 0,
+        })
+    }
+
+    pub(crate) fn insert(&mut self, state: BodyState) {
+        let index = state.id.index as usize;
+        if index == self.list.len() {
+            self.list.push(state);
+            self.alive.push(true);
+        } else {
+            self.free.pop();
+            self.history.forget(state.id.index);
+            self.list[index] = state;
+            self.alive[index] = true;
+        }
+    }
+
+    /// Takes a body out; its place is used again unless its generations are used up.
+    pub(crate) fn remove(&mut self, index: u32) {
+        let state = &mut self.list[index as usize];
+        state.kind = BodyKind::Fixed;
+        state.colliders.clear();
+        state.pairs.clear();
+        self.alive[index as usize] = false;
+        if state.id.generation < u32::MAX {
+            self.free.push(index);
+        }
+    }
+
+    pub(crate) fn find(&self, id: BodyId) -> Result<u32, BodyError> {
+        let index = id.index as usize;
+        if index < self.list.len() && self.alive[index] && self.list[index].id == id {
+            Ok(id.index)
+        } else {
+            Err(BodyError::Stale(id))
+        }
+    }
+
+    /// Places of all living bodies, in order.
+    pub(crate) fn indices(&self) -> impl Iterator<Item = u32> + use<'_> {
+        (0u32..)
+            .zip(&self.alive)
+            .filter(|(_, alive)| **alive)
+            .map(|(i, _)| i)
+    }
+
+    pub(crate) fn iter(&self) -> impl Iterator<Item = &BodyState> {
+        self.list
+            .iter()
+            .zip(&self.alive)
+            .filter(|(_, alive)| **alive)
+            .map(|(state, _)| state)
+    }
+
+    /// How many places there are, living or not.
+    pub(crate) fn places(&self) -> usize {
+        self.list.len()
+    }
+
+    pub(crate) fn get(&self, index: u32) -> &BodyState {
+        &self.list[index as usize]
+    }
+
+    /// For everything but the motion: that changes through [`Bodies::change`].
+    pub(crate) fn get_mut(&mut self, index: u32) -> &mut BodyState {
+        &mut self.list[index as usize]
+    }
+
+    /// The one door for changes of a motion: closes the piece that ends at `time`, books its
+    /// energy, logs it, and opens the next one with a new version.
+    pub(crate) fn change(&mut self, index: u32, time: SimTime, change: impl FnOnce(&mut Motion)) {
+        let piece = self.piece(&self.list[index as usize], time);
+        self.book.forces.add(piece.forces);
+        self.book.scheme.add(piece.scheme);
+        let state = &mut self.list[index as usize];
+        let old = state.motion;
+        self.history.replaced(index, &old, time);
+        state.turned += old.turn(time - old.start);
+        state.motion = old.rebased(time);
+        change(&mut state.motion);
+        state.version = state.version.wrapping_add(1);
+    }
+
+    /// What forces and the scheme did along the present piece of a motion up to `time`.
+    ///
+    /// Along a quadratic piece the kinetic energy changes by exactly `m a·Δx + I α Δθ`.
+    fn piece(&self, state: &BodyState, time: SimTime) -> Piece {
+        let motion = &state.motion;
+        let free = state.gravity_scale * self.pull.gravity;
+        if !state.is_dynamic()
+            || (motion.acceleration == free
+                && motion.angular_acceleration == 0.0
+                && state.force == Vec2::ZERO
+                && self.pull.fields.is_empty())
+        {
+            return Piece::default();
+        }
+        let elapsed = time - motion.start;
+        let (travel, turn) = (motion.travel(elapsed), motion.turn(elapsed));
+        let mass = state.mass.mass;
+        let kinetic = mass * motion.acceleration.dot(travel)
+            + state.turning_inertia() * motion.angular_acceleration * turn;
+        let mut potential = -mass * free.dot(travel);
+        for field in &self.pull.fields {
+            let (from, to) = (motion.centre, motion.centre + travel);
+            potential += mass * state.gravity_scale * (field.potential(to) - field.potential(from));
+        }
+        let forces = state.force.dot(travel) + state.torque * turn;
+        Piece {
+            forces,
+            scheme: kinetic + potential - forces,
+        }
+    }
+
+    /// Kinetic and potential energy of one body, in J.
+    pub(crate) fn energy_of(&self, index: u32, time: SimTime) -> (f64, f64) {
+        let state = &self.list[index as usize];
+        if !state.is_dynamic() {
+            return (0.0, 0.0);
+        }
+        let centre = state.motion.centre_at(time);
+        let potential = state.mass.mass * state.gravity_scale * self.pull.potential(centre);
+        (state.kinetic_energy(time), potential)
+    }
+
+    pub(crate) fn ledger(&self, time: SimTime) -> EnergyLedger {
+        let (mut kinetic, mut potential) = (Sum::ZERO, Sum::ZERO);
+        let mut book = self.book;
+        for index in self.indices() {
+            let (k, p) = self.energy_of(index, time);
+            kinetic.add(k);
+            potential.add(p);
+            let piece = self.piece(self.get(index), time);
+            book.forces.add(piece.forces);
+            book.scheme.add(piece.scheme);
+        }
+        EnergyLedger {
+            kinetic: kinetic.value(),
+            potential: potential.value(),
+            impacts: book.impacts.value(),
+            friction: book.friction.value(),
+            forces: book.forces.value(),
+            external: book.external.value(),
+            scheme: book.scheme.value(),
+        }
+    }
+}
+
+/// Work along a piece of a motion, in J.
+#[derive(Clone, Copy, Debug, Default)]
+struct Piece {
+    forces: f64,
+    scheme: f64,
+}

@@ -1,0 +1,384 @@
+//! A body: what the world keeps of it, and what a caller sees.
+
+use std::sync::Arc;
+
+use carom_collision::{Motion, NodeId};
+use carom_geometry::{Aabb, MassProperties, Shape};
+use carom_math::{Pose, Rot, SimTime, Vec2};
+
+use crate::error::BodyError;
+use crate::impact::ImpactBody;
+use crate::{BodyDef, BodyId, BodyKind, Material};
+
+/// All that a world keeps of one body. Nothing else stores a pose.
+#[derive(Clone, Debug)]
+pub(crate) struct BodyState {
+    pub(crate) id: BodyId,
+    pub(crate) kind: BodyKind,
+    /// Where the centre of mass is at every instant from the motion's start on.
+    pub(crate) motion: Motion,
+    /// Raised by every change of the motion: what was predicted with another version is stale.
+    pub(crate) version: u32,
+    /// Angle at the motion's start with all whole turns, to about 1e-10 rad: it counts turns.
+    pub(crate) turned: f64,
+    pub(crate) mass: MassProperties,
+    pub(crate) inverse_mass: f64,
+    pub(crate) inverse_inertia: f64,
+    pub(crate) locked_rotation: bool,
+    pub(crate) gravity_scale: f64,
+    pub(crate) tag: u64,
+    /// Force and torque of the present step.
+    pub(crate) force: Vec2,
+    pub(crate) torque: f64,
+    /// Force and torque that the next step begins with.
+    pub(crate) pending: (Vec2, f64),
+    /// Velocity that the end of the present piece lacks: what its field's integrator knows better.
+    pub(crate) jump: Vec2,
+    /// Solved for as part of a group in this sub-step.
+    pub(crate) member: bool,
+    pub(crate) asleep: bool,
+    /// How long the body has been slow, in s.
+    pub(crate) slow_for: f64,
+    /// Largest distance of a point of its shapes from the centre of mass, in m.
+    pub(crate) reach: f64,
+    pub(crate) colliders: Vec<u32>,
+    /// Pairs of its colliders with others.
+    pub(crate) pairs: Vec<u32>,
+}
+
+/// A shape of a body.
+#[derive(Clone, Debug)]
+pub(crate) struct Collider {
+    pub(crate) body: u32,
+    /// As the caller drew it.
+    pub(crate) drawn: Arc<Shape>,
+    /// About the body's centre of mass: what collides.
+    pub(crate) solid: Arc<Shape>,
+    pub(crate) material: Material,
+    /// Node in the tree of boxes.
+    pub(crate) node: Option<NodeId>,
+    /// Box that the pairs were searched with.
+    pub(crate) fat: Aabb,
+}
+
+impl BodyState {
+    pub(crate) fn new(
+        id: BodyId,
+        def: &BodyDef,
+        shapes: &[(Shape, Material)],
+        now: SimTime,
+    ) -> Result<Self, BodyError> {
+        let mass = mass_of(def, shapes)?;
+        let moving = def.kind == BodyKind::Dynamic;
+        let frame = Pose::new(def.position, Rot::from_angle(def.angle));
+        let still = def.kind == BodyKind::Fixed;
+        let spin = if def.locked_rotation || still {
+            0.0
+        } else {
+            def.spin
+        };
+        let inverse = |x: f64| if moving && x > 0.0 { x.recip() } else { 0.0 };
+        Ok(Self {
+            id,
+            kind: def.kind,
+            motion: Motion {
+                start: now,
+                velocity: if still { Vec2::ZERO } else { def.velocity },
+                rotation: frame.rotation,
+                spin,
+                ..Motion::resting(frame.point(mass.centroid))
+            },
+            version: 0,
+            turned: def.angle,
+            mass,
+            inverse_mass: inverse(mass.mass),
+            inverse_inertia: if def.locked_rotation {
+                0.0
+            } else {
+                inverse(mass.inertia)
+            },
+            locked_rotation: def.locked_rotation,
+            gravity_scale: def.gravity_scale,
+            tag: def.tag,
+            force: Vec2::ZERO,
+            torque: 0.0,
+            pending: (Vec2::ZERO, 0.0),
+            jump: Vec2::ZERO,
+            member: false,
+            asleep: false,
+            slow_for: 0.0,
+            reach: shapes
+                .iter()
+                .map(|(shape, _)| shape.reach_about(mass.centroid))
+                .fold(0.0, f64::max),
+            colliders: Vec::new(),
+            pairs: Vec::new(),
+        })
+    }
+
+    /// Changes what moves the body; a fixed one comes to rest.
+    pub(crate) fn set_kind(&mut self, kind: BodyKind) {
+        let moving = kind == BodyKind::Dynamic;
+        self.kind = kind;
+        self.inverse_mass = if moving { self.mass.mass.recip() } else { 0.0 };
+        let turns = moving && !self.locked_rotation;
+        self.inverse_inertia = if turns {
+            self.mass.inertia.recip()
+        } else {
+            0.0
+        };
+        self.motion.acceleration = Vec2::ZERO;
+        self.motion.angular_acceleration = 0.0;
+        self.member = false;
+        if kind == BodyKind::Fixed {
+            self.motion.velocity = Vec2::ZERO;
+            self.motion.spin = 0.0;
+        }
+    }
+
+    pub(crate) fn is_dynamic(&self) -> bool {
+        self.kind == BodyKind::Dynamic
+    }
+
+    /// Moves by itself now: neither fixed nor asleep.
+    pub(crate) fn is_active(&self) -> bool {
+        self.kind != BodyKind::Fixed && !self.asleep
+    }
+
+    /// Frame of the shapes as drawn.
+    pub(crate) fn pose(&self, time: SimTime) -> Pose {
+        frame_of(&self.motion, self.mass.centroid, time)
+    }
+
+    pub(crate) fn kinetic_energy(&self, time: SimTime) -> f64 {
+        if !self.is_dynamic() {
+            return 0.0;
+        }
+        let spin = self.motion.spin_at(time);
+        0.5 * (self.mass.mass * self.motion.velocity_at(time).length_squared()
+            + self.turning_inertia() * spin * spin)
+    }
+
+    /// Moment of inertia that a spin feels: none where the rotation is locked.
+    pub(crate) fn turning_inertia(&self) -> f64 {
+        if self.inverse_inertia > 0.0 {
+            self.mass.inertia
+        } else {
+            0.0
+        }
+    }
+
+    /// The body as the impact laws see it.
+    pub(crate) fn in_impact(&self, time: SimTime) -> ImpactBody {
+        ImpactBody {
+            inverse_mass: self.inverse_mass,
+            inverse_inertia: self.inverse_inertia,
+            centre: self.motion.centre_at(time),
+            velocity: self.motion.velocity_at(time),
+            spin: self.motion.spin_at(time),
+        }
+    }
+}
+
+/// Frame of the shapes as drawn, for a motion of the centre of mass.
+pub(crate) fn frame_of(motion: &Motion, centroid: Vec2, time: SimTime) -> Pose {
+    let rotation = motion.rotation_at(time);
+    Pose::new(motion.centre_at(time) - rotation * centroid, rotation)
+}
+
+/// Mass, centre of mass and inertia of a definition.
+fn mass_of(def: &BodyDef, shapes: &[(Shape, Material)]) -> Result<MassProperties, BodyError> {
+    let mut mass = MassProperties::ZERO;
+    for (shape, material) in shapes {
+        mass = mass + shape.area_properties().with_density(material.density);
+    }
+    if def.kind != BodyKind::Dynamic {
+        // Infinite: only where the centre is matters, and any density gives that.
+        if mass.mass == 0.0 {
+            mass = middle_of(shapes);
+        }
+        return Ok(mass);
+    }
+    if mass.mass <= 0.0 && def.mass.is_none() {
+        return Err(BodyError::NoMass {
+            density: shapes[0].1.density,
+        });
+    }
+    if let Some(given) = def.mass {
+        if mass.mass <= 0.0 {
+            // Shapes without density share the given mass by area.
+            let mut area = MassProperties::ZERO;
+            for (shape, _) in shapes {
+                area = area + shape.area_properties().with_density(1.0);
+            }
+            mass = if area.mass > 0.0 {
+                area
+            } else {
+                middle_of(shapes)
+            };
+        }
+        mass.inertia = if mass.mass > 0.0 {
+            mass.inertia * (given / mass.mass)
+        } else {
+            0.0
+        };
+        mass.mass = given;
+    }
+    if let Some(given) = def.inertia {
+        mass.inertia = given;
+    }
+    if mass.inertia <= 0.0 && !def.locked_rotation {
+        return Err(BodyError::NotPositive {
+            field: "inertia",
+            value: mass.inertia,
+        });
+    }
+    Ok(mass)
+}
+
+/// Shapes without area: the middle of their box.
+fn middle_of(shapes: &[(Shape, Material)]) -> MassProperties {
+    let mut bounds = Aabb::EMPTY;
+    for (shape, _) in shapes {
+        bounds = bounds.union(shape.aabb(Pose::IDENTITY));
+    }
+    MassProperties {
+        centroid: bounds.centre(),
+        ..MassProperties::ZERO
+    }
+}
+
+/// A body of a world, read at the world's time.
+#[derive(Clone, Copy, Debug)]
+pub struct Body<'w> {
+    pub(crate) state: &'w BodyState,
+    pub(crate) colliders: &'w [Collider],
+    pub(crate) now: SimTime,
+}
+
+impl<'w> Body<'w> {
+    /// Name of the body.
+    #[must_use]
+    pub fn id(&self) -> BodyId {
+        self.state.id
+    }
+
+    /// What moves the body.
+    #[must_use]
+    pub fn kind(&self) -> BodyKind {
+        self.state.kind
+    }
+
+    /// Frame of the shapes as they were given: origin in m, and rotation.
+    #[must_use]
+    pub fn pose(&self) -> Pose {
+        self.state.pose(self.now)
+    }
+
+    /// Centre of mass, in m.
+    #[must_use]
+    pub fn centre(&self) -> Vec2 {
+        self.state.motion.centre_at(self.now)
+    }
+
+    /// Velocity of the centre of mass, in m/s.
+    #[must_use]
+    pub fn velocity(&self) -> Vec2 {
+        self.state.motion.velocity_at(self.now)
+    }
+
+    /// Angular velocity, in rad/s, counter-clockwise.
+    #[must_use]
+    pub fn angular_velocity(&self) -> f64 {
+        self.state.motion.spin_at(self.now)
+    }
+
+    /// Angle since the definition's zero with all whole turns, in rad.
+    #[must_use]
+    pub fn angle(&self) -> f64 {
+        const TURN: f64 = 2.0 * core::f64::consts::PI;
+        let counted =
+            self.state.turned + self.state.motion.turn(self.now - self.state.motion.start);
+        let principal = self.state.motion.rotation_at(self.now).angle();
+        principal + TURN * ((counted - principal) / TURN).round()
+    }
+
+    /// Mass in kg; infinite for fixed and kinematic bodies.
+    #[must_use]
+    pub fn mass(&self) -> f64 {
+        if self.state.is_dynamic() {
+            self.state.mass.mass
+        } else {
+            f64::INFINITY
+        }
+    }
+
+    /// Moment of inertia about the centre of mass, in kg·m²; infinite if the body cannot be turned.
+    #[must_use]
+    pub fn inertia(&self) -> f64 {
+        if self.state.inverse_inertia > 0.0 {
+            self.state.mass.inertia
+        } else {
+            f64::INFINITY
+        }
+    }
+
+    /// Centre of mass in the frame of the shapes, in m.
+    #[must_use]
+    pub fn local_centre(&self) -> Vec2 {
+        self.state.mass.centroid
+    }
+
+    /// The shapes with their materials, in the frame of [`Self::pose`].
+    pub fn shapes(&self) -> impl Iterator<Item = (&'w Shape, &'w Material)> + use<'w> {
+        let colliders = self.colliders;
+        self.state.colliders.iter().map(move |&i| {
+            let collider = &colliders[i as usize];
+            (&*collider.drawn, &collider.material)
+        })
+    }
+
+    /// The motion from its last change on, about the centre of mass.
+    #[must_use]
+    pub fn motion(&self) -> &'w Motion {
+        &self.state.motion
+    }
+
+    /// Raised by every change of the motion.
+    #[must_use]
+    pub fn version(&self) -> u32 {
+        self.state.version
+    }
+
+    /// Factor on gravity and fields.
+    #[must_use]
+    pub fn gravity_scale(&self) -> f64 {
+        self.state.gravity_scale
+    }
+
+    /// What the caller wanted to find again.
+    #[must_use]
+    pub fn tag(&self) -> u64 {
+        self.state.tag
+    }
+
+    /// Whether the body sleeps with its group.
+    #[must_use]
+    pub fn is_asleep(&self) -> bool {
+        self.state.asleep
+    }
+
+    /// ½ m v² + ½ I ω², in J; 0 for fixed and kinematic bodies.
+    #[must_use]
+    pub fn kinetic_energy(&self) -> f64 {
+        self.state.kinetic_energy(self.now)
+    }
+
+    /// Box around all shapes, in m.
+    #[must_use]
+    pub fn aabb(&self) -> Aabb {
+        let pose = self.pose();
+        self.shapes()
+            .fold(Aabb::EMPTY, |all, (shape, _)| all.union(shape.aabb(pose)))
+    }
+}

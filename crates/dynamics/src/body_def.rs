@@ -1,0 +1,184 @@
+//! How a body starts.
+
+use carom_math::{Vec2, vec2};
+
+use crate::error::{BodyError, check_finite, check_vec2};
+
+/// What moves a body.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum BodyKind {
+    /// Forces, fields and impacts.
+    #[default]
+    Dynamic,
+    /// Nothing: infinite mass, never moves.
+    Fixed,
+    /// Its own velocity and spin: infinite mass, pushes others and is never pushed.
+    Kinematic,
+}
+
+/// Definition of a body, to be inserted into a world with its shapes.
+///
+/// # Examples
+/// ```
+/// use carom_dynamics::{BodyDef, Material, Settings, World};
+/// use carom_geometry::ConvexPolygon;
+/// use carom_math::vec2;
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let mut world = World::new(Settings::default())?;
+/// let id = world.insert(
+///     BodyDef::dynamic().at(vec2(0.0, 5.0)).moving(vec2(1.0, 0.0)).spinning(0.5),
+///     ConvexPolygon::rectangle(2.0, 1.0)?,                     // m
+///     Material { density: 3.0, ..Material::default() },        // kg/m²
+/// )?;
+/// let body = world.body(id).ok_or("just inserted")?;
+/// assert!((body.mass() - 6.0).abs() < 1e-14);                  // kg
+/// assert!((body.inertia() - 2.5).abs() < 1e-14);               // kg·m², m (w² + h²) / 12
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BodyDef {
+    /// What moves the body.
+    pub kind: BodyKind,
+    /// Where the shapes' own origin is placed, in m.
+    pub position: Vec2,
+    /// How the shapes are turned about their origin, in rad.
+    pub angle: f64,
+    /// Velocity of the centre of mass, in m/s.
+    pub velocity: Vec2,
+    /// Angular velocity, in rad/s, counter-clockwise.
+    pub spin: f64,
+    /// Mass in kg; `None` takes the shapes' densities.
+    pub mass: Option<f64>,
+    /// Moment of inertia about the centre of mass, in kg·m²; `None` takes the shapes' (scaled to a given mass).
+    pub inertia: Option<f64>,
+    /// Whether the body never turns.
+    pub locked_rotation: bool,
+    /// Factor on gravity and fields for this body.
+    pub gravity_scale: f64,
+    /// Anything the caller wants to find again.
+    pub tag: u64,
+}
+
+impl BodyDef {
+    /// A body of the given kind at rest at the origin.
+    #[must_use]
+    pub const fn new(kind: BodyKind) -> Self {
+        Self {
+            kind,
+            position: vec2(0.0, 0.0),
+            angle: 0.0,
+            velocity: vec2(0.0, 0.0),
+            spin: 0.0,
+            mass: None,
+            inertia: None,
+            locked_rotation: false,
+            gravity_scale: 1.0,
+            tag: 0,
+        }
+    }
+
+    /// A body moved by forces, fields and impacts.
+    #[must_use]
+    pub const fn dynamic() -> Self {
+        Self::new(BodyKind::Dynamic)
+    }
+
+    /// A body that never moves.
+    #[must_use]
+    pub const fn fixed() -> Self {
+        Self::new(BodyKind::Fixed)
+    }
+
+    /// A body that moves at its own velocity and spin, whatever it meets.
+    #[must_use]
+    pub const fn kinematic() -> Self {
+        Self::new(BodyKind::Kinematic)
+    }
+
+    /// Places the shapes' own origin at `position`, in m.
+    #[must_use]
+    pub const fn at(mut self, position: Vec2) -> Self {
+        self.position = position;
+        self
+    }
+
+    /// Turns the shapes by `angle`, in rad.
+    #[must_use]
+    pub const fn turned(mut self, angle: f64) -> Self {
+        self.angle = angle;
+        self
+    }
+
+    /// Velocity of the centre of mass, in m/s.
+    #[must_use]
+    pub const fn moving(mut self, velocity: Vec2) -> Self {
+        self.velocity = velocity;
+        self
+    }
+
+    /// Angular velocity, in rad/s.
+    #[must_use]
+    pub const fn spinning(mut self, spin: f64) -> Self {
+        self.spin = spin;
+        self
+    }
+
+    /// Gives the mass in kg instead of taking the shapes' densities.
+    #[must_use]
+    pub const fn with_mass(mut self, mass: f64) -> Self {
+        self.mass = Some(mass);
+        self
+    }
+
+    /// Gives the moment of inertia about the centre of mass, in kg·m².
+    #[must_use]
+    pub const fn with_inertia(mut self, inertia: f64) -> Self {
+        self.inertia = Some(inertia);
+        self
+    }
+
+    /// The body never turns.
+    #[must_use]
+    pub const fn with_locked_rotation(mut self) -> Self {
+        self.locked_rotation = true;
+        self
+    }
+
+    /// Factor on gravity and fields.
+    #[must_use]
+    pub const fn with_gravity_scale(mut self, scale: f64) -> Self {
+        self.gravity_scale = scale;
+        self
+    }
+
+    /// Anything the caller wants to find again.
+    #[must_use]
+    pub const fn tagged(mut self, tag: u64) -> Self {
+        self.tag = tag;
+        self
+    }
+
+    pub(crate) fn check(&self) -> Result<(), BodyError> {
+        check_vec2("position.x", "position.y", self.position)?;
+        check_finite("angle", self.angle)?;
+        check_vec2("velocity.x", "velocity.y", self.velocity)?;
+        check_finite("spin", self.spin)?;
+        check_finite("gravity_scale", self.gravity_scale)?;
+        for (field, given) in [("mass", self.mass), ("inertia", self.inertia)] {
+            if let Some(value) = given {
+                check_finite(field, value)?;
+                if value <= 0.0 {
+                    return Err(BodyError::NotPositive { field, value });
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Default for BodyDef {
+    fn default() -> Self {
+        Self::dynamic()
+    }
+}

@@ -1,0 +1,194 @@
+//! Which pairs may meet: boxes around motions, kept in a tree.
+
+use std::collections::BTreeMap;
+
+use carom_collision::{BoxTree, Motion};
+use carom_geometry::Aabb;
+use carom_math::{SimTime, Vec2};
+
+use crate::bodies::Bodies;
+use crate::body::Collider;
+use crate::pairs::{Pair, Pairs};
+use crate::{BodyId, BodyKind, PairMaterial, PairSearch};
+
+/// Boxes are stretched along the motion over this many sub-steps, so that a body that keeps its
+/// course is looked for again only now and then. Between 4 and 16 the pile's time is flat.
+const LOOK_AHEAD: f64 = 8.0;
+
+/// Boxes are padded by this fraction of the body's reach, so that a body that jitters stays inside.
+const PADDING: f64 = 0.05;
+
+/// Everything a search for pairs reads and writes.
+#[derive(Clone, Debug)]
+pub(crate) struct Broad {
+    pub(crate) search: PairSearch,
+    pub(crate) tree: BoxTree,
+    pub(crate) overrides: BTreeMap<(BodyId, BodyId), PairMaterial>,
+}
+
+impl Broad {
+    pub(crate) fn new(search: PairSearch) -> Self {
+        Self {
+            search,
+            tree: BoxTree::new(),
+            overrides: BTreeMap::new(),
+        }
+    }
+
+    /// Brings the boxes of a body up to date for its motion between `time` and `time + h`, and
+    /// finds the partners it did not have.
+    pub(crate) fn refit(
+        &mut self,
+        bodies: &mut Bodies,
+        colliders: &mut [Collider],
+        pairs: &mut Pairs,
+        index: u32,
+        time: SimTime,
+        h: f64,
+    ) {
+        for slot in 0..bodies.get(index).colliders.len() {
+            let body = bodies.get(index);
+            let at = body.colliders[slot];
+            let swept = swept_box(&colliders[at as usize], &body.motion, time, h);
+            let collider = &colliders[at as usize];
+            if collider.node.is_some() && collider.fat.contains(swept) {
+                continue;
+            }
+            let ahead = swept_box(collider, &body.motion, time, h * LOOK_AHEAD);
+            let fat = swept.union(ahead).grown(PADDING * body.reach);
+            let collider = &mut colliders[at as usize];
+            collider.fat = fat;
+            match collider.node {
+                Some(node) => self.tree.update(node, fat),
+                None => collider.node = Some(self.tree.insert(fat, at)),
+            }
+            self.meet(bodies, colliders, pairs, at);
+        }
+    }
+
+    /// New pairs of a collider whose box is new.
+    fn meet(&self, bodies: &mut Bodies, colliders: &[Collider], pairs: &mut Pairs, at: u32) {
+        let mine = &colliders[at as usize];
+        let mut near = Vec::new();
+        match self.search {
+            PairSearch::None => {}
+            PairSearch::AllPairs => {
+                near.extend(
+                    (0u32..)
+                        .zip(colliders)
+                        .filter(|(_, c)| c.node.is_some())
+                        .map(|(i, _)| i),
+                );
+            }
+            PairSearch::Indexed => self.tree.query(mine.fat, |other| near.push(other)),
+        }
+        near.sort_unstable();
+        for other in near {
+            let theirs = &colliders[other as usize];
+            if self.search == PairSearch::Indexed && !theirs.fat.overlaps(mine.fat) {
+                continue;
+            }
+            self.pair_up(bodies, colliders, pairs, at, other);
+        }
+    }
+
+    fn pair_up(
+        &self,
+        bodies: &mut Bodies,
+        colliders: &[Collider],
+        pairs: &mut Pairs,
+        one: u32,
+        two: u32,
+    ) {
+        let key = |i: u32| (colliders[i as usize].body, i);
+        let (first, second) = if key(one) < key(two) {
+            (one, two)
+        } else {
+            (two, one)
+        };
+        let ends = (key(first).0, key(second).0);
+        if ends.0 == ends.1 {
+            return;
+        }
+        let (a, b) = (bodies.get(ends.0), bodies.get(ends.1));
+        if a.kind != BodyKind::Dynamic && b.kind != BodyKind::Dynamic {
+            return;
+        }
+        let known = if a.pairs.len() < b.pairs.len() {
+            &a.pairs
+        } else {
+            &b.pairs
+        };
+        if known
+            .iter()
+            .any(|&p| pairs.get(p).colliders == (first, second))
+        {
+            return;
+        }
+        let material = self.material(
+            a.id,
+            b.id,
+            &colliders[first as usize],
+            &colliders[second as usize],
+        );
+        let place = pairs.insert(Pair {
+            colliders: (first, second),
+            bodies: ends,
+            material,
+            contacts: Vec::new(),
+            touching: false,
+            lasting: false,
+            impacts: 0,
+            given_up: false,
+        });
+        bodies.get_mut(ends.0).pairs.push(place);
+        bodies.get_mut(ends.1).pairs.push(place);
+    }
+
+    pub(crate) fn material(
+        &self,
+        a: BodyId,
+        b: BodyId,
+        first: &Collider,
+        second: &Collider,
+    ) -> PairMaterial {
+        let key = if a < b { (a, b) } else { (b, a) };
+        let given = self.overrides.get(&key).copied();
+        given.unwrap_or_else(|| first.material.against(&second.material))
+    }
+
+    /// Whether the boxes that a pair was found with still overlap.
+    pub(crate) fn keeps(&self, colliders: &[Collider], pair: &Pair) -> bool {
+        self.search == PairSearch::AllPairs
+            || colliders[pair.colliders.0 as usize]
+                .fat
+                .overlaps(colliders[pair.colliders.1 as usize].fat)
+    }
+}
+
+/// Takes a pair out of the store and out of its bodies' lists.
+pub(crate) fn part(bodies: &mut Bodies, pairs: &mut Pairs, place: u32) -> Option<Pair> {
+    let pair = pairs.remove(place)?;
+    for index in [pair.bodies.0, pair.bodies.1] {
+        bodies.get_mut(index).pairs.retain(|p| *p != place);
+    }
+    Some(pair)
+}
+
+/// Box of a collider over its motion between `time` and `time + h`.
+///
+/// Of a body that turns, the box of the whole circle about its centre; of one that does not, the
+/// boxes at both ends and the turning point of the parabola: |a| h²/8 beyond the chord.
+fn swept_box(collider: &Collider, motion: &Motion, time: SimTime, h: f64) -> Aabb {
+    let end = time + h;
+    let boxed = |at: SimTime| collider.solid.aabb(motion.pose_at(at));
+    let turn = (motion.turn(end - motion.start) - motion.turn(time - motion.start)).abs();
+    let bulge = motion.acceleration.length() * h * h * 0.125;
+    // A point at distance r leaves the chord of its arc by r (1 − cos(turn/2)) ≤ r turn²/8.
+    let reach = collider.solid.reach_about(Vec2::ZERO);
+    let arc = reach * (0.125 * turn * turn).min(2.0);
+    // Never less than a sub-step of rounding: a body at rest has a box with an inside.
+    boxed(time)
+        .union(boxed(end))
+        .grown(bulge + arc + 1e-9 * reach)
+}

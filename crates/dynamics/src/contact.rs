@@ -1,0 +1,56 @@
+//! A contact as a caller sees it.
+
+use carom_math::Vec2;
+
+use crate::BodyId;
+use crate::bodies::Bodies;
+use crate::pairs::Pair;
+
+/// Where two bodies touch: one normal, up to two points.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contact {
+    /// The body that the normal points away from.
+    pub a: BodyId,
+    /// The body that the normal points to.
+    pub b: BodyId,
+    /// Unit normal from A to B.
+    pub normal: Vec2,
+    /// One or two points.
+    pub points: Vec<ContactPoint>,
+    /// Friction impulse of the last sub-step on B along the normal turned by +90 degrees, in N·s.
+    pub tangent_impulse: f64,
+}
+
+/// One point of a contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactPoint {
+    /// Midway between the two surfaces, in m.
+    pub position: Vec2,
+    /// Gap along the normal, in m; negative is overlap.
+    pub separation: f64,
+    /// Normal impulse of the last sub-step on B, in N·s.
+    pub normal_impulse: f64,
+}
+
+impl Contact {
+    pub(crate) fn of<'a>(
+        bodies: &'a Bodies,
+        pair: &'a Pair,
+    ) -> impl Iterator<Item = Self> + use<'a> {
+        pair.contacts.iter().map(|contact| Self {
+            a: bodies.get(pair.bodies.0).id,
+            b: bodies.get(pair.bodies.1).id,
+            normal: contact.normal,
+            points: contact
+                .points
+                .iter()
+                .map(|point| ContactPoint {
+                    position: point.position,
+                    separation: point.separation,
+                    normal_impulse: point.impulse,
+                })
+                .collect(),
+            tangent_impulse: contact.tangent_impulse,
+        })
+    }
+}

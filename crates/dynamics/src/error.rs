@@ -1,0 +1,141 @@
+//! What can be wrong with a value at the door of a world.
+
+use carom_geometry::ShapeError;
+use carom_math::Vec2;
+use thiserror::Error;
+
+use crate::BodyId;
+
+/// Why a body was not made or not changed. The world is as it was.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum BodyError {
+    /// A number is NaN or infinite.
+    #[error("{field} is {value}, not a finite number")]
+    NotFinite {
+        /// The field of the definition or the argument.
+        field: &'static str,
+        /// What it was.
+        value: f64,
+    },
+    /// A number lies beyond what a world computes with.
+    #[error("{field} is {value:e}, beyond the limit of {limit:e}")]
+    TooLarge {
+        /// The field of the definition or the argument.
+        field: &'static str,
+        /// What it was.
+        value: f64,
+        /// Largest magnitude that is accepted.
+        limit: f64,
+    },
+    /// A number must not be negative.
+    #[error("{field} is {value}, below 0")]
+    Negative {
+        /// The field of the definition or the argument.
+        field: &'static str,
+        /// What it was.
+        value: f64,
+    },
+    /// A number must be above zero.
+    #[error("{field} is {value}, not above 0")]
+    NotPositive {
+        /// The field of the definition or the argument.
+        field: &'static str,
+        /// What it was.
+        value: f64,
+    },
+    /// Restitution must lie in 0..1.
+    #[error("restitution is {value}, outside 0..1")]
+    Restitution {
+        /// What it was.
+        value: f64,
+    },
+    /// A body needs at least one shape.
+    #[error("the body has no shape")]
+    NoShape,
+    /// The shapes of a moving body have no mass, and none is given.
+    #[error("the shapes of the moving body have no mass (density {density}), and none is given")]
+    NoMass {
+        /// Density of the first shape, in kg/m².
+        density: f64,
+    },
+    /// The id belongs to a body that was removed, or to another world.
+    #[error("{0} is not in this world")]
+    Stale(BodyId),
+    /// A pair needs two bodies.
+    #[error("{0} cannot form a pair with itself")]
+    SameBody(BodyId),
+    /// There is no room for more bodies or shapes.
+    #[error("a world holds at most {limit} {what}")]
+    Full {
+        /// Bodies or shapes.
+        what: &'static str,
+        /// How many.
+        limit: usize,
+    },
+    /// The shape is not valid where it is used.
+    #[error(transparent)]
+    Shape(#[from] ShapeError),
+}
+
+/// Why a world was not made.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum SettingsError {
+    /// A number is NaN or infinite.
+    #[error("settings.{field} is {value}, not a finite number")]
+    NotFinite {
+        /// The field.
+        field: &'static str,
+        /// What it was.
+        value: f64,
+    },
+    /// A number must be above zero.
+    #[error("settings.{field} is {value}, not above 0")]
+    NotPositive {
+        /// The field.
+        field: &'static str,
+        /// What it was.
+        value: f64,
+    },
+    /// A number lies outside its range.
+    #[error("settings.{field} is {value}, outside {low}..{high}")]
+    OutOfRange {
+        /// The field.
+        field: &'static str,
+        /// What it was.
+        value: f64,
+        /// Smallest accepted value.
+        low: f64,
+        /// Largest accepted value.
+        high: f64,
+    },
+}
+
+/// Largest coordinate, speed or spin that a world accepts, in its unit.
+///
+/// Above it squares of differences lose the last metre: 1e12² · 2⁻⁵² is 2e8.
+pub const WORLD_LIMIT: f64 = 1e12;
+
+pub(crate) fn check_finite(field: &'static str, value: f64) -> Result<(), BodyError> {
+    if !value.is_finite() {
+        return Err(BodyError::NotFinite { field, value });
+    }
+    if value.abs() > WORLD_LIMIT {
+        return Err(BodyError::TooLarge {
+            field,
+            value,
+            limit: WORLD_LIMIT,
+        });
+    }
+    Ok(())
+}
+
+pub(crate) fn check_vec2(
+    x_field: &'static str,
+    y_field: &'static str,
+    v: Vec2,
+) -> Result<(), BodyError> {
+    check_finite(x_field, v.x)?;
+    check_finite(y_field, v.y)
+}

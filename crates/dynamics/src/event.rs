@@ -1,0 +1,135 @@
+//! What happened during a step.
+
+use carom_math::{SimTime, Vec2};
+
+use crate::BodyId;
+
+/// Something that happened to one or two bodies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Event {
+    /// When.
+    pub time: SimTime,
+    /// What.
+    pub kind: EventKind,
+}
+
+/// What happened.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum EventKind {
+    /// Two bodies struck each other.
+    Impact {
+        /// The body that the normal points away from.
+        a: BodyId,
+        /// The body that the normal points to.
+        b: BodyId,
+        /// Point of contact, in m.
+        point: Vec2,
+        /// Unit normal from A to B.
+        normal: Vec2,
+        /// Impulse on B along the normal, in N·s.
+        normal_impulse: f64,
+        /// Impulse on B along the normal turned by +90 degrees, in N·s.
+        tangential_impulse: f64,
+        /// Normal speed of approach, in m/s, positive.
+        speed: f64,
+    },
+    /// Two bodies began to touch.
+    Begin {
+        /// One body.
+        a: BodyId,
+        /// The other.
+        b: BodyId,
+    },
+    /// Two bodies no longer touch.
+    End {
+        /// One body.
+        a: BodyId,
+        /// The other.
+        b: BodyId,
+    },
+    /// A contact began to last: from now on it is solved for, not struck.
+    Rests {
+        /// One body.
+        a: BodyId,
+        /// The other.
+        b: BodyId,
+    },
+    /// Impacts of a pair came faster than the budget of a sub-step: the rest of them is left to
+    /// the solver.
+    Collapse {
+        /// One body.
+        a: BodyId,
+        /// The other.
+        b: BodyId,
+        /// Kinetic energy of the pair's relative motion at that moment, in J.
+        energy: f64,
+    },
+    /// A body fell asleep with its group.
+    Asleep(BodyId),
+    /// A body woke up.
+    Awake(BodyId),
+}
+
+/// The events of the last step, in order of time, up to a bound.
+#[derive(Clone, Debug, Default)]
+pub struct Events {
+    list: Vec<Event>,
+    capacity: usize,
+    dropped: usize,
+}
+
+impl Events {
+    pub(crate) fn new(capacity: usize) -> Self {
+        Self {
+            list: Vec::new(),
+            capacity,
+            dropped: 0,
+        }
+    }
+
+    /// The events in order of time.
+    pub fn iter(&self) -> core::slice::Iter<'_, Event> {
+        self.list.iter()
+    }
+
+    /// How many events are kept.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.list.len()
+    }
+
+    /// Whether nothing happened.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.list.is_empty()
+    }
+
+    /// How many events found no room.
+    #[must_use]
+    pub const fn dropped(&self) -> usize {
+        self.dropped
+    }
+
+    pub(crate) fn push(&mut self, time: SimTime, kind: EventKind) {
+        if self.list.len() < self.capacity {
+            self.list.push(Event { time, kind });
+        } else {
+            self.dropped += 1;
+        }
+    }
+
+    pub(crate) fn clear(&mut self) {
+        self.list.clear();
+        self.dropped = 0;
+    }
+}
+
+impl<'a> IntoIterator for &'a Events {
+    type Item = &'a Event;
+    type IntoIter = core::slice::Iter<'a, Event>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.iter()
+    }
+}

@@ -1,0 +1,249 @@
+//! Contact groups: what pushes what, lasting, in one sub-step.
+
+use carom_math::{SimTime, Vec2};
+
+use crate::StepReport;
+use crate::bodies::Bodies;
+use crate::narrow::rest_speed;
+use crate::pairs::Pairs;
+use crate::solver::{Law, Row, SolverBody, relax, solve};
+
+/// Scratch of the sub-step's solve, kept between sub-steps.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Groups {
+    rows: Vec<Row>,
+    /// Where each row came from: place of the pair, contact within it, and which points act.
+    sources: Vec<Source>,
+    bodies: Vec<SolverBody>,
+    /// Bodies of the solver, in its order.
+    members: Vec<u32>,
+    /// Place in the solver of each body, or [`NOT_HERE`].
+    places: Vec<u32>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Source {
+    pair: u32,
+    contact: usize,
+}
+
+const NOT_HERE: u32 = u32::MAX;
+
+impl Groups {
+    /// Solves all contacts that last from `time` on for one sub-step of `h`, and gives every body
+    /// that is pushed its motion. Bodies that nothing pushes are left to flight.
+    pub(crate) fn step(
+        &mut self,
+        law: &Law,
+        bodies: &mut Bodies,
+        pairs: &mut Pairs,
+        time: SimTime,
+        h: f64,
+        report: &mut StepReport,
+    ) {
+        self.gather(bodies, pairs, time, h);
+        if self.rows.is_empty() {
+            return;
+        }
+        report.rows += self.rows.len() as u64;
+        for row in &self.rows {
+            let (i, j) = (row.bodies.0 as usize, row.bodies.1 as usize);
+            let (mut a, mut b) = (self.bodies[i], self.bodies[j]);
+            row.push(&mut a, &mut b, row.j, row.jt);
+            self.bodies[i] = a;
+            self.bodies[j] = b;
+        }
+        solve(law, &mut self.bodies, &mut self.rows);
+        for body in &mut self.bodies {
+            body.d = body.v * h;
+            body.turn = body.w * h;
+        }
+        relax(law, &mut self.bodies, &mut self.rows);
+        self.scatter(bodies, pairs, time, h, report);
+    }
+
+    /// Rows of all contacts that do not bounce, and the bodies they join.
+    fn gather(&mut self, bodies: &Bodies, pairs: &Pairs, time: SimTime, h: f64) {
+        self.rows.clear();
+        self.sources.clear();
+        self.bodies.clear();
+        self.members.clear();
+        self.places.clear();
+        self.places.resize(bodies.places(), NOT_HERE);
+        // Contacts with what cannot be moved come last: the ground has the last word.
+        for ground in [false, true] {
+            let mut i = 0;
+            while let Some(place) = pairs.place(i) {
+                i += 1;
+                let pair = pairs.get(place);
+                let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
+                let fixed = a.inverse_mass == 0.0 || b.inverse_mass == 0.0;
+                if pair.contacts.is_empty() || fixed != ground || !(a.is_active() || b.is_active())
+                {
+                    continue;
+                }
+                let rest = if pair.given_up {
+                    f64::INFINITY
+                } else {
+                    rest_speed(bodies, pair, h)
+                };
+                let (centre_a, centre_b) = (a.motion.centre_at(time), b.motion.centre_at(time));
+                for (index, contact) in pair.contacts.iter().enumerate() {
+                    let opening =
+                        |p: Vec2| crate::narrow::opening_speed(a, b, time, p, contact.normal);
+                    // What closes faster than rest is struck at its instant, not solved for.
+                    let lasts = |p: Vec2| opening(p) >= -rest;
+                    if !contact.points.iter().any(|p| lasts(p.position)) {
+                        continue;
+                    }
+                    let ends = (
+                        self.place_of(bodies, pair.bodies.0, time, h),
+                        self.place_of(bodies, pair.bodies.1, time, h),
+                    );
+                    let arms: arrayvec::ArrayVec<_, 2> = contact
+                        .points
+                        .iter()
+                        .map(|p| (p.position - centre_a, p.position - centre_b))
+                        .collect();
+                    let mut row = Row::new(ends, contact.normal, &arms, pair.material.friction);
+                    for (k, point) in contact.points.iter().enumerate() {
+                        if lasts(point.position) {
+                            row.gap[k] = point.separation;
+                            row.j[k] = point.impulse;
+                        }
+                    }
+                    let limit = row.mu * (row.j[0] + row.j[1]);
+                    row.jt = contact.tangent_impulse.clamp(-limit, limit);
+                    row.ground = ground;
+                    self.rows.push(row);
+                    self.sources.push(Source {
+                        pair: place,
+                        contact: index,
+                    });
+                }
+            }
+        }
+    }
+
+    fn place_of(&mut self, bodies: &Bodies, index: u32, time: SimTime, h: f64) -> u32 {
+        let known = self.places[index as usize];
+        if known != NOT_HERE {
+            return known;
+        }
+        let state = bodies.get(index);
+        let (mut v, mut w) = (state.motion.velocity_at(time), state.motion.spin_at(time));
+        if state.inverse_mass > 0.0 {
+            let pull = state.gravity_scale * bodies.pull.at(state.motion.centre_at(time));
+            v += (pull + state.force * state.inverse_mass) * h;
+            w += state.torque * state.inverse_inertia * h;
+        }
+        #[expect(
+            clippy::cast_possible_truncation,
+            reason = "fewer than there are bodies"
+        )]
+        let place = self.bodies.len() as u32;
+        self.bodies.push(SolverBody {
+            v,
+            w,
+            inverse_mass: state.inverse_mass,
+            inverse_inertia: state.inverse_inertia,
+            ..SolverBody::default()
+        });
+        self.members.push(index);
+        self.places[index as usize] = place;
+        place
+    }
+
+    /// Motions to the members, impulses to the pairs, friction to the ledger.
+    fn scatter(
+        &mut self,
+        bodies: &mut Bodies,
+        pairs: &mut Pairs,
+        time: SimTime,
+        h: f64,
+        report: &mut StepReport,
+    ) {
+        for (&index, member) in self.members.iter().zip(&mut self.bodies) {
+            if member.inverse_mass == 0.0 || !member.acted {
+                continue;
+            }
+            report.handed_over += 1;
+            let (v0, w0) = {
+                let motion = &bodies.get(index).motion;
+                (motion.velocity_at(time), motion.spin_at(time))
+            };
+            // Trapezoid: the sub-step ends with the relaxed velocity, and its mean velocity is the
+            // pushed one less half of what the sub-step changed. Sliding is then of second order,
+            // and where nothing is pushed out the piece starts with the velocity it had.
+            let (dv, dw) = (member.v - v0, member.w - w0);
+            let travel = member.d - dv * (0.5 * h);
+            let turn = member.turn - dw * (0.5 * h);
+            let (start_v, start_w) = (travel * (2.0 / h) - member.v, turn * (2.0 / h) - member.w);
+            let state = bodies.get(index);
+            let work = state.mass.mass * (start_v - v0).dot(0.5 * (start_v + v0))
+                + state.turning_inertia() * (start_w - w0) * 0.5 * (start_w + w0);
+            bodies.book.scheme.add(work);
+            bodies.change(index, time, |motion| {
+                motion.velocity = start_v;
+                motion.acceleration = (member.v - start_v) / h;
+                motion.spin = start_w;
+                motion.angular_acceleration = (member.w - start_w) / h;
+            });
+            let state = bodies.get_mut(index);
+            state.member = true;
+            state.jump = Vec2::ZERO;
+            member.d = travel;
+            member.turn = turn;
+        }
+        for (row, source) in self.rows.iter().zip(&self.sources) {
+            let pair = pairs.get_mut(source.pair);
+            let contact = &mut pair.contacts[source.contact];
+            for (point, j) in contact.points.iter_mut().zip(row.j) {
+                point.impulse = j;
+            }
+            contact.tangent_impulse = row.jt;
+            if !row.acts() {
+                continue;
+            }
+            pair.lasting = true;
+            let (a, b) = (
+                &self.bodies[row.bodies.0 as usize],
+                &self.bodies[row.bodies.1 as usize],
+            );
+            // Friction × slip is heat; the pieces' own work holds it too, as the scheme's.
+            let mean = |body: &SolverBody| SolverBody {
+                v: body.d / h,
+                w: body.turn / h,
+                ..*body
+            };
+            let heat = -row.jt * row.slip(&mean(a), &mean(b));
+            bodies.book.friction.add(heat);
+            bodies.book.scheme.add(heat);
+            let driven = row.driven_work(a, b);
+            bodies.book.external.add(driven);
+            bodies.book.scheme.add(-driven);
+        }
+    }
+
+    /// Whether the solver pushed body `index` in this sub-step.
+    pub(crate) fn pushed(&self, index: u32) -> bool {
+        let place = self.places.get(index as usize).copied().unwrap_or(NOT_HERE);
+        place != NOT_HERE && self.bodies[place as usize].acted
+    }
+
+    /// Pairs of dynamic bodies that push each other, for the groups that sleep together.
+    pub(crate) fn links(&self) -> impl Iterator<Item = (u32, u32)> + use<'_> {
+        self.rows.iter().filter(|row| row.acts()).map(|row| {
+            let body = |place: u32| self.members[place as usize];
+            (body(row.bodies.0), body(row.bodies.1))
+        })
+    }
+
+    /// Forgets the last sub-step's rows: nothing is in contact.
+    pub(crate) fn clear(&mut self) {
+        self.rows.clear();
+        self.bodies.clear();
+        self.members.clear();
+        self.places.clear();
+    }
+}

@@ -1,0 +1,30 @@
+//! Names of bodies that outlive them.
+
+use core::fmt;
+
+/// A body of a world: small, copyable, never dangling.
+///
+/// The generation tells a removed body from the one that took its place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct BodyId {
+    pub(crate) index: u32,
+    pub(crate) generation: u32,
+}
+
+impl BodyId {
+    /// Position of the body in its world, below the number of bodies that were ever there at once.
+    #[must_use]
+    pub const fn index(self) -> usize {
+        self.index as usize
+    }
+}
+
+impl fmt::Display for BodyId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "body {}", self.index)?;
+        if self.generation > 0 {
+            write!(f, " (generation {})", self.generation)?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,152 @@
+//! Two bodies at one point: the variables of an impact.
+
+use carom_geometry::MassProperties;
+use carom_math::{Vec2, cross, cross_scalar, perp};
+
+/// A body in the instant of an impact.
+///
+/// The thesis's variables (section 3.3): `velocity` is v⃗ₐ₁, `spin` ωₐ₁, and r⃗ₐₚ follows from `centre`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ImpactBody {
+    /// 1/m in kg⁻¹; 0 for a body that cannot be moved.
+    pub inverse_mass: f64,
+    /// 1/I in kg⁻¹·m⁻²; 0 for a body that cannot be turned.
+    pub inverse_inertia: f64,
+    /// Centre of mass, in m.
+    pub centre: Vec2,
+    /// Velocity of the centre of mass, in m/s.
+    pub velocity: Vec2,
+    /// Angular velocity, in rad/s.
+    pub spin: f64,
+}
+
+impl ImpactBody {
+    /// A free body with the given mass and inertia, whose centre of mass is at `centre`.
+    #[must_use]
+    pub fn free(mass: MassProperties, centre: Vec2, velocity: Vec2, spin: f64) -> Self {
+        Self {
+            inverse_mass: mass.mass.recip(),
+            inverse_inertia: mass.inertia.recip(),
+            centre,
+            velocity,
+            spin,
+        }
+    }
+
+    /// A body of infinite mass that moves as it likes.
+    #[must_use]
+    pub const fn immovable(centre: Vec2, velocity: Vec2, spin: f64) -> Self {
+        Self {
+            inverse_mass: 0.0,
+            inverse_inertia: 0.0,
+            centre,
+            velocity,
+            spin,
+        }
+    }
+
+    /// Velocity of the body's point at `point`, in m/s.
+    #[must_use]
+    pub fn velocity_of(&self, point: Vec2) -> Vec2 {
+        self.velocity + cross_scalar(self.spin, point - self.centre)
+    }
+
+    /// ½ m v² + ½ I ω² in J; 0 for a body of infinite mass.
+    #[must_use]
+    pub fn kinetic_energy(&self) -> f64 {
+        let half = |inverse: f64| if inverse > 0.0 { 0.5 / inverse } else { 0.0 };
+        half(self.inverse_mass) * self.velocity.length_squared()
+            + half(self.inverse_inertia) * self.spin * self.spin
+    }
+
+    pub(super) fn pushed(&self, impulse: Vec2, point: Vec2) -> Self {
+        Self {
+            velocity: self.velocity + impulse * self.inverse_mass,
+            spin: self.spin + cross(point - self.centre, impulse) * self.inverse_inertia,
+            ..*self
+        }
+    }
+}
+
+/// Where and how two bodies touch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ImpactContact {
+    /// Point of contact, in m.
+    pub point: Vec2,
+    /// Unit normal from A to B.
+    pub normal: Vec2,
+    /// Coefficient of restitution of the pair, 0..1.
+    pub restitution: f64,
+    /// Coefficient of Coulomb friction of the pair, ≥ 0.
+    pub friction: f64,
+}
+
+/// What an impact did.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outcome {
+    /// Impulse on B along the normal, in N·s; A gets the opposite. 0 if the bodies do not approach.
+    pub normal_impulse: f64,
+    /// Impulse on B along the normal turned by +90 degrees, in N·s.
+    pub tangential_impulse: f64,
+    /// A after the impact.
+    pub a: ImpactBody,
+    /// B after the impact.
+    pub b: ImpactBody,
+    /// Energy lost, in J: minus impulse times mean relative velocity.
+    pub loss: f64,
+}
+
+impl Outcome {
+    /// ±J applied once to both bodies; velocities are not corrected afterwards.
+    pub(super) fn of(
+        a: &ImpactBody,
+        b: &ImpactBody,
+        contact: &ImpactContact,
+        (normal_impulse, tangential_impulse): (f64, f64),
+    ) -> Self {
+        let point = contact.point;
+        let impulse = contact.normal * normal_impulse + perp(contact.normal) * tangential_impulse;
+        let (after_a, after_b) = (a.pushed(-impulse, point), b.pushed(impulse, point));
+        let before = b.velocity_of(point) - a.velocity_of(point);
+        let after = after_b.velocity_of(point) - after_a.velocity_of(point);
+        Self {
+            normal_impulse,
+            tangential_impulse,
+            a: after_a,
+            b: after_b,
+            loss: -0.5 * impulse.dot(before + after),
+        }
+    }
+}
+
+/// Relative velocity and its response to impulses, in the frame of the contact.
+///
+/// Δu = K j with u = (normal, tangential) velocity of B's point minus A's:
+/// `K_nn = 1/m_a + 1/m_b + (r_a×n)²/I_a + (r_b×n)²/I_b`, the others alike.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Response {
+    pub(super) u_n: f64,
+    pub(super) u_t: f64,
+    pub(super) k_nn: f64,
+    pub(super) k_nt: f64,
+    pub(super) k_tt: f64,
+}
+
+impl Response {
+    pub(super) fn of(a: &ImpactBody, b: &ImpactBody, contact: &ImpactContact) -> Self {
+        let (n, t) = (contact.normal, perp(contact.normal));
+        let (r_a, r_b) = (contact.point - a.centre, contact.point - b.centre);
+        let u = b.velocity_of(contact.point) - a.velocity_of(contact.point);
+        let (an, at) = (cross(r_a, n), cross(r_a, t));
+        let (bn, bt) = (cross(r_b, n), cross(r_b, t));
+        let mass = a.inverse_mass + b.inverse_mass;
+        let (i_a, i_b) = (a.inverse_inertia, b.inverse_inertia);
+        Self {
+            u_n: u.dot(n),
+            u_t: u.dot(t),
+            k_nn: mass + an * an * i_a + bn * bn * i_b,
+            k_nt: an * at * i_a + bn * bt * i_b,
+            k_tt: mass + at * at * i_a + bt * bt * i_b,
+        }
+    }
+}

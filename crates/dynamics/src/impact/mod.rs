@@ -1,0 +1,10 @@
+//! What an impact does: pure functions from velocities before to velocities after.
+
+mod body;
+mod law;
+mod routh;
+#[cfg(test)]
+mod tests;
+
+pub use body::{ImpactBody, ImpactContact, Outcome};
+pub use law::{ImpactLaw, newton, poisson, resolve, stronge};

@@ -1,0 +1,135 @@
+//! A look at every near pair: where its parts touch, and which contacts the solver takes.
+
+use arrayvec::ArrayVec;
+use carom_collision::{PartManifold, contacts};
+use carom_math::{Pose, SimTime, Vec2, cross_scalar};
+
+use crate::bodies::Bodies;
+use crate::body::{BodyState, Collider};
+use crate::pairs::{Pair, PairContact, PairPoint};
+
+/// Contacts are looked for this far beyond a sub-step's travel, as a fraction of the smaller reach.
+const MARGIN: f64 = 1.0 / 1024.0;
+
+/// Gap below which two shapes touch, as a fraction of the smaller reach: far above rounding after
+/// an impact (1e-12), far below what the eye or the solver's softness can see.
+pub(crate) const TOUCH: f64 = 1e-9;
+
+/// Scratch of the narrow phase, kept between pairs.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Narrow {
+    found: Vec<PartManifold>,
+}
+
+impl Narrow {
+    /// Looks at a pair at `time` and replaces its contacts; impulses go over by feature.
+    pub(crate) fn look(
+        &mut self,
+        bodies: &Bodies,
+        colliders: &[Collider],
+        pair: &mut Pair,
+        time: SimTime,
+        h: f64,
+    ) {
+        let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
+        let (pose_a, pose_b) = (a.motion.pose_at(time), b.motion.pose_at(time));
+        let size = a.reach.min(b.reach);
+        let margin = MARGIN * size + h * closing_bound(a, b, time);
+        let near = a.reach + b.reach + margin;
+        self.found.clear();
+        if (pose_b.position - pose_a.position).length_squared() > near * near {
+            pair.contacts.clear();
+            pair.touching = false;
+            return;
+        }
+        contacts(
+            &colliders[pair.colliders.0 as usize].solid,
+            &colliders[pair.colliders.1 as usize].solid,
+            pose_b.seen_from(pose_a),
+            margin,
+            &mut self.found,
+        );
+        let old = core::mem::take(&mut pair.contacts);
+        pair.contacts
+            .extend(self.found.iter().map(|new| carried(new, pose_a, &old)));
+        pair.touching = pair
+            .contacts
+            .iter()
+            .any(|contact| contact.points.iter().any(|p| p.separation <= TOUCH * size));
+    }
+}
+
+/// A new contact in the world, with the impulses of the old one of the same parts.
+fn carried(new: &PartManifold, pose_a: Pose, old: &[PairContact]) -> PairContact {
+    let parts = (new.part_a, new.part_b);
+    let before = old.iter().find(|contact| contact.parts == parts);
+    let normal = pose_a.vector(new.manifold.normal);
+    let mut points = ArrayVec::new();
+    for point in &new.manifold.points {
+        let impulse = before
+            .and_then(|contact| contact.points.iter().find(|p| p.feature == point.feature))
+            .map_or(0.0, |p| p.impulse);
+        points.push(PairPoint {
+            feature: point.feature,
+            position: pose_a.point(point.point),
+            separation: point.separation,
+            impulse,
+        });
+    }
+    // Friction goes over where the face kept its direction.
+    let kept = before.filter(|contact| contact.normal.dot(normal) > 0.9);
+    PairContact {
+        parts,
+        normal,
+        points,
+        tangent_impulse: kept.map_or(0.0, |contact| contact.tangent_impulse),
+    }
+}
+
+/// Fastest that any two points of the bodies can approach, in m/s.
+fn closing_bound(a: &BodyState, b: &BodyState, time: SimTime) -> f64 {
+    (b.motion.velocity_at(time) - a.motion.velocity_at(time)).length()
+        + a.motion.spin_at(time).abs() * a.reach
+        + b.motion.spin_at(time).abs() * b.reach
+}
+
+/// Normal velocity of a contact point: positive opens.
+pub(crate) fn opening_speed(
+    a: &BodyState,
+    b: &BodyState,
+    time: SimTime,
+    point: Vec2,
+    normal: Vec2,
+) -> f64 {
+    let of = |body: &BodyState| {
+        body.motion.velocity_at(time)
+            + cross_scalar(
+                body.motion.spin_at(time),
+                point - body.motion.centre_at(time),
+            )
+    };
+    (of(b) - of(a)).dot(normal)
+}
+
+/// Approach below which a contact rests instead of bouncing, in m/s.
+///
+/// Two sub-steps' worth of what presses the pair together: a bounce that is over within a few
+/// sub-steps cannot be told from rest by a scheme that looks once a sub-step. Two flyers under one
+/// gravity press with nothing, so they always bounce.
+pub(crate) fn rest_speed(bodies: &Bodies, pair: &Pair, h: f64) -> f64 {
+    let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
+    let pull = |body: &BodyState| {
+        if body.is_dynamic() {
+            body.gravity_scale * bodies.pull.at(body.motion.centre) + body.force * body.inverse_mass
+        } else {
+            Vec2::ZERO
+        }
+    };
+    let (pull_a, pull_b) = (pull(a), pull(b));
+    let press = if a.member || b.member {
+        pull_a.length().max(pull_b.length())
+    } else {
+        (pull_b - pull_a).length()
+    };
+    2.0 * h * press
+}

@@ -1,0 +1,126 @@
+//! Pairs of shapes that are near each other, and what they remember from sub-step to sub-step.
+
+use arrayvec::ArrayVec;
+use carom_collision::FeatureId;
+use carom_math::Vec2;
+
+use crate::PairMaterial;
+
+/// Two colliders of different bodies whose boxes overlap; the lower body comes first.
+#[derive(Clone, Debug)]
+pub(crate) struct Pair {
+    pub(crate) colliders: (u32, u32),
+    pub(crate) bodies: (u32, u32),
+    pub(crate) material: PairMaterial,
+    /// Contacts of the last look, part by part.
+    pub(crate) contacts: Vec<PairContact>,
+    /// Touched at the last look, or struck since.
+    pub(crate) touching: bool,
+    /// Some contact pushes: the pair is solved for, not struck.
+    pub(crate) lasting: bool,
+    /// Impacts in this sub-step.
+    pub(crate) impacts: u32,
+    /// The impacts of this sub-step outran the budget.
+    pub(crate) given_up: bool,
+}
+
+/// A contact of two convex parts at the last look.
+#[derive(Clone, Debug)]
+pub(crate) struct PairContact {
+    pub(crate) parts: (u32, u32),
+    /// Unit normal from A to B, in the world.
+    pub(crate) normal: Vec2,
+    pub(crate) points: ArrayVec<PairPoint, 2>,
+    pub(crate) tangent_impulse: f64,
+}
+
+/// A point of a contact.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PairPoint {
+    pub(crate) feature: FeatureId,
+    /// In the world, in m.
+    pub(crate) position: Vec2,
+    pub(crate) separation: f64,
+    pub(crate) impulse: f64,
+}
+
+/// The pairs of a world.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Pairs {
+    list: Vec<Option<Pair>>,
+    free: Vec<u32>,
+    /// Places in order of colliders: rows and searches go through pairs in this order.
+    order: Vec<u32>,
+    dirty: bool,
+}
+
+impl Pairs {
+    pub(crate) fn insert(&mut self, pair: Pair) -> u32 {
+        self.dirty = true;
+        if let Some(place) = self.free.pop() {
+            self.list[place as usize] = Some(pair);
+            return place;
+        }
+        self.list.push(Some(pair));
+        #[expect(
+            clippy::cast_possible_truncation,
+            reason = "four billion pairs fill 500 GB long before"
+        )]
+        let place = (self.list.len() - 1) as u32;
+        place
+    }
+
+    pub(crate) fn remove(&mut self, place: u32) -> Option<Pair> {
+        self.dirty = true;
+        let pair = self.list[place as usize].take();
+        if pair.is_some() {
+            self.free.push(place);
+        }
+        pair
+    }
+
+    /// # Panics
+    /// If the place is empty: lists of places and the store have parted.
+    pub(crate) fn get(&self, place: u32) -> &Pair {
+        self.list[place as usize]
+            .as_ref()
+            .expect("a listed pair is there")
+    }
+
+    /// # Panics
+    /// If the place is empty: lists of places and the store have parted.
+    pub(crate) fn get_mut(&mut self, place: u32) -> &mut Pair {
+        self.list[place as usize]
+            .as_mut()
+            .expect("a listed pair is there")
+    }
+
+    /// Places in order of colliders.
+    pub(crate) fn sort(&mut self) {
+        if !self.dirty {
+            return;
+        }
+        self.dirty = false;
+        self.order.clear();
+        self.order.extend(
+            (0u32..)
+                .zip(&self.list)
+                .filter(|(_, p)| p.is_some())
+                .map(|(i, _)| i),
+        );
+        let list = &self.list;
+        self.order
+            .sort_unstable_by_key(|i| list[*i as usize].as_ref().map(|pair| pair.colliders));
+    }
+
+    /// Place number `i` in the order of the last [`Self::sort`].
+    pub(crate) fn place(&self, i: usize) -> Option<u32> {
+        self.order.get(i).copied()
+    }
+
+    pub(crate) fn iter(&self) -> impl Iterator<Item = &Pair> {
+        self.order
+            .iter()
+            .filter_map(|i| self.list[*i as usize].as_ref())
+    }
+}

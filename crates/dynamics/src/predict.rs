@@ -1,0 +1,133 @@
+//! What comes next for a pair: the instant at which it strikes, within the present sub-step.
+
+use arrayvec::ArrayVec;
+use carom_collision::{Impact, TimeOfImpact, earlier, part, part_count, time_of_impact_of_parts};
+use carom_math::{SimTime, Vec2};
+
+use crate::agenda::{Agenda, Entry};
+use crate::bodies::Bodies;
+use crate::body::Collider;
+use crate::narrow::{Narrow, TOUCH, opening_speed, rest_speed};
+use crate::pairs::Pairs;
+use crate::{BodyKind, StepReport};
+
+/// Impacts of one pair in one sub-step before the solver takes the rest. A ball between two walls
+/// that close in reaches it; 100 elastic discs in a tight box stay below 4.
+pub(crate) const BUDGET: u32 = 32;
+
+/// Predicts the next impact of a pair between `time` and `end` and enters it into the agenda.
+#[expect(
+    clippy::too_many_arguments,
+    reason = "what a prediction reads, and the two stores it writes"
+)]
+pub(crate) fn predict(
+    bodies: &Bodies,
+    colliders: &[Collider],
+    pairs: &mut Pairs,
+    narrow: &mut Narrow,
+    agenda: &mut Agenda,
+    report: &mut StepReport,
+    place: u32,
+    time: SimTime,
+    end: SimTime,
+    h: f64,
+) {
+    let pair = pairs.get_mut(place);
+    let horizon = end - time;
+    let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
+    if pair.given_up || horizon <= 0.0 || !(a.is_active() || b.is_active()) {
+        return;
+    }
+    if a.kind != BodyKind::Dynamic && b.kind != BodyKind::Dynamic {
+        return;
+    }
+    let shapes = (
+        &*colliders[pair.colliders.0 as usize].solid,
+        &*colliders[pair.colliders.1 as usize].solid,
+    );
+    let (motion_a, motion_b) = (a.motion.rebased(time), b.motion.rebased(time));
+    if pair.contacts.is_empty() && apart(&motion_a, a.reach, &motion_b, b.reach, horizon) {
+        return;
+    }
+    report.pairs += 1;
+    let mut first = TimeOfImpact::Clear;
+    if pair.lasting {
+        narrow.look(bodies, colliders, pair, time, h);
+        let rest = rest_speed(bodies, pair, h);
+        let touch = TOUCH * a.reach.min(b.reach);
+        for contact in &pair.contacts {
+            for point in &contact.points {
+                let rate = opening_speed(a, b, time, point.position, contact.normal);
+                // The solver holds what closes slowly.
+                if rate >= -rest {
+                    continue;
+                }
+                let wait = if point.separation <= touch {
+                    0.0
+                } else {
+                    -point.separation / rate
+                };
+                if wait <= horizon {
+                    let strikes = Impact {
+                        time: wait,
+                        normal: contact.normal,
+                        points: ArrayVec::from_iter(
+                            [point.position + both_move(a, b, time) * wait],
+                        ),
+                        gap_rate: rate,
+                    };
+                    first = earlier(first, TimeOfImpact::Hit(strikes));
+                }
+            }
+        }
+    }
+    for i in 0..part_count(shapes.0) {
+        for j in 0..part_count(shapes.1) {
+            let held = |&(x, y): &(u32, u32)| x as usize == i && y as usize == j;
+            if pair.lasting && pair.contacts.iter().any(|contact| held(&contact.parts)) {
+                continue;
+            }
+            let (part_a, part_b) = (part(shapes.0, i), part(shapes.1, j));
+            let next = time_of_impact_of_parts(&part_a, &motion_a, &part_b, &motion_b, horizon);
+            first = earlier(first, next);
+        }
+    }
+    let (wait, impact) = match first {
+        TimeOfImpact::Clear => return,
+        TimeOfImpact::Unresolved { .. } => {
+            report.unresolved += 1;
+            return;
+        }
+        TimeOfImpact::Hit(impact) => (impact.time, impact),
+        // Touching and pressed, but slowly: the next sub-step's solver takes it.
+        TimeOfImpact::Touching(contact) => (0.0, contact),
+    };
+    agenda.push(Entry {
+        time: time + wait,
+        key: pair.colliders,
+        pair: place,
+        versions: (a.version, b.version),
+        normal: impact.normal,
+        points: impact.points,
+    });
+}
+
+/// How fast a contact point wanders: with the two bodies' mean.
+fn both_move(a: &crate::body::BodyState, b: &crate::body::BodyState, time: SimTime) -> Vec2 {
+    0.5 * (a.motion.velocity_at(time) + b.motion.velocity_at(time))
+}
+
+/// Bounding circles that cannot meet within `horizon`.
+fn apart(
+    a: &carom_collision::Motion,
+    reach_a: f64,
+    b: &carom_collision::Motion,
+    reach_b: f64,
+    horizon: f64,
+) -> bool {
+    let speed = (b.velocity - a.velocity).length();
+    let pull = (b.acceleration - a.acceleration).length();
+    let travel = (speed + 0.5 * pull * horizon) * horizon;
+    let reach = (reach_a + reach_b + travel) * (1.0 + 1e-9);
+    (b.centre - a.centre).length_squared() > reach * reach
+}

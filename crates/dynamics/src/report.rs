@@ -1,0 +1,89 @@
+//! What a step did, in numbers.
+
+use core::ops::AddAssign;
+
+use thiserror::Error;
+
+/// What a step did.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct StepReport {
+    /// Seconds that passed.
+    pub advanced: f64,
+    /// Sub-steps that began.
+    pub substeps: u64,
+    /// Impacts with an impulse.
+    pub impacts: u64,
+    /// Sub-steps of single bodies that were solved for as part of a group in lasting contact.
+    pub handed_over: u64,
+    /// Pairs whose impacts outran the budget of a sub-step; the solver took the rest.
+    pub collapsed: u64,
+    /// Searches for a time of impact that ended without an answer; the pair is watched by overlap.
+    pub unresolved: u64,
+    /// Pairs looked at by shape.
+    pub pairs: u64,
+    /// Contact rows that were solved for.
+    pub rows: u64,
+    /// Bodies that were stopped because a number was no longer finite.
+    pub stopped: u64,
+    /// Deepest overlap seen at the start of a sub-step, in m, ≥ 0.
+    pub deepest_overlap: f64,
+    /// Why nothing happened, if the step was refused.
+    pub refused: Option<Refusal>,
+}
+
+impl StepReport {
+    /// Whether every motion came from a closed form: nothing was sub-stepped, cut off or stopped.
+    #[must_use]
+    pub const fn is_exact(&self) -> bool {
+        self.handed_over == 0
+            && self.collapsed == 0
+            && self.unresolved == 0
+            && self.stopped == 0
+            && self.refused.is_none()
+    }
+}
+
+/// Sums of counts and time, the deeper overlap, the first refusal.
+impl AddAssign for StepReport {
+    fn add_assign(&mut self, later: Self) {
+        self.advanced += later.advanced;
+        self.substeps += later.substeps;
+        self.impacts += later.impacts;
+        self.handed_over += later.handed_over;
+        self.collapsed += later.collapsed;
+        self.unresolved += later.unresolved;
+        self.pairs += later.pairs;
+        self.rows += later.rows;
+        self.stopped += later.stopped;
+        if later.deepest_overlap > self.deepest_overlap {
+            self.deepest_overlap = later.deepest_overlap;
+        }
+        self.refused = self.refused.or(later.refused);
+    }
+}
+
+/// Why a step was refused. The world is as it was.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum Refusal {
+    /// The step is NaN or infinite.
+    #[error("dt is {dt}, not a finite number")]
+    NotFinite {
+        /// What was asked for, in s.
+        dt: f64,
+    },
+    /// The step goes backwards.
+    #[error("dt is {dt} s, below 0")]
+    Negative {
+        /// What was asked for, in s.
+        dt: f64,
+    },
+    /// The step holds more than 1e7 ticks.
+    #[error("dt is {dt:e} s, more than {limit:e} s (1e7 ticks)")]
+    TooLong {
+        /// What was asked for, in s.
+        dt: f64,
+        /// Longest step that is accepted, in s.
+        limit: f64,
+    },
+}

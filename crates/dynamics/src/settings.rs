@@ -1,0 +1,193 @@
+//! How a world computes.
+
+use carom_math::{Vec2, vec2};
+
+use crate::error::SettingsError;
+use crate::impact::ImpactLaw;
+
+/// All that a world can be told before it starts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Uniform acceleration of every dynamic body, in m/s².
+    pub gravity: Vec2,
+    /// Longest stretch between two looks at the whole world, in s.
+    pub tick: f64,
+    /// Longest sub-step of bodies in lasting contact, in s; a tick holds a whole number of them.
+    pub substep: f64,
+    /// Which bodies are sub-stepped.
+    pub mode: Mode,
+    /// How pairs that may meet are found.
+    pub pair_search: PairSearch,
+    /// Which law single impacts follow.
+    pub impact_law: ImpactLaw,
+    /// The soft law of lasting contacts.
+    pub contact: Softness,
+    /// When groups at rest fall asleep; `None`: never.
+    pub sleep: Option<Sleep>,
+    /// How many replaced motions are kept for [`crate::World::pose_at`]; 0 keeps none.
+    pub history: usize,
+    /// How many events of a step are kept; the buffer says what it left out.
+    pub events: usize,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            gravity: vec2(0.0, -9.81),
+            tick: 1.0 / 60.0,
+            substep: 1.0 / 240.0,
+            mode: Mode::default(),
+            pair_search: PairSearch::default(),
+            impact_law: ImpactLaw::default(),
+            contact: Softness::default(),
+            sleep: Some(Sleep::default()),
+            history: 0,
+            events: 4096,
+        }
+    }
+}
+
+/// Which method a world may use.
+///
+/// At this stage impacts are found at their exact instants within each sub-step in every mode,
+/// and every moving body is looked at once a sub-step; the report of a run in [`Mode::Exact`]
+/// says how many groups had to be sub-stepped.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Mode {
+    /// Each group the cheapest method that is right for it.
+    #[default]
+    Hybrid,
+    /// Closed forms only; what they cannot finish is sub-stepped and marks the run as not exact.
+    Exact,
+    /// Every moving body is sub-stepped.
+    Stepped,
+}
+
+/// How pairs that may meet are found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PairSearch {
+    /// A tree of boxes.
+    #[default]
+    Indexed,
+    /// Every body against every other: the slow twin.
+    AllPairs,
+    /// Nobody meets anybody.
+    None,
+}
+
+/// The soft law of lasting contacts: a damped spring that is solved implicitly.
+///
+/// At rest a contact sinks in by `compliance · load / (m ω²)` with ω = 2π `frequency` and m the
+/// pair's reduced mass; a fixed partner doubles the frequency.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Softness {
+    /// Natural frequency of push-out, in Hz; held below 1/8 of the sub-step rate.
+    pub frequency: f64,
+    /// Damping ratio of push-out. Below 10 piles hum.
+    pub damping_ratio: f64,
+    /// Factor on the compliance that the frequency implies; `None` takes 0.3 (4 h₀/h)² for a
+    /// sub-step h against h₀ = 1/240 s, which was quiet wherever it was measured.
+    pub compliance: Option<f64>,
+    /// Over-relaxation of the sweeps, 1..2.
+    pub over_relaxation: f64,
+    /// Fastest push-out of an overlap, in m/s.
+    pub push_out: f64,
+}
+
+impl Default for Softness {
+    fn default() -> Self {
+        Self {
+            frequency: 30.0,
+            damping_ratio: 10.0,
+            compliance: None,
+            over_relaxation: 1.3,
+            push_out: 3.0,
+        }
+    }
+}
+
+/// When groups at rest fall asleep.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sleep {
+    /// Speed of the fastest point of a body below which it counts as at rest, in m/s.
+    pub speed: f64,
+    /// How long a whole group must be at rest, in s.
+    pub time: f64,
+}
+
+impl Default for Sleep {
+    fn default() -> Self {
+        Self {
+            speed: 0.01,
+            time: 0.5,
+        }
+    }
+}
+
+impl Settings {
+    pub(crate) fn check(&self) -> Result<(), SettingsError> {
+        finite("gravity.x", self.gravity.x)?;
+        finite("gravity.y", self.gravity.y)?;
+        range("tick", self.tick, 1e-9, 1e6)?;
+        range("substep", self.substep, 1e-9, 1e6)?;
+        // A tick of more sub-steps than this is a typing error, not a wish.
+        range("tick / substep", self.tick / self.substep, 0.0, 1e6)?;
+        let contact = &self.contact;
+        range("contact.frequency", contact.frequency, 1e-9, 1e9)?;
+        range("contact.damping_ratio", contact.damping_ratio, 1e-9, 1e9)?;
+        range("contact.over_relaxation", contact.over_relaxation, 0.1, 1.9)?;
+        range("contact.push_out", contact.push_out, 0.0, 1e12)?;
+        range(
+            "contact.compliance",
+            contact.compliance.unwrap_or(0.0),
+            0.0,
+            1e9,
+        )?;
+        if let Some(sleep) = &self.sleep {
+            range("sleep.speed", sleep.speed, 0.0, 1e12)?;
+            range("sleep.time", sleep.time, 0.0, 1e12)?;
+        }
+        Ok(())
+    }
+
+    /// How many sub-steps a tick holds.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "checked to lie in 1..1e6"
+    )]
+    pub(crate) fn substeps_per_tick(&self) -> u32 {
+        // 1/60 over 1/240 may come out a rounding above 4.
+        let count = (self.tick / self.substep * (1.0 - 1e-12)).ceil();
+        count.max(1.0) as u32
+    }
+
+    /// Length of a sub-step, in s.
+    pub(crate) fn h(&self) -> f64 {
+        self.tick / f64::from(self.substeps_per_tick())
+    }
+}
+
+fn finite(field: &'static str, value: f64) -> Result<(), SettingsError> {
+    if value.is_finite() {
+        Ok(())
+    } else {
+        Err(SettingsError::NotFinite { field, value })
+    }
+}
+
+fn range(field: &'static str, value: f64, low: f64, high: f64) -> Result<(), SettingsError> {
+    finite(field, value)?;
+    if value <= 0.0 && low > 0.0 {
+        return Err(SettingsError::NotPositive { field, value });
+    }
+    if !(low..=high).contains(&value) {
+        return Err(SettingsError::OutOfRange {
+            field,
+            value,
+            low,
+            high,
+        });
+    }
+    Ok(())
+}

@@ -1,0 +1,156 @@
+//! Groups at rest: they fall asleep together and wake together.
+
+use carom_math::{SimTime, Vec2};
+
+use crate::bodies::Bodies;
+use crate::event::EventKind;
+use crate::groups::Groups;
+use crate::pairs::Pairs;
+use crate::{BodyKind, Events, Sleep};
+
+/// Puts every group to sleep whose bodies have all been slow for long enough.
+pub(crate) fn settle(
+    sleep: &Sleep,
+    bodies: &mut Bodies,
+    groups: &Groups,
+    time: SimTime,
+    h: f64,
+    events: &mut Events,
+) {
+    let mut tree = Tree::new(bodies.places());
+    let mut restless = Vec::new();
+    for (a, b) in groups.links() {
+        match (bodies.get(a).kind, bodies.get(b).kind) {
+            (BodyKind::Dynamic, BodyKind::Dynamic) => tree.join(a, b),
+            (BodyKind::Kinematic, _) if moves(bodies, a) => restless.push(b),
+            (_, BodyKind::Kinematic) if moves(bodies, b) => restless.push(a),
+            _ => {}
+        }
+    }
+    // Least time of rest in each group, kept at its root.
+    let mut least = vec![f64::INFINITY; bodies.places()];
+    let awake: Vec<u32> = bodies
+        .indices()
+        .filter(|i| bodies.get(*i).is_dynamic() && !bodies.get(*i).asleep)
+        .collect();
+    for &index in &awake {
+        let pushed = groups.pushed(index);
+        let state = bodies.get_mut(index);
+        let end = time + h;
+        let speed =
+            state.motion.velocity_at(end).length() + state.motion.spin_at(end).abs() * state.reach;
+        // Only what something holds can be at rest: the top of a throw is not.
+        state.slow_for = if pushed && speed <= sleep.speed {
+            state.slow_for + h
+        } else {
+            0.0
+        };
+        let slow = state.slow_for;
+        let root = tree.root(index) as usize;
+        least[root] = least[root].min(slow);
+    }
+    for index in restless {
+        least[tree.root(index) as usize] = 0.0;
+    }
+    for index in awake {
+        if least[tree.root(index) as usize] < sleep.time {
+            continue;
+        }
+        let (kinetic, _) = bodies.energy_of(index, time);
+        bodies.book.scheme.add(-kinetic);
+        bodies.change(index, time, |motion| {
+            motion.velocity = Vec2::ZERO;
+            motion.acceleration = Vec2::ZERO;
+            motion.spin = 0.0;
+            motion.angular_acceleration = 0.0;
+        });
+        let state = bodies.get_mut(index);
+        state.asleep = true;
+        events.push(time, EventKind::Asleep(state.id));
+    }
+}
+
+/// Wakes a body and all sleepers that it touches, and so on.
+pub(crate) fn wake(
+    bodies: &mut Bodies,
+    pairs: &Pairs,
+    index: u32,
+    time: SimTime,
+    events: &mut Events,
+) {
+    let mut waking = vec![index];
+    while let Some(index) = waking.pop() {
+        let state = bodies.get_mut(index);
+        if !state.asleep {
+            continue;
+        }
+        state.asleep = false;
+        state.slow_for = 0.0;
+        events.push(time, EventKind::Awake(state.id));
+        waking.extend(neighbours(bodies, pairs, index));
+    }
+}
+
+/// Wakes all sleepers that touch a body: what held them has changed.
+pub(crate) fn wake_around(
+    bodies: &mut Bodies,
+    pairs: &Pairs,
+    index: u32,
+    time: SimTime,
+    events: &mut Events,
+) {
+    wake(bodies, pairs, index, time, events);
+    let around: Vec<u32> = neighbours(bodies, pairs, index).collect();
+    for other in around {
+        wake(bodies, pairs, other, time, events);
+    }
+}
+
+fn neighbours<'a>(
+    bodies: &'a Bodies,
+    pairs: &'a Pairs,
+    index: u32,
+) -> impl Iterator<Item = u32> + use<'a> {
+    bodies.get(index).pairs.iter().filter_map(move |&place| {
+        let pair = pairs.get(place);
+        let other = if pair.bodies.0 == index {
+            pair.bodies.1
+        } else {
+            pair.bodies.0
+        };
+        pair.touching.then_some(other)
+    })
+}
+
+fn moves(bodies: &Bodies, index: u32) -> bool {
+    let motion = &bodies.get(index).motion;
+    motion.velocity != Vec2::ZERO || motion.spin != 0.0
+}
+
+/// Union by index: the smaller root wins, so that groups do not depend on the order of links.
+struct Tree {
+    parents: Vec<u32>,
+}
+
+impl Tree {
+    fn new(count: usize) -> Self {
+        Self {
+            parents: (0u32..).take(count).collect(),
+        }
+    }
+
+    fn root(&mut self, mut i: u32) -> u32 {
+        while self.parents[i as usize] != i {
+            let up = self.parents[self.parents[i as usize] as usize];
+            self.parents[i as usize] = up;
+            i = up;
+        }
+        i
+    }
+
+    fn join(&mut self, a: u32, b: u32) {
+        let (a, b) = (self.root(a), self.root(b));
+        let (low, high) = if a < b { (a, b) } else { (b, a) };
+        self.parents[high as usize] = low;
+    }
+}
