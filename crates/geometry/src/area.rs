@@ -2,8 +2,9 @@
 
 use core::ops::Add;
 
-use carom_math::{Rot, Sum, Vec2, cross, two_product, two_sum, vec2};
+use carom_math::{Rot, Vec2, vec2};
 
+use crate::moments::ring_moments;
 use crate::{MassProperties, PolygonError, ring};
 
 /// Area and its first and second moments.
@@ -67,6 +68,21 @@ impl AreaProperties {
         }
     }
 
+    /// Density that spreads `mass` kg evenly over the area, in kg/m².
+    ///
+    /// # Examples
+    /// ```
+    /// use carom_geometry::ring_properties;
+    /// use carom_math::vec2;
+    /// let triangle = ring_properties(&[vec2(0.0, 0.0), vec2(4.0, 0.0), vec2(1.0, 3.0)])?;
+    /// assert_eq!(triangle.density(12.0), 2.0);                        // kg/m²: 12 kg over 6 m²
+    /// # Ok::<(), carom_geometry::PolygonError>(())
+    /// ```
+    #[must_use]
+    pub fn density(self, mass: f64) -> f64 {
+        mass / self.area
+    }
+
     /// Polar second moment about `point`, in m⁴: Steiner's parallel axis theorem.
     #[must_use]
     pub fn polar_about(self, point: Vec2) -> f64 {
@@ -97,16 +113,41 @@ impl AreaProperties {
     }
 
     /// Largest and smallest second moment about an axis through the centroid, in m⁴, and the
-    /// rotation of the axis of the largest.
+    /// rotation that takes the x axis to the axis of the largest (no turn if all are equal).
+    ///
+    /// # Examples
+    /// ```
+    /// use carom_geometry::ConvexPolygon;
+    /// let plank = ConvexPolygon::rectangle(4.0, 1.0)?.area_properties();
+    /// let (largest, smallest, axis) = plank.principal_axes();
+    /// assert!((largest - 16.0 / 3.0).abs() < 1e-14);                  // m⁴, h w³ / 12
+    /// assert!((smallest - 1.0 / 3.0).abs() < 1e-15);                  // m⁴, w h³ / 12
+    /// assert_eq!(axis.x_axis().x, 0.0);                               // about y: across the plank
+    /// # Ok::<(), carom_geometry::PolygonError>(())
+    /// ```
     #[must_use]
     pub fn principal_axes(self) -> (f64, f64, Rot) {
-        // Mohr's circle.
+        // Mohr's circle: the moment about an axis at angle a is mean + half cos 2a − ixy sin 2a.
         let mean = 0.5 * (self.ixx + self.iyy);
         let half = 0.5 * (self.ixx - self.iyy);
         let radius = (half * half + self.ixy * self.ixy).sqrt();
-        let twice = carom_math::trig::atan2(-self.ixy, half);
-        (mean + radius, mean - radius, Rot::from_angle(0.5 * twice))
+        let largest = mean + radius;
+        // mean − radius by the product of both: it does not cancel where ixy is small.
+        let product = self.ixx * self.iyy - self.ixy * self.ixy;
+        let smallest = if largest > 0.0 { product.max(0.0) / largest } else { 0.0 };
+        // Half the angle of (half, −ixy), from the side that does not cancel.
+        let axis = if half >= 0.0 {
+            vec2(radius + half, -self.ixy)
+        } else {
+            vec2(-self.ixy, radius - half)
+        };
+        (largest, smallest, direction(axis).unwrap_or_default())
     }
+}
+
+/// As [`Rot::from_direction`], for vectors of any size: squares of m⁴ leave the range of `f64`.
+fn direction(v: Vec2) -> Option<Rot> {
+    Rot::from_direction(v / v.abs().max_element())
 }
 
 /// Both areas as one.
@@ -154,83 +195,10 @@ impl Add for AreaProperties {
 /// ```
 pub fn ring_properties(points: &[Vec2]) -> Result<AreaProperties, PolygonError> {
     ring::check_points(points)?;
-    let properties = shoelace(points);
+    let properties = ring_moments(points);
     if properties.area > 0.0 && properties.polar > 0.0 {
         Ok(properties)
     } else {
         Err(PolygonError::Degenerate)
-    }
-}
-
-/// Signed sums over the triangles of the first vertex and each edge (Green's theorem).
-///
-/// With `k = u × v` for an edge from u to v, seen from the first vertex:
-/// ```text
-/// A = Σ k/2,  A C = Σ k (u + v)/6,  ∫y² = Σ k (u_y² + u_y v_y + v_y²)/12,  ∫xy alike
-/// ```
-/// Taken about a vertex, not the origin: far away the cross products of world coordinates cancel.
-/// Products are exact and sums compensated, so that slivers keep their digits.
-pub(crate) fn shoelace(points: &[Vec2]) -> AreaProperties {
-    let Some(&anchor) = points.first() else {
-        return AreaProperties::ZERO;
-    };
-    let mut sums = [Sum::ZERO; 6];
-    let mut u = Offset::of(anchor, anchor);
-    for &p in points.iter().cycle().skip(1).take(points.len()) {
-        let v = Offset::of(p, anchor);
-        let k = u.cross(v);
-        let (a, b) = (u.high, v.high);
-        sums[0].add(k);
-        sums[1].add(k * (a.x + b.x));
-        sums[2].add(k * (a.y + b.y));
-        sums[3].add(k * (a.y * a.y + a.y * b.y + b.y * b.y));
-        sums[4].add(k * (a.x * a.x + a.x * b.x + b.x * b.x));
-        sums[5].add(k * (a.x * (2.0 * a.y + b.y) + b.x * (a.y + 2.0 * b.y)));
-        u = v;
-    }
-    let sign = if sums[0].value() < 0.0 { -1.0 } else { 1.0 };
-    let [twice, cx, cy, yy, xx, xy] = sums.map(|sum| sign * sum.value());
-    if twice == 0.0 {
-        return AreaProperties::ZERO;
-    }
-    let area = 0.5 * twice;
-    let c = vec2(cx, cy) / (3.0 * twice);
-    let ixx = yy / 12.0 - area * c.y * c.y;
-    let iyy = xx / 12.0 - area * c.x * c.x;
-    let ixy = xy / 24.0 - area * c.x * c.y;
-    AreaProperties {
-        area,
-        centroid: anchor + c,
-        polar: ixx + iyy,
-        ixx,
-        iyy,
-        ixy,
-    }
-}
-
-/// A point seen from another one, with what rounding the difference lost.
-#[derive(Clone, Copy)]
-struct Offset {
-    high: Vec2,
-    low: Vec2,
-}
-
-impl Offset {
-    fn of(p: Vec2, anchor: Vec2) -> Self {
-        let (x, x_lost) = two_sum(p.x, -anchor.x);
-        let (y, y_lost) = two_sum(p.y, -anchor.y);
-        Self {
-            high: vec2(x, y),
-            low: vec2(x_lost, y_lost),
-        }
-    }
-
-    /// The cross product, rounded about once.
-    fn cross(self, v: Self) -> f64 {
-        let (forth, forth_lost) = two_product(self.high.x, v.high.y);
-        let (back, back_lost) = two_product(self.high.y, v.high.x);
-        let (main, lost) = two_sum(forth, -back);
-        let small = cross(self.low, v.high) + cross(self.high, v.low);
-        main + (lost + (forth_lost - back_lost) + small)
     }
 }

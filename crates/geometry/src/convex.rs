@@ -2,7 +2,7 @@
 
 use carom_math::{Vec2, orient2d, vec2};
 
-use crate::area::shoelace;
+use crate::moments::ring_moments;
 use crate::ring::Ring;
 use crate::{AreaProperties, PolygonError, hull};
 
@@ -88,7 +88,7 @@ impl ConvexPolygon {
     /// Area and its moments.
     #[must_use]
     pub fn area_properties(&self) -> AreaProperties {
-        shoelace(&self.vertices)
+        ring_moments(&self.vertices)
     }
 
     /// The same polygon moved by `offset`, in m.

@@ -30,11 +30,13 @@ mod generate;
 mod hull;
 pub mod inertia;
 mod mass;
+mod moments;
 mod pieces;
 mod polygon;
 mod ring;
 mod segment;
 mod shape;
+mod wide;
 
 pub use aabb::Aabb;
 pub use area::{AreaProperties, ring_properties};

@@ -2,7 +2,7 @@
 
 use carom_math::{Vec2, orient2d};
 
-use crate::area::shoelace;
+use crate::moments::ring_moments;
 use crate::pieces::{ConvexPiece, decompose};
 use crate::ring::Ring;
 use crate::{AreaProperties, ConvexPolygon, PolygonError};
@@ -62,7 +62,7 @@ impl Polygon {
     /// Area and its moments.
     #[must_use]
     pub fn area_properties(&self) -> AreaProperties {
-        shoelace(&self.vertices)
+        ring_moments(&self.vertices)
     }
 
     /// Whether `point` lies inside or on the outline; exact.
