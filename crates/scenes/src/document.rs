@@ -1,7 +1,6 @@
 //! The text of a scene with the settings laid over it, and the way back from a field to its line.
 
 use core::ops::Range;
-use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use serde::Deserialize;
@@ -10,7 +9,9 @@ use toml::de::{DeFloat, DeTable, DeValue};
 
 use crate::error::{Place, Problem, SceneError, nearest};
 use crate::model::{PARAMETERS, SceneFile};
+use crate::overlay::insert;
 use crate::path::{FieldPath, Places};
+use crate::words::{plain_words, syntax};
 
 /// Largest scene file that is read, in bytes.
 pub const MAX_BYTES: u64 = 16 << 20;
@@ -152,36 +153,12 @@ impl Document {
     }
 
     fn insert<'a>(&self, tree: &mut DeTable<'a>, over: &'a Override) -> Result<(), SceneError> {
-        let wrong = |field: &str, problem: Problem| SceneError {
+        insert(tree, &over.key, &over.value, over.offset).map_err(|(field, problem)| SceneError {
             origin: self.origin.clone(),
             place: Place::Set(format!("{}={}", over.key, over.value)),
-            field: field.to_owned(),
+            field,
             problem: Box::new(problem),
-        };
-        // What is no TOML value is a bare word: `settings.pairs=none`.
-        let value = DeValue::parse(&over.value).unwrap_or_else(|_| {
-            Spanned::new(
-                0..over.value.len(),
-                DeValue::String(Cow::Borrowed(over.value.as_str())),
-            )
-        });
-        let value = shifted(value, over.offset);
-        let path = full_path(&over.key);
-        let Some((last, parents)) = path.split_last() else {
-            return Err(wrong(
-                "",
-                Problem::MissingField("a key before the =".to_owned()),
-            ));
-        };
-        let mut place = Slot::Table(tree);
-        for (depth, step) in parents.iter().enumerate() {
-            place = place
-                .enter(step, over.offset)
-                .map_err(|problem| wrong(&path[..=depth].join("."), problem))?;
-        }
-        place
-            .put(last, value)
-            .map_err(|problem| wrong(&path.join("."), problem))
+        })
     }
 
     fn check_version(&self, tree: &DeTable<'_>) -> Result<(), SceneError> {
@@ -301,127 +278,6 @@ impl Document {
     }
 }
 
-/// Where a value can be laid into a tree.
-enum Slot<'t, 'a> {
-    Table(&'t mut DeTable<'a>),
-    Item(&'t mut Spanned<DeValue<'a>>),
-}
-
-impl<'t, 'a> Slot<'t, 'a> {
-    /// One step down: a key of a table (made if it is not there), a number or a name in a list.
-    fn enter(self, step: &'a str, offset: usize) -> Result<Self, Problem> {
-        let table = match self {
-            Self::Table(table) => table,
-            Self::Item(item) => match item.get_mut() {
-                DeValue::Table(table) => table,
-                DeValue::Array(items) => {
-                    let index = position_in(items.iter(), step)?;
-                    return items
-                        .get_mut(index)
-                        .map(Self::Item)
-                        .ok_or_else(|| Problem::Refused(format!("there is no item {step}")));
-                }
-                _ => return Err(Problem::Refused("this field holds no table".to_owned())),
-            },
-        };
-        let key = Spanned::new(offset..offset, Cow::Borrowed(step));
-        let empty = Spanned::new(offset..offset, DeValue::Table(DeTable::new()));
-        if !table.contains_key(step) {
-            table.insert(key, empty);
-        }
-        table
-            .get_mut(step)
-            .map(Self::Item)
-            .ok_or_else(|| Problem::Refused("this field holds no table".to_owned()))
-    }
-
-    fn put(self, last: &'a str, value: Spanned<DeValue<'a>>) -> Result<(), Problem> {
-        let table = match self {
-            Self::Table(table) => table,
-            Self::Item(item) => match item.get_mut() {
-                DeValue::Table(table) => table,
-                DeValue::Array(items) => {
-                    let index = position_in(items.iter(), last)?;
-                    if let Some(item) = items.get_mut(index) {
-                        *item = value;
-                    }
-                    return Ok(());
-                }
-                _ => return Err(Problem::Refused("this field holds no table".to_owned())),
-            },
-        };
-        // Taken out first: an entry that stays keeps its old key, with the place in the file.
-        table.remove(last);
-        table.insert(Spanned::new(value.span(), Cow::Borrowed(last)), value);
-        Ok(())
-    }
-}
-
-/// An item by number from 0, or a table by its `name`.
-fn position_in<'v, 'a: 'v>(
-    items: impl ExactSizeIterator<Item = &'v Spanned<DeValue<'a>>>,
-    step: &str,
-) -> Result<usize, Problem> {
-    let count = items.len();
-    if let Ok(index) = step.parse::<usize>() {
-        if index < count {
-            return Ok(index);
-        }
-        return Err(Problem::Refused(format!(
-            "there are {count} items, numbered from 0"
-        )));
-    }
-    let mut names = Vec::with_capacity(count);
-    for (index, item) in items.enumerate() {
-        let name = match item.get_ref() {
-            DeValue::Table(table) => table.get("name"),
-            _ => None,
-        };
-        if let Some(DeValue::String(name)) = name.map(Spanned::get_ref) {
-            if name == step {
-                return Ok(index);
-            }
-            names.push(name.to_string());
-        }
-    }
-    let close = nearest(step, names.iter().map(String::as_str)).map(str::to_owned);
-    Err(Problem::Unknown {
-        what: "name",
-        nearest: close,
-        expected: names,
-    })
-}
-
-/// `n` means `parameters.n`.
-fn full_path(key: &str) -> Vec<&str> {
-    if PARAMETERS.contains(&key) {
-        return vec!["parameters", key];
-    }
-    key.split('.').filter(|step| !step.is_empty()).collect()
-}
-
-/// The same value with its places moved behind the text of the file.
-fn shifted(value: Spanned<DeValue<'_>>, by: usize) -> Spanned<DeValue<'_>> {
-    let moved = |span: Range<usize>| span.start + by..span.end + by;
-    let span = moved(value.span());
-    let inner = match value.into_inner() {
-        DeValue::Array(items) => {
-            DeValue::Array(items.into_iter().map(|item| shifted(item, by)).collect())
-        }
-        DeValue::Table(table) => DeValue::Table(
-            table
-                .into_iter()
-                .map(|(key, value)| {
-                    let place = moved(key.span());
-                    (Spanned::new(place, key.into_inner()), shifted(value, by))
-                })
-                .collect(),
-        ),
-        other => other,
-    };
-    Spanned::new(span, inner)
-}
-
 /// Turns −0 into 0; answers with the first number that is not finite.
 fn clean_numbers_in(table: &mut DeTable<'_>) -> Option<(Range<usize>, String)> {
     table.iter_mut().find_map(|(_, value)| clean_numbers(value))
@@ -443,40 +299,4 @@ fn clean_numbers(value: &mut Spanned<DeValue<'_>>) -> Option<(Range<usize>, Stri
         DeValue::Table(table) => clean_numbers_in(table),
         _ => None,
     }
-}
-
-/// The nesting limit is the parser's own, and its words are about itself.
-fn syntax(message: &str) -> Problem {
-    if message.contains("recurs") {
-        Problem::Syntax("nested too deep".to_owned())
-    } else {
-        Problem::Syntax(message.replace('`', "'"))
-    }
-}
-
-/// Serde speaks of Rust's types, a scene of numbers, lists and tables.
-fn plain_words(message: &str) -> String {
-    let mut words = message.replace('`', "");
-    for (theirs, ours) in [
-        ("invalid type: map", "found a table"),
-        ("invalid type: sequence", "found a list"),
-        ("invalid type: floating point", "found the number"),
-        ("invalid type: ", "found the "),
-        ("invalid value: ", "found the "),
-        ("invalid length ", "found a list of "),
-        ("expected f64", "expected a number"),
-        ("expected a sequence", "expected a list"),
-        ("expected a boolean", "expected true or false"),
-        ("expected struct ", "expected a table for "),
-        ("expected u64", "expected a whole number from 0 up"),
-        ("expected usize", "expected a whole number from 0 up"),
-        (
-            "expected u32",
-            "expected a whole number from 0 to 4294967295",
-        ),
-        ("wanted string or table", "expected a string"),
-    ] {
-        words = words.replace(theirs, ours);
-    }
-    words
 }

@@ -36,12 +36,18 @@ mod build;
 mod build_tests;
 mod built;
 mod builtin;
+#[cfg(test)]
+mod builtin_tests;
 mod document;
 mod error;
 mod model;
+mod overlay;
 mod path;
+#[cfg(test)]
+mod populate_tests;
 mod random;
 mod scene;
+mod words;
 
 pub use built::Built;
 pub use builtin::{SceneInfo, find, list, load, open};
