@@ -60,13 +60,13 @@ impl Animation {
             frames: 0,
             sequence: 0,
         };
-        film.draft.write(&SIGNATURE)?;
+        film.draft.append(&SIGNATURE)?;
         let mut header = [0; 13];
         header[..4].copy_from_slice(&size.width().to_be_bytes());
         header[4..8].copy_from_slice(&size.height().to_be_bytes());
         header[8..].copy_from_slice(&[8, 2, 0, 0, 0]); // 8 bits, RGB, deflate, adaptive filters, not interlaced
-        film.draft.write(&chunk(*b"IHDR", &[&header]))?;
-        film.draft.write(&control(0))?;
+        film.draft.append(&chunk(*b"IHDR", &[&header]))?;
+        film.draft.append(&control(0))?;
         Ok(film)
     }
 
@@ -98,6 +98,9 @@ impl Animation {
             u32::from_be_bytes([header[at], header[at + 1], header[at + 2], header[at + 3]])
         };
         self.check(Size::new(side(0), side(4))?)?;
+        if image_data(png).next().is_none() {
+            return Err(wrong("no image data"));
+        }
         self.append(png)
     }
 
@@ -115,7 +118,7 @@ impl Animation {
         if self.frames == 0 {
             return Err(RenderError::NoFrames);
         }
-        self.draft.write(&chunk(*b"IEND", &[]))?;
+        self.draft.append(&chunk(*b"IEND", &[]))?;
         // 2^32 frames would take years to play.
         let count = u32::try_from(self.frames).unwrap_or(u32::MAX);
         if let Some(file) = self.draft.file()? {
@@ -157,7 +160,7 @@ impl Animation {
                 out.extend(chunk(*b"fdAT", &[&number, data]));
             }
         }
-        self.draft.write(&out)?;
+        self.draft.append(&out)?;
         self.frames += 1;
         Ok(())
     }
@@ -317,7 +320,12 @@ mod tests {
             "frame 1 is 10 x 20 px, the frames before it are 20 x 10 px"
         );
         assert!(film.push_png(&other.to_png()).is_err());
-        assert!(film.push_png(b"no picture").is_err());
+        for cut in [0, 8, 20, 33, 40] {
+            assert!(
+                film.push_png(&shade(1).to_png()[..cut]).is_err(),
+                "{cut} bytes"
+            );
+        }
         drop(film);
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
     }

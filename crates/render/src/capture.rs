@@ -409,8 +409,7 @@ mod tests {
     #[test]
     fn overlays_add_marks_and_change_no_body() {
         let plain = Look::default();
-        let mut rich = Look::default();
-        rich.overlay = Overlay {
+        let overlay = Overlay {
             centroids: true,
             velocities: Some(0.5),
             contacts: true,
@@ -425,6 +424,10 @@ mod tests {
                 label: "core".to_owned(),
             }),
             caption: "a scene".to_owned(),
+        };
+        let rich = Look {
+            overlay,
+            ..Look::default()
         };
         let before = Frame::capture(&world(), &plain, &camera());
         let after = Frame::capture(&world(), &rich, &camera());

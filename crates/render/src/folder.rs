@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use crate::RenderError;
-use crate::output::write_file;
+use crate::output::{temporary_name, write_file};
 
 /// Name of the manifest inside an output folder.
 pub const MANIFEST: &str = "manifest.txt";
@@ -72,9 +72,13 @@ impl OutputFolder {
         let place = path.join(MANIFEST);
         let old = read_manifest(&place)?;
         let names = match (&old, existing) {
-            (Some(_), Existing::Refuse) => return Err(occupied(path, MANIFEST)),
-            (Some((_, names)), _) => names.clone(),
             (None, _) => BTreeSet::new(),
+            (Some((_, names)), Existing::Replace | Existing::Resume) => names.clone(),
+            // A run that failed before its first output is nothing to lose.
+            (Some((_, names)), Existing::Refuse) => match names.first() {
+                Some(name) => return Err(occupied(path, name)),
+                None => BTreeSet::new(),
+            },
         };
         refuse_foreign_frames(path, &names, existing)?;
         if let (Some((found, _)), Existing::Resume) = (&old, existing)
@@ -105,6 +109,8 @@ impl OutputFolder {
         if !keep {
             for name in &names {
                 remove_ours(&path.join(name))?;
+                // What a run that was killed left of it.
+                remove_ours(&temporary_name(&path.join(name)))?;
             }
         }
         let names = if keep { names } else { BTreeSet::new() };
@@ -282,6 +288,18 @@ mod tests {
         let error = second.save("notes.txt", b"ours").unwrap_err();
         assert!(matches!(error, RenderError::Foreign { .. }), "{error}");
         assert_eq!(fs::read_to_string(path.join("notes.txt")).unwrap(), "mine");
+    }
+
+    #[test]
+    fn a_run_that_wrote_nothing_is_no_obstacle() {
+        let root = tempfile::tempdir().unwrap();
+        drop(OutputFolder::open(root.path(), Existing::Refuse, "run 1").unwrap());
+        let folder = OutputFolder::open(root.path(), Existing::Refuse, "run 2").unwrap();
+        folder.save("a.png", b"a").unwrap();
+        fs::write(root.path().join(".a.png.part"), "torn").unwrap();
+        drop(folder);
+        let _again = OutputFolder::open(root.path(), Existing::Replace, "run 3").unwrap();
+        assert!(!root.path().join(".a.png.part").exists());
     }
 
     #[test]

@@ -2,31 +2,56 @@
 
 use std::ffi::OsString;
 use std::fs::{self, File};
-use std::io::{BufWriter, Write};
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use crate::RenderError;
 
 /// A file under a temporary name beside its place: [`Draft::finish`] gives it its name, dropping it removes it.
+///
+/// # Examples
+/// ```
+/// use carom_render::Draft;
+/// use std::io::Write;
+/// # let folder = tempfile::tempdir()?;
+/// # let path = folder.path().join("energy.csv");
+/// let mut draft = Draft::create(&path)?;
+/// writeln!(draft, "time,energy")?;
+/// assert!(!path.exists());
+/// draft.finish()?;
+/// assert_eq!(std::fs::read_to_string(&path)?, "time,energy\n");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug)]
-pub(crate) struct Draft {
+pub struct Draft {
     place: PathBuf,
     temporary: PathBuf,
     writer: Option<BufWriter<File>>,
 }
 
+/// The name that a file has until it is whole: hidden, in the same folder.
+pub(crate) fn temporary_name(place: &Path) -> PathBuf {
+    let mut hidden = OsString::from(".");
+    hidden.push(place.file_name().unwrap_or_default());
+    hidden.push(".part");
+    place.with_file_name(hidden)
+}
+
 impl Draft {
     /// Opens the file that will become `place`.
-    pub(crate) fn create(place: &Path) -> Result<Self, RenderError> {
-        let name = place.file_name().ok_or_else(|| RenderError::Name {
-            name: place.display().to_string(),
-        })?;
-        let mut hidden = OsString::from(".");
-        hidden.push(name);
-        hidden.push(".part");
-        let temporary = place.with_file_name(hidden);
+    ///
+    /// # Errors
+    /// [`RenderError::Io`] if the folder cannot be written to or a folder has the name, [`RenderError::Name`] if there is no name.
+    pub fn create(place: impl AsRef<Path>) -> Result<Self, RenderError> {
+        let place = place.as_ref();
+        if place.file_name().is_none() {
+            return Err(RenderError::Name {
+                name: place.display().to_string(),
+            });
+        }
+        let temporary = temporary_name(place);
         if place.is_dir() {
-            let source = std::io::Error::from(std::io::ErrorKind::IsADirectory);
+            let source = io::Error::from(io::ErrorKind::IsADirectory);
             return Err(RenderError::io("write", place)(source));
         }
         let file = File::create(&temporary).map_err(RenderError::io("write", place))?;
@@ -37,14 +62,10 @@ impl Draft {
         })
     }
 
-    /// Appends bytes.
-    pub(crate) fn write(&mut self, bytes: &[u8]) -> Result<(), RenderError> {
-        match &mut self.writer {
-            Some(writer) => writer
-                .write_all(bytes)
-                .map_err(RenderError::io("write", &self.place)),
-            None => Ok(()),
-        }
+    /// Appends bytes, with an error that names the file.
+    pub(crate) fn append(&mut self, bytes: &[u8]) -> Result<(), RenderError> {
+        self.write_all(bytes)
+            .map_err(RenderError::io("write", &self.place))
     }
 
     /// Hands over the file with everything written so far in it, to change what lies behind.
@@ -58,8 +79,11 @@ impl Draft {
         Ok(Some(writer.get_mut()))
     }
 
-    /// Closes the file and gives it its name.
-    pub(crate) fn finish(mut self) -> Result<(), RenderError> {
+    /// Closes the file and gives it its name, in place of a file that had it before.
+    ///
+    /// # Errors
+    /// [`RenderError::Io`]; nothing is left of the draft then.
+    pub fn finish(mut self) -> Result<(), RenderError> {
         self.file()?;
         // Closed before it is renamed: some systems ask for it.
         drop(self.writer.take());
@@ -68,6 +92,19 @@ impl Draft {
             let _gone = fs::remove_file(&self.temporary);
         }
         renamed.map_err(RenderError::io("write", &self.place))
+    }
+}
+
+impl Write for Draft {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        match &mut self.writer {
+            Some(writer) => writer.write(bytes),
+            None => Err(io::ErrorKind::BrokenPipe.into()),
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.writer.as_mut().map_or(Ok(()), Write::flush)
     }
 }
 
@@ -86,7 +123,7 @@ impl Drop for Draft {
 /// [`RenderError::Io`] with the path; nothing is left behind then, and what was there before is untouched.
 pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), RenderError> {
     let mut draft = Draft::create(path)?;
-    draft.write(bytes)?;
+    draft.append(bytes)?;
     draft.finish()
 }
 
@@ -109,7 +146,7 @@ mod tests {
         let place = folder.path().join("a.txt");
         write_file(&place, b"old").unwrap();
         let mut draft = Draft::create(&place).unwrap();
-        draft.write(b"half of the n").unwrap();
+        draft.append(b"half of the n").unwrap();
         assert_eq!(names(folder.path()), [".a.txt.part", "a.txt"]);
         drop(draft);
         assert_eq!(names(folder.path()), ["a.txt"]);

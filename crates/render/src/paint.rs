@@ -196,7 +196,7 @@ impl Painter<'_> {
             Cover::None => return,
             Cover::All => push(&mut self.builder, &self.window.ring(), true),
             Cover::Some if radius <= LARGE_DISC => {
-                push_circle(&mut self.builder, centre, radius, false)
+                push_circle(&mut self.builder, centre, radius, false);
             }
             Cover::Some => {
                 let mut sector = core::mem::take(&mut self.line);
@@ -344,13 +344,12 @@ impl Painter<'_> {
 
 /// A width that draws something: positive, and cut at [`MAX_STROKE`].
 pub(crate) fn usable_width(width: f64) -> Option<f64> {
-    (width > 0.0).then(|| {
-        if width < MAX_STROKE {
-            width
-        } else {
-            MAX_STROKE
-        }
-    })
+    let cut = if width < MAX_STROKE {
+        width
+    } else {
+        MAX_STROKE
+    };
+    (width > 0.0).then_some(cut)
 }
 
 /// A line thinner than a pixel becomes a pixel wide and as much fainter: between the rasteriser's four rows a pixel
