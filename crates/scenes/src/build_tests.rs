@@ -120,6 +120,23 @@ fn wrong_values_are_named_with_their_place() {
 }
 
 #[test]
+fn values_that_were_set_are_named_as_such() {
+    let mut scene = find("flying-balls").unwrap();
+    scene.set("restitution", "5").unwrap();
+    assert_eq!(
+        scene.build().unwrap_err().to_string(),
+        "flying-balls: --set restitution=5: parameters.restitution: restitution is 5, outside 0..1 (body \"wall/left\")"
+    );
+    let mut scene = find("stack").unwrap();
+    scene.set("camera.size", "[100000, 100000]").unwrap();
+    assert_eq!(
+        scene.build().unwrap_err().to_string(),
+        "stack: --set camera.size=[100000, 100000]: camera.size: canvas of 100000 x 100000 px is over the limit of \
+         16384 px a side and 67108864 px in all"
+    );
+}
+
+#[test]
 fn broken_shapes_are_named() {
     // The reason is geometry's own; the place is ours.
     for (shape, place) in [

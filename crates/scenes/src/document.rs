@@ -10,7 +10,7 @@ use toml::de::{DeFloat, DeTable, DeValue};
 use crate::error::{Place, Problem, SceneError, nearest};
 use crate::model::{PARAMETERS, SceneFile};
 use crate::overlay::insert;
-use crate::path::{FieldPath, Places};
+use crate::path::{FieldPath, field_at, start_of};
 use crate::words::{plain_words, syntax};
 
 /// Largest scene file that is read, in bytes.
@@ -115,10 +115,7 @@ impl Document {
 
     /// An error about a field, with its place.
     pub(crate) fn error(&self, field: &FieldPath, problem: Problem) -> SceneError {
-        let start = self
-            .tree()
-            .ok()
-            .and_then(|tree| Places::of(&tree).start_of(field));
+        let start = self.tree().ok().and_then(|tree| start_of(&tree, field));
         SceneError {
             origin: self.origin.clone(),
             place: start.map_or(Place::File, |start| self.place(start)),
@@ -227,10 +224,7 @@ impl Document {
             let name = names.next().unwrap_or_default();
             let problem = Problem::MissingField("this field must be given".to_owned());
             let mut error = self.error_in(&tree, &span, problem);
-            let table = Places::of(&tree)
-                .field_at(&span)
-                .cloned()
-                .unwrap_or_default();
+            let table = field_at(&tree, &span).unwrap_or_default();
             error.field = table.key(&name).to_string();
             return error;
         }
@@ -238,11 +232,10 @@ impl Document {
     }
 
     fn error_in(&self, tree: &DeTable<'_>, span: &Range<usize>, problem: Problem) -> SceneError {
-        let places = Places::of(tree);
         let field = if span.is_empty() {
             None
         } else {
-            places.field_at(span)
+            field_at(tree, span)
         };
         SceneError {
             origin: self.origin.clone(),
@@ -251,7 +244,7 @@ impl Document {
             } else {
                 self.place(span.start)
             },
-            field: field.map(ToString::to_string).unwrap_or_default(),
+            field: field.unwrap_or_default().to_string(),
             problem: Box::new(problem),
         }
     }

@@ -46,6 +46,8 @@ mod path;
 #[cfg(test)]
 mod populate_tests;
 mod random;
+#[cfg(test)]
+mod reference_tests;
 mod scene;
 mod words;
 

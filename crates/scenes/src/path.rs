@@ -3,6 +3,7 @@
 use core::fmt;
 use core::ops::Range;
 
+use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 /// A field of a scene file: `body[2].shape.polygon[3]`.
@@ -38,13 +39,6 @@ impl FieldPath {
         steps.push(step);
         Self(steps)
     }
-
-    /// The table or list that holds this field.
-    fn parent(&self) -> Self {
-        let mut steps = self.0.clone();
-        steps.pop();
-        Self(steps)
-    }
 }
 
 /// The number of a table in a list like `[[body]]` is left out: the line says which one is meant.
@@ -67,78 +61,81 @@ impl fmt::Display for FieldPath {
 /// Fields of the root that are lists of tables.
 const LISTS: [&str; 6] = ["body", "field", "stack", "pyramid", "grid", "population"];
 
-/// Where every field of a document is: in the order of the tree, parents before children.
-pub(crate) struct Places(Vec<Entry>);
-
-struct Entry {
-    path: FieldPath,
-    key: Option<Range<usize>>,
-    value: Range<usize>,
+/// The field that a stretch of the text belongs to: the deepest whose key or value it is, else the smallest around it.
+pub(crate) fn field_at(root: &DeTable<'_>, span: &Range<usize>) -> Option<FieldPath> {
+    let mut search = Search {
+        span,
+        here: FieldPath::default(),
+        exact: None,
+        around: None,
+    };
+    search.table(root);
+    search.exact.or(search.around.map(|(_, path)| path))
 }
 
-impl Places {
-    pub(crate) fn of(root: &DeTable<'_>) -> Self {
-        let mut places = Self(Vec::new());
-        places.add_table(&FieldPath::default(), root);
-        places
-    }
+/// A walk over all fields. Only the path of the present one is kept: files may have millions of numbers.
+struct Search<'s> {
+    span: &'s Range<usize>,
+    here: FieldPath,
+    exact: Option<FieldPath>,
+    /// Length of its value, and the field.
+    around: Option<(usize, FieldPath)>,
+}
 
-    fn add_table(&mut self, path: &FieldPath, table: &DeTable<'_>) {
+impl Search<'_> {
+    fn table(&mut self, table: &DeTable<'_>) {
         for (key, value) in table.iter() {
-            let path = path.key(key.get_ref());
-            self.add(path, Some(key.span()), value.span(), value.get_ref());
+            let step = Step::Key(key.get_ref().to_string());
+            self.visit(step, Some(&key.span()), value);
         }
     }
 
-    fn add(
-        &mut self,
-        path: FieldPath,
-        key: Option<Range<usize>>,
-        span: Range<usize>,
-        value: &DeValue<'_>,
-    ) {
-        self.0.push(Entry {
-            path: path.clone(),
-            key,
-            value: span,
-        });
-        match value {
-            DeValue::Table(table) => self.add_table(&path, table),
+    fn visit(&mut self, step: Step, key: Option<&Range<usize>>, value: &Spanned<DeValue<'_>>) {
+        self.here.0.push(step);
+        let place = value.span();
+        if key == Some(self.span) || place == *self.span {
+            self.exact = Some(self.here.clone());
+        } else if place.start <= self.span.start && self.span.end <= place.end {
+            let smallest = self
+                .around
+                .as_ref()
+                .map_or(usize::MAX, |(length, _)| *length);
+            if place.len() < smallest {
+                self.around = Some((place.len(), self.here.clone()));
+            }
+        }
+        match value.get_ref() {
+            DeValue::Table(table) => self.table(table),
             DeValue::Array(items) => {
                 for (index, item) in items.iter().enumerate() {
-                    self.add(path.index(index), None, item.span(), item.get_ref());
+                    self.visit(Step::Index(index), None, item);
                 }
             }
             _ => {}
         }
+        self.here.0.pop();
     }
+}
 
-    /// The field that a stretch of the text belongs to: the deepest whose key or value it is,
-    /// else the smallest around it.
-    pub(crate) fn field_at(&self, span: &Range<usize>) -> Option<&FieldPath> {
-        let exact = |entry: &&Entry| entry.key.as_ref() == Some(span) || &entry.value == span;
-        let around =
-            |entry: &&Entry| entry.value.start <= span.start && span.end <= entry.value.end;
-        let found = self.0.iter().rfind(exact).or_else(|| {
-            self.0
-                .iter()
-                .filter(around)
-                .min_by_key(|entry| entry.value.len())
-        });
-        found.map(|entry| &entry.path)
-    }
-
-    /// Where the value of a field starts; for a field that is not in the text, the nearest table around it.
-    pub(crate) fn start_of(&self, field: &FieldPath) -> Option<usize> {
-        let mut field = field.clone();
-        while !field.0.is_empty() {
-            if let Some(entry) = self.0.iter().find(|entry| entry.path == field) {
-                return Some(entry.value.start);
-            }
-            field = field.parent();
+/// Where the value of a field starts; for one that is not in the text, the nearest table or list around it.
+pub(crate) fn start_of(root: &DeTable<'_>, field: &FieldPath) -> Option<usize> {
+    let mut steps = field.0.iter();
+    let Some(Step::Key(first)) = steps.next() else {
+        return None;
+    };
+    let mut here = root.get(first.as_str())?;
+    for step in steps {
+        let deeper = match (step, here.get_ref()) {
+            (Step::Key(key), DeValue::Table(table)) => table.get(key.as_str()),
+            (Step::Index(index), DeValue::Array(items)) => items.get(*index),
+            _ => None,
+        };
+        match deeper {
+            Some(deeper) => here = deeper,
+            None => break,
         }
-        None
     }
+    Some(here.span().start)
 }
 
 #[cfg(test)]
@@ -151,19 +148,18 @@ mod tests {
     #[test]
     fn fields_and_places_belong_together() {
         let root = DeTable::parse(TEXT).unwrap();
-        let places = Places::of(root.get_ref());
         let point = FieldPath::root("body")
             .index(1)
             .key("shape")
             .key("polygon")
             .index(1);
         assert_eq!(point.to_string(), "body.shape.polygon[1]");
-        let start = places.start_of(&point).unwrap();
+        let start = start_of(root.get_ref(), &point).unwrap();
         assert_eq!(&TEXT[start..start + 6], "[3, 4]");
-        assert_eq!(places.field_at(&(start..start + 6)), Some(&point));
+        assert_eq!(field_at(root.get_ref(), &(start..start + 6)), Some(point));
         // What is not written is at its table.
         let mass = FieldPath::root("body").index(0).key("mass");
-        assert_eq!(places.start_of(&mass), TEXT.find("[[body]]"));
-        assert_eq!(places.start_of(&FieldPath::root("nothing")), None);
+        assert_eq!(start_of(root.get_ref(), &mass), TEXT.find("[[body]]"));
+        assert_eq!(start_of(root.get_ref(), &FieldPath::root("nothing")), None);
     }
 }

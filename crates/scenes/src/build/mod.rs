@@ -77,10 +77,6 @@ fn with_parameters(document: &Document, file: &SceneFile) -> Result<SceneFile, S
         }
         (None, _) => {}
     }
-    if parameters.fconst.is_some() && file.gravity.is_some() {
-        // In one file a mistake; over a file `--set fconst` is meant to win.
-        file.gravity = None;
-    }
     file.look.stats = parameters.stats.unwrap_or(file.look.stats);
     file.look.face = parameters.face.or(file.look.face);
     Ok(file)
