@@ -144,15 +144,17 @@ proptest! {
         let (sin, cos) = carom_math::trig::sin_cos(core::f64::consts::PI / f64::from(sides));
         let area = f64::from(sides) * radius * radius * sin * cos;
         let rim = 2.0 * f64::from(sides) * radius * sin;
-        prop_assert!((inked(&picture) - area).abs() < 0.05 * rim, "{} against {area}", inked(&picture));
+        // The rasteriser rounds edges along the axes to quarters of a pixel: an eighth off at worst.
+        prop_assert!((inked(&picture) - area).abs() < 0.125 * rim + 0.5, "{} against {area}", inked(&picture));
     }
 
     #[test]
     fn a_line_has_its_width_however_thin(width in 0.1..12.0_f64, slope in -20.0..20.0_f64) {
         let points = vec![vec2(-50.0, 40.0 - slope), vec2(150.0, 40.0 + slope)];
         let picture = paint_one(Op::Line { points, width, dash: None, ink: BLACK });
+        // A level edge is found to a quarter of a row; below a pixel the ink is scaled instead.
         let area = 100.0 * width * (1.0 + slope * slope / 1e4).sqrt();
-        prop_assert!((inked(&picture) - area).abs() < 0.04 * area + 6.0, "{} against {area}", inked(&picture));
+        prop_assert!((inked(&picture) - area).abs() < 26.0 * width.min(1.0) + 1.0, "{} against {area}", inked(&picture));
     }
 
     #[test]
