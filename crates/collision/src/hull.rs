@@ -4,7 +4,11 @@
 //! normals, a concave polygon several convex pieces. What comes after this file knows one case.
 
 use carom_geometry::{Aabb, Circle, ConvexPiece, ConvexPolygon, Segment, Shape};
-use carom_math::{Pose, Vec2};
+use carom_math::{Pose, Vec2, cross};
+
+/// Sine of the angle below which two directions count as one: far above rounding, far below what
+/// moves a contact.
+const FLUSH: f64 = 1e-9;
 
 /// A borrowed convex shape: the convex hull of `vertices`, grown by `radius`.
 ///
@@ -32,11 +36,19 @@ impl<'a> Hull<'a> {
     /// Whether the true outline can be touched at vertex `i` with a normal along `direction`.
     ///
     /// `direction` points away from the shape, in its frame. A whole convex shape always can; a
-    /// piece of a concave one where the direction lies between the normals of the outline there.
+    /// piece of a concave one where the direction lies between the normals of the outline there,
+    /// or is the normal of one of its edges that ends there.
     #[must_use]
     pub fn allows(&self, vertex: usize, direction: Vec2) -> bool {
-        self.boundary
-            .is_none_or(|piece| piece.cones()[vertex].contains(direction))
+        self.boundary.is_none_or(|piece| {
+            piece.cones()[vertex].contains(direction)
+                || [self.previous(vertex), vertex].into_iter().any(|edge| {
+                    let normal = self.normals[edge];
+                    piece.is_boundary(edge)
+                        && normal.dot(direction) > 0.0
+                        && cross(normal, direction).abs() <= FLUSH
+                })
+        })
     }
 
     /// Both ends of edge `i`.

@@ -6,6 +6,7 @@ mod distance;
 mod hull;
 mod manifold;
 mod motion;
+mod outline;
 mod sat;
 mod toi;
 mod tree;

@@ -1,6 +1,10 @@
 //! The separating axis theorem on two convex hulls.
+//!
+//! Two convex polygons are apart exactly if the normal of one of their edges, of either one,
+//! separates them. If none does, the normal along which they overlap least is the shortest way out.
+//! A circle adds the directions from its centre to the vertices of the other shape.
 
-use carom_math::{Pose, Vec2};
+use carom_math::{Pose, Vec2, perp};
 
 use crate::Hull;
 
@@ -46,15 +50,271 @@ pub struct Axis {
 }
 
 /// The axis along which two hulls are farthest apart, or overlap least.
+///
+/// Polygons: the largest separation over all n + m edge normals; it is the distance where an edge
+/// is closest, less than the distance where two vertices are, and the depth of the overlap where
+/// it is negative. A circle: the true distance in every case. Among equals A's edges come first,
+/// then the lowest index. Centres of circles that coincide have A's x axis as their normal.
+///
+/// # Examples
+/// ```
+/// use carom_collision::{Convex, separating_axis};
+/// use carom_geometry::ConvexPolygon;
+/// use carom_math::{Pose, vec2};
+/// let square = ConvexPolygon::square(2.0)?;                                    // m
+/// let axis = separating_axis(&square.hull(), &square.hull(), Pose::at(vec2(1.5, 0.25)));
+/// assert_eq!((axis.separation, axis.normal), (-0.5, vec2(1.0, 0.0)));
+/// # Ok::<(), carom_geometry::PolygonError>(())
+/// ```
 #[must_use]
 pub fn separating_axis(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose) -> Axis {
-    let _ = (a, b, b_in_a);
-    todo!()
+    if b.normals.is_empty() {
+        return point_axis(a, b_in_a.point(b.vertices[0]), b.radius);
+    }
+    if a.normals.is_empty() {
+        let axis = point_axis(b, b_in_a.inverse_point(a.vertices[0]), a.radius);
+        return axis.of_swapped(b_in_a);
+    }
+    let of_a = best_face(a, b, b_in_a);
+    let of_b = best_face(b, a, b_in_a.inverse());
+    let axis = if of_b.separation > of_a.separation {
+        of_b.axis(b, Side::A).of_swapped(b_in_a)
+    } else {
+        of_a.axis(a, Side::A)
+    };
+    if a.normals.len() == 2 && b.normals.len() == 2 {
+        return along_segments(a, b, b_in_a, axis);
+    }
+    axis
 }
 
-/// The shortest translation of B, in A's frame and metres, that ends the overlap; `None` if apart.
+/// The shortest translation of B that ends the overlap, in metres in A's frame; `None` if apart.
+///
+/// The thesis's minimum push vector, pointing away from A. Zero if the shapes touch.
+///
+/// # Examples
+/// ```
+/// use carom_collision::{Convex, minimum_push};
+/// use carom_geometry::ConvexPolygon;
+/// use carom_math::{Pose, vec2};
+/// let square = ConvexPolygon::square(2.0)?;                                    // m
+/// let push = |x| minimum_push(&square.hull(), &square.hull(), Pose::at(vec2(x, 0.0)));
+/// assert_eq!(push(-1.5), Some(vec2(-0.5, 0.0)));
+/// assert_eq!(push(2.5), None);
+/// # Ok::<(), carom_geometry::PolygonError>(())
+/// ```
 #[must_use]
 pub fn minimum_push(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose) -> Option<Vec2> {
     let axis = separating_axis(a, b, b_in_a);
     (axis.separation <= 0.0).then(|| axis.normal * -axis.separation)
+}
+
+/// An edge of one hull and the vertex of the other that is deepest behind it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Face {
+    pub(crate) separation: f64,
+    pub(crate) edge: usize,
+    pub(crate) vertex: usize,
+}
+
+/// The edge of `own` that separates `other` most, or the least deep one.
+pub(crate) fn best_face(own: &Hull<'_>, other: &Hull<'_>, other_in_own: Pose) -> Face {
+    let mut best = Face {
+        separation: f64::NEG_INFINITY,
+        edge: 0,
+        vertex: 0,
+    };
+    let mut hint = None;
+    for edge in 0..own.normals.len() {
+        let face = face(own, edge, other, other_in_own, hint);
+        hint = Some(face.vertex);
+        if face.separation > best.separation {
+            best = face;
+        }
+    }
+    best
+}
+
+/// How far `other` is beyond one edge of `own`; `hint` is the deepest vertex of the edge before.
+pub(crate) fn face(
+    own: &Hull<'_>,
+    edge: usize,
+    other: &Hull<'_>,
+    other_in_own: Pose,
+    hint: Option<usize>,
+) -> Face {
+    // n·(R v + t − p) = (Rᵀ n)·v + n·(t − p): the vertices stay in their own frame.
+    let normal = own.normals[edge];
+    let local = other_in_own.inverse_vector(normal);
+    let (vertex, along) = lowest(other, local, hint);
+    Face {
+        separation: along + normal.dot(other_in_own.position - own.vertices[edge]) - other.radius - own.radius,
+        edge,
+        vertex,
+    }
+}
+
+/// The vertex that is lowest along `direction`, and its height.
+fn lowest(hull: &Hull<'_>, direction: Vec2, hint: Option<usize>) -> (usize, f64) {
+    /// Above this many vertices a walk along the outline is cheaper than a look at all.
+    const WALK_ABOVE: usize = 12;
+    let height = |i: usize| direction.dot(hull.vertices[i]);
+    match hint {
+        Some(start) if hull.vertices.len() > WALK_ABOVE => {
+            // Heights fall and then rise once around a convex outline.
+            let mut best = (start, height(start));
+            for step in [Hull::next, Hull::previous] {
+                loop {
+                    let i = step(hull, best.0);
+                    let h = height(i);
+                    if h >= best.1 {
+                        break;
+                    }
+                    best = (i, h);
+                }
+            }
+            best
+        }
+        _ => {
+            let mut best = (0, height(0));
+            for i in 1..hull.vertices.len() {
+                let h = height(i);
+                if h < best.1 {
+                    best = (i, h);
+                }
+            }
+            best
+        }
+    }
+}
+
+impl Face {
+    /// As an axis in the frame of `own`, the hull with the edge.
+    fn axis(self, own: &Hull<'_>, owner: Side) -> Axis {
+        Axis {
+            separation: self.separation,
+            normal: own.normals[self.edge],
+            feature: AxisFeature::Edge {
+                owner,
+                edge: self.edge,
+                vertex: self.vertex,
+            },
+        }
+    }
+}
+
+impl Axis {
+    /// The axis of (A, B), from the one of (B, A) in B's frame.
+    fn of_swapped(self, b_in_a: Pose) -> Self {
+        let feature = match self.feature {
+            AxisFeature::Edge {
+                owner,
+                edge,
+                vertex,
+            } => AxisFeature::Edge {
+                owner: match owner {
+                    Side::A => Side::B,
+                    Side::B => Side::A,
+                },
+                edge,
+                vertex,
+            },
+            AxisFeature::Vertices { a, b } => AxisFeature::Vertices { a: b, b: a },
+        };
+        Self {
+            separation: self.separation,
+            normal: -b_in_a.vector(self.normal),
+            feature,
+        }
+    }
+}
+
+/// The axis from a hull to a disc about `centre`, in the frame of the hull: face or vertex region.
+fn point_axis(hull: &Hull<'_>, centre: Vec2, radius: f64) -> Axis {
+    let radii = hull.radius + radius;
+    let edge_axis = |height: f64, edge: usize| Axis {
+        separation: height - radii,
+        normal: hull.normals[edge],
+        feature: AxisFeature::Edge {
+            owner: Side::A,
+            edge,
+            vertex: 0,
+        },
+    };
+    let vertex_axis = |vertex: usize, fallback: Vec2| {
+        let way = centre - hull.vertices[vertex];
+        let length = way.length();
+        let unit = if length > 0.0 { way / length } else { fallback };
+        Axis {
+            separation: length - radii,
+            normal: unit,
+            feature: AxisFeature::Vertices { a: vertex, b: 0 },
+        }
+    };
+    match hull.normals.len() {
+        0 => return vertex_axis(0, Vec2::X),
+        2 => {
+            // Without thickness there is no inside: the side, then the ends.
+            let height = hull.normals[0].dot(centre - hull.vertices[0]);
+            let edge = usize::from(height < 0.0);
+            return match beyond_end(hull, 0, centre) {
+                Some(vertex) => vertex_axis(vertex, hull.normals[edge]),
+                None => edge_axis(height.abs(), edge),
+            };
+        }
+        _ => {}
+    }
+    let mut highest = (f64::NEG_INFINITY, 0);
+    let mut nearest: Option<Axis> = None;
+    for (edge, normal) in hull.normals.iter().enumerate() {
+        let height = normal.dot(centre - hull.vertices[edge]);
+        if height > highest.0 {
+            highest = (height, edge);
+        }
+        if height > 0.0 {
+            // Outside: the distance to the edge itself, which ends.
+            let candidate = match beyond_end(hull, edge, centre) {
+                Some(vertex) => vertex_axis(vertex, *normal),
+                None => edge_axis(height, edge),
+            };
+            if nearest.is_none_or(|known| candidate.separation < known.separation) {
+                nearest = Some(candidate);
+            }
+        }
+    }
+    nearest.unwrap_or_else(|| edge_axis(highest.0, highest.1))
+}
+
+/// The end of an edge that `point` lies beyond, along the edge.
+pub(crate) fn beyond_end(hull: &Hull<'_>, edge: usize, point: Vec2) -> Option<usize> {
+    let (from, to) = hull.edge(edge);
+    let along = to - from;
+    if (point - from).dot(along) < 0.0 {
+        Some(edge)
+    } else if (point - to).dot(along) > 0.0 {
+        Some(hull.next(edge))
+    } else {
+        None
+    }
+}
+
+/// Two segments on one line are apart along that line, which no normal shows.
+fn along_segments(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose, axis: Axis) -> Axis {
+    let ends = [b_in_a.point(b.vertices[0]), b_in_a.point(b.vertices[1])];
+    let directions = [perp(a.normals[0]), b_in_a.vector(perp(b.normals[0]))];
+    let mut best = axis;
+    for direction in directions.into_iter().flat_map(|d| [d, -d]) {
+        let heights = |p: &[Vec2]| [direction.dot(p[0]), direction.dot(p[1])];
+        let (of_a, of_b) = (heights(a.vertices), heights(&ends));
+        let (high, low) = (usize::from(of_a[1] > of_a[0]), usize::from(of_b[1] < of_b[0]));
+        let separation = of_b[low] - of_a[high];
+        if separation > 0.0 && separation > best.separation {
+            best = Axis {
+                separation,
+                normal: direction,
+                feature: AxisFeature::Vertices { a: high, b: low },
+            };
+        }
+    }
+    best
 }
