@@ -134,7 +134,11 @@ impl AreaProperties {
         let largest = mean + radius;
         // mean − radius by the product of both: it does not cancel where ixy is small.
         let product = self.ixx * self.iyy - self.ixy * self.ixy;
-        let smallest = if largest > 0.0 { product.max(0.0) / largest } else { 0.0 };
+        let smallest = if largest > 0.0 {
+            product.max(0.0) / largest
+        } else {
+            0.0
+        };
         // Half the angle of (half, −ixy), from the side that does not cancel.
         let axis = if half >= 0.0 {
             vec2(radius + half, -self.ixy)

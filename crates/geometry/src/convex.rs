@@ -3,7 +3,8 @@
 use carom_math::{Vec2, orient2d, vec2};
 
 use crate::moments::ring_moments;
-use crate::ring::Ring;
+use crate::query::winds_around;
+use crate::ring::{Ring, corners};
 use crate::{AreaProperties, PolygonError, hull};
 
 /// A strictly convex polygon, counter-clockwise, with any number of vertices.
@@ -32,20 +33,16 @@ impl ConvexPolygon {
     /// If the points make no polygon, or one that is not convex: the error names the vertex.
     pub fn new(points: impl Into<Vec<Vec2>>) -> Result<Self, PolygonError> {
         let ring = Ring::new(&points.into())?;
-        let n = ring.points.len();
-        let bent = ring.without_straight();
-        let m = bent.points.len();
-        for i in 0..m {
-            let (before, after) = (bent.points[(i + m - 1) % m], bent.points[(i + 1) % m]);
-            if orient2d(before, bent.points[i], after) < 0.0 {
-                // Wound around more than once it turns the right way everywhere and is not simple.
-                return Err(PolygonError::NotConvex {
-                    index: bent.given[i],
-                });
-            }
-        }
-        if winds_twice(&bent.points) || (m < n && folds(&ring.points)) {
+        let bent = ring.without_straight().counter_clockwise();
+        let dent = corners(&bent.points)
+            .position(|(before, here, after)| orient2d(before, here, after) < 0.0);
+        let straight = bent.points.len() < ring.points.len();
+        // A ring that turns left everywhere may still go around twice, or straight back.
+        if dent.is_some() || winds_twice(&bent.points) || (straight && ring.folds()) {
             ring.check_simple()?;
+            return Err(PolygonError::NotConvex {
+                index: dent.map_or(0, |at| bent.given[at]),
+            });
         }
         Ok(Self::from_checked(bent.points))
     }
@@ -91,6 +88,12 @@ impl ConvexPolygon {
         ring_moments(&self.vertices)
     }
 
+    /// Whether `point` (in m) lies inside or on the outline; exact.
+    #[must_use]
+    pub fn contains(&self, point: Vec2) -> bool {
+        winds_around(&self.vertices, point)
+    }
+
     /// The same polygon moved by `offset`, in m.
     #[must_use]
     pub fn translated(&self, offset: Vec2) -> Self {
@@ -109,29 +112,26 @@ impl ConvexPolygon {
 
 /// Normal of each edge: the edge turned by −90 degrees.
 pub(crate) fn outward_normals(vertices: &[Vec2]) -> Vec<Vec2> {
-    let ends = vertices.iter().zip(vertices.iter().cycle().skip(1));
-    ends.map(|(from, to)| {
-        let along = *to - *from;
-        vec2(along.y, -along.x).normalize_or(Vec2::X)
-    })
-    .collect()
+    let ends = vertices.iter().skip(1).chain(vertices.first());
+    vertices
+        .iter()
+        .zip(ends)
+        .map(|(from, to)| outward_normal(*from, *to))
+        .collect()
+}
+
+/// Unit normal on the right of the way `from → to`, of any length: its square may underflow.
+pub(crate) fn outward_normal(from: Vec2, to: Vec2) -> Vec2 {
+    let along = to - from;
+    let along = along / along.abs().max_element();
+    vec2(along.y, -along.x).normalize_or(Vec2::X)
 }
 
 /// A ring that always turns left closes after one turn if x rises once and falls once.
 fn winds_twice(points: &[Vec2]) -> bool {
-    let n = points.len();
-    let rises = |i: usize| {
-        let (from, to) = (points[i % n], points[(i + 1) % n]);
-        (to.x, to.y) > (from.x, from.y)
+    let turns_back = |(before, here, after): &(Vec2, Vec2, Vec2)| {
+        let key = |p: &Vec2| (p.x, p.y);
+        key(here) < key(before) && key(here) < key(after)
     };
-    (0..n).filter(|i| rises(*i) && !rises(*i + n - 1)).count() > 1
-}
-
-/// Some edge runs straight back over the one before.
-fn folds(points: &[Vec2]) -> bool {
-    let n = points.len();
-    (0..n).any(|i| {
-        let (before, here, after) = (points[(i + n - 1) % n], points[i], points[(i + 1) % n]);
-        orient2d(before, here, after) == 0.0 && (after - here).dot(before - here) > 0.0
-    })
+    corners(points).filter(turns_back).count() > 1
 }

@@ -10,7 +10,8 @@ use crate::{Aabb, PolygonError, ring};
 /// Monotone chain (A. M. Andrew, 1979) with exact turns: every corner is a true one.
 pub(crate) fn convex_hull(points: &[Vec2]) -> Result<Vec<Vec2>, PolygonError> {
     ring::check_points(points)?;
-    let mut sorted = points.to_vec();
+    // −0 becomes 0, so that equal points are neighbours.
+    let mut sorted: Vec<Vec2> = points.iter().map(|p| *p + Vec2::ZERO).collect();
     sorted.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
     sorted.dedup();
     if sorted.len() < 3 {

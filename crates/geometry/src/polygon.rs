@@ -1,9 +1,10 @@
 //! Polygons: any simple ring, concave ones too.
 
-use carom_math::{Vec2, orient2d};
+use carom_math::Vec2;
 
 use crate::moments::ring_moments;
 use crate::pieces::{ConvexPiece, decompose};
+use crate::query::winds_around;
 use crate::ring::Ring;
 use crate::{AreaProperties, ConvexPolygon, PolygonError};
 
@@ -40,6 +41,7 @@ impl Polygon {
     pub fn new(points: impl Into<Vec<Vec2>>) -> Result<Self, PolygonError> {
         let ring = Ring::new(&points.into())?;
         ring.check_simple()?;
+        let ring = ring.counter_clockwise();
         let pieces = decompose(&ring.without_straight().points);
         Ok(Self {
             vertices: ring.points,
@@ -65,7 +67,7 @@ impl Polygon {
         ring_moments(&self.vertices)
     }
 
-    /// Whether `point` lies inside or on the outline; exact.
+    /// Whether `point` (in m) lies inside or on the outline; exact.
     #[must_use]
     pub fn contains(&self, point: Vec2) -> bool {
         winds_around(&self.vertices, point)
@@ -92,23 +94,4 @@ impl From<ConvexPolygon> for Polygon {
         let pieces = decompose(&vertices);
         Self { vertices, pieces }
     }
-}
-
-/// Whether a simple counter-clockwise ring winds around `point`, its edges included; exact.
-pub(crate) fn winds_around(ring: &[Vec2], point: Vec2) -> bool {
-    let mut turns = 0;
-    for (a, b) in ring.iter().zip(ring.iter().cycle().skip(1)) {
-        let side = orient2d(*a, *b, point);
-        let within = |low: f64, x: f64, high: f64| low.min(high) <= x && x <= low.max(high);
-        if side == 0.0 && within(a.x, point.x, b.x) && within(a.y, point.y, b.y) {
-            return true;
-        }
-        // Upward edges that have the point on their left, less downward ones on their right.
-        if a.y <= point.y && b.y > point.y && side > 0.0 {
-            turns += 1;
-        } else if a.y > point.y && b.y <= point.y && side < 0.0 {
-            turns -= 1;
-        }
-    }
-    turns != 0
 }

@@ -1,37 +1,24 @@
-//! What makes a ring of points a simple polygon.
+//! From a list of points to a ring without repetitions, in counter-clockwise order.
 
 use carom_math::{Vec2, orient2d};
 
 use crate::error::{COORDINATE_LIMIT, LENGTH_LIMIT, VERTEX_LIMIT};
-use crate::{Aabb, PolygonError};
+use crate::{Aabb, PolygonError, simple};
 
-/// A checked ring: finite, counter-clockwise, no point twice in a row, no two edges in contact.
+/// A checked ring: finite, of some size, not all on one line, no point twice in a row.
 pub(crate) struct Ring {
     pub(crate) points: Vec<Vec2>,
-    /// Where each point was in the list that came in.
+    /// Where each point was in the list that came in: the first of a run of equal ones.
     pub(crate) given: Vec<usize>,
-    /// It came in clockwise.
-    reversed: bool,
+    /// Where the last of that run was: the edge to the next point begins there.
+    leaves: Vec<usize>,
 }
 
 impl Ring {
-    /// Checks a ring for everything but crossings.
+    /// Checks a ring for everything but crossings; keeps the order of turn.
     pub(crate) fn new(points: &[Vec2]) -> Result<Self, PolygonError> {
         check_points(points)?;
-        let mut given: Vec<usize> = Vec::with_capacity(points.len());
-        for (i, p) in points.iter().enumerate() {
-            if given.last().is_none_or(|&last| points[last] != *p) {
-                given.push(i);
-            }
-        }
-        while given.len() > 1 && points[given[0]] == points[given[given.len() - 1]] {
-            given.pop();
-        }
-        let mut ring = Self {
-            points: given.iter().map(|&i| points[i]).collect(),
-            given,
-            reversed: false,
-        };
+        let ring = Self::without_repetitions(points);
         ring.check_count()?;
         let extent = Aabb::from_points(ring.points.iter().copied())
             .extents()
@@ -42,32 +29,20 @@ impl Ring {
                 limit: LENGTH_LIMIT,
             });
         }
-        let base = ring.points[0];
-        let far = ring.points.iter().copied().fold(base, |far, p| {
-            if (p - base).length_squared() > (far - base).length_squared() {
-                p
-            } else {
-                far
-            }
-        });
-        if ring.points.iter().all(|p| orient2d(base, far, *p) == 0.0) {
+        if ring.is_straight() {
             return Err(PolygonError::Degenerate);
-        }
-        if ring.is_clockwise() {
-            ring.points.reverse();
-            ring.given.reverse();
-            ring.reversed = true;
         }
         Ok(ring)
     }
 
     /// Checks that no two edges touch but neighbours at their common vertex.
+    ///
+    /// Before the ring is turned: edges are named as they were given.
     pub(crate) fn check_simple(&self) -> Result<(), PolygonError> {
-        match self.first_contact() {
+        match simple::first_contact(&self.points) {
             None => Ok(()),
             Some((i, j)) => {
-                // Named as the caller numbered them.
-                let (i, j) = (self.given_edge(i), self.given_edge(j));
+                let (i, j) = (self.leaves[i], self.leaves[j]);
                 Err(PolygonError::SelfIntersecting {
                     first: i.min(j),
                     second: i.max(j),
@@ -76,23 +51,72 @@ impl Ring {
         }
     }
 
+    /// Whether some edge runs straight back over the one before.
+    pub(crate) fn folds(&self) -> bool {
+        simple::fold(&self.points).is_some()
+    }
+
+    /// The ring with a positive turn, for a ring that does not cross itself.
+    pub(crate) fn counter_clockwise(mut self) -> Self {
+        if self.is_clockwise() {
+            self.points.reverse();
+            self.given.reverse();
+            // Point i now leaves along the edge by which point i − 1 left before.
+            self.leaves.reverse();
+            self.leaves.rotate_left(1);
+        }
+        self
+    }
+
     /// Drops the points that lie exactly between their neighbours.
     pub(crate) fn without_straight(&self) -> Self {
-        let n = self.points.len();
-        let bends = |i: usize| {
-            let (before, after) = (self.points[(i + n - 1) % n], self.points[(i + 1) % n]);
-            orient2d(before, self.points[i], after) != 0.0
-        };
-        let kept: Vec<usize> = (0..n).filter(|i| bends(*i)).collect();
+        let mut points = Vec::with_capacity(self.points.len());
+        let mut given = Vec::with_capacity(self.points.len());
+        let mut leaves = Vec::with_capacity(self.points.len());
+        for (i, (before, here, after)) in corners(&self.points).enumerate() {
+            if orient2d(before, here, after) != 0.0 {
+                points.push(here);
+                given.push(self.given[i]);
+                leaves.push(self.leaves[i]);
+            }
+        }
         Self {
-            points: kept.iter().map(|&i| self.points[i]).collect(),
-            given: kept.iter().map(|&i| self.given[i]).collect(),
-            reversed: self.reversed,
+            points,
+            given,
+            leaves,
         }
     }
 
+    fn without_repetitions(points: &[Vec2]) -> Self {
+        let mut ring = Self {
+            points: Vec::with_capacity(points.len()),
+            given: Vec::with_capacity(points.len()),
+            leaves: Vec::with_capacity(points.len()),
+        };
+        for (i, p) in points.iter().enumerate() {
+            // −0 becomes 0, so that an order by coordinates is one.
+            let p = *p + Vec2::ZERO;
+            if ring.points.last() == Some(&p) {
+                if let Some(leaves) = ring.leaves.last_mut() {
+                    *leaves = i;
+                }
+            } else {
+                ring.points.push(p);
+                ring.given.push(i);
+                ring.leaves.push(i);
+            }
+        }
+        // The end of the list may repeat its beginning.
+        if ring.points.len() > 1 && ring.points.first() == ring.points.last() {
+            ring.points.pop();
+            ring.leaves.pop();
+            ring.given.pop();
+        }
+        ring
+    }
+
     fn check_count(&self) -> Result<(), PolygonError> {
-        let mut distinct: Vec<Vec2> = Vec::new();
+        let mut distinct: Vec<Vec2> = Vec::with_capacity(3);
         for p in &self.points {
             if !distinct.contains(p) {
                 distinct.push(*p);
@@ -106,90 +130,32 @@ impl Ring {
         })
     }
 
-    /// The turn at the lowest of the leftmost points decides, by exact sign.
+    fn is_straight(&self) -> bool {
+        // Any two points that differ span the line.
+        let (a, b) = (self.points[0], self.points[1]);
+        self.points.iter().all(|p| orient2d(a, b, *p) == 0.0)
+    }
+
+    /// The turn at the leftmost point decides (the lowest of them); exact.
     fn is_clockwise(&self) -> bool {
-        let n = self.points.len();
-        let key = |i: usize| (self.points[i].x, self.points[i].y);
-        let low = (1..n).fold(0, |low, i| if key(i) < key(low) { i } else { low });
-        let p = self.points[low];
-        let turn = orient2d(
-            self.points[(low + n - 1) % n],
-            p,
-            self.points[(low + 1) % n],
-        );
-        // No turn there is a fold: such a ring is refused whichever way it runs.
-        turn < 0.0
-    }
-
-    fn edge(&self, i: usize) -> (Vec2, Vec2) {
-        (self.points[i], self.points[(i + 1) % self.points.len()])
-    }
-
-    fn given_edge(&self, i: usize) -> usize {
-        let n = self.points.len();
-        self.given[if self.reversed { (i + 1) % n } else { i }]
-    }
-
-    /// Two edges that touch where they must not: the pair found first in order of x.
-    ///
-    /// Edges sorted by their left ends, each against those whose x ranges overlap: near-linear for
-    /// outlines, quadratic at worst.
-    fn first_contact(&self) -> Option<(usize, usize)> {
-        let n = self.points.len();
-        let boxes: Vec<Aabb> = (0..n)
-            .map(|i| Aabb::from_points(<[Vec2; 2]>::from(self.edge(i))))
-            .collect();
-        let mut order: Vec<usize> = (0..n).collect();
-        order.sort_by(|a, b| boxes[*a].min.x.total_cmp(&boxes[*b].min.x));
-        let mut found: Option<(usize, usize)> = None;
-        let mut open: Vec<usize> = Vec::new();
-        for &i in &order {
-            open.retain(|&j| boxes[j].max.x >= boxes[i].min.x);
-            for &j in &open {
-                if boxes[i].overlaps(boxes[j]) && self.touch(i.min(j), i.max(j)) {
-                    let pair = (i.min(j), i.max(j));
-                    found = Some(found.map_or(pair, |known| known.min(pair)));
-                }
+        let mut best: Option<(Vec2, f64)> = None;
+        for (before, here, after) in corners(&self.points) {
+            if best.is_none_or(|(lowest, _)| (here.x, here.y) < (lowest.x, lowest.y)) {
+                best = Some((here, orient2d(before, here, after)));
             }
-            if found.is_some() {
-                return found;
-            }
-            open.push(i);
         }
-        None
-    }
-
-    /// Whether edges i < j touch where they must not.
-    fn touch(&self, i: usize, j: usize) -> bool {
-        let n = self.points.len();
-        let ((a, b), (c, d)) = (self.edge(i), self.edge(j));
-        // Neighbours share a vertex; they may only fold back onto each other.
-        let folds = |from: Vec2, corner: Vec2, to: Vec2| {
-            orient2d(from, corner, to) == 0.0 && (to - corner).dot(from - corner) > 0.0
-        };
-        if j == i + 1 {
-            return folds(a, b, d);
-        }
-        if i == 0 && j == n - 1 {
-            return folds(c, d, b);
-        }
-        segments_touch(a, b, c, d)
+        best.is_some_and(|(_, turn)| turn < 0.0)
     }
 }
 
-/// Whether two closed segments have a point in common; exact.
-fn segments_touch(a: Vec2, b: Vec2, c: Vec2, d: Vec2) -> bool {
-    let (o1, o2) = (orient2d(a, b, c), orient2d(a, b, d));
-    let (o3, o4) = (orient2d(c, d, a), orient2d(c, d, b));
-    let apart = |x: f64, y: f64| (x > 0.0 && y > 0.0) || (x < 0.0 && y < 0.0);
-    if apart(o1, o2) || apart(o3, o4) {
-        return false;
-    }
-    if o1 != 0.0 || o2 != 0.0 {
-        return true;
-    }
-    // All four on one line: their boxes decide.
-    Aabb::from_points([a, b]).overlaps(Aabb::from_points([c, d]))
+/// Every point with the ones before and after it, from point 0 on.
+pub(crate) fn corners(points: &[Vec2]) -> impl Iterator<Item = (Vec2, Vec2, Vec2)> {
+    let before = points.last().into_iter().chain(points);
+    let after = points.iter().skip(1).chain(points.first());
+    before
+        .zip(points)
+        .zip(after)
+        .map(|((before, here), after)| (*before, *here, *after))
 }
 
 /// Finite, within the limits, at least three of them.
