@@ -1,0 +1,93 @@
+//! `ci`: every check of the project, in the order in which a failure costs least.
+
+mod outside;
+mod pictures;
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitStatus};
+
+use crate::clock::Clock;
+use crate::exit::{End, Failure, Outcome};
+use crate::out::say;
+use crate::scratch::Scratch;
+
+/// A check: whether it passed, or why it could not be made.
+type Check = fn(&Path) -> Result<bool, Failure>;
+
+pub(crate) fn run() -> Outcome {
+    let root = workspace();
+    let all = Clock::start();
+    let steps: [(&str, Check); 6] = [
+        ("format: cargo fmt --check", |root| {
+            cargo(root, &["fmt", "--all", "--check"])
+        }),
+        ("lints: cargo clippy, warnings denied", |root| {
+            cargo(root, &["clippy", "--all-targets", "--", "-D", "warnings"])
+        }),
+        ("docs: cargo doc, warnings denied", |root| {
+            let mut command = cargo_in(root);
+            command
+                .args(["doc", "--no-deps"])
+                .env("RUSTDOCFLAGS", "-D warnings");
+            succeeds(&mut command)
+        }),
+        // The README's example is among the doc tests.
+        ("tests: cargo test", |root| cargo(root, &["test"])),
+        ("demo: cargo xtask demo --quick", demo),
+        ("outside crate: carom-geometry alone", outside::check),
+    ];
+    for (number, (name, step)) in steps.iter().enumerate() {
+        say!("== {} of {}: {name}", number + 1, steps.len());
+        let clock = Clock::start();
+        let passed = step(&root)?;
+        let how = if passed { "passed" } else { "FAILED" };
+        say!("== {how} in {:.1} s: {name}", clock.seconds());
+        if !passed {
+            return Ok(End::Short);
+        }
+    }
+    say!(
+        "== all {} checks passed in {:.1} s",
+        steps.len(),
+        all.seconds()
+    );
+    Ok(End::Done)
+}
+
+/// The demo of the README, quick and into a temporary folder, and a look at what it wrote.
+fn demo(root: &Path) -> Result<bool, Failure> {
+    let scratch = Scratch::new("demo")?;
+    let out = scratch.path().join("demo");
+    let mut command = cargo_in(root);
+    command
+        .args(["xtask", "demo", "--quick", "--out"])
+        .arg(&out);
+    Ok(succeeds(&mut command)? && pictures::check(&out)?)
+}
+
+fn cargo(root: &Path, args: &[&str]) -> Result<bool, Failure> {
+    succeeds(cargo_in(root).args(args))
+}
+
+/// The cargo that started us, in the folder of the workspace.
+fn cargo_in(folder: &Path) -> Command {
+    let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    command.current_dir(folder);
+    command
+}
+
+fn succeeds(command: &mut Command) -> Result<bool, Failure> {
+    let status: ExitStatus = command.status().map_err(|error| {
+        Failure::new(format!(
+            "cannot start {}: {error}",
+            command.get_program().display()
+        ))
+    })?;
+    Ok(status.success())
+}
+
+/// The folder of the workspace: the one above this package.
+fn workspace() -> PathBuf {
+    let package = Path::new(env!("CARGO_MANIFEST_DIR"));
+    package.parent().unwrap_or(package).to_path_buf()
+}

@@ -1,0 +1,156 @@
+//! `demo`: the main job on the thesis's own scene and on the flying balls.
+
+mod chart;
+
+use std::path::Path;
+
+use carom_render::{Animation, Existing, FrameRate, OutputFolder, Picture, Sequence, Sheet, Size};
+use carom_scenes::Built;
+
+use crate::clock::Clock;
+use crate::exit::{End, Failure, Outcome};
+use crate::film::{Footage, Plan, shoot};
+use crate::flags::DemoArgs;
+use crate::interrupt;
+use crate::out::say;
+use crate::parallel;
+use crate::render::resized;
+use crate::scene;
+use crate::summary::Summary;
+
+/// The scenes that are shown, a folder each.
+pub(crate) const SCENES: [&str; 2] = ["thesis", "flying-balls"];
+
+/// What lies in each folder beside the numbered frames.
+pub(crate) const FILES: [&str; 5] = [FILM, SHEET, CHART_PNG, CHART_SVG, SUMMARY];
+
+const FILM: &str = "film.png";
+const SHEET: &str = "sheet.png";
+const CHART_PNG: &str = "energy.png";
+const CHART_SVG: &str = "energy.svg";
+const SUMMARY: &str = "summary.json";
+
+/// Tiles of a contact sheet, and how many stand in a row.
+const TILES: u64 = 12;
+const COLUMNS: u32 = 4;
+
+/// Length and size of the demo.
+#[derive(Clone, Copy, Debug)]
+struct Format {
+    seconds: u32,
+    rate: u32,
+    /// Part of the scene's own size.
+    shrink: u32,
+}
+
+const FULL: Format = Format {
+    seconds: 10,
+    rate: 60,
+    shrink: 1,
+};
+
+const QUICK: Format = Format {
+    seconds: 1,
+    rate: 30,
+    shrink: 2,
+};
+
+pub(crate) fn run(args: &DemoArgs) -> Outcome {
+    let format = if args.quick { QUICK } else { FULL };
+    interrupt::watch()?;
+    let clock = Clock::start();
+    for name in SCENES {
+        if show(name, &args.out.join(name), format)? {
+            return Ok(End::Interrupted);
+        }
+        say!("");
+    }
+    say!(
+        "all of it in {:.1} s; open {} in a browser",
+        clock.seconds(),
+        args.out.join(SCENES[0]).join(FILM).display()
+    );
+    Ok(End::Done)
+}
+
+/// One scene into one folder; `true` if Ctrl-C ended it early.
+fn show(name: &str, folder: &Path, format: Format) -> Result<bool, Failure> {
+    let scene = scene::open(name, &[])?;
+    let mut built = scene::build(&scene, None)?;
+    let size = built.camera.size();
+    let size = Size::new(size.width() / format.shrink, size.height() / format.shrink)?;
+    built.camera = resized(&built.camera, size)?;
+    let rate = FrameRate::per_second(format.rate)?;
+    let frames = u64::from(format.seconds * format.rate);
+    let folder = OutputFolder::open(folder, Existing::Replace, &format!("demo {name}"))?;
+    say!(
+        "{name}: {} frames of {} px, {} s",
+        frames,
+        built.camera.size(),
+        format.seconds
+    );
+
+    let plan = Plan {
+        rate,
+        frames,
+        slice: 0..frames,
+        threads: parallel::cores(),
+    };
+    let footage = draw(&mut built, name, &plan, &folder)?;
+    let summary = footage.watch.finish(&built.world, name);
+    folder.save(
+        SUMMARY,
+        (serde_json::to_string_pretty(&summary)? + "\n").as_bytes(),
+    )?;
+    chart::save(&folder, name, &footage.energy, [CHART_PNG, CHART_SVG])?;
+    report(&summary, &footage, &folder);
+    Ok(footage.interrupted)
+}
+
+/// Frames, film and contact sheet.
+fn draw(
+    built: &mut Built,
+    name: &str,
+    plan: &Plan,
+    folder: &OutputFolder,
+) -> Result<Footage, Failure> {
+    let size = built.camera.size();
+    let style = built.look.style.clone();
+    let mut film = Animation::create(folder.claim(FILM)?, size, plan.rate)?;
+    let mut sheet = Sheet::new(COLUMNS, size.width() / 3).titled(name);
+    let every = plan.frames.div_ceil(TILES).max(1);
+    let interval = plan.rate.interval();
+    let encode = |index: u64, picture: Picture| {
+        let png = picture.to_png();
+        folder.save(&Sequence::name(index), &png)?;
+        let tile = index.is_multiple_of(every).then_some(picture);
+        Ok((png, tile))
+    };
+    let take = |index: u64, (png, tile): (Vec<u8>, Option<Picture>)| {
+        film.push_png(&png)?;
+        if let Some(tile) = tile {
+            #[expect(clippy::cast_precision_loss, reason = "a frame number below 1e6")]
+            let time = index as f64 * interval;
+            sheet.push(&tile, format!("{time:.2} s"))?;
+        }
+        Ok(())
+    };
+    let footage = shoot(built, plan, name, |_| true, encode, take)?;
+    film.finish()?;
+    folder.save(SHEET, &sheet.paint(&style)?.to_png())?;
+    Ok(footage)
+}
+
+fn report(summary: &Summary, footage: &Footage, folder: &OutputFolder) {
+    summary.print();
+    say!("physics      {}", footage.physics);
+    say!("drawing      {}", footage.drawing);
+    let place = |file: &str| folder.path().join(file).display().to_string();
+    say!("frames       {} in {}", footage.drawn, place("frame_*.png"));
+    say!("film         {}", place(FILM));
+    say!("sheet        {}", place(SHEET));
+    say!("energy       {} and {CHART_SVG}", place(CHART_PNG));
+    if footage.interrupted {
+        say!("INTERRUPTED  the film ends early");
+    }
+}

@@ -1,0 +1,146 @@
+//! From a built scene to frames: steps on this thread, drawing on others.
+
+use std::cell::RefCell;
+use std::fmt;
+use std::ops::Range;
+
+use carom_dynamics::EnergyLedger;
+use carom_math::SimTime;
+use carom_render::{Frame, FrameRate, Picture};
+use carom_scenes::Built;
+
+use crate::clock::Clock;
+use crate::exit::{Failure, fail};
+use crate::interrupt;
+use crate::parallel;
+use crate::progress::Progress;
+use crate::summary::Watch;
+
+/// Which frames to draw, and how.
+#[derive(Clone, Debug)]
+pub(crate) struct Plan {
+    /// Frame k shows the instant k / rate.
+    pub(crate) rate: FrameRate,
+    /// Frames of the whole film.
+    pub(crate) frames: u64,
+    /// Frames of this slice of it.
+    pub(crate) slice: Range<u64>,
+    /// Threads that draw and encode.
+    pub(crate) threads: usize,
+}
+
+/// What a run gave besides its pictures.
+#[derive(Debug)]
+pub(crate) struct Footage {
+    pub(crate) watch: Watch,
+    /// The ledger at each frame, with its time in s.
+    pub(crate) energy: Vec<(f64, EnergyLedger)>,
+    pub(crate) physics: Times,
+    pub(crate) drawing: Times,
+    pub(crate) drawn: u64,
+    pub(crate) interrupted: bool,
+}
+
+/// Runs the scene, draws the frames that are `wanted`, and hands what `encode` makes of them to `take`, in order.
+pub(crate) fn shoot<T: Send>(
+    built: &mut Built,
+    plan: &Plan,
+    label: &str,
+    wanted: impl Fn(u64) -> bool,
+    encode: impl Fn(u64, Picture) -> Result<T, Failure> + Sync,
+    mut take: impl FnMut(u64, T) -> Result<(), Failure>,
+) -> Result<Footage, Failure> {
+    let mut progress = Progress::new(label, plan.slice.end, "frames");
+    let mut footage = Footage {
+        watch: Watch::start(&built.world),
+        energy: Vec::new(),
+        physics: Times::default(),
+        drawing: Times::default(),
+        drawn: 0,
+        interrupted: false,
+    };
+    let style = built.look.style.clone();
+    let drawing = RefCell::new((Times::default(), 0));
+    let mut indices = 0..plan.slice.end;
+    let produce = || {
+        for index in indices.by_ref() {
+            footage.interrupted = interrupt::asked();
+            if footage.interrupted {
+                break;
+            }
+            if index > 0 {
+                advance(built, plan.rate, index, &mut footage)?;
+            }
+            let energy = built.world.energy();
+            footage.energy.push((built.world.time().as_secs(), energy));
+            progress.advance();
+            if plan.slice.contains(&index) && wanted(index) {
+                let frame = Frame::capture(&built.world, &built.look, &built.camera);
+                return Ok(Some((index, frame)));
+            }
+        }
+        Ok(None)
+    };
+    let work = |(index, frame): (u64, Frame)| {
+        let clock = Clock::start();
+        let made = encode(index, frame.paint(&style))?;
+        Ok((index, made, clock.seconds()))
+    };
+    let collect = |(index, made, seconds): (u64, T, f64)| {
+        let mut drawing = drawing.borrow_mut();
+        drawing.0.add(seconds);
+        drawing.1 += 1;
+        take(index, made)
+    };
+    parallel::in_order(plan.threads, produce, work, collect)?;
+    progress.finish();
+    (footage.drawing, footage.drawn) = drawing.into_inner();
+    Ok(footage)
+}
+
+/// Steps to the instant of a frame.
+fn advance(
+    built: &mut Built,
+    rate: FrameRate,
+    index: u64,
+    footage: &mut Footage,
+) -> Result<(), Failure> {
+    let target = SimTime::multiple(index, rate.interval());
+    let clock = Clock::start();
+    let report = built.world.step(target - built.world.time());
+    footage.physics.add(clock.seconds());
+    footage.watch.saw(&built.world, report);
+    match report.refused {
+        Some(why) => fail!("the step to frame {index} was refused: {why}"),
+        None => Ok(()),
+    }
+}
+
+/// Many measured times, in s.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Times {
+    total: f64,
+    largest: f64,
+    count: u32,
+}
+
+impl Times {
+    fn add(&mut self, seconds: f64) {
+        self.total += seconds;
+        self.largest = self.largest.max(seconds);
+        self.count += 1;
+    }
+}
+
+/// `1.23 s in all, 0.12 ms a frame, at most 0.54 ms`.
+impl fmt::Display for Times {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mean = 1e3 * self.total / f64::from(self.count.max(1));
+        let largest = 1e3 * self.largest;
+        write!(
+            f,
+            "{:.3} s in all, {mean:.3} ms a frame, at most {largest:.3} ms",
+            self.total
+        )
+    }
+}

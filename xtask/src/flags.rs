@@ -1,0 +1,217 @@
+//! The commands and their flags.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+use crate::values::{KeyValue, Seconds, Shard, parse_rate, parse_size};
+
+/// Rigid bodies in the plane: scenes to pictures, films, tables and charts.
+#[derive(Debug, Parser)]
+#[command(
+    name = "cargo xtask",
+    bin_name = "cargo xtask",
+    version,
+    after_help = "Exit codes: 0 done, 1 a check fell short, 2 bad usage or input, 130 interrupted.\n\
+                  Start here: cargo xtask demo"
+)]
+pub(crate) struct Cli {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+/// What can be done.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Run the thesis's scene and the flying balls: frames, film, contact sheet, energy chart
+    Demo(DemoArgs),
+    /// Draw a scene: numbered PNG frames, an APNG or a Y4M film
+    Render(RenderArgs),
+    /// Compute a scene without pictures: trajectories as CSV
+    Simulate(SimulateArgs),
+    /// Area, centroid, moments and principal axes of a polygon
+    Inertia(InertiaArgs),
+    /// The built-in scenes, a line each
+    List,
+    /// Answer a folder of reference cases and judge the answers
+    Reference(ReferenceArgs),
+    /// Run time against error, as table, CSV and chart
+    Accuracy(AccuracyArgs),
+    /// Cases that break physics engines, each with its measured number
+    Stress(StressArgs),
+    /// All that CI checks: format, lints, docs, tests, demo, outside crate
+    Ci,
+}
+
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:\n  cargo xtask demo\n  cargo xtask demo --quick --out /tmp/demo")]
+pub(crate) struct DemoArgs {
+    /// One second of small frames instead of ten seconds at the scenes' own sizes
+    #[arg(long)]
+    pub(crate) quick: bool,
+    /// Folder for the pictures; what an earlier demo wrote there is replaced, nothing else
+    #[arg(long, value_name = "DIR", default_value = "out/demo")]
+    pub(crate) out: PathBuf,
+}
+
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:\n  \
+    cargo xtask render thesis --seconds 10 --out out/thesis\n  \
+    cargo xtask render flying-balls --set n=50 --format apng --size 640x480\n  \
+    cargo xtask render my-scene.toml --fps 30 --resume\n\n\
+    Frame k shows the instant k / fps. The bytes of a frame do not depend on --threads.\n\
+    A Y4M film is played and converted by ffmpeg: ffmpeg -i scene.y4m scene.mp4")]
+pub(crate) struct RenderArgs {
+    /// Scene file (TOML) or the name of a built-in scene (`cargo xtask list`)
+    pub(crate) scene: String,
+    /// Folder for the frames; made if it is missing [default: out/<scene name>]
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Simulated seconds to draw [default: the scene's duration]
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    pub(crate) seconds: Option<Seconds>,
+    /// Frames per simulated second, 1 to 1000 [default: the scene's]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = parse_rate)]
+    pub(crate) fps: Option<u32>,
+    /// Size of a frame in pixels [default: the scene's camera]
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub(crate) size: Option<(u32, u32)>,
+    /// What to write
+    #[arg(long, value_enum, default_value_t = Format::Png)]
+    pub(crate) format: Format,
+    /// How bodies are moved [default: the scene's]
+    #[arg(long, value_enum)]
+    pub(crate) mode: Option<ModeFlag>,
+    /// Replaces a value of the scene: n=50, gravity=[0,-1], settings.substep=0.002, body.ball.mass=3; may be repeated
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub(crate) set: Vec<KeyValue>,
+    /// Threads that draw and encode [default: one a core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(crate) threads: Option<u16>,
+    /// Keep the frames of an earlier run with the same scene and flags, draw the missing ones; a film is drawn anew
+    #[arg(long, conflicts_with = "force")]
+    pub(crate) resume: bool,
+    /// Replace the frames that an earlier run wrote into the folder
+    #[arg(long)]
+    pub(crate) force: bool,
+    /// Draw the I-th of N slices of the frames (I from 1)
+    #[arg(long, value_name = "I/N")]
+    pub(crate) shard: Option<Shard>,
+}
+
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:\n  \
+    cargo xtask simulate thesis --seconds 10 > thesis.csv\n  \
+    cargo xtask simulate flying-balls --seconds 60 --every 0.1 --out balls.csv --json balls.json\n\n\
+    Columns: time (s), body (its name), x, y (m, centre of mass), angle (rad, unwrapped), vx, vy (m/s), omega (rad/s).\n\
+    Every number has as many digits as it takes to read the same double back.")]
+pub(crate) struct SimulateArgs {
+    /// Scene file (TOML) or the name of a built-in scene (`cargo xtask list`)
+    pub(crate) scene: String,
+    /// Simulated seconds
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    pub(crate) seconds: Seconds,
+    /// Seconds between two samples [default: 1/60]
+    #[arg(long, value_name = "DT", allow_negative_numbers = true)]
+    pub(crate) every: Option<Seconds>,
+    /// How bodies are moved [default: the scene's]
+    #[arg(long, value_enum)]
+    pub(crate) mode: Option<ModeFlag>,
+    /// File for the trajectories, replaced if it exists [default: stdout]
+    #[arg(long, value_name = "FILE.csv")]
+    pub(crate) out: Option<PathBuf>,
+    /// File for the summary
+    #[arg(long, value_name = "FILE")]
+    pub(crate) json: Option<PathBuf>,
+    /// Replaces a value of the scene: n=50, gravity=[0,-1], settings.substep=0.002, body.ball.mass=3; may be repeated
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub(crate) set: Vec<KeyValue>,
+}
+
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:\n  \
+    cargo xtask inertia \"0,0 2,0 2,1 0,1\" --density 3\n  \
+    cargo xtask inertia --file outline.txt --mass 12\n\n\
+    A file holds a vertex x,y (or x y) a line; `#` begins a comment.")]
+pub(crate) struct InertiaArgs {
+    /// The vertices in order, either way round, in m: "x,y x,y x,y"
+    #[arg(
+        required_unless_present = "file",
+        conflicts_with = "file",
+        allow_hyphen_values = true
+    )]
+    pub(crate) vertices: Option<String>,
+    /// Mass per area, in kg/m²; 1 if neither this nor a mass is given
+    #[arg(
+        long,
+        value_name = "D",
+        conflicts_with = "mass",
+        allow_negative_numbers = true
+    )]
+    pub(crate) density: Option<f64>,
+    /// Mass of the whole polygon, in kg
+    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    pub(crate) mass: Option<f64>,
+    /// Reads the vertices from a file
+    #[arg(long, value_name = "F")]
+    pub(crate) file: Option<PathBuf>,
+}
+
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:\n  \
+    cargo xtask reference tests/reference/open\n  \
+    cargo xtask reference tests/reference/open --transform 7 --json answers.json")]
+pub(crate) struct ReferenceArgs {
+    /// Folder with reference files (*.json)
+    pub(crate) dir: PathBuf,
+    /// Writes every answer as JSON
+    #[arg(long, value_name = "FILE")]
+    pub(crate) json: Option<PathBuf>,
+    /// Asks each case mirrored, turned, shifted and relabelled (all exact) and maps the answer back
+    #[arg(long, value_name = "SEED")]
+    pub(crate) transform: Option<u64>,
+}
+
+#[derive(Args, Debug)]
+#[command(after_help = "Example:\n  cargo xtask accuracy --quick --out out/accuracy")]
+pub(crate) struct AccuracyArgs {
+    /// Three scenes with four step lengths each; the only sweep at this stage
+    #[arg(long)]
+    pub(crate) quick: bool,
+    /// Folder for the table and the charts
+    #[arg(long, value_name = "DIR", default_value = "out/accuracy")]
+    pub(crate) out: PathBuf,
+    /// Writes the table as JSON too
+    #[arg(long, value_name = "FILE")]
+    pub(crate) json: Option<PathBuf>,
+}
+
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:\n  cargo xtask stress\n  cargo xtask stress --case column")]
+pub(crate) struct StressArgs {
+    /// Only the case of this number or name
+    #[arg(long, value_name = "NAME")]
+    pub(crate) case: Option<String>,
+}
+
+/// What `render` writes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Format {
+    /// A numbered PNG file a frame
+    Png,
+    /// One animated PNG, which browsers play
+    Apng,
+    /// One uncompressed film, which ffmpeg reads
+    Y4m,
+}
+
+/// How a world moves its bodies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ModeFlag {
+    /// Each group of bodies the cheapest method that is right for it
+    Hybrid,
+    /// Closed forms; what they cannot finish marks the run as not exact
+    Exact,
+    /// Every moving body is sub-stepped
+    Stepped,
+}

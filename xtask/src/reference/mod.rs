@@ -1,0 +1,160 @@
+//! `reference`: every case of a folder, answered by the library and judged.
+
+mod book;
+mod decimal;
+mod impact;
+mod judge;
+mod mass;
+mod symmetry;
+
+use std::fs;
+use std::hint::black_box;
+
+use crate::clock::Clock;
+use crate::exit::{End, Failure, Outcome};
+use crate::flags::ReferenceArgs;
+use crate::out::say;
+
+use book::{Answer, Case, Outputs, Results};
+use impact::ImpactCase;
+use mass::MassCase;
+use symmetry::Symmetry;
+
+/// Faults that are listed for a category before the rest is only counted.
+const LISTED: usize = 10;
+
+pub(crate) fn run(args: &ReferenceArgs) -> Outcome {
+    let books = book::read_folder(&args.dir)?;
+    let mut answers = Vec::new();
+    let (mut passed, mut total) = (0, 0);
+    for book in &books {
+        let mut tally = Tally::default();
+        for case in &book.cases {
+            let answer = answer(&book.category, case, args.transform);
+            tally.count(case, &answer, &judge::judge(&book.category, case, &answer));
+            answers.push(answer);
+        }
+        tally.print(&book.category, book.cases.len());
+        passed += tally.passed;
+        total += book.cases.len();
+    }
+    say!("{passed} of {total} reference cases pass");
+    if let Some(path) = &args.json {
+        let results = Results {
+            engine: "carom",
+            cases: answers,
+        };
+        let text = serde_json::to_string_pretty(&results)? + "\n";
+        fs::write(path, text)
+            .map_err(|error| Failure::new(format!("cannot write {}: {error}", path.display())))?;
+        say!("answers in {}", path.display());
+    }
+    Ok(if passed == total {
+        End::Done
+    } else {
+        End::Short
+    })
+}
+
+fn answer(category: &str, case: &Case, seed: Option<u64>) -> Answer {
+    let solved = match category {
+        "mass_properties" => mass_properties(case, seed),
+        "impacts" => impacts(case, seed),
+        _ => Err(format!("category {category} is not answered yet")),
+    };
+    let (found, error) = match solved {
+        Ok(found) => (Some(found), None),
+        Err(error) => (None, Some(error)),
+    };
+    let (seconds, outputs) = found.unzip();
+    Answer {
+        id: case.id.clone(),
+        seconds,
+        outputs,
+        error,
+    }
+}
+
+fn mass_properties(case: &Case, seed: Option<u64>) -> Result<(f64, Outputs), String> {
+    let question = MassCase::read(&case.inputs)?;
+    let symmetry = guise(seed, case, question.places());
+    let question = if seed.is_some() {
+        question.transformed(&symmetry)
+    } else {
+        question
+    };
+    let (seconds, found) = timed(|| question.answer());
+    Ok((seconds, question.outputs(&found?, &symmetry)))
+}
+
+fn impacts(case: &Case, seed: Option<u64>) -> Result<(f64, Outputs), String> {
+    let question = ImpactCase::read(&case.inputs)?;
+    let symmetry = guise(seed, case, &question.places());
+    let question = if seed.is_some() {
+        question.transformed(&symmetry)
+    } else {
+        question
+    };
+    let (seconds, found) = timed(|| question.answer());
+    Ok((seconds, ImpactCase::outputs(&found?, &symmetry)))
+}
+
+fn guise(seed: Option<u64>, case: &Case, places: &[carom_math::Vec2]) -> Symmetry {
+    seed.map_or(Symmetry::NONE, |seed| {
+        Symmetry::choose(seed, &case.id, places)
+    })
+}
+
+fn timed<T>(ask: impl Fn() -> T) -> (f64, T) {
+    let clock = Clock::start();
+    let found = black_box(ask());
+    (clock.seconds(), found)
+}
+
+/// What a category came to.
+#[derive(Debug, Default)]
+struct Tally {
+    passed: usize,
+    worst: f64,
+    seconds: f64,
+    faults: Vec<String>,
+    unanswered: Option<String>,
+}
+
+impl Tally {
+    fn count(&mut self, case: &Case, answer: &Answer, verdict: &judge::Verdict) {
+        self.seconds += answer.seconds.unwrap_or(0.0);
+        if verdict.faults.is_empty() {
+            self.passed += 1;
+            self.worst = self.worst.max(verdict.worst);
+        } else if let Some(error) = &answer.error
+            && error.ends_with("is not answered yet")
+        {
+            self.unanswered = Some(error.clone());
+        } else {
+            self.faults
+                .push(format!("{}: {}", case.id, verdict.faults.join("; ")));
+        }
+    }
+
+    fn print(&self, category: &str, count: usize) {
+        for fault in self.faults.iter().take(LISTED) {
+            say!("  {fault}");
+        }
+        if self.faults.len() > LISTED {
+            say!("  … and {} more", self.faults.len() - LISTED);
+        }
+        match &self.unanswered {
+            Some(_) => say!(
+                "{category}: {} of {count} pass (not answered yet)",
+                self.passed
+            ),
+            None => say!(
+                "{category}: {} of {count} pass, worst error {:.1e} of its bound, {:.1e} s",
+                self.passed,
+                self.worst,
+                self.seconds
+            ),
+        }
+    }
+}

@@ -1,0 +1,77 @@
+//! Where drawn frames go.
+
+use std::fs::{self, File};
+use std::io::BufWriter;
+
+use carom_render::{Animation, Chroma, Film, OutputFolder, Sequence};
+use carom_scenes::Built;
+
+use crate::exit::Failure;
+use crate::film::{Footage, Plan, shoot};
+
+/// What a run gave, and where its pictures are.
+type Shot = Result<(Footage, String), Failure>;
+
+/// Numbered PNG files; those that are there already are kept.
+pub(super) fn frames(built: &mut Built, plan: &Plan, folder: &OutputFolder) -> Shot {
+    let there = |index: u64| folder.has(&Sequence::name(index));
+    let kept = plan.slice.clone().filter(|&index| there(index)).count();
+    let footage = shoot(
+        built,
+        plan,
+        "render",
+        |index| !there(index),
+        |index, picture| Ok(folder.save(&Sequence::name(index), &picture.to_png())?),
+        |_, ()| Ok(()),
+    )?;
+    let place = folder.path().display();
+    let files = match kept {
+        0 => format!("in {place}"),
+        _ => format!("{kept} kept, in {place}"),
+    };
+    Ok((footage, files))
+}
+
+/// One animated PNG.
+pub(super) fn apng(built: &mut Built, plan: &Plan, folder: &OutputFolder, name: &str) -> Shot {
+    let path = folder.claim(name)?;
+    let mut film = Animation::create(&path, built.camera.size(), plan.rate)?;
+    let footage = shoot(
+        built,
+        plan,
+        "render",
+        |_| true,
+        |_, picture| Ok(picture.to_png()),
+        |_, png| Ok(film.push_png(&png)?),
+    )?;
+    film.finish()?;
+    Ok((footage, format!("in {}", path.display())))
+}
+
+/// One uncompressed film.
+pub(super) fn y4m(built: &mut Built, plan: &Plan, folder: &OutputFolder, name: &str) -> Shot {
+    let path = folder.claim(name)?;
+    let draft = path.with_extension("y4m.tmp");
+    let wrong =
+        |error: std::io::Error| Failure::new(format!("cannot write {}: {error}", path.display()));
+    let out = BufWriter::new(File::create(&draft).map_err(wrong)?);
+    let mut film = Film::new(out, built.camera.size(), plan.rate, Chroma::Quarter)?;
+    let footage = shoot(
+        built,
+        plan,
+        "render",
+        |_| true,
+        |_, picture| Ok(picture),
+        |_, picture| Ok(film.push(&picture)?),
+    );
+    let written = footage.and_then(|footage| film.finish().map(|_| footage).map_err(Into::into));
+    let named = written.and_then(|footage| {
+        fs::rename(&draft, &path).map_err(wrong)?;
+        Ok(footage)
+    });
+    if named.is_err() {
+        // The first error is the one to tell.
+        let _ = fs::remove_file(&draft);
+    }
+    Ok((named?, format!("in {}", path.display())))
+}

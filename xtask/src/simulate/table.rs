@@ -1,0 +1,151 @@
+//! Trajectories as CSV, to stdout or to a file that has its name only when it is whole.
+
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Stdout, Write};
+use std::path::{Path, PathBuf};
+
+use carom_dynamics::{BodyId, BodyKind, World};
+use carom_scenes::Built;
+
+use crate::exit::Failure;
+use crate::out::is_closed_pipe;
+
+const HEADING: &str = "time,body,x,y,angle,vx,vy,omega";
+
+/// An open table.
+pub(super) struct Table {
+    target: Target,
+    /// The bodies that can move, by their names.
+    bodies: Vec<(String, BodyId)>,
+    started: bool,
+}
+
+enum Target {
+    Stdout(BufWriter<Stdout>),
+    File {
+        writer: BufWriter<File>,
+        temporary: PathBuf,
+        place: PathBuf,
+    },
+}
+
+impl Table {
+    /// A table of the moving bodies at `place`, or on stdout.
+    pub(super) fn open(place: Option<&Path>, built: &Built) -> Result<Self, Failure> {
+        let target = match place {
+            None => Target::Stdout(BufWriter::new(io::stdout())),
+            Some(place) => {
+                let wrong = |error: io::Error| {
+                    Failure::new(format!("cannot write {}: {error}", place.display()))
+                };
+                if place.is_dir() {
+                    return Err(wrong(io::ErrorKind::IsADirectory.into()));
+                }
+                if let Some(folder) = place.parent() {
+                    fs::create_dir_all(folder).map_err(wrong)?;
+                }
+                let mut temporary = place.as_os_str().to_owned();
+                temporary.push(".tmp");
+                let temporary = PathBuf::from(temporary);
+                Target::File {
+                    writer: BufWriter::new(File::create(&temporary).map_err(wrong)?),
+                    temporary,
+                    place: place.to_path_buf(),
+                }
+            }
+        };
+        let moves = |id: BodyId| {
+            built
+                .world
+                .body(id)
+                .is_some_and(|body| body.kind() != BodyKind::Fixed)
+        };
+        let bodies = built.names.iter().filter(|(_, id)| moves(*id));
+        Ok(Self {
+            target,
+            bodies: bodies.map(|(name, id)| (field(name), *id)).collect(),
+            started: false,
+        })
+    }
+
+    /// A row for each body that can move; `false` if the reader of stdout went away.
+    pub(super) fn write(&mut self, world: &World) -> Result<bool, Failure> {
+        match self.try_write(world) {
+            Ok(()) => Ok(true),
+            Err(error) if is_closed_pipe(&error) => Ok(false),
+            Err(error) => Err(Failure::new(format!(
+                "cannot write the trajectories: {error}"
+            ))),
+        }
+    }
+
+    fn try_write(&mut self, world: &World) -> io::Result<()> {
+        let writer: &mut dyn Write = match &mut self.target {
+            Target::Stdout(writer) => writer,
+            Target::File { writer, .. } => writer,
+        };
+        if !self.started {
+            writeln!(writer, "{HEADING}")?;
+            self.started = true;
+        }
+        let time = world.time().as_secs();
+        for (name, id) in &self.bodies {
+            let Some(body) = world.body(*id) else {
+                continue;
+            };
+            let (centre, velocity) = (body.centre(), body.velocity());
+            // Debug writes the shortest decimal that reads back as the same double, with an exponent where it is long.
+            writeln!(
+                writer,
+                "{time:?},{name},{:?},{:?},{:?},{:?},{:?},{:?}",
+                centre.x,
+                centre.y,
+                body.angle(),
+                velocity.x,
+                velocity.y,
+                body.angular_velocity()
+            )?;
+        }
+        Ok(())
+    }
+
+    /// Flushes the table and gives its file the name.
+    pub(super) fn finish(self) -> Result<(), Failure> {
+        match self.target {
+            Target::Stdout(mut writer) => match writer.flush() {
+                Err(error) if !is_closed_pipe(&error) => Err(error.into()),
+                _ => Ok(()),
+            },
+            Target::File {
+                mut writer,
+                temporary,
+                place,
+            } => {
+                let done = writer.flush().and_then(|()| fs::rename(&temporary, &place));
+                done.map_err(|error| {
+                    Failure::new(format!("cannot write {}: {error}", place.display()))
+                })
+            }
+        }
+    }
+}
+
+/// A name as a field of a CSV line: quoted where it has to be.
+fn field(name: &str) -> String {
+    if name.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", name.replace('"', "\"\""))
+    } else {
+        name.to_owned()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_with_commas_are_quoted() {
+        assert_eq!(field("left wedge"), "left wedge");
+        assert_eq!(field("a, \"b\""), "\"a, \"\"b\"\"\"");
+    }
+}

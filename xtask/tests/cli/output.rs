@@ -1,0 +1,217 @@
+//! What `render` and `demo` write, and what they refuse to touch.
+
+use std::fs;
+use std::path::Path;
+
+use crate::{Ran, names, xtask_in};
+
+const SMALL: [&str; 8] = [
+    "render",
+    "thesis",
+    "--seconds",
+    "0.2",
+    "--fps",
+    "20",
+    "--size",
+    "80x60",
+];
+
+fn render(folder: &Path, more: &[&str]) -> Ran {
+    xtask_in(folder, &[&SMALL, more].concat())
+}
+
+#[test]
+fn frames_do_not_depend_on_threads_or_slices() {
+    let folder = tempfile::tempdir().unwrap();
+    let ran = render(folder.path(), &["--out", "one/deep", "--threads", "1"]).done();
+    assert!(
+        ran.out
+            .starts_with("4 frames of 80 x 60 px at 20 per second"),
+        "{}",
+        ran.out
+    );
+    render(folder.path(), &["--out", "many", "--threads", "5"]).done();
+    render(folder.path(), &["--out", "slice", "--shard", "2/2"]).done();
+    let frame = |place: &str, index: u32| {
+        fs::read(folder.path().join(format!("{place}/frame_{index:05}.png"))).unwrap()
+    };
+    for index in 0..4 {
+        assert_eq!(
+            frame("one/deep", index),
+            frame("many", index),
+            "frame {index}"
+        );
+    }
+    assert_eq!(frame("one/deep", 3), frame("slice", 3));
+    let pngs = |place: &str| {
+        names(&folder.path().join(place))
+            .into_iter()
+            .filter(|name| name.ends_with(".png"))
+            .count()
+    };
+    assert_eq!((pngs("many"), pngs("slice")), (4, 2));
+}
+
+#[test]
+fn frames_that_are_there_are_kept_resumed_or_replaced() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    render(folder.path(), &["--out", "out"]).done();
+    let second = out.join("frame_00002.png");
+    let bytes = fs::read(&second).unwrap();
+    fs::write(out.join("notes.txt"), "mine").unwrap();
+
+    render(folder.path(), &["--out", "out"]).refused(&["out", "already holds"]);
+    fs::remove_file(&second).unwrap();
+    let ran = render(folder.path(), &["--out", "out", "--resume"]).done();
+    assert!(ran.out.contains("1 drawn, 3 kept"), "{}", ran.out);
+    assert_eq!(fs::read(&second).unwrap(), bytes);
+
+    let other = ["--out", "out", "--resume", "--set", "gravity=[0, -1]"];
+    render(folder.path(), &other).refused(&["out", "cannot be resumed"]);
+    let ran = render(folder.path(), &["--out", "out", "--force"]).done();
+    assert!(ran.out.contains("4 drawn"), "{}", ran.out);
+    assert_eq!(fs::read_to_string(out.join("notes.txt")).unwrap(), "mine");
+}
+
+#[test]
+fn what_is_not_ours_is_not_touched() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("file"), "mine").unwrap();
+    render(folder.path(), &["--out", "file"]).refused(&["file", "not a folder"]);
+    render(folder.path(), &["--out", "file/below"]).refused(&["file/below"]);
+    assert_eq!(
+        fs::read_to_string(folder.path().join("file")).unwrap(),
+        "mine"
+    );
+
+    fs::create_dir(folder.path().join("photos")).unwrap();
+    let photo = folder.path().join("photos/frame_00001.png");
+    fs::write(&photo, "a photograph").unwrap();
+    for flags in [&[][..], &["--force"], &["--resume"]] {
+        render(folder.path(), &[&["--out", "photos"], flags].concat())
+            .refused(&["frame_00001.png"]);
+    }
+    assert_eq!(fs::read_to_string(&photo).unwrap(), "a photograph");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_read_only_folder_is_refused() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = tempfile::tempdir().unwrap();
+    let locked = folder.path().join("locked");
+    fs::create_dir(&locked).unwrap();
+    fs::set_permissions(&locked, fs::Permissions::from_mode(0o555)).unwrap();
+    if fs::write(locked.join("probe"), "").is_ok() {
+        return; // the superuser writes everywhere
+    }
+    render(folder.path(), &["--out", "locked"]).refused(&["locked", "ermission denied"]);
+    render(folder.path(), &["--out", "locked/below"])
+        .refused(&["locked/below", "ermission denied"]);
+}
+
+#[test]
+fn films_are_one_file() {
+    let folder = tempfile::tempdir().unwrap();
+    render(folder.path(), &["--out", "a", "--format", "apng"]).done();
+    render(folder.path(), &["--out", "b", "--format", "y4m"]).done();
+    let film = fs::read(folder.path().join("a/thesis.png")).unwrap();
+    assert!(film.windows(4).any(|four| four == b"acTL"));
+    let film = fs::read(folder.path().join("b/thesis.y4m")).unwrap();
+    assert!(film.starts_with(b"YUV4MPEG2 W80 H60 F20:1"));
+    assert_eq!(
+        names(&folder.path().join("b")),
+        ["manifest.txt", "thesis.y4m"]
+    );
+}
+
+#[test]
+fn the_demo_writes_what_it_says_and_replaces_only_its_own() {
+    let folder = tempfile::tempdir().unwrap();
+    let ran = xtask_in(folder.path(), &["demo", "--quick", "--out", "demo"]).done();
+    for word in [
+        "bodies",
+        "impacts",
+        "energy drift",
+        "momentum",
+        "deepest",
+        "handed over",
+        "unresolved",
+        "collapsed",
+        "refused",
+        "physics",
+        "drawing",
+        "state hash",
+        "film.png",
+    ] {
+        assert_eq!(
+            ran.out.matches(word).count().min(2),
+            2,
+            "'{word}' in\n{}",
+            ran.out
+        );
+    }
+    let thesis = folder.path().join("demo/thesis");
+    for file in [
+        "film.png",
+        "sheet.png",
+        "energy.png",
+        "energy.svg",
+        "frame_00000.png",
+    ] {
+        assert!(thesis.join(file).is_file(), "{file}");
+    }
+    fs::write(thesis.join("notes.txt"), "mine").unwrap();
+    let before = names(&thesis);
+    xtask_in(folder.path(), &["demo", "--quick", "--out", "demo"]).done();
+    assert_eq!(names(&thesis), before);
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_finishes_the_frame_and_prints_the_summary() {
+    use std::process::{Command, Stdio};
+    let folder = tempfile::tempdir().unwrap();
+    let child = Command::new(env!("CARGO_BIN_EXE_xtask"))
+        .args([
+            "render",
+            "thesis",
+            "--seconds",
+            "1000",
+            "--size",
+            "80x60",
+            "--out",
+            "out",
+        ])
+        .current_dir(folder.path())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let out = folder.path().join("out");
+    let patience = std::time::Duration::from_millis(20);
+    for _ in 0..1500 {
+        if out.join("frame_00003.png").exists() {
+            break;
+        }
+        std::thread::sleep(patience);
+    }
+    let stopped = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status()
+        .unwrap();
+    assert!(stopped.success());
+    let output = child.wait_with_output().unwrap();
+    let said = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(output.status.code(), Some(130), "{said}");
+    assert!(
+        said.contains("INTERRUPTED") && said.contains("state hash"),
+        "{said}"
+    );
+    let frames = names(&out);
+    assert!(
+        frames.iter().all(|name| !name.starts_with('.')),
+        "{frames:?}"
+    );
+}

@@ -1,0 +1,127 @@
+//! Scene files that are broken: one line with file, line, column and field, exit code 2, nothing written.
+
+use std::fs;
+
+use crate::{names, xtask, xtask_in};
+
+#[track_caller]
+fn refused(text: impl AsRef<[u8]>, parts: &[&str]) {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("bad.toml"), text).unwrap();
+    for args in [
+        &["render", "bad.toml", "--out", "frames", "--seconds", "1"][..],
+        &["simulate", "bad.toml", "--seconds", "1", "--out", "t.csv"],
+    ] {
+        xtask_in(folder.path(), args).refused(parts);
+    }
+    assert_eq!(names(folder.path()), ["bad.toml"]);
+}
+
+/// A scene with one body, whose table ends with these lines.
+fn body(lines: &str) -> String {
+    format!("version = 1\n[[body]]\nname = 'a'\n{lines}\n")
+}
+
+#[test]
+fn files_that_are_no_scenes() {
+    refused("", &["bad.toml", "empty"]);
+    refused(b"\xff\xfe\x00\x01", &["bad.toml", "UTF-8"]);
+    refused([0; 64], &["bad.toml:1:", "not valid TOML"]);
+    refused(
+        "version = 1\n[[body]]\nname = \"ba",
+        &["bad.toml:3:11", "not valid TOML"],
+    );
+    refused("version = 7\n", &["bad.toml:1:11", "version", "future"]);
+
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir(folder.path().join("scene.toml")).unwrap();
+    xtask_in(folder.path(), &["render", "scene.toml"]).refused(&["scene.toml", "is a folder"]);
+    xtask_in(folder.path(), &["render", "missing.toml"]).refused(&["missing.toml", "no such file"]);
+}
+
+#[test]
+fn words_that_nobody_knows() {
+    refused(
+        body("masss = 3"),
+        &["bad.toml:4:1", "body.masss", "did you mean \"mass\""],
+    );
+    refused(
+        body("shape = { cirle = 1 }"),
+        &["bad.toml:4:11", "body.shape.cirle", "\"circle\""],
+    );
+    xtask(&["render", "thesiss"]).refused(&["thesiss", "thesis"]);
+    xtask(&["render", "flying-balls", "--set", "nn=3"]).refused(&["--set nn=3", "\"n\""]);
+}
+
+#[test]
+fn values_of_the_wrong_kind() {
+    refused(
+        "version = 1\nduration = 'long'\n",
+        &["bad.toml:2:12", "duration", "\"long\""],
+    );
+    refused(
+        "version = 1\nduration = nan\n",
+        &["bad.toml:2:12", "duration", "nan"],
+    );
+    refused(
+        "version = 1\nduration = 1e999\n",
+        &["bad.toml:2:12", "duration", "1e999"],
+    );
+    let twice = "version = 1\n[[body]]\nname = 'a'\nshape = { circle = 1 }\n\
+                 [[body]]\nname = 'a'\nshape = { circle = 1 }\n";
+    refused(twice, &["bad.toml:6:8", "body.name", "line 3"]);
+}
+
+#[test]
+fn shapes_and_materials_that_cannot_be() {
+    refused(
+        body("shape = { circle = 0 }"),
+        &["bad.toml:4", "circle", "0"],
+    );
+    refused(
+        body("shape = { circle = -1 }"),
+        &["bad.toml:4", "circle", "-1"],
+    );
+    refused(
+        body("shape = { polygon = [[0, 0], [1, 0]] }"),
+        &["bad.toml:4", "polygon", "3"],
+    );
+    refused(
+        body("shape = { polygon = [[0, 0], [1, 1], [2, 2]] }"),
+        &["bad.toml:4", "polygon", "no area"],
+    );
+    refused(
+        body("shape = { polygon = [[0, 0], [2, 2], [2, 0], [0, 2]] }"),
+        &["bad.toml:4", "edge 0", "edge 2"],
+    );
+    let circle = "shape = { circle = 1 }\n";
+    for (material, part) in [
+        ("{ density = 0 }", "density"),
+        ("{ density = -1 }", "density"),
+        ("{ restitution = 1.5 }", "restitution"),
+        ("{ restitution = -0.1 }", "restitution"),
+        ("{ friction = -1 }", "friction"),
+    ] {
+        refused(
+            body(&format!("{circle}material = {material}")),
+            &["bad.toml", part],
+        );
+    }
+}
+
+#[test]
+fn a_mark_and_dos_lines_are_welcome() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "\u{feff}version = 1\r\n[[body]]\r\nname = 'ball'\r\nshape = { circle = 1 }\r\n";
+    fs::write(folder.path().join("good.toml"), text).unwrap();
+    let ran = xtask_in(
+        folder.path(),
+        &["simulate", "good.toml", "--seconds", "0.1"],
+    )
+    .done();
+    assert!(
+        ran.out.starts_with("time,body,x,y,angle,vx,vy,omega\n0.0,"),
+        "{}",
+        ran.out
+    );
+}
