@@ -55,3 +55,6 @@ pub use polygon::Polygon;
 pub use query::RayHit;
 pub use segment::Segment;
 pub use shape::{Outline, Shape};
+
+#[cfg(test)]
+mod tests;

@@ -233,3 +233,71 @@ impl<'a> Sweep<'a> {
 fn pair(i: usize, j: usize) -> (usize, usize) {
     (i.min(j), i.max(j))
 }
+
+#[cfg(test)]
+mod tests {
+    use carom_math::vec2;
+    use proptest::prelude::*;
+
+    use super::*;
+
+    /// What the sweep says; `Err` where it lost its order.
+    fn swept(points: &[Vec2]) -> Result<Found, LostOrder> {
+        if let Some(pair) = fold(points) {
+            return Ok(Some(pair));
+        }
+        Sweep::new(points).run()
+    }
+
+    fn without_repetitions(points: Vec<(i32, i32)>) -> Vec<Vec2> {
+        let mut points: Vec<Vec2> = points
+            .into_iter()
+            .map(|(x, y)| vec2(f64::from(x), f64::from(y)))
+            .collect();
+        points.dedup();
+        while points.len() > 1 && points.first() == points.last() {
+            points.pop();
+        }
+        points
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(4096))]
+        #[test]
+        fn the_sweep_finds_what_all_pairs_find(
+            points in prop::collection::vec((0..7_i32, 0..7_i32), 3..12),
+        ) {
+            // On so small a grid every kind of contact comes up, and so do simple rings.
+            let points = without_repetitions(points);
+            if points.len() < 3 {
+                return Ok(());
+            }
+            let Ok(found) = swept(&points) else {
+                return Err(TestCaseError::fail("the sweep lost its order"));
+            };
+            prop_assert_eq!(found.is_some(), all_pairs(&points).is_some());
+            if let Some((i, j)) = found {
+                prop_assert!(i < j && in_contact(&points, i, j), "edges {} and {}", i, j);
+            }
+        }
+    }
+
+    #[test]
+    fn one_bad_corner_among_many_is_found() {
+        let n = 500;
+        let circle = |i: usize| {
+            let turn = carom_math::Rot::from_degrees(360.0 * i as f64 / n as f64);
+            turn * vec2(if i.is_multiple_of(2) { 1.0 } else { 0.9 }, 0.0)
+        };
+        let good: Vec<Vec2> = (0..n).map(circle).collect();
+        assert_eq!(first_contact(&good), None);
+        for at in [1, 100, 250, 499] {
+            let mut bad = good.clone();
+            bad[at] *= -1.5;
+            let Some((i, j)) = first_contact(&bad) else {
+                panic!("vertex {at} on the other side went unnoticed");
+            };
+            assert!(in_contact(&bad, i, j));
+        }
+    }
+}

@@ -1,0 +1,121 @@
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use carom_math::{Vec2, trig, vec2};
+
+use crate::{Circle, ConvexPolygon, Polygon, PolygonError, VERTEX_LIMIT, inertia};
+
+fn close(a: f64, b: f64) -> bool {
+    (a / b - 1.0).abs() < 1e-14
+}
+
+#[test]
+fn regular_polygons_meet_their_closed_forms() {
+    for sides in [3_usize, 4, 5, 6, 7, 8, 64, 1000] {
+        let polygon = ConvexPolygon::regular(sides, 2.0).expect("regular");
+        assert_eq!(polygon.vertices().len(), sides);
+        let found = polygon.area_properties();
+        let (sin, _) = trig::sin_cos(PI / sides as f64);
+        let side = 4.0 * sin;
+        assert!(
+            close(
+                found.with_mass(3.0).inertia,
+                inertia::regular(3.0, sides, side)
+            ),
+            "{sides}"
+        );
+        assert!(found.centroid.length() < 1e-15);
+        assert!(
+            (found.ixx - found.iyy).abs() < 1e-14 * found.polar,
+            "round from all sides"
+        );
+    }
+    let square = ConvexPolygon::regular(4, 1.0).expect("regular");
+    assert_eq!(
+        square.vertices(),
+        [Vec2::X, Vec2::Y, -Vec2::X, -Vec2::Y],
+        "exact at quarter turns"
+    );
+    let round = ConvexPolygon::regular(100_000, 1.0).expect("regular");
+    assert_eq!(
+        ConvexPolygon::new(round.vertices()).expect("strictly convex"),
+        round
+    );
+}
+
+#[test]
+fn rectangles_and_triangles_meet_their_closed_forms() {
+    let plank = ConvexPolygon::rectangle(3.0, 0.2)
+        .expect("a plank")
+        .area_properties();
+    assert!(close(
+        plank.with_mass(5.0).inertia,
+        inertia::rectangle(5.0, 3.0, 0.2)
+    ));
+    assert!(close(plank.ixx, 3.0 * 0.2 * 0.2 * 0.2 / 12.0) && close(plank.iyy, 0.2 * 27.0 / 12.0));
+    for angle in [0.1, 1.0, FRAC_PI_2, 2.0, 3.0] {
+        let (_, cos) = trig::sin_cos(angle);
+        let c = (9.0 + 4.0 - 12.0 * cos).sqrt();
+        let triangle = ConvexPolygon::triangle(3.0, 2.0, angle).expect("a triangle");
+        let found = triangle.area_properties();
+        assert!(
+            close(
+                found.with_mass(1.5).inertia,
+                inertia::triangle(1.5, 3.0, 2.0, c)
+            ),
+            "{angle}"
+        );
+        assert!(found.centroid.length() < 1e-15);
+    }
+    let disc = Circle::new(0.5).expect("a disc").area_properties();
+    assert_eq!(disc.with_mass(4.0).inertia, inertia::circle(4.0, 0.5));
+}
+
+#[test]
+fn a_star_has_its_tips_and_notches() {
+    let star = Polygon::star(5, 2.0, 0.5).expect("a star");
+    assert_eq!(star.vertices().len(), 10);
+    assert_eq!(star.vertices()[0], vec2(2.0, 0.0));
+    let (sin, _) = trig::sin_cos(PI / 5.0);
+    assert!(close(star.area_properties().area, 5.0 * 2.0 * 0.5 * sin));
+}
+
+#[test]
+fn generators_name_what_they_refuse() {
+    let refused = |result: Result<ConvexPolygon, PolygonError>| {
+        result.expect_err("a number is wrong").to_string()
+    };
+    let above = "not a finite number above 0";
+    assert_eq!(
+        refused(ConvexPolygon::rectangle(0.0, 1.0)),
+        format!("width is 0, {above}")
+    );
+    assert_eq!(
+        refused(ConvexPolygon::rectangle(1.0, -2.0)),
+        format!("height is -2, {above}")
+    );
+    assert_eq!(
+        refused(ConvexPolygon::square(f64::NAN)),
+        format!("side is NaN, {above}")
+    );
+    assert_eq!(
+        refused(ConvexPolygon::regular(6, f64::INFINITY)),
+        format!("circumradius is inf, {above}")
+    );
+    assert_eq!(
+        refused(ConvexPolygon::regular(2, 1.0)),
+        "a polygon needs 3 distinct vertices, got 2"
+    );
+    assert_eq!(
+        refused(ConvexPolygon::regular(usize::MAX, 1.0)),
+        format!(
+            "a polygon has at most {VERTEX_LIMIT} vertices, got {}",
+            usize::MAX
+        )
+    );
+    assert!(refused(ConvexPolygon::triangle(1.0, 1.0, PI)).starts_with("angle is 3.14159"));
+    assert!(refused(ConvexPolygon::triangle(1.0, 1.0, 0.0)).starts_with("angle is 0, outside"));
+    let inner = Polygon::star(5, 1.0, -1.0)
+        .expect_err("no star")
+        .to_string();
+    assert_eq!(inner, format!("inner is -1, {above}"));
+}

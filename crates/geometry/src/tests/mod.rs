@@ -1,0 +1,9 @@
+//! Laws of the whole crate, over shapes that are made to break it.
+
+mod generators;
+mod mass_laws;
+mod piece_laws;
+mod query_laws;
+mod ring_errors;
+mod seed_errors;
+mod strategies;
