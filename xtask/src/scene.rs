@@ -1,23 +1,17 @@
 //! Scenes by name or by file, with `--set` and `--mode` laid over them.
 
-use carom_scenes::{Built, Scene};
+use carom_scenes::Scene;
 
 use crate::exit::Failure;
 use crate::flags::ModeFlag;
 use crate::values::KeyValue;
 
 /// Opens a scene file, or a built-in scene by its name.
-pub(crate) fn open(name: &str, set: &[KeyValue]) -> Result<Scene, Failure> {
+pub(crate) fn open(name: &str, set: &[KeyValue], mode: Option<ModeFlag>) -> Result<Scene, Failure> {
     let mut scene = carom_scenes::open(name)?;
     for KeyValue { key, value } in set {
         scene.set(key, value)?;
     }
-    Ok(scene)
-}
-
-/// Builds the world, its look and its camera.
-pub(crate) fn build(scene: &Scene, mode: Option<ModeFlag>) -> Result<Built, Failure> {
-    let mut scene = scene.clone();
     if let Some(mode) = mode {
         let name = match mode {
             ModeFlag::Hybrid => "hybrid",
@@ -26,7 +20,16 @@ pub(crate) fn build(scene: &Scene, mode: Option<ModeFlag>) -> Result<Built, Fail
         };
         scene.set("settings.mode", name)?;
     }
-    Ok(scene.build()?)
+    Ok(scene)
+}
+
+/// 64 bits that differ where two scenes differ, in the file or in what was laid over it.
+pub(crate) fn fingerprint(scene: &Scene) -> u64 {
+    // FNV-1a over everything that the scene holds.
+    let text = format!("{scene:?}");
+    text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+    })
 }
 
 /// A name fit for a file: letters, digits, `-` and `_`; the last part of a path, without its ending.
@@ -53,6 +56,21 @@ pub(crate) fn file_stem(name: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn every_setting_changes_the_fingerprint() {
+        let print = |set: &[&str], mode| {
+            let set: Vec<KeyValue> = set.iter().map(|text| text.parse().unwrap()).collect();
+            fingerprint(&open("thesis", &set, mode).unwrap())
+        };
+        let prints = [
+            print(&[], None),
+            print(&["gravity=[0, -1]"], None),
+            print(&[], Some(ModeFlag::Stepped)),
+        ];
+        assert_eq!(prints[0], print(&[], None));
+        assert!(prints[0] != prints[1] && prints[1] != prints[2] && prints[2] != prints[0]);
+    }
 
     #[test]
     fn a_name_becomes_a_plain_file_name() {

@@ -36,7 +36,10 @@ struct Row {
 
 pub(crate) fn run(args: &AccuracyArgs) -> Outcome {
     fs::create_dir_all(&args.out).map_err(|error| {
-        crate::exit::Failure::new(format!("cannot make {}: {error}", args.out.display()))
+        crate::exit::Failure::new(format!(
+            "cannot make the folder {}: {error}",
+            args.out.display()
+        ))
     })?;
     interrupt::watch()?;
     if !args.quick {
@@ -93,9 +96,9 @@ fn print(rows: &[Row]) {
         );
         for row in &of_case {
             say!(
-                "  {:>10} {:>12.2e} {:>16.4}",
+                "  {:>10} {:>12} {:>16.4}",
                 row.rate,
-                row.error_m,
+                crate::summary::short(row.error_m),
                 row.ms_per_second
             );
         }

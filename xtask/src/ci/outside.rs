@@ -30,9 +30,11 @@ pub(super) fn check(root: &Path) -> Result<bool, Failure> {
     )?;
     // The same versions as the workspace, which are on this machine already.
     fs::copy(root.join("Cargo.lock"), folder.join("Cargo.lock"))?;
+    // Beside our own builds, so that a second run finds everything made.
+    let target = std::env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| root.join("target").into());
     let output = cargo_in(folder)
         .args(["run", "--quiet"])
-        .env("CARGO_TARGET_DIR", root.join("target"))
+        .env("CARGO_TARGET_DIR", target)
         .stderr(std::process::Stdio::inherit())
         .output()?;
     let printed = String::from_utf8_lossy(&output.stdout);

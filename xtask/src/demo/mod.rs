@@ -4,7 +4,7 @@ mod chart;
 
 use std::path::Path;
 
-use carom_render::{Animation, Existing, FrameRate, OutputFolder, Picture, Sequence, Sheet, Size};
+use carom_render::{Animation, Existing, OutputFolder, Picture, Sequence, Sheet, Size};
 use carom_scenes::Built;
 
 use crate::clock::Clock;
@@ -38,20 +38,17 @@ const COLUMNS: u32 = 4;
 #[derive(Clone, Copy, Debug)]
 struct Format {
     seconds: u32,
-    rate: u32,
     /// Part of the scene's own size.
     shrink: u32,
 }
 
 const FULL: Format = Format {
     seconds: 10,
-    rate: 60,
     shrink: 1,
 };
 
 const QUICK: Format = Format {
     seconds: 1,
-    rate: 30,
     shrink: 2,
 };
 
@@ -75,13 +72,12 @@ pub(crate) fn run(args: &DemoArgs) -> Outcome {
 
 /// One scene into one folder; `true` if Ctrl-C ended it early.
 fn show(name: &str, folder: &Path, format: Format) -> Result<bool, Failure> {
-    let scene = scene::open(name, &[])?;
-    let mut built = scene::build(&scene, None)?;
+    let mut built = scene::open(name, &[], None)?.build()?;
     let size = built.camera.size();
     let size = Size::new(size.width() / format.shrink, size.height() / format.shrink)?;
     built.camera = resized(&built.camera, size)?;
-    let rate = FrameRate::per_second(format.rate)?;
-    let frames = u64::from(format.seconds * format.rate);
+    let rate = built.rate;
+    let frames = u64::from(format.seconds) * u64::from(rate.get());
     let folder = OutputFolder::open(folder, Existing::Replace, &format!("demo {name}"))?;
     say!(
         "{name}: {} frames of {} px, {} s",

@@ -20,8 +20,8 @@ use crate::values::Shard;
 const MAX_FRAMES: f64 = 1e6;
 
 pub(crate) fn run(args: &RenderArgs) -> Outcome {
-    let scene = scene::open(&args.scene, &args.set)?;
-    let mut built = scene::build(&scene, args.mode)?;
+    let scene = scene::open(&args.scene, &args.set, args.mode)?;
+    let mut built = scene.build()?;
     if let Some((width, height)) = args.size {
         built.camera = resized(&built.camera, Size::new(width, height)?)?;
     }
@@ -39,12 +39,11 @@ pub(crate) fn run(args: &RenderArgs) -> Outcome {
     let shard = args.shard.unwrap_or(Shard::WHOLE);
     // Whatever decides the bytes of a frame; the slice and the threads do not.
     let about = format!(
-        "{} state {:016x} frames {} rate {} size {size} mode {:?} format {:?} slice {}/{}",
+        "{} scene {:016x} frames {} rate {} size {size} format {:?} slice {}/{}",
         scene.name(),
-        built.world.state_hash(),
+        scene::fingerprint(&scene),
         plan.frames,
         plan.rate.get(),
-        args.mode,
         args.format,
         shard.index + 1,
         shard.count

@@ -1,9 +1,6 @@
 //! Where drawn frames go.
 
-use std::fs::{self, File};
-use std::io::BufWriter;
-
-use carom_render::{Animation, Chroma, Film, OutputFolder, Sequence};
+use carom_render::{Animation, Chroma, Draft, Film, OutputFolder, Sequence};
 use carom_scenes::Built;
 
 use crate::exit::Failure;
@@ -51,11 +48,8 @@ pub(super) fn apng(built: &mut Built, plan: &Plan, folder: &OutputFolder, name: 
 /// One uncompressed film.
 pub(super) fn y4m(built: &mut Built, plan: &Plan, folder: &OutputFolder, name: &str) -> Shot {
     let path = folder.claim(name)?;
-    let draft = path.with_extension("y4m.tmp");
-    let wrong =
-        |error: std::io::Error| Failure::new(format!("cannot write {}: {error}", path.display()));
-    let out = BufWriter::new(File::create(&draft).map_err(wrong)?);
-    let mut film = Film::new(out, built.camera.size(), plan.rate, Chroma::Quarter)?;
+    let draft = Draft::create(&path)?;
+    let mut film = Film::new(draft, built.camera.size(), plan.rate, Chroma::Quarter)?;
     let footage = shoot(
         built,
         plan,
@@ -63,15 +57,7 @@ pub(super) fn y4m(built: &mut Built, plan: &Plan, folder: &OutputFolder, name: &
         |_| true,
         |_, picture| Ok(picture),
         |_, picture| Ok(film.push(&picture)?),
-    );
-    let written = footage.and_then(|footage| film.finish().map(|_| footage).map_err(Into::into));
-    let named = written.and_then(|footage| {
-        fs::rename(&draft, &path).map_err(wrong)?;
-        Ok(footage)
-    });
-    if named.is_err() {
-        // The first error is the one to tell.
-        let _ = fs::remove_file(&draft);
-    }
-    Ok((named?, format!("in {}", path.display())))
+    )?;
+    film.finish()?.finish()?;
+    Ok((footage, format!("in {}", path.display())))
 }

@@ -31,8 +31,8 @@ pub(crate) fn run(args: &SimulateArgs) -> Outcome {
     if seconds / every > MAX_SAMPLES {
         fail!("--seconds {seconds} every {every} s are more than {MAX_SAMPLES:e} samples");
     }
-    let scene = scene::open(&args.scene, &args.set)?;
-    let mut built = scene::build(&scene, args.mode)?;
+    let scene = scene::open(&args.scene, &args.set, args.mode)?;
+    let mut built = scene.build()?;
     interrupt::watch()?;
     let mut table = Table::open(args.out.as_deref(), &built)?;
     let run = sample(&mut built.world, seconds, every, &mut table)?;

@@ -1,10 +1,11 @@
 //! Trajectories as CSV, to stdout or to a file that has its name only when it is whole.
 
-use std::fs::{self, File};
+use std::fs;
 use std::io::{self, BufWriter, Stdout, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use carom_dynamics::{BodyId, BodyKind, World};
+use carom_render::Draft;
 use carom_scenes::Built;
 
 use crate::exit::Failure;
@@ -22,11 +23,7 @@ pub(super) struct Table {
 
 enum Target {
     Stdout(BufWriter<Stdout>),
-    File {
-        writer: BufWriter<File>,
-        temporary: PathBuf,
-        place: PathBuf,
-    },
+    File(Draft),
 }
 
 impl Table {
@@ -35,23 +32,15 @@ impl Table {
         let target = match place {
             None => Target::Stdout(BufWriter::new(io::stdout())),
             Some(place) => {
-                let wrong = |error: io::Error| {
-                    Failure::new(format!("cannot write {}: {error}", place.display()))
-                };
-                if place.is_dir() {
-                    return Err(wrong(io::ErrorKind::IsADirectory.into()));
-                }
                 if let Some(folder) = place.parent() {
-                    fs::create_dir_all(folder).map_err(wrong)?;
+                    fs::create_dir_all(folder).map_err(|error| {
+                        Failure::new(format!(
+                            "cannot make the folder {}: {error}",
+                            folder.display()
+                        ))
+                    })?;
                 }
-                let mut temporary = place.as_os_str().to_owned();
-                temporary.push(".tmp");
-                let temporary = PathBuf::from(temporary);
-                Target::File {
-                    writer: BufWriter::new(File::create(&temporary).map_err(wrong)?),
-                    temporary,
-                    place: place.to_path_buf(),
-                }
+                Target::File(Draft::create(place)?)
             }
         };
         let moves = |id: BodyId| {
@@ -82,7 +71,7 @@ impl Table {
     fn try_write(&mut self, world: &World) -> io::Result<()> {
         let writer: &mut dyn Write = match &mut self.target {
             Target::Stdout(writer) => writer,
-            Target::File { writer, .. } => writer,
+            Target::File(draft) => draft,
         };
         if !self.started {
             writeln!(writer, "{HEADING}")?;
@@ -116,16 +105,7 @@ impl Table {
                 Err(error) if !is_closed_pipe(&error) => Err(error.into()),
                 _ => Ok(()),
             },
-            Target::File {
-                mut writer,
-                temporary,
-                place,
-            } => {
-                let done = writer.flush().and_then(|()| fs::rename(&temporary, &place));
-                done.map_err(|error| {
-                    Failure::new(format!("cannot write {}: {error}", place.display()))
-                })
-            }
+            Target::File(draft) => Ok(draft.finish()?),
         }
     }
 }
