@@ -2,8 +2,10 @@
 
 use carom_dynamics::{Body, BodyKind};
 use carom_geometry::Outline;
+use carom_math::vec2;
+use carom_render::Frame;
 
-use crate::{find, list};
+use crate::{Built, find, list};
 
 #[test]
 fn every_built_in_scene_builds_and_runs() {
@@ -119,4 +121,80 @@ fn every_built_in_scene_is_in_the_list() {
     let mut listed: Vec<&str> = list().iter().map(|info| info.name).collect();
     listed.sort_unstable();
     assert_eq!(files, listed);
+}
+
+/// The built-in scene of a name.
+fn built(name: &str) -> Built {
+    let scene = find(name).unwrap_or_else(|error| panic!("{error}"));
+    scene.build().unwrap_or_else(|error| panic!("{error}"))
+}
+
+#[test]
+fn equal_blows_give_equal_speeds_and_the_angular_momentum_of_their_arm() {
+    // Names of the rods hold the arm, rounded to centimetres: one third is meant by 0.33.
+    let forces = built("forces");
+    for (body, arm) in forces.world.bodies().zip([0.0, 1.0 / 3.0, 0.5, 0.75, 1.0]) {
+        assert!((body.velocity() - vec2(0.0, 1.0)).length() < 1e-14);
+        let angular = body.inertia() * body.angular_velocity();
+        assert!(
+            (angular - arm).abs() < 1e-14,
+            "{angular} for an arm of {arm} m"
+        );
+    }
+    let inertia = built("inertia");
+    for (name, id) in &inertia.names {
+        let body = inertia.world.body(*id).expect("it was just made");
+        if body.kind() != BodyKind::Dynamic {
+            continue;
+        }
+        assert!(
+            (body.mass() - 1.0).abs() < 1e-12,
+            "{name}: {} kg",
+            body.mass()
+        );
+        assert!(
+            (body.velocity() - vec2(0.0, 6.0)).length() < 1e-11,
+            "{name}"
+        );
+        let angular = body.inertia() * body.angular_velocity();
+        assert!(
+            (angular - 1.5).abs() < 1e-11,
+            "{name}: {angular} kg m²/s, is its centroid at its origin?"
+        );
+    }
+}
+
+#[test]
+fn projectiles_of_one_speed_lie_on_a_circle_that_falls() {
+    let mut built = built("projectile");
+    for second in [1.0, 2.0] {
+        built.world.step(1.0);
+        let centre = vec2(0.0, -0.5 * 9.81 * second * second);
+        for body in built.world.bodies() {
+            let error = (body.centre() - centre).length() - 10.0 * second;
+            assert!(error.abs() < 1e-12, "{error:e} m off after {second} s");
+        }
+    }
+}
+
+#[test]
+fn the_first_frame_of_every_scene_shows_every_moving_body() {
+    for info in list() {
+        let built = built(info.name);
+        let (min, max) = (built.camera.view().min, built.camera.view().max);
+        for body in built.world.bodies() {
+            let centre = body.centre();
+            let seen = centre.cmpge(min).all() && centre.cmple(max).all();
+            assert!(
+                seen || body.kind() != BodyKind::Dynamic,
+                "{}: {centre} is out of the picture",
+                info.name
+            );
+        }
+        assert!(
+            !Frame::capture(&built.world, &built.look, &built.camera)
+                .ops()
+                .is_empty()
+        );
+    }
 }

@@ -2,7 +2,7 @@
 
 use core::f64::consts::TAU;
 
-use carom_geometry::{Circle, ConvexPolygon, Polygon, Shape};
+use carom_geometry::{Aabb, Circle, ConvexPolygon, Polygon, Shape};
 use carom_math::{Pose, Rot, Vec2, vec2};
 
 use super::plan::{MAX_BODIES, Planned, Planner};
@@ -184,7 +184,7 @@ struct FreeSpace {
     /// Centre and radius of each circle, in the cell of its centre.
     cells: Vec<Vec<(Vec2, f64)>>,
     widest: f64,
-    obstacles: Vec<(Shape, Pose)>,
+    obstacles: Vec<(Aabb, Shape, Pose)>,
 }
 
 impl FreeSpace {
@@ -201,19 +201,13 @@ impl FreeSpace {
         };
         let cells_along = |length: f64| whole((length / cell).ceil()).clamp(1, 1 << 20);
         let (columns, rows) = (cells_along(room.x), cells_along(room.y));
+        let region = Aabb::new(table.region.min, table.region.max);
         let obstacles = planner
             .bodies
             .iter()
-            .flat_map(|body| {
-                body.shapes
-                    .iter()
-                    .map(|(shape, _)| (shape.clone(), body.pose()))
-            })
-            .filter(|(shape, pose)| {
-                let reach = shape.aabb(*pose);
-                let outside = reach.max.cmplt(table.region.min) | reach.min.cmpgt(table.region.max);
-                !outside.any()
-            })
+            .flat_map(|body| body.shapes.iter().map(|(shape, _)| (shape, body.pose())))
+            .map(|(shape, pose)| (shape.aabb(pose), shape.clone(), pose))
+            .filter(|(bounds, ..)| bounds.overlaps(region))
             .collect();
         Self {
             origin: table.region.min,
@@ -257,9 +251,11 @@ impl FreeSpace {
                 }
             }
         }
+        let around = Aabb::new(place, place).grown(radius);
         self.obstacles
             .iter()
-            .all(|(shape, pose)| shape.signed_distance(pose.inverse_point(place)) > radius)
+            .filter(|(bounds, ..)| bounds.overlaps(around))
+            .all(|(_, shape, pose)| shape.signed_distance(pose.inverse_point(place)) > radius)
     }
 
     fn cell_of(&self, place: Vec2) -> (usize, usize) {
