@@ -17,6 +17,17 @@ pub enum Side {
     B,
 }
 
+impl Side {
+    /// The one that this is not.
+    #[must_use]
+    pub const fn other(self) -> Self {
+        match self {
+            Self::A => Self::B,
+            Self::B => Self::A,
+        }
+    }
+}
+
 /// What of the two hulls an axis comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AxisFeature {
@@ -212,10 +223,7 @@ impl Axis {
                 edge,
                 vertex,
             } => AxisFeature::Edge {
-                owner: match owner {
-                    Side::A => Side::B,
-                    Side::B => Side::A,
-                },
+                owner: owner.other(),
                 edge,
                 vertex,
             },
