@@ -95,6 +95,8 @@ impl ConvexPolygon {
     }
 
     /// The same polygon moved by `offset`, in m.
+    ///
+    /// Vertices are rounded to where they come to lie, and not checked again.
     #[must_use]
     pub fn translated(&self, offset: Vec2) -> Self {
         Self {

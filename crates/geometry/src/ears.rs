@@ -54,7 +54,7 @@ struct Clipper<'a> {
     dull: Vec<bool>,
     /// The triangle's edge on the other side of the ring's edge from a corner on.
     across: Vec<usize>,
-    /// Ears by the square of their cut.
+    /// Corners that bend outwards, by the square of their cut.
     queue: BinaryHeap<Reverse<(u64, usize, u32)>>,
     grid: Grid,
     triangles: Triangles,
@@ -83,9 +83,9 @@ impl<'a> Clipper<'a> {
         }
     }
 
-    /// Puts a corner into the queue if it is an ear.
+    /// Puts a corner into the queue if it bends outwards.
     fn offer(&mut self, i: usize) {
-        if self.is_ear(i) {
+        if !self.dull[i] {
             let cut = self.ring[self.after[i]] - self.ring[self.before[i]];
             // The bits of positive doubles are in their order.
             let key = cut.length_squared().to_bits();
@@ -95,9 +95,6 @@ impl<'a> Clipper<'a> {
 
     fn is_ear(&self, i: usize) -> bool {
         let (a, b) = (self.before[i], self.after[i]);
-        if self.dull[i] {
-            return false;
-        }
         let triangle = [self.ring[a], self.ring[i], self.ring[b]];
         let bounds = Aabb::from_points(triangle);
         !self.grid.any_near(bounds, |q| {
@@ -110,7 +107,9 @@ impl<'a> Clipper<'a> {
 
     fn best_ear(&mut self) -> usize {
         while let Some(Reverse((_, i, version))) = self.queue.pop() {
-            if self.version[i] == version {
+            // Looked at no earlier: long cuts see much of the ring, and most are void by then.
+            // One that is no ear now is none before its neighbours change.
+            if self.version[i] == version && self.is_ear(i) {
                 return i;
             }
         }

@@ -15,9 +15,42 @@ impl ConvexPolygon {
         check_count(sides)?;
         Ok(Self::from_checked(
             (0..sides)
-                .map(|i| fraction_of_turn(i, sides) * vec2(circumradius, 0.0))
+                .map(|i| part_of_turn(real(i), sides) * vec2(circumradius, 0.0))
                 .collect(),
         ))
+    }
+
+    /// An irregular polygon with its corners on a circle about the origin; `circumradius` in m.
+    ///
+    /// `next` gives numbers from 0 to 1 (values outside are clamped), one a corner; the same numbers
+    /// make the same polygon. Corners keep a tenth of an even share apart, so that none is needless.
+    ///
+    /// # Errors
+    /// If there are fewer than 3 sides or too many, or the radius is not above 0.
+    ///
+    /// # Examples
+    /// ```
+    /// use carom_geometry::ConvexPolygon;
+    /// let mut step = 0.0;
+    /// let mut next = || { step += 0.618; step % 1.0 };
+    /// let stone = ConvexPolygon::random(7, 0.5, &mut next)?;
+    /// assert_eq!(stone.vertices().len(), 7);
+    /// assert!(stone.vertices().iter().all(|v| (v.length() - 0.5).abs() < 1e-15));
+    /// # Ok::<(), carom_geometry::PolygonError>(())
+    /// ```
+    pub fn random(
+        sides: usize,
+        circumradius: f64,
+        next: &mut impl FnMut() -> f64,
+    ) -> Result<Self, PolygonError> {
+        check_length("circumradius", circumradius)?;
+        check_count(sides)?;
+        let corners = (0..sides).map(|i| {
+            let late = 0.9 * next().clamp(0.0, 1.0);
+            let late = if late.is_nan() { 0.0 } else { late };
+            part_of_turn(real(i) + late, sides) * vec2(circumradius, 0.0)
+        });
+        Self::new(corners.collect::<Vec<Vec2>>())
     }
 
     /// A rectangle about the origin; `width` along x and `height` along y, in m.
@@ -80,6 +113,8 @@ impl ConvexPolygon {
 impl Polygon {
     /// A star about the origin: `points` corners at `outer` m and as many between them at `inner` m.
     ///
+    /// The first corner lies on the x axis.
+    ///
     /// # Errors
     /// If there are fewer than 3 corners or too many, or a radius is not above 0.
     pub fn star(points: usize, outer: f64, inner: f64) -> Result<Self, PolygonError> {
@@ -88,16 +123,20 @@ impl Polygon {
         check_count(points)?;
         let corners = (0..2 * points).map(|i| {
             let radius = if i % 2 == 0 { outer } else { inner };
-            fraction_of_turn(i, 2 * points) * vec2(radius, 0.0)
+            part_of_turn(real(i), 2 * points) * vec2(radius, 0.0)
         });
         Self::new(corners.collect::<Vec<Vec2>>())
     }
 }
 
-/// The turn by `i/n`, exact at quarters.
+/// The turn by `part/n`, exact at quarters.
+fn part_of_turn(part: f64, n: usize) -> Rot {
+    Rot::from_degrees(360.0 * part / real(n))
+}
+
 #[expect(clippy::cast_precision_loss, reason = "counts stay below 2^25")]
-fn fraction_of_turn(i: usize, n: usize) -> Rot {
-    Rot::from_degrees(360.0 * i as f64 / n as f64)
+fn real(count: usize) -> f64 {
+    count as f64
 }
 
 fn check_count(count: usize) -> Result<(), PolygonError> {

@@ -56,5 +56,10 @@ pub use query::RayHit;
 pub use segment::Segment;
 pub use shape::{Outline, Shape};
 
+/// Runs the example of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadmeDocTests;
+
 #[cfg(test)]
 mod tests;

@@ -74,6 +74,8 @@ impl Polygon {
     }
 
     /// The same polygon moved by `offset`, in m.
+    ///
+    /// Vertices are rounded to where they come to lie, and not checked again.
     #[must_use]
     pub fn translated(&self, offset: Vec2) -> Self {
         Self {

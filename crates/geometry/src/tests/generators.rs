@@ -80,6 +80,23 @@ fn a_star_has_its_tips_and_notches() {
 }
 
 #[test]
+fn random_polygons_are_strictly_convex_whatever_the_numbers() {
+    for (name, numbers) in [
+        ("least", vec![0.0]),
+        ("most", vec![1.0]),
+        ("far apart and close", vec![1.0, 0.0]),
+        ("no numbers", vec![f64::NAN, -3.0, 7.0]),
+    ] {
+        for sides in [3, 4, 5, 40, 1000] {
+            let mut from = numbers.iter().copied().cycle();
+            let mut next = || from.next().unwrap_or(0.0);
+            let polygon = ConvexPolygon::random(sides, 2.0, &mut next).expect(name);
+            assert_eq!(polygon.vertices().len(), sides, "{name}");
+        }
+    }
+}
+
+#[test]
 fn generators_name_what_they_refuse() {
     let refused = |result: Result<ConvexPolygon, PolygonError>| {
         result.expect_err("a number is wrong").to_string()
