@@ -41,12 +41,12 @@ pub(crate) struct Footage {
     pub(crate) interrupted: bool,
 }
 
-/// Runs the scene, draws the frames that are `wanted`, and hands what `encode` makes of them to `take`, in order.
+/// Runs the scene, draws the frames that are `wanted` (asked in order), and hands what `encode` makes of them to `take`, in order.
 pub(crate) fn shoot<T: Send>(
     built: &mut Built,
     plan: &Plan,
     label: &str,
-    wanted: impl Fn(u64) -> bool,
+    wanted: impl Fn(u64) -> Result<bool, Failure>,
     encode: impl Fn(u64, Picture) -> Result<T, Failure> + Sync,
     mut take: impl FnMut(u64, T) -> Result<(), Failure>,
 ) -> Result<Footage, Failure> {
@@ -74,7 +74,7 @@ pub(crate) fn shoot<T: Send>(
             let energy = built.world.energy();
             footage.energy.push((built.world.time().as_secs(), energy));
             progress.advance();
-            if plan.slice.contains(&index) && wanted(index) {
+            if plan.slice.contains(&index) && wanted(index)? {
                 let frame = Frame::capture(&built.world, &built.look, &built.camera);
                 return Ok(Some((index, frame)));
             }

@@ -1,8 +1,9 @@
 //! How far a long run is: a bar on a terminal, a line now and then elsewhere.
 
+use std::fmt;
 use std::io::{IsTerminal, stderr};
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 
 use crate::clock::Clock;
 
@@ -77,10 +78,16 @@ fn bar(what: &str, total: u64, unit: &str) -> ProgressBar {
     } else {
         "{bar:28.cyan}"
     };
-    let template =
-        format!("{{prefix}} [{strip}] {{pos}}/{{len}} {unit}, {{per_sec}}, {{eta}} left");
+    let template = format!("{{prefix}} [{strip}] {{pos}}/{{len}} {unit}, {{rate}}, {{eta}} left");
     let style = ProgressStyle::with_template(&template)
         .unwrap_or_else(|_| ProgressStyle::default_bar())
+        .with_key(
+            "rate",
+            |state: &ProgressState, line: &mut dyn fmt::Write| {
+                // A line on a terminal: nothing to do if it cannot be written.
+                let _ = write!(line, "{:.1}/s", state.per_sec());
+            },
+        )
         .progress_chars("=> ");
     ProgressBar::new(total)
         .with_style(style)

@@ -82,6 +82,11 @@ impl Watch {
             energy_residual: to.residual(),
             momentum_start: self.start.momentum.into(),
             momentum_end: end.momentum.into(),
+            momentum_drift: Momentum {
+                linear: end.momentum.linear - self.start.momentum.linear,
+                angular: end.momentum.angular - self.start.momentum.angular,
+            }
+            .into(),
             handed_over: report.handed_over,
             unresolved: report.unresolved,
             collapsed: report.collapsed,
@@ -112,6 +117,7 @@ pub(crate) struct Summary {
     pub(crate) energy_residual: f64,
     pub(crate) momentum_start: Momenta,
     pub(crate) momentum_end: Momenta,
+    pub(crate) momentum_drift: Momenta,
     pub(crate) handed_over: u64,
     pub(crate) unresolved: u64,
     pub(crate) collapsed: u64,
@@ -200,13 +206,19 @@ impl Summary {
                 self.energy_residual.abs()
             ),
             format!(
-                "momentum     ({}, {}) -> ({}, {}) kg m/s, angular {} -> {} kg m2/s (walls and fields act on it)",
+                "momentum     ({}, {}) -> ({}, {}) kg m/s, angular {} -> {} kg m2/s",
                 short(self.momentum_start.linear[0]),
                 short(self.momentum_start.linear[1]),
                 short(self.momentum_end.linear[0]),
                 short(self.momentum_end.linear[1]),
                 short(self.momentum_start.angular),
                 short(self.momentum_end.angular)
+            ),
+            format!(
+                "             drift ({}, {}) kg m/s, {} kg m2/s: what gravity, fields and fixed bodies gave",
+                short(self.momentum_drift.linear[0]),
+                short(self.momentum_drift.linear[1]),
+                short(self.momentum_drift.angular)
             ),
             format!("deepest      overlap {:.2e} m", self.deepest_overlap),
             self.exactness(),

@@ -131,7 +131,11 @@ fn draw(
         }
         Ok(())
     };
-    let footage = shoot(built, plan, name, |_| true, encode, take)?;
+    let list = |index: u64| {
+        folder.claim(&Sequence::name(index))?;
+        Ok(true)
+    };
+    let footage = shoot(built, plan, name, list, encode, take)?;
     film.finish()?;
     folder.save(SHEET, &sheet.paint(&style)?.to_png())?;
     Ok(footage)

@@ -17,7 +17,14 @@ pub(super) fn frames(built: &mut Built, plan: &Plan, folder: &OutputFolder) -> S
         built,
         plan,
         "render",
-        |index| !there(index),
+        |index| {
+            // Listed in order, whatever the order in which threads finish.
+            let missing = !there(index);
+            if missing {
+                folder.claim(&Sequence::name(index))?;
+            }
+            Ok(missing)
+        },
         |index, picture| Ok(folder.save(&Sequence::name(index), &picture.to_png())?),
         |_, ()| Ok(()),
     )?;
@@ -37,7 +44,7 @@ pub(super) fn apng(built: &mut Built, plan: &Plan, folder: &OutputFolder, name: 
         built,
         plan,
         "render",
-        |_| true,
+        |_| Ok(true),
         |_, picture| Ok(picture.to_png()),
         |_, png| Ok(film.push_png(&png)?),
     )?;
@@ -54,7 +61,7 @@ pub(super) fn y4m(built: &mut Built, plan: &Plan, folder: &OutputFolder, name: &
         built,
         plan,
         "render",
-        |_| true,
+        |_| Ok(true),
         |_, picture| Ok(picture),
         |_, picture| Ok(film.push(&picture)?),
     )?;

@@ -43,6 +43,9 @@ fn frames_do_not_depend_on_threads_or_slices() {
         );
     }
     assert_eq!(frame("one/deep", 3), frame("slice", 3));
+    let list =
+        |place: &str| fs::read_to_string(folder.path().join(place).join("manifest.txt")).unwrap();
+    assert_eq!(list("one/deep"), list("many"));
     let pngs = |place: &str| {
         names(&folder.path().join(place))
             .into_iter()
