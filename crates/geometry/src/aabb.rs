@@ -104,3 +104,29 @@ impl Aabb {
         self.min.is_finite() && self.max.is_finite()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use carom_math::vec2;
+
+    use super::*;
+
+    #[test]
+    fn the_empty_box_is_neutral() {
+        let a = Aabb::new(vec2(-1.0, 2.0), vec2(3.0, 4.0));
+        assert_eq!(a.union(Aabb::EMPTY), a);
+        assert_eq!(Aabb::from_points([]), Aabb::EMPTY);
+        assert!(!a.overlaps(Aabb::EMPTY) && !Aabb::EMPTY.contains_point(Vec2::ZERO));
+        assert!(a.contains(Aabb::EMPTY) && !Aabb::EMPTY.is_finite());
+    }
+
+    #[test]
+    fn corners_belong_to_the_box() {
+        let a = Aabb::new(vec2(-1.0, 2.0), vec2(3.0, 4.0));
+        assert!(a.contains_point(a.min) && a.contains_point(a.max));
+        assert!(!a.contains_point(vec2(3.0_f64.next_up(), 3.0)));
+        assert_eq!((a.centre(), a.extents()), (vec2(1.0, 3.0), vec2(4.0, 2.0)));
+        assert!(a.grown(0.5).contains(a) && !a.contains(a.grown(0.5)));
+        assert_eq!(Aabb::from_points([a.max, a.min]), a);
+    }
+}

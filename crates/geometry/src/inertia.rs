@@ -6,6 +6,12 @@
 use carom_math::{Vec2, cross, trig};
 
 /// A rectangle about its centre: `m (w² + h²) / 12`. Source: thesis, (3.4).
+///
+/// # Examples
+/// ```
+/// use carom_geometry::inertia;
+/// assert_eq!(inertia::rectangle(6.0, 2.0, 3.0), 6.5);              // kg·m²
+/// ```
 #[must_use]
 pub fn rectangle(mass: f64, width: f64, height: f64) -> f64 {
     mass * (width * width + height * height) / 12.0
@@ -29,6 +35,12 @@ pub fn regular(mass: f64, sides: usize, side: f64) -> f64 {
 }
 
 /// A disc about its centre: `m r² / 2`. Source: engine article.
+///
+/// # Examples
+/// ```
+/// use carom_geometry::inertia;
+/// assert_eq!(inertia::circle(4.0, 0.5), 0.5);                      // kg·m²
+/// ```
 #[must_use]
 pub fn circle(mass: f64, radius: f64) -> f64 {
     0.5 * mass * radius * radius
@@ -54,6 +66,15 @@ pub fn right_triangle_about_corner(mass: f64, width: f64, height: f64) -> f64 {
 }
 
 /// Any triangle about its centroid, by the lengths of its sides: `m (a² + b² + c²) / 36`.
+///
+/// # Examples
+/// ```
+/// use carom_geometry::{ConvexPolygon, inertia};
+/// assert_eq!(inertia::triangle(36.0, 3.0, 4.0, 5.0), 50.0);        // kg·m²
+/// let right = ConvexPolygon::triangle(3.0, 4.0, std::f64::consts::FRAC_PI_2)?;
+/// assert!((right.area_properties().with_mass(36.0).inertia - 50.0).abs() < 1e-13);
+/// # Ok::<(), carom_geometry::PolygonError>(())
+/// ```
 #[must_use]
 pub fn triangle(mass: f64, a: f64, b: f64, c: f64) -> f64 {
     mass * (a * a + b * b + c * c) / 36.0
@@ -64,7 +85,17 @@ pub fn triangle(mass: f64, a: f64, b: f64, c: f64) -> f64 {
 /// `p4` is the foot of the height from `p3` on the line `p1 p2`. Each half is seen from `p3`,
 /// where it is a right triangle of legs w and h: `ρ (w h³/4 + w³ h/12)`. Both w are signed: beyond
 /// an obtuse angle one of them is taken away, and a clockwise triangle counts negative as a whole.
-/// Per unit of density. Source: triangle article, with its errors mended.
+/// Per unit of density, in m⁴. Source: triangle article, with its errors mended.
+///
+/// # Examples
+/// ```
+/// use carom_geometry::inertia;
+/// use carom_math::vec2;
+/// // Obtuse at the second corner: the foot of the height lies beyond it.
+/// let [p1, p2, p3] = [vec2(0.0, 0.0), vec2(1.0, 0.0), vec2(5.0, 1.0)];
+/// assert!((inertia::signed_right_triangles(p1, p2, p3) - 8.0 / 3.0).abs() < 1e-14);
+/// assert!((inertia::signed_right_triangles(p1, p3, p2) + 8.0 / 3.0).abs() < 1e-14);
+/// ```
 #[must_use]
 pub fn signed_right_triangles(p1: Vec2, p2: Vec2, p3: Vec2) -> f64 {
     let base = p2 - p1;
@@ -87,7 +118,7 @@ pub fn signed_right_triangles(p1: Vec2, p2: Vec2, p3: Vec2) -> f64 {
     half(w1, p1) + half(w2, p2)
 }
 
-/// Any simple polygon about the origin, per unit of density, fanned from its first vertex.
+/// Any simple polygon about the origin, per unit of density (in m⁴), fanned from its first vertex.
 ///
 /// Source: triangle article, "From Triangles to Polygons".
 ///
@@ -119,7 +150,23 @@ pub fn polygon_by_right_triangles(ring: &[Vec2]) -> f64 {
 /// ```text
 /// I = Σ m_i/2 (|P_i P_{i+1}|²/3 + CP_i · P_i P_{i+1} + |CP_i|²),  m_i = mass · A_i / A
 /// ```
-/// `centre` must be the true centroid for the result to be about it.
+/// Any `centre` will do, inside or outside; the centroid gives the moment that a free body turns
+/// with. Plain sums: for thin or distant rings [`crate::ring_properties`] keeps more digits.
+///
+/// # Examples
+/// ```
+/// use carom_geometry::{Polygon, inertia};
+/// use carom_math::vec2;
+/// // The thesis's house, 100 m wide; the mean of its corners would be 6.7 m too high.
+/// let house = [
+///     vec2(0.0, 0.0), vec2(100.0, 0.0), vec2(100.0, 100.0), vec2(50.0, 150.0), vec2(0.0, 100.0),
+/// ];
+/// let area = Polygon::new(house)?.area_properties();
+/// assert!((area.centroid - vec2(50.0, 190.0 / 3.0)).length() < 1e-13);
+/// let moment = inertia::fan(12.0, area.centroid, &house);
+/// assert!((moment / area.with_mass(12.0).inertia - 1.0).abs() < 1e-14);
+/// # Ok::<(), carom_geometry::PolygonError>(())
+/// ```
 #[must_use]
 pub fn fan(mass: f64, centre: Vec2, ring: &[Vec2]) -> f64 {
     let (mut area, mut moment) = (0.0, 0.0);

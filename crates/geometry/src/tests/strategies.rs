@@ -45,7 +45,7 @@ fn nearly_straight() -> impl Strategy<Value = Vec<Vec2>> {
 /// A zigzag band, down to 1e-12 m thin.
 fn band() -> impl Strategy<Value = Vec<Vec2>> {
     (3..30_usize, 0..13_i32).prop_map(|(count, digits)| {
-        let thin = libm_free_power(digits);
+        let thin = (0..digits).fold(0.25, |thin, _| thin * 0.1);
         let point =
             |i: usize, up: f64| vec2(i as f64, if i.is_multiple_of(2) { up } else { 0.5 + up });
         let there = (0..count).map(|i| point(i, 0.0));
@@ -53,10 +53,6 @@ fn band() -> impl Strategy<Value = Vec<Vec2>> {
             .chain((0..count).rev().map(|i| point(i, thin)))
             .collect()
     })
-}
-
-fn libm_free_power(digits: i32) -> f64 {
-    (0..digits).fold(0.25, |x, _| x * 0.1)
 }
 
 /// Teeth of many lengths on a thin bar: many reflex corners, many straight ones.
