@@ -64,7 +64,7 @@ pub(crate) struct DemoArgs {
 pub(crate) struct RenderArgs {
     /// Scene file (TOML) or the name of a built-in scene (`cargo xtask list`)
     pub(crate) scene: String,
-    /// Folder for the frames; made if it is missing [default: out/<scene name>]
+    /// Folder for the frames; made if it is missing [default: out/ and the name of the scene]
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
     /// Simulated seconds to draw [default: the scene's duration]

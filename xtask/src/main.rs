@@ -7,6 +7,7 @@ mod ci;
 mod clock;
 mod demo;
 mod exit;
+mod files;
 mod film;
 mod flags;
 mod inertia;

@@ -2,12 +2,15 @@
 
 use carom_scenes::Scene;
 
-use crate::exit::Failure;
+use crate::exit::{Failure, fail};
 use crate::flags::ModeFlag;
 use crate::values::KeyValue;
 
 /// Opens a scene file, or a built-in scene by its name.
 pub(crate) fn open(name: &str, set: &[KeyValue], mode: Option<ModeFlag>) -> Result<Scene, Failure> {
+    if name.is_empty() {
+        fail!("the name of the scene is empty");
+    }
     let mut scene = carom_scenes::open(name)?;
     for KeyValue { key, value } in set {
         scene.set(key, value)?;

@@ -4,11 +4,11 @@ mod cases;
 mod chart;
 
 use std::fmt::Write as _;
-use std::fs;
 
 use serde::Serialize;
 
 use crate::exit::{End, Outcome};
+use crate::files;
 use crate::flags::AccuracyArgs;
 use crate::interrupt;
 use crate::out::say;
@@ -35,12 +35,8 @@ struct Row {
 }
 
 pub(crate) fn run(args: &AccuracyArgs) -> Outcome {
-    fs::create_dir_all(&args.out).map_err(|error| {
-        crate::exit::Failure::new(format!(
-            "cannot make the folder {}: {error}",
-            args.out.display()
-        ))
-    })?;
+    files::make_folder(&args.out)?;
+    args.json.as_deref().map_or(Ok(()), files::prepare)?;
     interrupt::watch()?;
     if !args.quick {
         say!("there is only the quick sweep at this stage");
@@ -73,8 +69,7 @@ pub(crate) fn run(args: &AccuracyArgs) -> Outcome {
         say!("chart        {}", path.display());
     }
     if let Some(path) = &args.json {
-        let text = serde_json::to_string_pretty(&rows)? + "\n";
-        carom_render::write_file(path, text.as_bytes())?;
+        files::write_json(path, &rows)?;
         say!("json         {}", path.display());
     }
     Ok(if interrupt::asked() {

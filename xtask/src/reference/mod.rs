@@ -7,11 +7,11 @@ mod judge;
 mod mass;
 mod symmetry;
 
-use std::fs;
 use std::hint::black_box;
 
 use crate::clock::Clock;
-use crate::exit::{End, Failure, Outcome};
+use crate::exit::{End, Outcome};
+use crate::files;
 use crate::flags::ReferenceArgs;
 use crate::out::say;
 
@@ -24,6 +24,7 @@ use symmetry::Symmetry;
 const LISTED: usize = 10;
 
 pub(crate) fn run(args: &ReferenceArgs) -> Outcome {
+    args.json.as_deref().map_or(Ok(()), files::prepare)?;
     let books = book::read_folder(&args.dir)?;
     let mut answers = Vec::new();
     let (mut passed, mut total) = (0, 0);
@@ -44,9 +45,7 @@ pub(crate) fn run(args: &ReferenceArgs) -> Outcome {
             engine: "carom",
             cases: answers,
         };
-        let text = serde_json::to_string_pretty(&results)? + "\n";
-        fs::write(path, text)
-            .map_err(|error| Failure::new(format!("cannot write {}: {error}", path.display())))?;
+        files::write_json(path, &results)?;
         say!("answers in {}", path.display());
     }
     Ok(if passed == total {

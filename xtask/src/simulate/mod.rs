@@ -7,6 +7,7 @@ use carom_math::SimTime;
 
 use crate::clock::Clock;
 use crate::exit::{End, Failure, Outcome, fail};
+use crate::files;
 use crate::flags::SimulateArgs;
 use crate::interrupt;
 use crate::out::say;
@@ -33,6 +34,7 @@ pub(crate) fn run(args: &SimulateArgs) -> Outcome {
     }
     let scene = scene::open(&args.scene, &args.set, args.mode)?;
     let mut built = scene.build()?;
+    args.json.as_deref().map_or(Ok(()), files::prepare)?;
     interrupt::watch()?;
     let mut table = Table::open(args.out.as_deref(), &built)?;
     let run = sample(&mut built.world, seconds, every, &mut table)?;
@@ -41,8 +43,7 @@ pub(crate) fn run(args: &SimulateArgs) -> Outcome {
     let summary = run.watch.finish(&built.world, scene.name());
     report(args, &summary, &run);
     if let Some(path) = &args.json {
-        let text = serde_json::to_string_pretty(&summary)? + "\n";
-        carom_render::write_file(path, text.as_bytes())?;
+        files::write_json(path, &summary)?;
     }
     Ok(if run.interrupted {
         End::Interrupted

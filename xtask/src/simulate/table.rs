@@ -1,6 +1,5 @@
 //! Trajectories as CSV, to stdout or to a file that has its name only when it is whole.
 
-use std::fs;
 use std::io::{self, BufWriter, Stdout, Write};
 use std::path::Path;
 
@@ -9,6 +8,7 @@ use carom_render::Draft;
 use carom_scenes::Built;
 
 use crate::exit::Failure;
+use crate::files;
 use crate::out::is_closed_pipe;
 
 const HEADING: &str = "time,body,x,y,angle,vx,vy,omega";
@@ -32,14 +32,7 @@ impl Table {
         let target = match place {
             None => Target::Stdout(BufWriter::new(io::stdout())),
             Some(place) => {
-                if let Some(folder) = place.parent() {
-                    fs::create_dir_all(folder).map_err(|error| {
-                        Failure::new(format!(
-                            "cannot make the folder {}: {error}",
-                            folder.display()
-                        ))
-                    })?;
-                }
+                files::prepare(place)?;
                 Target::File(Draft::create(place)?)
             }
         };

@@ -104,6 +104,21 @@ fn a_folder_in_the_place_of_the_table_is_refused() {
         ],
     )
     .refused(&["cannot make the folder file"]);
+    let json = [
+        "simulate",
+        "thesis",
+        "--seconds",
+        "1",
+        "--out",
+        "a.csv",
+        "--json",
+    ];
+    for (place, why) in [
+        ("t.csv", "directory"),
+        ("file/t.json", "cannot make the folder file"),
+    ] {
+        xtask_in(folder.path(), &[&json[..], &[place]].concat()).refused(&[why]);
+    }
     assert_eq!(names(folder.path()), ["file", "t.csv"]);
 }
 
