@@ -136,8 +136,11 @@ fn draw(
         Ok(true)
     };
     let footage = shoot(built, plan, name, list, encode, take)?;
-    film.finish()?;
-    folder.save(SHEET, &sheet.paint(&style)?.to_png())?;
+    // Interrupted before the first frame: nothing to show.
+    if footage.drawn > 0 {
+        film.finish()?;
+        folder.save(SHEET, &sheet.paint(&style)?.to_png())?;
+    }
     Ok(footage)
 }
 

@@ -48,7 +48,10 @@ pub(super) fn apng(built: &mut Built, plan: &Plan, folder: &OutputFolder, name: 
         |_, picture| Ok(picture.to_png()),
         |_, png| Ok(film.push_png(&png)?),
     )?;
-    film.finish()?;
+    // Interrupted before the first frame: no film, and no file.
+    if footage.drawn > 0 {
+        film.finish()?;
+    }
     Ok((footage, format!("in {}", path.display())))
 }
 
@@ -65,6 +68,8 @@ pub(super) fn y4m(built: &mut Built, plan: &Plan, folder: &OutputFolder, name: &
         |_, picture| Ok(picture),
         |_, picture| Ok(film.push(&picture)?),
     )?;
-    film.finish()?.finish()?;
+    if footage.drawn > 0 {
+        film.finish()?.finish()?;
+    }
     Ok((footage, format!("in {}", path.display())))
 }
