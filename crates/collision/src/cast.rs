@@ -10,7 +10,7 @@ use carom_math::{Pose, Vec2, cross};
 
 use crate::manifold::Faces;
 use crate::outline::Pair;
-use crate::sat::{Face, beyond_end, face};
+use crate::sat::{Face, along_both, beyond_end, face};
 use crate::{AxisFeature, Hull, Side, hulls, separating_axis};
 
 /// What a moved shape met first.
@@ -149,57 +149,99 @@ fn cast_hulls(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose, step: Vec2) -> Option<Lo
     cast_polygons(a, b, b_in_a, step)
 }
 
+/// Which axes are closed, from when to when.
+struct Interval {
+    enter: f64,
+    leave: f64,
+    /// The axis that closed last, and whether it is one of a cut.
+    last: Option<(Closed, bool)>,
+}
+
+#[derive(Clone, Copy)]
+enum Closed {
+    Face(Side, Face),
+    /// A direction from a vertex of A.
+    Along(Vec2, usize),
+}
+
+impl Interval {
+    /// Takes an axis into account: its gap and the rate at which that grows. `None` if it never
+    /// closes.
+    fn add(&mut self, gap: f64, rate: f64, closed: Closed, cut: impl FnOnce() -> bool) -> Option<()> {
+        if gap < 0.0 {
+            if rate > 0.0 {
+                self.leave = self.leave.min(gap / -rate);
+            }
+            return Some(());
+        }
+        if rate >= 0.0 {
+            return None;
+        }
+        let at = gap / -rate;
+        if self.last.is_none() || at >= self.enter {
+            let cut = cut();
+            if self.last.is_none() || at > self.enter || !cut {
+                self.enter = at;
+                self.last = Some((closed, cut));
+            }
+        }
+        Some(())
+    }
+}
+
 /// The last axis to close, if none opens before.
 fn cast_polygons(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose, step: Vec2) -> Option<Local> {
     let pair = Pair::new(a, b, b_in_a);
     let steps = [step, -b_in_a.inverse_vector(step)];
-    let (mut enter, mut leave) = (0.0_f64, f64::INFINITY);
-    let mut last: Option<(Side, Face, bool)> = None;
+    let lines = a.normals.len() == 2 && b.normals.len() == 2;
+    let mut interval = Interval {
+        enter: 0.0,
+        leave: f64::INFINITY,
+        last: None,
+    };
     for owner in [Side::A, Side::B] {
-        let (own, other) = (owner as usize, 1 - owner as usize);
+        let (own, other) = (owner as usize, owner.other() as usize);
         let (hull, pose) = (&pair.hulls[own], pair.poses[own]);
         for edge in 0..hull.normals.len() {
             let face = face(hull, edge, &pair.hulls[other], pose, None);
             let rate = hull.normals[edge].dot(steps[own]);
-            if face.separation >= 0.0 {
-                if rate >= 0.0 {
-                    return None;
-                }
-                let at = face.separation / -rate;
-                let cut = pair.has_cuts() && !pair.allows(owner, face);
-                let later = last.is_none() || at > enter || (at >= enter && !cut);
-                if later {
-                    enter = at;
-                    last = Some((owner, face, cut));
-                }
-            } else if rate > 0.0 {
-                leave = leave.min(-face.separation / rate);
+            if lines && face.separation == 0.0 && rate == 0.0 {
+                // Segments that stay on one line: it does not separate them, their ends may.
+                continue;
             }
+            let cut = || pair.has_cuts() && !pair.allows(owner, face);
+            interval.add(face.separation, rate, Closed::Face(owner, face), cut)?;
         }
     }
-    let (owner, face, cut) = last?;
-    if enter > 1.0 || enter > leave {
+    if lines {
+        for direction in along_both(a, b, b_in_a) {
+            let (vertex, of_a) = a.support(direction);
+            let (_, of_b) = b.support(b_in_a.inverse_vector(-direction));
+            let gap = direction.dot(b_in_a.position) - of_b - of_a;
+            let closed = Closed::Along(direction, vertex);
+            interval.add(gap, direction.dot(step), closed, || false)?;
+        }
+    }
+    let (closed, cut) = interval.last?;
+    let fraction = interval.enter;
+    if fraction > 1.0 || fraction > interval.leave {
         return None;
     }
-    if a.normals.len() == 2 && b.normals.len() == 2 && !ends_meet(a, b, b_in_a, step, enter) {
-        return None;
-    }
-    let pose = Pose::new(b_in_a.position + step * enter, b_in_a.rotation);
-    let pair = Pair::new(a, b, pose);
-    let faces = Faces::new(&pair, owner, face);
+    let (point, normal) = match closed {
+        Closed::Face(owner, face) => {
+            let pose = Pose::new(b_in_a.position + step * fraction, b_in_a.rotation);
+            let pair = Pair::new(a, b, pose);
+            let faces = Faces::new(&pair, owner, face);
+            (faces.touch(), faces.normal_in_a())
+        }
+        Closed::Along(direction, vertex) => (a.vertices[vertex], direction),
+    };
     Some(Local {
-        fraction: enter,
-        point: faces.touch(),
-        normal: faces.normal_in_a(),
+        fraction,
+        point,
+        normal,
         cut,
     })
-}
-
-/// Parallel segments: no normal of theirs tells whether they pass beside each other.
-fn ends_meet(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose, step: Vec2, fraction: f64) -> bool {
-    let pose = Pose::new(b_in_a.position + step * fraction, b_in_a.rotation);
-    let way = separating_axis(a, b, pose);
-    !matches!(way.feature, AxisFeature::Vertices { .. })
 }
 
 /// The first fraction of `step` at which a point comes within `radius` of a hull, and the normal

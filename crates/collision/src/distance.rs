@@ -22,15 +22,26 @@ pub struct Distance {
 }
 
 impl Distance {
-    /// Vertices of A and B nearest to the way: the start of an edge stands for it.
-    pub(crate) fn vertices(&self) -> (usize, usize) {
+    /// Vertices of A and B nearest to the way.
+    pub(crate) fn vertices(&self, a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose) -> (usize, usize) {
+        let nearer_end = |hull: &Hull<'_>, edge: usize, point: Vec2| {
+            let (from, to) = hull.edge(edge);
+            if (point - to).length_squared() < (point - from).length_squared() {
+                hull.next(edge)
+            } else {
+                edge
+            }
+        };
         match self.feature {
             AxisFeature::Edge {
                 owner: Side::A,
                 edge,
                 vertex,
-            } => (edge, vertex),
-            AxisFeature::Edge { edge, vertex, .. } => (vertex, edge),
+            } => (nearer_end(a, edge, self.point_a), vertex),
+            AxisFeature::Edge { edge, vertex, .. } => {
+                let point = b_in_a.inverse_point(self.point_b);
+                (vertex, nearer_end(b, edge, point))
+            }
             AxisFeature::Vertices { a, b } => (a, b),
         }
     }

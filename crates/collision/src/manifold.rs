@@ -182,7 +182,7 @@ fn collide_polygons(pair: &Pair<'_>, margin: f64) -> Option<Manifold> {
     // than rounding the way from vertex to vertex has no direction, but the edge still has.
     match apart(a, b, pair.poses[0]).filter(|way| way.distance > TIE * length) {
         Some(way) => (way.distance <= margin && pair.allows_way(&way)).then(|| {
-            let (i, j) = way.vertices();
+            let (i, j) = way.vertices(a, b, pair.poses[0]);
             let middle = 0.5 * (way.point_a + way.point_b);
             Manifold::single(way.normal, middle, way.distance, FeatureId::new(i, j))
         }),
@@ -306,8 +306,25 @@ impl<'a, 'b> Faces<'a, 'b> {
 
     fn manifold(&self, ends: [End; 2], margin: f64) -> Option<Manifold> {
         let mut points: ArrayVec<ManifoldPoint, 2> = ArrayVec::new();
-        let one_vertex = self.other[0] == self.other[1];
-        for end in ends.into_iter().take(if one_vertex { 1 } else { 2 }) {
+        let [low, high] = ends;
+        let ends = if high.along - low.along <= TIE * self.length {
+            // They share no more than a point: the lower end, at the vertices that meet there.
+            let [before, after] = self.other;
+            let vertices = if low.along <= 0.0 {
+                (self.own[0], after)
+            } else if high.along >= self.length {
+                (self.own[1], before)
+            } else {
+                low.vertices
+            };
+            let end = if high.height < low.height { high } else { low };
+            [Some(End { vertices, ..end }), None]
+        } else if self.other[0] == self.other[1] {
+            [Some(low), None]
+        } else {
+            [Some(low), Some(high)]
+        };
+        for end in ends.into_iter().flatten() {
             if end.height <= margin {
                 points.push(self.point(end));
             }

@@ -306,12 +306,17 @@ pub(crate) fn beyond_end(hull: &Hull<'_>, edge: usize, point: Vec2) -> Option<us
     }
 }
 
+/// The directions of two segments, both ways, in A's frame.
+pub(crate) fn along_both(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose) -> [Vec2; 4] {
+    let (of_a, of_b) = (perp(a.normals[0]), b_in_a.vector(perp(b.normals[0])));
+    [of_a, -of_a, of_b, -of_b]
+}
+
 /// Two segments on one line are apart along that line, which no normal shows.
 fn along_segments(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose, axis: Axis) -> Axis {
     let ends = [b_in_a.point(b.vertices[0]), b_in_a.point(b.vertices[1])];
-    let directions = [perp(a.normals[0]), b_in_a.vector(perp(b.normals[0]))];
     let mut best = axis;
-    for direction in directions.into_iter().flat_map(|d| [d, -d]) {
+    for direction in along_both(a, b, b_in_a) {
         let heights = |p: &[Vec2]| [direction.dot(p[0]), direction.dot(p[1])];
         let (of_a, of_b) = (heights(a.vertices), heights(&ends));
         let (high, low) = (usize::from(of_a[1] > of_a[0]), usize::from(of_b[1] < of_b[0]));

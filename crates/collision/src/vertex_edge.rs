@@ -191,19 +191,20 @@ impl Scene {
                 }
             }
         }
-        // Only the nearest edge of the other polygon is touched; and of two pairs at one corner of
-        // each (a box half over the corner of a box), the one that overlaps less.
-        let nearer = |x: &Edges, y: &Edges| y.depth + self.touch < x.depth;
-        found
-            .iter()
-            .filter(|x| {
-                !found.iter().any(|y| {
-                    nearer(x, y)
-                        && (x.of[0] == y.of[0] || x.of[1] == y.of[1] || self.share_corners(x, y))
-                })
-            })
-            .copied()
-            .collect()
+        // Only the nearest edge of the other polygon is touched. Two pairs at one corner of each (a
+        // box half over the corner of a box) are one place: the lesser overlap, or, of equal ones,
+        // neither: then it is corner in corner.
+        let nearer = |x: &Edges, y: &Edges| y.depth + self.tie(x.depth) < x.depth;
+        let beats = |y: &Edges, x: &Edges| {
+            let one_edge = x.of[0] == y.of[0] || x.of[1] == y.of[1];
+            (one_edge && nearer(x, y)) || (self.share_corners(x, y) && !nearer(y, x))
+        };
+        found.iter().filter(|x| !found.iter().any(|y| beats(y, x))).copied().collect()
+    }
+
+    /// Overlaps that differ by less are equal.
+    fn tie(&self, depth: f64) -> f64 {
+        self.touch + 1e-9 * depth.abs()
     }
 
     /// Whether two pairs of edges meet in a convex corner of both polygons.
@@ -311,8 +312,7 @@ impl Scene {
         let any_valid = ways().any(|way| way.valid);
         let open = || ways().filter(|way| way.valid || !any_valid);
         let least = open().map(|way| way.depth).fold(f64::INFINITY, f64::min);
-        let tie = self.touch + 1e-9 * least.abs();
-        let tied = || open().filter(|way| way.depth <= least + tie);
+        let tied = || open().filter(|way| way.depth <= least + self.tie(least));
         let sum: Vec2 = tied().map(|way| way.normal).sum();
         // Four ways and none skipped: there is a first.
         let first = tied().next().unwrap_or(&all[0][0]);
