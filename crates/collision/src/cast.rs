@@ -59,7 +59,10 @@ pub fn cast(
         let goal = b.aabb(b_in_a);
         for a in hulls(moving) {
             let start = a.aabb(Pose::IDENTITY);
-            let path = start.union(carom_geometry::Aabb::new(start.min - step, start.max - step));
+            let path = start.union(carom_geometry::Aabb::new(
+                start.min - step,
+                start.max - step,
+            ));
             if !path.overlaps(goal) {
                 continue;
             }
@@ -167,7 +170,13 @@ enum Closed {
 impl Interval {
     /// Takes an axis into account: its gap and the rate at which that grows. `None` if it never
     /// closes.
-    fn add(&mut self, gap: f64, rate: f64, closed: Closed, cut: impl FnOnce() -> bool) -> Option<()> {
+    fn add(
+        &mut self,
+        gap: f64,
+        rate: f64,
+        closed: Closed,
+        cut: impl FnOnce() -> bool,
+    ) -> Option<()> {
         if gap < 0.0 {
             if rate > 0.0 {
                 self.leave = self.leave.min(gap / -rate);

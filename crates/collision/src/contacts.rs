@@ -109,22 +109,33 @@ fn near_parts(a: &Shape, b: &Shape, b_in_a: Pose, margin: f64) -> Vec<(usize, us
     };
     let (boxes_a, boxes_b) = (sorted(a, Pose::IDENTITY, 0.0), sorted(b, b_in_a, margin));
     // Whoever begins later looks at those of the other list that have not ended.
-    let (mut open_a, mut open_b): (Vec<(usize, Aabb)>, Vec<(usize, Aabb)>) = Default::default();
+    let mut open_a: Vec<(usize, Aabb)> = Vec::new();
+    let mut open_b: Vec<(usize, Aabb)> = Vec::new();
     let mut pairs = Vec::new();
     let (mut i, mut j) = (0, 0);
     while i < boxes_a.len() || j < boxes_b.len() {
-        let a_first = j == boxes_b.len()
-            || (i < boxes_a.len() && boxes_a[i].1.min.x <= boxes_b[j].1.min.x);
+        let a_first =
+            j == boxes_b.len() || (i < boxes_a.len() && boxes_a[i].1.min.x <= boxes_b[j].1.min.x);
         if a_first {
             let (part, bounds) = boxes_a[i];
             open_b.retain(|(_, other)| other.max.x >= bounds.min.x);
-            pairs.extend(open_b.iter().filter(|(_, o)| o.overlaps(bounds)).map(|(k, _)| (part, *k)));
+            pairs.extend(
+                open_b
+                    .iter()
+                    .filter(|(_, o)| o.overlaps(bounds))
+                    .map(|(k, _)| (part, *k)),
+            );
             open_a.push((part, bounds));
             i += 1;
         } else {
             let (part, bounds) = boxes_b[j];
             open_a.retain(|(_, other)| other.max.x >= bounds.min.x);
-            pairs.extend(open_a.iter().filter(|(_, o)| o.overlaps(bounds)).map(|(k, _)| (*k, part)));
+            pairs.extend(
+                open_a
+                    .iter()
+                    .filter(|(_, o)| o.overlaps(bounds))
+                    .map(|(k, _)| (*k, part)),
+            );
             open_b.push((part, bounds));
             j += 1;
         }

@@ -205,9 +205,7 @@ fn closest(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose, axis: Axis) -> Distance {
             for (vertex, v) in other.vertices.iter().enumerate() {
                 let point = pose.point(*v);
                 let height = normal.dot(point - own.vertices[edge]);
-                if height > 0.0
-                    && height < best.distance
-                    && beyond_end(own, edge, point).is_none()
+                if height > 0.0 && height < best.distance && beyond_end(own, edge, point).is_none()
                 {
                     let axis = Axis {
                         separation: height,
@@ -282,7 +280,11 @@ fn vertex_on_vertex(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose) -> Distance {
 fn common_point(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose, axis: Axis) -> Vec2 {
     let inside = |hull: &Hull<'_>, point: Vec2| {
         hull.normals.len() > 2
-            && hull.normals.iter().zip(hull.vertices).all(|(n, v)| n.dot(point - *v) <= 0.0)
+            && hull
+                .normals
+                .iter()
+                .zip(hull.vertices)
+                .all(|(n, v)| n.dot(point - *v) <= 0.0)
     };
     for w in b.vertices {
         let point = b_in_a.point(*w);

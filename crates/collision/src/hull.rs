@@ -85,12 +85,20 @@ impl<'a> Hull<'a> {
 
     /// Index after `i`, around the corner.
     pub(crate) fn next(&self, i: usize) -> usize {
-        if i + 1 == self.vertices.len() { 0 } else { i + 1 }
+        if i + 1 == self.vertices.len() {
+            0
+        } else {
+            i + 1
+        }
     }
 
     /// Index before `i`, around the corner.
     pub(crate) fn previous(&self, i: usize) -> usize {
-        if i == 0 { self.vertices.len() - 1 } else { i - 1 }
+        if i == 0 {
+            self.vertices.len() - 1
+        } else {
+            i - 1
+        }
     }
 }
 

@@ -1,4 +1,34 @@
 //! When, where and how two shapes in the plane touch.
+//!
+//! Two shapes and the pose of B in A's frame go in; what comes out is in A's frame, too. A normal is
+//! a unit vector from A to B, a separation below zero is an overlap, lengths are in metres.
+//!
+//! ```text
+//! Shape ─► Hull (vertices, normals, radius) ─► separating axis ─► manifold, distance, cast, time of impact
+//! ```
+//!
+//! A circle, a segment, a convex polygon is one [`Hull`]; a concave polygon is several, which know
+//! their cuts: a cut separates, but it is never touched. [`vertex_edge_contacts`] works on whole
+//! outlines and shares nothing with the hulls.
+//!
+//! # Examples
+//! ```
+//! use carom_collision::{contacts, shape_distance};
+//! use carom_geometry::{Circle, ConvexPolygon, Shape};
+//! use carom_math::{Pose, vec2};
+//! let wall: Shape = ConvexPolygon::rectangle(2.0, 6.0)?.into();                // m
+//! let ball: Shape = Circle::new(0.5)?.into();
+//! let apart = Pose::at(vec2(4.0, 1.0));                                        // of the ball, seen from the wall
+//! assert_eq!(shape_distance(&wall, &ball, apart).distance, 2.5);
+//!
+//! let mut found = Vec::new();
+//! contacts(&wall, &ball, Pose::at(vec2(1.25, 1.0)), 0.0, &mut found);
+//! assert_eq!(found[0].manifold.normal, vec2(1.0, 0.0));
+//! assert_eq!(found[0].manifold.points[0].separation, -0.25);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+#![cfg_attr(test, allow(clippy::float_cmp, reason = "tests compare exact results"))]
 
 mod cast;
 mod contacts;
@@ -22,3 +52,8 @@ pub use sat::{Axis, AxisFeature, Side, minimum_push, separating_axis};
 pub use toi::{Impact, TimeOfImpact, earlier, time_of_impact, time_of_impact_of_parts};
 pub use tree::{BoxTree, NodeId};
 pub use vertex_edge::{VertexEdge, VertexEdgeKind, vertex_edge_contacts};
+
+/// The README's example is a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadmeDocTests;

@@ -61,7 +61,10 @@ impl Manifold {
     /// Least separation of the points in metres, or `None` without a contact.
     #[must_use]
     pub fn deepest(&self) -> Option<f64> {
-        self.points.iter().map(|p| p.separation).min_by(f64::total_cmp)
+        self.points
+            .iter()
+            .map(|p| p.separation)
+            .min_by(f64::total_cmp)
     }
 
     fn single(normal: Vec2, point: Vec2, separation: f64, feature: FeatureId) -> Self {
@@ -121,7 +124,11 @@ fn collide_round(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose, margin: f64) -> Optio
     let (mut normal, mut separation) = (axis.normal, axis.separation);
     if hull.boundary.is_some() {
         // From the hull to the disc, in the hull's frame.
-        let outward = if disc_is_b { normal } else { b_in_a.inverse_vector(-normal) };
+        let outward = if disc_is_b {
+            normal
+        } else {
+            b_in_a.inverse_vector(-normal)
+        };
         let touchable = match axis.feature {
             AxisFeature::Edge { edge, .. } => hull.is_boundary(edge),
             AxisFeature::Vertices { a, b } => hull.allows(if disc_is_b { a } else { b }, outward),
@@ -138,7 +145,11 @@ fn collide_round(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose, margin: f64) -> Optio
             let (height, edge) = nearest_boundary(hull, centre, disc.radius)?;
             separation = height - disc.radius;
             let outward = hull.normals[edge];
-            normal = if disc_is_b { outward } else { -b_in_a.vector(outward) };
+            normal = if disc_is_b {
+                outward
+            } else {
+                -b_in_a.vector(outward)
+            };
         }
     }
     let point = if disc_is_b {
@@ -287,19 +298,17 @@ impl<'a, 'b> Faces<'a, 'b> {
         if start > end {
             return None;
         }
+        // From the end itself, so that nothing is added where nothing is cut off.
         let run = high.along - low.along;
-        let at = |along: f64, end: End| {
-            // At an end of the facing edge itself nothing is interpolated.
-            let height = if along == end.along || run <= 0.0 {
-                end.height
-            } else {
-                low.height + (along - low.along) / run * (high.height - low.height)
-            };
-            End {
-                along,
-                height,
-                vertices: end.vertices,
-            }
+        let slope = if run > 0.0 {
+            (high.height - low.height) / run
+        } else {
+            0.0
+        };
+        let at = |along: f64, end: End| End {
+            along,
+            height: end.height + (along - end.along) * slope,
+            vertices: end.vertices,
         };
         Some([at(start, low), at(end, high)])
     }
@@ -344,7 +353,12 @@ impl<'a, 'b> Faces<'a, 'b> {
             height: self.face.separation,
             vertices: (self.own[i], self.other[i]),
         });
-        Manifold::single(self.normal_in_a(), point.point, point.separation, point.feature)
+        Manifold::single(
+            self.normal_in_a(),
+            point.point,
+            point.separation,
+            point.feature,
+        )
     }
 
     fn point(&self, end: End) -> ManifoldPoint {

@@ -74,7 +74,13 @@ impl<'a> Pair<'a> {
         for owner in [Side::A, Side::B] {
             let (own, other) = (owner as usize, 1 - owner as usize);
             for edge in 0..self.hulls[own].normals.len() {
-                let face = face(&self.hulls[own], edge, &self.hulls[other], self.poses[own], None);
+                let face = face(
+                    &self.hulls[own],
+                    edge,
+                    &self.hulls[other],
+                    self.poses[own],
+                    None,
+                );
                 if best.is_none_or(|(_, known)| face.separation > known.separation)
                     && self.allows(owner, face)
                     && (!across_cuts || self.meets(owner, edge))
@@ -120,8 +126,7 @@ pub(crate) fn nearest_boundary(hull: &Hull<'_>, centre: Vec2, radius: f64) -> Op
             // In front of a true edge: what the disc touches, if anything, is nearer than a cut.
             return None;
         }
-        if best.is_none_or(|(known, _)| height > known)
-            && beyond_end(hull, edge, centre).is_none()
+        if best.is_none_or(|(known, _)| height > known) && beyond_end(hull, edge, centre).is_none()
         {
             best = Some((height, edge));
         }

@@ -159,7 +159,9 @@ pub(crate) fn face(
     let local = other_in_own.inverse_vector(normal);
     let (vertex, along) = lowest(other, local, hint);
     Face {
-        separation: along + normal.dot(other_in_own.position - own.vertices[edge]) - other.radius - own.radius,
+        separation: along + normal.dot(other_in_own.position - own.vertices[edge])
+            - other.radius
+            - own.radius,
         edge,
         vertex,
     }
@@ -319,7 +321,10 @@ fn along_segments(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose, axis: Axis) -> Axis 
     for direction in along_both(a, b, b_in_a) {
         let heights = |p: &[Vec2]| [direction.dot(p[0]), direction.dot(p[1])];
         let (of_a, of_b) = (heights(a.vertices), heights(&ends));
-        let (high, low) = (usize::from(of_a[1] > of_a[0]), usize::from(of_b[1] < of_b[0]));
+        let (high, low) = (
+            usize::from(of_a[1] > of_a[0]),
+            usize::from(of_b[1] < of_b[0]),
+        );
         let separation = of_b[low] - of_a[high];
         if separation > 0.0 && separation > best.separation {
             best = Axis {

@@ -118,7 +118,7 @@ impl BoxTree {
     pub fn update(&mut self, id: NodeId, bounds: Aabb) {
         let new = Bounds::around(bounds);
         let old = self.leaf(id).bounds;
-        if old.contains(&new) && old.perimeter() <= 2.0 * new.perimeter() {
+        if old.contains(new) && old.perimeter() <= 2.0 * new.perimeter() {
             return;
         }
         self.detach(id.0);
@@ -249,12 +249,16 @@ impl BoxTree {
             if node.is_leaf() {
                 return place;
             }
-            let joined = node.bounds.union(&leaf).perimeter();
+            let joined = node.bounds.union(leaf).perimeter();
             let growth = joined - node.bounds.perimeter();
             let cost = |child: u32| {
                 let child = &self.nodes[child as usize];
-                let joined = child.bounds.union(&leaf).perimeter();
-                let below = if child.is_leaf() { joined } else { joined - child.bounds.perimeter() };
+                let joined = child.bounds.union(leaf).perimeter();
+                let below = if child.is_leaf() {
+                    joined
+                } else {
+                    joined - child.bounds.perimeter()
+                };
                 (growth + below, child.height)
             };
             let [first, second] = node.children.map(cost);
@@ -278,9 +282,11 @@ impl BoxTree {
     }
 
     fn fit(&mut self, place: u32) {
-        let [first, second] = self.nodes[place as usize].children.map(|c| self.nodes[c as usize]);
+        let [first, second] = self.nodes[place as usize]
+            .children
+            .map(|c| self.nodes[c as usize]);
         let node = &mut self.nodes[place as usize];
-        node.bounds = first.bounds.union(&second.bounds);
+        node.bounds = first.bounds.union(second.bounds);
         node.height = 1 + first.height.max(second.height);
     }
 
@@ -297,7 +303,8 @@ impl BoxTree {
             for grandchild in [0, 1] {
                 let stays = inner.children[1 - grandchild];
                 let bounds = |i: u32| self.nodes[i as usize].bounds;
-                let gain = inner.bounds.perimeter() - bounds(child).union(&bounds(stays)).perimeter();
+                let gain =
+                    inner.bounds.perimeter() - bounds(child).union(bounds(stays)).perimeter();
                 // Equal boxes rotate for the sake of height.
                 let height = |i: u32| self.nodes[i as usize].height;
                 let lower = height(inner.children[grandchild])

@@ -82,7 +82,11 @@ pub fn vertex_edge_contacts(a: &Polygon, b: &Polygon, b_in_a: Pose) -> Vec<Verte
     let parallel = scene.parallel_edges();
     let mut touches = scene.vertices_behind_edges(Side::A);
     touches.extend(scene.vertices_behind_edges(Side::B));
-    touches.retain(|touch| !parallel.iter().any(|edges| scene.belongs_to(*touch, *edges)));
+    touches.retain(|touch| {
+        !parallel
+            .iter()
+            .any(|edges| scene.belongs_to(*touch, *edges))
+    });
     let corners = scene.corners(&mut touches);
 
     let mut found: Vec<VertexEdge> = parallel.iter().map(|edges| scene.along(*edges)).collect();
@@ -130,7 +134,10 @@ impl Scene {
     }
 
     fn boxes_overlap(&self) -> bool {
-        self.rings[0].bounds.grown(self.touch).overlaps(self.rings[1].bounds)
+        self.rings[0]
+            .bounds
+            .grown(self.touch)
+            .overlaps(self.rings[1].bounds)
     }
 
     /// How far `point` is behind edge `edge` of a polygon.
@@ -142,10 +149,12 @@ impl Scene {
     /// Whether both neighbours of a vertex are no deeper behind an edge of the other polygon.
     fn is_deepest(&self, owner: Side, vertex: usize, edge: usize) -> bool {
         let (own, other) = (&self.rings[owner as usize], &self.rings[1 - owner as usize]);
-        [own.previous(vertex), own.next(vertex)].into_iter().all(|i| {
-            let way = own.points[i] - own.points[vertex];
-            other.normals[edge].dot(way) >= -PARALLEL * way.length()
-        })
+        [own.previous(vertex), own.next(vertex)]
+            .into_iter()
+            .all(|i| {
+                let way = own.points[i] - own.points[vertex];
+                other.normals[edge].dot(way) >= -PARALLEL * way.length()
+            })
     }
 
     /// Vertices of one polygon in the other, each with its edge.
@@ -199,7 +208,11 @@ impl Scene {
             let one_edge = x.of[0] == y.of[0] || x.of[1] == y.of[1];
             (one_edge && nearer(x, y)) || (self.share_corners(x, y) && !nearer(y, x))
         };
-        found.iter().filter(|x| !found.iter().any(|y| beats(y, x))).copied().collect()
+        found
+            .iter()
+            .filter(|x| !found.iter().any(|y| beats(y, x)))
+            .copied()
+            .collect()
     }
 
     /// Overlaps that differ by less are equal.
@@ -258,7 +271,8 @@ impl Scene {
         // Dropped pairs at a shared corner leave their vertices behind: these are the same place.
         let same_edge = edges.of[other] == touch.edge;
         let rings = &self.rings[other];
-        let beside = rings.next(touch.edge) == edges.of[other] || rings.next(edges.of[other]) == touch.edge;
+        let beside =
+            rings.next(touch.edge) == edges.of[other] || rings.next(edges.of[other]) == touch.edge;
         is_end && (same_edge || (beside && touch.depth > edges.depth + self.touch))
     }
 
@@ -347,7 +361,11 @@ impl Scene {
         VertexEdge {
             kind: VertexEdgeKind::VertexOnEdge,
             point: self.rings[touch.owner as usize].points[touch.vertex],
-            normal: if touch.owner == Side::A { -normal } else { normal },
+            normal: if touch.owner == Side::A {
+                -normal
+            } else {
+                normal
+            },
             overlap: touch.depth,
             owner: touch.owner,
             vertex: touch.vertex,
@@ -391,7 +409,11 @@ fn through(a: &Polygon, b: &Polygon, b_in_a: Pose, scene: &Scene) -> Option<Vert
                 edge,
                 vertex,
             };
-            let least = if pair.allows(owner, face) { Some((owner, face)) } else { pair.least_overlap() };
+            let least = if pair.allows(owner, face) {
+                Some((owner, face))
+            } else {
+                pair.least_overlap()
+            };
             let Some((owner, face)) = least else {
                 continue;
             };

@@ -21,28 +21,40 @@ impl Bounds {
         }
     }
 
-    pub(super) fn widened(&self) -> Aabb {
+    pub(super) fn widened(self) -> Aabb {
         let wide = |p: [f32; 2]| vec2(f64::from(p[0]), f64::from(p[1]));
         Aabb::new(wide(self.min), wide(self.max))
     }
 
-    pub(super) fn overlaps(&self, other: &Self) -> bool {
+    pub(super) fn overlaps(self, other: Self) -> bool {
         self.min[0] <= other.max[0]
             && other.min[0] <= self.max[0]
             && self.min[1] <= other.max[1]
             && other.min[1] <= self.max[1]
     }
 
-    pub(super) fn contains(&self, other: &Self) -> bool {
+    pub(super) fn contains(self, other: Self) -> bool {
         self.min[0] <= other.min[0]
             && other.max[0] <= self.max[0]
             && self.min[1] <= other.min[1]
             && other.max[1] <= self.max[1]
     }
 
-    pub(super) fn union(&self, other: &Self) -> Self {
-        let low = |i: usize| if other.min[i] < self.min[i] { other.min[i] } else { self.min[i] };
-        let high = |i: usize| if other.max[i] > self.max[i] { other.max[i] } else { self.max[i] };
+    pub(super) fn union(self, other: Self) -> Self {
+        let low = |i: usize| {
+            if other.min[i] < self.min[i] {
+                other.min[i]
+            } else {
+                self.min[i]
+            }
+        };
+        let high = |i: usize| {
+            if other.max[i] > self.max[i] {
+                other.max[i]
+            } else {
+                self.max[i]
+            }
+        };
         Self {
             min: [low(0), low(1)],
             max: [high(0), high(1)],
@@ -50,14 +62,14 @@ impl Bounds {
     }
 
     /// Half of the way around.
-    pub(super) fn perimeter(&self) -> f32 {
+    pub(super) fn perimeter(self) -> f32 {
         (self.max[0] - self.min[0]) + (self.max[1] - self.min[1])
     }
 
     /// Where a ray enters the box, in lengths of its direction; `None` if it misses it before `max`.
     ///
     /// The slab test, with a slack of a few roundings, so that a leaf that is touched is found.
-    pub(super) fn entry(&self, ray: &Ray, max: f64) -> Option<f64> {
+    pub(super) fn entry(self, ray: &Ray, max: f64) -> Option<f64> {
         let (mut enter, mut leave) = (0.0_f64, max);
         for axis in [0, 1] {
             let low = f64::from(self.min[axis]) - ray.origin[axis];
@@ -69,7 +81,11 @@ impl Bounds {
                 continue;
             }
             let (first, second) = (low * ray.inverse[axis], high * ray.inverse[axis]);
-            let (near, far) = if first < second { (first, second) } else { (second, first) };
+            let (near, far) = if first < second {
+                (first, second)
+            } else {
+                (second, first)
+            };
             // Relative 2^-50: the difference, the inverse and the product round once each.
             const SLACK: f64 = 1.0 / (1u64 << 50) as f64;
             enter = enter.max(near - near.abs() * SLACK);
@@ -100,7 +116,11 @@ fn down(x: f64) -> f32 {
     let x = if x > -FAR { x.min(FAR) } else { -FAR };
     #[expect(clippy::cast_possible_truncation, reason = "corrected below")]
     let near = x as f32;
-    if f64::from(near) > x { near.next_down() } else { near }
+    if f64::from(near) > x {
+        near.next_down()
+    } else {
+        near
+    }
 }
 
 /// The smallest `f32` that is not below `x`; NaN counts as +∞.
@@ -125,8 +145,11 @@ mod tests {
 
     #[test]
     fn what_is_not_finite_reaches_everywhere() {
-        let all = Bounds::around(Aabb::new(vec2(f64::NAN, -f64::INFINITY), vec2(f64::NAN, f64::INFINITY)));
-        assert!(all.contains(&Bounds::around(Aabb::new(vec2(-1e12, 0.0), vec2(1e12, 1.0)))));
+        let all = Bounds::around(Aabb::new(
+            vec2(f64::NAN, -f64::INFINITY),
+            vec2(f64::NAN, f64::INFINITY),
+        ));
+        assert!(all.contains(Bounds::around(Aabb::new(vec2(-1e12, 0.0), vec2(1e12, 1.0)))));
         assert!(all.perimeter().is_finite());
     }
 }

@@ -20,12 +20,15 @@ fn check(tree: &BoxTree) {
             continue;
         }
         let children = node.children.map(|c| tree.nodes[c as usize]);
-        assert_eq!(node.bounds, children[0].bounds.union(&children[1].bounds));
+        assert_eq!(node.bounds, children[0].bounds.union(children[1].bounds));
         assert_eq!(node.height, 1 + children[0].height.max(children[1].height));
         stack.extend(node.children.map(|c| (c, place)));
     }
     assert_eq!(leaves, tree.len());
-    assert!(tree.nodes.len() <= 2 * 512.max(2 * leaves), "memory grew without leaves");
+    assert!(
+        tree.nodes.len() <= 2 * 512.max(2 * leaves),
+        "memory grew without leaves"
+    );
 }
 
 #[derive(Clone, Debug)]

@@ -38,7 +38,7 @@ impl BoxTree {
         stack.push(self.root);
         while let Some(place) = stack.pop() {
             let node = &self.nodes[place as usize];
-            if !node.bounds.overlaps(&bounds) {
+            if !node.bounds.overlaps(bounds) {
                 continue;
             }
             if node.is_leaf() {
@@ -60,13 +60,7 @@ impl BoxTree {
     /// `max` and what `found` returns are how far the ray goes, in lengths of `direction`: return
     /// the distance of a hit to leave out what lies behind it, or infinity to see everything up to
     /// `max`.
-    pub fn ray(
-        &self,
-        origin: Vec2,
-        direction: Vec2,
-        max: f64,
-        mut found: impl FnMut(u32) -> f64,
-    ) {
+    pub fn ray(&self, origin: Vec2, direction: Vec2, max: f64, mut found: impl FnMut(u32) -> f64) {
         if self.root == NONE {
             return;
         }

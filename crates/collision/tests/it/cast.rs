@@ -73,9 +73,12 @@ fn ball(r: f64) -> Shape {
 fn a_ball_reaches_boxes_of_any_size_without_loss() {
     // dimforge/parry#429: up to 139 mm short on a box of 500 m.
     for half in [5.0, 50.0, 500.0] {
-        let wall: Shape = ConvexPolygon::square(2.0 * half).expect("above zero").into();
+        let wall: Shape = ConvexPolygon::square(2.0 * half)
+            .expect("above zero")
+            .into();
         let start = Pose::at(vec2(-half - 8.5, 0.25));
-        let hit = cast(&ball(0.5), start, vec2(16.0, 0.0), &wall, Pose::IDENTITY).expect("in the way");
+        let hit =
+            cast(&ball(0.5), start, vec2(16.0, 0.0), &wall, Pose::IDENTITY).expect("in the way");
         assert_eq!(hit.fraction, 0.5);
         assert_eq!(hit.point, vec2(-half, 0.25));
     }
@@ -85,23 +88,34 @@ fn a_ball_reaches_boxes_of_any_size_without_loss() {
 fn a_square_meets_a_segment_from_every_start() {
     // dimforge/parry#180: lost for some shifts of 1e-6.
     let square: Shape = ConvexPolygon::square(2.0).expect("above zero").into();
-    let floor: Shape = Segment::new(vec2(-100.0, 0.0), vec2(100.0, 0.0)).expect("a length").into();
+    let floor: Shape = Segment::new(vec2(-100.0, 0.0), vec2(100.0, 0.0))
+        .expect("a length")
+        .into();
     for i in 0..2000 {
         let start = Pose::at(vec2(15.689465, 54.00709 + 1e-6 * f64::from(i)));
         let way = vec2(0.0081385, -0.999966) * 100.0;
         let hit = cast(&square, start, way, &floor, Pose::IDENTITY).expect("in the way");
         let want = (start.position.y - 1.0) / 99.9966;
-        assert!((hit.fraction - want).abs() < 1e-15, "{} against {want}", hit.fraction);
+        assert!(
+            (hit.fraction - want).abs() < 1e-15,
+            "{} against {want}",
+            hit.fraction
+        );
     }
 }
 
 #[test]
 fn touching_counts_only_when_pressed() {
-    let floor: Shape = ConvexPolygon::rectangle(8.0, 2.0).expect("above zero").into();
+    let floor: Shape = ConvexPolygon::rectangle(8.0, 2.0)
+        .expect("above zero")
+        .into();
     let cube: Shape = ConvexPolygon::square(2.0).expect("above zero").into();
     let on = Pose::at(vec2(0.0, 2.0));
     let hit = |way: Vec2| cast(&cube, on, way, &floor, Pose::IDENTITY);
-    assert_eq!(hit(vec2(1.0, -1.0)).map(|h| (h.fraction, h.normal)), Some((0.0, -Vec2::Y)));
+    assert_eq!(
+        hit(vec2(1.0, -1.0)).map(|h| (h.fraction, h.normal)),
+        Some((0.0, -Vec2::Y))
+    );
     assert_eq!(hit(vec2(1.0, 0.0)), None);
     assert_eq!(hit(vec2(1.0, 1.0)), None);
     let sunk = Pose::at(vec2(0.0, 1.5));
@@ -110,16 +124,39 @@ fn touching_counts_only_when_pressed() {
     // The same for discs.
     let ball = ball(1.0);
     let roll = |way: Vec2| cast(&ball, on, way, &floor, Pose::IDENTITY).map(|h| h.fraction);
-    assert_eq!((roll(vec2(1.0, -1.0)), roll(vec2(1.0, 0.0)), roll(vec2(0.0, 1.0))), (Some(0.0), None, None));
+    assert_eq!(
+        (
+            roll(vec2(1.0, -1.0)),
+            roll(vec2(1.0, 0.0)),
+            roll(vec2(0.0, 1.0))
+        ),
+        (Some(0.0), None, None)
+    );
 }
 
 #[test]
 fn parallel_segments_pass_beside_each_other() {
-    let bar: Shape = Segment::new(vec2(0.0, 0.0), vec2(1.0, 0.0)).expect("a length").into();
-    let fall = |x: f64| cast(&bar, Pose::at(vec2(x, 1.0)), vec2(0.0, -2.0), &bar, Pose::IDENTITY);
+    let bar: Shape = Segment::new(vec2(0.0, 0.0), vec2(1.0, 0.0))
+        .expect("a length")
+        .into();
+    let fall = |x: f64| {
+        cast(
+            &bar,
+            Pose::at(vec2(x, 1.0)),
+            vec2(0.0, -2.0),
+            &bar,
+            Pose::IDENTITY,
+        )
+    };
     assert_eq!(fall(0.5).map(|h| h.fraction), Some(0.5));
     assert_eq!(fall(1.5), None);
     // End on end along their common line.
-    let slide = cast(&bar, Pose::at(vec2(-3.0, 0.0)), vec2(4.0, 0.0), &bar, Pose::IDENTITY);
+    let slide = cast(
+        &bar,
+        Pose::at(vec2(-3.0, 0.0)),
+        vec2(4.0, 0.0),
+        &bar,
+        Pose::IDENTITY,
+    );
     assert_eq!(slide.map(|h| (h.fraction, h.normal)), Some((0.5, Vec2::X)));
 }

@@ -97,38 +97,106 @@ proptest! {
 /// Floors that are cut into pieces under a straight top at y = 0.
 fn floors() -> Vec<(&'static str, Shape)> {
     vec![
-        ("an L", polygon(&[(-6.0, -1.0), (8.0, -1.0), (8.0, 3.0), (6.0, 3.0), (6.0, 0.0), (-6.0, 0.0)])),
-        ("a U", polygon(&[(-6.0, 2.0), (-7.0, 2.0), (-7.0, -1.0), (7.0, -1.0), (7.0, 2.0), (6.0, 2.0), (6.0, 0.0), (-6.0, 0.0)])),
-        ("teeth below", polygon(&[(-6.0, 0.0), (-6.0, -1.0), (-4.0, -0.125), (-2.0, -1.0), (0.0, -0.125), (2.0, -1.0), (4.0, -0.125), (6.0, -1.0), (6.0, 0.0)])),
-        ("corners on the top", polygon(&[(-6.0, 0.0), (-6.0, -1.0), (0.0, -0.25), (6.0, -1.0), (6.0, 0.0), (3.0, 0.0), (1.0, 0.0), (-2.0, 0.0)])),
+        (
+            "an L",
+            polygon(&[
+                (-6.0, -1.0),
+                (8.0, -1.0),
+                (8.0, 3.0),
+                (6.0, 3.0),
+                (6.0, 0.0),
+                (-6.0, 0.0),
+            ]),
+        ),
+        (
+            "a U",
+            polygon(&[
+                (-6.0, 2.0),
+                (-7.0, 2.0),
+                (-7.0, -1.0),
+                (7.0, -1.0),
+                (7.0, 2.0),
+                (6.0, 2.0),
+                (6.0, 0.0),
+                (-6.0, 0.0),
+            ]),
+        ),
+        (
+            "teeth below",
+            polygon(&[
+                (-6.0, 0.0),
+                (-6.0, -1.0),
+                (-4.0, -0.125),
+                (-2.0, -1.0),
+                (0.0, -0.125),
+                (2.0, -1.0),
+                (4.0, -0.125),
+                (6.0, -1.0),
+                (6.0, 0.0),
+            ]),
+        ),
+        (
+            "corners on the top",
+            polygon(&[
+                (-6.0, 0.0),
+                (-6.0, -1.0),
+                (0.0, -0.25),
+                (6.0, -1.0),
+                (6.0, 0.0),
+                (3.0, 0.0),
+                (1.0, 0.0),
+                (-2.0, 0.0),
+            ]),
+        ),
     ]
 }
 
 #[test]
 fn a_box_that_slides_over_seams_feels_the_floor_and_nothing_else() {
     let cube: Shape = ConvexPolygon::square(1.0).expect("above zero").into();
-    let flat: Shape = Polygon::new(vec![vec2(-0.5, -0.5), vec2(0.5, -0.5), vec2(0.5, 0.5), vec2(-0.5, 0.5)])
-        .expect("simple")
-        .into();
+    let flat: Shape = Polygon::new(vec![
+        vec2(-0.5, -0.5),
+        vec2(0.5, -0.5),
+        vec2(0.5, 0.5),
+        vec2(-0.5, 0.5),
+    ])
+    .expect("simple")
+    .into();
     for (name, floor) in floors() {
         assert!(carom_collision::part_count(&floor) > 1, "{name} has a seam");
-        for (depth, margin) in [(1e-3, 0.0), (1e-6, 0.01), (0.0, 0.0), (0.02, 0.0), (-1e-3, 0.01)] {
+        for (depth, margin) in [
+            (1e-3, 0.0),
+            (1e-6, 0.01),
+            (0.0, 0.0),
+            (0.02, 0.0),
+            (-1e-3, 0.01),
+        ] {
             for i in 0..=1000 {
                 let x = -5.0 + 10.0 * f64::from(i) / 1000.0;
                 let pose = Pose::at(vec2(x, 0.5 - depth));
                 for cube in [&cube, &flat] {
                     let found = all(&floor, cube, pose, margin);
-                    assert!(!found.is_empty(), "{name}: nothing at x = {x}, depth {depth}");
+                    assert!(
+                        !found.is_empty(),
+                        "{name}: nothing at x = {x}, depth {depth}"
+                    );
                     for contact in &found {
                         let n = contact.manifold.normal;
-                        assert!((n - Vec2::Y).length() < 1e-12, "{name}: normal {n} at x = {x}, depth {depth}");
+                        assert!(
+                            (n - Vec2::Y).length() < 1e-12,
+                            "{name}: normal {n} at x = {x}, depth {depth}"
+                        );
                     }
                     // From the left end of the box to its right end.
                     let points = || found.iter().flat_map(|c| &c.manifold.points);
                     let left = points().map(|p| p.point.x).fold(f64::INFINITY, f64::min);
-                    let right = points().map(|p| p.point.x).fold(f64::NEG_INFINITY, f64::max);
-                    assert!((left - (x - 0.5)).abs() < 1e-12 && (right - (x + 0.5)).abs() < 1e-12,
-                        "{name}: carried from {left} to {right} at x = {x}");
+                    let right = points()
+                        .map(|p| p.point.x)
+                        .fold(f64::NEG_INFINITY, f64::max);
+                    assert!(
+                        (left - (x - 0.5)).abs() < 1e-12 && (right - (x + 0.5)).abs() < 1e-12,
+                        "{name}: carried from {left} to {right} at x = {x}"
+                    );
                 }
             }
         }
@@ -147,10 +215,16 @@ fn a_ball_that_rolls_over_seams_feels_the_floor_and_nothing_else() {
                 if depth > 0.1 && !["an L", "a U"].contains(&name) {
                     continue;
                 }
-                assert!(!found.is_empty(), "{name}: nothing at x = {x}, depth {depth}");
+                assert!(
+                    !found.is_empty(),
+                    "{name}: nothing at x = {x}, depth {depth}"
+                );
                 for contact in &found {
                     let n = contact.manifold.normal;
-                    assert!((n - Vec2::Y).length() < 1e-12, "{name}: normal {n} at x = {x}, depth {depth}");
+                    assert!(
+                        (n - Vec2::Y).length() < 1e-12,
+                        "{name}: normal {n} at x = {x}, depth {depth}"
+                    );
                 }
             }
         }
@@ -173,8 +247,14 @@ fn a_nearly_flat_floor_has_no_steps() {
         let found = all(&floor, &cube, Pose::at(vec2(x, 0.5 - 1e-3)), 0.0);
         assert!(!found.is_empty(), "nothing at x = {x}");
         for contact in &found {
-            assert!((contact.manifold.normal - Vec2::Y).length() < 1e-6, "{contact:?} at x = {x}");
-            assert!(contact.manifold.deepest().is_some_and(|d| d > -1.1e-3), "{contact:?} at x = {x}");
+            assert!(
+                (contact.manifold.normal - Vec2::Y).length() < 1e-6,
+                "{contact:?} at x = {x}"
+            );
+            assert!(
+                contact.manifold.deepest().is_some_and(|d| d > -1.1e-3),
+                "{contact:?} at x = {x}"
+            );
         }
     }
 }
@@ -182,10 +262,22 @@ fn a_nearly_flat_floor_has_no_steps() {
 #[test]
 fn nothing_is_felt_in_the_hollow_of_a_u() {
     // liabru/matter-js#842, #1299: bodies inside a concave one.
-    let u = polygon(&[(-2.0, -2.0), (2.0, -2.0), (2.0, 2.0), (1.0, 2.0), (1.0, -1.0), (-1.0, -1.0), (-1.0, 2.0), (-2.0, 2.0)]);
+    let u = polygon(&[
+        (-2.0, -2.0),
+        (2.0, -2.0),
+        (2.0, 2.0),
+        (1.0, 2.0),
+        (1.0, -1.0),
+        (-1.0, -1.0),
+        (-1.0, 2.0),
+        (-2.0, 2.0),
+    ]);
     let ball: Shape = Circle::new(0.9).expect("above zero").into();
     for i in 0..100 {
         let y = 0.0 + 0.03 * f64::from(i);
-        assert!(all(&u, &ball, Pose::at(vec2(0.0, y)), 0.0).is_empty(), "felt at {y}");
+        assert!(
+            all(&u, &ball, Pose::at(vec2(0.0, y)), 0.0).is_empty(),
+            "felt at {y}"
+        );
     }
 }

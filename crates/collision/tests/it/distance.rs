@@ -81,7 +81,9 @@ proptest! {
 fn a_cast_ball_is_as_far_as_it_is_however_large_the_wall() {
     // dimforge/parry#429: 139 mm short on a box of 500 m.
     for half in [5.0, 50.0, 500.0] {
-        let wall: Shape = ConvexPolygon::square(2.0 * half).expect("above zero").into();
+        let wall: Shape = ConvexPolygon::square(2.0 * half)
+            .expect("above zero")
+            .into();
         let ball: Shape = Circle::new(0.5).expect("above zero").into();
         let way = shape_distance(&wall, &ball, Pose::at(vec2(half + 1.25, 0.3)));
         assert_eq!(way.distance, 0.75);

@@ -1,7 +1,9 @@
 //! The errors of the documents, each with the right answer. Numbers are those of the list of errors
 //! that was kept when the documents were checked.
 
-use carom_collision::{Convex, VertexEdgeKind, collide, minimum_push, separating_axis, vertex_edge_contacts};
+use carom_collision::{
+    Convex, VertexEdgeKind, collide, minimum_push, separating_axis, vertex_edge_contacts,
+};
 use carom_geometry::{Circle, ConvexPolygon};
 use carom_math::{Pose, Rot, Vec2, vec2};
 
@@ -44,18 +46,28 @@ fn error_5_a_vertex_on_a_vertex_takes_the_least_overlap_whatever_the_order_of_st
         for j in 0..4 {
             let found = vertex_edge_contacts(&turned(i), &turned(j), pose);
             assert_eq!(found.len(), 1, "{found:?}");
-            assert_eq!((found[0].normal, found[0].overlap), (Vec2::Y, 0.125), "stored from {i} and {j}");
+            assert_eq!(
+                (found[0].normal, found[0].overlap),
+                (Vec2::Y, 0.125),
+                "stored from {i} and {j}"
+            );
         }
     }
     // A tie goes between the two, in any order.
     for i in 0..4 {
         for j in 0..4 {
             let turn = Rot::from_degrees(45.0);
-            let (p, q) = (Pose::new(vec2(0.0, 2.7), turn), Pose::new(vec2(0.0, 0.0), turn));
+            let (p, q) = (
+                Pose::new(vec2(0.0, 2.7), turn),
+                Pose::new(vec2(0.0, 0.0), turn),
+            );
             let found = vertex_edge_contacts(&turned(i), &turned(j), p.seen_from(q));
             assert_eq!(found.len(), 1, "{found:?}");
             assert_eq!(found[0].kind, VertexEdgeKind::VertexOnVertex);
-            assert!((turn * found[0].normal - Vec2::Y).length() < 1e-12, "stored from {i} and {j}: {found:?}");
+            assert!(
+                (turn * found[0].normal - Vec2::Y).length() < 1e-12,
+                "stored from {i} and {j}: {found:?}"
+            );
         }
     }
 }
@@ -63,7 +75,12 @@ fn error_5_a_vertex_on_a_vertex_takes_the_least_overlap_whatever_the_order_of_st
 #[test]
 fn error_6_the_minimum_push_points_away_and_uses_the_edges_of_both() {
     let square = ConvexPolygon::square(2.0).expect("above zero");
-    for (x, y, want) in [(1.5, 0.0, Vec2::X), (-1.5, 0.0, -Vec2::X), (0.0, 1.5, Vec2::Y), (0.0, -1.5, -Vec2::Y)] {
+    for (x, y, want) in [
+        (1.5, 0.0, Vec2::X),
+        (-1.5, 0.0, -Vec2::X),
+        (0.0, 1.5, Vec2::Y),
+        (0.0, -1.5, -Vec2::Y),
+    ] {
         let push = minimum_push(&square.hull(), &square.hull(), Pose::at(vec2(x, y)));
         assert_eq!(push, Some(want * 0.5), "at ({x}, {y})");
     }
@@ -71,13 +88,19 @@ fn error_6_the_minimum_push_points_away_and_uses_the_edges_of_both() {
     let diamond = Pose::new(vec2(1.75, 1.75), Rot::from_degrees(45.0));
     let axis = separating_axis(&square.hull(), &square.hull(), diamond);
     assert!(axis.separation > 0.0, "{axis:?}");
-    assert!((axis.normal - Vec2::ONE.normalize()).length() < 1e-15, "{axis:?}");
+    assert!(
+        (axis.normal - Vec2::ONE.normalize()).length() < 1e-15,
+        "{axis:?}"
+    );
     assert_eq!(minimum_push(&square.hull(), &square.hull(), diamond), None);
 }
 
 #[test]
 fn error_10_coincident_centres_have_a_normal() {
-    let (one, two) = (Circle::new(1.0).expect("above zero"), Circle::new(0.5).expect("above zero"));
+    let (one, two) = (
+        Circle::new(1.0).expect("above zero"),
+        Circle::new(0.5).expect("above zero"),
+    );
     let contact = collide(&one, &two, Pose::IDENTITY);
     assert_eq!(contact.normal, Vec2::X);
     assert_eq!(contact.points[0].separation, -1.5);
@@ -113,7 +136,16 @@ fn error_16_crossing_bars_and_boxes_at_one_place_overlap() {
 fn error_17_normals_of_concave_bodies_do_not_come_from_their_centres() {
     // A ball's worth of a box inside a C, above its lower arm: the line between the centroids is
     // nearly horizontal, the contact is not.
-    let c = polygon(&[(0.0, 0.0), (6.0, 0.0), (6.0, 1.0), (1.0, 1.0), (1.0, 5.0), (6.0, 5.0), (6.0, 6.0), (0.0, 6.0)]);
+    let c = polygon(&[
+        (0.0, 0.0),
+        (6.0, 0.0),
+        (6.0, 1.0),
+        (1.0, 1.0),
+        (1.0, 5.0),
+        (6.0, 5.0),
+        (6.0, 6.0),
+        (0.0, 6.0),
+    ]);
     let found = vertex_edge_contacts(&c, &rectangle(1.0, 1.0), Pose::at(vec2(5.0, 1.4375)));
     assert_eq!(found.len(), 1, "{found:?}");
     assert_eq!((found[0].normal, found[0].overlap), (Vec2::Y, 0.0625));
@@ -128,12 +160,17 @@ fn error_17_parallel_is_an_angle_far_below_eight_degrees_and_no_length() {
     let tilted = |degrees: f64| {
         let pose = Pose::new(vec2(0.0, 1.9375), Rot::from_degrees(degrees));
         let found = vertex_edge_contacts(&floor, &rectangle(2.0, 2.0), pose);
-        found.iter().any(|c| c.kind == VertexEdgeKind::ParallelEdges)
+        found
+            .iter()
+            .any(|c| c.kind == VertexEdgeKind::ParallelEdges)
     };
     assert!(tilted(0.0));
     assert!(!tilted(7.0) && !tilted(0.1) && !tilted(1e-4));
     for size in [1e-6, 1e6] {
-        let (floor, cube) = (rectangle(8.0 * size, 2.0 * size), rectangle(2.0 * size, 2.0 * size));
+        let (floor, cube) = (
+            rectangle(8.0 * size, 2.0 * size),
+            rectangle(2.0 * size, 2.0 * size),
+        );
         let found = vertex_edge_contacts(&floor, &cube, Pose::at(vec2(0.0, 1.9375 * size)));
         assert_eq!(found.len(), 1);
         assert_eq!(found[0].kind, VertexEdgeKind::ParallelEdges, "size {size}");

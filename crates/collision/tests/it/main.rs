@@ -1,5 +1,7 @@
 //! Laws of collision detection, and the errors of the documents the project grew from.
 
+#![allow(clippy::float_cmp, reason = "tests compare exact results")]
+
 mod cast;
 mod concave;
 mod distance;

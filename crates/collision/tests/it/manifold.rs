@@ -162,7 +162,11 @@ fn corner_on_corner_is_one_point_between_them() {
     assert!((contact.normal - diagonal).length() < 1e-15);
     assert!((contact.points[0].separation - 0.25 * core::f64::consts::SQRT_2).abs() < 1e-15);
     assert_eq!(contact.points[0].point, vec2(1.125, 1.125));
-    assert!(collide(&cube, &cube, Pose::at(vec2(2.25, 2.25))).points.is_empty());
+    assert!(
+        collide(&cube, &cube, Pose::at(vec2(2.25, 2.25)))
+            .points
+            .is_empty()
+    );
     // Touching exactly: one way or the other, but one point and a unit normal.
     let touch = collide(&cube, &cube, Pose::at(vec2(2.0, 2.0)));
     assert_eq!(touch.points.len(), 1, "{touch:?}");
@@ -175,7 +179,13 @@ fn a_disc_whose_centre_is_on_an_edge_or_a_corner_is_pushed_out() {
     // dimforge/parry#34, #148.
     let cube = square(2.0);
     let disc = Circle::new(0.5).expect("above zero");
-    for (x, y) in [(1.0, 0.25), (1.0, 1.0), (-1.0, 1.0), (0.0, -1.0), (0.0, 0.0)] {
+    for (x, y) in [
+        (1.0, 0.25),
+        (1.0, 1.0),
+        (-1.0, 1.0),
+        (0.0, -1.0),
+        (0.0, 0.0),
+    ] {
         let contact = collide(&cube, &disc, Pose::at(vec2(x, y)));
         assert_eq!(contact.points.len(), 1, "at ({x}, {y})");
         assert!((contact.normal.length() - 1.0).abs() < 1e-15);
@@ -201,12 +211,22 @@ fn a_box_on_a_segment_stands_on_two_points_from_either_side() {
 
 #[test]
 fn a_deep_sliver_has_a_finite_contact() {
-    let needle = ConvexPolygon::new([vec2(0.0, 0.0), vec2(1.0, 0.0), vec2(1.0, 1e-12)]).expect("thin");
+    let needle =
+        ConvexPolygon::new([vec2(0.0, 0.0), vec2(1.0, 0.0), vec2(1.0, 1e-12)]).expect("thin");
     let cube = square(4.0);
-    let contact = collide(&cube, &needle, Pose::new(vec2(1.5, 0.3), Rot::from_angle(0.7)));
+    let contact = collide(
+        &cube,
+        &needle,
+        Pose::new(vec2(1.5, 0.3), Rot::from_angle(0.7)),
+    );
     assert!(!contact.points.is_empty());
     assert!((contact.normal.length() - 1.0).abs() < 1e-15);
-    assert!(contact.points.iter().all(|p| p.point.is_finite() && p.separation < 0.0));
+    assert!(
+        contact
+            .points
+            .iter()
+            .all(|p| p.point.is_finite() && p.separation < 0.0)
+    );
 }
 
 #[test]

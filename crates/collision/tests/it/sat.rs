@@ -101,11 +101,23 @@ fn a_disc_on_the_line_of_a_segment_meets_its_end() {
     let floor = Segment::new(vec2(-1.0, 0.0), vec2(1.0, 0.0)).expect("a length");
     let disc = Circle::new(0.5).expect("above zero");
     let at = |x, y| separating_axis(&floor.hull(), &disc.hull(), Pose::at(vec2(x, y)));
-    assert_eq!((at(3.0, 0.0).separation, at(3.0, 0.0).normal), (1.5, Vec2::X));
-    assert_eq!((at(0.5, 0.25).separation, at(0.5, 0.25).normal), (-0.25, Vec2::Y));
-    assert_eq!((at(0.5, -0.25).separation, at(0.5, -0.25).normal), (-0.25, -Vec2::Y));
+    assert_eq!(
+        (at(3.0, 0.0).separation, at(3.0, 0.0).normal),
+        (1.5, Vec2::X)
+    );
+    assert_eq!(
+        (at(0.5, 0.25).separation, at(0.5, 0.25).normal),
+        (-0.25, Vec2::Y)
+    );
+    assert_eq!(
+        (at(0.5, -0.25).separation, at(0.5, -0.25).normal),
+        (-0.25, -Vec2::Y)
+    );
     // On the line itself either side is right, as long as it is one.
-    assert_eq!((at(0.5, 0.0).separation, at(0.5, 0.0).normal.x), (-0.5, 0.0));
+    assert_eq!(
+        (at(0.5, 0.0).separation, at(0.5, 0.0).normal.x),
+        (-0.5, 0.0)
+    );
 }
 
 #[test]
@@ -119,6 +131,9 @@ fn many_vertices_walk_to_the_same_support_as_a_look_at_all() {
         let slow = gap_along(&round.hull(), &square.hull(), pose, axis.normal);
         assert!((slow - axis.separation).abs() < 1e-15);
         let swapped = separating_axis(&square.hull(), &round.hull(), pose.inverse());
-        assert!((swapped.separation - axis.separation).abs() < 1e-15, "turn {i}");
+        assert!(
+            (swapped.separation - axis.separation).abs() < 1e-15,
+            "turn {i}"
+        );
     }
 }

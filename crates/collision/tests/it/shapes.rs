@@ -58,8 +58,15 @@ pub(crate) fn pair() -> impl Strategy<Value = Pair> {
         .prop_map(|(w, h)| ConvexPolygon::rectangle(w, h).expect("above zero"));
     let shape = || prop_oneof![3 => convex(), 1 => boxes.clone()];
     let reach = prop_oneof![3 => 0.0..2.5_f64, 1 => Just(-1.0)];
-    (shape(), shape(), turn(), -4.0..4.0_f64, reach, -6.0..6.0_f64).prop_map(
-        |(a, b, rot, towards, reach, k)| {
+    (
+        shape(),
+        shape(),
+        turn(),
+        -4.0..4.0_f64,
+        reach,
+        -6.0..6.0_f64,
+    )
+        .prop_map(|(a, b, rot, towards, reach, k)| {
             let size = exp10(k);
             let (a, b) = (scaled(&a, size), scaled(&b, size));
             let way = Rot::from_angle(towards).x_axis();
@@ -72,8 +79,7 @@ pub(crate) fn pair() -> impl Strategy<Value = Pair> {
                 pose.position -= axis.normal * axis.separation;
             }
             Pair { a, b, pose, size }
-        },
-    )
+        })
 }
 
 /// A simple polygon around the origin, usually concave: a star with random radii.
@@ -102,12 +108,16 @@ pub(crate) fn gap_along(a: &Hull<'_>, b: &Hull<'_>, pose: Pose, direction: Vec2)
 /// Whether two closed outlines have a point in common, by exact signs on rounded vertices.
 pub(crate) fn outlines_meet(a: &[Vec2], b: &[Vec2]) -> bool {
     let edges = |ring: &[Vec2]| -> Vec<[Vec2; 2]> {
-        ring.iter().zip(ring.iter().cycle().skip(1)).map(|(p, q)| [*p, *q]).collect()
+        ring.iter()
+            .zip(ring.iter().cycle().skip(1))
+            .map(|(p, q)| [*p, *q])
+            .collect()
     };
     let inside = |ring: &[Vec2], p: Vec2| {
         let mut odd = false;
         for [from, to] in edges(ring) {
-            if (from.y <= p.y) != (to.y <= p.y) && (orient2d(from, to, p) > 0.0) == (to.y > from.y) {
+            if (from.y <= p.y) != (to.y <= p.y) && (orient2d(from, to, p) > 0.0) == (to.y > from.y)
+            {
                 odd = !odd;
             }
         }
@@ -118,7 +128,9 @@ pub(crate) fn outlines_meet(a: &[Vec2], b: &[Vec2]) -> bool {
     };
     inside(a, b[0])
         || inside(b, a[0])
-        || edges(a).iter().any(|e| edges(b).iter().any(|f| crosses(*e, *f)))
+        || edges(a)
+            .iter()
+            .any(|e| edges(b).iter().any(|f| crosses(*e, *f)))
 }
 
 /// Distance of a point from a closed outline.

@@ -13,7 +13,12 @@ pub(crate) fn polygon(points: &[(f64, f64)]) -> Polygon {
 }
 
 pub(crate) fn rectangle(w: f64, h: f64) -> Polygon {
-    polygon(&[(-0.5 * w, -0.5 * h), (0.5 * w, -0.5 * h), (0.5 * w, 0.5 * h), (-0.5 * w, 0.5 * h)])
+    polygon(&[
+        (-0.5 * w, -0.5 * h),
+        (0.5 * w, -0.5 * h),
+        (0.5 * w, 0.5 * h),
+        (-0.5 * w, 0.5 * h),
+    ])
 }
 
 proptest! {
@@ -73,7 +78,11 @@ proptest! {
 fn the_three_kinds_of_the_thesis() {
     let floor = rectangle(8.0, 2.0);
     // A corner down: one vertex behind the top edge.
-    let tip = vertex_edge_contacts(&floor, &rectangle(2.0, 2.0), Pose::new(vec2(0.5, 1.0 + 1.25), Rot::from_degrees(45.0)));
+    let tip = vertex_edge_contacts(
+        &floor,
+        &rectangle(2.0, 2.0),
+        Pose::new(vec2(0.5, 1.0 + 1.25), Rot::from_degrees(45.0)),
+    );
     assert_eq!(tip.len(), 1);
     assert_eq!(tip[0].kind, VertexEdgeKind::VertexOnEdge);
     assert_eq!(tip[0].normal, Vec2::Y);
@@ -83,7 +92,10 @@ fn the_three_kinds_of_the_thesis() {
     let flat = vertex_edge_contacts(&floor, &rectangle(2.0, 2.0), Pose::at(vec2(3.5, 1.875)));
     assert_eq!(flat.len(), 1, "{flat:?}");
     assert_eq!(flat[0].kind, VertexEdgeKind::ParallelEdges);
-    assert_eq!((flat[0].point, flat[0].normal, flat[0].overlap), (vec2(3.25, 0.9375), Vec2::Y, 0.125));
+    assert_eq!(
+        (flat[0].point, flat[0].normal, flat[0].overlap),
+        (vec2(3.25, 0.9375), Vec2::Y, 0.125)
+    );
 
     // Corner in corner, both turned: each has a vertex in the other.
     let cube = rectangle(2.0, 2.0);
@@ -95,11 +107,25 @@ fn the_three_kinds_of_the_thesis() {
 
 #[test]
 fn a_corner_in_a_corner_touches_both_walls() {
-    let l = polygon(&[(0.0, 0.0), (4.0, 0.0), (4.0, 1.0), (1.0, 1.0), (1.0, 4.0), (0.0, 4.0)]);
+    let l = polygon(&[
+        (0.0, 0.0),
+        (4.0, 0.0),
+        (4.0, 1.0),
+        (1.0, 1.0),
+        (1.0, 4.0),
+        (0.0, 4.0),
+    ]);
     let found = vertex_edge_contacts(&l, &rectangle(2.0, 2.0), Pose::at(vec2(1.9375, 1.875)));
-    let mut normals: Vec<_> = found.iter().map(|c| (c.normal.x, c.normal.y, c.overlap)).collect();
+    let mut normals: Vec<_> = found
+        .iter()
+        .map(|c| (c.normal.x, c.normal.y, c.overlap))
+        .collect();
     normals.sort_by(|p, q| p.0.total_cmp(&q.0));
-    assert_eq!(normals, [(0.0, 1.0, 0.125), (1.0, 0.0, 0.0625)], "{found:?}");
+    assert_eq!(
+        normals,
+        [(0.0, 1.0, 0.125), (1.0, 0.0, 0.0625)],
+        "{found:?}"
+    );
 }
 
 #[test]
