@@ -168,32 +168,26 @@ impl Groups {
                 continue;
             }
             report.handed_over += 1;
-            let (v0, w0) = {
-                let motion = &bodies.get(index).motion;
-                (motion.velocity_at(time), motion.spin_at(time))
-            };
-            // Trapezoid: the sub-step ends with the relaxed velocity, and its mean velocity is the
-            // pushed one less half of what the sub-step changed. Sliding is then of second order,
-            // and where nothing is pushed out the piece starts with the velocity it had.
-            let (dv, dw) = (member.v - v0, member.w - w0);
-            let travel = member.d - dv * (0.5 * h);
-            let turn = member.turn - dw * (0.5 * h);
-            let (start_v, start_w) = (travel * (2.0 / h) - member.v, turn * (2.0 / h) - member.w);
-            let state = bodies.get(index);
-            let work = state.mass.mass * (start_v - v0).dot(0.5 * (start_v + v0))
-                + state.turning_inertia() * (start_w - w0) * 0.5 * (start_w + w0);
-            bodies.book.scheme.add(work);
+            // What was pushed out is a displacement, not a motion: it moves the body at once, by
+            // the difference of the pushed and the relaxed velocity, and strikes nobody. The rest
+            // is the trapezoid from the velocity before to the relaxed one, so that sliding is of
+            // second order and the velocity has no jumps.
+            let (pushed, turned) = (member.d - member.v * h, member.turn - member.w * h);
+            let (_, before) = bodies.energy_of(index, time);
             bodies.change(index, time, |motion| {
-                motion.velocity = start_v;
-                motion.acceleration = (member.v - start_v) / h;
-                motion.spin = start_w;
-                motion.angular_acceleration = (member.w - start_w) / h;
+                motion.centre += pushed;
+                motion.rotation = motion.rotation.turned(turned);
+                motion.acceleration = (member.v - motion.velocity) / h;
+                motion.angular_acceleration = (member.w - motion.spin) / h;
             });
             let state = bodies.get_mut(index);
+            state.turned += turned;
             state.member = true;
             state.jump = Vec2::ZERO;
-            member.d = travel;
-            member.turn = turn;
+            member.d = state.motion.travel(h);
+            member.turn = state.motion.turn(h);
+            let (_, after) = bodies.energy_of(index, time);
+            bodies.book.scheme.add(after - before);
         }
         for (row, source) in self.rows.iter().zip(&self.sources) {
             let pair = pairs.get_mut(source.pair);
@@ -237,13 +231,5 @@ impl Groups {
             let body = |place: u32| self.members[place as usize];
             (body(row.bodies.0), body(row.bodies.1))
         })
-    }
-
-    /// Forgets the last sub-step's rows: nothing is in contact.
-    pub(crate) fn clear(&mut self) {
-        self.rows.clear();
-        self.bodies.clear();
-        self.members.clear();
-        self.places.clear();
     }
 }

@@ -49,6 +49,7 @@ mod query;
 mod report;
 mod resolve;
 mod settings;
+mod shock;
 mod sleep;
 mod solver;
 mod step;

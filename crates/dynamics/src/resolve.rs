@@ -1,138 +1,160 @@
 //! An impact that is due: velocities before become velocities after.
 
-use carom_math::Vec2;
-
 use crate::agenda::Entry;
 use crate::bodies::Bodies;
+use crate::body::Collider;
 use crate::event::EventKind;
-use crate::impact::{ImpactContact, ImpactLaw, Outcome, resolve};
-use crate::narrow::{opening_speed, rest_speed};
+use crate::impact::{ImpactContact, ImpactLaw, resolve};
+use crate::narrow::{Narrow, opening_speed, rest_speed};
 use crate::pairs::Pairs;
 use crate::predict::BUDGET;
+use crate::shock::Shock;
 use crate::{Events, StepReport};
 
-/// What an entry that came up did.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Struck {
-    /// One of the bodies had changed its motion since: nothing.
-    Stale,
-    /// They met too gently to bounce: from the next sub-step on the solver holds them.
-    Rests,
-    /// The pair has used up its impacts of this sub-step.
-    GaveUp,
-    /// Both bodies have new motions.
-    Impact,
-}
-
-/// Resolves one entry of the agenda.
+/// Resolves one entry of the agenda; the bodies that have new motions.
+///
+/// Nothing happens if one of the two had changed its motion since, or if they meet too gently to
+/// bounce: then the next sub-step's solver holds them. A single contact follows the impact law; one
+/// that runs into others is resolved together with them.
+#[expect(
+    clippy::too_many_arguments,
+    reason = "what an impact reads, and the stores it writes"
+)]
 pub(crate) fn strike(
     law: ImpactLaw,
     bodies: &mut Bodies,
+    colliders: &[Collider],
     pairs: &mut Pairs,
+    narrow: &mut Narrow,
     entry: &Entry,
     h: f64,
     events: &mut Events,
     report: &mut StepReport,
-) -> Struck {
-    let pair = pairs.get(entry.pair);
-    let (i, j) = pair.bodies;
-    let (a, b) = (bodies.get(i), bodies.get(j));
+) -> Vec<u32> {
+    let ends = pairs.get(entry.pair).bodies;
+    let (a, b) = (bodies.get(ends.0), bodies.get(ends.1));
     if (a.version, b.version) != entry.versions {
-        return Struck::Stale;
+        return Vec::new();
     }
-    let time = entry.time;
-    let (ids, rest) = ((a.id, b.id), rest_speed(bodies, pair, h));
-    let (point, speed) = closing_point(bodies, (i, j), entry, rest);
-    // At exactly zero pull there is no rest: an approach is an approach.
-    if speed <= rest || speed <= 0.0 {
-        let pair = pairs.get_mut(entry.pair);
-        if !pair.touching {
-            pair.touching = true;
-            events.push(time, EventKind::Begin { a: ids.0, b: ids.1 });
+    touch(bodies, pairs, entry, events);
+    let rest = rest_speed(bodies, pairs.get(entry.pair), h);
+    let mut shock = Shock::new(entry.time, h);
+    for &point in &entry.points {
+        let speed = -opening_speed(a, b, entry.time, point, entry.normal);
+        // At exactly zero pull there is no rest: an approach is an approach.
+        if speed > rest && speed > 0.0 {
+            let material = pairs.get(entry.pair).material;
+            let contact = ImpactContact {
+                point,
+                normal: entry.normal,
+                restitution: material.restitution,
+                friction: material.friction,
+            };
+            shock.add(bodies, entry.pair, ends, contact, rest);
         }
-        return Struck::Rests;
     }
-    let contact = ImpactContact {
-        point,
-        normal: entry.normal,
-        restitution: pair.material.restitution,
-        friction: pair.material.friction,
-    };
-    let before = (a.in_impact(time), b.in_impact(time));
-    let outcome = resolve(law, &before.0, &before.1, &contact);
+    if shock.strikes.is_empty() || gives_up(bodies, pairs, entry, &shock, events, report) {
+        return Vec::new();
+    }
+    let single = shock.strikes.len() == 1;
+    if single {
+        let before = (a.in_impact(entry.time), b.in_impact(entry.time));
+        let outcome = resolve(law, &before.0, &before.1, &shock.strikes[0].contact);
+        shock.set(
+            outcome.a,
+            outcome.b,
+            (outcome.normal_impulse, outcome.tangential_impulse),
+        );
+    }
+    if !single || shock.spread(bodies, colliders, pairs, narrow) {
+        shock.solve(bodies, colliders, pairs, narrow);
+    }
+    apply(bodies, entry, &shock, events, report)
+}
+
+/// A touch that begins here is an event.
+fn touch(bodies: &Bodies, pairs: &mut Pairs, entry: &Entry, events: &mut Events) {
     let pair = pairs.get_mut(entry.pair);
     if !pair.touching {
         pair.touching = true;
-        events.push(time, EventKind::Begin { a: ids.0, b: ids.1 });
+        let (a, b) = (bodies.get(pair.bodies.0).id, bodies.get(pair.bodies.1).id);
+        events.push(entry.time, EventKind::Begin { a, b });
     }
+}
+
+/// Counts the impact; whether the pair has used up those of this sub-step.
+fn gives_up(
+    bodies: &Bodies,
+    pairs: &mut Pairs,
+    entry: &Entry,
+    shock: &Shock,
+    events: &mut Events,
+    report: &mut StepReport,
+) -> bool {
+    let pair = pairs.get_mut(entry.pair);
     pair.impacts += 1;
-    if pair.impacts > BUDGET {
-        pair.given_up = true;
-        report.collapsed += 1;
-        let energy = 0.5 * speed * outcome.normal_impulse / (1.0 + contact.restitution);
-        events.push(
-            time,
-            EventKind::Collapse {
-                a: ids.0,
-                b: ids.1,
-                energy,
-            },
-        );
-        return Struck::GaveUp;
+    if pair.impacts <= BUDGET {
+        return false;
     }
-    report.impacts += 1;
+    pair.given_up = true;
+    report.collapsed += 1;
+    let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
+    let reduced = match (a.inverse_mass, b.inverse_mass) {
+        (x, y) if x + y > 0.0 => (x + y).recip(),
+        _ => 0.0,
+    };
+    let speed = shock.strikes[0].speed;
     events.push(
-        time,
-        EventKind::Impact {
-            a: ids.0,
-            b: ids.1,
-            point,
-            normal: entry.normal,
-            normal_impulse: outcome.normal_impulse,
-            tangential_impulse: outcome.tangential_impulse,
-            speed,
+        entry.time,
+        EventKind::Collapse {
+            a: a.id,
+            b: b.id,
+            energy: 0.5 * reduced * speed * speed,
         },
     );
-    book(bodies, (i, j), &outcome, &contact);
-    for (index, after) in [(i, outcome.a), (j, outcome.b)] {
-        if bodies.get(index).is_dynamic() {
-            bodies.change(index, time, |motion| {
-                motion.velocity = after.velocity;
-                motion.spin = after.spin;
+    true
+}
+
+/// New motions for all that were shaken, events for all that pushed, losses to the ledger.
+fn apply(
+    bodies: &mut Bodies,
+    entry: &Entry,
+    shock: &Shock,
+    events: &mut Events,
+    report: &mut StepReport,
+) -> Vec<u32> {
+    for strike in shock
+        .strikes
+        .iter()
+        .filter(|strike| strike.normal_impulse > 0.0)
+    {
+        report.impacts += 1;
+        let ends = shock.ends(strike);
+        events.push(
+            entry.time,
+            EventKind::Impact {
+                a: bodies.get(ends.0).id,
+                b: bodies.get(ends.1).id,
+                point: strike.contact.point,
+                normal: strike.contact.normal,
+                normal_impulse: strike.normal_impulse,
+                tangential_impulse: strike.tangential_impulse,
+                speed: strike.speed,
+            },
+        );
+    }
+    let (loss, driven) = shock.works();
+    bodies.book.impacts.add(loss);
+    bodies.book.external.add(driven);
+    let mut changed = Vec::new();
+    for shaken in &shock.bodies {
+        if shaken.after.inverse_mass > 0.0 {
+            bodies.change(shaken.index, entry.time, |motion| {
+                motion.velocity = shaken.after.velocity;
+                motion.spin = shaken.after.spin;
             });
+            changed.push(shaken.index);
         }
     }
-    Struck::Impact
-}
-
-/// The point that is struck, and its speed of approach: the middle of a common stretch if both of
-/// its ends close, else the end that does.
-fn closing_point(bodies: &Bodies, (i, j): (u32, u32), entry: &Entry, rest: f64) -> (Vec2, f64) {
-    let (a, b) = (bodies.get(i), bodies.get(j));
-    let speed = |p: Vec2| -opening_speed(a, b, entry.time, p, entry.normal);
-    let first = entry.points[0];
-    let Some(&second) = entry.points.get(1) else {
-        return (first, speed(first));
-    };
-    let point = match (speed(first) > rest, speed(second) > rest) {
-        (true, false) => first,
-        (false, true) => second,
-        _ => (first + second) * 0.5,
-    };
-    (point, speed(point))
-}
-
-/// Losses to the ledger; what a driven body put in counts as brought in from outside.
-fn book(bodies: &mut Bodies, (i, j): (u32, u32), outcome: &Outcome, contact: &ImpactContact) {
-    bodies.book.impacts.add(outcome.loss);
-    let impulse = contact.normal * outcome.normal_impulse
-        + carom_math::perp(contact.normal) * outcome.tangential_impulse;
-    if !bodies.get(i).is_dynamic() {
-        let drive = impulse.dot(outcome.a.velocity_of(contact.point));
-        bodies.book.external.add(drive);
-    }
-    if !bodies.get(j).is_dynamic() {
-        let drive = -impulse.dot(outcome.b.velocity_of(contact.point));
-        bodies.book.external.add(drive);
-    }
+    changed
 }

@@ -4,7 +4,7 @@ use carom_math::SimTime;
 
 use crate::flight::{fly, land_piece};
 use crate::predict::predict;
-use crate::resolve::{Struck, strike};
+use crate::resolve::strike;
 use crate::sleep::{settle, wake};
 use crate::{EventKind, Refusal, StepReport, World};
 
@@ -69,19 +69,19 @@ impl World {
     fn advance(&mut self, end: SimTime, stop_at_event: bool) -> SimTime {
         loop {
             if let Some(entry) = self.agenda.next_until(end.min(self.clock.next())) {
-                let struck = strike(
+                let changed = strike(
                     self.settings.impact_law,
                     &mut self.bodies,
+                    &self.colliders,
                     &mut self.pairs,
+                    &mut self.narrow,
                     &entry,
                     self.clock.h,
                     &mut self.events,
                     &mut self.report,
                 );
-                if struck == Struck::Impact {
-                    let (a, b) = self.pairs.get(entry.pair).bodies;
-                    self.deflected(a, entry.time);
-                    self.deflected(b, entry.time);
+                for index in changed {
+                    self.deflected(index, entry.time);
                 }
                 if stop_at_event && !self.events.is_empty() {
                     return entry.time;
@@ -222,11 +222,9 @@ impl World {
         if self.bodies.get(index).asleep {
             wake(&mut self.bodies, &self.pairs, index, time, &mut self.events);
         }
-        let left = self.clock.next() - time;
-        if left <= 0.0 || !self.bodies.get(index).is_active() {
-            return;
-        }
-        if !self.bodies.get(index).member && !self.bodies.pull.fields.is_empty() {
+        let left = (self.clock.next() - time).max(0.0);
+        let state = self.bodies.get(index);
+        if left > 0.0 && state.is_active() && !state.member && !self.bodies.pull.fields.is_empty() {
             fly(&mut self.bodies, index, time, left);
         }
         self.refit(index, time, left);

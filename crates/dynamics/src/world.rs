@@ -465,14 +465,6 @@ impl World {
         if left > 0.0 && self.bodies.get(index).is_dynamic() {
             fly(&mut self.bodies, index, now, left);
         }
-        self.broad.refit(
-            &mut self.bodies,
-            &mut self.colliders,
-            &mut self.pairs,
-            index,
-            now,
-            left.max(0.0),
-        );
         self.deflected(index, now);
     }
 

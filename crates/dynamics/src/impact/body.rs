@@ -59,7 +59,7 @@ impl ImpactBody {
             + half(self.inverse_inertia) * self.spin * self.spin
     }
 
-    pub(super) fn pushed(&self, impulse: Vec2, point: Vec2) -> Self {
+    pub(crate) fn pushed(&self, impulse: Vec2, point: Vec2) -> Self {
         Self {
             velocity: self.velocity + impulse * self.inverse_mass,
             spin: self.spin + cross(point - self.centre, impulse) * self.inverse_inertia,
@@ -124,29 +124,30 @@ impl Outcome {
 /// Δu = K j with u = (normal, tangential) velocity of B's point minus A's:
 /// `K_nn = 1/m_a + 1/m_b + (r_a×n)²/I_a + (r_b×n)²/I_b`, the others alike.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Response {
-    pub(super) u_n: f64,
-    pub(super) u_t: f64,
-    pub(super) k_nn: f64,
-    pub(super) k_nt: f64,
-    pub(super) k_tt: f64,
+pub(crate) struct Response {
+    pub(crate) u_n: f64,
+    pub(crate) u_t: f64,
+    pub(crate) k_nn: f64,
+    pub(crate) k_nt: f64,
+    pub(crate) k_tt: f64,
 }
 
 impl Response {
-    pub(super) fn of(a: &ImpactBody, b: &ImpactBody, contact: &ImpactContact) -> Self {
+    pub(crate) fn of(a: &ImpactBody, b: &ImpactBody, contact: &ImpactContact) -> Self {
         let (n, t) = (contact.normal, perp(contact.normal));
         let (r_a, r_b) = (contact.point - a.centre, contact.point - b.centre);
         let u = b.velocity_of(contact.point) - a.velocity_of(contact.point);
         let (an, at) = (cross(r_a, n), cross(r_a, t));
         let (bn, bt) = (cross(r_b, n), cross(r_b, t));
-        let mass = a.inverse_mass + b.inverse_mass;
+        let (m_a, m_b) = (a.inverse_mass, b.inverse_mass);
         let (i_a, i_b) = (a.inverse_inertia, b.inverse_inertia);
+        // A's share and B's share: swapping the bodies swaps two terms, and no bit changes.
         Self {
             u_n: u.dot(n),
             u_t: u.dot(t),
-            k_nn: mass + an * an * i_a + bn * bn * i_b,
+            k_nn: (m_a + an * an * i_a) + (m_b + bn * bn * i_b),
             k_nt: an * at * i_a + bn * bt * i_b,
-            k_tt: mass + at * at * i_a + bt * bt * i_b,
+            k_tt: (m_a + at * at * i_a) + (m_b + bt * bt * i_b),
         }
     }
 }

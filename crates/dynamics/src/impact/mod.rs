@@ -6,5 +6,6 @@ mod routh;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use body::Response;
 pub use body::{ImpactBody, ImpactContact, Outcome};
 pub use law::{ImpactLaw, newton, poisson, resolve, stronge};

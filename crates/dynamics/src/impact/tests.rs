@@ -125,20 +125,20 @@ proptest! {
 
 #[test]
 fn newton_gains_energy_where_friction_turns_the_slip_and_the_others_do_not() {
-    // Kane's rod: slender, hits its end at 45 degrees while it slips.
+    // Kane's rod: slender, 1 m and 1 kg, its end hits at 50 degrees while it slips.
     let rod = ImpactBody {
         inverse_mass: 1.0,
         inverse_inertia: 12.0,
-        centre: vec2(0.35, 0.35),
-        velocity: vec2(-0.2, -1.0),
-        spin: -0.6,
+        centre: carom_math::Rot::from_degrees(50.0) * vec2(0.5, 0.0),
+        velocity: vec2(0.7, -1.0),
+        spin: 0.0,
     };
     let floor = ImpactBody::immovable(Vec2::ZERO, Vec2::ZERO, 0.0);
     let contact = ImpactContact {
         point: Vec2::ZERO,
         normal: Vec2::Y,
         restitution: 0.9,
-        friction: 0.7,
+        friction: 0.3,
     };
     let gained = |after: super::Outcome| -after.loss;
     assert!(
