@@ -5,7 +5,7 @@ use carom_geometry::Polygon;
 use carom_math::{Pose, Rot, Vec2, vec2};
 use proptest::prelude::*;
 
-use crate::shapes::concave;
+use crate::shapes::{concave, placed};
 
 pub(crate) fn polygon(points: &[(f64, f64)]) -> Polygon {
     let points: Vec<Vec2> = points.iter().map(|p| vec2(p.0, p.1)).collect();
@@ -68,7 +68,13 @@ proptest! {
             let outward = -hit.normal;
             pose.position -= way * (6.0 * hit.fraction) + outward * (1e-6 * size);
             let found = vertex_edge_contacts(&a, &b, pose);
-            let felt = found.iter().any(|c| c.normal.dot(outward) > 0.999 && (c.overlap / size - 1e-6).abs() < 1e-9);
+            let felt = found.iter().any(|c| {
+                let as_pressed = c.normal.dot(outward) > 0.999 && (c.overlap / size - 1e-6).abs() < 1e-9;
+                // Corner beside corner: the edge around it may be nearer.
+                let beside = |corners: &[Vec2]| corners.iter().any(|v| (*v - c.point).length() < 1e-4 * size);
+                let corners = beside(a.vertices()) && beside(&placed(b.vertices(), pose));
+                as_pressed || (corners && c.normal.dot(outward) > 0.0 && c.overlap <= 1.001e-6 * size)
+            });
             prop_assert!(felt, "{found:?} for {outward}");
         }
     }
