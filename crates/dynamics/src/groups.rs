@@ -4,8 +4,8 @@ use carom_math::{SimTime, Vec2};
 
 use crate::StepReport;
 use crate::bodies::Bodies;
-use crate::narrow::rest_speed;
-use crate::pairs::Pairs;
+use crate::narrow::{TOUCH, opening_speed, rest_speed};
+use crate::pairs::{PairPoint, Pairs};
 use crate::solver::{Law, Row, SolverBody, relax, solve};
 
 /// Scratch of the sub-step's solve, kept between sub-steps.
@@ -82,6 +82,7 @@ impl Groups {
                 {
                     continue;
                 }
+                let touch = TOUCH * a.reach.min(b.reach);
                 let rest = if pair.given_up {
                     f64::INFINITY
                 } else {
@@ -90,10 +91,11 @@ impl Groups {
                 let (centre_a, centre_b) = (a.motion.centre_at(time), b.motion.centre_at(time));
                 for (index, contact) in pair.contacts.iter().enumerate() {
                     let opening =
-                        |p: Vec2| crate::narrow::opening_speed(a, b, time, p, contact.normal);
-                    // What closes faster than rest is struck at its instant, not solved for.
-                    let lasts = |p: Vec2| opening(p) >= -rest;
-                    if !contact.points.iter().any(|p| lasts(p.position)) {
+                        |p: &PairPoint| opening_speed(a, b, time, p.position, contact.normal);
+                    // What touches is held; what is still apart and closes faster than rest will be
+                    // struck at its instant.
+                    let lasts = |p: &PairPoint| p.separation <= touch || opening(p) >= -rest;
+                    if !contact.points.iter().any(lasts) {
                         continue;
                     }
                     let ends = (
@@ -107,7 +109,7 @@ impl Groups {
                         .collect();
                     let mut row = Row::new(ends, contact.normal, &arms, pair.material.friction);
                     for (k, point) in contact.points.iter().enumerate() {
-                        if lasts(point.position) {
+                        if lasts(point) {
                             row.gap[k] = point.separation;
                             row.j[k] = point.impulse;
                         }

@@ -51,9 +51,9 @@ pub(crate) fn predict(
     }
     report.pairs += 1;
     let mut first = TimeOfImpact::Clear;
+    let rest = rest_speed(bodies, pair, h);
     if pair.lasting {
         narrow.look(bodies, colliders, pair, time, h);
-        let rest = rest_speed(bodies, pair, h);
         let touch = TOUCH * a.reach.min(b.reach);
         for contact in &pair.contacts {
             for point in &contact.points {
@@ -89,7 +89,12 @@ pub(crate) fn predict(
             }
             let (part_a, part_b) = (part(shapes.0, i), part(shapes.1, j));
             let next = time_of_impact_of_parts(&part_a, &motion_a, &part_b, &motion_b, horizon);
-            first = earlier(first, next);
+            // A contact that lasts holds what closes slowly on other parts, too.
+            match &next {
+                TimeOfImpact::Hit(slow) | TimeOfImpact::Touching(slow)
+                    if pair.lasting && slow.gap_rate >= -rest => {}
+                _ => first = earlier(first, next),
+            }
         }
     }
     let (wait, impact) = match first {

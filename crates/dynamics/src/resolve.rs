@@ -11,11 +11,21 @@ use crate::predict::BUDGET;
 use crate::shock::Shock;
 use crate::{Events, StepReport};
 
-/// Resolves one entry of the agenda; the bodies that have new motions.
+/// What an entry that came up did.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Struck {
+    /// One of the two had changed its motion since, or the pair has used up its impacts.
+    Nothing,
+    /// They met too gently to bounce. The contact lasts: the next sub-step's solver holds it, and
+    /// what else the pair may strike with in this one is to be looked for beside it.
+    Rests,
+    /// These bodies have new motions.
+    Impact(Vec<u32>),
+}
+
+/// Resolves one entry of the agenda.
 ///
-/// Nothing happens if one of the two had changed its motion since, or if they meet too gently to
-/// bounce: then the next sub-step's solver holds them. A single contact follows the impact law; one
-/// that runs into others is resolved together with them.
+/// A single contact follows the impact law; one that runs into others is resolved with them.
 #[expect(
     clippy::too_many_arguments,
     reason = "what an impact reads, and the stores it writes"
@@ -30,11 +40,11 @@ pub(crate) fn strike(
     h: f64,
     events: &mut Events,
     report: &mut StepReport,
-) -> Vec<u32> {
+) -> Struck {
     let ends = pairs.get(entry.pair).bodies;
     let (a, b) = (bodies.get(ends.0), bodies.get(ends.1));
     if (a.version, b.version) != entry.versions {
-        return Vec::new();
+        return Struck::Nothing;
     }
     touch(bodies, pairs, entry, events);
     let rest = rest_speed(bodies, pairs.get(entry.pair), h);
@@ -53,8 +63,12 @@ pub(crate) fn strike(
             shock.add(bodies, entry.pair, ends, contact, rest);
         }
     }
-    if shock.strikes.is_empty() || gives_up(bodies, pairs, entry, &shock, events, report) {
-        return Vec::new();
+    if shock.strikes.is_empty() {
+        rests(bodies, pairs, entry, events);
+        return Struck::Rests;
+    }
+    if gives_up(bodies, pairs, entry, &shock, events, report) {
+        return Struck::Nothing;
     }
     let single = shock.strikes.len() == 1;
     if single {
@@ -69,7 +83,7 @@ pub(crate) fn strike(
     if !single || shock.spread(bodies, colliders, pairs, narrow) {
         shock.solve(bodies, colliders, pairs, narrow);
     }
-    apply(bodies, entry, &shock, events, report)
+    Struck::Impact(apply(bodies, entry, &shock, events, report))
 }
 
 /// A touch that begins here is an event.
@@ -79,6 +93,16 @@ fn touch(bodies: &Bodies, pairs: &mut Pairs, entry: &Entry, events: &mut Events)
         pair.touching = true;
         let (a, b) = (bodies.get(pair.bodies.0).id, bodies.get(pair.bodies.1).id);
         events.push(entry.time, EventKind::Begin { a, b });
+    }
+}
+
+/// From now on the contact lasts.
+fn rests(bodies: &Bodies, pairs: &mut Pairs, entry: &Entry, events: &mut Events) {
+    let pair = pairs.get_mut(entry.pair);
+    if !pair.lasting {
+        pair.lasting = true;
+        let (a, b) = (bodies.get(pair.bodies.0).id, bodies.get(pair.bodies.1).id);
+        events.push(entry.time, EventKind::Rests { a, b });
     }
 }
 

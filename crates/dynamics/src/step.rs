@@ -4,7 +4,7 @@ use carom_math::SimTime;
 
 use crate::flight::{fly, land_piece};
 use crate::predict::predict;
-use crate::resolve::strike;
+use crate::resolve::{Struck, strike};
 use crate::sleep::{settle, wake};
 use crate::{EventKind, Refusal, StepReport, World};
 
@@ -69,7 +69,7 @@ impl World {
     fn advance(&mut self, end: SimTime, stop_at_event: bool) -> SimTime {
         loop {
             if let Some(entry) = self.agenda.next_until(end.min(self.clock.next())) {
-                let changed = strike(
+                let struck = strike(
                     self.settings.impact_law,
                     &mut self.bodies,
                     &self.colliders,
@@ -80,8 +80,14 @@ impl World {
                     &mut self.events,
                     &mut self.report,
                 );
-                for index in changed {
-                    self.deflected(index, entry.time);
+                match struck {
+                    Struck::Nothing => {}
+                    Struck::Rests => self.predict(entry.pair, entry.time),
+                    Struck::Impact(changed) => {
+                        for index in changed {
+                            self.deflected(index, entry.time);
+                        }
+                    }
                 }
                 if stop_at_event && !self.events.is_empty() {
                     return entry.time;
