@@ -181,6 +181,11 @@ fn collide_polygons(pair: &Pair<'_>, margin: f64) -> Option<Manifold> {
     let overlap = best.1.separation <= 0.0;
     let touchable = !pair.has_cuts() || pair.allows(best.0, best.1);
     if overlap && !touchable {
+        if pair.hulls[best.0 as usize].is_boundary(best.1.edge) {
+            // The outline goes on below that vertex: a neighbouring piece reaches deeper along the
+            // same normal, and has the contact.
+            return None;
+        }
         let (owner, face) = pair.least_overlap()?;
         let faces = Faces::new(pair, owner, face);
         return faces.manifold(faces.shared()?, margin);
