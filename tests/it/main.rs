@@ -1,1 +1,13 @@
-//! One integration-test binary.
+//! One integration-test binary: laws, stability, twins, regressions.
+
+#![allow(clippy::float_cmp, reason = "tests compare exact results on purpose")]
+
+mod conservation;
+mod determinism;
+mod errors;
+mod forces;
+mod impacts;
+mod observing;
+mod skipping;
+mod stability;
+mod twins;

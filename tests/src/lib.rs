@@ -1,1 +1,70 @@
 //! Shared helpers of the integration tests.
+
+use carom_collision::hulls;
+use carom_collision::separating_axis;
+use carom_dynamics::{BodyKind, Material, World};
+use carom_geometry::Shape;
+use carom_math::Pose;
+
+/// Steps `world` for `seconds` at 60 Hz and calls `look` after every step.
+///
+/// # Panics
+/// If the world refuses a step.
+pub fn run(world: &mut World, seconds: f64, mut look: impl FnMut(&World)) {
+    let steps = (seconds * 60.0).round() as u64;
+    for _ in 0..steps {
+        let report = world.step(1.0 / 60.0);
+        assert_eq!(report.refused, None);
+        look(world);
+    }
+}
+
+/// A surface without friction that gives everything back.
+#[must_use]
+pub fn elastic() -> Material {
+    Material {
+        friction: 0.0,
+        restitution: 1.0,
+        ..Material::default()
+    }
+}
+
+/// Deepest and mean overlap of all pairs of bodies (of which one moves), in m, ≥ 0.
+///
+/// Judged from shapes and poses alone, pair by pair: it shares nothing with the world's own search.
+#[must_use]
+pub fn overlaps(world: &World) -> (f64, f64) {
+    let bodies: Vec<_> = world.bodies().collect();
+    let (mut deepest, mut sum, mut count) = (0.0_f64, 0.0, 0.0);
+    for (i, a) in bodies.iter().enumerate() {
+        for b in &bodies[i + 1..] {
+            let moves = a.kind() == BodyKind::Dynamic || b.kind() == BodyKind::Dynamic;
+            if !moves || !a.aabb().overlaps(b.aabb()) {
+                continue;
+            }
+            let mut depth = 0.0_f64;
+            for (shape_a, _) in a.shapes() {
+                for (shape_b, _) in b.shapes() {
+                    depth = depth.max(overlap(shape_a, shape_b, b.pose().seen_from(a.pose())));
+                }
+            }
+            if depth > 0.0 {
+                deepest = deepest.max(depth);
+                sum += depth;
+                count += 1.0;
+            }
+        }
+    }
+    (deepest, if count > 0.0 { sum / count } else { 0.0 })
+}
+
+/// Depth of the deepest overlap of two shapes' convex parts, in m, ≥ 0.
+fn overlap(a: &Shape, b: &Shape, b_in_a: Pose) -> f64 {
+    let mut depth = 0.0_f64;
+    for part_a in hulls(a) {
+        for part_b in hulls(b) {
+            depth = depth.max(-separating_axis(&part_a, &part_b, b_in_a).separation);
+        }
+    }
+    depth
+}

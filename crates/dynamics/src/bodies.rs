@@ -5,7 +5,7 @@ use std::sync::Arc;
 use carom_collision::Motion;
 use carom_math::{SimTime, Sum, Vec2};
 
-use crate::body::BodyState;
+use crate::body::{BodyState, Lag};
 use crate::history::History;
 use crate::{BodyError, BodyId, BodyKind, EnergyLedger, Field};
 
@@ -169,7 +169,10 @@ impl Bodies {
         let old = state.motion;
         self.history.replaced(index, &old, time);
         state.turned += old.turn(time - old.start);
+        let velocity = state.velocity_at(time);
         state.motion = old.rebased(time);
+        state.motion.velocity = velocity;
+        state.lag = Lag::default();
         change(&mut state.motion);
         state.version = state.version.wrapping_add(1);
     }
@@ -191,8 +194,14 @@ impl Bodies {
         let elapsed = time - motion.start;
         let (travel, turn) = (motion.travel(elapsed), motion.turn(elapsed));
         let mass = state.mass.mass;
-        let kinetic = mass * motion.acceleration.dot(travel)
-            + state.turning_inertia() * motion.angular_acceleration * turn;
+        let straight = if state.lag == Lag::default() {
+            motion.acceleration.dot(travel)
+        } else {
+            let (from, to) = (motion.velocity, state.velocity_at(time));
+            (to - from).dot(0.5 * (to + from))
+        };
+        let kinetic =
+            mass * straight + state.turning_inertia() * motion.angular_acceleration * turn;
         let mut potential = -mass * free.dot(travel);
         for field in &self.pull.fields {
             let (from, to) = (motion.centre, motion.centre + travel);

@@ -32,8 +32,8 @@ pub(crate) struct BodyState {
     pub(crate) torque: f64,
     /// Force and torque that the next step begins with.
     pub(crate) pending: (Vec2, f64),
-    /// Velocity that the end of the present piece lacks: what its field's integrator knows better.
-    pub(crate) jump: Vec2,
+    /// What the velocity has beyond the motion's along the present piece of a flight in a field.
+    pub(crate) lag: Lag,
     /// Solved for as part of a group in this sub-step.
     pub(crate) member: bool,
     pub(crate) asleep: bool,
@@ -44,6 +44,29 @@ pub(crate) struct BodyState {
     pub(crate) colliders: Vec<u32>,
     /// Pairs of its colliders with others.
     pub(crate) pairs: Vec<u32>,
+}
+
+/// The difference of the cubic through both ends of a piece, in place and velocity, and the
+/// parabola that serves for prediction and meets the end in place alone.
+///
+/// ```text
+/// v(u) = v₀ + A u + L u (3 u/h − 2)         L h: what the parabola's velocity lacks at the end
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Lag {
+    /// L, in m/s².
+    pub(crate) rate: Vec2,
+    /// h, in s.
+    pub(crate) length: f64,
+}
+
+impl Lag {
+    fn at(self, u: f64) -> Vec2 {
+        if self.length == 0.0 {
+            return Vec2::ZERO;
+        }
+        self.rate * (u * (3.0 * u / self.length - 2.0))
+    }
 }
 
 /// A shape of a body.
@@ -103,7 +126,7 @@ impl BodyState {
             force: Vec2::ZERO,
             torque: 0.0,
             pending: (Vec2::ZERO, 0.0),
-            jump: Vec2::ZERO,
+            lag: Lag::default(),
             member: false,
             asleep: false,
             slow_for: 0.0,
@@ -129,6 +152,7 @@ impl BodyState {
         };
         self.motion.acceleration = Vec2::ZERO;
         self.motion.angular_acceleration = 0.0;
+        self.lag = Lag::default();
         self.member = false;
         if kind == BodyKind::Fixed {
             self.motion.velocity = Vec2::ZERO;
@@ -145,6 +169,11 @@ impl BodyState {
         self.kind != BodyKind::Fixed && !self.asleep
     }
 
+    /// Velocity of the centre of mass at `time`, in m/s.
+    pub(crate) fn velocity_at(&self, time: SimTime) -> Vec2 {
+        self.motion.velocity_at(time) + self.lag.at(time - self.motion.start)
+    }
+
     /// Frame of the shapes as drawn.
     pub(crate) fn pose(&self, time: SimTime) -> Pose {
         frame_of(&self.motion, self.mass.centroid, time)
@@ -155,7 +184,7 @@ impl BodyState {
             return 0.0;
         }
         let spin = self.motion.spin_at(time);
-        0.5 * (self.mass.mass * self.motion.velocity_at(time).length_squared()
+        0.5 * (self.mass.mass * self.velocity_at(time).length_squared()
             + self.turning_inertia() * spin * spin)
     }
 
@@ -174,7 +203,7 @@ impl BodyState {
             inverse_mass: self.inverse_mass,
             inverse_inertia: self.inverse_inertia,
             centre: self.motion.centre_at(time),
-            velocity: self.motion.velocity_at(time),
+            velocity: self.velocity_at(time),
             spin: self.motion.spin_at(time),
         }
     }
@@ -284,7 +313,7 @@ impl<'w> Body<'w> {
     /// Velocity of the centre of mass, in m/s.
     #[must_use]
     pub fn velocity(&self) -> Vec2 {
-        self.state.motion.velocity_at(self.now)
+        self.state.velocity_at(self.now)
     }
 
     /// Angular velocity, in rad/s, counter-clockwise.

@@ -3,13 +3,18 @@
 use carom_math::{SimTime, Vec2};
 
 use crate::bodies::Bodies;
+use crate::body::Lag;
 
 /// Gives a flying body its motion from `time` to `time + h`.
 ///
 /// Under uniform gravity and a constant force that is the parabola itself, and a body that is on
 /// it already is not touched. In a field one step of Nyström's method of fourth order finds where
-/// the body will be; the piece between is the parabola through both ends, and the velocity that
-/// its end lacks is kept for the next piece.
+/// the body will be; the piece between is the parabola through both ends for prediction, and a cubic
+/// for the velocity.
+#[expect(
+    clippy::float_cmp,
+    reason = "a body that is on its parabola has these very numbers"
+)]
 pub(crate) fn fly(bodies: &mut Bodies, index: u32, time: SimTime, h: f64) {
     let state = bodies.get(index);
     let free = if state.inverse_mass > 0.0 {
@@ -28,10 +33,10 @@ pub(crate) fn fly(bodies: &mut Bodies, index: u32, time: SimTime, h: f64) {
         }
         let state = bodies.get_mut(index);
         state.member = false;
-        state.jump = Vec2::ZERO;
+        state.lag = Lag::default();
         return;
     }
-    let (x, v) = (state.motion.centre_at(time), state.motion.velocity_at(time));
+    let (x, v) = (state.motion.centre_at(time), state.velocity_at(time));
     let scale = state.gravity_scale;
     let push = state.force * state.inverse_mass;
     let f = |at: Vec2| scale * bodies.pull.at(at) + push;
@@ -41,7 +46,10 @@ pub(crate) fn fly(bodies: &mut Bodies, index: u32, time: SimTime, h: f64) {
     let k3 = f(x + v * h + k2 * (0.5 * h * h));
     let acceleration = (k1 + 2.0 * k2) / 3.0;
     let end_velocity = v + (k1 + 4.0 * k2 + k3) * (h / 6.0);
-    let jump = end_velocity - (v + acceleration * h);
+    let lag = Lag {
+        rate: (end_velocity - (v + acceleration * h)) / h,
+        length: h,
+    };
     // Path and parabola part by at most |ȧ| h³/24 at h/2, with |ȧ| ≤ |∇f| |v|.
     let reach = (v.length() + acceleration.length() * h) * h;
     let speed = reach / h;
@@ -53,19 +61,5 @@ pub(crate) fn fly(bodies: &mut Bodies, index: u32, time: SimTime, h: f64) {
     });
     let state = bodies.get_mut(index);
     state.member = false;
-    state.jump = jump;
-}
-
-/// Ends a piece of a flight in a field: its end velocity becomes the integrator's.
-pub(crate) fn land_piece(bodies: &mut Bodies, index: u32, time: SimTime) {
-    let state = bodies.get(index);
-    let jump = state.jump;
-    if jump == Vec2::ZERO {
-        return;
-    }
-    let before = state.motion.velocity_at(time);
-    let work = state.mass.mass * jump.dot(before + 0.5 * jump);
-    bodies.book.scheme.add(work);
-    bodies.change(index, time, |motion| motion.velocity += jump);
-    bodies.get_mut(index).jump = Vec2::ZERO;
+    state.lag = lag;
 }

@@ -1,6 +1,6 @@
 //! Contact groups: what pushes what, lasting, in one sub-step.
 
-use carom_math::{SimTime, Vec2};
+use carom_math::SimTime;
 
 use crate::StepReport;
 use crate::bodies::Bodies;
@@ -185,7 +185,6 @@ impl Groups {
             let state = bodies.get_mut(index);
             state.turned += turned;
             state.member = true;
-            state.jump = Vec2::ZERO;
             member.d = state.motion.travel(h);
             member.turn = state.motion.turn(h);
             let (_, after) = bodies.energy_of(index, time);

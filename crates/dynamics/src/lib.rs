@@ -24,6 +24,8 @@
 //! # }
 //! ```
 
+#![cfg_attr(test, allow(clippy::float_cmp, reason = "tests compare exact results"))]
+
 mod agenda;
 mod bodies;
 mod body;

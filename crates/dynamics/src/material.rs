@@ -35,7 +35,7 @@ impl Default for Material {
 }
 
 impl Material {
-    /// How this surface and `other` meet: friction √(µ_a µ_b), restitution max(e_a, e_b).
+    /// How this surface and `other` meet: friction √(`µ_a` `µ_b`), restitution `max(e_a`, `e_b`).
     ///
     /// Both rules are idempotent: a pair of equal surfaces has their values.
     #[must_use]
@@ -76,7 +76,7 @@ pub struct PairMaterial {
 }
 
 impl PairMaterial {
-    pub(crate) fn check(&self) -> Result<(), BodyError> {
+    pub(crate) fn check(self) -> Result<(), BodyError> {
         check_finite("friction", self.friction)?;
         check_finite("restitution", self.restitution)?;
         if self.friction < 0.0 {

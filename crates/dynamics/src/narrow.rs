@@ -88,7 +88,7 @@ fn carried(new: &PartManifold, pose_a: Pose, old: &[PairContact]) -> PairContact
 
 /// Fastest that any two points of the bodies can approach, in m/s.
 fn closing_bound(a: &BodyState, b: &BodyState, time: SimTime) -> f64 {
-    (b.motion.velocity_at(time) - a.motion.velocity_at(time)).length()
+    (b.velocity_at(time) - a.velocity_at(time)).length()
         + a.motion.spin_at(time).abs() * a.reach
         + b.motion.spin_at(time).abs() * b.reach
 }
@@ -102,7 +102,7 @@ pub(crate) fn opening_speed(
     normal: Vec2,
 ) -> f64 {
     let of = |body: &BodyState| {
-        body.motion.velocity_at(time)
+        body.velocity_at(time)
             + cross_scalar(
                 body.motion.spin_at(time),
                 point - body.motion.centre_at(time),

@@ -13,6 +13,9 @@ pub struct Settings {
     /// Longest stretch between two looks at the whole world, in s.
     pub tick: f64,
     /// Longest sub-step of bodies in lasting contact, in s; a tick holds a whole number of them.
+    ///
+    /// Resting contacts sink in with its square (see [`Softness::compliance`]): the top of a
+    /// stack of ten 1 m boxes by 9.6 mm at 1/240 s, 4.3 mm at 1/360 s, 2.4 mm at 1/480 s.
     pub substep: f64,
     /// Which bodies are sub-stepped.
     pub mode: Mode,
@@ -35,7 +38,7 @@ impl Default for Settings {
         Self {
             gravity: vec2(0.0, -9.81),
             tick: 1.0 / 60.0,
-            substep: 1.0 / 240.0,
+            substep: 1.0 / 360.0,
             mode: Mode::default(),
             pair_search: PairSearch::default(),
             impact_law: ImpactLaw::default(),

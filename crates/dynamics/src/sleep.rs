@@ -10,7 +10,7 @@ use crate::{BodyKind, Events, Sleep};
 
 /// Puts every group to sleep whose bodies have all been slow for long enough.
 pub(crate) fn settle(
-    sleep: &Sleep,
+    sleep: Sleep,
     bodies: &mut Bodies,
     groups: &Groups,
     time: SimTime,

@@ -2,7 +2,7 @@
 
 use carom_math::SimTime;
 
-use crate::flight::{fly, land_piece};
+use crate::flight::fly;
 use crate::predict::predict;
 use crate::resolve::{Struck, strike};
 use crate::sleep::{settle, wake};
@@ -107,7 +107,7 @@ impl World {
         self.clock.begin();
         self.agenda.clear();
         self.report.substeps += 1;
-        self.land(time);
+        self.guard(time);
         self.find_pairs(time, h);
         self.look(time, h);
         self.groups.step(
@@ -124,7 +124,7 @@ impl World {
                 fly(&mut self.bodies, index, time, h);
             }
         }
-        if let Some(sleep) = &self.settings.sleep {
+        if let Some(sleep) = self.settings.sleep {
             settle(
                 sleep,
                 &mut self.bodies,
@@ -141,10 +141,9 @@ impl World {
         }
     }
 
-    /// Ends the pieces of the last sub-step; stops what is no longer finite.
-    fn land(&mut self, time: SimTime) {
+    /// Stops what is no longer finite.
+    fn guard(&mut self, time: SimTime) {
         for index in self.active() {
-            land_piece(&mut self.bodies, index, time);
             if !self.bodies.get(index).motion.is_finite() {
                 self.report.stopped += 1;
                 self.stop(index, time);

@@ -19,11 +19,11 @@ pub(super) enum EndRule {
 /// One straight piece: rates per unit of normal impulse, and how long it lasts.
 #[derive(Clone, Copy, Debug)]
 struct Piece {
-    /// dj_t/dp.
+    /// `dj_t/dp`.
     friction: f64,
-    /// du_n/dp.
+    /// `du_n/dp`.
     normal: f64,
-    /// du_t/dp.
+    /// `du_t/dp`.
     tangential: f64,
     /// Normal impulse until the slip ends; infinite if it does not.
     length: f64,

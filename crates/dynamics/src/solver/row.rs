@@ -100,7 +100,7 @@ impl Row {
         ]
     }
 
-    /// Applies ±(j₁ + j₂) n ± j_t t.
+    /// Applies ±(j₁ + j₂) n ± `j_t` t.
     pub(crate) fn push(&self, a: &mut SolverBody, b: &mut SolverBody, j: [f64; 2], jt: f64) {
         let impulse = self.n * (j[0] + j[1]) + perp(self.n) * jt;
         a.v -= impulse * a.inverse_mass;

@@ -1,0 +1,180 @@
+//! `dt`, frame rates and looks observe; they change nothing.
+
+use carom_dynamics::{BodyDef, EventKind, Material, Refusal, Settings, World};
+use carom_geometry::{Circle, ConvexPolygon};
+use carom_math::{SimTime, vec2};
+
+fn thesis() -> World {
+    let scene = carom_scenes::find("thesis").expect("a built-in scene");
+    scene.build().expect("it builds").world
+}
+
+#[test]
+fn the_caller_s_dt_does_not_change_the_motion() {
+    let (mut coarse, mut fine, mut odd) = (thesis(), thesis(), thesis());
+    coarse.step(3.0);
+    for _ in 0..768 {
+        fine.step(3.0 / 768.0);
+    }
+    let mut left = 3.0;
+    while left > 0.0 {
+        let dt = f64::min(left, 0.037);
+        odd.step(dt);
+        left -= dt;
+    }
+    for (a, b) in coarse.bodies().zip(fine.bodies()) {
+        assert_eq!(a.motion(), b.motion(), "{}", a.id());
+    }
+    for (a, b) in coarse.bodies().zip(odd.bodies()) {
+        assert_eq!(a.motion().centre, b.motion().centre, "{}", a.id());
+    }
+}
+
+#[test]
+fn a_look_back_is_what_was_seen() {
+    let mut world = World::new(Settings {
+        history: 1000,
+        ..Settings::default()
+    })
+    .expect("valid");
+    let floor = ConvexPolygon::rectangle(10.0, 1.0).expect("a floor");
+    world
+        .insert(
+            BodyDef::fixed().at(vec2(0.0, -0.5)),
+            floor,
+            Material::default(),
+        )
+        .expect("valid");
+    let bouncy = Material {
+        restitution: 0.8,
+        ..Material::default()
+    };
+    let ball = world
+        .insert(
+            BodyDef::dynamic().at(vec2(0.0, 2.0)).spinning(3.0),
+            Circle::new(0.2).expect("a ball"),
+            bouncy,
+        )
+        .expect("valid");
+    let mut seen = Vec::new();
+    for _ in 0..60 {
+        world.step(1.0 / 60.0);
+        seen.push((world.time(), world.body(ball).expect("it stays").pose()));
+    }
+    for (time, pose) in seen {
+        let back = world.pose_at(ball, time).expect("within the log");
+        assert!(
+            (back.position - pose.position).length() < 1e-12,
+            "at {} s",
+            time.as_secs()
+        );
+    }
+    assert_eq!(
+        world.pose_at(ball, world.time() + 1.0),
+        None,
+        "the future is not known"
+    );
+}
+
+#[test]
+fn without_a_log_only_the_present_piece_is_known() {
+    let mut world = thesis();
+    world.step(2.0);
+    let moving = world
+        .bodies()
+        .find(|b| b.mass().is_finite())
+        .expect("a body")
+        .id();
+    assert_eq!(world.pose_at(moving, SimTime::ZERO), None);
+    assert!(world.pose_at(moving, world.time()).is_some());
+}
+
+#[test]
+fn a_bad_dt_moves_nothing_and_says_why() {
+    let mut world = thesis();
+    world.step(0.5);
+    let before = world.state_hash();
+    for (dt, expected) in [
+        (f64::NAN, "dt is NaN, not a finite number"),
+        (f64::INFINITY, "dt is inf, not a finite number"),
+        (-0.25, "dt is -0.25 s, below 0"),
+        (
+            1e9,
+            "dt is 1e9 s, more than 1.6666666666666666e5 s (1e7 ticks)",
+        ),
+    ] {
+        let report = world.step(dt);
+        let refused: Refusal = report.refused.expect("refused");
+        assert_eq!(refused.to_string(), expected);
+        assert_eq!(report.advanced, 0.0);
+        assert_eq!(world.state_hash(), before);
+    }
+    assert_eq!(world.step(0.0).refused, None);
+    assert_eq!(world.state_hash(), before);
+}
+
+#[test]
+fn stepping_to_the_next_event_stops_at_the_instant_of_an_impact() {
+    let settings = Settings {
+        gravity: vec2(0.0, -10.0),
+        ..Settings::default()
+    };
+    let mut world = World::new(settings).expect("valid");
+    let floor = ConvexPolygon::rectangle(10.0, 1.0).expect("a floor");
+    world
+        .insert(
+            BodyDef::fixed().at(vec2(0.0, -0.5)),
+            floor,
+            Material::default(),
+        )
+        .expect("valid");
+    let ball = Circle::new(0.2).expect("a ball");
+    world
+        .insert(
+            BodyDef::dynamic().at(vec2(0.0, 5.2)),
+            ball,
+            Material::default(),
+        )
+        .expect("valid");
+    let report = world.step_to_next_event(10.0);
+    assert_eq!(report.impacts, 1);
+    assert!(
+        (world.time().as_secs() - 1.0).abs() < 1e-14,
+        "it falls 5 m in 1 s"
+    );
+    assert!(world.events().iter().any(|event| matches!(event.kind, EventKind::Impact { speed, .. } if (speed - 10.0).abs() < 1e-12)));
+}
+
+#[test]
+fn events_beyond_the_buffer_are_counted() {
+    let mut world = World::new(Settings {
+        events: 2,
+        ..Settings::default()
+    })
+    .expect("valid");
+    for i in 0..10 {
+        let x = f64::from(i);
+        let floor = ConvexPolygon::rectangle(0.5, 0.5).expect("a block");
+        world
+            .insert(
+                BodyDef::fixed().at(vec2(x, -0.25)),
+                floor,
+                Material::default(),
+            )
+            .expect("valid");
+        let ball = Circle::new(0.1).expect("a ball");
+        world
+            .insert(
+                BodyDef::dynamic().at(vec2(x, 0.2)),
+                ball,
+                Material::default(),
+            )
+            .expect("valid");
+    }
+    world.step(0.5);
+    assert_eq!(world.events().len(), 2);
+    assert!(
+        world.events().dropped() >= 18,
+        "each ball begins to touch and strikes"
+    );
+}
