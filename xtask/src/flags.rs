@@ -160,6 +160,7 @@ pub(crate) struct InertiaArgs {
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:\n  \
     cargo xtask reference tests/reference/open\n  \
+    cargo xtask reference tests/reference/open --list\n  \
     cargo xtask reference tests/reference/open --transform 7 --json answers.json")]
 pub(crate) struct ReferenceArgs {
     /// Folder with reference files (*.json)
@@ -167,6 +168,9 @@ pub(crate) struct ReferenceArgs {
     /// Writes every answer as JSON
     #[arg(long, value_name = "FILE")]
     pub(crate) json: Option<PathBuf>,
+    /// A line for each case: `pass ID`, or `fall short ID: why`
+    #[arg(long)]
+    pub(crate) list: bool,
     /// Asks each case mirrored, turned, shifted and relabelled (all exact) and maps the answer back
     #[arg(long, value_name = "SEED")]
     pub(crate) transform: Option<u64>,

@@ -121,6 +121,15 @@ pub(super) fn points_at(inputs: &Value, key: &str) -> Result<Vec<Vec2>, String> 
         .ok_or_else(|| format!("input {key} is not a list of pairs"))
 }
 
+/// Every number, word or truth value inside a value, in order.
+pub(super) fn flatten(value: &Value, each: &mut dyn FnMut(&Value)) {
+    match value {
+        Value::Array(items) => items.iter().for_each(|item| flatten(item, each)),
+        Value::Object(items) => items.values().for_each(|item| flatten(item, each)),
+        other => each(other),
+    }
+}
+
 /// A pair as JSON.
 pub(super) fn pair(v: Vec2) -> Value {
     Value::from(vec![v.x, v.y])

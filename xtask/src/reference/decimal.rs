@@ -52,10 +52,10 @@ impl Decimal {
         self.high
     }
 
-    /// How far `got` is from this number.
-    pub(super) fn error_of(self, got: f64) -> f64 {
+    /// `got` less this number.
+    pub(super) fn offset_of(self, got: f64) -> f64 {
         let (difference, lost) = two_sum(got, -self.high);
-        (difference + (lost - self.low)).abs()
+        difference + (lost - self.low)
     }
 
     fn plus(self, other: f64) -> Self {
@@ -111,13 +111,13 @@ mod tests {
     fn digits_beyond_a_double_count() {
         // 0.1 as a double is 0.1000000000000000055511151231257827...
         let tenth = Decimal::parse("0.1").unwrap();
-        let error = tenth.error_of(0.1);
+        let error = tenth.offset_of(0.1);
         assert!(
             (error / 5.551_115_123_125_783e-18 - 1.0).abs() < 1e-12,
             "{error:e}"
         );
         let exact = Decimal::parse("0.1000000000000000055511151231257827021181583404541015625");
-        assert!(exact.unwrap().error_of(0.1) < 1e-31);
+        assert!(exact.unwrap().offset_of(0.1).abs() < 1e-31);
     }
 
     #[test]
@@ -129,7 +129,7 @@ mod tests {
             let double: f64 = text.parse().unwrap();
             assert_eq!(number.nearest(), double, "{text}");
             assert!(
-                number.error_of(double) <= 0.5 * f64::EPSILON * double.abs(),
+                number.offset_of(double).abs() <= 0.5 * f64::EPSILON * double.abs(),
                 "{text}"
             );
         }

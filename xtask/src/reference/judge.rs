@@ -2,10 +2,11 @@
 //!
 //! The bounds are those of the reference's own judge; a category that is not listed here fails.
 
-use carom_math::Sum;
+use carom_math::vec2;
 use serde_json::Value;
 
-use super::book::{Answer, Case, number, point};
+use super::book::{Answer, Case, flatten};
+use super::bounds::{bounds, first_number, off_the_stretch};
 use super::decimal::Decimal;
 
 /// What becomes of an answer.
@@ -52,6 +53,12 @@ pub(super) fn judge(category: &str, case: &Case, answer: &Answer) -> Verdict {
 
 impl Verdict {
     fn hear(&mut self, category: &str, case: &Case, key: &str, entry: &Value, got: &Value) {
+        if let Value::Bool(want) = entry["value"] {
+            if got.as_bool() != Some(want) {
+                self.faults.push(format!("{key} is {got}, not {want}"));
+            }
+            return;
+        }
         let Some(want) = exact(entry) else {
             self.faults
                 .push(format!("{key} of the reference cannot be read"));
@@ -65,24 +72,52 @@ impl Verdict {
                 .push(format!("{key} has {found} numbers, not {expected}"));
             return;
         }
-        let bounds = match category {
-            "mass_properties" => mass_bounds(case, key, &want),
-            _ => impact_bounds(case, key, &want),
+        let bounds = match bounds(category, case, key, &want) {
+            Ok(bounds) => bounds,
+            Err(why) => return self.faults.push(why),
         };
+        if key == "contact_point"
+            && let Some(stretch) = case.outputs.get("contact_segment")
+        {
+            return self.hear_landing(case, stretch, &have, &bounds);
+        }
         for ((got, want), bound) in have.into_iter().zip(want).zip(bounds) {
             let Some(got) = got.filter(|got| got.is_finite()) else {
                 self.faults.push(format!("{key} is no finite number"));
                 return;
             };
-            let error = want.error_of(got);
-            let ratio = if error > 0.0 { error / bound } else { 0.0 };
-            self.worst = self.worst.max(ratio);
-            if ratio > 1.0 {
+            let error = want.offset_of(got).abs();
+            if !self.allows(error, bound) {
                 self.faults
                     .push(format!("{key} is off by {error:.2e}, allowed {bound:.2e}"));
                 return;
             }
         }
+    }
+
+    /// A flat landing: any point of the stretch of contact is right.
+    fn hear_landing(&mut self, case: &Case, stretch: &Value, have: &[Option<f64>], bounds: &[f64]) {
+        let ends = exact(stretch).unwrap_or_default();
+        let error = match have {
+            [Some(x), Some(y)] => off_the_stretch(&ends, vec2(*x, *y)),
+            _ => None,
+        };
+        let gap = first_number(case, "contact_segment_gap").unwrap_or(0.0);
+        let bound = bounds.first().map_or(0.0, |bound| bound + gap);
+        match error.filter(|error| error.is_finite()) {
+            Some(error) if self.allows(error, bound) => {}
+            Some(error) => self.faults.push(format!(
+                "contact_point is {error:.2e} off the segment of contact, allowed {bound:.2e}"
+            )),
+            None => self.faults.push("contact_point is no point".to_owned()),
+        }
+    }
+
+    /// Whether an error is within its bound; remembers the worst.
+    fn allows(&mut self, error: f64, bound: f64) -> bool {
+        let ratio = if error > 0.0 { error / bound } else { 0.0 };
+        self.worst = self.worst.max(ratio);
+        ratio <= 1.0
     }
 }
 
@@ -108,82 +143,12 @@ fn required(category: &str) -> Option<Vec<String>> {
                 .flat_map(|law| keys.map(|key| format!("{law}.{key}")));
             Some(all.collect())
         }
+        "time_of_impact" => {
+            let keys = ["hit", "time_of_impact", "contact_point", "normal_a_to_b"];
+            Some(keys.map(str::to_owned).to_vec())
+        }
         _ => None,
     }
-}
-
-/// 2e-13 relative, or 8 ulp times the cancellation of the cross products; the centroid of the bounding radius.
-fn mass_bounds(case: &Case, key: &str, want: &[Decimal]) -> Vec<f64> {
-    let mut slack = 2e-13;
-    if let Some(list) = case.inputs["vertices"].as_array() {
-        let vertices: Vec<(f64, f64)> = list.iter().filter_map(point).map(|p| (p.x, p.y)).collect();
-        slack = f64::max(slack, 8.0 * f64::EPSILON * cancellation(&vertices));
-    }
-    let magnitude = |w: &Decimal| w.nearest().abs();
-    if key == "centroid" {
-        let size = numbers(case, "bounding_radius")
-            .first()
-            .copied()
-            .unwrap_or(1.0);
-        let bound = |w| slack * size + 2.0 * f64::EPSILON * magnitude(w);
-        return want.iter().map(bound).collect();
-    }
-    want.iter().map(|w| slack * magnitude(w)).collect()
-}
-
-/// How much the cross products cancel in the area, about the worst of up to sixteen corners.
-fn cancellation(vertices: &[(f64, f64)]) -> f64 {
-    let Some(&first) = vertices.first() else {
-        return f64::INFINITY;
-    };
-    let sum_about = |corner: (f64, f64), term: fn(f64) -> f64| {
-        let mut sum = Sum::ZERO;
-        for (k, &(x0, y0)) in vertices.iter().enumerate() {
-            let (x1, y1) = vertices[(k + 1) % vertices.len()];
-            let (x0, y0) = (x0 - corner.0, y0 - corner.1);
-            let (x1, y1) = (x1 - corner.0, y1 - corner.1);
-            sum.add(term(x0 * y1));
-            sum.add(term(-x1 * y0));
-        }
-        sum.value()
-    };
-    let area = sum_about(first, |t| t).abs() / 2.0;
-    let stride = (vertices.len() / 16).max(1);
-    let corners = vertices.iter().step_by(stride);
-    let total = corners.map(|&c| sum_about(c, f64::abs)).fold(0.0, f64::max);
-    if area > 0.0 {
-        total / 2.0 / area
-    } else {
-        f64::INFINITY
-    }
-}
-
-/// 1e-12 of the largest speed, or of the normal impulse.
-fn impact_bounds(case: &Case, key: &str, want: &[Decimal]) -> Vec<f64> {
-    if let Some((law, "jn" | "jt")) = key.split_once('.') {
-        let jn = numbers(case, &format!("{law}.jn"))
-            .first()
-            .copied()
-            .unwrap_or(0.0);
-        return vec![1e-12 * jn.abs().max(1e-300); want.len()];
-    }
-    let speeds = case
-        .outputs
-        .keys()
-        .filter(|name| name.contains("velocit") || name.contains("omega"));
-    let largest = speeds
-        .flat_map(|name| numbers(case, name))
-        .fold(1e-300, |largest, v| v.abs().max(largest));
-    vec![1e-12 * largest; want.len()]
-}
-
-/// The doubles of an output of the reference.
-fn numbers(case: &Case, key: &str) -> Vec<f64> {
-    let mut found = Vec::new();
-    if let Some(entry) = case.outputs.get(key) {
-        flatten(&entry["value"], &mut |item| found.extend(number(item)));
-    }
-    found
 }
 
 /// The numbers of an output with all their digits.
@@ -201,14 +166,6 @@ fn exact(entry: &Value) -> Option<Vec<Decimal>> {
         }
     });
     all
-}
-
-fn flatten(value: &Value, each: &mut dyn FnMut(&Value)) {
-    match value {
-        Value::Array(items) => items.iter().for_each(|item| flatten(item, each)),
-        Value::Object(items) => items.values().for_each(|item| flatten(item, each)),
-        other => each(other),
-    }
 }
 
 #[cfg(test)]
@@ -262,6 +219,73 @@ mod tests {
         assert_eq!(
             judge("tides", &case(), &right).faults,
             ["tides has no judge"]
+        );
+    }
+
+    /// A square of side 1 m lands flat after 1 s at 2 m/s: between x = 0 and x = 1.
+    fn landing() -> Case {
+        let body = |y: &str, v: &str| {
+            json!({
+                "position": ["0.5", y], "angle": "0", "velocity": ["0", v],
+                "angular_velocity": "0", "acceleration": ["0", "0"],
+                "shape": {"polygon": [["-0.5", "-0.5"], ["0.5", "-0.5"], ["0.5", "0.5"], ["-0.5", "0.5"]]},
+            })
+        };
+        serde_json::from_value(json!({
+            "id": "landing",
+            "inputs": {"body_a": body("2.5", "-2"), "body_b": body("-0.5", "0"), "horizon": "2"},
+            "outputs": {
+                "hit": {"value": true},
+                "time_of_impact": {"value": "1.0", "hp": "1.0"},
+                "contact_point": {"value": ["0.0", "0.0"], "hp": ["0", "0"]},
+                "normal_a_to_b": {"value": ["0.0", "-1.0"], "hp": ["0", "-1.0"]},
+                "condition_time_per_metre": {"value": "0.5"},
+                "contact_segment": {"value": [["0.0", "0.0"], ["1.0", "0.0"]], "hp": [["0", "0"], ["1.0", "0"]]},
+                "contact_segment_gap": {"value": "0.0"},
+            },
+        }))
+        .unwrap()
+    }
+
+    #[test]
+    fn any_point_of_a_flat_landing_is_right() {
+        for x in [0.0, 0.3, 1.0] {
+            let right = answer(json!({
+                "hit": true, "time_of_impact": 1.0, "contact_point": [x, 0.0], "normal_a_to_b": [0.0, -1.0],
+            }));
+            assert_eq!(judge("time_of_impact", &landing(), &right).faults, [""; 0]);
+        }
+        let wrong = answer(json!({
+            "hit": true, "time_of_impact": 1.0 + 1e-12, "contact_point": [1.25, 0.0], "normal_a_to_b": [0.0, 1.0],
+        }));
+        let faults = judge("time_of_impact", &landing(), &wrong).faults;
+        assert!(
+            faults[0].starts_with("time_of_impact is off by 1.00e-12"),
+            "{faults:?}"
+        );
+        assert!(
+            faults[1].starts_with("contact_point is 2.50e-1 off the segment"),
+            "{faults:?}"
+        );
+        assert!(
+            faults[2].starts_with("normal_a_to_b is off by 2.00e0"),
+            "{faults:?}"
+        );
+    }
+
+    #[test]
+    fn a_missed_contact_and_half_an_answer_fail() {
+        let missed = answer(json!({"hit": false}));
+        assert_eq!(
+            judge("time_of_impact", &landing(), &missed).faults[0],
+            "hit is false, not true"
+        );
+        let no_point = answer(json!({
+            "hit": true, "time_of_impact": 1.0, "contact_point": [0.5, null], "normal_a_to_b": [0.0, -1.0],
+        }));
+        assert_eq!(
+            judge("time_of_impact", &landing(), &no_point).faults,
+            ["contact_point is no point"]
         );
     }
 }

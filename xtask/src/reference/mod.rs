@@ -1,7 +1,9 @@
 //! `reference`: every case of a folder, answered by the library and judged.
 
 mod book;
+mod bounds;
 mod decimal;
+mod first_contact;
 mod impact;
 mod judge;
 mod mass;
@@ -16,6 +18,7 @@ use crate::flags::ReferenceArgs;
 use crate::out::say;
 
 use book::{Answer, Case, Outputs, Results};
+use first_contact::FirstContactCase;
 use impact::ImpactCase;
 use mass::MassCase;
 use symmetry::Symmetry;
@@ -32,10 +35,14 @@ pub(crate) fn run(args: &ReferenceArgs) -> Outcome {
         let mut tally = Tally::default();
         for case in &book.cases {
             let answer = answer(&book.category, case, args.transform);
-            tally.count(case, &answer, &judge::judge(&book.category, case, &answer));
+            let verdict = judge::judge(&book.category, case, &answer);
+            if args.list {
+                list(case, &verdict);
+            }
+            tally.count(case, &answer, &verdict);
             answers.push(answer);
         }
-        tally.print(&book.category, book.cases.len());
+        tally.print(&book.category, book.cases.len(), args.list);
         passed += tally.passed;
         total += book.cases.len();
     }
@@ -55,10 +62,19 @@ pub(crate) fn run(args: &ReferenceArgs) -> Outcome {
     })
 }
 
+/// `pass ID`, or `fall short ID: why`.
+fn list(case: &Case, verdict: &judge::Verdict) {
+    match verdict.faults.as_slice() {
+        [] => say!("pass {}", case.id),
+        faults => say!("fall short {}: {}", case.id, faults.join("; ")),
+    }
+}
+
 fn answer(category: &str, case: &Case, seed: Option<u64>) -> Answer {
     let solved = match category {
         "mass_properties" => mass_properties(case, seed),
         "impacts" => impacts(case, seed),
+        "time_of_impact" => first_contact(case, seed),
         _ => Err(format!("category {category} is not answered yet")),
     };
     let (found, error) = match solved {
@@ -96,6 +112,19 @@ fn impacts(case: &Case, seed: Option<u64>) -> Result<(f64, Outputs), String> {
     };
     let (seconds, found) = timed(|| question.answer());
     Ok((seconds, ImpactCase::outputs(&found?, &symmetry)))
+}
+
+fn first_contact(case: &Case, seed: Option<u64>) -> Result<(f64, Outputs), String> {
+    let question = FirstContactCase::read(&case.inputs)?;
+    let symmetry = guise(seed, case, &question.places());
+    let question = if seed.is_some() {
+        question.transformed(&symmetry)
+    } else {
+        question
+    };
+    let pair = question.built()?;
+    let (seconds, found) = timed(|| pair.answer());
+    Ok((seconds, FirstContactCase::outputs(&found, &symmetry)?))
 }
 
 fn guise(seed: Option<u64>, case: &Case, places: &[carom_math::Vec2]) -> Symmetry {
@@ -136,11 +165,13 @@ impl Tally {
         }
     }
 
-    fn print(&self, category: &str, count: usize) {
-        for fault in self.faults.iter().take(LISTED) {
+    /// The line of the category, after its first faults unless these were `listed` already.
+    fn print(&self, category: &str, count: usize, listed: bool) {
+        let shown = if listed { 0 } else { LISTED };
+        for fault in self.faults.iter().take(shown) {
             say!("  {fault}");
         }
-        if self.faults.len() > LISTED {
+        if self.faults.len() > LISTED && !listed {
             say!("  … and {} more", self.faults.len() - LISTED);
         }
         match &self.unanswered {

@@ -1,6 +1,8 @@
-//! `reference` on folders made for the purpose.
+//! `reference` on the project's own cases and on folders made for the purpose.
 
+use std::collections::BTreeSet;
 use std::fs;
+use std::path::Path;
 
 use crate::xtask_in;
 
@@ -13,6 +15,47 @@ const SQUARE: &str = r#"{"category": "mass_properties", "cases": [{
         "centroid": {"value": ["0.5", "0.5"], "hp": ["0.5", "0.5"]},
         "inertia_from_mass": {"value": "1.0", "hp": "1.0"},
         "bounding_radius": {"value": "0.7071067811865476"}}}]}"#;
+
+/// The ids that `passing.txt` names are those that pass, as asked and in other guises.
+#[test]
+fn what_is_listed_as_passing_passes_and_nothing_else() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/reference");
+    let list = fs::read_to_string(folder.join("passing.txt")).unwrap();
+    assert!(
+        list.lines().is_sorted_by(|a, b| a < b),
+        "passing.txt is not sorted, or names a case twice"
+    );
+    let listed: BTreeSet<&str> = list.lines().collect();
+    let guises: [&[&str]; 4] = [
+        &[],
+        &["--transform", "1"],
+        &["--transform", "2"],
+        &["--transform", "3"],
+    ];
+    for guise in guises {
+        let ran = xtask_in(&folder, &[&["reference", "open", "--list"], guise].concat());
+        let passes: BTreeSet<&str> = lines_after(&ran.out, "pass ").collect();
+        let broken: Vec<&&str> = listed.difference(&passes).collect();
+        let why: Vec<&str> = lines_after(&ran.out, "fall short ")
+            .filter(|line| broken.iter().any(|id| line.starts_with(&format!("{id}: "))))
+            .collect();
+        assert!(
+            broken.is_empty(),
+            "{guise:?}: {broken:?}\n{}",
+            why.join("\n")
+        );
+        let new: Vec<&&str> = passes.difference(&listed).collect();
+        assert!(
+            new.is_empty(),
+            "{guise:?}: not in tests/reference/passing.txt yet: {new:?}"
+        );
+    }
+}
+
+fn lines_after<'a>(text: &'a str, start: &'a str) -> impl Iterator<Item = &'a str> {
+    text.lines()
+        .filter_map(move |line| line.strip_prefix(start))
+}
 
 #[test]
 fn a_right_answer_passes_in_every_guise() {
