@@ -75,3 +75,7 @@ pub use query::{RayHit, ShapeHit};
 pub use report::{Refusal, StepReport};
 pub use settings::{Mode, PairSearch, Settings, Sleep, Softness};
 pub use world::World;
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadmeDocTests;

@@ -33,3 +33,7 @@ pub use predicate::{in_circle, orient2d};
 pub use rot::Rot;
 pub use sum::{Sum, two_product, two_sum};
 pub use time::SimTime;
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadmeDocTests;
