@@ -8,6 +8,7 @@ mod errors;
 mod forces;
 mod impacts;
 mod observing;
+mod regressions;
 mod skipping;
 mod stability;
 mod twins;

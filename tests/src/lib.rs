@@ -68,3 +68,8 @@ fn overlap(a: &Shape, b: &Shape, b_in_a: Pose) -> f64 {
     }
     depth
 }
+
+/// The example of the project's README, held by a test.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+struct ReadmeDocTests;

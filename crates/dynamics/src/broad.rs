@@ -138,6 +138,8 @@ impl Broad {
             contacts: Vec::new(),
             touching: false,
             lasting: false,
+            held: false,
+            buried: false,
             impacts: 0,
             given_up: false,
         });

@@ -83,7 +83,7 @@ impl Groups {
                     continue;
                 }
                 let touch = TOUCH * a.reach.min(b.reach);
-                let rest = if pair.given_up {
+                let rest = if pair.given_up || pair.buried {
                     f64::INFINITY
                 } else {
                     rest_speed(bodies, pair, h)
@@ -92,9 +92,10 @@ impl Groups {
                 for (index, contact) in pair.contacts.iter().enumerate() {
                     let opening =
                         |p: &PairPoint| opening_speed(a, b, time, p.position, contact.normal);
-                    // What touches is held; what is still apart and closes faster than rest will be
-                    // struck at its instant.
-                    let lasts = |p: &PairPoint| p.separation <= touch || opening(p) >= -rest;
+                    // What closes faster than rest will be struck at its instant, unless it touches
+                    // and is held.
+                    let lasts =
+                        |p: &PairPoint| (pair.held && p.separation <= touch) || opening(p) >= -rest;
                     if !contact.points.iter().any(lasts) {
                         continue;
                     }

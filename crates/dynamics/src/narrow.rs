@@ -15,6 +15,10 @@ const MARGIN: f64 = 1.0 / 1024.0;
 /// an impact (1e-12), far below what the eye or the solver's softness can see.
 pub(crate) const TOUCH: f64 = 1e-9;
 
+/// Overlap beyond which a pair is buried, as a fraction of the smaller reach. Impacts leave none and
+/// resting contacts a hundredth of this: only what was put there overlaps so far.
+const BURIED: f64 = 1.0 / 16.0;
+
 /// Scratch of the narrow phase, kept between pairs.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Narrow {
@@ -40,6 +44,7 @@ impl Narrow {
         if (pose_b.position - pose_a.position).length_squared() > near * near {
             pair.contacts.clear();
             pair.touching = false;
+            pair.buried = false;
             return;
         }
         contacts(
@@ -52,6 +57,9 @@ impl Narrow {
         let old = core::mem::take(&mut pair.contacts);
         pair.contacts
             .extend(self.found.iter().map(|new| carried(new, pose_a, &old)));
+        let points = pair.contacts.iter().flat_map(|contact| &contact.points);
+        let deepest = points.map(|p| p.separation).fold(0.0, f64::min);
+        pair.buried = deepest < -BURIED * size;
         pair.touching = pair
             .contacts
             .iter()

@@ -18,6 +18,11 @@ pub(crate) struct Pair {
     pub(crate) touching: bool,
     /// Some contact pushes: the pair is solved for, not struck.
     pub(crate) lasting: bool,
+    /// A touch is held by the solver, however fast it closes: the pair lasted or was struck in the
+    /// last sub-step and yet closes again, or has no restitution that a strike would give back.
+    pub(crate) held: bool,
+    /// So deep in each other that no strike makes sense: the solver pushes them apart.
+    pub(crate) buried: bool,
     /// Impacts in this sub-step.
     pub(crate) impacts: u32,
     /// The impacts of this sub-step outran the budget.

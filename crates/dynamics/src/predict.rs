@@ -35,7 +35,7 @@ pub(crate) fn predict(
     let pair = pairs.get_mut(place);
     let horizon = end - time;
     let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
-    if pair.given_up || horizon <= 0.0 || !(a.is_active() || b.is_active()) {
+    if pair.given_up || pair.buried || horizon <= 0.0 || !(a.is_active() || b.is_active()) {
         return;
     }
     if a.kind != BodyKind::Dynamic && b.kind != BodyKind::Dynamic {

@@ -18,6 +18,9 @@ use crate::pairs::Pairs;
 /// few contacts of an ordinary shock take 10 to 60.
 const SWEEPS: u32 = 300;
 
+/// Contacts in one shock; what it reaches beyond them is struck in its turn.
+const STRIKES: usize = 64;
+
 /// Change of velocity in a sweep, as a fraction of the struck speed, at which it has converged.
 const CONVERGED: f64 = 1e-12;
 
@@ -116,7 +119,7 @@ impl Shock {
     ) -> bool {
         let known = self.strikes.len();
         let mut k = 0;
-        while k < self.bodies.len() {
+        while k < self.bodies.len() && self.strikes.len() < STRIKES {
             let shaken = self.bodies[k];
             k += 1;
             if shaken.after.inverse_mass == 0.0 || shaken.after == shaken.before {
@@ -140,7 +143,8 @@ impl Shock {
     ) {
         let pair = pairs.get_mut(place);
         // What bounces on its own will be struck in its turn; what lasts is part of this.
-        if !(pair.lasting || pair.touching && pair.material.restitution == 0.0) {
+        let lasts = pair.lasting || pair.touching && pair.material.restitution == 0.0;
+        if pair.buried || !lasts {
             return;
         }
         if !self.looked.contains(&place) {

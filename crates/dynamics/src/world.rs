@@ -60,6 +60,8 @@ pub struct World {
     pub(crate) agenda: Agenda,
     pub(crate) events: Events,
     pub(crate) report: StepReport,
+    /// Impacts that the report counted before the present sub-step.
+    pub(crate) impacts_before: u64,
     forced: Vec<u32>,
 }
 
@@ -84,6 +86,7 @@ impl World {
             agenda: Agenda::default(),
             events: Events::new(settings.events),
             report: StepReport::default(),
+            impacts_before: 0,
             forced: Vec::new(),
             settings,
         })

@@ -1,6 +1,6 @@
 //! From a world to marks: what the camera sees at this instant.
 
-use carom_dynamics::{Body, BodyKind, World};
+use carom_dynamics::{Body, BodyKind, EventKind, World};
 use carom_geometry::{Outline, Shape};
 use carom_math::{Pose, Vec2, vec2};
 
@@ -196,23 +196,33 @@ impl Sketch<'_> {
         if !self.look.overlay.contacts {
             return;
         }
+        // What lasts, and what was struck during the last step.
         for contact in world.contacts() {
-            let normal = self.camera.vector(contact.normal).normalize_or_zero();
             for point in &contact.points {
-                let at = self.camera.point(point.position);
-                self.frame.push(Op::Arrow {
-                    from: at,
-                    to: at + normal * NORMAL * self.unit,
-                    width: 1.5 * self.unit,
-                    ink: Ink::Contact,
-                });
-                self.frame.push(Op::Dot {
-                    centre: at,
-                    radius: 2.8 * self.unit,
-                    ink: Ink::Contact,
-                });
+                self.contact(point.position, contact.normal);
             }
         }
+        for event in world.events() {
+            if let EventKind::Impact { point, normal, .. } = event.kind {
+                self.contact(point, normal);
+            }
+        }
+    }
+
+    fn contact(&mut self, point: Vec2, normal: Vec2) {
+        let at = self.camera.point(point);
+        let normal = self.camera.vector(normal).normalize_or_zero();
+        self.frame.push(Op::Arrow {
+            from: at,
+            to: at + normal * NORMAL * self.unit,
+            width: 1.5 * self.unit,
+            ink: Ink::Contact,
+        });
+        self.frame.push(Op::Dot {
+            centre: at,
+            radius: 2.8 * self.unit,
+            ink: Ink::Contact,
+        });
     }
 
     fn field(&mut self) {

@@ -112,7 +112,10 @@ impl<'a> Approach<'a> {
         Instant {
             d: self.d + (self.v + self.acceleration * (0.5 * tau)) * tau,
             v: self.v + self.acceleration * tau,
-            rotation: [a.rotation.turned(a.turn(tau)), b.rotation.turned(b.turn(tau))],
+            rotation: [
+                a.rotation.turned(a.turn(tau)),
+                b.rotation.turned(b.turn(tau)),
+            ],
             spin: [
                 a.spin + a.angular_acceleration * tau,
                 b.spin + b.angular_acceleration * tau,
@@ -136,7 +139,8 @@ impl<'a> Approach<'a> {
                 for (i, q) in theirs.vertices.iter().enumerate() {
                     let y = at.rotation[other] * *q;
                     let z = d + y;
-                    let slip = v + cross_scalar(at.spin[other], y) - cross_scalar(at.spin[owner], z);
+                    let slip =
+                        v + cross_scalar(at.spin[other], y) - cross_scalar(at.spin[owner], z);
                     let mut vertices = [edge; 2];
                     vertices[other] = i;
                     visit(Gap {
@@ -151,8 +155,7 @@ impl<'a> Approach<'a> {
                     let x = at.rotation[0] * *p;
                     for (j, q) in self.hulls[1].vertices.iter().enumerate() {
                         let y = at.rotation[1] * *q;
-                        let slip =
-                            at.v + cross_scalar(at.spin[1], y) - cross_scalar(at.spin[0], x);
+                        let slip = at.v + cross_scalar(at.spin[1], y) - cross_scalar(at.spin[0], x);
                         visit(Gap {
                             vertices: [i, j],
                             gap: normal.dot(at.d + y - x) - radius,
@@ -199,9 +202,8 @@ impl<'a> Approach<'a> {
         let hull = &self.hulls[owner];
         let sign = if owner == 0 { 1.0 } else { -1.0 };
         // The disc's centre in the owner's frame.
-        let centre = at.rotation[owner].inverse_mul(
-            at.d * sign + at.rotation[disc] * self.hulls[disc].vertices[0],
-        );
+        let centre = at.rotation[owner]
+            .inverse_mul(at.d * sign + at.rotation[disc] * self.hulls[disc].vertices[0]);
         let mut best = (f64::NEG_INFINITY, 0);
         for (edge, n) in hull.normals.iter().enumerate() {
             let height = n.dot(centre - hull.vertices[edge]);
@@ -220,11 +222,17 @@ impl<'a> Approach<'a> {
             } else if t > along.length_squared() {
                 to
             } else {
-                return Axis::Edge { owner, edge: best.1 };
+                return Axis::Edge {
+                    owner,
+                    edge: best.1,
+                };
             }
         };
         if best.0 <= 0.0 && hull.normals.len() > 2 {
-            return Axis::Edge { owner, edge: best.1 };
+            return Axis::Edge {
+                owner,
+                edge: best.1,
+            };
         }
         let toward = at.rotation[owner] * (centre - corner) * sign;
         // Two centres at one place have no direction: x, as good as any and always the same.
@@ -287,7 +295,11 @@ impl<'a> Approach<'a> {
         let size = 2.0 * (self.reach[0] + self.reach[1]);
         // fast t + pull t²/2 = size, in the form that does not cancel.
         let root = (fast * fast + 2.0 * pull * size).sqrt();
-        if fast + root > 0.0 { 2.0 * size / (fast + root) } else { f64::INFINITY }
+        if fast + root > 0.0 {
+            2.0 * size / (fast + root)
+        } else {
+            f64::INFINITY
+        }
     }
 
     fn fastest_spin(&self, k: usize, horizon: f64) -> f64 {

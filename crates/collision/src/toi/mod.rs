@@ -91,7 +91,10 @@ pub fn time_of_impact(
     for i in 0..part_count(a) {
         for j in 0..part_count(b) {
             let (a, b) = (part(a, i), part(b, j));
-            first = earlier(first, time_of_impact_of_parts(&a, motion_a, &b, motion_b, horizon));
+            first = earlier(
+                first,
+                time_of_impact_of_parts(&a, motion_a, &b, motion_b, horizon),
+            );
         }
     }
     first
@@ -124,5 +127,9 @@ pub fn earlier(x: TimeOfImpact, y: TimeOfImpact) -> TimeOfImpact {
         Clear => (f64::INFINITY, f64::INFINITY),
     };
     let ((tx, rx), (ty, ry)) = (when(&x), when(&y));
-    if ty < tx || (ty <= tx && ry < rx) { y } else { x }
+    if ty < tx || (ty <= tx && ry < rx) {
+        y
+    } else {
+        x
+    }
 }

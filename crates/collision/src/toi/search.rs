@@ -214,7 +214,8 @@ impl Search<'_> {
             points.push(centre + anchor + tangent * (low - here));
             points.push(centre + anchor + tangent * (high - here));
         } else {
-            points.push(centre + anchor);
+            // Clamped to the face: of two edges that share an end the far vertex may be the lowest.
+            points.push(centre + anchor + tangent * (0.5 * (low + high) - here));
         }
         let impact = Impact {
             time: tau,
@@ -233,9 +234,11 @@ impl Search<'_> {
     fn place(&self, axis: Axis, gap: &Gap, at: &Instant) -> Vec2 {
         let hulls = &self.approach.hulls;
         let normal = self.approach.normal(axis, at);
-        let of_a = || at.rotation[0] * hulls[0].vertices[gap.vertices[0]] + normal * hulls[0].radius;
-        let of_b =
-            || at.d + at.rotation[1] * hulls[1].vertices[gap.vertices[1]] - normal * hulls[1].radius;
+        let of_a =
+            || at.rotation[0] * hulls[0].vertices[gap.vertices[0]] + normal * hulls[0].radius;
+        let of_b = || {
+            at.d + at.rotation[1] * hulls[1].vertices[gap.vertices[1]] - normal * hulls[1].radius
+        };
         match axis {
             Axis::Edge { owner: 0, .. } => of_b(),
             Axis::Edge { .. } => of_a(),

@@ -79,7 +79,11 @@ impl Ring {
                 }
             }
         }
-        if winding == 0 { Place::Outside } else { Place::Inside }
+        if winding == 0 {
+            Place::Outside
+        } else {
+            Place::Inside
+        }
     }
 
     /// Edges within `touch` metres of a point.

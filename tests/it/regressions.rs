@@ -1,0 +1,6 @@
+//! What went wrong once, each with its story.
+
+mod a_flat_leg_of_an_h_is_not_pushed_sideways;
+mod a_hundred_bodies_at_one_place_end;
+mod an_impact_on_the_border_of_two_sub_steps_bounces;
+mod tips_that_meet_do_not_spin;
