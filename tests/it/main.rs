@@ -4,6 +4,7 @@
 
 mod conservation;
 mod determinism;
+mod documents;
 mod errors;
 mod forces;
 mod impacts;

@@ -6,13 +6,13 @@ use carom_dynamics::{BodyKind, Material, World};
 use carom_geometry::Shape;
 use carom_math::Pose;
 
-/// Steps `world` for `seconds` at 60 Hz and calls `look` after every step.
+/// Steps `world` at 60 Hz until `seconds` more have passed and calls `look` after every step.
 ///
 /// # Panics
 /// If the world refuses a step.
 pub fn run(world: &mut World, seconds: f64, mut look: impl FnMut(&World)) {
-    let steps = (seconds * 60.0).round() as u64;
-    for _ in 0..steps {
+    let end = world.time() + (seconds - 0.5 / 60.0);
+    while world.time() < end {
         let report = world.step(1.0 / 60.0);
         assert_eq!(report.refused, None);
         look(world);
