@@ -88,7 +88,7 @@ pub struct Softness {
     pub frequency: f64,
     /// Damping ratio of push-out. Below 10 piles hum.
     pub damping_ratio: f64,
-    /// Factor on the compliance that the frequency implies; `None` takes 0.3 (4 h₀/h)² for a
+    /// Factor on the compliance that the frequency implies; `None` takes 0.3 (h/h₀)² for a
     /// sub-step h against h₀ = 1/240 s, which was quiet wherever it was measured.
     pub compliance: Option<f64>,
     /// Over-relaxation of the sweeps, 1..2.

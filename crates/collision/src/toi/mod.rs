@@ -11,7 +11,7 @@ mod search;
 
 use arrayvec::ArrayVec;
 use carom_geometry::Shape;
-use carom_math::Vec2;
+use carom_math::{Vec2, cross, perp};
 
 use crate::{Hull, Motion, part, part_count};
 use approach::Approach;
@@ -117,9 +117,24 @@ pub fn time_of_impact_of_parts(
 }
 
 /// The one that happens first; a contact that is there already goes before all, the faster first.
+///
+/// Two flush contacts at one instant are one: parts of one edge that land together.
 #[must_use]
 pub fn earlier(x: TimeOfImpact, y: TimeOfImpact) -> TimeOfImpact {
     use TimeOfImpact::{Clear, Hit, Touching, Unresolved};
+    match (&x, &y) {
+        (Hit(a), Hit(b)) => {
+            if let Some(both) = a.joined(b) {
+                return Hit(both);
+            }
+        }
+        (Touching(a), Touching(b)) => {
+            if let Some(both) = a.joined(b) {
+                return Touching(both);
+            }
+        }
+        _ => {}
+    }
     let when = |outcome: &TimeOfImpact| match outcome {
         Touching(contact) => (-1.0, contact.gap_rate),
         Hit(impact) => (impact.time, impact.gap_rate),
@@ -131,5 +146,32 @@ pub fn earlier(x: TimeOfImpact, y: TimeOfImpact) -> TimeOfImpact {
         y
     } else {
         x
+    }
+}
+
+impl Impact {
+    /// Both as one, if they are flush: one normal, and a difference in time that lifts the one end
+    /// by less than 1e-9 of the stretch between them.
+    fn joined(&self, other: &Self) -> Option<Self> {
+        const FLUSH: f64 = 1e-9;
+        if self.normal.dot(other.normal) <= 0.0 || cross(self.normal, other.normal).abs() > FLUSH {
+            return None;
+        }
+        let tangent = perp(self.normal);
+        let mut points: ArrayVec<Vec2, 4> =
+            self.points.iter().chain(&other.points).copied().collect();
+        points.sort_by(|p, q| tangent.dot(*p).total_cmp(&tangent.dot(*q)));
+        let (low, high) = (points[0], points[points.len() - 1]);
+        let stretch = tangent.dot(high - low);
+        let lift = (self.time - other.time).abs() * self.gap_rate.abs().max(other.gap_rate.abs());
+        if lift > FLUSH * stretch || stretch <= 0.0 {
+            return None;
+        }
+        Some(Self {
+            time: self.time.min(other.time),
+            normal: self.normal,
+            points: ArrayVec::from([low, high]),
+            gap_rate: self.gap_rate.min(other.gap_rate),
+        })
     }
 }
