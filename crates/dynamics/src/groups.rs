@@ -17,6 +17,8 @@ pub(crate) struct Groups {
     bodies: Vec<SolverBody>,
     /// Bodies of the solver, in its order.
     members: Vec<u32>,
+    /// Some pair of this sub-step is buried.
+    buried: bool,
     /// Place in the solver of each body, or [`NOT_HERE`].
     places: Vec<u32>,
 }
@@ -28,6 +30,9 @@ struct Source {
 }
 
 const NOT_HERE: u32 = u32::MAX;
+
+/// Sweeps without bias while a pair is buried.
+const BURIED_SWEEPS: usize = 30;
 
 impl Groups {
     /// Solves all contacts that last from `time` on for one sub-step of `h`, and gives every body
@@ -58,7 +63,12 @@ impl Groups {
             body.d = body.v * h;
             body.turn = body.w * h;
         }
-        relax(law, &mut self.bodies, &mut self.rows);
+        // What was put deep into each other is pushed by many at once: one sweep would leave a
+        // part of the push in the velocities.
+        let sweeps = if self.buried { BURIED_SWEEPS } else { 1 };
+        for _ in 0..sweeps {
+            relax(law, &mut self.bodies, &mut self.rows);
+        }
         self.scatter(bodies, pairs, time, h, report);
     }
 
@@ -66,6 +76,7 @@ impl Groups {
     fn gather(&mut self, bodies: &Bodies, pairs: &Pairs, time: SimTime, h: f64) {
         self.rows.clear();
         self.sources.clear();
+        self.buried = false;
         self.bodies.clear();
         self.members.clear();
         self.places.clear();
@@ -82,6 +93,7 @@ impl Groups {
                 {
                     continue;
                 }
+                self.buried |= pair.buried;
                 let touch = TOUCH * a.reach.min(b.reach);
                 let rest = if pair.given_up || pair.buried {
                     f64::INFINITY

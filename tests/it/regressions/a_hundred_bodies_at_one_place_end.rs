@@ -25,6 +25,9 @@ fn a_hundred_bodies_at_one_place_end() {
     }
     assert!(impacts < 1000, "{impacts} impacts");
     assert!(world.bodies().all(|body| body.centre().is_finite()));
-    run(&mut world, 2.0, |_| {});
+    run(&mut world, 7.0, |_| {});
+    let pushed = 0.5 * 3.0 * 3.0 * world.bodies().map(|body| body.mass()).sum::<f64>();
+    let kinetic = world.energy().kinetic;
+    assert!(kinetic <= pushed, "{kinetic} J, more than all at 3 m/s");
     assert!(overlaps(&world).0 < 1e-3, "{:?}", overlaps(&world));
 }
