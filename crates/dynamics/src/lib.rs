@@ -31,6 +31,7 @@ mod bodies;
 mod body;
 mod body_def;
 mod broad;
+mod change;
 mod clock;
 mod contact;
 mod error;

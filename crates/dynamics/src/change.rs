@@ -1,0 +1,237 @@
+//! What a caller changes: places, velocities, kinds, impulses, forces, fields.
+//!
+//! Every change counts as energy brought in from outside, wakes what touches the body, and has all
+//! that was predicted for it predicted anew.
+
+use std::sync::Arc;
+
+use carom_math::{Pose, SimTime, Vec2};
+
+use crate::body::BodyState;
+use crate::error::{check_finite, check_vec2};
+use crate::flight::fly;
+use crate::sleep::wake_around;
+use crate::{BodyError, BodyId, BodyKind, Field, Force, Impulse, PairMaterial, World};
+
+impl World {
+    /// Places a body's frame anew; its velocity stays.
+    ///
+    /// # Errors
+    /// If the body is not there or a number is not finite.
+    pub fn teleport(&mut self, id: BodyId, pose: Pose) -> Result<(), BodyError> {
+        let index = self.bodies.find(id)?;
+        check_vec2("position.x", "position.y", pose.position)?;
+        check_finite("rotation", pose.rotation.angle())?;
+        self.disturb(index, |state| {
+            let turned = (pose.rotation * state.motion.rotation.inverse()).angle();
+            state.motion.rotation = pose.rotation;
+            state.motion.centre = pose.point(state.mass.centroid);
+            state.turned += turned;
+        });
+        Ok(())
+    }
+
+    /// Sets the velocity of the centre of mass (m/s) and the angular velocity (rad/s).
+    ///
+    /// Fixed bodies stay at rest, locked rotations do not turn.
+    ///
+    /// # Errors
+    /// If the body is not there or a number is not finite.
+    pub fn set_velocity(&mut self, id: BodyId, velocity: Vec2, spin: f64) -> Result<(), BodyError> {
+        let index = self.bodies.find(id)?;
+        check_vec2("velocity.x", "velocity.y", velocity)?;
+        check_finite("spin", spin)?;
+        self.disturb(index, |state| {
+            if state.kind != BodyKind::Fixed {
+                state.motion.velocity = velocity;
+                state.motion.spin = if state.locked_rotation { 0.0 } else { spin };
+            }
+        });
+        Ok(())
+    }
+
+    /// Changes what moves a body.
+    ///
+    /// # Errors
+    /// If the body is not there, or it would move by forces but has no mass.
+    pub fn set_kind(&mut self, id: BodyId, kind: BodyKind) -> Result<(), BodyError> {
+        let index = self.bodies.find(id)?;
+        let state = self.bodies.get(index);
+        if kind == BodyKind::Dynamic {
+            for (field, value) in [("mass", state.mass.mass), ("inertia", state.mass.inertia)] {
+                if value <= 0.0 && !(field == "inertia" && state.locked_rotation) {
+                    return Err(BodyError::NotPositive { field, value });
+                }
+            }
+        }
+        for place in state.pairs.clone() {
+            self.part(place, self.clock.now);
+        }
+        self.disturb(index, |state| state.set_kind(kind));
+        // Pairs are made by kind: boxes that are new find them anew.
+        self.forget_boxes(index);
+        self.arrive(index);
+        Ok(())
+    }
+
+    /// Applies an impulse at once: `v += J/m`, `ω += (r × J)/I`. No effect on infinite masses.
+    ///
+    /// # Errors
+    /// If the body is not there or a number is not finite.
+    pub fn apply(&mut self, id: BodyId, impulse: Impulse) -> Result<(), BodyError> {
+        let index = self.bodies.find(id)?;
+        impulse.check()?;
+        self.disturb(index, |state| {
+            let angular = impulse.about(state.motion.centre);
+            state.motion.velocity += impulse.linear * state.inverse_mass;
+            state.motion.spin += angular * state.inverse_inertia;
+        });
+        Ok(())
+    }
+
+    /// Adds a force that acts during the next step (of any length above 0) and is gone after it.
+    ///
+    /// # Errors
+    /// If the body is not there or a number is not finite.
+    pub fn apply_force(&mut self, id: BodyId, force: Force) -> Result<(), BodyError> {
+        let index = self.bodies.find(id)?;
+        force.check()?;
+        let now = self.clock.now;
+        wake_around(&mut self.bodies, &self.pairs, index, now, &mut self.events);
+        let state = self.bodies.get_mut(index);
+        let torque = force.about(state.motion.centre_at(now));
+        state.pending.0 += force.linear;
+        state.pending.1 += torque;
+        if !self.forced.contains(&index) {
+            self.forced.push(index);
+        }
+        Ok(())
+    }
+
+    /// Gives two bodies a friction and restitution of their own, instead of the mixed ones.
+    ///
+    /// # Errors
+    /// If a body is not there, both are one, or a number is out of its range.
+    pub fn set_pair_material(
+        &mut self,
+        a: BodyId,
+        b: BodyId,
+        material: PairMaterial,
+    ) -> Result<(), BodyError> {
+        material.check()?;
+        let first = self.bodies.find(a)?;
+        self.bodies.find(b)?;
+        if a == b {
+            return Err(BodyError::SameBody(a));
+        }
+        let key = if a < b { (a, b) } else { (b, a) };
+        self.broad.overrides.insert(key, material);
+        for place in self.bodies.get(first).pairs.clone() {
+            let pair = self.pairs.get_mut(place);
+            if pair.bodies == (key.0.index, key.1.index) {
+                pair.material = material;
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds a field that all dynamic bodies feel from now on.
+    pub fn add_field(&mut self, field: impl Field + 'static) {
+        let now = self.clock.now;
+        let before = self.bodies.ledger(now).potential;
+        for index in self.bodies.indices().collect::<Vec<_>>() {
+            self.bodies.change(index, now, |_| {});
+        }
+        self.bodies.pull.fields.push(Arc::new(field));
+        let after = self.bodies.ledger(now).potential;
+        self.bodies.book.external.add(after - before);
+        for index in self.bodies.indices().collect::<Vec<_>>() {
+            self.arrive(index);
+        }
+    }
+
+    /// A caller's change of a body: its energy counts as brought in from outside, sleepers that
+    /// touch it wake, and what was predicted for it is predicted anew.
+    fn disturb(&mut self, index: u32, change: impl FnOnce(&mut BodyState)) {
+        let now = self.clock.now;
+        wake_around(&mut self.bodies, &self.pairs, index, now, &mut self.events);
+        let before = self.bodies.energy_of(index, now);
+        self.bodies.change(index, now, |_| {});
+        change(self.bodies.get_mut(index));
+        let after = self.bodies.energy_of(index, now);
+        self.bodies
+            .book
+            .external
+            .add((after.0 + after.1) - (before.0 + before.1));
+        self.deflected(index, now);
+    }
+
+    /// A body that is new where it is: it gets its flight, its boxes and its pairs.
+    pub(crate) fn arrive(&mut self, index: u32) {
+        let now = self.clock.now;
+        let left = self.clock.next() - now;
+        if left > 0.0 && self.bodies.get(index).is_dynamic() {
+            fly(&mut self.bodies, index, now, left);
+        }
+        self.deflected(index, now);
+    }
+
+    fn forget_boxes(&mut self, index: u32) {
+        for at in self.bodies.get(index).colliders.clone() {
+            if let Some(node) = self.colliders[at as usize].node.take() {
+                self.broad.tree.remove(node);
+            }
+        }
+    }
+
+    /// Stops a body whose numbers are no longer finite where it was last known.
+    pub(crate) fn stop(&mut self, index: u32, time: SimTime) {
+        let state = self.bodies.get_mut(index);
+        let motion = &mut state.motion;
+        motion.start = time;
+        motion.velocity = Vec2::ZERO;
+        motion.acceleration = Vec2::ZERO;
+        motion.spin = 0.0;
+        motion.angular_acceleration = 0.0;
+        if !motion.centre.is_finite() {
+            motion.centre = Vec2::ZERO;
+        }
+        if !motion.rotation.x_axis().is_finite() {
+            motion.rotation = carom_math::Rot::IDENTITY;
+        }
+        state.gravity_scale = 0.0;
+        state.version = state.version.wrapping_add(1);
+    }
+
+    /// Forces of the step that begins.
+    pub(crate) fn begin_forces(&mut self) {
+        let now = self.clock.now;
+        for &index in &self.forced {
+            self.bodies.change(index, now, |_| {});
+            let state = self.bodies.get_mut(index);
+            (state.force, state.torque) = core::mem::take(&mut state.pending);
+            state.motion.acceleration += state.force * state.inverse_mass;
+            state.motion.angular_acceleration += state.torque * state.inverse_inertia;
+        }
+        for index in self.forced.clone() {
+            self.deflected(index, now);
+        }
+    }
+
+    /// Forces last one step.
+    pub(crate) fn end_forces(&mut self) {
+        let now = self.clock.now;
+        let forced = core::mem::take(&mut self.forced);
+        for &index in &forced {
+            self.bodies.change(index, now, |_| {});
+            let state = self.bodies.get_mut(index);
+            let (force, torque) = (state.force, state.torque);
+            (state.force, state.torque) = (Vec2::ZERO, 0.0);
+            state.motion.acceleration -= force * state.inverse_mass;
+            state.motion.angular_acceleration -= torque * state.inverse_inertia;
+        }
+        for index in forced {
+            self.deflected(index, now);
+        }
+    }
+}
