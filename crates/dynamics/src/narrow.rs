@@ -15,8 +15,8 @@ const MARGIN: f64 = 1.0 / 1024.0;
 /// an impact (1e-12), far below what the eye or the solver's softness can see.
 pub(crate) const TOUCH: f64 = 1e-9;
 
-/// Overlap beyond which a pair is buried, as a fraction of the smaller reach. Impacts leave none and
-/// resting contacts a hundredth of this: only what was put there overlaps so far.
+/// Overlap beyond which a pair is buried, as a fraction of the smaller reach: 44 mm for boxes of 1 m.
+/// Impacts leave none, and the lowest contact of a stack of ten such boxes 0.8 mm.
 const BURIED: f64 = 1.0 / 16.0;
 
 /// Scratch of the narrow phase, kept between pairs.

@@ -14,8 +14,7 @@ use crate::impact::{ImpactBody, ImpactContact, Response};
 use crate::narrow::{Narrow, TOUCH, rest_speed};
 use crate::pairs::Pairs;
 
-/// Sweeps before the rest is left to the next look. A chain of n equal bodies takes about n²; the
-/// few contacts of an ordinary shock take 10 to 60.
+/// Sweeps before the rest is left to the next look: what still closes then is struck again.
 const SWEEPS: u32 = 300;
 
 /// Contacts in one shock; what it reaches beyond them is struck in its turn.

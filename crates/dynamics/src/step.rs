@@ -147,8 +147,8 @@ impl World {
         }
     }
 
-    /// Impacts of a sub-step before the rest of them is left to the solver: an ordinary pile that
-    /// falls stays below 4 a body, a hundred bodies at one point would not end.
+    /// Impacts of a sub-step before the rest of them is left to the solver: work stays bounded
+    /// whatever was put where, at a body's own budget for every body.
     fn impact_budget(&self) -> u64 {
         256 + 32 * self.bodies.places() as u64
     }

@@ -29,7 +29,7 @@ pub use glam;
 pub use glam::{DVec2 as Vec2, dvec2 as vec2};
 pub use hash::StateHash;
 pub use pose::Pose;
-pub use predicate::{in_circle, orient2d};
+pub use predicate::orient2d;
 pub use rot::Rot;
 pub use sum::{Sum, two_product, two_sum};
 pub use time::SimTime;

@@ -13,12 +13,6 @@ pub fn orient2d(a: Vec2, b: Vec2, c: Vec2) -> f64 {
     robust::orient2d(coord(a), coord(b), coord(c))
 }
 
-/// Positive when `d` lies inside the circle through the counter-clockwise `a b c`; exact sign.
-#[must_use]
-pub fn in_circle(a: Vec2, b: Vec2, c: Vec2, d: Vec2) -> f64 {
-    robust::incircle(coord(a), coord(b), coord(c), coord(d))
-}
-
 fn coord(p: Vec2) -> Coord<f64> {
     Coord { x: p.x, y: p.y }
 }
@@ -42,13 +36,5 @@ mod tests {
             0.0,
             "the plain product is the trap"
         );
-    }
-
-    #[test]
-    fn in_circle_knows_the_inside() {
-        let (a, b, c) = (vec2(1.0, 0.0), vec2(0.0, 1.0), vec2(-1.0, 0.0));
-        assert!(in_circle(a, b, c, vec2(0.0, 0.5)) > 0.0);
-        assert!(in_circle(a, b, c, vec2(0.0, -1.5)) < 0.0);
-        assert_eq!(in_circle(a, b, c, vec2(0.0, -1.0)), 0.0);
     }
 }

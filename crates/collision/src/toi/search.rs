@@ -6,11 +6,12 @@ use carom_math::Vec2;
 use super::approach::{Approach, Axis, Gap, Instant};
 use super::{Impact, TimeOfImpact};
 
-/// Axes looked at before the search gives up. Hits take 2 to 20, grazes up to 80.
+/// Axes looked at before the search gives up. Of the 64 open reference cases two need more than 80,
+/// none needs 200.
 const QUERIES: usize = 400;
 
-/// Certified steps along one axis before the search gives up: a fast spin over a long slow
-/// approach takes hundreds.
+/// Certified steps before the search gives up. A fast spin over a long slow approach needs many,
+/// since its bound on g'' is loose; no open reference case needs 2,000.
 const STEPS: usize = 20_000;
 
 /// Vertices this close to the lowest, as a fraction of the smaller size, touch with it. Far above
