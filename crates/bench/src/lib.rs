@@ -1,4 +1,25 @@
 //! Engines side by side: run time against error.
 //!
-//! Nothing is measured here yet. The crate has its place outside the default members, so that
-//! neither of the README's two commands will ever build another engine.
+//! ```text
+//! PlainScene ─► Engine (carom, Box2D, Rapier, Chipmunk) ─► states ─► quality, errors ─► rows ─► tables, charts
+//! ```
+//!
+//! Every engine is given the same bodies, and judged by the same `f64` code. A run is a [`Job`] in a process of its
+//! own (`engine-run`), because builds of one engine for different instruction sets cannot share an executable; the
+//! driver (`carom-bench`, started by `cargo xtask accuracy` and `cargo xtask speed`) rotates the processes.
+
+mod cases;
+mod clock;
+mod engine;
+mod engines;
+mod job;
+mod quality;
+mod speed;
+
+pub use cases::{CASES, Case, Kind, Metric, Trial, Values};
+pub use clock::{CpuClock, peak_memory};
+pub use engine::{Body, Counters, Engine, EngineError, Mode, Setup, State};
+pub use engines::{EngineName, built, open};
+pub use job::{Job, Point, Reading, run};
+pub use quality::{Quality, judge};
+pub use speed::{SpeedJob, SpeedReading};

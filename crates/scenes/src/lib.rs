@@ -43,6 +43,7 @@ mod error;
 mod model;
 mod overlay;
 mod path;
+mod plain;
 #[cfg(test)]
 mod populate_tests;
 mod random;
@@ -55,6 +56,7 @@ pub use built::Built;
 pub use builtin::{SceneInfo, find, list, load, open};
 pub use document::{MAX_BYTES, VERSION};
 pub use error::{Place, Problem, SceneError};
+pub use plain::{PlainBody, PlainKind, PlainMaterial, PlainScene, PlainShape, plain_scene};
 pub use scene::Scene;
 
 #[cfg(doctest)]

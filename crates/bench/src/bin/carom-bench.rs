@@ -1,0 +1,5 @@
+//! The driver of the laboratory.
+
+fn main() {
+    println!("{}", carom_bench::CASES.len());
+}

@@ -1,0 +1,155 @@
+//! One engine in one case: worlds whose steps are metered.
+
+use carom_scenes::PlainScene;
+
+use crate::clock::CpuClock;
+use crate::engine::{Body, Counters, Engine, EngineError, Setup, State};
+use crate::engines::open;
+use crate::job::Point;
+
+/// One step in so many is metered: reading the clock costs as much as a step of a world of one body.
+const METERED: u64 = 8;
+
+/// An engine with its settings, and what its steps cost so far.
+#[derive(Debug)]
+pub struct Trial {
+    point: Point,
+    meter: Meter,
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct Meter {
+    steps: u64,
+    metered: u64,
+    seconds: f64,
+}
+
+impl Trial {
+    /// Nothing has been stepped yet.
+    #[must_use]
+    pub fn new(point: &Point) -> Self {
+        Self {
+            point: point.clone(),
+            meter: Meter::default(),
+        }
+    }
+
+    /// Steps per simulated second.
+    #[must_use]
+    pub fn hz(&self) -> f64 {
+        f64::from(self.point.hz)
+    }
+
+    /// Length of a step, in s.
+    #[must_use]
+    pub fn dt(&self) -> f64 {
+        self.hz().recip()
+    }
+
+    /// Builds a world; the scene's own `dt` does not count.
+    ///
+    /// # Errors
+    /// If the engine is not built in or refuses the scene.
+    pub fn open(&mut self, scene: &PlainScene) -> Result<Run<'_>, EngineError> {
+        let setup = Setup {
+            mode: self.point.mode,
+            hz: self.hz(),
+            substeps: self.point.substeps,
+            threads: 1,
+            sleeping: scene.sleeping,
+        };
+        Ok(Run {
+            engine: open(self.point.engine, scene, &setup)?,
+            dt: self.dt(),
+            time: 0.0,
+            meter: &mut self.meter,
+        })
+    }
+
+    /// CPU seconds inside steps per simulated second.
+    #[must_use]
+    #[expect(
+        clippy::cast_precision_loss,
+        reason = "counts of steps fit into 53 bits"
+    )]
+    pub fn cpu_per_second(&self) -> f64 {
+        self.meter.seconds / self.meter.metered as f64 * self.hz()
+    }
+}
+
+/// A world on its way.
+pub struct Run<'a> {
+    engine: Box<dyn Engine>,
+    dt: f64,
+    time: f64,
+    meter: &'a mut Meter,
+}
+
+impl std::fmt::Debug for Run<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Run")
+            .field("engine", &self.engine.settings())
+            .field("time", &self.time)
+            .finish_non_exhaustive()
+    }
+}
+
+impl Run<'_> {
+    /// One step.
+    pub fn step(&mut self) {
+        if self.meter.steps.is_multiple_of(METERED) {
+            let clock = CpuClock::thread();
+            let before = clock.seconds();
+            self.engine.step();
+            self.meter.seconds += clock.seconds() - before;
+            self.meter.metered += 1;
+        } else {
+            self.engine.step();
+        }
+        self.meter.steps += 1;
+        self.time += self.dt;
+    }
+
+    /// Steps while the sum of `dt` is below `time`, in s.
+    pub fn until(&mut self, time: f64) {
+        while self.goes_on(time) {
+            self.step();
+        }
+    }
+
+    /// Whether the sum of `dt` is below `time`, in s.
+    #[must_use]
+    pub fn goes_on(&self, time: f64) -> bool {
+        self.time < time - 1e-9
+    }
+
+    /// Sum of `dt`, in s.
+    #[must_use]
+    pub const fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// Where a body is and how it moves.
+    #[must_use]
+    pub fn state(&self, body: usize) -> State {
+        self.engine.state(body)
+    }
+
+    /// What a body weighs.
+    #[must_use]
+    pub fn body(&self, body: usize) -> Body {
+        self.engine.body(body)
+    }
+
+    /// What the engine says of its last step.
+    #[must_use]
+    pub fn counters(&self) -> Counters {
+        self.engine.counters()
+    }
+
+    /// The world, for the judge.
+    #[must_use]
+    pub fn engine(&self) -> &dyn Engine {
+        self.engine.as_ref()
+    }
+}

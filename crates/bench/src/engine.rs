@@ -1,0 +1,152 @@
+//! What an engine must be able to do to stand in a table.
+
+use std::fmt;
+
+use carom_math::Vec2;
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+/// A world of one engine, built from a scene.
+///
+/// Bodies keep the scene's order. Nothing is read between measured steps but what a job asks for.
+pub trait Engine {
+    /// Advances by `1 / Setup::hz`.
+    fn step(&mut self);
+
+    /// The state of a body of the scene.
+    fn state(&self, body: usize) -> State;
+
+    /// Mass and inertia of a body, as the engine has them; 0 where it counts as infinite.
+    fn body(&self, body: usize) -> Body;
+
+    /// Centre and angle of every body, as a caller who draws would read them: the engine's cheapest way.
+    ///
+    /// Gives a sum over what was read, so that no compiler leaves the reading out.
+    fn read_poses(&mut self) -> f64;
+
+    /// What the engine says about its work.
+    fn counters(&self) -> Counters;
+
+    /// Settings that are not the engine's defaults and those that matter for error, in its own terms: `key=value …`.
+    fn settings(&self) -> String;
+}
+
+/// Where a body is and how it moves.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct State {
+    /// Centre of mass, in m.
+    pub position: Vec2,
+    /// In rad, as the engine counts it: unwrapped or within ±π.
+    pub angle: f64,
+    /// Of the centre of mass, in m/s.
+    pub velocity: Vec2,
+    /// Angular velocity, in rad/s.
+    pub spin: f64,
+}
+
+/// What a body weighs.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Body {
+    /// In kg.
+    pub mass: f64,
+    /// About the centre of mass, in kg m².
+    pub inertia: f64,
+}
+
+/// What an engine says about its last step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Counters {
+    /// Dynamic bodies awake.
+    pub awake: usize,
+    /// Pairs in contact, as the engine counts them.
+    pub touching: usize,
+}
+
+/// How an engine is set.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Mode {
+    /// A peer's defaults.
+    Stock,
+    /// A peer's best settings for accuracy.
+    Tuned,
+    /// carom's defaults: each group the cheapest method that is right.
+    Hybrid,
+    /// carom: closed forms.
+    Exact,
+    /// carom: every moving body sub-stepped.
+    Stepped,
+}
+
+impl fmt::Display for Mode {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Stock => "stock",
+            Self::Tuned => "tuned",
+            Self::Hybrid => "hybrid",
+            Self::Exact => "exact",
+            Self::Stepped => "stepped",
+        })
+    }
+}
+
+/// How a world is to be computed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Setup {
+    /// Which settings.
+    pub mode: Mode,
+    /// Steps per simulated second.
+    pub hz: f64,
+    /// Sub-steps, or solver iterations, of a step; `None`: the engine's default.
+    pub substeps: Option<u32>,
+    /// Threads that may work.
+    pub threads: u32,
+    /// Whether bodies may fall asleep.
+    pub sleeping: bool,
+}
+
+/// Why an engine does not run a scene. A row says so; it is no hole in the table.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum EngineError {
+    /// This executable was built without it.
+    #[error("{engine} is not built into this executable")]
+    NotBuilt {
+        /// Who.
+        engine: String,
+    },
+    /// The engine has no such settings.
+    #[error("{engine} has no mode {mode}")]
+    NoMode {
+        /// Who.
+        engine: String,
+        /// What was asked for.
+        mode: Mode,
+    },
+    /// The engine has no second thread.
+    #[error("{engine} does not run on {threads} threads")]
+    Threads {
+        /// Who.
+        engine: String,
+        /// What was asked for.
+        threads: u32,
+    },
+    /// The engine refused a body.
+    #[error("{engine} refuses body {body}: {reason}")]
+    Body {
+        /// Who.
+        engine: String,
+        /// Index in the scene.
+        body: usize,
+        /// In the engine's words.
+        reason: String,
+    },
+    /// The engine refused its settings.
+    #[error("{engine} refuses its settings: {reason}")]
+    Settings {
+        /// Who.
+        engine: String,
+        /// In the engine's words.
+        reason: String,
+    },
+}

@@ -1,0 +1,82 @@
+//! A job for a process of its own, and what it answers.
+
+use serde::{Deserialize, Serialize};
+
+use crate::cases::{CASES, Trial};
+use crate::engine::{EngineError, Mode};
+use crate::engines::EngineName;
+use crate::speed::{SpeedJob, SpeedReading};
+
+/// What a process is asked to do.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+pub enum Job {
+    /// Time an engine on a scene.
+    Speed(SpeedJob),
+    /// Measure an engine's error in a case.
+    Accuracy(Point),
+}
+
+/// One point of a work–precision curve.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub struct Point {
+    /// Who.
+    pub engine: EngineName,
+    /// With which settings.
+    pub mode: Mode,
+    /// Name of the case.
+    pub case: String,
+    /// Steps per simulated second.
+    pub hz: u32,
+    /// Sub-steps, or solver iterations, of a step; `None`: the engine's default.
+    pub substeps: Option<u32>,
+}
+
+/// What a process answers: one line of JSON.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+pub enum Reading {
+    /// Of a speed job.
+    Speed(SpeedReading),
+    /// Of an accuracy job.
+    Accuracy {
+        /// A number for each of the case's metrics that the run has one for, in the order of the case.
+        values: Vec<(String, f64)>,
+        /// CPU seconds inside steps per simulated second.
+        cpu_s_per_s: f64,
+    },
+    /// The run could not be made, or did not come to its end.
+    Failed {
+        /// In a line.
+        reason: String,
+    },
+}
+
+/// Does a job.
+#[must_use]
+pub fn run(job: &Job) -> Reading {
+    let answer = match job {
+        Job::Speed(job) => crate::speed::run(job).map(Reading::Speed),
+        Job::Accuracy(point) => accuracy(point),
+    };
+    answer.unwrap_or_else(|error| Reading::Failed {
+        reason: error.to_string(),
+    })
+}
+
+fn accuracy(point: &Point) -> Result<Reading, EngineError> {
+    let Some(case) = CASES.iter().find(|case| case.name == point.case) else {
+        return Ok(Reading::Failed {
+            reason: format!("{}: unknown case", point.case),
+        });
+    };
+    let mut trial = Trial::new(point);
+    let values = (case.measure)(&mut trial)?;
+    Ok(Reading::Accuracy {
+        values: values
+            .into_iter()
+            .map(|(name, value)| (name.to_owned(), value))
+            .collect(),
+        cpu_s_per_s: trial.cpu_per_second(),
+    })
+}
