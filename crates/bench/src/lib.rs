@@ -16,10 +16,10 @@ mod job;
 mod quality;
 mod speed;
 
-pub use cases::{CASES, Case, Kind, Metric, Trial, Values};
+pub use cases::{CASES, Case, Kind, Metric, Run, Trial, Values};
 pub use clock::{CpuClock, peak_memory};
 pub use engine::{Body, Counters, Engine, EngineError, Mode, Setup, State};
-pub use engines::{EngineName, built, open};
+pub use engines::{EngineName, UnknownEngine, built, open};
 pub use job::{Job, Point, Reading, run};
 pub use quality::{Quality, judge};
 pub use speed::{SpeedJob, SpeedReading};

@@ -3,7 +3,7 @@
 mod projectile;
 mod trial;
 
-pub use trial::Trial;
+pub use trial::{Run, Trial};
 
 use crate::engine::EngineError;
 

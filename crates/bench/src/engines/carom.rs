@@ -74,7 +74,6 @@ fn insert(world: &mut World, scene: &PlainScene, body: &PlainBody) -> Result<Bod
         density: made_of.density,
         friction: made_of.friction,
         restitution: made_of.restitution,
-        ..Material::default()
     };
     let def = BodyDef::new(kind)
         .at(body.position)

@@ -31,7 +31,7 @@ pub enum EngineName {
     /// Rapier, `f64`.
     #[serde(rename = "rapier-f64")]
     RapierF64,
-    /// Chipmunk2D, `f64`.
+    /// Chipmunk, `f64`.
     Chipmunk,
 }
 
