@@ -1,7 +1,9 @@
 //! What a world refuses, in the words it uses, unchanged.
 
-use carom_dynamics::{BodyDef, Force, Impulse, Material, PairMaterial, Settings, Softness, World};
-use carom_geometry::{Circle, ConvexPolygon, Polygon, Segment};
+use carom_dynamics::{
+    BodyDef, BodyKind, Force, Impulse, Material, PairMaterial, Settings, Softness, World,
+};
+use carom_geometry::{Circle, ConvexPolygon, HalfPlane, Polygon, Segment};
 use carom_math::{Pose, Vec2, vec2};
 
 fn disc() -> Circle {
@@ -15,6 +17,32 @@ fn refusal(def: BodyDef, material: Material) -> String {
     assert_eq!(world.state_hash(), before);
     assert_eq!(world.bodies().count(), 0);
     error.to_string()
+}
+
+#[test]
+fn only_fixed_bodies_have_half_planes() {
+    let ground = HalfPlane::new(Vec2::ZERO, Vec2::Y).expect("up");
+    let parts = || {
+        vec![
+            (disc().into(), Material::default()),
+            (ground.into(), Material::default()),
+        ]
+    };
+    let mut world = World::new(Settings::default()).expect("valid");
+    let error = world
+        .insert_compound(BodyDef::dynamic(), parts())
+        .expect_err("refused");
+    let words = "shape 1 is a half-plane, which only a fixed body can have";
+    assert_eq!(error.to_string(), words);
+    let fixed = world
+        .insert_compound(BodyDef::fixed(), parts())
+        .expect("does not move");
+    let error = world
+        .set_kind(fixed, BodyKind::Kinematic)
+        .expect_err("refused");
+    assert_eq!(error.to_string(), words);
+    world.step(0.1);
+    assert!(world.body(fixed).expect("inserted").centre().is_finite());
 }
 
 #[test]

@@ -158,12 +158,15 @@ impl Convex for Hull<'_> {
     }
 }
 
-/// How many convex parts a shape has: 1, or the pieces of a concave polygon.
+/// How many convex parts of finite size a shape has: 1, or the pieces of a concave polygon, or
+/// those of all parts of a compound; a half-plane has none.
 #[must_use]
 pub fn part_count(shape: &Shape) -> usize {
     match shape {
         Shape::Circle(_) | Shape::Segment(_) | Shape::Convex(_) => 1,
+        Shape::HalfPlane(_) => 0,
         Shape::Polygon(polygon) => polygon.pieces().len(),
+        Shape::Compound(compound) => compound.parts().iter().map(part_count).sum(),
     }
 }
 
@@ -174,6 +177,18 @@ pub fn part_count(shape: &Shape) -> usize {
 #[must_use]
 pub fn part(shape: &Shape, i: usize) -> Hull<'_> {
     match shape {
+        Shape::HalfPlane(_) => panic!("a half-plane has no convex part {i}"),
+        Shape::Compound(compound) => {
+            let mut i = i;
+            for member in compound.parts() {
+                let count = part_count(member);
+                if i < count {
+                    return part(member, i);
+                }
+                i -= count;
+            }
+            panic!("the compound ends {i} convex parts before the one asked for")
+        }
         Shape::Circle(circle) => circle.hull(),
         Shape::Segment(segment) => segment.hull(),
         Shape::Convex(polygon) => polygon.hull(),

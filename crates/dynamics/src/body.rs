@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use carom_collision::{Motion, NodeId};
-use carom_geometry::{Aabb, MassProperties, Shape};
+use carom_geometry::{Aabb, AreaProperties, MassProperties, Shape};
 use carom_math::{Pose, Rot, SimTime, Vec2};
 
 use crate::error::BodyError;
@@ -217,9 +217,16 @@ pub(crate) fn frame_of(motion: &Motion, centroid: Vec2, time: SimTime) -> Pose {
 
 /// Mass, centre of mass and inertia of a definition.
 fn mass_of(def: &BodyDef, shapes: &[(Shape, Material)]) -> Result<MassProperties, BodyError> {
+    if def.kind != BodyKind::Fixed {
+        let unbounded = shapes.iter().position(|(shape, _)| !shape.is_bounded());
+        if let Some(shape) = unbounded {
+            return Err(BodyError::HalfPlaneMoves { shape });
+        }
+    }
     let mut mass = MassProperties::ZERO;
-    for (shape, material) in shapes {
-        mass = mass + shape.area_properties().with_density(material.density);
+    // A half-plane, on a fixed body, weighs nothing.
+    for (area, material) in areas(shapes) {
+        mass = mass + area.with_density(material.density);
     }
     if def.kind != BodyKind::Dynamic {
         // Infinite: only where the centre is matters, and any density gives that.
@@ -237,8 +244,8 @@ fn mass_of(def: &BodyDef, shapes: &[(Shape, Material)]) -> Result<MassProperties
         if mass.mass <= 0.0 {
             // Shapes without density share the given mass by area.
             let mut area = MassProperties::ZERO;
-            for (shape, _) in shapes {
-                area = area + shape.area_properties().with_density(1.0);
+            for (next, _) in areas(shapes) {
+                area = area + next.with_density(1.0);
             }
             mass = if area.mass > 0.0 {
                 area
@@ -265,11 +272,23 @@ fn mass_of(def: &BodyDef, shapes: &[(Shape, Material)]) -> Result<MassProperties
     Ok(mass)
 }
 
-/// Shapes without area: the middle of their box.
+/// Areas of the shapes that have one.
+fn areas(shapes: &[(Shape, Material)]) -> impl Iterator<Item = (AreaProperties, &Material)> {
+    shapes.iter().filter_map(|(shape, material)| {
+        let area = shape.area_properties().ok()?;
+        Some((area, material))
+    })
+}
+
+/// Shapes without area: the middle of their box, that of a half-plane being its point.
 fn middle_of(shapes: &[(Shape, Material)]) -> MassProperties {
     let mut bounds = Aabb::EMPTY;
     for (shape, _) in shapes {
-        bounds = bounds.union(shape.aabb(Pose::IDENTITY));
+        bounds = bounds.union(if shape.is_bounded() {
+            shape.aabb(Pose::IDENTITY)
+        } else {
+            Aabb::from_points(shape.vertices().iter().copied())
+        });
     }
     MassProperties {
         centroid: bounds.centre(),

@@ -55,7 +55,12 @@ impl Broad {
                 continue;
             }
             let ahead = swept_box(collider, &body.motion, time, h * LOOK_AHEAD);
-            let fat = swept.union(ahead).grown(PADDING * body.reach);
+            let padding = if body.reach.is_finite() {
+                PADDING * body.reach
+            } else {
+                0.0
+            };
+            let fat = swept.union(ahead).grown(padding);
             let collider = &mut colliders[at as usize];
             collider.fat = fat;
             match collider.node {
@@ -184,6 +189,10 @@ pub(crate) fn part(bodies: &mut Bodies, pairs: &mut Pairs, place: u32) -> Option
 fn swept_box(collider: &Collider, motion: &Motion, time: SimTime, h: f64) -> Aabb {
     let end = time + h;
     let boxed = |at: SimTime| collider.solid.aabb(motion.pose_at(at));
+    if !collider.solid.is_bounded() {
+        // On a body that never moves.
+        return boxed(time);
+    }
     let turn = (motion.turn(end - motion.start) - motion.turn(time - motion.start)).abs();
     let bulge = motion.acceleration.length() * h * h * 0.125;
     // A point at distance r leaves the chord of its arc by r (1 − cos(turn/2)) ≤ r turn²/8.

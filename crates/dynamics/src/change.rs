@@ -53,10 +53,18 @@ impl World {
     /// Changes what moves a body.
     ///
     /// # Errors
-    /// If the body is not there, or it would move by forces but has no mass.
+    /// If the body is not there, it would move by forces but has no mass, or it would move and has a
+    /// half-plane among its shapes.
     pub fn set_kind(&mut self, id: BodyId, kind: BodyKind) -> Result<(), BodyError> {
         let index = self.bodies.find(id)?;
         let state = self.bodies.get(index);
+        if kind != BodyKind::Fixed {
+            let shapes = state.colliders.iter();
+            let mut solids = shapes.map(|at| &self.colliders[*at as usize].solid);
+            if let Some(shape) = solids.position(|solid| !solid.is_bounded()) {
+                return Err(BodyError::HalfPlaneMoves { shape });
+            }
+        }
         if kind == BodyKind::Dynamic {
             for (field, value) in [("mass", state.mass.mass), ("inertia", state.mass.inertia)] {
                 if value <= 0.0 && !(field == "inertia" && state.locked_rotation) {

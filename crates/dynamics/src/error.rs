@@ -59,6 +59,12 @@ pub enum BodyError {
         /// Density of the first shape, in kg/m².
         density: f64,
     },
+    /// A half-plane has no end and no mass: only a body that never moves can wear it.
+    #[error("shape {shape} is a half-plane, which only a fixed body can have")]
+    HalfPlaneMoves {
+        /// Which of the body's shapes.
+        shape: usize,
+    },
     /// The id belongs to a body that was removed, or to another world.
     #[error("{0} is not in this world")]
     Stale(BodyId),

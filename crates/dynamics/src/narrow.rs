@@ -96,9 +96,14 @@ fn carried(new: &PartManifold, pose_a: Pose, old: &[PairContact]) -> PairContact
 
 /// Fastest that any two points of the bodies can approach, in m/s.
 fn closing_bound(a: &BodyState, b: &BodyState, time: SimTime) -> f64 {
-    (b.velocity_at(time) - a.velocity_at(time)).length()
-        + a.motion.spin_at(time).abs() * a.reach
-        + b.motion.spin_at(time).abs() * b.reach
+    (b.velocity_at(time) - a.velocity_at(time)).length() + rim_speed(a, time) + rim_speed(b, time)
+}
+
+/// Fastest that a point of the body moves about its centre, in m/s.
+fn rim_speed(body: &BodyState, time: SimTime) -> f64 {
+    let spin = body.motion.spin_at(time).abs();
+    // A half-plane has no end, and does not turn.
+    if spin > 0.0 { spin * body.reach } else { 0.0 }
 }
 
 /// Normal velocity of a contact point: positive opens.

@@ -214,7 +214,7 @@ impl World {
         poses.extend(self.bodies.iter().map(|state| state.pose(self.clock.now)));
     }
 
-    /// Box around all bodies, in m; empty if there are none.
+    /// Box around all bodies, in m; empty if there are none, without end beside a half-plane.
     #[must_use]
     pub fn bounds(&self) -> Aabb {
         self.bodies()

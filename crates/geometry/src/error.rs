@@ -138,6 +138,18 @@ pub enum ShapeError {
         /// y of both ends, in m.
         y: f64,
     },
+    /// A vector that has to point somewhere is zero.
+    #[error("{name} is (0, 0), which points nowhere")]
+    NoDirection {
+        /// Which parameter.
+        name: &'static str,
+    },
+    /// A half-plane has no area, and is no part of anything.
+    #[error("a half-plane has no end: it has no mass, and cannot be part of a compound")]
+    Unbounded,
+    /// A compound of nothing.
+    #[error("the compound has no parts")]
+    NoParts,
     /// The ring of a polygon.
     #[error(transparent)]
     Polygon(#[from] PolygonError),

@@ -28,6 +28,8 @@ impl Shape {
             }
             Outline::Open(points) => edges(points, false).any(|edge| on_edge(edge, point)),
             Outline::Closed(points) => winds_around(points, point),
+            Outline::HalfPlane { point: on, normal } => normal.dot(point - on) <= 0.0,
+            Outline::Parts(parts) => parts.iter().any(|part| part.contains(point)),
         }
     }
 
@@ -43,7 +45,8 @@ impl Shape {
 
     /// The point of the rim nearest to `point`, in m, from inside and outside.
     ///
-    /// The first of equally near ones; to the right of the centre of a circle.
+    /// The first of equally near ones; to the right of the centre of a circle. Of a compound, that
+    /// of the part which the point is nearest to or deepest in: seams between parts count as rim.
     #[must_use]
     pub fn closest_rim_point(&self, point: Vec2) -> Vec2 {
         match self.outline() {
@@ -52,10 +55,25 @@ impl Shape {
             }
             Outline::Open(points) => nearest(point, edges(points, false)),
             Outline::Closed(points) => nearest(point, edges(points, true)),
+            Outline::HalfPlane { point: on, normal } => point - normal * normal.dot(point - on),
+            Outline::Parts(parts) => {
+                let deepest = |best: (f64, Vec2), part: &Self| {
+                    let distance = part.signed_distance(point);
+                    if distance < best.0 {
+                        (distance, part.closest_rim_point(point))
+                    } else {
+                        best
+                    }
+                };
+                parts.iter().fold((f64::INFINITY, point), deepest).1
+            }
         }
     }
 
     /// Distance of `point` from the rim, in m; negative inside.
+    ///
+    /// Of a compound the least of its parts' (G. H. Hart's union, 1996): outside it is the distance,
+    /// inside the depth in the part that the point is deepest in, at most the depth in the whole.
     ///
     /// # Examples
     /// ```
@@ -68,8 +86,14 @@ impl Shape {
     /// ```
     #[must_use]
     pub fn signed_distance(&self, point: Vec2) -> f64 {
-        if let Outline::Circle { centre, radius } = self.outline() {
-            return (point - centre).length() - radius;
+        match self.outline() {
+            Outline::Circle { centre, radius } => return (point - centre).length() - radius,
+            Outline::HalfPlane { point: on, normal } => return normal.dot(point - on),
+            Outline::Parts(parts) => {
+                let distances = parts.iter().map(|part| part.signed_distance(point));
+                return distances.fold(f64::INFINITY, f64::min);
+            }
+            Outline::Open(_) | Outline::Closed(_) => {}
         }
         let distance = self.closest_rim_point(point).distance(point);
         if self.contains(point) {
@@ -109,6 +133,50 @@ impl Shape {
             Outline::Circle { centre, radius } => ray.at_circle(centre, radius),
             Outline::Open(points) => ray.at_wall(points[0], points[1]),
             Outline::Closed(points) => ray.at_ring(points),
+            Outline::HalfPlane { point, normal } => ray.at_line(point, normal),
+            Outline::Parts(parts) => {
+                let hits = parts
+                    .iter()
+                    .filter_map(|part| part.cast_ray(origin, direction, max));
+                hits.min_by(|one, two| one.distance.total_cmp(&two.distance))
+            }
+        }
+    }
+
+    /// The point of the shape farthest along `direction` (of any length above 0), in m: a corner,
+    /// the first of equal ones. `None` where a half-plane goes on without end.
+    ///
+    /// # Examples
+    /// ```
+    /// use carom_geometry::{Circle, HalfPlane, Shape};
+    /// use carom_math::{Vec2, vec2};
+    /// let disc = Shape::from(Circle::new(2.0)?);
+    /// assert_eq!(disc.support(vec2(0.0, 3.0)), Some(vec2(0.0, 2.0)));   // m
+    /// let ground = Shape::from(HalfPlane::new(vec2(1.0, 5.0), Vec2::Y)?);
+    /// assert_eq!(ground.support(Vec2::Y), Some(vec2(1.0, 5.0)));
+    /// assert_eq!(ground.support(Vec2::X), None);
+    /// # Ok::<(), carom_geometry::ShapeError>(())
+    /// ```
+    #[must_use]
+    pub fn support(&self, direction: Vec2) -> Option<Vec2> {
+        match self {
+            Self::Circle(circle) => {
+                let unit = direction / direction.abs().max_element();
+                Some(circle.centre() + unit.normalize_or_zero() * circle.radius())
+            }
+            Self::HalfPlane(wall) => {
+                let straight = cross(wall.normal(), direction) == 0.0;
+                let out = wall.normal().dot(direction) >= 0.0;
+                (straight && out).then_some(wall.point())
+            }
+            Self::Compound(compound) => {
+                let points = compound.parts().iter().filter_map(|p| p.support(direction));
+                points.reduce(|best, p| farther(best, p, direction))
+            }
+            _ => {
+                let points = self.vertices().iter().copied();
+                points.reduce(|best, p| farther(best, p, direction))
+            }
         }
     }
 }
@@ -144,6 +212,20 @@ impl Ray {
         })
     }
 
+    /// From in front of a line.
+    fn at_line(&self, point: Vec2, normal: Vec2) -> Option<RayHit> {
+        let closing = -normal.dot(self.direction);
+        if closing <= 0.0 {
+            return None;
+        }
+        let distance = normal.dot(self.origin - point) / closing;
+        (distance <= self.max).then(|| RayHit {
+            distance,
+            point: self.origin + self.direction * distance,
+            normal,
+        })
+    }
+
     fn at_wall(&self, a: Vec2, b: Vec2) -> Option<RayHit> {
         self.at_edge(a, b).or_else(|| self.at_edge(b, a))
     }
@@ -169,6 +251,15 @@ impl Ray {
             point: a + (b - a) * part,
             normal: outward_normal(a, b),
         })
+    }
+}
+
+/// The one of two points that lies farther along `direction`; the first if neither does.
+fn farther(first: Vec2, second: Vec2, direction: Vec2) -> Vec2 {
+    if second.dot(direction) > first.dot(direction) {
+        second
+    } else {
+        first
     }
 }
 

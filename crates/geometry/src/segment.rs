@@ -1,9 +1,10 @@
 //! Segments: walls without thickness.
 
-use carom_math::{Vec2, vec2};
+use carom_math::Vec2;
 
 use crate::ShapeError;
 use crate::circle::check_point;
+use crate::convex::outward_normal;
 
 /// A straight wall from `a` to `b`, solid from both sides; it has no area and no mass.
 ///
@@ -29,12 +30,13 @@ impl Segment {
     pub fn new(a: Vec2, b: Vec2) -> Result<Self, ShapeError> {
         check_point(["a.x", "a.y"], a)?;
         check_point(["b.x", "b.y"], b)?;
-        let Some(along) = (b - a).try_normalize() else {
+        if a == b {
             return Err(ShapeError::NoLength { x: a.x, y: a.y });
-        };
+        }
+        let normal = outward_normal(a, b);
         Ok(Self {
             vertices: [a, b],
-            normals: [vec2(along.y, -along.x), vec2(-along.y, along.x)],
+            normals: [normal, -normal],
         })
     }
 

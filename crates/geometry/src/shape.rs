@@ -1,8 +1,10 @@
-//! Any shape, and the questions that one shape can answer.
+//! Any shape, and what it is made of.
 
-use carom_math::{Pose, Vec2};
+use carom_math::{Pose, Rot, Vec2};
 
-use crate::{Aabb, AreaProperties, Circle, ConvexPolygon, Polygon, Segment};
+use crate::{
+    Aabb, AreaProperties, Circle, Compound, ConvexPolygon, HalfPlane, Polygon, Segment, ShapeError,
+};
 
 /// A shape of any kind, in its own frame, in m.
 #[derive(Clone, Debug, PartialEq)]
@@ -11,10 +13,14 @@ pub enum Shape {
     Circle(Circle),
     /// A wall without thickness.
     Segment(Segment),
+    /// Everything behind a line.
+    HalfPlane(HalfPlane),
     /// A convex polygon.
     Convex(ConvexPolygon),
     /// Any simple polygon.
     Polygon(Polygon),
+    /// Several shapes that move as one.
+    Compound(Compound),
 }
 
 /// What to draw of a shape.
@@ -31,6 +37,15 @@ pub enum Outline<'a> {
     Open(&'a [Vec2]),
     /// A closed ring, counter-clockwise.
     Closed(&'a [Vec2]),
+    /// A line without end.
+    HalfPlane {
+        /// A point of the line, in m.
+        point: Vec2,
+        /// Unit normal, away from what is solid.
+        normal: Vec2,
+    },
+    /// The outlines of these shapes, one after the other.
+    Parts(&'a [Shape]),
 }
 
 impl Shape {
@@ -43,38 +58,71 @@ impl Shape {
                 radius: circle.radius(),
             },
             Self::Segment(segment) => Outline::Open(segment.vertices()),
+            Self::HalfPlane(half_plane) => Outline::HalfPlane {
+                point: half_plane.point(),
+                normal: half_plane.normal(),
+            },
             Self::Convex(polygon) => Outline::Closed(polygon.vertices()),
             Self::Polygon(polygon) => Outline::Closed(polygon.vertices()),
+            Self::Compound(compound) => Outline::Parts(compound.parts()),
         }
     }
 
     /// Area and its moments; a segment has no area, and its middle is its centroid.
-    #[must_use]
-    pub fn area_properties(&self) -> AreaProperties {
+    ///
+    /// # Errors
+    /// A half-plane has none.
+    pub fn area_properties(&self) -> Result<AreaProperties, ShapeError> {
         match self {
-            Self::Circle(circle) => circle.area_properties(),
-            Self::Segment(segment) => AreaProperties {
+            Self::Circle(circle) => Ok(circle.area_properties()),
+            Self::Segment(segment) => Ok(AreaProperties {
                 centroid: (segment.a() + segment.b()) * 0.5,
                 ..AreaProperties::ZERO
-            },
-            Self::Convex(polygon) => polygon.area_properties(),
-            Self::Polygon(polygon) => polygon.area_properties(),
+            }),
+            Self::HalfPlane(_) => Err(ShapeError::Unbounded),
+            Self::Convex(polygon) => Ok(polygon.area_properties()),
+            Self::Polygon(polygon) => Ok(polygon.area_properties()),
+            Self::Compound(compound) => Ok(compound.area_properties()),
         }
+    }
+
+    /// Whether the shape has an end: all but half-planes have.
+    #[must_use]
+    pub const fn is_bounded(&self) -> bool {
+        !matches!(self, Self::HalfPlane(_))
     }
 
     /// The box around the shape when its frame is at `pose`.
     #[must_use]
     pub fn aabb(&self, pose: Pose) -> Aabb {
-        let (points, radius) = self.round_points();
-        Aabb::from_points(points.iter().map(|p| pose.point(*p))).grown(radius)
+        let around = |points: &[Vec2]| Aabb::from_points(points.iter().map(|p| pose.point(*p)));
+        match self {
+            Self::Circle(circle) => around(circle.vertices()).grown(circle.radius()),
+            Self::HalfPlane(half_plane) => half_plane.aabb(pose),
+            Self::Compound(compound) => {
+                let boxes = compound.parts().iter().map(|part| part.aabb(pose));
+                boxes.fold(Aabb::EMPTY, Aabb::union)
+            }
+            _ => around(self.vertices()),
+        }
     }
 
-    /// Largest distance of a point of the shape from `point`, in m.
+    /// Largest distance of a point of the shape from `point`, in m; infinite for a half-plane.
     #[must_use]
     pub fn reach_about(&self, point: Vec2) -> f64 {
-        let (points, radius) = self.round_points();
-        let squares = points.iter().map(|p| (*p - point).length_squared());
-        squares.fold(0.0, f64::max).sqrt() + radius
+        let farthest = |points: &[Vec2]| {
+            let squares = points.iter().map(|p| (*p - point).length_squared());
+            squares.fold(0.0, f64::max).sqrt()
+        };
+        match self {
+            Self::Circle(circle) => farthest(circle.vertices()) + circle.radius(),
+            Self::HalfPlane(_) => f64::INFINITY,
+            Self::Compound(compound) => {
+                let reaches = compound.parts().iter().map(|part| part.reach_about(point));
+                reaches.fold(0.0, f64::max)
+            }
+            _ => farthest(self.vertices()),
+        }
     }
 
     /// The same shape moved by `offset`, in m.
@@ -83,37 +131,62 @@ impl Shape {
         match self {
             Self::Circle(circle) => circle.translated(offset).into(),
             Self::Segment(segment) => segment.translated(offset).into(),
+            Self::HalfPlane(half_plane) => half_plane.translated(offset).into(),
             Self::Convex(polygon) => polygon.translated(offset).into(),
             Self::Polygon(polygon) => polygon.translated(offset).into(),
+            Self::Compound(compound) => compound.translated(offset).into(),
         }
     }
 
-    /// Corners, in m: the centre of a circle, the ends of a segment.
+    /// The same shape where it is when its frame is at `pose`, told in the frame around it.
+    ///
+    /// Corners are rounded to where they come to lie and checked again: a convex polygon may lose a
+    /// corner that rounding makes straight.
+    ///
+    /// # Errors
+    /// If it comes to lie beyond the limits, or so far out that rounding spoils its ring.
+    ///
+    /// # Examples
+    /// ```
+    /// use carom_geometry::{Segment, Shape};
+    /// use carom_math::{Pose, Rot, Vec2, vec2};
+    /// let wall = Shape::from(Segment::new(Vec2::ZERO, vec2(2.0, 0.0))?);
+    /// let upright = wall.placed(Pose::new(vec2(5.0, 1.0), Rot::from_degrees(90.0)))?;
+    /// assert_eq!(upright.vertices(), [vec2(5.0, 1.0), vec2(5.0, 3.0)]);    // m
+    /// # Ok::<(), carom_geometry::ShapeError>(())
+    /// ```
+    pub fn placed(&self, pose: Pose) -> Result<Self, ShapeError> {
+        let points = || -> Vec<Vec2> { self.vertices().iter().map(|p| pose.point(*p)).collect() };
+        if pose.rotation == Rot::IDENTITY && pose.position == Vec2::ZERO {
+            return Ok(self.clone());
+        }
+        Ok(match self {
+            Self::Circle(circle) => {
+                Circle::at(pose.point(circle.centre()), circle.radius())?.into()
+            }
+            Self::Segment(segment) => {
+                Segment::new(pose.point(segment.a()), pose.point(segment.b()))?.into()
+            }
+            Self::HalfPlane(wall) => {
+                HalfPlane::new(pose.point(wall.point()), pose.vector(wall.normal()))?.into()
+            }
+            Self::Convex(_) => ConvexPolygon::hull(points())?.into(),
+            Self::Polygon(_) => Polygon::new(points())?.into(),
+            Self::Compound(compound) => compound.placed(pose)?.into(),
+        })
+    }
+
+    /// Corners, in m: the centre of a circle, the ends of a segment, the given point of a
+    /// half-plane; of a compound those of all parts.
     #[must_use]
     pub fn vertices(&self) -> &[Vec2] {
-        self.round_points().0
-    }
-
-    /// The point of the shape farthest along `direction`, in m: a corner, the first of equal ones.
-    #[must_use]
-    pub fn support(&self, direction: Vec2) -> Vec2 {
-        let (points, radius) = self.round_points();
-        let mut best = points[0];
-        for p in points {
-            if p.dot(direction) > best.dot(direction) {
-                best = *p;
-            }
-        }
-        best + direction.normalize_or_zero() * radius
-    }
-
-    /// Vertices and the radius around them.
-    fn round_points(&self) -> (&[Vec2], f64) {
         match self {
-            Self::Circle(circle) => (circle.vertices(), circle.radius()),
-            Self::Segment(segment) => (segment.vertices(), 0.0),
-            Self::Convex(polygon) => (polygon.vertices(), 0.0),
-            Self::Polygon(polygon) => (polygon.vertices(), 0.0),
+            Self::Circle(circle) => circle.vertices(),
+            Self::Segment(segment) => segment.vertices(),
+            Self::HalfPlane(half_plane) => half_plane.vertices(),
+            Self::Convex(polygon) => polygon.vertices(),
+            Self::Polygon(polygon) => polygon.vertices(),
+            Self::Compound(compound) => compound.vertices(),
         }
     }
 }
@@ -130,6 +203,12 @@ impl From<Segment> for Shape {
     }
 }
 
+impl From<HalfPlane> for Shape {
+    fn from(half_plane: HalfPlane) -> Self {
+        Self::HalfPlane(half_plane)
+    }
+}
+
 impl From<ConvexPolygon> for Shape {
     fn from(polygon: ConvexPolygon) -> Self {
         Self::Convex(polygon)
@@ -139,5 +218,11 @@ impl From<ConvexPolygon> for Shape {
 impl From<Polygon> for Shape {
     fn from(polygon: Polygon) -> Self {
         Self::Polygon(polygon)
+    }
+}
+
+impl From<Compound> for Shape {
+    fn from(compound: Compound) -> Self {
+        Self::Compound(compound)
     }
 }

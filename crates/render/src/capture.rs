@@ -125,7 +125,36 @@ impl Sketch<'_> {
                 let points = self.points(pose, points);
                 self.frame.push(Op::Polygon { points, paint });
             }
+            Outline::HalfPlane { point, normal } => {
+                let points = self.behind(pose.point(point), pose.vector(normal));
+                self.frame.push(Op::Polygon { points, paint });
+            }
+            Outline::Parts(parts) => {
+                for part in parts {
+                    self.shape(body, part, paint);
+                }
+            }
         }
+    }
+
+    /// What the picture can show of the half-plane behind a line: a square whose other sides lie
+    /// outside of it.
+    fn behind(&self, point: Vec2, normal: Vec2) -> Vec<Vec2> {
+        let view = self.camera.view();
+        let reach = 2.0 * view.extents().length();
+        let height = normal.dot(view.centre() - point);
+        // The foot of the picture's centre on the line, or a line of the same look outside of it.
+        let foot = view.centre() - normal * height.clamp(-reach, reach);
+        let along = vec2(normal.y, -normal.x) * reach;
+        let deep = normal * (2.0 * reach);
+        [
+            foot + along,
+            foot - along,
+            foot - along - deep,
+            foot + along - deep,
+        ]
+        .map(|p| self.camera.point(p))
+        .to_vec()
     }
 
     fn disc(&mut self, body: &Body<'_>, centre: Vec2, radius: f64, paint: Paint) {
@@ -159,8 +188,8 @@ impl Sketch<'_> {
 
     fn body_overlay(&mut self, body: &Body<'_>) {
         let overlay = &self.look.overlay;
-        if overlay.bounds {
-            let bounds = body.aabb();
+        let bounds = body.aabb();
+        if overlay.bounds && bounds.is_finite() {
             let (a, b) = (self.camera.point(bounds.min), self.camera.point(bounds.max));
             self.frame.push(Op::Box {
                 min: vec2(a.x, b.y),
@@ -321,7 +350,7 @@ mod tests {
     use super::*;
     use crate::{Colour, Face, Overlay, Style};
     use carom_dynamics::{BodyDef, Material, Settings};
-    use carom_geometry::{Circle, ConvexPolygon, Polygon, Segment};
+    use carom_geometry::{Circle, ConvexPolygon, HalfPlane, Polygon, Segment};
 
     fn world() -> World {
         let mut world = World::new(Settings::default()).unwrap();
@@ -399,6 +428,30 @@ mod tests {
         // Left of x = 3 m − 1 m − 10 m nothing of the disc is seen.
         let left = near.looking_at(vec2(-8.5, 2.0)).unwrap();
         assert_eq!(kinds(&Frame::capture(&world(), &look, &left))[1], 0);
+    }
+
+    #[test]
+    fn a_half_plane_fills_the_picture_up_to_its_line() {
+        let mut world = World::new(Settings::default()).unwrap();
+        let slope = HalfPlane::new(vec2(1e6, 0.0), Vec2::Y).unwrap();
+        world
+            .insert(BodyDef::fixed(), slope, Material::default())
+            .unwrap();
+        let frame = Frame::capture(&world, &Look::default(), &camera());
+        let [Op::Polygon { points, .. }] = frame.ops() else {
+            panic!("one polygon: {:?}", frame.ops());
+        };
+        let (low, high) = (
+            points.iter().copied().reduce(Vec2::min),
+            points.iter().copied().reduce(Vec2::max),
+        );
+        let (low, high) = (low.unwrap(), high.unwrap());
+        // Its line is at y = 0 m, 2 m below the middle; all other sides lie outside.
+        assert!((low.y - 260.0).abs() < 1e-9, "{points:?}");
+        assert!(
+            low.x < 0.0 && high.x > 600.0 && high.y > 400.0,
+            "{points:?}"
+        );
     }
 
     #[test]

@@ -191,7 +191,10 @@ fn surroundings(file: &SceneFile, world: &World) -> Aabb {
     let bodies = world.bodies().map(|body| body.aabb());
     let bounds = match &file.walls {
         Some(walls) => Aabb::new(walls.inner.min, walls.inner.max),
-        None => bodies.fold(Aabb::EMPTY, |all, next| all.union(next)),
+        // A half-plane has no end, and is seen wherever the camera looks.
+        None => bodies
+            .filter(|bounds| bounds.is_finite())
+            .fold(Aabb::EMPTY, |all, next| all.union(next)),
     };
     if !bounds.is_finite() {
         return Aabb::new(Vec2::splat(-1.0), Vec2::splat(1.0));

@@ -1,0 +1,103 @@
+//! Compounds: several shapes that move as one.
+
+use carom_math::{Pose, Vec2};
+
+use crate::{AreaProperties, Shape, ShapeError};
+
+/// Several shapes in one frame, each put where it belongs.
+///
+/// What the compound covers is what any of its parts covers. Areas and moments are those of the
+/// parts, added: exact where parts are disjoint or share edges, and counted twice where they
+/// overlap, as two plates that lie on each other weigh twice.
+///
+/// # Examples
+/// ```
+/// use carom_geometry::{Circle, Compound, ConvexPolygon, Shape};
+/// use carom_math::{Pose, vec2};
+/// // A dumbbell: two discs on a bar.
+/// let disc = Shape::from(Circle::new(0.5)?);
+/// let dumbbell = Compound::new([
+///     (ConvexPolygon::rectangle(2.0, 0.2)?.into(), Pose::IDENTITY),
+///     (disc.clone(), Pose::at(vec2(-1.5, 0.0))),
+///     (disc, Pose::at(vec2(1.5, 0.0))),
+/// ])?;
+/// let area = Shape::from(dumbbell).area_properties()?;
+/// assert!((area.area - (0.4 + std::f64::consts::FRAC_PI_2)).abs() < 1e-15);    // m²
+/// assert!(area.centroid.length() < 1e-15);
+/// # Ok::<(), carom_geometry::ShapeError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Compound {
+    parts: Vec<Shape>,
+    vertices: Vec<Vec2>,
+}
+
+impl Compound {
+    /// The compound of shapes at their poses in its frame (positions in m).
+    ///
+    /// A compound among them is replaced by its parts.
+    ///
+    /// # Errors
+    /// If there is no part, one is a half-plane, or a pose leads out of range or is so far out that
+    /// rounding spoils a polygon.
+    pub fn new(parts: impl IntoIterator<Item = (Shape, Pose)>) -> Result<Self, ShapeError> {
+        let mut placed = Vec::new();
+        for (part, pose) in parts {
+            match part.placed(pose)? {
+                Shape::HalfPlane(_) => return Err(ShapeError::Unbounded),
+                Shape::Compound(inner) => placed.extend(inner.parts),
+                single => placed.push(single),
+            }
+        }
+        if placed.is_empty() {
+            return Err(ShapeError::NoParts);
+        }
+        Ok(Self::from_checked(placed))
+    }
+
+    fn from_checked(parts: Vec<Shape>) -> Self {
+        let corners = parts.iter().flat_map(Shape::vertices);
+        Self {
+            vertices: corners.copied().collect(),
+            parts,
+        }
+    }
+
+    /// The parts where they are, in the order they were given; none is a compound or a half-plane.
+    #[must_use]
+    pub fn parts(&self) -> &[Shape] {
+        &self.parts
+    }
+
+    /// Corners of all parts, one part after the other, in m; of a circle its centre.
+    #[must_use]
+    pub fn vertices(&self) -> &[Vec2] {
+        &self.vertices
+    }
+
+    /// Areas and moments of all parts together.
+    #[must_use]
+    pub fn area_properties(&self) -> AreaProperties {
+        // Bounded parts all have them.
+        let areas = self
+            .parts
+            .iter()
+            .filter_map(|part| part.area_properties().ok());
+        areas.fold(AreaProperties::ZERO, |all, next| all + next)
+    }
+
+    /// The same compound with every part moved to `pose`.
+    pub(crate) fn placed(&self, pose: Pose) -> Result<Self, ShapeError> {
+        let parts = self.parts.iter().map(|part| part.placed(pose));
+        Ok(Self::from_checked(parts.collect::<Result<_, _>>()?))
+    }
+
+    /// The same compound moved by `offset`, in m.
+    ///
+    /// Vertices are rounded to where they come to lie, and not checked again.
+    #[must_use]
+    pub fn translated(&self, offset: Vec2) -> Self {
+        let parts = self.parts.iter().map(|part| part.translated(offset));
+        Self::from_checked(parts.collect())
+    }
+}
