@@ -178,3 +178,25 @@ fn events_beyond_the_buffer_are_counted() {
         "each ball begins to touch and strikes"
     );
 }
+
+#[test]
+fn a_stopwatch_times_every_stage_and_changes_nothing() {
+    // A clock that counts how often it is read: each lap is one tick long.
+    fn ticks() -> f64 {
+        use std::cell::Cell;
+        thread_local!(static READ: Cell<f64> = const { Cell::new(0.0) });
+        READ.with(|read| {
+            read.set(read.get() + 1.0);
+            read.get()
+        })
+    }
+    let (mut timed, mut plain) = (thesis(), thesis());
+    timed.set_stopwatch(Some(ticks));
+    timed.step(0.5);
+    plain.step(0.5);
+    assert_eq!(timed.state_hash(), plain.state_hash());
+    assert_eq!(plain.profile().total(), 0.0);
+    for (stage, seconds) in timed.profile().stages() {
+        assert!(seconds >= 180.0, "{stage}: {seconds}");
+    }
+}

@@ -27,6 +27,13 @@ pub trait Engine {
     /// What the engine says about its work.
     fn counters(&self) -> Counters;
 
+    /// Seconds that each stage of the last step took, where the engine tells.
+    ///
+    /// The first call turns the engine's own profile on; it costs a few clock readings a step.
+    fn profile(&mut self) -> Option<Vec<(&'static str, f64)>> {
+        None
+    }
+
     /// Settings that are not the engine's defaults and those that matter for error, in its own terms: `key=value …`.
     fn settings(&self) -> String;
 }

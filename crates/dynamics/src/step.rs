@@ -33,6 +33,7 @@ impl World {
         };
         self.events.clear();
         self.impacts_before = 0;
+        self.stopwatch.start();
         if self.report.refused.is_some() {
             return self.report;
         }
@@ -42,6 +43,7 @@ impl World {
             self.begin_forces();
         }
         self.clock.now = self.advance(end, stop_at_event);
+        self.stopwatch.lap(|p| &mut p.impacts);
         if dt > 0.0 {
             self.end_forces();
         }
@@ -109,13 +111,16 @@ impl World {
     /// what will strike is entered into the agenda.
     fn begin_substep(&mut self) {
         let (time, h) = (self.clock.next(), self.clock.h);
+        self.stopwatch.lap(|p| &mut p.impacts);
         self.clock.begin();
         self.agenda.clear();
         self.impacts_before = self.report.impacts;
         self.report.substeps += 1;
         self.guard(time);
         self.find_pairs(time, h);
+        self.stopwatch.lap(|p| &mut p.pairs);
         self.look(time, h);
+        self.stopwatch.lap(|p| &mut p.contacts);
         self.groups.step(
             &self.law,
             &mut self.bodies,
@@ -125,11 +130,13 @@ impl World {
             &mut self.report,
         );
         self.pairs_are_new();
+        self.stopwatch.lap(|p| &mut p.solver);
         for index in self.active() {
             if !self.groups.pushed(index) {
                 fly(&mut self.bodies, index, time, h);
             }
         }
+        self.stopwatch.lap(|p| &mut p.flight);
         if let Some(sleep) = self.settings.sleep {
             settle(
                 sleep,
@@ -140,11 +147,13 @@ impl World {
                 &mut self.events,
             );
         }
+        self.stopwatch.lap(|p| &mut p.sleep);
         let mut i = 0;
         while let Some(place) = self.pairs.place(i) {
             self.predict(place, time);
             i += 1;
         }
+        self.stopwatch.lap(|p| &mut p.prediction);
     }
 
     /// Impacts of a sub-step before the rest of them is left to the solver: work stays bounded

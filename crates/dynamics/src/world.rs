@@ -13,11 +13,12 @@ use crate::clock::Clock;
 use crate::groups::Groups;
 use crate::narrow::Narrow;
 use crate::pairs::Pairs;
+use crate::profile::Stopwatch;
 use crate::sleep::wake_around;
 use crate::solver::Law;
 use crate::{
     Body, BodyDef, BodyError, BodyId, BodyKind, Contact, EnergyLedger, EventKind, Events, Material,
-    Momentum, Settings, SettingsError, StepReport,
+    Momentum, Settings, SettingsError, StepProfile, StepReport,
 };
 
 /// Rigid bodies and the time that passes for them.
@@ -62,6 +63,7 @@ pub struct World {
     pub(crate) impacts_before: u64,
     /// Bodies with a force that waits for a step or acts during this one.
     pub(crate) forced: Vec<u32>,
+    pub(crate) stopwatch: Stopwatch,
 }
 
 impl World {
@@ -87,6 +89,7 @@ impl World {
             report: StepReport::default(),
             impacts_before: 0,
             forced: Vec::new(),
+            stopwatch: Stopwatch::default(),
             settings,
         })
     }
@@ -95,6 +98,17 @@ impl World {
     #[must_use]
     pub const fn settings(&self) -> &Settings {
         &self.settings
+    }
+
+    /// Times the stages of every following step by this clock, in s; `None`: no longer.
+    pub const fn set_stopwatch(&mut self, clock: Option<fn() -> f64>) {
+        self.stopwatch.clock = clock;
+    }
+
+    /// Where the time of the last step went: all 0 without a [stopwatch](Self::set_stopwatch).
+    #[must_use]
+    pub const fn profile(&self) -> StepProfile {
+        self.stopwatch.profile
     }
 
     /// Simulated time.

@@ -5,6 +5,7 @@ use carom_geometry::{Circle, ConvexPolygon, Polygon, Segment, Shape};
 use carom_math::{Pose, Vec2};
 use carom_scenes::{PlainBody, PlainKind, PlainScene, PlainShape};
 
+use crate::clock::CpuClock;
 use crate::engine::{Body, Counters, Engine, EngineError, Mode, Setup, State};
 
 struct Carom {
@@ -152,6 +153,12 @@ impl Engine for Carom {
                 .count(),
             touching: self.world.contacts().count(),
         }
+    }
+
+    fn profile(&mut self) -> Option<Vec<(&'static str, f64)>> {
+        self.world
+            .set_stopwatch(Some(|| CpuClock::thread().seconds()));
+        Some(self.world.profile().stages().to_vec())
     }
 
     fn settings(&self) -> String {

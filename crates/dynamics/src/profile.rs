@@ -1,0 +1,69 @@
+//! Where the time of a step goes, by a clock that the caller hands in: nothing here knows one.
+
+/// Seconds that the last step spent in each of its stages.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct StepProfile {
+    /// Boxes over motions, and the pairs that they give.
+    pub pairs: f64,
+    /// Looking at near pairs: contacts, what lasts, who wakes.
+    pub contacts: f64,
+    /// Lasting contacts.
+    pub solver: f64,
+    /// Flights.
+    pub flight: f64,
+    /// Who falls asleep.
+    pub sleep: f64,
+    /// Times of impact.
+    pub prediction: f64,
+    /// Impacts, and the predictions that follow from each.
+    pub impacts: f64,
+}
+
+impl StepProfile {
+    /// The stages in order, by name.
+    #[must_use]
+    pub const fn stages(&self) -> [(&'static str, f64); 7] {
+        [
+            ("pairs", self.pairs),
+            ("contacts", self.contacts),
+            ("solver", self.solver),
+            ("flight", self.flight),
+            ("sleep", self.sleep),
+            ("prediction", self.prediction),
+            ("impacts", self.impacts),
+        ]
+    }
+
+    /// The whole step.
+    #[must_use]
+    pub fn total(&self) -> f64 {
+        self.stages().iter().map(|(_, seconds)| seconds).sum()
+    }
+}
+
+/// Laps between stages; without a clock it does nothing.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Stopwatch {
+    pub(crate) clock: Option<fn() -> f64>,
+    pub(crate) profile: StepProfile,
+    last: f64,
+}
+
+impl Stopwatch {
+    /// A new step begins.
+    pub(crate) fn start(&mut self) {
+        if let Some(clock) = self.clock {
+            self.profile = StepProfile::default();
+            self.last = clock();
+        }
+    }
+
+    /// What passed since the last lap was `stage`.
+    pub(crate) fn lap(&mut self, stage: fn(&mut StepProfile) -> &mut f64) {
+        if let Some(clock) = self.clock {
+            let now = clock();
+            *stage(&mut self.profile) += now - self.last;
+            self.last = now;
+        }
+    }
+}
