@@ -10,8 +10,9 @@ use carom_math::{Pose, Vec2, cross};
 
 use crate::manifold::Faces;
 use crate::outline::Pair;
+use crate::parts::near_parts;
 use crate::sat::{Face, along_both, beyond_end, face};
-use crate::{AxisFeature, Hull, Side, hulls, separating_axis};
+use crate::{AxisFeature, Hull, Side, part, separating_axis};
 
 /// What a moved shape met first.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,24 +56,13 @@ pub fn cast(
     let b_in_a = target_pose.seen_from(pose);
     let step = -pose.inverse_vector(translation);
     let mut best: Option<Local> = None;
-    for b in hulls(target) {
-        let goal = b.aabb(b_in_a);
-        for a in hulls(moving) {
-            let start = a.aabb(Pose::IDENTITY);
-            let path = start.union(carom_geometry::Aabb::new(
-                start.min - step,
-                start.max - step,
-            ));
-            if !path.overlaps(goal) {
-                continue;
-            }
-            if let Some(hit) = cast_hulls(&a, &b, b_in_a, step)
-                && best.is_none_or(|known| hit.before(&known))
-            {
-                best = Some(hit);
-            }
+    near_parts(moving, target, b_in_a, -step, 0.0, |i, j| {
+        if let Some(hit) = cast_hulls(&part(moving, i), &part(target, j), b_in_a, step)
+            && best.is_none_or(|known| hit.before(&known))
+        {
+            best = Some(hit);
         }
-    }
+    });
     best.map(|hit| CastHit {
         fraction: hit.fraction,
         // The point was found where the shapes touch, in a frame that had moved along.

@@ -3,8 +3,10 @@
 use carom_geometry::Shape;
 use carom_math::{Pose, Vec2};
 
+use crate::nearest::nearest_parts;
+use crate::parts::is_single;
 use crate::sat::beyond_end;
-use crate::{Axis, AxisFeature, Hull, Side, hulls, separating_axis};
+use crate::{Axis, AxisFeature, Hull, Side, part, separating_axis};
 
 /// The shortest way between two shapes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,6 +24,17 @@ pub struct Distance {
 }
 
 impl Distance {
+    /// From a shape without parts.
+    const fn nowhere() -> Self {
+        Self {
+            distance: f64::INFINITY,
+            point_a: Vec2::NAN,
+            point_b: Vec2::NAN,
+            normal: Vec2::ZERO,
+            feature: AxisFeature::Vertices { a: 0, b: 0 },
+        }
+    }
+
     /// Vertices of A and B nearest to the way.
     pub(crate) fn vertices(&self, a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose) -> (usize, usize) {
         let nearer_end = |hull: &Hull<'_>, edge: usize, point: Vec2| {
@@ -97,26 +110,10 @@ pub fn distance(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose) -> Distance {
 /// ```
 #[must_use]
 pub fn shape_distance(a: &Shape, b: &Shape, b_in_a: Pose) -> Distance {
-    let mut best: Option<Distance> = None;
-    for hull_a in hulls(a) {
-        for hull_b in hulls(b) {
-            let candidate = distance(&hull_a, &hull_b, b_in_a);
-            if candidate.distance <= 0.0 {
-                return candidate;
-            }
-            if best.is_none_or(|known| candidate.distance < known.distance) {
-                best = Some(candidate);
-            }
-        }
+    if is_single(a) && is_single(b) {
+        return distance(&part(a, 0), &part(b, 0), b_in_a);
     }
-    // Every shape has a part, so there is a best one.
-    best.unwrap_or(Distance {
-        distance: f64::INFINITY,
-        point_a: Vec2::NAN,
-        point_b: Vec2::NAN,
-        normal: Vec2::ZERO,
-        feature: AxisFeature::Vertices { a: 0, b: 0 },
-    })
+    nearest_parts(a, b, b_in_a).unwrap_or_else(Distance::nowhere)
 }
 
 /// The shortest way between two polygons or segments, or `None` if they touch or overlap.

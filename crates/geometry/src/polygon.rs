@@ -3,14 +3,16 @@
 use carom_math::Vec2;
 
 use crate::moments::ring_moments;
+use crate::part_tree::PartTree;
 use crate::pieces::{ConvexPiece, decompose};
 use crate::query::winds_around;
 use crate::ring::Ring;
-use crate::{AreaProperties, ConvexPolygon, PolygonError};
+use crate::{Aabb, AreaProperties, ConvexPolygon, PolygonError};
 
 /// A polygon whose ring does not touch itself: convex or concave, counter-clockwise.
 ///
-/// Its convex pieces are made with it; they add no vertices, and know which edges are cuts.
+/// Its convex pieces are made with it; they add no vertices, and know which edges are cuts. Above
+/// 32 edges a box tree over them is made, too.
 ///
 /// # Examples
 /// ```
@@ -28,7 +30,11 @@ use crate::{AreaProperties, ConvexPolygon, PolygonError};
 pub struct Polygon {
     vertices: Vec<Vec2>,
     pieces: Vec<ConvexPiece>,
+    tree: Option<PartTree>,
 }
+
+/// Edges above which a tree of boxes is faster than a look at every piece.
+const TREE_ABOVE: usize = 32;
 
 impl Polygon {
     /// The polygon with the given vertices, in m, in either order of turn.
@@ -43,10 +49,20 @@ impl Polygon {
         ring.check_simple()?;
         let ring = ring.counter_clockwise();
         let pieces = decompose(&ring.without_straight().points);
-        Ok(Self {
-            vertices: ring.points,
+        Ok(Self::from_pieces(ring.points, pieces))
+    }
+
+    fn from_pieces(vertices: Vec<Vec2>, pieces: Vec<ConvexPiece>) -> Self {
+        let boxes = || {
+            let corners = pieces.iter().map(|piece| piece.vertices().iter().copied());
+            corners.map(Aabb::from_points)
+        };
+        let many = vertices.len() > TREE_ABOVE && pieces.len() > 1;
+        Self {
+            tree: many.then(|| PartTree::new(boxes())),
+            vertices,
             pieces,
-        })
+        }
     }
 
     /// The outline, counter-clockwise, in m.
@@ -59,6 +75,12 @@ impl Polygon {
     #[must_use]
     pub fn pieces(&self) -> &[ConvexPiece] {
         &self.pieces
+    }
+
+    /// The box tree over the pieces, if there are more than 32 edges and several pieces.
+    #[must_use]
+    pub const fn part_tree(&self) -> Option<&PartTree> {
+        self.tree.as_ref()
     }
 
     /// Area and its moments.
@@ -78,14 +100,11 @@ impl Polygon {
     /// Vertices are rounded to where they come to lie, and not checked again.
     #[must_use]
     pub fn translated(&self, offset: Vec2) -> Self {
-        Self {
-            vertices: self.vertices.iter().map(|v| *v + offset).collect(),
-            pieces: self
-                .pieces
-                .iter()
-                .map(|piece| piece.translated(offset))
-                .collect(),
-        }
+        let pieces = self.pieces.iter().map(|piece| piece.translated(offset));
+        Self::from_pieces(
+            self.vertices.iter().map(|v| *v + offset).collect(),
+            pieces.collect(),
+        )
     }
 }
 
@@ -94,6 +113,6 @@ impl From<ConvexPolygon> for Polygon {
     fn from(convex: ConvexPolygon) -> Self {
         let vertices = convex.vertices().to_vec();
         let pieces = decompose(&vertices);
-        Self { vertices, pieces }
+        Self::from_pieces(vertices, pieces)
     }
 }

@@ -7,14 +7,21 @@
 //! When the axis closes, the axes are looked at again: another one is open, or this is the impact.
 
 mod approach;
+mod parts;
 mod search;
 
 use arrayvec::ArrayVec;
 use carom_geometry::Shape;
 use carom_math::{Vec2, cross, perp};
 
-use crate::{Hull, Motion, part, part_count};
+use crate::parts::is_single;
+use crate::{Hull, Motion, part};
 use approach::Approach;
+use parts::first_of_parts;
+
+/// Contacts are flush where they part by less than this fraction of the stretch between them, and
+/// normals that differ by less are one.
+const FLUSH: f64 = 1e-9;
 
 /// What became of two moving shapes.
 #[derive(Clone, Debug, PartialEq)]
@@ -87,17 +94,10 @@ pub fn time_of_impact(
     motion_b: &Motion,
     horizon: f64,
 ) -> TimeOfImpact {
-    let mut first = TimeOfImpact::Clear;
-    for i in 0..part_count(a) {
-        for j in 0..part_count(b) {
-            let (a, b) = (part(a, i), part(b, j));
-            first = earlier(
-                first,
-                time_of_impact_of_parts(&a, motion_a, &b, motion_b, horizon),
-            );
-        }
+    if is_single(a) && is_single(b) {
+        return time_of_impact_of_parts(&part(a, 0), motion_a, &part(b, 0), motion_b, horizon);
     }
-    first
+    first_of_parts(a, motion_a, b, motion_b, horizon)
 }
 
 /// [`time_of_impact`] of two convex parts.
@@ -151,9 +151,8 @@ pub fn earlier(x: TimeOfImpact, y: TimeOfImpact) -> TimeOfImpact {
 
 impl Impact {
     /// Both as one, if they are flush: one normal, and a difference in time that lifts the one end
-    /// by less than 1e-9 of the stretch between them.
+    /// by less than [`FLUSH`] of the stretch between them.
     fn joined(&self, other: &Self) -> Option<Self> {
-        const FLUSH: f64 = 1e-9;
         if self.normal.dot(other.normal) <= 0.0 || cross(self.normal, other.normal).abs() > FLUSH {
             return None;
         }

@@ -6,6 +6,7 @@ mod cast;
 mod concave;
 mod distance;
 mod documents;
+mod large;
 mod manifold;
 mod sat;
 mod shapes;

@@ -43,7 +43,7 @@ fn scaled(shape: &ConvexPolygon, size: f64) -> ConvexPolygon {
 }
 
 /// A rotation that makes edges parallel as often as not.
-fn turn() -> impl Strategy<Value = Rot> {
+pub(crate) fn turn() -> impl Strategy<Value = Rot> {
     prop_oneof![
         4 => (-4.0..4.0_f64).prop_map(Rot::from_angle),
         2 => (0..4i32).prop_map(|q| Rot::from_degrees(90.0 * f64::from(q))),
