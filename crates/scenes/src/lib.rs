@@ -56,7 +56,10 @@ pub use built::Built;
 pub use builtin::{SceneInfo, find, list, load, open};
 pub use document::{MAX_BYTES, VERSION};
 pub use error::{Place, Problem, SceneError};
-pub use plain::{PlainBody, PlainKind, PlainMaterial, PlainScene, PlainShape, plain_scene};
+pub use plain::{
+    PlainBody, PlainInfo, PlainKind, PlainMaterial, PlainScene, PlainShape, plain_scene,
+    plain_scenes,
+};
 pub use scene::Scene;
 
 #[cfg(doctest)]

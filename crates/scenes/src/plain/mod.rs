@@ -1,6 +1,19 @@
 //! Scenes as plain data: bodies that any engine can be given, the same bits for all.
 
-use carom_math::Vec2;
+#[cfg(test)]
+mod digest_tests;
+mod gas;
+mod harness;
+mod list;
+mod nearest;
+mod pairs;
+mod piles;
+mod resting;
+mod sparse;
+
+pub use list::{PlainInfo, plain_scene, plain_scenes};
+
+use carom_math::{StateHash, Vec2, vec2};
 
 /// A scene that says nothing about how it is computed or drawn.
 ///
@@ -118,6 +131,16 @@ impl PlainScene {
         }
     }
 
+    /// With `warm_up` steps before `measured` ones.
+    #[must_use]
+    pub fn steps(self, warm_up: u32, measured: u32) -> Self {
+        Self {
+            warm_up_steps: warm_up,
+            measured_steps: measured,
+            ..self
+        }
+    }
+
     /// Adds a material and gives its index.
     pub fn material(&mut self, density: f64, friction: f64, restitution: f64) -> usize {
         self.materials.push(PlainMaterial {
@@ -128,12 +151,135 @@ impl PlainScene {
         self.materials.len() - 1
     }
 
+    /// Adds a shape and gives its index.
+    pub fn shape(&mut self, shape: PlainShape) -> usize {
+        self.shapes.push(shape);
+        self.shapes.len() - 1
+    }
+
     /// Adds a body of one shape and gives its index.
     pub fn add(&mut self, body: PlainBody, shape: PlainShape) -> usize {
-        self.shapes.push(shape);
-        let shapes = vec![self.shapes.len() - 1];
+        let shapes = vec![self.shape(shape)];
         self.bodies.push(PlainBody { shapes, ..body });
         self.bodies.len() - 1
+    }
+
+    /// Adds a body made of one shape of the table and gives its index.
+    pub fn place(&mut self, body: PlainBody, shape: usize) -> usize {
+        let shapes = vec![shape];
+        self.bodies.push(PlainBody { shapes, ..body });
+        self.bodies.len() - 1
+    }
+
+    /// A fingerprint of every bit but those of the name: equal scenes are equal for every engine.
+    #[must_use]
+    pub fn digest(&self) -> u64 {
+        let mut hash = Digest(StateHash::default());
+        hash.point(self.gravity);
+        hash.number(self.dt);
+        hash.whole(self.warm_up_steps.into());
+        hash.whole(self.measured_steps.into());
+        hash.whole(self.sleeping.into());
+        hash.points(self.region.as_ref().map_or(&[], |corners| &corners[..]));
+        hash.count(self.materials.len());
+        for material in &self.materials {
+            hash.number(material.density);
+            hash.number(material.friction);
+            hash.number(material.restitution);
+        }
+        hash.count(self.shapes.len());
+        for shape in &self.shapes {
+            hash.shape(shape);
+        }
+        hash.count(self.outlines.len());
+        for outline in &self.outlines {
+            hash.points(outline);
+        }
+        hash.count(self.bodies.len());
+        for body in &self.bodies {
+            hash.body(body);
+        }
+        hash.0.finish()
+    }
+}
+
+/// Bits as they are: unlike a state's, a scene's −0 is not its 0.
+struct Digest(StateHash);
+
+impl Digest {
+    fn whole(&mut self, value: u64) {
+        self.0.write_u64(value);
+    }
+
+    fn count(&mut self, value: usize) {
+        self.whole(value as u64);
+    }
+
+    fn number(&mut self, value: f64) {
+        self.whole(value.to_bits());
+    }
+
+    fn point(&mut self, point: Vec2) {
+        self.number(point.x);
+        self.number(point.y);
+    }
+
+    fn points(&mut self, points: &[Vec2]) {
+        self.count(points.len());
+        for &point in points {
+            self.point(point);
+        }
+    }
+
+    fn shape(&mut self, shape: &PlainShape) {
+        match shape {
+            PlainShape::Circle { radius } => {
+                self.whole(0);
+                self.number(*radius);
+            }
+            PlainShape::Box { half, offset } => {
+                self.whole(1);
+                self.points(&[*half, *offset]);
+            }
+            PlainShape::Polygon(corners) => {
+                self.whole(2);
+                self.points(corners);
+            }
+            PlainShape::Segment(ends) => {
+                self.whole(3);
+                self.points(ends);
+            }
+        }
+    }
+
+    fn body(&mut self, body: &PlainBody) {
+        self.whole(match body.kind {
+            PlainKind::Fixed => 0,
+            PlainKind::Dynamic => 1,
+            PlainKind::Kinematic => 2,
+        });
+        self.points(&[body.position, body.velocity]);
+        self.number(body.angle);
+        self.number(body.spin);
+        self.count(body.shapes.len());
+        for &shape in &body.shapes {
+            self.count(shape);
+        }
+        self.whole(body.outline.map_or(0, |outline| outline as u64 + 1));
+        self.count(body.material);
+        self.whole(body.asleep.into());
+        self.whole(body.bullet.into());
+    }
+}
+
+impl PlainShape {
+    /// A rectangle about the body's origin, by half of its width and height, in m.
+    #[must_use]
+    pub const fn rectangle(half_width: f64, half_height: f64) -> Self {
+        Self::Box {
+            half: vec2(half_width, half_height),
+            offset: Vec2::ZERO,
+        }
     }
 }
 
@@ -172,11 +318,4 @@ impl PlainBody {
     pub fn spinning(self, spin: f64) -> Self {
         Self { spin, ..self }
     }
-}
-
-/// The plain scene of a name: `a_large_pyramid` … `i_mostly_empty`, `e_medium`, `e_dilute`, `case12_polygon_gas`, …
-#[must_use]
-pub fn plain_scene(name: &str) -> Option<PlainScene> {
-    let _ = name;
-    None
 }

@@ -1,0 +1,126 @@
+//! The plain scenes by name.
+
+use super::{PlainScene, gas, pairs, piles, resting, sparse};
+
+/// A plain scene, as a list shows it.
+#[derive(Clone, Copy, Debug)]
+pub struct PlainInfo {
+    /// What [`plain_scene`] takes.
+    pub name: &'static str,
+    /// What it is for, in a line.
+    pub about: &'static str,
+    make: fn(&str) -> PlainScene,
+}
+
+impl PlainInfo {
+    /// Makes the scene.
+    #[must_use]
+    pub fn scene(&self) -> PlainScene {
+        (self.make)(self.name)
+    }
+}
+
+const fn info(name: &'static str, about: &'static str, make: fn(&str) -> PlainScene) -> PlainInfo {
+    PlainInfo { name, about, make }
+}
+
+static SCENES: [PlainInfo; 14] = [
+    info(
+        "a_large_pyramid",
+        "5,050 boxes in a hundred touching rows: one island, the stiffness of resting contacts",
+        resting::large_pyramid,
+    ),
+    info(
+        "b_many_pyramids",
+        "22,000 boxes in 400 pyramids on twenty floors: many islands, memory traffic",
+        resting::many_pyramids,
+    ),
+    info(
+        "c_smash",
+        "a heavy box runs into 9,600 sleepers: waking, pairs that change all the time",
+        resting::smash,
+    ),
+    info(
+        "d_tumbler",
+        "2,025 boxes in a drum that turns: a pile that never rests",
+        resting::tumbler,
+    ),
+    info(
+        "e_flying_polygons",
+        "2,000 elastic discs and polygons in a closed box: impacts, and energy that must stay",
+        gas::dense,
+    ),
+    info(
+        "e_medium",
+        "the same bodies in a box twice as wide",
+        gas::medium,
+    ),
+    info(
+        "e_dilute",
+        "the same bodies in a box four times as wide",
+        gas::dilute,
+    ),
+    info(
+        "f_polygon_pile",
+        "3,000 polygons of three to eight corners fall into a bin and settle",
+        piles::polygons,
+    ),
+    info(
+        "g_concave_pile",
+        "800 L, U and stars fall into a bin and settle",
+        piles::concave,
+    ),
+    info(
+        "h_mostly_sleeping",
+        "a thousand stacks of ten fall asleep while twenty discs bounce on: what sleepers cost",
+        resting::mostly_sleeping,
+    ),
+    info(
+        "i_mostly_empty",
+        "10,000 discs in free fall, far apart: what a free body costs",
+        sparse::mostly_empty,
+    ),
+    info(
+        "case12_polygon_gas",
+        "100 elastic polygons in a closed box: energy over a minute",
+        gas::case_12,
+    ),
+    info(
+        "case18_disc_gas",
+        "100 elastic discs in a closed box: energy over a minute",
+        gas::case_18,
+    ),
+    info(
+        "case19_polygon_pairs",
+        "400 pairs of polygons, each pair a world of its own: what one impact keeps",
+        pairs::case_19,
+    ),
+];
+
+/// The plain scenes, in the order of the tables.
+#[must_use]
+pub fn plain_scenes() -> &'static [PlainInfo] {
+    &SCENES
+}
+
+/// The plain scene of a name, or of a letter: `a` is `a_large_pyramid`, `e` is `e_flying_polygons`.
+///
+/// # Examples
+/// ```
+/// let scene = carom_scenes::plain_scene("a").ok_or("it is there")?;
+/// assert_eq!(scene.name, "a_large_pyramid");
+/// assert_eq!(scene.bodies.len(), 5051);                        // and the ground
+/// # Ok::<(), &str>(())
+/// ```
+#[must_use]
+pub fn plain_scene(name: &str) -> Option<PlainScene> {
+    let lettered = |known: &str| {
+        known
+            .split_once('_')
+            .is_some_and(|(letter, _)| letter == name)
+    };
+    let found = SCENES.iter().find(|info| info.name == name);
+    found
+        .or_else(|| SCENES.iter().find(|info| lettered(info.name)))
+        .map(PlainInfo::scene)
+}
