@@ -1,45 +1,129 @@
-//! A tree of boxes: which of many are near a box, a ray or a point.
+//! A tree of boxes: which of many are near a box, a ray or a point, and which near each other.
 //!
 //! Leaves go where they enlarge the tree least, and every box on the way up is tried against a
 //! swap of neighbours that makes it smaller (surface area heuristic with rotations). Boxes are
 //! kept in `f32`, rounded outwards: a leaf more may be found, never one less.
 
 mod bounds;
+mod build;
+mod change;
+mod pairs;
+mod sweep;
 mod walk;
 
 use carom_geometry::Aabb;
+use carom_math::Vec2;
 
 use bounds::Bounds;
 
-/// No node.
+/// No leaf and no node.
 const NONE: u32 = u32::MAX;
 
-/// A leaf of a [`BoxTree`]; it stays the same until the leaf is removed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct NodeId(u32);
+/// The pair at the top; it may have fewer than two children.
+const ROOT: u32 = 0;
 
-/// 32 bytes, two to a cache line.
-#[derive(Clone, Copy, Debug)]
-struct Node {
-    bounds: Bounds,
-    /// Parent, or the next free node.
-    parent: u32,
-    /// Both children; a leaf has `[NONE, data]`.
-    children: [u32; 2],
-    /// Leaves are 0, inner nodes one more than their higher child; free nodes are `NONE`.
-    height: u32,
+/// A leaf of a [`BoxTree`]; it stays the same until the leaf is removed, and is never used again.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct NodeId {
+    leaf: u32,
+    generation: u32,
 }
 
-impl Node {
-    fn is_leaf(&self) -> bool {
-        self.children[0] == NONE
+/// An inner node as its two children, side by side: whoever looks at one looks at both, and finds
+/// them in one line of the cache.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
+struct Pair {
+    boxes: [Bounds; 2],
+    children: [Child; 2],
+    /// Number of a leaf.
+    data: [u32; 2],
+    /// Leaves are 0, pairs one more than their higher child.
+    heights: [u32; 2],
+    /// Where its own box is; of a free pair, the next free one.
+    parent: Place,
+}
+
+impl Pair {
+    const EMPTY: Self = Self {
+        boxes: [Bounds::EMPTY; 2],
+        children: [Child(NONE); 2],
+        data: [0; 2],
+        heights: [0; 2],
+        parent: Place(NONE),
+    };
+
+    fn bounds(&self) -> Bounds {
+        self.boxes[0].union(self.boxes[1])
     }
+
+    fn height(&self) -> u32 {
+        1 + self.heights[0].max(self.heights[1])
+    }
+}
+
+/// A pair or, with the highest bit set, a leaf.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Child(u32);
+
+impl Child {
+    const LEAF: u32 = 1 << 31;
+
+    const fn leaf(leaf: u32) -> Self {
+        Self(leaf | Self::LEAF)
+    }
+
+    const fn is_leaf(self) -> bool {
+        self.0 & Self::LEAF != 0
+    }
+
+    const fn is_none(self) -> bool {
+        self.0 == NONE
+    }
+
+    /// Of a pair, where it is kept; of a leaf, where its place is noted.
+    const fn index(self) -> usize {
+        (self.0 & !Self::LEAF) as usize
+    }
+}
+
+/// One of the two places in a pair.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Place(u32);
+
+impl Place {
+    #[expect(clippy::cast_possible_truncation, reason = "a side is 0 or 1")]
+    const fn new(pair: u32, side: usize) -> Self {
+        Self(2 * pair + side as u32)
+    }
+
+    const fn pair(self) -> u32 {
+        self.0 / 2
+    }
+
+    const fn side(self) -> usize {
+        (self.0 % 2) as usize
+    }
+
+    const fn other_side(self) -> usize {
+        1 - self.side()
+    }
+}
+
+/// Where a leaf is.
+#[derive(Clone, Copy, Debug)]
+struct Leaf {
+    /// Of a free leaf, the next free one.
+    place: Place,
+    /// Odd while the leaf is there.
+    generation: u32,
 }
 
 /// Boxes with a number each, found by where they are.
 ///
 /// The same calls in the same order give the same tree and the same order of answers. Memory is
-/// 64 bytes a leaf. A box that is not finite counts as reaching everywhere on that side.
+/// 72 bytes a leaf. A side that is infinite or no number reaches everywhere; a box without points
+/// is kept, and never found.
 ///
 /// # Examples
 /// ```
@@ -58,10 +142,12 @@ impl Node {
 /// ```
 #[derive(Clone, Debug)]
 pub struct BoxTree {
-    nodes: Vec<Node>,
-    root: u32,
-    free: u32,
-    leaves: usize,
+    /// The first is the root, if there is any leaf.
+    pairs: Vec<Pair>,
+    leaves: Vec<Leaf>,
+    free_pair: u32,
+    free_leaf: u32,
+    len: usize,
 }
 
 impl Default for BoxTree {
@@ -75,254 +161,175 @@ impl BoxTree {
     #[must_use]
     pub const fn new() -> Self {
         Self {
-            nodes: Vec::new(),
-            root: NONE,
-            free: NONE,
-            leaves: 0,
+            pairs: Vec::new(),
+            leaves: Vec::new(),
+            free_pair: NONE,
+            free_leaf: NONE,
+            len: 0,
         }
     }
 
     /// How many leaves there are.
     #[must_use]
     pub const fn len(&self) -> usize {
-        self.leaves
+        self.len
     }
 
     /// Whether there is no leaf.
     #[must_use]
     pub const fn is_empty(&self) -> bool {
-        self.leaves == 0
+        self.len == 0
     }
 
-    /// Adds a box with its number.
+    /// Adds a box with its number; different leaves may have the same number.
+    ///
+    /// Many boxes at once are faster by [`Self::extend`].
     pub fn insert(&mut self, bounds: Aabb, data: u32) -> NodeId {
-        let leaf = self.allocate(Node {
-            bounds: Bounds::around(bounds),
-            parent: NONE,
-            children: [NONE, data],
-            height: 0,
-        });
-        self.leaves += 1;
-        self.attach(leaf);
-        NodeId(leaf)
+        let id = self.new_leaf();
+        self.len += 1;
+        self.attach(id.leaf, Bounds::around(bounds), data);
+        id
     }
 
-    /// Gives a leaf a new box, if it needs one.
+    /// Gives a leaf a new box, if it needs one; says whether it did.
     ///
     /// A leaf whose box still contains the new one, and is at most twice as long around, stays as
     /// it is: hand in a box with room to move, and leave the tree alone while the body is inside
-    /// [`Self::fat_box`].
-    ///
-    /// # Panics
-    /// If the leaf was removed.
-    pub fn update(&mut self, id: NodeId, bounds: Aabb) {
-        let new = Bounds::around(bounds);
-        let old = self.leaf(id).bounds;
+    /// [`Self::fat_box`]. A leaf that was removed stays removed.
+    pub fn update(&mut self, id: NodeId, bounds: Aabb) -> bool {
+        let Some(place) = self.find(id) else {
+            return false;
+        };
+        let (old, new) = (self.bounds(place), Bounds::around(bounds));
         if old.contains(new) && old.perimeter() <= 2.0 * new.perimeter() {
-            return;
+            return false;
         }
-        self.detach(id.0);
-        self.nodes[id.0 as usize].bounds = new;
-        self.attach(id.0);
+        self.displace(id.leaf, place, new);
+        true
     }
 
-    /// Takes a leaf out.
+    /// Follows something that moves; says whether its leaf has a new box.
     ///
-    /// # Panics
-    /// If it was removed before.
-    pub fn remove(&mut self, id: NodeId) {
-        let _ = self.leaf(id);
-        self.detach(id.0);
-        self.release(id.0);
-        self.leaves -= 1;
+    /// As long as the leaf's box contains `bounds`, nothing happens. Else the leaf gets the box of
+    /// `bounds` with `margin` (m) on every side, stretched by `ahead`: the way (m) on which it is
+    /// not to leave its box again. [`Self::update`] has the rest.
+    ///
+    /// # Examples
+    /// ```
+    /// use carom_collision::BoxTree;
+    /// use carom_geometry::Aabb;
+    /// use carom_math::{Vec2, vec2};
+    /// let square = |x: f64| Aabb::new(vec2(x, 0.0), vec2(x + 1.0, 1.0));
+    /// let mut tree = BoxTree::new();
+    /// let id = tree.insert(square(0.0), 7);
+    /// // At 0.5 m a step, looking 4 m ahead, every eighth or ninth step needs a new box.
+    /// let renewed = (1..=80).filter(|i| {
+    ///     tree.follow(id, square(0.5 * f64::from(*i)), vec2(4.0, 0.0), 0.125)
+    /// });
+    /// assert_eq!(renewed.count(), 9);
+    /// ```
+    pub fn follow(&mut self, id: NodeId, bounds: Aabb, ahead: Vec2, margin: f64) -> bool {
+        let Some(place) = self.find(id) else {
+            return false;
+        };
+        if self.bounds(place).contains(Bounds::around(bounds)) {
+            return false;
+        }
+        let there = Aabb::new(bounds.min + ahead, bounds.max + ahead);
+        let fat = Bounds::around(bounds.union(there).grown(margin));
+        self.displace(id.leaf, place, fat);
+        true
     }
 
-    /// The number of a leaf.
-    ///
-    /// # Panics
-    /// If the leaf was removed.
+    /// Takes a leaf out and gives its number; `None` if it was removed before.
+    pub fn remove(&mut self, id: NodeId) -> Option<u32> {
+        let place = self.find(id)?;
+        let data = self.pair(place).data[place.side()];
+        self.detach(place);
+        let leaf = &mut self.leaves[id.leaf as usize];
+        leaf.generation = leaf.generation.wrapping_add(1);
+        // A leaf whose generations are used up is not used again.
+        if leaf.generation != 0 {
+            leaf.place = Place(self.free_leaf);
+            self.free_leaf = id.leaf;
+        }
+        self.len -= 1;
+        Some(data)
+    }
+
+    /// The number of a leaf; `None` if it was removed.
     #[must_use]
-    pub fn data(&self, id: NodeId) -> u32 {
-        self.leaf(id).children[1]
+    pub fn data(&self, id: NodeId) -> Option<u32> {
+        let place = self.find(id)?;
+        Some(self.pair(place).data[place.side()])
     }
 
-    /// The box that the tree keeps for a leaf: the one it was given, rounded outwards.
-    ///
-    /// # Panics
-    /// If the leaf was removed.
+    /// The box that the tree keeps for a leaf: the one it was given, rounded outwards; `None` if it
+    /// was removed.
     #[must_use]
-    pub fn fat_box(&self, id: NodeId) -> Aabb {
-        self.leaf(id).bounds.widened()
+    pub fn fat_box(&self, id: NodeId) -> Option<Aabb> {
+        let place = self.find(id)?;
+        Some(self.bounds(place).widened())
     }
 
     /// The longest way from the root to a leaf, 0 for a single leaf.
     #[must_use]
     pub fn height(&self) -> u32 {
-        if self.root == NONE {
+        if self.len < 2 {
             0
         } else {
-            self.nodes[self.root as usize].height
+            self.pairs[ROOT as usize].height()
         }
     }
 
-    fn leaf(&self, id: NodeId) -> &Node {
-        let node = &self.nodes[id.0 as usize];
-        assert!(node.height == 0, "the leaf {} was removed", id.0);
-        node
+    /// All leaves, in the order in which they got their ids.
+    pub fn ids(&self) -> impl Iterator<Item = NodeId> + use<'_> {
+        let all = (0_u32..).zip(&self.leaves);
+        all.filter(|(_, leaf)| leaf.is_there())
+            .map(|(i, leaf)| NodeId {
+                leaf: i,
+                generation: leaf.generation,
+            })
     }
 
-    fn allocate(&mut self, node: Node) -> u32 {
-        if self.free == NONE {
+    fn find(&self, id: NodeId) -> Option<Place> {
+        let leaf = self.leaves.get(id.leaf as usize)?;
+        (leaf.generation == id.generation).then_some(leaf.place)
+    }
+
+    fn pair(&self, place: Place) -> &Pair {
+        &self.pairs[place.pair() as usize]
+    }
+
+    fn bounds(&self, place: Place) -> Bounds {
+        self.pair(place).boxes[place.side()]
+    }
+
+    /// A leaf without a place yet.
+    fn new_leaf(&mut self) -> NodeId {
+        let place = Place(NONE);
+        if self.free_leaf == NONE {
             #[expect(
                 clippy::cast_possible_truncation,
-                reason = "2^32 nodes of 32 bytes do not fit in memory"
+                reason = "2^31 leaves take 144 GB, and what needs more fails to allocate"
             )]
-            let place = self.nodes.len() as u32;
-            self.nodes.push(node);
-            return place;
+            let leaf = self.leaves.len() as u32;
+            let generation = 1;
+            self.leaves.push(Leaf { place, generation });
+            return NodeId { leaf, generation };
         }
-        let place = self.free;
-        self.free = self.nodes[place as usize].parent;
-        self.nodes[place as usize] = node;
-        place
+        let leaf = self.free_leaf;
+        let entry = &mut self.leaves[leaf as usize];
+        self.free_leaf = entry.place.0;
+        let generation = entry.generation + 1;
+        *entry = Leaf { place, generation };
+        NodeId { leaf, generation }
     }
+}
 
-    fn release(&mut self, place: u32) {
-        let node = &mut self.nodes[place as usize];
-        node.parent = self.free;
-        node.height = NONE;
-        self.free = place;
-    }
-
-    /// Puts a leaf beside the node where that costs least.
-    fn attach(&mut self, leaf: u32) {
-        if self.root == NONE {
-            self.nodes[leaf as usize].parent = NONE;
-            self.root = leaf;
-            return;
-        }
-        let sibling = self.best_sibling(self.nodes[leaf as usize].bounds);
-        let above = self.nodes[sibling as usize].parent;
-        let parent = self.allocate(Node {
-            bounds: self.nodes[sibling as usize].bounds,
-            parent: above,
-            children: [sibling, leaf],
-            height: 1,
-        });
-        self.replace_child(above, sibling, parent);
-        self.nodes[sibling as usize].parent = parent;
-        self.nodes[leaf as usize].parent = parent;
-        self.refit(parent);
-    }
-
-    /// Takes a leaf and its parent out of the tree; the leaf keeps its place in memory.
-    fn detach(&mut self, leaf: u32) {
-        let parent = self.nodes[leaf as usize].parent;
-        if parent == NONE {
-            self.root = NONE;
-            return;
-        }
-        let node = self.nodes[parent as usize];
-        let sibling = node.children[usize::from(node.children[0] == leaf)];
-        self.replace_child(node.parent, parent, sibling);
-        self.nodes[sibling as usize].parent = node.parent;
-        self.release(parent);
-        self.refit(node.parent);
-    }
-
-    fn replace_child(&mut self, parent: u32, old: u32, new: u32) {
-        if parent == NONE {
-            self.root = new;
-        } else {
-            let children = &mut self.nodes[parent as usize].children;
-            children[usize::from(children[0] != old)] = new;
-        }
-    }
-
-    /// Goes down while a child gets less larger than a new pair of this node and the leaf would be.
-    fn best_sibling(&self, leaf: Bounds) -> u32 {
-        // Cost of a place: the perimeter of the new pair, and what every box above grows.
-        // On the way down only the growth of the present node is still to be paid by both children.
-        let mut place = self.root;
-        loop {
-            let node = &self.nodes[place as usize];
-            if node.is_leaf() {
-                return place;
-            }
-            let joined = node.bounds.union(leaf).perimeter();
-            let growth = joined - node.bounds.perimeter();
-            let cost = |child: u32| {
-                let child = &self.nodes[child as usize];
-                let joined = child.bounds.union(leaf).perimeter();
-                let below = if child.is_leaf() {
-                    joined
-                } else {
-                    joined - child.bounds.perimeter()
-                };
-                (growth + below, child.height)
-            };
-            let [first, second] = node.children.map(cost);
-            if joined < first.0.min(second.0) {
-                return place;
-            }
-            // Boxes that cost the same go to the lower side: many at one place stay a tree.
-            let go_second = second.0 < first.0 || (second.0 <= first.0 && second.1 < first.1);
-            place = node.children[usize::from(go_second)];
-        }
-    }
-
-    /// Boxes and heights from a node up to the root, with a rotation at each where it helps.
-    fn refit(&mut self, from: u32) {
-        let mut place = from;
-        while place != NONE {
-            self.rotate(place);
-            self.fit(place);
-            place = self.nodes[place as usize].parent;
-        }
-    }
-
-    fn fit(&mut self, place: u32) {
-        let [first, second] = self.nodes[place as usize]
-            .children
-            .map(|c| self.nodes[c as usize]);
-        let node = &mut self.nodes[place as usize];
-        node.bounds = first.bounds.union(second.bounds);
-        node.height = 1 + first.height.max(second.height);
-    }
-
-    /// Swaps a child with a grandchild on the other side, where that makes the inner box smaller.
-    fn rotate(&mut self, place: u32) {
-        let children = self.nodes[place as usize].children;
-        let mut best = (0.0_f32, 0, None);
-        for side in [0, 1] {
-            let (child, other) = (children[side], children[1 - side]);
-            let inner = self.nodes[other as usize];
-            if inner.is_leaf() {
-                continue;
-            }
-            for grandchild in [0, 1] {
-                let stays = inner.children[1 - grandchild];
-                let bounds = |i: u32| self.nodes[i as usize].bounds;
-                let gain =
-                    inner.bounds.perimeter() - bounds(child).union(bounds(stays)).perimeter();
-                // Equal boxes rotate for the sake of height.
-                let height = |i: u32| self.nodes[i as usize].height;
-                let lower = height(inner.children[grandchild])
-                    .saturating_sub(height(child).max(height(stays)));
-                if gain > best.0 || (gain >= best.0 && lower > best.1) {
-                    best = (gain, lower, Some((side, grandchild)));
-                }
-            }
-        }
-        if let (_, _, Some((side, grandchild))) = best {
-            let (child, other) = (children[side], children[1 - side]);
-            let moved = self.nodes[other as usize].children[grandchild];
-            self.nodes[place as usize].children[side] = moved;
-            self.nodes[moved as usize].parent = place;
-            self.nodes[other as usize].children[grandchild] = child;
-            self.nodes[child as usize].parent = other;
-            self.fit(other);
-        }
+impl Leaf {
+    const fn is_there(self) -> bool {
+        self.generation % 2 == 1
     }
 }
 

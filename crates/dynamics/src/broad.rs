@@ -24,6 +24,8 @@ pub(crate) struct Broad {
     pub(crate) search: PairSearch,
     pub(crate) tree: BoxTree,
     pub(crate) overrides: BTreeMap<(BodyId, BodyId), PairMaterial>,
+    /// What the last search found: kept for its memory.
+    near: Vec<u32>,
 }
 
 impl Broad {
@@ -32,6 +34,7 @@ impl Broad {
             search,
             tree: BoxTree::new(),
             overrides: BTreeMap::new(),
+            near: Vec::new(),
         }
     }
 
@@ -64,7 +67,9 @@ impl Broad {
             let collider = &mut colliders[at as usize];
             collider.fat = fat;
             match collider.node {
-                Some(node) => self.tree.update(node, fat),
+                Some(node) => {
+                    self.tree.update(node, fat);
+                }
                 None => collider.node = Some(self.tree.insert(fat, at)),
             }
             self.meet(bodies, colliders, pairs, at);
@@ -72,9 +77,10 @@ impl Broad {
     }
 
     /// New pairs of a collider whose box is new.
-    fn meet(&self, bodies: &mut Bodies, colliders: &[Collider], pairs: &mut Pairs, at: u32) {
+    fn meet(&mut self, bodies: &mut Bodies, colliders: &[Collider], pairs: &mut Pairs, at: u32) {
         let mine = &colliders[at as usize];
-        let mut near = Vec::new();
+        let mut near = core::mem::take(&mut self.near);
+        near.clear();
         match self.search {
             PairSearch::None => {}
             PairSearch::AllPairs => {
@@ -88,13 +94,14 @@ impl Broad {
             PairSearch::Indexed => self.tree.query(mine.fat, |other| near.push(other)),
         }
         near.sort_unstable();
-        for other in near {
+        for &other in &near {
             let theirs = &colliders[other as usize];
             if self.search == PairSearch::Indexed && !theirs.fat.overlaps(mine.fat) {
                 continue;
             }
             self.pair_up(bodies, colliders, pairs, at, other);
         }
+        self.near = near;
     }
 
     fn pair_up(

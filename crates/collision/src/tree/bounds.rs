@@ -1,118 +1,120 @@
 //! Boxes of four `f32`, rounded outwards.
 
 use carom_geometry::Aabb;
-use carom_math::{Vec2, vec2};
+use carom_math::vec2;
 
-/// Beyond this, in metres, a box counts as reaching to infinity: no perimeter overflows.
-const FAR: f64 = 1e37;
+/// Beyond this, in metres, a box counts as reaching to infinity: no perimeter overflows, not even
+/// the sum of those of 2^31 leaves.
+const FAR: f64 = 1e25;
 
+/// A side beyond all others, and not only by a rounding.
+const NOWHERE: f32 = 4e25;
+
+/// A box as (x₀, y₀, −x₁, −y₁): every side counts outwards downwards, so that a union is four
+/// minima and a comparison is four of the same kind, one instruction each.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Bounds {
-    min: [f32; 2],
-    max: [f32; 2],
-}
+pub(super) struct Bounds([f32; 4]);
 
 impl Bounds {
-    /// The smallest `f32` box around an `f64` one.
+    /// Overlaps nothing, and any union leaves it.
+    pub(super) const EMPTY: Self = Self([NOWHERE; 4]);
+
+    /// The smallest `f32` box around an `f64` one; a side that is no number is infinitely far out.
     pub(super) fn around(bounds: Aabb) -> Self {
-        Self {
-            min: [down(bounds.min.x), down(bounds.min.y)],
-            max: [up(bounds.max.x), up(bounds.max.y)],
+        if bounds.min.x > bounds.max.x || bounds.min.y > bounds.max.y {
+            return Self::EMPTY;
         }
+        Self([
+            down(bounds.min.x),
+            down(bounds.min.y),
+            down(-bounds.max.x),
+            down(-bounds.max.y),
+        ])
     }
 
+    /// The box in `f64`; what reaches beyond all numbers of the tree is infinite.
     pub(super) fn widened(self) -> Aabb {
-        let wide = |p: [f32; 2]| vec2(f64::from(p[0]), f64::from(p[1]));
-        Aabb::new(wide(self.min), wide(self.max))
-    }
-
-    pub(super) fn overlaps(self, other: Self) -> bool {
-        self.min[0] <= other.max[0]
-            && other.min[0] <= self.max[0]
-            && self.min[1] <= other.max[1]
-            && other.min[1] <= self.max[1]
-    }
-
-    pub(super) fn contains(self, other: Self) -> bool {
-        self.min[0] <= other.min[0]
-            && other.max[0] <= self.max[0]
-            && self.min[1] <= other.min[1]
-            && other.max[1] <= self.max[1]
-    }
-
-    pub(super) fn union(self, other: Self) -> Self {
-        let low = |i: usize| {
-            if other.min[i] < self.min[i] {
-                other.min[i]
-            } else {
-                self.min[i]
-            }
-        };
-        let high = |i: usize| {
-            if other.max[i] > self.max[i] {
-                other.max[i]
-            } else {
-                self.max[i]
-            }
-        };
-        Self {
-            min: [low(0), low(1)],
-            max: [high(0), high(1)],
+        if self == Self::EMPTY {
+            return Aabb::EMPTY;
         }
+        let wide = |x: f32| {
+            let x = f64::from(x);
+            if x <= -FAR { f64::NEG_INFINITY } else { x }
+        };
+        let [x0, y0, x1, y1] = self.0.map(wide);
+        Aabb::new(vec2(x0, y0), vec2(-x1, -y1))
+    }
+
+    #[inline]
+    pub(super) fn overlaps(self, other: Self) -> bool {
+        self.meets(other.opposite())
+    }
+
+    /// The box as the largest lower and smallest upper sides of those that overlap it.
+    #[inline]
+    pub(super) fn opposite(self) -> Opposite {
+        let [x0, y0, x1, y1] = self.0;
+        Opposite([-x1, -y1, -x0, -y0])
+    }
+
+    #[inline]
+    pub(super) fn meets(self, other: Opposite) -> bool {
+        at_most(self.0, other.0)
+    }
+
+    #[inline]
+    pub(super) fn contains(self, other: Self) -> bool {
+        at_most(self.0, other.0)
+    }
+
+    #[inline]
+    pub(super) fn union(self, other: Self) -> Self {
+        let (a, b) = (self.0, other.0);
+        // Not f32::min: that one asks for NaN, and there is none.
+        let less = |i: usize| if a[i] < b[i] { a[i] } else { b[i] };
+        Self([less(0), less(1), less(2), less(3)])
     }
 
     /// Half of the way around.
+    #[inline]
     pub(super) fn perimeter(self) -> f32 {
-        (self.max[0] - self.min[0]) + (self.max[1] - self.min[1])
+        let [x0, y0, x1, y1] = self.0;
+        -((x0 + x1) + (y0 + y1))
     }
 
-    /// Where a ray enters the box, in lengths of its direction; `None` if it misses it before `max`.
-    ///
-    /// The slab test, with a slack of a few roundings, so that a leaf that is touched is found.
-    pub(super) fn entry(self, ray: &Ray, max: f64) -> Option<f64> {
-        let (mut enter, mut leave) = (0.0_f64, max);
-        for axis in [0, 1] {
-            let low = f64::from(self.min[axis]) - ray.origin[axis];
-            let high = f64::from(self.max[axis]) - ray.origin[axis];
-            if ray.inverse[axis].is_infinite() {
-                if low > 0.0 || high < 0.0 {
-                    return None;
-                }
-                continue;
-            }
-            let (first, second) = (low * ray.inverse[axis], high * ray.inverse[axis]);
-            let (near, far) = if first < second {
-                (first, second)
-            } else {
-                (second, first)
-            };
-            // Relative 2^-50: the difference, the inverse and the product round once each.
-            const SLACK: f64 = 1.0 / (1u64 << 50) as f64;
-            enter = enter.max(near - near.abs() * SLACK);
-            leave = leave.min(far + far.abs() * SLACK);
-        }
-        (enter <= leave).then_some(enter)
+    /// How far every side is from the one of `other` that it would touch; outwards is above 0.
+    #[inline]
+    pub(super) fn beyond(self, other: Opposite) -> [f32; 4] {
+        let (a, b) = (self.0, other.0);
+        [a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3] - b[3]]
+    }
+
+    /// Twice the middle.
+    #[inline]
+    pub(super) fn middle(self) -> [f32; 2] {
+        let [x0, y0, x1, y1] = self.0;
+        [x0 - x1, y0 - y1]
     }
 }
 
-/// A ray with the inverse of its direction.
-pub(super) struct Ray {
-    origin: [f64; 2],
-    inverse: [f64; 2],
+/// A box with its sides as those of the boxes that just touch it; see [`Bounds::opposite`].
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Opposite([f32; 4]);
+
+/// Whether no number is above its partner: all are compared, without a branch between.
+#[inline]
+fn at_most(a: [f32; 4], b: [f32; 4]) -> bool {
+    (a[0] <= b[0]) & (a[1] <= b[1]) & (a[2] <= b[2]) & (a[3] <= b[3])
 }
 
-impl Ray {
-    pub(super) fn new(origin: Vec2, direction: Vec2) -> Self {
-        Self {
-            origin: origin.to_array(),
-            inverse: [1.0 / direction.x, 1.0 / direction.y],
-        }
-    }
+/// The smallest `f32` that is not below `x`; NaN counts as +∞.
+pub(super) fn up(x: f64) -> f32 {
+    -down(-x)
 }
 
 /// The largest `f32` that is not above `x`; NaN counts as −∞.
 fn down(x: f64) -> f32 {
-    // Written so that NaN takes the first way.
+    // Written so that NaN takes the second way.
     let x = if x > -FAR { x.min(FAR) } else { -FAR };
     #[expect(clippy::cast_possible_truncation, reason = "corrected below")]
     let near = x as f32;
@@ -123,11 +125,6 @@ fn down(x: f64) -> f32 {
     }
 }
 
-/// The smallest `f32` that is not below `x`; NaN counts as +∞.
-fn up(x: f64) -> f32 {
-    -down(-x)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -135,7 +132,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn rounding_goes_outwards_and_no_farther_than_one_step(x in -1e30..1e30_f64, scale in 1e-40..1.0_f64) {
+        fn rounding_goes_outwards_and_no_farther_than_one_step(x in -1e24..1e24_f64, scale in 1e-40..1.0_f64) {
             let x = x * scale;
             let (low, high) = (down(x), up(x));
             prop_assert!(f64::from(low) <= x && x <= f64::from(high));
@@ -149,7 +146,20 @@ mod tests {
             vec2(f64::NAN, -f64::INFINITY),
             vec2(f64::NAN, f64::INFINITY),
         ));
-        assert!(all.contains(Bounds::around(Aabb::new(vec2(-1e12, 0.0), vec2(1e12, 1.0)))));
+        let wide = Bounds::around(Aabb::new(vec2(-1e12, 0.0), vec2(1e12, 1.0)));
+        assert!(all.contains(wide) && all.overlaps(wide) && !wide.contains(all));
         assert!(all.perimeter().is_finite());
+        assert_eq!(all.widened().max, vec2(f64::INFINITY, f64::INFINITY));
+    }
+
+    #[test]
+    fn the_empty_box_is_met_by_nothing() {
+        let all = Bounds::around(Aabb::new(
+            vec2(f64::NAN, f64::NAN),
+            vec2(f64::NAN, f64::NAN),
+        ));
+        let none = Bounds::around(Aabb::EMPTY);
+        assert!(!none.overlaps(all) && !all.overlaps(none) && !none.overlaps(none));
+        assert!(none.union(all) == all && none.widened() == Aabb::EMPTY);
     }
 }
