@@ -1,6 +1,6 @@
-//! Polygons by name: regular, rectangle, triangle, star.
+//! Polygons by name: regular, rectangle, triangle, trapezoid, ellipse, star, gear.
 
-use carom_math::{Rot, Vec2, vec2};
+use carom_math::{Rot, Vec2, trig, vec2};
 
 use crate::error::{COORDINATE_LIMIT, LENGTH_LIMIT, VERTEX_LIMIT};
 use crate::{ConvexPolygon, Polygon, PolygonError};
@@ -18,39 +18,6 @@ impl ConvexPolygon {
                 .map(|i| part_of_turn(real(i), sides) * vec2(circumradius, 0.0))
                 .collect(),
         ))
-    }
-
-    /// An irregular polygon with its corners on a circle about the origin; `circumradius` in m.
-    ///
-    /// `next` gives numbers from 0 to 1 (values outside are clamped), one a corner; the same numbers
-    /// make the same polygon. Corners keep a tenth of an even share apart, so that none is needless.
-    ///
-    /// # Errors
-    /// If there are fewer than 3 sides or too many, or the radius is not above 0.
-    ///
-    /// # Examples
-    /// ```
-    /// use carom_geometry::ConvexPolygon;
-    /// let mut step = 0.0;
-    /// let mut next = || { step += 0.618; step % 1.0 };
-    /// let stone = ConvexPolygon::random(7, 0.5, &mut next)?;
-    /// assert_eq!(stone.vertices().len(), 7);
-    /// assert!(stone.vertices().iter().all(|v| (v.length() - 0.5).abs() < 1e-15));
-    /// # Ok::<(), carom_geometry::PolygonError>(())
-    /// ```
-    pub fn random(
-        sides: usize,
-        circumradius: f64,
-        next: &mut impl FnMut() -> f64,
-    ) -> Result<Self, PolygonError> {
-        check_length("circumradius", circumradius)?;
-        check_count(sides)?;
-        let corners = (0..sides).map(|i| {
-            let late = 0.9 * next().clamp(0.0, 1.0);
-            let late = if late.is_nan() { 0.0 } else { late };
-            part_of_turn(real(i) + late, sides) * vec2(circumradius, 0.0)
-        });
-        Self::new(corners.collect::<Vec<Vec2>>())
     }
 
     /// A rectangle about the origin; `width` along x and `height` along y, in m.
@@ -108,6 +75,86 @@ impl ConvexPolygon {
         let centroid = (corner[0] + corner[1]) / 3.0;
         Self::new(vec![-centroid, corner[0] - centroid, corner[1] - centroid])
     }
+
+    /// A trapezoid about its centroid: `bottom` and `top` along x, `height` apart, in m; the middle of
+    /// the top lies `lean` m to the right of that of the bottom.
+    ///
+    /// # Errors
+    /// If a length is not above 0, or the lean is not finite or too large.
+    ///
+    /// # Examples
+    /// ```
+    /// use carom_geometry::ConvexPolygon;
+    /// let dam = ConvexPolygon::trapezoid(6.0, 2.0, 3.0, 0.0)?;
+    /// let area = dam.area_properties();
+    /// assert_eq!(area.area, 12.0);                                  // m², (b + t) h / 2
+    /// assert!((dam.vertices()[0].y + 1.25).abs() < 1e-15);          // m, h (b + 2 t) / (3 (b + t))
+    /// # Ok::<(), carom_geometry::PolygonError>(())
+    /// ```
+    pub fn trapezoid(bottom: f64, top: f64, height: f64, lean: f64) -> Result<Self, PolygonError> {
+        check_length("bottom", bottom)?;
+        check_length("top", top)?;
+        check_length("height", height)?;
+        if !(-COORDINATE_LIMIT..=COORDINATE_LIMIT).contains(&lean) {
+            return Err(PolygonError::OutOfRange {
+                name: "lean",
+                value: lean,
+                low: -COORDINATE_LIMIT,
+                high: COORDINATE_LIMIT,
+            });
+        }
+        // The centroid lies on the line between both middles, this part of the way up.
+        let part = (bottom + 2.0 * top) / (3.0 * (bottom + top));
+        let (below, above) = (part * height, (1.0 - part) * height);
+        let (left, right) = (-part * lean, (1.0 - part) * lean);
+        Self::new(vec![
+            vec2(left - 0.5 * bottom, -below),
+            vec2(left + 0.5 * bottom, -below),
+            vec2(right + 0.5 * top, above),
+            vec2(right - 0.5 * top, above),
+        ])
+    }
+
+    /// An ellipse about the origin by its half axes along x and y, as a polygon inside it that no
+    /// point of it is farther from than `sagitta`; all in m.
+    ///
+    /// As many corners as that takes, a multiple of 4, at equal steps of the eccentric anomaly: the
+    /// tips are corners.
+    ///
+    /// # Errors
+    /// If a length is not above 0, or more corners are needed than a ring may have.
+    ///
+    /// # Examples
+    /// ```
+    /// use carom_geometry::ConvexPolygon;
+    /// let lens = ConvexPolygon::ellipse(2.0, 1.0, 1e-3)?;
+    /// assert_eq!(lens.vertices().len(), 100);
+    /// let missing = std::f64::consts::TAU - lens.area_properties().area;   // π a b of the ellipse
+    /// assert!(missing > 0.0 && missing < 9.7 * 1e-3);                      // its girth is 9.69 m
+    /// # Ok::<(), carom_geometry::PolygonError>(())
+    /// ```
+    pub fn ellipse(a: f64, b: f64, sagitta: f64) -> Result<Self, PolygonError> {
+        check_length("a", a)?;
+        check_length("b", b)?;
+        check_length("sagitta", sagitta)?;
+        // Seen as a circle of radius 1, a chord of the angle d leaves 1 − cos(d/2) = 2 sin²(d/4);
+        // stretched, at most max(a, b) times that. So d = 4 asin √(sagitta / (2 max(a, b))).
+        let square = (0.5 * sagitta / a.max(b)).min(0.5);
+        let angle = 4.0 * trig::atan2(square.sqrt(), (1.0 - square).sqrt());
+        let count = (0.5 * core::f64::consts::PI / angle).ceil().max(1.0) * 4.0;
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "above 0, and the cast saturates"
+        )]
+        let count = count as usize;
+        check_count(count)?;
+        let corners = (0..count).map(|i| {
+            let direction = part_of_turn(real(i), count).x_axis();
+            vec2(a * direction.x, b * direction.y)
+        });
+        Self::new(corners.collect::<Vec<Vec2>>())
+    }
 }
 
 impl Polygon {
@@ -127,19 +174,62 @@ impl Polygon {
         });
         Self::new(corners.collect::<Vec<Vec2>>())
     }
+
+    /// A gear about the origin: `teeth` of them, flat tips at `outer` m, flat gaps at `root` m.
+    ///
+    /// A tip takes three tenths of the pitch, a gap four, the flanks the rest; the first tip is cut
+    /// by the x axis.
+    ///
+    /// # Errors
+    /// If there are fewer than 3 teeth or too many, a radius is not above 0, or `root` is not below
+    /// `outer`.
+    ///
+    /// # Examples
+    /// ```
+    /// use carom_geometry::Polygon;
+    /// let gear = Polygon::gear(12, 1.0, 0.8)?;
+    /// assert_eq!(gear.vertices().len(), 48);
+    /// assert!(gear.area_properties().centroid.length() < 1e-15);
+    /// # Ok::<(), carom_geometry::PolygonError>(())
+    /// ```
+    pub fn gear(teeth: usize, outer: f64, root: f64) -> Result<Self, PolygonError> {
+        check_length("outer", outer)?;
+        check_length("root", root)?;
+        if root >= outer {
+            return Err(PolygonError::OutOfRange {
+                name: "root",
+                value: root,
+                low: LENGTH_LIMIT,
+                high: outer,
+            });
+        }
+        check_count(teeth)?;
+        let corners = (0..teeth).flat_map(|tooth| {
+            let at = |part: f64, radius: f64| {
+                part_of_turn(real(tooth) + part, teeth) * vec2(radius, 0.0)
+            };
+            [
+                at(-0.3, root),
+                at(-0.15, outer),
+                at(0.15, outer),
+                at(0.3, root),
+            ]
+        });
+        Self::new(corners.collect::<Vec<Vec2>>())
+    }
 }
 
 /// The turn by `part/n`, exact at quarters.
-fn part_of_turn(part: f64, n: usize) -> Rot {
+pub(crate) fn part_of_turn(part: f64, n: usize) -> Rot {
     Rot::from_degrees(360.0 * part / real(n))
 }
 
 #[expect(clippy::cast_precision_loss, reason = "counts stay below 2^25")]
-fn real(count: usize) -> f64 {
+pub(crate) fn real(count: usize) -> f64 {
     count as f64
 }
 
-fn check_count(count: usize) -> Result<(), PolygonError> {
+pub(crate) fn check_count(count: usize) -> Result<(), PolygonError> {
     match count {
         0..3 => Err(PolygonError::TooFewVertices { count }),
         3..=VERTEX_LIMIT => Ok(()),
@@ -150,7 +240,7 @@ fn check_count(count: usize) -> Result<(), PolygonError> {
     }
 }
 
-fn check_length(name: &'static str, value: f64) -> Result<(), PolygonError> {
+pub(crate) fn check_length(name: &'static str, value: f64) -> Result<(), PolygonError> {
     if !(value > 0.0 && value.is_finite()) {
         return Err(PolygonError::NotPositive { name, value });
     }

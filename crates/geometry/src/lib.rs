@@ -40,6 +40,7 @@ mod part_tree;
 mod pieces;
 mod polygon;
 mod query;
+mod random;
 mod ring;
 mod segment;
 mod shape;

@@ -97,6 +97,34 @@ fn random_polygons_are_strictly_convex_whatever_the_numbers() {
 }
 
 #[test]
+fn trapezoids_and_gears_meet_their_closed_forms() {
+    for (bottom, top, height, lean) in [
+        (6.0, 2.0, 3.0, 0.0),
+        (1.0, 5.0, 0.5, 7.0),
+        (2.0, 2.0, 1.0, -3.0),
+    ] {
+        let found = ConvexPolygon::trapezoid(bottom, top, height, lean).expect("a trapezoid");
+        let area = found.area_properties();
+        assert!(close(area.area, 0.5 * (bottom + top) * height));
+        assert!(area.centroid.length() < 1e-15, "{}", area.centroid);
+        // About the line through the centroid: h³ (b² + 4 b t + t²) / (36 (b + t)).
+        let sum = bottom * bottom + 4.0 * bottom * top + top * top;
+        assert!(close(
+            area.ixx,
+            height * height * height * sum / (36.0 * (bottom + top))
+        ));
+    }
+    let gear = Polygon::gear(20, 2.0, 1.5)
+        .expect("a gear")
+        .area_properties();
+    // Triangles from the centre: tip, gap, and two flanks a tooth.
+    let sin = |pitches: f64| trig::sin_cos(pitches * PI / 10.0).0;
+    let tooth = 4.0 * sin(0.3) + 2.25 * sin(0.4) + 2.0 * 3.0 * sin(0.15);
+    assert!(close(gear.area, 20.0 * 0.5 * tooth));
+    assert!((gear.ixx - gear.iyy).abs() < 1e-14 * gear.polar);
+}
+
+#[test]
 fn generators_name_what_they_refuse() {
     let refused = |result: Result<ConvexPolygon, PolygonError>| {
         result.expect_err("a number is wrong").to_string()
@@ -131,6 +159,24 @@ fn generators_name_what_they_refuse() {
     );
     assert!(refused(ConvexPolygon::triangle(1.0, 1.0, PI)).starts_with("angle is 3.14159"));
     assert!(refused(ConvexPolygon::triangle(1.0, 1.0, 0.0)).starts_with("angle is 0, outside"));
+    assert!(
+        refused(ConvexPolygon::trapezoid(1.0, 1.0, 1.0, f64::NAN))
+            .starts_with("lean is NaN, outside")
+    );
+    assert_eq!(
+        refused(ConvexPolygon::ellipse(1.0, 2.0, 0.0)),
+        format!("sagitta is 0, {above}")
+    );
+    assert!(refused(ConvexPolygon::ellipse(1.0, 2.0, 1e-30)).starts_with("a polygon has at most"));
+    assert_eq!(
+        ConvexPolygon::ellipse(1.0, 2.0, 9.0)
+            .expect("a rhomb")
+            .vertices()
+            .len(),
+        4
+    );
+    let root = Polygon::gear(5, 1.0, 1.0).expect_err("no gear").to_string();
+    assert!(root.starts_with("root is 1, outside"), "{root}");
     let inner = Polygon::star(5, 1.0, -1.0)
         .expect_err("no star")
         .to_string();

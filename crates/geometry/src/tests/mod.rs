@@ -4,6 +4,7 @@ mod generators;
 mod mass_laws;
 mod piece_laws;
 mod query_laws;
+mod random_laws;
 mod ring_errors;
 mod seed_errors;
 mod strategies;
