@@ -36,6 +36,7 @@ pub mod inertia;
 mod mass;
 mod merge;
 mod moments;
+mod monotone;
 mod part_tree;
 mod pieces;
 mod polygon;

@@ -65,6 +65,14 @@ impl Polygon {
         }
     }
 
+    /// Checks the points as [`Self::new`] does, in O(n log n), without cutting the polygon into pieces.
+    ///
+    /// # Errors
+    /// Those of [`Self::new`].
+    pub fn check(points: &[Vec2]) -> Result<(), PolygonError> {
+        Ring::new(points)?.check_simple()
+    }
+
     /// The outline, counter-clockwise, in m.
     #[must_use]
     pub fn vertices(&self) -> &[Vec2] {

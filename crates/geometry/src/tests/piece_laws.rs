@@ -1,8 +1,55 @@
 use carom_math::{Vec2, orient2d, vec2};
 use proptest::prelude::*;
 
+use super::random_laws::numbers;
 use super::strategies::{cloud, ring};
-use crate::{AreaProperties, ConvexPolygon, Polygon, ring_properties};
+use crate::ears::{OUTLINE, Triangles};
+use crate::ring::corners;
+use crate::{AreaProperties, ConvexPolygon, Polygon, monotone, ring_properties};
+
+/// A simple ring on so small a grid that edges along an axis and points on one line abound.
+fn grid_ring() -> impl Strategy<Value = Vec<Vec2>> {
+    (any::<u64>(), 4..12_usize).prop_filter_map("simple", |(seed, count)| {
+        let mut next = numbers(seed);
+        (0..200).find_map(|_| {
+            let mut place = || (6.0 * next()).floor();
+            let ring: Vec<Vec2> = (0..count).map(|_| vec2(place(), place())).collect();
+            Some(Polygon::new(ring).ok()?.vertices().to_vec())
+        })
+    })
+}
+
+/// Everything that triangles of a ring without straight corners promise.
+fn assert_triangles(ring: &[Vec2], triangles: &Triangles) {
+    let Triangles { origins, twins } = triangles;
+    assert_eq!(
+        (origins.len(), twins.len()),
+        (3 * (ring.len() - 2), origins.len())
+    );
+    let end = |edge: usize| origins[edge - edge % 3 + (edge + 1) % 3];
+    let mut sum = 0.0;
+    for (t, corners) in origins.chunks_exact(3).enumerate() {
+        let [a, b, c] = [ring[corners[0]], ring[corners[1]], ring[corners[2]]];
+        assert!(
+            orient2d(a, b, c) > 0.0,
+            "triangle {t} of {ring:?} is {a} {b} {c}"
+        );
+        sum += ring_properties(&[a, b, c]).expect("an area").area;
+    }
+    // Counter-clockwise triangles of the ring's own area that share edges cannot overlap.
+    let whole = ring_properties(ring).expect("an area").area;
+    assert!((sum / whole - 1.0).abs() < 2e-13, "areas {sum} and {whole}");
+    for (edge, &twin) in twins.iter().enumerate() {
+        if twin == OUTLINE {
+            assert_eq!(end(edge), (origins[edge] + 1) % ring.len());
+        } else {
+            assert_eq!(
+                (twins[twin], origins[twin], end(twin)),
+                (edge, end(edge), origins[edge])
+            );
+        }
+    }
+}
 
 /// Everything that pieces promise.
 fn assert_pieces(polygon: &Polygon) {
@@ -89,6 +136,22 @@ proptest! {
             ring.reverse();
         }
         assert_pieces(&Polygon::new(ring).expect("simple"));
+    }
+
+    #[test]
+    fn the_sweep_cuts_any_ring_into_triangles(ring in prop_oneof![ring(), grid_ring()]) {
+        let ring = Polygon::new(ring).expect("simple").vertices().to_vec();
+        let bent: Vec<Vec2> = corners(&ring)
+            .filter(|(before, here, after)| orient2d(*before, *here, *after) != 0.0)
+            .map(|(_, here, _)| here)
+            .collect();
+        let triangles = monotone::triangulate(&bent).expect("no predicate underflows");
+        assert_triangles(&bent, &triangles);
+    }
+
+    #[test]
+    fn pieces_of_random_outlines_make_them_up(seed in any::<u64>(), count in 3..300_usize) {
+        assert_pieces(&Polygon::random(count, 2.0, 1.0, &mut numbers(seed)).expect("simple"));
     }
 
     #[test]
