@@ -2,6 +2,7 @@
 
 #![allow(clippy::float_cmp, reason = "tests compare exact results on purpose")]
 
+mod asleep;
 mod conservation;
 mod determinism;
 mod documents;

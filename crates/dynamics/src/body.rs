@@ -164,6 +164,11 @@ impl BodyState {
         self.kind == BodyKind::Dynamic
     }
 
+    /// Nothing but its own motion would keep it awake.
+    pub(crate) fn can_sleep(&self) -> bool {
+        self.is_dynamic() && self.motion.velocity == Vec2::ZERO && self.motion.spin == 0.0
+    }
+
     /// Moves by itself now: neither fixed nor asleep.
     pub(crate) fn is_active(&self) -> bool {
         self.kind != BodyKind::Fixed && !self.asleep

@@ -56,6 +56,11 @@ pub struct BodyDef {
     pub locked_rotation: bool,
     /// Factor on gravity and fields for this body.
     pub gravity_scale: f64,
+    /// Whether the body starts asleep: it stays where it is until something touches it or the caller changes it.
+    ///
+    /// Without effect where [`Settings::sleep`](crate::Settings::sleep) is off, and on a body that moves or is not
+    /// dynamic.
+    pub asleep: bool,
     /// Anything the caller wants to find again.
     pub tag: u64,
 }
@@ -74,6 +79,7 @@ impl BodyDef {
             inertia: None,
             locked_rotation: false,
             gravity_scale: 1.0,
+            asleep: false,
             tag: 0,
         }
     }
@@ -149,6 +155,13 @@ impl BodyDef {
     #[must_use]
     pub const fn with_gravity_scale(mut self, scale: f64) -> Self {
         self.gravity_scale = scale;
+        self
+    }
+
+    /// The body starts asleep, with [what that asks for](Self::asleep).
+    #[must_use]
+    pub const fn asleep(mut self) -> Self {
+        self.asleep = true;
         self
     }
 

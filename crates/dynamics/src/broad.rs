@@ -147,6 +147,7 @@ impl Broad {
             colliders: (first, second),
             bodies: ends,
             material,
+            fresh: true,
             contacts: Vec::new(),
             touching: false,
             lasting: false,

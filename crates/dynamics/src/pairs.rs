@@ -12,6 +12,8 @@ pub(crate) struct Pair {
     pub(crate) colliders: (u32, u32),
     pub(crate) bodies: (u32, u32),
     pub(crate) material: PairMaterial,
+    /// Not looked at yet: what lies beside a body that starts asleep must be known before either is struck.
+    pub(crate) fresh: bool,
     /// Contacts of the last look, part by part.
     pub(crate) contacts: Vec<PairContact>,
     /// Touched at the last look, or struck since.

@@ -217,10 +217,11 @@ impl World {
             pair.held = pair.lasting || pair.impacts > 0 || pair.material.restitution == 0.0;
             pair.lasting = false;
             pair.impacts = 0;
-            if active == (false, false) {
+            if active == (false, false) && !pair.fresh {
                 pair.given_up = false;
                 continue;
             }
+            pair.fresh = false;
             let touched = pair.touching;
             self.narrow
                 .look(&self.bodies, &self.colliders, pair, time, h);
@@ -235,7 +236,7 @@ impl World {
             } else if touched && !touching {
                 self.events.push(time, EventKind::End { a: id_a, b: id_b });
             }
-            if touching {
+            if touching && active != (false, false) {
                 for index in [a, b] {
                     if self.bodies.get(index).asleep {
                         wake(&mut self.bodies, &self.pairs, index, time, &mut self.events);
@@ -271,7 +272,7 @@ impl World {
         }
     }
 
-    fn refit(&mut self, index: u32, time: SimTime, h: f64) {
+    pub(crate) fn refit(&mut self, index: u32, time: SimTime, h: f64) {
         self.broad.refit(
             &mut self.bodies,
             &mut self.colliders,

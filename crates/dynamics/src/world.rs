@@ -148,7 +148,9 @@ impl World {
         }
         let id = self.bodies.next_id()?;
         let now = self.clock.now;
-        let state = BodyState::new(id, &def, &shapes, now)?;
+        let mut state = BodyState::new(id, &def, &shapes, now)?;
+        let sleeps = def.asleep && self.settings.sleep.is_some() && state.can_sleep();
+        state.asleep = sleeps;
         let centroid = state.mass.centroid;
         self.bodies.insert(state);
         for (shape, material) in shapes {
@@ -156,7 +158,12 @@ impl World {
         }
         let (kinetic, potential) = self.bodies.energy_of(id.index, now);
         self.bodies.book.external.add(kinetic + potential);
-        self.arrive(id.index);
+        if sleeps {
+            // No flight, and nothing to predict: it only has to be found.
+            self.refit(id.index, now, self.clock.h);
+        } else {
+            self.arrive(id.index);
+        }
         Ok(id)
     }
 
