@@ -73,10 +73,7 @@ fn accuracy(point: &Point) -> Result<Reading, EngineError> {
     let mut trial = Trial::new(point);
     let values = (case.measure)(&mut trial)?;
     Ok(Reading::Accuracy {
-        values: values
-            .into_iter()
-            .map(|(name, value)| (name.to_owned(), value))
-            .collect(),
+        values,
         cpu_s_per_s: trial.cpu_per_second(),
     })
 }

@@ -16,7 +16,7 @@ mod job;
 mod quality;
 mod speed;
 
-pub use cases::{CASES, Case, Kind, Metric, Run, Trial, Values};
+pub use cases::{CASES, Case, Kind, Metric, RATES, Run, Trial, Values, order, points};
 pub use clock::{CpuClock, peak_memory};
 pub use engine::{Body, Counters, Engine, EngineError, Mode, Setup, State};
 pub use engines::{EngineName, UnknownEngine, built, open};

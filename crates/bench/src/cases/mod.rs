@@ -1,47 +1,62 @@
 //! Small worlds with a known answer.
 
+mod bounce;
+mod corner;
+mod cradle;
+mod discs;
+mod drop;
+mod eccentric;
+mod friction;
+mod galperin;
+mod metric;
+mod order;
+mod plan;
 mod projectile;
+mod rolling;
+mod spin;
 mod trial;
+mod worlds;
 
+pub use metric::{Kind, Metric};
+pub use order::order;
+pub use plan::{RATES, points};
 pub use trial::{Run, Trial};
 
 use crate::engine::EngineError;
 
-/// What a case measures.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Metric {
-    /// As the tables write it.
-    pub name: &'static str,
-    /// SI, or `1` for a ratio.
-    pub unit: &'static str,
-    /// How to read it.
-    pub kind: Kind,
-}
-
-/// How a number is read.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// 0 is right: it goes into charts, and its order of convergence is looked at.
-    Error,
-    /// A measured value; the text says what is right.
-    Value,
-}
-
-/// Numbers by the name of their metric.
-pub type Values = Vec<(&'static str, f64)>;
+/// Numbers by the name of their metric; one that is missing is said as [`Metric::missing`] has it.
+pub type Values = Vec<(String, f64)>;
 
 /// A world with a known answer.
 #[derive(Debug)]
 pub struct Case {
-    /// Its number in the list of nineteen and what it is about: `01_projectile`.
+    /// Its number in the list and what it is about: `01_projectile`.
     pub name: &'static str,
     /// In a sentence.
     pub about: &'static str,
     /// What comes out; the first is the one of the chart.
     pub metrics: &'static [Metric],
+    /// Steps per simulated second at which it is run.
+    pub rates: &'static [u32],
+    /// Whether it is run with several numbers of sub-steps as well.
+    pub sweeps_substeps: bool,
+    /// The rates of a quick run; none: left out of it.
+    pub quick: &'static [u32],
     /// Builds, steps and reads a world.
     pub measure: fn(&mut Trial) -> Result<Values, EngineError>,
 }
 
 /// All cases, in order.
-pub const CASES: &[Case] = &[projectile::CASE];
+pub const CASES: &[Case] = &[
+    projectile::CASE,
+    bounce::CASE,
+    drop::CASE,
+    discs::CASE,
+    corner::CASE,
+    eccentric::CASE,
+    galperin::CASE,
+    friction::CASE,
+    rolling::CASE,
+    cradle::CASE,
+    spin::CASE,
+];

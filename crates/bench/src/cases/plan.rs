@@ -1,0 +1,80 @@
+//! At which rates, in which modes and with how many sub-steps a case is run.
+
+use super::Case;
+use crate::engine::Mode;
+use crate::engines::EngineName;
+use crate::job::Point;
+
+/// Steps per simulated second of a full run.
+pub const RATES: &[u32] = &[30, 60, 120, 240, 480, 960, 1920, 3840];
+
+/// Of a quick run.
+pub(super) const QUICK: &[u32] = &[60, 240];
+
+/// The rate at which sub-steps are swept.
+const SWEPT_AT: u32 = 60;
+
+/// The points of an engine's curves in a case: each mode over the rates, then sub-steps at 60 Hz.
+///
+/// Peers' sub-steps are swept with tuned settings only; carom's in every mode.
+#[must_use]
+pub fn points(case: &Case, engine: EngineName, quick: bool) -> Vec<Point> {
+    let rates = if quick { case.quick } else { case.rates };
+    let point = |mode, hz, substeps| Point {
+        engine,
+        mode,
+        case: case.name.to_owned(),
+        hz,
+        substeps,
+    };
+    let modes = engine.modes().iter().copied();
+    let mut points: Vec<Point> = modes
+        .clone()
+        .flat_map(|mode| rates.iter().map(move |&hz| point(mode, hz, None)))
+        .collect();
+    if case.sweeps_substeps && !quick {
+        let swept: &[u32] = match engine {
+            EngineName::Carom => &[1, 2, 4, 8, 16, 32, 64],
+            _ => &[1, 2, 8, 16, 32, 64],
+        };
+        for mode in modes.filter(|mode| *mode != Mode::Stock) {
+            points.extend(swept.iter().map(|&n| point(mode, SWEPT_AT, Some(n))));
+        }
+    }
+    points
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cases::CASES;
+
+    fn case(number: &str) -> &'static Case {
+        let found = CASES.iter().find(|case| case.name.starts_with(number));
+        found.expect("a case of that number")
+    }
+
+    #[test]
+    fn a_peer_has_two_curves_over_the_rates_and_one_over_sub_steps() {
+        let points = points(case("01"), EngineName::Rapier, false);
+        assert_eq!(points.len(), 2 * 8 + 6);
+        let swept = points.iter().filter(|point| point.substeps.is_some());
+        assert!(swept.clone().all(|p| p.hz == 60 && p.mode == Mode::Tuned));
+        assert_eq!(swept.count(), 6);
+    }
+
+    #[test]
+    fn carom_sweeps_sub_steps_in_each_of_its_modes() {
+        let points = points(case("01"), EngineName::Carom, false);
+        assert_eq!(points.len(), 3 * (8 + 7));
+    }
+
+    #[test]
+    fn a_quick_run_has_the_quick_rates_alone() {
+        for case in CASES {
+            let points = points(case, EngineName::Carom, true);
+            assert_eq!(points.len(), 3 * case.quick.len(), "{}", case.name);
+            assert!(case.quick.iter().all(|hz| case.rates.contains(hz)));
+        }
+    }
+}
