@@ -110,10 +110,10 @@ fn main() -> Result<(), PolygonError> {
         let (polygon, all) = least(|| Polygon::new(ring.as_slice()));
         let polygon = polygon?;
         let (whole, mass) = least(|| polygon.area_properties());
-        let mut sum = AreaProperties::ZERO;
-        for piece in polygon.pieces() {
-            sum = sum + ring_properties(piece.vertices())?;
-        }
+        let pieces = polygon.pieces().iter();
+        let sum = pieces
+            .map(|piece| ring_properties(piece.vertices()))
+            .sum::<Result<AreaProperties, _>>()?;
         println!(
             "{name:14} {:8} {check:9.1} {all:9.1} {mass:9.2} {:8} {:9.1e} {:9.1e}",
             polygon.vertices().len(),

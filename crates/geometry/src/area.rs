@@ -1,8 +1,9 @@
 //! Area, centroid and second moments of anything flat.
 
+use core::iter::Sum;
 use core::ops::Add;
 
-use carom_math::{Rot, Vec2, vec2};
+use carom_math::{self as careful, Rot, Vec2, vec2};
 
 use crate::moments::ring_moments;
 use crate::{MassProperties, PolygonError, ring};
@@ -174,6 +175,40 @@ impl Add for AreaProperties {
             ixx: self.ixx + other.ixx + reduced * between.y * between.y,
             iyy: self.iyy + other.iyy + reduced * between.x * between.x,
             ixy: self.ixy + other.ixy + reduced * between.x * between.y,
+        }
+    }
+}
+
+/// All areas as one, right to a few roundings however many they are.
+impl Sum for AreaProperties {
+    fn sum<I: Iterator<Item = Self>>(areas: I) -> Self {
+        let parts: Vec<Self> = areas.collect();
+        let total =
+            |of: &dyn Fn(&Self) -> f64| parts.iter().map(of).collect::<careful::Sum>().value();
+        let area = total(&|part| part.area);
+        let Some(anchor) = parts
+            .first()
+            .map(|part| part.centroid)
+            .filter(|_| area != 0.0)
+        else {
+            return Self::ZERO;
+        };
+        let away = |part: &Self| part.centroid - anchor;
+        let middle = vec2(
+            total(&|part| part.area * away(part).x),
+            total(&|part| part.area * away(part).y),
+        ) / area;
+        // Steiner's theorem for every part about the common centroid.
+        let off = |part: &Self| away(part) - middle;
+        let ixx = total(&|part| part.ixx + part.area * off(part).y * off(part).y);
+        let iyy = total(&|part| part.iyy + part.area * off(part).x * off(part).x);
+        Self {
+            area,
+            centroid: anchor + middle,
+            polar: ixx + iyy,
+            ixx,
+            iyy,
+            ixy: total(&|part| part.ixy + part.area * off(part).x * off(part).y),
         }
     }
 }

@@ -83,7 +83,7 @@ impl Compound {
             .parts
             .iter()
             .filter_map(|part| part.area_properties().ok());
-        areas.fold(AreaProperties::ZERO, |all, next| all + next)
+        areas.sum()
     }
 
     /// The same compound with every part moved to `pose`.

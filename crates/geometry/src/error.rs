@@ -98,6 +98,46 @@ pub enum PolygonError {
     },
 }
 
+/// Why rings are no region. Ring 0 is the outer one, ring `k` the `k`-th hole.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum RegionError {
+    /// A ring is no polygon.
+    #[error("ring {ring}: {error}")]
+    Ring {
+        /// Which ring.
+        ring: usize,
+        /// What is wrong with it.
+        error: PolygonError,
+    },
+    /// Two rings cross or touch. Edge `i` goes from vertex `i` to the next, as they were given.
+    #[error("edge {first_edge} of ring {first} meets edge {second_edge} of ring {second}")]
+    Meeting {
+        /// The earlier ring.
+        first: usize,
+        /// Its edge.
+        first_edge: usize,
+        /// The later ring.
+        second: usize,
+        /// Its edge.
+        second_edge: usize,
+    },
+    /// A hole lies outside of the outer ring.
+    #[error("ring {ring}, a hole, lies outside of the outer ring")]
+    Outside {
+        /// Which ring.
+        ring: usize,
+    },
+    /// A hole lies inside of another.
+    #[error("ring {ring}, a hole, lies inside of ring {within}, another")]
+    Nested {
+        /// Which ring.
+        ring: usize,
+        /// The ring around it.
+        within: usize,
+    },
+}
+
 /// Why a shape was not made.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]

@@ -42,6 +42,7 @@ mod pieces;
 mod polygon;
 mod query;
 mod random;
+mod region;
 mod ring;
 mod segment;
 mod shape;
@@ -54,13 +55,16 @@ pub use carom_math as math;
 pub use circle::Circle;
 pub use compound::Compound;
 pub use convex::ConvexPolygon;
-pub use error::{COORDINATE_LIMIT, LENGTH_LIMIT, PolygonError, ShapeError, VERTEX_LIMIT};
+pub use error::{
+    COORDINATE_LIMIT, LENGTH_LIMIT, PolygonError, RegionError, ShapeError, VERTEX_LIMIT,
+};
 pub use half_plane::HalfPlane;
 pub use mass::MassProperties;
 pub use part_tree::{PartBranch, PartTree};
 pub use pieces::{Cone, ConvexPiece};
 pub use polygon::Polygon;
 pub use query::RayHit;
+pub use region::Region;
 pub use segment::Segment;
 pub use shape::{Outline, Shape};
 

@@ -31,20 +31,36 @@ pub(crate) fn ring_moments(points: &[Vec2]) -> AreaProperties {
     let Some(&anchor) = points.first() else {
         return AreaProperties::ZERO;
     };
-    plain(anchor, points).unwrap_or_else(|| wide(anchor, points))
+    moments_of(anchor, edges(points))
+}
+
+/// Area properties of what lies on the left of several rings, outer ones and holes, all at once: a
+/// hole that leaves little of its surroundings cancels no digits.
+pub(crate) fn region_moments(rings: &[Vec<Vec2>]) -> AreaProperties {
+    let Some(&anchor) = rings.first().and_then(|ring| ring.first()) else {
+        return AreaProperties::ZERO;
+    };
+    moments_of(anchor, rings.iter().flat_map(|ring| edges(ring)))
+}
+
+fn moments_of(anchor: Vec2, edges: impl Iterator<Item = (Vec2, Vec2)> + Clone) -> AreaProperties {
+    plain(anchor, edges.clone()).unwrap_or_else(|| wide(anchor, edges))
 }
 
 /// Both ends of each edge, the closing one last.
-fn edges(points: &[Vec2]) -> impl Iterator<Item = (Vec2, Vec2)> {
+fn edges(points: &[Vec2]) -> impl Iterator<Item = (Vec2, Vec2)> + Clone {
     let ends = points.iter().skip(1).chain(points.first());
     points.iter().zip(ends).map(|(p, q)| (*p, *q))
 }
 
 /// In doubles, or `None` where they may not be enough.
-fn plain(anchor: Vec2, points: &[Vec2]) -> Option<AreaProperties> {
+fn plain(
+    anchor: Vec2,
+    edges: impl Iterator<Item = (Vec2, Vec2)> + Clone,
+) -> Option<AreaProperties> {
     let (mut twice, mut cx, mut cy) = (Sum::ZERO, Sum::ZERO, Sum::ZERO);
     let mut size = Size::default();
-    for (p, q) in edges(points) {
+    for (p, q) in edges.clone() {
         let (u, v, edge) = (p - anchor, q - anchor, q - p);
         size.add(u, edge);
         let k = cross(u, edge);
@@ -60,7 +76,7 @@ fn plain(anchor: Vec2, points: &[Vec2]) -> Option<AreaProperties> {
 
     let [mut twice, mut cx, mut cy, mut xx, mut yy, mut xy] = [Sum::ZERO; 6];
     let mut gross = 0.0;
-    for (p, q) in edges(points) {
+    for (p, q) in edges {
         let (u, v, edge) = ((p - anchor) - c, (q - anchor) - c, q - p);
         let k = cross(u, edge);
         let (x, y) = squares(u, v);
@@ -81,10 +97,10 @@ fn plain(anchor: Vec2, points: &[Vec2]) -> Option<AreaProperties> {
 }
 
 /// With twice the digits.
-fn wide(anchor: Vec2, points: &[Vec2]) -> AreaProperties {
+fn wide(anchor: Vec2, edges: impl Iterator<Item = (Vec2, Vec2)> + Clone) -> AreaProperties {
     let [mut twice, mut cx, mut cy] = [Wide::ZERO; 3];
     let mut size = Size::default();
-    for (p, q) in edges(points) {
+    for (p, q) in edges.clone() {
         let (u, v) = (Offset::between(p, anchor), Offset::between(q, anchor));
         let edge = Offset::between(q, p);
         size.add(p - anchor, q - p);
@@ -100,7 +116,7 @@ fn wide(anchor: Vec2, points: &[Vec2]) -> AreaProperties {
     let c = vec2(cx.over(thrice), cy.over(thrice));
 
     let [mut twice, mut cx, mut cy, mut xx, mut yy, mut xy] = [Wide::ZERO; 6];
-    for (p, q) in edges(points) {
+    for (p, q) in edges {
         let u = Offset::between(p, anchor).from(c);
         let v = Offset::between(q, anchor).from(c);
         let k = u.cross(Offset::between(q, p));

@@ -22,15 +22,7 @@ impl Shape {
     /// Exact for polygons and segments: a point beside an edge is never taken for one on it.
     #[must_use]
     pub fn contains(&self, point: Vec2) -> bool {
-        match self.outline() {
-            Outline::Circle { centre, radius } => {
-                (point - centre).length_squared() <= radius * radius
-            }
-            Outline::Open(points) => edges(points, false).any(|edge| on_edge(edge, point)),
-            Outline::Closed(points) => winds_around(points, point),
-            Outline::HalfPlane { point: on, normal } => normal.dot(point - on) <= 0.0,
-            Outline::Parts(parts) => parts.iter().any(|part| part.contains(point)),
-        }
+        self.outline().contains(point)
     }
 
     /// The point of the shape nearest to `point`, in m: `point` itself if it lies inside.
@@ -49,25 +41,7 @@ impl Shape {
     /// of the part which the point is nearest to or deepest in: seams between parts count as rim.
     #[must_use]
     pub fn closest_rim_point(&self, point: Vec2) -> Vec2 {
-        match self.outline() {
-            Outline::Circle { centre, radius } => {
-                centre + (point - centre).normalize_or(Vec2::X) * radius
-            }
-            Outline::Open(points) => nearest(point, edges(points, false)),
-            Outline::Closed(points) => nearest(point, edges(points, true)),
-            Outline::HalfPlane { point: on, normal } => point - normal * normal.dot(point - on),
-            Outline::Parts(parts) => {
-                let deepest = |best: (f64, Vec2), part: &Self| {
-                    let distance = part.signed_distance(point);
-                    if distance < best.0 {
-                        (distance, part.closest_rim_point(point))
-                    } else {
-                        best
-                    }
-                };
-                parts.iter().fold((f64::INFINITY, point), deepest).1
-            }
-        }
+        self.outline().closest_rim_point(point)
     }
 
     /// Distance of `point` from the rim, in m; negative inside.
@@ -86,21 +60,7 @@ impl Shape {
     /// ```
     #[must_use]
     pub fn signed_distance(&self, point: Vec2) -> f64 {
-        match self.outline() {
-            Outline::Circle { centre, radius } => return (point - centre).length() - radius,
-            Outline::HalfPlane { point: on, normal } => return normal.dot(point - on),
-            Outline::Parts(parts) => {
-                let distances = parts.iter().map(|part| part.signed_distance(point));
-                return distances.fold(f64::INFINITY, f64::min);
-            }
-            Outline::Open(_) | Outline::Closed(_) => {}
-        }
-        let distance = self.closest_rim_point(point).distance(point);
-        if self.contains(point) {
-            -distance
-        } else {
-            distance
-        }
+        self.outline().signed_distance(point)
     }
 
     /// Where a ray from `origin` enters the shape first, within `max` lengths of `direction`.
@@ -121,26 +81,7 @@ impl Shape {
     /// ```
     #[must_use]
     pub fn cast_ray(&self, origin: Vec2, direction: Vec2, max: f64) -> Option<RayHit> {
-        if self.contains(origin) {
-            return None;
-        }
-        let ray = Ray {
-            origin,
-            direction,
-            max,
-        };
-        match self.outline() {
-            Outline::Circle { centre, radius } => ray.at_circle(centre, radius),
-            Outline::Open(points) => ray.at_wall(points[0], points[1]),
-            Outline::Closed(points) => ray.at_ring(points),
-            Outline::HalfPlane { point, normal } => ray.at_line(point, normal),
-            Outline::Parts(parts) => {
-                let hits = parts
-                    .iter()
-                    .filter_map(|part| part.cast_ray(origin, direction, max));
-                hits.min_by(|one, two| one.distance.total_cmp(&two.distance))
-            }
-        }
+        self.outline().cast_ray(origin, direction, max)
     }
 
     /// The point of the shape farthest along `direction` (of any length above 0), in m: a corner,
@@ -176,6 +117,88 @@ impl Shape {
             _ => {
                 let points = self.vertices().iter().copied();
                 points.reduce(|best, p| farther(best, p, direction))
+            }
+        }
+    }
+}
+
+/// The same questions, to whatever has an outline.
+impl Outline<'_> {
+    pub(crate) fn contains(self, point: Vec2) -> bool {
+        match self {
+            Outline::Circle { centre, radius } => {
+                (point - centre).length_squared() <= radius * radius
+            }
+            Outline::Open(points) => edges(points, false).any(|edge| on_edge(edge, point)),
+            Outline::Closed(points) => winds_around(points, point),
+            Outline::Rings(rings) => wind_around(edges_of(rings), point),
+            Outline::HalfPlane { point: on, normal } => normal.dot(point - on) <= 0.0,
+            Outline::Parts(parts) => parts.iter().any(|part| part.contains(point)),
+        }
+    }
+
+    pub(crate) fn closest_rim_point(self, point: Vec2) -> Vec2 {
+        match self {
+            Outline::Circle { centre, radius } => {
+                centre + (point - centre).normalize_or(Vec2::X) * radius
+            }
+            Outline::Open(points) => nearest(point, edges(points, false)),
+            Outline::Closed(points) => nearest(point, edges(points, true)),
+            Outline::Rings(rings) => nearest(point, edges_of(rings)),
+            Outline::HalfPlane { point: on, normal } => point - normal * normal.dot(point - on),
+            Outline::Parts(parts) => {
+                let deepest = |best: (f64, Vec2), part: &Shape| {
+                    let distance = part.signed_distance(point);
+                    if distance < best.0 {
+                        (distance, part.closest_rim_point(point))
+                    } else {
+                        best
+                    }
+                };
+                parts.iter().fold((f64::INFINITY, point), deepest).1
+            }
+        }
+    }
+
+    pub(crate) fn signed_distance(self, point: Vec2) -> f64 {
+        match self {
+            Outline::Circle { centre, radius } => (point - centre).length() - radius,
+            Outline::HalfPlane { point: on, normal } => normal.dot(point - on),
+            Outline::Parts(parts) => {
+                let distances = parts.iter().map(|part| part.signed_distance(point));
+                distances.fold(f64::INFINITY, f64::min)
+            }
+            Outline::Open(_) | Outline::Closed(_) | Outline::Rings(_) => {
+                let distance = self.closest_rim_point(point).distance(point);
+                if self.contains(point) {
+                    -distance
+                } else {
+                    distance
+                }
+            }
+        }
+    }
+
+    pub(crate) fn cast_ray(self, origin: Vec2, direction: Vec2, max: f64) -> Option<RayHit> {
+        if self.contains(origin) {
+            return None;
+        }
+        let ray = Ray {
+            origin,
+            direction,
+            max,
+        };
+        match self {
+            Outline::Circle { centre, radius } => ray.at_circle(centre, radius),
+            Outline::Open(points) => ray.at_wall(points[0], points[1]),
+            Outline::Closed(points) => ray.at_edges(edges(points, true)),
+            Outline::Rings(rings) => ray.at_edges(edges_of(rings)),
+            Outline::HalfPlane { point, normal } => ray.at_line(point, normal),
+            Outline::Parts(parts) => {
+                let hits = parts
+                    .iter()
+                    .filter_map(|part| part.cast_ray(origin, direction, max));
+                hits.min_by(|one, two| one.distance.total_cmp(&two.distance))
             }
         }
     }
@@ -230,8 +253,8 @@ impl Ray {
         self.at_edge(a, b).or_else(|| self.at_edge(b, a))
     }
 
-    fn at_ring(&self, points: &[Vec2]) -> Option<RayHit> {
-        let hits = edges(points, true).filter_map(|(a, b)| self.at_edge(a, b));
+    fn at_edges(&self, edges: impl Iterator<Item = (Vec2, Vec2)>) -> Option<RayHit> {
+        let hits = edges.filter_map(|(a, b)| self.at_edge(a, b));
         hits.min_by(|one, two| one.distance.total_cmp(&two.distance))
     }
 
@@ -270,6 +293,11 @@ fn edges(points: &[Vec2], closed: bool) -> impl Iterator<Item = (Vec2, Vec2)> {
     points.iter().zip(ends).map(|(a, b)| (*a, *b))
 }
 
+/// Edges of several rings.
+fn edges_of(rings: &[Vec<Vec2>]) -> impl Iterator<Item = (Vec2, Vec2)> {
+    rings.iter().flat_map(|ring| edges(ring, true))
+}
+
 /// Whether `p` lies on a closed edge; exact.
 fn on_edge((a, b): (Vec2, Vec2), p: Vec2) -> bool {
     Aabb::from_points([a, b]).contains_point(p) && orient2d(a, b, p) == 0.0
@@ -277,8 +305,13 @@ fn on_edge((a, b): (Vec2, Vec2), p: Vec2) -> bool {
 
 /// Whether a simple ring winds around `p`, its edges included; exact.
 pub(crate) fn winds_around(ring: &[Vec2], p: Vec2) -> bool {
+    wind_around(edges(ring, true), p)
+}
+
+/// Whether rings wind around `p` an odd number of times, their edges included; exact.
+fn wind_around(edges: impl Iterator<Item = (Vec2, Vec2)>, p: Vec2) -> bool {
     let mut inside = false;
-    for (a, b) in edges(ring, true) {
+    for (a, b) in edges {
         // A horizontal ray to the right: an edge counts with its lower end, without its upper one.
         let (low, high) = if a.y <= b.y { (a, b) } else { (b, a) };
         if p.y < low.y || p.y > high.y {

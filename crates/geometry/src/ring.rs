@@ -42,13 +42,18 @@ impl Ring {
         match simple::first_contact(&self.points) {
             None => Ok(()),
             Some((i, j)) => {
-                let (i, j) = (self.leaves[i], self.leaves[j]);
+                let (i, j) = (self.edge_as_given(i), self.edge_as_given(j));
                 Err(PolygonError::SelfIntersecting {
                     first: i.min(j),
                     second: i.max(j),
                 })
             }
         }
+    }
+
+    /// The number of an edge in the list that came in.
+    pub(crate) fn edge_as_given(&self, edge: usize) -> usize {
+        self.leaves[edge]
     }
 
     /// Whether some edge runs straight back over the one before.

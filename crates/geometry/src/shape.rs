@@ -37,6 +37,8 @@ pub enum Outline<'a> {
     Open(&'a [Vec2]),
     /// A closed ring, counter-clockwise.
     Closed(&'a [Vec2]),
+    /// Closed rings, holes the other way round: filled by the non-zero rule, or the even-odd one.
+    Rings(&'a [Vec<Vec2>]),
     /// A line without end.
     HalfPlane {
         /// A point of the line, in m.

@@ -1,4 +1,4 @@
-//! Whether a ring touches itself: exact, and in O(n log n) where it is large.
+//! Whether rings touch themselves or each other: exact, and in O(n log n) where they are large.
 //!
 //! Edges may meet only as neighbours, at their common vertex. Edges that cross, a vertex on an edge,
 //! a vertex visited twice and edges that overlap all count as contact.
@@ -6,7 +6,6 @@
 use carom_math::{Vec2, orient2d};
 
 use crate::Aabb;
-use crate::ring::corners;
 
 /// Below so many edges every pair is compared: no slower, and it names the first pair in order.
 const FEW: usize = 64;
@@ -15,36 +14,101 @@ const FEW: usize = 64;
 ///
 /// No two neighbours in `points` may be equal, and no coordinate −0.
 pub(crate) fn first_contact(points: &[Vec2]) -> Option<(usize, usize)> {
-    if points.len() < FEW {
-        return all_pairs(points);
-    }
-    if let Some(pair) = fold(points) {
-        return Some(pair);
-    }
-    match Sweep::new(points).run() {
-        Ok(found) => found,
-        // Only if a predicate underflowed.
-        Err(LostOrder) => all_pairs(points),
-    }
-}
-
-/// Every pair, boxes first.
-fn all_pairs(points: &[Vec2]) -> Option<(usize, usize)> {
-    let n = points.len();
-    let boxes: Vec<Aabb> = (0..n)
-        .map(|i| Aabb::from_points([points[i], points[(i + 1) % n]]))
-        .collect();
-    (0..n)
-        .flat_map(|i| (i + 1..n).map(move |j| (i, j)))
-        .find(|&(i, j)| boxes[i].overlaps(boxes[j]) && in_contact(points, i, j))
+    Rings::one(points).first_contact()
 }
 
 /// An edge that runs back over the one before.
 pub(crate) fn fold(points: &[Vec2]) -> Option<(usize, usize)> {
-    let n = points.len();
-    let at = corners(points).position(|(before, here, after)| folds(before, here, after))?;
-    let edge_before = (at + n - 1) % n;
-    Some(pair(at, edge_before))
+    Rings::one(points).fold()
+}
+
+/// Points of one or several rings, one ring after the other; edge i runs from point i to the next of
+/// its ring.
+pub(crate) struct Rings<'a> {
+    points: &'a [Vec2],
+    /// The next point of the ring, and the last.
+    after: Vec<usize>,
+    before: Vec<usize>,
+}
+
+impl<'a> Rings<'a> {
+    fn one(points: &'a [Vec2]) -> Self {
+        Self::several(points, [points.len()])
+    }
+
+    /// Rings of these lengths.
+    pub(crate) fn several(points: &'a [Vec2], lengths: impl IntoIterator<Item = usize>) -> Self {
+        let mut after: Vec<usize> = (1..=points.len()).collect();
+        let mut before: Vec<usize> = (0..points.len()).map(|i| i.wrapping_sub(1)).collect();
+        let mut start = 0;
+        for length in lengths {
+            let end = start + length;
+            if length > 0 {
+                after[end - 1] = start;
+                before[start] = end - 1;
+            }
+            start = end;
+        }
+        Self {
+            points,
+            after,
+            before,
+        }
+    }
+
+    /// Two edges i < j that touch where they must not.
+    ///
+    /// No two neighbours may be equal, and no coordinate −0.
+    pub(crate) fn first_contact(&self) -> Option<(usize, usize)> {
+        if self.points.len() < FEW {
+            return self.all_pairs();
+        }
+        if let Some(pair) = self.fold() {
+            return Some(pair);
+        }
+        match Sweep::new(self).run() {
+            Ok(found) => found,
+            // Only if a predicate underflowed.
+            Err(LostOrder) => self.all_pairs(),
+        }
+    }
+
+    /// Every pair, boxes first.
+    fn all_pairs(&self) -> Option<(usize, usize)> {
+        let n = self.points.len();
+        let boxes: Vec<Aabb> = (0..n).map(|i| Aabb::from_points(self.edge(i))).collect();
+        (0..n)
+            .flat_map(|i| (i + 1..n).map(move |j| (i, j)))
+            .find(|&(i, j)| boxes[i].overlaps(boxes[j]) && self.in_contact(i, j))
+    }
+
+    /// An edge that runs back over the one before.
+    fn fold(&self) -> Option<(usize, usize)> {
+        let folds = |i: &usize| {
+            let corner = [self.before[*i], *i, self.after[*i]];
+            let [before, here, after] = corner.map(|k| self.points[k]);
+            folds(before, here, after)
+        };
+        let at = (0..self.points.len()).find(folds)?;
+        Some(pair(at, self.before[at]))
+    }
+
+    /// Both ends of an edge.
+    fn edge(&self, i: usize) -> [Vec2; 2] {
+        [self.points[i], self.points[self.after[i]]]
+    }
+
+    /// Whether edges i < j touch where they must not; exact.
+    fn in_contact(&self, i: usize, j: usize) -> bool {
+        let ([a, b], [c, d]) = (self.edge(i), self.edge(j));
+        if self.after[i] == j {
+            return folds(a, b, d);
+        }
+        if self.after[j] == i {
+            return folds(c, a, b);
+        }
+        segments_touch([a, b], [c, d])
+    }
 }
 
 fn folds(before: Vec2, here: Vec2, after: Vec2) -> bool {
@@ -66,20 +130,6 @@ fn folds(before: Vec2, here: Vec2, after: Vec2) -> bool {
     }
 }
 
-/// Whether edges i < j touch where they must not; exact.
-fn in_contact(points: &[Vec2], i: usize, j: usize) -> bool {
-    let n = points.len();
-    let (a, b) = (points[i], points[(i + 1) % n]);
-    let (c, d) = (points[j], points[(j + 1) % n]);
-    if j == i + 1 {
-        return folds(a, b, d);
-    }
-    if i == 0 && j == n - 1 {
-        return folds(c, a, b);
-    }
-    segments_touch([a, b], [c, d])
-}
-
 /// Whether two closed segments have a point in common; exact.
 fn segments_touch([a, b]: [Vec2; 2], [c, d]: [Vec2; 2]) -> bool {
     let apart = |x: f64, y: f64| (x > 0.0 && y > 0.0) || (x < 0.0 && y < 0.0);
@@ -99,6 +149,7 @@ struct LostOrder;
 /// Points come in the order of x, then y, as if the plane were sheared a little: so vertical edges
 /// are no special case. Two edges that touch are neighbours on the line before it gets there.
 struct Sweep<'a> {
+    rings: &'a Rings<'a>,
     points: &'a [Vec2],
     /// Edges that the line crosses, from low to high. A plain list: at 100,000 vertices the
     /// longest shift is 400 kB, and outlines cross a line in few places.
@@ -108,9 +159,10 @@ struct Sweep<'a> {
 type Found = Option<(usize, usize)>;
 
 impl<'a> Sweep<'a> {
-    fn new(points: &'a [Vec2]) -> Self {
+    fn new(rings: &'a Rings<'a>) -> Self {
         Self {
-            points,
+            rings,
+            points: rings.points,
             crossed: Vec::new(),
         }
     }
@@ -186,15 +238,12 @@ impl<'a> Sweep<'a> {
     fn meeting(&self, at: usize) -> Found {
         let below = *self.crossed.get(at.checked_sub(1)?)?;
         let (i, j) = pair(below, *self.crossed.get(at)?);
-        in_contact(self.points, i, j).then_some((i, j))
+        self.rings.in_contact(i, j).then_some((i, j))
     }
 
     /// Positive where `p` lies above the edge.
     fn side(&self, edge: usize, p: Vec2) -> f64 {
-        let (a, b) = (
-            self.points[edge],
-            self.points[(edge + 1) % self.points.len()],
-        );
+        let [a, b] = self.rings.edge(edge);
         if (a.x, a.y) < (b.x, b.y) {
             orient2d(a, b, p)
         } else {
@@ -204,28 +253,21 @@ impl<'a> Sweep<'a> {
 
     /// Whether an edge that has an end `here` lies ahead of the line.
     fn right_of(&self, edge: usize, here: Vec2) -> bool {
-        let (a, b) = (
-            self.points[edge],
-            self.points[(edge + 1) % self.points.len()],
-        );
+        let [a, b] = self.rings.edge(edge);
         let far = if a == here { b } else { a };
         (far.x, far.y) > (here.x, here.y)
     }
 
     fn far_end(&self, edge: usize, vertex: usize) -> Vec2 {
         if edge == vertex {
-            self.points[(edge + 1) % self.points.len()]
+            self.points[self.rings.after[edge]]
         } else {
             self.points[edge]
         }
     }
 
     fn edge_into(&self, vertex: usize) -> usize {
-        if vertex == 0 {
-            self.points.len() - 1
-        } else {
-            vertex - 1
-        }
+        self.rings.before[vertex]
     }
 }
 
@@ -243,10 +285,11 @@ mod tests {
 
     /// What the sweep says; `Err` where it lost its order.
     fn swept(points: &[Vec2]) -> Result<Found, LostOrder> {
-        if let Some(pair) = fold(points) {
+        let rings = Rings::one(points);
+        if let Some(pair) = rings.fold() {
             return Ok(Some(pair));
         }
-        Sweep::new(points).run()
+        Sweep::new(&rings).run()
     }
 
     fn without_repetitions(points: Vec<(i32, i32)>) -> Vec<Vec2> {
@@ -275,9 +318,9 @@ mod tests {
             let Ok(found) = swept(&points) else {
                 return Err(TestCaseError::fail("the sweep lost its order"));
             };
-            prop_assert_eq!(found.is_some(), all_pairs(&points).is_some());
+            prop_assert_eq!(found.is_some(), Rings::one(&points).all_pairs().is_some());
             if let Some((i, j)) = found {
-                prop_assert!(i < j && in_contact(&points, i, j), "edges {} and {}", i, j);
+                prop_assert!(i < j && Rings::one(&points).in_contact(i, j), "edges {} and {}", i, j);
             }
         }
     }
@@ -297,7 +340,7 @@ mod tests {
             let Some((i, j)) = first_contact(&bad) else {
                 panic!("vertex {at} on the other side went unnoticed");
             };
-            assert!(in_contact(&bad, i, j));
+            assert!(Rings::one(&bad).in_contact(i, j));
         }
     }
 }

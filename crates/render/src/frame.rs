@@ -67,6 +67,13 @@ pub enum Op {
         /// Fill and outline.
         paint: Paint,
     },
+    /// Several closed rings, filled and outlined: a ring the other way round inside another is a hole.
+    Region {
+        /// The rings.
+        rings: Vec<Vec<Vec2>>,
+        /// Fill and outline.
+        paint: Paint,
+    },
     /// A disc, filled and outlined.
     Disc {
         /// Its centre.

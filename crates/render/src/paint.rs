@@ -87,6 +87,15 @@ impl Painter<'_> {
                     .unwrap_or_else(|| self.style.outline_of(paint.fill));
                 self.outline_ring(points, self.style.outline, outline);
             }
+            Op::Region { rings, paint } => {
+                self.fill_rings(rings, paint.fill);
+                let outline = paint
+                    .outline
+                    .unwrap_or_else(|| self.style.outline_of(paint.fill));
+                for ring in rings {
+                    self.outline_ring(ring, self.style.outline, outline);
+                }
+            }
             Op::Disc {
                 centre,
                 radius,
@@ -154,11 +163,27 @@ impl Painter<'_> {
     }
 
     fn fill_ring(&mut self, points: &[Vec2], colour: Colour) {
-        self.window.polygon(points, &mut self.ring, &mut self.spare);
-        if self.ring.len() > 2 {
-            push(&mut self.builder, &self.ring, true);
+        if self.add_ring(points) {
             self.fill(flat(colour));
         }
+    }
+
+    fn fill_rings(&mut self, rings: &[Vec<Vec2>], colour: Colour) {
+        // All of them are one path: the winding rule takes the holes out.
+        let added = rings.iter().map(|ring| self.add_ring(ring));
+        if added.fold(false, |any, one| any | one) {
+            self.fill(flat(colour));
+        }
+    }
+
+    /// Adds what is seen of a closed ring to the path; whether that is anything.
+    fn add_ring(&mut self, points: &[Vec2]) -> bool {
+        self.window.polygon(points, &mut self.ring, &mut self.spare);
+        let seen = self.ring.len() > 2;
+        if seen {
+            push(&mut self.builder, &self.ring, true);
+        }
+        seen
     }
 
     fn outline_ring(&mut self, points: &[Vec2], width: f64, colour: Colour) {

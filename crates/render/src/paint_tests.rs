@@ -52,6 +52,8 @@ fn any_op() -> impl Strategy<Value = Op> {
     prop_oneof![
         ring.clone()
             .prop_map(move |points| Op::Polygon { points, paint }),
+        prop::collection::vec(ring.clone(), 0..4)
+            .prop_map(move |rings| Op::Region { rings, paint }),
         ring.clone().prop_map(|points| Op::Area {
             points,
             ink: Ink::Text
@@ -130,6 +132,21 @@ proptest! {
         // The rasteriser's chords and its four rows a pixel: 0.1 px at the rim, less on average.
         prop_assert!((inked(&picture) - area).abs() < 0.05 * 2.0 * core::f64::consts::PI * radius + 0.2,
             "{} against {area}", inked(&picture));
+    }
+
+    #[test]
+    fn holes_are_not_filled(x in 15.0..85.0_f64, y in 15.0..65.0_f64, half in 1.0..14.0_f64) {
+        let square = |centre: Vec2, half: f64, turn: f64| -> Vec<Vec2> {
+            let corner = vec2(half, half);
+            let corners = (0..4).map(|i| Rot::from_degrees(turn * f64::from(i)) * corner);
+            corners.map(|p| centre + p).collect()
+        };
+        // The canvas is 100 × 80 px: its rim is cut, the hole is not.
+        let (outer, hole) = (square(vec2(50.0, 40.0), 60.0, 90.0), square(vec2(x, y), half, -90.0));
+        let paint = Paint::flat(Colour::BLACK);
+        let picture = paint_one(Op::Region { rings: vec![outer, hole], paint });
+        let area = 8000.0 - 4.0 * half * half;
+        prop_assert!((inked(&picture) - area).abs() < half + 0.5, "{} against {area}", inked(&picture));
     }
 
     #[test]

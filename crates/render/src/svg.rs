@@ -50,6 +50,16 @@ impl Svg<'_> {
                     self.line(format_args!(r#"<path d="{path}" {fill} {stroke}/>"#));
                 }
             }
+            Op::Region { rings, paint } => {
+                let outline = paint
+                    .outline
+                    .unwrap_or_else(|| self.style.outline_of(paint.fill));
+                let all: String = rings.iter().filter_map(|ring| path(ring, true)).collect();
+                if !all.is_empty() {
+                    let (fill, stroke) = (fill(paint.fill), stroke(outline, self.style.outline));
+                    self.line(format_args!(r#"<path d="{all}" {fill} {stroke}/>"#));
+                }
+            }
             Op::Disc {
                 centre,
                 radius,

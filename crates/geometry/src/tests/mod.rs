@@ -5,6 +5,7 @@ mod mass_laws;
 mod piece_laws;
 mod query_laws;
 mod random_laws;
+mod region_laws;
 mod ring_errors;
 mod seed_errors;
 mod strategies;
