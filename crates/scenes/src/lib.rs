@@ -57,8 +57,8 @@ pub use builtin::{SceneInfo, find, list, load, open};
 pub use document::{MAX_BYTES, VERSION};
 pub use error::{Place, Problem, SceneError};
 pub use plain::{
-    PlainBody, PlainInfo, PlainKind, PlainMaterial, PlainScene, PlainShape, plain_scene,
-    plain_scenes,
+    GrowthKind, MAX_GROWTH, PlainBody, PlainError, PlainInfo, PlainKind, PlainMaterial, PlainScene,
+    PlainShape, growth_scene, plain_scene, plain_scenes,
 };
 pub use scene::Scene;
 

@@ -5,8 +5,9 @@ use carom_math::{Vec2, vec2};
 use super::harness::Harness;
 use super::{PlainBody, PlainKind, PlainScene, PlainShape};
 
-/// A closed box with inner faces at ±`inner`, walls 4 m thick, and one elastic material.
-fn closed_box(name: &str, inner: f64, margin: f64) -> PlainScene {
+/// A closed box with inner faces at ±`inner`, walls 4 m thick, and one elastic material; centres
+/// that get `margin` further out than that have escaped.
+pub(super) fn closed_box(name: &str, inner: f64, margin: f64) -> PlainScene {
     let mut scene = PlainScene::empty(name, Vec2::ZERO);
     let corner = Vec2::splat(inner + margin);
     scene.region = Some([-corner, corner]);
@@ -49,19 +50,24 @@ fn flying(name: &str, spread: f64) -> PlainScene {
     for i in 0..2000 {
         let (column, row) = (f64::from(i % 45 - 22), f64::from(i / 45 - 22));
         let at = vec2(column * 1.3, row * 1.3) * spread;
-        let draw = random.below(7);
-        let radius = random.between(0.25, 0.55);
-        let shape = match draw {
-            0 => PlainShape::Circle { radius },
-            draw => PlainShape::Polygon(random.polygon(2 + draw, radius)),
-        };
-        let angle = random.between(0.0, 6.2);
-        let velocity = random.within(10.0);
-        let spin = random.between(-3.0, 3.0);
-        let body = PlainBody::new(PlainKind::Dynamic, at, 0).turned(angle);
-        scene.add(body.moving(velocity).spinning(spin), shape);
+        flyer(&mut scene, &mut random, at);
     }
     scene
+}
+
+/// A disc (one in seven) or a polygon of three to eight corners.
+pub(super) fn flyer(scene: &mut PlainScene, random: &mut Harness, at: Vec2) {
+    let draw = random.below(7);
+    let radius = random.between(0.25, 0.55);
+    let shape = match draw {
+        0 => PlainShape::Circle { radius },
+        draw => PlainShape::Polygon(random.polygon(2 + draw, radius)),
+    };
+    let angle = random.between(0.0, 6.2);
+    let velocity = random.within(10.0);
+    let spin = random.between(-3.0, 3.0);
+    let body = PlainBody::new(PlainKind::Dynamic, at, 0).turned(angle);
+    scene.add(body.moving(velocity).spinning(spin), shape);
 }
 
 pub(super) fn case_12(name: &str) -> PlainScene {

@@ -1,6 +1,6 @@
 //! The plain scenes by name.
 
-use super::{PlainScene, gas, pairs, piles, resting, sparse};
+use super::{PlainScene, gas, grow, pairs, piles, resting, sparse};
 
 /// A plain scene, as a list shows it.
 #[derive(Clone, Copy, Debug)]
@@ -103,7 +103,8 @@ pub fn plain_scenes() -> &'static [PlainInfo] {
     &SCENES
 }
 
-/// The plain scene of a name, or of a letter: `a` is `a_large_pyramid`, `e` is `e_flying_polygons`.
+/// The plain scene of a name, or of a letter: `a` is `a_large_pyramid`, `e` is `e_flying_polygons`;
+/// or a [growth scene](super::growth_scene) of any size: `grow_pile_2000`.
 ///
 /// # Examples
 /// ```
@@ -123,4 +124,5 @@ pub fn plain_scene(name: &str) -> Option<PlainScene> {
     found
         .or_else(|| SCENES.iter().find(|info| lettered(info.name)))
         .map(PlainInfo::scene)
+        .or_else(|| grow::named(name))
 }

@@ -3,6 +3,9 @@
 #[cfg(test)]
 mod digest_tests;
 mod gas;
+mod grow;
+#[cfg(test)]
+mod grow_tests;
 mod harness;
 mod list;
 mod nearest;
@@ -10,8 +13,11 @@ mod pairs;
 mod piles;
 mod resting;
 mod sparse;
+mod world;
 
+pub use grow::{GrowthKind, MAX_GROWTH, growth_scene};
 pub use list::{PlainInfo, plain_scene, plain_scenes};
+pub use world::PlainError;
 
 use carom_math::{StateHash, Vec2, vec2};
 
