@@ -1,9 +1,8 @@
 //! carom itself.
 
-use carom_dynamics::{BodyDef, BodyId, BodyKind, Material, Settings, Sleep, World};
-use carom_geometry::{Circle, ConvexPolygon, Polygon, Segment, Shape};
+use carom_dynamics::{BodyId, BodyKind, Settings, Sleep, World};
 use carom_math::{Pose, Vec2};
-use carom_scenes::{PlainBody, PlainKind, PlainScene, PlainShape};
+use carom_scenes::PlainScene;
 
 use crate::clock::CpuClock;
 use crate::engine::{Body, Counters, Engine, EngineError, Mode, Setup, State};
@@ -26,15 +25,12 @@ pub(super) fn open(scene: &PlainScene, setup: &Setup) -> Result<Box<dyn Engine>,
         engine: "carom".to_owned(),
         reason: error.to_string(),
     })?;
-    let mut ids = Vec::with_capacity(scene.bodies.len());
-    for (index, body) in scene.bodies.iter().enumerate() {
-        let id = insert(&mut world, scene, body).map_err(|reason| EngineError::Body {
-            engine: "carom".to_owned(),
-            body: index,
-            reason,
-        })?;
-        ids.push(id);
-    }
+    let inserted = scene.insert_into(&mut world);
+    let ids = inserted.map_err(|error| EngineError::Body {
+        engine: "carom".to_owned(),
+        body: error.body,
+        reason: error.reason,
+    })?;
     Ok(Box::new(Carom {
         world,
         dt: setup.hz.recip(),
@@ -61,57 +57,6 @@ fn settings(scene: &PlainScene, setup: &Setup) -> Settings {
         },
         sleep: setup.sleeping.then(Sleep::default),
         ..default
-    }
-}
-
-fn insert(world: &mut World, scene: &PlainScene, body: &PlainBody) -> Result<BodyId, String> {
-    let kind = match body.kind {
-        PlainKind::Fixed => BodyKind::Fixed,
-        PlainKind::Dynamic => BodyKind::Dynamic,
-        PlainKind::Kinematic => BodyKind::Kinematic,
-    };
-    let made_of = scene.materials[body.material];
-    let material = Material {
-        density: made_of.density,
-        friction: made_of.friction,
-        restitution: made_of.restitution,
-    };
-    let def = BodyDef::new(kind)
-        .at(body.position)
-        .turned(body.angle)
-        .moving(body.velocity)
-        .spinning(body.spin);
-    let shapes = solids(scene, body)?.into_iter();
-    world
-        .insert_compound(def, shapes.map(|shape| (shape, material)).collect())
-        .map_err(|error| error.to_string())
-}
-
-/// The outline where there is one, else the shapes.
-fn solids(scene: &PlainScene, body: &PlainBody) -> Result<Vec<Shape>, String> {
-    if let Some(outline) = body.outline {
-        let polygon =
-            Polygon::new(scene.outlines[outline].clone()).map_err(|error| error.to_string())?;
-        return Ok(vec![polygon.into()]);
-    }
-    let shapes = body.shapes.iter().map(|index| solid(&scene.shapes[*index]));
-    shapes.collect()
-}
-
-fn solid(shape: &PlainShape) -> Result<Shape, String> {
-    match shape {
-        PlainShape::Circle { radius } => Circle::new(*radius)
-            .map(Shape::from)
-            .map_err(|error| error.to_string()),
-        PlainShape::Box { half, offset } => ConvexPolygon::rectangle(2.0 * half.x, 2.0 * half.y)
-            .map(|rectangle| rectangle.translated(*offset).into())
-            .map_err(|error| error.to_string()),
-        PlainShape::Polygon(corners) => ConvexPolygon::new(corners.clone())
-            .map(Shape::from)
-            .map_err(|error| error.to_string()),
-        PlainShape::Segment([a, b]) => Segment::new(*a, *b)
-            .map(Shape::from)
-            .map_err(|error| error.to_string()),
     }
 }
 
