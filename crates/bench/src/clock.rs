@@ -17,6 +17,14 @@ impl CpuClock {
         }
     }
 
+    /// The CPU time of all threads of this process.
+    #[must_use]
+    pub const fn process() -> Self {
+        Self {
+            id: ClockId::ProcessCPUTime,
+        }
+    }
+
     /// Time as a clock on the wall tells it: for runs on several threads.
     #[must_use]
     pub const fn wall() -> Self {

@@ -148,6 +148,26 @@ pub enum EngineError {
         /// In the engine's words.
         reason: String,
     },
+    /// No scene has this name.
+    #[error("{scene}: unknown scene; there are {known}")]
+    Scene {
+        /// What was asked for.
+        scene: String,
+        /// The names that exist.
+        known: String,
+    },
+    /// The job's time ran out before a step was measured.
+    #[error(
+        "{engine} was stopped after {steps} steps, the first of {ms_first:.0} ms: none could be measured"
+    )]
+    OutOfTime {
+        /// Who.
+        engine: String,
+        /// Steps that were made.
+        steps: u32,
+        /// First step, in ms.
+        ms_first: f64,
+    },
     /// The engine refused its settings.
     #[error("{engine} refuses its settings: {reason}")]
     Settings {

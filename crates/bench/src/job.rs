@@ -13,6 +13,8 @@ use crate::speed::{SpeedJob, SpeedReading};
 pub enum Job {
     /// Time an engine on a scene.
     Speed(SpeedJob),
+    /// Step an engine through a scene with no clock and no judge, for [`count_instructions`](crate::count_instructions).
+    Bare(SpeedJob),
     /// Measure an engine's error in a case.
     Accuracy(Point),
 }
@@ -33,11 +35,22 @@ pub struct Point {
 }
 
 /// What a process answers: one line of JSON.
+#[expect(
+    clippy::large_enum_variant,
+    reason = "there are as many as there were processes"
+)]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum Reading {
     /// Of a speed job.
     Speed(SpeedReading),
+    /// Of a bare job.
+    Bare {
+        /// Steps before the counted ones.
+        warm_up_steps: u32,
+        /// Steps that were counted.
+        measured_steps: u32,
+    },
     /// Of an accuracy job.
     Accuracy {
         /// A number for each of the case's metrics that the run has one for, in the order of the case.
@@ -57,6 +70,7 @@ pub enum Reading {
 pub fn run(job: &Job) -> Reading {
     let answer = match job {
         Job::Speed(job) => crate::speed::run(job).map(Reading::Speed),
+        Job::Bare(job) => crate::speed::run_bare(job),
         Job::Accuracy(point) => accuracy(point),
     };
     answer.unwrap_or_else(|error| Reading::Failed {

@@ -8,6 +8,7 @@
 //! own (`engine-run`), because builds of one engine for different instruction sets cannot share an executable; the
 //! driver (`carom-bench`, started by `cargo xtask accuracy` and `cargo xtask speed`) rotates the processes.
 
+mod callgrind;
 mod cases;
 mod clock;
 mod engine;
@@ -16,10 +17,11 @@ mod job;
 mod quality;
 mod speed;
 
+pub use callgrind::{CallgrindError, Instructions, count_instructions};
 pub use cases::{CASES, Case, Kind, Metric, RATES, Run, Trial, Values, order, points};
 pub use clock::{CpuClock, peak_memory};
 pub use engine::{Body, Counters, Engine, EngineError, Mode, Setup, State};
 pub use engines::{EngineName, UnknownEngine, built, open};
 pub use job::{Job, Point, Reading, run};
-pub use quality::{Quality, judge};
-pub use speed::{SpeedJob, SpeedReading};
+pub use quality::{Quality, Snapshot, Unrest, judge};
+pub use speed::{Limits, SpeedJob, SpeedReading};
