@@ -1,6 +1,8 @@
 //! The engines that were built in, by name.
 
 mod carom;
+#[cfg(any(feature = "rapier", feature = "rapier-f64"))]
+mod rapier;
 
 use std::fmt;
 use std::str::FromStr;
@@ -133,6 +135,10 @@ pub fn open(
     }
     match engine {
         EngineName::Carom => carom::open(scene, setup),
+        #[cfg(feature = "rapier")]
+        EngineName::Rapier | EngineName::Rapier8 => rapier::open_single(&name, scene, setup),
+        #[cfg(feature = "rapier-f64")]
+        EngineName::RapierF64 => rapier::open_double(&name, scene, setup),
         _ => Err(EngineError::NotBuilt { engine: name }),
     }
 }
