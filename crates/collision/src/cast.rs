@@ -119,7 +119,7 @@ fn cast_hulls(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose, step: Vec2) -> Option<Lo
             cut,
         });
     }
-    if b.normals.is_empty() {
+    if b.is_disc() {
         let (fraction, normal) = ray_to_round(a, b_in_a.point(b.vertices[0]), step, b.radius)?;
         return Some(Local {
             fraction,
@@ -128,7 +128,7 @@ fn cast_hulls(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose, step: Vec2) -> Option<Lo
             cut: false,
         });
     }
-    if a.normals.is_empty() {
+    if a.is_disc() {
         let centre = b_in_a.inverse_point(a.vertices[0]);
         let (fraction, normal) = ray_to_round(b, centre, -b_in_a.inverse_vector(step), a.radius)?;
         let normal = -b_in_a.vector(normal);
@@ -263,7 +263,12 @@ fn ray_to_round(hull: &Hull<'_>, point: Vec2, step: Vec2, radius: f64) -> Option
             }
         }
     }
-    for vertex in hull.vertices {
+    let corners = if hull.is_half_plane() {
+        &[]
+    } else {
+        hull.vertices
+    };
+    for vertex in corners {
         // |q + s w|² = r² with q·w < 0: s = (|q|² − r²) / (−q·w + √D), D = |w|² r² − (q × w)².
         // The cross product keeps the digits that (q·w)² − |w|² (|q|² − r²) would lose.
         let q = point - *vertex;
@@ -281,8 +286,8 @@ fn ray_to_round(hull: &Hull<'_>, point: Vec2, step: Vec2, radius: f64) -> Option
 }
 
 /// Where a disc touches: on its rim.
-fn touch_point(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose, normal: Vec2) -> Vec2 {
-    if b.normals.is_empty() {
+pub(crate) fn touch_point(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose, normal: Vec2) -> Vec2 {
+    if b.is_disc() {
         b_in_a.point(b.vertices[0]) - normal * b.radius
     } else {
         a.vertices[0] + normal * a.radius

@@ -3,8 +3,10 @@
 use carom_geometry::Shape;
 use carom_math::{Pose, Vec2};
 
+use crate::manifold::{Touch, along_boundary, touch};
 use crate::parts::{is_single, near_parts};
-use crate::{Hull, Manifold, collide_within, part};
+use crate::way_out::way_out;
+use crate::{Manifold, collide_within, part};
 
 /// The contact of one convex part of A with one of B.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,21 +42,55 @@ pub struct PartManifold {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn contacts(a: &Shape, b: &Shape, b_in_a: Pose, margin: f64, out: &mut Vec<PartManifold>) {
-    let first = out.len();
-    let mut meet = |part_a: usize, hull_a: &Hull<'_>, part_b: usize, hull_b: &Hull<'_>| {
-        let manifold = collide_within(hull_a, hull_b, b_in_a, margin);
-        if !manifold.points.is_empty() {
-            push(out, first, part_a, part_b, manifold);
-        }
-    };
     if is_single(a) && is_single(b) {
-        meet(0, &part(a, 0), 0, &part(b, 0));
-    } else {
-        near_parts(a, b, b_in_a, Vec2::ZERO, margin, |i, j| {
-            meet(i, &part(a, i), j, &part(b, j));
-        });
+        let (part_a, part_b) = (part(a, 0), part(b, 0));
+        let manifold = collide_within(&part_a, &part_b, b_in_a, margin);
+        if !manifold.points.is_empty() {
+            let (part_a, part_b) = (0, 0);
+            out.push(PartManifold {
+                part_a,
+                part_b,
+                manifold,
+            });
+        }
+        return;
     }
+    let first = out.len();
+    let mut hidden = Vec::new();
+    near_parts(a, b, b_in_a, Vec2::ZERO, margin, |i, j| {
+        match touch(&part(a, i), &part(b, j), b_in_a, margin) {
+            Touch::Apart => {}
+            Touch::Contact(manifold) => push(out, first, i, j, manifold),
+            Touch::Hidden { normal, separation } => hidden.push((i, j, normal, separation)),
+        }
+    });
+    if hidden.is_empty() {
+        return;
+    }
+    let met = out.len();
+    for (i, j, normal, separation) in hidden {
+        // What a neighbour has along the same normal, at least as deep, is this contact, too.
+        let same = |known: &PartManifold| {
+            known.manifold.normal.dot(normal) > 1.0 - SAME
+                && known.manifold.deepest().is_some_and(|d| d <= separation)
+        };
+        if !out[first..met].iter().any(same)
+            && let Some(manifold) = along_boundary(&part(a, i), &part(b, j), b_in_a, margin)
+        {
+            push(out, first, i, j, manifold);
+        }
+    }
+    let overlaps = |known: &PartManifold| known.manifold.deepest().is_some_and(|d| d <= 0.0);
+    if !out[first..].iter().any(overlaps) {
+        for (i, j, manifold) in way_out(a, b, b_in_a).contacts() {
+            push(out, first, i, j, manifold);
+        }
+    }
+    out[first..].sort_by_key(|contact| (contact.part_a, contact.part_b));
 }
+
+/// One minus the cosine up to which two normals are one.
+const SAME: f64 = 1e-12;
 
 /// Adds a contact unless a neighbouring piece has the same one: two pieces share a corner.
 fn push(

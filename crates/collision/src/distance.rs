@@ -1,7 +1,7 @@
 //! How far two shapes are apart, and where they are closest.
 
 use carom_geometry::Shape;
-use carom_math::{Pose, Vec2};
+use carom_math::{Pose, Vec2, cross, perp};
 
 use crate::nearest::nearest_parts;
 use crate::parts::is_single;
@@ -79,13 +79,17 @@ impl Distance {
 #[must_use]
 pub fn distance(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose) -> Distance {
     let axis = separating_axis(a, b, b_in_a);
-    if a.normals.is_empty() || b.normals.is_empty() {
+    if a.is_disc() || b.is_disc() {
         return round_distance(a, b, b_in_a, axis);
     }
     if axis.separation > 0.0 {
         return closest(a, b, b_in_a, axis);
     }
-    let common = common_point(a, b, b_in_a, axis);
+    let common = if a.is_half_plane() && b.is_half_plane() {
+        behind_both(a, b, b_in_a)
+    } else {
+        common_point(a, b, b_in_a, axis)
+    };
     touching(axis, common)
 }
 
@@ -137,7 +141,7 @@ fn round_distance(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose, axis: Axis) -> Dista
     let n = axis.normal;
     let radii = (a.radius, b.radius);
     if axis.separation > 0.0 {
-        let (point_a, point_b) = if b.normals.is_empty() {
+        let (point_a, point_b) = if b.is_disc() {
             let point_b = b_in_a.point(b.vertices[0]) - n * b.radius;
             let corner = match axis.feature {
                 AxisFeature::Vertices { a: i, .. } => Some(a.vertices[i] + n * a.radius),
@@ -164,7 +168,7 @@ fn round_distance(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose, axis: Axis) -> Dista
     // core − r_b to core + r_b. The middle of what they share; a centre inside is common itself.
     let core = (axis.separation + radii.0 + radii.1).max(0.0);
     let middle = 0.5 * ((-radii.0).max(core - radii.1) + radii.0.min(core + radii.1));
-    let common = if b.normals.is_empty() {
+    let common = if b.is_disc() {
         b_in_a.point(b.vertices[0]) - n * (core - middle)
     } else {
         a.vertices[0] + n * middle
@@ -273,10 +277,23 @@ fn vertex_on_vertex(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose) -> Distance {
     }
 }
 
+/// A point behind both of two lines: where they cross, or of parallel ones the lower point.
+fn behind_both(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose) -> Vec2 {
+    let (n, m) = (a.normals[0], b_in_a.vector(b.normals[0]));
+    let (p, q) = (a.vertices[0], b_in_a.point(b.vertices[0]));
+    let above = n.dot(q - p);
+    let sine = cross(n, m);
+    if sine == 0.0 {
+        return if above > 0.0 { p } else { q };
+    }
+    // Along b's line from q until the height over a's line is 0: n·(q + s t) = n·p, t = perp(m).
+    q + perp(m) * (above / sine)
+}
+
 /// A point of both of two overlapping polygons: a vertex of one inside the other, or a crossing.
 fn common_point(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose, axis: Axis) -> Vec2 {
     let inside = |hull: &Hull<'_>, point: Vec2| {
-        hull.normals.len() > 2
+        hull.normals.len() != 2
             && hull
                 .normals
                 .iter()

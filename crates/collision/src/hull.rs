@@ -1,9 +1,11 @@
 //! The one convex view that every shape reduces to.
 //!
 //! A circle is a point with a radius, a segment a polygon of two vertices and two opposite
-//! normals, a concave polygon several convex pieces. What comes after this file knows one case.
+//! normals, a half-plane one vertex and one normal, a concave polygon several convex pieces.
 
-use carom_geometry::{Aabb, Circle, ConvexPiece, ConvexPolygon, Segment, Shape};
+use carom_geometry::{
+    Aabb, Circle, ConvexPart, ConvexPiece, ConvexPolygon, HalfPlane, Segment, Shape,
+};
 use carom_math::{Pose, Vec2, cross};
 
 /// Sine of the angle below which two directions count as one: far above rounding, far below what
@@ -13,10 +15,12 @@ const FLUSH: f64 = 1e-9;
 /// A borrowed convex shape: the convex hull of `vertices`, grown by `radius`.
 ///
 /// Either there is one vertex and no normal (a circle), or vertex and normal `i` belong to the
-/// edge `i → i + 1`, counter-clockwise. Lengths in metres, in the frame of the shape.
+/// edge `i → i + 1`, counter-clockwise. One vertex and one normal are a half-plane: everything behind
+/// the line. Lengths in metres, in the frame of the shape.
 #[derive(Clone, Copy, Debug)]
 pub struct Hull<'a> {
-    /// One vertex for a circle (its centre), two for a segment, the corners of a polygon.
+    /// One vertex for a circle (its centre) or a half-plane (a point of its line), two for a
+    /// segment, the corners of a polygon.
     pub vertices: &'a [Vec2],
     /// Outward unit normals; normal `i` belongs to the edge `i → i + 1`. Empty for a circle.
     pub normals: &'a [Vec2],
@@ -27,6 +31,17 @@ pub struct Hull<'a> {
 }
 
 impl<'a> Hull<'a> {
+    /// Whether this is everything behind a line, without end.
+    #[must_use]
+    pub const fn is_half_plane(&self) -> bool {
+        self.normals.len() == 1
+    }
+
+    /// Whether this is a circle.
+    pub(crate) const fn is_disc(&self) -> bool {
+        self.normals.is_empty()
+    }
+
     /// Whether edge `i` belongs to the outline of its shape, and is no cut through it.
     #[must_use]
     pub fn is_boundary(&self, edge: usize) -> bool {
@@ -57,7 +72,8 @@ impl<'a> Hull<'a> {
         (self.vertices[i], self.vertices[self.next(i)])
     }
 
-    /// The vertex farthest along `direction` (the first of equals) and how far it is.
+    /// The vertex farthest along `direction` (the first of equals) and how far it is; of a half-plane
+    /// its one vertex.
     #[must_use]
     pub fn support(&self, direction: Vec2) -> (usize, f64) {
         let mut best = (0, f64::NEG_INFINITY);
@@ -73,6 +89,9 @@ impl<'a> Hull<'a> {
     /// The box of the shape when its frame is at `pose`.
     #[must_use]
     pub fn aabb(&self, pose: Pose) -> Aabb {
+        if self.is_half_plane() {
+            return Aabb::new(Vec2::NEG_INFINITY, Vec2::INFINITY);
+        }
         let mut min = Vec2::INFINITY;
         let mut max = Vec2::NEG_INFINITY;
         for v in self.vertices {
@@ -130,6 +149,17 @@ impl Convex for Segment {
     }
 }
 
+impl Convex for HalfPlane {
+    fn hull(&self) -> Hull<'_> {
+        Hull {
+            vertices: self.vertices(),
+            normals: self.normals(),
+            radius: 0.0,
+            boundary: None,
+        }
+    }
+}
+
 impl Convex for ConvexPolygon {
     fn hull(&self) -> Hull<'_> {
         Hull {
@@ -158,15 +188,14 @@ impl Convex for Hull<'_> {
     }
 }
 
-/// How many convex parts of finite size a shape has: 1, or the pieces of a concave polygon, or
-/// those of all parts of a compound; a half-plane has none.
+/// How many convex parts a shape has: 1, or the pieces of a concave polygon, or those of all parts
+/// of a compound.
 #[must_use]
 pub fn part_count(shape: &Shape) -> usize {
     match shape {
-        Shape::Circle(_) | Shape::Segment(_) | Shape::Convex(_) => 1,
-        Shape::HalfPlane(_) => 0,
+        Shape::Circle(_) | Shape::Segment(_) | Shape::HalfPlane(_) | Shape::Convex(_) => 1,
         Shape::Polygon(polygon) => polygon.pieces().len(),
-        Shape::Compound(compound) => compound.parts().iter().map(part_count).sum(),
+        Shape::Compound(compound) => compound.convex_parts().len(),
     }
 }
 
@@ -177,22 +206,15 @@ pub fn part_count(shape: &Shape) -> usize {
 #[must_use]
 pub fn part(shape: &Shape, i: usize) -> Hull<'_> {
     match shape {
-        Shape::HalfPlane(_) => panic!("a half-plane has no convex part {i}"),
-        Shape::Compound(compound) => {
-            let mut i = i;
-            for member in compound.parts() {
-                let count = part_count(member);
-                if i < count {
-                    return part(member, i);
-                }
-                i -= count;
-            }
-            panic!("the compound ends {i} convex parts before the one asked for")
-        }
         Shape::Circle(circle) => circle.hull(),
         Shape::Segment(segment) => segment.hull(),
+        Shape::HalfPlane(wall) => wall.hull(),
         Shape::Convex(polygon) => polygon.hull(),
         Shape::Polygon(polygon) => polygon.pieces()[i].hull(),
+        Shape::Compound(compound) => match &compound.convex_parts()[i] {
+            ConvexPart::Disc(circle) => circle.hull(),
+            ConvexPart::Piece(piece) => piece.hull(),
+        },
     }
 }
 

@@ -43,6 +43,7 @@ mod sat;
 mod toi;
 mod tree;
 mod vertex_edge;
+mod way_out;
 
 pub use cast::{CastHit, cast};
 pub use contacts::{PartManifold, contacts};
@@ -54,6 +55,7 @@ pub use sat::{Axis, AxisFeature, Side, minimum_push, separating_axis};
 pub use toi::{Impact, TimeOfImpact, earlier, time_of_impact, time_of_impact_of_parts};
 pub use tree::{BoxTree, NodeId};
 pub use vertex_edge::{VertexEdge, VertexEdgeKind, vertex_edge_contacts};
+pub use way_out::shape_push;
 
 /// The README's example is a test.
 #[cfg(doctest)]

@@ -67,7 +67,7 @@ impl Manifold {
             .min_by(f64::total_cmp)
     }
 
-    fn single(normal: Vec2, point: Vec2, separation: f64, feature: FeatureId) -> Self {
+    pub(crate) fn single(normal: Vec2, point: Vec2, separation: f64, feature: FeatureId) -> Self {
         let mut points = ArrayVec::new();
         points.push(ManifoldPoint {
             point,
@@ -104,22 +104,71 @@ pub fn collide(a: &impl Convex, b: &impl Convex, b_in_a: Pose) -> Manifold {
 
 /// The contact of two convex hulls, with every point whose separation is at most `margin` (metres).
 ///
-/// Of a piece of a concave polygon only the true outline is touched: see [`Hull::allows`].
+/// Of a piece of a concave polygon only the true outline is touched: see [`Hull::allows`]. Two
+/// half-planes have no contact: neither can move.
 #[must_use]
 pub fn collide_within(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose, margin: f64) -> Manifold {
-    if a.normals.is_empty() || b.normals.is_empty() {
-        return collide_round(a, b, b_in_a, margin).unwrap_or_default();
+    match touch(a, b, b_in_a, margin) {
+        Touch::Contact(manifold) => manifold,
+        Touch::Apart | Touch::Hidden { .. } => Manifold::default(),
     }
-    collide_polygons(&Pair::new(a, b, b_in_a), margin).unwrap_or_default()
+}
+
+/// How two convex parts meet.
+pub(crate) enum Touch {
+    Apart,
+    Contact(Manifold),
+    /// They overlap, but not where the outlines can touch: at a corner in a seam, beyond which the
+    /// outline goes on, or across cuts alone.
+    Hidden {
+        /// Least overlap: normal in A's frame, and separation in metres.
+        normal: Vec2,
+        separation: f64,
+    },
+}
+
+pub(crate) fn touch(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose, margin: f64) -> Touch {
+    if a.is_disc() || b.is_disc() {
+        return collide_round(a, b, b_in_a, margin);
+    }
+    if a.is_half_plane() && b.is_half_plane() {
+        return Touch::Apart;
+    }
+    collide_polygons(&Pair::new(a, b, b_in_a), margin)
+}
+
+/// The contact of two overlapping parts along the edge that overlaps least among those which the
+/// outlines can touch along.
+pub(crate) fn along_boundary(
+    a: &Hull<'_>,
+    b: &Hull<'_>,
+    b_in_a: Pose,
+    margin: f64,
+) -> Option<Manifold> {
+    if a.is_disc() || b.is_disc() {
+        return None;
+    }
+    let pair = Pair::new(a, b, b_in_a);
+    let (owner, face) = pair.least_overlap()?;
+    let faces = Faces::new(&pair, owner, face);
+    faces.manifold(faces.shared()?, margin)
 }
 
 /// A disc against anything: one point on the way from its centre to the nearest feature.
-fn collide_round(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose, margin: f64) -> Option<Manifold> {
+fn collide_round(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose, margin: f64) -> Touch {
     let axis = separating_axis(a, b, b_in_a);
     if axis.separation > margin {
-        return None;
+        return Touch::Apart;
     }
-    let disc_is_b = b.normals.is_empty();
+    let hidden = if axis.separation <= 0.0 {
+        Touch::Hidden {
+            normal: axis.normal,
+            separation: axis.separation,
+        }
+    } else {
+        Touch::Apart
+    };
+    let disc_is_b = b.is_disc();
     let (hull, disc) = if disc_is_b { (a, b) } else { (b, a) };
     let (mut normal, mut separation) = (axis.normal, axis.separation);
     if hull.boundary.is_some() {
@@ -135,14 +184,16 @@ fn collide_round(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose, margin: f64) -> Optio
         };
         if !touchable {
             let AxisFeature::Edge { .. } = axis.feature else {
-                return None;
+                return hidden;
             };
             let centre = if disc_is_b {
                 b_in_a.point(disc.vertices[0])
             } else {
                 b_in_a.inverse_point(disc.vertices[0])
             };
-            let (height, edge) = nearest_boundary(hull, centre, disc.radius)?;
+            let Some((height, edge)) = nearest_boundary(hull, centre, disc.radius) else {
+                return hidden;
+            };
             separation = height - disc.radius;
             let outward = hull.normals[edge];
             normal = if disc_is_b {
@@ -157,19 +208,19 @@ fn collide_round(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose, margin: f64) -> Optio
     } else {
         a.vertices[0] + normal * (a.radius + 0.5 * separation)
     };
-    Some(Manifold::single(normal, point, separation, FeatureId(0)))
+    Touch::Contact(Manifold::single(normal, point, separation, FeatureId(0)))
 }
 
 /// Two polygons (or segments): the edge of least overlap, and the facing edge clipped to it.
-fn collide_polygons(pair: &Pair<'_>, margin: f64) -> Option<Manifold> {
+fn collide_polygons(pair: &Pair<'_>, margin: f64) -> Touch {
     let [a, b] = &pair.hulls;
     let of_a = best_face(a, b, pair.poses[0]);
     if of_a.separation > margin {
-        return None;
+        return Touch::Apart;
     }
     let of_b = best_face(b, a, pair.poses[1]);
     if of_b.separation > margin {
-        return None;
+        return Touch::Apart;
     }
     let (from, to) = a.edge(of_a.edge);
     let length = (to - from).length();
@@ -180,29 +231,37 @@ fn collide_polygons(pair: &Pair<'_>, margin: f64) -> Option<Manifold> {
     };
     let overlap = best.1.separation <= 0.0;
     let touchable = !pair.has_cuts() || pair.allows(best.0, best.1);
-    if overlap && !touchable {
-        if pair.hulls[best.0 as usize].is_boundary(best.1.edge) {
-            // The outline goes on below that vertex: a neighbouring piece reaches deeper along the
-            // same normal, and has the contact.
-            return None;
-        }
-        let (owner, face) = pair.least_overlap()?;
-        let faces = Faces::new(pair, owner, face);
-        return faces.manifold(faces.shared()?, margin);
-    }
     let faces = Faces::new(pair, best.0, best.1);
+    if overlap && !touchable {
+        let hidden = Touch::Hidden {
+            normal: faces.normal_in_a(),
+            separation: best.1.separation,
+        };
+        if pair.hulls[best.0 as usize].is_boundary(best.1.edge) {
+            // The outline goes on below that vertex: as a rule a neighbouring piece reaches deeper
+            // along the same normal, and has the contact.
+            return hidden;
+        }
+        return along_boundary(a, b, pair.poses[0], margin).map_or(hidden, Touch::Contact);
+    }
     if let Some(found) = faces.shared().and_then(|ends| faces.manifold(ends, margin)) {
-        return touchable.then_some(found);
+        return if touchable {
+            Touch::Contact(found)
+        } else {
+            Touch::Apart
+        };
     }
     // The vertex is beyond the end of the edge: vertex on vertex, if they are apart at all. Closer
     // than rounding the way from vertex to vertex has no direction, but the edge still has.
     match apart(a, b, pair.poses[0]).filter(|way| way.distance > TIE * length) {
-        Some(way) => (way.distance <= margin && pair.allows_way(&way)).then(|| {
+        Some(way) if way.distance <= margin && pair.allows_way(&way) => {
             let (i, j) = way.vertices(a, b, pair.poses[0]);
             let middle = 0.5 * (way.point_a + way.point_b);
-            Manifold::single(way.normal, middle, way.distance, FeatureId::new(i, j))
-        }),
-        None => touchable.then(|| faces.deepest()),
+            let feature = FeatureId::new(i, j);
+            Touch::Contact(Manifold::single(way.normal, middle, way.distance, feature))
+        }
+        None if touchable => Touch::Contact(faces.deepest()),
+        _ => Touch::Apart,
     }
 }
 
@@ -214,7 +273,10 @@ pub(crate) struct Faces<'a, 'b> {
     /// Start of the reference edge and its direction.
     origin: Vec2,
     along: Vec2,
+    /// Length of the reference edge; of the facing one, if the reference is a line without end.
     length: f64,
+    /// Where the reference edge starts and ends, along itself.
+    span: [f64; 2],
     /// Reference vertices at the low and at the high end.
     own: [usize; 2],
     face: Face,
@@ -225,7 +287,7 @@ pub(crate) struct Faces<'a, 'b> {
 
 /// A place on the facing edge: along the reference edge, above it, and at which of its ends.
 #[derive(Clone, Copy)]
-struct End {
+pub(crate) struct End {
     along: f64,
     height: f64,
     vertices: (usize, usize),
@@ -253,17 +315,26 @@ impl<'a, 'b> Faces<'a, 'b> {
         } else {
             [face.vertex; 2]
         };
+        let points = facing.map(|i| pose.point(other.vertices[i]));
+        let (length, span) = if own.is_half_plane() {
+            let facing = (points[1] - points[0]).length();
+            (facing, [f64::NEG_INFINITY, f64::INFINITY])
+        } else {
+            let length = (to - from).dot(along);
+            (length, [0.0, length])
+        };
         Self {
             pair,
             owner,
             normal,
             origin: from,
             along,
-            length: (to - from).dot(along),
+            length,
+            span,
             own: [face.edge, own.next(face.edge)],
             face,
             other: facing,
-            points: facing.map(|i| pose.point(other.vertices[i])),
+            points,
         }
     }
 
@@ -290,7 +361,7 @@ impl<'a, 'b> Faces<'a, 'b> {
     }
 
     /// The stretch of the facing edge over the reference edge.
-    fn shared(&self) -> Option<[End; 2]> {
+    pub(crate) fn shared(&self) -> Option<[End; 2]> {
         let [low, high] = [0, 1].map(|i| {
             let from_origin = self.points[i] - self.origin;
             End {
@@ -299,7 +370,7 @@ impl<'a, 'b> Faces<'a, 'b> {
                 vertices: (self.own[i], self.other[i]),
             }
         });
-        let (start, end) = (low.along.max(0.0), high.along.min(self.length));
+        let (start, end) = (low.along.max(self.span[0]), high.along.min(self.span[1]));
         if start > end {
             return None;
         }
@@ -318,15 +389,15 @@ impl<'a, 'b> Faces<'a, 'b> {
         Some([at(start, low), at(end, high)])
     }
 
-    fn manifold(&self, ends: [End; 2], margin: f64) -> Option<Manifold> {
+    pub(crate) fn manifold(&self, ends: [End; 2], margin: f64) -> Option<Manifold> {
         let mut points: ArrayVec<ManifoldPoint, 2> = ArrayVec::new();
         let [low, high] = ends;
         let ends = if high.along - low.along <= TIE * self.length {
             // They share no more than a point: the lower end, at the vertices that meet there.
             let [before, after] = self.other;
-            let vertices = if low.along <= 0.0 {
+            let vertices = if low.along <= self.span[0] {
                 (self.own[0], after)
-            } else if high.along >= self.length {
+            } else if high.along >= self.span[1] {
                 (self.own[1], before)
             } else {
                 low.vertices
@@ -350,11 +421,11 @@ impl<'a, 'b> Faces<'a, 'b> {
     }
 
     /// One point at the deepest vertex, wherever it is.
-    fn deepest(&self) -> Manifold {
+    pub(crate) fn deepest(&self) -> Manifold {
         let i = usize::from(self.other[1] == self.face.vertex);
         let along = (self.points[i] - self.origin).dot(self.along);
         let point = self.point(End {
-            along: along.clamp(0.0, self.length),
+            along: along.clamp(self.span[0], self.span[1]),
             height: self.face.separation,
             vertices: (self.own[i], self.other[i]),
         });

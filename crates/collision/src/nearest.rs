@@ -65,6 +65,10 @@ struct Waiting {
 
 impl Waiting {
     fn new(a: Node, b: Node, b_in_a: Pose) -> Self {
+        if !(a.bounds.is_finite() && b.bounds.is_finite()) {
+            let least = f64::NEG_INFINITY;
+            return Self { a, b, least };
+        }
         let around = turned(b.bounds, b_in_a);
         let gap = (around.min - a.bounds.max)
             .max(a.bounds.min - around.max)

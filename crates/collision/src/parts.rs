@@ -66,6 +66,7 @@ pub(crate) fn near_parts(
 pub(crate) fn tree(shape: &Shape) -> Option<&PartTree> {
     match shape {
         Shape::Polygon(polygon) => polygon.part_tree(),
+        Shape::Compound(compound) => compound.part_tree(),
         _ => None,
     }
 }
@@ -194,7 +195,12 @@ impl Reach {
 }
 
 /// A box around `bounds` at `pose`, with room for the rounding of points that are moved one by one.
+///
+/// One without end stays without end, on all sides.
 pub(crate) fn turned(bounds: Aabb, pose: Pose) -> Aabb {
+    if !bounds.is_finite() {
+        return Aabb::new(Vec2::NEG_INFINITY, Vec2::INFINITY);
+    }
     let (centre, half) = (bounds.centre(), bounds.extents() * 0.5);
     let (cos, sin) = (pose.rotation.cos().abs(), pose.rotation.sin().abs());
     let half = vec2(cos * half.x + sin * half.y, sin * half.x + cos * half.y);

@@ -64,8 +64,9 @@ pub struct Axis {
 ///
 /// Polygons: the largest separation over all n + m edge normals; it is the distance where an edge
 /// is closest, less than the distance where two vertices are, and the depth of the overlap where
-/// it is negative. A circle: the true distance in every case. Among equals A's edges come first,
-/// then the lowest index. Centres of circles that coincide have A's x axis as their normal.
+/// it is negative. A circle: the true distance in every case. A half-plane: along its normal. Among
+/// equals A's edges come first, then the lowest index. Centres of circles that coincide have A's x
+/// axis as their normal. Two half-planes overlap without end, −∞, unless they face each other exactly.
 ///
 /// # Examples
 /// ```
@@ -79,10 +80,10 @@ pub struct Axis {
 /// ```
 #[must_use]
 pub fn separating_axis(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose) -> Axis {
-    if b.normals.is_empty() {
+    if b.is_disc() {
         return point_axis(a, b_in_a.point(b.vertices[0]), b.radius);
     }
-    if a.normals.is_empty() {
+    if a.is_disc() {
         let axis = point_axis(b, b_in_a.inverse_point(a.vertices[0]), a.radius);
         return axis.of_swapped(b_in_a);
     }
@@ -99,7 +100,8 @@ pub fn separating_axis(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose) -> Axis {
     axis
 }
 
-/// The shortest translation of B that ends the overlap, in metres in A's frame; `None` if apart.
+/// The shortest translation of B that ends the overlap, in metres in A's frame; `None` if apart, or
+/// if there is no such way: two half-planes.
 ///
 /// The thesis's minimum push vector, pointing away from A. Zero if the shapes touch.
 ///
@@ -117,7 +119,7 @@ pub fn separating_axis(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose) -> Axis {
 #[must_use]
 pub fn minimum_push(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose) -> Option<Vec2> {
     let axis = separating_axis(a, b, b_in_a);
-    (axis.separation <= 0.0).then(|| axis.normal * -axis.separation)
+    (axis.separation <= 0.0 && axis.separation.is_finite()).then(|| axis.normal * -axis.separation)
 }
 
 /// An edge of one hull and the vertex of the other that is deepest behind it.
@@ -146,6 +148,12 @@ pub(crate) fn best_face(own: &Hull<'_>, other: &Hull<'_>, other_in_own: Pose) ->
     best
 }
 
+/// Whether both are half-planes, each in front of the other one's line.
+fn face_each_other(own: &Hull<'_>, other: &Hull<'_>, other_in_own: Pose) -> bool {
+    let local = other_in_own.vector(other.normals[0]);
+    own.is_half_plane() && local == -own.normals[0]
+}
+
 /// How far `other` is beyond one edge of `own`; `hint` is the deepest vertex of the edge before.
 pub(crate) fn face(
     own: &Hull<'_>,
@@ -154,6 +162,14 @@ pub(crate) fn face(
     other_in_own: Pose,
     hint: Option<usize>,
 ) -> Face {
+    if other.is_half_plane() && !face_each_other(own, other, other_in_own) {
+        // It goes on without end behind every edge.
+        return Face {
+            separation: f64::NEG_INFINITY,
+            edge,
+            vertex: 0,
+        };
+    }
     // n·(R v + t − p) = (Rᵀ n)·v + n·(t − p): the vertices stay in their own frame.
     let normal = own.normals[edge];
     let local = other_in_own.inverse_vector(normal);

@@ -2,7 +2,9 @@
 
 use carom_math::{Pose, Vec2};
 
-use crate::{AreaProperties, Shape, ShapeError};
+use crate::part_tree::TREE_ABOVE;
+use crate::seams::{ConvexPart, weld};
+use crate::{AreaProperties, ConvexPiece, PartTree, Shape, ShapeError};
 
 /// Several shapes in one frame, each put where it belongs.
 ///
@@ -30,6 +32,8 @@ use crate::{AreaProperties, Shape, ShapeError};
 pub struct Compound {
     parts: Vec<Shape>,
     vertices: Vec<Vec2>,
+    convex: Vec<ConvexPart>,
+    tree: Option<PartTree>,
 }
 
 impl Compound {
@@ -57,9 +61,15 @@ impl Compound {
 
     fn from_checked(parts: Vec<Shape>) -> Self {
         let corners = parts.iter().flat_map(Shape::vertices);
+        let vertices: Vec<Vec2> = corners.copied().collect();
+        let mut convex: Vec<ConvexPart> = parts.iter().flat_map(convex_parts).collect();
+        weld(&mut convex);
+        let many = vertices.len() > TREE_ABOVE && convex.len() > 1;
         Self {
-            vertices: corners.copied().collect(),
+            tree: many.then(|| PartTree::new(convex.iter().map(ConvexPart::aabb))),
             parts,
+            vertices,
+            convex,
         }
     }
 
@@ -67,6 +77,18 @@ impl Compound {
     #[must_use]
     pub fn parts(&self) -> &[Shape] {
         &self.parts
+    }
+
+    /// The convex parts of all parts, one part after the other; each knows where others hide it.
+    #[must_use]
+    pub fn convex_parts(&self) -> &[ConvexPart] {
+        &self.convex
+    }
+
+    /// The box tree over the convex parts, if there are several with more than 32 corners together.
+    #[must_use]
+    pub const fn part_tree(&self) -> Option<&PartTree> {
+        self.tree.as_ref()
     }
 
     /// Corners of all parts, one part after the other, in m; of a circle its centre.
@@ -99,5 +121,21 @@ impl Compound {
     pub fn translated(&self, offset: Vec2) -> Self {
         let parts = self.parts.iter().map(|part| part.translated(offset));
         Self::from_checked(parts.collect())
+    }
+}
+
+/// The convex parts of one part.
+fn convex_parts(part: &Shape) -> Vec<ConvexPart> {
+    match part {
+        Shape::Circle(circle) => vec![ConvexPart::Disc(*circle)],
+        Shape::Segment(segment) => vec![ConvexPart::Piece(ConvexPiece::wall(segment))],
+        Shape::Convex(polygon) => vec![ConvexPart::Piece(ConvexPiece::whole(polygon))],
+        Shape::Polygon(polygon) => {
+            let pieces = polygon.pieces().iter().cloned();
+            pieces.map(ConvexPart::Piece).collect()
+        }
+        Shape::Compound(compound) => compound.convex.clone(),
+        // No part of a compound is one.
+        Shape::HalfPlane(_) => Vec::new(),
     }
 }

@@ -44,6 +44,7 @@ mod query;
 mod random;
 mod region;
 mod ring;
+mod seams;
 mod segment;
 mod shape;
 mod simple;
@@ -65,6 +66,7 @@ pub use pieces::{Cone, ConvexPiece};
 pub use polygon::Polygon;
 pub use query::RayHit;
 pub use region::Region;
+pub use seams::ConvexPart;
 pub use segment::Segment;
 pub use shape::{Outline, Shape};
 

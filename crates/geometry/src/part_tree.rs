@@ -2,6 +2,9 @@
 
 use crate::Aabb;
 
+/// Edges of a shape above which a tree of boxes is faster than a look at every part.
+pub(crate) const TREE_ABOVE: usize = 32;
+
 /// Boxes around the parts of a shape, halved again and again: who asks for the parts near a place
 /// looks at a few boxes instead of all.
 ///

@@ -9,6 +9,7 @@ use crate::convex::outward_normals;
 use crate::ears::triangulate;
 use crate::merge::{PieceEdge, merge};
 use crate::ring::corners;
+use crate::{ConvexPolygon, Segment};
 
 /// A convex piece of a polygon: which edges are true, and where its corners can be touched.
 ///
@@ -60,6 +61,42 @@ impl ConvexPiece {
     #[must_use]
     pub fn cones(&self) -> &[Cone] {
         &self.cones
+    }
+
+    /// A convex polygon as its own piece.
+    pub(crate) fn whole(polygon: &ConvexPolygon) -> Self {
+        let normals = polygon.normals();
+        let before = normals.last().into_iter().chain(normals);
+        let cones = before.zip(normals).map(|(from, to)| Cone {
+            from: *from,
+            to: *to,
+        });
+        Self {
+            vertices: polygon.vertices().to_vec(),
+            normals: normals.to_vec(),
+            boundary: vec![true; normals.len()],
+            cones: cones.collect(),
+        }
+    }
+
+    /// A wall without thickness: two vertices, a normal for each side, half a turn at either end.
+    pub(crate) fn wall(segment: &Segment) -> Self {
+        let [right, left] = *segment.normals();
+        let cone = |from, to| Cone { from, to };
+        Self {
+            vertices: segment.vertices().to_vec(),
+            normals: vec![right, left],
+            boundary: vec![true; 2],
+            cones: vec![cone(left, right), cone(right, left)],
+        }
+    }
+
+    pub(crate) fn hide_edge(&mut self, edge: usize) {
+        self.boundary[edge] = false;
+    }
+
+    pub(crate) fn set_cone(&mut self, corner: usize, cone: Cone) {
+        self.cones[corner] = cone;
     }
 
     /// The same piece moved by `offset`, in m.

@@ -3,7 +3,7 @@
 use carom_math::Vec2;
 
 use crate::moments::ring_moments;
-use crate::part_tree::PartTree;
+use crate::part_tree::{PartTree, TREE_ABOVE};
 use crate::pieces::{ConvexPiece, decompose};
 use crate::query::winds_around;
 use crate::ring::Ring;
@@ -32,9 +32,6 @@ pub struct Polygon {
     pieces: Vec<ConvexPiece>,
     tree: Option<PartTree>,
 }
-
-/// Edges above which a tree of boxes is faster than a look at every piece.
-const TREE_ABOVE: usize = 32;
 
 impl Polygon {
     /// The polygon with the given vertices, in m, in either order of turn.

@@ -64,6 +64,9 @@ impl<'a> Approach<'a> {
 
     /// Bounding circles of the hulls that cannot meet, however they turn.
     pub(super) fn stays_apart(&self, horizon: f64) -> bool {
+        if self.wall().is_some() {
+            return false;
+        }
         let circle = |k: usize| {
             let hull = &self.hulls[k];
             let bounds = hull.aabb(carom_math::Pose::IDENTITY);
@@ -84,9 +87,18 @@ impl<'a> Approach<'a> {
         6.0 * f64::EPSILON * (self.d.length() + self.reach[0] + self.reach[1] + travel)
     }
 
-    /// The smaller hull's reach: lengths that mean something are fractions of it.
+    /// The smaller hull's reach: lengths that mean something are fractions of it. A half-plane has
+    /// none.
     pub(super) fn size(&self) -> f64 {
-        self.reach[0].min(self.reach[1])
+        match self.wall() {
+            Some(wall) => self.reach[1 - wall],
+            None => self.reach[0].min(self.reach[1]),
+        }
+    }
+
+    /// Which of the two is a half-plane.
+    fn wall(&self) -> Option<usize> {
+        self.hulls.iter().position(Hull::is_half_plane)
     }
 
     /// Fastest that any two points approach at the start, in m/s.
@@ -184,7 +196,11 @@ impl<'a> Approach<'a> {
 
     /// Visits every axis that can separate the hulls at `at`.
     pub(super) fn each_axis(&self, at: &Instant, mut visit: impl FnMut(Axis)) {
-        let round = self.hulls.iter().position(|hull| hull.vertices.len() == 1);
+        if let Some(owner) = self.wall() {
+            visit(Axis::Edge { owner, edge: 0 });
+            return;
+        }
+        let round = self.hulls.iter().position(Hull::is_disc);
         let Some(disc) = round else {
             for owner in 0..2 {
                 for edge in 0..self.hulls[owner].normals.len() {

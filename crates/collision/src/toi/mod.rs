@@ -68,7 +68,7 @@ impl Impact {
 ///
 /// Each shape is given about the centre of its motion. A hit is right to a few roundings of
 /// (sizes + distance + travel) over the gap rate. Concave polygons are searched piece by piece;
-/// a cut between pieces can separate but never touch.
+/// a cut between pieces can separate but never touch. Two half-planes never meet: neither can move.
 ///
 /// # Examples
 /// ```
@@ -109,6 +109,10 @@ pub fn time_of_impact_of_parts(
     motion_b: &Motion,
     horizon: f64,
 ) -> TimeOfImpact {
+    if a.is_half_plane() && b.is_half_plane() {
+        // Neither can move.
+        return TimeOfImpact::Clear;
+    }
     let approach = Approach::new(*a, motion_a, *b, motion_b);
     if approach.stays_apart(horizon) {
         return TimeOfImpact::Clear;

@@ -96,6 +96,9 @@ impl Sweep {
     fn earliest(&self, a: Aabb, b: Aabb) -> Option<f64> {
         /// Far above the rounding of this estimate, as a fraction of the lengths in it.
         const SLACK: f64 = 1e-9;
+        if !(a.is_finite() && b.is_finite()) {
+            return Some(0.0);
+        }
         let [motion_a, motion_b] = &self.motions;
         let centres = [a.centre(), b.centre()];
         let away = (motion_b.centre - motion_a.centre)

@@ -199,7 +199,9 @@ impl Search<'_> {
         });
         let anchor = self.place(axis, &least, &at);
         let (mut low, mut high) = stretch.unwrap_or((tangent.dot(anchor), tangent.dot(anchor)));
-        if let Axis::Edge { owner, edge } = axis {
+        if let Axis::Edge { owner, edge } = axis
+            && !approach.hulls[owner].is_half_plane()
+        {
             let (from, to) = approach.hulls[owner].edge(edge);
             let seen = |p: Vec2| {
                 let local = at.rotation[owner] * p;

@@ -3,6 +3,7 @@
 #![allow(clippy::float_cmp, reason = "tests compare exact results")]
 
 mod cast;
+mod compounds;
 mod concave;
 mod distance;
 mod documents;
@@ -11,3 +12,5 @@ mod manifold;
 mod sat;
 mod shapes;
 mod vertex_edge;
+mod walls;
+mod way_out;

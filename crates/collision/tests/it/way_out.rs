@@ -1,0 +1,145 @@
+//! Overlaps of whole shapes: the shortest way out, and contacts however deep.
+
+use carom_collision::{PartManifold, contacts, hulls, separating_axis, shape_push};
+use carom_geometry::{Circle, Compound, ConvexPolygon, Polygon, Shape};
+use carom_math::{Pose, Rot, Vec2, vec2};
+use proptest::prelude::*;
+
+use crate::shapes::{concave, convex, from_outline};
+
+/// Deepest overlap of two parts, in metres.
+fn overlap(a: &Shape, b: &Shape, pose: Pose) -> f64 {
+    let mut depth = f64::NEG_INFINITY;
+    for x in hulls(a) {
+        for y in hulls(b) {
+            depth = depth.max(-separating_axis(&x, &y, pose).separation);
+        }
+    }
+    depth
+}
+
+fn moved(pose: Pose, by: Vec2) -> Pose {
+    Pose::new(pose.position + by, pose.rotation)
+}
+
+fn all(a: &Shape, b: &Shape, pose: Pose) -> Vec<PartManifold> {
+    let mut found = Vec::new();
+    contacts(a, b, pose, 0.0, &mut found);
+    found
+}
+
+fn body() -> impl Strategy<Value = Shape> {
+    prop_oneof![
+        convex().prop_map(Shape::from),
+        concave().prop_map(Shape::from),
+    ]
+}
+
+proptest! {
+    #[test]
+    fn the_push_ends_the_overlap_and_nothing_shorter_does(a in concave(), b in body(), x in -1.0..1.0_f64, y in -1.0..1.0_f64, turn in -4.0..4.0_f64) {
+        let a: Shape = a.into();
+        let pose = Pose::new(vec2(x, y), Rot::from_angle(turn));
+        let Some(push) = shape_push(&a, &b, pose) else {
+            prop_assert!(overlap(&a, &b, pose) < 1e-11);
+            return Ok(());
+        };
+        prop_assert!(overlap(&a, &b, moved(pose, push)) < 1e-11);
+        for i in 0..96 {
+            let way = Rot::from_angle(0.065_449_846_949_787_36 * f64::from(i)).x_axis();
+            for share in [0.3, 0.6, 0.9, 0.999] {
+                let shorter = moved(pose, way * (push.length() * share));
+                prop_assert!(overlap(&a, &b, shorter) > -1e-12, "{push} is not the shortest: {way} {share}");
+            }
+        }
+        let back = shape_push(&b, &a, pose.inverse()).expect("they overlap");
+        prop_assert!((pose.vector(back).length() - push.length()).abs() < 1e-9);
+    }
+
+    #[test]
+    fn whatever_overlaps_has_a_contact(a in concave(), b in concave(), x in -1.5..1.5_f64, y in -1.5..1.5_f64, turn in -4.0..4.0_f64) {
+        let pose = Pose::new(vec2(x, y), Rot::from_angle(turn));
+        let (a, b): (Shape, Shape) = (a.into(), b.into());
+        let found = all(&a, &b, pose);
+        let deepest = found.iter().filter_map(|c| c.manifold.deepest()).fold(f64::INFINITY, f64::min);
+        prop_assert!(deepest <= 0.0 || overlap(&a, &b, pose) < 1e-9);
+    }
+}
+
+#[test]
+fn a_small_box_across_a_cut_leaves_through_the_outline() {
+    let l = Polygon::new([
+        vec2(0.0, 0.0),
+        vec2(4.0, 0.0),
+        vec2(4.0, 1.0),
+        vec2(1.0, 1.0),
+        vec2(1.0, 4.0),
+        vec2(0.0, 4.0),
+    ])
+    .expect("an L");
+    let small: Shape = ConvexPolygon::square(0.125).expect("a box").into();
+    // Along both diagonals of the corner, so that the cut is crossed wherever it is.
+    for k in 1..16 {
+        let s = f64::from(k) / 16.0;
+        for place in [vec2(s, s), vec2(s, 1.0 - s), vec2(0.5, s), vec2(s, 0.5)] {
+            let pose = Pose::at(place);
+            let found = all(&l.clone().into(), &small, pose);
+            assert!(!found.is_empty(), "nothing at {place}");
+            for contact in &found {
+                let n = contact.manifold.normal;
+                assert!(
+                    n == Vec2::X || n == Vec2::Y || n == -Vec2::X || n == -Vec2::Y,
+                    "{n} at {place}"
+                );
+            }
+            let push = shape_push(&l.clone().into(), &small, pose).expect("it is inside");
+            let nearest = from_outline(l.vertices(), place) + 0.0625;
+            assert!(
+                push.length() <= nearest * core::f64::consts::SQRT_2 + 1e-12,
+                "{push} at {place}"
+            );
+        }
+    }
+}
+
+#[test]
+fn in_the_corner_between_two_arms_both_push() {
+    let l: Shape = Polygon::new([
+        vec2(0.0, 0.0),
+        vec2(4.0, 0.0),
+        vec2(4.0, 1.0),
+        vec2(1.0, 1.0),
+        vec2(1.0, 4.0),
+        vec2(0.0, 4.0),
+    ])
+    .expect("an L")
+    .into();
+    let small: Shape = ConvexPolygon::square(0.5).expect("a box").into();
+    let pose = Pose::at(vec2(1.0, 1.0));
+    assert_eq!(shape_push(&l, &small, pose), Some(vec2(0.25, 0.25)));
+    let found = all(&l, &small, pose);
+    let mut normals: Vec<_> = found
+        .iter()
+        .map(|c| (c.manifold.normal.x, c.manifold.normal.y))
+        .collect();
+    normals.sort_by(|p, q| p.0.total_cmp(&q.0));
+    normals.dedup();
+    assert_eq!(normals, [(0.0, 1.0), (1.0, 0.0)]);
+}
+
+#[test]
+fn tiles_in_one_body_are_left_as_a_whole() {
+    let tile: Shape = ConvexPolygon::square(1.0).expect("a box").into();
+    let row = (0..8).map(|i| (tile.clone(), Pose::at(vec2(f64::from(i), 0.0))));
+    let row: Shape = Compound::new(row).expect("parts").into();
+    let ball: Shape = Circle::new(0.25).expect("a disc").into();
+    // On the seam, nearer to the top than to the bottom, far from both ends.
+    let pose = Pose::at(vec2(3.5, 0.125));
+    assert_eq!(shape_push(&row, &ball, pose), Some(vec2(0.0, 0.625)));
+    let found = all(&row, &ball, pose);
+    assert!(!found.is_empty());
+    for contact in found {
+        assert_eq!(contact.manifold.normal, Vec2::Y);
+        assert_eq!(contact.manifold.deepest(), Some(-0.625));
+    }
+}
