@@ -176,6 +176,8 @@ impl Race {
             substeps: None,
             threads: job.threads,
             sleeping: scene.sleeping,
+            // What the other peers leave by default.
+            slop: (job.mode == Mode::Stock).then_some(5e-3),
         };
         let at_most = |limit: Option<u32>, own: u32| limit.map_or(own, |limit| limit.min(own));
         let spent = CpuClock::process();

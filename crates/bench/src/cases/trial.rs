@@ -57,6 +57,7 @@ impl Trial {
             substeps: self.point.substeps,
             threads: 1,
             sleeping: scene.sleeping,
+            slop: None,
         };
         Ok(Run {
             engine: open(self.point.engine, scene, &setup)?,

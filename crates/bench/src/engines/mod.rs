@@ -1,6 +1,12 @@
 //! The engines that were built in, by name.
 
+#[cfg(feature = "box2d")]
+mod box2d;
+#[cfg(all(test, any(feature = "box2d", feature = "chipmunk")))]
+mod c_peers_tests;
 mod carom;
+#[cfg(feature = "chipmunk")]
+mod chipmunk;
 #[cfg(any(feature = "rapier", feature = "rapier-f64"))]
 mod rapier;
 
@@ -135,10 +141,18 @@ pub fn open(
     }
     match engine {
         EngineName::Carom => carom::open(scene, setup),
+        #[cfg(feature = "box2d")]
+        EngineName::Box2dSse2 | EngineName::Box2dAvx2 => box2d::open(engine, scene, setup),
+        #[cfg(feature = "chipmunk")]
+        EngineName::Chipmunk => chipmunk::open(scene, setup),
         #[cfg(feature = "rapier")]
         EngineName::Rapier | EngineName::Rapier8 => rapier::open_single(&name, scene, setup),
         #[cfg(feature = "rapier-f64")]
         EngineName::RapierF64 => rapier::open_double(&name, scene, setup),
+        #[allow(
+            unreachable_patterns,
+            reason = "an executable may have been built with all engines"
+        )]
         _ => Err(EngineError::NotBuilt { engine: name }),
     }
 }
