@@ -1,19 +1,32 @@
 //! Small worlds with a known answer.
 
 mod bounce;
+mod bullets;
 mod corner;
 mod cradle;
 mod discs;
 mod drop;
 mod eccentric;
+mod far;
 mod friction;
 mod galperin;
+mod gas;
+mod horizon;
+mod load;
 mod metric;
 mod order;
+mod pairs;
+mod pile;
 mod plan;
 mod projectile;
+mod refined;
 mod rolling;
+mod slivers;
 mod spin;
+mod stack;
+#[cfg(test)]
+mod tests;
+mod thesis;
 mod trial;
 mod worlds;
 
@@ -59,4 +72,14 @@ pub const CASES: &[Case] = &[
     rolling::CASE,
     cradle::CASE,
     spin::CASE,
+    gas::POLYGONS,
+    stack::CASE,
+    load::CASE,
+    bullets::CASE,
+    slivers::CASE,
+    far::CASE,
+    gas::DISCS,
+    pairs::CASE,
+    thesis::CASE,
+    pile::CASE,
 ];

@@ -4,17 +4,22 @@ use carom_scenes::PlainScene;
 
 use crate::clock::CpuClock;
 use crate::engine::{Body, Counters, Engine, EngineError, Setup, State};
-use crate::engines::open;
+use crate::engines::{self, EngineName};
 use crate::job::Point;
 
 /// One step in so many is metered: reading the clock costs as much as a step of a world of one body.
 const METERED: u64 = 8;
+
+/// Who builds a world: the engines, or what a test puts in their place.
+pub(super) type Opener =
+    fn(EngineName, &PlainScene, &Setup) -> Result<Box<dyn Engine>, EngineError>;
 
 /// An engine with its settings, and what its steps cost so far.
 #[derive(Debug)]
 pub struct Trial {
     point: Point,
     meter: Meter,
+    opener: Opener,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -28,10 +33,21 @@ impl Trial {
     /// Nothing has been stepped yet.
     #[must_use]
     pub fn new(point: &Point) -> Self {
+        Self::opened_by(engines::open, point)
+    }
+
+    pub(super) fn opened_by(opener: Opener, point: &Point) -> Self {
         Self {
             point: point.clone(),
             meter: Meter::default(),
+            opener,
         }
+    }
+
+    /// Who runs.
+    #[must_use]
+    pub const fn engine(&self) -> EngineName {
+        self.point.engine
     }
 
     /// Steps per simulated second.
@@ -51,20 +67,28 @@ impl Trial {
     /// # Errors
     /// If the engine is not built in or refuses the scene.
     pub fn open(&mut self, scene: &PlainScene) -> Result<Run<'_>, EngineError> {
+        let world = self.build(scene, self.hz())?;
+        Ok(Run::new(world, self.hz(), Some(&mut self.meter)))
+    }
+
+    /// Builds a world that is stepped at another rate, in Hz, and whose cost does not count: a reference.
+    ///
+    /// # Errors
+    /// If the engine is not built in or refuses the scene.
+    pub fn reference(&self, scene: &PlainScene, hz: f64) -> Result<Run<'static>, EngineError> {
+        Ok(Run::new(self.build(scene, hz)?, hz, None))
+    }
+
+    fn build(&self, scene: &PlainScene, hz: f64) -> Result<Box<dyn Engine>, EngineError> {
         let setup = Setup {
             mode: self.point.mode,
-            hz: self.hz(),
+            hz,
             substeps: self.point.substeps,
             threads: 1,
             sleeping: scene.sleeping,
             slop: None,
         };
-        Ok(Run {
-            engine: open(self.point.engine, scene, &setup)?,
-            dt: self.dt(),
-            time: 0.0,
-            meter: &mut self.meter,
-        })
+        (self.opener)(self.point.engine, scene, &setup)
     }
 
     /// CPU seconds inside steps per simulated second.
@@ -83,7 +107,7 @@ pub struct Run<'a> {
     engine: Box<dyn Engine>,
     dt: f64,
     time: f64,
-    meter: &'a mut Meter,
+    meter: Option<&'a mut Meter>,
 }
 
 impl std::fmt::Debug for Run<'_> {
@@ -95,19 +119,39 @@ impl std::fmt::Debug for Run<'_> {
     }
 }
 
+impl<'a> Run<'a> {
+    fn new(engine: Box<dyn Engine>, hz: f64, meter: Option<&'a mut Meter>) -> Self {
+        Self {
+            engine,
+            dt: hz.recip(),
+            time: 0.0,
+            meter,
+        }
+    }
+}
+
+impl Meter {
+    fn step(&mut self, engine: &mut dyn Engine) {
+        if self.steps.is_multiple_of(METERED) {
+            let clock = CpuClock::thread();
+            let before = clock.seconds();
+            engine.step();
+            self.seconds += clock.seconds() - before;
+            self.metered += 1;
+        } else {
+            engine.step();
+        }
+        self.steps += 1;
+    }
+}
+
 impl Run<'_> {
     /// One step.
     pub fn step(&mut self) {
-        if self.meter.steps.is_multiple_of(METERED) {
-            let clock = CpuClock::thread();
-            let before = clock.seconds();
-            self.engine.step();
-            self.meter.seconds += clock.seconds() - before;
-            self.meter.metered += 1;
-        } else {
-            self.engine.step();
+        match &mut self.meter {
+            Some(meter) => meter.step(self.engine.as_mut()),
+            None => self.engine.step(),
         }
-        self.meter.steps += 1;
         self.time += self.dt;
     }
 

@@ -69,6 +69,15 @@ impl EngineName {
         }
     }
 
+    /// Whether it computes in single precision.
+    #[must_use]
+    pub const fn is_single(self) -> bool {
+        matches!(
+            self,
+            Self::Box2dSse2 | Self::Box2dAvx2 | Self::Rapier | Self::Rapier8
+        )
+    }
+
     /// The settings that it has: its default first.
     #[must_use]
     pub const fn modes(self) -> &'static [Mode] {
