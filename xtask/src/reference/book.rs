@@ -121,6 +121,13 @@ pub(super) fn points_at(inputs: &Value, key: &str) -> Result<Vec<Vec2>, String> 
         .ok_or_else(|| format!("input {key} is not a list of pairs"))
 }
 
+/// The list of numbers `inputs[key]`.
+pub(super) fn numbers_at(inputs: &Value, key: &str) -> Result<Vec<f64>, String> {
+    let list = inputs[key].as_array();
+    list.and_then(|list| list.iter().map(number).collect())
+        .ok_or_else(|| format!("input {key} is not a list of numbers"))
+}
+
 /// Every number, word or truth value inside a value, in order.
 pub(super) fn flatten(value: &Value, each: &mut dyn FnMut(&Value)) {
     match value {

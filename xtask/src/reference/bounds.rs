@@ -5,6 +5,7 @@ use serde_json::Value;
 
 use super::book::{Case, flatten, number, number_at, point, point_at, points_at};
 use super::decimal::Decimal;
+use super::horizon;
 
 /// Allowed absolute error of each number of one output.
 ///
@@ -20,7 +21,8 @@ pub(super) fn bounds(
         "mass_properties" => Ok(mass_bounds(case, key, want)),
         "impacts" => Ok(impact_bounds(case, key, want)),
         "time_of_impact" => Ok(vec![first_contact_bound(case, key)?; want.len()]),
-        _ => Err(format!("{category} has no bounds")),
+        _ => horizon::bounds(category, case, key, want)
+            .ok_or_else(|| format!("{category} has no bounds")),
     }
 }
 
@@ -183,7 +185,7 @@ pub(super) fn off_the_stretch(ends: &[Decimal], got: Vec2) -> Option<f64> {
 }
 
 /// The doubles of an output of the reference.
-fn numbers(case: &Case, key: &str) -> Vec<f64> {
+pub(super) fn numbers(case: &Case, key: &str) -> Vec<f64> {
     let mut found = Vec::new();
     if let Some(entry) = case.outputs.get(key) {
         flatten(&entry["value"], &mut |item| found.extend(number(item)));

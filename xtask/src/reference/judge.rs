@@ -2,12 +2,15 @@
 //!
 //! The bounds are those of the reference's own judge; a category that is not listed here fails.
 
+use core::f64::consts::TAU;
+
 use carom_math::vec2;
 use serde_json::Value;
 
 use super::book::{Answer, Case, flatten};
 use super::bounds::{bounds, first_number, off_the_stretch};
 use super::decimal::Decimal;
+use super::horizon;
 
 /// What becomes of an answer.
 #[derive(Debug)]
@@ -44,6 +47,7 @@ pub(super) fn judge(category: &str, case: &Case, answer: &Answer) -> Verdict {
             continue;
         };
         match outputs.get(key) {
+            None | Some(Value::Null) if unjudged(category, case, key, entry) => {}
             None | Some(Value::Null) => verdict.faults.push(format!("{key} is missing")),
             Some(got) => verdict.hear(category, case, key, entry, got),
         }
@@ -55,6 +59,25 @@ impl Verdict {
     fn hear(&mut self, category: &str, case: &Case, key: &str, entry: &Value, got: &Value) {
         if let Value::Bool(want) = entry["value"] {
             if got.as_bool() != Some(want) {
+                self.faults.push(format!("{key} is {got}, not {want}"));
+            }
+            return;
+        }
+        if let Value::String(want) = &entry["value"]
+            && entry.get("hp").is_none()
+        {
+            let fault = if category == "scenes" {
+                wrong_word(want, got, horizon::followed(case))
+            } else {
+                (got.as_str() != Some(want)).then(|| format!("{got}, not {want}"))
+            };
+            self.faults
+                .extend(fault.map(|fault| format!("{key}: {fault}")));
+            return;
+        }
+        if entry["value"].is_u64() {
+            if got != &entry["value"] {
+                let want = &entry["value"];
                 self.faults.push(format!("{key} is {got}, not {want}"));
             }
             return;
@@ -82,11 +105,18 @@ impl Verdict {
             return self.hear_landing(case, stretch, &have, &bounds);
         }
         for ((got, want), bound) in have.into_iter().zip(want).zip(bounds) {
+            if bound.is_infinite() {
+                continue;
+            }
             let Some(got) = got.filter(|got| got.is_finite()) else {
                 self.faults.push(format!("{key} is no finite number"));
                 return;
             };
-            let error = want.offset_of(got).abs();
+            let mut error = want.offset_of(got).abs();
+            if key == "final_angles" {
+                // Whole turns do not count.
+                error = (error - (error / TAU).round() * TAU).abs();
+            }
             if !self.allows(error, bound) {
                 self.faults
                     .push(format!("{key} is off by {error:.2e}, allowed {bound:.2e}"));
@@ -121,6 +151,28 @@ impl Verdict {
     }
 }
 
+/// Nothing of this output lies within the horizon.
+fn unjudged(category: &str, case: &Case, key: &str, entry: &Value) -> bool {
+    match &entry["value"] {
+        Value::String(_) if category == "scenes" => horizon::followed(case) == 0,
+        Value::Bool(_) | Value::String(_) | Value::Number(_) => false,
+        _ => exact(entry)
+            .and_then(|want| bounds(category, case, key, &want).ok())
+            .is_some_and(|bounds| bounds.iter().all(|bound| bound.is_infinite())),
+    }
+}
+
+/// The first word, one an impact, that differs from what is wanted, within the horizon.
+fn wrong_word(want: &str, got: &Value, judged: usize) -> Option<String> {
+    let have: Vec<&str> = got.as_str().unwrap_or_default().split(' ').collect();
+    let words = want.split(' ').take(judged).enumerate();
+    let mut wrong = words.filter(|(k, word)| have.get(*k) != Some(word));
+    wrong.next().map(|(k, word)| {
+        let found = have.get(k).copied().unwrap_or("missing");
+        format!("impact {k} is {found}, not {word}")
+    })
+}
+
 /// The outputs that count, where the reference has them.
 fn required(category: &str) -> Option<Vec<String>> {
     match category {
@@ -147,8 +199,68 @@ fn required(category: &str) -> Option<Vec<String>> {
             let keys = ["hit", "time_of_impact", "contact_point", "normal_a_to_b"];
             Some(keys.map(str::to_owned).to_vec())
         }
+        "flight_bounce" => Some(listed(&[
+            "position",
+            "velocity",
+            "angular_velocity",
+            "cos_angle",
+            "sin_angle",
+            "bounce_times",
+            "speed_after_bounce",
+            "apex_centre_height_after_bounce",
+            "centre_height_at_query_time",
+            "zeno_time",
+            "distance_down_slope",
+        ])),
+        "chains" => Some(listed(&[
+            "final_velocities",
+            "collisions",
+            "last_collision_time",
+            "collapse_time",
+        ])),
+        "galperin" => Some(listed(&[
+            "collisions",
+            "final_velocity_big",
+            "final_velocity_small",
+            "last_collision_time",
+        ])),
+        "billiards" => Some(listed(&[
+            "position",
+            "velocity",
+            "wall_hits",
+            "centres",
+            "velocities",
+            "disc_collisions",
+        ])),
+        "disc_gas" => {
+            let mut keys = listed(&[
+                "first_event_times",
+                "events_before_sample",
+                "disc_collisions_before_sample",
+                "energy",
+            ]);
+            keys.extend((0..8).flat_map(|k| [format!("positions_{k}"), format!("velocities_{k}")]));
+            Some(keys)
+        }
+        "scenes" => Some(listed(&[
+            "impact_times",
+            "pairs",
+            "contact_points",
+            "normals",
+            "normal_impulses",
+            "tangential_impulses",
+            "final_positions",
+            "final_angles",
+            "final_velocities",
+            "final_angular_velocities",
+            "energy",
+        ])),
         _ => None,
     }
+}
+
+fn listed(keys: &[&str]) -> Vec<String> {
+    keys.iter().map(|key| (*key).to_owned()).collect()
 }
 
 /// The numbers of an output with all their digits.

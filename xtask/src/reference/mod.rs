@@ -4,10 +4,16 @@ mod book;
 mod bounds;
 mod decimal;
 mod first_contact;
+mod flight;
+mod gas;
+mod horizon;
 mod impact;
 mod judge;
+mod line;
 mod mass;
+mod stage;
 mod symmetry;
+mod tableau;
 
 use std::hint::black_box;
 
@@ -19,9 +25,14 @@ use crate::out::say;
 
 use book::{Answer, Case, Outputs, Results};
 use first_contact::FirstContactCase;
+use flight::FlightCase;
+use gas::GasCase;
 use impact::ImpactCase;
+use line::LineCase;
 use mass::MassCase;
+use stage::{Cast, Stage};
 use symmetry::Symmetry;
+use tableau::SceneCase;
 
 /// Faults that are listed for a category before the rest is only counted.
 const LISTED: usize = 10;
@@ -71,13 +82,7 @@ fn list(case: &Case, verdict: &judge::Verdict) {
 }
 
 fn answer(category: &str, case: &Case, seed: Option<u64>) -> Answer {
-    let solved = match category {
-        "mass_properties" => mass_properties(case, seed),
-        "impacts" => impacts(case, seed),
-        "time_of_impact" => first_contact(case, seed),
-        _ => Err(format!("category {category} is not answered yet")),
-    };
-    let (found, error) = match solved {
+    let (found, error) = match solve(category, case, seed) {
         Ok(found) => (Some(found), None),
         Err(error) => (None, Some(error)),
     };
@@ -88,6 +93,58 @@ fn answer(category: &str, case: &Case, seed: Option<u64>) -> Answer {
         outputs,
         error,
     }
+}
+
+/// The answer and the seconds that it took.
+fn solve(category: &str, case: &Case, seed: Option<u64>) -> Result<(f64, Outputs), String> {
+    match category {
+        "mass_properties" => mass_properties(case, seed),
+        "impacts" => impacts(case, seed),
+        "time_of_impact" => first_contact(case, seed),
+        "flight_bounce" => {
+            let question = FlightCase::read(&case.inputs)?;
+            played(case, seed, &question.cast, |stage| question.play(stage))
+        }
+        "billiards" => {
+            let question = GasCase::read_billiard(&case.inputs)?;
+            played(case, seed, &question.cast, |stage| question.play(stage))
+        }
+        "disc_gas" => {
+            let question = GasCase::read_gas(case)?;
+            played(case, seed, &question.cast, |stage| question.play(stage))
+        }
+        "chains" => {
+            let question = LineCase::read_chain(&case.inputs)?;
+            played(case, seed, &question.cast, |stage| question.play(stage))
+        }
+        "galperin" => {
+            let question = LineCase::read_galperin(&case.inputs)?;
+            played(case, seed, &question.cast, |stage| question.play(stage))
+        }
+        "scenes" => {
+            let question = SceneCase::read(&case.inputs)?;
+            played(case, seed, &question.cast, |stage| question.play(stage))
+        }
+        _ => Err(format!("category {category} is not answered yet")),
+    }
+}
+
+/// A world built, stepped and read, with the time that all of it took.
+fn played(
+    case: &Case,
+    seed: Option<u64>,
+    cast: &Cast,
+    play: impl Fn(&mut Stage) -> Result<Outputs, String>,
+) -> Result<(f64, Outputs), String> {
+    let mut symmetry = guise(seed, case, &cast.places());
+    if cast.gravity != carom_math::Vec2::ZERO {
+        // The potential energy of the answer counts from the case's own origin.
+        symmetry.shift = carom_math::Vec2::ZERO;
+    }
+    let clock = Clock::start();
+    let mut stage = cast.enter(&symmetry, seed.is_some())?;
+    let outputs = play(&mut stage)?;
+    Ok((clock.seconds(), outputs))
 }
 
 fn mass_properties(case: &Case, seed: Option<u64>) -> Result<(f64, Outputs), String> {

@@ -33,7 +33,7 @@ impl Symmetry {
         let name = id.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
             (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
         });
-        let mut random = SplitMix(seed ^ name);
+        let mut random = SplitMix::new(seed ^ name);
         let mut symmetry = Self {
             mirrored: random.next().is_multiple_of(2),
             quarter_turns: [0, 1, 2, 3][random.below(4)],
@@ -110,9 +110,21 @@ fn power_of_two_below(size: f64) -> f64 {
     f64::from_bits(size.to_bits() & (0x7ff << 52))
 }
 
-struct SplitMix(u64);
+/// A stream of numbers that depends on its seed alone.
+#[derive(Clone, Debug)]
+pub(super) struct SplitMix(u64);
 
 impl SplitMix {
+    pub(super) const fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    /// A number from 0 to below 1.
+    #[expect(clippy::cast_precision_loss, reason = "53 bits fit")]
+    pub(super) fn unit(&mut self) -> f64 {
+        (self.next() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
     fn next(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);

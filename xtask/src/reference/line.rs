@@ -1,0 +1,107 @@
+//! Categories `chains` and `galperin`: bodies on a line, counted impact by impact.
+
+use carom_dynamics::{ImpactLaw, Material};
+use carom_math::{Vec2, vec2};
+use serde_json::Value;
+
+use super::book::{Outputs, number_at, numbers_at};
+use super::stage::{Cast, Player, Stage};
+
+/// How long another impact is waited for, in s.
+const PATIENCE: f64 = 200.0;
+
+/// What a case gives.
+#[derive(Clone, Debug)]
+pub(super) struct LineCase {
+    pub(super) cast: Cast,
+    /// How its answer names the velocities.
+    galperin: bool,
+}
+
+impl LineCase {
+    /// Discs side by side.
+    pub(super) fn read_chain(inputs: &Value) -> Result<Self, String> {
+        let [radii, centres] = ["radii", "centres"].map(|key| numbers_at(inputs, key));
+        let [speeds, masses] = ["velocities", "masses"].map(|key| numbers_at(inputs, key));
+        let (radii, centres, speeds, masses) = (radii?, centres?, speeds?, masses?);
+        let players = radii.iter().zip(centres).zip(speeds.iter().zip(masses));
+        let players = players.map(|((radius, centre), (speed, mass))| Player {
+            velocity: vec2(*speed, 0.0),
+            mass: Some(mass),
+            ..Player::disc(*radius, vec2(centre, 0.0))
+        });
+        Ok(Self {
+            cast: cast(number_at(inputs, "restitution")?, players.collect()),
+            galperin: false,
+        })
+    }
+
+    /// A wall and two blocks.
+    pub(super) fn read_galperin(inputs: &Value) -> Result<Self, String> {
+        let block = |name: &str| {
+            let centre = number_at(inputs, &format!("centre_{name}"))?;
+            let width = number_at(inputs, &format!("width_{name}"))?;
+            let half = vec2(width / 2.0, 0.5);
+            let at = vec2(centre, 0.0);
+            Ok::<_, String>(Player {
+                mass: Some(number_at(inputs, &format!("mass_{name}"))?),
+                velocity: vec2(number_at(inputs, &format!("velocity_{name}"))?, 0.0),
+                ..Player::block(at - half, at + half)
+            })
+        };
+        let face = number_at(inputs, "wall_x")?;
+        let wall = Player::wall(vec2(face - 1.0, -2.0), vec2(face, 2.0));
+        Ok(Self {
+            cast: cast(
+                number_at(inputs, "restitution")?,
+                vec![block("small")?, block("big")?, wall],
+            ),
+            galperin: true,
+        })
+    }
+
+    pub(super) fn play(&self, stage: &mut Stage) -> Result<Outputs, String> {
+        let (mut count, mut last) = (0_u64, 0.0);
+        while stage.accumulated.is_none() && stage.next_impact(PATIENCE)? {
+            count += stage.impacts.len() as u64;
+            if let Some(struck) = stage.impacts.last() {
+                last = struck.time;
+            }
+            stage.impacts.clear();
+        }
+        let mut outputs = Outputs::new();
+        let mut put = |key: &str, value: Value| outputs.insert(key.to_owned(), value);
+        if let Some(end) = stage.accumulated {
+            stage.until(end + 1.0)?;
+            put("collisions", "infinite".into());
+            put("collapse_time", end.into());
+        } else {
+            put("collisions", count.into());
+            put("last_collision_time", last.into());
+        }
+        if self.galperin {
+            put("final_velocity_small", stage.velocity(0).x.into());
+            put("final_velocity_big", stage.velocity(1).x.into());
+        } else {
+            let all = 0..self.cast.players.len();
+            put(
+                "final_velocities",
+                all.map(|index| stage.velocity(index).x).collect(),
+            );
+        }
+        Ok(outputs)
+    }
+}
+
+fn cast(restitution: f64, players: Vec<Player>) -> Cast {
+    Cast {
+        gravity: Vec2::ZERO,
+        material: Material {
+            restitution,
+            friction: 0.0,
+            ..Material::default()
+        },
+        law: ImpactLaw::default(),
+        players,
+    }
+}
