@@ -19,7 +19,7 @@ pub(super) fn bounds(
 ) -> Result<Vec<f64>, String> {
     match category {
         "mass_properties" => Ok(mass_bounds(case, key, want)),
-        "impacts" => Ok(impact_bounds(case, key, want)),
+        "impacts" | "simultaneous" => Ok(impact_bounds(case, key, want)),
         "time_of_impact" => Ok(vec![first_contact_bound(case, key)?; want.len()]),
         _ => horizon::bounds(category, case, key, want)
             .ok_or_else(|| format!("{category} has no bounds")),

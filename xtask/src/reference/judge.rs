@@ -195,6 +195,11 @@ fn required(category: &str) -> Option<Vec<String>> {
                 .flat_map(|law| keys.map(|key| format!("{law}.{key}")));
             Some(all.collect())
         }
+        "simultaneous" => Some(listed(&[
+            "newton_lcp.velocities_vx_vy_omega",
+            "generalised_reflections.velocities_vx_vy_omega",
+            "blend.velocities_vx_vy_omega",
+        ])),
         "time_of_impact" => {
             let keys = ["hit", "time_of_impact", "contact_point", "normal_a_to_b"];
             Some(keys.map(str::to_owned).to_vec())

@@ -11,6 +11,7 @@ mod impact;
 mod judge;
 mod line;
 mod mass;
+mod simultaneous;
 mod stage;
 mod symmetry;
 mod tableau;
@@ -30,6 +31,7 @@ use gas::GasCase;
 use impact::ImpactCase;
 use line::LineCase;
 use mass::MassCase;
+use simultaneous::SimultaneousCase;
 use stage::{Cast, Stage};
 use symmetry::Symmetry;
 use tableau::SceneCase;
@@ -100,6 +102,7 @@ fn solve(category: &str, case: &Case, seed: Option<u64>) -> Result<(f64, Outputs
     match category {
         "mass_properties" => mass_properties(case, seed),
         "impacts" => impacts(case, seed),
+        "simultaneous" => simultaneous(case, seed),
         "time_of_impact" => first_contact(case, seed),
         "flight_bounce" => {
             let question = FlightCase::read(&case.inputs)?;
@@ -169,6 +172,18 @@ fn impacts(case: &Case, seed: Option<u64>) -> Result<(f64, Outputs), String> {
     };
     let (seconds, found) = timed(|| question.answer());
     Ok((seconds, ImpactCase::outputs(&found?, &symmetry)))
+}
+
+fn simultaneous(case: &Case, seed: Option<u64>) -> Result<(f64, Outputs), String> {
+    let question = SimultaneousCase::read(&case.inputs)?;
+    let symmetry = guise(seed, case, &question.places());
+    let question = if seed.is_some() {
+        question.transformed(&symmetry)
+    } else {
+        question
+    };
+    let (seconds, found) = timed(|| question.answer());
+    Ok((seconds, question.outputs(&found, &symmetry)))
 }
 
 fn first_contact(case: &Case, seed: Option<u64>) -> Result<(f64, Outputs), String> {

@@ -1,0 +1,307 @@
+//! The nearest point of a polyhedron: what every law of several contacts at once is made of.
+//!
+//! ```text
+//! minimise ½ |w − w₀|²  subject to  n_i · w ≥ b_i,      w = w₀ + Σ λ_i n_i,  λ ≥ 0,  λ_i (n_i · w − b_i) = 0
+//! ```
+//!
+//! In velocities scaled by √m this is Gauss's principle of least constraint, and the λ are impulses.
+//! Solved by the dual active-set method (Goldfarb and Idnani 1983) on an orthogonal factorisation:
+//! finite, right to rounding, and unique in w where rows depend on each other.
+
+/// A row counts as dependent on others if less than this part of its length is its own.
+const DEPENDENT: f64 = 1e-10;
+
+/// A coordinate that the members leave less than this of, as a part of 1, is theirs alone.
+const DETERMINED: f64 = 8.0 * f64::EPSILON;
+
+/// The nearest point, and how it is reached.
+pub(super) struct Nearest {
+    pub(super) point: Vec<f64>,
+    /// λ of every row, ≥ 0.
+    pub(super) multipliers: Vec<f64>,
+}
+
+/// The point nearest to `start` that meets all bounds.
+///
+/// A bound counts as met within `tolerance`. If the polyhedron is empty, which no impact makes it,
+/// the rows that can be met are met.
+pub(super) fn nearest(rows: &[Vec<f64>], start: &[f64], bounds: &[f64], tolerance: f64) -> Nearest {
+    let mut set = ActiveSet::new(rows, start, bounds);
+    // A row enters and leaves a few times at most; the bound is for rounding alone.
+    for _ in 0..(20 + 10 * rows.len()) {
+        match set.most_violated(tolerance) {
+            Some(row) => set.enter(row),
+            None => break,
+        }
+    }
+    set.polished()
+}
+
+/// The rows that hold with equality, their multipliers and the point that they lead to.
+struct ActiveSet<'a> {
+    rows: &'a [Vec<f64>],
+    bounds: &'a [f64],
+    members: Vec<usize>,
+    multipliers: Vec<f64>,
+    start: &'a [f64],
+    point: Vec<f64>,
+    /// Rows that depend on members and cannot be met.
+    hopeless: Vec<usize>,
+}
+
+impl<'a> ActiveSet<'a> {
+    fn new(rows: &'a [Vec<f64>], start: &'a [f64], bounds: &'a [f64]) -> Self {
+        Self {
+            rows,
+            bounds,
+            members: Vec::new(),
+            multipliers: Vec::new(),
+            start,
+            point: start.to_vec(),
+            hopeless: Vec::new(),
+        }
+    }
+
+    fn slack(&self, row: usize) -> f64 {
+        dot(&self.rows[row], &self.point) - self.bounds[row]
+    }
+
+    fn most_violated(&self, tolerance: f64) -> Option<usize> {
+        let free = (0..self.rows.len())
+            .filter(|row| !self.members.contains(row) && !self.hopeless.contains(row));
+        let mut worst = None;
+        for row in free {
+            let slack = self.slack(row);
+            if slack < -tolerance && worst.is_none_or(|(_, least)| slack < least) {
+                worst = Some((row, slack));
+            }
+        }
+        worst.map(|(row, _)| row)
+    }
+
+    /// Moves along the row's own direction until its bound is met; members whose multiplier would
+    /// turn negative on the way leave.
+    fn enter(&mut self, row: usize) {
+        let mut multiplier = 0.0;
+        loop {
+            let basis = Basis::of(self.rows, &self.members);
+            let (shares, own) = basis.split(&self.rows[row]);
+            let (length, whole) = (dot(&own, &own), dot(&self.rows[row], &self.rows[row]));
+            let blocking = self.first_to_leave(&shares);
+            let to_bound = if length > DEPENDENT * DEPENDENT * whole {
+                -self.slack(row) / length
+            } else {
+                f64::INFINITY
+            };
+            let leaving = blocking.filter(|&(_, way)| way < to_bound);
+            let way = leaving.map_or(to_bound, |(_, way)| way);
+            if way.is_infinite() {
+                self.hopeless.push(row);
+                return;
+            }
+            if to_bound.is_finite() {
+                add_scaled(&mut self.point, &own, way);
+            }
+            for (held, share) in self.multipliers.iter_mut().zip(&shares) {
+                *held -= way * share;
+            }
+            multiplier += way;
+            match leaving {
+                Some((place, _)) => {
+                    self.members.remove(place);
+                    self.multipliers.remove(place);
+                }
+                None => {
+                    self.members.push(row);
+                    self.multipliers.push(multiplier);
+                    return;
+                }
+            }
+        }
+    }
+
+    fn first_to_leave(&self, shares: &[f64]) -> Option<(usize, f64)> {
+        let mut first: Option<(usize, f64)> = None;
+        for (place, (held, share)) in self.multipliers.iter().zip(shares).enumerate() {
+            if *share > 0.0 {
+                let way = (held / share).max(0.0);
+                if first.is_none_or(|(_, least)| way < least) {
+                    first = Some((place, way));
+                }
+            }
+        }
+        first
+    }
+
+    /// The members solved for once more: no rounding of the way is left.
+    ///
+    /// With the members as Q R, `w = Q R⁻ᵀ b + (1 − Q Qᵀ) w₀`: what the members determine comes from the
+    /// bounds alone, and is exactly 0 where these are.
+    fn polished(self) -> Nearest {
+        let basis = Basis::of(self.rows, &self.members);
+        let wanted: Vec<f64> = self.members.iter().map(|&row| self.bounds[row]).collect();
+        let lacking = self.members.iter().zip(&wanted);
+        let mut shares: Vec<f64> = lacking
+            .map(|(&row, bound)| bound - dot(&self.rows[row], self.start))
+            .collect();
+        basis.solve_lower(&mut shares);
+        basis.solve_upper(&mut shares);
+        let mut multipliers = vec![0.0; self.rows.len()];
+        for (&row, share) in self.members.iter().zip(shares) {
+            multipliers[row] = if share > 0.0 { share } else { 0.0 };
+        }
+
+        let mut along = wanted;
+        basis.solve_lower(&mut along);
+        let (_, mut point) = basis.reduce(self.start);
+        for (k, value) in point.iter_mut().enumerate() {
+            if self.members.iter().all(|&row| self.rows[row][k] == 0.0) {
+                *value = self.start[k];
+            } else if basis.determines(k) {
+                *value = 0.0;
+            }
+        }
+        for (direction, part) in basis.directions.iter().zip(along) {
+            add_scaled(&mut point, direction, part);
+        }
+        Nearest { point, multipliers }
+    }
+}
+
+/// Rows as Q R: orthonormal directions, and how each row is made of them.
+struct Basis {
+    directions: Vec<Vec<f64>>,
+    /// Column k: the row k in the directions up to its own.
+    columns: Vec<Vec<f64>>,
+}
+
+impl Basis {
+    fn of(rows: &[Vec<f64>], members: &[usize]) -> Self {
+        let mut basis = Self {
+            directions: Vec::with_capacity(members.len()),
+            columns: Vec::with_capacity(members.len()),
+        };
+        for &member in members {
+            let (mut column, mut own) = basis.reduce(&rows[member]);
+            let length = dot(&own, &own).sqrt();
+            own.iter_mut().for_each(|x| *x /= length);
+            column.push(length);
+            basis.directions.push(own);
+            basis.columns.push(column);
+        }
+        basis
+    }
+
+    /// Parts along the directions, and the rest; orthogonalised twice, which is enough (Kahan, Parlett).
+    fn reduce(&self, row: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let mut rest = row.to_vec();
+        let mut parts = vec![0.0; self.directions.len()];
+        for _ in 0..2 {
+            for (part, direction) in parts.iter_mut().zip(&self.directions) {
+                let along = dot(&rest, direction);
+                *part += along;
+                add_scaled(&mut rest, direction, -along);
+            }
+        }
+        (parts, rest)
+    }
+
+    /// A row as a sum of members, and what no sum of them reaches.
+    fn split(&self, row: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let (mut shares, rest) = self.reduce(row);
+        self.solve_upper(&mut shares);
+        (shares, rest)
+    }
+
+    /// Whether nothing of coordinate k lies outside the directions.
+    fn determines(&self, k: usize) -> bool {
+        let size = self.directions.first().map_or(0, Vec::len);
+        let axis: Vec<f64> = (0..size).map(|i| if i == k { 1.0 } else { 0.0 }).collect();
+        let (_, rest) = self.reduce(&axis);
+        dot(&rest, &rest).sqrt() <= DETERMINED
+    }
+
+    /// x with Rᵀ x = the given.
+    fn solve_lower(&self, x: &mut [f64]) {
+        for k in 0..x.len() {
+            let known: f64 = (0..k).map(|i| self.columns[k][i] * x[i]).sum();
+            x[k] = (x[k] - known) / self.columns[k][k];
+        }
+    }
+
+    /// x with R x = the given.
+    fn solve_upper(&self, x: &mut [f64]) {
+        for k in (0..x.len()).rev() {
+            let known: f64 = (k + 1..x.len()).map(|j| self.columns[j][k] * x[j]).sum();
+            x[k] = (x[k] - known) / self.columns[k][k];
+        }
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
+}
+
+fn add_scaled(to: &mut [f64], what: &[f64], factor: f64) {
+    for (x, y) in to.iter_mut().zip(what) {
+        *x += factor * y;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn rows_that_depend_on_each_other_lead_to_one_point() {
+        // Three supports under one plank: w = (1, 0) is unique, the forces are not.
+        let rows = [vec![1.0, -1.0], vec![1.0, 0.0], vec![1.0, 1.0]];
+        let found = nearest(&rows, &[0.0, 0.0], &[1.0, 1.0, 1.0], 1e-15).point;
+        assert!(
+            (found[0] - 1.0).abs() < 1e-15 && found[1].abs() < 1e-15,
+            "{found:?}"
+        );
+    }
+
+    #[test]
+    fn what_is_met_already_stays_bit_for_bit() {
+        let found = nearest(&[vec![1.0, 0.0]], &[0.1, 0.7], &[-1.0], 0.0);
+        assert_eq!(
+            (found.point, found.multipliers),
+            (vec![0.1, 0.7], vec![0.0])
+        );
+    }
+
+    #[test]
+    fn what_is_stopped_is_exactly_still() {
+        // Two supports of a plank at thirds: its fall and its turn are stopped, its slide goes on.
+        let third = 1.0 / 3.0;
+        let rows = [vec![0.0, third, -0.7], vec![0.0, third, 0.3]];
+        let found = nearest(&rows, &[0.1, -3.0, 0.2], &[0.0, 0.0], 1e-15).point;
+        assert_eq!(found, [0.1, 0.0, 0.0]);
+    }
+
+    proptest! {
+        #[test]
+        fn the_conditions_hold(
+            rows in prop::collection::vec(prop::collection::vec(-1.0..1.0_f64, 6), 1..12),
+            reach in prop::collection::vec(-1.0..1.0_f64, 6),
+            start in prop::collection::vec(-1.0..1.0_f64, 6),
+        ) {
+            // Bounds that some point meets, so that the polyhedron is not empty.
+            let bounds: Vec<f64> = rows.iter().map(|row| dot(row, &reach)).collect();
+            let found = nearest(&rows, &start, &bounds, 1e-14);
+            let mut led = start.clone();
+            for ((row, bound), multiplier) in rows.iter().zip(&bounds).zip(&found.multipliers) {
+                let slack = dot(row, &found.point) - bound;
+                prop_assert!(slack > -1e-11, "slack {slack:e}");
+                prop_assert!(*multiplier >= 0.0);
+                prop_assert!((multiplier * slack).abs() < 1e-9, "{multiplier:e} {slack:e}");
+                add_scaled(&mut led, row, *multiplier);
+            }
+            let off = led.iter().zip(&found.point).map(|(a, b)| (a - b).abs());
+            prop_assert!(off.fold(0.0, f64::max) < 1e-9);
+        }
+    }
+}

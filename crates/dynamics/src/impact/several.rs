@@ -1,0 +1,267 @@
+//! Several contacts that act at one instant, without friction.
+//!
+//! No law of a single impact says what happens then, and no answer is unique. Ours keeps momentum to
+//! rounding, never gains energy, leaves no contact closing, gives symmetric answers to symmetric
+//! questions, does not depend on the order of contacts, and is the single law for one contact.
+
+use carom_math::{cross, vec2};
+
+use super::body::{ImpactBody, ImpactContact};
+use super::project::nearest;
+
+/// Reflections before the rest is taken without restitution. Each leaves fewer ways to approach;
+/// a row of a hundred discs takes a hundred.
+const REFLECTIONS: u32 = 1000;
+
+/// A contact of two bodies of a list.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SharedContact {
+    /// Index of A, which the normal points away from.
+    pub a: usize,
+    /// Index of B.
+    pub b: usize,
+    /// Where, and of what material.
+    pub contact: ImpactContact,
+}
+
+/// What contacts at one instant did.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SharedOutcome {
+    /// The bodies after it, in their order.
+    pub bodies: Vec<ImpactBody>,
+    /// Impulse on B along the normal, for each contact, in N·s, ≥ 0.
+    pub normal_impulses: Vec<f64>,
+}
+
+/// Newton's law at all contacts at once: `0 ≤ u⁺ + e u⁻ ⟂ j ≥ 0`.
+///
+/// u is the opening speed. Keeps energy where every e is 1, but passes nothing on: the first of three
+/// touching discs bounces back from the other two together.
+///
+/// # Panics
+/// If a contact names a body that is not in the list.
+#[must_use]
+pub fn newton_lcp(bodies: &[ImpactBody], contacts: &[SharedContact]) -> SharedOutcome {
+    let scaled = Scaled::of(bodies, contacts);
+    let speeds = opening_speeds(bodies, contacts);
+    let wanted = speeds.iter().zip(contacts);
+    let wanted: Vec<f64> = wanted
+        .map(|(speed, shared)| -shared.contact.restitution * speed)
+        .collect();
+    scaled.reach(bodies, &wanted, tolerance(&speeds))
+}
+
+/// Reflections of all approaching contacts together, again and again until none approaches.
+///
+/// The generalised reflections of Smith, Kaufman, Vouga, Tamstorf and Grinspun (2012), for e = 1
+/// whatever the contacts say: energy is kept, and an impact runs through a row of touching discs.
+///
+/// # Panics
+/// If a contact names a body that is not in the list.
+#[must_use]
+pub fn generalised_reflections(bodies: &[ImpactBody], contacts: &[SharedContact]) -> SharedOutcome {
+    let tolerance = tolerance(&opening_speeds(bodies, contacts));
+    let mut impulses = vec![0.0; contacts.len()];
+    let mut now = bodies.to_vec();
+    for pass in 0..=REFLECTIONS {
+        let speeds = opening_speeds(&now, contacts);
+        let last = pass == REFLECTIONS;
+        let chosen: Vec<usize> = (0..speeds.len())
+            .filter(|&k| last || speeds[k] < -tolerance)
+            .collect();
+        if chosen.is_empty() {
+            break;
+        }
+        let some: Vec<SharedContact> = chosen.iter().map(|&k| contacts[k]).collect();
+        let still = vec![0.0; chosen.len()];
+        let stopped = Scaled::of(&now, &some).reach(&now, &still, tolerance);
+        let factor = if last { 1.0 } else { 2.0 };
+        for (&k, j) in chosen.iter().zip(stopped.normal_impulses) {
+            impulses[k] += factor * j;
+        }
+        now = pushed(bodies, contacts, &impulses);
+    }
+    SharedOutcome {
+        bodies: now,
+        normal_impulses: impulses,
+    }
+}
+
+/// (1 − e) · [`newton_lcp`] at e = 0 plus e · [`generalised_reflections`], velocity by velocity.
+///
+/// One weight e for all: the mean of the contacts' own, weighted with their impulses at e = 0. Both ends
+/// leave no contact closing, so their mean does not, and its energy lies between theirs.
+///
+/// # Examples
+/// Of three touching discs the first moves at 1 m/s: with e = ½ half of the answer is the common
+/// velocity of ⅓ m/s, half is the cradle's.
+/// ```
+/// use carom_dynamics::impact::{ImpactBody, ImpactContact, SharedContact, blend};
+/// use carom_math::{Vec2, vec2};
+/// let disc = |x: f64, v: f64| ImpactBody {
+///     inverse_mass: 1.0, inverse_inertia: 8.0, centre: vec2(x, 0.0), velocity: vec2(v, 0.0), spin: 0.0,
+/// };
+/// let touch = |a: usize, x: f64| SharedContact {
+///     a, b: a + 1,
+///     contact: ImpactContact { point: vec2(x, 0.0), normal: Vec2::X, restitution: 0.5, friction: 0.0 },
+/// };
+/// let after = blend(&[disc(0.0, 1.0), disc(1.0, 0.0), disc(2.0, 0.0)], &[touch(0, 0.5), touch(1, 1.5)]);
+/// for (body, exact) in after.bodies.iter().zip([1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0]) {
+///     assert!((body.velocity.x - exact).abs() < 1e-15);         // m/s
+/// }
+/// ```
+///
+/// # Panics
+/// If a contact names a body that is not in the list.
+#[must_use]
+pub fn blend(bodies: &[ImpactBody], contacts: &[SharedContact]) -> SharedOutcome {
+    let plastic: Vec<SharedContact> = contacts
+        .iter()
+        .map(|shared| SharedContact {
+            contact: ImpactContact {
+                restitution: 0.0,
+                ..shared.contact
+            },
+            ..*shared
+        })
+        .collect();
+    let stuck = newton_lcp(bodies, &plastic);
+    let e = mean_restitution(contacts, &stuck.normal_impulses);
+    if e == 0.0 {
+        return stuck;
+    }
+    let thrown = generalised_reflections(bodies, contacts).normal_impulses;
+    let mixed = stuck.normal_impulses.iter().zip(thrown);
+    let impulses: Vec<f64> = mixed.map(|(s, t)| (1.0 - e) * s + e * t).collect();
+    SharedOutcome {
+        bodies: pushed(bodies, contacts, &impulses),
+        normal_impulses: impulses,
+    }
+}
+
+fn mean_restitution(contacts: &[SharedContact], impulses: &[f64]) -> f64 {
+    let all: f64 = impulses.iter().sum();
+    if all <= 0.0 {
+        return 0.0;
+    }
+    let first = contacts
+        .first()
+        .map_or(0.0, |shared| shared.contact.restitution);
+    // Equal ones need no mean, and no rounding.
+    #[expect(clippy::float_cmp, reason = "equal settings are equal bits")]
+    if contacts
+        .iter()
+        .all(|shared| shared.contact.restitution == first)
+    {
+        return first;
+    }
+    let weighted = contacts.iter().zip(impulses);
+    let sum: f64 = weighted
+        .map(|(shared, j)| shared.contact.restitution * j)
+        .sum();
+    sum / all
+}
+
+/// Velocities scaled by √m and √I, and how each contact's opening speed is made of them.
+struct Scaled {
+    /// 1/√m and 1/√I of every body.
+    roots: Vec<(f64, f64)>,
+    velocities: Vec<f64>,
+    rows: Vec<Vec<f64>>,
+    /// Opening speed that the velocities of immovable bodies give.
+    given: Vec<f64>,
+}
+
+impl Scaled {
+    fn of(bodies: &[ImpactBody], contacts: &[SharedContact]) -> Self {
+        let root = |body: &ImpactBody| (body.inverse_mass.sqrt(), body.inverse_inertia.sqrt());
+        let roots: Vec<(f64, f64)> = bodies.iter().map(root).collect();
+        let over = |speed: f64, root: f64| if root > 0.0 { speed / root } else { 0.0 };
+        let velocities = bodies
+            .iter()
+            .zip(&roots)
+            .flat_map(|(body, &(mass, inertia))| {
+                let v = body.velocity;
+                [over(v.x, mass), over(v.y, mass), over(body.spin, inertia)]
+            });
+        let velocities: Vec<f64> = velocities.collect();
+        let (mut rows, mut given) = (Vec::new(), Vec::new());
+        for shared in contacts {
+            let (mut row, mut rest) = (vec![0.0; velocities.len()], 0.0);
+            let normal = shared.contact.normal;
+            for (index, normal) in [(shared.a, -normal), (shared.b, normal)] {
+                let (body, (mass, inertia)) = (&bodies[index], roots[index]);
+                let turn = cross(shared.contact.point - body.centre, normal);
+                row[3 * index] += normal.x * mass;
+                row[3 * index + 1] += normal.y * mass;
+                row[3 * index + 2] += turn * inertia;
+                if mass == 0.0 {
+                    rest += body.velocity.dot(normal);
+                }
+                if inertia == 0.0 {
+                    rest += body.spin * turn;
+                }
+            }
+            rows.push(row);
+            given.push(rest);
+        }
+        Self {
+            roots,
+            velocities,
+            rows,
+            given,
+        }
+    }
+
+    /// The bodies, moved as little as lets every contact open with at least its wanted speed.
+    fn reach(&self, bodies: &[ImpactBody], wanted: &[f64], tolerance: f64) -> SharedOutcome {
+        let bounds: Vec<f64> = wanted.iter().zip(&self.given).map(|(w, g)| w - g).collect();
+        let found = nearest(&self.rows, &self.velocities, &bounds, tolerance);
+        let mut after = bodies.to_vec();
+        for (k, (body, &(mass, inertia))) in after.iter_mut().zip(&self.roots).enumerate() {
+            let place = 3 * k;
+            let moved = |i: usize, root: f64, was: f64| {
+                #[expect(clippy::float_cmp, reason = "what nothing touched keeps its bits")]
+                if found.point[i] == self.velocities[i] {
+                    was
+                } else {
+                    found.point[i] * root
+                }
+            };
+            body.velocity = vec2(
+                moved(place, mass, body.velocity.x),
+                moved(place + 1, mass, body.velocity.y),
+            );
+            body.spin = moved(place + 2, inertia, body.spin);
+        }
+        SharedOutcome {
+            bodies: after,
+            normal_impulses: found.multipliers,
+        }
+    }
+}
+
+fn opening_speeds(bodies: &[ImpactBody], contacts: &[SharedContact]) -> Vec<f64> {
+    let opening = |shared: &SharedContact| {
+        let (point, normal) = (shared.contact.point, shared.contact.normal);
+        let (a, b) = (&bodies[shared.a], &bodies[shared.b]);
+        (b.velocity_of(point) - a.velocity_of(point)).dot(normal)
+    };
+    contacts.iter().map(opening).collect()
+}
+
+/// What counts as rounding of a speed.
+fn tolerance(speeds: &[f64]) -> f64 {
+    16.0 * f64::EPSILON * speeds.iter().fold(0.0, |most: f64, u| most.max(u.abs()))
+}
+
+/// ±j applied once for all contacts of a body together.
+fn pushed(bodies: &[ImpactBody], contacts: &[SharedContact], impulses: &[f64]) -> Vec<ImpactBody> {
+    let mut after = bodies.to_vec();
+    for (shared, j) in contacts.iter().zip(impulses) {
+        let (impulse, point) = (shared.contact.normal * *j, shared.contact.point);
+        after[shared.a] = after[shared.a].pushed(-impulse, point);
+        after[shared.b] = after[shared.b].pushed(impulse, point);
+    }
+    after
+}

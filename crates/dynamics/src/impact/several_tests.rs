@@ -1,0 +1,190 @@
+//! Laws of several contacts at once, over random heaps.
+
+use carom_math::{Rot, Vec2, cross, vec2};
+use proptest::prelude::*;
+
+use super::{
+    ImpactBody, ImpactContact, ImpactLaw, SharedContact, SharedOutcome, blend,
+    generalised_reflections, newton_lcp, resolve,
+};
+
+fn heap() -> impl Strategy<Value = (Vec<ImpactBody>, Vec<SharedContact>)> {
+    let number = || -2.0..2.0_f64;
+    let body = (
+        -2.0..2.0_f64,
+        0.1..3.0_f64,
+        [number(), number(), number(), number(), number()],
+    );
+    let bodies = prop::collection::vec(body, 2..6);
+    let contact = (
+        any::<prop::sample::Index>(),
+        1..5_usize,
+        -3.2..3.2_f64,
+        [number(), number()],
+        0.0..1.0_f64,
+    );
+    let contacts = prop::collection::vec(contact, 1..8);
+    (bodies, contacts, any::<bool>()).prop_map(|(bodies, contacts, floor)| {
+        let mut bodies: Vec<ImpactBody> = bodies
+            .into_iter()
+            .map(|(exponent, gyration, [x, y, vx, vy, spin])| {
+                let mass = carom_math::trig::pow(10.0, exponent);
+                ImpactBody {
+                    inverse_mass: mass.recip(),
+                    inverse_inertia: (mass * gyration).recip(),
+                    centre: vec2(x, y),
+                    velocity: vec2(vx, vy),
+                    spin,
+                }
+            })
+            .collect();
+        if floor {
+            bodies[0] = ImpactBody::immovable(Vec2::ZERO, Vec2::ZERO, 0.0);
+        }
+        let count = bodies.len();
+        let contacts = contacts
+            .into_iter()
+            .map(|(first, offset, angle, [x, y], restitution)| {
+                let a = first.index(count);
+                SharedContact {
+                    a,
+                    b: (a + 1 + offset % (count - 1)) % count,
+                    contact: ImpactContact {
+                        point: vec2(x, y),
+                        normal: Rot::from_angle(angle).x_axis(),
+                        restitution,
+                        friction: 0.0,
+                    },
+                }
+            });
+        let contacts = contacts.collect();
+        (bodies, contacts)
+    })
+}
+
+fn energy(bodies: &[ImpactBody]) -> f64 {
+    bodies.iter().map(ImpactBody::kinetic_energy).sum()
+}
+
+fn momentum(bodies: &[ImpactBody]) -> (Vec2, f64) {
+    let free = bodies.iter().filter(|body| body.inverse_mass > 0.0);
+    free.fold((Vec2::ZERO, 0.0), |(p, l), body| {
+        let linear = body.velocity / body.inverse_mass;
+        let angular = cross(body.centre, linear) + body.spin / body.inverse_inertia;
+        (p + linear, l + angular)
+    })
+}
+
+fn least_opening(after: &SharedOutcome, contacts: &[SharedContact]) -> f64 {
+    let opening = |shared: &SharedContact| {
+        let point = shared.contact.point;
+        let (a, b) = (&after.bodies[shared.a], &after.bodies[shared.b]);
+        (b.velocity_of(point) - a.velocity_of(point)).dot(shared.contact.normal)
+    };
+    contacts.iter().map(opening).fold(f64::INFINITY, f64::min)
+}
+
+/// Sums of masses, speeds and arms of a heap stay below this, in SI units.
+const SCALE: f64 = 1e4;
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(1000))]
+
+    #[test]
+    fn nothing_closes_and_no_energy_is_gained((bodies, contacts) in heap()) {
+        let before = energy(&bodies);
+        for after in [blend(&bodies, &contacts), generalised_reflections(&bodies, &contacts)] {
+            prop_assert!(least_opening(&after, &contacts) > -1e-10);
+            prop_assert!(energy(&after.bodies) <= before * (1.0 + 1e-11));
+            prop_assert!(after.normal_impulses.iter().all(|j| *j >= 0.0));
+        }
+        let reflected = generalised_reflections(&bodies, &contacts);
+        prop_assert!((energy(&reflected.bodies) - before).abs() <= 1e-10 * before);
+    }
+
+    #[test]
+    fn free_heaps_keep_their_momentum((bodies, contacts) in heap()) {
+        prop_assume!(bodies.iter().all(|body| body.inverse_mass > 0.0));
+        let (p, l) = momentum(&bodies);
+        for law in [newton_lcp, blend, generalised_reflections] {
+            let (q, m) = momentum(&law(&bodies, &contacts).bodies);
+            prop_assert!((q - p).length() < 1e-14 * SCALE, "{:e}", (q - p).length());
+            prop_assert!((m - l).abs() < 1e-14 * SCALE, "{:e}", (m - l).abs());
+        }
+    }
+
+    #[test]
+    fn the_order_of_contacts_does_not_matter((bodies, contacts) in heap()) {
+        let backwards: Vec<SharedContact> = contacts.iter().rev().copied().collect();
+        for law in [newton_lcp, blend, generalised_reflections] {
+            let (one, other) = (law(&bodies, &contacts), law(&bodies, &backwards));
+            for (x, y) in one.bodies.iter().zip(&other.bodies) {
+                prop_assert!((x.velocity - y.velocity).length() < 1e-9);
+                prop_assert!((x.spin - y.spin).abs() < 1e-9);
+            }
+        }
+    }
+
+    #[test]
+    fn one_contact_follows_the_single_law((bodies, contacts) in heap()) {
+        let only = [contacts[0]];
+        let shared = only[0];
+        let single = resolve(ImpactLaw::Newton, &bodies[shared.a], &bodies[shared.b], &shared.contact);
+        let after = blend(&bodies, &only);
+        prop_assert!((after.normal_impulses[0] - single.normal_impulse).abs() <= 1e-12 * SCALE);
+        prop_assert!((after.bodies[shared.a].velocity - single.a.velocity).length() < 1e-12);
+        prop_assert!((after.bodies[shared.b].velocity - single.b.velocity).length() < 1e-12);
+    }
+}
+
+#[test]
+fn an_impact_runs_through_a_hundred_touching_discs() {
+    let disc = |k: u8, speed: f64| ImpactBody {
+        inverse_mass: 1.0,
+        inverse_inertia: 8.0,
+        centre: vec2(f64::from(k), 0.0),
+        velocity: vec2(speed, 0.0),
+        spin: 0.0,
+    };
+    let bodies: Vec<ImpactBody> = (0..100)
+        .map(|k| disc(k, if k == 0 { 2.0 } else { 0.0 }))
+        .collect();
+    let touch = |k: u8| SharedContact {
+        a: usize::from(k),
+        b: usize::from(k) + 1,
+        contact: ImpactContact {
+            point: vec2(f64::from(k) + 0.5, 0.0),
+            normal: Vec2::X,
+            restitution: 1.0,
+            friction: 0.0,
+        },
+    };
+    let contacts: Vec<SharedContact> = (0..99).map(touch).collect();
+    let after = blend(&bodies, &contacts).bodies;
+    assert_eq!(after[99].velocity, vec2(2.0, 0.0));
+    assert!(after[..99].iter().all(|body| body.velocity == Vec2::ZERO));
+}
+
+#[test]
+fn a_box_that_lands_flat_without_restitution_lies_still() {
+    let floor = ImpactBody::immovable(Vec2::ZERO, Vec2::ZERO, 0.0);
+    let landing = ImpactBody {
+        inverse_mass: 1.0,
+        inverse_inertia: 48.0 / 17.0,
+        centre: vec2(0.1, 0.25),
+        velocity: vec2(0.3, -3.0),
+        spin: 1.5,
+    };
+    let corner = |x: f64| SharedContact {
+        a: 0,
+        b: 1,
+        contact: ImpactContact {
+            point: vec2(x, 0.0),
+            normal: Vec2::Y,
+            restitution: 0.0,
+            friction: 0.0,
+        },
+    };
+    let after = blend(&[floor, landing], &[corner(-0.9), corner(1.1)]).bodies[1];
+    assert_eq!((after.velocity, after.spin), (vec2(0.3, 0.0), 0.0));
+}
