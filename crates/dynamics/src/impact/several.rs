@@ -6,11 +6,11 @@
 
 use carom_math::{cross, vec2};
 
-use super::body::{ImpactBody, ImpactContact};
+use super::body::{ImpactBody, ImpactContact, Response};
 use super::project::nearest;
 
-/// Reflections before the rest is taken without restitution. Each leaves fewer ways to approach;
-/// a row of a hundred discs takes a hundred.
+/// Reflections before the rest is stopped: a wedge of angle θ takes π/θ of them, a row of a hundred
+/// discs a hundred.
 const REFLECTIONS: u32 = 1000;
 
 /// A contact of two bodies of a list.
@@ -31,6 +31,9 @@ pub struct SharedOutcome {
     pub bodies: Vec<ImpactBody>,
     /// Impulse on B along the normal, for each contact, in N·s, ≥ 0.
     pub normal_impulses: Vec<f64>,
+    /// Whether a thousand reflections were not enough: what still approached then was stopped, and
+    /// energy was lost that e = 1 would have kept.
+    pub exhausted: bool,
 }
 
 /// Newton's law at all contacts at once: `0 ≤ u⁺ + e u⁻ ⟂ j ≥ 0`.
@@ -63,28 +66,68 @@ pub fn generalised_reflections(bodies: &[ImpactBody], contacts: &[SharedContact]
     let tolerance = tolerance(&opening_speeds(bodies, contacts));
     let mut impulses = vec![0.0; contacts.len()];
     let mut now = bodies.to_vec();
-    for pass in 0..=REFLECTIONS {
+    for _ in 0..REFLECTIONS {
         let speeds = opening_speeds(&now, contacts);
-        let last = pass == REFLECTIONS;
-        let chosen: Vec<usize> = (0..speeds.len())
-            .filter(|&k| last || speeds[k] < -tolerance)
+        let approaching: Vec<usize> = (0..speeds.len())
+            .filter(|&k| speeds[k] < -tolerance)
             .collect();
-        if chosen.is_empty() {
-            break;
+        if approaching.is_empty() {
+            return SharedOutcome {
+                bodies: now,
+                normal_impulses: impulses,
+                exhausted: false,
+            };
         }
-        let some: Vec<SharedContact> = chosen.iter().map(|&k| contacts[k]).collect();
-        let still = vec![0.0; chosen.len()];
-        let stopped = Scaled::of(&now, &some).reach(&now, &still, tolerance);
-        let factor = if last { 1.0 } else { 2.0 };
-        for (&k, j) in chosen.iter().zip(stopped.normal_impulses) {
-            impulses[k] += factor * j;
+        let some: Vec<SharedContact> = approaching.iter().map(|&k| contacts[k]).collect();
+        let (next, pushes) = reflected(&now, &some, tolerance);
+        for (&k, j) in approaching.iter().zip(pushes) {
+            impulses[k] += j;
         }
-        now = pushed(bodies, contacts, &impulses);
+        now = next;
     }
+    let stopped = newton_lcp(&now, &with_restitution(contacts, 0.0));
+    let all = impulses.iter().zip(stopped.normal_impulses);
     SharedOutcome {
-        bodies: now,
-        normal_impulses: impulses,
+        bodies: stopped.bodies,
+        normal_impulses: all.map(|(before, j)| before + j).collect(),
+        exhausted: true,
     }
+}
+
+/// Stops the contacts and goes on as far again.
+fn reflected(
+    bodies: &[ImpactBody],
+    contacts: &[SharedContact],
+    tolerance: f64,
+) -> (Vec<ImpactBody>, Vec<f64>) {
+    if let [only] = contacts {
+        // j = −2 u / K has the fewest roundings.
+        let (a, b) = (&bodies[only.a], &bodies[only.b]);
+        let response = Response::of(a, b, &only.contact);
+        let impulses = vec![-2.0 * response.u_n / response.k_nn];
+        return (pushed(bodies, contacts, &impulses), impulses);
+    }
+    let still = vec![0.0; contacts.len()];
+    let stop = Scaled::of(bodies, contacts).reach(bodies, &still, tolerance);
+    let onward = |(body, stop): (&ImpactBody, &ImpactBody)| ImpactBody {
+        velocity: 2.0 * stop.velocity - body.velocity,
+        spin: 2.0 * stop.spin - body.spin,
+        ..*body
+    };
+    let next = bodies.iter().zip(&stop.bodies).map(onward);
+    let impulses = stop.normal_impulses.iter().map(|j| 2.0 * j);
+    (next.collect(), impulses.collect())
+}
+
+fn with_restitution(contacts: &[SharedContact], restitution: f64) -> Vec<SharedContact> {
+    let set = |shared: &SharedContact| SharedContact {
+        contact: ImpactContact {
+            restitution,
+            ..shared.contact
+        },
+        ..*shared
+    };
+    contacts.iter().map(set).collect()
 }
 
 /// (1 − e) · [`newton_lcp`] at e = 0 plus e · [`generalised_reflections`], velocity by velocity.
@@ -115,27 +158,28 @@ pub fn generalised_reflections(bodies: &[ImpactBody], contacts: &[SharedContact]
 /// If a contact names a body that is not in the list.
 #[must_use]
 pub fn blend(bodies: &[ImpactBody], contacts: &[SharedContact]) -> SharedOutcome {
-    let plastic: Vec<SharedContact> = contacts
-        .iter()
-        .map(|shared| SharedContact {
-            contact: ImpactContact {
-                restitution: 0.0,
-                ..shared.contact
-            },
-            ..*shared
-        })
-        .collect();
-    let stuck = newton_lcp(bodies, &plastic);
+    let stuck = newton_lcp(bodies, &with_restitution(contacts, 0.0));
     let e = mean_restitution(contacts, &stuck.normal_impulses);
-    if e == 0.0 {
+    if e <= 0.0 {
         return stuck;
     }
-    let thrown = generalised_reflections(bodies, contacts).normal_impulses;
-    let mixed = stuck.normal_impulses.iter().zip(thrown);
-    let impulses: Vec<f64> = mixed.map(|(s, t)| (1.0 - e) * s + e * t).collect();
+    let thrown = generalised_reflections(bodies, contacts);
+    if e >= 1.0 {
+        return thrown;
+    }
+    let mix = |at_0: f64, at_1: f64| (1.0 - e) * at_0 + e * at_1;
+    let impulses = stuck.normal_impulses.iter().zip(&thrown.normal_impulses);
+    let both = stuck.bodies.iter().zip(&thrown.bodies);
     SharedOutcome {
-        bodies: pushed(bodies, contacts, &impulses),
-        normal_impulses: impulses,
+        normal_impulses: impulses.map(|(s, t)| mix(*s, *t)).collect(),
+        bodies: both
+            .map(|(s, t)| ImpactBody {
+                velocity: s.velocity * (1.0 - e) + t.velocity * e,
+                spin: mix(s.spin, t.spin),
+                ..*s
+            })
+            .collect(),
+        exhausted: thrown.exhausted,
     }
 }
 
@@ -237,6 +281,7 @@ impl Scaled {
         SharedOutcome {
             bodies: after,
             normal_impulses: found.multipliers,
+            exhausted: false,
         }
     }
 }

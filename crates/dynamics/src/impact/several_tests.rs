@@ -9,6 +9,11 @@ use super::{
 };
 
 fn heap() -> impl Strategy<Value = (Vec<ImpactBody>, Vec<SharedContact>)> {
+    prop_oneof![heap_on(false), heap_on(true)]
+}
+
+/// Bodies and contacts between them, the first body perhaps immovable.
+fn heap_on(floor: bool) -> impl Strategy<Value = (Vec<ImpactBody>, Vec<SharedContact>)> {
     let number = || -2.0..2.0_f64;
     let body = (
         -2.0..2.0_f64,
@@ -24,7 +29,7 @@ fn heap() -> impl Strategy<Value = (Vec<ImpactBody>, Vec<SharedContact>)> {
         0.0..1.0_f64,
     );
     let contacts = prop::collection::vec(contact, 1..8);
-    (bodies, contacts, any::<bool>()).prop_map(|(bodies, contacts, floor)| {
+    (bodies, contacts).prop_map(move |(bodies, contacts)| {
         let mut bodies: Vec<ImpactBody> = bodies
             .into_iter()
             .map(|(exponent, gyration, [x, y, vx, vy, spin])| {
@@ -99,17 +104,23 @@ proptest! {
             prop_assert!(after.normal_impulses.iter().all(|j| *j >= 0.0));
         }
         let reflected = generalised_reflections(&bodies, &contacts);
-        prop_assert!((energy(&reflected.bodies) - before).abs() <= 1e-10 * before);
+        let change = energy(&reflected.bodies) - before;
+        prop_assert!(reflected.exhausted || change.abs() <= 1e-11 * before, "{change:e} of {before:e}");
     }
 
     #[test]
-    fn free_heaps_keep_their_momentum((bodies, contacts) in heap()) {
-        prop_assume!(bodies.iter().all(|body| body.inverse_mass > 0.0));
+    fn free_heaps_keep_their_momentum((bodies, contacts) in heap_on(false)) {
         let (p, l) = momentum(&bodies);
         for law in [newton_lcp, blend, generalised_reflections] {
-            let (q, m) = momentum(&law(&bodies, &contacts).bodies);
-            prop_assert!((q - p).length() < 1e-14 * SCALE, "{:e}", (q - p).length());
-            prop_assert!((m - l).abs() < 1e-14 * SCALE, "{:e}", (m - l).abs());
+            let after = law(&bodies, &contacts).bodies;
+            let (q, m) = momentum(&after);
+            // Arms are below 3 m, radii of gyration below 2 m.
+            let largest = after.iter().map(|body| {
+                (body.velocity.length() + 6.0 * body.spin.abs()) / body.inverse_mass
+            });
+            let scale = largest.fold(1.0, f64::max);
+            prop_assert!((q - p).length() < 1e-12 * scale, "{:e}", (q - p).length() / scale);
+            prop_assert!((m - l).abs() < 1e-12 * scale, "{:e}", (m - l).abs() / scale);
         }
     }
 
