@@ -89,6 +89,9 @@ fn least_opening(after: &SharedOutcome, contacts: &[SharedContact]) -> f64 {
     contacts.iter().map(opening).fold(f64::INFINITY, f64::min)
 }
 
+/// Random contacts may be parallel to 1e-4, and be struck a thousand times: what doubles lose there.
+const ROUNDING: f64 = 1e-11;
+
 /// Sums of masses, speeds and arms of a heap stay below this, in SI units.
 const SCALE: f64 = 1e4;
 
@@ -99,13 +102,14 @@ proptest! {
     fn nothing_closes_and_no_energy_is_gained((bodies, contacts) in heap()) {
         let before = energy(&bodies);
         for after in [blend(&bodies, &contacts), generalised_reflections(&bodies, &contacts)] {
-            prop_assert!(least_opening(&after, &contacts) > -1e-10);
-            prop_assert!(energy(&after.bodies) <= before * (1.0 + 1e-11));
+            let least = least_opening(&after, &contacts);
+            prop_assert!(least > -100.0 * ROUNDING, "closes by {least:e}");
+            prop_assert!(energy(&after.bodies) <= before * (1.0 + ROUNDING));
             prop_assert!(after.normal_impulses.iter().all(|j| *j >= 0.0));
         }
         let reflected = generalised_reflections(&bodies, &contacts);
         let change = energy(&reflected.bodies) - before;
-        prop_assert!(reflected.exhausted || change.abs() <= 1e-11 * before, "{change:e} of {before:e}");
+        prop_assert!(reflected.exhausted || change.abs() <= ROUNDING * before, "{change:e} of {before:e}");
     }
 
     #[test]
@@ -119,8 +123,8 @@ proptest! {
                 (body.velocity.length() + 6.0 * body.spin.abs()) / body.inverse_mass
             });
             let scale = largest.fold(1.0, f64::max);
-            prop_assert!((q - p).length() < 1e-12 * scale, "{:e}", (q - p).length() / scale);
-            prop_assert!((m - l).abs() < 1e-12 * scale, "{:e}", (m - l).abs() / scale);
+            prop_assert!((q - p).length() < ROUNDING * scale, "{:e}", (q - p).length() / scale);
+            prop_assert!((m - l).abs() < ROUNDING * scale, "{:e}", (m - l).abs() / scale);
         }
     }
 
