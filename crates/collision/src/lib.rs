@@ -40,6 +40,7 @@ mod nearest;
 mod outline;
 mod parts;
 mod sat;
+mod swept;
 mod toi;
 mod tree;
 mod vertex_edge;
