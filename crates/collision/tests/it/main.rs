@@ -9,6 +9,7 @@ mod distance;
 mod documents;
 mod large;
 mod manifold;
+mod overlap;
 mod sat;
 mod shapes;
 mod vertex_edge;
