@@ -7,6 +7,7 @@ mod conservation;
 mod determinism;
 mod documents;
 mod errors;
+mod failures;
 mod forces;
 mod impacts;
 mod observing;

@@ -1,0 +1,3 @@
+//! Failure reports of other engines, case by case of the list of 48, each with its public report.
+
+mod collision;
