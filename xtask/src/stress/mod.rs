@@ -1,7 +1,8 @@
 //! `stress`: cases that broke physics engines, each with what was measured and what is asked for.
 //!
-//! The numbers are those of the project's list of 48 failure reports; ten of them can be answered at this stage.
+//! Numbers up to 48 are those of the project's list of failure reports; from 101 on a case is a million random pairs.
 
+mod pairs;
 mod shapes;
 mod worlds;
 
@@ -41,7 +42,7 @@ impl Finding {
     }
 }
 
-const CASES: [Case; 10] = [
+const CASES: [Case; 13] = [
     Case {
         number: 1,
         name: "far-polygon",
@@ -101,6 +102,24 @@ const CASES: [Case; 10] = [
         name: "order",
         about: "the same scene twice, and with bodies inserted backwards",
         run: worlds::order,
+    },
+    Case {
+        number: 101,
+        name: "convex-pairs",
+        about: "a million convex pairs: depth, distance, witnesses, swap, exact shifts",
+        run: pairs::convex_pairs,
+    },
+    Case {
+        number: 102,
+        name: "concave-pairs",
+        about: "a million pairs of any shape: distance, contacts, shared area, pieces",
+        run: pairs::concave_pairs,
+    },
+    Case {
+        number: 103,
+        name: "impacts",
+        about: "a million times of impact against sampled time",
+        run: pairs::times_of_impact,
     },
 ];
 
