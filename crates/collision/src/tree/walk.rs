@@ -1,44 +1,83 @@
 //! Questions to a tree: depth first, without recursion.
 
-use arrayvec::ArrayVec;
 use carom_geometry::Aabb;
 use carom_math::Vec2;
 
 use super::bounds::{Bounds, up};
-use super::sweep::{Near, Sweep};
-use super::{BoxTree, ROOT};
+use super::sweep::{Near, Sweep, less};
+use super::{BoxTree, NONE, ROOT};
 
-/// What is still to visit: without memory of its own as long as it fits, which it does in any tree
-/// of less than 64 levels.
-pub(super) struct Stack<T> {
-    near: ArrayVec<T, 64>,
+/// What is still to visit, or was found: without memory of its own as long as it fits, which it
+/// does in any tree of less than 60 levels.
+pub(super) struct Stack<T, const ROOM: usize> {
+    near: [T; ROOM],
+    len: usize,
     rest: Vec<T>,
 }
 
-impl<T> Stack<T> {
-    pub(super) const fn new() -> Self {
+impl<T: Copy, const ROOM: usize> Stack<T, ROOM> {
+    pub(super) const fn new(nothing: T) -> Self {
         Self {
-            near: ArrayVec::new_const(),
+            near: [nothing; ROOM],
+            len: 0,
             rest: Vec::new(),
         }
     }
 
+    /// Takes an item, or leaves it: without a branch, for nobody can foretell which.
+    ///
+    /// There must be room: see [`Self::make_room`].
     #[inline]
-    pub(super) fn push(&mut self, item: T) {
-        if let Err(full) = self.near.try_push(item) {
-            self.rest.push(full.element());
+    pub(super) fn push_if(&mut self, taken: bool, item: T) {
+        self.near[self.len] = item;
+        self.len += usize::from(taken);
+    }
+
+    /// Room for `count` more, one after the other, of which any may be left.
+    #[inline]
+    pub(super) fn make_room(&mut self, count: usize) {
+        if !self.has_room(count) {
+            self.rest.extend_from_slice(&self.near[..self.len]);
+            self.len = 0;
         }
     }
 
     #[inline]
+    pub(super) fn has_room(&self, count: usize) -> bool {
+        self.len + count < ROOM
+    }
+
+    pub(super) fn clear(&mut self) {
+        self.len = 0;
+    }
+
+    #[inline]
+    pub(super) fn push(&mut self, item: T) {
+        self.make_room(1);
+        self.push_if(true, item);
+    }
+
+    #[inline]
     pub(super) fn pop(&mut self) -> Option<T> {
-        if self.rest.is_empty() {
-            self.near.pop()
-        } else {
-            self.rest.pop()
+        if self.len == 0 {
+            return self.rest.pop();
         }
+        self.len -= 1;
+        Some(self.near[self.len])
+    }
+
+    /// All that is not in memory of its own.
+    #[inline]
+    pub(super) fn near(&self) -> &[T] {
+        &self.near[..self.len]
     }
 }
+
+/// Pairs on their way in a query, a power of two.
+const QUEUE: usize = 64;
+
+/// Leaves on their way out of a query.
+const HITS: usize = 32;
 
 impl BoxTree {
     /// Calls `found` with the number of every leaf whose box overlaps `bounds`.
@@ -47,27 +86,39 @@ impl BoxTree {
             return;
         }
         let sought = Bounds::around(bounds).opposite();
-        let mut stack = Stack::new();
-        let mut at = ROOT;
+        // First come, first visited: what is visited next does not depend on the answer now, and
+        // several are under way at once.
+        let mut queue = [ROOT; QUEUE];
+        let (mut head, mut tail) = (0, 1);
+        let mut rest = Vec::new();
+        // Found leaves wait for others: whoever has an answer for each would interrupt the walk.
+        let mut hits = [0; HITS];
+        let mut count = 0;
         loop {
-            let pair = &self.pairs[at as usize];
-            let mut next = None;
-            for side in [1, 0] {
-                if !pair.boxes[side].meets(sought) {
-                    continue;
+            while head < tail {
+                let pair = &self.pairs[queue[head % QUEUE] as usize];
+                head += 1;
+                for side in [0, 1] {
+                    let (met, child) = (pair.boxes[side].meets(sought), pair.children[side]);
+                    queue[tail % QUEUE] = child.0;
+                    tail += usize::from(met & !child.is_leaf());
+                    hits[count % HITS] = pair.data[side];
+                    count += usize::from(met & child.is_leaf());
                 }
-                let child = pair.children[side];
-                if child.is_leaf() {
-                    found(pair.data[side]);
-                } else if let Some(other) = next.replace(child.0) {
-                    stack.push(other);
+                if count > HITS - 2 {
+                    hits[..count].iter().for_each(|data| found(*data));
+                    count = 0;
+                }
+                if tail - head > QUEUE - 3 {
+                    rest.extend((head..tail).map(|i| queue[i % QUEUE]));
+                    head = tail;
                 }
             }
-            let Some(below) = next.or_else(|| stack.pop()) else {
-                return;
-            };
-            at = below;
+            let Some(late) = rest.pop() else { break };
+            queue[tail % QUEUE] = late;
+            tail += 1;
         }
+        hits[..count].iter().for_each(|data| found(*data));
     }
 
     /// Calls `found` with the number of every leaf whose box contains `point`.
@@ -129,10 +180,12 @@ impl BoxTree {
     /// ```
     pub fn nearest(&self, bounds: Aabb, max: f64, mut found: impl FnMut(u32) -> f64) {
         let near = Near::new(bounds);
-        self.nearest_first(up(max), |b| near.distance(b), |data| up(found(data)));
+        let limit = Near::limit;
+        self.nearest_first(limit(max), |b| near.square(b), |data| limit(found(data)));
     }
 
     /// Visits what is not farther than `max`, which `found` may shorten; the nearer child first.
+    #[inline]
     fn nearest_first(
         &self,
         mut max: f32,
@@ -142,28 +195,32 @@ impl BoxTree {
         if self.is_empty() {
             return;
         }
-        let mut stack: Stack<(f32, u32)> = Stack::new();
-        let mut at = ROOT;
-        loop {
+        let mut stack: Stack<(f32, u32), 64> = Stack::new((0.0, NONE));
+        let mut next = Some(ROOT);
+        while let Some(at) = next.take() {
             let pair = &self.pairs[at as usize];
-            let far = pair.boxes.map(&far);
-            let mut next = None;
-            let first = usize::from(far[1] < far[0]);
-            for side in [first, 1 - first] {
-                // Tested after the other side: the way may have become shorter meanwhile.
-                if far[side] > max {
-                    break;
+            let [one, two] = pair.boxes.map(&far);
+            let mut visit = |side: usize, far: f32| {
+                // The way may have become shorter on the other side.
+                if far <= max {
+                    let child = pair.children[side];
+                    if child.is_leaf() {
+                        max = less(max, found(pair.data[side]));
+                    } else if next.is_none() {
+                        next = Some(child.0);
+                    } else {
+                        stack.push((far, child.0));
+                    }
                 }
-                let child = pair.children[side];
-                if child.is_none() {
-                    continue;
-                } else if child.is_leaf() {
-                    max = max.min(found(pair.data[side]));
-                } else if next.is_none() {
-                    next = Some(child.0);
-                } else {
-                    stack.push((far[side], child.0));
-                }
+            };
+            // Two ways instead of one with a choice of sides: whoever guesses right is there before
+            // the distances are.
+            if two < one {
+                visit(1, two);
+                visit(0, one);
+            } else {
+                visit(0, one);
+                visit(1, two);
             }
             while next.is_none() {
                 match stack.pop() {
@@ -172,8 +229,6 @@ impl BoxTree {
                     Some(_) => {}
                 }
             }
-            let Some(below) = next else { return };
-            at = below;
         }
     }
 }
