@@ -1,7 +1,7 @@
 //! Which leaves overlap each other.
 
 use super::walk::Stack;
-use super::{BoxTree, Place, ROOT};
+use super::{BoxTree, Pair, Place, ROOT};
 
 impl BoxTree {
     /// Appends the numbers of all leaves whose boxes overlap, two by two: every pair once, the lower
@@ -23,14 +23,16 @@ impl BoxTree {
     pub fn pairs(&self, out: &mut Vec<(u32, u32)>) {
         let from = out.len();
         let mut search = Search::new(self, self, |a, b| (a.min(b), a.max(b)), out);
-        // Leaves are below different children of exactly one pair.
-        for (at, _) in (0_u32..).zip(&self.pairs) {
-            search.meet(Place::new(at, 0), Place::new(at, 1));
-            if at % 32 == 31 {
+        // Leaves are below different children of exactly one pair. Backwards: in a tree that was
+        // built at once, what is below has then just been looked at.
+        #[expect(clippy::cast_possible_truncation, reason = "a place is a u32")]
+        for at in (0..self.pairs.len() as u32).rev() {
+            let pair = &self.pairs[at as usize];
+            search.meet(pair, Place::new(at, 0), pair, Place::new(at, 1));
+            if at % 32 == 0 {
                 search.run();
             }
         }
-        search.run();
         sort(&mut out[from..]);
     }
 
@@ -42,11 +44,7 @@ impl BoxTree {
         }
         let from = out.len();
         let mut search = Search::new(self, other, |a, b| (a, b), out);
-        for a in [0, 1] {
-            for b in [0, 1] {
-                search.meet(Place::new(ROOT, a), Place::new(ROOT, b));
-            }
-        }
+        search.inner.push((ROOT, ROOT));
         search.run();
         sort(&mut out[from..]);
     }
@@ -67,70 +65,84 @@ struct Search<'a, F> {
     pair: F,
     out: &'a mut Vec<(u32, u32)>,
     /// Two pairs.
-    inner: Stack<(Place, Place), 128>,
+    inner: Stack<(u32, u32), 128>,
     /// A leaf of the first tree and a pair of the second, and the other way round.
-    leaf_one: Stack<(Place, Place), 128>,
-    leaf_two: Stack<(Place, Place), 128>,
+    leaf_one: Stack<(Place, u32), 128>,
+    leaf_two: Stack<(u32, Place), 128>,
     found: Stack<(u32, u32), 128>,
 }
 
+/// How many questions are asked at once: their answers wait for memory together.
+const BATCH: usize = 8;
+
 impl<'a, F: Fn(u32, u32) -> (u32, u32)> Search<'a, F> {
     fn new(one: &'a BoxTree, two: &'a BoxTree, pair: F, out: &'a mut Vec<(u32, u32)>) -> Self {
-        let nothing = (Place(0), Place(0));
         Self {
             one,
             two,
             pair,
             out,
-            inner: Stack::new(nothing),
-            leaf_one: Stack::new(nothing),
-            leaf_two: Stack::new(nothing),
+            inner: Stack::new((0, 0)),
+            leaf_one: Stack::new((Place(0), 0)),
+            leaf_two: Stack::new((0, Place(0))),
             found: Stack::new((0, 0)),
         }
     }
 
     /// Asks whether what is in two places overlaps, and notes what there is to do.
     #[inline]
-    fn meet(&mut self, a: Place, b: Place) {
-        let (one, two) = (self.one.pair(a), self.two.pair(b));
-        let met = one.boxes[a.side()].overlaps(two.boxes[b.side()]);
-        let (leaf_a, leaf_b) = (
-            one.children[a.side()].is_leaf(),
-            two.children[b.side()].is_leaf(),
-        );
-        let data = (one.data[a.side()], two.data[b.side()]);
-        self.inner.push_if(met & !leaf_a & !leaf_b, (a, b));
-        self.leaf_one.push_if(met & leaf_a & !leaf_b, (a, b));
-        self.leaf_two.push_if(met & !leaf_a & leaf_b, (a, b));
+    fn meet(&mut self, one: &Pair, a: Place, two: &Pair, b: Place) {
+        let (i, j) = (a.side(), b.side());
+        let met = one.boxes[i].overlaps(two.boxes[j]);
+        let (child_a, child_b) = (one.children[i], two.children[j]);
+        let (leaf_a, leaf_b) = (child_a.is_leaf(), child_b.is_leaf());
+        self.inner
+            .push_if(met & !leaf_a & !leaf_b, (child_a.0, child_b.0));
+        self.leaf_one
+            .push_if(met & leaf_a & !leaf_b, (a, child_b.0));
+        self.leaf_two
+            .push_if(met & !leaf_a & leaf_b, (child_a.0, b));
         self.found
-            .push_if(met & leaf_a & leaf_b, (self.pair)(data.0, data.1));
+            .push_if(met & leaf_a & leaf_b, (self.pair)(one.data[i], two.data[j]));
     }
 
     fn run(&mut self) {
+        let (one, two) = (self.one, self.two);
         loop {
-            self.inner.make_room(4);
-            self.leaf_one.make_room(4);
-            self.leaf_two.make_room(4);
-            if !self.found.has_room(4) {
+            self.inner.make_room(4 * BATCH);
+            self.leaf_one.make_room(4 * BATCH);
+            self.leaf_two.make_room(4 * BATCH);
+            if !self.found.has_room(4 * BATCH) {
                 self.hand_over();
             }
-            if let Some((a, b)) = self.leaf_one.pop() {
-                let below = self.two.pair(b).children[b.side()].0;
-                self.meet(a, Place::new(below, 0));
-                self.meet(a, Place::new(below, 1));
-            } else if let Some((a, b)) = self.leaf_two.pop() {
-                let below = self.one.pair(a).children[a.side()].0;
-                self.meet(Place::new(below, 0), b);
-                self.meet(Place::new(below, 1), b);
-            } else if let Some((a, b)) = self.inner.pop() {
-                let below_a = self.one.pair(a).children[a.side()].0;
-                let below_b = self.two.pair(b).children[b.side()].0;
+            let (batch, count) = self.leaf_one.pop_some::<BATCH>();
+            for &(a, below) in &batch[..count] {
+                let (leaf, pair) = (one.pair(a), &two.pairs[below as usize]);
+                self.meet(leaf, a, pair, Place::new(below, 0));
+                self.meet(leaf, a, pair, Place::new(below, 1));
+            }
+            if count > 0 {
+                continue;
+            }
+            let (batch, count) = self.leaf_two.pop_some::<BATCH>();
+            for &(below, b) in &batch[..count] {
+                let (pair, leaf) = (&one.pairs[below as usize], two.pair(b));
+                self.meet(pair, Place::new(below, 0), leaf, b);
+                self.meet(pair, Place::new(below, 1), leaf, b);
+            }
+            if count > 0 {
+                continue;
+            }
+            let (batch, count) = self.inner.pop_some::<BATCH>();
+            for &(a, b) in &batch[..count] {
+                let (first, second) = (&one.pairs[a as usize], &two.pairs[b as usize]);
                 for i in [0, 1] {
                     for j in [0, 1] {
-                        self.meet(Place::new(below_a, i), Place::new(below_b, j));
+                        self.meet(first, Place::new(a, i), second, Place::new(b, j));
                     }
                 }
-            } else {
+            }
+            if count == 0 {
                 break;
             }
         }

@@ -66,6 +66,22 @@ impl<T: Copy, const ROOM: usize> Stack<T, ROOM> {
         Some(self.near[self.len])
     }
 
+    /// The last few, as many as there are of them.
+    #[inline]
+    pub(super) fn pop_some<const COUNT: usize>(&mut self) -> ([T; COUNT], usize) {
+        if self.len == 0
+            && let Some(late) = self.rest.pop()
+        {
+            self.push_if(true, late);
+        }
+        let count = self.len.min(COUNT);
+        let from = self.len - count;
+        let mut some = [self.near[0]; COUNT];
+        some[..count].copy_from_slice(&self.near[from..self.len]);
+        self.len = from;
+        (some, count)
+    }
+
     /// All that is not in memory of its own.
     #[inline]
     pub(super) fn near(&self) -> &[T] {
