@@ -54,6 +54,11 @@ impl Agenda {
         self.heap.pop().map(|Reverse(entry)| entry)
     }
 
+    /// Drops what was foreseen for a pair that is no more: its place is another's next.
+    pub(crate) fn forget(&mut self, pair: u32) {
+        self.heap.retain(|Reverse(entry)| entry.pair != pair);
+    }
+
     pub(crate) fn clear(&mut self) {
         self.heap.clear();
     }

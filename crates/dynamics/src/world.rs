@@ -334,6 +334,7 @@ impl World {
         let Some(pair) = part(&mut self.bodies, &mut self.pairs, place) else {
             return;
         };
+        self.agenda.forget(place);
         if pair.touching {
             let (a, b) = (
                 self.bodies.get(pair.bodies.0).id,
