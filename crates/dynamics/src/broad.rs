@@ -66,11 +66,13 @@ impl Broad {
             let fat = swept.union(ahead).grown(padding);
             let collider = &mut colliders[at as usize];
             collider.fat = fat;
+            // The tree is asked where a body is at instants in between, too.
+            let kept = fat.grown(roundable(fat));
             match collider.node {
                 Some(node) => {
-                    self.tree.update(node, fat);
+                    self.tree.update(node, kept);
                 }
-                None => collider.node = Some(self.tree.insert(fat, at)),
+                None => collider.node = Some(self.tree.insert(kept, at)),
             }
             self.meet(bodies, colliders, pairs, at);
         }
@@ -188,6 +190,15 @@ pub(crate) fn part(bodies: &mut Bodies, pairs: &mut Pairs, place: u32) -> Option
         bodies.get_mut(index).pairs.retain(|p| *p != place);
     }
     Some(pair)
+}
+
+/// More than a few roundings of coordinates as large as those of a box, in m; sides at infinity do
+/// not count.
+pub(crate) fn roundable(bounds: Aabb) -> f64 {
+    const ROUNDINGS: f64 = 1.0 / (1u64 << 48) as f64;
+    let sides = [bounds.min.x, bounds.min.y, bounds.max.x, bounds.max.y].map(f64::abs);
+    let finite = sides.into_iter().filter(|side| side.is_finite());
+    finite.fold(0.0, f64::max) * ROUNDINGS
 }
 
 /// Box of a collider over its motion between `time` and `time + h`.

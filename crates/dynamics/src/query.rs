@@ -1,10 +1,14 @@
 //! Questions about a world at its present time: rays, points, boxes, casts.
+//!
+//! The tree of boxes names those that may answer, the shapes themselves answer. Of equal answers
+//! the first body's first shape counts, whatever the order in which the tree named them.
 
 use carom_collision::cast;
 use carom_geometry::{Aabb, Shape};
 use carom_math::{Pose, Vec2};
 
-use crate::body::Collider;
+use crate::body::{BodyState, Collider};
+use crate::broad::roundable;
 use crate::{BodyId, World};
 
 /// What a ray met first.
@@ -47,81 +51,98 @@ impl World {
         if !origin.is_finite() || max.is_nan() {
             return None;
         }
-        let mut best: Option<RayHit> = None;
-        for (body, shape, collider) in self.all_shapes() {
+        let mut best: Option<((f64, Place), RayHit)> = None;
+        self.broad.tree.ray(origin, direction, max, |at| {
+            let (body, shape, collider) = self.shape_at(at);
             let pose = body.motion.pose_at(self.clock.now);
-            let reach = best.map_or(max, |hit| hit.distance);
+            let reach = best.map_or(max, |(_, hit)| hit.distance);
             let local = (pose.inverse_point(origin), pose.inverse_vector(direction));
-            if let Some(hit) = collider.solid.cast_ray(local.0, local.1, reach)
-                && best.is_none_or(|known| hit.distance < known.distance)
-            {
-                best = Some(RayHit {
-                    body: body.id,
-                    shape,
-                    distance: hit.distance,
-                    point: pose.point(hit.point),
-                    normal: pose.vector(hit.normal),
-                });
+            if let Some(hit) = collider.solid.cast_ray(local.0, local.1, reach) {
+                let order = (hit.distance, (body.id.index, shape));
+                if best.is_none_or(|(known, _)| order < known) {
+                    let hit = RayHit {
+                        body: body.id,
+                        shape,
+                        distance: hit.distance,
+                        point: pose.point(hit.point),
+                        normal: pose.vector(hit.normal),
+                    };
+                    best = Some((order, hit));
+                }
             }
-        }
-        best
+            best.map_or(f64::INFINITY, |(_, hit)| hit.distance)
+        });
+        best.map(|(_, hit)| hit)
     }
 
     /// Bodies with a shape that contains `point` (in m), in order.
     #[must_use]
     pub fn bodies_at(&self, point: Vec2) -> Vec<BodyId> {
-        let inside =
-            |pose: Pose, collider: &Collider| collider.solid.contains(pose.inverse_point(point));
-        self.bodies_with(inside)
+        self.bodies_with(Aabb::new(point, point), |pose, collider| {
+            collider.solid.contains(pose.inverse_point(point))
+        })
     }
 
     /// Bodies with a shape whose box overlaps `bounds`, in order.
     #[must_use]
     pub fn bodies_in(&self, bounds: Aabb) -> Vec<BodyId> {
-        self.bodies_with(|pose, collider| collider.solid.aabb(pose).overlaps(bounds))
+        self.bodies_with(bounds, |pose, collider| {
+            collider.solid.aabb(pose).overlaps(bounds)
+        })
     }
 
     /// The first body that `shape` at `pose` meets on its way along `translation` (in m), not turning.
     #[must_use]
     pub fn cast_shape(&self, shape: &Shape, pose: Pose, translation: Vec2) -> Option<ShapeHit> {
-        let mut best: Option<ShapeHit> = None;
-        for (body, index, collider) in self.all_shapes() {
+        let start = shape.aabb(pose);
+        let start = start.grown(roundable(start));
+        let mut best: Option<((f64, Place), ShapeHit)> = None;
+        self.broad.tree.sweep(start, translation, 1.0, |at| {
+            let (body, index, collider) = self.shape_at(at);
             let target = body.motion.pose_at(self.clock.now);
-            if let Some(hit) = cast(shape, pose, translation, &collider.solid, target)
-                && best.is_none_or(|known| hit.fraction < known.fraction)
-            {
-                best = Some(ShapeHit {
-                    body: body.id,
-                    shape: index,
-                    fraction: hit.fraction,
-                    point: hit.point,
-                    normal: hit.normal,
-                });
+            if let Some(hit) = cast(shape, pose, translation, &collider.solid, target) {
+                let order = (hit.fraction, (body.id.index, index));
+                if best.is_none_or(|(known, _)| order < known) {
+                    let hit = ShapeHit {
+                        body: body.id,
+                        shape: index,
+                        fraction: hit.fraction,
+                        point: hit.point,
+                        normal: hit.normal,
+                    };
+                    best = Some((order, hit));
+                }
             }
-        }
-        best
+            best.map_or(f64::INFINITY, |(_, hit)| hit.fraction)
+        });
+        best.map(|(_, hit)| hit)
     }
 
-    fn bodies_with(&self, matches: impl Fn(Pose, &Collider) -> bool) -> Vec<BodyId> {
+    /// Bodies with a shape near `bounds` that `matches` at its pose, in order.
+    fn bodies_with(&self, bounds: Aabb, matches: impl Fn(Pose, &Collider) -> bool) -> Vec<BodyId> {
         let mut found: Vec<BodyId> = Vec::new();
-        for (body, _, collider) in self.all_shapes() {
-            if found.last() != Some(&body.id)
-                && matches(body.motion.pose_at(self.clock.now), collider)
-            {
+        self.broad.tree.query(bounds, |at| {
+            let (body, _, collider) = self.shape_at(at);
+            if matches(body.motion.pose_at(self.clock.now), collider) {
                 found.push(body.id);
             }
-        }
+        });
+        found.sort_unstable();
+        found.dedup();
         found
     }
 
-    /// Every shape with its body and its place there.
-    fn all_shapes(
-        &self,
-    ) -> impl Iterator<Item = (&crate::body::BodyState, usize, &Collider)> + use<'_> {
-        let colliders = &self.colliders;
-        self.bodies.iter().flat_map(move |body| {
-            let places = body.colliders.iter().enumerate();
-            places.map(move |(i, at)| (body, i, &colliders[*at as usize]))
-        })
+    /// A shape that the tree named, with its body and its place there.
+    fn shape_at(&self, at: u32) -> (&BodyState, usize, &Collider) {
+        let collider = &self.colliders[at as usize];
+        let body = self.bodies.get(collider.body);
+        let place = body.colliders.iter().take_while(|i| **i != at).count();
+        (body, place, collider)
     }
 }
+
+/// A body and which of its shapes.
+type Place = (u32, usize);
+
+#[cfg(test)]
+mod tests;
