@@ -14,7 +14,7 @@ fn hash_of(name: &str, seconds: f64) -> u64 {
 
 #[test]
 fn every_built_in_scene_runs_to_the_same_bits_twice() {
-    for scene in carom_scenes::list() {
+    for scene in carom_scenes::list().iter().filter(|info| !info.large) {
         assert_eq!(
             hash_of(scene.name, 2.0),
             hash_of(scene.name, 2.0),

@@ -4,7 +4,8 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use crate::error::{Problem, SceneError, nearest};
-use crate::{Place, Scene};
+use crate::plain::{full_name, growth_of};
+use crate::{Place, Scene, plain_scenes};
 
 /// A built-in scene, as a list shows it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -13,12 +14,14 @@ pub struct SceneInfo {
     pub name: &'static str,
     /// What is seen, in a sentence.
     pub summary: String,
+    /// Whether it has thousands of bodies: too many to run it for seconds on the side.
+    pub large: bool,
     /// The file.
     pub text: &'static str,
 }
 
 /// Names and files, in the order of the list.
-static FILES: [(&str, &str); 16] = [
+static FILES: [(&str, &str); 30] = [
     ("thesis", include_str!("../scenes/thesis.toml")),
     ("flying-balls", include_str!("../scenes/flying-balls.toml")),
     (
@@ -44,6 +47,50 @@ static FILES: [(&str, &str); 16] = [
         include_str!("../scenes/infinite-mass.toml"),
     ),
     ("sleepers", include_str!("../scenes/sleepers.toml")),
+    (
+        "a_large_pyramid",
+        include_str!("../scenes/a_large_pyramid.toml"),
+    ),
+    (
+        "b_many_pyramids",
+        include_str!("../scenes/b_many_pyramids.toml"),
+    ),
+    ("c_smash", include_str!("../scenes/c_smash.toml")),
+    ("d_tumbler", include_str!("../scenes/d_tumbler.toml")),
+    (
+        "e_flying_polygons",
+        include_str!("../scenes/e_flying_polygons.toml"),
+    ),
+    ("e_medium", include_str!("../scenes/e_medium.toml")),
+    ("e_dilute", include_str!("../scenes/e_dilute.toml")),
+    (
+        "f_polygon_pile",
+        include_str!("../scenes/f_polygon_pile.toml"),
+    ),
+    (
+        "g_concave_pile",
+        include_str!("../scenes/g_concave_pile.toml"),
+    ),
+    (
+        "h_mostly_sleeping",
+        include_str!("../scenes/h_mostly_sleeping.toml"),
+    ),
+    (
+        "i_mostly_empty",
+        include_str!("../scenes/i_mostly_empty.toml"),
+    ),
+    (
+        "case12_polygon_gas",
+        include_str!("../scenes/case12_polygon_gas.toml"),
+    ),
+    (
+        "case18_disc_gas",
+        include_str!("../scenes/case18_disc_gas.toml"),
+    ),
+    (
+        "case19_polygon_pairs",
+        include_str!("../scenes/case19_polygon_pairs.toml"),
+    ),
 ];
 
 /// The built-in scenes.
@@ -55,6 +102,7 @@ pub fn list() -> &'static [SceneInfo] {
             summary: Scene::from_toml(text, name)
                 .map(|scene| scene.description().to_owned())
                 .unwrap_or_default(),
+            large: plain_scenes().iter().any(|info| info.name == name) && !name.starts_with("case"),
             text,
         };
         FILES.iter().map(info).collect()
@@ -62,7 +110,8 @@ pub fn list() -> &'static [SceneInfo] {
     &LIST
 }
 
-/// The built-in scene of a name.
+/// The built-in scene of a name; of the scenes that compare engines, a letter will do, and growth scenes have any
+/// number of bodies: `grow_pile_2000`.
 ///
 /// # Errors
 /// If there is none: the nearest name is suggested.
@@ -77,8 +126,10 @@ pub fn list() -> &'static [SceneInfo] {
 /// ```
 pub fn find(name: &str) -> Result<Scene, SceneError> {
     let known = FILES.iter().map(|(known, _)| *known);
-    match FILES.iter().find(|(known, _)| *known == name) {
+    let full = full_name(name).unwrap_or(name);
+    match FILES.iter().find(|(known, _)| *known == full) {
         Some((name, text)) => Scene::from_toml(text, name),
+        None if growth_of(name).is_some() => Scene::from_toml(&growing(name), name),
         None => Err(SceneError {
             origin: name.to_owned(),
             place: Place::File,
@@ -90,6 +141,11 @@ pub fn find(name: &str) -> Result<Scene, SceneError> {
             }),
         }),
     }
+}
+
+/// The file of a growth scene.
+fn growing(name: &str) -> String {
+    format!("version = 1\nduration = 2.2\n\n[plain]\nscene = \"{name}\"\n")
 }
 
 /// A scene by what a user types: a built-in name, or the path of a file.

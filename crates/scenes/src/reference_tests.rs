@@ -5,7 +5,7 @@ use crate::{Problem, Scene};
 const README: &str = include_str!("../README.md");
 
 /// A table of each kind, with a key that nobody knows in place of `?`.
-const TABLES: [&str; 20] = [
+const TABLES: [&str; 21] = [
     "? = 1",
     "[settings]\n? = 1",
     "settings.sleep = { ? = 1 }",
@@ -14,6 +14,7 @@ const TABLES: [&str; 20] = [
     "[camera]\n? = 1",
     "[look]\n? = 1",
     "[materials.any]\n? = 1",
+    "[plain]\n? = 1",
     "[walls]\n? = 1",
     "[[field]]\n? = 1",
     "[[body]]\n? = 1",
@@ -77,5 +78,5 @@ fn a_file_with_every_kind_of_table_builds() {
     }
     let scene = Scene::from_toml(text, "everything.toml").unwrap_or_else(|error| panic!("{error}"));
     let built = scene.build().unwrap_or_else(|error| panic!("{error}"));
-    assert_eq!(built.names.len(), 4 + 1 + 10 + 3 + 6 + 4 + 12);
+    assert_eq!(built.names.len(), 2 + 4 + 1 + 10 + 3 + 6 + 4 + 12);
 }

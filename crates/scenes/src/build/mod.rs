@@ -3,6 +3,7 @@
 mod boxes;
 mod look;
 mod material;
+mod plain;
 mod plan;
 mod populate;
 mod settings;
@@ -17,7 +18,7 @@ use crate::document::Document;
 use crate::error::{Problem, SceneError};
 use crate::model::{BodyTable, FieldTable, Kind, SceneFile};
 use crate::path::FieldPath;
-use crate::{Built, Scene};
+use crate::{Built, PlainScene, Scene};
 use material::Resolved;
 use plan::{Planned, Planner};
 
@@ -34,9 +35,10 @@ impl From<Kind> for BodyKind {
 /// Builds the world and how it looks.
 pub(crate) fn build(scene: &Scene) -> Result<Built, SceneError> {
     let document = &scene.document;
-    let file = with_parameters(document, &scene.file)?;
+    let mut file = with_parameters(document, &scene.file)?;
     check_times(document, &file)?;
-    let planned = plan(document, &file)?;
+    let plain = plain::lay_under(document, &mut file)?;
+    let planned = plan(document, &file, plain.as_ref())?;
     let mut world = new_world(document, &file)?;
     let mut names = Vec::with_capacity(planned.len());
     for body in &planned {
@@ -96,12 +98,19 @@ fn check_times(document: &Document, file: &SceneFile) -> Result<(), SceneError> 
 }
 
 /// All bodies, in the order in which the world gets them.
-fn plan(document: &Document, file: &SceneFile) -> Result<Vec<Planned>, SceneError> {
+fn plan(
+    document: &Document,
+    file: &SceneFile,
+    plain: Option<&PlainScene>,
+) -> Result<Vec<Planned>, SceneError> {
     let mut planner = Planner {
         document,
         file,
         bodies: Vec::new(),
     };
+    if let Some(plain) = plain {
+        plain::bodies(&mut planner, plain)?;
+    }
     if let Some(table) = &file.walls {
         boxes::walls(&mut planner, table)?;
     }
@@ -187,6 +196,7 @@ fn written_body(
     body.inertia = table.inertia;
     body.locked_rotation = table.locked_rotation;
     body.gravity_scale = table.gravity_scale;
+    body.asleep = table.asleep;
     body.impulse = table.impulse.map(|impulse| (impulse.at.0, impulse.value.0));
     body.colour.clone_from(&table.colour);
     body.face.clone_from(&table.face);
@@ -240,6 +250,7 @@ fn insert(document: &Document, world: &mut World, body: &Planned) -> Result<Body
         inertia: body.inertia,
         locked_rotation: body.locked_rotation,
         gravity_scale: body.gravity_scale,
+        asleep: body.asleep,
         ..BodyDef::new(body.kind)
     };
     let shapes = body.shapes.iter();

@@ -31,6 +31,7 @@ pub(crate) struct Planned {
     pub(crate) inertia: Option<f64>,
     pub(crate) locked_rotation: bool,
     pub(crate) gravity_scale: f64,
+    pub(crate) asleep: bool,
     /// Point and impulse.
     pub(crate) impulse: Option<(Vec2, Vec2)>,
     pub(crate) colour: Option<String>,
@@ -53,6 +54,7 @@ impl Planned {
             inertia: None,
             locked_rotation: false,
             gravity_scale: 1.0,
+            asleep: false,
             impulse: None,
             colour: None,
             face: None,

@@ -40,6 +40,8 @@ pub(crate) struct BodyTable {
     pub(crate) locked_rotation: bool,
     #[serde(default = "one")]
     pub(crate) gravity_scale: f64,
+    #[serde(default)]
+    pub(crate) asleep: bool,
     /// A push at t = 0.
     #[serde(default)]
     pub(crate) impulse: Option<ImpulseTable>,

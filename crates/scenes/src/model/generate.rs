@@ -6,6 +6,20 @@ use super::body::{Kind, MaterialChoice};
 use super::shape::ShapeTable;
 use super::value::{Corners, CountRange, Point, Range};
 
+/// `[plain]`: the bodies, the gravity and the sleeping of a plain scene.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct PlainTable {
+    /// Its name.
+    pub(crate) scene: String,
+    /// The first body that is taken.
+    #[serde(default)]
+    pub(crate) first: u64,
+    /// How many are taken; all that follow, if it is not given.
+    #[serde(default)]
+    pub(crate) count: Option<u64>,
+}
+
 /// `[walls]`: a closed box of four fixed walls.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]

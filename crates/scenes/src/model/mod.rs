@@ -12,7 +12,7 @@ use serde::Deserialize;
 
 pub(crate) use body::{BodyTable, Kind, MaterialChoice, MaterialTable};
 pub(crate) use generate::{
-    GridTable, PopulationTable, PyramidTable, RandomShape, StackTable, WallsTable,
+    GridTable, PlainTable, PopulationTable, PyramidTable, RandomShape, StackTable, WallsTable,
 };
 pub(crate) use settings::{LawName, ModeName, PairsName, SettingsTable, SleepChoice};
 pub(crate) use shape::ShapeTable;
@@ -63,6 +63,8 @@ pub(crate) struct SceneFile {
     pub(crate) materials: BTreeMap<String, MaterialTable>,
     #[serde(default)]
     pub(crate) field: Vec<FieldTable>,
+    #[serde(default)]
+    pub(crate) plain: Option<PlainTable>,
     #[serde(default)]
     pub(crate) walls: Option<WallsTable>,
     #[serde(default)]

@@ -75,13 +75,12 @@ pub fn growth_scene(kind: GrowthKind, bodies: u32) -> PlainScene {
     }
 }
 
-/// The growth scene of a name like `grow_pile_2000`.
-pub(super) fn named(name: &str) -> Option<PlainScene> {
-    let (kind, bodies) = name.strip_prefix("grow_")?.split_once('_')?;
-    let bodies = bodies.parse().ok()?;
-    let scene = growth_scene(kind.parse().ok()?, bodies);
-    // No other spelling, like `grow_pile_+7`, and no number out of range.
-    (scene.name == name).then_some(scene)
+/// Kind and number of a name like `grow_pile_2000`; no other spelling, and no number out of range.
+pub(crate) fn growth_of(name: &str) -> Option<(GrowthKind, u32)> {
+    let (kind, number) = name.strip_prefix("grow_")?.split_once('_')?;
+    let bodies: u32 = number.parse().ok()?;
+    let plain = (1..=MAX_GROWTH).contains(&bodies) && bodies.to_string() == number;
+    plain.then_some((kind.parse().ok()?, bodies))
 }
 
 /// Courses of a pile.

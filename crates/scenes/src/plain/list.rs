@@ -1,6 +1,7 @@
 //! The plain scenes by name.
 
-use super::{PlainScene, gas, grow, pairs, piles, resting, sparse};
+use super::grow::{growth_of, growth_scene};
+use super::{PlainScene, gas, pairs, piles, resting, sparse};
 
 /// A plain scene, as a list shows it.
 #[derive(Clone, Copy, Debug)]
@@ -115,14 +116,18 @@ pub fn plain_scenes() -> &'static [PlainInfo] {
 /// ```
 #[must_use]
 pub fn plain_scene(name: &str) -> Option<PlainScene> {
-    let lettered = |known: &str| {
-        known
-            .split_once('_')
-            .is_some_and(|(letter, _)| letter == name)
-    };
-    let found = SCENES.iter().find(|info| info.name == name);
+    let full = full_name(name).unwrap_or(name);
+    let found = SCENES.iter().find(|info| info.name == full);
     found
-        .or_else(|| SCENES.iter().find(|info| lettered(info.name)))
         .map(PlainInfo::scene)
-        .or_else(|| grow::named(name))
+        .or_else(|| growth_of(name).map(|(kind, bodies)| growth_scene(kind, bodies)))
+}
+
+/// The name that a letter stands for.
+pub(crate) fn full_name(letter: &str) -> Option<&'static str> {
+    let mut names = SCENES.iter().map(|info| info.name);
+    names.find(|name| {
+        name.split_once('_')
+            .is_some_and(|(first, _)| first == letter && first.len() == 1)
+    })
 }

@@ -18,6 +18,7 @@ mod world;
 pub use grow::{GrowthKind, MAX_GROWTH, growth_scene};
 pub use list::{PlainInfo, plain_scene, plain_scenes};
 pub use world::PlainError;
+pub(crate) use {grow::growth_of, list::full_name};
 
 use carom_math::{StateHash, Vec2, vec2};
 
