@@ -1,5 +1,6 @@
 //! The commands and their flags.
 
+use std::ffi::OsString;
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -36,7 +37,11 @@ pub(crate) enum Command {
     /// Answer a folder of reference cases and judge the answers
     Reference(ReferenceArgs),
     /// Run time against error, as table, CSV and chart
-    Accuracy(AccuracyArgs),
+    #[command(disable_help_flag = true)]
+    Accuracy(Passed),
+    /// Milliseconds a step and what they bought, scene by scene, as table, CSV and chart
+    #[command(disable_help_flag = true)]
+    Speed(Passed),
     /// Cases that break physics engines, each with its measured number
     Stress(StressArgs),
     /// All that CI checks: format, lints, docs, tests, demo, outside crate
@@ -176,18 +181,16 @@ pub(crate) struct ReferenceArgs {
     pub(crate) transform: Option<u64>,
 }
 
+/// What the laboratory's own program reads: `cargo xtask accuracy --help` is answered by it too.
 #[derive(Args, Debug)]
-#[command(after_help = "Example:\n  cargo xtask accuracy --quick --out out/accuracy")]
-pub(crate) struct AccuracyArgs {
-    /// Three scenes with four step lengths each; the only sweep at this stage
-    #[arg(long)]
-    pub(crate) quick: bool,
-    /// Folder for the table and the charts
-    #[arg(long, value_name = "DIR", default_value = "out/accuracy")]
-    pub(crate) out: PathBuf,
-    /// Writes the table as JSON too
-    #[arg(long, value_name = "FILE")]
-    pub(crate) json: Option<PathBuf>,
+pub(crate) struct Passed {
+    /// Flags; --help lists them
+    #[arg(
+        trailing_var_arg = true,
+        allow_hyphen_values = true,
+        value_name = "FLAGS"
+    )]
+    pub(crate) args: Vec<OsString>,
 }
 
 #[derive(Args, Debug)]

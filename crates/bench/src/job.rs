@@ -19,6 +19,35 @@ pub enum Job {
     Accuracy(Point),
 }
 
+impl Job {
+    /// Who.
+    #[must_use]
+    pub const fn engine(&self) -> EngineName {
+        match self {
+            Self::Speed(job) | Self::Bare(job) => job.engine,
+            Self::Accuracy(point) => point.engine,
+        }
+    }
+
+    /// With which settings.
+    #[must_use]
+    pub const fn mode(&self) -> Mode {
+        match self {
+            Self::Speed(job) | Self::Bare(job) => job.mode,
+            Self::Accuracy(point) => point.mode,
+        }
+    }
+
+    /// On how many threads.
+    #[must_use]
+    pub const fn threads(&self) -> u32 {
+        match self {
+            Self::Speed(job) | Self::Bare(job) => job.threads,
+            Self::Accuracy(_) => 1,
+        }
+    }
+}
+
 /// One point of a work–precision curve.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Point {
@@ -57,6 +86,9 @@ pub enum Reading {
         values: Vec<(String, f64)>,
         /// CPU seconds inside steps per simulated second.
         cpu_s_per_s: f64,
+        /// As the engine was set in the first world.
+        #[serde(default)]
+        settings: String,
     },
     /// The run could not be made, or did not come to its end.
     Failed {
@@ -87,7 +119,12 @@ fn accuracy(point: &Point) -> Result<Reading, EngineError> {
     let mut trial = Trial::new(point);
     let values = (case.measure)(&mut trial)?;
     Ok(Reading::Accuracy {
-        values,
+        // JSON has no other numbers; a metric without one is missing.
+        values: values
+            .into_iter()
+            .filter(|(_, value)| value.is_finite())
+            .collect(),
         cpu_s_per_s: trial.cpu_per_second(),
+        settings: trial.settings().to_owned(),
     })
 }

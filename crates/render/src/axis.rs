@@ -21,6 +21,12 @@ pub struct Axis {
     pub scale: Scale,
     /// First and last number; `None` takes those of the data and a little room.
     pub range: Option<(f64, f64)>,
+    /// Names at 0, 1, 2, … in place of numbers; empty for numbers.
+    pub names: Vec<String>,
+    /// Name of a strip below an upright logarithmic axis in which 0 has its place; empty for none.
+    pub floor: String,
+    /// Name of a strip above an upright axis in which infinity has its place, marked by a cross; empty for none.
+    pub ceiling: String,
 }
 
 /// An axis with its ends fixed: numbers to fractions of its length, and its ticks.
@@ -65,6 +71,9 @@ impl Ruler {
         count: f64,
         room: f64,
     ) -> Self {
+        if !axis.names.is_empty() {
+            return Self::named(&axis.names);
+        }
         let mapped = |x: f64| match axis.scale {
             Scale::Linear => (x.abs() < 1e280).then_some(x),
             Scale::Log => {
@@ -98,6 +107,23 @@ impl Ruler {
             Scale::Linear => ruler.steps(count),
         }
         ruler
+    }
+
+    /// Names at whole numbers from 0.
+    #[expect(clippy::cast_precision_loss, reason = "a count of names for the eye")]
+    fn named(names: &[String]) -> Self {
+        let count = names.len() as f64;
+        let tick = |(index, name): (usize, &String)| Tick {
+            at: (index as f64 + 0.5) / count,
+            text: TickText::Plain(name.clone()),
+        };
+        Self {
+            scale: Scale::Linear,
+            low: -0.5,
+            high: count - 0.5,
+            ticks: names.iter().enumerate().map(tick).collect(),
+            exponent: 0,
+        }
     }
 
     /// Where a number is, as a fraction of the axis; `None` if it has no place.

@@ -16,6 +16,8 @@ pub enum Marker {
     Triangle,
     /// A square on its corner.
     Diamond,
+    /// Two crossed strokes: what failed.
+    Cross,
 }
 
 impl Marker {
@@ -36,6 +38,8 @@ pub struct Series {
     pub dash: Option<f64>,
     /// What stands at the points.
     pub marker: Option<Marker>,
+    /// Its colour; `None` takes its turn among [`Style::series`].
+    pub ink: Option<Ink>,
 }
 
 impl Series {
@@ -48,6 +52,16 @@ impl Series {
             width: 2.0,
             dash: None,
             marker: None,
+            ink: None,
+        }
+    }
+
+    /// The same in a colour of its own.
+    #[must_use]
+    pub fn inked(self, ink: impl Into<Ink>) -> Self {
+        Self {
+            ink: Some(ink.into()),
+            ..self
         }
     }
 
@@ -175,15 +189,25 @@ impl Chart {
     #[must_use]
     pub fn frame(&self, size: Size) -> Frame {
         let mut frame = Frame::new(size);
-        let layout = Layout::new(self, size.corner());
-        layout.draw_headings(self, &mut frame);
+        self.draw(Vec2::ZERO, size.corner(), &mut frame);
+        frame
+    }
+
+    /// Draws the chart into a part of a frame, `size` wide and high.
+    pub(crate) fn draw(&self, origin: Vec2, size: Vec2, frame: &mut Frame) {
+        let layout = Layout::new(self, origin, size);
+        layout.draw_headings(self, frame);
         if layout.has_room() {
-            layout.draw_axes(self, &mut frame);
+            layout.draw_axes(self, frame);
             for (i, series) in self.series.iter().enumerate() {
-                layout.draw_series(series, Ink::Series(i), &mut frame);
+                layout.draw_series(series, self.ink(i), frame);
             }
         }
-        frame
+    }
+
+    /// The colour of a series.
+    pub(crate) fn ink(&self, index: usize) -> Ink {
+        self.series[index].ink.unwrap_or(Ink::Series(index))
     }
 
     /// A marker that differs from those of the neighbouring series.
@@ -223,7 +247,7 @@ mod tests {
         let mut chart = Chart::new("").with(Series::line("", points));
         chart.x.range = Some((0.0, 10.0));
         chart.y.range = Some((0.0, 5.0));
-        let layout = Layout::new(&chart, size().corner());
+        let layout = Layout::new(&chart, Vec2::ZERO, size().corner());
         let middle = layout.place(vec2(5.0, 2.5)).unwrap();
         let picture = chart.paint(size(), &style);
         #[expect(clippy::cast_sign_loss, reason = "inside the picture")]
@@ -243,6 +267,37 @@ mod tests {
         assert_eq!(empty.pixel(399, 0), Some(Colour::WHITE));
     }
 
+    #[test]
+    fn nothing_and_infinity_have_their_strips() {
+        let points = vec![vec2(1.0, 0.0), vec2(2.0, 1e-3), vec2(3.0, f64::INFINITY)];
+        let plain = chart(points.clone()).log_y();
+        let mut stripped = plain.clone();
+        (stripped.y.floor, stripped.y.ceiling) = ("exact".to_owned(), "failed".to_owned());
+        let place = |chart: &Chart, point: Vec2| {
+            Layout::new(chart, Vec2::ZERO, size().corner()).place(point)
+        };
+        assert_eq!(place(&plain, points[0]), None);
+        assert_eq!(place(&plain, points[2]), None);
+        let [floor, middle, ceiling] = [0, 1, 2].map(|i| place(&stripped, points[i]).unwrap());
+        assert!(
+            ceiling.y < middle.y && middle.y < floor.y,
+            "{ceiling} {middle} {floor}"
+        );
+        let svg = stripped.frame(size()).to_svg(&Style::light());
+        assert!(svg.contains("exact") && svg.contains("failed"));
+    }
+
+    #[test]
+    fn names_stand_at_whole_numbers() {
+        let mut chart = chart(vec![vec2(1.0, 0.0), vec2(2.0, 1.0)]);
+        chart.y.names = vec!["first".to_owned(), "second".to_owned()];
+        let svg = chart.frame(size()).to_svg(&Style::light());
+        assert!(svg.contains("first") && svg.contains("second"));
+        let layout = Layout::new(&chart, Vec2::ZERO, size().corner());
+        let [a, b] = [0.0, 1.0].map(|y| layout.place(vec2(1.0, y)).unwrap().y);
+        assert!(b < a, "upwards");
+    }
+
     proptest! {
         #[test]
         fn strange_numbers_make_no_strange_marks(
@@ -250,10 +305,14 @@ mod tests {
                 (prop::num::f64::ANY, prop::num::f64::ANY).prop_map(|(x, y)| vec2(x, y)), 0..12),
             log_x: bool,
             log_y: bool,
+            strips: bool,
         ) {
             let mut chart = chart(points);
             chart.x.scale = if log_x { Scale::Log } else { Scale::Linear };
             chart.y.scale = if log_y { Scale::Log } else { Scale::Linear };
+            if strips {
+                (chart.y.floor, chart.y.ceiling) = ("0".to_owned(), "inf".to_owned());
+            }
             let frame = chart.frame(size());
             for op in frame.ops() {
                 if let Op::Line { points, .. } | Op::Area { points, .. } = op {

@@ -19,12 +19,19 @@ const TICK_GAP: f64 = 8.0;
 /// Length of a legend's line and room after an entry, in pixels.
 const SWATCH: f64 = 24.0;
 const ENTRY_GAP: f64 = 22.0;
+/// Height of the strips for nothing and infinity, in pixels.
+const STRIP: f64 = 20.0;
 
 /// Where everything goes: from the outside inwards.
 pub(crate) struct Layout {
     /// The plot's corners, upper left and lower right.
     pub(crate) min: Vec2,
     max: Vec2,
+    /// The same with the strips.
+    top: f64,
+    foot: f64,
+    /// Upper left corner of all.
+    origin: Vec2,
     x: Ruler,
     y: Ruler,
     /// Where each named series stands in the legend: index, left end, middle height.
@@ -32,7 +39,7 @@ pub(crate) struct Layout {
 }
 
 impl Layout {
-    pub(crate) fn new(chart: &Chart, size: Vec2) -> Self {
+    pub(crate) fn new(chart: &Chart, origin: Vec2, size: Vec2) -> Self {
         let mut top = EDGE;
         for (text, height) in [(&chart.title, TITLE), (&chart.subtitle, SMALL)] {
             if !text.is_empty() {
@@ -46,6 +53,7 @@ impl Layout {
             .ticks
             .iter()
             .map(|tick| tick_width(&tick.text))
+            .chain([&chart.y.floor, &chart.y.ceiling].map(|name| font::width(name, SMALL)))
             .fold(0.0, f64::max);
         let label = |axis: &Axis| {
             if axis.label.is_empty() {
@@ -72,7 +80,7 @@ impl Layout {
             if pen.x > left && pen.x + width > right {
                 pen = vec2(left, pen.y + 2.1 * SMALL);
             }
-            legend.push((i, pen));
+            legend.push((i, origin + pen));
             pen.x += width + ENTRY_GAP;
         }
         if !legend.is_empty() {
@@ -82,9 +90,14 @@ impl Layout {
             top += 1.5 * TEXT;
         }
         let bottom = size.y - EDGE + 2.0 - label(&chart.x) - 1.2 * SMALL - TICK_GAP;
+        let (top, foot) = (origin.y + top + 6.0, origin.y + bottom);
+        let strip = |name: &str| if name.is_empty() { 0.0 } else { STRIP };
         Self {
-            min: vec2(left, top + 6.0),
-            max: vec2(right, bottom),
+            min: vec2(origin.x + left, top + strip(&chart.y.ceiling)),
+            max: vec2(origin.x + right, foot - strip(&chart.y.floor)),
+            top,
+            foot,
+            origin,
             x,
             y,
             legend,
@@ -96,17 +109,32 @@ impl Layout {
     }
 
     pub(crate) fn place(&self, point: Vec2) -> Option<Vec2> {
-        let (x, y) = (self.x.at(point.x)?, self.y.at(point.y)?);
-        let place = vec2(
-            self.min.x + x * (self.max.x - self.min.x),
-            self.max.y - y * (self.max.y - self.min.y),
-        );
-        place.is_finite().then_some(place)
+        let x = self.min.x + self.x.at(point.x)? * (self.max.x - self.min.x);
+        let y = match self.strip(point.y) {
+            Some(middle) => middle,
+            None => self.max.y - self.y.at(point.y)? * (self.max.y - self.min.y),
+        };
+        Some(vec2(x, y)).filter(|place| place.is_finite())
+    }
+
+    /// The middle of the strip that a number belongs to; `None` if it belongs to the plot.
+    fn strip(&self, y: f64) -> Option<f64> {
+        if y == f64::INFINITY && self.top < self.min.y {
+            Some(0.5 * (self.top + self.min.y))
+        } else if y == 0.0 && self.max.y < self.foot {
+            Some(0.5 * (self.max.y + self.foot))
+        } else {
+            None
+        }
     }
 
     pub(crate) fn draw_headings(&self, chart: &Chart, frame: &mut Frame) {
-        let left = if self.has_room() { self.min.x } else { EDGE };
-        let mut top = EDGE;
+        let left = if self.has_room() {
+            self.min.x
+        } else {
+            self.origin.x + EDGE
+        };
+        let mut top = self.origin.y + EDGE;
         for (text, height, ink) in [
             (&chart.title, TITLE, Ink::Text),
             (&chart.subtitle, SMALL, Ink::Muted),
@@ -118,24 +146,13 @@ impl Layout {
             top += 1.9 * height;
         }
         for &(i, at) in &self.legend {
-            let series = &chart.series[i];
-            let end = at + vec2(SWATCH, 0.0);
-            frame.push(Op::Line {
-                points: vec![at, end],
-                width: series.width,
-                dash: series.dash,
-                ink: Ink::Series(i),
-            });
-            if let Some(marker) = series.marker {
-                draw_marker(marker, 0.5 * (at + end), Ink::Series(i), frame);
-            }
-            let text = Label::new(end + vec2(7.0, 0.0), series.name.clone(), SMALL, Ink::Text);
-            frame.push(text.anchored(0.0, 0.5));
+            draw_entry(&chart.series[i], chart.ink(i), at, frame);
         }
     }
 
     pub(crate) fn draw_axes(&self, chart: &Chart, frame: &mut Frame) {
         let (min, max) = (self.min, self.max);
+        let (top, foot) = (self.top, self.foot);
         let mut grid = |from: Vec2, to: Vec2, width: f64| {
             frame.push(Op::Line {
                 points: vec![from, to],
@@ -152,7 +169,7 @@ impl Layout {
             } else {
                 1.0
             };
-            grid(vec2(x, min.y), vec2(x, max.y), width);
+            grid(vec2(x, top), vec2(x, foot), width);
         }
         for tick in &self.y.ticks {
             let y = crisp(max.y - tick.at * (max.y - min.y));
@@ -163,25 +180,41 @@ impl Layout {
             };
             grid(vec2(min.x, y), vec2(max.x, y), width);
         }
-        let (left, bottom) = (crisp(min.x), crisp(max.y));
+        for (name, y, from, to) in [
+            (&chart.y.ceiling, crisp(min.y), top, min.y),
+            (&chart.y.floor, crisp(max.y), max.y, foot),
+        ] {
+            if !name.is_empty() {
+                frame.push(Op::Line {
+                    points: vec![vec2(min.x, y), vec2(max.x, y)],
+                    width: 1.0,
+                    dash: Some(4.0),
+                    ink: Ink::Muted,
+                });
+                let at = vec2(min.x - TICK_GAP, 0.5 * (from + to));
+                let label = Label::new(at, name.clone(), SMALL, Ink::Muted);
+                frame.push(label.anchored(1.0, 0.5));
+            }
+        }
+        let (left, bottom) = (crisp(min.x), crisp(foot));
         frame.push(Op::Line {
-            points: vec![vec2(left, min.y), vec2(left, bottom), vec2(max.x, bottom)],
+            points: vec![vec2(left, top), vec2(left, bottom), vec2(max.x, bottom)],
             width: 1.0,
             dash: None,
             ink: Ink::Muted,
         });
         for tick in &self.x.ticks {
             let x = min.x + tick.at * (max.x - min.x);
-            draw_tick(&tick.text, vec2(x, max.y + TICK_GAP), vec2(0.5, 1.0), frame);
+            draw_tick(&tick.text, vec2(x, foot + TICK_GAP), vec2(0.5, 1.0), frame);
         }
         for tick in &self.y.ticks {
             let y = max.y - tick.at * (max.y - min.y);
             draw_tick(&tick.text, vec2(min.x - TICK_GAP, y), vec2(1.0, 0.5), frame);
         }
-        let corner = vec2(max.x, max.y + TICK_GAP + 1.2 * SMALL);
+        let corner = vec2(max.x, foot + TICK_GAP + 1.2 * SMALL);
         for (ruler, at, anchor) in [
             (&self.x, corner + vec2(0.0, 1.4 * TEXT), vec2(1.0, 0.0)),
-            (&self.y, vec2(min.x, min.y - 0.7 * TEXT), vec2(0.0, 0.0)),
+            (&self.y, vec2(min.x, top - 0.7 * TEXT), vec2(0.0, 0.0)),
         ] {
             if ruler.exponent != 0 {
                 draw_power("×10", ruler.exponent, at, anchor, frame);
@@ -190,16 +223,19 @@ impl Layout {
         let middle = 0.5 * (min + max);
         let bottom = vec2(middle.x, corner.y + 1.8 * TEXT);
         frame.push(Label::new(bottom, chart.x.label.clone(), TEXT, Ink::Text).anchored(0.5, 0.0));
-        let side = vec2(EDGE, middle.y);
+        let side = vec2(self.origin.x + EDGE, middle.y);
         let label = Label::new(side, chart.y.label.clone(), TEXT, Ink::Text);
         frame.push(label.anchored(0.5, 1.0).upwards());
     }
 
     pub(crate) fn draw_series(&self, series: &Series, ink: Ink, frame: &mut Frame) {
         // A line may leave the plot; its markers may not.
-        let window = Window::between(self.min - Vec2::splat(1.0), self.max + Vec2::splat(1.0));
+        let (min, max) = (vec2(self.min.x, self.top), vec2(self.max.x, self.foot));
+        let window = Window::between(min - Vec2::splat(1.0), max + Vec2::splat(1.0));
         let mut spare = Vec::new();
         let runs = series.points.split(|&p| self.place(p).is_none());
+        // Between the plot and a strip lie all numbers: no line goes there.
+        let runs = runs.flat_map(|run| run.chunk_by(|a, b| self.strip(a.y) == self.strip(b.y)));
         for run in runs {
             let places: Vec<Vec2> = run.iter().filter_map(|&p| self.place(p)).collect();
             let thinned = thinned(&places);
@@ -213,12 +249,41 @@ impl Layout {
             });
         }
         if let Some(marker) = series.marker {
-            let places = series.points.iter().filter_map(|&p| self.place(p));
-            for place in places.filter(|&p| window.contains(p)) {
-                draw_marker(marker, place, ink, frame);
+            for &point in &series.points {
+                let Some(place) = self.place(point).filter(|&p| window.contains(p)) else {
+                    continue;
+                };
+                let failed = point.y == f64::INFINITY;
+                draw_marker(
+                    if failed { Marker::Cross } else { marker },
+                    place,
+                    ink,
+                    frame,
+                );
             }
         }
     }
+}
+
+/// An entry of a legend: a piece of the line, and the name.
+pub(crate) fn draw_entry(series: &Series, ink: Ink, at: Vec2, frame: &mut Frame) {
+    let end = at + vec2(SWATCH, 0.0);
+    frame.push(Op::Line {
+        points: vec![at, end],
+        width: series.width,
+        dash: series.dash,
+        ink,
+    });
+    if let Some(marker) = series.marker {
+        draw_marker(marker, 0.5 * (at + end), ink, frame);
+    }
+    let text = Label::new(end + vec2(7.0, 0.0), series.name.clone(), SMALL, Ink::Text);
+    frame.push(text.anchored(0.0, 0.5));
+}
+
+/// Width of an entry of a legend and the room after it, in pixels.
+pub(crate) fn entry_width(series: &Series) -> f64 {
+    SWATCH + 7.0 + font::width(&series.name, SMALL) + ENTRY_GAP
 }
 
 /// The middle of the pixel that a coordinate falls into.
@@ -292,6 +357,17 @@ fn draw_power(base: &str, power: i32, at: Vec2, anchor: Vec2, frame: &mut Frame)
 
 /// A marker with a seam of the ground around it, so that it stands out from lines.
 fn draw_marker(marker: Marker, at: Vec2, ink: Ink, frame: &mut Frame) {
+    if marker == Marker::Cross {
+        for arm in [vec2(4.0, 4.0), vec2(4.0, -4.0)] {
+            frame.push(Op::Line {
+                points: vec![at - arm, at + arm],
+                width: 2.2,
+                dash: None,
+                ink,
+            });
+        }
+        return;
+    }
     for (radius, ink) in [(5.2, Ink::Background), (3.8, ink)] {
         if marker == Marker::Circle {
             frame.push(Op::Dot {
@@ -305,7 +381,7 @@ fn draw_marker(marker: Marker, at: Vec2, ink: Ink, frame: &mut Frame) {
         let (corners, first, grown) = match marker {
             Marker::Square => (4, 45.0, 1.25),
             Marker::Triangle => (3, -90.0, 1.3),
-            Marker::Diamond | Marker::Circle => (4, 0.0, 1.35),
+            Marker::Diamond | Marker::Circle | Marker::Cross => (4, 0.0, 1.35),
         };
         let points = (0..corners)
             .map(|i| {

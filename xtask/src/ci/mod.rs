@@ -3,11 +3,12 @@
 mod outside;
 mod pictures;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, ExitStatus};
 
 use crate::clock::Clock;
 use crate::exit::{End, Failure, Outcome};
+use crate::laboratory::{self, cargo_in};
 use crate::out::say;
 use crate::scratch::Scratch;
 
@@ -15,7 +16,7 @@ use crate::scratch::Scratch;
 type Check = fn(&Path) -> Result<bool, Failure>;
 
 pub(crate) fn run() -> Outcome {
-    let root = workspace();
+    let root = laboratory::workspace();
     let all = Clock::start();
     let steps: [(&str, Check); 6] = [
         ("format: cargo fmt --check", |root| {
@@ -69,13 +70,6 @@ fn cargo(root: &Path, args: &[&str]) -> Result<bool, Failure> {
     succeeds(cargo_in(root).args(args))
 }
 
-/// The cargo that started us, in the folder of the workspace.
-fn cargo_in(folder: &Path) -> Command {
-    let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    command.current_dir(folder);
-    command
-}
-
 fn succeeds(command: &mut Command) -> Result<bool, Failure> {
     let status: ExitStatus = command.status().map_err(|error| {
         Failure::new(format!(
@@ -84,10 +78,4 @@ fn succeeds(command: &mut Command) -> Result<bool, Failure> {
         ))
     })?;
     Ok(status.success())
-}
-
-/// The folder of the workspace: the one above this package.
-fn workspace() -> PathBuf {
-    let package = Path::new(env!("CARGO_MANIFEST_DIR"));
-    package.parent().unwrap_or(package).to_path_buf()
 }

@@ -3,8 +3,9 @@
 use std::fs;
 use std::path::Path;
 
-use super::{Scratch, cargo_in};
+use super::Scratch;
 use crate::exit::Failure;
+use crate::laboratory::cargo_in;
 use crate::out::say;
 
 const MAIN: &str = r#"use carom_geometry::ConvexPolygon;

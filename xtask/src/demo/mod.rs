@@ -54,7 +54,7 @@ const QUICK: Format = Format {
 
 pub(crate) fn run(args: &DemoArgs) -> Outcome {
     let format = if args.quick { QUICK } else { FULL };
-    interrupt::watch()?;
+    interrupt::watch("finishing the frame")?;
     let clock = Clock::start();
     for name in SCENES {
         if show(name, &args.out.join(name), format)? {

@@ -55,7 +55,7 @@ pub(crate) fn run(args: &RenderArgs) -> Outcome {
         plan.rate.get(),
         folder.path().display()
     );
-    interrupt::watch()?;
+    interrupt::watch("finishing the frame")?;
     let stem = scene::file_stem(scene.name());
     let (footage, files) = match args.format {
         Format::Png => sink::frames(&mut built, &plan, &folder)?,

@@ -35,7 +35,7 @@ pub(crate) fn run(args: &SimulateArgs) -> Outcome {
     let scene = scene::open(&args.scene, &args.set, args.mode)?;
     let mut built = scene.build()?;
     args.json.as_deref().map_or(Ok(()), files::prepare)?;
-    interrupt::watch()?;
+    interrupt::watch("finishing the frame")?;
     let mut table = Table::open(args.out.as_deref(), &built)?;
     let run = sample(&mut built.world, seconds, every, &mut table)?;
     table.finish()?;

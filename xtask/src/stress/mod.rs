@@ -125,7 +125,7 @@ const CASES: [Case; 13] = [
 
 pub(crate) fn run(args: &StressArgs) -> Outcome {
     let chosen = choose(args.case.as_deref())?;
-    interrupt::watch()?;
+    interrupt::watch("finishing the frame")?;
     say!(
         "{:>3}  {:<12} {:<11} {:<52} wanted",
         "no",

@@ -1,6 +1,7 @@
 //! The command line as a user meets it: what is printed, what is written, and the exit code.
 
 mod inertia;
+mod laboratory;
 mod output;
 mod reference;
 mod scenes;

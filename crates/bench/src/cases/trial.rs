@@ -18,6 +18,7 @@ pub(super) type Opener =
 #[derive(Debug)]
 pub struct Trial {
     point: Point,
+    settings: String,
     meter: Meter,
     opener: Opener,
 }
@@ -39,6 +40,7 @@ impl Trial {
     pub(super) fn opened_by(opener: Opener, point: &Point) -> Self {
         Self {
             point: point.clone(),
+            settings: String::new(),
             meter: Meter::default(),
             opener,
         }
@@ -68,6 +70,9 @@ impl Trial {
     /// If the engine is not built in or refuses the scene.
     pub fn open(&mut self, scene: &PlainScene) -> Result<Run<'_>, EngineError> {
         let world = self.build(scene, self.hz())?;
+        if self.settings.is_empty() {
+            self.settings = world.settings();
+        }
         Ok(Run::new(world, self.hz(), Some(&mut self.meter)))
     }
 
@@ -89,6 +94,12 @@ impl Trial {
             slop: None,
         };
         (self.opener)(self.point.engine, scene, &setup)
+    }
+
+    /// As the engine was set in the first world.
+    #[must_use]
+    pub fn settings(&self) -> &str {
+        &self.settings
     }
 
     /// CPU seconds inside steps per simulated second.

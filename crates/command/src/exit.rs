@@ -4,7 +4,7 @@ use std::process::ExitCode;
 
 /// How a command ended that was not stopped by an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum End {
+pub enum End {
     /// All is done.
     Done,
     /// A check fell short of what it asks for.
@@ -15,7 +15,7 @@ pub(crate) enum End {
 
 impl End {
     /// 0, 1 or 130.
-    pub(crate) fn code(self) -> ExitCode {
+    pub fn code(self) -> ExitCode {
         match self {
             Self::Done => ExitCode::SUCCESS,
             Self::Short => ExitCode::from(1),
@@ -28,25 +28,25 @@ impl End {
 ///
 /// Any error converts into it, so `?` works everywhere; it is no error type itself.
 #[derive(Debug)]
-pub(crate) struct Failure(String);
+pub struct Failure(String);
 
 /// What a command gives back.
-pub(crate) type Outcome = Result<End, Failure>;
+pub type Outcome = Result<End, Failure>;
 
 impl Failure {
     /// A failure with this message.
-    pub(crate) fn new(message: impl Into<String>) -> Self {
+    pub fn new(message: impl Into<String>) -> Self {
         Self(message.into())
     }
 
     /// The message on a line of its own, whatever an error below wrote.
-    pub(crate) fn line(&self) -> String {
+    pub fn line(&self) -> String {
         let parts: Vec<&str> = self.0.split_whitespace().collect();
         parts.join(" ")
     }
 
     /// Prints `error: …` to stderr and gives exit code 2.
-    pub(crate) fn report(&self) -> ExitCode {
+    pub fn report(&self) -> ExitCode {
         eprintln!("error: {}", self.line());
         ExitCode::from(2)
     }
@@ -59,9 +59,10 @@ impl<E: std::error::Error> From<E> for Failure {
 }
 
 /// `fail!("…")` stops a command with that line.
+#[macro_export]
 macro_rules! fail {
     ($($format:tt)*) => {
         return Err($crate::exit::Failure::new(format!($($format)*)))
     };
 }
-pub(crate) use fail;
+pub use fail;

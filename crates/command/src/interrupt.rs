@@ -1,4 +1,4 @@
-//! Ctrl-C: the frame in hand is finished, the summary printed, then exit 130.
+//! Ctrl-C: what is in hand is finished or let go, the summary printed, then exit 130.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -7,17 +7,23 @@ use crate::exit::Failure;
 static ASKED: AtomicBool = AtomicBool::new(false);
 
 /// Listens for Ctrl-C and termination from now on; the second one ends the program at once.
-pub(crate) fn watch() -> Result<(), Failure> {
-    ctrlc::set_handler(|| {
+///
+/// `doing` says what happens first: "finishing the frame".
+///
+/// # Errors
+/// If the system lets nobody listen.
+pub fn watch(doing: &'static str) -> Result<(), Failure> {
+    ctrlc::set_handler(move || {
         if ASKED.swap(true, Ordering::SeqCst) {
             std::process::exit(130);
         }
-        eprintln!("\ninterrupted: finishing the frame (once more: stop at once)");
+        eprintln!("\ninterrupted: {doing} (once more: stop at once)");
     })?;
     Ok(())
 }
 
 /// Whether the user asked for the end.
-pub(crate) fn asked() -> bool {
+#[must_use]
+pub fn asked() -> bool {
     ASKED.load(Ordering::SeqCst)
 }

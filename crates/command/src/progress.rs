@@ -12,7 +12,7 @@ const PAUSE: f64 = 5.0;
 
 /// Progress of a run with a known number of steps, on stderr.
 #[derive(Debug)]
-pub(crate) struct Progress {
+pub struct Progress {
     what: String,
     unit: &'static str,
     total: u64,
@@ -28,7 +28,7 @@ enum Shown {
 
 impl Progress {
     /// `what` is being done, `total` times `unit` ("frames").
-    pub(crate) fn new(what: impl Into<String>, total: u64, unit: &'static str) -> Self {
+    pub fn new(what: impl Into<String>, total: u64, unit: &'static str) -> Self {
         let what = what.into();
         let shown = if stderr().is_terminal() && !is_set("TERM", Some("dumb")) {
             Shown::Bar(bar(&what, total, unit))
@@ -46,7 +46,7 @@ impl Progress {
     }
 
     /// One more is done.
-    pub(crate) fn advance(&mut self) {
+    pub fn advance(&mut self) {
         self.done += 1;
         match &mut self.shown {
             Shown::Bar(bar) => bar.inc(1),
@@ -65,7 +65,7 @@ impl Progress {
     }
 
     /// Takes the bar away; what was done is told by the summary.
-    pub(crate) fn finish(self) {
+    pub fn finish(self) {
         if let Shown::Bar(bar) = &self.shown {
             bar.finish_and_clear();
         }

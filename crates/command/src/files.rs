@@ -9,7 +9,7 @@ use serde::Serialize;
 use crate::exit::{Failure, fail};
 
 /// Makes the folder of a file to come, and refuses a place that is a folder itself.
-pub(crate) fn prepare(place: &Path) -> Result<(), Failure> {
+pub fn prepare(place: &Path) -> Result<(), Failure> {
     if place.is_dir() {
         fail!("cannot write {}: it is a directory", place.display());
     }
@@ -20,7 +20,7 @@ pub(crate) fn prepare(place: &Path) -> Result<(), Failure> {
 }
 
 /// Makes a folder and those above it.
-pub(crate) fn make_folder(folder: &Path) -> Result<(), Failure> {
+pub fn make_folder(folder: &Path) -> Result<(), Failure> {
     fs::create_dir_all(folder).map_err(|error| {
         Failure::new(format!(
             "cannot make the folder {}: {error}",
@@ -30,7 +30,7 @@ pub(crate) fn make_folder(folder: &Path) -> Result<(), Failure> {
 }
 
 /// Writes a value as JSON, whole or not at all.
-pub(crate) fn write_json(place: &Path, value: &impl Serialize) -> Result<(), Failure> {
+pub fn write_json(place: &Path, value: &impl Serialize) -> Result<(), Failure> {
     let text = serde_json::to_string_pretty(value)? + "\n";
     Ok(write_file(place, text.as_bytes())?)
 }

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 /// A monotonic clock that started when it was made.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Clock(Instant);
+pub struct Clock(Instant);
 
 impl Clock {
     /// Starts now.
@@ -12,17 +12,17 @@ impl Clock {
         clippy::disallowed_methods,
         reason = "this is the place that hands the time in"
     )]
-    pub(crate) fn start() -> Self {
+    pub fn start() -> Self {
         Self(Instant::now())
     }
 
     /// Seconds since the start.
-    pub(crate) fn seconds(self) -> f64 {
+    pub fn seconds(self) -> f64 {
         self.elapsed().as_secs_f64()
     }
 
     /// Time since the start.
-    pub(crate) fn elapsed(self) -> Duration {
+    pub fn elapsed(self) -> Duration {
         self.0.elapsed()
     }
 }

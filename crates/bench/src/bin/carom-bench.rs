@@ -1,5 +1,0 @@
-//! The driver of the laboratory.
-
-fn main() {
-    println!("{}", carom_bench::CASES.len());
-}

@@ -1,0 +1,191 @@
+//! Which jobs there are, and in which order: engines take turns, so that a slow minute of the machine hits all alike.
+
+use carom_bench::{Case, EngineName, Job, Limits, Mode, Point, SpeedJob, points};
+
+/// A job and the repetition that it belongs to, from 0.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Planned {
+    pub(crate) job: Job,
+    pub(crate) repetition: u32,
+}
+
+/// All points of the work–precision curves: case by case, setting by setting, the engines in turn.
+pub(crate) fn accuracy(cases: &[&Case], engines: &[EngineName], quick: bool) -> Vec<Planned> {
+    let mut jobs = Vec::new();
+    for case in cases {
+        let mut settings: Vec<(Option<u32>, u32, Vec<Point>)> = Vec::new();
+        for point in engines
+            .iter()
+            .flat_map(|engine| points(case, *engine, quick))
+        {
+            let same = |found: &&mut (Option<u32>, u32, _)| {
+                (found.0, found.1) == (point.substeps, point.hz)
+            };
+            match settings.iter_mut().find(same) {
+                Some((_, _, entries)) => entries.push(point),
+                None => settings.push((point.substeps, point.hz, vec![point])),
+            }
+        }
+        for (turn, (_, _, entries)) in settings.into_iter().enumerate() {
+            jobs.extend(rotated(entries, turn).into_iter().map(|point| Planned {
+                job: Job::Accuracy(point),
+                repetition: 0,
+            }));
+        }
+    }
+    jobs
+}
+
+/// How scenes are measured.
+#[derive(Clone, Debug)]
+pub(crate) struct Speed<'a> {
+    pub(crate) scenes: &'a [String],
+    pub(crate) engines: &'a [EngineName],
+    pub(crate) threads: &'a [u32],
+    pub(crate) repeat: u32,
+    /// CPU seconds after which a job measures no more steps.
+    pub(crate) cpu_s: u32,
+}
+
+/// In each repetition, scene by scene, the engines in an order that rotates from repetition to repetition.
+///
+/// Defaults without reading are repeated; reading all poses, and the other modes, are measured once.
+pub(crate) fn speed(speed: &Speed<'_>) -> Vec<Planned> {
+    let mut jobs = Vec::new();
+    for repetition in 0..speed.repeat {
+        for scene in speed.scenes {
+            let entries = entries(speed, repetition > 0);
+            for (engine, mode, threads, reads_poses) in rotated(entries, repetition as usize) {
+                jobs.push(Planned {
+                    job: Job::Speed(SpeedJob {
+                        engine,
+                        mode,
+                        threads,
+                        reads_poses,
+                        scene: scene.clone(),
+                        limits: Limits {
+                            cpu_s: Some(speed.cpu_s.max(1)),
+                            ..Limits::default()
+                        },
+                    }),
+                    repetition,
+                });
+            }
+        }
+    }
+    jobs
+}
+
+fn entries(speed: &Speed<'_>, defaults_only: bool) -> Vec<(EngineName, Mode, u32, bool)> {
+    let mut entries = Vec::new();
+    for threads in speed.threads {
+        for engine in speed.engines {
+            for mode in engine.modes() {
+                let default = *mode == engine.modes()[0];
+                for reads in [false, true] {
+                    // Reading costs the same in every mode, and as much on any number of threads.
+                    let once = !default || reads;
+                    let wanted = (default || !reads) && (*threads == 1 || !once);
+                    if wanted && !(once && defaults_only) {
+                        entries.push((*engine, *mode, *threads, reads));
+                    }
+                }
+            }
+        }
+    }
+    entries
+}
+
+/// The same, begun `turn` entries later.
+fn rotated<T>(mut entries: Vec<T>, turn: usize) -> Vec<T> {
+    let count = entries.len().max(1);
+    entries.rotate_left(turn % count);
+    entries
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    use EngineName::{Box2dSse2, Carom, Rapier};
+
+    fn plan(repeat: u32, threads: &[u32]) -> Vec<SpeedJob> {
+        let scenes = ["a".to_owned(), "b".to_owned()];
+        let speed = Speed {
+            scenes: &scenes,
+            engines: &[Carom, Box2dSse2, Rapier],
+            threads,
+            repeat,
+            cpu_s: 60,
+        };
+        let jobs = super::speed(&speed).into_iter();
+        jobs.map(|planned| match planned.job {
+            Job::Speed(job) => job,
+            _ => panic!("speed jobs only"),
+        })
+        .collect()
+    }
+
+    #[test]
+    fn engines_take_turns_scene_by_scene() {
+        let jobs = plan(3, &[1]);
+        // First repetition: carom has 3 modes, a peer 2, each reads poses once.
+        let first = 2 * (4 + 3 + 3);
+        let repeated: Vec<(&str, EngineName)> = jobs[first..]
+            .iter()
+            .map(|job| (job.scene.as_str(), job.engine))
+            .collect();
+        assert_eq!(
+            repeated,
+            [
+                ("a", Box2dSse2),
+                ("a", Rapier),
+                ("a", Carom),
+                ("b", Box2dSse2),
+                ("b", Rapier),
+                ("b", Carom),
+                ("a", Rapier),
+                ("a", Carom),
+                ("a", Box2dSse2),
+                ("b", Rapier),
+                ("b", Carom),
+                ("b", Box2dSse2),
+            ]
+        );
+        assert!(
+            jobs[first..]
+                .iter()
+                .all(|job| !job.reads_poses && job.mode == job.engine.modes()[0])
+        );
+        assert!(jobs[..first / 2].iter().all(|job| job.scene == "a"));
+    }
+
+    #[test]
+    fn no_job_is_planned_twice() {
+        let jobs = plan(1, &[1, 2]);
+        for (i, job) in jobs.iter().enumerate() {
+            assert!(!jobs[..i].contains(job), "{job:?}");
+        }
+        assert_eq!(jobs.iter().filter(|job| job.threads == 2).count(), 2 * 3);
+    }
+
+    #[test]
+    fn engines_take_turns_setting_by_setting() {
+        let case = &carom_bench::CASES[0];
+        let jobs = accuracy(&[case], &[Carom, Rapier], false);
+        let all = points(case, Carom, false).len() + points(case, Rapier, false).len();
+        assert_eq!(jobs.len(), all);
+        // The first rate begins with carom, the second with the entry after it.
+        let at = |job: &Job| match job {
+            Job::Accuracy(point) => (point.hz, point.engine, point.mode),
+            _ => panic!("accuracy jobs only"),
+        };
+        let count = Carom.modes().len() + Rapier.modes().len();
+        let (first, second) = (at(&jobs[0].job), at(&jobs[count].job));
+        assert_eq!(first.1, Carom);
+        assert!(
+            first.0 < second.0 && second.2 == Carom.modes()[1],
+            "{second:?}"
+        );
+    }
+}

@@ -1,0 +1,25 @@
+//! What clap found in the arguments, as the exit codes want it.
+
+use std::process::ExitCode;
+
+use clap::error::ErrorKind;
+
+use crate::exit::Failure;
+
+/// Help goes to stdout; a wrong value gets one line, other wrong usage clap's own hints.
+#[must_use]
+pub fn usage(error: &clap::Error) -> ExitCode {
+    match error.kind() {
+        ErrorKind::ValueValidation | ErrorKind::InvalidValue => {
+            let text = error.render().to_string();
+            // What clap says up to the first empty line: the value, the flag, and what is possible.
+            let first = text.split("\n\n").next().unwrap_or_default();
+            Failure::new(first.strip_prefix("error: ").unwrap_or(first)).report()
+        }
+        _ => {
+            // A closed pipe while printing help is no error.
+            let _ = error.print();
+            ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2))
+        }
+    }
+}
