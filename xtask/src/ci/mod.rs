@@ -18,7 +18,7 @@ type Check = fn(&Path) -> Result<bool, Failure>;
 pub(crate) fn run() -> Outcome {
     let root = laboratory::workspace();
     let all = Clock::start();
-    let steps: [(&str, Check); 6] = [
+    let steps: [(&str, Check); 7] = [
         ("format: cargo fmt --check", |root| {
             cargo(root, &["fmt", "--all", "--check"])
         }),
@@ -34,6 +34,13 @@ pub(crate) fn run() -> Outcome {
         }),
         // The README's example is among the doc tests.
         ("tests: cargo test", |root| cargo(root, &["test"])),
+        // No default member: without peers it needs neither a C compiler nor their crates.
+        ("laboratory: clippy and tests of carom-bench", |root| {
+            let package = ["--package", "carom-bench"];
+            let lints = ["clippy", "--all-targets", "--", "-D", "warnings"];
+            Ok(cargo(root, &[&lints[..1], &package, &lints[1..]].concat())?
+                && cargo(root, &[&["test"][..], &package].concat())?)
+        }),
         ("demo: cargo xtask demo --quick", demo),
         ("outside crate: carom-geometry alone", outside::check),
     ];

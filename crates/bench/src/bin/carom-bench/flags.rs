@@ -79,7 +79,7 @@ pub(crate) struct SpeedArgs {
     /// Numbers of threads
     #[arg(long, value_name = "N,…", value_delimiter = ',', default_value = "1", value_parser = clap::value_parser!(u32).range(1..=64))]
     pub(crate) threads: Vec<u32>,
-    /// Growth curves instead: a pile, a gas and free bodies from 200 to 200,000; an engine stops where a step exceeds 250 ms
+    /// Growth curves instead: a pile, a gas and free bodies from 200 to 200,000; an engine goes no further once a step takes 250 ms
     #[arg(long, conflicts_with_all = ["scene", "repeat", "threads"])]
     pub(crate) growth: bool,
     /// Folder for tables and charts

@@ -1,6 +1,7 @@
 //! Which jobs there are, and in which order: engines take turns, so that a slow minute of the machine hits all alike.
 
 use carom_bench::{Case, EngineName, Job, Limits, Mode, Point, SpeedJob, points};
+use carom_scenes::GrowthKind;
 
 /// A job and the repetition that it belongs to, from 0.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -69,6 +70,40 @@ pub(crate) fn speed(speed: &Speed<'_>) -> Vec<Planned> {
                         },
                     }),
                     repetition,
+                });
+            }
+        }
+    }
+    jobs
+}
+
+/// Numbers of bodies of the growth curves.
+pub(crate) const SIZES: [u32; 10] = [
+    200, 500, 1000, 2000, 5000, 10_000, 20_000, 50_000, 100_000, 200_000,
+];
+
+/// A step that takes longer, in ms, is the last of an engine's growth curve.
+pub(crate) const STEP_BUDGET: f64 = 250.0;
+
+/// Growth scenes from small to large, each engine with its defaults, in turn.
+pub(crate) fn growth(engines: &[EngineName], cpu_s: u32) -> Vec<Planned> {
+    let mut jobs = Vec::new();
+    for (turn, bodies) in SIZES.into_iter().enumerate() {
+        for kind in GrowthKind::ALL {
+            for engine in rotated(engines.to_vec(), turn) {
+                jobs.push(Planned {
+                    job: Job::Speed(SpeedJob {
+                        engine,
+                        mode: engine.modes()[0],
+                        threads: 1,
+                        reads_poses: false,
+                        scene: format!("grow_{}_{bodies}", kind.name()),
+                        limits: Limits {
+                            cpu_s: Some(cpu_s.max(1)),
+                            ..Limits::default()
+                        },
+                    }),
+                    repetition: 0,
                 });
             }
         }

@@ -1,6 +1,7 @@
 //! `speed`: milliseconds a step, and what they bought.
 
 mod chart;
+mod growth;
 mod row;
 mod table;
 
@@ -24,28 +25,41 @@ pub(crate) fn run(args: &SpeedArgs) -> Outcome {
     let scenes = scenes(&args.scene)?;
     let engines = measure::engines(&args.who);
     let run = Run {
-        command: "speed",
+        command: if args.growth { "growth" } else { "speed" },
         profile: Profile::Bench,
         engines: &engines,
         threads: &args.threads,
         out: &args.out,
         how: &args.how,
     };
+    let cpu_s = args.how.limit / 3;
     let plan = |engines: &[_]| {
+        if args.growth {
+            return plan::growth(engines, cpu_s);
+        }
         plan::speed(&Speed {
             scenes: &scenes,
             engines,
             threads: &args.threads,
             repeat: args.repeat,
-            cpu_s: args.how.limit / 3,
+            cpu_s,
         })
     };
-    let store = run.rows(plan, failed_before)?;
-    let rows = row::of(&store.rows);
-    let csv = args.out.join("speed.csv");
+    let skip = if args.growth {
+        growth::outgrown
+    } else {
+        failed_before
+    };
+    let store = run.rows(plan, skip)?;
+    let mut rows = row::of(&store.rows);
+    if args.growth {
+        growth::sort(&mut rows);
+    }
+    let name = if args.growth { "growth" } else { "speed" };
+    let csv = args.out.join(format!("{name}.csv"));
     write_file(&csv, row::csv(&store.head, &rows)?.as_bytes())?;
     let markdown = table::markdown(&store.head, &rows);
-    let table = args.out.join("speed.md");
+    let table = args.out.join(format!("{name}.md"));
     write_file(&table, markdown.as_bytes())?;
     say!("{}", markdown.trim_end());
     say!("");
@@ -53,7 +67,12 @@ pub(crate) fn run(args: &SpeedArgs) -> Outcome {
     for (what, path) in told {
         say!("{what:<12} {}", path.display());
     }
-    for path in chart::write(&args.out, &rows)? {
+    let charts = if args.growth {
+        growth::write(&args.out, &rows)?
+    } else {
+        chart::write(&args.out, &rows)?
+    };
+    for path in charts {
         say!("chart        {}", path.display());
     }
     if let Some(path) = &args.how.json {

@@ -186,10 +186,9 @@ pub(crate) fn json<'a>(machine: &'a str, rows: &'a [SpeedRow]) -> Document<'a> {
     }
 }
 
-/// The scenes that rows are of, in order.
+/// The scenes that rows are of, in the order of the rows.
 pub(crate) fn scenes(rows: &[SpeedRow]) -> Vec<&str> {
     let mut names: Vec<&str> = rows.iter().map(|row| row.scene.as_str()).collect();
-    names.sort_unstable();
     names.dedup();
     names
 }
@@ -200,7 +199,7 @@ pub(crate) mod tests {
 
     use carom_bench::{Counters, Job, Limits, Quality};
 
-    fn reading(ms: f64) -> Reading {
+    pub(crate) fn reading(ms: f64) -> Reading {
         let quality = |energy| Quality {
             energy,
             ..Quality::default()
