@@ -3,7 +3,7 @@
 use core::iter::Sum;
 use core::ops::Add;
 
-use carom_math::{self as careful, Rot, Vec2, vec2};
+use carom_math::{self as careful, Pose, Rot, Vec2, vec2};
 
 use crate::moments::ring_moments;
 use crate::{MassProperties, PolygonError, ring};
@@ -51,7 +51,8 @@ impl AreaProperties {
         }
     }
 
-    /// Mass properties of `mass` kg spread evenly: density from mass.
+    /// Mass properties of `mass` kg spread evenly: density from mass. What has no area is taken for a
+    /// point.
     ///
     /// # Examples
     /// ```
@@ -65,11 +66,15 @@ impl AreaProperties {
         MassProperties {
             mass,
             centroid: self.centroid,
-            inertia: mass * (self.polar / self.area),
+            inertia: if self.area > 0.0 {
+                mass * (self.polar / self.area)
+            } else {
+                0.0
+            },
         }
     }
 
-    /// Density that spreads `mass` kg evenly over the area, in kg/m².
+    /// Density that spreads `mass` kg evenly over the area, in kg/m²; infinite if there is none.
     ///
     /// # Examples
     /// ```
@@ -111,6 +116,12 @@ impl AreaProperties {
             ixy: c * s * (self.iyy - self.ixx) + (c * c - s * s) * self.ixy,
             ..self
         }
+    }
+
+    /// The same area, given in a frame at `pose`, seen from the parent.
+    #[must_use]
+    pub fn transformed(self, pose: Pose) -> Self {
+        self.rotated(pose.rotation).translated(pose.position)
     }
 
     /// Largest and smallest second moment about an axis through the centroid, in m⁴, and the

@@ -1,8 +1,11 @@
 //! Mass, centre of mass and moment of inertia.
 
+use core::iter::Sum;
 use core::ops::Add;
 
 use carom_math::{Pose, Vec2};
+
+use crate::AreaProperties;
 
 /// Mass properties of a body or a part of one; they add up.
 ///
@@ -80,5 +83,47 @@ impl Add for MassProperties {
             // Steiner about the common centre: reduced mass × distance².
             inertia: self.inertia + other.inertia + self.mass * share * between.length_squared(),
         }
+    }
+}
+
+/// All masses as one body, right to a few roundings however many they are.
+impl Sum for MassProperties {
+    fn sum<I: Iterator<Item = Self>>(masses: I) -> Self {
+        // Mass is to inertia what area is to the polar moment.
+        let areas = masses.map(|part| AreaProperties {
+            area: part.mass,
+            centroid: part.centroid,
+            ixx: part.inertia,
+            ..AreaProperties::ZERO
+        });
+        let all: AreaProperties = areas.sum();
+        Self {
+            mass: all.area,
+            centroid: all.centroid,
+            inertia: all.polar,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use carom_math::vec2;
+
+    #[test]
+    fn many_masses_add_up_as_they_do_one_by_one() {
+        let part = |i: i32| MassProperties {
+            mass: f64::from(i + 1),
+            centroid: vec2(f64::from(i * i), f64::from(-i)),
+            inertia: 0.5 * f64::from(i),
+        };
+        let one_by_one = (0..20)
+            .map(part)
+            .fold(MassProperties::ZERO, |all, next| all + next);
+        let sum: MassProperties = (0..20).map(part).sum();
+        assert_eq!(sum.mass, 210.0);
+        assert!((sum.centroid - one_by_one.centroid).length() < 1e-13);
+        assert!((sum.inertia / one_by_one.inertia - 1.0).abs() < 1e-14);
+        assert_eq!([].into_iter().sum::<MassProperties>(), MassProperties::ZERO);
     }
 }

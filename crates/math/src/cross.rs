@@ -8,7 +8,7 @@ pub fn cross(a: Vec2, b: Vec2) -> f64 {
     a.x * b.y - a.y * b.x
 }
 
-/// `w × v` for a spin `w` about z: the velocity of a point at `v` from the axis.
+/// `w × v` for a spin `w` about z: the velocity of a point at `v` from the axis; `v × w` is its negative.
 #[must_use]
 pub fn cross_scalar(w: f64, v: Vec2) -> Vec2 {
     vec2(-w * v.y, w * v.x)

@@ -34,6 +34,9 @@ pub use rot::Rot;
 pub use sum::{Sum, two_product, two_sum};
 pub use time::SimTime;
 
+#[cfg(test)]
+mod conversions;
+
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct ReadmeDocTests;

@@ -90,6 +90,34 @@ impl Rot {
         trig::atan2(self.sin + 0.0, self.cos)
     }
 
+    /// The principal angle, in degrees, in (−180, 180]; exact at multiples of 90.
+    ///
+    /// # Examples
+    /// ```
+    /// use carom_math::Rot;
+    /// assert_eq!(Rot::from_degrees(-450.0).degrees(), -90.0);
+    /// assert!((Rot::from_degrees(33.0).degrees() - 33.0).abs() < 1e-14);
+    /// ```
+    #[must_use]
+    pub fn degrees(self) -> f64 {
+        // From the nearest quarter turn on: what is left is small, and keeps its digits.
+        let (cos, sin) = (self.cos, self.sin + 0.0);
+        let (quarter, rest) = if cos.abs() >= sin.abs() {
+            if cos > 0.0 {
+                (0.0, trig::atan2(sin, cos))
+            } else if sin >= 0.0 {
+                (180.0, trig::atan2(-sin, -cos))
+            } else {
+                (-180.0, trig::atan2(-sin, -cos))
+            }
+        } else if sin > 0.0 {
+            (90.0, trig::atan2(-cos, sin))
+        } else {
+            (-90.0, trig::atan2(cos, -sin))
+        };
+        quarter + rest * (180.0 / core::f64::consts::PI)
+    }
+
     /// The opposite rotation.
     #[must_use]
     pub const fn inverse(self) -> Self {
@@ -203,6 +231,13 @@ mod tests {
         #[test]
         fn angle_is_the_inverse_of_from_angle(angle in -3.1..3.1_f64) {
             prop_assert!((Rot::from_angle(angle).angle() - angle).abs() < 1e-15);
+        }
+
+        #[test]
+        fn degrees_are_the_inverse_of_from_degrees(degrees in -179.9..180.0_f64, quarters in -1..=2_i32) {
+            prop_assert!((Rot::from_degrees(degrees).degrees() - degrees).abs() < 1e-13);
+            let exact = 90.0 * f64::from(quarters);
+            prop_assert_eq!(Rot::from_degrees(exact).degrees(), exact);
         }
 
         #[test]
