@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use carom_collision::{BoxTree, Motion};
+use carom_collision::{BoxTree, Motion, roundable};
 use carom_geometry::Aabb;
 use carom_math::{SimTime, Vec2};
 
@@ -190,15 +190,6 @@ pub(crate) fn part(bodies: &mut Bodies, pairs: &mut Pairs, place: u32) -> Option
         bodies.get_mut(index).pairs.retain(|p| *p != place);
     }
     Some(pair)
-}
-
-/// More than a few roundings of coordinates as large as those of a box, in m; sides at infinity do
-/// not count.
-pub(crate) fn roundable(bounds: Aabb) -> f64 {
-    const ROUNDINGS: f64 = 1.0 / (1u64 << 48) as f64;
-    let sides = [bounds.min.x, bounds.min.y, bounds.max.x, bounds.max.y].map(f64::abs);
-    let finite = sides.into_iter().filter(|side| side.is_finite());
-    finite.fold(0.0, f64::max) * ROUNDINGS
 }
 
 /// Box of a collider over its motion between `time` and `time + h`.

@@ -3,12 +3,11 @@
 //! The tree of boxes names those that may answer, the shapes themselves answer. Of equal answers
 //! the first body's first shape counts, whatever the order in which the tree named them.
 
-use carom_collision::cast;
+use carom_collision::{cast, roundable};
 use carom_geometry::{Aabb, Shape};
 use carom_math::{Pose, Vec2};
 
 use crate::body::{BodyState, Collider};
-use crate::broad::roundable;
 use crate::{BodyId, World};
 
 /// What a ray met first.

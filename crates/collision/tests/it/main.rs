@@ -11,6 +11,7 @@ mod large;
 mod manifold;
 mod overlap;
 mod sat;
+mod shape_tree;
 mod shapes;
 mod vertex_edge;
 mod walls;
