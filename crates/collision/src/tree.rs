@@ -148,6 +148,10 @@ pub struct BoxTree {
     free_pair: u32,
     free_leaf: u32,
     len: usize,
+    /// Every pair comes after the one above it: so in a tree that was built at once.
+    ordered: bool,
+    /// The sum of all ways around when the tree was built or first measured, in m; else 0.
+    built: f64,
 }
 
 impl Default for BoxTree {
@@ -166,6 +170,8 @@ impl BoxTree {
             free_pair: NONE,
             free_leaf: NONE,
             len: 0,
+            ordered: true,
+            built: 0.0,
         }
     }
 
@@ -200,10 +206,9 @@ impl BoxTree {
         let Some(place) = self.find(id) else {
             return false;
         };
-        let (old, new) = (self.bounds(place), Bounds::around(bounds));
-        if old.contains(new) && old.perimeter() <= 2.0 * new.perimeter() {
+        let Some(new) = self.renewal(place, bounds) else {
             return false;
-        }
+        };
         self.displace(id.leaf, place, new);
         true
     }
@@ -232,13 +237,45 @@ impl BoxTree {
         let Some(place) = self.find(id) else {
             return false;
         };
-        if self.bounds(place).contains(Bounds::around(bounds)) {
+        let Some(new) = self.stretched(place, bounds, ahead, margin) else {
             return false;
-        }
-        let there = Aabb::new(bounds.min + ahead, bounds.max + ahead);
-        let fat = Bounds::around(bounds.union(there).grown(margin));
-        self.displace(id.leaf, place, fat);
+        };
+        self.displace(id.leaf, place, new);
         true
+    }
+
+    /// [`Self::update`] for many leaves at once; says how many have a new box.
+    ///
+    /// All boxes above are found in one go, and the tree is built anew once its boxes have become
+    /// half again as long around as they were.
+    pub fn update_all(&mut self, moves: impl IntoIterator<Item = (NodeId, Aabb)>) -> usize {
+        let mut moved = Vec::new();
+        for (id, bounds) in moves {
+            if let Some(place) = self.find(id)
+                && let Some(new) = self.renewal(place, bounds)
+            {
+                moved.push((id.leaf, self.exchange(place, new)));
+            }
+        }
+        self.displace_all(moved)
+    }
+
+    /// [`Self::follow`] for many leaves at once: id, box and way ahead of each; says how many have a
+    /// new box.
+    pub fn follow_all(
+        &mut self,
+        moves: impl IntoIterator<Item = (NodeId, Aabb, Vec2)>,
+        margin: f64,
+    ) -> usize {
+        let mut moved = Vec::new();
+        for (id, bounds, ahead) in moves {
+            if let Some(place) = self.find(id)
+                && let Some(new) = self.stretched(place, bounds, ahead, margin)
+            {
+                moved.push((id.leaf, self.exchange(place, new)));
+            }
+        }
+        self.displace_all(moved)
     }
 
     /// Takes a leaf out and gives its number; `None` if it was removed before.
@@ -290,6 +327,22 @@ impl BoxTree {
                 leaf: i,
                 generation: leaf.generation,
             })
+    }
+
+    /// The new box of a leaf, if it needs one.
+    fn renewal(&self, place: Place, bounds: Aabb) -> Option<Bounds> {
+        let (old, new) = (self.bounds(place), Bounds::around(bounds));
+        let stays = old.contains(new) && old.perimeter() <= 2.0 * new.perimeter();
+        (!stays).then_some(new)
+    }
+
+    /// The new box of a leaf that moves, if it needs one.
+    fn stretched(&self, place: Place, bounds: Aabb, ahead: Vec2, margin: f64) -> Option<Bounds> {
+        if self.bounds(place).contains(Bounds::around(bounds)) {
+            return None;
+        }
+        let there = Aabb::new(bounds.min + ahead, bounds.max + ahead);
+        Some(Bounds::around(bounds.union(there).grown(margin)))
     }
 
     fn find(&self, id: NodeId) -> Option<Place> {

@@ -95,6 +95,8 @@ impl BoxTree {
     fn build(&mut self, items: &[Item]) {
         self.pairs.clear();
         self.free_pair = NONE;
+        self.ordered = true;
+        self.built = 0.0;
         if items.len() < 2 {
             if let Some(item) = items.first() {
                 self.pairs.push(Pair::EMPTY);

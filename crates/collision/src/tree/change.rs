@@ -6,6 +6,7 @@ use super::{BoxTree, Child, NONE, Pair, Place, ROOT};
 impl BoxTree {
     /// Puts a leaf where it costs least.
     pub(super) fn attach(&mut self, leaf: u32, bounds: Bounds, data: u32) {
+        self.ordered = false;
         let new = Content {
             bounds,
             child: Child::leaf(leaf),
@@ -41,6 +42,7 @@ impl BoxTree {
 
     /// Takes a leaf out; its sibling goes one up.
     pub(super) fn detach(&mut self, place: Place) {
+        self.ordered = false;
         let pair = place.pair();
         let sibling = Place::new(pair, place.other_side());
         let content = self.content(sibling);
@@ -76,6 +78,73 @@ impl BoxTree {
             let data = pair.data[place.side()];
             self.detach(place);
             self.attach(leaf, bounds, data);
+        }
+    }
+
+    /// Gives a leaf a new box and leaves all above as they were: see [`Self::displace_all`].
+    pub(super) fn exchange(&mut self, place: Place, bounds: Bounds) -> Bounds {
+        let old = &mut self.pairs[place.pair() as usize].boxes[place.side()];
+        core::mem::replace(old, bounds)
+    }
+
+    /// Follows leaves that were given new boxes: leaf and old box of each, in order.
+    pub(super) fn displace_all(&mut self, mut moved: Vec<(u32, Bounds)>) -> usize {
+        if moved.len() < self.len / 16 {
+            // Few: they get their old boxes back, and the new ones one after the other.
+            for (leaf, bounds) in moved.iter_mut().rev() {
+                let place = self.leaves[*leaf as usize].place;
+                *bounds = self.exchange(place, *bounds);
+            }
+            for (leaf, bounds) in &moved {
+                self.displace(*leaf, self.leaves[*leaf as usize].place, *bounds);
+            }
+            return moved.len();
+        }
+        let around = self.refit_all();
+        if self.built == 0.0 {
+            self.built = around;
+        } else if around > WORN * self.built {
+            self.rebuild();
+        }
+        moved.len()
+    }
+
+    /// All boxes from the leaves up; the sum of the ways around them.
+    fn refit_all(&mut self) -> f64 {
+        let mut around = 0.0;
+        if self.pairs.is_empty() {
+            return around;
+        }
+        if self.ordered {
+            for at in (1..self.pairs.len()).rev() {
+                around += self.refit_one(at);
+            }
+            return around;
+        }
+        let mut order = Vec::with_capacity(self.pairs.len());
+        order.push(ROOT);
+        let mut i = 0;
+        while i < order.len() {
+            let pair = &self.pairs[order[i] as usize];
+            order.extend(pair.children.iter().filter(|c| !c.is_leaf()).map(|c| c.0));
+            i += 1;
+        }
+        for at in order[1..].iter().rev() {
+            around += self.refit_one(*at as usize);
+        }
+        around
+    }
+
+    fn refit_one(&mut self, at: usize) -> f64 {
+        let pair = &self.pairs[at];
+        let (place, bounds) = (pair.parent, pair.bounds());
+        self.pairs[place.pair() as usize].boxes[place.side()] = bounds;
+        // What reaches to infinity hides nothing of the rest.
+        let around = bounds.perimeter();
+        if around < 1e18 {
+            f64::from(around)
+        } else {
+            0.0
         }
     }
 
@@ -148,11 +217,12 @@ impl BoxTree {
         let mut best: (f32, u32, Option<(usize, usize)>) = (0.0, 0, None);
         for side in [0, 1] {
             let (own, other) = (side, 1 - side);
-            if pair.heights[other] == 0 {
+            // A box that takes in a larger one does not become smaller.
+            let now = pair.boxes[other].perimeter();
+            if pair.heights[other] == 0 || now < pair.boxes[own].perimeter() {
                 continue;
             }
             let inner = &self.pairs[pair.children[other].index()];
-            let now = pair.boxes[other].perimeter();
             for grandchild in [0, 1] {
                 let stays = 1 - grandchild;
                 let gain = now - pair.boxes[own].union(inner.boxes[stays]).perimeter();
@@ -165,6 +235,8 @@ impl BoxTree {
             }
         }
         if let (_, _, Some((side, grandchild))) = best {
+            self.ordered = false;
+            let pair = &self.pairs[at as usize];
             let inner = pair.children[1 - side].0;
             let (up, down) = (Place::new(inner, grandchild), Place::new(at, side));
             let (rises, sinks) = (self.content(up), self.content(down));
@@ -253,6 +325,9 @@ impl BoxTree {
 /// A leaf that moves stays beside its neighbour as long as that does not make the box around both
 /// longer by more than this.
 const STRETCH: f32 = 1.25;
+
+/// A tree is built anew when all ways around its boxes together are this much longer than they were.
+const WORN: f64 = 1.5;
 
 /// What is in a place.
 #[derive(Clone, Copy)]

@@ -56,6 +56,8 @@ enum Op {
     Extend(Vec<Aabb>),
     Update(usize, Aabb),
     Follow(usize, Vec2),
+    UpdateAll(Vec<(usize, Aabb)>),
+    FollowAll(Vec2),
     Remove(usize),
     Rebuild,
 }
@@ -100,6 +102,8 @@ fn ops() -> impl Strategy<Value = Vec<Op>> {
         1 => prop::collection::vec(bounds(), 0..100).prop_map(Op::Extend),
         8 => (any::<usize>(), bounds()).prop_map(|(i, b)| Op::Update(i, b)),
         8 => (any::<usize>(), (-2.0..2.0_f64, -2.0..2.0_f64)).prop_map(|(i, d)| Op::Follow(i, vec2(d.0, d.1))),
+        1 => prop::collection::vec((any::<usize>(), bounds()), 0..60).prop_map(Op::UpdateAll),
+        1 => (-2.0..2.0_f64, -2.0..2.0_f64).prop_map(|d| Op::FollowAll(d.into())),
         8 => any::<usize>().prop_map(Op::Remove),
         1 => Just(Op::Rebuild),
     ];
@@ -149,6 +153,24 @@ fn run(ops: &[Op]) -> (BoxTree, Vec<Entry>) {
                     tree.follow(entry.id, there, *way * 4.0, 0.1);
                     entry.given = there;
                 }
+            }
+            Op::UpdateAll(moves) => {
+                if len > 0 {
+                    let moves = moves.iter().map(|(i, given)| (pick(*i), *given));
+                    let moves: Vec<(usize, Aabb)> = moves.collect();
+                    // The last of several counts, or one whose box has room for it.
+                    tree.update_all(moves.iter().map(|(i, given)| (list[*i].id, *given)));
+                    for (i, given) in moves {
+                        list[i].given = given;
+                    }
+                }
+            }
+            Op::FollowAll(way) => {
+                for entry in &mut list {
+                    entry.given = Aabb::new(entry.given.min + *way, entry.given.max + *way);
+                }
+                let moves = list.iter().map(|entry| (entry.id, entry.given, *way * 4.0));
+                tree.follow_all(moves, 0.1);
             }
             Op::Remove(i) => {
                 if !list.is_empty() {
