@@ -65,7 +65,11 @@ impl Layout {
         let left = EDGE + label(&chart.y) + widest + TICK_GAP;
         let right = size.x - EDGE - 6.0;
         let x_count = ((right - left) / 84.0).clamp(2.0, 10.0);
-        let x = Ruler::new(&chart.x, chart.numbers(|p| p.x), x_count, 0.02);
+        // What stands in the strip of infinity has a place on the level axis too.
+        let above = !chart.y.ceiling.is_empty();
+        let points = chart.series.iter().flat_map(|series| &series.points);
+        let seen = points.filter(|p| p.is_finite() || above && p.y == f64::INFINITY);
+        let x = Ruler::new(&chart.x, seen.map(|p| p.x), x_count, 0.02);
 
         // The legend runs along the top of the plot and breaks like text.
         let named = chart
