@@ -156,6 +156,7 @@ impl Broad {
             held: false,
             buried: false,
             impacts: 0,
+            spent: 0.0,
             given_up: false,
         });
         bodies.get_mut(ends.0).pairs.push(place);

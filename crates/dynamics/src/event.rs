@@ -17,13 +17,13 @@ pub struct Event {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum EventKind {
-    /// Two bodies struck each other.
+    /// Two bodies struck each other: once for all points of a flat landing.
     Impact {
         /// The body that the normal points away from.
         a: BodyId,
         /// The body that the normal points to.
         b: BodyId,
-        /// Point of contact, in m.
+        /// Point of contact, in m; of a flat landing the one at which its impulses act together.
         point: Vec2,
         /// Unit normal from A to B.
         normal: Vec2,

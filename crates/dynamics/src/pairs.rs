@@ -27,6 +27,8 @@ pub(crate) struct Pair {
     pub(crate) buried: bool,
     /// Impacts in this sub-step.
     pub(crate) impacts: u32,
+    /// What they spent of the pair's budget in this sub-step.
+    pub(crate) spent: f64,
     /// The impacts of this sub-step outran the budget.
     pub(crate) given_up: bool,
 }

@@ -8,12 +8,18 @@ use crate::agenda::{Agenda, Entry};
 use crate::bodies::Bodies;
 use crate::body::Collider;
 use crate::narrow::{Narrow, TOUCH, opening_speed, rest_speed};
-use crate::pairs::Pairs;
+use crate::pairs::{Pair, Pairs};
 use crate::{BodyKind, StepReport};
 
-/// Impacts of one pair in one sub-step before the solver takes the rest: bodies that rattle faster
-/// than a thirtieth of a sub-step are closer to rest than to flight.
-pub(crate) const BUDGET: u32 = 32;
+/// What the impacts of one pair may spend in one sub-step before the solver takes the rest: bodies that
+/// rattle with e = 0 faster than a thirtieth of a sub-step are closer to rest than to flight.
+pub(crate) const BUDGET: f64 = 32.0;
+
+/// What an impact spends: e impacts keep `e^(2k)` of their energy, so the nearer e is to 1, the longer it
+/// takes until nothing is left to follow.
+pub(crate) fn price(pair: &Pair) -> f64 {
+    (1.0 - pair.material.restitution).max(1.0 / 1024.0)
+}
 
 /// Predicts the next impact of a pair between `time` and `end` and enters it into the agenda.
 #[expect(

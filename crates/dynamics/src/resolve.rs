@@ -7,7 +7,7 @@ use crate::event::EventKind;
 use crate::impact::{ImpactContact, ImpactLaw, resolve};
 use crate::narrow::{Narrow, opening_speed, rest_speed};
 use crate::pairs::Pairs;
-use crate::predict::BUDGET;
+use crate::predict::{BUDGET, price};
 use crate::shock::Shock;
 use crate::{Events, StepReport};
 
@@ -117,7 +117,8 @@ fn gives_up(
 ) -> bool {
     let pair = pairs.get_mut(entry.pair);
     pair.impacts += 1;
-    if pair.impacts <= BUDGET {
+    pair.spent += price(pair);
+    if pair.spent <= BUDGET {
         return false;
     }
     pair.given_up = true;
@@ -147,23 +148,19 @@ fn apply(
     events: &mut Events,
     report: &mut StepReport,
 ) -> Vec<u32> {
-    for strike in shock
-        .strikes
-        .iter()
-        .filter(|strike| strike.normal_impulse > 0.0)
-    {
+    for impact in shock.impacts() {
         report.impacts += 1;
-        let ends = shock.ends(strike);
+        let ends = shock.ends(&impact);
         events.push(
             entry.time,
             EventKind::Impact {
                 a: bodies.get(ends.0).id,
                 b: bodies.get(ends.1).id,
-                point: strike.contact.point,
-                normal: strike.contact.normal,
-                normal_impulse: strike.normal_impulse,
-                tangential_impulse: strike.tangential_impulse,
-                speed: strike.speed,
+                point: impact.contact.point,
+                normal: impact.contact.normal,
+                normal_impulse: impact.normal_impulse,
+                tangential_impulse: impact.tangential_impulse,
+                speed: impact.speed,
             },
         );
     }

@@ -1,6 +1,7 @@
 //! An impact on a body that others hold: the contacts that it runs into are resolved with it.
 //!
-//! Newton's law for all of them at once, as one complementarity problem in velocities:
+//! Without friction it is the [blend](crate::impact::blend) of several contacts, right to rounding.
+//! With friction it is Newton's law for all of them at once, as one complementarity problem in velocities:
 //! `v_n⁺ ≥ −e v_n⁻` and `j_n ≥ 0`, of which one holds with equality at every contact, and Coulomb's
 //! cone for friction. Struck contacts have their approach to give back; contacts that lasted have
 //! none and only must not close. Solved by projected Gauss–Seidel over accumulated impulses, from
@@ -10,7 +11,7 @@ use carom_math::{SimTime, Vec2, perp};
 
 use crate::bodies::Bodies;
 use crate::body::Collider;
-use crate::impact::{ImpactBody, ImpactContact, Response};
+use crate::impact::{ImpactBody, ImpactContact, Response, SharedContact, blend};
 use crate::narrow::{Narrow, TOUCH, rest_speed};
 use crate::pairs::Pairs;
 
@@ -37,6 +38,18 @@ pub(crate) struct Strike {
     response: Response,
     pub(crate) normal_impulse: f64,
     pub(crate) tangential_impulse: f64,
+}
+
+impl Strike {
+    /// Takes on what another end of the same face pushed.
+    fn join(&mut self, other: &Self) {
+        let total = self.normal_impulse + other.normal_impulse;
+        let share = other.normal_impulse / total;
+        self.contact.point += (other.contact.point - self.contact.point) * share;
+        self.normal_impulse = total;
+        self.tangential_impulse += other.tangential_impulse;
+        self.speed = self.speed.max(other.speed);
+    }
 }
 
 /// A body in a shock.
@@ -196,6 +209,13 @@ impl Shock {
         pairs: &mut Pairs,
         narrow: &mut Narrow,
     ) {
+        if self
+            .strikes
+            .iter()
+            .all(|strike| strike.contact.friction == 0.0)
+        {
+            return self.solve_smooth(bodies, colliders, pairs, narrow);
+        }
         for shaken in &mut self.bodies {
             shaken.after = shaken.before;
         }
@@ -215,6 +235,38 @@ impl Shock {
             let grew = self.spread(bodies, colliders, pairs, narrow);
             if !grew && change <= CONVERGED * struck {
                 break;
+            }
+        }
+    }
+
+    /// Solves for all contacts at once where none has friction.
+    fn solve_smooth(
+        &mut self,
+        bodies: &Bodies,
+        colliders: &[Collider],
+        pairs: &mut Pairs,
+        narrow: &mut Narrow,
+    ) {
+        loop {
+            let contacts: Vec<SharedContact> = self
+                .strikes
+                .iter()
+                .map(|strike| SharedContact {
+                    a: strike.ends.0,
+                    b: strike.ends.1,
+                    contact: strike.contact,
+                })
+                .collect();
+            let before: Vec<ImpactBody> = self.bodies.iter().map(|shaken| shaken.before).collect();
+            let found = blend(&before, &contacts);
+            for (shaken, after) in self.bodies.iter_mut().zip(found.bodies) {
+                shaken.after = after;
+            }
+            for (strike, impulse) in self.strikes.iter_mut().zip(found.normal_impulses) {
+                strike.normal_impulse = impulse;
+            }
+            if !self.spread(bodies, colliders, pairs, narrow) {
+                return;
             }
         }
     }
@@ -253,6 +305,25 @@ impl Shock {
         let (a, b) = strike.ends;
         self.bodies[a].after = self.bodies[a].after.pushed(-impulse, point);
         self.bodies[b].after = self.bodies[b].after.pushed(impulse, point);
+    }
+
+    /// What pushed: one impact for both ends of a flat landing, where their impulses act together.
+    pub(crate) fn impacts(&self) -> Vec<Strike> {
+        let mut all: Vec<Strike> = Vec::with_capacity(self.strikes.len());
+        for strike in self
+            .strikes
+            .iter()
+            .filter(|strike| strike.normal_impulse > 0.0)
+        {
+            let flat = |other: &&mut Strike| {
+                other.pair == strike.pair && other.contact.normal == strike.contact.normal
+            };
+            match all.iter_mut().find(flat) {
+                Some(impact) => impact.join(strike),
+                None => all.push(*strike),
+            }
+        }
+        all
     }
 
     /// Bodies of a strike.

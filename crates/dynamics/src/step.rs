@@ -3,7 +3,7 @@
 use carom_math::SimTime;
 
 use crate::flight::fly;
-use crate::predict::predict;
+use crate::predict::{BUDGET, predict, price};
 use crate::resolve::{Struck, strike};
 use crate::sleep::{settle, wake};
 use crate::{EventKind, Refusal, StepReport, World};
@@ -32,7 +32,7 @@ impl World {
             ..StepReport::default()
         };
         self.events.clear();
-        self.impacts_before = 0;
+        self.spent = 0.0;
         self.stopwatch.start();
         if self.report.refused.is_some() {
             return self.report;
@@ -72,7 +72,7 @@ impl World {
     fn advance(&mut self, end: SimTime, stop_at_event: bool) -> SimTime {
         loop {
             if let Some(entry) = self.agenda.next_until(end.min(self.clock.next())) {
-                if self.report.impacts - self.impacts_before > self.impact_budget() {
+                if self.spent > self.impact_budget() {
                     self.give_up();
                     continue;
                 }
@@ -91,6 +91,7 @@ impl World {
                     Struck::Nothing => {}
                     Struck::Rests => self.predict(entry.pair, entry.time),
                     Struck::Impact(changed) => {
+                        self.spent += price(self.pairs.get(entry.pair));
                         for index in changed {
                             self.deflected(index, entry.time);
                         }
@@ -114,7 +115,7 @@ impl World {
         self.stopwatch.lap(|p| &mut p.impacts);
         self.clock.begin();
         self.agenda.clear();
-        self.impacts_before = self.report.impacts;
+        self.spent = 0.0;
         self.report.substeps += 1;
         self.guard(time);
         self.find_pairs(time, h);
@@ -158,8 +159,8 @@ impl World {
 
     /// Impacts of a sub-step before the rest of them is left to the solver: work stays bounded
     /// whatever was put where, at a body's own budget for every body.
-    fn impact_budget(&self) -> u64 {
-        256 + 32 * self.bodies.places() as u64
+    fn impact_budget(&self) -> f64 {
+        256.0 + BUDGET * self.bodies.places() as f64
     }
 
     /// Leaves all impacts that are due in this sub-step to the next one's solver, and says so.
@@ -216,7 +217,7 @@ impl World {
             );
             pair.held = pair.lasting || pair.impacts > 0 || pair.material.restitution == 0.0;
             pair.lasting = false;
-            pair.impacts = 0;
+            (pair.impacts, pair.spent) = (0, 0.0);
             if active == (false, false) && !pair.fresh {
                 pair.given_up = false;
                 continue;

@@ -59,8 +59,8 @@ pub struct World {
     pub(crate) agenda: Agenda,
     pub(crate) events: Events,
     pub(crate) report: StepReport,
-    /// Impacts that the report counted before the present sub-step.
-    pub(crate) impacts_before: u64,
+    /// What the impacts of the present sub-step spent of its budget.
+    pub(crate) spent: f64,
     /// Bodies with a force that waits for a step or acts during this one.
     pub(crate) forced: Vec<u32>,
     pub(crate) stopwatch: Stopwatch,
@@ -87,7 +87,7 @@ impl World {
             agenda: Agenda::default(),
             events: Events::new(settings.events),
             report: StepReport::default(),
-            impacts_before: 0,
+            spent: 0.0,
             forced: Vec::new(),
             stopwatch: Stopwatch::default(),
             settings,
