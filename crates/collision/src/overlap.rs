@@ -4,7 +4,7 @@ use carom_geometry::Shape;
 use carom_math::{Pose, Sum, Vec2, cross, trig};
 
 use crate::parts::near_parts;
-use crate::{Hull, part};
+use crate::{Hull, part, separating_axis};
 
 /// The area that two shapes share, in m².
 ///
@@ -40,6 +40,9 @@ fn shared(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose) -> f64 {
     if !has_area(a) || !has_area(b) {
         return 0.0;
     }
+    if separating_axis(a, b, b_in_a).separation >= 0.0 {
+        return 0.0;
+    }
     let a_in_b = b_in_a.inverse();
     match (a.is_disc(), b.is_disc()) {
         (true, true) => lens(
@@ -50,10 +53,7 @@ fn shared(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose) -> f64 {
         (false, true) => disc_in(a, b_in_a.point(b.vertices[0]), b.radius),
         (true, false) => disc_in(b, a_in_b.point(a.vertices[0]), a.radius),
         (false, false) => match (a.is_half_plane(), b.is_half_plane()) {
-            (true, true) => {
-                let apart = crate::separating_axis(a, b, b_in_a).separation >= 0.0;
-                if apart { 0.0 } else { f64::INFINITY }
-            }
+            (true, true) => f64::INFINITY,
             (true, false) => clipped(b.vertices, a, a_in_b.inverse()),
             _ => clipped(a.vertices, b, a_in_b),
         },

@@ -14,7 +14,7 @@ use crate::manifold::{Faces, FeatureId, Manifold};
 use crate::outline::Pair;
 use crate::parts::near_parts;
 use crate::sat::{Face, face};
-use crate::{Hull, Side, part};
+use crate::{Hull, Side, part, separating_axis};
 
 /// Lists of conditions that are tried before the search is given up and B leaves the box of A.
 ///
@@ -101,6 +101,22 @@ impl Set {
     }
 }
 
+impl WayOut<'_> {
+    /// Whether two parts overlap once B has gone a way. The sides around a set with a disc meet in
+    /// corners where the set is round.
+    fn blocks(&self, set: &Set, t: Vec2, touch: f64) -> bool {
+        let (a, b) = (
+            part(self.shapes.0, set.parts.0),
+            part(self.shapes.1, set.parts.1),
+        );
+        set.contains(t, touch) && {
+            let gone = Pose::new(self.b_in_a.position + t, self.b_in_a.rotation);
+            let round = a.is_disc() || b.is_disc();
+            !round || separating_axis(&a, &b, gone).separation < -touch
+        }
+    }
+}
+
 /// Two discs: sides around the disc of translations, the first one straight ahead.
 fn around(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose) -> Vec<Exit> {
     const SIDES: i32 = 16;
@@ -163,7 +179,11 @@ pub(crate) fn way_out<'a>(a: &'a Shape, b: &'a Shape, b_in_a: Pose) -> WayOut<'a
         .max_element()
         .min(box_b.extents().max_element());
     let touch = 1e-12 * if size.is_finite() { size } else { 0.0 };
-    if !out.sets.iter().any(|set| set.contains(Vec2::ZERO, touch)) {
+    if !out
+        .sets
+        .iter()
+        .any(|set| out.blocks(set, Vec2::ZERO, touch))
+    {
         out.sets.clear();
         return out;
     }
@@ -197,7 +217,7 @@ impl WayOut<'_> {
             let blocking = self
                 .sets
                 .iter()
-                .position(|set| set.contains(next.way, touch));
+                .position(|set| self.blocks(set, next.way, touch));
             let Some(blocking) = blocking else {
                 self.way = next.way;
                 self.last = self.sides_at(next.way, touch);

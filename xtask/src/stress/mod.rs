@@ -165,6 +165,9 @@ pub(crate) fn run(args: &StressArgs) -> Outcome {
         short += usize::from(!finding.passed);
     }
     say!("{} of {done} cases pass", done - short);
+    if interrupt::asked() {
+        return Ok(End::Interrupted);
+    }
     Ok(if short == 0 { End::Done } else { End::Short })
 }
 

@@ -143,3 +143,24 @@ fn tiles_in_one_body_are_left_as_a_whole() {
         assert_eq!(contact.manifold.deepest(), Some(-0.625));
     }
 }
+
+#[test]
+fn a_disc_beside_a_corner_needs_no_push() {
+    // In the corner of the square's sides moved out by the radius, but not within the radius.
+    let l: Shape = Polygon::new([
+        vec2(0.0, 0.0),
+        vec2(4.0, 0.0),
+        vec2(4.0, 1.0),
+        vec2(1.0, 1.0),
+        vec2(1.0, 4.0),
+        vec2(0.0, 4.0),
+    ])
+    .expect("an L")
+    .into();
+    let ball: Shape = Circle::new(1.0).expect("a disc").into();
+    assert_eq!(shape_push(&l, &ball, Pose::at(vec2(-0.75, -0.75))), None);
+    assert!(all(&l, &ball, Pose::at(vec2(-0.75, -0.75))).is_empty());
+    let push = shape_push(&l, &ball, Pose::at(vec2(-0.5, -0.5))).expect("they overlap");
+    let way = carom_collision::shape_distance(&l, &ball, Pose::at(vec2(-0.5, -0.5) + push));
+    assert!(way.distance < 0.25 && push.length() <= 0.5 + 1e-12);
+}

@@ -121,14 +121,14 @@ fn solid(shape: &Shape, pose: Pose) -> Solid {
 /// Depth, distance, witnesses, normals, swap and exact shifts of convex pairs.
 pub(super) fn convex_pairs() -> Result<Finding, Failure> {
     over_all(
-        "each within 64 roundings of its lengths; shifts bit for bit",
+        "each within 8 roundings of its lengths; shifts bit for bit",
         |number, tally| {
             let pair = ConvexPair::new(number);
             let (a, b) = (pair.a.hull(), pair.b.hull());
             let corners = (pair.a.vertices().to_vec(), pair.b.vertices());
             let placed: Vec<Vec2> = corners.1.iter().map(|v| pair.pose.point(*v)).collect();
             let unit = pair.size + pair.pose.position.length();
-            let limit = 64.0 * f64::EPSILON;
+            let limit = 8.0 * f64::EPSILON;
 
             let axis = separating_axis(&a, &b, pair.pose);
             let back = pair.pose.inverse();
@@ -180,8 +180,8 @@ pub(super) fn concave_pairs() -> Result<Finding, Failure> {
             let deepest = found.iter().filter_map(|c| c.manifold.deepest());
             let deepest = deepest.fold(f64::INFINITY, f64::min);
             let area = overlap_area(&a, &b, pose);
-            // An overlap of a square nanometre is felt; what is apart is not.
-            tally.judge(number, area < 1e-18 || deepest < 0.0);
+            // An overlap of a tenth of a square micrometre is felt; what is apart is not.
+            tally.judge(number, area < 1e-13 || deepest < 0.0);
             tally.judge(
                 number,
                 apart <= limit * unit || (found.is_empty() && area <= 0.0),
