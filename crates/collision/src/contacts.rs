@@ -82,7 +82,8 @@ pub fn contacts(a: &Shape, b: &Shape, b_in_a: Pose, margin: f64, out: &mut Vec<P
     }
     let overlaps = |known: &PartManifold| known.manifold.deepest().is_some_and(|d| d <= 0.0);
     if !out[first..].iter().any(overlaps) {
-        for (i, j, manifold) in way_out(a, b, b_in_a).contacts() {
+        let found = way_out(a, b, b_in_a).map(|out| out.contacts());
+        for (i, j, manifold) in found.into_iter().flatten() {
             push(out, first, i, j, manifold);
         }
     }

@@ -6,20 +6,24 @@
 //! nearest point that satisfies a list of conditions k·t ≥ d, one for every set that is in the way.
 //! A search by length tries the lists: the first t that lies in no set is the answer.
 
+use std::cmp::Reverse;
+use std::collections::{BTreeSet, BinaryHeap};
+
+use arrayvec::ArrayVec;
 use carom_geometry::Shape;
-use carom_math::{Pose, Rot, Vec2, cross};
+use carom_math::{Pose, Rot, Vec2, cross, vec2};
 
 use crate::cast::touch_point;
 use crate::manifold::{Faces, FeatureId, Manifold};
 use crate::outline::Pair;
 use crate::parts::near_parts;
 use crate::sat::{Face, face};
-use crate::{Hull, Side, part, separating_axis};
+use crate::{Hull, Side, distance, part, separating_axis};
 
 /// Lists of conditions that are tried before the search is given up and B leaves the box of A.
 ///
-/// Two L-shapes need some ten, two stars of 16 points in each other a few hundred.
-const TRIES: usize = 4096;
+/// Two L-shapes need some ten, stars of 40 points in each other some hundred.
+const TRIES: usize = 1024;
 
 /// The shortest translation of B, in metres in A's frame, that ends the overlap of two shapes; `None`
 /// if they do not overlap, or if one is a half-plane and so is the other.
@@ -45,8 +49,7 @@ const TRIES: usize = 4096;
 /// ```
 #[must_use]
 pub fn shape_push(a: &Shape, b: &Shape, b_in_a: Pose) -> Option<Vec2> {
-    let out = way_out(a, b, b_in_a);
-    (!out.sets.is_empty()).then_some(out.way)
+    way_out(a, b, b_in_a).map(|out| out.way)
 }
 
 /// A side of the set of translations for which two parts overlap.
@@ -60,14 +63,13 @@ struct Exit {
     face: Option<(Side, Face)>,
 }
 
-/// The translations for which part `i` of A and part `j` of B overlap.
+/// The translations for which two parts overlap.
 struct Set {
-    parts: (usize, usize),
     exits: Vec<Exit>,
 }
 
 impl Set {
-    fn new(a: &Hull<'_>, b: &Hull<'_>, parts: (usize, usize), b_in_a: Pose) -> Self {
+    fn new(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose) -> Self {
         let mut exits = Vec::new();
         let poses = [b_in_a, b_in_a.inverse()];
         for owner in [Side::A, Side::B] {
@@ -92,28 +94,7 @@ impl Set {
             exits = around(a, b, b_in_a);
         }
         exits.retain(|exit| exit.depth.is_finite());
-        Self { parts, exits }
-    }
-
-    fn contains(&self, t: Vec2, touch: f64) -> bool {
-        let inside = |exit: &Exit| exit.normal.dot(t) < exit.depth - touch;
-        !self.exits.is_empty() && self.exits.iter().all(inside)
-    }
-}
-
-impl WayOut<'_> {
-    /// Whether two parts overlap once B has gone a way. The sides around a set with a disc meet in
-    /// corners where the set is round.
-    fn blocks(&self, set: &Set, t: Vec2, touch: f64) -> bool {
-        let (a, b) = (
-            part(self.shapes.0, set.parts.0),
-            part(self.shapes.1, set.parts.1),
-        );
-        set.contains(t, touch) && {
-            let gone = Pose::new(self.b_in_a.position + t, self.b_in_a.rotation);
-            let round = a.is_disc() || b.is_disc();
-            !round || separating_axis(&a, &b, gone).separation < -touch
-        }
+        Self { exits }
     }
 }
 
@@ -133,146 +114,162 @@ fn around(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose) -> Vec<Exit> {
         .collect()
 }
 
-/// The way out, and what is in the way.
+/// The way out of an overlap.
 pub(crate) struct WayOut<'a> {
-    shapes: (&'a Shape, &'a Shape),
-    b_in_a: Pose,
-    sets: Vec<Set>,
+    overlap: Overlap<'a>,
     /// The translation of B.
     way: Vec2,
-    /// The sides that it ends on: the same for one place, several in a corner.
-    last: Vec<(usize, Exit)>,
+    /// Whether it is the nearest, and not the way out of the box.
+    found: bool,
 }
 
-/// The shortest way out of the overlap of two shapes.
-pub(crate) fn way_out<'a>(a: &'a Shape, b: &'a Shape, b_in_a: Pose) -> WayOut<'a> {
-    let mut out = WayOut {
-        shapes: (a, b),
-        b_in_a,
-        sets: Vec::new(),
-        way: Vec2::ZERO,
-        last: Vec::new(),
-    };
-    // Whoever leaves the box along an axis is out: no set farther away than that is in the way.
+/// Two shapes and what counts as touching, in metres.
+#[derive(Clone, Copy)]
+struct Overlap<'a> {
+    a: &'a Shape,
+    b: &'a Shape,
+    b_in_a: Pose,
+    touch: f64,
+}
+
+/// The shortest way out of the overlap of two shapes; `None` if they do not overlap.
+pub(crate) fn way_out<'a>(a: &'a Shape, b: &'a Shape, b_in_a: Pose) -> Option<WayOut<'a>> {
     let (box_a, box_b) = (a.aabb(Pose::IDENTITY), b.aabb(b_in_a));
+    let size = box_a
+        .extents()
+        .max_element()
+        .min(box_b.extents().max_element());
+    let touch = 1e-12 * if size.is_finite() { size } else { 0.0 };
+    let overlap = Overlap {
+        a,
+        b,
+        b_in_a,
+        touch,
+    };
+    overlap.blocking(Vec2::ZERO)?;
+    // Whoever leaves the box along an axis is out.
     let leave = [
         Vec2::X * (box_a.max.x - box_b.min.x),
         Vec2::X * (box_a.min.x - box_b.max.x),
         Vec2::Y * (box_a.max.y - box_b.min.y),
         Vec2::Y * (box_a.min.y - box_b.max.y),
     ];
-    let longest = leave.into_iter().fold(Vec2::INFINITY, |best, way| {
-        if way.length_squared() < best.length_squared() {
-            way
-        } else {
-            best
-        }
-    });
-    let reach = longest.abs().max_element();
-    let margin = if reach.is_finite() { reach } else { 0.0 };
-    near_parts(a, b, b_in_a, Vec2::ZERO, margin, |i, j| {
-        out.sets
-            .push(Set::new(&part(a, i), &part(b, j), (i, j), b_in_a));
-    });
-    let size = box_a
-        .extents()
-        .max_element()
-        .min(box_b.extents().max_element());
-    let touch = 1e-12 * if size.is_finite() { size } else { 0.0 };
-    if !out
-        .sets
-        .iter()
-        .any(|set| out.blocks(set, Vec2::ZERO, touch))
-    {
-        out.sets.clear();
-        return out;
-    }
-    out.search(touch, longest);
-    out
+    let shorter = |p: &Vec2, q: &Vec2| p.length_squared().total_cmp(&q.length_squared());
+    let longest = leave.into_iter().min_by(shorter)?;
+    let found = overlap.search(longest.length_squared());
+    let way = found.unwrap_or(longest);
+    way.is_finite().then_some(WayOut {
+        overlap,
+        way,
+        found: found.is_some(),
+    })
 }
 
-/// A list of conditions and the nearest point that satisfies them.
+/// Conditions and the nearest point that satisfies them: it holds to all of them, one or two.
+#[derive(Clone)]
 struct Try {
-    conditions: Vec<(usize, Exit)>,
+    conditions: ArrayVec<Exit, 2>,
     way: Vec2,
 }
 
-impl WayOut<'_> {
-    fn search(&mut self, touch: f64, longest: Vec2) {
-        let mut open = vec![Try {
-            conditions: Vec::new(),
+impl Overlap<'_> {
+    fn moved(&self, t: Vec2) -> Pose {
+        Pose::new(self.b_in_a.position + t, self.b_in_a.rotation)
+    }
+
+    /// The two parts that overlap most once B has gone a way.
+    fn blocking(&self, t: Vec2) -> Option<(usize, usize)> {
+        let gone = self.moved(t);
+        let mut worst = (-self.touch, None);
+        near_parts(self.a, self.b, gone, Vec2::ZERO, 0.0, |i, j| {
+            let separation = separating_axis(&part(self.a, i), &part(self.b, j), gone).separation;
+            if separation < worst.0 {
+                worst = (separation, Some((i, j)));
+            }
+        });
+        worst.1
+    }
+
+    /// The nearest translation for which no parts overlap, if it is found and within a length.
+    fn search(&self, longest_squared: f64) -> Option<Vec2> {
+        let start = Try {
+            conditions: ArrayVec::new(),
             way: Vec2::ZERO,
-        }];
+        };
+        // The shortest first; the earliest of equals.
+        let mut tries = vec![start];
+        let mut open = BinaryHeap::from([Reverse((0, 0))]);
+        let mut seen = BTreeSet::new();
         for _ in 0..TRIES {
-            // The shortest first; the earliest of equals.
-            let nearest = |p: &(usize, &Try), q: &(usize, &Try)| {
-                p.1.way
-                    .length_squared()
-                    .total_cmp(&q.1.way.length_squared())
+            let Reverse((_, at)) = open.pop()?;
+            let next = tries[at].clone();
+            let Some(parts) = self.blocking(next.way) else {
+                return Some(next.way);
             };
-            let Some((at, _)) = open.iter().enumerate().min_by(nearest) else {
-                break;
-            };
-            let next = open.swap_remove(at);
-            let blocking = self
-                .sets
-                .iter()
-                .position(|set| self.blocks(set, next.way, touch));
-            let Some(blocking) = blocking else {
-                self.way = next.way;
-                self.last = self.sides_at(next.way, touch);
-                return;
-            };
-            for exit in &self.sets[blocking].exits {
-                let mut conditions = next.conditions.clone();
-                conditions.push((blocking, *exit));
-                if let Some(way) = nearest_point(&conditions, touch)
-                    && way.length_squared() <= longest.length_squared()
+            let (a, b) = (part(self.a, parts.0), part(self.b, parts.1));
+            for exit in Set::new(&a, &b, self.b_in_a).exits {
+                // What does not hold the point back is left out: the point that is looked for
+                // satisfies the rest, too, so that it is not farther than the answer.
+                if let Some(found) = nearest_point(&next.conditions, exit, self.touch)
+                    && found.way.length_squared() <= longest_squared
                 {
-                    open.push(Try { conditions, way });
+                    // Lengths are not negative, so that their bits are in order.
+                    let length = found.way.length_squared().to_bits();
+                    if seen.insert(found.way.to_array().map(f64::to_bits)) {
+                        open.push(Reverse((length, tries.len())));
+                        tries.push(found);
+                    }
                 }
             }
         }
-        self.way = longest;
+        None
     }
+}
 
-    /// The sides of sets that a translation lies on, where the outlines touch for it.
-    fn sides_at(&self, t: Vec2, touch: f64) -> Vec<(usize, Exit)> {
-        let gone = Pose::new(self.b_in_a.position + t, self.b_in_a.rotation);
+impl WayOut<'_> {
+    /// The sides of sets that the way ends on, where the outlines touch then.
+    fn sides(&self) -> Vec<(usize, usize, Exit)> {
+        let Overlap {
+            a,
+            b,
+            b_in_a,
+            touch,
+        } = self.overlap;
+        let slack = 4.0 * touch;
+        let gone = self.overlap.moved(self.way);
         let mut sides = Vec::new();
-        for (index, set) in self.sets.iter().enumerate() {
-            let height = |exit: &Exit| exit.normal.dot(t) - exit.depth;
-            if set.exits.iter().any(|exit| height(exit) > 4.0 * touch) {
-                continue;
+        near_parts(a, b, gone, Vec2::ZERO, slack, |i, j| {
+            let (part_a, part_b) = (part(a, i), part(b, j));
+            let set = Set::new(&part_a, &part_b, b_in_a);
+            let height = |exit: &Exit| exit.normal.dot(self.way) - exit.depth;
+            if set.exits.iter().any(|exit| height(exit) > slack) {
+                return;
             }
-            let (a, b) = (
-                part(self.shapes.0, set.parts.0),
-                part(self.shapes.1, set.parts.1),
-            );
-            let pair = Pair::new(&a, &b, gone);
-            let tight = set
-                .exits
-                .iter()
-                .filter(|exit| height(exit).abs() <= 4.0 * touch);
+            let pair = Pair::new(&part_a, &part_b, gone);
+            let tight = set.exits.iter().filter(|exit| height(exit).abs() <= slack);
             let open = tight.filter(|exit| {
                 let allows = |(owner, face)| pair.allows(owner, face);
                 exit.face.is_none_or(allows)
             });
-            sides.extend(open.map(|exit| (index, *exit)));
-        }
+            sides.extend(open.map(|exit| (i, j, *exit)));
+        });
         sides
     }
 
     /// What touches once B has gone the way: the points half-way between where A's and B's surfaces
     /// are now, and as deep as the way is along the normal.
     pub(crate) fn contacts(&self) -> Vec<(usize, usize, Manifold)> {
-        let gone = Pose::new(self.b_in_a.position + self.way, self.b_in_a.rotation);
-        let contact = |(set, exit): &(usize, Exit)| {
-            let (i, j) = self.sets[*set].parts;
-            let (a, b) = (part(self.shapes.0, i), part(self.shapes.1, j));
+        let Overlap { a, b, .. } = self.overlap;
+        let sides = if self.found { self.sides() } else { Vec::new() };
+        if sides.is_empty() {
+            return self.along_the_way().into_iter().collect();
+        }
+        let gone = self.overlap.moved(self.way);
+        let contact = |(i, j, exit): (usize, usize, Exit)| {
+            let (part_a, part_b) = (part(a, i), part(b, j));
             let mut manifold = match exit.face {
-                Some((owner, face)) if !a.is_disc() && !b.is_disc() => {
-                    let pair = Pair::new(&a, &b, gone);
+                Some((owner, face)) if !part_a.is_disc() && !part_b.is_disc() => {
+                    let pair = Pair::new(&part_a, &part_b, gone);
                     let separation = 0.0;
                     let faces = Faces::new(&pair, owner, Face { separation, ..face });
                     let shared = faces.shared();
@@ -280,7 +277,7 @@ impl WayOut<'_> {
                     found.unwrap_or_else(|| faces.deepest())
                 }
                 _ => {
-                    let surface = touch_point(&a, &b, gone, exit.normal);
+                    let surface = touch_point(&part_a, &part_b, gone, exit.normal);
                     Manifold::single(exit.normal, surface, 0.0, FeatureId(0))
                 }
             };
@@ -290,36 +287,50 @@ impl WayOut<'_> {
             }
             (i, j, manifold)
         };
-        self.last.iter().map(contact).collect()
+        sides.into_iter().map(contact).collect()
+    }
+
+    /// One contact in the middle of what overlaps most, along the way: where that leads out of the box,
+    /// or ends beside the round corner of a disc's set.
+    fn along_the_way(&self) -> Option<(usize, usize, Manifold)> {
+        let Overlap { a, b, b_in_a, .. } = self.overlap;
+        let (i, j) = self.overlap.blocking(Vec2::ZERO)?;
+        let common = distance(&part(a, i), &part(b, j), b_in_a).point_a;
+        let length = self.way.length();
+        let manifold = Manifold::single(self.way / length, common, -length, FeatureId(0));
+        Some((i, j, manifold))
     }
 }
 
-/// The point nearest to 0 with k·t ≥ d for all conditions; `None` if there is none.
-fn nearest_point(conditions: &[(usize, Exit)], touch: f64) -> Option<Vec2> {
+/// The point nearest to 0 with k·t ≥ d for one or two conditions and another one, which it does not
+/// satisfy yet; `None` if there is none.
+fn nearest_point(conditions: &[Exit], new: Exit, touch: f64) -> Option<Try> {
     let satisfies = |t: Vec2| {
-        conditions
-            .iter()
-            .all(|(_, exit)| exit.normal.dot(t) >= exit.depth - touch)
+        let mut all = conditions.iter().chain([&new]);
+        all.all(|exit| exit.normal.dot(t) >= exit.depth - touch)
     };
-    let mut best: Option<Vec2> = satisfies(Vec2::ZERO).then_some(Vec2::ZERO);
-    let mut consider = |t: Vec2| {
-        let shorter = |known: Vec2| t.length_squared() < known.length_squared();
-        if best.is_none_or(shorter) && satisfies(t) {
-            best = Some(t);
+    let alone = new.normal * new.depth;
+    if new.depth > 0.0 && satisfies(alone) {
+        return Some(Try {
+            conditions: ArrayVec::from_iter([new]),
+            way: alone,
+        });
+    }
+    let mut best: Option<Try> = None;
+    for old in conditions {
+        let sine = cross(old.normal, new.normal);
+        if sine == 0.0 {
+            continue;
         }
-    };
-    for (i, (_, p)) in conditions.iter().enumerate() {
-        consider(p.normal * p.depth);
-        for (_, q) in &conditions[..i] {
-            let sine = cross(p.normal, q.normal);
-            if sine != 0.0 {
-                // p·t = d, q·t = e: t = (d q⊥ − e p⊥) / (p × q), turned backwards.
-                let t = Vec2::new(
-                    p.depth * q.normal.y - q.depth * p.normal.y,
-                    q.depth * p.normal.x - p.depth * q.normal.x,
-                );
-                consider(t / sine);
-            }
+        // p·t = d, q·t = e: t = (d q⊥ − e p⊥) / (p × q), turned backwards.
+        let way = vec2(
+            old.depth * new.normal.y - new.depth * old.normal.y,
+            new.depth * old.normal.x - old.depth * new.normal.x,
+        ) / sine;
+        let shorter = |known: &Try| way.length_squared() < known.way.length_squared();
+        if best.as_ref().is_none_or(shorter) && satisfies(way) {
+            let conditions = ArrayVec::from([*old, new]);
+            best = Some(Try { conditions, way });
         }
     }
     best
