@@ -2,7 +2,7 @@
 
 use carom_math::{Vec2, orient2d, vec2};
 
-use crate::moments::ring_moments;
+use crate::moments::polygon_moments;
 use crate::query::winds_around;
 use crate::ring::{Ring, corners};
 use crate::{AreaProperties, PolygonError, hull};
@@ -85,7 +85,7 @@ impl ConvexPolygon {
     /// Area and its moments.
     #[must_use]
     pub fn area_properties(&self) -> AreaProperties {
-        ring_moments(&self.vertices)
+        polygon_moments(&self.vertices, [self.vertices.as_slice()])
     }
 
     /// Whether `point` (in m) lies inside or on the outline; exact.

@@ -10,9 +10,11 @@
 //! The first pass looks from the first vertex, as world coordinates cancel far from the origin. The
 //! second looks from the centroid that the first found, as moments cancel when they are carried
 //! there. What rounding can have lost is bounded on the way; a ring that loses too much (a sliver,
-//! a fine comb) is summed again with twice the digits.
+//! a fine comb) is summed again with twice the digits. If even those do not do (a needle a thousand
+//! million times longer than the rest), a polygon is summed over triangles that do not overlap: then
+//! nothing cancels.
 
-use carom_math::{Sum, Vec2, cross, vec2};
+use carom_math::{Sum, Vec2, cross, two_product, two_sum, vec2};
 
 use crate::AreaProperties;
 use crate::wide::Wide;
@@ -26,12 +28,75 @@ const PLAIN: f64 = 128.0;
 /// Below this part of reach × girth an area is all rounding, even with twice the digits.
 const NOTHING: f64 = 1.0 / (1_u128 << 98) as f64;
 
+/// How much larger than the result the sum of absolute terms may be with twice the digits: 2⁵² of
+/// 2⁻¹⁰⁰ cost 2⁻⁴⁸.
+const WIDE: f64 = (1_u64 << 52) as f64;
+
 /// Area properties of any closed ring, all zero if it encloses no area. The winding does not count.
 pub(crate) fn ring_moments(points: &[Vec2]) -> AreaProperties {
     let Some(&anchor) = points.first() else {
         return AreaProperties::ZERO;
     };
-    moments_of(anchor, edges(points))
+    moments_of(anchor, edges(points)).unwrap_or_else(|guess| guess)
+}
+
+/// Area properties of a polygon, right whatever it looks like; `pieces` are convex and make it up.
+pub(crate) fn polygon_moments<'a>(
+    points: &[Vec2],
+    pieces: impl IntoIterator<Item = &'a [Vec2]>,
+) -> AreaProperties {
+    let Some(&anchor) = points.first() else {
+        return AreaProperties::ZERO;
+    };
+    moments_of(anchor, edges(points)).unwrap_or_else(|_| {
+        let fans = pieces.into_iter().flat_map(|piece| {
+            let (first, rest) = piece.split_at(1);
+            rest.windows(2)
+                .map(move |edge| triangle([first[0], edge[0], edge[1]]))
+        });
+        fans.sum()
+    })
+}
+
+/// A triangle, counter-clockwise: A/36 times the sum of the squares of its edges.
+fn triangle([a, b, c]: [Vec2; 3]) -> AreaProperties {
+    let twice = exact_cross(Offset::between(b, a), Offset::between(c, a));
+    let over_each = |of: fn(Vec2) -> f64| {
+        let sum = of(b - a) + of(c - b) + of(a - c);
+        twice.max(0.0) * (sum / 72.0)
+    };
+    let (ixx, iyy) = (over_each(|e| e.y * e.y), over_each(|e| e.x * e.x));
+    AreaProperties {
+        area: 0.5 * twice.max(0.0),
+        centroid: a + ((b - a) + (c - a)) / 3.0,
+        polar: ixx + iyy,
+        ixx,
+        iyy,
+        ixy: over_each(|e| e.x * e.y),
+    }
+}
+
+/// `u × v`, rounded once, however much it cancels.
+fn exact_cross(u: Offset, v: Offset) -> f64 {
+    let mut terms = [0.0; 16];
+    let products = [(u.x, v.y, 1.0), (u.y, v.x, -1.0)];
+    let factors = products.into_iter().flat_map(|(a, b, sign)| {
+        let b = b.parts();
+        a.parts()
+            .into_iter()
+            .flat_map(move |x| b.map(|y| (sign * x, y)))
+    });
+    for (pair, (x, y)) in terms.chunks_exact_mut(2).zip(factors) {
+        (pair[0], pair[1]) = two_product(x, y);
+    }
+    // Each pass sweeps what is left of the errors into the last place (Ogita, Rump, Oishi, 2005: a
+    // sum as if in 2 + 6 times the digits).
+    for _ in 0..6 {
+        for i in 1..terms.len() {
+            (terms[i], terms[i - 1]) = two_sum(terms[i], terms[i - 1]);
+        }
+    }
+    terms.iter().sum()
 }
 
 /// Area properties of what lies on the left of several rings, outer ones and holes, all at once: a
@@ -40,11 +105,25 @@ pub(crate) fn region_moments(rings: &[Vec<Vec2>]) -> AreaProperties {
     let Some(&anchor) = rings.first().and_then(|ring| ring.first()) else {
         return AreaProperties::ZERO;
     };
-    moments_of(anchor, rings.iter().flat_map(|ring| edges(ring)))
+    let edges = rings.iter().flat_map(|ring| edges(ring));
+    moments_of(anchor, edges).unwrap_or_else(|guess| {
+        // What is lost may be more than there is.
+        let (ixx, iyy) = (guess.ixx.max(0.0), guess.iyy.max(0.0));
+        AreaProperties {
+            polar: ixx + iyy,
+            ixx,
+            iyy,
+            ..guess
+        }
+    })
 }
 
-fn moments_of(anchor: Vec2, edges: impl Iterator<Item = (Vec2, Vec2)> + Clone) -> AreaProperties {
-    plain(anchor, edges.clone()).unwrap_or_else(|| wide(anchor, edges))
+/// The sums, or a guess where twice the digits are not enough.
+fn moments_of(
+    anchor: Vec2,
+    edges: impl Iterator<Item = (Vec2, Vec2)> + Clone,
+) -> Result<AreaProperties, AreaProperties> {
+    plain(anchor, edges.clone()).map_or_else(|| wide(anchor, edges), Ok)
 }
 
 /// Both ends of each edge, the closing one last.
@@ -96,8 +175,11 @@ fn plain(
     Some(about_centroid(anchor, c, rest, [twice, xx, yy, xy]))
 }
 
-/// With twice the digits.
-fn wide(anchor: Vec2, edges: impl Iterator<Item = (Vec2, Vec2)> + Clone) -> AreaProperties {
+/// With twice the digits, or a guess where they may not be enough.
+fn wide(
+    anchor: Vec2,
+    edges: impl Iterator<Item = (Vec2, Vec2)> + Clone,
+) -> Result<AreaProperties, AreaProperties> {
     let [mut twice, mut cx, mut cy] = [Wide::ZERO; 3];
     let mut size = Size::default();
     for (p, q) in edges.clone() {
@@ -110,8 +192,10 @@ fn wide(anchor: Vec2, edges: impl Iterator<Item = (Vec2, Vec2)> + Clone) -> Area
         cy = cy + k * (u.y + v.y);
     }
     if twice.value().abs() <= NOTHING * size.reach * size.girth {
-        return AreaProperties::ZERO;
+        return Err(AreaProperties::ZERO);
     }
+    let area_is_sure = size.reach * size.girth <= WIDE * twice.value().abs();
+    let mut gross = 0.0;
     let thrice = twice * 3.0;
     let c = vec2(cx.over(thrice), cy.over(thrice));
 
@@ -120,6 +204,9 @@ fn wide(anchor: Vec2, edges: impl Iterator<Item = (Vec2, Vec2)> + Clone) -> Area
         let u = Offset::between(p, anchor).from(c);
         let v = Offset::between(q, anchor).from(c);
         let k = u.cross(Offset::between(q, p));
+        let (x, y) = squares(u.value(), v.value());
+        let edge = q - p;
+        gross += (edge.x.abs() + edge.y.abs()) * (x + y);
         twice = twice + k;
         cx = cx + k * (u.x + v.x);
         cy = cy + k * (u.y + v.y);
@@ -129,7 +216,13 @@ fn wide(anchor: Vec2, edges: impl Iterator<Item = (Vec2, Vec2)> + Clone) -> Area
     }
     let thrice = twice * 3.0;
     let rest = vec2(cx.over(thrice), cy.over(thrice));
-    about_centroid(anchor, c, rest, [twice, xx, yy, xy].map(Wide::value))
+    let [twice, xx, yy, xy] = [twice, xx, yy, xy].map(Wide::value);
+    let found = about_centroid(anchor, c, rest, [twice, xx, yy, xy]);
+    if area_is_sure && size.reach * gross <= WIDE * (xx + yy).abs() {
+        Ok(found)
+    } else {
+        Err(found)
+    }
 }
 
 /// From sums about `anchor + c`, of which the centroid lies `rest` away (a rounding of c).
@@ -195,6 +288,10 @@ impl Offset {
             x: self.x - Wide::from(c.x),
             y: self.y - Wide::from(c.y),
         }
+    }
+
+    fn value(self) -> Vec2 {
+        vec2(self.x.value(), self.y.value())
     }
 
     fn cross(self, v: Self) -> Wide {

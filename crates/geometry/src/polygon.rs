@@ -2,7 +2,7 @@
 
 use carom_math::Vec2;
 
-use crate::moments::ring_moments;
+use crate::moments::polygon_moments;
 use crate::part_tree::{PartTree, TREE_ABOVE};
 use crate::pieces::{ConvexPiece, decompose};
 use crate::query::winds_around;
@@ -91,7 +91,10 @@ impl Polygon {
     /// Area and its moments.
     #[must_use]
     pub fn area_properties(&self) -> AreaProperties {
-        ring_moments(&self.vertices)
+        polygon_moments(
+            &self.vertices,
+            self.pieces.iter().map(ConvexPiece::vertices),
+        )
     }
 
     /// Whether `point` (in m) lies inside or on the outline; exact.

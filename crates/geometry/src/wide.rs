@@ -25,6 +25,11 @@ impl Wide {
         Self { high, low }
     }
 
+    /// The two doubles of which it is the sum.
+    pub(crate) const fn parts(self) -> [f64; 2] {
+        [self.high, self.low]
+    }
+
     /// Rounded once.
     pub(crate) const fn value(self) -> f64 {
         self.high

@@ -1,5 +1,6 @@
 //! Laws of the whole crate, over shapes that are made to break it.
 
+mod anything;
 mod exact_mass;
 mod generators;
 mod mass_laws;
