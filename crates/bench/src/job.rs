@@ -82,9 +82,12 @@ pub enum Reading {
     },
     /// Of an accuracy job.
     Accuracy {
-        /// A number for each of the case's metrics that the run has one for, in the order of the case.
+        /// A number for each of the case's metrics that the run has one for, in the order of the case; NaN or infinite
+        /// if the run blew up.
+        #[serde(with = "crate::number::named")]
         values: Vec<(String, f64)>,
         /// CPU seconds inside steps per simulated second.
+        #[serde(with = "crate::number")]
         cpu_s_per_s: f64,
         /// As the engine was set in the first world.
         #[serde(default)]
@@ -119,11 +122,7 @@ fn accuracy(point: &Point) -> Result<Reading, EngineError> {
     let mut trial = Trial::new(point);
     let values = (case.measure)(&mut trial)?;
     Ok(Reading::Accuracy {
-        // JSON has no other numbers; a metric without one is missing.
-        values: values
-            .into_iter()
-            .filter(|(_, value)| value.is_finite())
-            .collect(),
+        values,
         cpu_s_per_s: trial.cpu_per_second(),
         settings: trial.settings().to_owned(),
     })

@@ -14,6 +14,7 @@ mod clock;
 mod engine;
 mod engines;
 mod job;
+mod number;
 mod quality;
 mod speed;
 

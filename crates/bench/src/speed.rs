@@ -49,10 +49,13 @@ pub struct Limits {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SpeedReading {
     /// Median over the measured steps, in ms: CPU time on one thread, wall time on several.
+    #[serde(with = "crate::number")]
     pub ms_median: f64,
     /// 99th percentile over the measured steps, in ms.
+    #[serde(with = "crate::number")]
     pub ms_p99: f64,
     /// First step of all, in ms.
+    #[serde(with = "crate::number")]
     pub ms_first: f64,
     /// Steps before the clock started, the first one among them.
     pub warm_up_steps: u32,
@@ -67,8 +70,10 @@ pub struct SpeedReading {
     /// Verdict after the last measured step.
     pub after: Quality,
     /// How much bodies are thrown about in the steps after the clock stopped: see [`Unrest`], in m/s².
+    #[serde(with = "crate::number")]
     pub rms_acceleration: f64,
     /// Farthest that a dynamic body's centre moved during the measured steps, in m.
+    #[serde(with = "crate::number")]
     pub drift: f64,
     /// In the engine's own words, after the last measured step.
     pub counters: Counters,

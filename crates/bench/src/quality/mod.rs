@@ -22,18 +22,24 @@ pub use unrest::Unrest;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Quality {
     /// Kinetic, rotational and potential energy of the dynamic bodies, with the engine's masses, in J.
+    #[serde(with = "crate::number")]
     pub energy: f64,
     /// Of the dynamic bodies, in kg m/s.
+    #[serde(with = "crate::number::pair")]
     pub momentum: [f64; 2],
     /// Of the dynamic bodies about the origin, in kg m²/s.
+    #[serde(with = "crate::number")]
     pub angular_momentum: f64,
     /// Deepest overlap of two shapes of different bodies, at least one of them dynamic, in m, ≥ 0. Segments are left out.
+    #[serde(with = "crate::number")]
     pub overlap_max: f64,
     /// Mean over the overlapping pairs, in m.
+    #[serde(with = "crate::number")]
     pub overlap_mean: f64,
     /// How many pairs of shapes overlap.
     pub overlap_pairs: usize,
     /// Highest centre of a dynamic body, in m: whether a pile still stands.
+    #[serde(with = "crate::number")]
     pub highest: f64,
     /// Dynamic bodies whose centre is not strictly inside the scene's region.
     pub escaped: usize,

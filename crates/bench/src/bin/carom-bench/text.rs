@@ -1,11 +1,19 @@
 //! Numbers as the tables write them.
 
+use serde::{Serialize as _, Serializer};
+
+/// What stands for a number that is none: the run blew up.
+pub(crate) const NOT_FINITE: &str = "not finite";
+
 /// Three significant digits, in the shorter of the two notations; an en dash where there is none.
 pub(crate) fn number(value: Option<f64>) -> String {
     let Some(value) = value else {
         return "–".to_owned();
     };
     let size = value.abs();
+    if !size.is_finite() {
+        return NOT_FINITE.to_owned();
+    }
     if size == 0.0 {
         return "0".to_owned();
     }
@@ -26,7 +34,33 @@ pub(crate) fn error(value: Option<f64>) -> String {
     match value {
         None => "–".to_owned(),
         Some(0.0) => "0".to_owned(),
+        Some(value) if !value.is_finite() => NOT_FINITE.to_owned(),
         Some(value) => format!("{value:.1e}"),
+    }
+}
+
+/// A ratio near 1.
+pub(crate) fn ratio(value: Option<f64>) -> String {
+    match value {
+        None => "–".to_owned(),
+        Some(value) if !value.is_finite() => NOT_FINITE.to_owned(),
+        Some(value) => format!("{value:.4}"),
+    }
+}
+
+/// For CSV and JSON, which has no such numbers: `NaN`, `inf` and `-inf` as words.
+#[expect(
+    clippy::ref_option,
+    clippy::trivially_copy_pass_by_ref,
+    reason = "serde hands a reference to the field"
+)]
+pub(crate) fn word_if_not_finite<S: Serializer>(
+    value: &Option<f64>,
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    match value {
+        Some(value) if !value.is_finite() => serializer.collect_str(value),
+        value => value.serialize(serializer),
     }
 }
 
@@ -58,5 +92,8 @@ mod tests {
         }
         assert_eq!(error(Some(0.0123)), "1.2e-2");
         assert_eq!(error(Some(0.0)), "0");
+        for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY].map(Some) {
+            assert_eq!([number(value), error(value), ratio(value)], [NOT_FINITE; 3]);
+        }
     }
 }

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::exit::{Failure, fail};
 use crate::head::Head;
 use crate::store::Row;
+use crate::text;
 
 /// One number of one engine in one case.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -25,7 +26,7 @@ pub(crate) struct AccuracyRow {
     /// The error, or the value that was measured.
     pub(crate) error: Option<f64>,
     pub(crate) unit: String,
-    /// Why there is no number; of a run that came to its end the word that says so: `never`.
+    /// Why there is no number; of a run that came to its end the word that says so: `never`, or `not finite` if it blew up.
     pub(crate) failed: Option<String>,
 }
 
@@ -104,9 +105,10 @@ fn number(point: &Point, metric: &Metric, reading: &Reading) -> Option<AccuracyR
         } => {
             row.cpu_s_per_s = Some(*cpu_s_per_s).filter(|seconds| seconds.is_finite());
             let found = values.iter().find(|(name, _)| name == metric.name);
-            row.error = found.map(|(_, value)| *value);
-            if row.error.is_none() {
-                row.failed = Some(metric.missing.to_owned());
+            match found {
+                Some((_, value)) if value.is_finite() => row.error = Some(*value),
+                Some(_) => row.failed = Some(text::NOT_FINITE.to_owned()),
+                None => row.failed = Some(metric.missing.to_owned()),
             }
         }
         Reading::Failed { reason } => row.failed = Some(reason.clone()),
@@ -196,6 +198,20 @@ pub(crate) mod tests {
             found,
             [(Carom, 60), (Carom, 240), (Rapier, 60), (Rapier, 3840)]
         );
+    }
+
+    #[test]
+    fn a_run_that_blew_up_says_so() {
+        for value in [f64::NAN, f64::INFINITY] {
+            let measured = row(EngineName::Rapier, 60, Some(value));
+            // As through a process and the file of rows.
+            let text = serde_json::to_string(&measured).unwrap();
+            let back: Row = serde_json::from_str(&text).unwrap();
+            let rows = of(&[back]);
+            assert_eq!(rows[0].error, None);
+            assert_eq!(rows[0].failed.as_deref(), Some("not finite"), "{text}");
+            assert!(rows[0].cpu_s_per_s.is_some());
+        }
     }
 
     #[test]

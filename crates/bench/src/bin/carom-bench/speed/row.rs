@@ -1,15 +1,16 @@
 //! A row a setting: the median of its repetitions.
 
 use carom_bench::{EngineName, Mode, Reading, SpeedJob, SpeedReading};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::speed_job;
 use crate::exit::{Failure, fail};
 use crate::head::Head;
 use crate::store::Row;
+use crate::text;
 
 /// One engine on one scene.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub(crate) struct SpeedRow {
     #[serde(skip_serializing_if = "String::is_empty")]
     pub(crate) scene: String,
@@ -25,10 +26,15 @@ pub(crate) struct SpeedRow {
     /// To the fastest peer with as many threads that reads as much.
     pub(crate) ratio_to_best_peer: Option<f64>,
     /// After the measured steps over before them.
+    #[serde(serialize_with = "text::word_if_not_finite")]
     pub(crate) energy_ratio: Option<f64>,
+    #[serde(serialize_with = "text::word_if_not_finite")]
     pub(crate) overlap_mean: Option<f64>,
+    #[serde(serialize_with = "text::word_if_not_finite")]
     pub(crate) overlap_max: Option<f64>,
+    #[serde(serialize_with = "text::word_if_not_finite")]
     pub(crate) rms_acceleration: Option<f64>,
+    #[serde(serialize_with = "text::word_if_not_finite")]
     pub(crate) drift: Option<f64>,
     pub(crate) bodies_awake: Option<usize>,
     pub(crate) touching: Option<usize>,
@@ -126,16 +132,19 @@ fn best_peer(rows: &[SpeedRow], row: &SpeedRow) -> Option<f64> {
         .min_by(f64::total_cmp)
 }
 
-/// The middle number, or the mean of the two in the middle; `None` of nothing, and of what is not finite.
+/// The middle number, or the mean of the two in the middle; `None` of nothing. One that is not finite is the answer: the
+/// other repetitions were lucky.
 pub(crate) fn median(mut numbers: Vec<f64>) -> Option<f64> {
+    if let Some(broken) = numbers.iter().find(|number| !number.is_finite()) {
+        return Some(*broken);
+    }
     numbers.sort_by(f64::total_cmp);
     let half = numbers.len() / 2;
-    let middle = match numbers.len() {
-        0 => return None,
-        n if n % 2 == 1 => numbers[half],
-        _ => 0.5 * (numbers[half - 1] + numbers[half]),
-    };
-    Some(middle).filter(|number| number.is_finite())
+    match numbers.len() {
+        0 => None,
+        n if n % 2 == 1 => Some(numbers[half]),
+        _ => Some(0.5 * (numbers[half - 1] + numbers[half])),
+    }
 }
 
 /// Head and rows as CSV.
@@ -261,11 +270,40 @@ pub(crate) mod tests {
     fn a_row_is_the_median_of_its_repetitions() {
         assert_eq!(median(vec![]), None);
         assert_eq!(median(vec![3.0, 1.0]), Some(2.0));
-        assert_eq!(median(vec![f64::NAN]), None);
+        assert!(median(vec![1.0, f64::NAN, 2.0]).is_some_and(f64::is_nan));
         let rows = some();
         assert_eq!(rows[0].engine, EngineName::Carom);
         assert_eq!((rows[0].ms_median, rows[0].repetitions), (Some(6.0), 3));
         assert_eq!(rows[0].energy_ratio, Some(1.25));
+    }
+
+    #[test]
+    fn a_run_that_blew_up_leaves_no_hole() {
+        let Reading::Speed(mut broken) = reading(1.0) else {
+            panic!("a reading");
+        };
+        broken.drift = f64::INFINITY;
+        broken.after.energy = f64::NAN;
+        broken.after.momentum[1] = f64::NEG_INFINITY;
+        // As through a process and the file of rows.
+        let measured = measured(EngineName::Rapier, 0, Reading::Speed(broken));
+        let text = serde_json::to_string(&measured).unwrap();
+        let rows = of(&[serde_json::from_str(&text).unwrap()]);
+        assert_eq!(rows[0].failed, None);
+        let value = serde_json::to_value(json("m", &rows)).unwrap();
+        let row = &value["scenes"][0]["rows"][0];
+        assert_eq!(
+            (&row["energy_ratio"], &row["drift"]),
+            (&"NaN".into(), &"inf".into())
+        );
+        let markdown = crate::speed::table::markdown(&Head::default(), &rows);
+        assert_eq!(
+            markdown.matches("| not finite |").count(),
+            1 + 2,
+            "{markdown}"
+        );
+        let text = csv(&Head::default(), &rows).unwrap();
+        assert!(text.contains(",NaN,") && text.contains(",inf,"), "{text}");
     }
 
     #[test]

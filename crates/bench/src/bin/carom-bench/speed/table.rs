@@ -86,8 +86,7 @@ fn lines(text: &mut String, rows: &[&SpeedRow]) {
             text::number(row.ms_median),
             text::number(row.ms_p99),
             text::number(row.ratio_to_best_peer),
-            row.energy_ratio
-                .map_or_else(|| "–".to_owned(), |ratio| format!("{ratio:.4}")),
+            text::ratio(row.energy_ratio),
             text::error(row.overlap_mean),
             text::error(row.overlap_max),
             text::error(row.rms_acceleration),
