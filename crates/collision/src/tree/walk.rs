@@ -89,9 +89,6 @@ impl<T: Copy, const ROOM: usize> Stack<T, ROOM> {
     }
 }
 
-/// Pairs on their way in a query, a power of two.
-const QUEUE: usize = 64;
-
 /// Leaves on their way out of a query.
 const HITS: usize = 32;
 
@@ -102,37 +99,26 @@ impl BoxTree {
             return;
         }
         let sought = Bounds::around(bounds).opposite();
-        // First come, first visited: what is visited next does not depend on the answer now, and
-        // several are under way at once.
-        let mut queue = [ROOT; QUEUE];
-        let (mut head, mut tail) = (0, 1);
-        let mut rest = Vec::new();
+        let mut stack: Stack<u32, 64> = Stack::new(ROOT);
         // Found leaves wait for others: whoever has an answer for each would interrupt the walk.
         let mut hits = [0; HITS];
         let mut count = 0;
-        loop {
-            while head < tail {
-                let pair = &self.pairs[queue[head % QUEUE] as usize];
-                head += 1;
-                for side in [0, 1] {
-                    let (met, child) = (pair.boxes[side].meets(sought), pair.children[side]);
-                    queue[tail % QUEUE] = child.0;
-                    tail += usize::from(met & !child.is_leaf());
-                    hits[count % HITS] = pair.data[side];
-                    count += usize::from(met & child.is_leaf());
-                }
-                if count > HITS - 2 {
-                    hits[..count].iter().for_each(|data| found(*data));
-                    count = 0;
-                }
-                if tail - head > QUEUE - 3 {
-                    rest.extend((head..tail).map(|i| queue[i % QUEUE]));
-                    head = tail;
-                }
+        let mut next = Some(ROOT);
+        while let Some(at) = next {
+            let pair = &self.pairs[at as usize];
+            stack.make_room(2);
+            // The first child comes next, in the walk as in memory.
+            for side in [1, 0] {
+                let (met, child) = (pair.boxes[side].meets(sought), pair.children[side]);
+                stack.push_if(met & !child.is_leaf(), child.0);
+                hits[count % HITS] = pair.data[side];
+                count += usize::from(met & child.is_leaf());
             }
-            let Some(late) = rest.pop() else { break };
-            queue[tail % QUEUE] = late;
-            tail += 1;
+            if count > HITS - 2 {
+                hits[..count].iter().for_each(|data| found(*data));
+                count = 0;
+            }
+            next = stack.pop();
         }
         hits[..count].iter().for_each(|data| found(*data));
     }
