@@ -3,6 +3,7 @@
 use carom_geometry::Shape;
 use carom_math::{Pose, Vec2, cross, perp};
 
+use crate::features::nearest_features;
 use crate::nearest::nearest_parts;
 use crate::parts::is_single;
 use crate::sat::beyond_end;
@@ -196,40 +197,11 @@ fn closest(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose, axis: Axis) -> Distance {
         }
     }
     // Else vertex on vertex, but where edges are nearly parallel rounding can hide the best one.
-    let mut best = vertex_on_vertex(a, b, b_in_a);
-    for owner in [Side::A, Side::B] {
-        let (own, other, pose) = match owner {
-            Side::A => (a, b, b_in_a),
-            Side::B => (b, a, a_in_b),
-        };
-        for (edge, normal) in own.normals.iter().enumerate() {
-            for (vertex, v) in other.vertices.iter().enumerate() {
-                let point = pose.point(*v);
-                let height = normal.dot(point - own.vertices[edge]);
-                if height > 0.0 && height < best.distance && beyond_end(own, edge, point).is_none()
-                {
-                    let axis = Axis {
-                        separation: height,
-                        normal: match owner {
-                            Side::A => *normal,
-                            Side::B => -b_in_a.vector(*normal),
-                        },
-                        feature: AxisFeature::Edge {
-                            owner,
-                            edge,
-                            vertex,
-                        },
-                    };
-                    best = on_edge(a, b, b_in_a, axis);
-                }
-            }
-        }
-    }
-    best
+    nearest_features(a, b, b_in_a, axis)
 }
 
 /// The way from an edge to a vertex above it.
-fn on_edge(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose, axis: Axis) -> Distance {
+pub(crate) fn on_edge(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose, axis: Axis) -> Distance {
     let step = axis.normal * axis.separation;
     let (point_a, point_b) = match axis.feature {
         AxisFeature::Edge {
@@ -249,31 +221,6 @@ fn on_edge(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose, axis: Axis) -> Distance {
         point_b,
         normal: axis.normal,
         feature: axis.feature,
-    }
-}
-
-/// The nearest two vertices.
-fn vertex_on_vertex(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose) -> Distance {
-    let mut best = (f64::INFINITY, 0, 0);
-    for (j, w) in b.vertices.iter().enumerate() {
-        let w = b_in_a.point(*w);
-        for (i, v) in a.vertices.iter().enumerate() {
-            let square = (w - *v).length_squared();
-            if square < best.0 {
-                best = (square, i, j);
-            }
-        }
-    }
-    let (_, i, j) = best;
-    let (point_a, point_b) = (a.vertices[i], b_in_a.point(b.vertices[j]));
-    let way = point_b - point_a;
-    let length = way.length();
-    Distance {
-        distance: length,
-        point_a,
-        point_b,
-        normal: way / length,
-        feature: AxisFeature::Vertices { a: i, b: j },
     }
 }
 

@@ -33,6 +33,7 @@
 mod cast;
 mod contacts;
 mod distance;
+mod features;
 mod hull;
 mod manifold;
 mod motion;
