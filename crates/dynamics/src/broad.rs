@@ -204,13 +204,52 @@ fn swept_box(collider: &Collider, motion: &Motion, time: SimTime, h: f64) -> Aab
         // On a body that never moves.
         return boxed(time);
     }
-    let turn = (motion.turn(end - motion.start) - motion.turn(time - motion.start)).abs();
+    // At most, there and back: a spin that reverses turns more than is left at the end.
+    let turn = h * motion.spin_at(time).abs().max(motion.spin_at(end).abs());
     let bulge = motion.acceleration.length() * h * h * 0.125;
-    // A point at distance r leaves the chord of its arc by r (1 − cos(turn/2)) ≤ r turn²/8.
+    // A point at distance r leaves its chord by r (ω² + |α|) h²/8 at most, and is never 2 r from it.
     let reach = collider.solid.reach_about(Vec2::ZERO);
-    let arc = reach * (0.125 * turn * turn).min(2.0);
+    let wound = motion.angular_acceleration.abs() * h * h;
+    let arc = reach * (0.125 * (turn * turn + wound)).min(2.0);
     // Never less than a sub-step of rounding: a body at rest has a box with an inside.
     boxed(time)
         .union(boxed(end))
         .grown(bulge + arc + 1e-9 * reach)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Material;
+    use carom_geometry::{ConvexPolygon, Shape};
+    use std::sync::Arc;
+
+    #[test]
+    fn a_turn_that_reverses_is_in_the_box() {
+        let plank = Arc::new(Shape::from(
+            ConvexPolygon::rectangle(4.0, 0.5).expect("a plank"),
+        ));
+        let collider = Collider {
+            body: 0,
+            drawn: Arc::clone(&plank),
+            solid: Arc::clone(&plank),
+            material: Material::default(),
+            node: None,
+            fat: Aabb::EMPTY,
+        };
+        // Half a radian there and back: at both ends of the second nothing has turned.
+        let motion = Motion {
+            spin: 2.0,
+            angular_acceleration: -4.0,
+            ..Motion::resting(Vec2::ZERO)
+        };
+        let bounds = swept_box(&collider, &motion, SimTime::ZERO, 1.0);
+        for part in 0..=100 {
+            let there = motion.pose_at(SimTime::from_secs(0.01 * f64::from(part)));
+            assert!(
+                bounds.contains(plank.aabb(there)),
+                "after {part} of 100 parts"
+            );
+        }
+    }
 }
