@@ -246,7 +246,9 @@ impl WayOut<'_> {
                 return;
             }
             let pair = Pair::new(&part_a, &part_b, gone);
-            let tight = set.exits.iter().filter(|exit| height(exit).abs() <= slack);
+            // A side that B is beyond already does not hold it now.
+            let held = set.exits.iter().filter(|exit| exit.depth > 0.0);
+            let tight = held.filter(|exit| height(exit).abs() <= slack);
             let open = tight.filter(|exit| {
                 let allows = |(owner, face)| pair.allows(owner, face);
                 exit.face.is_none_or(allows)
