@@ -160,6 +160,12 @@ pub enum EngineError {
         /// The names that exist.
         known: String,
     },
+    /// The engine does not say where its time goes.
+    #[error("{engine} tells no stages of a step")]
+    NoStages {
+        /// Who.
+        engine: String,
+    },
     /// The job's time ran out before a step was measured.
     #[error(
         "{engine} was stopped after {steps} steps, the first of {ms_first:.0} ms: none could be measured"

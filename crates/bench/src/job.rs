@@ -2,10 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::callgrind::Instructions;
 use crate::cases::{CASES, Trial};
 use crate::engine::{EngineError, Mode};
 use crate::engines::EngineName;
-use crate::speed::{SpeedJob, SpeedReading};
+use crate::speed::{SpeedJob, SpeedReading, StageReading};
 
 /// What a process is asked to do.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -15,6 +16,8 @@ pub enum Job {
     Speed(SpeedJob),
     /// Step an engine through a scene with no clock and no judge, for [`count_instructions`](crate::count_instructions).
     Bare(SpeedJob),
+    /// Ask an engine where the time of its steps goes.
+    Profile(SpeedJob),
     /// Measure an engine's error in a case.
     Accuracy(Point),
 }
@@ -24,7 +27,7 @@ impl Job {
     #[must_use]
     pub const fn engine(&self) -> EngineName {
         match self {
-            Self::Speed(job) | Self::Bare(job) => job.engine,
+            Self::Speed(job) | Self::Bare(job) | Self::Profile(job) => job.engine,
             Self::Accuracy(point) => point.engine,
         }
     }
@@ -33,7 +36,7 @@ impl Job {
     #[must_use]
     pub const fn mode(&self) -> Mode {
         match self {
-            Self::Speed(job) | Self::Bare(job) => job.mode,
+            Self::Speed(job) | Self::Bare(job) | Self::Profile(job) => job.mode,
             Self::Accuracy(point) => point.mode,
         }
     }
@@ -42,7 +45,7 @@ impl Job {
     #[must_use]
     pub const fn threads(&self) -> u32 {
         match self {
-            Self::Speed(job) | Self::Bare(job) => job.threads,
+            Self::Speed(job) | Self::Bare(job) | Self::Profile(job) => job.threads,
             Self::Accuracy(_) => 1,
         }
     }
@@ -80,6 +83,10 @@ pub enum Reading {
         /// Steps that were counted.
         measured_steps: u32,
     },
+    /// Of a bare job, by [`count_instructions`](crate::count_instructions).
+    Instructions(Instructions),
+    /// Of a profile job.
+    Profile(StageReading),
     /// Of an accuracy job.
     Accuracy {
         /// A number for each of the case's metrics that the run has one for, in the order of the case; NaN or infinite
@@ -106,6 +113,7 @@ pub fn run(job: &Job) -> Reading {
     let answer = match job {
         Job::Speed(job) => crate::speed::run(job).map(Reading::Speed),
         Job::Bare(job) => crate::speed::run_bare(job),
+        Job::Profile(job) => crate::speed::run_profile(job).map(Reading::Profile),
         Job::Accuracy(point) => accuracy(point),
     };
     answer.unwrap_or_else(|error| Reading::Failed {

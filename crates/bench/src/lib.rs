@@ -25,4 +25,4 @@ pub use engine::{Body, Counters, Engine, EngineError, Mode, Setup, State};
 pub use engines::{EngineName, UnknownEngine, built, open};
 pub use job::{Job, Point, Reading, run};
 pub use quality::{Quality, Snapshot, Unrest, judge};
-pub use speed::{Limits, SpeedJob, SpeedReading};
+pub use speed::{Limits, SpeedJob, SpeedReading, StageReading};

@@ -79,8 +79,26 @@ pub struct SpeedReading {
     pub counters: Counters,
     /// Largest resident memory up to the last measured step, in MiB.
     pub peak_mib: Option<f64>,
+    /// Largest resident memory before the scene was built, in MiB: the process's own.
+    #[serde(default)]
+    pub own_mib: Option<f64>,
     /// As the engine was set.
     pub settings: String,
+}
+
+/// Where the time of a step goes, as the engine's own clock tells it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct StageReading {
+    /// Steps before the measured ones.
+    pub warm_up_steps: u32,
+    /// Steps that were measured.
+    pub measured_steps: u32,
+    /// Whether the CPU time ran out before the steps were made.
+    pub cut: bool,
+    /// Mean over the measured steps, in ms, by the laboratory's clock.
+    pub ms_step: f64,
+    /// Name and mean over the measured steps, in ms; disjoint parts of a step.
+    pub stages: Vec<(String, f64)>,
 }
 
 /// Times an engine on a scene.
@@ -88,6 +106,7 @@ pub struct SpeedReading {
 /// # Errors
 /// If there is no such scene, the engine refuses it, or the time ran out before a step was measured.
 pub(crate) fn run(job: &SpeedJob) -> Result<SpeedReading, EngineError> {
+    let own_mib = peak_memory();
     let mut race = Race::start(job)?;
     let ms_first = race.warm_up();
     let before = race.snapshot();
@@ -119,6 +138,7 @@ pub(crate) fn run(job: &SpeedJob) -> Result<SpeedReading, EngineError> {
         drift: before.drift(&after, &scene),
         counters,
         peak_mib,
+        own_mib,
         settings,
     })
 }
@@ -134,6 +154,47 @@ pub(crate) fn run_bare(job: &SpeedJob) -> Result<Reading, EngineError> {
     Ok(Reading::Bare {
         warm_up_steps: race.warmed,
         measured_steps: race.measured,
+    })
+}
+
+/// The mean step of a job, stage by stage.
+///
+/// # Errors
+/// If there is no such scene, the engine refuses it or tells no stages, or the time ran out before a step was measured.
+pub(crate) fn run_profile(job: &SpeedJob) -> Result<StageReading, EngineError> {
+    let mut race = Race::start(job)?;
+    // From here on the engine looks at its clock.
+    if race.engine.profile().is_none() {
+        return Err(EngineError::NoStages {
+            engine: job.engine.name().to_owned(),
+        });
+    }
+    let ms_first = race.warm_up();
+    let mut sums: Vec<(String, f64)> = Vec::new();
+    let mut ms = 0.0;
+    while race.measured < race.planned[1] && !race.late(1.0) {
+        ms += measured_step(race.engine.as_mut(), race.clock, race.reads_poses);
+        race.measured += 1;
+        for (index, (name, seconds)) in race.engine.profile().into_iter().flatten().enumerate() {
+            match sums.get_mut(index) {
+                Some((_, sum)) => *sum += seconds,
+                None => sums.push((name.to_owned(), seconds)),
+            }
+        }
+    }
+    if race.measured == 0 {
+        return Err(race.out_of_time(ms_first));
+    }
+    let steps = f64::from(race.measured);
+    Ok(StageReading {
+        warm_up_steps: race.warmed,
+        measured_steps: race.measured,
+        cut: race.cut || race.measured < race.planned[1],
+        ms_step: ms / steps,
+        stages: sums
+            .into_iter()
+            .map(|(name, seconds)| (name, 1e3 * seconds / steps))
+            .collect(),
     })
 }
 

@@ -260,6 +260,25 @@ impl World {
         })
     }
 
+    /// Seconds that disjoint stages of the last step took, by a clock on the wall; what Box2D does between them is in none.
+    #[must_use]
+    pub fn stages(&self) -> [(&'static str, f64); 9] {
+        // SAFETY: the world lives and is not stepping.
+        let ms = unsafe { ffi::b2World_GetProfile(self.id) };
+        [
+            ("pairs", ms.pairs),
+            ("collide", ms.collide),
+            ("solver setup", ms.solverSetup),
+            ("constraints", ms.constraints),
+            ("transforms", ms.transforms),
+            ("refit", ms.refit),
+            ("bullets", ms.bullets),
+            ("sleep", ms.sleepIslands),
+            ("sensors", ms.sensors),
+        ]
+        .map(|(name, ms)| (name, 1e-3 * f64::from(ms)))
+    }
+
     /// Dynamic bodies awake.
     #[must_use]
     pub fn awake(&self) -> usize {

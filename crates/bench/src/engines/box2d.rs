@@ -113,6 +113,11 @@ impl Engine for Box2d {
         }
     }
 
+    /// Box2D's own clock is one on the wall.
+    fn profile(&mut self) -> Option<Vec<(&'static str, f64)>> {
+        Some(self.world.stages().to_vec())
+    }
+
     fn settings(&self) -> String {
         let s = self.world.settings();
         let lanes = if self.name == EngineName::Box2dAvx2 {

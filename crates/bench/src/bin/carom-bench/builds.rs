@@ -25,6 +25,8 @@ pub(crate) enum Build {
     Avx2,
     /// Peers on several threads.
     Parallel,
+    /// Rapier with eight lanes on several threads; Box2D needs no build of its own for that.
+    Avx2Parallel,
 }
 
 /// How much the compiler does.
@@ -65,6 +67,7 @@ impl Build {
     pub(crate) const fn of(engine: EngineName, threads: u32) -> Self {
         match engine {
             EngineName::Carom => Self::Carom,
+            EngineName::Rapier8 if threads > 1 => Self::Avx2Parallel,
             EngineName::Box2dAvx2 | EngineName::Rapier8 => Self::Avx2,
             _ if threads > 1 => Self::Parallel,
             _ => Self::Sse2,
@@ -77,13 +80,14 @@ impl Build {
             Self::Sse2 => "sse2",
             Self::Avx2 => "avx2",
             Self::Parallel => "parallel",
+            Self::Avx2Parallel => "avx2-parallel",
         }
     }
 
     /// Flags of the Rust compiler, besides the user's.
     const fn rustflags(self) -> &'static str {
         match self {
-            Self::Avx2 => "-Ctarget-cpu=x86-64-v3",
+            Self::Avx2 | Self::Avx2Parallel => "-Ctarget-cpu=x86-64-v3",
             _ => "",
         }
     }
@@ -150,7 +154,7 @@ pub(crate) fn c_compiler() -> String {
     std::env::var("CC").unwrap_or_else(|_| "cc".to_owned())
 }
 
-fn answers(program: &str, args: &[&str]) -> bool {
+pub(crate) fn answers(program: &str, args: &[&str]) -> bool {
     let mut command = Command::new(program);
     command
         .args(args)
@@ -261,7 +265,7 @@ fn cargo(build: Build, engines: &[EngineName], profile: Profile) -> Result<PathB
         target
     } else {
         let mut features: Vec<&str> = engines.iter().copied().filter_map(feature).collect();
-        if build == Build::Parallel {
+        if matches!(build, Build::Parallel | Build::Avx2Parallel) {
             features.push("rapier-parallel");
         }
         command.args(["--no-default-features", "--features", &features.join(",")]);
@@ -356,6 +360,9 @@ mod tests {
         assert_ne!(Build::of(Box2dSse2, 1), Build::of(Box2dAvx2, 1));
         assert_ne!(Build::of(Rapier, 1), Build::of(Rapier8, 1));
         assert_ne!(Build::of(Rapier, 1), Build::of(Rapier, 2));
+        assert_ne!(Build::of(Rapier, 2), Build::of(Rapier8, 2));
+        assert_ne!(Build::of(Rapier8, 1), Build::of(Rapier8, 2));
+        assert_eq!(Build::of(Box2dAvx2, 1), Build::of(Box2dAvx2, 2));
         assert_eq!(Build::of(Carom, 1), Build::of(Carom, 2));
     }
 

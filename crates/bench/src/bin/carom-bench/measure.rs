@@ -1,6 +1,6 @@
 //! From planned jobs to rows: builds, runs them in turn, keeps what is there.
 
-use carom_bench::{EngineName, Reading};
+use carom_bench::{CallgrindError, EngineName, Instructions, Job, Reading, count_instructions};
 
 use crate::builds::{Executables, Probe, Profile};
 use crate::exit::Failure;
@@ -77,8 +77,12 @@ impl Run<'_> {
                 && !skip(&store.rows, &planned)
             {
                 let limit = f64::from(self.how.limit);
-                let Some(reading) = process::run(path, &planned.job, limit, interrupt::asked)
-                else {
+                let reading = match &planned.job {
+                    Job::Bare(job) => Some(counted(count_instructions(path, job))),
+                    job => process::run(path, job, limit, interrupt::asked),
+                };
+                // Ctrl-C reaches valgrind too: what it says then is no reading.
+                let Some(reading) = reading.filter(|_| !interrupt::asked()) else {
                     break;
                 };
                 store.add(Row {
@@ -96,6 +100,15 @@ impl Run<'_> {
         settle(&mut store);
         Ok(store)
     }
+}
+
+fn counted(answer: Result<Instructions, CallgrindError>) -> Reading {
+    answer.map_or_else(
+        |error| Reading::Failed {
+            reason: error.to_string(),
+        },
+        Reading::Instructions,
+    )
 }
 
 /// Adds to the head how every engine and mode was set, as itself says.
@@ -120,7 +133,10 @@ fn settings(reading: &Reading) -> Option<&str> {
     match reading {
         Reading::Speed(reading) => Some(&reading.settings),
         Reading::Accuracy { settings, .. } => Some(settings),
-        Reading::Bare { .. } | Reading::Failed { .. } => None,
+        Reading::Bare { .. }
+        | Reading::Instructions(_)
+        | Reading::Profile(_)
+        | Reading::Failed { .. } => None,
     }
     .map(String::as_str)
     .filter(|text| !text.is_empty())

@@ -77,6 +77,32 @@ pub(crate) fn speed(speed: &Speed<'_>) -> Vec<Planned> {
     jobs
 }
 
+/// Each engine once with its defaults on each scene, as the kind of job that `job` makes.
+pub(crate) fn once(
+    scenes: &[String],
+    engines: &[EngineName],
+    limits: Limits,
+    job: fn(SpeedJob) -> Job,
+) -> Vec<Planned> {
+    let one = |scene: &String, engine: EngineName| Planned {
+        job: job(SpeedJob {
+            engine,
+            mode: engine.modes()[0],
+            threads: 1,
+            reads_poses: false,
+            scene: scene.clone(),
+            limits,
+        }),
+        repetition: 0,
+    };
+    let mut jobs = Vec::new();
+    for (turn, scene) in scenes.iter().enumerate() {
+        let engines = rotated(engines.to_vec(), turn).into_iter();
+        jobs.extend(engines.map(|engine| one(scene, engine)));
+    }
+    jobs
+}
+
 /// Numbers of bodies of the growth curves.
 pub(crate) const SIZES: [u32; 10] = [
     200, 500, 1000, 2000, 5000, 10_000, 20_000, 50_000, 100_000, 200_000,

@@ -112,7 +112,7 @@ fn number(point: &Point, metric: &Metric, reading: &Reading) -> Option<AccuracyR
             }
         }
         Reading::Failed { reason } => row.failed = Some(reason.clone()),
-        Reading::Speed(_) | Reading::Bare { .. } => return None,
+        _ => return None,
     }
     Some(row)
 }

@@ -1,17 +1,19 @@
 //! `speed`: milliseconds a step, and what they bought.
 
 mod chart;
+mod counts;
 mod growth;
 mod row;
+mod stages;
 mod table;
 
 use std::path::{Path, PathBuf};
 
-use carom_bench::{Job, Reading};
+use carom_bench::{EngineName, Job, Limits, Reading};
 use carom_render::write_file;
 use carom_scenes::plain_scenes;
 
-use crate::builds::Profile;
+use crate::builds::{self, Profile};
 use crate::exit::{End, Failure, Outcome, fail};
 use crate::files;
 use crate::flags::SpeedArgs;
@@ -19,71 +21,159 @@ use crate::interrupt;
 use crate::measure::{self, Run};
 use crate::out::say;
 use crate::plan::{self, Planned, Speed};
-use crate::store::Row;
+use crate::store::{Row, Store};
 
 pub(crate) fn run(args: &SpeedArgs) -> Outcome {
     let scenes = scenes(&args.scene)?;
-    let engines = measure::engines(&args.who);
+    let what = What::of(args);
+    if what == What::Instructions && !builds::answers("valgrind", &["--version"]) {
+        fail!("--instructions needs valgrind, which cannot be started (apt install valgrind)");
+    }
+    let mut engines = measure::engines(&args.who);
+    if what == What::Profile {
+        engines.retain(|engine| stages::tells(*engine));
+        if engines.is_empty() {
+            fail!(
+                "--profile: of these engines none tells the stages of a step; carom and Box2D do"
+            );
+        }
+    }
+    let folder = || PathBuf::from("out").join(what.name());
+    let out = args.out.clone().unwrap_or_else(folder);
     let run = Run {
-        command: if args.growth { "growth" } else { "speed" },
-        profile: Profile::Bench,
+        command: what.name(),
+        profile: if args.quick {
+            Profile::Dev
+        } else {
+            Profile::Bench
+        },
         engines: &engines,
         threads: &args.threads,
-        out: &args.out,
+        out: &out,
         how: &args.how,
     };
-    let cpu_s = args.how.limit / 3;
-    let plan = |engines: &[_]| {
-        if args.growth {
-            return plan::growth(engines, cpu_s);
-        }
-        plan::speed(&Speed {
-            scenes: &scenes,
-            engines,
-            threads: &args.threads,
-            repeat: args.repeat,
-            cpu_s,
-        })
+    let skip = match what {
+        What::Growth => growth::outgrown,
+        _ => failed_before,
     };
-    let skip = if args.growth {
-        growth::outgrown
-    } else {
-        failed_before
-    };
-    let store = run.rows(plan, skip)?;
-    let mut rows = row::of(&store.rows);
-    if args.growth {
-        growth::sort(&mut rows);
-    }
-    let name = if args.growth { "growth" } else { "speed" };
-    let csv = args.out.join(format!("{name}.csv"));
-    write_file(&csv, row::csv(&store.head, &rows)?.as_bytes())?;
-    let markdown = table::markdown(&store.head, &rows);
-    let table = args.out.join(format!("{name}.md"));
-    write_file(&table, markdown.as_bytes())?;
-    say!("{}", markdown.trim_end());
-    say!("");
-    let told: [(&str, &Path); 2] = [("rows", &csv), ("table", &table)];
-    for (what, path) in told {
-        say!("{what:<12} {}", path.display());
-    }
-    let charts = if args.growth {
-        growth::write(&args.out, &rows)?
-    } else {
-        chart::write(&args.out, &rows)?
-    };
-    for path in charts {
-        say!("chart        {}", path.display());
-    }
-    if let Some(path) = &args.how.json {
-        files::write_json(path, &row::json(store.head.get("machine"), &rows))?;
-        say!("json         {}", PathBuf::from(path).display());
-    }
+    let store = run.rows(|engines| plan(args, what, &scenes, engines), skip)?;
+    write(args, what, &out, &store)?;
     Ok(if interrupt::asked() {
         End::Interrupted
     } else {
         End::Done
     })
+}
+
+/// What is measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum What {
+    Times,
+    Growth,
+    Instructions,
+    Profile,
+}
+
+impl What {
+    const fn of(args: &SpeedArgs) -> Self {
+        match args {
+            SpeedArgs { growth: true, .. } => Self::Growth,
+            SpeedArgs {
+                instructions: true, ..
+            } => Self::Instructions,
+            SpeedArgs { profile: true, .. } => Self::Profile,
+            _ => Self::Times,
+        }
+    }
+
+    /// Of the files, and of the folder.
+    const fn name(self) -> &'static str {
+        match self {
+            Self::Times => "speed",
+            Self::Growth => "growth",
+            Self::Instructions => "instructions",
+            Self::Profile => "profile",
+        }
+    }
+}
+
+fn plan(args: &SpeedArgs, what: What, scenes: &[String], engines: &[EngineName]) -> Vec<Planned> {
+    let cpu_s = (args.how.limit / 3).max(1);
+    let in_time = Limits {
+        cpu_s: Some(cpu_s),
+        ..Limits::default()
+    };
+    match what {
+        What::Times => plan::speed(&Speed {
+            scenes,
+            engines,
+            threads: &args.threads,
+            repeat: args.repeat,
+            cpu_s,
+        }),
+        What::Growth => plan::growth(engines, cpu_s),
+        What::Instructions => {
+            let few = Limits {
+                warm_up_steps: Some(args.warm_up),
+                measured_steps: Some(args.steps),
+                ..in_time
+            };
+            plan::once(scenes, engines, few, Job::Bare)
+        }
+        What::Profile => plan::once(scenes, engines, in_time, Job::Profile),
+    }
+}
+
+/// Rows, table, charts.
+fn write(args: &SpeedArgs, what: What, out: &Path, store: &Store) -> Result<(), Failure> {
+    let (head, json) = (&store.head, args.how.json.as_deref());
+    let (csv, markdown, charts) = match what {
+        What::Instructions => {
+            let rows = counts::of(&store.rows);
+            json.map_or(Ok(()), |path| files::write_json(path, &rows))?;
+            (
+                row::csv(head, &rows)?,
+                counts::markdown(head, &rows),
+                Vec::new(),
+            )
+        }
+        What::Profile => {
+            let rows = stages::of(&store.rows);
+            json.map_or(Ok(()), |path| files::write_json(path, &rows))?;
+            (
+                row::csv(head, &rows)?,
+                stages::markdown(head, &rows),
+                Vec::new(),
+            )
+        }
+        What::Times | What::Growth => {
+            let mut rows = row::of(&store.rows);
+            let charts = if what == What::Growth {
+                growth::sort(&mut rows);
+                growth::write(out, &rows)?
+            } else {
+                chart::write(out, &rows)?
+            };
+            let document = row::json(head.get("machine"), &rows);
+            json.map_or(Ok(()), |path| files::write_json(path, &document))?;
+            (row::csv(head, &rows)?, table::markdown(head, &rows), charts)
+        }
+    };
+    let rows = out.join(what.name()).with_extension("csv");
+    write_file(&rows, csv.as_bytes())?;
+    let table = rows.with_extension("md");
+    write_file(&table, markdown.as_bytes())?;
+    say!("{}", markdown.trim_end());
+    say!("");
+    say!("{:<12} {}", "rows", rows.display());
+    say!("{:<12} {}", "table", table.display());
+    for path in charts {
+        say!("{:<12} {}", "chart", path.display());
+    }
+    if let Some(path) = json {
+        say!("{:<12} {}", "json", path.display());
+    }
+    Ok(())
 }
 
 /// Whether the same job failed in an earlier repetition: it would fail again, after as long a wait.
@@ -121,7 +211,7 @@ fn scenes(asked: &[String]) -> Result<Vec<String>, Failure> {
 fn speed_job(job: &Job) -> Option<&carom_bench::SpeedJob> {
     match job {
         Job::Speed(job) => Some(job),
-        Job::Bare(_) | Job::Accuracy(_) => None,
+        Job::Bare(_) | Job::Profile(_) | Job::Accuracy(_) => None,
     }
 }
 

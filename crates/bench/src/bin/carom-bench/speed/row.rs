@@ -41,6 +41,8 @@ pub(crate) struct SpeedRow {
     pub(crate) escaped: Option<usize>,
     pub(crate) non_finite: Option<usize>,
     pub(crate) peak_mib: Option<f64>,
+    /// Peak memory beyond the process's own, over the dynamic bodies.
+    pub(crate) kib_per_body: Option<f64>,
     pub(crate) repetitions: u32,
     /// Whether time ran out before all steps were made.
     pub(crate) cut: bool,
@@ -82,7 +84,7 @@ fn row(job: &SpeedJob, readings: &[&Reading]) -> SpeedRow {
         match reading {
             Reading::Speed(reading) => good.push(reading),
             Reading::Failed { reason } => failed = Some(reason.clone()),
-            Reading::Bare { .. } | Reading::Accuracy { .. } => {
+            _ => {
                 failed = Some("answered another question".to_owned());
             }
         }
@@ -114,10 +116,21 @@ fn row(job: &SpeedJob, readings: &[&Reading]) -> SpeedRow {
         escaped: good.iter().map(|reading| reading.after.escaped).max(),
         non_finite: good.iter().map(|reading| reading.after.non_finite).max(),
         peak_mib: median(good.iter().filter_map(|reading| reading.peak_mib).collect()),
+        kib_per_body: median(
+            good.iter()
+                .filter_map(|reading| kib_per_body(reading))
+                .collect(),
+        ),
         repetitions: u32::try_from(good.len()).unwrap_or(u32::MAX),
         cut: good.iter().any(|reading| reading.cut),
         failed,
     }
+}
+
+#[expect(clippy::cast_precision_loss, reason = "a count of bodies")]
+fn kib_per_body(reading: &SpeedReading) -> Option<f64> {
+    let bodies = Some(reading.bodies).filter(|count| *count > 0)?;
+    Some(1024.0 * (reading.peak_mib? - reading.own_mib?) / bodies as f64)
 }
 
 /// Time of the fastest peer in the same scene on as many threads that reads as much.
@@ -148,7 +161,7 @@ pub(crate) fn median(mut numbers: Vec<f64>) -> Option<f64> {
 }
 
 /// Head and rows as CSV.
-pub(crate) fn csv(head: &Head, rows: &[SpeedRow]) -> Result<String, Failure> {
+pub(crate) fn csv<R: Serialize>(head: &Head, rows: &[R]) -> Result<String, Failure> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     for row in rows {
         writer.serialize(row)?;
@@ -230,6 +243,7 @@ pub(crate) mod tests {
                 touching: 9,
             },
             peak_mib: None,
+            own_mib: None,
             settings: "s".to_owned(),
         })
     }
@@ -275,6 +289,18 @@ pub(crate) mod tests {
         assert_eq!(rows[0].engine, EngineName::Carom);
         assert_eq!((rows[0].ms_median, rows[0].repetitions), (Some(6.0), 3));
         assert_eq!(rows[0].energy_ratio, Some(1.25));
+    }
+
+    #[test]
+    fn memory_is_shared_among_the_bodies() {
+        let Reading::Speed(mut big) = reading(1.0) else {
+            panic!("a reading");
+        };
+        // 5 bodies in 10 MiB beyond the 2 MiB of the process.
+        (big.peak_mib, big.own_mib) = (Some(12.0), Some(2.0));
+        let rows = of(&[measured(EngineName::Rapier, 0, Reading::Speed(big))]);
+        assert_eq!(rows[0].kib_per_body, Some(2048.0));
+        assert_eq!(some()[0].kib_per_body, None);
     }
 
     #[test]

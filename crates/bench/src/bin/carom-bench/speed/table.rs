@@ -13,6 +13,7 @@ pub(crate) fn markdown(head: &Head, rows: &[SpeedRow]) -> String {
     text += "\nms: CPU time of a step on one thread, wall time on several; median and 99th percentile over the measured steps, \
              median of the repetitions. Ratio: to the fastest peer with as many threads that reads as much. Energy: after the measured \
              steps over before them. Overlap (m), rms acceleration (m/s²) and drift (m): judged by the same code for all. \
+             MiB: peak memory of the process; KiB a body: beyond what it took before the scene, over the dynamic bodies. \
              – was not measured; cut: time ran out before all steps were made.\n";
     for scene in row::scenes(rows) {
         let of_scene: Vec<&SpeedRow> = rows.iter().filter(|row| row.scene == scene).collect();
@@ -55,6 +56,7 @@ fn lines(text: &mut String, rows: &[&SpeedRow]) {
         "escaped",
         "not finite",
         "MiB",
+        "KiB a body",
         "first step ms",
     ];
     let _ = write!(
@@ -97,6 +99,7 @@ fn lines(text: &mut String, rows: &[&SpeedRow]) {
             count(row.non_finite),
             row.peak_mib
                 .map_or_else(|| "–".to_owned(), |mib| format!("{mib:.0}")),
+            text::number(row.kib_per_body),
             text::number(row.ms_first),
         ];
         let _ = writeln!(text, "| {} |", cells.join(" | "));
