@@ -56,3 +56,25 @@ fn an_unknown_scene_is_answered_with_those_that_exist() {
     };
     assert!(reason.starts_with("z: unknown scene; there are a_large_pyramid, "));
 }
+
+#[test]
+fn a_profile_has_the_stages_of_the_measured_steps() {
+    let limits = Limits {
+        warm_up_steps: Some(1),
+        measured_steps: Some(2),
+        cpu_s: None,
+    };
+    let Job::Speed(of_speed) = job("i_mostly_empty", limits) else {
+        panic!("a speed job");
+    };
+    let Reading::Profile(reading) = run(&Job::Profile(of_speed)) else {
+        panic!("carom tells its stages");
+    };
+    assert_eq!((reading.warm_up_steps, reading.measured_steps), (1, 2));
+    let ms = |stage: &str| reading.stages.iter().find(|(name, _)| name == stage);
+    // 10,000 bodies fly and are looked at: neither takes no time at all.
+    for stage in ["pairs", "flight"] {
+        assert!(ms(stage).is_some_and(|(_, ms)| *ms > 0.0), "{reading:?}");
+    }
+    assert!(reading.stages.iter().all(|(_, ms)| *ms >= 0.0));
+}
