@@ -77,9 +77,11 @@ impl Engine for Carom {
 
     fn body(&self, body: usize) -> Body {
         let body = self.world.body(self.ids[body]).expect("never removed");
+        // Infinite where nothing can move it.
+        let given = |x: f64| if x.is_finite() { x } else { 0.0 };
         Body {
-            mass: body.mass(),
-            inertia: body.inertia(),
+            mass: given(body.mass()),
+            inertia: given(body.inertia()),
         }
     }
 

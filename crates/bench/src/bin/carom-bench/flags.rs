@@ -36,7 +36,9 @@ pub(crate) enum Command {
     Written to DIR: accuracy.csv, accuracy.md, a chart a case and overview as PNG and SVG (light and dark), rows.jsonl.\n\
     Every job is a process of its own; its reading is in rows.jsonl as soon as it is there. Ctrl-C keeps what is\n\
     measured, --resume adds the rest. The full run has steps of 1/30 to 1/3840 s and is built with fat LTO; Box2D needs\n\
-    a C compiler, Chipmunk its library (apt install libchipmunk-dev): what is missing is left out, with a line.")]
+    a C compiler, Chipmunk its library (apt install libchipmunk-dev): what is missing is left out, with a line.\n\
+    Box2D and Rapier answer with eight lanes as with four: the wide builds run only if they are named. A curve whose\n\
+    job was stopped at --limit is not followed to more steps.")]
 pub(crate) struct AccuracyArgs {
     /// A few rates of the cheaper cases, built as for development: under a minute without peers
     #[arg(long)]

@@ -1,7 +1,9 @@
 //! Which jobs there are, and in which order: engines take turns, so that a slow minute of the machine hits all alike.
 
-use carom_bench::{Case, EngineName, Job, Limits, Mode, Point, SpeedJob, points};
+use carom_bench::{Case, EngineName, Job, Limits, Mode, Point, Reading, SpeedJob, points};
 use carom_scenes::GrowthKind;
+
+use crate::store::Row;
 
 /// A job and the repetition that it belongs to, from 0.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -35,6 +37,22 @@ pub(crate) fn accuracy(cases: &[&Case], engines: &[EngineName], quick: bool) -> 
         }
     }
     jobs
+}
+
+/// Whether a run with fewer steps on the same curve was stopped for the time it took.
+pub(crate) fn hopeless(rows: &[Row], planned: &Planned) -> bool {
+    let Job::Accuracy(point) = &planned.job else {
+        return false;
+    };
+    rows.iter().any(|row| match (&row.job, &row.reading) {
+        (Job::Accuracy(found), Reading::Failed { reason }) => {
+            let curve = |p: &Point| (p.engine, p.mode, p.case.clone(), p.substeps.is_some());
+            reason.starts_with("stopped after")
+                && curve(found) == curve(point)
+                && (found.hz, found.substeps) < (point.hz, point.substeps)
+        }
+        _ => false,
+    })
 }
 
 /// How scenes are measured.
@@ -228,6 +246,38 @@ mod tests {
             assert!(!jobs[..i].contains(job), "{job:?}");
         }
         assert_eq!(jobs.iter().filter(|job| job.threads == 2).count(), 2 * 3);
+    }
+
+    #[test]
+    fn what_was_too_slow_is_not_tried_with_more_steps() {
+        let point = |hz, substeps| Point {
+            engine: Carom,
+            mode: Mode::Hybrid,
+            case: "01_projectile".to_owned(),
+            hz,
+            substeps,
+        };
+        let planned = |hz, substeps| Planned {
+            job: Job::Accuracy(point(hz, substeps)),
+            repetition: 0,
+        };
+        let stopped = |reason: &str| {
+            [Row {
+                job: Job::Accuracy(point(240, None)),
+                repetition: 0,
+                reading: Reading::Failed {
+                    reason: reason.to_owned(),
+                },
+            }]
+        };
+        let rows = stopped("stopped after 30 s");
+        assert!(hopeless(&rows, &planned(480, None)));
+        assert!(!hopeless(&rows, &planned(120, None)));
+        assert!(!hopeless(&rows, &planned(60, Some(64))));
+        assert!(!hopeless(
+            &stopped("crashed: signal 6"),
+            &planned(480, None)
+        ));
     }
 
     #[test]
