@@ -24,6 +24,9 @@ const STRIKES: usize = 64;
 /// Change of velocity in a sweep, as a fraction of the struck speed, at which it has converged.
 const CONVERGED: f64 = 1e-12;
 
+/// The same as a fraction of the slowest rest speed among the pairs: what is left then is rest, and the solver's.
+const SETTLED: f64 = 0.01;
+
 /// A contact in a shock.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Strike {
@@ -69,6 +72,8 @@ pub(crate) struct Shock {
     pub(crate) bodies: Vec<Shaken>,
     /// Pairs whose contacts are those of this instant.
     looked: Vec<u32>,
+    /// Slowest rest speed of the pairs, in m/s.
+    rest: f64,
 }
 
 impl Shock {
@@ -79,6 +84,7 @@ impl Shock {
             strikes: Vec::new(),
             bodies: Vec::new(),
             looked: Vec::new(),
+            rest: f64::INFINITY,
         }
     }
 
@@ -92,6 +98,7 @@ impl Shock {
         contact: ImpactContact,
         rest: f64,
     ) {
+        self.rest = self.rest.min(rest);
         let ends = (self.place(bodies, i), self.place(bodies, j));
         let (a, b) = (&self.bodies[ends.0].before, &self.bodies[ends.1].before);
         let response = Response::of(a, b, &contact);
@@ -227,13 +234,17 @@ impl Shock {
             .iter()
             .map(|strike| strike.speed)
             .fold(0.0, f64::max);
-        for _ in 0..SWEEPS {
+        let settled = (CONVERGED * struck).max(SETTLED * self.rest);
+        for sweep in 0..SWEEPS {
             let mut change = 0.0_f64;
             for k in 0..self.strikes.len() {
                 change = change.max(self.sweep(k));
             }
-            let grew = self.spread(bodies, colliders, pairs, narrow);
-            if !grew && change <= CONVERGED * struck {
+            let converged = change <= settled;
+            // Who is reached is asked at every doubling, and at last: asking costs more than a sweep.
+            let due = converged || (sweep + 1_u32).is_power_of_two();
+            let grew = due && self.spread(bodies, colliders, pairs, narrow);
+            if converged && !grew {
                 break;
             }
         }
