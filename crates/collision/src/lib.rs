@@ -58,7 +58,9 @@ pub use motion::Motion;
 pub use overlap::overlap_area;
 pub use sat::{Axis, AxisFeature, Side, minimum_push, separating_axis};
 pub use shape_tree::{ShapeTree, roundable};
-pub use toi::{Impact, TimeOfImpact, earlier, time_of_impact, time_of_impact_of_parts};
+pub use toi::{
+    Impact, ImpactFeature, TimeOfImpact, earlier, time_of_impact, time_of_impact_of_parts,
+};
 pub use tree::{BoxTree, NodeId};
 pub use vertex_edge::{VertexEdge, VertexEdgeKind, vertex_edge_contacts};
 pub use way_out::shape_push;

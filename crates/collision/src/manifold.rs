@@ -30,6 +30,12 @@ impl FeatureId {
         Self(half(vertex_a) << 16 | half(vertex_b))
     }
 
+    /// The vertex of A and the vertex of B.
+    #[must_use]
+    pub const fn vertices(self) -> (usize, usize) {
+        ((self.0 >> 16) as usize, (self.0 & 0xffff) as usize)
+    }
+
     /// The same contact, for the shapes in the other order.
     #[must_use]
     pub const fn mirrored(self) -> Self {

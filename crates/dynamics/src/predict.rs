@@ -1,14 +1,17 @@
 //! What comes next for a pair: the instant at which it strikes, within the present sub-step.
 
 use arrayvec::ArrayVec;
-use carom_collision::{Impact, TimeOfImpact, earlier, part, part_count, time_of_impact_of_parts};
+use carom_collision::{
+    AxisFeature, Impact, ImpactFeature, TimeOfImpact, earlier, part, part_count,
+    time_of_impact_of_parts,
+};
 use carom_math::{SimTime, Vec2};
 
 use crate::agenda::{Agenda, Entry};
 use crate::bodies::Bodies;
 use crate::body::Collider;
 use crate::narrow::{Narrow, TOUCH, opening_speed, rest_speed};
-use crate::pairs::{Pair, Pairs};
+use crate::pairs::{Pair, PairPoint, Pairs};
 use crate::{BodyKind, StepReport};
 
 /// What the impacts of one pair may spend in one sub-step before the solver takes the rest: bodies that
@@ -80,6 +83,7 @@ pub(crate) fn predict(
                         points: ArrayVec::from_iter(
                             [point.position + both_move(a, b, time) * wait],
                         ),
+                        features: ArrayVec::from_iter([strikes_with(contact.parts, point)]),
                         gap_rate: rate,
                     };
                     first = earlier(first, TimeOfImpact::Hit(strikes));
@@ -121,6 +125,15 @@ pub(crate) fn predict(
         normal: impact.normal,
         points: impact.points,
     });
+}
+
+/// What touches at a contact point: the corners that the contact is named after.
+fn strikes_with(parts: (u32, u32), point: &PairPoint) -> ImpactFeature {
+    let (a, b) = point.feature.vertices();
+    ImpactFeature {
+        parts,
+        feature: AxisFeature::Vertices { a, b },
+    }
 }
 
 /// How fast a contact point wanders: with the two bodies' mean.

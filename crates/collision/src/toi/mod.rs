@@ -9,13 +9,14 @@
 mod approach;
 mod parts;
 mod search;
+mod touching;
 
 use arrayvec::ArrayVec;
 use carom_geometry::Shape;
 use carom_math::{Vec2, cross, perp};
 
 use crate::parts::is_single;
-use crate::{Hull, Motion, part};
+use crate::{AxisFeature, Hull, Motion, part};
 use approach::Approach;
 use parts::first_of_parts;
 
@@ -48,11 +49,45 @@ pub struct Impact {
     pub normal: Vec2,
     /// Where they touch, in the world, in m: one point, or both ends of a common stretch.
     pub points: ArrayVec<Vec2, 2>,
+    /// What touches at each of the points, in their order.
+    pub features: ArrayVec<ImpactFeature, 2>,
     /// Rate of the gap, in m/s; negative when approaching. The worse end of a common stretch.
     pub gap_rate: f64,
 }
 
+/// What of two shapes touches at a point of an impact.
+///
+/// A corner that lands on an edge is [`AxisFeature::Edge`], owned by the edge's shape. Of two edges that
+/// land flat on each other each end of the common stretch is the corner of the one on the edge of the
+/// other. Corners that meet, and what touches the rim of a disc, are [`AxisFeature::Vertices`], unless
+/// the other shape's edge touches the disc; the vertex of a disc is its centre, number 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ImpactFeature {
+    /// Indices of the convex parts, of A and of B: see [`part`]; 0 for shapes that have one.
+    pub parts: (u32, u32),
+    /// The edge and the vertex, or the two vertices, by their indices in these parts.
+    pub feature: AxisFeature,
+}
+
+impl ImpactFeature {
+    /// Of shapes that have one part each.
+    const fn of(feature: AxisFeature) -> Self {
+        Self {
+            parts: (0, 0),
+            feature,
+        }
+    }
+}
+
 impl Impact {
+    /// The same impact, of parts `a` and `b` of their shapes.
+    fn of_parts(mut self, parts: (u32, u32)) -> Self {
+        for feature in &mut self.features {
+            feature.parts = parts;
+        }
+        self
+    }
+
     /// The point of contact, in the world, in m: the middle of a common stretch.
     #[must_use]
     pub fn point(&self) -> Vec2 {
@@ -100,7 +135,8 @@ pub fn time_of_impact(
     first_of_parts(a, motion_a, b, motion_b, horizon)
 }
 
-/// [`time_of_impact`] of two convex parts.
+/// [`time_of_impact`] of two convex parts, which count as part 0 of their shapes in
+/// [`Impact::features`].
 #[must_use]
 pub fn time_of_impact_of_parts(
     a: &Hull<'_>,
@@ -161,10 +197,14 @@ impl Impact {
             return None;
         }
         let tangent = perp(self.normal);
-        let mut points: ArrayVec<Vec2, 4> =
-            self.points.iter().chain(&other.points).copied().collect();
-        points.sort_by(|p, q| tangent.dot(*p).total_cmp(&tangent.dot(*q)));
-        let (low, high) = (points[0], points[points.len() - 1]);
+        let touching = |impact: &Self| {
+            let all = impact.points.iter().zip(&impact.features);
+            all.map(|(p, f)| (*p, *f)).collect::<ArrayVec<_, 2>>()
+        };
+        let mut points: ArrayVec<(Vec2, ImpactFeature), 4> =
+            touching(self).into_iter().chain(touching(other)).collect();
+        points.sort_by(|p, q| tangent.dot(p.0).total_cmp(&tangent.dot(q.0)));
+        let ((low, at_low), (high, at_high)) = (points[0], points[points.len() - 1]);
         let stretch = tangent.dot(high - low);
         let lift = (self.time - other.time).abs() * self.gap_rate.abs().max(other.gap_rate.abs());
         if lift > FLUSH * stretch || stretch <= 0.0 {
@@ -174,6 +214,7 @@ impl Impact {
             time: self.time.min(other.time),
             normal: self.normal,
             points: ArrayVec::from([low, high]),
+            features: ArrayVec::from([at_low, at_high]),
             gap_rate: self.gap_rate.min(other.gap_rate),
         })
     }

@@ -4,7 +4,8 @@ use arrayvec::ArrayVec;
 use carom_math::Vec2;
 
 use super::approach::{Approach, Axis, Gap, Instant};
-use super::{Impact, TimeOfImpact};
+use super::touching::{End, Stretch};
+use super::{Impact, ImpactFeature, TimeOfImpact};
 
 /// Axes looked at before the search gives up. Of the 64 open reference cases two need more than 80,
 /// none needs 200.
@@ -185,7 +186,7 @@ impl Search<'_> {
             return TimeOfImpact::Clear;
         }
         let normal = approach.normal(axis, &at);
-        let mut stretch: Option<(f64, f64)> = None;
+        let mut stretch: Option<Stretch> = None;
         let mut rate = f64::INFINITY;
         let tangent = carom_math::perp(normal);
         approach.each_gap(axis, &at, |gap| {
@@ -193,37 +194,47 @@ impl Search<'_> {
                 return;
             }
             rate = rate.min(gap.rate);
-            let s = tangent.dot(self.place(axis, &gap, &at));
-            let (low, high) = stretch.unwrap_or((s, s));
-            stretch = Some((low.min(s), high.max(s)));
+            let end = End {
+                along: tangent.dot(self.place(axis, &gap, &at)),
+                vertices: gap.vertices,
+            };
+            stretch = Some(stretch.map_or(Stretch::at(end), |known| known.and(end)));
         });
         let anchor = self.place(axis, &least, &at);
-        let (mut low, mut high) = stretch.unwrap_or((tangent.dot(anchor), tangent.dot(anchor)));
-        if let Axis::Edge { owner, edge } = axis
-            && !approach.hulls[owner].is_half_plane()
-        {
-            let (from, to) = approach.hulls[owner].edge(edge);
-            let seen = |p: Vec2| {
-                let local = at.rotation[owner] * p;
-                tangent.dot(if owner == 0 { local } else { at.d + local })
-            };
-            let (e0, e1) = (seen(from).min(seen(to)), seen(from).max(seen(to)));
-            (low, high) = (low.clamp(e0, e1), high.clamp(e0, e1));
-        }
-        let centre = approach.centre(0, tau);
         let here = tangent.dot(anchor);
+        let stretch = stretch.unwrap_or(Stretch::at(End {
+            along: here,
+            vertices: least.vertices,
+        }));
+        let ([low, high], [at_low, at_high]) = match axis {
+            Axis::Edge { owner, edge } if !approach.hulls[owner].is_half_plane() => {
+                let (from, to) = approach.hulls[owner].edge(edge);
+                let seen = |p: Vec2| {
+                    let local = at.rotation[owner] * p;
+                    tangent.dot(if owner == 0 { local } else { at.d + local })
+                };
+                stretch.on_face(approach, (owner, edge), (seen(from), seen(to)), near)
+            }
+            _ => (stretch.ends.map(|end| end.along), stretch.features(axis)),
+        };
+        let centre = approach.centre(0, tau);
         let mut points = ArrayVec::new();
+        let mut features = ArrayVec::new();
         if high - low > near {
             points.push(centre + anchor + tangent * (low - here));
             points.push(centre + anchor + tangent * (high - here));
+            features.push(ImpactFeature::of(at_low));
+            features.push(ImpactFeature::of(at_high));
         } else {
             // Clamped to the face: of two edges that share an end the far vertex may be the lowest.
             points.push(centre + anchor + tangent * (0.5 * (low + high) - here));
+            features.push(ImpactFeature::of(at_low));
         }
         let impact = Impact {
             time: tau,
             normal,
             points,
+            features,
             gap_rate: rate,
         };
         if start {

@@ -146,9 +146,12 @@ proptest! {
         let horizon = 1.0;
         let whole = time_of_impact(&a, &motion_a, &b, &motion_b, horizon);
         let mut all = TimeOfImpact::Clear;
-        for x in hulls(&a) {
-            for y in hulls(&b) {
-                let next = time_of_impact_of_parts(&x, &motion_a, &y, &motion_b, horizon);
+        for (i, x) in (0..).zip(hulls(&a)) {
+            for (j, y) in (0..).zip(hulls(&b)) {
+                let mut next = time_of_impact_of_parts(&x, &motion_a, &y, &motion_b, horizon);
+                if let TimeOfImpact::Hit(impact) | TimeOfImpact::Touching(impact) = &mut next {
+                    impact.features.iter_mut().for_each(|touch| touch.parts = (i, j));
+                }
                 all = earlier(all, next);
             }
         }

@@ -7,6 +7,7 @@ mod compounds;
 mod concave;
 mod distance;
 mod documents;
+mod impacts;
 mod large;
 mod manifold;
 mod overlap;

@@ -1,0 +1,205 @@
+//! What touches at the instant of an impact.
+
+use carom_collision::{
+    AxisFeature, Impact, ImpactFeature, Motion, Side, TimeOfImpact, part, time_of_impact,
+};
+use carom_geometry::{Circle, ConvexPolygon, Polygon, Shape};
+use carom_math::{Pose, Rot, SimTime, Vec2, vec2};
+use proptest::prelude::*;
+
+use crate::shapes::{concave, convex, turn};
+
+/// From its lower left corner, counter-clockwise: edges 0 below, 1 right, 2 above, 3 left.
+fn box_(width: f64, height: f64) -> Shape {
+    ConvexPolygon::rectangle(width, height)
+        .expect("a box")
+        .into()
+}
+
+fn falling(place: Vec2) -> Motion {
+    Motion {
+        velocity: vec2(0.0, -1.0),
+        ..Motion::resting(place)
+    }
+}
+
+fn hit(a: &Shape, motion_a: &Motion, b: &Shape, motion_b: &Motion) -> Impact {
+    match time_of_impact(a, motion_a, b, motion_b, 10.0) {
+        TimeOfImpact::Hit(hit) => hit,
+        other => panic!("no hit: {other:?}"),
+    }
+}
+
+fn features(impact: &Impact) -> Vec<AxisFeature> {
+    impact.features.iter().map(|f| f.feature).collect()
+}
+
+fn mirrored(feature: AxisFeature) -> AxisFeature {
+    match feature {
+        AxisFeature::Edge {
+            owner,
+            edge,
+            vertex,
+        } => AxisFeature::Edge {
+            owner: owner.other(),
+            edge,
+            vertex,
+        },
+        AxisFeature::Vertices { a, b } => AxisFeature::Vertices { a: b, b: a },
+    }
+}
+
+/// The features that are named, and the same with A and B exchanged.
+fn assert_features(b: &Shape, motion: &Motion, wanted: &[AxisFeature]) {
+    let floor = box_(4.0, 1.0);
+    let still = Motion::resting(Vec2::ZERO);
+    let found = hit(&floor, &still, b, motion);
+    assert_eq!(found.points.len(), found.features.len());
+    let mut given = features(&found);
+    let mut back: Vec<AxisFeature> = features(&hit(b, motion, &floor, &still))
+        .into_iter()
+        .map(mirrored)
+        .collect();
+    let order = |f: &AxisFeature| format!("{f:?}");
+    given.sort_by_key(order);
+    back.sort_by_key(order);
+    let mut wanted = wanted.to_vec();
+    wanted.sort_by_key(order);
+    assert_eq!(given, wanted);
+    assert_eq!(back, wanted, "B and A");
+}
+
+const fn edge_of(owner: Side, edge: usize, vertex: usize) -> AxisFeature {
+    AxisFeature::Edge {
+        owner,
+        edge,
+        vertex,
+    }
+}
+
+#[test]
+fn a_corner_lands_on_an_edge() {
+    let lean = Motion {
+        rotation: Rot::from_degrees(30.0),
+        ..falling(vec2(0.5, 3.0))
+    };
+    // Turned to the left by less than 45°, its lower left corner goes first.
+    assert_features(&box_(1.0, 1.0), &lean, &[edge_of(Side::A, 2, 0)]);
+}
+
+#[test]
+fn both_corners_of_an_edge_land_flat() {
+    let wanted = [edge_of(Side::A, 2, 0), edge_of(Side::A, 2, 1)];
+    assert_features(&box_(1.0, 1.0), &falling(vec2(0.5, 3.0)), &wanted);
+}
+
+#[test]
+fn over_the_rim_the_floor_s_corner_touches_the_box_s_edge() {
+    // From 1.5 to 2.5 m, over a floor that ends at 2 m with corner 2.
+    let wanted = [edge_of(Side::A, 2, 0), edge_of(Side::B, 0, 2)];
+    assert_features(&box_(1.0, 1.0), &falling(vec2(2.0, 3.0)), &wanted);
+    // Wider than the floor on both sides.
+    let wanted = [edge_of(Side::B, 0, 3), edge_of(Side::B, 0, 2)];
+    assert_features(&box_(6.0, 1.0), &falling(vec2(0.5, 3.0)), &wanted);
+}
+
+#[test]
+fn a_disc_lands_on_an_edge_and_on_a_corner() {
+    let ball = Shape::from(Circle::new(0.5).expect("a disc"));
+    assert_features(&ball, &falling(vec2(0.5, 3.0)), &[edge_of(Side::A, 2, 0)]);
+    let corner = AxisFeature::Vertices { a: 2, b: 0 };
+    assert_features(&ball, &falling(vec2(2.25, 3.0)), &[corner]);
+}
+
+#[test]
+fn parts_that_land_together_name_their_own_corners() {
+    // An arch with two feet.
+    let arch = Polygon::new([
+        vec2(-1.0, 0.0),
+        vec2(-0.75, 0.0),
+        vec2(-0.75, 1.0),
+        vec2(0.75, 1.0),
+        vec2(0.75, 0.0),
+        vec2(1.0, 0.0),
+        vec2(1.0, 1.5),
+        vec2(-1.0, 1.5),
+    ]);
+    let arch = Shape::from(arch.expect("simple"));
+    let found = hit(
+        &box_(4.0, 1.0),
+        &Motion::resting(Vec2::ZERO),
+        &arch,
+        &falling(vec2(0.0, 1.5)),
+    );
+    assert_eq!((found.points.len(), found.features.len()), (2, 2));
+    let feet = found.features.iter().map(|touch| {
+        let AxisFeature::Edge {
+            owner: Side::A,
+            edge: 2,
+            vertex,
+        } = touch.feature
+        else {
+            panic!("{touch:?}");
+        };
+        part(&arch, touch.parts.1 as usize).vertices[vertex]
+    });
+    let mut feet: Vec<f64> = feet.map(|foot| foot.x).collect();
+    feet.sort_by(f64::total_cmp);
+    assert_eq!(feet, [-1.0, 1.0], "the outer ends");
+}
+
+/// How far a point is from what is said to touch there, in m.
+fn off(touch: &ImpactFeature, point: Vec2, sides: [(&Shape, Pose); 2]) -> f64 {
+    let parts = [touch.parts.0, touch.parts.1];
+    let hulls = [0, 1].map(|k| part(sides[k].0, parts[k] as usize));
+    let from_vertex = |k: usize, vertex: usize| {
+        let place = sides[k].1.point(hulls[k].vertices[vertex]);
+        ((point - place).length() - hulls[k].radius).abs()
+    };
+    match touch.feature {
+        AxisFeature::Vertices { a, b } => from_vertex(0, a).max(from_vertex(1, b)),
+        AxisFeature::Edge {
+            owner,
+            edge,
+            vertex,
+        } => {
+            let own = usize::from(owner == Side::B);
+            let (from, to) = hulls[own].edge(edge);
+            let (from, to) = (sides[own].1.point(from), sides[own].1.point(to));
+            let share = (point - from).dot(to - from) / (to - from).length_squared();
+            let from_edge = (point - from.lerp(to, share.clamp(0.0, 1.0))).length();
+            from_edge.max(from_vertex(1 - own, vertex))
+        }
+    }
+}
+
+fn body() -> impl Strategy<Value = Shape> {
+    prop_oneof![
+        convex().prop_map(Shape::from),
+        concave().prop_map(Shape::from),
+        (0.1..1.0_f64).prop_map(|r| Circle::new(r).expect("a disc").into()),
+    ]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+
+    #[test]
+    fn a_point_of_impact_is_where_its_features_are(
+        a in body(), b in body(), y in -1.0..1.0_f64, speed in 1.0..5.0_f64,
+        rotations in (turn(), turn()), spins in (-5.0..5.0_f64, -5.0..5.0_f64),
+    ) {
+        let motion_a = Motion { rotation: rotations.0, spin: spins.0, ..Motion::resting(vec2(-3.0, 0.0)) };
+        let velocity = vec2(-speed, 0.0);
+        let motion_b = Motion { rotation: rotations.1, spin: spins.1, velocity, ..Motion::resting(vec2(3.0, y)) };
+        if let TimeOfImpact::Hit(hit) = time_of_impact(&a, &motion_a, &b, &motion_b, 8.0) {
+            prop_assert_eq!(hit.points.len(), hit.features.len());
+            let time = SimTime::from_secs(hit.time);
+            let sides = [(&a, motion_a.pose_at(time)), (&b, motion_b.pose_at(time))];
+            for (point, touch) in hit.points.iter().zip(&hit.features) {
+                let off = off(touch, *point, sides);
+                prop_assert!(off < 1e-8, "{off:e} m off {touch:?} of {hit:?}");
+            }
+        }
+    }
+}
