@@ -5,7 +5,7 @@
 //! the shapes are convex; else go on from the corners that are.
 
 use arrayvec::ArrayVec;
-use carom_math::Pose;
+use carom_math::{Pose, Vec2};
 
 use crate::distance::on_edge;
 use crate::sat::beyond_end;
@@ -21,8 +21,66 @@ pub(crate) fn nearest_features(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose, axis: A
     {
         return found;
     }
-    let all = |hull: &Hull<'_>| 0..hull.vertices.len();
-    nearest_of(a, b, b_in_a, all(a), all(b))
+    look_at_all(a, b, b_in_a)
+}
+
+fn look_at_all(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose) -> Distance {
+    let corners = (Corner::all(a, b_in_a.inverse()), Corner::all(b, b_in_a));
+    nearest_of(a, b, b_in_a, &corners.0, &corners.1)
+}
+
+/// A corner of one hull, and where the other hull's frame sees it.
+#[derive(Clone, Copy, Debug)]
+struct Corner {
+    index: usize,
+    seen: Vec2,
+}
+
+impl Corner {
+    fn new(hull: &Hull<'_>, index: usize, in_other: Pose) -> Self {
+        Self {
+            index,
+            seen: in_other.point(hull.vertices[index]),
+        }
+    }
+
+    fn all(hull: &Hull<'_>, in_other: Pose) -> SmallList {
+        let corners = (0..hull.vertices.len()).map(|i| Self::new(hull, i, in_other));
+        if hull.vertices.len() <= FEW {
+            SmallList::Few(corners.collect())
+        } else {
+            SmallList::Many(corners.collect())
+        }
+    }
+
+    /// A corner and its two neighbours, in order.
+    fn beside(hull: &Hull<'_>, corner: usize, in_other: Pose) -> ArrayVec<Self, 3> {
+        let mut found: ArrayVec<usize, 3> =
+            ArrayVec::from([hull.previous(corner), corner, hull.next(corner)]);
+        found.sort_unstable();
+        if hull.vertices.len() == 2 {
+            found = ArrayVec::from_iter([0, 1]);
+        }
+        let corners = found.into_iter();
+        corners.map(|i| Self::new(hull, i, in_other)).collect()
+    }
+}
+
+/// Corners without a trip to the heap where they are few.
+enum SmallList {
+    Few(ArrayVec<Corner, FEW>),
+    Many(Vec<Corner>),
+}
+
+impl core::ops::Deref for SmallList {
+    type Target = [Corner];
+
+    fn deref(&self) -> &[Corner] {
+        match self {
+            Self::Few(corners) => corners,
+            Self::Many(corners) => corners,
+        }
+    }
 }
 
 fn walk(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose, axis: Axis) -> Option<Distance> {
@@ -32,6 +90,7 @@ fn walk(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose, axis: Axis) -> Option<Distance
     /// sizes: rounding. Corners that tie with the nearest ones are their neighbours.
     const TIE: f64 = 1e-14;
     let size = a.vertices[0].length() + b.vertices[0].length() + b_in_a.position.length();
+    let a_in_b = b_in_a.inverse();
     let mut normal = axis.normal;
     let mut before = None;
     for _ in 0..STEPS {
@@ -48,25 +107,12 @@ fn walk(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose, axis: Axis) -> Option<Distance
                 return None;
             }
         }
-        let way = nearest_of(a, b, b_in_a, beside(a, i), beside(b, j));
+        let beside = (Corner::beside(a, i, a_in_b), Corner::beside(b, j, b_in_a));
+        let way = nearest_of(a, b, b_in_a, &beside.0, &beside.1);
         normal = way.normal;
         before = Some((way, (i, j)));
     }
     None
-}
-
-/// A corner and its two neighbours, in order.
-fn beside(hull: &Hull<'_>, corner: usize) -> impl Iterator<Item = usize> + Clone {
-    let mut found: ArrayVec<usize, 3> =
-        ArrayVec::from([hull.previous(corner), corner, hull.next(corner)]);
-    found.sort_unstable();
-    let twice = found.len() > 1 && hull.vertices.len() == 2;
-    let rest = if twice {
-        ArrayVec::from_iter([0, 1])
-    } else {
-        found
-    };
-    rest.into_iter()
 }
 
 /// The shortest way among some corners of each and the edges that start at them; the first of equals,
@@ -75,16 +121,13 @@ fn nearest_of(
     a: &Hull<'_>,
     b: &Hull<'_>,
     b_in_a: Pose,
-    of_a: impl Iterator<Item = usize> + Clone,
-    of_b: impl Iterator<Item = usize> + Clone,
+    of_a: &[Corner],
+    of_b: &[Corner],
 ) -> Distance {
-    let mut best = vertex_on_vertex(a, b, b_in_a, of_a.clone(), of_b.clone());
-    let mut over = |owner: Side, edge: usize, vertex: usize, pose: Pose| {
-        let (own, other) = match owner {
-            Side::A => (a, b),
-            Side::B => (b, a),
-        };
-        let point = pose.point(other.vertices[vertex]);
+    let mut best = corner_on_corner(a, of_a, of_b);
+    let mut over = |owner: Side, edge: usize, corner: &Corner| {
+        let own = if owner == Side::A { a } else { b };
+        let point = corner.seen;
         let height = own.normals[edge].dot(point - own.vertices[edge]);
         if height > 0.0 && height < best.distance && beyond_end(own, edge, point).is_none() {
             let normal = match owner {
@@ -94,7 +137,7 @@ fn nearest_of(
             let feature = AxisFeature::Edge {
                 owner,
                 edge,
-                vertex,
+                vertex: corner.index,
             };
             let axis = Axis {
                 separation: height,
@@ -104,40 +147,32 @@ fn nearest_of(
             best = on_edge(a, b, b_in_a, axis);
         }
     };
-    for edge in of_a.clone() {
-        for vertex in of_b.clone() {
-            over(Side::A, edge, vertex, b_in_a);
+    for edge in of_a {
+        for corner in of_b {
+            over(Side::A, edge.index, corner);
         }
     }
-    let a_in_b = b_in_a.inverse();
     for edge in of_b {
-        for vertex in of_a.clone() {
-            over(Side::B, edge, vertex, a_in_b);
+        for corner in of_a {
+            over(Side::B, edge.index, corner);
         }
     }
     best
 }
 
 /// The nearest two corners.
-fn vertex_on_vertex(
-    a: &Hull<'_>,
-    b: &Hull<'_>,
-    b_in_a: Pose,
-    of_a: impl Iterator<Item = usize> + Clone,
-    of_b: impl Iterator<Item = usize>,
-) -> Distance {
-    let mut best = (f64::INFINITY, 0, 0);
-    for j in of_b {
-        let w = b_in_a.point(b.vertices[j]);
-        for i in of_a.clone() {
-            let square = (w - a.vertices[i]).length_squared();
+fn corner_on_corner(a: &Hull<'_>, of_a: &[Corner], of_b: &[Corner]) -> Distance {
+    let mut best = (f64::INFINITY, 0, 0, Vec2::ZERO);
+    for corner in of_b {
+        for of_a in of_a {
+            let square = (corner.seen - a.vertices[of_a.index]).length_squared();
             if square < best.0 {
-                best = (square, i, j);
+                best = (square, of_a.index, corner.index, corner.seen);
             }
         }
     }
-    let (_, i, j) = best;
-    let (point_a, point_b) = (a.vertices[i], b_in_a.point(b.vertices[j]));
+    let (_, i, j, point_b) = best;
+    let point_a = a.vertices[i];
     let way = point_b - point_a;
     let length = way.length();
     Distance {
@@ -154,7 +189,7 @@ mod tests {
     use super::*;
     use crate::{Convex, separating_axis};
     use carom_geometry::ConvexPolygon;
-    use carom_math::{Rot, Vec2, vec2};
+    use carom_math::{Rot, vec2};
     use proptest::prelude::*;
 
     fn polygon() -> impl Strategy<Value = ConvexPolygon> {
@@ -181,7 +216,7 @@ mod tests {
             if axis.separation > 0.0
                 && let Some(found) = walk(&a, &b, pose, axis)
             {
-                let all = nearest_of(&a, &b, pose, 0..a.vertices.len(), 0..b.vertices.len());
+                let all = look_at_all(&a, &b, pose);
                 prop_assert_eq!(found, all);
             }
         }

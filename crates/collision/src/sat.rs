@@ -139,6 +139,13 @@ pub(crate) fn best_face(own: &Hull<'_>, other: &Hull<'_>, other_in_own: Pose) ->
     };
     let mut hint = None;
     for edge in 0..own.normals.len() {
+        // Nothing is less far beyond the edge than the deepest vertex, rounded alike: one vertex is
+        // enough to see that the edge does not separate more.
+        if let Some(vertex) = hint
+            && beyond(own, edge, other, other_in_own, vertex) <= best.separation
+        {
+            continue;
+        }
         let face = face(own, edge, other, other_in_own, hint);
         hint = Some(face.vertex);
         if face.separation > best.separation {
@@ -146,6 +153,31 @@ pub(crate) fn best_face(own: &Hull<'_>, other: &Hull<'_>, other_in_own: Pose) ->
         }
     }
     best
+}
+
+/// How far one vertex of `other` is beyond an edge of `own`: the arithmetic of [`face`]. Of a
+/// half-plane nothing is known.
+fn beyond(own: &Hull<'_>, edge: usize, other: &Hull<'_>, other_in_own: Pose, vertex: usize) -> f64 {
+    if other.is_half_plane() {
+        return f64::INFINITY;
+    }
+    let normal = own.normals[edge];
+    let along = other_in_own
+        .inverse_vector(normal)
+        .dot(other.vertices[vertex]);
+    separation(own, edge, other, other_in_own, along)
+}
+
+/// The separation along an edge, from the height of the deepest vertex in its own frame.
+fn separation(
+    own: &Hull<'_>,
+    edge: usize,
+    other: &Hull<'_>,
+    other_in_own: Pose,
+    along: f64,
+) -> f64 {
+    let normal = own.normals[edge];
+    along + normal.dot(other_in_own.position - own.vertices[edge]) - other.radius - own.radius
 }
 
 /// Whether both are half-planes, each in front of the other one's line.
@@ -175,9 +207,7 @@ pub(crate) fn face(
     let local = other_in_own.inverse_vector(normal);
     let (vertex, along) = lowest(other, local, hint);
     Face {
-        separation: along + normal.dot(other_in_own.position - own.vertices[edge])
-            - other.radius
-            - own.radius,
+        separation: separation(own, edge, other, other_in_own, along),
         edge,
         vertex,
     }
