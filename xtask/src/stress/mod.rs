@@ -1,6 +1,6 @@
 //! `stress`: cases that broke physics engines, each with what was measured and what is asked for.
 //!
-//! Numbers up to 48 are those of the project's list of failure reports; from 101 on a case is a million random pairs.
+//! Numbers up to 48 are those of the project's list of failure reports; from 101 on a case is a million random pairs or shapes.
 
 mod pairs;
 mod shapes;
@@ -42,7 +42,7 @@ impl Finding {
     }
 }
 
-const CASES: [Case; 13] = [
+const CASES: [Case; 16] = [
     Case {
         number: 1,
         name: "far-polygon",
@@ -120,6 +120,24 @@ const CASES: [Case; 13] = [
         name: "impacts",
         about: "a million times of impact against sampled time",
         run: pairs::times_of_impact,
+    },
+    Case {
+        number: 104,
+        name: "masses",
+        about: "mass properties of a million rings, against whole numbers",
+        run: pairs::masses,
+    },
+    Case {
+        number: 105,
+        name: "convex-pieces",
+        about: "convex pieces of a million polygons: shape, area, moments",
+        run: pairs::pieces,
+    },
+    Case {
+        number: 106,
+        name: "generators",
+        about: "a million numbers for every generator of polygons",
+        run: pairs::generators,
     },
 ];
 

@@ -1,12 +1,15 @@
-//! Random pairs of shapes, a million each, against brute force over corners and edges.
+//! Random shapes and pairs of them, a million each, against brute force over corners and edges.
 //!
 //! Slivers down to 1e-8 of their length, pairs that just touch, edges parallel to 1e-12 rad, sizes
 //! from 1e-6 to 1e6 m. A case is its number: the same pairs on every machine and with any number of
 //! threads.
 
+#[path = "../../../../crates/bench/src/bin/pairs/exact.rs"]
+mod exact;
 #[path = "../../../../tests/it/twins/naive.rs"]
 mod naive;
 mod random;
+mod single;
 
 use carom_collision::{
     Convex, Motion, TimeOfImpact, contacts, distance, hulls, overlap_area, separating_axis,
@@ -21,6 +24,7 @@ use crate::interrupt;
 use crate::parallel::{cores, in_order};
 use naive::Solid;
 use random::{ConvexPair, Random};
+pub(super) use single::{generators, masses, pieces};
 
 /// Pairs of each case.
 const COUNT: u64 = 1_000_000;
@@ -98,7 +102,7 @@ fn over_all(what: &'static str, look: impl Fn(u64, &mut Tally) + Sync) -> Result
     Ok(Finding {
         passed: all.failed == 0 && all.undecided == 0 && all.looked_at > 0,
         measured: format!(
-            "{} pairs, {} wrong{first}{undecided}, worst {:.1} roundings",
+            "{} looked at, {} wrong{first}{undecided}, worst {:.1} roundings",
             all.looked_at,
             all.failed,
             all.worst / f64::EPSILON

@@ -31,7 +31,13 @@ impl Random {
         self.next().is_multiple_of(count)
     }
 
-    fn count(&mut self, low: u64, high: u64) -> u64 {
+    /// A number of corners from `low` to less than `high`.
+    #[expect(clippy::cast_possible_truncation, reason = "dozens")]
+    pub(super) fn corners(&mut self, low: u64, high: u64) -> usize {
+        self.count(low, high) as usize
+    }
+
+    pub(super) fn count(&mut self, low: u64, high: u64) -> u64 {
         low + self.next() % (high - low)
     }
 

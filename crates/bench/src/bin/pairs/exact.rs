@@ -1,4 +1,6 @@
 //! Area and moments in whole numbers: nothing is rounded but the answer.
+//!
+//! `cargo xtask stress` compiles the same file.
 
 use carom_math::{Vec2, vec2};
 
