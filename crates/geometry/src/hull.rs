@@ -44,9 +44,14 @@ fn around(mut sorted: Vec<Vec2>) -> Result<Vec<Vec2>, PolygonError> {
 /// rightmost and highest one (S. Akl, G. Toussaint, 1978), in O(n); −0 becomes 0, so that equal
 /// points are neighbours.
 fn outside_of_the_extremes(points: &[Vec2]) -> Vec<Vec2> {
+    /// Fewer points are sorted as fast as they are looked through.
+    const FEW: usize = 64;
     /// Above the rounding of a cross product, as a fraction of the lengths in it.
     const ROUNDING: f64 = 1e-14;
     let all = points.iter().map(|p| *p + Vec2::ZERO);
+    if points.len() < FEW {
+        return all.collect();
+    }
     let mut extremes = [points[0] + Vec2::ZERO; 4];
     for p in all.clone() {
         let beyond = [
