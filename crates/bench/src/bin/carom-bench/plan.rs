@@ -286,13 +286,16 @@ mod tests {
         let jobs = accuracy(&[case], &[Carom, Rapier], false);
         let all = points(case, Carom, false).len() + points(case, Rapier, false).len();
         assert_eq!(jobs.len(), all);
+        let swept =
+            |planned: &Planned| matches!(&planned.job, Job::Accuracy(p) if p.substeps.is_some());
         // The first rate begins with carom, the second with the entry after it.
         let at = |job: &Job| match job {
             Job::Accuracy(point) => (point.hz, point.engine, point.mode),
             _ => panic!("accuracy jobs only"),
         };
-        let count = Carom.modes().len() + Rapier.modes().len();
-        let (first, second) = (at(&jobs[0].job), at(&jobs[count].job));
+        let first = at(&jobs[0].job);
+        let count = jobs.iter().filter(|planned| at(&planned.job).0 == first.0);
+        let second = at(&jobs[count.filter(|planned| !swept(planned)).count()].job);
         assert_eq!(first.1, Carom);
         assert!(
             first.0 < second.0 && second.2 == Carom.modes()[1],
