@@ -18,8 +18,9 @@ use crate::{BodyKind, StepReport};
 /// rattle with e = 0 faster than a thirtieth of a sub-step are closer to rest than to flight.
 pub(crate) const BUDGET: f64 = 32.0;
 
-/// What an impact spends: e impacts keep `e^(2k)` of their energy, so the nearer e is to 1, the longer it
-/// takes until nothing is left to follow.
+/// What an impact spends: the loss of relative speed, since k impacts leave `e^k` of it.
+///
+/// At least 1/1024, so that a pair without any loss ends, too: after 32,768 impacts in a sub-step.
 pub(crate) fn price(pair: &Pair) -> f64 {
     (1.0 - pair.material.restitution).max(1.0 / 1024.0)
 }
@@ -60,8 +61,8 @@ pub(crate) fn predict(
     }
     report.pairs += 1;
     let mut first = TimeOfImpact::Clear;
-    let rest = rest_speed(bodies, pair, h);
-    if pair.lasting {
+    let rest = pair.lasting.then(|| rest_speed(bodies, pair, h));
+    if let Some(rest) = rest {
         narrow.look(bodies, colliders, pair, time, h);
         let touch = TOUCH * a.reach.min(b.reach);
         for contact in &pair.contacts {
@@ -102,7 +103,7 @@ pub(crate) fn predict(
             // A contact that lasts holds what closes slowly on other parts, too.
             match &next {
                 TimeOfImpact::Hit(slow) | TimeOfImpact::Touching(slow)
-                    if pair.lasting && slow.gap_rate >= -rest => {}
+                    if rest.is_some_and(|rest| slow.gap_rate >= -rest) => {}
                 _ => first = earlier(first, next),
             }
         }
