@@ -10,6 +10,7 @@ mod inertia;
 mod laboratory;
 mod list;
 mod parallel;
+mod random;
 mod reference;
 mod render;
 mod scene;

@@ -1,11 +1,12 @@
 //! Category `time_of_impact`: when two moving shapes first touch, if they do.
 
 use carom_collision::{Impact, Motion, TimeOfImpact, time_of_impact};
-use carom_geometry::{Circle, ConvexPolygon, Polygon, Shape};
+use carom_geometry::Shape;
 use carom_math::{Rot, Vec2};
 use serde_json::Value;
 
-use super::book::{Outputs, number_at, pair, point_at, points_at};
+use super::book::{Outputs, number_at, pair, point_at};
+use super::outline::Outline;
 use super::symmetry::Symmetry;
 
 /// What a case gives.
@@ -25,12 +26,6 @@ struct Body {
     velocity: Vec2,
     acceleration: Vec2,
     spin: f64,
-}
-
-#[derive(Clone, Debug)]
-enum Outline {
-    Circle(f64),
-    Polygon(Vec<Vec2>),
 }
 
 /// The same as the library takes it.
@@ -115,14 +110,8 @@ impl Pair {
 
 impl Body {
     fn read(value: &Value) -> Result<Self, String> {
-        let shape = &value["shape"];
-        let outline = if shape.get("circle").is_some() {
-            Outline::Circle(number_at(shape, "circle")?)
-        } else {
-            Outline::Polygon(points_at(shape, "polygon")?)
-        };
         Ok(Self {
-            outline,
+            outline: Outline::read(&value["shape"])?,
             position: point_at(value, "position")?,
             angle: number_at(value, "angle")?,
             velocity: point_at(value, "velocity")?,
@@ -131,18 +120,15 @@ impl Body {
         })
     }
 
-    /// With M the mirror image and Q the quarter turns, Q M R(angle) v = R(∓angle) (Q M v): the vertices take both.
+    /// The outline is begun at another vertex, too.
     fn transform(&mut self, symmetry: &Symmetry) {
         self.position = symmetry.point(self.position);
         self.velocity = symmetry.vector(self.velocity);
         self.acceleration = symmetry.vector(self.acceleration);
         self.angle = symmetry.turning(self.angle);
         self.spin = symmetry.turning(self.spin);
+        self.outline.transform(symmetry);
         if let Outline::Polygon(points) = &mut self.outline {
-            points.iter_mut().for_each(|p| *p = symmetry.vector(*p));
-            if !(symmetry.label / 2).is_multiple_of(2) {
-                points.reverse();
-            }
             let count = points.len().max(1);
             let start = symmetry.label / 4 % count as u64;
             points.rotate_left(usize::try_from(start).unwrap_or(0));
@@ -156,21 +142,6 @@ impl Body {
             rotation: Rot::from_angle(self.angle),
             spin: self.spin,
             ..Motion::resting(self.position)
-        }
-    }
-}
-
-impl Outline {
-    /// The narrowest type that takes it.
-    fn built(&self) -> Result<Shape, String> {
-        match self {
-            Self::Circle(radius) => Circle::new(*radius)
-                .map(Shape::from)
-                .map_err(|error| error.to_string()),
-            Self::Polygon(points) => ConvexPolygon::new(points.as_slice())
-                .map(Shape::from)
-                .or_else(|_| Polygon::new(points.as_slice()).map(Shape::from))
-                .map_err(|error| error.to_string()),
         }
     }
 }

@@ -1,11 +1,10 @@
 //! Category `flight_bounce`: free flight, bounces, and the end of infinitely many of them.
 
-use carom_dynamics::{ImpactLaw, Material};
 use carom_math::{Rot, Vec2, vec2};
 use serde_json::Value;
 
 use super::book::{Outputs, number_at, pair, point_at};
-use super::stage::{Cast, Player, Stage};
+use super::stage::{Cast, Play, Player, Stage};
 
 /// How long a bounce is waited for, in s.
 const PATIENCE: f64 = 200.0;
@@ -13,7 +12,7 @@ const PATIENCE: f64 = 200.0;
 /// What a case gives.
 #[derive(Clone, Debug)]
 pub(super) struct FlightCase {
-    pub(super) cast: Cast,
+    cast: Cast,
     question: Question,
 }
 
@@ -42,8 +41,14 @@ impl FlightCase {
             flight(inputs)
         }
     }
+}
 
-    pub(super) fn play(&self, stage: &mut Stage) -> Result<Outputs, String> {
+impl Play for FlightCase {
+    fn cast(&self) -> &Cast {
+        &self.cast
+    }
+
+    fn play(&self, stage: &mut Stage) -> Result<Outputs, String> {
         match self.question {
             Question::Flight(time) => {
                 stage.until(time)?;
@@ -66,19 +71,6 @@ fn floor() -> Player {
     Player::wall(vec2(-1000.0, -1.0), vec2(1000.0, 0.0))
 }
 
-fn cast(gravity: Vec2, restitution: f64, friction: f64, players: Vec<Player>) -> Cast {
-    Cast {
-        gravity,
-        material: Material {
-            restitution,
-            friction,
-            ..Material::default()
-        },
-        law: ImpactLaw::default(),
-        players,
-    }
-}
-
 fn flight(inputs: &Value) -> Result<FlightCase, String> {
     let body = Player {
         velocity: point_at(inputs, "velocity")?,
@@ -87,7 +79,7 @@ fn flight(inputs: &Value) -> Result<FlightCase, String> {
         ..Player::disc(0.1, point_at(inputs, "position")?)
     };
     Ok(FlightCase {
-        cast: cast(point_at(inputs, "gravity")?, 0.0, 0.0, vec![body]),
+        cast: Cast::of(point_at(inputs, "gravity")?, 0.0, 0.0, vec![body]),
         question: Question::Flight(number_at(inputs, "time")?),
     })
 }
@@ -98,7 +90,7 @@ fn bounces(inputs: &Value) -> Result<FlightCase, String> {
     let gravity = vec2(0.0, -number_at(inputs, "gravity")?);
     let restitution = number_at(inputs, "restitution")?;
     Ok(FlightCase {
-        cast: cast(gravity, restitution, 0.0, vec![ball, floor()]),
+        cast: Cast::of(gravity, restitution, 0.0, vec![ball, floor()]),
         question: Question::Bounces {
             count: count_at(inputs)?,
             query: number_at(inputs, "query_time")?,
@@ -119,7 +111,7 @@ fn spin(inputs: &Value) -> Result<FlightCase, String> {
         number_at(inputs, "friction")?,
     );
     Ok(FlightCase {
-        cast: cast(Vec2::ZERO, restitution, friction, vec![ball, floor()]),
+        cast: Cast::of(Vec2::ZERO, restitution, friction, vec![ball, floor()]),
         question: Question::Spin,
     })
 }
@@ -133,7 +125,7 @@ fn incline(inputs: &Value) -> Result<FlightCase, String> {
     let slope = Rot::from_degrees(number_at(inputs, "incline_deg")?);
     let restitution = number_at(inputs, "restitution")?;
     Ok(FlightCase {
-        cast: cast(slope * down, restitution, 0.0, vec![ball, floor()]),
+        cast: Cast::of(slope * down, restitution, 0.0, vec![ball, floor()]),
         question: Question::Incline(count_at(inputs)?),
     })
 }

@@ -1,16 +1,15 @@
 //! Categories `billiards` and `disc_gas`: discs between walls.
 
-use carom_dynamics::{ImpactLaw, Material};
 use carom_math::{Vec2, vec2};
 use serde_json::Value;
 
 use super::book::{Case, Outputs, number_at, numbers_at, pair, point_at, points_at};
-use super::stage::{Cast, Player, Stage};
+use super::stage::{Cast, Play, Player, Stage};
 
 /// What a case gives.
 #[derive(Clone, Debug)]
 pub(super) struct GasCase {
-    pub(super) cast: Cast,
+    cast: Cast,
     question: Question,
 }
 
@@ -37,7 +36,7 @@ impl GasCase {
             let mut players = vec![disc];
             players.extend(Player::walls(low, high));
             return Ok(Self {
-                cast: cast(Vec2::ZERO, 1.0, 0.0, players),
+                cast: Cast::of(Vec2::ZERO, 1.0, 0.0, players),
                 question: Question::Single(time),
             });
         }
@@ -58,7 +57,7 @@ impl GasCase {
         players.push(Player::wall(vec2(left - 1.0, -1.0), vec2(left, 1.0)));
         players.push(Player::wall(vec2(right, -1.0), vec2(right + 1.0, 1.0)));
         Ok(Self {
-            cast: cast(Vec2::ZERO, 1.0, 0.0, players),
+            cast: Cast::of(Vec2::ZERO, 1.0, 0.0, players),
             question: Question::Corridor(time),
         })
     }
@@ -81,7 +80,7 @@ impl GasCase {
         players.extend(Player::walls(low, high));
         let asked = Value::Object(case.outputs.clone());
         Ok(Self {
-            cast: cast(
+            cast: Cast::of(
                 point_at(inputs, "gravity")?,
                 number_at(inputs, "restitution")?,
                 number_at(inputs, "friction")?,
@@ -93,8 +92,14 @@ impl GasCase {
             },
         })
     }
+}
 
-    pub(super) fn play(&self, stage: &mut Stage) -> Result<Outputs, String> {
+impl Play for GasCase {
+    fn cast(&self) -> &Cast {
+        &self.cast
+    }
+
+    fn play(&self, stage: &mut Stage) -> Result<Outputs, String> {
         let mut outputs = Outputs::new();
         let mut put = |key: &str, value: Value| outputs.insert(key.to_owned(), value);
         let moving = self.cast.players.iter().filter(|player| !player.fixed);
@@ -147,19 +152,6 @@ impl GasCase {
 fn among_discs(stage: &Stage, discs: usize) -> usize {
     let among = stage.impacts.iter().filter(|struck| struck.pair.1 < discs);
     among.count()
-}
-
-fn cast(gravity: Vec2, restitution: f64, friction: f64, players: Vec<Player>) -> Cast {
-    Cast {
-        gravity,
-        material: Material {
-            restitution,
-            friction,
-            ..Material::default()
-        },
-        law: ImpactLaw::default(),
-        players,
-    }
 }
 
 fn box_at(inputs: &Value) -> Result<(Vec2, Vec2), String> {

@@ -1,11 +1,10 @@
 //! Categories `chains` and `galperin`: bodies on a line, counted impact by impact.
 
-use carom_dynamics::{ImpactLaw, Material};
 use carom_math::{Vec2, vec2};
 use serde_json::Value;
 
 use super::book::{Outputs, number_at, numbers_at};
-use super::stage::{Cast, Player, Stage};
+use super::stage::{Cast, Play, Player, Stage};
 
 /// How long another impact is waited for, in s.
 const PATIENCE: f64 = 200.0;
@@ -13,7 +12,7 @@ const PATIENCE: f64 = 200.0;
 /// What a case gives.
 #[derive(Clone, Debug)]
 pub(super) struct LineCase {
-    pub(super) cast: Cast,
+    cast: Cast,
     /// How its answer names the velocities.
     galperin: bool,
 }
@@ -31,7 +30,12 @@ impl LineCase {
             ..Player::disc(*radius, vec2(centre, 0.0))
         });
         Ok(Self {
-            cast: cast(number_at(inputs, "restitution")?, players.collect()),
+            cast: Cast::of(
+                Vec2::ZERO,
+                number_at(inputs, "restitution")?,
+                0.0,
+                players.collect(),
+            ),
             galperin: false,
         })
     }
@@ -52,21 +56,29 @@ impl LineCase {
         let face = number_at(inputs, "wall_x")?;
         let wall = Player::wall(vec2(face - 1.0, -2.0), vec2(face, 2.0));
         Ok(Self {
-            cast: cast(
+            cast: Cast::of(
+                Vec2::ZERO,
                 number_at(inputs, "restitution")?,
+                0.0,
                 vec![block("small")?, block("big")?, wall],
             ),
             galperin: true,
         })
     }
+}
 
-    pub(super) fn play(&self, stage: &mut Stage) -> Result<Outputs, String> {
-        let (mut count, mut last) = (0_u64, 0.0);
+impl Play for LineCase {
+    fn cast(&self) -> &Cast {
+        &self.cast
+    }
+
+    fn play(&self, stage: &mut Stage) -> Result<Outputs, String> {
+        let mut last = 0.0;
         while stage.accumulated.is_none() && stage.next_impact(PATIENCE)? {
-            count += stage.impacts.len() as u64;
             if let Some(struck) = stage.impacts.last() {
                 last = struck.time;
             }
+            // There may be millions, and only their number is asked for.
             stage.impacts.clear();
         }
         let mut outputs = Outputs::new();
@@ -76,7 +88,7 @@ impl LineCase {
             put("collisions", "infinite".into());
             put("collapse_time", end.into());
         } else {
-            put("collisions", count.into());
+            put("collisions", stage.struck.into());
             put("last_collision_time", last.into());
         }
         if self.galperin {
@@ -90,18 +102,5 @@ impl LineCase {
             );
         }
         Ok(outputs)
-    }
-}
-
-fn cast(restitution: f64, players: Vec<Player>) -> Cast {
-    Cast {
-        gravity: Vec2::ZERO,
-        material: Material {
-            restitution,
-            friction: 0.0,
-            ..Material::default()
-        },
-        law: ImpactLaw::default(),
-        players,
     }
 }

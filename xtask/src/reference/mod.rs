@@ -11,12 +11,15 @@ mod impact;
 mod judge;
 mod line;
 mod mass;
+mod outline;
 mod simultaneous;
 mod stage;
 mod symmetry;
 mod tableau;
 
 use std::hint::black_box;
+
+use carom_math::Vec2;
 
 use crate::clock::Clock;
 use crate::exit::{End, Outcome};
@@ -32,7 +35,7 @@ use impact::ImpactCase;
 use line::LineCase;
 use mass::MassCase;
 use simultaneous::SimultaneousCase;
-use stage::{Cast, Stage};
+use stage::Play;
 use symmetry::Symmetry;
 use tableau::SceneCase;
 
@@ -104,102 +107,81 @@ fn solve(category: &str, case: &Case, seed: Option<u64>) -> Result<(f64, Outputs
         "impacts" => impacts(case, seed),
         "simultaneous" => simultaneous(case, seed),
         "time_of_impact" => first_contact(case, seed),
-        "flight_bounce" => {
-            let question = FlightCase::read(&case.inputs)?;
-            played(case, seed, &question.cast, |stage| question.play(stage))
-        }
-        "billiards" => {
-            let question = GasCase::read_billiard(&case.inputs)?;
-            played(case, seed, &question.cast, |stage| question.play(stage))
-        }
-        "disc_gas" => {
-            let question = GasCase::read_gas(case)?;
-            played(case, seed, &question.cast, |stage| question.play(stage))
-        }
-        "chains" => {
-            let question = LineCase::read_chain(&case.inputs)?;
-            played(case, seed, &question.cast, |stage| question.play(stage))
-        }
-        "galperin" => {
-            let question = LineCase::read_galperin(&case.inputs)?;
-            played(case, seed, &question.cast, |stage| question.play(stage))
-        }
-        "scenes" => {
-            let question = SceneCase::read(&case.inputs)?;
-            played(case, seed, &question.cast, |stage| question.play(stage))
-        }
+        "flight_bounce" => played(case, seed, &FlightCase::read(&case.inputs)?),
+        "billiards" => played(case, seed, &GasCase::read_billiard(&case.inputs)?),
+        "disc_gas" => played(case, seed, &GasCase::read_gas(case)?),
+        "chains" => played(case, seed, &LineCase::read_chain(&case.inputs)?),
+        "galperin" => played(case, seed, &LineCase::read_galperin(&case.inputs)?),
+        "scenes" => played(case, seed, &SceneCase::read(&case.inputs)?),
         _ => Err(format!("category {category} is not answered yet")),
     }
 }
 
 /// A world built, stepped and read, with the time that all of it took.
-fn played(
-    case: &Case,
-    seed: Option<u64>,
-    cast: &Cast,
-    play: impl Fn(&mut Stage) -> Result<Outputs, String>,
-) -> Result<(f64, Outputs), String> {
+fn played(case: &Case, seed: Option<u64>, question: &impl Play) -> Result<(f64, Outputs), String> {
+    let cast = question.cast();
     let mut symmetry = guise(seed, case, &cast.places());
-    if cast.gravity != carom_math::Vec2::ZERO {
+    if cast.gravity != Vec2::ZERO {
         // The potential energy of the answer counts from the case's own origin.
-        symmetry.shift = carom_math::Vec2::ZERO;
+        symmetry.shift = Vec2::ZERO;
     }
     let clock = Clock::start();
     let mut stage = cast.enter(&symmetry, seed.is_some())?;
-    let outputs = play(&mut stage)?;
+    let outputs = question.play(&mut stage)?;
     Ok((clock.seconds(), outputs))
 }
 
 fn mass_properties(case: &Case, seed: Option<u64>) -> Result<(f64, Outputs), String> {
     let question = MassCase::read(&case.inputs)?;
-    let symmetry = guise(seed, case, question.places());
-    let question = if seed.is_some() {
-        question.transformed(&symmetry)
-    } else {
-        question
-    };
+    let places = question.places().to_vec();
+    let (question, symmetry) = guised(seed, case, &places, question, MassCase::transformed);
     let (seconds, found) = timed(|| question.answer());
     Ok((seconds, question.outputs(&found?, &symmetry)))
 }
 
 fn impacts(case: &Case, seed: Option<u64>) -> Result<(f64, Outputs), String> {
     let question = ImpactCase::read(&case.inputs)?;
-    let symmetry = guise(seed, case, &question.places());
-    let question = if seed.is_some() {
-        question.transformed(&symmetry)
-    } else {
-        question
-    };
+    let places = question.places();
+    let (question, symmetry) = guised(seed, case, &places, question, ImpactCase::transformed);
     let (seconds, found) = timed(|| question.answer());
     Ok((seconds, ImpactCase::outputs(&found?, &symmetry)))
 }
 
 fn simultaneous(case: &Case, seed: Option<u64>) -> Result<(f64, Outputs), String> {
     let question = SimultaneousCase::read(&case.inputs)?;
-    let symmetry = guise(seed, case, &question.places());
-    let question = if seed.is_some() {
-        question.transformed(&symmetry)
-    } else {
-        question
-    };
+    let places = question.places();
+    let (question, symmetry) = guised(seed, case, &places, question, SimultaneousCase::transformed);
     let (seconds, found) = timed(|| question.answer());
     Ok((seconds, question.outputs(&found, &symmetry)))
 }
 
 fn first_contact(case: &Case, seed: Option<u64>) -> Result<(f64, Outputs), String> {
     let question = FirstContactCase::read(&case.inputs)?;
-    let symmetry = guise(seed, case, &question.places());
-    let question = if seed.is_some() {
-        question.transformed(&symmetry)
-    } else {
-        question
-    };
+    let places = question.places();
+    let (question, symmetry) = guised(seed, case, &places, question, FirstContactCase::transformed);
     let pair = question.built()?;
     let (seconds, found) = timed(|| pair.answer());
     Ok((seconds, FirstContactCase::outputs(&found, &symmetry)?))
 }
 
-fn guise(seed: Option<u64>, case: &Case, places: &[carom_math::Vec2]) -> Symmetry {
+/// A question in the guise that the seed gives it; without a seed as it is.
+fn guised<Q>(
+    seed: Option<u64>,
+    case: &Case,
+    places: &[Vec2],
+    question: Q,
+    transformed: impl Fn(Q, &Symmetry) -> Q,
+) -> (Q, Symmetry) {
+    let symmetry = guise(seed, case, places);
+    let question = if seed.is_some() {
+        transformed(question, &symmetry)
+    } else {
+        question
+    };
+    (question, symmetry)
+}
+
+fn guise(seed: Option<u64>, case: &Case, places: &[Vec2]) -> Symmetry {
     seed.map_or(Symmetry::NONE, |seed| {
         Symmetry::choose(seed, &case.id, places)
     })

@@ -3,13 +3,24 @@
 use carom_dynamics::{
     Body, BodyDef, BodyId, EventKind, ImpactLaw, Material, Mode, Settings, World,
 };
-use carom_geometry::{Circle, ConvexPolygon, Polygon, Shape};
 use carom_math::{Rot, SimTime, Vec2, vec2};
 
-use super::symmetry::{SplitMix, Symmetry};
+use super::book::Outputs;
+use super::outline::Outline;
+use super::symmetry::Symmetry;
+use crate::random::SplitMix;
 
 /// More impacts than this and a case is given up.
 const MOST_IMPACTS: usize = 40_000_000;
+
+/// A case that a world answers.
+pub(super) trait Play {
+    /// Who plays.
+    fn cast(&self) -> &Cast;
+
+    /// Steps the world, reads it, and answers by the reference's keys.
+    fn play(&self, stage: &mut Stage) -> Result<Outputs, String>;
+}
 
 /// Who plays, before the curtain.
 #[derive(Clone, Debug)]
@@ -27,8 +38,6 @@ pub(super) struct Player {
     pub(super) fixed: bool,
     /// In kg; `None`: by density.
     pub(super) mass: Option<f64>,
-    /// In kg m²; `None`: by mass and shape.
-    pub(super) inertia: Option<f64>,
     /// In kg/m².
     pub(super) density: f64,
     pub(super) position: Vec2,
@@ -36,13 +45,6 @@ pub(super) struct Player {
     pub(super) angle: f64,
     pub(super) velocity: Vec2,
     pub(super) spin: f64,
-}
-
-/// What a body looks like, in m.
-#[derive(Clone, Debug)]
-pub(super) enum Outline {
-    Circle(f64),
-    Polygon(Vec<Vec2>),
 }
 
 /// An impact, in the case's own guise.
@@ -69,8 +71,10 @@ pub(super) struct Stage {
     symmetry: Symmetry,
     /// Cuts steps at random where the case is in a guise.
     cuts: Option<SplitMix>,
-    /// All impacts so far.
+    /// Impacts that nobody has taken out yet.
     pub(super) impacts: Vec<Struck>,
+    /// All impacts so far.
+    pub(super) struck: usize,
     /// When infinitely many impacts came to their end, in s.
     pub(super) accumulated: Option<f64>,
 }
@@ -82,7 +86,6 @@ impl Player {
             outline: Outline::Circle(radius),
             fixed: false,
             mass: Some(1.0),
-            inertia: None,
             density: 1.0,
             position,
             angle: 0.0,
@@ -121,18 +124,9 @@ impl Player {
         ]
     }
 
-    /// With M the mirror image and Q the quarter turns, Q M R(angle) v = R(∓angle) (Q M v): the vertices take both.
     fn transformed(&self, symmetry: &Symmetry) -> Self {
-        let outline = match &self.outline {
-            Outline::Circle(radius) => Outline::Circle(*radius),
-            Outline::Polygon(corners) => Outline::Polygon({
-                let mut corners: Vec<Vec2> = corners.iter().map(|p| symmetry.vector(*p)).collect();
-                if !(symmetry.label / 2).is_multiple_of(2) {
-                    corners.reverse();
-                }
-                corners
-            }),
-        };
+        let mut outline = self.outline.clone();
+        outline.transform(symmetry);
         Self {
             outline,
             position: symmetry.point(self.position),
@@ -140,18 +134,6 @@ impl Player {
             velocity: symmetry.vector(self.velocity),
             spin: symmetry.turning(self.spin),
             ..self.clone()
-        }
-    }
-
-    fn shape(&self) -> Result<Shape, String> {
-        match &self.outline {
-            Outline::Circle(radius) => Circle::new(*radius)
-                .map(Shape::from)
-                .map_err(|error| error.to_string()),
-            Outline::Polygon(corners) => ConvexPolygon::new(corners.clone())
-                .map(Shape::from)
-                .or_else(|_| Polygon::new(corners.clone()).map(Shape::from))
-                .map_err(|error| error.to_string()),
         }
     }
 
@@ -166,13 +148,25 @@ impl Player {
             .turned(self.angle)
             .moving(self.velocity)
             .spinning(self.spin);
-        let def = self.mass.map_or(def, |mass| def.with_mass(mass));
-        self.inertia
-            .map_or(def, |inertia| def.with_inertia(inertia))
+        self.mass.map_or(def, |mass| def.with_mass(mass))
     }
 }
 
 impl Cast {
+    /// Everybody of one material; single impacts follow the default law.
+    pub(super) fn of(gravity: Vec2, restitution: f64, friction: f64, players: Vec<Player>) -> Self {
+        Self {
+            gravity,
+            material: Material {
+                restitution,
+                friction,
+                ..Material::default()
+            },
+            law: ImpactLaw::default(),
+            players,
+        }
+    }
+
     /// Where everybody stands, for the choice of a shift that stays exact.
     pub(super) fn places(&self) -> Vec<Vec2> {
         self.players.iter().map(|player| player.position).collect()
@@ -199,7 +193,7 @@ impl Cast {
                 density: player.density,
                 ..self.material
             };
-            let id = world.insert(player.def(), player.shape()?, material);
+            let id = world.insert(player.def(), player.outline.built()?, material);
             ids[index] = Some(id.map_err(|error| format!("body {index}: {error}"))?);
         }
         Ok(Stage {
@@ -208,6 +202,7 @@ impl Cast {
             symmetry: *symmetry,
             cuts: guised.then(|| SplitMix::new(symmetry.label)),
             impacts: Vec::new(),
+            struck: 0,
             accumulated: None,
         })
     }
@@ -223,8 +218,8 @@ impl Stage {
 
     /// Goes on to the instant of the next impact; `false` if there is none up to `latest`.
     pub(super) fn next_impact(&mut self, latest: f64) -> Result<bool, String> {
-        let (end, seen) = (SimTime::from_secs(latest), self.impacts.len());
-        while self.impacts.len() == seen {
+        let (end, seen) = (SimTime::from_secs(latest), self.struck);
+        while self.struck == seen {
             if !self.advance(end)? {
                 return Ok(false);
             }
@@ -261,6 +256,7 @@ impl Stage {
                     ..
                 } => {
                     let (a, b) = (self.index(a), self.index(b));
+                    self.struck += 1;
                     let towards = self.symmetry.vector_back(normal);
                     self.impacts.push(Struck {
                         time: event.time.as_secs(),
@@ -277,7 +273,7 @@ impl Stage {
                 _ => {}
             }
         }
-        if self.impacts.len() > MOST_IMPACTS {
+        if self.struck > MOST_IMPACTS {
             return Err(format!("more than {MOST_IMPACTS} impacts"));
         }
         Ok(true)

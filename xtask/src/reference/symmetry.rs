@@ -5,6 +5,8 @@
 
 use carom_math::{Vec2, two_sum, vec2};
 
+use crate::random::SplitMix;
+
 /// One guise of a case.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Symmetry {
@@ -108,34 +110,6 @@ fn power_of_two_below(size: f64) -> f64 {
     }
     // Clearing the fraction leaves the power of two.
     f64::from_bits(size.to_bits() & (0x7ff << 52))
-}
-
-/// A stream of numbers that depends on its seed alone.
-#[derive(Clone, Debug)]
-pub(super) struct SplitMix(u64);
-
-impl SplitMix {
-    pub(super) const fn new(seed: u64) -> Self {
-        Self(seed)
-    }
-
-    /// A number from 0 to below 1.
-    #[expect(clippy::cast_precision_loss, reason = "53 bits fit")]
-    pub(super) fn unit(&mut self) -> f64 {
-        (self.next() >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    #[expect(clippy::cast_possible_truncation, reason = "the rest is below a usize")]
-    fn below(&mut self, count: usize) -> usize {
-        (self.next() % count as u64) as usize
-    }
 }
 
 #[cfg(test)]

@@ -4,8 +4,9 @@ use carom_dynamics::{ImpactLaw, Material};
 use carom_math::Vec2;
 use serde_json::Value;
 
-use super::book::{Outputs, number_at, pair, point_at, points_at};
-use super::stage::{Cast, Outline, Player, Stage};
+use super::book::{Outputs, number_at, pair, point_at};
+use super::outline::Outline;
+use super::stage::{Cast, Play, Player, Stage};
 
 /// How long the next impact is waited for, in s.
 const PATIENCE: f64 = 200.0;
@@ -13,7 +14,7 @@ const PATIENCE: f64 = 200.0;
 /// What a case gives.
 #[derive(Clone, Debug)]
 pub(super) struct SceneCase {
-    pub(super) cast: Cast,
+    cast: Cast,
     impacts: usize,
 }
 
@@ -54,9 +55,15 @@ impl SceneCase {
             impacts,
         })
     }
+}
+
+impl Play for SceneCase {
+    fn cast(&self) -> &Cast {
+        &self.cast
+    }
 
     /// The state is the one just after the last impact.
-    pub(super) fn play(&self, stage: &mut Stage) -> Result<Outputs, String> {
+    fn play(&self, stage: &mut Stage) -> Result<Outputs, String> {
         while stage.impacts.len() < self.impacts {
             if !stage.next_impact(PATIENCE)? {
                 return Err(format!("no impact after the {}th", stage.impacts.len()));
@@ -109,17 +116,10 @@ impl SceneCase {
 }
 
 fn player(body: &Value) -> Result<Player, String> {
-    let shape = &body["shape"];
-    let outline = if shape.get("circle").is_some() {
-        Outline::Circle(number_at(shape, "circle")?)
-    } else {
-        Outline::Polygon(points_at(shape, "polygon")?)
-    };
     Ok(Player {
-        outline,
+        outline: Outline::read(&body["shape"])?,
         fixed: body["static"].as_bool().unwrap_or(false),
         mass: None,
-        inertia: None,
         density: number_at(body, "density")?,
         position: point_at(body, "position")?,
         angle: number_at(body, "angle")?,

@@ -4,31 +4,25 @@ use carom_collision::{Convex, Motion, separating_axis};
 use carom_geometry::{Circle, ConvexPolygon, Polygon, Shape};
 use carom_math::{Pose, Rot, Vec2, trig, vec2};
 
-/// SplitMix64 (Steele, Lea, Flood 2014), started by the number of a case.
+use crate::random::SplitMix;
+
+/// Chance that is started by the number of a case.
 #[derive(Clone, Debug)]
-pub(super) struct Random(u64);
+pub(super) struct Random(SplitMix);
 
 impl Random {
     pub(super) fn new(number: u64) -> Self {
-        Self(number.wrapping_mul(0xd134_2543_de82_ef95).wrapping_add(1))
+        Self(SplitMix::new(
+            number.wrapping_mul(0xd134_2543_de82_ef95).wrapping_add(1),
+        ))
     }
 
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    #[expect(clippy::cast_precision_loss, reason = "53 bits fit a float exactly")]
     pub(super) fn between(&mut self, low: f64, high: f64) -> f64 {
-        const STEP: f64 = 1.0 / (1_u64 << 53) as f64;
-        low + (high - low) * ((self.next() >> 11) as f64 * STEP)
+        low + (high - low) * self.0.unit()
     }
 
     fn one_in(&mut self, count: u64) -> bool {
-        self.next().is_multiple_of(count)
+        self.0.next().is_multiple_of(count)
     }
 
     /// A number of corners from `low` to less than `high`.
@@ -38,7 +32,7 @@ impl Random {
     }
 
     pub(super) fn count(&mut self, low: u64, high: u64) -> u64 {
-        low + self.next() % (high - low)
+        low + self.0.next() % (high - low)
     }
 
     /// A convex polygon of about a metre: round, lean, thin as 1e-8, or a box.
@@ -57,7 +51,7 @@ impl Random {
                     return found;
                 }
             }
-            let thin = match self.next() % 10 {
+            let thin = match self.0.next() % 10 {
                 0 => trig::exp(-self.between(2.0, 18.4)),
                 1..4 => self.between(0.01, 1.0),
                 _ => 1.0,
@@ -80,8 +74,8 @@ impl Random {
 
     /// A rotation that leaves edges parallel as often as not, or off by 1e-12 rad.
     fn tidy_turn(&mut self) -> Rot {
-        let quarter = Rot::from_degrees([0.0, 90.0, 180.0, 270.0][(self.next() % 4) as usize]);
-        match self.next() % 7 {
+        let quarter = Rot::from_degrees([0.0, 90.0, 180.0, 270.0][(self.0.next() % 4) as usize]);
+        match self.0.next() % 7 {
             0..4 => self.turn(),
             4..6 => quarter,
             _ => quarter.turned(self.between(-1e-12, 1e-12)),
@@ -95,7 +89,7 @@ impl Random {
 
     /// A disc, a convex polygon, or a star-shaped ring of up to 40 corners.
     pub(super) fn shape(&mut self) -> Shape {
-        match self.next() % 8 {
+        match self.0.next() % 8 {
             0..2 => {
                 let radius = self.between(0.05, 1.0);
                 Circle::new(radius).map_or_else(|_| self.shape(), Shape::from)
