@@ -70,13 +70,7 @@ impl Engine for Chipmunk {
     }
 
     fn state(&self, body: usize) -> State {
-        let state = self.world.state(body);
-        State {
-            position: state.centre,
-            angle: state.angle,
-            velocity: state.velocity,
-            spin: state.spin,
-        }
+        self.world.state(body).into()
     }
 
     fn body(&self, body: usize) -> Body {

@@ -165,3 +165,15 @@ pub fn open(
         _ => Err(EngineError::NotBuilt { engine: name }),
     }
 }
+
+#[cfg(any(feature = "box2d", feature = "chipmunk"))]
+impl From<carom_c_peers::State> for crate::engine::State {
+    fn from(state: carom_c_peers::State) -> Self {
+        Self {
+            position: state.centre,
+            angle: state.angle,
+            velocity: state.velocity,
+            spin: state.spin,
+        }
+    }
+}
