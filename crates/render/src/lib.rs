@@ -58,6 +58,7 @@ mod look;
 mod output;
 mod paint;
 mod panels;
+mod path;
 mod picture;
 mod png;
 mod sequence;

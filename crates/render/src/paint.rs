@@ -1,4 +1,4 @@
-//! From marks to pixels: the only file that talks to tiny-skia.
+//! From marks to pixels, by tiny-skia.
 //!
 //! Everything is cut in `f64` first ([`clip`](crate::clip)); strokes become outlines that are filled, whatever their
 //! width, because tiny-skia's own hairlines jump in brightness at one pixel.
@@ -14,6 +14,7 @@ use crate::camera::narrow;
 use crate::clip::{Cover, Window};
 use crate::colour::round_u8;
 use crate::frame::arrow_outline;
+use crate::path::{push, push_circle, push_dashes};
 use crate::{Colour, Face, Ink, Label, Op, Picture, Style, font};
 
 /// Widest stroke, in pixels; wider ones are drawn as wide as this.
@@ -24,9 +25,6 @@ const MARGIN: f64 = 256.0;
 
 /// Discs up to this radius, in pixels, go to the rasteriser as circles, larger ones as the arc that is seen.
 const LARGE_DISC: f64 = 2048.0;
-
-/// Shortest dash, in pixels.
-const SHORTEST_DASH: f64 = 1.0;
 
 /// The shading of a ball, in radii: full colour up to `INNER` around a point moved by `SHIFT` in x and y, a third
 /// of the colour at `OUTER` (the flying balls' own numbers).
@@ -387,88 +385,6 @@ fn at_least_a_pixel(width: f64, colour: Colour) -> (f64, Colour) {
         1.0,
         colour.with_alpha(round_u8(f64::from(colour.alpha) * width)),
     )
-}
-
-/// Hands over the dashes of a line: `dash` drawn, `dash` left out, from its start.
-pub(crate) fn dashes(points: &[Vec2], dash: f64, mut each: impl FnMut(&[Vec2])) {
-    let dash = if dash > SHORTEST_DASH {
-        dash
-    } else {
-        SHORTEST_DASH
-    };
-    let (mut drawn, mut left) = (true, dash);
-    let mut piece: Vec<Vec2> = points.first().copied().into_iter().collect();
-    for pair in points.windows(2) {
-        let length = (pair[1] - pair[0]).length();
-        let mut done = 0.0;
-        while length - done > left {
-            done += left;
-            let point = pair[0].lerp(pair[1], done / length);
-            if drawn {
-                piece.push(point);
-                each(&piece);
-            }
-            piece.clear();
-            piece.push(point);
-            (drawn, left) = (!drawn, dash);
-        }
-        left -= length - done;
-        piece.push(pair[1]);
-        if !drawn {
-            piece.clear();
-        }
-    }
-    if drawn && piece.len() > 1 {
-        each(&piece);
-    }
-}
-
-fn push_dashes(builder: &mut PathBuilder, points: &[Vec2], dash: f64) {
-    dashes(points, dash, |piece| push(builder, piece, false));
-}
-
-fn push(builder: &mut PathBuilder, points: &[Vec2], closed: bool) {
-    for (i, point) in points.iter().enumerate() {
-        let (x, y) = (narrow(point.x), narrow(point.y));
-        if i == 0 {
-            builder.move_to(x, y);
-        } else {
-            builder.line_to(x, y);
-        }
-    }
-    if closed && !points.is_empty() {
-        builder.close();
-    }
-}
-
-/// A circle as a polygon of the same area, within 1/40 px of it on either side.
-///
-/// tiny-skia's own circles come out 0.08 px too small at a radius of 26 px. A corner every angle s lies r s²/8
-/// outside the middle of its chord; the area of n corners at radius R is n R² sin(2π/n) / 2.
-fn push_circle(builder: &mut PathBuilder, centre: Vec2, radius: f64, reversed: bool) {
-    const SAGITTA: f64 = 0.05;
-    let sides = (core::f64::consts::PI * (radius / (2.0 * SAGITTA)).sqrt())
-        .ceil()
-        .clamp(8.0, 1024.0);
-    let angle = core::f64::consts::TAU / sides;
-    let step = Rot::from_angle(if reversed { -angle } else { angle });
-    let reach = radius * (angle / step.sin().abs()).sqrt();
-    let mut direction = Rot::IDENTITY;
-    let mut side = 0.0;
-    while side < sides {
-        let (x, y) = (
-            centre.x + reach * direction.cos(),
-            centre.y + reach * direction.sin(),
-        );
-        if side == 0.0 {
-            builder.move_to(narrow(x), narrow(y));
-        } else {
-            builder.line_to(narrow(x), narrow(y));
-        }
-        direction = step * direction;
-        side += 1.0;
-    }
-    builder.close();
 }
 
 fn flat(colour: Colour) -> Shader<'static> {
