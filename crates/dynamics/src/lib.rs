@@ -57,6 +57,7 @@ mod shock;
 mod sleep;
 mod solver;
 mod step;
+mod substep;
 mod world;
 
 pub use body::Body;

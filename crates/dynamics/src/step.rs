@@ -3,10 +3,10 @@
 use carom_math::SimTime;
 
 use crate::flight::fly;
-use crate::predict::{BUDGET, predict, price};
+use crate::predict::{predict, price};
 use crate::resolve::{Struck, strike};
-use crate::sleep::{settle, wake};
-use crate::{EventKind, Refusal, StepReport, World};
+use crate::sleep::wake;
+use crate::{Refusal, StepReport, World};
 
 /// More ticks than this in one step are refused.
 const TICKS: f64 = 1e7;
@@ -108,154 +108,6 @@ impl World {
         }
     }
 
-    /// One sub-step: what touches is looked at, what lasts is solved for, the rest flies, and
-    /// what will strike is entered into the agenda.
-    fn begin_substep(&mut self) {
-        let (time, h) = (self.clock.next(), self.clock.h);
-        self.stopwatch.lap(|p| &mut p.impacts);
-        self.clock.begin();
-        self.agenda.clear();
-        self.spent = 0.0;
-        self.report.substeps += 1;
-        self.guard(time);
-        self.find_pairs(time, h);
-        self.stopwatch.lap(|p| &mut p.pairs);
-        self.look(time, h);
-        self.stopwatch.lap(|p| &mut p.contacts);
-        self.groups.step(
-            &self.law,
-            &mut self.bodies,
-            &mut self.pairs,
-            time,
-            h,
-            &mut self.report,
-        );
-        self.pairs_are_new();
-        self.stopwatch.lap(|p| &mut p.solver);
-        for index in self.active() {
-            if !self.groups.pushed(index) {
-                fly(&mut self.bodies, index, time, h);
-            }
-        }
-        self.stopwatch.lap(|p| &mut p.flight);
-        if let Some(sleep) = self.settings.sleep {
-            settle(
-                sleep,
-                &mut self.bodies,
-                &self.groups,
-                time,
-                h,
-                &mut self.events,
-            );
-        }
-        self.stopwatch.lap(|p| &mut p.sleep);
-        let mut i = 0;
-        while let Some(place) = self.pairs.place(i) {
-            self.predict(place, time);
-            i += 1;
-        }
-        self.stopwatch.lap(|p| &mut p.prediction);
-    }
-
-    /// Impacts of a sub-step before the rest of them is left to the solver: work stays bounded
-    /// whatever was put where, at a body's own budget for every body.
-    fn impact_budget(&self) -> f64 {
-        256.0 + BUDGET * self.bodies.places() as f64
-    }
-
-    /// Leaves all impacts that are due in this sub-step to the next one's solver, and says so.
-    fn give_up(&mut self) {
-        while let Some(entry) = self.agenda.next_until(self.clock.next()) {
-            let pair = self.pairs.get_mut(entry.pair);
-            if !pair.given_up {
-                pair.given_up = true;
-                self.report.collapsed += 1;
-            }
-        }
-    }
-
-    /// Stops what is no longer finite.
-    fn guard(&mut self, time: SimTime) {
-        for index in self.active() {
-            if !self.bodies.get(index).motion.is_finite() {
-                self.report.stopped += 1;
-                self.stop(index, time);
-            }
-        }
-    }
-
-    /// Boxes and pairs for the motions up to the end of the sub-step.
-    fn find_pairs(&mut self, time: SimTime, h: f64) {
-        for index in self.active() {
-            self.refit(index, time, h);
-        }
-        self.pairs.sort();
-        let mut gone = Vec::new();
-        let mut i = 0;
-        while let Some(place) = self.pairs.place(i) {
-            i += 1;
-            if !self.broad.keeps(&self.colliders, self.pairs.get(place)) {
-                gone.push(place);
-            }
-        }
-        for place in gone {
-            self.part(place, time);
-        }
-        self.pairs.sort();
-    }
-
-    /// Contacts of all near pairs; begins and ends of touch; what touches a sleeper wakes it.
-    fn look(&mut self, time: SimTime, h: f64) {
-        let mut i = 0;
-        while let Some(place) = self.pairs.place(i) {
-            i += 1;
-            let pair = self.pairs.get_mut(place);
-            let (a, b) = pair.bodies;
-            let active = (
-                self.bodies.get(a).is_active(),
-                self.bodies.get(b).is_active(),
-            );
-            pair.held = pair.lasting || pair.impacts > 0 || pair.material.restitution == 0.0;
-            pair.lasting = false;
-            (pair.impacts, pair.spent) = (0, 0.0);
-            if active == (false, false) && !pair.fresh {
-                pair.given_up = false;
-                continue;
-            }
-            pair.fresh = false;
-            let touched = pair.touching;
-            self.narrow
-                .look(&self.bodies, &self.colliders, pair, time, h);
-            let touching = pair.touching;
-            for point in pair.contacts.iter().flat_map(|contact| &contact.points) {
-                self.report.deepest_overlap = self.report.deepest_overlap.max(-point.separation);
-            }
-            let (id_a, id_b) = (self.bodies.get(a).id, self.bodies.get(b).id);
-            if touching && !touched {
-                self.events
-                    .push(time, EventKind::Begin { a: id_a, b: id_b });
-            } else if touched && !touching {
-                self.events.push(time, EventKind::End { a: id_a, b: id_b });
-            }
-            if touching && active != (false, false) {
-                for index in [a, b] {
-                    if self.bodies.get(index).asleep {
-                        wake(&mut self.bodies, &self.pairs, index, time, &mut self.events);
-                    }
-                }
-            }
-        }
-    }
-
-    /// Budgets start anew once the solver has taken what was given up.
-    fn pairs_are_new(&mut self) {
-        let mut i = 0;
-        while let Some(place) = self.pairs.place(i) {
-            self.pairs.get_mut(place).given_up = false;
-            i += 1;
-        }
-    }
-
     /// A body with a new motion in the middle of a sub-step: it may leave its boxes, and all its
     /// pairs are predicted again.
     pub(crate) fn deflected(&mut self, index: u32, time: SimTime) {
@@ -284,7 +136,7 @@ impl World {
         );
     }
 
-    fn predict(&mut self, place: u32, time: SimTime) {
+    pub(crate) fn predict(&mut self, place: u32, time: SimTime) {
         predict(
             &self.bodies,
             &self.colliders,
@@ -297,13 +149,5 @@ impl World {
             self.clock.next(),
             self.clock.h,
         );
-    }
-
-    /// Places of all bodies that move by themselves.
-    fn active(&self) -> Vec<u32> {
-        self.bodies
-            .indices()
-            .filter(|i| self.bodies.get(*i).is_active())
-            .collect()
     }
 }
