@@ -1,10 +1,11 @@
 //! From a world to marks: what the camera sees at this instant.
 
-use carom_dynamics::{Body, BodyKind, EventKind, World};
+use carom_dynamics::{Body, World};
 use carom_geometry::{Outline, Shape};
 use carom_math::{Pose, Vec2, vec2};
 
-use crate::{Camera, FieldMark, Frame, Ink, Label, Look, Op, Paint};
+use crate::overlay::{Overlaid, unit};
+use crate::{Camera, Frame, Ink, Look, Op, Paint};
 
 /// Pixels that a mark reaches beyond its body's box: half an outline and some.
 const REACH: f64 = 4.0;
@@ -12,14 +13,6 @@ const REACH: f64 = 4.0;
 const SMALLEST_SPOKE: f64 = 3.0;
 /// How much paler a body asleep is.
 const PALE: f64 = 0.45;
-
-/// Sizes of the overlay on a picture whose shorter side is 600 px; others in proportion, within limits.
-const TEXT: f64 = 10.0;
-const EDGE: f64 = 18.0;
-const ARROW: f64 = 1.8;
-const NORMAL: f64 = 20.0;
-const BAR: (f64, f64) = (120.0, 9.0);
-const GRAVITY: f64 = 40.0;
 
 impl Frame {
     /// The world at its present time, as `camera` sees it and `look` shows it.
@@ -54,18 +47,15 @@ impl Frame {
     /// The same into this frame, whose memory is used again.
     pub fn capture_into(&mut self, world: &World, look: &Look, camera: &Camera) {
         self.clear(camera.size());
-        let size = camera.size().corner();
+        Overlaid::new(self, world, look, camera).beneath();
         let mut sketch = Sketch {
             frame: self,
             look,
             camera,
-            unit: (size.min_element() / 600.0).clamp(0.7, 3.0),
+            unit: unit(camera),
         };
-        sketch.field();
         sketch.bodies(world);
-        sketch.contacts(world);
-        sketch.field_label();
-        sketch.corners(world);
+        Overlaid::new(self, world, look, camera).above();
     }
 }
 
@@ -84,13 +74,6 @@ impl Sketch<'_> {
             if view.overlaps(body.aabb()) {
                 self.body(&body);
             }
-        }
-        let overlay = &self.look.overlay;
-        if !(overlay.bounds || overlay.centroids || overlay.velocities.is_some()) {
-            return;
-        }
-        for body in world.bodies() {
-            self.body_overlay(&body);
         }
     }
 
@@ -188,164 +171,6 @@ impl Sketch<'_> {
     fn points(&self, pose: Pose, local: &[Vec2]) -> Vec<Vec2> {
         let place = |&p: &Vec2| self.camera.point(pose.point(p));
         local.iter().map(place).collect()
-    }
-
-    fn body_overlay(&mut self, body: &Body<'_>) {
-        let overlay = &self.look.overlay;
-        let bounds = body.aabb();
-        if overlay.bounds && bounds.is_finite() {
-            let (a, b) = (self.camera.point(bounds.min), self.camera.point(bounds.max));
-            self.frame.push(Op::Box {
-                min: vec2(a.x, b.y),
-                max: vec2(b.x, a.y),
-                fill: None,
-                border: Some(Ink::Muted),
-                width: 1.0,
-                dash: Some(4.0 * self.unit),
-            });
-        }
-        if body.kind() == BodyKind::Fixed {
-            return;
-        }
-        let centre = self.camera.point(body.centre());
-        if overlay.centroids {
-            self.frame.push(Op::Dot {
-                centre,
-                radius: 2.2 * self.unit,
-                ink: Ink::Velocity,
-            });
-        }
-        if let Some(seconds) = overlay.velocities {
-            self.frame.push(Op::Arrow {
-                from: centre,
-                to: centre + self.camera.vector(body.velocity() * seconds),
-                width: ARROW * self.unit,
-                ink: Ink::Velocity,
-            });
-        }
-    }
-
-    fn contacts(&mut self, world: &World) {
-        if !self.look.overlay.contacts {
-            return;
-        }
-        // What lasts, and what was struck during the last step.
-        for contact in world.contacts() {
-            for point in &contact.points {
-                self.contact(point.position, contact.normal);
-            }
-        }
-        for event in world.events() {
-            if let EventKind::Impact { point, normal, .. } = event.kind {
-                self.contact(point, normal);
-            }
-        }
-    }
-
-    fn contact(&mut self, point: Vec2, normal: Vec2) {
-        let at = self.camera.point(point);
-        let normal = self.camera.vector(normal).normalize_or_zero();
-        self.frame.push(Op::Arrow {
-            from: at,
-            to: at + normal * NORMAL * self.unit,
-            width: 1.5 * self.unit,
-            ink: Ink::Contact,
-        });
-        self.frame.push(Op::Dot {
-            centre: at,
-            radius: 2.8 * self.unit,
-            ink: Ink::Contact,
-        });
-    }
-
-    fn field(&mut self) {
-        if let Some(mark) = &self.look.overlay.field {
-            self.frame.push(Op::Ring {
-                centre: self.camera.point(mark.centre),
-                radius: self.camera.length(mark.radius),
-                width: 3.0 * self.unit,
-                ink: Ink::Field,
-            });
-        }
-    }
-
-    fn field_label(&mut self) {
-        let Some(FieldMark {
-            centre,
-            radius,
-            label,
-        }) = &self.look.overlay.field
-        else {
-            return;
-        };
-        if !label.is_empty() {
-            let above = vec2(0.0, self.camera.length(*radius) + 8.0 * self.unit);
-            let at = self.camera.point(*centre) - above;
-            let text = Label::new(at, label.clone(), TEXT * self.unit, Ink::Field);
-            self.frame.push(text.anchored(0.5, 0.0).with_halo());
-        }
-    }
-
-    /// Time, gravity, restitution and caption, one in each corner.
-    fn corners(&mut self, world: &World) {
-        let size = self.camera.size().corner();
-        let (edge, height) = (EDGE * self.unit, TEXT * self.unit);
-        let overlay = &self.look.overlay;
-        let text = |at: Vec2, text: String, x: f64, y: f64| {
-            Label::new(at, text, height, Ink::Text)
-                .anchored(x, y)
-                .with_halo()
-        };
-        if overlay.time {
-            let time = format!("t = {:.2} s", world.time().as_secs());
-            self.frame.push(text(vec2(edge, edge), time, 0.0, 1.0));
-        }
-        if !overlay.caption.is_empty() {
-            let caption = overlay.caption.clone();
-            self.frame
-                .push(text(size - Vec2::splat(edge), caption, 1.0, 0.0));
-        }
-        let gravity = world.settings().gravity;
-        if overlay.gravity && gravity != Vec2::ZERO {
-            let long = GRAVITY * self.unit;
-            let middle = vec2(size.x - edge - 0.5 * long, edge + 0.5 * long);
-            let along = 0.5 * long * self.camera.vector(gravity).normalize_or_zero();
-            self.frame.push(Op::Arrow {
-                from: middle - along,
-                to: middle + along,
-                width: 2.5 * self.unit,
-                ink: Ink::Field,
-            });
-            let value = format!("g = {:.2} m/s²", gravity.length());
-            let left = middle - vec2(0.5 * long + 4.0 * self.unit, 0.0);
-            self.frame.push(text(left, value, 1.0, 0.5));
-        }
-        if let Some(restitution) = overlay.restitution {
-            let bar = vec2(BAR.0, BAR.1) * self.unit;
-            let min = vec2(edge, size.y - edge - bar.y);
-            let filled = vec2(bar.x * restitution.clamp(0.0, 1.0), bar.y);
-            for (max, ink) in [(min + bar, Ink::Grid), (min + filled, Ink::Bar)] {
-                self.frame.push(Op::Box {
-                    min,
-                    max,
-                    fill: Some(ink),
-                    border: None,
-                    width: 0.0,
-                    dash: None,
-                });
-            }
-            self.frame.push(Op::Box {
-                min,
-                max: min + bar,
-                fill: None,
-                border: Some(Ink::Muted),
-                width: 1.0,
-                dash: None,
-            });
-            let value = format!("e = {restitution:.2}");
-            let right = min + vec2(bar.x + 8.0 * self.unit, 0.5 * bar.y);
-            self.frame.push(text(right, value, 0.0, 0.5));
-        }
     }
 }
 

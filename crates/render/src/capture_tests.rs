@@ -1,7 +1,7 @@
 //! What of a world gets into a frame, and where.
 
 use super::*;
-use crate::{Colour, Face, Overlay, Style};
+use crate::{Colour, Face, FieldMark, Overlay, Style};
 use carom_dynamics::{BodyDef, Material, Settings};
 use carom_geometry::{Circle, ConvexPolygon, HalfPlane, Polygon, Segment};
 

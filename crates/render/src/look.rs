@@ -3,9 +3,8 @@
 use std::collections::BTreeMap;
 
 use carom_dynamics::{Body, BodyId, BodyKind};
-use carom_math::Vec2;
 
-use crate::{BODY_COLOURS, Colour, Face, Paint, Style};
+use crate::{BODY_COLOURS, Colour, Face, Overlay, Paint, Style};
 
 /// Fill of fixed bodies: a grey that stays behind on light and dark ground.
 pub const FIXED_COLOUR: Colour = Colour::hex(0x8A93A0);
@@ -45,42 +44,6 @@ pub struct Look {
     pub paints: BTreeMap<BodyId, Paint>,
     /// Faces of single bodies, drawn on their discs.
     pub faces: BTreeMap<BodyId, Face>,
-}
-
-/// Marks over and beside the bodies; all off by default.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Overlay {
-    /// A dot at every centre of mass.
-    pub centroids: bool,
-    /// An arrow from every moving centre of mass: the way it would go in so many seconds.
-    pub velocities: Option<f64>,
-    /// Contact points with their normals.
-    pub contacts: bool,
-    /// Dashed bounding boxes.
-    pub bounds: bool,
-    /// Bodies asleep are paler.
-    pub asleep: bool,
-    /// An arrow in the upper right corner that points along gravity.
-    pub gravity: bool,
-    /// The simulated time in the upper left corner.
-    pub time: bool,
-    /// A bar in the lower left corner, filled to this coefficient of restitution.
-    pub restitution: Option<f64>,
-    /// The circle of a field.
-    pub field: Option<FieldMark>,
-    /// A line of text in the lower right corner.
-    pub caption: String,
-}
-
-/// A circle around the core of a radial field.
-#[derive(Clone, Debug, PartialEq)]
-pub struct FieldMark {
-    /// Centre, in metres.
-    pub centre: Vec2,
-    /// Radius, in metres.
-    pub radius: f64,
-    /// What is written above it; empty for nothing.
-    pub label: String,
 }
 
 impl Default for Look {
