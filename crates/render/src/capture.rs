@@ -1,11 +1,11 @@
 //! From a world to marks: what the camera sees at this instant.
 
-use carom_dynamics::{Body, World};
+use carom_dynamics::{Body, BodyKind, World};
 use carom_geometry::{Outline, Shape};
 use carom_math::{Pose, Vec2, vec2};
 
 use crate::overlay::{Overlaid, unit};
-use crate::{Camera, Frame, Ink, Look, Op, Paint};
+use crate::{Camera, Frame, Ink, Look, Op, Paint, Source};
 
 /// Pixels that a mark reaches beyond its body's box: half an outline and some.
 const REACH: f64 = 4.0;
@@ -17,7 +17,8 @@ const PALE: f64 = 0.45;
 impl Frame {
     /// The world at its present time, as `camera` sees it and `look` shows it.
     ///
-    /// Bodies outside the picture are left out. The world is only read.
+    /// Bodies outside the picture are left out. What is fixed or asleep lies below what moves: it can be painted once
+    /// and kept ([`Painter`](crate::Painter)). The world is only read.
     ///
     /// # Examples
     /// ```
@@ -53,6 +54,7 @@ impl Frame {
             look,
             camera,
             unit: unit(camera),
+            source: Source::default(),
         };
         sketch.bodies(world);
         Overlaid::new(self, world, look, camera).above();
@@ -65,14 +67,23 @@ struct Sketch<'a> {
     camera: &'a Camera,
     /// Pixels that one pixel of the overlay's sizes takes.
     unit: f64,
+    /// The body at hand.
+    source: Source,
 }
 
 impl Sketch<'_> {
     fn bodies(&mut self, world: &World) {
         let view = self.camera.view().grown(REACH / self.camera.scale());
-        for body in world.bodies() {
-            if view.overlaps(body.aabb()) {
-                self.body(&body);
+        for awake in [false, true] {
+            let layer = world.bodies().filter(|body| is_awake(body) == awake);
+            for body in layer {
+                if view.overlaps(body.aabb()) {
+                    self.source = Source {
+                        body: Some(body.id()),
+                        awake,
+                    };
+                    self.body(&body);
+                }
             }
         }
     }
@@ -97,24 +108,30 @@ impl Sketch<'_> {
             }
             Outline::Open(points) => {
                 let points = self.points(pose, points);
-                self.frame.push(Op::Line {
-                    points,
-                    width: 2.5 * self.unit,
-                    dash: None,
-                    ink: Ink::Of(paint.fill),
-                });
+                self.frame.push_from(
+                    self.source,
+                    Op::Line {
+                        points,
+                        width: 2.5 * self.unit,
+                        dash: None,
+                        ink: Ink::Of(paint.fill),
+                    },
+                );
             }
             Outline::Closed(points) => {
                 let points = self.points(pose, points);
-                self.frame.push(Op::Polygon { points, paint });
+                self.frame
+                    .push_from(self.source, Op::Polygon { points, paint });
             }
             Outline::Rings(rings) => {
                 let rings = rings.iter().map(|ring| self.points(pose, ring)).collect();
-                self.frame.push(Op::Region { rings, paint });
+                self.frame
+                    .push_from(self.source, Op::Region { rings, paint });
             }
             Outline::HalfPlane { point, normal } => {
                 let points = self.behind(pose.point(point), pose.vector(normal));
-                self.frame.push(Op::Polygon { points, paint });
+                self.frame
+                    .push_from(self.source, Op::Polygon { points, paint });
             }
             Outline::Parts(parts) => {
                 for part in parts {
@@ -145,26 +162,35 @@ impl Sketch<'_> {
     }
 
     fn disc(&mut self, body: &Body<'_>, centre: Vec2, radius: f64, paint: Paint) {
-        self.frame.push(Op::Disc {
-            centre,
-            radius,
-            paint,
-        });
+        self.frame.push_from(
+            self.source,
+            Op::Disc {
+                centre,
+                radius,
+                paint,
+            },
+        );
         let turn = self.camera.turn(body.pose().rotation);
         if let Some(face) = self.look.face(body) {
-            self.frame.push(Op::Face {
-                centre,
-                radius: radius - 0.5,
-                turn,
-                face: face.clone(),
-            });
+            self.frame.push_from(
+                self.source,
+                Op::Face {
+                    centre,
+                    radius: radius - 0.5,
+                    turn,
+                    face: face.clone(),
+                },
+            );
         } else if self.look.spokes && radius >= SMALLEST_SPOKE {
-            self.frame.push(Op::Line {
-                points: vec![centre, centre + radius * turn.x_axis()],
-                width: 1.25,
-                dash: None,
-                ink: paint.outline.map_or(Ink::Outline(paint.fill), Ink::Of),
-            });
+            self.frame.push_from(
+                self.source,
+                Op::Line {
+                    points: vec![centre, centre + radius * turn.x_axis()],
+                    width: 1.25,
+                    dash: None,
+                    ink: paint.outline.map_or(Ink::Outline(paint.fill), Ink::Of),
+                },
+            );
         }
     }
 
@@ -172,6 +198,11 @@ impl Sketch<'_> {
         let place = |&p: &Vec2| self.camera.point(pose.point(p));
         local.iter().map(place).collect()
     }
+}
+
+/// Whether a body may have moved by the next frame.
+fn is_awake(body: &Body<'_>) -> bool {
+    body.kind() != BodyKind::Fixed && !body.is_asleep()
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use carom_math::{Rot, Vec2, vec2};
 
-use crate::{Colour, Face, Ink, Picture, Size, Style, font};
+use crate::{Colour, Face, Ink, Mark, Picture, Size, Source, Style, font};
 
 /// How a body is filled.
 ///
@@ -270,6 +270,8 @@ impl From<Label> for Op {
 pub struct Frame {
     size: Size,
     ops: Vec<Op>,
+    /// Of each mark.
+    sources: Vec<Source>,
 }
 
 impl Frame {
@@ -279,6 +281,7 @@ impl Frame {
         Self {
             size,
             ops: Vec::new(),
+            sources: Vec::new(),
         }
     }
 
@@ -294,15 +297,28 @@ impl Frame {
         &self.ops
     }
 
-    /// Adds a mark above all others.
+    /// The marks and where they come from, lowest first.
+    pub fn marks(&self) -> impl ExactSizeIterator<Item = Mark<'_>> {
+        let pairs = self.ops.iter().zip(&self.sources);
+        pairs.map(|(op, &source)| Mark { op, source })
+    }
+
+    /// Adds a mark above all others, of no body.
     pub fn push(&mut self, op: impl Into<Op>) {
+        self.push_from(Source::default(), op);
+    }
+
+    /// Adds a mark above all others and says where it comes from.
+    pub fn push_from(&mut self, source: Source, op: impl Into<Op>) {
         self.ops.push(op.into());
+        self.sources.push(source);
     }
 
     /// Takes all marks away and keeps the memory.
     pub fn clear(&mut self, size: Size) {
         self.size = size;
         self.ops.clear();
+        self.sources.clear();
     }
 
     /// Paints the frame into a new picture.
