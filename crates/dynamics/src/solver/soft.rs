@@ -11,11 +11,12 @@ use crate::Softness;
 /// Constants of one sub-step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Law {
-    h: f64,
-    over_relaxation: f64,
-    push_out: f64,
+    pub(super) h: f64,
+    pub(super) inverse_h: f64,
+    pub(super) over_relaxation: f64,
+    pub(super) push_out: f64,
     /// (rate, γ) between moving bodies, and against the ground at twice the frequency.
-    soft: [(f64, f64); 2],
+    pub(super) soft: [(f64, f64); 2],
 }
 
 impl Law {
@@ -37,6 +38,7 @@ impl Law {
         };
         Self {
             h,
+            inverse_h: h.recip(),
             over_relaxation: softness.over_relaxation,
             push_out: softness.push_out,
             soft: [soft(frequency), soft(2.0 * frequency)],
