@@ -13,6 +13,21 @@ pub struct Event {
     pub kind: EventKind,
 }
 
+/// How two bodies in lasting contact move against each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ContactMode {
+    /// They part.
+    Open,
+    /// Both are at rest.
+    Rest,
+    /// They move as one.
+    Stick,
+    /// Something round rolls without slip.
+    Roll,
+    /// One slips along the other.
+    Slide,
+}
+
 /// What happened.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -54,6 +69,15 @@ pub enum EventKind {
         a: BodyId,
         /// The other.
         b: BodyId,
+    },
+    /// A contact in closed form began to move in this way.
+    Mode {
+        /// One body.
+        a: BodyId,
+        /// The other.
+        b: BodyId,
+        /// How they move against each other from now on.
+        mode: ContactMode,
     },
     /// Impacts of a pair came faster than the budget of a sub-step: the rest of them is left to
     /// the solver.

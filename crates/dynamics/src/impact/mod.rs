@@ -2,7 +2,7 @@
 
 mod body;
 mod law;
-mod project;
+pub(crate) mod project;
 mod routh;
 mod several;
 #[cfg(test)]

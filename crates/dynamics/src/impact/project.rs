@@ -15,17 +15,17 @@ const DEPENDENT: f64 = 1e-10;
 const DETERMINED: f64 = 8.0 * f64::EPSILON;
 
 /// The nearest point, and how it is reached.
-pub(super) struct Nearest {
-    pub(super) point: Vec<f64>,
+pub(crate) struct Nearest {
+    pub(crate) point: Vec<f64>,
     /// λ of every row, ≥ 0.
-    pub(super) multipliers: Vec<f64>,
+    pub(crate) multipliers: Vec<f64>,
 }
 
 /// The point nearest to `start` that meets all bounds.
 ///
 /// A bound counts as met within `tolerance`. If the polyhedron is empty, which no impact makes it,
 /// the rows that can be met are met.
-pub(super) fn nearest(rows: &[Vec<f64>], start: &[f64], bounds: &[f64], tolerance: f64) -> Nearest {
+pub(crate) fn nearest(rows: &[Vec<f64>], start: &[f64], bounds: &[f64], tolerance: f64) -> Nearest {
     let mut set = ActiveSet::new(rows, start, bounds);
     // A row enters and leaves a few times at most; the bound is for rounding alone.
     for _ in 0..(20 + 10 * rows.len()) {
@@ -169,7 +169,7 @@ impl<'a> ActiveSet<'a> {
 }
 
 /// Rows as Q R: orthonormal directions, and how each row is made of them.
-struct Basis {
+pub(crate) struct Basis {
     directions: Vec<Vec<f64>>,
     /// Column k: the row k in the directions up to its own.
     columns: Vec<Vec<f64>>,
@@ -192,8 +192,33 @@ impl Basis {
         basis
     }
 
+    /// Of rows that may depend on each other those that add a direction, in their order.
+    pub(crate) fn independent(rows: &[Vec<f64>], dependent: f64) -> Self {
+        let mut basis = Self {
+            directions: Vec::new(),
+            columns: Vec::new(),
+        };
+        for row in rows {
+            let (mut column, mut own) = basis.reduce(row);
+            let length = dot(&own, &own).sqrt();
+            if length <= dependent * dot(row, row).sqrt() {
+                continue;
+            }
+            own.iter_mut().for_each(|x| *x /= length);
+            column.push(length);
+            basis.directions.push(own);
+            basis.columns.push(column);
+        }
+        basis
+    }
+
+    /// Whether some direction has a part along coordinate k.
+    pub(crate) fn touches(&self, k: usize) -> bool {
+        self.directions.iter().any(|direction| direction[k] != 0.0)
+    }
+
     /// Parts along the directions, and the rest; orthogonalised twice, which is enough (Kahan, Parlett).
-    fn reduce(&self, row: &[f64]) -> (Vec<f64>, Vec<f64>) {
+    pub(crate) fn reduce(&self, row: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let mut rest = row.to_vec();
         let mut parts = vec![0.0; self.directions.len()];
         for _ in 0..2 {
@@ -214,7 +239,7 @@ impl Basis {
     }
 
     /// Whether nothing of coordinate k lies outside the directions.
-    fn determines(&self, k: usize) -> bool {
+    pub(crate) fn determines(&self, k: usize) -> bool {
         let size = self.directions.first().map_or(0, Vec::len);
         let axis: Vec<f64> = (0..size).map(|i| if i == k { 1.0 } else { 0.0 }).collect();
         let (_, rest) = self.reduce(&axis);

@@ -1,0 +1,234 @@
+//! The next change of a mode, from roots of quadratics.
+
+use super::balance::{Balance, Tangent, balance};
+use super::faces::Faces;
+use super::{BodyMove, Cause, Change, Feature, ModeBody, NotMine, Touch, slip_rate, tangents};
+use carom_math::perp;
+
+/// How far ahead a load that shifts is looked at where nothing else ends the mode, in s.
+const LOOK: f64 = 64.0;
+
+/// Instants within a mode at which a load that shifts is looked at.
+const LOOKS: u32 = 8;
+
+/// Accelerations that differ by more than this part belong to another motion.
+const SAME: f64 = 1e-12;
+
+/// The first instant at which something changes.
+pub(super) fn next(
+    bodies: &[ModeBody],
+    touches: &[Touch],
+    moves: &[BodyMove],
+    found: &Balance,
+    slips: &[f64],
+) -> Result<Option<Change>, NotMine> {
+    let mut first: Option<Change> = None;
+    let mut shifts = None;
+    for (i, touch) in touches.iter().enumerate() {
+        if !found.closed[i].contains(&true) {
+            continue;
+        }
+        let mut offer = |after: f64, cause: Cause| {
+            if first.is_none_or(|known| after < known.after) {
+                first = Some(Change {
+                    after,
+                    touch: i,
+                    cause,
+                });
+            }
+        };
+        if touch.friction > 0.0 {
+            let rate = slip_rate(bodies, touch, moves);
+            if slips[i] * rate < 0.0 {
+                offer(-slips[i] / rate, Cause::SlipStops);
+            }
+        }
+        let glide = Glide::of(touch, moves);
+        if let Some(after) = glide.ends() {
+            offer(after, Cause::EdgeEnds);
+        }
+        let bears = |place: usize, feature: Feature| {
+            feature != Feature::Round && bodies[place].inverse_inertia > 0.0
+        };
+        let ends = touch.bodies;
+        if glide.moves() && (bears(ends.0, touch.features.0) || bears(ends.1, touch.features.1)) {
+            shifts.get_or_insert(i);
+        }
+    }
+    if let Some(touch) = shifts {
+        let end = first.map_or(LOOK, |change| change.after);
+        let load = Load {
+            bodies,
+            touches,
+            moves,
+            found,
+            tangents: tangents(touches, slips),
+        };
+        if let Some(after) = load.first_other_motion(end) {
+            first = Some(Change {
+                after,
+                touch,
+                cause: Cause::Tips,
+            });
+        } else if first.is_none() {
+            first = Some(Change {
+                after: end,
+                touch,
+                cause: Cause::Look,
+            });
+        }
+    }
+    Ok(first)
+}
+
+/// How B glides along A: `speed τ + ½ rate τ²` along the tangent, and the stretches that each touches with.
+struct Glide {
+    speed: f64,
+    rate: f64,
+    a: [f64; 2],
+    b: [f64; 2],
+}
+
+impl Glide {
+    fn of(touch: &Touch, moves: &[BodyMove]) -> Self {
+        let (a, b) = (&moves[touch.bodies.0], &moves[touch.bodies.1]);
+        let t = perp(touch.normal);
+        Self {
+            speed: (b.velocity - a.velocity).dot(t),
+            rate: (b.acceleration - a.acceleration).dot(t),
+            a: stretch(touch.features.0),
+            b: stretch(touch.features.1),
+        }
+    }
+
+    fn moves(&self) -> bool {
+        self.speed != 0.0 || self.rate != 0.0
+    }
+
+    fn at(&self, after: f64) -> f64 {
+        (self.speed + 0.5 * self.rate * after) * after
+    }
+
+    /// When the stretches part: `a_high − b_low − d` or `b_high − a_low + d` comes to 0.
+    fn ends(&self) -> Option<f64> {
+        let up = falls_to_zero(self.a[1] - self.b[0], -self.speed, -self.rate);
+        let down = falls_to_zero(self.b[1] - self.a[0], self.speed, self.rate);
+        match (up, down) {
+            (Some(x), Some(y)) => Some(if y < x { y } else { x }),
+            (x, y) => x.or(y),
+        }
+    }
+
+    /// The common stretch, from the first point of the touch as A carries it.
+    fn common(&self, after: f64) -> [f64; 2] {
+        let d = self.at(after);
+        let larger = |x: f64, y: f64| if y > x { y } else { x };
+        let smaller = |x: f64, y: f64| if y < x { y } else { x };
+        [
+            larger(self.a[0], self.b[0] + d),
+            smaller(self.a[1], self.b[1] + d),
+        ]
+    }
+}
+
+fn stretch(feature: Feature) -> [f64; 2] {
+    match feature {
+        Feature::Edge { low, high } => [low, high],
+        Feature::Corner | Feature::Round => [0.0; 2],
+    }
+}
+
+/// The first τ > 0 at which `gap + speed τ + ½ rate τ²` falls to 0.
+///
+/// From a positive gap the first root is the falling one; in the form without cancellation
+/// τ = 2 gap / (−speed + √(speed² − 2 rate gap)).
+fn falls_to_zero(gap: f64, speed: f64, rate: f64) -> Option<f64> {
+    if gap.is_infinite() || (speed >= 0.0 && rate >= 0.0) {
+        return None;
+    }
+    let gap = if gap > 0.0 { gap } else { 0.0 };
+    let within = speed * speed - 2.0 * rate * gap;
+    if within < 0.0 {
+        return None;
+    }
+    let root = within.sqrt();
+    if speed <= 0.0 {
+        let below = -speed + root;
+        return (below > 0.0).then(|| 2.0 * gap / below);
+    }
+    // It grows first, and falls through a negative rate.
+    Some((speed + root) / -rate)
+}
+
+/// A load that shifts on what bears it.
+struct Load<'a> {
+    bodies: &'a [ModeBody],
+    touches: &'a [Touch],
+    moves: &'a [BodyMove],
+    found: &'a Balance,
+    tangents: Vec<Tangent>,
+}
+
+impl Load<'_> {
+    /// The first instant up to `end` from which on the forces need another motion.
+    fn first_other_motion(&self, end: f64) -> Option<f64> {
+        let mut good = 0.0;
+        for k in 1..=LOOKS {
+            let look = end * f64::from(k) / f64::from(LOOKS);
+            if self.goes_on(look) {
+                good = look;
+                continue;
+            }
+            let mut bad = look;
+            for _ in 0..60 {
+                let middle = 0.5 * (good + bad);
+                if self.goes_on(middle) {
+                    good = middle;
+                } else {
+                    bad = middle;
+                }
+            }
+            return Some(bad);
+        }
+        None
+    }
+
+    /// Whether the accelerations are the same where the load is then.
+    fn goes_on(&self, after: f64) -> bool {
+        let (bodies, touches) = self.at(after);
+        let faces = Faces::new(&bodies, &touches);
+        let Ok(then) = balance(&faces, &self.tangents) else {
+            return false;
+        };
+        let size = faces
+            .free
+            .iter()
+            .chain(&then.state)
+            .fold(0.0_f64, |most, x| most.max(x.abs()));
+        let both = then.state.iter().zip(&self.found.state);
+        both.map(|(x, y)| (x - y).abs()).fold(0.0, f64::max) <= SAME * size
+    }
+
+    /// Everybody where the present motions lead.
+    fn at(&self, after: f64) -> (Vec<ModeBody>, Vec<Touch>) {
+        let travel = |body: &BodyMove| (body.velocity + body.acceleration * (0.5 * after)) * after;
+        let bodies = self
+            .bodies
+            .iter()
+            .zip(self.moves)
+            .map(|(body, moved)| ModeBody {
+                centre: body.centre + travel(moved),
+                ..*body
+            });
+        let touches = self.touches.iter().map(|touch| {
+            let glide = Glide::of(touch, self.moves);
+            let origin = touch.points[0] + travel(&self.moves[touch.bodies.0]);
+            let mut touch = touch.clone();
+            for (point, along) in touch.points.iter_mut().zip(glide.common(after)) {
+                *point = origin + perp(touch.normal) * along;
+            }
+            touch
+        });
+        (bodies.collect(), touches.collect())
+    }
+}

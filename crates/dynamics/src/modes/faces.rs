@@ -1,0 +1,260 @@
+//! Contact rows in velocities scaled by √m, where mass drops out of every formula.
+//!
+//! ```text
+//! a_n = n·(a_B − a_A) + (r_B × n) α_B − (r_A × n) α_A        t alike;    x = (√m a, √m a, √I α) for each body
+//! ```
+
+use arrayvec::ArrayVec;
+use carom_math::{Vec2, cross, cross_scalar, perp, vec2};
+
+use super::balance::Balance;
+use super::{BodyMove, ModeBody, NotMine, STILL, Touch};
+use crate::impact::project::Basis;
+
+/// Opening speed below which a touch neither opens nor closes, as a part of the speeds it is made of.
+const CLOSED: f64 = 1e-9;
+
+/// A row counts as dependent on others if less than this part of its length is its own.
+const DEPENDENT: f64 = 1e-10;
+
+/// A row of unit length, and the length that it had, in 1/√kg.
+#[derive(Clone, Debug)]
+pub(super) struct Row {
+    pub(super) unit: Vec<f64>,
+    pub(super) length: f64,
+}
+
+/// The rows of one touch.
+#[derive(Clone, Debug)]
+pub(super) struct Face {
+    pub(super) normals: ArrayVec<Row, 2>,
+    pub(super) tangent: Row,
+    pub(super) friction: f64,
+}
+
+/// All rows of a group, and what it would do without them.
+#[derive(Clone, Debug)]
+pub(super) struct Faces {
+    pub(super) list: Vec<Face>,
+    /// Scaled accelerations without contacts.
+    pub(super) free: Vec<f64>,
+}
+
+impl Faces {
+    pub(super) fn new(bodies: &[ModeBody], touches: &[Touch]) -> Self {
+        let list = touches.iter().map(|touch| Face {
+            normals: touch
+                .points
+                .iter()
+                .map(|&point| Row::new(bodies, touch.bodies, point, touch.normal))
+                .collect(),
+            tangent: Row::new(bodies, touch.bodies, touch.points[0], perp(touch.normal)),
+            friction: touch.friction,
+        });
+        Self {
+            list: list.collect(),
+            free: scaled(bodies, |body| (body.pull, body.twist)),
+        }
+    }
+
+    /// Motions from scaled accelerations; what the closed rows stop is exactly still.
+    pub(super) fn moves(
+        &self,
+        bodies: &[ModeBody],
+        found: &Balance,
+        slips: &[f64],
+    ) -> Vec<BodyMove> {
+        let (mut held, mut still) = (Vec::new(), Vec::new());
+        for (i, face) in self.list.iter().enumerate() {
+            for (row, closed) in face.normals.iter().zip(found.closed[i]) {
+                if closed {
+                    held.push(row.unit.clone());
+                    still.push(row.unit.clone());
+                }
+            }
+        }
+        for (i, face) in self.list.iter().enumerate() {
+            if face.friction == 0.0 || !found.closed[i].contains(&true) {
+                continue;
+            }
+            if found.sticks[i] {
+                held.push(face.tangent.unit.clone());
+            }
+            if slips[i] == 0.0 {
+                still.push(face.tangent.unit.clone());
+            }
+        }
+        // What closed rows and held friction do is what they stop, so only slipping friction is summed.
+        let mut accelerations = self.free.clone();
+        for (i, face) in self.list.iter().enumerate() {
+            if !found.sticks[i] && found.tangential[i] != 0.0 {
+                let pull = found.tangential[i] * face.tangent.length;
+                for (x, t) in accelerations.iter_mut().zip(&face.tangent.unit) {
+                    *x += pull * t;
+                }
+            }
+        }
+        Stops::of(held).apply(&mut accelerations);
+        let driven = |body: &ModeBody| {
+            body.inverse_mass == 0.0 && (body.velocity != Vec2::ZERO || body.spin != 0.0)
+        };
+        let velocities = if bodies.iter().any(driven) {
+            None
+        } else {
+            let mut velocities = scaled(bodies, |body| (body.velocity, body.spin));
+            Stops::of(still).apply(&mut velocities);
+            Some(velocities)
+        };
+        let unscaled = |state: &[f64], k: usize, body: &ModeBody| {
+            let (m, i) = (body.inverse_mass.sqrt(), body.inverse_inertia.sqrt());
+            (
+                vec2(state[3 * k] * m, state[3 * k + 1] * m),
+                state[3 * k + 2] * i,
+            )
+        };
+        let one = |(k, body): (usize, &ModeBody)| {
+            let (acceleration, angular_acceleration) = unscaled(&accelerations, k, body);
+            let (velocity, spin) = match &velocities {
+                Some(all) if body.inverse_mass > 0.0 => {
+                    let (velocity, spin) = unscaled(all, k, body);
+                    // What nothing stops keeps its bits.
+                    (
+                        kept(body.velocity, velocity),
+                        if body.inverse_inertia > 0.0 {
+                            kept_one(body.spin, spin)
+                        } else {
+                            body.spin
+                        },
+                    )
+                }
+                _ => (body.velocity, body.spin),
+            };
+            BodyMove {
+                velocity,
+                spin,
+                acceleration,
+                angular_acceleration,
+            }
+        };
+        bodies.iter().enumerate().map(one).collect()
+    }
+}
+
+/// The given numbers where scaling there and back changed nothing but the last bits.
+fn kept(given: Vec2, found: Vec2) -> Vec2 {
+    vec2(kept_one(given.x, found.x), kept_one(given.y, found.y))
+}
+
+fn kept_one(given: f64, found: f64) -> f64 {
+    if (given - found).abs() <= 4.0 * f64::EPSILON * given.abs() {
+        given
+    } else {
+        found
+    }
+}
+
+impl Row {
+    fn new(bodies: &[ModeBody], ends: (usize, usize), point: Vec2, along: Vec2) -> Self {
+        let mut unit = vec![0.0; 3 * bodies.len()];
+        for (place, sign) in [(ends.0, -1.0), (ends.1, 1.0)] {
+            let body = &bodies[place];
+            let (m, i) = (body.inverse_mass.sqrt(), body.inverse_inertia.sqrt());
+            unit[3 * place] = sign * along.x * m;
+            unit[3 * place + 1] = sign * along.y * m;
+            unit[3 * place + 2] = sign * cross(point - body.centre, along) * i;
+        }
+        let length = dot(&unit, &unit).sqrt();
+        if length > 0.0 {
+            unit.iter_mut().for_each(|x| *x /= length);
+        }
+        Self { unit, length }
+    }
+
+    pub(super) fn rate(&self, state: &[f64]) -> f64 {
+        dot(&self.unit, state)
+    }
+}
+
+/// Scaled numbers of all bodies; those of infinite mass have none.
+fn scaled(bodies: &[ModeBody], of: impl Fn(&ModeBody) -> (Vec2, f64)) -> Vec<f64> {
+    let mut state = Vec::with_capacity(3 * bodies.len());
+    for body in bodies {
+        let (linear, angular) = of(body);
+        let over = |x: f64, inverse: f64| {
+            if inverse > 0.0 {
+                x / inverse.sqrt()
+            } else {
+                0.0
+            }
+        };
+        state.push(over(linear.x, body.inverse_mass));
+        state.push(over(linear.y, body.inverse_mass));
+        state.push(over(angular, body.inverse_inertia));
+    }
+    state
+}
+
+/// Rows that are held at 0.
+struct Stops(Basis);
+
+impl Stops {
+    fn of(rows: Vec<Vec<f64>>) -> Self {
+        Self(Basis::independent(&rows, DEPENDENT))
+    }
+
+    /// Takes out what the rows stop; a coordinate that nothing is left of is exactly 0.
+    fn apply(&self, state: &mut [f64]) {
+        let (_, rest) = self.0.reduce(state);
+        for (k, (to, rest)) in state.iter_mut().zip(rest).enumerate() {
+            if self.0.touches(k) {
+                *to = if self.0.determines(k) { 0.0 } else { rest };
+            }
+        }
+    }
+}
+
+/// Slip of each touch, exactly 0 where it is no more than rounding.
+///
+/// # Errors
+/// If a touch opens or closes.
+pub(super) fn slips(
+    bodies: &[ModeBody],
+    touches: &[Touch],
+    speed: f64,
+) -> Result<Vec<f64>, NotMine> {
+    let mut slips = Vec::with_capacity(touches.len());
+    for touch in touches {
+        let mut least = f64::INFINITY;
+        let mut slip = 0.0;
+        for &point in &touch.points {
+            let of = |place: usize| {
+                let body = &bodies[place];
+                let turning = cross_scalar(body.spin, point - body.centre);
+                (
+                    body.velocity + turning,
+                    body.velocity.length() + turning.length(),
+                )
+            };
+            let ((a, scale_a), (b, scale_b)) = (of(touch.bodies.0), of(touch.bodies.1));
+            let scale = scale_a + scale_b + speed;
+            if (b - a).dot(touch.normal).abs() > CLOSED * scale {
+                return Err(NotMine::Approaches);
+            }
+            let along = (b - a).dot(perp(touch.normal));
+            if along.abs() < least {
+                least = along.abs();
+                slip = if along.abs() <= STILL * scale {
+                    0.0
+                } else {
+                    along
+                };
+            }
+        }
+        slips.push(slip);
+    }
+    Ok(slips)
+}
+
+pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
+}

@@ -1,0 +1,241 @@
+//! Lemke's method for a linear complementarity problem.
+//!
+//! ```text
+//! w = M z + q,   w ≥ 0,  z ≥ 0,  w·z = 0
+//! ```
+//!
+//! Complementary pivoting with lexicographic ties, which ends (Cottle, Pang, Stone 1992, section 4.4).
+//! The tableau's rounding only decides who is in the basis: the answer is solved for once more.
+
+/// A pivot smaller than this part of its column counts as 0.
+const PIVOT: f64 = 1e-11;
+
+/// Ratios that differ by less than this part are ties.
+const TIE: f64 = 1e-13;
+
+/// The covering variable counts as 0 below this part of the largest number of q.
+const UNCOVERED: f64 = 1e-12;
+
+/// The z of a solution; `None` if the method ends on a ray.
+pub(super) fn complementary(m: &[Vec<f64>], q: &[f64]) -> Option<Vec<f64>> {
+    let n = q.len();
+    let size = q.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    if q.iter().all(|&x| x >= -TIE * size) {
+        return Some(vec![0.0; n]);
+    }
+    let mut tableau = Tableau::new(m, q, size);
+    let mut entering = tableau.begin();
+    // Each pivot takes another basis; few are needed but for rounding.
+    for _ in 0..(40 + 20 * n) {
+        let row = tableau.leaving(entering)?;
+        let left = tableau.pivot(row, entering);
+        if left == 2 * n || tableau.is_uncovered() {
+            return Some(tableau.solution(m, q, size));
+        }
+        entering = if left < n { left + n } else { left - n };
+    }
+    None
+}
+
+/// Columns: w, z, the covering variable, and the right side.
+struct Tableau {
+    rows: Vec<Vec<f64>>,
+    basis: Vec<usize>,
+    n: usize,
+}
+
+impl Tableau {
+    fn new(m: &[Vec<f64>], q: &[f64], size: f64) -> Self {
+        let n = q.len();
+        let rows = (0..n).map(|i| {
+            let mut row = vec![0.0; 2 * n + 2];
+            row[i] = 1.0;
+            for j in 0..n {
+                row[n + j] = -m[i][j];
+            }
+            row[2 * n] = -1.0;
+            row[2 * n + 1] = q[i] / size;
+            row
+        });
+        Self {
+            rows: rows.collect(),
+            basis: (0..n).collect(),
+            n,
+        }
+    }
+
+    /// The covering variable enters for the most violated row; its complement is next.
+    fn begin(&mut self) -> usize {
+        let n = self.n;
+        let mut worst = 0;
+        for i in 1..n {
+            // Of equals the last: lexicographically the least.
+            if self.rows[i][2 * n + 1] <= self.rows[worst][2 * n + 1] {
+                worst = i;
+            }
+        }
+        self.pivot(worst, 2 * n) + n
+    }
+
+    /// The row whose variable first comes to 0; ties by the rows of the inverse basis.
+    fn leaving(&self, entering: usize) -> Option<usize> {
+        let n = self.n;
+        let most = self
+            .rows
+            .iter()
+            .map(|row| row[entering].abs())
+            .fold(0.0, f64::max);
+        let mut best: Option<usize> = None;
+        for i in 0..n {
+            if self.rows[i][entering] <= PIVOT * most.max(1.0) {
+                continue;
+            }
+            if best.is_none_or(|found| self.before(i, found, entering)) {
+                best = Some(i);
+            }
+        }
+        // Among ties the covering variable leaves.
+        let found = best?;
+        let cover = (0..n).find(|&i| self.basis[i] == 2 * n);
+        cover
+            .filter(|&i| {
+                self.rows[i][entering] > PIVOT * most.max(1.0)
+                    && (self.ratio(i, entering, 2 * n + 1) - self.ratio(found, entering, 2 * n + 1))
+                        .abs()
+                        <= TIE
+            })
+            .or(Some(found))
+    }
+
+    /// The covering variable has come to 0 but for rounding: where rows depend on each other there may be
+    /// no pivot left that would take it out.
+    fn is_uncovered(&self) -> bool {
+        let cover = self.basis.iter().position(|&b| b == 2 * self.n);
+        cover.is_none_or(|row| self.rows[row][2 * self.n + 1] <= UNCOVERED)
+    }
+
+    fn ratio(&self, row: usize, entering: usize, column: usize) -> f64 {
+        self.rows[row][column] / self.rows[row][entering]
+    }
+
+    fn before(&self, i: usize, j: usize, entering: usize) -> bool {
+        for column in core::iter::once(2 * self.n + 1).chain(0..self.n) {
+            let (x, y) = (
+                self.ratio(i, entering, column),
+                self.ratio(j, entering, column),
+            );
+            if (x - y).abs() > TIE * (1.0 + x.abs().max(y.abs())) {
+                return x < y;
+            }
+        }
+        false
+    }
+
+    /// Brings a column into the basis; returns what left.
+    fn pivot(&mut self, row: usize, entering: usize) -> usize {
+        let by = self.rows[row][entering].recip();
+        self.rows[row].iter_mut().for_each(|x| *x *= by);
+        let pivot = core::mem::take(&mut self.rows[row]);
+        for other in &mut self.rows {
+            if other.is_empty() || other[entering] == 0.0 {
+                continue;
+            }
+            let factor = other[entering];
+            for (x, y) in other.iter_mut().zip(&pivot) {
+                *x -= factor * y;
+            }
+            other[entering] = 0.0;
+        }
+        self.rows[row] = pivot;
+        core::mem::replace(&mut self.basis[row], entering)
+    }
+
+    /// The basis solved for from the numbers as they were given; if its rows depend on each other, as
+    /// the tableau has it.
+    fn solution(&self, m: &[Vec<f64>], q: &[f64], size: f64) -> Vec<f64> {
+        let n = self.n;
+        let held: Vec<(usize, usize)> = (0..n)
+            .filter(|&row| (n..2 * n).contains(&self.basis[row]))
+            .map(|row| (row, self.basis[row] - n))
+            .collect();
+        let square: Vec<Vec<f64>> = held
+            .iter()
+            .map(|&(_, i)| held.iter().map(|&(_, j)| m[i][j]).collect())
+            .collect();
+        let right: Vec<f64> = held.iter().map(|&(_, i)| -q[i]).collect();
+        let rough = held
+            .iter()
+            .map(|&(row, _)| self.rows[row][2 * n + 1] * size);
+        let found = solve(square, right).unwrap_or_else(|| rough.collect());
+        let mut z = vec![0.0; n];
+        for ((_, place), value) in held.into_iter().zip(found) {
+            z[place] = if value > 0.0 { value } else { 0.0 };
+        }
+        z
+    }
+}
+
+/// Gaussian elimination with rows exchanged for the largest pivot; `None` if singular.
+fn solve(mut a: Vec<Vec<f64>>, mut x: Vec<f64>) -> Option<Vec<f64>> {
+    let n = x.len();
+    for k in 0..n {
+        let best = (k..n).max_by(|&i, &j| a[i][k].abs().total_cmp(&a[j][k].abs()))?;
+        if a[best][k].abs() <= f64::EPSILON {
+            return None;
+        }
+        a.swap(k, best);
+        x.swap(k, best);
+        let (above, below) = a.split_at_mut(k + 1);
+        for (i, row) in below.iter_mut().enumerate() {
+            let factor = row[k] / above[k][k];
+            if factor != 0.0 {
+                for (to, from) in row[k..].iter_mut().zip(&above[k][k..]) {
+                    *to -= factor * from;
+                }
+                x[k + 1 + i] -= factor * x[k];
+            }
+        }
+    }
+    for k in (0..n).rev() {
+        let known: f64 = (k + 1..n).map(|j| a[k][j] * x[j]).sum();
+        x[k] = (x[k] - known) / a[k][k];
+    }
+    Some(x)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn a_problem_of_two_is_solved() {
+        // w = (z₁ + z₂ − 3, z₁ + 2 z₂ − 4): both are held.
+        let found = complementary(&[vec![1.0, 1.0], vec![1.0, 2.0]], &[-3.0, -4.0]);
+        assert_eq!(found, Some(vec![2.0, 1.0]));
+    }
+
+    #[test]
+    fn a_problem_without_a_solution_ends() {
+        assert_eq!(complementary(&[vec![-1.0]], &[-1.0]), None);
+    }
+
+    proptest! {
+        #[test]
+        fn the_conditions_hold(
+            rows in prop::collection::vec(prop::collection::vec(-1.0..1.0_f64, 5), 1..9),
+            force in prop::collection::vec(-1.0..1.0_f64, 5),
+        ) {
+            // M = R Rᵀ, singular if there are more rows than coordinates; q is within its reach.
+            let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
+            let m: Vec<Vec<f64>> = rows.iter().map(|a| rows.iter().map(|b| dot(a, b)).collect()).collect();
+            let q: Vec<f64> = rows.iter().map(|row| dot(row, &force)).collect();
+            // One of many is so nearly singular that rounding hides its last pivot.
+            let Some(z) = complementary(&m, &q) else { return Ok(()) };
+            for (i, row) in m.iter().enumerate() {
+                let w = dot(row, &z) + q[i];
+                prop_assert!(w > -1e-9 && (w * z[i]).abs() < 1e-9, "w {w:e}, z {:e}", z[i]);
+            }
+        }
+    }
+}

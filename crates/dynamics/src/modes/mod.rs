@@ -1,0 +1,272 @@
+//! Contact groups whose rows do not change with time, in closed form.
+//!
+//! Flats that slide on flats and discs on straight edges keep their normals and, seen from what
+//! turns, their arms. So every body of such a group has a constant acceleration until a slip stops,
+//! an edge ends or a body begins to tip: [`judge`] solves the complementarity problem of Signorini and
+//! Coulomb for the accelerations once, and names the instant of the next change.
+//!
+//! Pure functions on plain data: nothing here knows a world.
+
+mod balance;
+mod change;
+mod faces;
+mod lemke;
+#[cfg(test)]
+mod naive;
+mod rest;
+#[cfg(test)]
+mod tests;
+
+use arrayvec::ArrayVec;
+use carom_math::{Vec2, cross_scalar, perp};
+
+use crate::ContactMode;
+use balance::{Balance, Tangent, balance};
+use faces::Faces;
+
+/// More rows (points, and a friction for each touch) than this are the solver's.
+pub(crate) const ROWS: usize = 64;
+
+/// Slip below this part of the speeds that it is the difference of is none.
+const STILL: f64 = 1e-12;
+
+/// A body of a group at the instant of the judgement; one of infinite mass moves uniformly.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct ModeBody {
+    /// In 1/kg.
+    pub(crate) inverse_mass: f64,
+    /// In 1/(kg·m²).
+    pub(crate) inverse_inertia: f64,
+    /// Centre of mass, in m.
+    pub(crate) centre: Vec2,
+    /// In m/s.
+    pub(crate) velocity: Vec2,
+    /// In rad/s.
+    pub(crate) spin: f64,
+    /// Acceleration by all that is no contact, in m/s².
+    pub(crate) pull: Vec2,
+    /// Angular acceleration by all that is no contact, in rad/s².
+    pub(crate) twist: f64,
+}
+
+/// What a body touches with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Feature {
+    /// A straight edge along the tangent, from `low` to `high` in m from the touch's first point.
+    Edge {
+        /// Lower end; −∞ for a line.
+        low: f64,
+        /// Upper end; +∞ for a line.
+        high: f64,
+    },
+    /// A corner.
+    Corner,
+    /// A circle about the centre of mass.
+    Round,
+}
+
+/// A lasting contact of two bodies: one point, or both ends of a stretch.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Touch {
+    /// Places of A and B in the list of bodies.
+    pub(crate) bodies: (usize, usize),
+    /// Unit normal from A to B.
+    pub(crate) normal: Vec2,
+    /// In m.
+    pub(crate) points: ArrayVec<Vec2, 2>,
+    /// What A and B touch with.
+    pub(crate) features: (Feature, Feature),
+    /// Coefficient of friction.
+    pub(crate) friction: f64,
+}
+
+/// What a body does until the next change.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct BodyMove {
+    /// At the instant of the judgement: what was given, without the roundings against the rows, in m/s.
+    pub(crate) velocity: Vec2,
+    /// In rad/s.
+    pub(crate) spin: f64,
+    /// In m/s².
+    pub(crate) acceleration: Vec2,
+    /// In rad/s².
+    pub(crate) angular_acceleration: f64,
+}
+
+/// What a touch does until the next change.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct TouchMove {
+    pub(crate) mode: ContactMode,
+    /// Force on B along the normal at each point, in N; where the touch is redundant, one of many.
+    pub(crate) normal: [f64; 2],
+    /// Force on B along the normal turned by +90 degrees, in N.
+    pub(crate) tangential: f64,
+    /// Speed of B against A along the same, in m/s.
+    pub(crate) slip: f64,
+}
+
+/// Why the present mode ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Cause {
+    /// The slip of a touch comes to 0.
+    SlipStops,
+    /// What slides or rolls has come to the end of an edge.
+    EdgeEnds,
+    /// The load has moved: from here on the forces need another motion.
+    Tips,
+    /// Nothing is known to end it, but what was looked at ends here.
+    Look,
+}
+
+/// The next change of a mode.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Change {
+    /// In s from the judgement.
+    pub(crate) after: f64,
+    /// Which touch; of several at one instant the first.
+    pub(crate) touch: usize,
+    pub(crate) cause: Cause,
+}
+
+/// How a group moves.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct GroupMove {
+    pub(crate) bodies: Vec<BodyMove>,
+    pub(crate) touches: Vec<TouchMove>,
+    /// `None`: never.
+    pub(crate) change: Option<Change>,
+}
+
+/// Why a group is not for closed forms.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum NotMine {
+    /// More than [`ROWS`] rows.
+    TooLarge,
+    /// A touch opens or closes already.
+    Approaches,
+    /// A body that has corners or edges in touch turns, or would.
+    Turns,
+    /// Something round rolls about something round or a corner.
+    Curved,
+    /// Friction outweighs the normal force that makes it (Painlevé): accelerations have no answer or
+    /// several. An impulse has one.
+    Painleve,
+    /// No accelerations were found.
+    Unsolved,
+}
+
+/// Modes and motions of a group from now on.
+///
+/// `speed` is the largest speed from whose roundings the given velocities may come, in m/s: what
+/// stopped just now is not exactly still.
+pub(crate) fn judge(
+    bodies: &[ModeBody],
+    touches: &[Touch],
+    speed: f64,
+) -> Result<GroupMove, NotMine> {
+    let rows = |touch: &Touch| touch.points.len() + usize::from(touch.friction > 0.0);
+    if touches.iter().map(rows).sum::<usize>() > ROWS {
+        return Err(NotMine::TooLarge);
+    }
+    let faces = Faces::new(bodies, touches);
+    let slips = faces::slips(bodies, touches, speed)?;
+    if let Some(moves) = rest::rest(bodies, touches, &faces, speed) {
+        return Ok(moves);
+    }
+    let tangents = tangents(touches, &slips);
+    let found = balance(&faces, &tangents)?;
+    let moves = faces.moves(bodies, &found, &slips);
+    rows_stay(touches, &moves, &found)?;
+    Ok(GroupMove {
+        touches: (0..touches.len())
+            .map(|i| touch_move(bodies, touches, &moves, &found, &slips, i))
+            .collect(),
+        change: change::next(bodies, touches, &moves, &found, &slips)?,
+        bodies: moves,
+    })
+}
+
+/// What friction does at each touch: it opposes the slip there is, or holds if it can.
+fn tangents(touches: &[Touch], slips: &[f64]) -> Vec<Tangent> {
+    let of = |(touch, slip): (&Touch, &f64)| {
+        if touch.friction == 0.0 {
+            Tangent::Smooth
+        } else if *slip == 0.0 {
+            Tangent::Holds
+        } else {
+            Tangent::Slides(slip.signum())
+        }
+    };
+    touches.iter().zip(slips).map(of).collect()
+}
+
+/// Whether the rows of all closed touches keep their numbers, as far as accelerations feel them.
+fn rows_stay(touches: &[Touch], moves: &[BodyMove], found: &Balance) -> Result<(), NotMine> {
+    for (touch, closed) in touches.iter().zip(&found.closed) {
+        if !closed.contains(&true) {
+            continue;
+        }
+        let (a, b) = touch.bodies;
+        for (place, feature) in [(a, touch.features.0), (b, touch.features.1)] {
+            let turns = moves[place].spin != 0.0 || moves[place].angular_acceleration != 0.0;
+            if feature != Feature::Round && turns {
+                return Err(NotMine::Turns);
+            }
+        }
+        let flat = |feature| matches!(feature, Feature::Edge { .. });
+        let parts = moves[a].velocity != moves[b].velocity
+            || moves[a].acceleration != moves[b].acceleration;
+        if !flat(touch.features.0) && !flat(touch.features.1) && parts {
+            return Err(NotMine::Curved);
+        }
+    }
+    Ok(())
+}
+
+fn touch_move(
+    bodies: &[ModeBody],
+    touches: &[Touch],
+    moves: &[BodyMove],
+    found: &Balance,
+    slips: &[f64],
+    i: usize,
+) -> TouchMove {
+    let touch = &touches[i];
+    let (a, b) = (&moves[touch.bodies.0], &moves[touch.bodies.1]);
+    let still = |body: &BodyMove| *body == BodyMove::default();
+    let round = |(place, feature): (usize, Feature)| {
+        let body = &moves[place];
+        feature == Feature::Round && (body.spin != 0.0 || body.angular_acceleration != 0.0)
+    };
+    let ends = [
+        (touch.bodies.0, touch.features.0),
+        (touch.bodies.1, touch.features.1),
+    ];
+    let mode = if !found.closed[i].contains(&true) {
+        ContactMode::Open
+    } else if slips[i] != 0.0 || slip_rate(bodies, touch, moves) != 0.0 && !found.sticks[i] {
+        ContactMode::Slide
+    } else if ends.into_iter().any(round) {
+        ContactMode::Roll
+    } else if still(a) && still(b) {
+        ContactMode::Rest
+    } else {
+        ContactMode::Stick
+    };
+    TouchMove {
+        mode,
+        normal: found.normal[i],
+        tangential: found.tangential[i],
+        slip: slips[i],
+    }
+}
+
+/// How fast the slip of B against A grows, in m/s².
+fn slip_rate(bodies: &[ModeBody], touch: &Touch, moves: &[BodyMove]) -> f64 {
+    let point = touch.points[0];
+    let of = |place: usize| {
+        let arm = point - bodies[place].centre;
+        moves[place].acceleration + cross_scalar(moves[place].angular_acceleration, arm)
+    };
+    (of(touch.bodies.1) - of(touch.bodies.0)).dot(perp(touch.normal))
+}
