@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use carom_dynamics::EnergyLedger;
 use carom_math::SimTime;
-use carom_render::{Frame, FrameRate, Picture};
+use carom_render::{Frame, FrameRate};
 use carom_scenes::Built;
 
 use crate::clock::Clock;
@@ -41,13 +41,15 @@ pub(crate) struct Footage {
     pub(crate) interrupted: bool,
 }
 
-/// Runs the scene, draws the frames that are `wanted` (asked in order), and hands what `encode` makes of them to `take`, in order.
+/// Runs the scene, captures the frames that are `wanted`, and hands what `draw` makes of them to `take`, in order.
+///
+/// Steps and captures run on this thread, `draw` on others.
 pub(crate) fn shoot<T: Send>(
     built: &mut Built,
     plan: &Plan,
     label: &str,
-    wanted: impl Fn(u64) -> Result<bool, Failure>,
-    encode: impl Fn(u64, Picture) -> Result<T, Failure> + Sync,
+    wanted: impl Fn(u64) -> bool,
+    draw: impl Fn(u64, Frame) -> Result<T, Failure> + Sync,
     mut take: impl FnMut(u64, T) -> Result<(), Failure>,
 ) -> Result<Footage, Failure> {
     let mut progress = Progress::new(label, plan.slice.end, "frames");
@@ -59,7 +61,6 @@ pub(crate) fn shoot<T: Send>(
         drawn: 0,
         interrupted: false,
     };
-    let style = built.look.style.clone();
     let drawing = RefCell::new((Times::default(), 0));
     let mut indices = 0..plan.slice.end;
     let produce = || {
@@ -74,7 +75,7 @@ pub(crate) fn shoot<T: Send>(
             let energy = built.world.energy();
             footage.energy.push((built.world.time().as_secs(), energy));
             progress.advance();
-            if plan.slice.contains(&index) && wanted(index)? {
+            if plan.slice.contains(&index) && wanted(index) {
                 let frame = Frame::capture(&built.world, &built.look, &built.camera);
                 return Ok(Some((index, frame)));
             }
@@ -83,7 +84,7 @@ pub(crate) fn shoot<T: Send>(
     };
     let work = |(index, frame): (u64, Frame)| {
         let clock = Clock::start();
-        let made = encode(index, frame.paint(&style))?;
+        let made = draw(index, frame)?;
         Ok((index, made, clock.seconds()))
     };
     let collect = |(index, made, seconds): (u64, T, f64)| {

@@ -28,6 +28,8 @@ pub(crate) enum Command {
     Demo(DemoArgs),
     /// Draw a scene: numbered PNG frames, an APNG or a Y4M film
     Render(RenderArgs),
+    /// Join the slices that `render --shard` drew into one folder, after checking their manifests
+    Merge(MergeArgs),
     /// Compute a scene without pictures: trajectories as CSV
     Simulate(SimulateArgs),
     /// Area, centroid, moments and principal axes of a polygon
@@ -63,13 +65,14 @@ pub(crate) struct DemoArgs {
 #[command(after_help = "Examples:\n  \
     cargo xtask render thesis --seconds 10 --out out/thesis\n  \
     cargo xtask render flying-balls --set n=50 --format apng --size 640x480\n  \
-    cargo xtask render my-scene.toml --fps 30 --resume\n\n\
-    Frame k shows the instant k / fps. The bytes of a frame do not depend on --threads.\n\
-    A Y4M film is played and converted by ffmpeg: ffmpeg -i scene.y4m scene.mp4")]
+    cargo xtask render my-scene.toml --fps 30 --resume\n  \
+    cargo xtask render pile --format y4m --out - | ffmpeg -i - pile.mp4\n  \
+    cargo xtask render pile --shard 2/4      # on four machines; then: cargo xtask merge DIR... --out DIR\n\n\
+    Frame k shows the instant k / fps. The bytes of a frame do not depend on --threads.")]
 pub(crate) struct RenderArgs {
     /// Scene file (TOML) or the name of a built-in scene (`cargo xtask list`)
     pub(crate) scene: String,
-    /// Folder for the frames; made if it is missing [default: out/ and the name of the scene]
+    /// Folder for the frames; made if it is missing; - for a Y4M film to stdout [default: out/ and the name of the scene]
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
     /// Simulated seconds to draw [default: the scene's duration]
@@ -84,6 +87,9 @@ pub(crate) struct RenderArgs {
     /// What to write
     #[arg(long, value_enum, default_value_t = Format::Png)]
     pub(crate) format: Format,
+    /// How hard pictures are packed
+    #[arg(long, value_enum, default_value_t = PackingFlag::Fast)]
+    pub(crate) packing: PackingFlag,
     /// How bodies are moved [default: the scene's]
     #[arg(long, value_enum)]
     pub(crate) mode: Option<ModeFlag>,
@@ -99,9 +105,27 @@ pub(crate) struct RenderArgs {
     /// Replace the frames that an earlier run wrote into the folder
     #[arg(long)]
     pub(crate) force: bool,
-    /// Draw the I-th of N slices of the frames (I from 1)
+    /// Draw the I-th of N slices of the frames (I from 1), for `merge`
     #[arg(long, value_name = "I/N")]
     pub(crate) shard: Option<Shard>,
+}
+
+#[derive(Args, Debug)]
+#[command(after_help = "Example:\n  \
+    cargo xtask render thesis --shard 1/2 --out a\n  \
+    cargo xtask render thesis --shard 2/2 --out b\n  \
+    cargo xtask merge a b --out thesis\n\n\
+    The slices are read only. What comes out is what one run would have written, bit for bit.")]
+pub(crate) struct MergeArgs {
+    /// The folders of all slices, in any order
+    #[arg(required = true, value_name = "DIR")]
+    pub(crate) dirs: Vec<PathBuf>,
+    /// Folder for all frames
+    #[arg(long, value_name = "DIR", default_value = "out/merged")]
+    pub(crate) out: PathBuf,
+    /// Replace the frames that an earlier run wrote into the folder
+    #[arg(long)]
+    pub(crate) force: bool,
 }
 
 #[derive(Args, Debug)]
@@ -206,10 +230,23 @@ pub(crate) struct StressArgs {
 pub(crate) enum Format {
     /// A numbered PNG file a frame
     Png,
+    /// A numbered SVG file a frame
+    Svg,
     /// One animated PNG, which browsers play
     Apng,
     /// One uncompressed film, which ffmpeg reads
     Y4m,
+    /// Twelve frames on one picture
+    Sheet,
+}
+
+/// How hard pictures are packed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum PackingFlag {
+    /// Twenty times faster, for a third more bytes
+    Fast,
+    /// As small as is reasonable
+    Small,
 }
 
 /// How a world moves its bodies.

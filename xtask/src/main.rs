@@ -9,6 +9,7 @@ mod flags;
 mod inertia;
 mod laboratory;
 mod list;
+mod merge;
 mod parallel;
 mod random;
 mod reference;
@@ -36,6 +37,7 @@ fn main() -> ExitCode {
     let outcome = match &cli.command {
         Command::Demo(args) => demo::run(args),
         Command::Render(args) => render::run(args),
+        Command::Merge(args) => merge::run(args),
         Command::Simulate(args) => simulate::run(args),
         Command::Inertia(args) => inertia::run(args),
         Command::List => list::run(),

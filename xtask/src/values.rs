@@ -1,5 +1,6 @@
 //! Values of flags, checked while the command line is read, before anything runs or is written.
 
+use std::fmt;
 use std::str::FromStr;
 
 /// A duration in seconds: finite and not negative.
@@ -61,6 +62,13 @@ impl Shard {
     pub(crate) const fn frames(self, frames: u64) -> std::ops::Range<u64> {
         // At most 1e6 frames and 1e6 slices: no overflow.
         self.index * frames / self.count..(self.index + 1) * frames / self.count
+    }
+}
+
+/// `I/N`, counted from 1.
+impl fmt::Display for Shard {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}/{}", self.index + 1, self.count)
     }
 }
 

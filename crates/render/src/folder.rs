@@ -1,23 +1,17 @@
-//! An output folder and the manifest that says which files in it are ours.
+//! An output folder: locked, with a manifest that says which files in it are ours.
 //!
 //! A name is written into the manifest before its file appears, so whatever stands under a final name is listed, even
-//! after a crash. Only listed files are ever replaced or removed.
+//! after a crash, and its checksum after it, so that what is whole is known. Only listed files are ever replaced or removed.
 
-use std::collections::BTreeSet;
-use std::ffi::OsStr;
-use std::fs::{self, File, OpenOptions, TryLockError};
-use std::io::{Read, Seek, SeekFrom, Write};
+use std::fs;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use crate::RenderError;
+use crate::disk::{self, DiskFile};
+use crate::manifest::{Checksum, MANIFEST, Manifest, is_plain, line};
 use crate::output::{temporary_name, write_file};
-
-/// Name of the manifest inside an output folder.
-pub const MANIFEST: &str = "manifest.txt";
-
-/// First line of a manifest; the run's own description follows in the second.
-const HEADING: &str = "carom output 1";
 
 /// What to do with the outputs that a folder holds already.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -27,7 +21,8 @@ pub enum Existing {
     Refuse,
     /// Remove what the manifest lists, and start anew. Files of others are never touched.
     Replace,
-    /// Keep what the manifest lists and go on, if it was the same run.
+    /// Keep what the manifest lists and go on, if it was the same run. A file whose bytes are not those of its checksum
+    /// counts as missing.
     Resume,
 }
 
@@ -35,13 +30,14 @@ pub enum Existing {
 #[derive(Debug)]
 pub struct OutputFolder {
     path: PathBuf,
-    state: Mutex<Manifest>,
+    state: Mutex<State>,
 }
 
 #[derive(Debug)]
-struct Manifest {
-    file: File,
-    names: BTreeSet<String>,
+struct State {
+    manifest: Manifest,
+    /// The manifest's file, and those it took the place of: each is a lock that somebody may ask for.
+    locks: Vec<DiskFile>,
 }
 
 impl OutputFolder {
@@ -64,65 +60,42 @@ impl OutputFolder {
                 path: path.to_path_buf(),
             });
         }
-        fs::create_dir_all(path).map_err(RenderError::io("make the folder", path))?;
+        disk::make_folder(path).map_err(RenderError::io("make the folder", path))?;
         let about: String = about
             .chars()
             .map(|c| if c.is_control() { ' ' } else { c })
             .collect();
+        // Looked at before anything is made here, and once more under the lock.
+        checked(path, existing, &about)?;
         let place = path.join(MANIFEST);
-        let old = read_manifest(&place)?;
-        let names = match (&old, existing) {
-            (None, _) => BTreeSet::new(),
-            (Some((_, names)), Existing::Replace | Existing::Resume) => names.clone(),
-            // A run that failed before its first output is nothing to lose.
-            (Some((_, names)), Existing::Refuse) => match names.first() {
-                Some(name) => return Err(occupied(path, name)),
-                None => BTreeSet::new(),
-            },
-        };
-        refuse_foreign_frames(path, &names, existing)?;
-        if let (Some((found, _)), Existing::Resume) = (&old, existing)
-            && *found != about
-        {
-            return Err(RenderError::OtherRun {
-                folder: path.to_path_buf(),
-                found: found.clone(),
-                wanted: about,
-            });
-        }
-
-        // Opened without being emptied: until the lock is ours, it may be another run's.
-        let mut file = OpenOptions::new()
-            .create(true)
-            .truncate(false)
-            .read(true)
-            .write(true)
-            .open(&place)
-            .map_err(RenderError::io("write", &place))?;
-        // A file system without locks is no reason to refuse.
-        if matches!(file.try_lock(), Err(TryLockError::WouldBlock)) {
+        let lock = disk::open(&place).map_err(RenderError::io("write", &place))?;
+        if lock.is_taken() {
             return Err(RenderError::InUse {
                 folder: path.to_path_buf(),
             });
         }
-        let keep = existing == Existing::Resume;
-        if !keep {
-            for name in &names {
+        let mut files = checked(path, existing, &about)?.files;
+        if existing == Existing::Resume {
+            for (name, sum) in &mut files {
+                sum.take_if(|sum| Checksum::of_file(path.join(name)).ok() != Some(*sum));
+            }
+        } else {
+            for name in files.keys() {
                 remove_ours(&path.join(name))?;
                 // What a run that was killed left of it.
                 remove_ours(&temporary_name(&path.join(name)))?;
             }
+            files.clear();
         }
-        let names = if keep { names } else { BTreeSet::new() };
-        let text = manifest_text(&about, &names);
-        file.set_len(0)
-            .and_then(|()| file.seek(SeekFrom::Start(0)))
-            .and_then(|_| file.write_all(text.as_bytes()))
-            .map_err(RenderError::io("write", &place))?;
-        Ok(Self {
+        let folder = Self {
             path: path.to_path_buf(),
-            state: Mutex::new(Manifest { file, names }),
-        })
+            state: Mutex::new(State {
+                manifest: Manifest { about, files },
+                locks: vec![lock],
+            }),
+        };
+        folder.rewrite(&mut folder.state())?;
+        Ok(folder)
     }
 
     /// The folder.
@@ -137,60 +110,131 @@ impl OutputFolder {
     /// [`RenderError::Name`] unless it is a plain file name of printable characters, [`RenderError::Foreign`] if a file
     /// stands there that is not ours, [`RenderError::Io`] if the manifest cannot be written.
     pub fn claim(&self, name: &str) -> Result<PathBuf, RenderError> {
-        let plain = Path::new(name).file_name() == Some(OsStr::new(name));
-        if !plain || name.chars().any(char::is_control) || name == MANIFEST {
+        if !is_plain(name) {
             return Err(RenderError::Name {
                 name: name.to_owned(),
             });
         }
         let place = self.path.join(name);
-        let mut manifest = self.manifest();
-        if manifest.names.contains(name) {
-            return Ok(place);
+        let mut state = self.state();
+        if !state.manifest.files.contains_key(name) {
+            if place.exists() {
+                return Err(RenderError::Foreign { path: place });
+            }
+            self.append(&mut state, name, None)?;
         }
-        if place.exists() {
-            return Err(RenderError::Foreign { path: place });
-        }
-        let line = format!("{name}\n");
-        manifest
-            .file
-            .write_all(line.as_bytes())
-            .map_err(RenderError::io("write", &self.path.join(MANIFEST)))?;
-        manifest.names.insert(name.to_owned());
         Ok(place)
     }
 
-    /// Writes a whole file: claimed, then under a temporary name, then renamed.
+    /// Writes a whole file: claimed, then under a temporary name, then renamed, then marked as whole.
     ///
     /// # Errors
     /// As [`OutputFolder::claim`], and [`RenderError::Io`] from the disk; nothing half-written stays.
     pub fn save(&self, name: &str, bytes: &[u8]) -> Result<(), RenderError> {
-        write_file(&self.claim(name)?, bytes)
+        write_file(&self.claim(name)?, bytes)?;
+        self.append(&mut self.state(), name, Some(Checksum::of(bytes)))
+    }
+
+    /// Marks a claimed file as whole, after something else wrote it.
+    ///
+    /// # Errors
+    /// [`RenderError::Io`] if it cannot be read, or the manifest not written.
+    pub fn seal(&self, name: &str) -> Result<(), RenderError> {
+        let place = self.claim(name)?;
+        let sum = Checksum::of_file(&place)?;
+        self.append(&mut self.state(), name, Some(sum))
     }
 
     /// Whether a finished file of ours has this name.
     #[must_use]
     pub fn has(&self, name: &str) -> bool {
-        self.manifest().names.contains(name) && self.path.join(name).is_file()
+        let state = self.state();
+        matches!(state.manifest.files.get(name), Some(Some(_))) && self.path.join(name).is_file()
     }
 
     /// The names in the manifest, sorted.
     #[must_use]
     pub fn names(&self) -> Vec<String> {
-        self.manifest().names.iter().cloned().collect()
+        self.state().manifest.files.keys().cloned().collect()
+    }
+
+    /// Ends the run: the manifest is sorted, a line a file, whatever the order in which they were finished.
+    ///
+    /// A folder that is only dropped is as right, but longer.
+    ///
+    /// # Errors
+    /// [`RenderError::Io`] from the disk; the manifest stays as it was then.
+    pub fn close(self) -> Result<(), RenderError> {
+        self.rewrite(&mut self.state())
     }
 
     /// A panic of another thread leaves the list usable: every change to it is one insertion.
-    fn manifest(&self) -> MutexGuard<'_, Manifest> {
+    fn state(&self) -> MutexGuard<'_, State> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// One line more, on the disk first.
+    fn append(
+        &self,
+        state: &mut State,
+        name: &str,
+        sum: Option<Checksum>,
+    ) -> Result<(), RenderError> {
+        if let Some(file) = state.locks.last_mut() {
+            file.append(&line(name, sum))
+                .map_err(RenderError::io("write", &self.path.join(MANIFEST)))?;
+        }
+        state.manifest.files.insert(name.to_owned(), sum);
+        Ok(())
+    }
+
+    /// The manifest as a new file in place of the old one, locked before it has its name.
+    fn rewrite(&self, state: &mut State) -> Result<(), RenderError> {
+        let place = self.path.join(MANIFEST);
+        let temporary = temporary_name(&place);
+        let text = state.manifest.text();
+        let written = disk::create(&temporary).and_then(|mut file| {
+            // Nobody else knows of it.
+            let _taken = file.is_taken();
+            file.write_all(text.as_bytes())?;
+            disk::rename(&temporary, &place)?;
+            Ok(file)
+        });
+        if written.is_err() {
+            let _gone = disk::remove(&temporary);
+        }
+        state
+            .locks
+            .push(written.map_err(RenderError::io("write", &place))?);
+        Ok(())
     }
 }
 
 /// Whether `name` looks like a numbered frame.
 pub(crate) fn is_frame(name: &str) -> bool {
     name.strip_prefix("frame_")
-        .and_then(|rest| rest.strip_suffix(".png"))
+        .and_then(|rest| rest.strip_suffix(".png").or(rest.strip_suffix(".svg")))
         .is_some_and(|number| number.len() >= 5 && number.bytes().all(|b| b.is_ascii_digit()))
+}
+
+/// The manifest that is there, if the folder may be used as `existing` says.
+fn checked(path: &Path, existing: Existing, about: &str) -> Result<Manifest, RenderError> {
+    let manifest = Manifest::read(path)?.unwrap_or_default();
+    // A run that failed before its first output is nothing to lose.
+    if let Some(name) = manifest.files.keys().next() {
+        if existing == Existing::Refuse {
+            return Err(occupied(path, name));
+        }
+        if existing == Existing::Resume && manifest.about != about {
+            return Err(RenderError::OtherRun {
+                folder: path.to_path_buf(),
+                found: manifest.about,
+                wanted: about.to_owned(),
+            });
+        }
+    }
+    refuse_foreign_frames(path, &manifest, existing)?;
+    Ok(manifest)
 }
 
 fn occupied(folder: &Path, what: &str) -> RenderError {
@@ -200,56 +244,19 @@ fn occupied(folder: &Path, what: &str) -> RenderError {
     }
 }
 
-/// The run's description and the names of a manifest, or `None` if there is none.
-fn read_manifest(place: &Path) -> Result<Option<(String, BTreeSet<String>)>, RenderError> {
-    let mut text = String::new();
-    match File::open(place) {
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
-        Err(error) => return Err(RenderError::io("read", place)(error)),
-        Ok(mut file) => {
-            if file.read_to_string(&mut text).is_err() {
-                text.clear();
-            }
-        }
-    }
-    let mut lines = text.lines();
-    if lines.next() != Some(HEADING) {
-        return Err(RenderError::Foreign {
-            path: place.to_path_buf(),
-        });
-    }
-    let about = lines.next().unwrap_or_default().to_owned();
-    // A manifest is no licence to remove files elsewhere.
-    let names = lines
-        .filter(|name| Path::new(name).file_name() == Some(OsStr::new(name)) && *name != MANIFEST)
-        .map(str::to_owned)
-        .collect();
-    Ok(Some((about, names)))
-}
-
-fn manifest_text(about: &str, names: &BTreeSet<String>) -> String {
-    let mut text = format!("{HEADING}\n{about}\n");
-    for name in names {
-        text.push_str(name);
-        text.push('\n');
-    }
-    text
-}
-
 fn refuse_foreign_frames(
     folder: &Path,
-    ours: &BTreeSet<String>,
+    ours: &Manifest,
     existing: Existing,
 ) -> Result<(), RenderError> {
     let entries = fs::read_dir(folder).map_err(RenderError::io("read", folder))?;
-    let mut frames: Vec<String> = entries
+    let first = entries
         .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
-        .filter(|name| is_frame(name) && !ours.contains(name))
-        .collect();
-    frames.sort();
-    match (frames.first(), existing) {
+        .filter(|name| is_frame(name) && !ours.files.contains_key(name))
+        .min();
+    match (first, existing) {
         (None, _) => Ok(()),
-        (Some(name), Existing::Refuse) => Err(occupied(folder, name)),
+        (Some(name), Existing::Refuse) => Err(occupied(folder, &name)),
         (Some(name), _) => Err(RenderError::Foreign {
             path: folder.join(name),
         }),
@@ -257,17 +264,13 @@ fn refuse_foreign_frames(
 }
 
 fn remove_ours(place: &Path) -> Result<(), RenderError> {
-    match fs::remove_file(place) {
-        Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
-            Err(RenderError::io("remove", place)(error))
-        }
-        _ => Ok(()),
-    }
+    disk::remove(place).map_err(RenderError::io("remove", place))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::disk::fault;
 
     #[test]
     fn only_listed_files_are_replaced() {
@@ -323,7 +326,10 @@ mod tests {
         fs::write(&victim, "alive").unwrap();
         let path = root.path().join("out");
         fs::create_dir(&path).unwrap();
-        let text = format!("{HEADING}\nrun\n../victim.txt\n{}\n..\n", victim.display());
+        let text = format!(
+            "carom output 2\nrun\n../victim.txt\n{}\n..\n",
+            victim.display()
+        );
         fs::write(path.join(MANIFEST), text).unwrap();
         let folder = OutputFolder::open(&path, Existing::Replace, "run").unwrap();
         assert_eq!(fs::read_to_string(&victim).unwrap(), "alive");
@@ -375,5 +381,109 @@ mod tests {
         }
         let error = OutputFolder::open(&path, Existing::Replace, "run").unwrap_err();
         assert!(matches!(error, RenderError::Io { .. }), "{error}");
+    }
+
+    /// A run of three frames and a chart.
+    fn run(path: &Path, existing: Existing) -> Result<(), RenderError> {
+        let folder = OutputFolder::open(path, existing, "run")?;
+        for name in NAMES {
+            if !folder.has(name) {
+                folder.save(name, name.repeat(100).as_bytes())?;
+            }
+        }
+        folder.close()
+    }
+
+    const NAMES: [&str; 4] = [
+        "chart.svg",
+        "frame_00000.png",
+        "frame_00001.png",
+        "frame_00002.png",
+    ];
+
+    fn contents(path: &Path) -> Vec<(String, Vec<u8>)> {
+        let mut files: Vec<_> = fs::read_dir(path)
+            .unwrap()
+            .map(|entry| entry.unwrap())
+            .map(|entry| {
+                let name = entry.file_name().into_string().unwrap();
+                (name, fs::read(entry.path()).unwrap())
+            })
+            .collect();
+        files.sort();
+        files
+    }
+
+    #[test]
+    fn a_disk_that_fills_up_at_any_moment_harms_nothing_and_the_run_resumes_to_equal_bytes() {
+        let root = tempfile::tempdir().unwrap();
+        run(&root.path().join("whole"), Existing::Refuse).unwrap();
+        let whole = contents(&root.path().join("whole"));
+        for existing in [Existing::Refuse, Existing::Replace] {
+            for changes in 0.. {
+                let path = root.path().join(format!("{existing:?} {changes}"));
+                if existing == Existing::Replace {
+                    run(&path, Existing::Refuse).unwrap();
+                    fs::write(path.join("notes.txt"), "mine").unwrap();
+                }
+                let (outcome, refused) = fault::after(changes, || run(&path, existing));
+                assert_eq!(outcome.is_err(), refused, "{changes} changes");
+                if let Err(error) = outcome {
+                    let said = error.to_string();
+                    assert!(said.contains("no storage space"), "{said}");
+                    assert!(said.contains(path.to_str().unwrap()), "{said}");
+                }
+                // Whatever has its final name is whole.
+                let there = if path.exists() {
+                    contents(&path)
+                } else {
+                    Vec::new()
+                };
+                for file in &there {
+                    let ours = file.0 == MANIFEST || file.0 == "notes.txt";
+                    assert!(
+                        ours || whole.contains(file),
+                        "{changes} changes: {}",
+                        file.0
+                    );
+                }
+                run(&path, Existing::Resume).unwrap();
+                let _mine = fs::remove_file(path.join("notes.txt"));
+                assert_eq!(contents(&path), whole, "{changes} changes");
+                if !refused {
+                    assert!(changes > 10, "{changes} changes were all there is");
+                    break;
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_frame_that_was_changed_or_cut_short_is_missing() {
+        let root = tempfile::tempdir().unwrap();
+        run(root.path(), Existing::Refuse).unwrap();
+        fs::write(root.path().join(NAMES[1]), "something else").unwrap();
+        let bytes = fs::read(root.path().join(NAMES[2])).unwrap();
+        fs::write(root.path().join(NAMES[2]), &bytes[..700]).unwrap();
+        let folder = OutputFolder::open(root.path(), Existing::Resume, "run").unwrap();
+        assert_eq!(
+            NAMES.map(|name| folder.has(name)),
+            [true, false, false, true]
+        );
+    }
+
+    #[test]
+    fn the_manifest_tells_nothing_of_the_order_of_work() {
+        let root = tempfile::tempdir().unwrap();
+        let text = |name: &str, order: &[usize]| {
+            let path = root.path().join(name);
+            let folder = OutputFolder::open(&path, Existing::Refuse, "run").unwrap();
+            for &k in order {
+                folder.save(NAMES[k], NAMES[k].as_bytes()).unwrap();
+            }
+            folder.close().unwrap();
+            fs::read_to_string(path.join(MANIFEST)).unwrap()
+        };
+        assert_eq!(text("a", &[0, 1, 2, 3]), text("b", &[2, 3, 0, 1]));
     }
 }

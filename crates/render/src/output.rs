@@ -1,11 +1,11 @@
 //! Files that appear whole or not at all.
 
 use std::ffi::OsString;
-use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use crate::RenderError;
+use crate::disk::{self, DiskFile};
 
 /// A file under a temporary name beside its place: [`Draft::finish`] gives it its name, dropping it removes it.
 ///
@@ -26,7 +26,7 @@ use crate::RenderError;
 pub struct Draft {
     place: PathBuf,
     temporary: PathBuf,
-    writer: Option<BufWriter<File>>,
+    writer: Option<BufWriter<DiskFile>>,
 }
 
 /// The name that a file has until it is whole: hidden, in the same folder.
@@ -54,7 +54,7 @@ impl Draft {
             let source = io::Error::from(io::ErrorKind::IsADirectory);
             return Err(RenderError::io("write", place)(source));
         }
-        let file = File::create(&temporary).map_err(RenderError::io("write", place))?;
+        let file = disk::create(&temporary).map_err(RenderError::io("write", place))?;
         Ok(Self {
             place: place.to_path_buf(),
             temporary,
@@ -69,7 +69,7 @@ impl Draft {
     }
 
     /// Hands over the file with everything written so far in it, to change what lies behind.
-    pub(crate) fn file(&mut self) -> Result<Option<&mut File>, RenderError> {
+    pub(crate) fn file(&mut self) -> Result<Option<&mut DiskFile>, RenderError> {
         let Some(writer) = &mut self.writer else {
             return Ok(None);
         };
@@ -87,9 +87,9 @@ impl Draft {
         self.file()?;
         // Closed before it is renamed: some systems ask for it.
         drop(self.writer.take());
-        let renamed = fs::rename(&self.temporary, &self.place);
+        let renamed = disk::rename(&self.temporary, &self.place);
         if renamed.is_err() {
-            let _gone = fs::remove_file(&self.temporary);
+            let _gone = disk::remove(&self.temporary);
         }
         renamed.map_err(RenderError::io("write", &self.place))
     }
@@ -112,7 +112,7 @@ impl Drop for Draft {
     fn drop(&mut self) {
         if self.writer.take().is_some() {
             // Nobody is left to hear of a failure; a hidden file may stay.
-            let _gone = fs::remove_file(&self.temporary);
+            let _gone = disk::remove(&self.temporary);
         }
     }
 }
@@ -130,6 +130,7 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), RenderError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::fs;
 
     fn names(folder: &Path) -> Vec<String> {
         let mut names: Vec<_> = fs::read_dir(folder)

@@ -53,6 +53,12 @@ impl Sequence {
         format!("frame_{index:05}.png")
     }
 
+    /// File name of frame `index` as a drawing.
+    #[must_use]
+    pub fn svg_name(index: u64) -> String {
+        format!("frame_{index:05}.svg")
+    }
+
     /// Path of frame `index`.
     #[must_use]
     pub fn path(&self, index: u64) -> PathBuf {

@@ -4,7 +4,7 @@ mod chart;
 
 use std::path::Path;
 
-use carom_render::{Animation, Existing, OutputFolder, Picture, Sequence, Sheet, Size};
+use carom_render::{Animation, Existing, Frame, OutputFolder, Picture, Sequence, Sheet, Size};
 use carom_scenes::Built;
 
 use crate::clock::Clock;
@@ -14,7 +14,7 @@ use crate::flags::DemoArgs;
 use crate::interrupt;
 use crate::out::say;
 use crate::parallel;
-use crate::render::resized;
+use crate::render::{caption, resized, tiles};
 use crate::scene;
 use crate::summary::Summary;
 
@@ -30,8 +30,7 @@ const CHART_PNG: &str = "energy.png";
 const CHART_SVG: &str = "energy.svg";
 const SUMMARY: &str = "summary.json";
 
-/// Tiles of a contact sheet, and how many stand in a row.
-const TILES: u64 = 12;
+/// How many tiles of a contact sheet stand in a row.
 const COLUMNS: u32 = 4;
 
 /// Length and size of the demo.
@@ -100,6 +99,7 @@ fn show(name: &str, folder: &Path, format: Format) -> Result<bool, Failure> {
     )?;
     chart::save(&folder, name, &footage.energy, [CHART_PNG, CHART_SVG])?;
     report(&summary, &footage, &folder);
+    folder.close()?;
     Ok(footage.interrupted)
 }
 
@@ -114,31 +114,26 @@ fn draw(
     let style = built.look.style.clone();
     let mut film = Animation::create(folder.claim(FILM)?, size, plan.rate)?;
     let mut sheet = Sheet::new(COLUMNS, size.width() / 3).titled(name);
-    let every = plan.frames.div_ceil(TILES).max(1);
-    let interval = plan.rate.interval();
-    let encode = |index: u64, picture: Picture| {
+    let tiles = tiles(plan.frames);
+    let draw = |index: u64, frame: Frame| {
+        let picture = frame.paint(&style);
         let png = picture.to_png();
         folder.save(&Sequence::name(index), &png)?;
-        let tile = index.is_multiple_of(every).then_some(picture);
+        let tile = tiles.contains(&index).then_some(picture);
         Ok((png, tile))
     };
     let take = |index: u64, (png, tile): (Vec<u8>, Option<Picture>)| {
         film.push_png(&png)?;
         if let Some(tile) = tile {
-            #[expect(clippy::cast_precision_loss, reason = "a frame number below 1e6")]
-            let time = index as f64 * interval;
-            sheet.push(&tile, format!("{time:.2} s"))?;
+            sheet.push(&tile, caption(index, plan))?;
         }
         Ok(())
     };
-    let list = |index: u64| {
-        folder.claim(&Sequence::name(index))?;
-        Ok(true)
-    };
-    let footage = shoot(built, plan, name, list, encode, take)?;
+    let footage = shoot(built, plan, name, |_| true, draw, take)?;
     // Interrupted before the first frame: nothing to show.
     if footage.drawn > 0 {
         film.finish()?;
+        folder.seal(FILM)?;
         folder.save(SHEET, &sheet.paint(&style)?.to_png())?;
     }
     Ok(footage)

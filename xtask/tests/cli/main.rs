@@ -1,7 +1,9 @@
 //! The command line as a user meets it: what is printed, what is written, and the exit code.
 
 mod inertia;
+mod kill;
 mod laboratory;
+mod merge;
 mod output;
 mod reference;
 mod scenes;

@@ -26,7 +26,7 @@ fn frames_do_not_depend_on_threads_or_slices() {
     let ran = render(folder.path(), &["--out", "one/deep", "--threads", "1"]).done();
     assert!(
         ran.out
-            .starts_with("4 frames of 80 x 60 px at 20 per second"),
+            .starts_with("4 frames of 80 x 60 px (0.0576 MB unpacked) at 20 per second"),
         "{}",
         ran.out
     );
@@ -126,6 +126,85 @@ fn films_are_one_file() {
     assert_eq!(
         names(&folder.path().join("b")),
         ["manifest.txt", "thesis.y4m"]
+    );
+    render(folder.path(), &["--out", "c", "--format", "sheet"]).done();
+    assert!(folder.path().join("c/thesis.png").is_file());
+    render(folder.path(), &["--out", "d", "--format", "svg"]).done();
+    let drawing = fs::read_to_string(folder.path().join("d/frame_00003.svg")).unwrap();
+    assert!(drawing.starts_with("<svg") && drawing.trim_end().ends_with("</svg>"));
+}
+
+#[test]
+fn a_small_frame_is_the_same_picture() {
+    let folder = tempfile::tempdir().unwrap();
+    render(folder.path(), &["--out", "a"]).done();
+    render(folder.path(), &["--out", "b", "--packing", "small"]).done();
+    for index in 0..4 {
+        let read = |place: &str| {
+            fs::read(folder.path().join(format!("{place}/frame_{index:05}.png"))).unwrap()
+        };
+        let (fast, small) = (read("a"), read("b"));
+        assert!(small.len() < fast.len(), "frame {index}");
+        let picture = |bytes: &[u8]| carom_render::Picture::from_png(bytes).unwrap();
+        assert_eq!(picture(&small), picture(&fast), "frame {index}");
+    }
+}
+
+#[test]
+fn a_film_goes_down_a_pipe_and_nothing_else_does() {
+    let folder = tempfile::tempdir().unwrap();
+    let args = [&SMALL[..], &["--format", "y4m", "--out"]].concat();
+    let output = std::process::Command::new(env!("CARGO_BIN_EXE_xtask"))
+        .args([&args[..], &["-"]].concat())
+        .current_dir(folder.path())
+        .output()
+        .unwrap();
+    assert!(output.status.success());
+    xtask_in(folder.path(), &[&args[..], &["a"]].concat()).done();
+    assert_eq!(
+        output.stdout,
+        fs::read(folder.path().join("a/thesis.y4m")).unwrap()
+    );
+    assert!(
+        String::from_utf8(output.stderr)
+            .unwrap()
+            .contains("state hash")
+    );
+    assert_eq!(names(folder.path()), ["a"]);
+
+    render(folder.path(), &["--out", "-"]).refused(&["--out -", "y4m"]);
+    xtask_in(folder.path(), &[&args[..], &["-", "--resume"]].concat()).refused(&["--resume"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_reader_that_goes_away_ends_the_film_without_an_error() {
+    use std::io::Read;
+    use std::process::{Command, Stdio};
+    let mut child = Command::new(env!("CARGO_BIN_EXE_xtask"))
+        .args([
+            "render",
+            "thesis",
+            "--seconds",
+            "100",
+            "--format",
+            "y4m",
+            "--out",
+            "-",
+        ])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut head = [0; 10];
+    child.stdout.take().unwrap().read_exact(&mut head).unwrap();
+    assert_eq!(&head, b"YUV4MPEG2 ");
+    let output = child.wait_with_output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    assert!(
+        said.contains("the reader went away") && !said.contains("error"),
+        "{said}"
     );
 }
 
