@@ -4,7 +4,7 @@
 //! normals, a half-plane one vertex and one normal, a concave polygon several convex pieces.
 
 use carom_geometry::{
-    Aabb, Circle, ConvexPart, ConvexPiece, ConvexPolygon, HalfPlane, Segment, Shape,
+    Aabb, Circle, ConvexPart, ConvexPiece, ConvexPolygon, EdgeBlock, HalfPlane, Segment, Shape,
 };
 use carom_math::{Pose, Vec2, cross};
 
@@ -26,6 +26,8 @@ pub struct Hull<'a> {
     pub normals: &'a [Vec2],
     /// Radius of a circle in metres, 0 for everything else.
     pub radius: f64,
+    /// The edges of a polygon, four at a time; empty for a circle, a segment, a half-plane.
+    pub blocks: &'a [EdgeBlock],
     /// The piece of a concave polygon that this is: it knows which edges are cuts.
     pub boundary: Option<&'a ConvexPiece>,
 }
@@ -133,6 +135,7 @@ impl Convex for Circle {
             vertices: self.vertices(),
             normals: &[],
             radius: self.radius(),
+            blocks: &[],
             boundary: None,
         }
     }
@@ -144,6 +147,7 @@ impl Convex for Segment {
             vertices: self.vertices(),
             normals: self.normals(),
             radius: 0.0,
+            blocks: &[],
             boundary: None,
         }
     }
@@ -155,6 +159,7 @@ impl Convex for HalfPlane {
             vertices: self.vertices(),
             normals: self.normals(),
             radius: 0.0,
+            blocks: &[],
             boundary: None,
         }
     }
@@ -166,6 +171,7 @@ impl Convex for ConvexPolygon {
             vertices: self.vertices(),
             normals: self.normals(),
             radius: 0.0,
+            blocks: self.blocks(),
             boundary: None,
         }
     }
@@ -177,6 +183,7 @@ impl Convex for ConvexPiece {
             vertices: self.vertices(),
             normals: self.normals(),
             radius: 0.0,
+            blocks: self.blocks(),
             boundary: Some(self),
         }
     }

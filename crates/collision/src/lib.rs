@@ -35,6 +35,7 @@ mod contacts;
 mod distance;
 mod features;
 mod hull;
+mod lanes;
 mod manifold;
 mod motion;
 mod nearest;

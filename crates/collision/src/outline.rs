@@ -101,6 +101,7 @@ impl<'a> Pair<'a> {
             vertices: &[from, to],
             normals: &[normal, -normal],
             radius: 0.0,
+            blocks: &[],
             boundary: None,
         };
         let other_hull = &self.hulls[other];

@@ -2,6 +2,7 @@
 
 use carom_math::{Vec2, orient2d, vec2};
 
+use crate::blocks::{EdgeBlock, edge_blocks};
 use crate::moments::polygon_moments;
 use crate::query::winds_around;
 use crate::ring::{Ring, corners};
@@ -22,6 +23,7 @@ use crate::{AreaProperties, PolygonError, hull};
 pub struct ConvexPolygon {
     vertices: Vec<Vec2>,
     normals: Vec<Vec2>,
+    blocks: Vec<EdgeBlock>,
 }
 
 impl ConvexPolygon {
@@ -67,7 +69,15 @@ impl ConvexPolygon {
     /// Vertices that are known to be strictly convex and counter-clockwise.
     pub(crate) fn from_checked(vertices: Vec<Vec2>) -> Self {
         let normals = outward_normals(&vertices);
-        Self { vertices, normals }
+        Self::of_edges(vertices, normals)
+    }
+
+    fn of_edges(vertices: Vec<Vec2>, normals: Vec<Vec2>) -> Self {
+        Self {
+            blocks: edge_blocks(&vertices, &normals),
+            vertices,
+            normals,
+        }
     }
 
     /// Corners, counter-clockwise, in m.
@@ -80,6 +90,12 @@ impl ConvexPolygon {
     #[must_use]
     pub fn normals(&self) -> &[Vec2] {
         &self.normals
+    }
+
+    /// The edges in order, four at a time: corners, normals, distances from the origin.
+    #[must_use]
+    pub fn blocks(&self) -> &[EdgeBlock] {
+        &self.blocks
     }
 
     /// Area and its moments.
@@ -99,10 +115,8 @@ impl ConvexPolygon {
     /// Vertices are rounded to where they come to lie, and not checked again.
     #[must_use]
     pub fn translated(&self, offset: Vec2) -> Self {
-        Self {
-            vertices: self.vertices.iter().map(|v| *v + offset).collect(),
-            normals: self.normals.clone(),
-        }
+        let vertices = self.vertices.iter().map(|v| *v + offset).collect();
+        Self::of_edges(vertices, self.normals.clone())
     }
 
     /// The same polygon moved so that its centroid is at the origin.

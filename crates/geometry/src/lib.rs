@@ -23,6 +23,7 @@
 
 mod aabb;
 mod area;
+mod blocks;
 mod circle;
 mod compound;
 mod convex;
@@ -52,6 +53,7 @@ mod wide;
 
 pub use aabb::Aabb;
 pub use area::{AreaProperties, ring_properties};
+pub use blocks::EdgeBlock;
 pub use carom_math as math;
 pub use circle::Circle;
 pub use compound::Compound;

@@ -5,6 +5,7 @@
 
 use carom_math::{Vec2, cross, orient2d};
 
+use crate::blocks::{EdgeBlock, edge_blocks};
 use crate::convex::outward_normals;
 use crate::ears::triangulate;
 use crate::merge::{PieceEdge, merge};
@@ -31,11 +32,22 @@ use crate::{ConvexPolygon, Segment};
 pub struct ConvexPiece {
     vertices: Vec<Vec2>,
     normals: Vec<Vec2>,
+    blocks: Vec<EdgeBlock>,
     boundary: Vec<bool>,
     cones: Vec<Cone>,
 }
 
 impl ConvexPiece {
+    fn new(vertices: Vec<Vec2>, normals: Vec<Vec2>, boundary: Vec<bool>, cones: Vec<Cone>) -> Self {
+        Self {
+            blocks: edge_blocks(&vertices, &normals),
+            vertices,
+            normals,
+            boundary,
+            cones,
+        }
+    }
+
     /// Corners, strictly convex and counter-clockwise, in m.
     #[must_use]
     pub fn vertices(&self) -> &[Vec2] {
@@ -46,6 +58,12 @@ impl ConvexPiece {
     #[must_use]
     pub fn normals(&self) -> &[Vec2] {
         &self.normals
+    }
+
+    /// The edges in order, four at a time: corners, normals, distances from the origin.
+    #[must_use]
+    pub fn blocks(&self) -> &[EdgeBlock] {
+        &self.blocks
     }
 
     /// Whether edge `i` belongs to the outline; else it is a cut.
@@ -74,6 +92,7 @@ impl ConvexPiece {
         Self {
             vertices: polygon.vertices().to_vec(),
             normals: normals.to_vec(),
+            blocks: polygon.blocks().to_vec(),
             boundary: vec![true; normals.len()],
             cones: cones.collect(),
         }
@@ -83,12 +102,9 @@ impl ConvexPiece {
     pub(crate) fn wall(segment: &Segment) -> Self {
         let [right, left] = *segment.normals();
         let cone = |from, to| Cone { from, to };
-        Self {
-            vertices: segment.vertices().to_vec(),
-            normals: vec![right, left],
-            boundary: vec![true; 2],
-            cones: vec![cone(left, right), cone(right, left)],
-        }
+        let (vertices, normals) = (segment.vertices().to_vec(), vec![right, left]);
+        let cones = vec![cone(left, right), cone(right, left)];
+        Self::new(vertices, normals, vec![true; 2], cones)
     }
 
     pub(crate) fn hide_edge(&mut self, edge: usize) {
@@ -101,12 +117,12 @@ impl ConvexPiece {
 
     /// The same piece moved by `offset`, in m.
     pub(crate) fn translated(&self, offset: Vec2) -> Self {
-        Self {
-            vertices: self.vertices.iter().map(|v| *v + offset).collect(),
-            normals: self.normals.clone(),
-            boundary: self.boundary.clone(),
-            cones: self.cones.clone(),
-        }
+        Self::new(
+            self.vertices.iter().map(|v| *v + offset).collect(),
+            self.normals.clone(),
+            self.boundary.clone(),
+            self.cones.clone(),
+        )
     }
 }
 
@@ -154,12 +170,9 @@ impl Cone {
 pub(crate) fn decompose(ring: &[Vec2]) -> Vec<ConvexPiece> {
     let outline = Outline::new(ring);
     if outline.cones.iter().all(|cone| !cone.is_empty()) {
-        return vec![ConvexPiece {
-            vertices: ring.to_vec(),
-            boundary: vec![true; ring.len()],
-            normals: outline.normals,
-            cones: outline.cones,
-        }];
+        let boundary = vec![true; ring.len()];
+        let whole = ConvexPiece::new(ring.to_vec(), outline.normals, boundary, outline.cones);
+        return vec![whole];
     }
     let parts = merge(ring, &triangulate(ring));
     parts.iter().map(|part| outline.piece(part)).collect()
@@ -198,11 +211,9 @@ impl<'a> Outline<'a> {
 
     fn piece(&self, part: &[PieceEdge]) -> ConvexPiece {
         let vertices: Vec<Vec2> = part.iter().map(|edge| self.ring[edge.origin]).collect();
-        ConvexPiece {
-            normals: outward_normals(&vertices),
-            boundary: part.iter().map(|edge| edge.is_boundary).collect(),
-            cones: part.iter().map(|edge| self.cones[edge.origin]).collect(),
-            vertices,
-        }
+        let normals = outward_normals(&vertices);
+        let boundary = part.iter().map(|edge| edge.is_boundary).collect();
+        let cones = part.iter().map(|edge| self.cones[edge.origin]).collect();
+        ConvexPiece::new(vertices, normals, boundary, cones)
     }
 }

@@ -136,6 +136,23 @@ impl Rot {
         (Self::from_angle(angle) * self).renormalized()
     }
 
+    /// Two rotations, each followed by its angle in radians: the bits of [`Rot::turned`] of each, sooner.
+    #[must_use]
+    pub fn turned_pair(rotations: [Self; 2], angles: [f64; 2]) -> [Self; 2] {
+        let [a, b] = rotations;
+        if angles[0] == 0.0 || angles[1] == 0.0 {
+            return [a.turned(angles[0]), b.turned(angles[1])];
+        }
+        let (sin, cos) = trig::sin_cos_pair(angles);
+        [0, 1].map(|k| {
+            let turn = Self {
+                cos: cos[k],
+                sin: sin[k],
+            };
+            (turn * rotations[k]).renormalized()
+        })
+    }
+
     /// Cosine and sine brought back to unit length.
     ///
     /// One Newton step for 1/√(c² + s²) from 1: the error e of the square becomes 3e²/8, far
@@ -238,6 +255,15 @@ mod tests {
             prop_assert!((Rot::from_degrees(degrees).degrees() - degrees).abs() < 1e-13);
             let exact = 90.0 * f64::from(quarters);
             prop_assert_eq!(Rot::from_degrees(exact).degrees(), exact);
+        }
+
+        #[test]
+        fn two_at_once_turn_as_one_after_the_other(start in -4.0..4.0_f64, a in -2.0..2.0_f64, b in -2.0..2.0_f64) {
+            let rotations = [Rot::from_angle(start), Rot::from_angle(1.0 - start)];
+            for angles in [[a, b], [a, 0.0], [0.0, 0.0], [0.1 * a, 0.1 * b]] {
+                let one_by_one = [0, 1].map(|k| rotations[k].turned(angles[k]));
+                prop_assert_eq!(Rot::turned_pair(rotations, angles), one_by_one);
+            }
         }
 
         #[test]

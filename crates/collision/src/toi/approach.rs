@@ -1,7 +1,9 @@
-//! Two convex hulls in relative motion: gaps along an axis, their rates and their bounds.
+//! Two convex hulls in relative motion: where they are, along which axes, within which bounds.
 
-use carom_math::{Rot, Vec2, cross_scalar};
+use carom_math::{Pose, Rot, Vec2};
 
+use super::facing::Facing;
+use crate::lanes::each_height;
 use crate::{Hull, Motion};
 
 /// A direction that may separate two hulls.
@@ -9,17 +11,8 @@ use crate::{Hull, Motion};
 pub(super) enum Axis {
     /// Normal of an edge; it turns with its owner (0 is A, 1 is B).
     Edge { owner: usize, edge: usize },
-    /// A direction fixed in the world, from A to B.
+    /// A direction fixed in the world, from A to B; one of the hulls is a disc.
     World { normal: Vec2 },
-}
-
-/// A vertex (or a pair of them along a world axis) seen along an axis.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Gap {
-    /// Vertex of A and of B that face each other; the owner of an edge axis counts as its edge.
-    pub(super) vertices: [usize; 2],
-    pub(super) gap: f64,
-    pub(super) rate: f64,
 }
 
 /// Relative state at one instant.
@@ -36,180 +29,177 @@ pub(super) struct Instant {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Approach<'a> {
     pub(super) hulls: [Hull<'a>; 2],
-    motions: [Motion; 2],
+    /// A's motion, for places in the world.
+    motion: Motion,
     d: Vec2,
     v: Vec2,
     acceleration: Vec2,
-    /// Largest distance of a point of the hull from the centre of its motion.
+    rotation: [Rot; 2],
+    spin: [f64; 2],
+    angular_acceleration: [f64; 2],
+    /// Largest distance of a vertex from the centre of its motion.
+    arm: [f64; 2],
+    /// The same of a point of the hull, its radius included.
     pub(super) reach: [f64; 2],
+    /// Fastest that any two points approach at the start, in m/s.
+    pub(super) speed: f64,
+    /// Fastest that the approach of any two points changes, in m/s².
+    pull: f64,
+    /// Distance of the centres, its rate and its change of rate at the start.
+    distance: f64,
+    speed_of_centres: f64,
+    pull_of_centres: f64,
+    /// Which of the two is a half-plane.
+    wall: Option<usize>,
+    /// Which of the two is a disc, the first of two.
+    disc: Option<usize>,
 }
 
 impl<'a> Approach<'a> {
     pub(super) fn new(a: Hull<'a>, motion_a: &Motion, b: Hull<'a>, motion_b: &Motion) -> Self {
         let start = motion_a.start.max(motion_b.start);
         let motions = [motion_a.rebased(start), motion_b.rebased(start)];
-        let reach = |hull: &Hull<'_>| {
-            let square = hull.vertices.iter().map(|v| v.length_squared());
-            square.fold(0.0, f64::max).sqrt() + hull.radius
-        };
+        let hulls = [a, b];
+        let arm = hulls.each_ref().map(farthest);
+        let reach = [arm[0] + a.radius, arm[1] + b.radius];
+        let d = motions[1].centre - motions[0].centre;
+        let v = motions[1].velocity - motions[0].velocity;
+        let acceleration = motions[1].acceleration - motions[0].acceleration;
+        let spin = motions.each_ref().map(|motion| motion.spin);
+        let alpha = motions.each_ref().map(|motion| motion.angular_acceleration);
+        let (speed_of_centres, pull_of_centres) = (v.length(), acceleration.length());
+        let turning = |rate: [f64; 2]| rate[0].abs() * reach[0] + rate[1].abs() * reach[1];
         Self {
-            hulls: [a, b],
-            d: motions[1].centre - motions[0].centre,
-            v: motions[1].velocity - motions[0].velocity,
-            acceleration: motions[1].acceleration - motions[0].acceleration,
-            reach: [reach(&a), reach(&b)],
-            motions,
+            hulls,
+            motion: motions[0],
+            d,
+            v,
+            acceleration,
+            rotation: motions.each_ref().map(|motion| motion.rotation),
+            spin,
+            angular_acceleration: alpha,
+            arm,
+            reach,
+            speed: speed_of_centres + turning(spin),
+            pull: pull_of_centres + turning(alpha),
+            distance: d.length(),
+            speed_of_centres,
+            pull_of_centres,
+            wall: hulls.iter().position(Hull::is_half_plane),
+            disc: hulls.iter().position(Hull::is_disc),
         }
     }
 
-    /// Bounding circles of the hulls that cannot meet, however they turn.
-    pub(super) fn stays_apart(&self, horizon: f64) -> bool {
-        if self.wall().is_some() {
-            return false;
+    /// When, within the horizon, the hulls can touch: from when until when, in s; `None` if never.
+    pub(super) fn window(&self, horizon: f64) -> Option<(f64, f64)> {
+        if self.wall.is_some() {
+            return Some((0.0, horizon));
         }
+        // Far above the rounding of what follows, as a fraction of the lengths in it.
+        let reach = (self.reach[0] + self.reach[1]) * (1.0 + 1e-9) + 1e-14 * self.distance;
+        let window = if self.pull_of_centres > 0.0 {
+            let travel = (self.speed_of_centres + 0.5 * self.pull_of_centres * horizon) * horizon;
+            (self.distance <= reach + travel).then_some((0.0, horizon))
+        } else {
+            circles_meet(self.d, self.v, reach, horizon)
+        };
+        let small = self.hulls.iter().all(|hull| hull.boundary.is_none());
+        window.filter(|_| small || !self.pieces_stay_apart(horizon))
+    }
+
+    /// Circles about the boxes of the hulls that cannot meet, however these turn: closer than circles about the
+    /// centres of motion where a hull is a piece far from there.
+    fn pieces_stay_apart(&self, horizon: f64) -> bool {
         let circle = |k: usize| {
-            let hull = &self.hulls[k];
-            let bounds = hull.aabb(carom_math::Pose::IDENTITY);
+            let bounds = self.hulls[k].aabb(Pose::IDENTITY);
             let centre = bounds.centre();
-            let radius = bounds.extents().length() * 0.5;
-            let turn = self.fastest_spin(k, horizon) * horizon * centre.length();
-            (self.motions[k].rotation * centre, radius + turn)
+            let turn = self.spin_over(k, 0.0, horizon) * horizon * centre.length();
+            (
+                self.rotation[k] * centre,
+                bounds.extents().length() * 0.5 + turn,
+            )
         };
         let ((centre_a, radius_a), (centre_b, radius_b)) = (circle(0), circle(1));
         let apart = (self.d + centre_b - centre_a).length();
-        apart > (radius_a + radius_b + self.fastest(horizon) * horizon) * (1.0 + 1e-9)
+        let fastest = self.speed_of_centres + self.pull_of_centres * horizon;
+        apart > (radius_a + radius_b + fastest * horizon) * (1.0 + 1e-9)
     }
 
     /// Rounding of a gap at `tau`: what lies below is touching. Distance, sizes and travel, turning
     /// included, each carry roundings of their own size.
     pub(super) fn tolerance(&self, tau: f64) -> f64 {
-        let travel = (self.speed() + self.pull() * tau) * tau;
-        6.0 * f64::EPSILON * (self.d.length() + self.reach[0] + self.reach[1] + travel)
+        let travel = (self.speed + self.pull * tau) * tau;
+        6.0 * f64::EPSILON * (self.distance + self.reach[0] + self.reach[1] + travel)
     }
 
     /// The smaller hull's reach: lengths that mean something are fractions of it. A half-plane has
     /// none.
     pub(super) fn size(&self) -> f64 {
-        match self.wall() {
+        match self.wall {
             Some(wall) => self.reach[1 - wall],
             None => self.reach[0].min(self.reach[1]),
         }
     }
 
-    /// Which of the two is a half-plane.
-    fn wall(&self) -> Option<usize> {
-        self.hulls.iter().position(Hull::is_half_plane)
-    }
-
-    /// Fastest that any two points approach at the start, in m/s.
-    pub(super) fn speed(&self) -> f64 {
-        self.v.length()
-            + self.motions[0].spin.abs() * self.reach[0]
-            + self.motions[1].spin.abs() * self.reach[1]
-    }
-
-    /// Fastest that the approach of any two points changes, in m/s².
-    fn pull(&self) -> f64 {
-        let turning = |k: usize| self.motions[k].angular_acceleration.abs() * self.reach[k];
-        self.acceleration.length() + turning(0) + turning(1)
-    }
-
-    /// World position at `tau` of the frame of hull `k`.
-    pub(super) fn centre(&self, k: usize, tau: f64) -> Vec2 {
-        self.motions[k].centre + self.motions[k].travel(tau)
+    /// World position at `tau` of the frame of A.
+    pub(super) fn centre(&self, tau: f64) -> Vec2 {
+        self.motion.centre + self.motion.travel(tau)
     }
 
     pub(super) fn at(&self, tau: f64) -> Instant {
-        let [a, b] = &self.motions;
+        let (spin, alpha) = (self.spin, self.angular_acceleration);
+        let turn = |k: usize| (spin[k] + 0.5 * alpha[k] * tau) * tau;
         Instant {
             d: self.d + (self.v + self.acceleration * (0.5 * tau)) * tau,
             v: self.v + self.acceleration * tau,
-            rotation: [
-                a.rotation.turned(a.turn(tau)),
-                b.rotation.turned(b.turn(tau)),
-            ],
-            spin: [
-                a.spin + a.angular_acceleration * tau,
-                b.spin + b.angular_acceleration * tau,
-            ],
+            rotation: Rot::turned_pair(self.rotation, [turn(0), turn(1)]),
+            spin: [spin[0] + alpha[0] * tau, spin[1] + alpha[1] * tau],
         }
     }
 
-    /// Gap and rate of every vertex that faces the axis.
-    pub(super) fn each_gap(&self, axis: Axis, at: &Instant, mut visit: impl FnMut(Gap)) {
-        let radius = self.hulls[0].radius + self.hulls[1].radius;
-        match axis {
-            Axis::Edge { owner, edge } => {
-                let other = 1 - owner;
-                let (mine, theirs) = (&self.hulls[owner], &self.hulls[other]);
-                let sign = if owner == 0 { 1.0 } else { -1.0 };
-                let (d, v) = (at.d * sign, at.v * sign);
-                let n = at.rotation[owner] * mine.normals[edge];
-                let offset = mine.normals[edge].dot(mine.vertices[edge]) + radius;
-                // z: the vertex from the owner's centre. n turns with the owner, so
-                // d(n·z)/dt = n·(ż − ω_owner × z).
-                for (i, q) in theirs.vertices.iter().enumerate() {
-                    let y = at.rotation[other] * *q;
-                    let z = d + y;
-                    let slip =
-                        v + cross_scalar(at.spin[other], y) - cross_scalar(at.spin[owner], z);
-                    let mut vertices = [edge; 2];
-                    vertices[other] = i;
-                    visit(Gap {
-                        vertices,
-                        gap: n.dot(z) - offset,
-                        rate: n.dot(slip),
-                    });
-                }
-            }
-            Axis::World { normal } => {
-                for (i, p) in self.hulls[0].vertices.iter().enumerate() {
-                    let x = at.rotation[0] * *p;
-                    for (j, q) in self.hulls[1].vertices.iter().enumerate() {
-                        let y = at.rotation[1] * *q;
-                        let slip = at.v + cross_scalar(at.spin[1], y) - cross_scalar(at.spin[0], x);
-                        visit(Gap {
-                            vertices: [i, j],
-                            gap: normal.dot(at.d + y - x) - radius,
-                            rate: normal.dot(slip),
-                        });
-                    }
-                }
-            }
-        }
-    }
-
-    /// The smallest gap along the axis; the first of equals.
-    pub(super) fn smallest_gap(&self, axis: Axis, at: &Instant) -> Gap {
-        let mut least = Gap {
-            vertices: [0, 0],
-            gap: f64::INFINITY,
-            rate: 0.0,
-        };
-        self.each_gap(axis, at, |gap| {
-            if gap.gap < least.gap {
-                least = gap;
+    /// The axis along which the hulls are farthest apart at `at`; the first of equals.
+    pub(super) fn widest(&self, at: &Instant) -> Axis {
+        let mut best = (f64::NEG_INFINITY, Axis::World { normal: Vec2::X });
+        self.each_axis(at, |axis, height| {
+            if height > best.0 {
+                best = (height, axis);
             }
         });
-        least
+        best.1
     }
 
-    /// Visits every axis that can separate the hulls at `at`.
-    pub(super) fn each_axis(&self, at: &Instant, mut visit: impl FnMut(Axis)) {
-        if let Some(owner) = self.wall() {
-            visit(Axis::Edge { owner, edge: 0 });
+    /// Visits every axis that can separate the hulls at `at`, with the gap along it, radii left out. To rounding: what
+    /// is decided by a gap is decided by [`Facing`].
+    pub(super) fn each_axis(&self, at: &Instant, mut visit: impl FnMut(Axis, f64)) {
+        if let Some(owner) = self.wall {
+            visit(Axis::Edge { owner, edge: 0 }, 0.0);
             return;
         }
-        let round = self.hulls.iter().position(Hull::is_disc);
-        let Some(disc) = round else {
-            for owner in 0..2 {
-                for edge in 0..self.hulls[owner].normals.len() {
-                    visit(Axis::Edge { owner, edge });
-                }
-            }
+        if let Some(disc) = self.disc {
+            visit(self.axis_of_disc(disc, at), 0.0);
             return;
-        };
-        visit(self.axis_of_disc(disc, at));
+        }
+        for owner in 0..2 {
+            let [own, facing] = [owner, 1 - owner].map(|k| &self.hulls[k]);
+            let [from, to] = [owner, 1 - owner].map(|k| at.rotation[k]);
+            let d = if owner == 0 { at.d } else { -at.d };
+            each_height(
+                own,
+                facing,
+                from.inverse() * to,
+                from.inverse_mul(d),
+                |edge, height| {
+                    // Edges that pad the last block repeat the last one.
+                    visit(
+                        Axis::Edge {
+                            owner,
+                            edge: edge.min(own.normals.len() - 1),
+                        },
+                        height,
+                    );
+                },
+            );
+        }
     }
 
     /// Disc against anything: the edge it lies over, or the direction to the nearest corner.
@@ -257,6 +247,11 @@ impl<'a> Approach<'a> {
         }
     }
 
+    /// The axis at an instant, with the gap along it.
+    pub(super) fn facing(&self, axis: Axis, at: &Instant) -> Facing {
+        Facing::new(self, axis, at)
+    }
+
     /// Direction of the axis in the world, from A to B.
     pub(super) fn normal(&self, axis: Axis, at: &Instant) -> Vec2 {
         match axis {
@@ -276,41 +271,55 @@ impl<'a> Approach<'a> {
     /// R the distance of the centres, s its rate, ρ the reach of the vertices. An axis that does
     /// not turn leaves −n·a, sign and all: then a fall without spin is one exact step.
     pub(super) fn bend(&self, axis: Axis, at: &Instant, tau: f64, end: f64) -> f64 {
-        let spin = |k: usize| self.motions[k].spin_over(tau, end);
-        let alpha = |k: usize| self.motions[k].angular_acceleration;
-        let turning = |k: usize| spin(k) * spin(k) + alpha(k).abs();
+        let alpha = self.angular_acceleration;
+        let spin = |k: usize| self.spin_over(k, tau, end);
+        let turning = |k: usize| spin(k) * spin(k) + alpha[k].abs();
         let relative = |e: usize, v: usize| {
-            let w = self.motions[e].spin_difference(&self.motions[v], tau, end);
-            w * w + (alpha(v) - alpha(e)).abs()
+            let alpha = alpha[v] - alpha[e];
+            let difference = |tau: f64| (self.spin[v] - self.spin[e] + alpha * tau).abs();
+            let w = difference(tau).max(difference(end));
+            w * w + alpha.abs()
         };
         match axis {
             Axis::Edge { owner, .. } if turning(owner) == 0.0 => {
                 let n = self.normal(axis, at);
-                turning(1 - owner) * self.reach[1 - owner] - n.dot(self.acceleration)
+                turning(1 - owner) * self.arm[1 - owner] - n.dot(self.acceleration)
             }
             Axis::Edge { owner, .. } => {
                 let lasts = end - tau;
-                let pull = self.acceleration.length();
-                let s = at.v.length() + pull * lasts;
-                let far = at.d.length() + s * lasts;
+                let pull = self.pull_of_centres;
+                let (s, far) = if pull > 0.0 {
+                    let s = at.v.length() + pull * lasts;
+                    (s, at.d.length() + s * lasts)
+                } else {
+                    // A straight way is farthest at one of its ends.
+                    let (here, there) = (at.d, at.d + at.v * lasts);
+                    let far = here.length_squared().max(there.length_squared());
+                    (self.speed_of_centres, far.sqrt())
+                };
                 pull + 2.0 * spin(owner) * s
                     + turning(owner) * far
-                    + relative(owner, 1 - owner) * self.reach[1 - owner]
+                    + relative(owner, 1 - owner) * self.arm[1 - owner]
             }
             Axis::World { normal } => {
-                turning(0) * self.reach[0] + turning(1) * self.reach[1]
-                    - normal.dot(self.acceleration)
+                turning(0) * self.arm[0] + turning(1) * self.arm[1] - normal.dot(self.acceleration)
             }
         }
     }
 
     /// How long bounds taken now stay tight: two sizes of travel.
     pub(super) fn segment(&self, at: &Instant) -> f64 {
-        let fast = at.v.length();
-        let pull = self.acceleration.length();
         let size = 2.0 * (self.reach[0] + self.reach[1]);
-        // fast t + pull t²/2 = size, in the form that does not cancel.
-        let root = (fast * fast + 2.0 * pull * size).sqrt();
+        let (fast, root) = if self.pull_of_centres > 0.0 {
+            let fast = at.v.length();
+            // fast t + pull t²/2 = size, in the form that does not cancel.
+            (
+                fast,
+                (fast * fast + 2.0 * self.pull_of_centres * size).sqrt(),
+            )
+        } else {
+            (self.speed_of_centres, self.speed_of_centres)
+        };
         if fast + root > 0.0 {
             2.0 * size / (fast + root)
         } else {
@@ -318,26 +327,40 @@ impl<'a> Approach<'a> {
         }
     }
 
-    fn fastest_spin(&self, k: usize, horizon: f64) -> f64 {
-        self.motions[k].spin_over(0.0, horizon)
-    }
-
-    fn fastest(&self, horizon: f64) -> f64 {
-        self.v.length() + self.acceleration.length() * horizon
+    /// Largest |spin| of a hull between two times.
+    fn spin_over(&self, k: usize, from: f64, to: f64) -> f64 {
+        let at = |tau: f64| (self.spin[k] + self.angular_acceleration[k] * tau).abs();
+        at(from).max(at(to))
     }
 }
 
-impl Motion {
-    /// Largest |spin| between two times after the start.
-    fn spin_over(&self, from: f64, to: f64) -> f64 {
-        let at = |tau: f64| (self.spin + self.angular_acceleration * tau).abs();
-        at(from).max(at(to))
-    }
+/// Largest distance of a vertex from the origin.
+fn farthest(hull: &Hull<'_>) -> f64 {
+    let square = hull.vertices.iter().map(|v| v.length_squared());
+    square.fold(0.0, f64::max).sqrt()
+}
 
-    /// Largest |difference of spins| between two times after the start.
-    fn spin_difference(&self, other: &Self, from: f64, to: f64) -> f64 {
-        let alpha = self.angular_acceleration - other.angular_acceleration;
-        let at = |tau: f64| (self.spin - other.spin + alpha * tau).abs();
-        at(from).max(at(to))
+/// When two points on straight ways are within `reach` of each other, from 0 to `horizon`.
+fn circles_meet(d: Vec2, v: Vec2, reach: f64, horizon: f64) -> Option<(f64, f64)> {
+    // |d + v t|² = reach²
+    let outside = d.length_squared() - reach * reach;
+    let (square, along) = (v.length_squared(), d.dot(v));
+    if outside > 0.0 && along >= 0.0 {
+        return None;
     }
+    if square == 0.0 {
+        return (outside <= 0.0).then_some((0.0, horizon));
+    }
+    let aside = carom_math::cross(d, v);
+    let root = square * reach * reach - aside * aside;
+    if root < 0.0 {
+        return None;
+    }
+    let root = root.sqrt();
+    let from = if outside > 0.0 {
+        outside / (root - along)
+    } else {
+        0.0
+    };
+    (from <= horizon).then_some((from, ((root - along) / square).min(horizon)))
 }

@@ -7,6 +7,7 @@
 //! When the axis closes, the axes are looked at again: another one is open, or this is the impact.
 
 mod approach;
+mod facing;
 mod parts;
 mod search;
 mod touching;
@@ -150,9 +151,6 @@ pub fn time_of_impact_of_parts(
         return TimeOfImpact::Clear;
     }
     let approach = Approach::new(*a, motion_a, *b, motion_b);
-    if approach.stays_apart(horizon) {
-        return TimeOfImpact::Clear;
-    }
     search::first_contact(&approach, horizon)
 }
 

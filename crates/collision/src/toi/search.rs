@@ -3,7 +3,8 @@
 use arrayvec::ArrayVec;
 use carom_math::Vec2;
 
-use super::approach::{Approach, Axis, Gap, Instant};
+use super::approach::{Approach, Axis, Instant};
+use super::facing::{Facing, Gap};
 use super::touching::{End, Stretch};
 use super::{Impact, ImpactFeature, TimeOfImpact};
 
@@ -25,29 +26,33 @@ const SLACK: f64 = 1e-12;
 
 /// The first contact of two convex hulls within `horizon`.
 pub(super) fn first_contact(approach: &Approach<'_>, horizon: f64) -> TimeOfImpact {
+    let Some((from, until)) = approach.window(horizon) else {
+        return TimeOfImpact::Clear;
+    };
     let mut search = Search {
         approach,
-        horizon,
-        tau: 0.0,
+        until,
+        tau: from,
+        at: approach.at(from),
         level: None,
         steps: 0,
     };
     let mut sank = false;
     for query in 0..QUERIES {
-        let at = approach.at(search.tau);
-        let mut axis = search.widest(&at);
-        let gap = approach.smallest_gap(axis, &at).gap;
+        let mut axis = approach.widest(&search.at);
+        let mut facing = approach.facing(axis, &search.at);
         search.level = None;
-        if gap <= approach.tolerance(search.tau) {
+        if facing.gap <= approach.tolerance(search.tau) {
             // Closed on every side. The pair opens if any of its closed axes opens.
-            let (opening, rate) = search.opening(&at, gap);
-            if rate < -1e-13 * approach.speed() || (sank && rate < 0.0) {
-                return search.contact(opening, &at, query == 0);
+            let (opening, rate) = search.opening(axis, facing.gap);
+            if rate < -1e-13 * approach.speed || (sank && rate < 0.0) {
+                return search.contact(opening, query == 0 && from <= 0.0);
             }
             axis = opening;
-            search.level = Some(approach.smallest_gap(axis, &at).gap - search.slack());
+            facing = approach.facing(axis, &search.at);
+            search.level = Some(facing.gap - search.slack());
         }
-        match search.advance(axis) {
+        match search.advance(axis, facing) {
             Advance::Closed => sank = search.level.is_some(),
             Advance::Horizon => return TimeOfImpact::Clear,
             Advance::Spent => break,
@@ -69,8 +74,10 @@ enum Advance {
 
 struct Search<'a> {
     approach: &'a Approach<'a>,
-    horizon: f64,
+    /// End of the time in which the hulls can touch.
+    until: f64,
     tau: f64,
+    at: Instant,
     /// Gap at which the axis of a pair that touches already counts as closed; else the tolerance.
     level: Option<f64>,
     steps: usize,
@@ -81,106 +88,107 @@ impl Search<'_> {
         (SLACK * self.approach.size()).max(2.0 * self.approach.tolerance(self.tau))
     }
 
-    /// The axis with the largest gap; the first of equals.
-    fn widest(&self, at: &Instant) -> Axis {
-        let mut best = None;
-        self.approach.each_axis(at, |axis| {
-            let gap = self.approach.smallest_gap(axis, at).gap;
-            if best.is_none_or(|(_, widest)| gap > widest) {
-                best = Some((axis, gap));
-            }
-        });
-        best.map_or(Axis::World { normal: Vec2::X }, |(axis, _)| axis)
+    fn move_to(&mut self, tau: f64) {
+        self.tau = tau;
+        self.at = self.approach.at(tau);
     }
 
     /// Of the axes closed within [`NEAR`] of the widest, the one whose gap opens fastest (or
     /// closes slowest), and that rate. Cuts through concave shapes are left aside if they can be.
-    fn opening(&self, at: &Instant, widest: f64) -> (Axis, f64) {
-        let near = NEAR * self.approach.size();
+    fn opening(&self, widest: Axis, gap: f64) -> (Axis, f64) {
+        let (approach, at) = (self.approach, &self.at);
+        let near = NEAR * approach.size();
         let mut best: Option<(bool, f64, Axis)> = None;
-        self.approach.each_axis(at, |axis| {
-            let least = self.approach.smallest_gap(axis, at);
-            if least.gap < widest - near {
+        let radius = approach.hulls[0].radius + approach.hulls[1].radius;
+        // Twice as near, since heights are rounded otherwise than gaps.
+        let floor = gap + radius - 2.0 * near;
+        approach.each_axis(at, |axis, height| {
+            if height < floor && axis != widest {
+                return;
+            }
+            let facing = approach.facing(axis, at);
+            if facing.gap < gap - near {
                 return;
             }
             let mut rate = f64::INFINITY;
-            self.approach.each_gap(axis, at, |gap| {
-                if gap.gap <= least.gap + near && gap.rate < rate {
-                    rate = gap.rate;
+            facing.each_gap(approach, |vertex| {
+                if vertex.gap <= facing.gap + near && vertex.rate < rate {
+                    rate = vertex.rate;
                 }
             });
-            let real = self.touches(axis, &least, at);
+            let real = self.touches(axis, &facing.least(approach), at);
             if best.is_none_or(|(r, fastest, _)| (real, rate) > (r, fastest)) {
                 best = Some((real, rate, axis));
             }
         });
-        best.map_or((self.widest(at), 0.0), |(_, rate, axis)| (axis, rate))
+        best.map_or((widest, 0.0), |(_, rate, axis)| (axis, rate))
     }
 
     /// Whether the true outlines can touch along the axis there: no cut is involved.
     fn touches(&self, axis: Axis, least: &Gap, at: &Instant) -> bool {
+        let hulls = &self.approach.hulls;
+        if hulls[0].boundary.is_none() && hulls[1].boundary.is_none() {
+            return true;
+        }
         let normal = self.approach.normal(axis, at);
         let allows = |k: usize, away: Vec2| {
             let local = at.rotation[k].inverse_mul(away);
-            self.approach.hulls[k].allows(least.vertices[k], local)
+            hulls[k].allows(least.vertices[k], local)
         };
         match axis {
             Axis::Edge { owner, edge } => {
                 let away = if owner == 0 { -normal } else { normal };
-                self.approach.hulls[owner].is_boundary(edge) && allows(1 - owner, away)
+                hulls[owner].is_boundary(edge) && allows(1 - owner, away)
             }
             Axis::World { .. } => allows(0, normal) && allows(1, -normal),
         }
     }
 
-    /// Moves on along one axis until its gap is at the level.
-    fn advance(&mut self, axis: Axis) -> Advance {
+    /// Moves on along one axis, seen now, until its gap is at the level.
+    fn advance(&mut self, axis: Axis, mut facing: Facing) -> Advance {
         let approach = self.approach;
         while self.steps < STEPS {
             self.steps += 1;
-            let at = approach.at(self.tau);
-            let end = (self.tau + approach.segment(&at)).min(self.horizon);
-            let bend = approach.bend(axis, &at, self.tau, end);
             let tolerance = approach.tolerance(self.tau);
             let level = self.level.unwrap_or(tolerance);
-            let mut least = f64::INFINITY;
-            let mut step = end - self.tau;
-            approach.each_gap(axis, &at, |gap| {
-                least = least.min(gap.gap);
-                step = certified(gap.gap - level, gap.rate, bend, step);
-            });
-            if least <= level {
+            if facing.gap <= level {
                 return Advance::Closed;
             }
             // Once clear of the contact it left, the pair is like any other.
-            if least > 2.0 * tolerance {
+            if facing.gap > 2.0 * tolerance {
                 self.level = None;
             }
-            if self.tau + step >= self.horizon {
-                self.tau = self.horizon;
+            let end = (self.tau + approach.segment(&self.at)).min(self.until);
+            let bend = approach.bend(axis, &self.at, self.tau, end);
+            let step = facing.certified_step(approach, level, bend, end - self.tau);
+            if self.tau + step >= self.until {
+                self.tau = self.until;
                 return Advance::Horizon;
             }
             // Below one ulp of time the gap changes by less than its rounding: go on by that.
-            self.tau = (self.tau + step).max(self.tau.next_up());
+            self.move_to((self.tau + step).max(self.tau.next_up()));
+            facing = approach.facing(axis, &self.at);
         }
         Advance::Spent
     }
 
     /// The contact at the present instant, after a last Newton step.
-    fn contact(&self, axis: Axis, at: &Instant, start: bool) -> TimeOfImpact {
+    fn contact(&self, axis: Axis, start: bool) -> TimeOfImpact {
         let approach = self.approach;
         let near = NEAR * approach.size();
         let mut tau = self.tau;
-        let mut at = *at;
-        let least = approach.smallest_gap(axis, &at);
+        let mut at = self.at;
+        let mut facing = approach.facing(axis, &at);
+        let least = facing.least(approach);
         if !start && least.rate < 0.0 && least.gap.abs() <= 4.0 * self.slack() {
             let newton = tau - least.gap / least.rate;
-            if newton > 0.0 && newton <= self.horizon {
+            if newton > 0.0 && newton <= self.until {
                 tau = newton;
                 at = approach.at(tau);
+                facing = approach.facing(axis, &at);
             }
         }
-        let least = approach.smallest_gap(axis, &at);
+        let least = facing.least(approach);
         if !self.touches(axis, &least, &at) {
             // The vertex comes through a cut: it has touched another piece before.
             return TimeOfImpact::Clear;
@@ -189,7 +197,7 @@ impl Search<'_> {
         let mut stretch: Option<Stretch> = None;
         let mut rate = f64::INFINITY;
         let tangent = carom_math::perp(normal);
-        approach.each_gap(axis, &at, |gap| {
+        facing.each_gap(approach, |gap| {
             if gap.gap > least.gap + near {
                 return;
             }
@@ -217,7 +225,7 @@ impl Search<'_> {
             }
             _ => (stretch.ends.map(|end| end.along), stretch.features(axis)),
         };
-        let centre = approach.centre(0, tau);
+        let centre = approach.centre(tau);
         let mut points = ArrayVec::new();
         let mut features = ArrayVec::new();
         if high - low > near {
@@ -261,26 +269,4 @@ impl Search<'_> {
             Axis::World { .. } => of_b(),
         }
     }
-}
-
-/// The smaller of `limit` and the first root of `g + g' τ − bend τ²/2`: no contact before it.
-fn certified(g: f64, rate: f64, bend: f64, limit: f64) -> f64 {
-    // A concave parabola that is positive at both ends is positive between them.
-    if bend >= 0.0 && g + (rate - 0.5 * bend * limit) * limit > 0.0 {
-        return limit;
-    }
-    let square = rate * rate + 2.0 * bend * g;
-    if square < 0.0 {
-        return limit;
-    }
-    let root = square.sqrt();
-    // Both forms are the same root; each is taken where it does not cancel.
-    let step = if rate < 0.0 {
-        2.0 * g / (root - rate)
-    } else if bend > 0.0 {
-        (rate + root) / bend
-    } else {
-        return limit;
-    };
-    step.clamp(0.0, limit)
 }

@@ -1,0 +1,122 @@
+//! Corners and edges of a hull, four at a time where it has them in blocks.
+
+use carom_geometry::EdgeBlock;
+use carom_math::{Rot, Vec2};
+
+use crate::Hull;
+
+/// The smaller of two numbers that are none of them NaN: one instruction, unlike `f64::min`.
+fn smaller(x: f64, y: f64) -> f64 {
+    if x < y { x } else { y }
+}
+
+/// The vertex with the smallest `direction · q` (the first of equals), and that, in m for a unit direction.
+pub(crate) fn lowest(hull: &Hull<'_>, direction: Vec2) -> (usize, f64) {
+    if hull.blocks.is_empty() {
+        let mut best = (0, f64::INFINITY);
+        for (i, q) in hull.vertices.iter().enumerate() {
+            let along = direction.dot(*q);
+            if along < best.1 {
+                best = (i, along);
+            }
+        }
+        return best;
+    }
+    let mut low = [f64::INFINITY; 4];
+    let mut at = [0_usize; 4];
+    for (number, block) in hull.blocks.iter().enumerate() {
+        for lane in 0..4 {
+            let along = direction.x * block.x[lane] + direction.y * block.y[lane];
+            let less = along < low[lane];
+            low[lane] = if less { along } else { low[lane] };
+            at[lane] = if less { number } else { at[lane] };
+        }
+    }
+    let mut best = (4 * at[0], low[0]);
+    for lane in 1..4 {
+        let vertex = 4 * at[lane] + lane;
+        if low[lane] < best.1 || (low[lane] <= best.1 && vertex < best.0) {
+            best = (vertex, low[lane]);
+        }
+    }
+    best
+}
+
+/// How far each of four edges separates its hull from `facing`, in m, without radii: the height of the
+/// lowest vertex of `facing` over the edge's line.
+///
+/// `turn` and `offset` are the pose of `facing` in the edges' frame.
+pub(crate) fn heights(block: &EdgeBlock, facing: &Hull<'_>, turn: Rot, offset: Vec2) -> [f64; 4] {
+    let (cos, sin) = (turn.cos(), turn.sin());
+    let mut x = [0.0; 4];
+    let mut y = [0.0; 4];
+    let mut low = [f64::INFINITY; 4];
+    // n·(R q + d) = (R⁻¹ n)·q + n·d
+    for lane in 0..4 {
+        x[lane] = cos * block.normal_x[lane] + sin * block.normal_y[lane];
+        y[lane] = cos * block.normal_y[lane] - sin * block.normal_x[lane];
+    }
+    for q in facing.vertices {
+        for lane in 0..4 {
+            low[lane] = smaller(x[lane] * q.x + y[lane] * q.y, low[lane]);
+        }
+    }
+    [0, 1, 2, 3].map(|lane| {
+        let base = block.normal_x[lane] * offset.x + block.normal_y[lane] * offset.y;
+        low[lane] + (base - block.offset[lane])
+    })
+}
+
+/// Visits every edge of `own` with its height under `facing`, in order: see [`heights`].
+pub(crate) fn each_height(
+    own: &Hull<'_>,
+    facing: &Hull<'_>,
+    turn: Rot,
+    offset: Vec2,
+    mut visit: impl FnMut(usize, f64),
+) {
+    if own.blocks.is_empty() {
+        for (edge, normal) in own.normals.iter().enumerate() {
+            let base = normal.dot(offset) - normal.dot(own.vertices[edge]);
+            visit(edge, lowest(facing, turn.inverse_mul(*normal)).1 + base);
+        }
+        return;
+    }
+    for (number, block) in own.blocks.iter().enumerate() {
+        let four = heights(block, facing, turn, offset);
+        for (lane, height) in four.into_iter().enumerate() {
+            visit(4 * number + lane, height);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use carom_geometry::ConvexPolygon;
+    use carom_math::vec2;
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::Convex;
+
+    proptest! {
+        #[test]
+        fn four_at_a_time_are_one_by_one(
+            sides in 3..14_usize, other in 3..14_usize, angle in -4.0..4.0_f64, x in -3.0..3.0_f64, y in -3.0..3.0_f64,
+        ) {
+            let (own, facing) = (ConvexPolygon::regular(sides, 1.0).unwrap(), ConvexPolygon::regular(other, 0.7).unwrap());
+            let without = |polygon| Hull { blocks: &[], ..polygon };
+            let direction = Rot::from_angle(angle) * vec2(1.0, 0.0);
+            prop_assert_eq!(lowest(&own.hull(), direction), lowest(&without(own.hull()), direction));
+
+            let (turn, offset) = (Rot::from_angle(angle), vec2(x, y));
+            let mut slow = Vec::new();
+            each_height(&without(own.hull()), &without(facing.hull()), turn, offset, |edge, height| slow.push((edge, height)));
+            let mut fast = Vec::new();
+            each_height(&own.hull(), &facing.hull(), turn, offset, |edge, height| fast.push((edge, height)));
+            prop_assert_eq!(&fast[..slow.len()], &slow[..]);
+            // The last edge again, as padding.
+            prop_assert!(fast[slow.len()..].iter().all(|(_, height)| *height == slow[slow.len() - 1].1));
+        }
+    }
+}
