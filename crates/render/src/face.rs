@@ -27,7 +27,7 @@ pub struct Face {
 }
 
 /// Premultiplied RGBA, row by row from above.
-#[derive(Clone, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Level {
     pub(crate) width: u32,
     pub(crate) height: u32,

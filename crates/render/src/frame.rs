@@ -2,7 +2,7 @@
 
 use carom_math::{Rot, Vec2, vec2};
 
-use crate::{Colour, Face, Ink, Mark, Picture, Size, Source, Style, font};
+use crate::{Colour, Engine, Face, Ink, Mark, Picture, Size, Source, Style, font};
 
 /// How a body is filled.
 ///
@@ -332,7 +332,7 @@ impl Frame {
     /// Paints the frame over `picture`, which takes the frame's size and keeps its memory.
     pub fn paint_into(&self, style: &Style, picture: &mut Picture) {
         picture.reset(self.size, style.background);
-        crate::paint::paint(&self.ops, style, picture);
+        crate::paint::paint(self, style, Engine::Own, picture);
     }
 
     /// The frame as an SVG document, with the same marks.

@@ -5,7 +5,7 @@ use carom_math::Vec2;
 
 use crate::clip::is_near;
 use crate::frame::arrow_outline;
-use crate::paint::{MAX_STROKE, usable_width};
+use crate::skia::{MAX_STROKE, usable_width};
 use crate::{Op, Size, Style, font};
 
 /// Where a mark comes from.

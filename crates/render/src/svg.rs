@@ -6,7 +6,7 @@ use carom_math::{Rot, Vec2};
 
 use crate::clip::is_near;
 use crate::frame::arrow_outline;
-use crate::paint::{INNER, OUTER, SHIFT, shade, usable_width};
+use crate::skia::{INNER, OUTER, SHIFT, shade, usable_width};
 use crate::{Colour, Face, Ink, Label, Op, Packing, Size, Style, font, png};
 
 /// The document. Coordinates have two digits after the point, so equal frames are equal bytes.

@@ -1,0 +1,423 @@
+//! From marks to pixels, by exact areas; what is general goes through tiny-skia's masks.
+
+use carom_math::{Rot, Vec2, vec2};
+use tiny_skia::{FillRule, IntSize, Mask, Path, Transform};
+
+use crate::clip::{FAR, Window};
+use crate::colour::round_u8;
+use crate::frame::arrow_outline;
+use crate::raster::{
+    Canvas, Flat, Outliner, Pixel, Place, Radial, Raster, Shade, Textured, is_convex, is_simple,
+};
+use crate::skia::{Fill, Ground, INNER, OUTER, Paths, Pen, SHIFT, shade, usable_width};
+use crate::{Colour, Face, Mark, Op, PixelBox, Size, Style};
+
+/// Room left and right of the canvas that polygons are cut to, in pixels.
+const MARGIN: f64 = 1.0;
+
+/// Memory of the painter, used from mark to mark.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Own {
+    raster: Raster,
+    outliner: Outliner,
+    colours: Vec<u32>,
+    paths: Paths,
+    mask: Vec<u8>,
+    rings: Vec<Vec<Vec2>>,
+    spare: Vec<Vec2>,
+}
+
+impl Own {
+    /// Paints the part of a mark that lies in the canvas's clip.
+    pub(crate) fn mark(&mut self, mark: Mark<'_>, style: &Style, canvas: &mut Canvas<'_>, size: Size) {
+        let mut hand = Hand {
+            own: self,
+            style,
+            canvas,
+            size,
+            // A body's rings were checked when its shape was made.
+            sound: mark.source.body.is_some(),
+        };
+        hand.op(mark.op);
+    }
+}
+
+/// Everything that painting one mark needs.
+struct Hand<'a, 'c> {
+    own: &'a mut Own,
+    style: &'a Style,
+    canvas: &'a mut Canvas<'c>,
+    size: Size,
+    sound: bool,
+}
+
+impl Hand<'_, '_> {
+    fn op(&mut self, op: &Op) {
+        match op {
+            Op::Polygon { points, paint } => {
+                self.ring(points, paint.fill);
+                let outline = paint
+                    .outline
+                    .unwrap_or_else(|| self.style.outline_of(paint.fill));
+                self.outline(points, self.style.outline, outline);
+            }
+            Op::Region { rings, paint } => {
+                if self.sound {
+                    self.fill(rings.iter().map(Vec::as_slice), paint.fill);
+                } else {
+                    self.general(|pen| pen.fill_rings(rings, paint.fill));
+                }
+                let outline = paint
+                    .outline
+                    .unwrap_or_else(|| self.style.outline_of(paint.fill));
+                for ring in rings {
+                    self.outline(ring, self.style.outline, outline);
+                }
+            }
+            Op::Disc {
+                centre,
+                radius,
+                paint,
+            } => {
+                if paint.shaded {
+                    self.ball(*centre, *radius, paint.fill);
+                } else {
+                    self.disc(*centre, *radius, paint.fill);
+                }
+                let edge = if paint.shaded {
+                    shade(paint.fill)
+                } else {
+                    paint.fill
+                };
+                let outline = paint
+                    .outline
+                    .unwrap_or_else(|| self.style.outline_of(edge));
+                self.circle(*centre, *radius, self.style.outline, outline);
+            }
+            Op::Area { points, ink } => self.ring(points, self.style.colour(*ink)),
+            Op::Dot {
+                centre,
+                radius,
+                ink,
+            } => self.disc(*centre, *radius, self.style.colour(*ink)),
+            Op::Ring {
+                centre,
+                radius,
+                width,
+                ink,
+            } => self.circle(*centre, *radius, *width, self.style.colour(*ink)),
+            Op::Line {
+                points,
+                width,
+                dash,
+                ink,
+            } => self.polyline(points, *width, *dash, self.style.colour(*ink)),
+            Op::Arrow {
+                from,
+                to,
+                width,
+                ink,
+            } => {
+                if let Some(outline) = arrow_outline(*from, *to, *width) {
+                    self.fill([&outline[..]].into_iter(), self.style.colour(*ink));
+                }
+            }
+            Op::Face {
+                centre,
+                radius,
+                turn,
+                face,
+            } => self.face(*centre, *radius, *turn, face),
+            Op::Box {
+                min,
+                max,
+                fill,
+                border,
+                width,
+                dash,
+            } => {
+                let corners = [*min, vec2(max.x, min.y), *max, vec2(min.x, max.y), *min];
+                if let Some(ink) = fill
+                    && max.cmpgt(*min).all()
+                {
+                    self.fill([&corners[..4]].into_iter(), self.style.colour(*ink));
+                }
+                if let Some(ink) = border {
+                    self.polyline(&corners, *width, *dash, self.style.colour(*ink));
+                }
+            }
+            Op::Label(_) => self.general(|pen| pen.op(op)),
+        }
+    }
+
+    /// Fills a ring of any shape.
+    fn ring(&mut self, points: &[Vec2], colour: Colour) {
+        if self.sound || is_simple(points) {
+            self.fill([points].into_iter(), colour);
+        } else {
+            self.general(|pen| pen.fill_ring(points, colour));
+        }
+    }
+
+    /// Fills rings that do not cross.
+    fn fill<'r>(&mut self, rings: impl Iterator<Item = &'r [Vec2]>, colour: Colour) {
+        if colour.alpha == 0 {
+            return;
+        }
+        let window = Window::new(self.size.corner(), MARGIN);
+        let own = &mut *self.own;
+        let (mut min, mut max) = (Vec2::splat(FAR), Vec2::splat(-FAR));
+        let mut count = 0;
+        for ring in rings {
+            if own.rings.len() == count {
+                own.rings.push(Vec::new());
+            }
+            window.polygon(ring, &mut own.rings[count], &mut own.spare);
+            for &point in &own.rings[count] {
+                min = min.min(point);
+                max = max.max(point);
+            }
+            count += 1;
+        }
+        let Some(place) = Place::new(self.canvas, min, max) else {
+            return;
+        };
+        let left = vec2(place.left(), 0.0);
+        let rings = &own.rings[..count];
+        let edges = |cells: &mut crate::raster::Cells| {
+            for ring in rings {
+                let Some(&last) = ring.last() else { continue };
+                let mut before = last - left;
+                for &point in ring {
+                    let here = point - left;
+                    cells.line(before, here);
+                    before = here;
+                }
+            }
+        };
+        let mut flat = Flat(packed(colour));
+        own.raster.draw(self.canvas, place, edges, &mut flat);
+    }
+
+    /// The line around a ring.
+    fn outline(&mut self, points: &[Vec2], width: f64, colour: Colour) {
+        let Some(width) = usable_width(width) else {
+            return;
+        };
+        let mut outliner = core::mem::take(&mut self.own.outliner);
+        let near = points.iter().all(|&p| crate::clip::is_near(p));
+        match near.then(|| outliner.band(points, 0.5 * width)).flatten() {
+            Some(borders) => self.fill(borders.into_iter(), colour),
+            None => self.general(|pen| pen.outline_ring(points, width, colour)),
+        }
+        self.own.outliner = outliner;
+    }
+
+    fn polyline(&mut self, points: &[Vec2], width: f64, dash: Option<f64>, colour: Colour) {
+        let Some(usable) = usable_width(width) else {
+            return;
+        };
+        match *points {
+            [a, b] if dash.is_none() && crate::clip::is_near(a) && crate::clip::is_near(b) => {
+                let mut outliner = core::mem::take(&mut self.own.outliner);
+                // A long line is cut before its width is added: that is exact, and ends lie beyond the canvas.
+                let room = Window::new(self.size.corner(), usable + MARGIN);
+                if let Some((first, last)) = room.segment(a, b) {
+                    let along = b - a;
+                    let stick = outliner.stick(a + along * first, a + along * last, 0.5 * usable);
+                    self.fill([stick].into_iter(), colour);
+                }
+                self.own.outliner = outliner;
+            }
+            [first, .., last] if dash.is_none() && first == last && is_convex(&points[1..]) => {
+                self.outline(&points[1..], usable, colour);
+            }
+            _ => self.general(|pen| pen.polyline(points, width, dash, colour)),
+        }
+    }
+
+    fn disc(&mut self, centre: Vec2, radius: f64, colour: Colour) {
+        if let Some(place) = self.place(centre, radius) {
+            let at = centre - vec2(place.left(), 0.0);
+            let limit = place.limit();
+            let mut flat = Flat(packed(colour));
+            let edges = |cells: &mut crate::raster::Cells| cells.circle(at, radius, 1.0, limit);
+            self.own.raster.draw(self.canvas, place, edges, &mut flat);
+        }
+    }
+
+    /// A disc that is lit from its upper left.
+    fn ball(&mut self, centre: Vec2, radius: f64, colour: Colour) {
+        // Too large or too small to have a gradient: flat.
+        if !(radius > 0.01 && radius < 1e6) {
+            self.disc(centre, radius, shade(colour));
+            return;
+        }
+        if let Some(place) = self.place(centre, radius) {
+            let at = centre - vec2(place.left(), 0.0);
+            let reach = (INNER * radius, OUTER * radius);
+            let (inner, outer) = (packed(colour), packed(shade(colour)));
+            let own = &mut *self.own;
+            let focus = at + Vec2::splat(SHIFT * radius);
+            let mut shade = Radial::new(focus, reach, inner, outer, &mut own.colours);
+            let limit = place.limit();
+            let edges = |cells: &mut crate::raster::Cells| cells.circle(at, radius, 1.0, limit);
+            own.raster.draw(self.canvas, place, edges, &mut shade);
+        }
+    }
+
+    /// A circle line.
+    fn circle(&mut self, centre: Vec2, radius: f64, width: f64, colour: Colour) {
+        let Some(width) = usable_width(width) else {
+            return;
+        };
+        if !(radius > 0.0 && radius <= FAR) {
+            return;
+        }
+        let (inner, outer) = (radius - 0.5 * width, radius + 0.5 * width);
+        if let Some(place) = self.place(centre, outer) {
+            let at = centre - vec2(place.left(), 0.0);
+            let limit = place.limit();
+            let mut flat = Flat(packed(colour));
+            let edges = |cells: &mut crate::raster::Cells| {
+                cells.circle(at, outer, 1.0, limit);
+                if inner > 0.0 {
+                    cells.circle(at, inner, -1.0, limit);
+                }
+            };
+            self.own.raster.draw(self.canvas, place, edges, &mut flat);
+        }
+    }
+
+    /// Where a disc is seen; `None` if nothing of it is.
+    fn place(&self, centre: Vec2, radius: f64) -> Option<Place> {
+        let sound = crate::clip::is_near(centre) && radius > 0.0 && radius <= 2.0 * FAR;
+        let reach = Vec2::splat(radius);
+        sound
+            .then(|| Place::new(self.canvas, centre - reach, centre + reach))
+            .flatten()
+    }
+
+    /// A picture on a disc, at the level of detail that suits its size.
+    fn face(&mut self, centre: Vec2, radius: f64, turn: Rot, face: &Face) {
+        let Some(place) = self.place(centre, radius) else {
+            return;
+        };
+        let (level, scale) = face.level(radius);
+        // The picture's middle comes to the centre, scaled and turned: p = c + s R (q - m), q = m + R⁻¹ (p - c) / s.
+        let middle = 0.5 * vec2(f64::from(level.width), f64::from(level.height));
+        let back = turn.inverse();
+        let (right, down) = (back.x_axis() / scale, back.y_axis() / scale);
+        let at = centre - vec2(place.left(), 0.0);
+        let origin = middle - right * at.x - down * at.y;
+        let own = &mut *self.own;
+        let mut shade = Textured::new(level, origin, (right, down), &mut own.colours);
+        let limit = place.limit();
+        let edges = |cells: &mut crate::raster::Cells| cells.circle(at, radius, 1.0, limit);
+        own.raster.draw(self.canvas, place, edges, &mut shade);
+    }
+
+    /// What tiny-skia turns into masks.
+    fn general(&mut self, draw: impl FnOnce(&mut Pen<'_, OnMask<'_, '_>>)) {
+        let own = &mut *self.own;
+        let ground = OnMask {
+            canvas: self.canvas,
+            memory: &mut own.mask,
+        };
+        draw(&mut Pen::new(&mut own.paths, self.style, self.size, ground));
+    }
+}
+
+/// Fills paths by way of a mask as large as what is seen of them: the same pixels whatever the clip is.
+struct OnMask<'a, 'c> {
+    canvas: &'a mut Canvas<'c>,
+    memory: &'a mut Vec<u8>,
+}
+
+impl Ground for OnMask<'_, '_> {
+    fn fill(&mut self, path: &Path, fill: &Fill<'_>) {
+        // Gradients and pictures are never general.
+        let &Fill::Flat(colour) = fill else { return };
+        let width = u32::try_from(self.canvas.width).unwrap_or(0);
+        let height = u32::try_from(self.canvas.pixels.len() / self.canvas.width.max(1)).unwrap_or(0);
+        let bounds = path.bounds();
+        let side = |x: f32, most: u32| clamped(x, most);
+        let seen = PixelBox {
+            left: side(bounds.left(), width),
+            top: side(bounds.top(), height),
+            right: side(bounds.right() + 1.0, width),
+            bottom: side(bounds.bottom() + 1.0, height),
+        };
+        let clip = seen.common(self.canvas.clip);
+        let (columns, rows) = (seen.right - seen.left.min(seen.right), seen.bottom - seen.top.min(seen.bottom));
+        let Some(size) = IntSize::from_wh(columns, rows).filter(|_| !clip.is_empty()) else {
+            return;
+        };
+        let mut memory = core::mem::take(self.memory);
+        memory.clear();
+        memory.resize(columns as usize * rows as usize, 0);
+        let Some(mut mask) = Mask::from_vec(memory, size) else {
+            return;
+        };
+        #[expect(clippy::cast_precision_loss, reason = "at most 16384")]
+        let shift = Transform::from_translate(-(seen.left as f32), -(seen.top as f32));
+        mask.fill_path(path, FillRule::Winding, true, shift);
+        let mut flat = Flat(packed(colour));
+        for y in clip.top..clip.bottom {
+            let from = ((y - seen.top) * columns + clip.left - seen.left) as usize;
+            let to = y as usize * self.canvas.width + clip.left as usize;
+            let count = (clip.right - clip.left) as usize;
+            cover(
+                &mut self.canvas.pixels[to..to + count],
+                &mask.data()[from..from + count],
+                &mut flat,
+            );
+        }
+        *self.memory = mask.take();
+    }
+}
+
+/// Paints a row of pixels as far as a mask covers them.
+fn cover(pixels: &mut [Pixel], mask: &[u8], flat: &mut Flat) {
+    /// Pixels passed over at once where there is nothing.
+    const STEP: usize = 16;
+    for (pixels, mask) in pixels.chunks_mut(STEP).zip(mask.chunks(STEP)) {
+        if mask.iter().all(|&m| m == 0) {
+            continue;
+        }
+        for (pixel, &m) in pixels.iter_mut().zip(mask) {
+            // 255 of 255 are 256 of 256.
+            let coverage = u32::from(m) + u32::from(m >> 7);
+            if coverage > 0 {
+                flat.pixel(pixel, 0, coverage);
+            }
+        }
+    }
+}
+
+/// A column or row of the canvas; NaN counts as 0.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "cut to the canvas"
+)]
+const fn clamped(x: f32, most: u32) -> u32 {
+    let x = if x > 0.0 { x as u32 } else { 0 };
+    if x < most { x } else { most }
+}
+
+/// A colour as a pixel: premultiplied, red in the lowest byte.
+pub(crate) fn packed(colour: Colour) -> u32 {
+    let Colour {
+        red,
+        green,
+        blue,
+        alpha,
+    } = colour;
+    if alpha == 255 {
+        return u32::from_le_bytes([red, green, blue, alpha]);
+    }
+    let part = f64::from(alpha) / 255.0;
+    let [red, green, blue] = [red, green, blue].map(|c| round_u8(f64::from(c) * part));
+    u32::from_le_bytes([red, green, blue, alpha])
+}
