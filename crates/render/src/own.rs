@@ -29,7 +29,13 @@ pub(crate) struct Own {
 
 impl Own {
     /// Paints the part of a mark that lies in the canvas's clip.
-    pub(crate) fn mark(&mut self, mark: Mark<'_>, style: &Style, canvas: &mut Canvas<'_>, size: Size) {
+    pub(crate) fn mark(
+        &mut self,
+        mark: Mark<'_>,
+        style: &Style,
+        canvas: &mut Canvas<'_>,
+        size: Size,
+    ) {
         let mut hand = Hand {
             own: self,
             style,
@@ -89,9 +95,7 @@ impl Hand<'_, '_> {
                 } else {
                     paint.fill
                 };
-                let outline = paint
-                    .outline
-                    .unwrap_or_else(|| self.style.outline_of(edge));
+                let outline = paint.outline.unwrap_or_else(|| self.style.outline_of(edge));
                 self.circle(*centre, *radius, self.style.outline, outline);
             }
             Op::Area { points, ink } => self.ring(points, self.style.colour(*ink)),
@@ -339,7 +343,8 @@ impl Ground for OnMask<'_, '_> {
         // Gradients and pictures are never general.
         let &Fill::Flat(colour) = fill else { return };
         let width = u32::try_from(self.canvas.width).unwrap_or(0);
-        let height = u32::try_from(self.canvas.pixels.len() / self.canvas.width.max(1)).unwrap_or(0);
+        let height =
+            u32::try_from(self.canvas.pixels.len() / self.canvas.width.max(1)).unwrap_or(0);
         let bounds = path.bounds();
         let side = |x: f32, most: u32| clamped(x, most);
         let seen = PixelBox {
@@ -349,7 +354,10 @@ impl Ground for OnMask<'_, '_> {
             bottom: side(bounds.bottom() + 1.0, height),
         };
         let clip = seen.common(self.canvas.clip);
-        let (columns, rows) = (seen.right - seen.left.min(seen.right), seen.bottom - seen.top.min(seen.bottom));
+        let (columns, rows) = (
+            seen.right - seen.left.min(seen.right),
+            seen.bottom - seen.top.min(seen.bottom),
+        );
         let Some(size) = IntSize::from_wh(columns, rows).filter(|_| !clip.is_empty()) else {
             return;
         };

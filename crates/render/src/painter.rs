@@ -84,7 +84,8 @@ impl Painter {
         if same && !self.redraw {
             self.changes.none(frame.size());
         } else {
-            frame.paint_into(&self.style, picture);
+            picture.reset(frame.size(), self.style.background);
+            crate::paint::paint(frame, &self.style, self.engine, picture);
             self.changes.all(frame.size());
             self.shown = Some(frame.clone());
         }

@@ -209,7 +209,8 @@ impl<'a, G: Ground> Pen<'a, G> {
 
     /// Adds what is seen of a closed ring to the path; whether that is anything.
     fn add_ring(&mut self, points: &[Vec2]) -> bool {
-        self.window.polygon(points, &mut self.paths.ring, &mut self.paths.spare);
+        self.window
+            .polygon(points, &mut self.paths.ring, &mut self.paths.spare);
         let seen = self.paths.ring.len() > 2;
         if seen {
             push(&mut self.paths.builder, &self.paths.ring, true);
@@ -227,7 +228,13 @@ impl<'a, G: Ground> Pen<'a, G> {
     }
 
     /// A line through points; one that ends where it began is closed without caps.
-    pub(crate) fn polyline(&mut self, points: &[Vec2], width: f64, dash: Option<f64>, colour: Colour) {
+    pub(crate) fn polyline(
+        &mut self,
+        points: &[Vec2],
+        width: f64,
+        dash: Option<f64>,
+        colour: Colour,
+    ) {
         let Some(width) = usable_width(width) else {
             return;
         };
@@ -355,7 +362,8 @@ impl<'a, G: Ground> Pen<'a, G> {
     }
 
     fn label_strokes(&mut self, label: &Label) {
-        let (window, builder, spare) = (self.window, &mut self.paths.builder, &mut self.paths.spare);
+        let (window, builder, spare) =
+            (self.window, &mut self.paths.builder, &mut self.paths.spare);
         label.strokes(|stroke| window.polyline(stroke, spare, |part| push(builder, part, false)));
     }
 

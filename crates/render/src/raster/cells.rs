@@ -204,7 +204,11 @@ impl Cells {
         let at = (row - self.top) * self.stride;
         let sums = &mut self.sums[at..at + self.stride];
         // From left to right; `dy` stays what it is when both ends are swapped.
-        let ((mut p, q), turn) = if a.x <= b.x { ((a, b), 1.0) } else { ((b, a), -1.0) };
+        let ((mut p, q), turn) = if a.x <= b.x {
+            ((a, b), 1.0)
+        } else {
+            ((b, a), -1.0)
+        };
         let sign = sign * turn;
         let above = p.y.min(q.y) < circle.centre.y;
         if p.x < 0.0 {
@@ -278,13 +282,19 @@ impl Circle {
 
     /// Half the chord at a distance from the centre. As a product, which keeps its digits beside the rim.
     fn half(&self, away: f64) -> f64 {
-        ((self.radius - away) * (self.radius + away)).max(0.0).sqrt()
+        ((self.radius - away) * (self.radius + away))
+            .max(0.0)
+            .sqrt()
     }
 
     /// Where the upper or lower half crosses the column line x, between two heights.
     fn height(&self, x: f64, above: bool, from: f64, to: f64) -> f64 {
         let half = self.half(x - self.centre.x);
-        let y = if above { self.centre.y - half } else { self.centre.y + half };
+        let y = if above {
+            self.centre.y - half
+        } else {
+            self.centre.y + half
+        };
         let (low, high) = if from < to { (from, to) } else { (to, from) };
         y.max(low).min(high)
     }

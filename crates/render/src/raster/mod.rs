@@ -58,10 +58,26 @@ impl Place {
             return None;
         }
         let width = i32::try_from(canvas.width).ok()?;
-        let left = if min.x > 0.0 { whole(min.x) } else { -i32::from(min.x < 0.0) };
-        let right = if max.x < f64::from(width) { ceil(max.x) } else { width + 1 };
-        let top = if min.y > top { whole(min.y) } else { clip.top.cast_signed() };
-        let bottom = if max.y < bottom { ceil(max.y) } else { clip.bottom.cast_signed() };
+        let left = if min.x > 0.0 {
+            whole(min.x)
+        } else {
+            -i32::from(min.x < 0.0)
+        };
+        let right = if max.x < f64::from(width) {
+            ceil(max.x)
+        } else {
+            width + 1
+        };
+        let top = if min.y > top {
+            whole(min.y)
+        } else {
+            clip.top.cast_signed()
+        };
+        let bottom = if max.y < bottom {
+            ceil(max.y)
+        } else {
+            clip.bottom.cast_signed()
+        };
         let column = |x: u32| usize::try_from(x.cast_signed() - left).unwrap_or(0);
         let columns = usize::try_from(right - left).ok()?;
         Some(Self {
@@ -121,17 +137,13 @@ impl Raster {
 
 /// Sums a row up and paints it.
 #[inline]
-fn sweep(
-    cells: &mut Cells,
-    row: usize,
-    place: Place,
-    line: &mut [Pixel],
-    shade: &mut impl Shade,
-) {
+fn sweep(cells: &mut Cells, row: usize, place: Place, line: &mut [Pixel], shade: &mut impl Shade) {
     let Some((begin, end)) = cells.reach(row) else {
         return;
     };
-    let Place { first, end: last, .. } = place;
+    let Place {
+        first, end: last, ..
+    } = place;
     let (begin, end) = (begin.max(first), end.min(last));
     if begin < end {
         shade.row(row, begin, end);

@@ -52,7 +52,13 @@ impl Outliner {
         let mut narrow = offset(ring, &self.normals, -outwards, &mut self.inner);
         if wide && !narrow && is_convex(ring) {
             // A convex ring shrinks to the half-planes that its sides leave.
-            inset(ring, &self.normals, -outwards, &mut self.inner, &mut self.spare);
+            inset(
+                ring,
+                &self.normals,
+                -outwards,
+                &mut self.inner,
+                &mut self.spare,
+            );
             narrow = true;
         }
         self.inner.reverse();
@@ -91,7 +97,13 @@ fn offset(ring: &[Vec2], normals: &[Vec2], by: f64, out: &mut Vec<Vec2>) -> bool
         if i < count {
             out.push(arrive);
             if turn > 0.0 {
-                bend(out, corner, before * by.signum(), after * by.signum(), by.abs());
+                bend(
+                    out,
+                    corner,
+                    before * by.signum(),
+                    after * by.signum(),
+                    by.abs(),
+                );
                 out.push(leave);
             }
         }

@@ -205,7 +205,6 @@ impl<'a> Textured<'a> {
             first: 0,
         }
     }
-
 }
 
 impl Shade for Textured<'_> {

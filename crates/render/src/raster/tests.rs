@@ -63,7 +63,8 @@ fn disc_corner(x: f64, y: f64, r: f64) -> f64 {
     // Integral of √(r² − t²): half of t √(r² − t²) + r² asin(t / r).
     let under = |t: f64| {
         let t = t.clamp(-r, r);
-        0.5 * (t * (r * r - t * t).max(0.0).sqrt() + r * r * trig::atan2(t, (r * r - t * t).max(0.0).sqrt()))
+        0.5 * (t * (r * r - t * t).max(0.0).sqrt()
+            + r * r * trig::atan2(t, (r * r - t * t).max(0.0).sqrt()))
     };
     // Where the right side is the line x instead of the arc: |t| < h.
     let h = (r * r - x * x).max(0.0).sqrt();
@@ -247,19 +248,33 @@ fn slow_motion(shape: impl Fn(Vec2) -> Op) -> (f64, usize, f64) {
 fn slow_motion_is_seen_in_every_frame() {
     let square = |at: Vec2| {
         let turn = Rot::from_angle(0.3);
-        let corners = [vec2(6.0, 6.0), vec2(-6.0, 6.0), vec2(-6.0, -6.0), vec2(6.0, -6.0)];
+        let corners = [
+            vec2(6.0, 6.0),
+            vec2(-6.0, 6.0),
+            vec2(-6.0, -6.0),
+            vec2(6.0, -6.0),
+        ];
         Op::Area {
             points: corners.iter().map(|&p| at + turn * p).collect(),
             ink: WHITE,
         }
     };
-    let dot = |radius: f64| move |centre: Vec2| Op::Dot { centre, radius, ink: WHITE };
+    let dot = |radius: f64| {
+        move |centre: Vec2| Op::Dot {
+            centre,
+            radius,
+            ink: WHITE,
+        }
+    };
     for (name, (rms, frozen, flicker)) in [
         ("square of 12 px", slow_motion(square)),
         ("disc of radius 6 px", slow_motion(dot(6.0))),
         ("disc of radius 15 px", slow_motion(dot(15.0))),
     ] {
-        println!("{name}: {rms:.5} px, {frozen} frozen, light within {:.4} %", 100.0 * flicker);
+        println!(
+            "{name}: {rms:.5} px, {frozen} frozen, light within {:.4} %",
+            100.0 * flicker
+        );
         assert!(rms <= 0.002, "{name}: centre of light off by {rms} px");
         assert_eq!(frozen, 0, "{name}");
         assert!(flicker <= 0.001, "{name}: light within {flicker}");
