@@ -13,6 +13,7 @@ mod merge;
 mod parallel;
 mod random;
 mod reference;
+mod relay;
 mod render;
 mod scene;
 mod scratch;

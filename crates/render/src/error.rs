@@ -72,6 +72,10 @@ pub enum RenderError {
     #[error("no frame was added")]
     NoFrames,
 
+    /// An animation began with a patch of a picture that it has not seen.
+    #[error("the first frame of an animation must be a whole picture")]
+    NoWhole,
+
     /// A picture does not have the size of those before it.
     #[error("frame {index} is {found} px, the frames before it are {expected} px")]
     SizeChanged {

@@ -2,7 +2,10 @@
 
 use std::path::Path;
 
-use ::png::{BitDepth, ColorType, Compression, Decoder, Encoder, Filter, Limits, Transformations};
+use ::png::{
+    BitDepth, ColorType, Compression, DecodeOptions, Decoder, Encoder, Filter, Limits,
+    Transformations,
+};
 
 use crate::output::write_file;
 use crate::{MAX_SIDE, Picture, RenderError, Size};
@@ -68,23 +71,74 @@ impl Picture {
 
 /// A PNG of bytes that fit the size.
 pub(crate) fn encode(size: Size, bytes: &[u8], colour: ColorType, packing: Packing) -> Vec<u8> {
+    let packed = |compression, filter| encode_with(size, bytes, colour, compression, filter);
+    match packing {
+        Packing::Fast => packed(Compression::Fast, Filter::Up),
+        Packing::Small => {
+            // Flat colours pack better as they are, shaded ones as differences.
+            let filtered = packed(Compression::Balanced, Filter::Adaptive);
+            let plain = packed(Compression::Balanced, Filter::NoFilter);
+            if plain.len() < filtered.len() {
+                plain
+            } else {
+                filtered
+            }
+        }
+    }
+}
+
+fn encode_with(
+    size: Size,
+    bytes: &[u8],
+    colour: ColorType,
+    compression: Compression,
+    filter: Filter,
+) -> Vec<u8> {
     let mut out = Vec::new();
     let mut encoder = Encoder::new(&mut out, size.width(), size.height());
     encoder.set_color(colour);
     encoder.set_depth(BitDepth::Eight);
-    match packing {
-        Packing::Fast => {
-            encoder.set_compression(Compression::Fast);
-            encoder.set_filter(Filter::Up);
-        }
-        Packing::Small => encoder.set_compression(Compression::Balanced),
-    }
+    encoder.set_compression(compression);
+    encoder.set_filter(filter);
     let written = encoder
         .write_header()
         .and_then(|mut writer| writer.write_image_data(bytes));
     // The size is valid, the bytes fit it and memory does not fail to be written: no error is left.
     debug_assert!(written.is_ok(), "{written:?}");
     out
+}
+
+pub(crate) const SIGNATURE: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
+
+/// A PNG chunk: length, name, data, checksum of name and data.
+pub(crate) fn chunk(name: [u8; 4], parts: &[&[u8]]) -> Vec<u8> {
+    let length: usize = parts.iter().map(|part| part.len()).sum();
+    let mut out = Vec::with_capacity(length + 12);
+    // A frame of 64 Mi pixels packs to less than 2^31 bytes.
+    out.extend(u32::try_from(length).unwrap_or(u32::MAX).to_be_bytes());
+    out.extend(name);
+    for part in parts {
+        out.extend_from_slice(part);
+    }
+    let sum = crc32fast::hash(&out[4..]);
+    out.extend(sum.to_be_bytes());
+    out
+}
+
+/// Data of the IDAT chunks of a PNG, in order.
+pub(crate) fn image_data(png: &[u8]) -> impl Iterator<Item = &[u8]> {
+    let mut rest = png.get(8..).unwrap_or_default();
+    core::iter::from_fn(move || {
+        loop {
+            let (head, body) = rest.split_at_checked(8)?;
+            let length = u32::from_be_bytes([head[0], head[1], head[2], head[3]]) as usize;
+            let (data, after) = body.split_at_checked(length)?;
+            rest = after.get(4..).unwrap_or_default();
+            if head[4..] == *b"IDAT" {
+                return Some(data);
+            }
+        }
+    })
 }
 
 /// Size and straight RGBA of a PNG with sides up to `limit` pixels.
@@ -94,7 +148,10 @@ pub(crate) fn decode(bytes: &[u8], limit: u32) -> Result<(Size, Vec<u8>), Render
     };
     // Room for rows and tables; the picture itself goes into our own memory, after its size is checked.
     let limits = Limits { bytes: 64 << 20 };
-    let mut decoder = Decoder::new_with_limits(std::io::Cursor::new(bytes), limits);
+    let mut options = DecodeOptions::default();
+    options.set_ignore_checksums(false);
+    let mut decoder = Decoder::new_with_options(std::io::Cursor::new(bytes), options);
+    decoder.set_limits(limits);
     decoder.set_transformations(Transformations::normalize_to_color8() | Transformations::ALPHA);
     let mut reader = decoder.read_info().map_err(wrong)?;
     let (width, height) = (reader.info().width, reader.info().height);
@@ -123,7 +180,7 @@ pub(crate) fn decode(bytes: &[u8], limit: u32) -> Result<(Size, Vec<u8>), Render
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Colour;
+    use crate::{Colour, second_reader};
     use proptest::prelude::*;
 
     proptest! {
@@ -136,6 +193,7 @@ mod tests {
             for packing in [Packing::Fast, Packing::Small] {
                 let bytes = picture.to_png_packed(packing);
                 prop_assert_eq!(&Picture::from_png(&bytes).unwrap(), &picture);
+                second_reader::agrees(&bytes);
                 prop_assert_eq!(bytes, picture.to_png_packed(packing), "same picture, same bytes");
             }
         }
@@ -165,6 +223,21 @@ mod tests {
             ),
             "{error}"
         );
+    }
+
+    #[test]
+    fn a_flipped_bit_is_never_another_picture() {
+        let picture = Picture::from_rgba(Size::new(9, 7).unwrap(), (0..252).collect()).unwrap();
+        for packing in [Packing::Fast, Packing::Small] {
+            let bytes = picture.to_png_packed(packing);
+            for bit in 0..8 * bytes.len() {
+                let mut wrong = bytes.clone();
+                wrong[bit / 8] ^= 1 << (bit % 8);
+                if let Ok(read) = Picture::from_png(&wrong) {
+                    assert_eq!(read, picture, "bit {bit}");
+                }
+            }
+        }
     }
 
     #[test]

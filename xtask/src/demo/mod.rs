@@ -3,8 +3,11 @@
 mod chart;
 
 use std::path::Path;
+use std::sync::Arc;
 
-use carom_render::{Animation, Existing, Frame, OutputFolder, Picture, Sequence, Sheet, Size};
+use carom_render::{
+    Animation, Existing, Frame, OutputFolder, Packing, Patch, Picture, Sequence, Sheet, Size,
+};
 use carom_scenes::Built;
 
 use crate::clock::Clock;
@@ -14,6 +17,7 @@ use crate::flags::DemoArgs;
 use crate::interrupt;
 use crate::out::say;
 use crate::parallel;
+use crate::relay::Relay;
 use crate::render::{caption, resized, tiles};
 use crate::scene;
 use crate::summary::Summary;
@@ -115,15 +119,16 @@ fn draw(
     let mut film = Animation::create(folder.claim(FILM)?, size, plan.rate)?;
     let mut sheet = Sheet::new(COLUMNS, size.width() / 3).titled(name);
     let tiles = tiles(plan.frames);
+    let relay = Relay::from(0);
     let draw = |index: u64, frame: Frame| {
-        let picture = frame.paint(&style);
-        let png = picture.to_png();
-        folder.save(&Sequence::name(index), &png)?;
-        let tile = tiles.contains(&index).then_some(picture);
-        Ok((png, tile))
+        let turn = relay.turn(index);
+        let (before, now) = turn.pass(frame.paint(&style));
+        folder.save(&Sequence::name(index), &now.to_png())?;
+        let patch = Patch::between(before.as_deref(), &now, Packing::Fast);
+        Ok((patch, tiles.contains(&index).then_some(now)))
     };
-    let take = |index: u64, (png, tile): (Vec<u8>, Option<Picture>)| {
-        film.push_png(&png)?;
+    let take = |index: u64, (patch, tile): (Patch, Option<Arc<Picture>>)| {
+        film.push_patch(patch)?;
         if let Some(tile) = tile {
             sheet.push(&tile, caption(index, plan))?;
         }

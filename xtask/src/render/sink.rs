@@ -3,14 +3,15 @@
 use std::io::{self, BufWriter, Write};
 
 use carom_render::{
-    Animation, Chroma, Draft, Film, Frame, OutputFolder, Packing, RenderError, Sequence, Sheet,
-    Style,
+    Animation, Chroma, Draft, Film, Frame, OutputFolder, Packing, Patch, RenderError, Sequence,
+    Sheet, Style,
 };
 use carom_scenes::Built;
 
 use crate::exit::Failure;
 use crate::film::{Footage, Plan, shoot};
 use crate::out::is_closed_pipe;
+use crate::relay::Relay;
 
 /// Tiles of a contact sheet, and how many stand in a row.
 const TILES: u64 = 12;
@@ -76,13 +77,18 @@ pub(super) fn apng(
     let path = folder.claim(name)?;
     let mut film = Animation::create(&path, built.camera.size(), plan.rate)?;
     let style = built.look.style.clone();
+    let relay = Relay::from(plan.slice.start);
     let footage = shoot(
         built,
         plan,
         "render",
         |_| true,
-        |_, frame| Ok(frame.paint(&style).to_png_packed(packing)),
-        |_, png| Ok(film.push_png(&png)?),
+        |index, frame| {
+            let turn = relay.turn(index);
+            let (before, now) = turn.pass(frame.paint(&style));
+            Ok(Patch::between(before.as_deref(), &now, packing))
+        },
+        |_, patch| Ok(film.push_patch(patch)?),
     )?;
     // Interrupted before the first frame: no film, and no file.
     if footage.drawn > 0 {

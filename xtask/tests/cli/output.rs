@@ -121,6 +121,29 @@ fn films_are_one_file() {
     render(folder.path(), &["--out", "b", "--format", "y4m"]).done();
     let film = fs::read(folder.path().join("a/thesis.png")).unwrap();
     assert!(film.windows(4).any(|four| four == b"acTL"));
+    for (format, name) in [
+        ("apng", "thesis.png"),
+        ("y4m", "thesis.y4m"),
+        ("sheet", "thesis.png"),
+    ] {
+        let made = |out: &str, threads: &str| {
+            let flags = [
+                "--force",
+                "--out",
+                out,
+                "--format",
+                format,
+                "--threads",
+                threads,
+            ];
+            render(folder.path(), &flags).done();
+            fs::read(folder.path().join(out).join(name)).unwrap()
+        };
+        assert!(
+            made("one", "1") == made("many", "5"),
+            "{format} depends on the threads"
+        );
+    }
     let film = fs::read(folder.path().join("b/thesis.y4m")).unwrap();
     assert!(film.starts_with(b"YUV4MPEG2 W80 H60 F20:1"));
     assert_eq!(
