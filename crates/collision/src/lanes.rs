@@ -42,6 +42,36 @@ pub(crate) fn lowest(hull: &Hull<'_>, direction: Vec2) -> (usize, f64) {
     best
 }
 
+/// The smallest `direction · q` of all vertices but one, in m for a unit direction.
+pub(crate) fn lowest_other(hull: &Hull<'_>, direction: Vec2, vertex: usize) -> f64 {
+    let others = hull
+        .vertices
+        .iter()
+        .enumerate()
+        .filter(|(i, _)| *i != vertex);
+    others.fold(f64::INFINITY, |low, (_, q)| smaller(direction.dot(*q), low))
+}
+
+/// The largest of all edges but one of how far the lower of two points is over the edge's line, in m: no edge
+/// separates a hull with these points from this one by more.
+pub(crate) fn highest_over(hull: &Hull<'_>, points: [Vec2; 2], but: Option<usize>) -> f64 {
+    let mut high = f64::NEG_INFINITY;
+    let [p, q] = points;
+    for (number, block) in hull.blocks.iter().enumerate() {
+        let over = [0, 1, 2, 3].map(|lane| {
+            let height = |p: Vec2| block.normal_x[lane] * p.x + block.normal_y[lane] * p.y;
+            smaller(height(p), height(q)) - block.offset[lane]
+        });
+        for (lane, height) in over.into_iter().enumerate() {
+            let edge = 4 * number + lane;
+            if height > high && edge < hull.normals.len() && Some(edge) != but {
+                high = height;
+            }
+        }
+    }
+    high
+}
+
 /// How far each of four edges separates its hull from `facing`, in m, without radii: the height of the
 /// lowest vertex of `facing` over the edge's line.
 ///

@@ -2,8 +2,8 @@
 
 use carom_math::{Pose, Rot, Vec2};
 
-use super::facing::Facing;
-use crate::lanes::each_height;
+use super::facing::{Facing, Gap};
+use crate::lanes::{each_height, highest_over};
 use crate::{Hull, Motion};
 
 /// A direction that may separate two hulls.
@@ -25,6 +25,21 @@ pub(super) struct Instant {
     pub(super) spin: [f64; 2],
 }
 
+/// The time in which two hulls can touch, in s.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Window {
+    pub(super) from: f64,
+    pub(super) until: f64,
+    /// If nothing accelerates: bounds on |g''| from `from` to `until`, along axes of A, of B, of the world.
+    bends: Option<[f64; 3]>,
+}
+
+impl Window {
+    pub(super) const fn is_steady(&self) -> bool {
+        self.bends.is_some()
+    }
+}
+
 /// Two hulls whose motions start together.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Approach<'a> {
@@ -35,7 +50,7 @@ pub(super) struct Approach<'a> {
     v: Vec2,
     acceleration: Vec2,
     rotation: [Rot; 2],
-    spin: [f64; 2],
+    pub(super) spin: [f64; 2],
     angular_acceleration: [f64; 2],
     /// Largest distance of a vertex from the centre of its motion.
     arm: [f64; 2],
@@ -90,8 +105,32 @@ impl<'a> Approach<'a> {
         }
     }
 
-    /// When, within the horizon, the hulls can touch: from when until when, in s; `None` if never.
-    pub(super) fn window(&self, horizon: f64) -> Option<(f64, f64)> {
+    /// When, within the horizon, the hulls can touch; `None` if never.
+    pub(super) fn window(&self, horizon: f64) -> Option<Window> {
+        let (from, until) = self.times(horizon)?;
+        let steady = self.pull == 0.0;
+        let bends = steady.then(|| {
+            // A straight way is farthest at one of its ends.
+            let ends = [from, until].map(|tau| (self.d + self.v * tau).length_squared());
+            let far = ends[0].max(ends[1]).sqrt();
+            let [a, b] = self.spin;
+            let relative = (b - a) * (b - a);
+            let of = |k: usize, spin: f64| {
+                let turning = spin.abs() * (2.0 * self.speed_of_centres + spin.abs() * far);
+                let turning = if spin == 0.0 { 0.0 } else { turning };
+                turning + relative * self.arm[1 - k]
+            };
+            [
+                of(0, a),
+                of(1, b),
+                a * a * self.arm[0] + b * b * self.arm[1],
+            ]
+        });
+        Some(Window { from, until, bends })
+    }
+
+    /// From when until when the hulls can touch, in s.
+    fn times(&self, horizon: f64) -> Option<(f64, f64)> {
         if self.wall.is_some() {
             return Some((0.0, horizon));
         }
@@ -247,7 +286,28 @@ impl<'a> Approach<'a> {
         }
     }
 
-    /// The axis at an instant, with the gap along it.
+    /// Whether the axis of an edge is the only one along which the hulls are that little apart: along every other the
+    /// gap is below `floor`. An answer of no may be wrong.
+    pub(super) fn is_alone(&self, axis: Axis, least: &Gap, at: &Instant, floor: f64) -> bool {
+        let Axis::Edge { owner, edge } = axis else {
+            return false;
+        };
+        let side = 1 - owner;
+        let (own, other) = (&self.hulls[owner], &self.hulls[side]);
+        if own.blocks.is_empty() || other.blocks.is_empty() {
+            return false;
+        }
+        let d = if owner == 0 { at.d } else { -at.d };
+        let (from, to) = own.edge(edge);
+        // The vertex seen from the edge's hull, and the edge seen from the vertex's.
+        let vertex = at.rotation[side] * other.vertices[least.vertices[side]] + d;
+        let vertex = at.rotation[owner].inverse_mul(vertex);
+        let ends = [from, to].map(|p| at.rotation[side].inverse_mul(at.rotation[owner] * p - d));
+        highest_over(own, [vertex; 2], Some(edge)) < floor
+            && highest_over(other, ends, None) < floor
+    }
+
+    /// The axis at an instant.
     pub(super) fn facing(&self, axis: Axis, at: &Instant) -> Facing {
         Facing::new(self, axis, at)
     }
@@ -263,6 +323,19 @@ impl<'a> Approach<'a> {
         }
     }
 
+    /// A time in the window, and a bound on −g'' of every vertex along the axis between `tau` and then.
+    pub(super) fn bend(&self, window: &Window, axis: Axis, at: &Instant, tau: f64) -> (f64, f64) {
+        if let Some(bends) = window.bends {
+            let bend = match axis {
+                Axis::Edge { owner, .. } => bends[owner],
+                Axis::World { .. } => bends[2],
+            };
+            return (window.until, bend);
+        }
+        let end = (tau + self.segment(at)).min(window.until);
+        (end, self.bend_until(axis, at, tau, end))
+    }
+
     /// Bound M on −g'' of every vertex along the axis between `tau` and `end`.
     ///
     /// ```text
@@ -270,7 +343,7 @@ impl<'a> Approach<'a> {
     /// ```
     /// R the distance of the centres, s its rate, ρ the reach of the vertices. An axis that does
     /// not turn leaves −n·a, sign and all: then a fall without spin is one exact step.
-    pub(super) fn bend(&self, axis: Axis, at: &Instant, tau: f64, end: f64) -> f64 {
+    fn bend_until(&self, axis: Axis, at: &Instant, tau: f64, end: f64) -> f64 {
         let alpha = self.angular_acceleration;
         let spin = |k: usize| self.spin_over(k, tau, end);
         let turning = |k: usize| spin(k) * spin(k) + alpha[k].abs();
@@ -308,7 +381,7 @@ impl<'a> Approach<'a> {
     }
 
     /// How long bounds taken now stay tight: two sizes of travel.
-    pub(super) fn segment(&self, at: &Instant) -> f64 {
+    fn segment(&self, at: &Instant) -> f64 {
         let size = 2.0 * (self.reach[0] + self.reach[1]);
         let (fast, root) = if self.pull_of_centres > 0.0 {
             let fast = at.v.length();

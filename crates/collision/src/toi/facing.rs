@@ -3,7 +3,7 @@
 use carom_math::{Vec2, cross, vec2};
 
 use super::approach::{Approach, Axis, Instant};
-use crate::lanes::lowest;
+use crate::lanes::{lowest, lowest_other};
 
 /// A vertex seen along an axis.
 #[derive(Clone, Copy, Debug)]
@@ -32,35 +32,29 @@ pub(super) struct Facing {
     base: f64,
     base_rate: f64,
     w: f64,
-    /// The vertex with the smallest gap (the first of equals), and that.
-    pub(super) vertex: usize,
-    pub(super) gap: f64,
+    /// Second time derivative of `base` when nothing accelerates.
+    base_bend: f64,
 }
 
 impl Facing {
     pub(super) fn new(approach: &Approach<'_>, axis: Axis, at: &Instant) -> Self {
         let hulls = &approach.hulls;
         let radius = hulls[0].radius + hulls[1].radius;
-        let (side, opposite, n, m, base, base_rate, w) = match axis {
+        let (side, opposite, m, base, base_rate, w, base_bend) = match axis {
             Axis::Edge { owner, edge } => {
                 let side = 1 - owner;
                 let sign = if owner == 0 { 1.0 } else { -1.0 };
                 let local = hulls[owner].normals[edge];
                 let n = at.rotation[owner] * local * sign;
                 let offset = local.dot(hulls[owner].vertices[edge]);
-                let base = n.dot(at.d) - (offset + radius);
-                // n turns with its owner: d(n·d)/dt = n·v + ω n × d.
-                let rate = n.dot(at.v) + at.spin[owner] * cross(n, at.d);
-                let w = at.spin[side] - at.spin[owner];
-                (
-                    side,
-                    edge,
-                    n,
-                    at.rotation[side].inverse_mul(n * sign),
-                    base,
-                    rate,
-                    w,
-                )
+                let (along, across) = (n.dot(at.d), cross(n, at.d));
+                let base = along - (offset + radius);
+                // n turns with its owner: d(n·d)/dt = n·v + ω n × d, and d(n × d)/dt = n × v − ω n·d.
+                let spin = at.spin[owner];
+                let rate = n.dot(at.v) + spin * across;
+                let bend = spin * (2.0 * cross(n, at.v) - spin * along);
+                let m = at.rotation[side].inverse_mul(n * sign);
+                (side, edge, m, base, rate, at.spin[side] - spin, bend)
             }
             // One of the two is a disc: its only vertex counts as fixed to the axis.
             Axis::World { normal: n } => {
@@ -69,20 +63,13 @@ impl Facing {
                 let sign = if side == 1 { 1.0 } else { -1.0 };
                 let centre = at.rotation[disc] * hulls[disc].vertices[0] * -sign;
                 let base = n.dot(at.d + centre) - radius;
-                let rate = n.dot(at.v) - at.spin[disc] * cross(n, centre);
-                (
-                    side,
-                    0,
-                    n,
-                    at.rotation[side].inverse_mul(n * sign),
-                    base,
-                    rate,
-                    at.spin[side],
-                )
+                let spin = at.spin[disc];
+                let rate = n.dot(at.v) - spin * cross(n, centre);
+                let bend = -spin * spin * n.dot(centre);
+                let m = at.rotation[side].inverse_mul(n * sign);
+                (side, 0, m, base, rate, at.spin[side], bend)
             }
         };
-        debug_assert!(n.is_finite(), "a normal is finite");
-        let (vertex, low) = lowest(&hulls[side], m);
         Self {
             side,
             opposite,
@@ -90,8 +77,7 @@ impl Facing {
             base,
             base_rate,
             w,
-            vertex,
-            gap: base + low,
+            base_bend,
         }
     }
 
@@ -105,13 +91,48 @@ impl Facing {
         vertices
     }
 
-    /// The smallest gap.
+    /// The smallest gap; the first of equals.
     pub(super) fn least(&self, approach: &Approach<'_>) -> Gap {
+        let (vertex, _) = lowest(&approach.hulls[self.side], self.m);
+        self.gap(approach, vertex)
+    }
+
+    fn gap(&self, approach: &Approach<'_>, vertex: usize) -> Gap {
+        let q = approach.hulls[self.side].vertices[vertex];
         Gap {
-            vertices: self.vertices(self.vertex),
-            gap: self.gap,
-            rate: self.rate(approach.hulls[self.side].vertices[self.vertex]),
+            vertices: self.vertices(vertex),
+            gap: self.base + self.m.dot(q),
+            rate: self.rate(q),
         }
+    }
+
+    /// A gap seen before, as it is now, with its second time derivative when nothing accelerates.
+    pub(super) fn again(&self, approach: &Approach<'_>, before: &Gap) -> (Gap, f64) {
+        let gap = self.gap(approach, before.vertices[self.side]);
+        (
+            gap,
+            self.base_bend - self.w * self.w * (gap.gap - self.base),
+        )
+    }
+
+    /// Whether no other vertex than that of `gap` can close within the next `step` seconds, when −g'' of each stays
+    /// below `bend`.
+    pub(super) fn others_stay_open(
+        &self,
+        approach: &Approach<'_>,
+        gap: &Gap,
+        bend: f64,
+        step: f64,
+    ) -> bool {
+        // Concave parabolas that are positive at both ends are positive between them.
+        let hull = &approach.hulls[self.side];
+        let others = lowest_other(hull, self.turned(step), gap.vertices[self.side]);
+        bend >= 0.0 && self.base + (self.base_rate - 0.5 * bend * step) * step + others > 0.0
+    }
+
+    /// `m` after `step` seconds, to first order.
+    fn turned(&self, step: f64) -> Vec2 {
+        self.m + vec2(self.m.y, -self.m.x) * (self.w * step)
     }
 
     /// Gap and rate of every vertex.
@@ -132,6 +153,7 @@ impl Facing {
     pub(super) fn certified_step(
         &self,
         approach: &Approach<'_>,
+        least: &Gap,
         level: f64,
         bend: f64,
         limit: f64,
@@ -145,14 +167,13 @@ impl Facing {
             // Parabolas that open upwards may dip and come back in between.
             return (0..hull.vertices.len()).fold(limit, |step, vertex| from(vertex, step));
         }
-        let mut vertex = self.vertex;
+        let mut vertex = least.vertices[self.side];
         let mut step = from(vertex, limit);
         if self.w == 0.0 {
             return step;
         }
         loop {
-            let turned = self.m + vec2(self.m.y, -self.m.x) * (self.w * step);
-            let (lower, _) = lowest(hull, turned);
+            let (lower, _) = lowest(hull, self.turned(step));
             let shorter = from(lower, step);
             if lower == vertex || shorter >= step {
                 return step;

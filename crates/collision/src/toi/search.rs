@@ -3,7 +3,7 @@
 use arrayvec::ArrayVec;
 use carom_math::Vec2;
 
-use super::approach::{Approach, Axis, Instant};
+use super::approach::{Approach, Axis, Instant, Window};
 use super::facing::{Facing, Gap};
 use super::touching::{End, Stretch};
 use super::{Impact, ImpactFeature, TimeOfImpact};
@@ -26,34 +26,47 @@ const SLACK: f64 = 1e-12;
 
 /// The first contact of two convex hulls within `horizon`.
 pub(super) fn first_contact(approach: &Approach<'_>, horizon: f64) -> TimeOfImpact {
-    let Some((from, until)) = approach.window(horizon) else {
+    let Some(window) = approach.window(horizon) else {
         return TimeOfImpact::Clear;
     };
     let mut search = Search {
         approach,
-        until,
-        tau: from,
-        at: approach.at(from),
+        window,
+        tau: window.from,
+        at: approach.at(window.from),
         level: None,
         steps: 0,
     };
+    let closing = -1e-13 * approach.speed;
     let mut sank = false;
     for query in 0..QUERIES {
         let mut axis = approach.widest(&search.at);
         let mut facing = approach.facing(axis, &search.at);
+        let mut least = facing.least(approach);
         search.level = None;
-        if facing.gap <= approach.tolerance(search.tau) {
+        if least.gap <= approach.tolerance(search.tau) {
             // Closed on every side. The pair opens if any of its closed axes opens.
-            let (opening, rate) = search.opening(axis, facing.gap);
-            if rate < -1e-13 * approach.speed || (sank && rate < 0.0) {
-                return search.contact(opening, query == 0 && from <= 0.0);
+            let (opening, rate) = search.opening(axis, least.gap);
+            if rate < closing || (sank && rate < 0.0) {
+                return search.contact(opening, query == 0 && window.from <= 0.0);
             }
             axis = opening;
             facing = approach.facing(axis, &search.at);
-            search.level = Some(facing.gap - search.slack());
+            least = facing.least(approach);
+            search.level = Some(least.gap - search.slack());
         }
-        match search.advance(axis, facing) {
-            Advance::Closed => sank = search.level.is_some(),
+        match search.advance(axis, facing, least) {
+            Advance::Closed(least) => {
+                sank = search.level.is_some();
+                // A vertex well within an edge: their distance is that gap, and no axis is open.
+                let floor = least.gap - 2.0 * NEAR * approach.size();
+                if !sank
+                    && least.rate < closing
+                    && approach.is_alone(axis, &least, &search.at, floor)
+                {
+                    return search.contact(axis, false);
+                }
+            }
             Advance::Horizon => return TimeOfImpact::Clear,
             Advance::Spent => break,
         }
@@ -65,7 +78,7 @@ pub(super) fn first_contact(approach: &Approach<'_>, horizon: f64) -> TimeOfImpa
 
 enum Advance {
     /// The gap along the axis has reached the level.
-    Closed,
+    Closed(Gap),
     /// It stays above up to the horizon.
     Horizon,
     /// The budget of steps is spent.
@@ -74,8 +87,7 @@ enum Advance {
 
 struct Search<'a> {
     approach: &'a Approach<'a>,
-    /// End of the time in which the hulls can touch.
-    until: f64,
+    window: Window,
     tau: f64,
     at: Instant,
     /// Gap at which the axis of a pair that touches already counts as closed; else the tolerance.
@@ -107,16 +119,17 @@ impl Search<'_> {
                 return;
             }
             let facing = approach.facing(axis, at);
-            if facing.gap < gap - near {
+            let least = facing.least(approach);
+            if least.gap < gap - near {
                 return;
             }
             let mut rate = f64::INFINITY;
             facing.each_gap(approach, |vertex| {
-                if vertex.gap <= facing.gap + near && vertex.rate < rate {
+                if vertex.gap <= least.gap + near && vertex.rate < rate {
                     rate = vertex.rate;
                 }
             });
-            let real = self.touches(axis, &facing.least(approach), at);
+            let real = self.touches(axis, &least, at);
             if best.is_none_or(|(r, fastest, _)| (real, rate) > (r, fastest)) {
                 best = Some((real, rate, axis));
             }
@@ -145,31 +158,73 @@ impl Search<'_> {
     }
 
     /// Moves on along one axis, seen now, until its gap is at the level.
-    fn advance(&mut self, axis: Axis, mut facing: Facing) -> Advance {
-        let approach = self.approach;
+    fn advance(&mut self, axis: Axis, mut facing: Facing, mut least: Gap) -> Advance {
+        let (approach, until) = (self.approach, self.window.until);
         while self.steps < STEPS {
             self.steps += 1;
             let tolerance = approach.tolerance(self.tau);
             let level = self.level.unwrap_or(tolerance);
-            if facing.gap <= level {
-                return Advance::Closed;
+            if least.gap <= level {
+                return Advance::Closed(least);
             }
             // Once clear of the contact it left, the pair is like any other.
-            if facing.gap > 2.0 * tolerance {
+            if least.gap > 2.0 * tolerance {
                 self.level = None;
             }
-            let end = (self.tau + approach.segment(&self.at)).min(self.until);
-            let bend = approach.bend(axis, &self.at, self.tau, end);
-            let step = facing.certified_step(approach, level, bend, end - self.tau);
-            if self.tau + step >= self.until {
-                self.tau = self.until;
+            let (end, bend) = approach.bend(&self.window, axis, &self.at, self.tau);
+            let next = if let Some(crossing) = self.crossing(axis, &facing, &least, bend) {
+                crossing
+            } else {
+                let limit = end - self.tau;
+                self.tau + facing.certified_step(approach, &least, level, bend, limit)
+            };
+            if next >= until {
+                self.tau = until;
                 return Advance::Horizon;
             }
             // Below one ulp of time the gap changes by less than its rounding: go on by that.
-            self.move_to((self.tau + step).max(self.tau.next_up()));
+            self.move_to(next.max(self.tau.next_up()));
             facing = approach.facing(axis, &self.at);
+            least = facing.least(approach);
         }
         Advance::Spent
+    }
+
+    /// When the lowest vertex reaches the edge, if it is certain to, and before any other.
+    ///
+    /// With |g''| ≤ M a gap is down within the first root of `g + g' τ + M τ²/2`, and falls all the way, if
+    /// `g'² > 2 M g`. Newton's method with the exact g'' as third term (Halley 1694) then finds where.
+    fn crossing(&self, axis: Axis, facing: &Facing, least: &Gap, bend: f64) -> Option<f64> {
+        let approach = self.approach;
+        let certain = least.rate * least.rate > 2.5 * bend * least.gap;
+        if !self.window.is_steady() || self.level.is_some() || least.rate >= 0.0 || !certain {
+            return None;
+        }
+        let root = (least.rate * least.rate - 2.0 * bend * least.gap).sqrt();
+        let latest = self.tau + 2.0 * least.gap / (root - least.rate);
+        if latest >= self.window.until {
+            return None;
+        }
+        let fine = 0.01 * approach.tolerance(latest);
+        let fastest = approach.spin[0].abs() + approach.spin[1].abs();
+        let (mut tau, mut then) = (self.tau, *facing);
+        for _ in 0..8 {
+            let (gap, curve) = then.again(approach, least);
+            // The root of g + g' s + g'' s²/2 that is near −g/g'.
+            let square = gap.rate * gap.rate - 2.0 * curve * gap.gap;
+            if square < 0.0 || gap.rate >= 0.0 {
+                return None;
+            }
+            let step = 2.0 * gap.gap / (square.sqrt() - gap.rate);
+            tau = (tau + step).clamp(self.tau, latest);
+            // The third derivative is at most 3/2 ω M: this is what the step leaves of the gap.
+            if 0.25 * fastest * bend * step.abs() * step * step <= fine {
+                let open = facing.others_stay_open(approach, least, bend, tau - self.tau);
+                return open.then_some(tau);
+            }
+            then = approach.facing(axis, &approach.at(tau));
+        }
+        None
     }
 
     /// The contact at the present instant, after a last Newton step.
@@ -179,16 +234,18 @@ impl Search<'_> {
         let mut tau = self.tau;
         let mut at = self.at;
         let mut facing = approach.facing(axis, &at);
-        let least = facing.least(approach);
-        if !start && least.rate < 0.0 && least.gap.abs() <= 4.0 * self.slack() {
+        let mut least = facing.least(approach);
+        let off = least.gap.abs();
+        let polished = off <= 0.1 * approach.tolerance(tau);
+        if !start && !polished && least.rate < 0.0 && off <= 4.0 * self.slack() {
             let newton = tau - least.gap / least.rate;
-            if newton > 0.0 && newton <= self.until {
+            if newton > 0.0 && newton <= self.window.until {
                 tau = newton;
                 at = approach.at(tau);
                 facing = approach.facing(axis, &at);
+                least = facing.least(approach);
             }
         }
-        let least = facing.least(approach);
         if !self.touches(axis, &least, &at) {
             // The vertex comes through a cut: it has touched another piece before.
             return TimeOfImpact::Clear;
