@@ -10,6 +10,7 @@ mod errors;
 mod failures;
 mod forces;
 mod impacts;
+mod lasting;
 mod observing;
 mod regressions;
 mod skipping;

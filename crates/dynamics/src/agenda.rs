@@ -46,6 +46,11 @@ impl Agenda {
         self.heap.push(Reverse(entry));
     }
 
+    /// When the next entry is due.
+    pub(crate) fn next(&self) -> Option<SimTime> {
+        self.heap.peek().map(|Reverse(entry)| entry.time)
+    }
+
     /// Takes the next entry if it is due by `end`.
     pub(crate) fn next_until(&mut self, end: SimTime) -> Option<Entry> {
         if self.heap.peek()?.0.time > end {

@@ -6,6 +6,7 @@ use carom_collision::{Motion, NodeId};
 use carom_geometry::{Aabb, AreaProperties, MassProperties, Shape};
 use carom_math::{Pose, Rot, SimTime, Vec2};
 
+use crate::closed::Membership;
 use crate::error::BodyError;
 use crate::impact::ImpactBody;
 use crate::{BodyDef, BodyId, BodyKind, Material};
@@ -37,6 +38,8 @@ pub(crate) struct BodyState {
     /// Solved for as part of a group in this sub-step.
     pub(crate) member: bool,
     pub(crate) asleep: bool,
+    /// The contact group in closed form that it belongs to.
+    pub(crate) membership: Membership,
     /// How long the body has been slow, in s.
     pub(crate) slow_for: f64,
     /// Largest distance of a point of its shapes from the centre of mass, in m.
@@ -129,6 +132,7 @@ impl BodyState {
             lag: Lag::default(),
             member: false,
             asleep: false,
+            membership: Membership::default(),
             slow_for: 0.0,
             reach: shapes
                 .iter()

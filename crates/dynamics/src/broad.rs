@@ -153,6 +153,7 @@ impl Broad {
             contacts: Vec::new(),
             touching: false,
             lasting: false,
+            mode: None,
             held: false,
             buried: false,
             impacts: 0,

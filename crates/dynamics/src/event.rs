@@ -101,6 +101,8 @@ pub struct Events {
     list: Vec<Event>,
     capacity: usize,
     dropped: usize,
+    /// How many of them some step has delivered.
+    delivered: usize,
 }
 
 impl Events {
@@ -109,6 +111,7 @@ impl Events {
             list: Vec::new(),
             capacity,
             dropped: 0,
+            delivered: 0,
         }
     }
 
@@ -143,9 +146,16 @@ impl Events {
         }
     }
 
-    pub(crate) fn clear(&mut self) {
-        self.list.clear();
+    /// Makes room for the events of a step. What happened since the last one, by what the caller
+    /// changed, is delivered with it.
+    pub(crate) fn begin_step(&mut self) {
+        self.list.drain(..self.delivered);
+        self.delivered = 0;
         self.dropped = 0;
+    }
+
+    pub(crate) fn end_step(&mut self) {
+        self.delivered = self.list.len();
     }
 }
 

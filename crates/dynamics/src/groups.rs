@@ -89,7 +89,11 @@ impl Groups {
                 let pair = pairs.get(place);
                 let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
                 let fixed = a.inverse_mass == 0.0 || b.inverse_mass == 0.0;
-                if pair.contacts.is_empty() || fixed != ground || !(a.is_active() || b.is_active())
+                let closed = a.membership.is_closed() || b.membership.is_closed();
+                if pair.contacts.is_empty()
+                    || closed
+                    || fixed != ground
+                    || !(a.is_active() || b.is_active())
                 {
                     continue;
                 }

@@ -33,6 +33,7 @@ mod body_def;
 mod broad;
 mod change;
 mod clock;
+mod closed;
 mod contact;
 mod error;
 mod event;
@@ -45,10 +46,6 @@ mod id;
 pub mod impact;
 mod ledger;
 mod material;
-#[cfg_attr(
-    not(test),
-    expect(dead_code, reason = "judged here, moved by the world soon")
-)]
 mod modes;
 mod narrow;
 mod pairs;
@@ -63,6 +60,7 @@ mod sleep;
 mod solver;
 mod step;
 mod substep;
+mod touching;
 mod world;
 
 pub use body::Body;

@@ -4,7 +4,7 @@ use arrayvec::ArrayVec;
 use carom_collision::FeatureId;
 use carom_math::Vec2;
 
-use crate::PairMaterial;
+use crate::{ContactMode, PairMaterial};
 
 /// Two colliders of different bodies whose boxes overlap; the lower body comes first.
 #[derive(Clone, Debug)]
@@ -20,6 +20,8 @@ pub(crate) struct Pair {
     pub(crate) touching: bool,
     /// Some contact pushes: the pair is solved for, not struck.
     pub(crate) lasting: bool,
+    /// How its bodies last moved against each other in a contact in closed form.
+    pub(crate) mode: Option<ContactMode>,
     /// A touch is held by the solver, however fast it closes: the pair lasted or was struck in the
     /// last sub-step and yet closes again, or has no restitution that a strike would give back.
     pub(crate) held: bool,

@@ -31,10 +31,11 @@ impl World {
             refused: self.refusal(dt),
             ..StepReport::default()
         };
-        self.events.clear();
+        self.events.begin_step();
         self.spent = 0.0;
         self.stopwatch.start();
         if self.report.refused.is_some() {
+            self.events.end_step();
             return self.report;
         }
         let start = self.clock.now;
@@ -42,11 +43,15 @@ impl World {
         if dt > 0.0 {
             self.begin_forces();
         }
-        self.clock.now = self.advance(end, stop_at_event);
+        // What the caller's changes brought about is told first.
+        if !stop_at_event || self.events.is_empty() {
+            self.clock.now = self.advance(end, stop_at_event);
+        }
         self.stopwatch.lap(|p| &mut p.impacts);
         if dt > 0.0 {
             self.end_forces();
         }
+        self.events.end_step();
         self.report.advanced = if stop_at_event {
             self.clock.now - start
         } else {
@@ -71,7 +76,16 @@ impl World {
     /// Entries of the agenda and sub-steps, whichever comes first, up to `end`.
     fn advance(&mut self, end: SimTime, stop_at_event: bool) -> SimTime {
         loop {
-            if let Some(entry) = self.agenda.next_until(end.min(self.clock.next())) {
+            let grid = end.min(self.clock.next());
+            let change = self.closed.next().filter(|time| *time <= grid);
+            if let Some(time) = change
+                && self.agenda.next().is_none_or(|entry| time <= entry)
+            {
+                self.change_group();
+                if stop_at_event && !self.events.is_empty() {
+                    return time;
+                }
+            } else if let Some(entry) = self.agenda.next_until(grid) {
                 if self.spent > self.impact_budget() {
                     self.give_up();
                     continue;
@@ -101,16 +115,27 @@ impl World {
                     return entry.time;
                 }
             } else if self.clock.is_due(end) {
+                let time = self.clock.next();
                 self.begin_substep();
+                if stop_at_event && !self.events.is_empty() {
+                    return time;
+                }
             } else {
                 return end;
             }
         }
     }
 
+    /// A body with a new motion in the middle of a sub-step: its pairs are predicted again, and so
+    /// are those of the contact group that it was or is in.
+    pub(crate) fn deflected(&mut self, index: u32, time: SimTime) {
+        self.redirect(index, time);
+        self.regroup(index, time);
+    }
+
     /// A body with a new motion in the middle of a sub-step: it may leave its boxes, and all its
     /// pairs are predicted again.
-    pub(crate) fn deflected(&mut self, index: u32, time: SimTime) {
+    pub(crate) fn redirect(&mut self, index: u32, time: SimTime) {
         if self.bodies.get(index).asleep {
             wake(&mut self.bodies, &self.pairs, index, time, &mut self.events);
         }

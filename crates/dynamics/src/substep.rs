@@ -21,6 +21,7 @@ impl World {
         self.find_pairs(time, h);
         self.stopwatch.lap(|p| &mut p.pairs);
         self.look(time, h);
+        self.close_groups(time);
         self.stopwatch.lap(|p| &mut p.contacts);
         self.groups.step(
             &self.law,
@@ -33,7 +34,7 @@ impl World {
         self.pairs_are_new();
         self.stopwatch.lap(|p| &mut p.solver);
         for index in self.active() {
-            if !self.groups.pushed(index) {
+            if !self.groups.pushed(index) && !self.bodies.get(index).membership.is_closed() {
                 fly(&mut self.bodies, index, time, h);
             }
         }

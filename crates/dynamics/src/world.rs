@@ -10,6 +10,7 @@ use crate::bodies::Bodies;
 use crate::body::{BodyState, Collider, frame_of};
 use crate::broad::{Broad, part};
 use crate::clock::Clock;
+use crate::closed::Closed;
 use crate::groups::Groups;
 use crate::narrow::Narrow;
 use crate::pairs::Pairs;
@@ -56,6 +57,7 @@ pub struct World {
     pub(crate) broad: Broad,
     pub(crate) narrow: Narrow,
     pub(crate) groups: Groups,
+    pub(crate) closed: Closed,
     pub(crate) agenda: Agenda,
     pub(crate) events: Events,
     pub(crate) report: StepReport,
@@ -84,6 +86,7 @@ impl World {
             broad: Broad::new(settings.pair_search),
             narrow: Narrow::default(),
             groups: Groups::default(),
+            closed: Closed::default(),
             agenda: Agenda::default(),
             events: Events::new(settings.events),
             report: StepReport::default(),
@@ -245,7 +248,12 @@ impl World {
     /// Where the energy is and where it went.
     #[must_use]
     pub fn energy(&self) -> EnergyLedger {
-        self.bodies.ledger(self.clock.now)
+        let mut ledger = self.bodies.ledger(self.clock.now);
+        let (heat, driven) = self.closed.unbooked(self.clock.now);
+        ledger.friction += heat;
+        ledger.external += driven;
+        ledger.scheme += heat - driven;
+        ledger
     }
 
     /// Momentum of all dynamic bodies.
@@ -334,6 +342,7 @@ impl World {
         let Some(pair) = part(&mut self.bodies, &mut self.pairs, place) else {
             return;
         };
+        self.loosen(place, pair.bodies, time);
         self.agenda.forget(place);
         if pair.touching {
             let (a, b) = (

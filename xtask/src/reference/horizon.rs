@@ -16,6 +16,7 @@ pub(super) fn bounds(category: &str, case: &Case, key: &str, want: &[Decimal]) -
             let angle = first_number(case, "angle_unwrapped").unwrap_or(0.0).abs();
             all(1e-13 * scale.max(1e-300) + 8.0 * f64::EPSILON * angle)
         }
+        "friction" => all((1e-12 * scale).max(1e-14)),
         "chains" if key == "collapse_time" => {
             let lost = losses(case, key).first().copied().unwrap_or(0.0);
             all((1e-9 * scale.max(1.0)).max(10.0 * lost))

@@ -5,6 +5,7 @@ mod bounds;
 mod decimal;
 mod first_contact;
 mod flight;
+mod friction;
 mod gas;
 mod horizon;
 mod impact;
@@ -30,6 +31,7 @@ use crate::out::say;
 use book::{Answer, Case, Outputs, Results};
 use first_contact::FirstContactCase;
 use flight::FlightCase;
+use friction::FrictionCase;
 use gas::GasCase;
 use impact::ImpactCase;
 use line::LineCase;
@@ -108,6 +110,7 @@ fn solve(category: &str, case: &Case, seed: Option<u64>) -> Result<(f64, Outputs
         "simultaneous" => simultaneous(case, seed),
         "time_of_impact" => first_contact(case, seed),
         "flight_bounce" => played(case, seed, &FlightCase::read(&case.inputs)?),
+        "friction" => friction(case, seed),
         "billiards" => played(case, seed, &GasCase::read_billiard(&case.inputs)?),
         "disc_gas" => played(case, seed, &GasCase::read_gas(case)?),
         "chains" => played(case, seed, &LineCase::read_chain(&case.inputs)?),
@@ -129,6 +132,18 @@ fn played(case: &Case, seed: Option<u64>, question: &impl Play) -> Result<(f64, 
     let mut stage = cast.enter(&symmetry, seed.is_some())?;
     let outputs = question.play(&mut stage)?;
     Ok((clock.seconds(), outputs))
+}
+
+/// Where a case asks about several worlds, each is played.
+fn friction(case: &Case, seed: Option<u64>) -> Result<(f64, Outputs), String> {
+    let mut seconds = 0.0;
+    let mut outputs = Outputs::new();
+    for question in FrictionCase::read(&case.inputs)? {
+        let (spent, mut found) = played(case, seed, &question)?;
+        seconds += spent;
+        outputs.append(&mut found);
+    }
+    Ok((seconds, outputs))
 }
 
 fn mass_properties(case: &Case, seed: Option<u64>) -> Result<(f64, Outputs), String> {

@@ -1,7 +1,7 @@
 //! A world of a reference case: built, stepped, read. No mechanics here.
 
 use carom_dynamics::{
-    Body, BodyDef, BodyId, EventKind, ImpactLaw, Material, Mode, Settings, World,
+    Body, BodyDef, BodyId, ContactMode, EventKind, ImpactLaw, Material, Mode, Settings, World,
 };
 use carom_math::{Rot, SimTime, Vec2, vec2};
 
@@ -38,6 +38,10 @@ pub(super) struct Player {
     pub(super) fixed: bool,
     /// In kg; `None`: by density.
     pub(super) mass: Option<f64>,
+    /// In kg·m²; `None`: by density.
+    pub(super) inertia: Option<f64>,
+    /// `None`: as everybody's.
+    pub(super) friction: Option<f64>,
     /// In kg/m².
     pub(super) density: f64,
     pub(super) position: Vec2,
@@ -63,6 +67,16 @@ pub(super) struct Struck {
     pub(super) tangential_impulse: f64,
 }
 
+/// A lasting contact that began to move in another way.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Moved {
+    /// In s.
+    pub(super) time: f64,
+    /// The lower index first.
+    pub(super) pair: (usize, usize),
+    pub(super) mode: ContactMode,
+}
+
 /// A world in some guise, read in the case's own.
 #[derive(Debug)]
 pub(super) struct Stage {
@@ -73,6 +87,8 @@ pub(super) struct Stage {
     cuts: Option<SplitMix>,
     /// Impacts that nobody has taken out yet.
     pub(super) impacts: Vec<Struck>,
+    /// Modes of lasting contacts, as they began.
+    pub(super) modes: Vec<Moved>,
     /// All impacts so far.
     pub(super) struck: usize,
     /// When infinitely many impacts came to their end, in s.
@@ -86,6 +102,8 @@ impl Player {
             outline: Outline::Circle(radius),
             fixed: false,
             mass: Some(1.0),
+            inertia: None,
+            friction: None,
             density: 1.0,
             position,
             angle: 0.0,
@@ -148,7 +166,9 @@ impl Player {
             .turned(self.angle)
             .moving(self.velocity)
             .spinning(self.spin);
-        self.mass.map_or(def, |mass| def.with_mass(mass))
+        let def = self.mass.map_or(def, |mass| def.with_mass(mass));
+        self.inertia
+            .map_or(def, |inertia| def.with_inertia(inertia))
     }
 }
 
@@ -191,6 +211,7 @@ impl Cast {
             let player = self.players[index].transformed(symmetry);
             let material = Material {
                 density: player.density,
+                friction: player.friction.unwrap_or(self.material.friction),
                 ..self.material
             };
             let id = world.insert(player.def(), player.outline.built()?, material);
@@ -202,6 +223,7 @@ impl Cast {
             symmetry: *symmetry,
             cuts: guised.then(|| SplitMix::new(symmetry.label)),
             impacts: Vec::new(),
+            modes: Vec::new(),
             struck: 0,
             accumulated: None,
         })
@@ -225,6 +247,32 @@ impl Stage {
             }
         }
         Ok(true)
+    }
+
+    /// Goes on to the instant at which a contact begins to move in one of these ways, in s; `None` if it
+    /// does not up to `latest`.
+    pub(super) fn until_mode(
+        &mut self,
+        pair: (usize, usize),
+        wanted: &[ContactMode],
+        latest: f64,
+    ) -> Result<Option<f64>, String> {
+        let end = SimTime::from_secs(latest);
+        loop {
+            let mut begun = self.modes.iter();
+            if let Some(moved) = begun.find(|m| m.pair == pair && wanted.contains(&m.mode)) {
+                return Ok(Some(moved.time));
+            }
+            if !self.advance(end)? {
+                return Ok(None);
+            }
+        }
+    }
+
+    /// How a contact moves now, if it lasts.
+    pub(super) fn mode(&self, pair: (usize, usize)) -> Option<ContactMode> {
+        let of_pair = self.modes.iter().rev().find(|moved| moved.pair == pair);
+        of_pair.map(|moved| moved.mode)
     }
 
     /// To the next event, the next cut or the end, whichever is first; `false` at the end.
@@ -265,6 +313,14 @@ impl Stage {
                         normal: if a < b { towards } else { -towards },
                         normal_impulse,
                         tangential_impulse: self.symmetry.turning(tangential_impulse),
+                    });
+                }
+                EventKind::Mode { a, b, mode } => {
+                    let (a, b) = (self.index(a), self.index(b));
+                    self.modes.push(Moved {
+                        time: event.time.as_secs(),
+                        pair: (a.min(b), a.max(b)),
+                        mode,
                     });
                 }
                 EventKind::Rests { .. } | EventKind::Collapse { .. } => {
@@ -326,6 +382,11 @@ impl Stage {
     /// Kinetic and potential energy, in J.
     pub(super) fn energy(&self) -> f64 {
         self.world.energy().mechanical()
+    }
+
+    /// What friction has turned into heat, in J.
+    pub(super) fn friction_heat(&self) -> f64 {
+        self.world.energy().friction
     }
 
     /// The highest point of a centre's present flight, by bisection of its vertical velocity; `None` if it never turns.

@@ -120,6 +120,8 @@ fn player(body: &Value) -> Result<Player, String> {
         outline: Outline::read(&body["shape"])?,
         fixed: body["static"].as_bool().unwrap_or(false),
         mass: None,
+        inertia: None,
+        friction: None,
         density: number_at(body, "density")?,
         position: point_at(body, "position")?,
         angle: number_at(body, "angle")?,

@@ -8,11 +8,8 @@ use arrayvec::ArrayVec;
 use carom_math::{Vec2, cross, cross_scalar, perp, vec2};
 
 use super::balance::Balance;
-use super::{BodyMove, ModeBody, NotMine, STILL, Touch};
+use super::{BodyMove, CLOSED, ModeBody, NotMine, STILL, Touch};
 use crate::impact::project::Basis;
-
-/// Opening speed below which a touch neither opens nor closes, as a part of the speeds it is made of.
-const CLOSED: f64 = 1e-9;
 
 /// A row counts as dependent on others if less than this part of its length is its own.
 const DEPENDENT: f64 = 1e-10;
@@ -95,10 +92,7 @@ impl Faces {
             }
         }
         Stops::of(held).apply(&mut accelerations);
-        let driven = |body: &ModeBody| {
-            body.inverse_mass == 0.0 && (body.velocity != Vec2::ZERO || body.spin != 0.0)
-        };
-        let velocities = if bodies.iter().any(driven) {
+        let velocities = if bodies.iter().any(is_driven) {
             None
         } else {
             let mut velocities = scaled(bodies, |body| (body.velocity, body.spin));
@@ -138,6 +132,11 @@ impl Faces {
         };
         bodies.iter().enumerate().map(one).collect()
     }
+}
+
+/// Of infinite mass, and on the move.
+pub(super) fn is_driven(body: &ModeBody) -> bool {
+    body.inverse_mass == 0.0 && (body.velocity != Vec2::ZERO || body.spin != 0.0)
 }
 
 /// The given numbers where scaling there and back changed nothing but the last bits.

@@ -30,6 +30,9 @@ pub(crate) const ROWS: usize = 64;
 /// Slip below this part of the speeds that it is the difference of is none.
 const STILL: f64 = 1e-12;
 
+/// Opening speed below which a touch neither opens nor closes, as a part of the speeds it is made of.
+pub(crate) const CLOSED: f64 = 1e-9;
+
 /// A body of a group at the instant of the judgement; one of infinite mass moves uniformly.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ModeBody {
@@ -184,6 +187,33 @@ pub(crate) fn judge(
         change: change::next(bodies, touches, &moves, &found, &slips)?,
         bodies: moves,
     })
+}
+
+/// Velocities after touches that close have come to rest along their normals, and against slip as
+/// far as friction can: the impact without restitution of the whole group.
+///
+/// The same problem as that of the accelerations, with impulses for forces; it has a solution where
+/// accelerations have none (Painlevé).
+pub(crate) fn land(bodies: &[ModeBody], touches: &[Touch]) -> Result<Vec<(Vec2, f64)>, NotMine> {
+    if bodies.iter().any(faces::is_driven) {
+        return Err(NotMine::Approaches);
+    }
+    let arriving: Vec<ModeBody> = bodies
+        .iter()
+        .map(|body| ModeBody {
+            pull: body.velocity,
+            twist: body.spin,
+            ..*body
+        })
+        .collect();
+    let faces = Faces::new(&arriving, touches);
+    let none = vec![0.0; touches.len()];
+    let found = balance(&faces, &tangents(touches, &none))?;
+    let moves = faces.moves(&arriving, &found, &none);
+    Ok(moves
+        .iter()
+        .map(|body| (body.acceleration, body.angular_acceleration))
+        .collect())
 }
 
 /// What friction does at each touch: it opposes the slip there is, or holds if it can.

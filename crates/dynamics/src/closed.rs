@@ -1,0 +1,502 @@
+//! Contact groups in closed form, in a world: who belongs together, what moves them, what changes next.
+//!
+//! A group is judged where its contacts begin to last, where one of its members changes its motion, and
+//! at the instant of its own next change. Between these nobody touches it: its motions are right for
+//! as long as its mode lasts. What does not qualify is left to the sub-steps.
+
+use core::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use carom_math::{SimTime, Vec2, cross_scalar, perp};
+
+use crate::flight::fly;
+use crate::modes::{BodyMove, GroupMove, TouchMove, judge, land};
+use crate::touching::Gathered;
+use crate::{ContactMode, EventKind, Mode, World};
+
+/// Sub-steps that a body waits after a judgement that failed: doubled each time, up to this.
+const LONGEST_WAIT: u32 = 256;
+
+/// Judgements of one group at one instant: more, and rounding moves it to and fro.
+const STALLED: u32 = 16;
+
+/// No group.
+pub(crate) const NO_GROUP: u32 = u32::MAX;
+
+/// What a body knows of groups.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Membership {
+    /// Place of the group, or [`NO_GROUP`].
+    pub(crate) group: u32,
+    /// Sub-steps still to wait before it is judged again.
+    wait: u32,
+    /// How long it waited the last time.
+    waited: u32,
+}
+
+impl Default for Membership {
+    fn default() -> Self {
+        Self {
+            group: NO_GROUP,
+            wait: 0,
+            waited: 0,
+        }
+    }
+}
+
+impl Membership {
+    pub(crate) const fn is_closed(self) -> bool {
+        self.group != NO_GROUP
+    }
+}
+
+/// The groups of a world, and when they change.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Closed {
+    groups: Vec<Option<Group>>,
+    free: Vec<u32>,
+    /// Stale entries are dropped when they come up: a group's stamp tells.
+    changes: BinaryHeap<Reverse<(SimTime, u32, u64)>>,
+    stamp: u64,
+    /// Where and how often in a row judgements took place at one instant.
+    stall: (SimTime, u32),
+}
+
+#[derive(Clone, Debug)]
+struct Group {
+    stamp: u64,
+    since: SimTime,
+    /// Dynamic members, and the version that their motion has since then.
+    members: Vec<(u32, u32)>,
+    touches: Vec<Kept>,
+    /// Largest speed of the mode: what its roundings are measured by, in m/s.
+    speed: f64,
+    sleeps: bool,
+}
+
+/// A touch of a group while its mode lasts.
+#[derive(Clone, Copy, Debug)]
+struct Kept {
+    pair: u32,
+    contact: usize,
+    moved: TouchMove,
+    /// How fast the slip grows, in m/s².
+    slip_rate: f64,
+    /// Power that a driven partner puts in, in W.
+    driven: f64,
+}
+
+impl Kept {
+    /// Heat by friction in the first `elapsed` seconds, in J.
+    fn heat(&self, elapsed: f64) -> f64 {
+        -self.moved.tangential * (self.moved.slip + 0.5 * self.slip_rate * elapsed) * elapsed
+    }
+}
+
+impl Closed {
+    /// When the next change is due.
+    pub(crate) fn next(&mut self) -> Option<SimTime> {
+        loop {
+            let &Reverse((time, group, stamp)) = self.changes.peek()?;
+            if self.get(group).is_some_and(|group| group.stamp == stamp) {
+                return Some(time);
+            }
+            self.changes.pop();
+        }
+    }
+
+    fn get(&self, group: u32) -> Option<&Group> {
+        self.groups.get(group as usize)?.as_ref()
+    }
+
+    fn insert(&mut self, group: Group, change: Option<SimTime>) -> u32 {
+        let stamp = group.stamp;
+        let place = self.free.pop().unwrap_or_else(|| {
+            self.groups.push(None);
+            #[expect(
+                clippy::cast_possible_truncation,
+                reason = "fewer than there are bodies"
+            )]
+            let place = (self.groups.len() - 1) as u32;
+            place
+        });
+        self.groups[place as usize] = Some(group);
+        if let Some(time) = change {
+            self.changes.push(Reverse((time, place, stamp)));
+        }
+        place
+    }
+
+    fn remove(&mut self, place: u32) -> Option<Group> {
+        let group = self.groups.get_mut(place as usize)?.take();
+        if group.is_some() {
+            self.free.push(place);
+        }
+        group
+    }
+
+    /// Friction's heat, and the work of driven partners, that nobody has booked yet, in J.
+    pub(crate) fn unbooked(&self, now: SimTime) -> (f64, f64) {
+        let groups = self.groups.iter().flatten();
+        let touches = groups.flat_map(|group| group.touches.iter().map(move |t| (t, group.since)));
+        touches.fold((0.0, 0.0), |(heat, driven), (touch, since)| {
+            (
+                heat + touch.heat(now - since),
+                driven + touch.driven * (now - since),
+            )
+        })
+    }
+
+    /// Whether judgements go round in circles here.
+    fn stalls(&mut self, time: SimTime) -> bool {
+        if self.stall.0 == time {
+            self.stall.1 += 1;
+        } else {
+            self.stall = (time, 0);
+        }
+        self.stall.1 > STALLED
+    }
+}
+
+impl World {
+    /// Closed forms for all groups that allow them at the start of a sub-step.
+    pub(crate) fn close_groups(&mut self, time: SimTime) {
+        if self.settings.mode == Mode::Stepped || !self.bodies.pull.fields.is_empty() {
+            return;
+        }
+        let mut seeds = Vec::new();
+        let mut i = 0;
+        while let Some(place) = self.pairs.place(i) {
+            i += 1;
+            let pair = self.pairs.get(place);
+            if !pair.touching {
+                continue;
+            }
+            let ends = [pair.bodies.0, pair.bodies.1];
+            let joins = ends.map(|index| self.bodies.get(index).membership.is_closed());
+            for index in ends {
+                let state = self.bodies.get_mut(index);
+                if state.is_dynamic() && !state.asleep && !state.membership.is_closed() {
+                    // Nobody else looks after a touch with a group.
+                    if joins.contains(&true) {
+                        state.membership.wait = 0;
+                    }
+                    seeds.push(index);
+                }
+            }
+        }
+        seeds.sort_unstable();
+        seeds.dedup();
+        for index in seeds {
+            let membership = &mut self.bodies.get_mut(index).membership;
+            if membership.is_closed() {
+                continue;
+            }
+            if membership.wait > 0 {
+                membership.wait -= 1;
+            } else {
+                self.judge_around(index, time, 0.0);
+            }
+        }
+        self.keep_closed();
+    }
+
+    /// Contacts of groups last, and carry what the group says.
+    fn keep_closed(&mut self) {
+        let h = self.clock.h;
+        for group in self.closed.groups.iter().flatten() {
+            for touch in &group.touches {
+                let pair = self.pairs.get_mut(touch.pair);
+                pair.lasting = true;
+                if let Some(contact) = pair.contacts.get_mut(touch.contact) {
+                    contact.tangent_impulse = touch.moved.tangential * h;
+                    for (point, force) in contact.points.iter_mut().zip(touch.moved.normal) {
+                        point.impulse = force * h;
+                    }
+                }
+            }
+        }
+    }
+
+    /// The change of a group that is due.
+    pub(crate) fn change_group(&mut self) {
+        let Some(Reverse((time, place, stamp))) = self.closed.changes.pop() else {
+            return;
+        };
+        let Some(group) = self.closed.get(place).filter(|group| group.stamp == stamp) else {
+            return;
+        };
+        if group.sleeps {
+            return self.lull(place, time);
+        }
+        let speed = group.speed;
+        let members = self.dissolve(place, time);
+        self.judge_all(&members, time, speed);
+    }
+
+    /// A member of a group has another motion: the group is judged anew, with who touches it now.
+    pub(crate) fn regroup(&mut self, index: u32, time: SimTime) {
+        if self.settings.mode == Mode::Stepped || !self.bodies.pull.fields.is_empty() {
+            return;
+        }
+        let state = self.bodies.get(index);
+        let place = state.membership.group;
+        let (members, speed) = match self.closed.get(place) {
+            Some(group) => {
+                if group.members.contains(&(index, state.version)) {
+                    return;
+                }
+                let speed = group.speed;
+                (self.dissolve(place, time), speed)
+            }
+            None if state.is_dynamic() && !state.asleep => {
+                self.bodies.get_mut(index).membership = Membership::default();
+                (vec![index], 0.0)
+            }
+            None => return,
+        };
+        self.judge_all(&members, time, speed);
+    }
+
+    fn judge_all(&mut self, members: &[u32], time: SimTime, speed: f64) {
+        if self.closed.stalls(time) {
+            return;
+        }
+        for &index in members {
+            if !self.bodies.get(index).membership.is_closed() {
+                self.judge_around(index, time, speed);
+            }
+        }
+    }
+
+    /// Takes a group apart; its members keep their motions until somebody gives them others.
+    pub(crate) fn dissolve(&mut self, place: u32, time: SimTime) -> Vec<u32> {
+        let Some(group) = self.closed.remove(place) else {
+            return Vec::new();
+        };
+        let elapsed = time - group.since;
+        for touch in &group.touches {
+            let heat = touch.heat(elapsed);
+            self.bodies.book.friction.add(heat);
+            self.bodies.book.scheme.add(heat);
+            self.bodies.book.external.add(touch.driven * elapsed);
+            self.bodies.book.scheme.add(-touch.driven * elapsed);
+        }
+        let members: Vec<u32> = group.members.iter().map(|(index, _)| *index).collect();
+        for &index in &members {
+            self.bodies.get_mut(index).membership = Membership::default();
+        }
+        members
+    }
+
+    /// A pair is no more: a group that it held together is taken apart.
+    pub(crate) fn loosen(&mut self, pair: u32, bodies: (u32, u32), time: SimTime) {
+        for index in [bodies.0, bodies.1] {
+            let place = self.bodies.get(index).membership.group;
+            let group = self.closed.get(place);
+            if group.is_some_and(|group| group.touches.iter().any(|touch| touch.pair == pair)) {
+                self.dissolve(place, time);
+            }
+        }
+    }
+
+    /// Judges all that touches a body, and whoever touches that, and so on.
+    fn judge_around(&mut self, index: u32, time: SimTime, speed: f64) {
+        let mut gathered = match self.gather_touching(index, time) {
+            Ok(gathered) => gathered,
+            Err(seen) => {
+                for &index in &seen {
+                    self.dissolve(self.bodies.get(index).membership.group, time);
+                }
+                return self.wait_around(&seen);
+            }
+        };
+        let mut speed = speed;
+        for place in gathered.groups.clone() {
+            if let Some(group) = self.closed.get(place) {
+                speed = if group.speed > speed {
+                    group.speed
+                } else {
+                    speed
+                };
+            }
+            self.dissolve(place, time);
+        }
+        if gathered.touches.is_empty() {
+            // What nothing holds flies.
+            let left = self.clock.next() - time;
+            if left > 0.0 && self.bodies.get(index).member {
+                fly(&mut self.bodies, index, time, left);
+                self.redirect(index, time);
+            }
+            return;
+        }
+        if gathered.closing > gathered.rest {
+            return self.wait_around(&gathered.dynamic());
+        }
+        if gathered.closing > 0.0 {
+            match land(&gathered.bodies, &gathered.touches) {
+                Ok(landed) => gathered.landed(&landed),
+                Err(_) => return self.wait_around(&gathered.dynamic()),
+            }
+        }
+        // What is slower than rest by all digits is still.
+        let speed = if gathered.rest > speed {
+            gathered.rest
+        } else {
+            speed
+        };
+        match judge(&gathered.bodies, &gathered.touches, speed) {
+            Ok(moves) => self.close(&gathered, &moves, time, speed),
+            Err(_) => self.wait_around(&gathered.dynamic()),
+        }
+    }
+
+    /// A judgement failed: the next one is later.
+    fn wait_around(&mut self, members: &[u32]) {
+        for &index in members {
+            let membership = &mut self.bodies.get_mut(index).membership;
+            if membership.is_closed() {
+                continue;
+            }
+            membership.waited = (2 * membership.waited + 1).min(LONGEST_WAIT);
+            membership.wait = membership.waited;
+        }
+    }
+
+    /// Gives all members their motions, and enters the next change.
+    fn close(&mut self, gathered: &Gathered, moves: &GroupMove, time: SimTime, speed: f64) {
+        let lost = gathered.kinetic(&self.bodies, time) - kinetic(gathered, &moves.bodies);
+        self.bodies.book.impacts.add(lost);
+        let mut members = Vec::new();
+        let mut fastest = speed;
+        for (&index, moved) in gathered.places.iter().zip(&moves.bodies) {
+            if self.bodies.get(index).inverse_mass == 0.0 {
+                continue;
+            }
+            self.bodies.change(index, time, |motion| {
+                motion.velocity = moved.velocity;
+                motion.spin = moved.spin;
+                motion.acceleration = moved.acceleration;
+                motion.angular_acceleration = moved.angular_acceleration;
+            });
+            let state = self.bodies.get_mut(index);
+            state.member = true;
+            members.push((index, state.version));
+            for fast in [moved.velocity.length(), moved.spin.abs() * state.reach] {
+                fastest = if fast > fastest { fast } else { fastest };
+            }
+        }
+        let still = moves.bodies.iter().all(|body| *body == BodyMove::default());
+        let sleep = self.settings.sleep.filter(|_| still);
+        let change = match (moves.change, sleep) {
+            (Some(change), _) => Some(time + change.after),
+            (None, Some(sleep)) => Some(time + sleep.time),
+            (None, None) => None,
+        };
+        self.closed.stamp += 1;
+        let group = Group {
+            stamp: self.closed.stamp,
+            since: time,
+            touches: self.kept(gathered, moves),
+            members: members.clone(),
+            speed: fastest,
+            sleeps: sleep.is_some(),
+        };
+        let place = self.closed.insert(group, change);
+        for &(index, _) in &members {
+            self.bodies.get_mut(index).membership = Membership {
+                group: place,
+                ..Membership::default()
+            };
+        }
+        self.tell_modes(gathered, moves, time);
+        for (index, _) in members {
+            self.redirect(index, time);
+        }
+    }
+
+    fn kept(&self, gathered: &Gathered, moves: &GroupMove) -> Vec<Kept> {
+        let sources = gathered
+            .pairs
+            .iter()
+            .zip(&gathered.touches)
+            .zip(&moves.touches);
+        sources
+            .map(|((&(pair, contact), touch), moved)| {
+                let t = perp(touch.normal);
+                let (a, b) = touch.bodies;
+                let rate = |place: usize| {
+                    let body = &moves.bodies[place];
+                    let arm = touch.points[0] - gathered.bodies[place].centre;
+                    (body.acceleration + cross_scalar(body.angular_acceleration, arm)).dot(t)
+                };
+                let force =
+                    touch.normal * (moved.normal[0] + moved.normal[1]) + t * moved.tangential;
+                let drive = |place: usize, force: Vec2| {
+                    let body = &gathered.bodies[place];
+                    let arm = touch.points[0] - body.centre;
+                    if body.inverse_mass > 0.0 {
+                        0.0
+                    } else {
+                        force.dot(body.velocity + cross_scalar(body.spin, arm))
+                    }
+                };
+                Kept {
+                    pair,
+                    contact,
+                    moved: *moved,
+                    slip_rate: rate(b) - rate(a),
+                    driven: drive(a, force) + drive(b, -force),
+                }
+            })
+            .collect()
+    }
+
+    /// A mode that is new is an event.
+    fn tell_modes(&mut self, gathered: &Gathered, moves: &GroupMove, time: SimTime) {
+        for (&(place, contact), moved) in gathered.pairs.iter().zip(&moves.touches) {
+            let pair = self.pairs.get_mut(place);
+            pair.lasting = moved.mode != ContactMode::Open;
+            // A pair of several contacts moves as its first.
+            let first = gathered.pairs.iter().find(|other| other.0 == place);
+            if first != Some(&(place, contact)) || pair.mode == Some(moved.mode) {
+                continue;
+            }
+            pair.mode = Some(moved.mode);
+            let (a, b) = (
+                self.bodies.get(pair.bodies.0).id,
+                self.bodies.get(pair.bodies.1).id,
+            );
+            let mode = moved.mode;
+            self.events.push(time, EventKind::Mode { a, b, mode });
+        }
+    }
+
+    /// A group that has been at rest for long enough falls asleep.
+    fn lull(&mut self, place: u32, time: SimTime) {
+        for index in self.dissolve(place, time) {
+            let state = self.bodies.get_mut(index);
+            state.asleep = true;
+            self.events.push(time, EventKind::Asleep(state.id));
+        }
+    }
+}
+
+/// Kinetic energy of all dynamic bodies of a group, in J.
+fn kinetic(gathered: &Gathered, moves: &[BodyMove]) -> f64 {
+    let bodies = gathered.bodies.iter().zip(moves);
+    let half = |speed2: f64, inverse: f64| {
+        if inverse > 0.0 {
+            0.5 * speed2 / inverse
+        } else {
+            0.0
+        }
+    };
+    bodies
+        .map(|(body, moved)| {
+            half(moved.velocity.length_squared(), body.inverse_mass)
+                + half(moved.spin * moved.spin, body.inverse_inertia)
+        })
+        .sum()
+}

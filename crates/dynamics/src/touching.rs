@@ -1,0 +1,295 @@
+//! Who touches whom at an instant, as plain data for the closed forms of contact groups.
+
+use arrayvec::ArrayVec;
+use carom_collision::{Hull, part};
+use carom_math::{Pose, SimTime, Vec2, cross_scalar, perp};
+
+use crate::World;
+use crate::bodies::Bodies;
+use crate::body::BodyState;
+use crate::modes::{CLOSED, Feature, ModeBody, ROWS, Touch};
+use crate::narrow::{TOUCH, rest_speed};
+
+/// Sine of the angle up to which an edge lies along a contact: far above rounding.
+const FLUSH: f64 = 1e-9;
+
+/// Overlap beyond which a pair is pushed apart first, as a part of the smaller reach: closed forms keep what
+/// overlap there is.
+const SUNK: f64 = 1e-6;
+
+/// All that hangs together by touch around a body.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Gathered {
+    /// Bodies of the world, in the order of `bodies`.
+    pub(crate) places: Vec<u32>,
+    pub(crate) bodies: Vec<ModeBody>,
+    pub(crate) touches: Vec<Touch>,
+    /// Pair and contact of each touch.
+    pub(crate) pairs: Vec<(u32, usize)>,
+    /// Groups in closed form that some member belongs to.
+    pub(crate) groups: Vec<u32>,
+    /// Fastest approach of a touch, in m/s; 0 if it is no more than rounding.
+    pub(crate) closing: f64,
+    /// Approach below which a touch rests, the largest of all pairs, in m/s.
+    pub(crate) rest: f64,
+}
+
+impl Gathered {
+    /// Places of those that move by forces.
+    pub(crate) fn dynamic(&self) -> Vec<u32> {
+        let all = self.places.iter().zip(&self.bodies);
+        all.filter(|(_, body)| body.inverse_mass > 0.0)
+            .map(|(index, _)| *index)
+            .collect()
+    }
+
+    /// Velocities after a landing; what opens then is let go.
+    pub(crate) fn landed(&mut self, velocities: &[(Vec2, f64)]) {
+        for (body, &(velocity, spin)) in self.bodies.iter_mut().zip(velocities) {
+            (body.velocity, body.spin) = (velocity, spin);
+        }
+        let (bodies, rest) = (&self.bodies, self.rest);
+        for touch in &mut self.touches {
+            let ends = (&bodies[touch.bodies.0], &bodies[touch.bodies.1]);
+            let normal = touch.normal;
+            let leaves =
+                |point: &Vec2| matches!(approach(ends, *point, normal, rest), Approach::Leaves);
+            let two = touch.points.len() == 2;
+            touch.points.retain(|point| !leaves(point));
+            if two && touch.points.len() == 1 {
+                // It stands on a corner.
+                touch.features = (Feature::Corner, Feature::Corner);
+            }
+        }
+        let kept: Vec<bool> = self.touches.iter().map(|t| !t.points.is_empty()).collect();
+        let mut keeps = kept.iter();
+        self.touches
+            .retain(|_| keeps.next().copied().unwrap_or(false));
+        let mut keeps = kept.iter();
+        self.pairs
+            .retain(|_| keeps.next().copied().unwrap_or(false));
+    }
+
+    /// Kinetic energy that the bodies have in the world, in J.
+    pub(crate) fn kinetic(&self, bodies: &Bodies, time: SimTime) -> f64 {
+        let all = self.places.iter();
+        all.map(|&index| bodies.energy_of(index, time).0).sum()
+    }
+
+    fn place_of(&mut self, bodies: &Bodies, index: u32, time: SimTime) -> usize {
+        if let Some(place) = self.places.iter().position(|known| *known == index) {
+            return place;
+        }
+        let state = bodies.get(index);
+        self.places.push(index);
+        self.bodies.push(mode_body(bodies, state, time));
+        let group = state.membership.group;
+        if state.membership.is_closed() && !self.groups.contains(&group) {
+            self.groups.push(group);
+        }
+        self.places.len() - 1
+    }
+}
+
+fn mode_body(bodies: &Bodies, state: &BodyState, time: SimTime) -> ModeBody {
+    let dynamic = state.is_dynamic();
+    ModeBody {
+        inverse_mass: state.inverse_mass,
+        inverse_inertia: state.inverse_inertia,
+        centre: state.motion.centre_at(time),
+        velocity: state.velocity_at(time),
+        spin: state.motion.spin_at(time),
+        pull: if dynamic {
+            state.gravity_scale * bodies.pull.gravity + state.force * state.inverse_mass
+        } else {
+            Vec2::ZERO
+        },
+        twist: state.torque * state.inverse_inertia,
+    }
+}
+
+impl World {
+    /// All that hangs together by touch around a dynamic body.
+    ///
+    /// # Errors
+    /// The bodies that were seen, if these are too many for closed forms, or somebody is asleep, or
+    /// deeper in another than rounding.
+    pub(crate) fn gather_touching(
+        &mut self,
+        index: u32,
+        time: SimTime,
+    ) -> Result<Gathered, Vec<u32>> {
+        let mut found = Gathered::default();
+        found.place_of(&self.bodies, index, time);
+        let (mut next, mut rows) = (0, 0);
+        let mut looked = Vec::new();
+        while next < found.places.len() {
+            let index = found.places[next];
+            next += 1;
+            let state = self.bodies.get(index);
+            if !state.is_dynamic() {
+                if state.motion.acceleration != Vec2::ZERO {
+                    return Err(found.dynamic());
+                }
+                continue;
+            }
+            if state.asleep {
+                return Err(found.dynamic());
+            }
+            for place in state.pairs.clone() {
+                if looked.contains(&place) {
+                    continue;
+                }
+                looked.push(place);
+                let Some(more) = self.touches_of(&mut found, place, time) else {
+                    return Err(found.dynamic());
+                };
+                rows += more;
+                if rows > ROWS {
+                    return Err(found.dynamic());
+                }
+            }
+        }
+        Ok(found)
+    }
+
+    /// Adds the touches of a pair; returns how many rows they have.
+    fn touches_of(&mut self, found: &mut Gathered, place: u32, time: SimTime) -> Option<usize> {
+        let h = self.clock.h;
+        let pair = self.pairs.get_mut(place);
+        self.narrow
+            .look(&self.bodies, &self.colliders, pair, time, h);
+        let pair = self.pairs.get(place);
+        if !pair.touching {
+            return Some(0);
+        }
+        let (a, b) = (
+            self.bodies.get(pair.bodies.0),
+            self.bodies.get(pair.bodies.1),
+        );
+        let size = a.reach.min(b.reach);
+        let gap = TOUCH * size;
+        let mut points = pair.contacts.iter().flat_map(|contact| &contact.points);
+        if points.any(|point| point.separation < -SUNK * size) {
+            return None;
+        }
+        let hulls = |parts: (u32, u32)| {
+            let solid = |collider: u32| &*self.colliders[collider as usize].solid;
+            (
+                part(solid(pair.colliders.0), parts.0 as usize),
+                part(solid(pair.colliders.1), parts.1 as usize),
+            )
+        };
+        let rest = rest_speed(&self.bodies, pair, h);
+        found.rest = if rest > found.rest { rest } else { found.rest };
+        let mut rows = 0;
+        for (number, contact) in pair.contacts.iter().enumerate() {
+            let mut points: ArrayVec<Vec2, 2> = ArrayVec::new();
+            for point in contact
+                .points
+                .iter()
+                .filter(|point| point.separation <= gap)
+            {
+                let ends = (
+                    &mode_body(&self.bodies, a, time),
+                    &mode_body(&self.bodies, b, time),
+                );
+                match approach(ends, point.position, contact.normal, rest) {
+                    Approach::Leaves => {}
+                    Approach::Stays => points.push(point.position),
+                    Approach::Closes(speed) => {
+                        points.push(point.position);
+                        found.closing = if speed > found.closing {
+                            speed
+                        } else {
+                            found.closing
+                        };
+                    }
+                }
+            }
+            let Some(&origin) = points.first() else {
+                continue;
+            };
+            let (hull_a, hull_b) = hulls(contact.parts);
+            let pose = |state: &BodyState| state.motion.pose_at(time);
+            let mut features = (
+                feature(&hull_a, pose(a), contact.normal, contact.normal, origin),
+                feature(&hull_b, pose(b), -contact.normal, contact.normal, origin),
+            );
+            let edge = |feature| matches!(feature, Feature::Edge { .. });
+            if points.len() == 2 && !(edge(features.0) && edge(features.1)) {
+                // Not flush: it may rest, but not slide.
+                features = (Feature::Corner, Feature::Corner);
+            }
+            rows += points.len() + usize::from(pair.material.friction > 0.0);
+            let ends = (
+                found.place_of(&self.bodies, pair.bodies.0, time),
+                found.place_of(&self.bodies, pair.bodies.1, time),
+            );
+            found.touches.push(Touch {
+                bodies: ends,
+                normal: contact.normal,
+                points,
+                features,
+                friction: pair.material.friction,
+            });
+            found.pairs.push((place, number));
+        }
+        Some(rows)
+    }
+}
+
+fn approach(ends: (&ModeBody, &ModeBody), point: Vec2, normal: Vec2, rest: f64) -> Approach {
+    let of = |body: &ModeBody| {
+        let turning = cross_scalar(body.spin, point - body.centre);
+        (
+            body.velocity + turning,
+            body.velocity.length() + turning.length(),
+        )
+    };
+    let ((v_a, size_a), (v_b, size_b)) = (of(ends.0), of(ends.1));
+    let rate = (v_b - v_a).dot(normal);
+    let rounding = CLOSED * (size_a + size_b + rest);
+    if rate > rounding {
+        Approach::Leaves
+    } else if rate < -rounding {
+        Approach::Closes(-rate)
+    } else {
+        Approach::Stays
+    }
+}
+
+enum Approach {
+    Leaves,
+    Stays,
+    Closes(f64),
+}
+
+/// What of a hull lies along a contact: `outward` is the way out of it, `normal` the touch's own.
+fn feature(hull: &Hull<'_>, pose: Pose, outward: Vec2, normal: Vec2, origin: Vec2) -> Feature {
+    if hull.normals.is_empty() {
+        return if hull.vertices[0] == Vec2::ZERO {
+            Feature::Round
+        } else {
+            Feature::Corner
+        };
+    }
+    let local = pose.inverse_vector(outward);
+    let flush = |edge: &usize| (hull.normals[*edge] - local).length() <= FLUSH;
+    let Some(edge) = (0..hull.normals.len()).find(flush) else {
+        return Feature::Corner;
+    };
+    if hull.is_half_plane() {
+        return Feature::Edge {
+            low: f64::NEG_INFINITY,
+            high: f64::INFINITY,
+        };
+    }
+    let (from, to) = hull.edge(edge);
+    let along = |vertex: Vec2| (pose.point(vertex) - origin).dot(perp(normal));
+    let (x, y) = (along(from), along(to));
+    Feature::Edge {
+        low: if x < y { x } else { y },
+        high: if x < y { y } else { x },
+    }
+}

@@ -1,0 +1,336 @@
+//! Lasting contacts in closed form: rest, slide, roll, and the instants between them.
+
+use carom_dynamics::{
+    BodyDef, BodyId, ContactMode, EventKind, Impulse, Material, PairMaterial, Settings, World,
+};
+use carom_geometry::{Circle, ConvexPolygon, HalfPlane, Shape};
+use carom_math::{Rot, SimTime, Vec2, vec2};
+use carom_tests::run;
+
+const G: f64 = 9.81;
+
+fn rough(friction: f64) -> Material {
+    Material {
+        friction,
+        restitution: 0.0,
+        ..Material::default()
+    }
+}
+
+fn world() -> World {
+    World::new(Settings {
+        sleep: None,
+        ..Settings::default()
+    })
+    .expect("valid")
+}
+
+fn on_floor(friction: f64) -> World {
+    let mut world = world();
+    let floor = ConvexPolygon::rectangle(2000.0, 2.0).expect("a floor");
+    let def = BodyDef::fixed().at(vec2(0.0, -1.0));
+    world.insert(def, floor, rough(friction)).expect("valid");
+    world
+}
+
+fn block(width: f64, height: f64) -> ConvexPolygon {
+    ConvexPolygon::rectangle(width, height).expect("a block")
+}
+
+/// Modes that began, with their instants.
+fn modes(world: &mut World, seconds: f64) -> Vec<(SimTime, ContactMode)> {
+    let end = world.time() + seconds;
+    let mut found = Vec::new();
+    while end - world.time() > 0.0 {
+        world.step_to_next_event(end - world.time());
+        for event in world.events() {
+            if let EventKind::Mode { mode, .. } = event.kind {
+                found.push((event.time, mode));
+            }
+        }
+    }
+    found
+}
+
+fn centre(world: &World, id: BodyId) -> Vec2 {
+    world.body(id).expect("it is there").centre()
+}
+
+#[test]
+fn a_column_of_ten_boxes_does_not_move_at_all() {
+    let mut world = on_floor(0.5);
+    let boxes: Vec<BodyId> = (0..10)
+        .map(|k| {
+            let def = BodyDef::dynamic().at(vec2(0.0, 0.5 + f64::from(k)));
+            world
+                .insert(def, block(1.0, 1.0), rough(0.5))
+                .expect("valid")
+        })
+        .collect();
+    run(&mut world, 10.0, |_| {});
+    for (k, id) in boxes.into_iter().enumerate() {
+        let body = world.body(id).expect("it is there");
+        assert_eq!(
+            body.centre().y,
+            0.5 + f64::from(u32::try_from(k).expect("few"))
+        );
+        assert_eq!(
+            (body.velocity(), body.angular_velocity()),
+            (Vec2::ZERO, 0.0)
+        );
+    }
+    assert_eq!(world.energy().scheme, 0.0);
+}
+
+#[test]
+fn a_block_on_a_slope_that_is_no_axis_slides_by_the_textbook() {
+    let slope = Rot::from_degrees(30.0);
+    let mut world = world();
+    let half_plane = HalfPlane::new(Vec2::ZERO, slope * vec2(0.0, 1.0)).expect("a slope");
+    world
+        .insert(BodyDef::fixed(), Shape::from(half_plane), rough(0.3))
+        .expect("valid");
+    let def = BodyDef::dynamic()
+        .at(slope * vec2(0.0, 0.25))
+        .turned(30.0_f64.to_radians());
+    let id = world
+        .insert(def, block(2.0, 0.5), rough(0.3))
+        .expect("valid");
+    run(&mut world, 3.0, |_| {});
+    let a = G * (slope.sin() - 0.3 * slope.cos());
+    let way = slope.inverse_mul(centre(&world, id));
+    assert!((way.x + 0.5 * a * 9.0).abs() < 1e-12 * 9.0, "{way}");
+    assert!((way.y - 0.25).abs() < 1e-13, "{way}");
+    let ledger = world.energy();
+    assert!(ledger.scheme.abs() < 1e-11, "{ledger:?}");
+    assert!(ledger.residual().abs() < 1e-11, "{ledger:?}");
+    let mass = 1.0 * world.body(id).expect("it is there").mass();
+    let heat = 0.3 * mass * G * slope.cos() * -way.x;
+    assert!(
+        (ledger.friction - heat).abs() < 1e-11 * heat,
+        "{} not {heat}",
+        ledger.friction
+    );
+}
+
+#[test]
+fn a_ball_that_rolls_up_a_slope_stops_and_rolls_back() {
+    // Issue 906 of a peer: it must not fall asleep at its highest point.
+    let mut world = World::new(Settings {
+        gravity: Rot::from_degrees(10.0) * vec2(0.0, -G),
+        ..Settings::default()
+    })
+    .expect("valid");
+    let floor = block(2000.0, 2.0);
+    world
+        .insert(BodyDef::fixed().at(vec2(0.0, -1.0)), floor, rough(0.8))
+        .expect("valid");
+    let def = BodyDef::dynamic()
+        .at(vec2(0.0, 0.5))
+        .moving(vec2(-1.0, 0.0))
+        .spinning(2.0);
+    let id = world
+        .insert(def, Circle::new(0.5).expect("a ball"), rough(0.8))
+        .expect("valid");
+    let a = G * carom_math::trig::sin_cos(10.0_f64.to_radians()).0 / 1.5;
+    run(&mut world, 2.0, |_| {});
+    let t = world.time().as_secs();
+    let off = centre(&world, id).x - (-t + 0.5 * a * t * t);
+    assert!(off.abs() < 1e-13, "{off:e}");
+    let body = world.body(id).expect("it is there");
+    assert!((body.velocity().x + 0.5 * body.angular_velocity()).abs() < 1e-14);
+}
+
+#[test]
+fn a_disc_rolls_off_the_end_of_a_table() {
+    let mut world = world();
+    world
+        .insert(
+            BodyDef::fixed().at(vec2(0.0, -1.0)),
+            block(4.0, 2.0),
+            rough(0.5),
+        )
+        .expect("valid");
+    let def = BodyDef::dynamic()
+        .at(vec2(0.0, 0.25))
+        .moving(vec2(2.0, 0.0))
+        .spinning(-8.0);
+    let id = world
+        .insert(def, Circle::new(0.25).expect("a disc"), rough(0.5))
+        .expect("valid");
+    world.step(1.0);
+    assert_eq!(centre(&world, id), vec2(2.0, 0.25));
+    run(&mut world, 1.0, |_| {});
+    assert!(centre(&world, id).y < -1.0);
+    assert!(world.energy().residual().abs() < 1e-9);
+}
+
+#[test]
+fn a_ball_that_lands_and_spins_slips_and_then_rolls() {
+    let mut world = on_floor(0.3);
+    let def = BodyDef::dynamic().at(vec2(0.0, 1.25)).spinning(-40.0);
+    let id = world
+        .insert(def, Circle::new(0.25).expect("a ball"), rough(0.3))
+        .expect("valid");
+    let found = modes(&mut world, 3.0);
+    assert_eq!(
+        found.iter().map(|(_, mode)| *mode).collect::<Vec<_>>(),
+        [ContactMode::Slide, ContactMode::Roll]
+    );
+    // Friction acts in the landing, too: the angular momentum about the floor stays, v = ω₀ r / 3.
+    let body = world.body(id).expect("it is there");
+    assert!(
+        (body.velocity().x - 10.0 / 3.0).abs() < 1e-14,
+        "{}",
+        body.velocity()
+    );
+    let landing = (2.0 / G).sqrt();
+    let impulse = 0.3 * (2.0 * G).sqrt();
+    let wanted = landing + (10.0 / 3.0 - impulse) / (0.3 * G);
+    assert!((found[1].0.as_secs() - wanted).abs() < 1e-13);
+    assert!((centre(&world, id).y - 0.25).abs() < 1e-14);
+}
+
+#[test]
+fn a_struck_block_slides_and_stops_where_it_should() {
+    let mut world = on_floor(0.4);
+    let def = BodyDef::dynamic().at(vec2(0.0, 0.25));
+    let id = world
+        .insert(def, block(2.0, 0.5), rough(0.4))
+        .expect("valid");
+    run(&mut world, 0.5, |_| {});
+    assert_eq!(centre(&world, id), vec2(0.0, 0.25));
+    let mass = world.body(id).expect("it is there").mass();
+    let at = centre(&world, id);
+    world
+        .apply(id, Impulse::at(at, vec2(3.0 * mass, 0.0)))
+        .expect("valid");
+    let hit = world.time();
+    let found = modes(&mut world, 2.0);
+    let (stopped, mode) = *found.last().expect("it stops");
+    assert_eq!(mode, ContactMode::Rest);
+    assert!((stopped - hit - 3.0 / (0.4 * G)).abs() < 1e-14);
+    assert!((centre(&world, id).x - 9.0 / (0.8 * G)).abs() < 1e-14);
+}
+
+#[test]
+fn a_flyer_that_hits_a_sliding_block_joins_the_account_at_its_instant() {
+    let mut world = on_floor(0.2);
+    let slider = BodyDef::dynamic()
+        .at(vec2(0.0, 0.25))
+        .moving(vec2(2.0, 0.0))
+        .with_mass(1.0);
+    let slider = world
+        .insert(slider, block(2.0, 0.5), rough(0.2))
+        .expect("valid");
+    let stone = BodyDef::dynamic().at(vec2(3.0, 0.25)).with_mass(1.0);
+    let stone = world
+        .insert(stone, block(2.0, 0.5), rough(0.2))
+        .expect("valid");
+    let smooth = PairMaterial {
+        friction: 0.0,
+        restitution: 0.0,
+    };
+    world
+        .set_pair_material(slider, stone, smooth)
+        .expect("valid");
+    // They meet when the slider has come 1 m, with e = 0 go on as one, and stop as one.
+    let a = 0.2 * G;
+    let speed = (4.0 - 2.0 * a).sqrt() / 2.0;
+    run(&mut world, 4.0, |_| {});
+    let wanted = 1.0 + speed * speed / (2.0 * a);
+    for (id, from) in [(slider, 0.0), (stone, 2.0)] {
+        let body = world.body(id).expect("it is there");
+        assert_eq!(body.velocity(), Vec2::ZERO);
+        assert!(
+            (body.centre() - vec2(from + wanted, 0.25)).length() < 1e-12,
+            "{}",
+            body.centre()
+        );
+    }
+    assert!(world.energy().residual().abs() < 1e-12);
+}
+
+#[test]
+fn a_conveyor_takes_a_block_along() {
+    let mut world = world();
+    let belt = BodyDef::kinematic()
+        .at(vec2(0.0, -1.0))
+        .moving(vec2(1.5, 0.0));
+    world
+        .insert(belt, block(2000.0, 2.0), rough(0.5))
+        .expect("valid");
+    let def = BodyDef::dynamic().at(vec2(0.0, 0.25));
+    let id = world
+        .insert(def, block(2.0, 0.5), rough(0.5))
+        .expect("valid");
+    let brought = world.energy().external;
+    let found = modes(&mut world, 2.0);
+    assert_eq!(
+        found.last().map(|(_, mode)| *mode),
+        Some(ContactMode::Stick)
+    );
+    assert!((found[1].0.as_secs() - 1.5 / (0.5 * G)).abs() < 1e-14);
+    let body = world.body(id).expect("it is there");
+    assert!((body.velocity().x - 1.5).abs() < 1e-14);
+    let ledger = world.energy();
+    assert!(
+        ledger.residual().abs() < 1e-12 && ledger.scheme.abs() < 1e-12,
+        "{ledger:?}"
+    );
+    assert!(
+        (ledger.external - brought - body.mass() * 1.5 * 1.5).abs() < 1e-12,
+        "{ledger:?}"
+    );
+}
+
+#[test]
+fn what_rests_falls_asleep_and_wakes_when_it_is_struck() {
+    let mut world = World::new(Settings::default()).expect("valid");
+    world
+        .insert(
+            BodyDef::fixed().at(vec2(0.0, -1.0)),
+            block(20.0, 2.0),
+            rough(0.5),
+        )
+        .expect("valid");
+    let id = world
+        .insert(
+            BodyDef::dynamic().at(vec2(0.0, 0.5)),
+            block(1.0, 1.0),
+            rough(0.5),
+        )
+        .expect("valid");
+    run(&mut world, 1.0, |_| {});
+    assert!(world.body(id).expect("it is there").is_asleep());
+    let ball = BodyDef::dynamic()
+        .at(vec2(-3.0, 0.5))
+        .moving(vec2(5.0, 0.0));
+    world
+        .insert(ball, Circle::new(0.25).expect("a ball"), rough(0.5))
+        .expect("valid");
+    run(&mut world, 1.0, |_| {});
+    assert!(centre(&world, id).x > 0.01);
+    assert!(world.energy().residual().abs() < 1e-9);
+}
+
+#[test]
+fn a_slender_rod_that_slides_on_its_tip_stays_finite_and_loses_energy() {
+    // Painlevé: above µ = 4/3 accelerations have no answer; impulses have.
+    let mut world = on_floor(1.6);
+    let lean = Rot::from_degrees(60.0);
+    let rod = block(2.0, 0.01);
+    let low = lean * vec2(-1.0, -0.005);
+    let def = BodyDef::dynamic()
+        .at(vec2(0.0, -low.y))
+        .turned(60.0_f64.to_radians())
+        .moving(vec2(-1.0, 0.0));
+    let id = world.insert(def, rod, rough(1.6)).expect("valid");
+    let mut before = world.energy().mechanical();
+    run(&mut world, 2.0, |world| {
+        let now = world.energy().mechanical();
+        assert!(now <= before + 1e-3, "{now} after {before} J");
+        before = now;
+    });
+    assert!(centre(&world, id).is_finite());
+}
