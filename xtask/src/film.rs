@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use carom_dynamics::EnergyLedger;
 use carom_math::SimTime;
-use carom_render::{Frame, FrameRate};
+use carom_render::{Frame, FrameRate, Trace};
 use carom_scenes::Built;
 
 use crate::clock::Clock;
@@ -63,6 +63,7 @@ pub(crate) fn shoot<T: Send>(
     };
     let drawing = RefCell::new((Times::default(), 0));
     let mut indices = 0..plan.slice.end;
+    let mut trace = Trace::new(&built.look.overlay);
     let produce = || {
         for index in indices.by_ref() {
             footage.interrupted = interrupt::asked();
@@ -72,11 +73,18 @@ pub(crate) fn shoot<T: Send>(
             if index > 0 {
                 advance(built, plan.rate, index, &mut footage)?;
             }
+            trace.watch(&built.world);
             let energy = built.world.energy();
             footage.energy.push((built.world.time().as_secs(), energy));
             progress.advance();
             if plan.slice.contains(&index) && wanted(index) {
-                let frame = Frame::capture(&built.world, &built.look, &built.camera);
+                let Built {
+                    world,
+                    look,
+                    camera,
+                    ..
+                } = &*built;
+                let frame = Frame::capture_traced(world, look, camera, &trace);
                 return Ok(Some((index, frame)));
             }
         }

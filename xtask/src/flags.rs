@@ -68,6 +68,8 @@ pub(crate) struct DemoArgs {
     cargo xtask render my-scene.toml --fps 30 --resume\n  \
     cargo xtask render pile --format y4m --out - | ffmpeg -i - pile.mp4\n  \
     cargo xtask render pile --shard 2/4      # on four machines; then: cargo xtask merge DIR... --out DIR\n\n\
+    Overlays: velocities, centroids, contacts, impulses, flashes, boxes, groups, asleep, overlaps, trails, field,\n  \
+    field-lines, restitution, gravity, time, counters, caption; all; none (what the scene asks for goes too).\n\
     Frame k shows the instant k / fps. The bytes of a frame do not depend on --threads.")]
 pub(crate) struct RenderArgs {
     /// Scene file (TOML) or the name of a built-in scene (`cargo xtask list`)
@@ -90,6 +92,18 @@ pub(crate) struct RenderArgs {
     /// How hard pictures are packed
     #[arg(long, value_enum, default_value_t = PackingFlag::Fast)]
     pub(crate) packing: PackingFlag,
+    /// What is drawn over the bodies, beside what the scene asks for; several with commas
+    #[arg(
+        long,
+        value_enum,
+        value_name = "NAME,...",
+        value_delimiter = ',',
+        hide_possible_values = true
+    )]
+    pub(crate) overlay: Vec<OverlayFlag>,
+    /// Ink and ground [default: the scene's]
+    #[arg(long, value_enum)]
+    pub(crate) style: Option<StyleFlag>,
     /// How bodies are moved [default: the scene's]
     #[arg(long, value_enum)]
     pub(crate) mode: Option<ModeFlag>,
@@ -238,6 +252,60 @@ pub(crate) enum Format {
     Y4m,
     /// Twelve frames on one picture
     Sheet,
+}
+
+/// What is drawn over, beneath and beside the bodies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum OverlayFlag {
+    /// Nothing of what the scene asks for
+    None,
+    /// All of the following
+    All,
+    /// An arrow along each velocity
+    Velocities,
+    /// A dot at each centre of mass
+    Centroids,
+    /// Contact points with their normals
+    Contacts,
+    /// An arrow along each impulse
+    Impulses,
+    /// A burst at each impact
+    Flashes,
+    /// Bounding boxes
+    Boxes,
+    /// Bodies that touch each other in one colour
+    Groups,
+    /// Sleepers paler
+    Asleep,
+    /// Where bodies lie in each other, and how deep
+    Overlaps,
+    /// Paths of the last seconds
+    Trails,
+    /// The circle of a field
+    Field,
+    /// Lines along gravity and fields
+    FieldLines,
+    /// The bar of restitution
+    Restitution,
+    /// The arrow of gravity
+    Gravity,
+    /// The simulated time
+    Time,
+    /// Bodies, contacts, impacts, energy
+    Counters,
+    /// The scene's caption
+    Caption,
+}
+
+/// Ink and ground.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum StyleFlag {
+    /// Dark ink on white
+    Light,
+    /// Light ink on a night ground
+    Dark,
+    /// Black ink on white, pale bodies
+    Print,
 }
 
 /// How hard pictures are packed.

@@ -4,8 +4,8 @@ use carom_dynamics::{Body, BodyKind, World};
 use carom_geometry::{Outline, Shape};
 use carom_math::{Pose, Vec2, vec2};
 
-use crate::overlay::{Overlaid, unit};
-use crate::{Camera, Frame, Ink, Look, Op, Paint, Source};
+use crate::overlay::{Groups, Overlaid, unit};
+use crate::{Camera, Frame, Ink, Look, Op, Paint, Source, Trace};
 
 /// Pixels that a mark reaches beyond its body's box: half an outline and some.
 const REACH: f64 = 4.0;
@@ -45,19 +45,43 @@ impl Frame {
         frame
     }
 
-    /// The same into this frame, whose memory is used again.
+    /// The same with what a trace remembers of the time before: trails, fading flashes, impacts so far.
+    #[must_use]
+    pub fn capture_traced(world: &World, look: &Look, camera: &Camera, trace: &Trace) -> Self {
+        let mut frame = Self::new(camera.size());
+        frame.capture_traced_into(world, look, camera, trace);
+        frame
+    }
+
+    /// The same as [`Frame::capture`] into this frame, whose memory is used again.
     pub fn capture_into(&mut self, world: &World, look: &Look, camera: &Camera) {
+        let mut trace = Trace::new(&look.overlay);
+        if look.overlay.needs_trace() {
+            trace.watch(world);
+        }
+        self.capture_traced_into(world, look, camera, &trace);
+    }
+
+    /// The same as [`Frame::capture_traced`] into this frame, whose memory is used again.
+    pub fn capture_traced_into(
+        &mut self,
+        world: &World,
+        look: &Look,
+        camera: &Camera,
+        trace: &Trace,
+    ) {
         self.clear(camera.size());
-        Overlaid::new(self, world, look, camera).beneath();
+        Overlaid::new(self, world, look, camera, trace).beneath();
         let mut sketch = Sketch {
             frame: self,
             look,
             camera,
             unit: unit(camera),
             source: Source::default(),
+            groups: look.overlay.groups.then(|| Groups::of(world)),
         };
         sketch.bodies(world);
-        Overlaid::new(self, world, look, camera).above();
+        Overlaid::new(self, world, look, camera, trace).above();
     }
 }
 
@@ -69,6 +93,8 @@ struct Sketch<'a> {
     unit: f64,
     /// The body at hand.
     source: Source,
+    /// Who touches whom, if bodies are coloured by it.
+    groups: Option<Groups>,
 }
 
 impl Sketch<'_> {
@@ -90,6 +116,10 @@ impl Sketch<'_> {
 
     fn body(&mut self, body: &Body<'_>) {
         let mut paint = self.look.paint(body);
+        if let (Some(groups), BodyKind::Dynamic) = (&self.groups, body.kind()) {
+            paint.fill = groups.colour(body.id(), paint.fill, &self.look.style);
+        }
+        paint.fill = self.look.style.body(paint.fill);
         if self.look.overlay.asleep && body.is_asleep() {
             let ground = self.look.style.background.with_alpha(paint.fill.alpha);
             paint.fill = paint.fill.mixed(ground, PALE);

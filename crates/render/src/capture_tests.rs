@@ -140,6 +140,7 @@ fn overlays_add_marks_and_change_no_body() {
             label: "core".to_owned(),
         }),
         caption: "a scene".to_owned(),
+        ..Overlay::default()
     };
     let rich = Look {
         overlay,

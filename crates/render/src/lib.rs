@@ -54,6 +54,8 @@ mod folder;
 mod font;
 mod frame;
 mod glyphs;
+#[cfg(test)]
+mod golden_tests;
 mod layout;
 mod look;
 mod manifest;
@@ -92,7 +94,7 @@ pub use look::{FIXED_COLOUR, KINEMATIC_COLOUR, Look};
 pub use manifest::{Checksum, MANIFEST, Manifest};
 pub use mark::{Mark, PixelBox, Source};
 pub use output::{Draft, write_file};
-pub use overlay::{FieldMark, Overlay};
+pub use overlay::{FieldMark, Overlay, Trace};
 pub use painter::{BAND, Changes, Engine, Painter};
 pub use panels::Panels;
 pub use patch::Patch;

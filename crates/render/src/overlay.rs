@@ -4,21 +4,45 @@ mod bodies;
 mod contact;
 mod corners;
 mod field;
+mod groups;
+mod overlap;
+mod trace;
 
-use carom_dynamics::World;
+use carom_dynamics::{RadialField, World};
 use carom_math::Vec2;
 
 use crate::{Camera, Frame, Look};
 
-/// Marks over and beside the bodies; all off by default.
+pub(crate) use groups::Groups;
+pub use trace::Trace;
+
+/// Marks over, beneath and beside the bodies; all off by default.
+///
+/// # Examples
+/// ```
+/// use carom_render::Overlay;
+/// let overlay = Overlay { velocities: Some(0.25), trails: Some(2.0), time: true, ..Overlay::default() };    // s, s
+/// assert!(!overlay.contacts);
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Overlay {
     /// A dot at every centre of mass.
     pub centroids: bool,
     /// An arrow from every moving centre of mass: the way it would go in so many seconds.
     pub velocities: Option<f64>,
-    /// Contact points with their normals.
+    /// Where every moving centre of mass was during so many seconds; a [`Trace`] remembers it.
+    pub trails: Option<f64>,
+    /// Contact points with their normals: contacts that last, and impacts of the last step.
     pub contacts: bool,
+    /// An arrow at every contact point along the impulse there: the way that the lighter body would go in so many seconds
+    /// with the change of velocity that it gets from an impact, or from a lasting contact in a tenth of a second.
+    pub impulses: Option<f64>,
+    /// A burst at every impact, the larger the faster it was, that fades; a [`Trace`] remembers it.
+    pub flashes: bool,
+    /// Bodies that touch each other have one colour, all others are pale.
+    pub groups: bool,
+    /// Where bodies lie in each other is shaded; the deepest place is ringed, and its depth written.
+    pub overlaps: bool,
     /// Dashed bounding boxes.
     pub bounds: bool,
     /// Bodies asleep are paler.
@@ -27,12 +51,24 @@ pub struct Overlay {
     pub gravity: bool,
     /// The simulated time in the upper left corner.
     pub time: bool,
+    /// Bodies, sleepers, contacts, impacts and energy in the upper left corner, below the time.
+    pub counters: bool,
     /// A bar in the lower left corner, filled to this coefficient of restitution.
     pub restitution: Option<f64>,
     /// The circle of a field.
     pub field: Option<FieldMark>,
+    /// Lines along gravity and these fields, beneath everything.
+    pub field_lines: Option<Vec<RadialField>>,
     /// A line of text in the lower right corner.
     pub caption: String,
+}
+
+impl Overlay {
+    /// Whether it shows something of the time before.
+    #[must_use]
+    pub const fn needs_trace(&self) -> bool {
+        self.trails.is_some() || self.flashes || self.counters
+    }
 }
 
 /// A circle around the core of a radial field.
@@ -55,6 +91,7 @@ pub(crate) struct Overlaid<'a> {
     world: &'a World,
     look: &'a Look,
     camera: &'a Camera,
+    trace: &'a Trace,
     /// Pixels that one pixel of the overlay's sizes takes.
     unit: f64,
 }
@@ -70,6 +107,7 @@ impl<'a> Overlaid<'a> {
         world: &'a World,
         look: &'a Look,
         camera: &'a Camera,
+        trace: &'a Trace,
     ) -> Self {
         let unit = unit(camera);
         Self {
@@ -77,19 +115,25 @@ impl<'a> Overlaid<'a> {
             world,
             look,
             camera,
+            trace,
             unit,
         }
     }
 
     /// What lies beneath the bodies.
     pub(crate) fn beneath(&mut self) {
+        self.field_lines();
         self.field();
+        self.trails();
     }
 
     /// What lies over them.
     pub(crate) fn above(&mut self) {
+        self.overlaps();
         self.bodies();
         self.contacts();
+        self.impulses();
+        self.flashes();
         self.field_label();
         self.corners();
     }

@@ -22,6 +22,8 @@ pub struct Style {
     pub grid: Colour,
     /// Outline of bodies, in pixels; 0 draws none.
     pub outline: f64,
+    /// How much of the ground is mixed into the fill of a body that a world is captured with: 0 none, 1 all.
+    pub wash: f64,
     /// Velocity arrows.
     pub velocity: Colour,
     /// Contact points and their normals.
@@ -44,6 +46,7 @@ impl Style {
             muted: Colour::hex(0x6B7480),
             grid: Colour::hex(0xE3E7EB),
             outline: 1.25,
+            wash: 0.0,
             velocity: Colour::hex(0x1F2933),
             contact: Colour::hex(0xC8102E),
             field: Colour::hex(0x3566B0),
@@ -70,6 +73,7 @@ impl Style {
             muted: Colour::hex(0x96A0AE),
             grid: Colour::hex(0x29303B),
             outline: 1.25,
+            wash: 0.0,
             velocity: Colour::hex(0xF4F7FB),
             contact: Colour::hex(0xFF5C6C),
             field: Colour::hex(0x7FB0FF),
@@ -85,6 +89,39 @@ impl Style {
                 Colour::hex(0xA9B3C1),
             ],
         }
+    }
+
+    /// For paper: black ink on white, pale bodies with strong outlines, marks that differ in grey too.
+    #[must_use]
+    pub const fn print() -> Self {
+        Self {
+            background: Colour::hex(0xFFFFFF),
+            text: Colour::hex(0x000000),
+            muted: Colour::hex(0x595959),
+            grid: Colour::hex(0xD9D9D9),
+            outline: 1.5,
+            wash: 0.62,
+            velocity: Colour::hex(0x000000),
+            contact: Colour::hex(0xB00020),
+            field: Colour::hex(0x1F4E9C),
+            bar: Colour::hex(0x7A5200),
+            series: [
+                Colour::hex(0x1B4F8F),
+                Colour::hex(0xC24A10),
+                Colour::hex(0x0B6B52),
+                Colour::hex(0x6E3A8C),
+                Colour::hex(0x8F6A00),
+                Colour::hex(0x2683B0),
+                Colour::hex(0x96225A),
+                Colour::hex(0x3F4750),
+            ],
+        }
+    }
+
+    /// The fill of a body that wears `colour`: washed out with the ground.
+    #[must_use]
+    pub fn body(&self, colour: Colour) -> Colour {
+        colour.mixed(self.background.with_alpha(colour.alpha), self.wash)
     }
 
     /// What an ink looks like in this style.
@@ -108,7 +145,7 @@ impl Style {
     /// The outline of a body filled with `fill`: the fill with a good part of the text's colour.
     #[must_use]
     pub fn outline_of(&self, fill: Colour) -> Colour {
-        fill.mixed(self.text.with_alpha(fill.alpha), 0.45)
+        fill.mixed(self.text.with_alpha(fill.alpha), 0.45 + 0.5 * self.wash)
     }
 }
 
@@ -161,7 +198,7 @@ mod tests {
 
     #[test]
     fn every_ink_stands_out_from_its_ground() {
-        for style in [Style::light(), Style::dark()] {
+        for style in [Style::light(), Style::dark(), Style::print()] {
             let ground = style.background.lightness();
             let inks = [
                 style.text,

@@ -1,7 +1,7 @@
 //! What a scene is built to.
 
 use carom_dynamics::{BodyId, World};
-use carom_render::{Camera, FrameRate, Look};
+use carom_render::{Camera, FrameRate, Look, Overlay};
 
 /// A world at its start, and how it is looked at.
 #[derive(Debug)]
@@ -10,6 +10,8 @@ pub struct Built {
     pub world: World,
     /// Paints, faces, overlays, and the style that it is painted with.
     pub look: Look,
+    /// Every overlay, as this scene would show it: what a caller may add to the look's own.
+    pub overlays: Overlay,
     /// Where the camera stands, and the size of the picture.
     pub camera: Camera,
     /// How long the scene runs, in s.

@@ -1,6 +1,7 @@
 //! `render`: a scene to numbered frames, an APNG or a Y4M film.
 
 mod job;
+mod look;
 mod sink;
 
 use std::path::{Path, PathBuf};
@@ -31,6 +32,7 @@ pub(crate) fn run(args: &RenderArgs) -> Outcome {
     if let Some((width, height)) = args.size {
         built.camera = resized(&built.camera, Size::new(width, height)?)?;
     }
+    look::dress(&mut built, &args.overlay, args.style);
     let plan = plan(args, &built)?;
     let shard = args.shard.unwrap_or(Shard::WHOLE);
     if to_stdout {
@@ -50,7 +52,7 @@ pub(crate) fn run(args: &RenderArgs) -> Outcome {
     };
     let job = Job {
         what: format!(
-            "{} scene {:016x} carom {} rate {} size {} format {:?} packing {:?}",
+            "{} scene {:016x} carom {} rate {} size {} format {:?} packing {:?} {}",
             scene.name(),
             scene::fingerprint(&scene),
             env!("CARGO_PKG_VERSION"),
@@ -58,6 +60,7 @@ pub(crate) fn run(args: &RenderArgs) -> Outcome {
             built.camera.size(),
             args.format,
             args.packing,
+            look::line(&args.overlay, args.style),
         ),
         frames: plan.frames,
         shard,

@@ -1,13 +1,17 @@
 //! Contacts and what acts in them.
 
-use carom_dynamics::EventKind;
-use carom_math::Vec2;
+use carom_dynamics::{BodyId, BodyKind, EventKind};
+use carom_math::{Vec2, vec2};
 
 use super::Overlaid;
 use crate::{Ink, Op};
 
 /// Length of a normal, in pixels of the overlay.
 const NORMAL: f64 = 20.0;
+/// Width of an impulse's arrow, in pixels of the overlay.
+const ARROW: f64 = 2.4;
+/// How long a lasting contact pushes for its arrow, in s.
+const PUSH: f64 = 0.1;
 
 impl Overlaid<'_> {
     pub(super) fn contacts(&mut self) {
@@ -42,4 +46,59 @@ impl Overlaid<'_> {
             ink: Ink::Contact,
         });
     }
+
+    /// Arrows along the impulses on B, each as long as the way that they would send the lighter body.
+    pub(super) fn impulses(&mut self) {
+        let Some(seconds) = self.look.overlay.impulses else {
+            return;
+        };
+        let substep = self.world.settings().substep;
+        for contact in self.world.contacts() {
+            // What a sub-step gives, for as long as the arrow counts.
+            let scale = seconds * PUSH / substep;
+            #[expect(clippy::cast_precision_loss, reason = "one or two points")]
+            let share = contact.tangent_impulse / contact.points.len().max(1) as f64;
+            for point in &contact.points {
+                let impulse = along(contact.normal, point.normal_impulse, share);
+                self.impulse(point.position, impulse * scale, (contact.a, contact.b));
+            }
+        }
+        for event in self.world.events() {
+            if let EventKind::Impact {
+                a,
+                b,
+                point,
+                normal,
+                normal_impulse,
+                tangential_impulse,
+                ..
+            } = event.kind
+            {
+                let impulse = along(normal, normal_impulse, tangential_impulse);
+                self.impulse(point, impulse * seconds, (a, b));
+            }
+        }
+    }
+
+    /// One arrow, from an impulse times a time, in N·s².
+    fn impulse(&mut self, point: Vec2, impulse: Vec2, (a, b): (BodyId, BodyId)) {
+        let masses = [a, b].map(|id| {
+            let body = self.world.body(id);
+            body.filter(|body| body.kind() == BodyKind::Dynamic)
+                .map_or(f64::INFINITY, |body| body.mass())
+        });
+        let lighter = masses[0].min(masses[1]);
+        let from = self.camera.point(point);
+        self.frame.push(Op::Arrow {
+            from,
+            to: from + self.camera.vector(impulse / lighter),
+            width: ARROW * self.unit,
+            ink: Ink::Bar,
+        });
+    }
+}
+
+/// An impulse from its two parts: along the normal, and along the normal turned by +90 degrees.
+fn along(normal: Vec2, normal_part: f64, tangent_part: f64) -> Vec2 {
+    normal * normal_part + vec2(-normal.y, normal.x) * tangent_part
 }

@@ -1,5 +1,6 @@
 //! What stands in the corners of the picture.
 
+use carom_dynamics::{Body, BodyKind, World};
 use carom_math::{Vec2, vec2};
 
 use super::{Overlaid, TEXT};
@@ -9,6 +10,32 @@ use crate::{Ink, Label, Op};
 const EDGE: f64 = 18.0;
 const BAR: (f64, f64) = (120.0, 9.0);
 const GRAVITY: f64 = 40.0;
+
+/// Bodies, contacts, impacts and energy, a line each.
+fn counters(world: &World, impacts: u64) -> [String; 4] {
+    let moving = || world.bodies().filter(|body| body.kind() != BodyKind::Fixed);
+    let asleep = moving().filter(Body::is_asleep).count();
+    let energy = world.energy();
+    [
+        format!("bodies {}, {asleep} asleep", moving().count()),
+        format!("contacts {}", world.contacts().count()),
+        format!("impacts {impacts}"),
+        format!(
+            "energy {} J, kinetic {} J",
+            number(energy.mechanical()),
+            number(energy.kinetic)
+        ),
+    ]
+}
+
+/// Four digits at most before a power of ten is needed.
+fn number(value: f64) -> String {
+    match value.abs() {
+        0.0 => "0".to_owned(),
+        size if (0.01..1e5).contains(&size) => format!("{value:.2}"),
+        _ => format!("{value:.2e}"),
+    }
+}
 
 impl Overlaid<'_> {
     /// Time, gravity, restitution and caption, one in each corner.
@@ -24,6 +51,13 @@ impl Overlaid<'_> {
         if overlay.time {
             let time = format!("t = {:.2} s", self.world.time().as_secs());
             self.frame.push(text(vec2(edge, edge), time, 0.0, 1.0));
+        }
+        if overlay.counters {
+            let first = edge + if overlay.time { 1.9 * height } else { 0.0 };
+            for (k, line) in (0..).zip(counters(self.world, self.trace.count())) {
+                let at = vec2(edge, first + 1.7 * height * f64::from(k));
+                self.frame.push(text(at, line, 0.0, 1.0));
+            }
         }
         if !overlay.caption.is_empty() {
             let caption = overlay.caption.clone();

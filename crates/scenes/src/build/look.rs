@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use carom_dynamics::{BodyId, World};
+use carom_dynamics::{BodyId, RadialField, World};
 use carom_geometry::Aabb;
 use carom_math::Vec2;
 use carom_render::{Camera, Colour, Face, FieldMark, FrameRate, Look, Overlay, Style};
@@ -17,6 +17,8 @@ use crate::{Built, Scene};
 
 /// Length of a velocity arrow over the velocity, in s.
 const VELOCITY_SCALE: f64 = 0.2;
+/// Length of a trail, in s.
+const TRAIL: f64 = 1.5;
 
 pub(super) fn dress(
     scene: &Scene,
@@ -42,6 +44,7 @@ pub(super) fn dress(
     Ok(Built {
         world,
         look,
+        overlays: everything(file),
         camera,
         duration: file.duration,
         rate,
@@ -61,23 +64,60 @@ fn look(scene: &Scene, file: &SceneFile) -> Result<Look, SceneError> {
         shaded: table.shaded,
         spokes: table.spokes.unwrap_or(default.spokes),
         face: common,
-        overlay: Overlay {
-            centroids: table.centroids,
-            velocities: table
-                .velocities
-                .then_some(table.velocity_scale.unwrap_or(VELOCITY_SCALE)),
-            contacts: table.contacts,
-            bounds: table.boxes,
-            asleep: table.asleep,
-            gravity: table.gravity,
-            time: table.time,
-            restitution: table.restitution.then(|| restitution(file)),
-            field: field_mark(file),
-            caption: table.caption.clone(),
-        },
+        overlay: wanted(file, everything(file)),
         style: style(&scene.document, file)?,
         ..default
     })
+}
+
+/// Every overlay, as this scene would show it.
+fn everything(file: &SceneFile) -> Overlay {
+    let scale = file.look.velocity_scale.unwrap_or(VELOCITY_SCALE);
+    Overlay {
+        centroids: true,
+        velocities: Some(scale),
+        trails: Some(TRAIL),
+        contacts: true,
+        impulses: Some(scale),
+        flashes: true,
+        groups: true,
+        overlaps: true,
+        bounds: true,
+        asleep: true,
+        gravity: true,
+        time: true,
+        counters: true,
+        restitution: Some(restitution(file)),
+        field: field_mark(file),
+        field_lines: Some(fields(file)),
+        caption: file.look.caption.clone(),
+    }
+}
+
+/// What the scene file asks for of it.
+fn wanted(file: &SceneFile, all: Overlay) -> Overlay {
+    let table = &file.look;
+    Overlay {
+        centroids: table.centroids,
+        velocities: all.velocities.filter(|_| table.velocities),
+        contacts: table.contacts,
+        bounds: table.boxes,
+        asleep: table.asleep,
+        gravity: table.gravity,
+        time: table.time,
+        restitution: all.restitution.filter(|_| table.restitution),
+        field: all.field.filter(|_| table.field),
+        caption: all.caption,
+        ..Overlay::default()
+    }
+}
+
+/// The fields that are on.
+fn fields(file: &SceneFile) -> Vec<RadialField> {
+    let on = file.field.iter().filter(|field| field.strength != 0.0);
+    // What the world refused has ended the build before.
+    on.filter_map(|field| RadialField::new(field.centre.0, field.strength, field.core).ok())
+        .collect()
 }
 
 /// The bar's value: the parameter, else the largest coefficient of the file.
@@ -103,7 +143,7 @@ fn restitution(file: &SceneFile) -> f64 {
 /// A circle around the core of the first field that is on.
 fn field_mark(file: &SceneFile) -> Option<FieldMark> {
     let on = file.field.iter().find(|field| field.strength != 0.0);
-    on.filter(|_| file.look.field).map(|field| FieldMark {
+    on.map(|field| FieldMark {
         centre: field.centre.0,
         radius: field.core,
         label: format!("GM = {} m^3/s^2", field.strength),

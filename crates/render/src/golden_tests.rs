@@ -1,0 +1,581 @@
+//! Small pictures of every mark and every overlay, looked at once and equal ever since.
+//!
+//! `UPDATE=1 cargo test -p carom-render golden` writes them anew; the difference is to be looked at.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use carom_dynamics::{BodyDef, BodyId, Material, RadialField, Settings, World};
+use carom_geometry::{Circle, ConvexPolygon, Polygon, Segment};
+use carom_math::{Rot, Vec2, vec2};
+
+use crate::{
+    Camera, Colour, Face, FieldMark, Frame, Ink, Label, Look, Op, Overlay, Packing, Paint, Picture,
+    Size, Style, Trace, second_reader,
+};
+
+/// Asserts that a picture is the one in the folder of goldens.
+#[track_caller]
+fn golden(name: &str, picture: &Picture) {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("goldens");
+    let place = folder.join(format!("{name}.png"));
+    if std::env::var_os("UPDATE").is_some() {
+        fs::create_dir_all(&folder).unwrap();
+        picture.save_small_png(&place).unwrap();
+    }
+    let bytes = fs::read(&place).unwrap_or_else(|error| panic!("{}: {error}", place.display()));
+    second_reader::agrees(&bytes);
+    second_reader::agrees(&picture.to_png_packed(Packing::Fast));
+    let expected = Picture::from_png(&bytes).unwrap();
+    if expected == *picture {
+        return;
+    }
+    let found: PathBuf = std::env::temp_dir().join(format!("carom-{name}.png"));
+    picture.save_png(&found).unwrap();
+    assert_eq!(picture.size(), expected.size(), "{name}");
+    let pairs = picture.rgba().chunks(4).zip(expected.rgba().chunks(4));
+    let apart = pairs.map(|(a, b)| a.iter().zip(b).map(|(a, b)| a.abs_diff(*b)).max());
+    let apart: Vec<u8> = apart.flatten().filter(|&apart| apart > 0).collect();
+    panic!(
+        "{name}: {} pixels differ, by {} at most: see {}; UPDATE=1 if it is right",
+        apart.len(),
+        apart.iter().max().unwrap_or(&0),
+        found.display()
+    );
+}
+
+const BLUE: Colour = Colour::hex(0x4C8ED9);
+const RED: Colour = Colour::hex(0xE4685D);
+
+fn op(name: &str, ops: impl IntoIterator<Item = Op>) {
+    let mut frame = Frame::new(Size::new(64, 48).unwrap());
+    for op in ops {
+        frame.push(op);
+    }
+    golden(&format!("op-{name}"), &frame.paint(&Style::light()));
+}
+
+/// Points of a star around a place: every other corner lies nearer.
+fn star(centre: Vec2, corners: u32, outer: f64, inner: f64) -> Vec<Vec2> {
+    let turn = 180.0 / f64::from(corners);
+    let corner = |k: u32| {
+        let radius = if k.is_multiple_of(2) { outer } else { inner };
+        centre + radius * Rot::from_degrees(turn * f64::from(k) + 7.0).x_axis()
+    };
+    (0..2 * corners).map(corner).collect()
+}
+
+#[test]
+fn golden_marks() {
+    let middle = vec2(32.3, 24.2);
+    let line = vec![
+        vec2(6.5, 40.2),
+        vec2(30.1, 8.4),
+        vec2(38.0, 36.0),
+        vec2(57.3, 10.9),
+    ];
+    op(
+        "polygon",
+        [Op::Polygon {
+            points: star(middle, 5, 21.0, 9.0),
+            paint: Paint::flat(BLUE),
+        }],
+    );
+    let mut hole = star(middle, 4, 10.0, 7.0);
+    hole.reverse();
+    op(
+        "region",
+        [Op::Region {
+            rings: vec![star(middle, 6, 22.0, 17.0), hole],
+            paint: Paint::flat(RED),
+        }],
+    );
+    op(
+        "disc",
+        [Op::Disc {
+            centre: middle,
+            radius: 18.4,
+            paint: Paint::flat(BLUE).outlined(RED),
+        }],
+    );
+    op(
+        "ball",
+        [Op::Disc {
+            centre: middle,
+            radius: 18.4,
+            paint: Paint::flat(RED).shaded(),
+        }],
+    );
+    op(
+        "area",
+        [Op::Area {
+            points: star(middle, 3, 22.0, 12.0),
+            ink: Ink::Contact,
+        }],
+    );
+    op(
+        "dot",
+        (1..7).map(|k| {
+            let x = f64::from(k);
+            Op::Dot {
+                centre: vec2(8.7 * x, 20.0 + 0.3 * x),
+                radius: 0.7 * x,
+                ink: Ink::Field,
+            }
+        }),
+    );
+    op(
+        "ring",
+        [
+            Op::Ring {
+                centre: middle,
+                radius: 17.3,
+                width: 4.2,
+                ink: Ink::Series(2),
+            },
+            Op::Ring {
+                centre: middle,
+                radius: 8.3,
+                width: 0.6,
+                ink: Ink::Text,
+            },
+        ],
+    );
+    op(
+        "line",
+        [Op::Line {
+            points: line.clone(),
+            width: 5.0,
+            dash: None,
+            ink: Ink::Series(1),
+        }],
+    );
+    op(
+        "hairline",
+        [Op::Line {
+            points: line.clone(),
+            width: 0.4,
+            dash: None,
+            ink: Ink::Text,
+        }],
+    );
+    op(
+        "dashes",
+        [Op::Line {
+            points: line,
+            width: 2.0,
+            dash: Some(4.0),
+            ink: Ink::Muted,
+        }],
+    );
+    op(
+        "arrow",
+        [
+            Op::Arrow {
+                from: vec2(6.0, 40.0),
+                to: vec2(56.0, 9.0),
+                width: 3.0,
+                ink: Ink::Velocity,
+            },
+            Op::Arrow {
+                from: vec2(8.0, 8.0),
+                to: vec2(15.0, 8.5),
+                width: 3.0,
+                ink: Ink::Contact,
+            },
+        ],
+    );
+    op(
+        "face",
+        [Op::Face {
+            centre: middle,
+            radius: 19.0,
+            turn: Rot::from_degrees(25.0),
+            face: Face::smile(),
+        }],
+    );
+    let frame = |inset: f64, fill, border, dash| Op::Box {
+        min: vec2(inset, inset),
+        max: vec2(64.0 - inset, 48.0 - inset),
+        fill,
+        border,
+        width: 1.5,
+        dash,
+    };
+    op(
+        "box",
+        [
+            frame(3.5, Some(Ink::Grid), None, None),
+            frame(8.3, None, Some(Ink::Text), None),
+            frame(14.0, Some(Ink::Bar), Some(Ink::Muted), Some(3.0)),
+        ],
+    );
+    let text = |y: f64, text: &str| Label::new(vec2(4.0, y), text, 9.0, Ink::Text);
+    op(
+        "label",
+        [
+            Op::Area {
+                points: star(middle, 3, 22.0, 12.0),
+                ink: Ink::Bar,
+            },
+            text(14.0, "Ag = 9.81").into(),
+            text(30.0, "m/s² µ×").with_halo().into(),
+            Label::new(vec2(60.0, 44.0), "up", 8.0, Ink::Contact)
+                .upwards()
+                .into(),
+        ],
+    );
+    op(
+        "clear",
+        [
+            Op::Disc {
+                centre: middle,
+                radius: 15.0,
+                paint: Paint::flat(BLUE.with_alpha(90)),
+            },
+            Op::Dot {
+                centre: vec2(22.0, 20.0),
+                radius: 9.0,
+                ink: Ink::Of(RED.with_alpha(128)),
+            },
+        ],
+    );
+}
+
+fn world(gravity: Vec2) -> World {
+    World::new(Settings {
+        gravity,
+        ..Settings::default()
+    })
+    .unwrap()
+}
+
+const ELASTIC: Material = Material {
+    friction: 0.0,
+    restitution: 1.0,
+    density: 1.0,
+};
+
+/// Bodies at rest in various ways, at time 0: nothing depends on a solver.
+fn still() -> World {
+    let mut world = world(vec2(0.0, -9.81));
+    let floor = ConvexPolygon::rectangle(8.0, 1.0).unwrap();
+    world
+        .insert(BodyDef::fixed().at(vec2(0.0, -2.5)), floor, ELASTIC)
+        .unwrap();
+    let disc = BodyDef::dynamic()
+        .at(vec2(-2.4, 0.4))
+        .moving(vec2(2.0, 3.0))
+        .turned(0.6);
+    world
+        .insert(disc, Circle::new(0.7).unwrap(), ELASTIC)
+        .unwrap();
+    let dart = [
+        vec2(-1.0, -0.9),
+        vec2(1.0, 0.0),
+        vec2(-1.0, 0.9),
+        vec2(-0.4, 0.0),
+    ];
+    let flying = BodyDef::dynamic()
+        .at(vec2(0.1, 1.0))
+        .moving(vec2(-3.0, -1.0))
+        .turned(0.3);
+    world
+        .insert(flying, Polygon::new(dart.to_vec()).unwrap(), ELASTIC)
+        .unwrap();
+    let sleeper = ConvexPolygon::regular(5, 0.8).unwrap();
+    world
+        .insert(
+            BodyDef::dynamic().at(vec2(2.3, -1.2)).asleep(),
+            sleeper,
+            ELASTIC,
+        )
+        .unwrap();
+    let wall = Segment::new(vec2(3.6, -2.0), vec2(3.6, 2.0)).unwrap();
+    world.insert(BodyDef::kinematic(), wall, ELASTIC).unwrap();
+    world
+}
+
+fn camera() -> Camera {
+    Camera::new(Vec2::ZERO, 18.0, 160, 100).unwrap()
+}
+
+fn overlay(name: &str, world: &World, overlay: Overlay) {
+    let look = Look {
+        overlay,
+        ..Look::seeded(1)
+    };
+    let picture = Frame::capture(world, &look, &camera()).paint(&look.style);
+    golden(&format!("overlay-{name}"), &picture);
+}
+
+#[test]
+fn golden_overlays_of_a_world_that_stands_still() {
+    let show = |name: &str, shown: Overlay| overlay(name, &still(), shown);
+    let field = RadialField::new(vec2(-0.5, 0.3), 30.0, 0.9).unwrap();
+    show("none", Overlay::default());
+    show(
+        "velocities",
+        Overlay {
+            velocities: Some(0.5),
+            ..Overlay::default()
+        },
+    );
+    show(
+        "centroids",
+        Overlay {
+            centroids: true,
+            ..Overlay::default()
+        },
+    );
+    show(
+        "boxes",
+        Overlay {
+            bounds: true,
+            ..Overlay::default()
+        },
+    );
+    show(
+        "asleep",
+        Overlay {
+            asleep: true,
+            ..Overlay::default()
+        },
+    );
+    show(
+        "gravity",
+        Overlay {
+            gravity: true,
+            ..Overlay::default()
+        },
+    );
+    show(
+        "time",
+        Overlay {
+            time: true,
+            ..Overlay::default()
+        },
+    );
+    show(
+        "counters",
+        Overlay {
+            time: true,
+            counters: true,
+            ..Overlay::default()
+        },
+    );
+    show(
+        "restitution",
+        Overlay {
+            restitution: Some(0.7),
+            ..Overlay::default()
+        },
+    );
+    show(
+        "caption",
+        Overlay {
+            caption: "a caption".to_owned(),
+            ..Overlay::default()
+        },
+    );
+    let mark = FieldMark {
+        centre: field.centre(),
+        radius: 0.9,
+        label: "GM".to_owned(),
+    };
+    show(
+        "field",
+        Overlay {
+            field: Some(mark),
+            ..Overlay::default()
+        },
+    );
+    show(
+        "gravity-lines",
+        Overlay {
+            field_lines: Some(Vec::new()),
+            ..Overlay::default()
+        },
+    );
+    show(
+        "field-lines",
+        Overlay {
+            field_lines: Some(vec![field]),
+            ..Overlay::default()
+        },
+    );
+}
+
+/// Two discs in each other, a box in the lower one, and one body apart; looked at before anything could move.
+fn overlapping() -> World {
+    let mut world = world(Vec2::ZERO);
+    let disc = Circle::new(1.0).unwrap();
+    for (x, y) in [(-1.8, 0.5), (-0.5, 0.9), (2.6, 1.6)] {
+        world
+            .insert(BodyDef::dynamic().at(vec2(x, y)), disc, ELASTIC)
+            .unwrap();
+    }
+    let square = ConvexPolygon::rectangle(3.0, 2.0).unwrap();
+    world
+        .insert(BodyDef::dynamic().at(vec2(-1.0, -1.2)), square, ELASTIC)
+        .unwrap();
+    world.step(1e-9);
+    world
+}
+
+#[test]
+fn golden_overlays_of_bodies_in_each_other() {
+    overlay(
+        "overlaps",
+        &overlapping(),
+        Overlay {
+            overlaps: true,
+            ..Overlay::default()
+        },
+    );
+    overlay(
+        "groups",
+        &overlapping(),
+        Overlay {
+            groups: true,
+            ..Overlay::default()
+        },
+    );
+}
+
+/// A disc that struck a wall after 0.1 s, and flies back; and what was seen of it.
+fn struck(overlay: &Overlay, seconds: f64) -> (World, Trace, BodyId) {
+    let mut world = world(Vec2::ZERO);
+    let wall = ConvexPolygon::rectangle(1.0, 5.0).unwrap();
+    world
+        .insert(BodyDef::fixed().at(vec2(2.5, 0.0)), wall, ELASTIC)
+        .unwrap();
+    // 0.5 m to go at 5 m/s.
+    let def = BodyDef::dynamic()
+        .at(vec2(0.5, 0.2))
+        .moving(vec2(5.0, -4.0));
+    let disc = world
+        .insert(def, Circle::new(1.0).unwrap(), ELASTIC)
+        .unwrap();
+    let mut trace = Trace::new(overlay);
+    trace.watch(&world);
+    let step = 0.05;
+    let mut time = 0.0;
+    while time < seconds - 1e-9 {
+        world.step(step);
+        time += step;
+        trace.watch(&world);
+    }
+    (world, trace, disc)
+}
+
+#[test]
+fn golden_overlays_of_an_impact() {
+    let wanted = [
+        (
+            "contacts",
+            Overlay {
+                contacts: true,
+                ..Overlay::default()
+            },
+            0.1,
+        ),
+        (
+            "impulses",
+            Overlay {
+                impulses: Some(0.2),
+                ..Overlay::default()
+            },
+            0.1,
+        ),
+        (
+            "flashes",
+            Overlay {
+                flashes: true,
+                ..Overlay::default()
+            },
+            0.15,
+        ),
+        (
+            "flashes-later",
+            Overlay {
+                flashes: true,
+                ..Overlay::default()
+            },
+            0.25,
+        ),
+        (
+            "trails",
+            Overlay {
+                trails: Some(0.6),
+                ..Overlay::default()
+            },
+            0.5,
+        ),
+    ];
+    for (name, overlay, seconds) in wanted {
+        let (world, trace, _) = struck(&overlay, seconds);
+        let look = Look {
+            overlay,
+            ..Look::seeded(1)
+        };
+        let frame = Frame::capture_traced(&world, &look, &camera(), &trace);
+        golden(&format!("overlay-{name}"), &frame.paint(&look.style));
+    }
+}
+
+#[test]
+fn golden_styles() {
+    let overlay = Overlay {
+        velocities: Some(0.3),
+        centroids: true,
+        bounds: true,
+        gravity: true,
+        restitution: Some(0.7),
+        time: true,
+        ..Overlay::default()
+    };
+    for (name, style) in [
+        ("light", Style::light()),
+        ("dark", Style::dark()),
+        ("print", Style::print()),
+    ] {
+        let look = Look {
+            overlay: overlay.clone(),
+            style,
+            ..Look::seeded(1)
+        };
+        let picture = Frame::capture(&still(), &look, &camera()).paint(&look.style);
+        golden(&format!("style-{name}"), &picture);
+    }
+}
+
+/// A trace forgets what is too old or gone, and counts what it saw.
+#[test]
+fn a_trace_holds_what_it_needs() {
+    let overlay = Overlay {
+        trails: Some(0.2),
+        flashes: true,
+        ..Overlay::default()
+    };
+    let (mut world, mut trace, disc) = struck(&overlay, 0.6);
+    assert_eq!(trace.count(), 1);
+    let marks = |world: &World, trace: &Trace| {
+        let look = Look {
+            overlay: overlay.clone(),
+            spokes: false,
+            ..Look::default()
+        };
+        let frame = Frame::capture_traced(world, &look, &camera(), trace);
+        frame
+            .ops()
+            .iter()
+            .filter(|op| matches!(op, Op::Line { .. }))
+            .count()
+    };
+    // Five places of 0.2 s, and no burst: the impact was half a second ago.
+    assert_eq!(marks(&world, &trace), 4);
+    world.remove(disc).unwrap();
+    trace.watch(&world);
+    assert_eq!(marks(&world, &trace), 0);
+}
