@@ -303,6 +303,14 @@ impl Frame {
         pairs.map(|(op, &source)| Mark { op, source })
     }
 
+    /// Mark number `index`, which is there.
+    pub(crate) fn mark(&self, index: usize) -> Mark<'_> {
+        Mark {
+            op: &self.ops[index],
+            source: self.sources[index],
+        }
+    }
+
     /// Adds a mark above all others, of no body.
     pub fn push(&mut self, op: impl Into<Op>) {
         self.push_from(Source::default(), op);
@@ -312,6 +320,46 @@ impl Frame {
     pub fn push_from(&mut self, source: Source, op: impl Into<Op>) {
         self.ops.push(op.into());
         self.sources.push(source);
+    }
+
+    /// Makes it a copy of another frame, with as little new memory as may be.
+    pub(crate) fn copy(&mut self, other: &Self) {
+        self.size = other.size;
+        self.sources.clone_from(&other.sources);
+        self.ops.truncate(other.ops.len());
+        let (known, new) = other.ops.split_at(self.ops.len());
+        for (op, from) in self.ops.iter_mut().zip(known) {
+            match (op, from) {
+                (
+                    Op::Polygon { points, paint },
+                    Op::Polygon {
+                        points: other,
+                        paint: with,
+                    },
+                ) => {
+                    points.clone_from(other);
+                    *paint = *with;
+                }
+                (
+                    Op::Area { points, ink },
+                    Op::Area {
+                        points: other,
+                        ink: with,
+                    },
+                ) => {
+                    points.clone_from(other);
+                    *ink = *with;
+                }
+                (op, from) => op.clone_from(from),
+            }
+        }
+        self.ops.extend_from_slice(new);
+    }
+
+    /// Number of marks at the beginning of the list that are not awake.
+    pub(crate) fn beneath(&self) -> usize {
+        let asleep = self.sources.iter().take_while(|source| !source.awake);
+        asleep.count()
     }
 
     /// Takes all marks away and keeps the memory.
@@ -331,7 +379,6 @@ impl Frame {
 
     /// Paints the frame over `picture`, which takes the frame's size and keeps its memory.
     pub fn paint_into(&self, style: &Style, picture: &mut Picture) {
-        picture.reset(self.size, style.background);
         crate::paint::paint(self, style, Engine::Own, picture);
     }
 

@@ -47,6 +47,7 @@ mod capture;
 mod chart;
 mod clip;
 mod colour;
+mod diff;
 mod disk;
 mod error;
 mod face;
@@ -79,6 +80,7 @@ mod size;
 mod skia;
 mod style;
 mod svg;
+mod tiles;
 mod y4m;
 
 pub use apng::Animation;

@@ -132,7 +132,7 @@ impl PixelBox {
     }
 
     /// The pixels of a canvas that the rectangle from `min` to `max` touches.
-    fn around(min: Vec2, max: Vec2, size: Size) -> Self {
+    pub(crate) fn around(min: Vec2, max: Vec2, size: Size) -> Self {
         let corner = size.corner();
         let (min, max) = (min.clamp(Vec2::ZERO, corner), max.clamp(Vec2::ZERO, corner));
         let found = Self {

@@ -1,5 +1,7 @@
 //! From marks to pixels, by exact areas; what is general goes through tiny-skia's masks.
 
+use std::collections::BTreeMap;
+
 use carom_math::{Rot, Vec2, vec2};
 use tiny_skia::{FillRule, IntSize, Mask, Path, Transform};
 
@@ -7,7 +9,8 @@ use crate::clip::{FAR, Window};
 use crate::colour::round_u8;
 use crate::frame::arrow_outline;
 use crate::raster::{
-    Canvas, Flat, Outliner, Pixel, Place, Radial, Raster, Shade, Textured, is_convex, is_simple,
+    Canvas, Cells, Flat, Outliner, Pixel, Place, Radial, Raster, Shade, Textured, greater,
+    is_convex, is_simple, lesser,
 };
 use crate::skia::{Fill, Ground, INNER, OUTER, Paths, Pen, SHIFT, shade, usable_width};
 use crate::{Colour, Face, Mark, Op, PixelBox, Size, Style};
@@ -22,20 +25,26 @@ pub(crate) struct Own {
     outliner: Outliner,
     colours: Vec<u32>,
     paths: Paths,
-    mask: Vec<u8>,
+    masks: Masks,
     rings: Vec<Vec<Vec2>>,
     spare: Vec<Vec2>,
 }
 
 impl Own {
-    /// Paints the part of a mark that lies in the canvas's clip.
+    /// Forgets what was kept of the marks of another frame.
+    pub(crate) fn start(&mut self) {
+        self.masks.kept.clear();
+    }
+
+    /// Paints the part of mark number `index` that lies in the canvas's clip.
     pub(crate) fn mark(
         &mut self,
-        mark: Mark<'_>,
+        (index, mark): (usize, Mark<'_>),
         style: &Style,
         canvas: &mut Canvas<'_>,
         size: Size,
     ) {
+        self.masks.key = (index, 0);
         let mut hand = Hand {
             own: self,
             style,
@@ -123,7 +132,7 @@ impl Hand<'_, '_> {
                 ink,
             } => {
                 if let Some(outline) = arrow_outline(*from, *to, *width) {
-                    self.fill([&outline[..]].into_iter(), self.style.colour(*ink));
+                    self.fill_one(&outline, self.style.colour(*ink));
                 }
             }
             Op::Face {
@@ -144,7 +153,7 @@ impl Hand<'_, '_> {
                 if let Some(ink) = fill
                     && max.cmpgt(*min).all()
                 {
-                    self.fill([&corners[..4]].into_iter(), self.style.colour(*ink));
+                    self.fill_one(&corners[..4], self.style.colour(*ink));
                 }
                 if let Some(ink) = border {
                     self.polyline(&corners, *width, *dash, self.style.colour(*ink));
@@ -157,7 +166,7 @@ impl Hand<'_, '_> {
     /// Fills a ring of any shape.
     fn ring(&mut self, points: &[Vec2], colour: Colour) {
         if self.sound || is_simple(points) {
-            self.fill([points].into_iter(), colour);
+            self.fill_one(points, colour);
         } else {
             self.general(|pen| pen.fill_ring(points, colour));
         }
@@ -183,24 +192,38 @@ impl Hand<'_, '_> {
             }
             count += 1;
         }
-        let Some(place) = Place::new(self.canvas, min, max) else {
-            return;
-        };
-        let left = vec2(place.left(), 0.0);
-        let rings = &own.rings[..count];
-        let edges = |cells: &mut crate::raster::Cells| {
-            for ring in rings {
-                let Some(&last) = ring.last() else { continue };
-                let mut before = last - left;
-                for &point in ring {
-                    let here = point - left;
-                    cells.line(before, here);
-                    before = here;
+        if let Some(place) = Place::new(self.canvas, min, max) {
+            let edges = |cells: &mut Cells| {
+                for ring in &own.rings[..count] {
+                    add_ring(cells, ring, place.left());
                 }
-            }
-        };
-        let mut flat = Flat(packed(colour));
-        own.raster.draw(self.canvas, place, edges, &mut flat);
+            };
+            let mut flat = Flat(packed(colour));
+            own.raster.draw(self.canvas, place, edges, &mut flat);
+        }
+    }
+
+    /// Fills a ring that does not cross itself.
+    fn fill_one(&mut self, ring: &[Vec2], colour: Colour) {
+        let Some(&first) = ring.first() else { return };
+        let (mut min, mut max) = (first, first);
+        for &point in ring {
+            min = vec2(lesser(point.x, min.x), lesser(point.y, min.y));
+            max = vec2(greater(point.x, max.x), greater(point.y, max.y));
+        }
+        // Sums are finite only if all numbers are.
+        let sum = ring.iter().fold(Vec2::ZERO, |sum, &point| sum + point);
+        let corner = self.size.corner();
+        let inside = sum.is_finite() && min.cmpge(Vec2::ZERO).all() && max.cmple(corner).all();
+        if !inside {
+            self.fill([ring].into_iter(), colour);
+            return;
+        }
+        if let Some(place) = Place::new(self.canvas, min, max) {
+            let edges = |cells: &mut Cells| add_ring(cells, ring, place.left());
+            let mut flat = Flat(packed(colour));
+            self.own.raster.draw(self.canvas, place, edges, &mut flat);
+        }
     }
 
     /// The line around a ring.
@@ -229,7 +252,7 @@ impl Hand<'_, '_> {
                 if let Some((first, last)) = room.segment(a, b) {
                     let along = b - a;
                     let stick = outliner.stick(a + along * first, a + along * last, 0.5 * usable);
-                    self.fill([stick].into_iter(), colour);
+                    self.fill_one(stick, colour);
                 }
                 self.own.outliner = outliner;
             }
@@ -245,7 +268,7 @@ impl Hand<'_, '_> {
             let at = centre - vec2(place.left(), 0.0);
             let limit = place.limit();
             let mut flat = Flat(packed(colour));
-            let edges = |cells: &mut crate::raster::Cells| cells.circle(at, radius, 1.0, limit);
+            let edges = |cells: &mut Cells| cells.circle(at, radius, 1.0, limit);
             self.own.raster.draw(self.canvas, place, edges, &mut flat);
         }
     }
@@ -265,7 +288,7 @@ impl Hand<'_, '_> {
             let focus = at + Vec2::splat(SHIFT * radius);
             let mut shade = Radial::new(focus, reach, inner, outer, &mut own.colours);
             let limit = place.limit();
-            let edges = |cells: &mut crate::raster::Cells| cells.circle(at, radius, 1.0, limit);
+            let edges = |cells: &mut Cells| cells.circle(at, radius, 1.0, limit);
             own.raster.draw(self.canvas, place, edges, &mut shade);
         }
     }
@@ -283,7 +306,7 @@ impl Hand<'_, '_> {
             let at = centre - vec2(place.left(), 0.0);
             let limit = place.limit();
             let mut flat = Flat(packed(colour));
-            let edges = |cells: &mut crate::raster::Cells| {
+            let edges = |cells: &mut Cells| {
                 cells.circle(at, outer, 1.0, limit);
                 if inner > 0.0 {
                     cells.circle(at, inner, -1.0, limit);
@@ -317,51 +340,112 @@ impl Hand<'_, '_> {
         let own = &mut *self.own;
         let mut shade = Textured::new(level, origin, (right, down), &mut own.colours);
         let limit = place.limit();
-        let edges = |cells: &mut crate::raster::Cells| cells.circle(at, radius, 1.0, limit);
+        let edges = |cells: &mut Cells| cells.circle(at, radius, 1.0, limit);
         own.raster.draw(self.canvas, place, edges, &mut shade);
     }
 
     /// What tiny-skia turns into masks.
     fn general(&mut self, draw: impl FnOnce(&mut Pen<'_, OnMask<'_, '_>>)) {
         let own = &mut *self.own;
+        if own.masks.again(self.canvas) {
+            return;
+        }
         let ground = OnMask {
             canvas: self.canvas,
-            memory: &mut own.mask,
+            masks: &mut own.masks,
         };
         draw(&mut Pen::new(&mut own.paths, self.style, self.size, ground));
     }
 }
 
-/// Fills paths by way of a mask as large as what is seen of them: the same pixels whatever the clip is.
+/// Adds the sides of a ring, whose x count from `left`.
+fn add_ring(cells: &mut Cells, ring: &[Vec2], left: f64) {
+    let left = vec2(left, 0.0);
+    let Some(&last) = ring.last() else { return };
+    let mut before = last - left;
+    for &point in ring {
+        let here = point - left;
+        cells.line(before, here);
+        before = here;
+    }
+}
+
+/// What is covered, as bytes, and of what colour.
+#[derive(Clone, Debug)]
+struct Stencil {
+    seen: PixelBox,
+    bytes: Vec<u8>,
+    colour: Colour,
+}
+
+/// Stencils of marks that are painted in several pieces: made once a frame, as a whole, so that pixels do not depend on
+/// the pieces.
+#[derive(Clone, Debug, Default)]
+struct Masks {
+    /// The mark at hand, and how many general parts of it were painted.
+    key: (usize, usize),
+    kept: BTreeMap<(usize, usize), Vec<Stencil>>,
+    spare: Vec<u8>,
+}
+
+impl Masks {
+    /// Paints the part at hand if it is known.
+    fn again(&mut self, canvas: &mut Canvas<'_>) -> bool {
+        self.key.1 += 1;
+        let Some(stencils) = self.kept.get(&self.key) else {
+            return false;
+        };
+        for stencil in stencils {
+            stencil.paint(canvas);
+        }
+        true
+    }
+}
+
+impl Stencil {
+    fn paint(&self, canvas: &mut Canvas<'_>) {
+        let Self { seen, bytes, .. } = self;
+        let clip = seen.common(canvas.clip);
+        let mut flat = Flat(packed(self.colour));
+        let columns = seen.right - seen.left;
+        for y in clip.top..clip.bottom {
+            let from = ((y - seen.top) * columns + clip.left - seen.left) as usize;
+            let to = y as usize * canvas.width + clip.left as usize;
+            let count = (clip.right - clip.left) as usize;
+            let pixels = &mut canvas.pixels[to..to + count];
+            cover(pixels, &bytes[from..from + count], &mut flat);
+        }
+    }
+}
+
+/// Fills paths by way of a mask as large as what is seen of them.
 struct OnMask<'a, 'c> {
     canvas: &'a mut Canvas<'c>,
-    memory: &'a mut Vec<u8>,
+    masks: &'a mut Masks,
 }
 
 impl Ground for OnMask<'_, '_> {
     fn fill(&mut self, path: &Path, fill: &Fill<'_>) {
         // Gradients and pictures are never general.
         let &Fill::Flat(colour) = fill else { return };
-        let width = u32::try_from(self.canvas.width).unwrap_or(0);
-        let height =
-            u32::try_from(self.canvas.pixels.len() / self.canvas.width.max(1)).unwrap_or(0);
+        let width = self.canvas.width;
+        let height = self.canvas.pixels.len() / width.max(1);
+        let [width, height] = [width, height].map(|side| u32::try_from(side).unwrap_or(0));
         let bounds = path.bounds();
-        let side = |x: f32, most: u32| clamped(x, most);
         let seen = PixelBox {
-            left: side(bounds.left(), width),
-            top: side(bounds.top(), height),
-            right: side(bounds.right() + 1.0, width),
-            bottom: side(bounds.bottom() + 1.0, height),
+            left: clamped(bounds.left(), width),
+            top: clamped(bounds.top(), height),
+            right: clamped(bounds.right() + 1.0, width),
+            bottom: clamped(bounds.bottom() + 1.0, height),
         };
-        let clip = seen.common(self.canvas.clip);
-        let (columns, rows) = (
-            seen.right - seen.left.min(seen.right),
-            seen.bottom - seen.top.min(seen.bottom),
-        );
-        let Some(size) = IntSize::from_wh(columns, rows).filter(|_| !clip.is_empty()) else {
+        if seen.is_empty() {
+            return;
+        }
+        let (columns, rows) = (seen.right - seen.left, seen.bottom - seen.top);
+        let Some(size) = IntSize::from_wh(columns, rows) else {
             return;
         };
-        let mut memory = core::mem::take(self.memory);
+        let mut memory = core::mem::take(&mut self.masks.spare);
         memory.clear();
         memory.resize(columns as usize * rows as usize, 0);
         let Some(mut mask) = Mask::from_vec(memory, size) else {
@@ -370,18 +454,19 @@ impl Ground for OnMask<'_, '_> {
         #[expect(clippy::cast_precision_loss, reason = "at most 16384")]
         let shift = Transform::from_translate(-(seen.left as f32), -(seen.top as f32));
         mask.fill_path(path, FillRule::Winding, true, shift);
-        let mut flat = Flat(packed(colour));
-        for y in clip.top..clip.bottom {
-            let from = ((y - seen.top) * columns + clip.left - seen.left) as usize;
-            let to = y as usize * self.canvas.width + clip.left as usize;
-            let count = (clip.right - clip.left) as usize;
-            cover(
-                &mut self.canvas.pixels[to..to + count],
-                &mask.data()[from..from + count],
-                &mut flat,
-            );
+        let bytes = mask.take();
+        let stencil = Stencil {
+            seen,
+            bytes,
+            colour,
+        };
+        stencil.paint(self.canvas);
+        if seen.common(self.canvas.clip) == seen {
+            self.masks.spare = stencil.bytes;
+        } else {
+            let key = self.masks.key;
+            self.masks.kept.entry(key).or_default().push(stencil);
         }
-        *self.memory = mask.take();
     }
 }
 

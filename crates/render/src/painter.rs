@@ -1,6 +1,8 @@
 //! Painting frame after frame: what did not change is not painted again.
 
-use crate::{Frame, Picture, PixelBox, Size, Style};
+use crate::paint::{Base, Sheets};
+use crate::tiles::Tiles;
+use crate::{Colour, Frame, Picture, PixelBox, Size, Style};
 
 /// Rows of pixels in a band, the unit in which [`Changes`] tells an encoder what to write again.
 pub const BAND: u32 = 16;
@@ -17,7 +19,9 @@ pub enum Engine {
 
 /// Paints one frame after another into a picture, and leaves alone what did not change.
 ///
-/// The picture is byte for byte the one that [`Frame::paint`] makes.
+/// Marks at the beginning of the list whose [`Source`](crate::Source) is not awake are painted once, into a layer of their own.
+/// Of the rest, the tiles that changed are painted again over the layer. The picture is byte for byte the one that
+/// [`Frame::paint`] makes, and [`Painter::checking`] shows it.
 ///
 /// # Examples
 /// ```
@@ -31,6 +35,9 @@ pub enum Engine {
 /// frame.push(Op::Dot { centre: vec2(30.0, 50.0), radius: 10.0, ink: Ink::Text });
 /// assert!(!painter.paint(&frame, &mut picture).is_empty());
 /// assert!(painter.paint(&frame, &mut picture).is_empty());         // the same frame again
+/// frame.push(Op::Dot { centre: vec2(150.0, 50.0), radius: 10.0, ink: Ink::Text });
+/// let changes = painter.paint(&frame, &mut picture);
+/// assert_eq!(changes.bounds().map(|bounds| bounds.left >= 128), Some(true));
 /// # Ok::<(), carom_render::RenderError>(())
 /// ```
 #[derive(Clone, Debug)]
@@ -38,8 +45,15 @@ pub struct Painter {
     style: Style,
     engine: Engine,
     redraw: bool,
-    /// What the picture shows now.
-    shown: Option<Frame>,
+    /// How many pixels differed from frames painted in full; for who wants to check.
+    check: Option<u64>,
+    /// What the picture shows now, and how many of its marks lie in the layer.
+    shown: Option<(Frame, usize)>,
+    layer: Vec<u8>,
+    sheets: Sheets,
+    /// Tiles of the layer and of the picture that are painted again.
+    below: Tiles,
+    tiles: Tiles,
     changes: Changes,
 }
 
@@ -51,22 +65,35 @@ impl Painter {
             style,
             engine: Engine::Own,
             redraw: false,
+            check: None,
             shown: None,
+            layer: Vec::new(),
+            sheets: Sheets::default(),
+            below: Tiles::default(),
+            tiles: Tiles::default(),
             changes: Changes::default(),
         }
     }
 
-    /// The same with another engine.
+    /// The same with another engine; [`Engine::TinySkia`] paints every frame in full.
     #[must_use]
     pub fn with_engine(mut self, engine: Engine) -> Self {
         self.engine = engine;
+        self.shown = None;
         self
     }
 
-    /// The same, painting every frame in full; for comparison.
+    /// The same, painting every frame in full.
     #[must_use]
     pub fn redrawing(mut self) -> Self {
         self.redraw = true;
+        self
+    }
+
+    /// The same, painting every frame a second time in full to compare: see [`Painter::differing`].
+    #[must_use]
+    pub fn checking(mut self) -> Self {
+        self.check = Some(0);
         self
     }
 
@@ -76,20 +103,107 @@ impl Painter {
         &self.style
     }
 
+    /// Pixels so far that differed from the frame painted in full. Anything but 0 is a fault of this crate; only a painter
+    /// that is [`checking`](Painter::checking) counts them.
+    #[must_use]
+    pub fn differing(&self) -> u64 {
+        self.check.unwrap_or(0)
+    }
+
     /// Paints `frame` into `picture`, which holds what this painter painted last, and says what may have changed.
     ///
     /// A picture of another size than the frame's is taken for a new one.
     pub fn paint(&mut self, frame: &Frame, picture: &mut Picture) -> &Changes {
-        let same = self.shown.as_ref() == Some(frame) && picture.size() == frame.size();
-        if same && !self.redraw {
-            self.changes.none(frame.size());
-        } else {
-            picture.reset(frame.size(), self.style.background);
+        if self.engine == Engine::TinySkia {
             crate::paint::paint(frame, &self.style, self.engine, picture);
             self.changes.all(frame.size());
-            self.shown = Some(frame.clone());
+            return &self.changes;
         }
+        let known = picture.size() == frame.size();
+        picture.shape(frame.size());
+        match self.shown.take() {
+            Some((mut shown, beneath)) if known && !self.redraw && shown.size() == frame.size() => {
+                let same = self.update((&shown, beneath), frame, picture.rgba_mut());
+                if !same {
+                    shown.copy(frame);
+                }
+                self.shown = Some((shown, frame.beneath()));
+            }
+            _ => {
+                self.anew(frame, picture.rgba_mut());
+                self.shown = (!self.redraw).then(|| (frame.clone(), frame.beneath()));
+            }
+        }
+        self.compare(frame, picture);
         &self.changes
+    }
+
+    /// Paints all of a frame.
+    fn anew(&mut self, frame: &Frame, bytes: &mut [u8]) {
+        let ground = Base::Colour(self.ground());
+        let (beneath, all) = (frame.beneath(), frame.ops().len());
+        let (style, sheets) = (&self.style, &mut self.sheets);
+        if self.redraw || beneath == 0 {
+            sheets.paint(frame, 0..all, style, ground, bytes);
+        } else {
+            self.layer.resize(bytes.len(), 0);
+            sheets.paint(frame, 0..beneath, style, ground, &mut self.layer);
+            sheets.paint(frame, beneath..all, style, Base::Layer(&self.layer), bytes);
+        }
+        self.changes.all(frame.size());
+    }
+
+    /// Paints what differs from the frame shown; whether nothing does.
+    fn update(&mut self, (old, sunk): (&Frame, usize), frame: &Frame, bytes: &mut [u8]) -> bool {
+        let (beneath, all) = (frame.beneath(), frame.ops().len());
+        let ground = Base::Colour(self.ground());
+        let (style, sheets) = (&self.style, &mut self.sheets);
+        let (below, tiles) = (&mut self.below, &mut self.tiles);
+        below.start(frame.size());
+        tiles.start(frame.size());
+        let mut same = crate::diff::mark((old, 0..sunk), (frame, 0..beneath), style, below);
+        let rest = (old, sunk..old.ops().len());
+        same &= crate::diff::mark(rest, (frame, beneath..all), style, tiles);
+        tiles.unite(below);
+        if same || tiles.is_empty() {
+            self.changes.none(frame.size());
+            return same;
+        }
+        let base = if beneath == 0 {
+            ground
+        } else {
+            // Without marks there was no layer.
+            if sunk == 0 || below.most() {
+                self.layer.resize(bytes.len(), 0);
+                sheets.paint(frame, 0..beneath, style, ground, &mut self.layer);
+            } else {
+                sheets.repaint(frame, 0..beneath, style, ground, (below, &mut self.layer));
+            }
+            Base::Layer(&self.layer)
+        };
+        if tiles.most() {
+            sheets.paint(frame, beneath..all, style, base, bytes);
+        } else {
+            sheets.repaint(frame, beneath..all, style, base, (tiles, bytes));
+        }
+        self.changes.bounds = tiles.bands(&mut self.changes.bands);
+        false
+    }
+
+    const fn ground(&self) -> Colour {
+        self.style.background.with_alpha(255)
+    }
+
+    /// Counts the pixels that differ from the frame painted in full, for who asked.
+    fn compare(&mut self, frame: &Frame, picture: &Picture) {
+        if let Some(differing) = &mut self.check {
+            let full = frame.paint(&self.style);
+            let (ours, theirs) = (picture.rgba().chunks_exact(4), full.rgba().chunks_exact(4));
+            *differing += ours
+                .zip(theirs)
+                .map(|(a, b)| u64::from(a != b))
+                .sum::<u64>();
+        }
     }
 }
 
@@ -147,3 +261,7 @@ impl Changes {
             .resize(size.height().div_ceil(BAND) as usize, true);
     }
 }
+
+#[cfg(test)]
+#[path = "painter_tests.rs"]
+mod tests;

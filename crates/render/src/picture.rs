@@ -60,6 +60,12 @@ impl Picture {
         }
     }
 
+    /// Gives it a size, whatever its pixels are then, and keeps its memory.
+    pub(crate) fn shape(&mut self, size: Size) {
+        self.size = size;
+        self.rgba.resize(4 * size.pixels(), 0);
+    }
+
     /// Its size.
     #[must_use]
     pub const fn size(&self) -> Size {

@@ -8,8 +8,11 @@
 
 use carom_math::Vec2;
 
-/// Up to this many cells a row is summed as a whole, without a list of where its edges are.
-const SHORT: usize = 16;
+/// Up to this many cells a row is summed from its first edge to its last, without a list of what lies between.
+const SHORT: usize = 24;
+
+/// Where the edges of a row begin and end.
+type Hull = (u32, u32);
 
 /// Stretches of a row that edges touch, kept apart so that what lies between is filled at once.
 #[derive(Clone, Copy, Debug, Default)]
@@ -55,6 +58,7 @@ impl Touched {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Cells {
     sums: Vec<f32>,
+    hulls: Vec<Hull>,
     touched: Vec<Touched>,
     /// Cells a row.
     stride: usize,
@@ -74,58 +78,69 @@ impl Cells {
         if self.sums.len() < rows * self.stride {
             self.sums.resize(rows * self.stride, 0.0);
         }
+        self.hulls.clear();
+        self.hulls.resize(rows, (u32::MAX, 0));
         if !self.short {
             self.touched.clear();
             self.touched.resize(rows, Touched::default());
         }
     }
 
-    /// Hands over the stretches of a row where coverage varies, from the left, with their sums, which are zero afterwards.
+    /// Hands over the stretches of a row where coverage varies, from the left, with their sums, which are to be made zero.
+    #[inline]
     pub(crate) fn take(&mut self, row: usize, mut each: impl FnMut(usize, &mut [f32])) {
-        let at = (row - self.top) * self.stride;
-        let sums = &mut self.sums[at..at + self.stride];
+        let row = row - self.top;
+        let sums = &mut self.sums[row * self.stride..(row + 1) * self.stride];
         if self.short {
-            each(0, sums);
+            let (first, end) = self.hulls[row];
+            each(first as usize, &mut sums[first as usize..end as usize]);
             return;
         }
-        let touched = &self.touched[row - self.top];
+        let touched = &self.touched[row];
         for &(first, end) in &touched.stretches[..touched.count] {
-            let (first, end) = (first as usize, (end as usize).min(self.stride));
-            each(first, &mut sums[first..end]);
+            each(first as usize, &mut sums[first as usize..end as usize]);
         }
     }
 
-    /// Where the first and the last stretch of a row begin and end; `None` if no edge touches it.
+    /// Where the first stretch of a row begins and the last one ends; `None` if no edge touches it.
+    #[inline]
     pub(crate) fn reach(&self, row: usize) -> Option<(usize, usize)> {
-        if self.short {
-            return Some((0, self.stride));
+        let (first, end) = self.hulls[row - self.top];
+        (first < end).then_some((first as usize, end as usize))
+    }
+
+    #[inline]
+    #[expect(clippy::cast_possible_truncation, reason = "at most 16390")]
+    fn touch(&mut self, row: usize, first: usize, end: usize) {
+        let hull = &mut self.hulls[row - self.top];
+        *hull = (hull.0.min(first as u32), hull.1.max(end as u32));
+        if !self.short {
+            self.touched[row - self.top].push(first, end);
         }
-        let touched = &self.touched[row - self.top];
-        let last = touched.count.checked_sub(1)?;
-        let (first, end) = (touched.stretches[0].0, touched.stretches[last].1);
-        Some((first as usize, (end as usize).min(self.stride)))
     }
 
     /// An edge from `a` to `b`; x from the left side of the shape, y from the top of the canvas.
     #[inline]
     pub(crate) fn line(&mut self, a: Vec2, b: Vec2) {
         let (sign, a, b) = if a.y < b.y { (1.0, a, b) } else { (-1.0, b, a) };
-        let mut y = a.y.max(number(self.top));
-        let end = b.y.min(number(self.bottom));
+        let mut y = greater(a.y, number(self.top));
+        let end = lesser(b.y, number(self.bottom));
         if y >= end {
             return;
         }
         let slope = (b.x - a.x) / (b.y - a.y);
         let (low, high) = if a.x < b.x { (a.x, b.x) } else { (b.x, a.x) };
         // From the upper end each time, so that a row does not depend on where the walk began.
-        let at = |y: f64| (a.x + (y - a.y) * slope).max(low).min(high);
-        let mut row = whole(y);
+        let at = |y: f64| lesser(greater(a.x + (y - a.y) * slope, low), high);
+        let mut row = floor(y);
+        let mut below = number(row);
         let mut x = at(y);
         while y < end {
-            let below = number(row + 1).min(end);
-            let next = at(below);
-            self.edge(row, x, next, sign * (below - y));
-            (x, y) = (next, below);
+            below += 1.0;
+            let next_y = lesser(below, end);
+            let next = at(next_y);
+            self.edge(row, x, next, sign * (next_y - y));
+            (x, y) = (next, next_y);
             row += 1;
         }
     }
@@ -137,28 +152,29 @@ impl Cells {
         let (first, last) = (whole(x0), whole(x1));
         let at = (row - self.top) * self.stride;
         let sums = &mut self.sums[at..at + self.stride];
-        if first == last {
+        let sums = &mut sums[first..last + 2];
+        if let [one, two] = sums {
             let middle = 0.5 * (x0 + x1) - number(first);
-            sums[first] += small(dy - dy * middle);
-            sums[first + 1] += small(dy * middle);
-        } else {
+            *one += small(dy - dy * middle);
+            *two += small(dy * middle);
+        } else if let [one, between @ .., last_but_one, end] = sums {
             // Height per pixel of width; then the coverage of each pixel less that of the one before.
             let per = dy / (x1 - x0);
             let into = number(first + 1) - x0;
             let over = x1 - number(last);
             let (begin, rest) = (0.5 * per * into * into, 0.5 * per * over * over);
-            sums[first] += small(begin);
-            if last == first + 1 {
-                sums[last] += small(dy - rest - begin);
-            } else {
-                sums[first + 1] += small(per * (into + 0.5) - begin);
-                for sum in &mut sums[first + 2..last] {
+            *one += small(begin);
+            *end += small(rest);
+            if let [two, between @ ..] = between {
+                *two += small(per * (into + 0.5) - begin);
+                for sum in &mut *between {
                     *sum += small(per);
                 }
-                let before = per * (into + number(last - first - 2) + 0.5);
-                sums[last] += small(dy - rest - before);
+                let before = per * (into + number(between.len()) + 0.5);
+                *last_but_one += small(dy - rest - before);
+            } else {
+                *last_but_one += small(dy - rest - begin);
             }
-            sums[last + 1] += small(rest);
         }
         self.touch(row, first, last + 2);
     }
@@ -166,15 +182,15 @@ impl Cells {
     /// A whole circle, around from inside (`sign` 1) or from outside (−1), of which columns `0..=limit` are kept.
     pub(crate) fn circle(&mut self, centre: Vec2, radius: f64, sign: f64, limit: f64) {
         let circle = Circle::new(centre, radius, sign, limit);
-        let mut y = (centre.y - radius).max(number(self.top));
-        let end = (centre.y + radius).min(number(self.bottom));
+        let mut y = greater(centre.y - radius, number(self.top));
+        let end = lesser(centre.y + radius, number(self.bottom));
         if y >= end {
             return;
         }
-        let mut row = whole(y);
+        let mut row = floor(y);
         let mut half = circle.half(y - centre.y);
         while y < end {
-            let below = number(row + 1).min(end);
+            let below = lesser(number(row + 1), end);
             // Both sides turn around at the height of the centre.
             if y < centre.y && centre.y < below {
                 self.arcs(&circle, row, (y, half), (centre.y, radius));
@@ -210,7 +226,7 @@ impl Cells {
             ((b, a), -1.0)
         };
         let sign = sign * turn;
-        let above = p.y.min(q.y) < circle.centre.y;
+        let above = lesser(p.y, q.y) < circle.centre.y;
         if p.x < 0.0 {
             // What lies left of the canvas covers its first column.
             let on = if q.x > 0.0 {
@@ -226,8 +242,8 @@ impl Cells {
             self.touch(row, whole(circle.limit), whole(circle.limit) + 1);
             return;
         }
-        let first = whole(p.x.max(0.0));
-        let last = whole(q.x.max(0.0).min(circle.limit));
+        let first = whole(greater(p.x, 0.0));
+        let last = whole(lesser(greater(q.x, 0.0), circle.limit));
         let mut column = first;
         loop {
             let next = if column >= last && q.x <= circle.limit {
@@ -248,13 +264,6 @@ impl Cells {
             column += 1;
         }
         self.touch(row, first, last + 2);
-    }
-
-    #[inline]
-    fn touch(&mut self, row: usize, first: usize, end: usize) {
-        if !self.short {
-            self.touched[row - self.top].push(first, end);
-        }
     }
 }
 
@@ -296,7 +305,7 @@ impl Circle {
             self.centre.y + half
         };
         let (low, high) = if from < to { (from, to) } else { (to, from) };
-        y.max(low).min(high)
+        lesser(greater(y, low), high)
     }
 
     /// Area between an arc and its chord, from the square of the chord c.
@@ -326,8 +335,31 @@ const fn number(count: usize) -> f64 {
     clippy::cast_sign_loss,
     reason = "not negative, at most 16390; by way of i32, which processors convert to"
 )]
-const fn whole(x: f64) -> usize {
+#[inline]
+const fn floor(x: f64) -> usize {
     x as i32 as usize
+}
+
+/// The same; a whole number may count as the end of the pixel
+/// before it.
+///
+/// By addition: a cast would look for what is not a number first.
+#[inline]
+const fn whole(x: f64) -> usize {
+    /// 3 · 2^51: what is added to it is rounded to a whole number, in the lowest bits.
+    const ROUND: f64 = 6_755_399_441_055_744.0;
+    ((x - 0.5 + ROUND).to_bits() & 0xFFFF) as usize
+}
+
+/// As one instruction: what is not a number never comes here.
+#[inline]
+pub(crate) const fn lesser(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+#[inline]
+pub(crate) const fn greater(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
 }
 
 /// A part of a pixel, narrowed.

@@ -13,7 +13,7 @@ mod tests;
 use carom_math::Vec2;
 
 use crate::PixelBox;
-pub(crate) use cells::Cells;
+pub(crate) use cells::{Cells, greater, lesser};
 pub(crate) use outline::{Outliner, is_convex, is_simple};
 pub(crate) use shade::{Flat, Pixel, Radial, Shade, Textured};
 
@@ -120,8 +120,13 @@ impl Raster {
         edges: impl Fn(&mut Cells),
         shade: &mut impl Shade,
     ) {
-        let rows = (STRIP / place.columns).max(1);
         let mut top = place.top;
+        // No division for what is small.
+        let rows = if (place.bottom - top) * place.columns <= STRIP {
+            place.bottom - top
+        } else {
+            (STRIP / place.columns).max(1)
+        };
         while top < place.bottom {
             let bottom = place.bottom.min(top + rows);
             self.cells.start(place.columns, top, bottom);

@@ -169,24 +169,22 @@ fn doubled_area(ring: &[Vec2]) -> f64 {
 
 /// Whether a ring is convex and goes around once.
 pub(crate) fn is_convex(ring: &[Vec2]) -> bool {
-    let count = ring.len();
-    if count < 3 {
+    let [.., before, last] = *ring else {
         return false;
-    }
-    if count == 3 {
-        return true;
+    };
+    if ring.len() < 4 {
+        return ring.len() == 3;
     }
     let (mut left, mut right, mut flips) = (false, false, 0);
-    let mut before = ring[count - 1] - ring[count - 2];
-    for i in 0..count {
-        let from = ring[(i + count - 1) % count];
-        let along = ring[i] - from;
-        let turn = before.perp_dot(along);
+    let (mut along, mut from) = (last - before, last);
+    for &corner in ring {
+        let next = corner - from;
+        let turn = along.perp_dot(next);
         left |= turn > 0.0;
         right |= turn < 0.0;
         // Once around a convex ring, x turns back twice.
-        flips += i32::from((before.x < 0.0) != (along.x < 0.0));
-        before = along;
+        flips += i32::from((along.x < 0.0) != (next.x < 0.0));
+        (along, from) = (next, corner);
     }
     !(left && right) && flips <= 2
 }
