@@ -103,7 +103,9 @@ impl Bodies {
         } else {
             self.free.pop();
             self.history.forget(state.id.index);
-            self.list[index] = state;
+            // Versions only grow, also from body to body: nothing foreseen for one is another's.
+            let version = self.list[index].version.wrapping_add(1);
+            self.list[index] = BodyState { version, ..state };
             self.alive[index] = true;
         }
     }

@@ -8,6 +8,7 @@ use carom_math::{Pose, Rot, SimTime, Vec2};
 
 use crate::closed::Membership;
 use crate::error::BodyError;
+use crate::flyers::Course;
 use crate::impact::ImpactBody;
 use crate::{BodyDef, BodyId, BodyKind, Material};
 
@@ -40,6 +41,9 @@ pub(crate) struct BodyState {
     pub(crate) asleep: bool,
     /// The contact group in closed form that it belongs to.
     pub(crate) membership: Membership,
+    pub(crate) course: Course,
+    /// Sub-steps in which nothing was near.
+    pub(crate) idle: u8,
     /// How long the body has been slow, in s.
     pub(crate) slow_for: f64,
     /// Largest distance of a point of its shapes from the centre of mass, in m.
@@ -133,6 +137,8 @@ impl BodyState {
             member: false,
             asleep: false,
             membership: Membership::default(),
+            course: Course::default(),
+            idle: 0,
             slow_for: 0.0,
             reach: shapes
                 .iter()
@@ -176,6 +182,16 @@ impl BodyState {
     /// Moves by itself now: neither fixed nor asleep.
     pub(crate) fn is_active(&self) -> bool {
         self.kind != BodyKind::Fixed && !self.asleep
+    }
+
+    /// Dynamic, and nothing holds it.
+    pub(crate) fn is_flying(&self) -> bool {
+        self.is_dynamic() && self.course.flies
+    }
+
+    /// Moved by the sub-steps.
+    pub(crate) fn is_stepped(&self) -> bool {
+        self.is_active() && !self.course.flies
     }
 
     /// Velocity of the centre of mass at `time`, in m/s.

@@ -8,6 +8,7 @@ use carom_math::{SimTime, Vec2};
 
 use crate::bodies::Bodies;
 use crate::body::Collider;
+use crate::flyers::Flyers;
 use crate::pairs::{Pair, Pairs};
 use crate::{BodyId, BodyKind, PairMaterial, PairSearch};
 
@@ -40,6 +41,10 @@ impl Broad {
 
     /// Brings the boxes of a body up to date for its motion between `time` and `time + h`, and
     /// finds the partners it did not have.
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "a motion over time, and the stores that a search for partners goes through"
+    )]
     pub(crate) fn refit(
         &mut self,
         bodies: &mut Bodies,
@@ -48,6 +53,7 @@ impl Broad {
         index: u32,
         time: SimTime,
         h: f64,
+        flyers: &Flyers,
     ) {
         for slot in 0..bodies.get(index).colliders.len() {
             let body = bodies.get(index);
@@ -74,26 +80,84 @@ impl Broad {
                 }
                 None => collider.node = Some(self.tree.insert(kept, at)),
             }
-            self.meet(bodies, colliders, pairs, at);
+            self.meet(bodies, colliders, pairs, at, flyers);
         }
     }
 
+    /// Boxes of a flyer that is too large for the grid, over its motion up to its horizon.
+    pub(crate) fn follow(
+        &mut self,
+        bodies: &Bodies,
+        colliders: &mut [Collider],
+        index: u32,
+        time: SimTime,
+        seconds: f64,
+    ) {
+        let body = bodies.get(index);
+        for &at in &body.colliders {
+            let collider = &mut colliders[at as usize];
+            let fat = swept_box(collider, &body.motion, time, seconds);
+            collider.fat = fat;
+            let kept = fat.grown(roundable(fat));
+            match collider.node {
+                Some(node) => {
+                    self.tree.update(node, kept);
+                }
+                None => collider.node = Some(self.tree.insert(kept, at)),
+            }
+        }
+    }
+
+    /// Colliders in the tree whose boxes overlap `bounds`, in order.
+    pub(crate) fn in_tree(&self, colliders: &[Collider], bounds: Aabb) -> Vec<u32> {
+        let mut near = Vec::new();
+        match self.search {
+            PairSearch::None => {}
+            PairSearch::AllPairs => {
+                let all = (0_u32..).zip(colliders);
+                near.extend(all.filter(|(_, c)| c.node.is_some()).map(|(at, _)| at));
+            }
+            PairSearch::Indexed => {
+                self.tree.query(bounds, |at| {
+                    if colliders[at as usize].fat.overlaps(bounds) {
+                        near.push(at);
+                    }
+                });
+                near.sort_unstable();
+            }
+        }
+        near
+    }
+
     /// New pairs of a collider whose box is new.
-    fn meet(&mut self, bodies: &mut Bodies, colliders: &[Collider], pairs: &mut Pairs, at: u32) {
+    pub(crate) fn meet(
+        &mut self,
+        bodies: &mut Bodies,
+        colliders: &[Collider],
+        pairs: &mut Pairs,
+        at: u32,
+        flyers: &Flyers,
+    ) {
         let mine = &colliders[at as usize];
         let mut near = core::mem::take(&mut self.near);
         near.clear();
         match self.search {
             PairSearch::None => {}
             PairSearch::AllPairs => {
+                let there = |c: &Collider| c.node.is_some() || bodies.get(c.body).course.flies;
                 near.extend(
                     (0u32..)
                         .zip(colliders)
-                        .filter(|(_, c)| c.node.is_some())
+                        .filter(|(_, c)| there(c))
                         .map(|(i, _)| i),
                 );
             }
-            PairSearch::Indexed => self.tree.query(mine.fat, |other| near.push(other)),
+            PairSearch::Indexed => {
+                self.tree.query(mine.fat, |other| near.push(other));
+                let mut flying = Vec::new();
+                flyers.overlapping(bodies, mine.fat, &mut flying);
+                near.extend(flying.iter().flat_map(|body| &bodies.get(*body).colliders));
+            }
         }
         near.sort_unstable();
         for &other in &near {
@@ -106,7 +170,7 @@ impl Broad {
         self.near = near;
     }
 
-    fn pair_up(
+    pub(crate) fn pair_up(
         &self,
         bodies: &mut Bodies,
         colliders: &[Collider],
@@ -125,6 +189,10 @@ impl Broad {
             return;
         }
         let (a, b) = (bodies.get(ends.0), bodies.get(ends.1));
+        // What a flyer may meet among flyers and what rests is ahead in their queue.
+        if a.course.flies && !b.is_stepped() || b.course.flies && !a.is_stepped() {
+            return;
+        }
         if a.kind != BodyKind::Dynamic && b.kind != BodyKind::Dynamic {
             return;
         }

@@ -10,8 +10,8 @@ use carom_math::{Pose, SimTime, Vec2};
 use crate::body::BodyState;
 use crate::error::{check_finite, check_vec2};
 use crate::flight::fly;
-use crate::sleep::wake_around;
-use crate::{BodyError, BodyId, BodyKind, Field, Force, Impulse, PairMaterial, World};
+use crate::flyers::Course;
+use crate::{BodyError, BodyId, BodyKind, Field, Force, Impulse, Mode, PairMaterial, World};
 
 impl World {
     /// Places a body's frame anew; its velocity stays.
@@ -105,7 +105,7 @@ impl World {
         let index = self.bodies.find(id)?;
         force.check()?;
         let now = self.clock.now;
-        wake_around(&mut self.bodies, &self.pairs, index, now, &mut self.events);
+        self.wake_around(index, now);
         let state = self.bodies.get_mut(index);
         let torque = force.about(state.motion.centre_at(now));
         state.pending.0 += force.linear;
@@ -162,7 +162,7 @@ impl World {
     /// touch it wake, and what was predicted for it is predicted anew.
     fn disturb(&mut self, index: u32, change: impl FnOnce(&mut BodyState)) {
         let now = self.clock.now;
-        wake_around(&mut self.bodies, &self.pairs, index, now, &mut self.events);
+        self.wake_around(index, now);
         let before = self.bodies.energy_of(index, now);
         self.bodies.change(index, now, |_| {});
         change(self.bodies.get_mut(index));
@@ -177,11 +177,37 @@ impl World {
     /// A body that is new where it is: it gets its flight, its boxes and its pairs.
     pub(crate) fn arrive(&mut self, index: u32) {
         let now = self.clock.now;
-        let left = self.clock.next() - now;
+        self.flyers.leave(&mut self.bodies, index);
+        self.discharge(index);
+        let flies = self.may_fly(index);
+        let state = self.bodies.get_mut(index);
+        state.course = Course {
+            flies,
+            ..Course::default()
+        };
+        if state.is_stepped() {
+            self.enlist(index, now);
+        }
+        let left = if flies {
+            self.clock.h
+        } else {
+            self.clock.next() - now
+        };
         if left > 0.0 && self.bodies.get(index).is_dynamic() {
             fly(&mut self.bodies, index, now, left);
         }
         self.deflected(index, now);
+    }
+
+    /// Whether a body moves in closed form while nothing holds it.
+    fn may_fly(&self, index: u32) -> bool {
+        match self.bodies.get(index).kind {
+            BodyKind::Fixed => false,
+            BodyKind::Kinematic => true,
+            BodyKind::Dynamic => {
+                self.settings.mode != Mode::Stepped && self.bodies.pull.fields.is_empty()
+            }
+        }
     }
 
     fn forget_boxes(&mut self, index: u32) {

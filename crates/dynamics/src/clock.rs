@@ -35,6 +35,23 @@ impl Clock {
         end - self.next() > 1e-9 * self.h
     }
 
+    /// Moves on to the first instant of the grid at or after `time`.
+    pub(crate) fn catch_up(&mut self, time: SimTime) {
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "the cast saturates; time is not negative"
+        )]
+        let near = (time.as_secs() / self.h) as u64;
+        let mut begun = near.saturating_sub(2);
+        while SimTime::multiple(begun, self.h) < time {
+            begun += 1;
+        }
+        if begun > self.begun {
+            self.begun = begun;
+        }
+    }
+
     pub(crate) fn begin(&mut self) {
         self.begun += 1;
     }

@@ -475,10 +475,14 @@ impl World {
 
     /// A group that has been at rest for long enough falls asleep.
     fn lull(&mut self, place: u32, time: SimTime) {
-        for index in self.dissolve(place, time) {
+        let members = self.dissolve(place, time);
+        for &index in &members {
             let state = self.bodies.get_mut(index);
             state.asleep = true;
             self.events.push(time, EventKind::Asleep(state.id));
+        }
+        for index in members {
+            self.lie_down(index, time);
         }
     }
 }

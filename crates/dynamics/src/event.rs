@@ -49,7 +49,7 @@ pub enum EventKind {
         /// Normal speed of approach, in m/s, positive.
         speed: f64,
     },
-    /// Two bodies began to touch.
+    /// Two bodies began to touch and stay in touch: an impact alone is no begin.
     Begin {
         /// One body.
         a: BodyId,
@@ -58,13 +58,6 @@ pub enum EventKind {
     },
     /// Two bodies no longer touch.
     End {
-        /// One body.
-        a: BodyId,
-        /// The other.
-        b: BodyId,
-    },
-    /// A contact began to last: from now on it is solved for, not struck.
-    Rests {
         /// One body.
         a: BodyId,
         /// The other.
@@ -79,8 +72,8 @@ pub enum EventKind {
         /// How they move against each other from now on.
         mode: ContactMode,
     },
-    /// Impacts of a pair came faster than the budget of a sub-step: the rest of them is left to
-    /// the solver.
+    /// Impacts of a pair came ever faster, and infinitely many of them end here; or they outran their
+    /// budget, and the rest of them is left to the solver.
     Collapse {
         /// One body.
         a: BodyId,

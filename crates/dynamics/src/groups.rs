@@ -93,7 +93,9 @@ impl Groups {
                 if pair.contacts.is_empty()
                     || closed
                     || fixed != ground
-                    || !(a.is_active() || b.is_active())
+                    || !(a.is_stepped() || b.is_stepped())
+                    || a.is_flying()
+                    || b.is_flying()
                 {
                     continue;
                 }

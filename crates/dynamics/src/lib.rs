@@ -39,6 +39,7 @@ mod error;
 mod event;
 mod field;
 mod flight;
+mod flyers;
 mod force;
 mod groups;
 mod history;

@@ -130,7 +130,12 @@ pub(crate) fn opening_speed(
 /// sub-steps cannot be told from rest by a scheme that looks once a sub-step. Two flyers under one
 /// gravity press with nothing, so they always bounce.
 pub(crate) fn rest_speed(bodies: &Bodies, pair: &Pair, h: f64) -> f64 {
-    let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
+    rest_speed_between(bodies, pair.bodies, h)
+}
+
+/// [`rest_speed`] of two bodies.
+pub(crate) fn rest_speed_between(bodies: &Bodies, (a, b): (u32, u32), h: f64) -> f64 {
+    let (a, b) = (bodies.get(a), bodies.get(b));
     let pull = |body: &BodyState| {
         if body.is_dynamic() {
             body.gravity_scale * bodies.pull.at(body.motion.centre) + body.force * body.inverse_mass

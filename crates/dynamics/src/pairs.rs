@@ -63,11 +63,19 @@ pub(crate) struct Pairs {
     /// Places in order of colliders: rows and searches go through pairs in this order.
     order: Vec<u32>,
     dirty: bool,
+    /// Places of pairs that nobody has looked at yet.
+    pub(crate) fresh: Vec<u32>,
 }
 
 impl Pairs {
     pub(crate) fn insert(&mut self, pair: Pair) -> u32 {
         self.dirty = true;
+        let place = self.place_for(pair);
+        self.fresh.push(place);
+        place
+    }
+
+    fn place_for(&mut self, pair: Pair) -> u32 {
         if let Some(place) = self.free.pop() {
             self.list[place as usize] = Some(pair);
             return place;
@@ -88,6 +96,11 @@ impl Pairs {
             self.free.push(place);
         }
         pair
+    }
+
+    /// The pair of a place, if there is one.
+    pub(crate) fn find(&self, place: u32) -> Option<&Pair> {
+        self.list[place as usize].as_ref()
     }
 
     /// # Panics

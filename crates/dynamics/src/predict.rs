@@ -22,7 +22,12 @@ pub(crate) const BUDGET: f64 = 32.0;
 ///
 /// At least 1/1024, so that a pair without any loss ends, too: after 32,768 impacts in a sub-step.
 pub(crate) fn price(pair: &Pair) -> f64 {
-    (1.0 - pair.material.restitution).max(1.0 / 1024.0)
+    price_of(pair.material.restitution)
+}
+
+/// [`price`] by restitution.
+pub(crate) fn price_of(restitution: f64) -> f64 {
+    (1.0 - restitution).max(1.0 / 1024.0)
 }
 
 /// Predicts the next impact of a pair between `time` and `end` and enters it into the agenda.
@@ -45,7 +50,7 @@ pub(crate) fn predict(
     let pair = pairs.get_mut(place);
     let horizon = end - time;
     let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
-    if pair.given_up || pair.buried || horizon <= 0.0 || !(a.is_active() || b.is_active()) {
+    if pair.given_up || pair.buried || horizon <= 0.0 || !(a.is_stepped() || b.is_stepped()) {
         return;
     }
     if a.kind != BodyKind::Dynamic && b.kind != BodyKind::Dynamic {

@@ -1,6 +1,6 @@
 //! Questions about a world at its present time: rays, points, boxes, casts.
 //!
-//! The tree of boxes names those that may answer, the shapes themselves answer. Of equal answers
+//! The tree of boxes and the grid of flyers name those that may answer, the shapes themselves answer. Of equal answers
 //! the first body's first shape counts, whatever the order in which the tree named them.
 
 use carom_collision::{cast, roundable};
@@ -51,7 +51,7 @@ impl World {
             return None;
         }
         let mut best: Option<((f64, Place), RayHit)> = None;
-        self.broad.tree.ray(origin, direction, max, |at| {
+        let mut meet = |at| {
             let (body, shape, collider) = self.shape_at(at);
             let pose = body.motion.pose_at(self.clock.now);
             let reach = best.map_or(max, |(_, hit)| hit.distance);
@@ -70,7 +70,18 @@ impl World {
                 }
             }
             best.map_or(f64::INFINITY, |(_, hit)| hit.distance)
-        });
+        };
+        // Along an axis 0 · ∞ is no number.
+        let end = Vec2::select(
+            direction.cmpeq(Vec2::ZERO),
+            origin,
+            origin + direction * max,
+        );
+        let mut reach = max;
+        for at in self.flying_in(Aabb::from_points([origin, end])) {
+            reach = reach.min(meet(at));
+        }
+        self.broad.tree.ray(origin, direction, reach, meet);
         best.map(|(_, hit)| hit)
     }
 
@@ -96,7 +107,7 @@ impl World {
         let start = shape.aabb(pose);
         let start = start.grown(roundable(start));
         let mut best: Option<((f64, Place), ShapeHit)> = None;
-        self.broad.tree.sweep(start, translation, 1.0, |at| {
+        let mut meet = |at| {
             let (body, index, collider) = self.shape_at(at);
             let target = body.motion.pose_at(self.clock.now);
             if let Some(hit) = cast(shape, pose, translation, &collider.solid, target) {
@@ -113,22 +124,40 @@ impl World {
                 }
             }
             best.map_or(f64::INFINITY, |(_, hit)| hit.fraction)
-        });
+        };
+        let end = Aabb::new(start.min + translation, start.max + translation);
+        let mut reach = 1.0_f64;
+        for at in self.flying_in(start.union(end)) {
+            reach = reach.min(meet(at));
+        }
+        self.broad.tree.sweep(start, translation, reach, meet);
         best.map(|(_, hit)| hit)
     }
 
     /// Bodies with a shape near `bounds` that `matches` at its pose, in order.
     fn bodies_with(&self, bounds: Aabb, matches: impl Fn(Pose, &Collider) -> bool) -> Vec<BodyId> {
         let mut found: Vec<BodyId> = Vec::new();
-        self.broad.tree.query(bounds, |at| {
+        let mut look = |at| {
             let (body, _, collider) = self.shape_at(at);
             if matches(body.motion.pose_at(self.clock.now), collider) {
                 found.push(body.id);
             }
-        });
+        };
+        self.flying_in(bounds).into_iter().for_each(&mut look);
+        self.broad.tree.query(bounds, look);
         found.sort_unstable();
         found.dedup();
         found
+    }
+
+    /// Shapes of flyers in the grid that may be in `bounds`.
+    fn flying_in(&self, bounds: Aabb) -> Vec<u32> {
+        let mut bodies = Vec::new();
+        self.flyers.overlapping(&self.bodies, bounds, &mut bodies);
+        let shapes = bodies
+            .iter()
+            .flat_map(|body| &self.bodies.get(*body).colliders);
+        shapes.copied().collect()
     }
 
     /// A shape that the tree named, with its body and its place there.

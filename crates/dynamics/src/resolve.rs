@@ -1,5 +1,7 @@
 //! An impact that is due: velocities before become velocities after.
 
+use carom_math::SimTime;
+
 use crate::agenda::Entry;
 use crate::bodies::Bodies;
 use crate::body::Collider;
@@ -64,7 +66,7 @@ pub(crate) fn strike(
         }
     }
     if shock.strikes.is_empty() {
-        rests(bodies, pairs, entry, events);
+        pairs.get_mut(entry.pair).lasting = true;
         return Struck::Rests;
     }
     if gives_up(bodies, pairs, entry, &shock, events, report) {
@@ -83,7 +85,7 @@ pub(crate) fn strike(
     if !single || shock.spread(bodies, colliders, pairs, narrow) {
         shock.solve(bodies, colliders, pairs, narrow);
     }
-    Struck::Impact(apply(bodies, entry, &shock, events, report))
+    Struck::Impact(apply(bodies, entry.time, &shock, events, report))
 }
 
 /// A touch that begins here is an event.
@@ -93,16 +95,6 @@ fn touch(bodies: &Bodies, pairs: &mut Pairs, entry: &Entry, events: &mut Events)
         pair.touching = true;
         let (a, b) = (bodies.get(pair.bodies.0).id, bodies.get(pair.bodies.1).id);
         events.push(entry.time, EventKind::Begin { a, b });
-    }
-}
-
-/// From now on the contact lasts.
-fn rests(bodies: &Bodies, pairs: &mut Pairs, entry: &Entry, events: &mut Events) {
-    let pair = pairs.get_mut(entry.pair);
-    if !pair.lasting {
-        pair.lasting = true;
-        let (a, b) = (bodies.get(pair.bodies.0).id, bodies.get(pair.bodies.1).id);
-        events.push(entry.time, EventKind::Rests { a, b });
     }
 }
 
@@ -141,9 +133,9 @@ fn gives_up(
 }
 
 /// New motions for all that were shaken, events for all that pushed, losses to the ledger.
-fn apply(
+pub(crate) fn apply(
     bodies: &mut Bodies,
-    entry: &Entry,
+    time: SimTime,
     shock: &Shock,
     events: &mut Events,
     report: &mut StepReport,
@@ -152,7 +144,7 @@ fn apply(
         report.impacts += 1;
         let ends = shock.ends(&impact);
         events.push(
-            entry.time,
+            time,
             EventKind::Impact {
                 a: bodies.get(ends.0).id,
                 b: bodies.get(ends.1).id,
@@ -170,7 +162,7 @@ fn apply(
     let mut changed = Vec::new();
     for shaken in &shock.bodies {
         if shaken.after.inverse_mass > 0.0 {
-            bodies.change(shaken.index, entry.time, |motion| {
+            bodies.change(shaken.index, time, |motion| {
                 motion.velocity = shaken.after.velocity;
                 motion.spin = shaken.after.spin;
             });

@@ -8,15 +8,16 @@ use crate::groups::Groups;
 use crate::pairs::Pairs;
 use crate::{BodyKind, Events, Sleep};
 
-/// Puts every group to sleep whose bodies have all been slow for long enough.
+/// Puts every group to sleep whose bodies have all been slow for long enough; those that fell asleep.
 pub(crate) fn settle(
     sleep: Sleep,
     bodies: &mut Bodies,
+    stepped: &[u32],
     groups: &Groups,
     time: SimTime,
     h: f64,
     events: &mut Events,
-) {
+) -> Vec<u32> {
     let mut tree = Tree::new(bodies.places());
     let mut restless = Vec::new();
     for (a, b) in groups.links() {
@@ -29,11 +30,8 @@ pub(crate) fn settle(
     }
     // Least time of rest in each group, kept at its root.
     let mut least = vec![f64::INFINITY; bodies.places()];
-    let awake: Vec<u32> = bodies
-        .indices()
-        .filter(|i| bodies.get(*i).is_dynamic() && !bodies.get(*i).asleep)
-        .collect();
-    for &index in &awake {
+    let mut asleep = Vec::new();
+    for &index in stepped {
         let pushed = groups.pushed(index);
         let state = bodies.get_mut(index);
         let end = time + h;
@@ -52,7 +50,7 @@ pub(crate) fn settle(
     for index in restless {
         least[tree.root(index) as usize] = 0.0;
     }
-    for index in awake {
+    for &index in stepped {
         if least[tree.root(index) as usize] < sleep.time {
             continue;
         }
@@ -67,7 +65,9 @@ pub(crate) fn settle(
         let state = bodies.get_mut(index);
         state.asleep = true;
         events.push(time, EventKind::Asleep(state.id));
+        asleep.push(index);
     }
+    asleep
 }
 
 /// Wakes a body and all sleepers that it touches, and so on.
@@ -77,6 +77,7 @@ pub(crate) fn wake(
     index: u32,
     time: SimTime,
     events: &mut Events,
+    woken: &mut Vec<u32>,
 ) {
     let mut waking = vec![index];
     while let Some(index) = waking.pop() {
@@ -87,6 +88,7 @@ pub(crate) fn wake(
         state.asleep = false;
         state.slow_for = 0.0;
         events.push(time, EventKind::Awake(state.id));
+        woken.push(index);
         waking.extend(neighbours(bodies, pairs, index));
     }
 }
@@ -98,11 +100,12 @@ pub(crate) fn wake_around(
     index: u32,
     time: SimTime,
     events: &mut Events,
+    woken: &mut Vec<u32>,
 ) {
-    wake(bodies, pairs, index, time, events);
+    wake(bodies, pairs, index, time, events, woken);
     let around: Vec<u32> = neighbours(bodies, pairs, index).collect();
     for other in around {
-        wake(bodies, pairs, other, time, events);
+        wake(bodies, pairs, other, time, events, woken);
     }
 }
 

@@ -3,9 +3,10 @@
 use carom_math::SimTime;
 
 use crate::flight::fly;
+use crate::flyers::Cause;
 use crate::predict::{predict, price};
 use crate::resolve::{Struck, strike};
-use crate::sleep::wake;
+use crate::sleep::{wake, wake_around};
 use crate::{Refusal, StepReport, World};
 
 /// More ticks than this in one step are refused.
@@ -76,12 +77,31 @@ impl World {
     /// Entries of the agenda and sub-steps, whichever comes first, up to `end`.
     fn advance(&mut self, end: SimTime, stop_at_event: bool) -> SimTime {
         loop {
-            let grid = end.min(self.clock.next());
-            let change = self.closed.next().filter(|time| *time <= grid);
+            let grid = if self.stepped.is_empty() {
+                end
+            } else {
+                end.min(self.clock.next())
+            };
+            let due = |time: &SimTime| *time <= grid;
+            let change = self.closed.next().filter(due);
+            let flight = self.flyers.next().filter(due);
+            let impact = self.agenda.next().filter(due);
+            let before = |one: Option<SimTime>, other: Option<SimTime>| match (one, other) {
+                (Some(one), Some(other)) => one <= other,
+                (one, _) => one.is_some(),
+            };
             if let Some(time) = change
-                && self.agenda.next().is_none_or(|entry| time <= entry)
+                && before(change, flight)
+                && before(change, impact)
             {
                 self.change_group();
+                if stop_at_event && !self.events.is_empty() {
+                    return time;
+                }
+            } else if let Some(time) = flight
+                && before(flight, impact)
+            {
+                self.run_flyers();
                 if stop_at_event && !self.events.is_empty() {
                     return time;
                 }
@@ -114,7 +134,7 @@ impl World {
                 if stop_at_event && !self.events.is_empty() {
                     return entry.time;
                 }
-            } else if self.clock.is_due(end) {
+            } else if !self.stepped.is_empty() && self.clock.is_due(end) {
                 let time = self.clock.next();
                 self.begin_substep();
                 if stop_at_event && !self.events.is_empty() {
@@ -137,16 +157,121 @@ impl World {
     /// pairs are predicted again.
     pub(crate) fn redirect(&mut self, index: u32, time: SimTime) {
         if self.bodies.get(index).asleep {
-            wake(&mut self.bodies, &self.pairs, index, time, &mut self.events);
+            self.wake(index, time);
+        }
+        let state = self.bodies.get(index);
+        if state.course.flies {
+            return self.foresee(index, time, Cause::Arrived, None);
         }
         let left = (self.clock.next() - time).max(0.0);
         let state = self.bodies.get(index);
-        if left > 0.0 && state.is_active() && !state.member && !self.bodies.pull.fields.is_empty() {
+        if left > 0.0 && state.is_stepped() && !state.member && !self.bodies.pull.fields.is_empty()
+        {
             fly(&mut self.bodies, index, time, left);
         }
         self.refit(index, time, left);
+        if !self.bodies.get(index).is_stepped() {
+            return self.show(index, time);
+        }
         for slot in 0..self.bodies.get(index).pairs.len() {
             self.predict(self.bodies.get(index).pairs[slot], time);
+        }
+    }
+
+    /// Has all flyers near a body that rests look at it.
+    pub(crate) fn show(&mut self, index: u32, time: SimTime) {
+        let mut flying = Vec::new();
+        for at in self.bodies.get(index).colliders.clone() {
+            let bounds = self.colliders[at as usize].fat;
+            self.flyers.overlapping(&self.bodies, bounds, &mut flying);
+            for &flyer in &flying {
+                self.approach_shape(flyer, at, time, Cause::Arrived);
+            }
+            // Those in the tree are few and large.
+            for other in self.broad.in_tree(&self.colliders, bounds) {
+                let owner = self.colliders[other as usize].body;
+                if self.bodies.get(owner).course.flies {
+                    self.approach_shape(owner, at, time, Cause::Arrived);
+                }
+            }
+        }
+    }
+
+    /// What lies beside a body that started asleep must be known before either is struck.
+    fn look_at_fresh(&mut self, time: SimTime) {
+        for place in core::mem::take(&mut self.pairs.fresh) {
+            let Some(pair) = self.pairs.find(place).filter(|pair| pair.fresh) else {
+                continue;
+            };
+            let (a, b) = pair.bodies;
+            if self.bodies.get(a).is_stepped() || self.bodies.get(b).is_stepped() {
+                continue;
+            }
+            let pair = self.pairs.get_mut(place);
+            pair.fresh = false;
+            self.narrow
+                .look(&self.bodies, &self.colliders, pair, time, self.clock.h);
+        }
+    }
+
+    /// Wakes a body and all sleepers that it touches, and so on.
+    pub(crate) fn wake(&mut self, index: u32, time: SimTime) {
+        self.look_at_fresh(time);
+        let mut woken = Vec::new();
+        wake(
+            &mut self.bodies,
+            &self.pairs,
+            index,
+            time,
+            &mut self.events,
+            &mut woken,
+        );
+        self.rouse(&woken, time);
+    }
+
+    /// Wakes all sleepers that touch a body, and itself: what held them has changed.
+    pub(crate) fn wake_around(&mut self, index: u32, time: SimTime) {
+        self.look_at_fresh(time);
+        let mut woken = Vec::new();
+        wake_around(
+            &mut self.bodies,
+            &self.pairs,
+            index,
+            time,
+            &mut self.events,
+            &mut woken,
+        );
+        self.rouse(&woken, time);
+    }
+
+    /// Has the sub-steps take bodies that woke, and makes their pairs with the flyers near them.
+    pub(crate) fn rouse(&mut self, woken: &[u32], time: SimTime) {
+        for &index in woken {
+            self.enlist(index, time);
+        }
+        for &index in woken {
+            for slot in 0..self.bodies.get(index).colliders.len() {
+                let at = self.bodies.get(index).colliders[slot];
+                self.broad.meet(
+                    &mut self.bodies,
+                    &self.colliders,
+                    &mut self.pairs,
+                    at,
+                    &self.flyers,
+                );
+            }
+            for slot in 0..self.bodies.get(index).pairs.len() {
+                self.predict(self.bodies.get(index).pairs[slot], time);
+            }
+        }
+    }
+
+    /// A pair of a flyer and a shape of a body that is sub-stepped.
+    pub(crate) fn pair_flyer(&mut self, index: u32, at: u32) {
+        for slot in 0..self.bodies.get(index).colliders.len() {
+            let mine = self.bodies.get(index).colliders[slot];
+            self.broad
+                .pair_up(&mut self.bodies, &self.colliders, &mut self.pairs, mine, at);
         }
     }
 
@@ -158,6 +283,7 @@ impl World {
             index,
             time,
             h,
+            &self.flyers,
         );
     }
 

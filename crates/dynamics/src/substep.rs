@@ -3,9 +3,14 @@
 use carom_math::SimTime;
 
 use crate::flight::fly;
+use crate::narrow::{TOUCH, opening_speed, rest_speed};
+use crate::pairs::PairContact;
 use crate::predict::BUDGET;
-use crate::sleep::{settle, wake};
-use crate::{EventKind, World};
+use crate::sleep::settle;
+use crate::{EventKind, Mode, World};
+
+/// Sub-steps with nothing near after which a body flies: fewer, and what rattles changes sides all the time.
+const IDLE: u8 = 4;
 
 impl World {
     /// One sub-step: what touches is looked at, what lasts is solved for, the rest flies, and
@@ -20,6 +25,7 @@ impl World {
         self.guard(time);
         self.find_pairs(time, h);
         self.stopwatch.lap(|p| &mut p.pairs);
+        self.gather_landings(time, h);
         self.look(time, h);
         self.close_groups(time);
         self.stopwatch.lap(|p| &mut p.contacts);
@@ -33,23 +39,29 @@ impl World {
         );
         self.pairs_are_new();
         self.stopwatch.lap(|p| &mut p.solver);
-        for index in self.active() {
+        for index in self.stepped.clone() {
             if !self.groups.pushed(index) && !self.bodies.get(index).membership.is_closed() {
                 fly(&mut self.bodies, index, time, h);
             }
         }
         self.stopwatch.lap(|p| &mut p.flight);
         if let Some(sleep) = self.settings.sleep {
-            settle(
+            let asleep = settle(
                 sleep,
                 &mut self.bodies,
+                &self.stepped,
                 &self.groups,
                 time,
                 h,
                 &mut self.events,
             );
+            for index in asleep {
+                self.lie_down(index, time);
+            }
         }
+        self.release(time);
         self.stopwatch.lap(|p| &mut p.sleep);
+        self.pairs.sort();
         let mut i = 0;
         while let Some(place) = self.pairs.place(i) {
             self.predict(place, time);
@@ -77,7 +89,7 @@ impl World {
 
     /// Stops what is no longer finite.
     fn guard(&mut self, time: SimTime) {
-        for index in self.active() {
+        for index in self.stepped.clone() {
             if !self.bodies.get(index).motion.is_finite() {
                 self.report.stopped += 1;
                 self.stop(index, time);
@@ -87,7 +99,7 @@ impl World {
 
     /// Boxes and pairs for the motions up to the end of the sub-step.
     fn find_pairs(&mut self, time: SimTime, h: f64) {
-        for index in self.active() {
+        for index in self.stepped.clone() {
             self.refit(index, time, h);
         }
         self.pairs.sort();
@@ -105,6 +117,54 @@ impl World {
         self.pairs.sort();
     }
 
+    /// Flyers that come to rest on stepped bodies are stepped from here on, and so on with those that
+    /// rest on them.
+    fn gather_landings(&mut self, time: SimTime, h: f64) {
+        loop {
+            let mut landed = Vec::new();
+            let mut i = 0;
+            while let Some(place) = self.pairs.place(i) {
+                i += 1;
+                landed.extend(self.landing(place, time, h));
+            }
+            if landed.is_empty() {
+                return;
+            }
+            for index in landed {
+                self.land(index, time);
+            }
+            self.pairs.sort();
+        }
+    }
+
+    /// The flyer of a pair, if the other one is stepped and holds it.
+    fn landing(&mut self, place: u32, time: SimTime, h: f64) -> Option<u32> {
+        let (a, b) = self.pairs.get(place).bodies;
+        let (one, two) = (self.bodies.get(a), self.bodies.get(b));
+        let flyer = match (one.is_flying(), two.is_flying()) {
+            (true, false) if two.is_stepped() => a,
+            (false, true) if one.is_stepped() => b,
+            _ => return None,
+        };
+        let pair = self.pairs.get_mut(place);
+        self.narrow
+            .look(&self.bodies, &self.colliders, pair, time, h);
+        if pair.buried {
+            return Some(flyer);
+        }
+        let rest = rest_speed(&self.bodies, self.pairs.get(place), h);
+        let touch = TOUCH * one.reach.min(two.reach);
+        let holds = |contact: &PairContact| {
+            contact.points.iter().any(|point| {
+                let rate = opening_speed(one, two, time, point.position, contact.normal);
+                let reach = touch + if rate < 0.0 { -rate * h } else { 0.0 };
+                rate >= -rest && point.separation <= reach
+            })
+        };
+        let contacts = &self.pairs.get(place).contacts;
+        contacts.iter().any(holds).then_some(flyer)
+    }
+
     /// Contacts of all near pairs; begins and ends of touch; what touches a sleeper wakes it.
     fn look(&mut self, time: SimTime, h: f64) {
         let mut i = 0;
@@ -113,8 +173,8 @@ impl World {
             let pair = self.pairs.get_mut(place);
             let (a, b) = pair.bodies;
             let active = (
-                self.bodies.get(a).is_active(),
-                self.bodies.get(b).is_active(),
+                self.bodies.get(a).is_stepped(),
+                self.bodies.get(b).is_stepped(),
             );
             pair.held = pair.lasting || pair.impacts > 0 || pair.material.restitution == 0.0;
             pair.lasting = false;
@@ -141,7 +201,7 @@ impl World {
             if touching && active != (false, false) {
                 for index in [a, b] {
                     if self.bodies.get(index).asleep {
-                        wake(&mut self.bodies, &self.pairs, index, time, &mut self.events);
+                        self.wake(index, time);
                     }
                 }
             }
@@ -157,11 +217,32 @@ impl World {
         }
     }
 
-    /// Places of all bodies that move by themselves.
-    fn active(&self) -> Vec<u32> {
-        self.bodies
-            .indices()
-            .filter(|i| self.bodies.get(*i).is_active())
-            .collect()
+    /// A body that fell asleep: it leaves the sub-steps, and flyers meet it as what rests.
+    pub(crate) fn lie_down(&mut self, index: u32, time: SimTime) {
+        self.discharge(index);
+        for place in self.bodies.get(index).pairs.clone() {
+            let (a, b) = self.pairs.get(place).bodies;
+            let other = if a == index { b } else { a };
+            if self.bodies.get(other).course.flies {
+                self.part(place, time);
+            }
+        }
+        self.show(index, time);
+    }
+
+    /// Bodies that nothing held or neared for a while fly from here on.
+    fn release(&mut self, time: SimTime) {
+        if self.settings.mode == Mode::Stepped || !self.bodies.pull.fields.is_empty() {
+            return;
+        }
+        for index in self.stepped.clone() {
+            let near = |place: &u32| !self.pairs.get(*place).contacts.is_empty();
+            let held = self.groups.pushed(index) || self.bodies.get(index).pairs.iter().any(near);
+            let state = self.bodies.get_mut(index);
+            state.idle = if held { 0 } else { state.idle + 1 };
+            if state.idle >= IDLE {
+                self.take_off(index, time);
+            }
+        }
     }
 }

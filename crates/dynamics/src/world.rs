@@ -11,11 +11,11 @@ use crate::body::{BodyState, Collider, frame_of};
 use crate::broad::{Broad, part};
 use crate::clock::Clock;
 use crate::closed::Closed;
+use crate::flyers::Flyers;
 use crate::groups::Groups;
 use crate::narrow::Narrow;
 use crate::pairs::Pairs;
 use crate::profile::Stopwatch;
-use crate::sleep::wake_around;
 use crate::solver::Law;
 use crate::{
     Body, BodyDef, BodyError, BodyId, BodyKind, Contact, EnergyLedger, EventKind, Events, Material,
@@ -59,6 +59,9 @@ pub struct World {
     pub(crate) groups: Groups,
     pub(crate) closed: Closed,
     pub(crate) agenda: Agenda,
+    pub(crate) flyers: Flyers,
+    /// Bodies that the sub-steps move, in order.
+    pub(crate) stepped: Vec<u32>,
     pub(crate) events: Events,
     pub(crate) report: StepReport,
     /// What the impacts of the present sub-step spent of its budget.
@@ -88,6 +91,8 @@ impl World {
             groups: Groups::default(),
             closed: Closed::default(),
             agenda: Agenda::default(),
+            flyers: Flyers::default(),
+            stepped: Vec::new(),
             events: Events::new(settings.events),
             report: StepReport::default(),
             spent: 0.0,
@@ -164,6 +169,7 @@ impl World {
         if sleeps {
             // No flight, and nothing to predict: it only has to be found.
             self.refit(id.index, now, self.clock.h);
+            self.show(id.index, now);
         } else {
             self.arrive(id.index);
         }
@@ -180,11 +186,15 @@ impl World {
         self.bodies.change(index, now, |_| {});
         let (kinetic, potential) = self.bodies.energy_of(index, now);
         self.bodies.book.external.add(-(kinetic + potential));
-        wake_around(&mut self.bodies, &self.pairs, index, now, &mut self.events);
+        self.wake_around(index, now);
         for place in self.bodies.get(index).pairs.clone() {
             self.part(place, now);
         }
-        for at in core::mem::take(&mut self.bodies.get_mut(index).colliders) {
+        self.flyers.leave(&mut self.bodies, index);
+        self.discharge(index);
+        let colliders = core::mem::take(&mut self.bodies.get_mut(index).colliders);
+        self.flyers.forget(index, &colliders);
+        for at in colliders {
             if let Some(node) = self.colliders[at as usize].node.take() {
                 self.broad.tree.remove(node);
             }

@@ -323,7 +323,7 @@ impl Stage {
                         mode,
                     });
                 }
-                EventKind::Rests { .. } | EventKind::Collapse { .. } => {
+                EventKind::Collapse { .. } => {
                     self.accumulated.get_or_insert(event.time.as_secs());
                 }
                 _ => {}

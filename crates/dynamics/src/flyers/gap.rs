@@ -1,0 +1,133 @@
+//! How the gap at a point of contact bends: the second derivative that tells press from pull.
+
+use carom_collision::{Motion, Side};
+use carom_geometry::Shape;
+use carom_math::{SimTime, Vec2, cross_scalar, perp};
+
+/// What of a body touches: a corner, or the centre of a disc; and how it moves.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Feature {
+    /// Where the corner or the centre is, in m, and its velocity and acceleration.
+    at: Vec2,
+    velocity: Vec2,
+    acceleration: Vec2,
+    /// The body about it: spin, angular acceleration, its centre of mass with velocity and acceleration.
+    spin: f64,
+    turning: f64,
+    centre: Vec2,
+    centre_velocity: Vec2,
+    centre_acceleration: Vec2,
+}
+
+impl Feature {
+    /// What touches at `point`.
+    pub(super) fn of(motion: &Motion, solid: &Shape, point: Vec2, time: SimTime) -> Self {
+        let pose = motion.pose_at(time);
+        let at = match solid {
+            // A disc rolls about its centre: its own spin does not move its rim.
+            Shape::Circle(disc) => pose.point(disc.centre()),
+            _ => point,
+        };
+        let (arm, spin, turning) = (
+            at - pose.position,
+            motion.spin_at(time),
+            motion.angular_acceleration,
+        );
+        let centre_velocity = motion.velocity_at(time);
+        Self {
+            at,
+            velocity: centre_velocity + cross_scalar(spin, arm),
+            acceleration: motion.acceleration + cross_scalar(turning, arm) - arm * (spin * spin),
+            spin,
+            turning,
+            centre: pose.position,
+            centre_velocity,
+            centre_acceleration: motion.acceleration,
+        }
+    }
+}
+
+/// g″ of the gap g between features of A and B along the normal from A to B, in m/s².
+///
+/// On a straight `face` of body E, with n its outward normal, t = n turned by +90°, and q the other one's feature:
+/// ```text
+/// g  = n·(q − c) − h          c: E's centre of mass, h: distance of the face from it
+/// g″ = n·(q″ − c″) + 2 ω t·(q′ − c′) + α t·(q − c) − ω² n·(q − c)
+/// ```
+/// Between corners and centres `d` apart `g″ = n·d″ + (t·d′)²/|d|`.
+pub(super) fn gap_acceleration(a: &Feature, b: &Feature, normal: Vec2, face: Option<Side>) -> f64 {
+    let (own, other, n) = match face {
+        Some(Side::A) => (a, b, normal),
+        Some(Side::B) => (b, a, -normal),
+        None => {
+            let (d, slip) = (b.at - a.at, (b.velocity - a.velocity).dot(perp(normal)));
+            let distance = d.length();
+            let bend = if distance > 0.0 {
+                slip * slip / distance
+            } else {
+                0.0
+            };
+            return (b.acceleration - a.acceleration).dot(normal) + bend;
+        }
+    };
+    let (t, d) = (perp(n), other.at - own.centre);
+    n.dot(other.acceleration - own.centre_acceleration)
+        + 2.0 * own.spin * t.dot(other.velocity - own.centre_velocity)
+        + own.turning * t.dot(d)
+        - own.spin * own.spin * n.dot(d)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use carom_geometry::{Circle, ConvexPolygon};
+    use carom_math::vec2;
+
+    fn motion(at: Vec2, velocity: Vec2, acceleration: Vec2, spin: f64, turning: f64) -> Motion {
+        Motion {
+            velocity,
+            acceleration,
+            spin,
+            angular_acceleration: turning,
+            ..Motion::resting(at)
+        }
+    }
+
+    /// The formula against differences of the gap itself.
+    #[test]
+    fn the_gap_bends_as_its_second_difference_says() {
+        let plate = Shape::from(ConvexPolygon::rectangle(4.0, 2.0).expect("a plate"));
+        let disc = Shape::from(Circle::new(0.5).expect("a disc"));
+        let below = motion(Vec2::ZERO, vec2(0.3, -0.2), vec2(0.1, 0.4), 0.7, -0.3);
+        let above = motion(vec2(0.6, 1.5), vec2(-0.4, 0.5), vec2(0.2, -3.0), 5.0, 2.0);
+        let gap = |t: f64| {
+            let time = SimTime::from_secs(t);
+            let local = below.pose_at(time).inverse_point(above.centre_at(time));
+            local.y - 1.5
+        };
+        let h = 1e-3;
+        let difference = (gap(3.0 * h) - 2.0 * gap(2.0 * h) + gap(h)) / (h * h);
+        let at = SimTime::from_secs(2.0 * h);
+        let normal = below.rotation_at(at) * Vec2::Y;
+        let point = above.centre_at(at) - normal * 0.5;
+        let a = Feature::of(&below, &plate, point, at);
+        let b = Feature::of(&above, &disc, point, at);
+        let bends = gap_acceleration(&a, &b, normal, Some(Side::A));
+        assert!(
+            (bends - difference).abs() < 1e-5,
+            "{bends} and {difference}"
+        );
+        let turned = gap_acceleration(&b, &a, -normal, Some(Side::B));
+        assert!((bends - turned).abs() < 1e-13);
+    }
+
+    #[test]
+    fn discs_that_pass_each_other_part_faster() {
+        let disc = Shape::from(Circle::new(0.5).expect("a disc"));
+        let a = motion(Vec2::ZERO, Vec2::ZERO, Vec2::ZERO, 3.0, 0.0);
+        let b = motion(Vec2::X, vec2(0.0, 2.0), Vec2::ZERO, -4.0, 1.0);
+        let of = |motion| Feature::of(motion, &disc, vec2(0.5, 0.0), SimTime::ZERO);
+        // |d| = √(1 + 4 t²), so |d|″ = 4 at the start.
+        assert_eq!(gap_acceleration(&of(&a), &of(&b), Vec2::X, None), 4.0);
+    }
+}

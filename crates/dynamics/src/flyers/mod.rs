@@ -1,0 +1,287 @@
+//! Flyers: bodies that nothing holds. Each has one motion until something happens to it, and what
+//! may happen is kept in one queue that lives across steps.
+//!
+//! A flyer is found by the box swept over its own *horizon*: the time to travel a part of a cell.
+//! Prediction is lazy: a pair enters the queue with the instant from which on it is near enough to
+//! meet, and its time of impact is sought only when that instant comes with both motions unchanged.
+//! A body that nothing can happen to has no entry, and costs nothing.
+
+mod foresee;
+mod gap;
+mod grid;
+mod queue;
+mod streak;
+mod strike;
+mod window;
+
+use arrayvec::ArrayVec;
+use carom_collision::Side;
+use carom_geometry::Aabb;
+use carom_math::{SimTime, Vec2};
+
+use crate::bodies::Bodies;
+pub(crate) use foresee::Cause;
+pub(crate) use grid::{Cells, Grid};
+use queue::{Ahead, Entry, Queue};
+use streak::Streak;
+
+/// How a body flies.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Course {
+    /// Moves in closed form, from event to event.
+    pub(crate) flies: bool,
+    /// Until when its box holds, and partners have been looked for.
+    pub(crate) horizon: SimTime,
+    /// Box of its bounding circle up to the horizon.
+    pub(crate) swept: Aabb,
+    /// Where it is in the grid; none for what is too large for it, and is in the tree of boxes.
+    pub(crate) cells: Option<Cells>,
+    /// The tick in which it last struck, and what its impacts spent in it.
+    pub(crate) tick: i64,
+    pub(crate) spent: f64,
+    pub(crate) streak: Streak,
+}
+
+impl Default for Course {
+    fn default() -> Self {
+        Self {
+            flies: false,
+            horizon: SimTime::ZERO,
+            swept: Aabb::EMPTY,
+            cells: None,
+            tick: 0,
+            spent: 0.0,
+            streak: Streak::default(),
+        }
+    }
+}
+
+/// An impact ahead: all that its response needs.
+#[derive(Clone, Debug)]
+pub(crate) struct Foreseen {
+    pub(crate) bodies: (u32, u32),
+    pub(crate) colliders: (u32, u32),
+    /// Unit normal from the first body to the second.
+    pub(crate) normal: Vec2,
+    /// One point, or both ends of a common stretch, in m.
+    pub(crate) points: ArrayVec<Vec2, 2>,
+    /// Whose straight face is struck, if one is.
+    pub(crate) face: Option<Side>,
+}
+
+/// Bodies tested per registration that a cell is sized for: fewer waste horizons, more waste tests.
+const PARTNERS: core::ops::Range<f64> = 8.0..24.0;
+
+/// Cells that a box may cover before the body goes to the tree instead.
+const MOST_CELLS: u64 = 64;
+
+/// All that is ahead of flyers.
+#[derive(Clone, Debug)]
+pub(crate) struct Flyers {
+    pub(crate) grid: Grid,
+    queue: Queue,
+    impacts: Vec<Option<Foreseen>>,
+    free: Vec<u32>,
+    /// Mark of the last search that met a body.
+    seen: Vec<u32>,
+    mark: u32,
+    /// Since the cells were sized: searches, and the bodies they met.
+    searches: usize,
+    met: usize,
+    /// Scratch of a search.
+    near: Vec<u32>,
+    /// The end of a low bounce, in s from the impact that is being resolved.
+    hop: Option<(f64, Foreseen)>,
+}
+
+impl Default for Flyers {
+    fn default() -> Self {
+        Self {
+            grid: Grid::new(1.0, 0),
+            queue: Queue::default(),
+            impacts: Vec::new(),
+            free: Vec::new(),
+            seen: Vec::new(),
+            mark: 0,
+            searches: 0,
+            met: 0,
+            near: Vec::new(),
+            hop: None,
+        }
+    }
+}
+
+impl Flyers {
+    /// When the next entry is due.
+    pub(crate) fn next(&mut self) -> Option<SimTime> {
+        self.queue.next()
+    }
+
+    /// Takes the next entry out; an impact with all that belongs to it.
+    fn pop(&mut self) -> Option<(Entry, Option<Foreseen>)> {
+        let entry = self.queue.pop()?;
+        Some((entry, self.release(&entry)))
+    }
+
+    fn release(&mut self, entry: &Entry) -> Option<Foreseen> {
+        let Ahead::Impact { slot } = entry.ahead else {
+            return None;
+        };
+        self.free.push(slot);
+        self.impacts[slot as usize].take()
+    }
+
+    fn push_impact(&mut self, time: SimTime, stamp: u32, impact: Foreseen) {
+        let (a, b) = impact.bodies;
+        let slot = self.free.pop().unwrap_or_else(|| {
+            self.impacts.push(None);
+            #[expect(
+                clippy::cast_possible_truncation,
+                reason = "fewer than 2^32 fit in memory"
+            )]
+            let slot = (self.impacts.len() - 1) as u32;
+            slot
+        });
+        self.impacts[slot as usize] = Some(impact);
+        let ahead = Ahead::Impact { slot };
+        self.queue.push(Entry {
+            time,
+            a,
+            b,
+            stamp,
+            ahead,
+        });
+    }
+
+    /// Bodies of the grid that may be in `bounds`, each once, in `near`.
+    fn search(&mut self, cells: Cells, bodies: usize) -> Vec<u32> {
+        let mut near = core::mem::take(&mut self.near);
+        near.clear();
+        if self.seen.len() < bodies {
+            self.seen.resize(bodies, self.mark);
+        }
+        self.mark = self.mark.wrapping_add(1);
+        let (mark, seen) = (self.mark, &mut self.seen);
+        self.grid.visit(cells, |body| {
+            let last = &mut seen[body as usize];
+            if *last != mark {
+                *last = mark;
+                near.push(body);
+            }
+        });
+        near
+    }
+
+    /// Bodies of the grid whose swept boxes overlap `bounds`, in order.
+    pub(crate) fn overlapping(&self, bodies: &Bodies, bounds: Aabb, near: &mut Vec<u32>) {
+        near.clear();
+        if self.grid.count() == 0 {
+            return;
+        }
+        let here = |body: u32| {
+            let course = &bodies.get(body).course;
+            course.cells.is_some() && course.swept.overlaps(bounds)
+        };
+        let cells = self.grid.cells(bounds);
+        if cells.count() > self.grid.count() as u64 {
+            near.extend(bodies.indices().filter(|body| here(*body)));
+        } else {
+            self.grid.visit(cells, |body| {
+                if here(body) {
+                    near.push(body);
+                }
+            });
+        }
+        near.sort_unstable();
+        near.dedup();
+    }
+
+    /// Puts a body into the grid, if it fits.
+    fn enter(&mut self, bodies: &mut Bodies, index: u32) -> bool {
+        let course = &mut bodies.get_mut(index).course;
+        if !course.swept.is_finite() {
+            return false;
+        }
+        let cells = self.grid.cells(course.swept);
+        if cells.count() > MOST_CELLS {
+            return false;
+        }
+        self.grid.insert(index, cells);
+        course.cells = Some(cells);
+        true
+    }
+
+    /// Takes a body out of the grid.
+    pub(crate) fn leave(&mut self, bodies: &mut Bodies, index: u32) {
+        if let Some(cells) = bodies.get_mut(index).course.cells.take() {
+            self.grid.remove(index, cells);
+        }
+    }
+
+    /// Reports the end of infinitely many impacts at its instant.
+    fn announce(&mut self, time: SimTime, bodies: (u32, u32)) {
+        let ahead = Ahead::Collapse;
+        let (a, b) = bodies;
+        self.queue.push(Entry {
+            time,
+            a,
+            b,
+            stamp: 0,
+            ahead,
+        });
+    }
+
+    /// Drops all that is ahead of a body and of its shapes: others may take their places.
+    pub(crate) fn forget(&mut self, index: u32, colliders: &[u32]) {
+        let mut dropped = Vec::new();
+        self.queue.retain(|entry| {
+            let shape = entry.ahead == Ahead::NearShape && colliders.contains(&entry.b);
+            let body = entry.a == index || entry.ahead != Ahead::NearShape && entry.b == index;
+            if shape || body {
+                dropped.push(*entry);
+            }
+            !(shape || body)
+        });
+        for entry in dropped {
+            self.release(&entry);
+        }
+    }
+
+    /// Sizes the cells anew where searches meet too many bodies, or hardly any.
+    fn resize(&mut self, bodies: &mut Bodies) {
+        let crowded = self.grid.count() > self.grid.room();
+        if self.searches < 64.max(4 * self.grid.count()) && !crowded {
+            return;
+        }
+        #[expect(clippy::cast_precision_loss, reason = "fewer than 2^52 searches")]
+        let met = self.met as f64 / self.searches.max(1) as f64;
+        (self.searches, self.met) = (0, 0);
+        let flying: Vec<u32> = bodies
+            .indices()
+            .filter(|i| bodies.get(*i).course.cells.is_some())
+            .collect();
+        if flying.is_empty() {
+            return;
+        }
+        #[expect(clippy::cast_precision_loss, reason = "fewer than 2^32 bodies")]
+        let reach = flying.iter().map(|i| bodies.get(*i).reach).sum::<f64>() / flying.len() as f64;
+        let factor = if met > PARTNERS.end {
+            0.75
+        } else if met < PARTNERS.start {
+            1.5
+        } else {
+            1.0
+        };
+        let side = (factor * self.grid.side()).clamp(2.0 * reach, 1e6 * reach);
+        if (side - self.grid.side()).abs() < 0.1 * side && !crowded {
+            return;
+        }
+        self.grid = Grid::new(side, flying.len());
+        for index in flying {
+            let course = &mut bodies.get_mut(index).course;
+            let cells = self.grid.cells(course.swept);
+            self.grid.insert(index, cells);
+            course.cells = Some(cells);
+        }
+    }
+}

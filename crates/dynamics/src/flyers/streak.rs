@@ -1,0 +1,140 @@
+//! Impacts that come ever faster: their limit, from the times of the last ones.
+
+use carom_math::SimTime;
+
+/// Limits that differ by less, in s, are one: ten times what small bounces lose.
+const AGREES: f64 = 1e-9;
+
+/// The last impacts of a body, while they come ever faster.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Streak {
+    last: SimTime,
+    /// Seconds between the last five impacts, the latest first.
+    gaps: [f64; 4],
+    /// Speed of approach of the first, in m/s.
+    top: f64,
+    /// Impacts so far.
+    count: u32,
+    /// Limit of the series as the first impact foretold it.
+    foretold: SimTime,
+    /// Its end has been reported.
+    ended: bool,
+}
+
+impl Default for Streak {
+    fn default() -> Self {
+        Self {
+            last: SimTime::ZERO,
+            gaps: [f64::INFINITY; 4],
+            top: 0.0,
+            count: 0,
+            foretold: SimTime::ZERO,
+            ended: false,
+        }
+    }
+}
+
+impl Streak {
+    /// Impacts of a streak before it is taken for one: two pairs of intervals.
+    const LEAST: u32 = 5;
+
+    /// An impact at `time` with an approach of `speed` m/s, after which, were it all that ever acts,
+    /// bounces would last for `left` seconds. A streak ends where an interval is twice as long as the
+    /// one before.
+    pub(crate) fn hit(&mut self, time: SimTime, speed: f64, left: f64) {
+        let gap = time - self.last;
+        if self.count == 0 || gap > 2.0 * self.gaps[0] {
+            self.top = speed;
+            self.count = 0;
+            self.gaps = [f64::INFINITY; 4];
+            self.foretold = time + left;
+            self.ended = false;
+        }
+        if self.count > 0 {
+            self.gaps = [gap, self.gaps[0], self.gaps[1], self.gaps[2]];
+        }
+        self.count += 1;
+        self.last = time;
+    }
+
+    /// Whether impacts have come ever faster for a while.
+    pub(crate) const fn is_one(&self) -> bool {
+        self.count >= Self::LEAST
+    }
+
+    /// Speed of approach of the first impact, in m/s; 0 if there is no streak.
+    pub(crate) const fn top(&self) -> f64 {
+        if self.is_one() { self.top } else { 0.0 }
+    }
+
+    /// Reports the end of a streak, once; whether there is one to report.
+    pub(crate) const fn end(&mut self) -> bool {
+        let first = self.is_one() && !self.ended;
+        self.ended = true;
+        first
+    }
+
+    /// Whether `speed` is below `part` of that of the first impact of a streak.
+    pub(crate) fn has_faded(&self, speed: f64, part: f64) -> bool {
+        self.is_one() && speed < part * self.top
+    }
+
+    /// The limit of the series after the last impact, which foretells `left` more seconds.
+    ///
+    /// What an impact foretells is right to (rounding of a gap) / (speed of the impact): best at the first.
+    /// Where first and last agree it was one point that bounced, else the limit follows from the intervals.
+    pub(crate) fn limit(&self, left: f64) -> SimTime {
+        if (self.last + left - self.foretold).abs() <= AGREES {
+            self.foretold
+        } else {
+            self.last + self.rest()
+        }
+    }
+
+    /// Seconds from the last impact to the limit of the series, were it geometric from here on.
+    ///
+    /// Intervals are taken in pairs: bounces of one point shrink by one ratio, those of a body that
+    /// rocks between two by two in turn. With sums s₁ of the last two and s₂ of the two before,
+    /// r = s₁/s₂ and the rest is `s₁ r/(1 − r)`.
+    fn rest(&self) -> f64 {
+        let (latest, before) = (self.gaps[0] + self.gaps[1], self.gaps[2] + self.gaps[3]);
+        let ratio = latest / before;
+        if ratio < 1.0 {
+            latest * ratio / (1.0 - ratio)
+        } else {
+            0.0
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_geometric_series_ends_at_its_limit() {
+        for e in [0.1, 0.5, 0.9] {
+            let (mut streak, mut time, mut gap) = (Streak::default(), SimTime::from_secs(3.0), 0.8);
+            for _ in 0..8 {
+                streak.hit(time, gap, 0.0);
+                time += gap;
+                gap *= e;
+            }
+            let limit = 3.0 + 0.8 / (1.0 - e);
+            assert!(
+                (streak.last + streak.rest() - SimTime::from_secs(limit)).abs() < 1e-14,
+                "e = {e}"
+            );
+            assert!(streak.has_faded(0.8, 1.01) && !streak.has_faded(0.8, 0.99));
+        }
+    }
+
+    #[test]
+    fn steady_bounces_are_no_streak_that_fades() {
+        let mut streak = Streak::default();
+        for i in 0..20 {
+            streak.hit(SimTime::from_secs(f64::from(i)), 4.0, 0.0);
+        }
+        assert!(!streak.has_faded(4.0, 1.0) && streak.rest() == 0.0);
+    }
+}

@@ -1,0 +1,420 @@
+//! A flyer strikes: another flyer, or what rests; and bodies that begin or cease to fly.
+
+use arrayvec::ArrayVec;
+use carom_math::{SimTime, Vec2};
+
+use super::gap::{Feature, gap_acceleration};
+use super::streak::Streak;
+use super::{Cause, Foreseen};
+use crate::body::BodyState;
+use crate::impact::{ImpactBody, ImpactContact, resolve};
+use crate::narrow::opening_speed;
+use crate::predict::price_of;
+use crate::resolve::apply;
+use crate::shock::Shock;
+use crate::{BodyKind, EventKind, Mode, World};
+
+/// What the impacts of one flyer may spend in a tick before the solver takes the rest, in losses of
+/// relative speed. Not counted in [`Mode::Exact`].
+const BUDGET: f64 = 256.0;
+
+/// Speed of an approach that rounding alone can make, as a fraction of the bodies' speeds.
+const NOISE: f64 = 8.0 * f64::EPSILON;
+
+/// Overlap that is looked at again, as a fraction of the smaller reach: what an impact leaves.
+const SLACK: f64 = 1e-12;
+
+/// Part of the first impact's speed at which bounces on what presses go to their limit: from 1 m/s
+/// they take 2e-14 s then.
+const FADED: f64 = 1e-13;
+
+/// Height of a bounce below which it is timed by its speeds, as a fraction of the smaller reach, where
+/// the normal turns: rounding of the gap is 1e-6 of it.
+const LOW: f64 = 1e-9;
+
+/// The same where the normal stands.
+const FLAT: f64 = 1e-4;
+
+impl World {
+    /// Resolves an impact that was foreseen for the motions as they are.
+    pub(super) fn strike_flyer(&mut self, impact: &Foreseen, time: SimTime) {
+        let (a, b) = impact.bodies;
+        for index in [a, b] {
+            if self.bodies.get(index).asleep {
+                // Awake it is in the hands of the solver, which is struck with all that it holds.
+                self.wake(index, time);
+                return;
+            }
+            let state = self.bodies.get(index);
+            if !state.course.flies && state.is_active() {
+                return;
+            }
+        }
+        let (one, two) = (self.bodies.get(a), self.bodies.get(b));
+        let (first, second) = impact.colliders;
+        let material = self.broad.material(
+            one.id,
+            two.id,
+            &self.colliders[first as usize],
+            &self.colliders[second as usize],
+        );
+        let speed = self.approach_speed(impact, time);
+        let press = self.press(impact, time);
+        if speed <= NOISE * self.scale(impact, time) {
+            return self.touches(impact, time, speed, press);
+        }
+        let e = material.restitution;
+        if self.outruns(impact, time, price_of(e)) {
+            return;
+        }
+        // Bounces of one point on what presses it: 2 u⁺/a, and e times that, and so on.
+        let left = if press > 0.0 && e < 1.0 {
+            2.0 * e * speed / (press * (1.0 - e))
+        } else {
+            0.0
+        };
+        let streak = self.streak(impact, time, speed, left);
+        let ends = e < 1.0 && streak.has_faded(speed, FADED);
+        let e = if ends { 0.0 } else { e };
+        self.strike_at(impact, time, (e, material.friction));
+        if press <= 0.0 {
+            self.deflect_both(impact.bodies, time);
+        } else if e == 0.0 {
+            if ends {
+                self.flyers.announce(streak.limit(left), impact.bodies);
+            }
+            self.begins_to_last(impact, time);
+        } else {
+            self.hop(impact, time);
+            self.deflect_both(impact.bodies, time);
+            self.flyers.hop = None;
+        }
+    }
+
+    /// Fastest approach of the points of an impact, in m/s.
+    fn approach_speed(&self, impact: &Foreseen, time: SimTime) -> f64 {
+        let (one, two) = (
+            self.bodies.get(impact.bodies.0),
+            self.bodies.get(impact.bodies.1),
+        );
+        let speed = |point: &Vec2| -opening_speed(one, two, time, *point, impact.normal);
+        impact
+            .points
+            .iter()
+            .map(speed)
+            .fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// Speed whose rounding an approach is judged by, in m/s: that of the bodies, or with which their
+    /// impacts began to come ever faster.
+    fn scale(&self, impact: &Foreseen, time: SimTime) -> f64 {
+        let of = |index: u32| {
+            let state = self.bodies.get(index);
+            pace(state, time).max(state.course.streak.top())
+        };
+        of(impact.bodies.0) + of(impact.bodies.1)
+    }
+
+    /// Counts an impact among those that come ever faster.
+    fn streak(&mut self, impact: &Foreseen, time: SimTime, speed: f64, left: f64) -> Streak {
+        let mut found = Streak::default();
+        for index in [impact.bodies.0, impact.bodies.1] {
+            let state = self.bodies.get_mut(index);
+            if state.inverse_mass > 0.0 {
+                state.course.streak.hit(time, speed, left);
+                if state.course.streak.is_one() {
+                    found = state.course.streak;
+                }
+            }
+        }
+        found
+    }
+
+    /// The impact itself, by the law at one point or at all that approach.
+    fn strike_at(&mut self, impact: &Foreseen, time: SimTime, (restitution, friction): (f64, f64)) {
+        let (one, two) = (
+            self.bodies.get(impact.bodies.0),
+            self.bodies.get(impact.bodies.1),
+        );
+        let struck: ArrayVec<ImpactContact, 2> = impact
+            .points
+            .iter()
+            .filter(|point| opening_speed(one, two, time, **point, impact.normal) < 0.0)
+            .map(|point| ImpactContact {
+                point: *point,
+                normal: impact.normal,
+                restitution,
+                friction,
+            })
+            .collect();
+        if let [contact] = struck.as_slice() {
+            return self.strike_once(impact, contact, time);
+        }
+        let mut shock = Shock::new(time, self.clock.h);
+        for contact in struck {
+            shock.add(&self.bodies, u32::MAX, impact.bodies, contact, 0.0);
+        }
+        shock.solve(
+            &self.bodies,
+            &self.colliders,
+            &mut self.pairs,
+            &mut self.narrow,
+        );
+        apply(
+            &mut self.bodies,
+            time,
+            &shock,
+            &mut self.events,
+            &mut self.report,
+        );
+    }
+
+    /// A bounce so low that the search for its end would see rounding: it lasts 2 u⁺/a.
+    ///
+    /// The gap is `u t − a t²/2` but for what the normal turns by: nothing where neither turns or the
+    /// one that does is a disc, else less than the spin times the bounce, which is why that must be lower.
+    fn hop(&mut self, impact: &Foreseen, time: SimTime) {
+        let (rise, press) = (-self.approach_speed(impact, time), self.press(impact, time));
+        let (a, b) = impact.bodies;
+        let (one, two) = (self.bodies.get(a), self.bodies.get(b));
+        let round = |at: u32| self.colliders[at as usize].solid.vertices().len() == 1;
+        let steady = |state: &BodyState, at: u32| state.motion.spin == 0.0 || round(at);
+        let turns = !(steady(one, impact.colliders.0) && steady(two, impact.colliders.1));
+        let low = if turns { LOW } else { FLAT };
+        if rise <= 0.0 || press <= 0.0 || rise * rise > 2.0 * press * low * one.reach.min(two.reach)
+        {
+            return;
+        }
+        let wait = 2.0 * rise / press;
+        let drift = 0.5 * (one.motion.velocity_at(time) + two.motion.velocity_at(time)) * wait;
+        let mut next = impact.clone();
+        for point in &mut next.points {
+            *point += drift;
+        }
+        self.flyers.hop = Some((wait, next));
+    }
+
+    /// How fast two bodies are pressed together where they touch, in m/s²; negative: pulled apart.
+    fn press(&self, impact: &Foreseen, time: SimTime) -> f64 {
+        let feature = |index: u32, at: u32| {
+            let motion = &self.bodies.get(index).motion;
+            Feature::of(
+                motion,
+                &self.colliders[at as usize].solid,
+                impact.points[0],
+                time,
+            )
+        };
+        let a = feature(impact.bodies.0, impact.colliders.0);
+        let b = feature(impact.bodies.1, impact.colliders.1);
+        -gap_acceleration(&a, &b, impact.normal, impact.face)
+    }
+
+    /// They touch, and approach by rounding alone: what is pressed together lasts; what is not has
+    /// come to the end of ever faster impacts, or grazes.
+    fn touches(&mut self, impact: &Foreseen, time: SimTime, speed: f64, press: f64) {
+        if press > 0.0 {
+            return self.begins_to_last(impact, time);
+        }
+        let (a, b) = impact.bodies;
+        let mut ends = false;
+        for index in [a, b] {
+            ends |= self.bodies.get_mut(index).course.streak.end();
+        }
+        if ends {
+            self.report_collapse(impact.bodies, 0.5 * speed * speed, time);
+        }
+        // Another look when the approach may have gone deeper than impacts leave.
+        let (one, two) = (self.bodies.get(a), self.bodies.get(b));
+        let slack = SLACK * one.reach.min(two.reach);
+        let left = (one.course.horizon.max(two.course.horizon) - time).max(1e-9);
+        let wait = if speed > 0.0 { slack / speed } else { left };
+        self.look_again(impact, time + wait.clamp(1e-9 * left, left));
+    }
+
+    /// Says that infinitely many impacts of two bodies have ended, with their energy per kg of reduced
+    /// mass, in J/kg.
+    pub(super) fn report_collapse(&mut self, (a, b): (u32, u32), energy: f64, time: SimTime) {
+        let (one, two) = (self.bodies.get(a), self.bodies.get(b));
+        let energy = energy / (one.inverse_mass + two.inverse_mass);
+        let kind = EventKind::Collapse {
+            a: one.id,
+            b: two.id,
+            energy,
+        };
+        self.events.push(time, kind);
+    }
+
+    /// The impact law at one point.
+    fn strike_once(&mut self, impact: &Foreseen, contact: &ImpactContact, time: SimTime) {
+        let (a, b) = impact.bodies;
+        let before = [a, b].map(|index| self.bodies.get(index).in_impact(time));
+        let outcome = resolve(self.settings.impact_law, &before[0], &before[1], contact);
+        let speed = (before[0].velocity_of(contact.point) - before[1].velocity_of(contact.point))
+            .dot(contact.normal);
+        self.report.impacts += 1;
+        self.events.push(
+            time,
+            EventKind::Impact {
+                a: self.bodies.get(a).id,
+                b: self.bodies.get(b).id,
+                point: contact.point,
+                normal: contact.normal,
+                normal_impulse: outcome.normal_impulse,
+                tangential_impulse: outcome.tangential_impulse,
+                speed,
+            },
+        );
+        self.bodies.book.impacts.add(outcome.loss);
+        let after = [outcome.a, outcome.b];
+        let impulse = contact.normal * outcome.normal_impulse
+            + carom_math::perp(contact.normal) * outcome.tangential_impulse;
+        for (k, sign) in [(0, 1.0), (1, -1.0)] {
+            self.book_drive(&before[k], &after[k], contact, impulse * sign);
+        }
+        for (index, body) in [a, b].into_iter().zip(after) {
+            if body.inverse_mass > 0.0 {
+                self.bodies.change(index, time, |motion| {
+                    motion.velocity = body.velocity;
+                    motion.spin = body.spin;
+                });
+            }
+        }
+    }
+
+    /// What a driven body put in: it keeps its velocity whatever the impulse on it.
+    fn book_drive(
+        &mut self,
+        before: &ImpactBody,
+        after: &ImpactBody,
+        contact: &ImpactContact,
+        impulse: Vec2,
+    ) {
+        if before.inverse_mass == 0.0 {
+            let mean = 0.5 * (before.velocity_of(contact.point) + after.velocity_of(contact.point));
+            self.bodies.book.external.add(impulse.dot(mean));
+        }
+    }
+
+    /// New horizons for two bodies that struck each other.
+    fn deflect_both(&mut self, (a, b): (u32, u32), time: SimTime) {
+        let moved = [a, b].map(|index| self.bodies.get(index).inverse_mass > 0.0);
+        if moved[0] {
+            let partner = moved[1].then_some(b);
+            self.foresee(a, time, Cause::Deflected, partner);
+        }
+        if moved[1] {
+            self.foresee(b, time, Cause::Deflected, None);
+        }
+    }
+
+    /// Counts an impact; whether one of the bodies has used up those of the present tick.
+    fn outruns(&mut self, impact: &Foreseen, time: SimTime, price: f64) -> bool {
+        if self.settings.mode == Mode::Exact {
+            return false;
+        }
+        #[expect(
+            clippy::cast_possible_truncation,
+            reason = "the cast saturates; a tick more or less in a budget is no matter"
+        )]
+        let tick = (time.as_secs() / self.settings.tick) as i64;
+        let mut spent = false;
+        for index in [impact.bodies.0, impact.bodies.1] {
+            let course = &mut self.bodies.get_mut(index).course;
+            if course.tick != tick {
+                (course.tick, course.spent) = (tick, 0.0);
+            }
+            course.spent += price;
+            spent |= course.spent > BUDGET;
+        }
+        if spent {
+            let (one, two) = (
+                self.bodies.get(impact.bodies.0),
+                self.bodies.get(impact.bodies.1),
+            );
+            let speed = opening_speed(one, two, time, impact.points[0], impact.normal);
+            self.report_collapse(impact.bodies, 0.5 * speed * speed, time);
+            self.report.collapsed += 1;
+            self.land(impact.bodies.0, time);
+            self.land(impact.bodies.1, time);
+        }
+        spent
+    }
+
+    /// What is pressed together and does not bounce stays in contact from now on.
+    fn begins_to_last(&mut self, impact: &Foreseen, time: SimTime) {
+        let (a, b) = impact.bodies;
+        self.land(a, time);
+        self.land(b, time);
+        let found = self
+            .bodies
+            .get(a)
+            .pairs
+            .iter()
+            .copied()
+            .find(|&place| self.pairs.get(place).colliders == impact.colliders);
+        if let Some(place) = found {
+            let pair = self.pairs.get_mut(place);
+            (pair.lasting, pair.touching) = (true, true);
+            let (a, b) = (self.bodies.get(a).id, self.bodies.get(b).id);
+            self.events.push(time, EventKind::Begin { a, b });
+            self.predict(place, time);
+        }
+    }
+
+    /// From now on the sub-steps move this body: something holds it, or is too near to tell.
+    pub(crate) fn land(&mut self, index: u32, time: SimTime) {
+        let state = self.bodies.get_mut(index);
+        if state.kind != BodyKind::Dynamic || !state.course.flies {
+            return;
+        }
+        state.course.flies = false;
+        state.idle = 0;
+        // What was foreseen for a flyer is stale.
+        state.version = state.version.wrapping_add(1);
+        self.flyers.leave(&mut self.bodies, index);
+        self.enlist(index, time);
+        self.deflected(index, time);
+    }
+
+    /// A body that nothing holds any more flies from event to event.
+    pub(crate) fn take_off(&mut self, index: u32, time: SimTime) {
+        self.discharge(index);
+        for place in self.bodies.get(index).pairs.clone() {
+            let (a, b) = self.pairs.get(place).bodies;
+            let other = if a == index { b } else { a };
+            if !self.bodies.get(other).is_stepped() {
+                self.part(place, time);
+            }
+        }
+        let state = self.bodies.get_mut(index);
+        state.course.flies = true;
+        state.version = state.version.wrapping_add(1);
+        self.foresee(index, time, Cause::Deflected, None);
+    }
+
+    /// Adds a body to those that are sub-stepped.
+    pub(crate) fn enlist(&mut self, index: u32, time: SimTime) {
+        if self.stepped.is_empty() {
+            // Nobody was: the grid of sub-steps was not followed.
+            self.clock.catch_up(time);
+        }
+        if let Err(at) = self.stepped.binary_search(&index) {
+            self.stepped.insert(at, index);
+        }
+    }
+
+    /// Takes a body from those that are sub-stepped.
+    pub(crate) fn discharge(&mut self, index: u32) {
+        if let Ok(at) = self.stepped.binary_search(&index) {
+            self.stepped.remove(at);
+        }
+    }
+}
+
+/// Speed of a body's fastest point, in m/s.
+fn pace(state: &BodyState, time: SimTime) -> f64 {
+    let spin = state.motion.spin_at(time).abs();
+    let rim = if spin > 0.0 { spin * state.reach } else { 0.0 };
+    state.motion.velocity_at(time).length() + rim
+}

@@ -1,0 +1,138 @@
+//! From when to when two things are near enough to meet: bounding circles and boxes along motions.
+
+use carom_geometry::Aabb;
+use carom_math::Vec2;
+
+/// Reaches are taken this much larger, so that no rounding at a rim loses a pair.
+const ROOM: f64 = 1.0 + 1e-9;
+
+/// When circles overlap, in s from now.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Window {
+    /// Not before this; 0 if they overlap now.
+    pub(crate) from: f64,
+    /// Not after this; infinite where only the beginning is known.
+    pub(crate) to: f64,
+}
+
+/// When two circles overlap whose centres are `d` apart (m), and change that by `v` (m/s) and `a`
+/// (m/s²); `reach` is the sum of their radii (m). `None`: never.
+///
+/// Without relative acceleration both times are exact roots; with it `from` is a bound:
+/// the centres approach by at most `|v| t + |a| t²/2`.
+pub(crate) fn of_circles(d: Vec2, v: Vec2, a: Vec2, reach: f64) -> Option<Window> {
+    let reach = reach * ROOM;
+    let outside = d.length_squared() - reach * reach;
+    if a != Vec2::ZERO {
+        if outside <= 0.0 {
+            return Some(Window {
+                from: 0.0,
+                to: f64::INFINITY,
+            });
+        }
+        let gap = d.length() - reach;
+        let (speed, pull) = (v.length(), a.length());
+        let from = 2.0 * gap / (speed + (speed * speed + 2.0 * pull * gap).sqrt());
+        return Some(Window {
+            from,
+            to: f64::INFINITY,
+        });
+    }
+    let (closing, speed) = (-d.dot(v), v.length_squared());
+    let discriminant = closing * closing - speed * outside;
+    if outside <= 0.0 {
+        let to = if speed > 0.0 {
+            (closing + discriminant.max(0.0).sqrt()) / speed
+        } else {
+            f64::INFINITY
+        };
+        return Some(Window {
+            from: 0.0,
+            to: to.max(0.0),
+        });
+    }
+    if closing <= 0.0 || discriminant < 0.0 {
+        return None;
+    }
+    let root = discriminant.sqrt();
+    Some(Window {
+        from: outside / (closing + root),
+        to: (closing + root) / speed,
+    })
+}
+
+/// When a circle of radius `reach` about `at`, which moves by `v` and `a`, may first overlap a box
+/// that rests, in s: a lower bound, 0 if it does now, infinite if it never does.
+pub(crate) fn from_box(at: Vec2, v: Vec2, a: Vec2, reach: f64, bounds: Aabb) -> f64 {
+    let along = |x: f64, v: f64, a: f64, low: f64, high: f64| {
+        if x < low {
+            first_rise(low - x, v, a)
+        } else if x > high {
+            first_rise(x - high, -v, -a)
+        } else {
+            0.0
+        }
+    };
+    let reach = reach * ROOM;
+    let (low, high) = (bounds.min - reach, bounds.max + reach);
+    let x = along(at.x, v.x, a.x, low.x, high.x);
+    let y = along(at.y, v.y, a.y, low.y, high.y);
+    if x > y { x } else { y }
+}
+
+/// First root of `v t + a t²/2 = way` with `way` > 0.
+fn first_rise(way: f64, v: f64, a: f64) -> f64 {
+    let square = v * v + 2.0 * a * way;
+    if square < 0.0 {
+        return f64::INFINITY;
+    }
+    let root = square.sqrt();
+    if v > 0.0 {
+        2.0 * way / (v + root)
+    } else if a > 0.0 {
+        (root - v) / a
+    } else {
+        f64::INFINITY
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use carom_math::vec2;
+    use proptest::prelude::*;
+
+    fn vector(size: f64) -> impl Strategy<Value = Vec2> {
+        (-size..size, -size..size).prop_map(|(x, y)| vec2(x, y))
+    }
+
+    proptest! {
+        #[test]
+        fn circles_overlap_only_within_their_window(
+            d in vector(10.0), v in vector(5.0), pull in vector(10.0), falls: bool, reach in 0.1..3.0_f64,
+        ) {
+            let a = if falls { pull } else { Vec2::ZERO };
+            let window = of_circles(d, v, a, reach);
+            for i in 0..500 {
+                let t = 0.01 * f64::from(i);
+                let apart = (d + v * t + a * (0.5 * t * t)).length() > reach;
+                let within = window.is_some_and(|w| w.from <= t && t <= w.to);
+                prop_assert!(apart || within, "at {t} s: {window:?}");
+            }
+        }
+
+        #[test]
+        fn a_circle_reaches_no_box_before_its_bound(
+            at in vector(10.0), v in vector(5.0), a in vector(10.0), reach in 0.1..3.0_f64, size in 0.1..4.0_f64,
+        ) {
+            let bounds = Aabb::new(vec2(-size, -1.0), vec2(size, 2.0));
+            let from = from_box(at, v, a, reach, bounds);
+            for i in 0..500 {
+                let t = 0.01 * f64::from(i);
+                let centre = at + v * t + a * (0.5 * t * t);
+                let circle = Aabb::new(centre - reach, centre + reach);
+                prop_assert!(t >= from || !circle.overlaps(bounds), "at {t} s, before {from}");
+            }
+        }
+    }
+}
