@@ -443,16 +443,16 @@ fn golden_overlays_of_bodies_in_each_other() {
     );
 }
 
-/// A disc that struck a wall after 0.1 s, and flies back; and what was seen of it.
+/// A disc that struck a wall after 0.12 s, and flies back; and what was seen of it.
 fn struck(overlay: &Overlay, seconds: f64) -> (World, Trace, BodyId) {
     let mut world = world(Vec2::ZERO);
     let wall = ConvexPolygon::rectangle(1.0, 5.0).unwrap();
     world
         .insert(BodyDef::fixed().at(vec2(2.5, 0.0)), wall, ELASTIC)
         .unwrap();
-    // 0.5 m to go at 5 m/s.
+    // 0.6 m to go at 5 m/s.
     let def = BodyDef::dynamic()
-        .at(vec2(0.5, 0.2))
+        .at(vec2(0.4, 0.2))
         .moving(vec2(5.0, -4.0));
     let disc = world
         .insert(def, Circle::new(1.0).unwrap(), ELASTIC)
@@ -478,7 +478,7 @@ fn golden_overlays_of_an_impact() {
                 contacts: true,
                 ..Overlay::default()
             },
-            0.1,
+            0.15,
         ),
         (
             "impulses",
@@ -486,7 +486,7 @@ fn golden_overlays_of_an_impact() {
                 impulses: Some(0.2),
                 ..Overlay::default()
             },
-            0.1,
+            0.15,
         ),
         (
             "flashes",
@@ -494,7 +494,7 @@ fn golden_overlays_of_an_impact() {
                 flashes: true,
                 ..Overlay::default()
             },
-            0.15,
+            0.2,
         ),
         (
             "flashes-later",
@@ -502,7 +502,7 @@ fn golden_overlays_of_an_impact() {
                 flashes: true,
                 ..Overlay::default()
             },
-            0.25,
+            0.3,
         ),
         (
             "trails",

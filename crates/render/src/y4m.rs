@@ -216,6 +216,67 @@ mod tests {
         assert!(film.push(&Picture::new(size, Colour::WHITE)).is_err());
     }
 
+    /// A stream that breaks at a write, after taking half of it.
+    #[derive(Debug)]
+    struct Breaking {
+        writes: u32,
+        taken: Vec<u8>,
+    }
+
+    impl Write for Breaking {
+        fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+            if self.writes == 0 {
+                self.taken.extend(&bytes[..bytes.len() / 2]);
+                return Err(io::ErrorKind::StorageFull.into());
+            }
+            self.writes -= 1;
+            self.taken.extend(bytes);
+            Ok(bytes.len())
+        }
+
+        fn flush(&mut self) -> io::Result<()> {
+            match self.writes {
+                0 => Err(io::ErrorKind::StorageFull.into()),
+                _ => Ok(()),
+            }
+        }
+    }
+
+    #[test]
+    fn a_stream_that_breaks_at_any_write_is_an_error_and_holds_a_beginning_of_the_film() {
+        let size = Size::new(6, 4).unwrap();
+        let rate = FrameRate::per_second(30).unwrap();
+        let film = |out: &mut Breaking| -> Result<(), RenderError> {
+            let mut film = Film::new(out, size, rate, Chroma::Quarter)?;
+            for grey in [0, 90, 200] {
+                film.push(&Picture::new(size, Colour::rgb(grey, 0, 7)))?;
+            }
+            film.finish().map(|_| ())
+        };
+        let sink = |writes| Breaking {
+            writes,
+            taken: Vec::new(),
+        };
+        let mut whole = sink(u32::MAX);
+        film(&mut whole).unwrap();
+        for writes in 0.. {
+            let mut broken = sink(writes);
+            let outcome = film(&mut broken);
+            assert!(whole.taken.starts_with(&broken.taken), "{writes} writes");
+            match outcome {
+                Err(error) => {
+                    let said = error.to_string();
+                    assert_eq!(said, "cannot write the film: no storage space");
+                }
+                Ok(()) => {
+                    assert!(writes > 6, "{writes} writes");
+                    assert_eq!(broken.taken, whole.taken);
+                    break;
+                }
+            }
+        }
+    }
+
     proptest! {
         #[test]
         fn frames_have_their_size_and_grey_no_colour(width in 1..9_u32, height in 1..9_u32, grey: u8) {

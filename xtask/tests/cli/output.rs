@@ -320,3 +320,94 @@ fn ctrl_c_finishes_the_frame_and_prints_the_summary() {
         "{frames:?}"
     );
 }
+
+/// Every kind of file that holds a picture, read by somebody else.
+#[test]
+fn pngcheck_finds_no_fault_in_what_is_written() {
+    use std::process::Command;
+    let folder = tempfile::tempdir().unwrap();
+    xtask_in(folder.path(), &["demo", "--quick", "--out", "demo"]).done();
+    for (out, format, packing) in [
+        ("a", "png", "fast"),
+        ("b", "png", "small"),
+        ("c", "apng", "fast"),
+        ("d", "apng", "small"),
+        ("e", "sheet", "small"),
+    ] {
+        let flags = ["--out", out, "--format", format, "--packing", packing];
+        render(folder.path(), &flags).done();
+    }
+    let mut pictures = Vec::new();
+    for place in ["demo/thesis", "demo/flying-balls", "a", "b", "c", "d", "e"] {
+        for name in names(&folder.path().join(place)) {
+            if name.ends_with(".png") {
+                let path = folder.path().join(place).join(name);
+                carom_render::Picture::from_png(&fs::read(&path).unwrap()).unwrap();
+                pictures.push(path);
+            }
+        }
+    }
+    assert!(pictures.len() > 70, "{} pictures", pictures.len());
+    match Command::new("pngcheck").arg("-q").args(&pictures).output() {
+        Ok(read) => {
+            let said = String::from_utf8_lossy(&read.stdout);
+            assert!(read.status.success() && said.is_empty(), "{said}");
+        }
+        Err(_) => println!("skipped: no pngcheck here to read the pictures a second time"),
+    }
+}
+
+#[test]
+fn overlays_and_styles_change_the_picture_and_nothing_else() {
+    let folder = tempfile::tempdir().unwrap();
+    let last = |out: &str, more: &[&str]| {
+        let ran = render(folder.path(), &[&["--out", out], more].concat()).done();
+        let hash = ran.out.lines().find(|line| line.starts_with("state hash"));
+        let bytes = fs::read(folder.path().join(out).join("frame_00003.png")).unwrap();
+        (bytes, hash.unwrap().to_owned())
+    };
+    let (plain, hash) = last("plain", &["--overlay", "none"]);
+    for (k, name) in [
+        "velocities",
+        "centroids",
+        "boxes",
+        "trails",
+        "field-lines",
+        "restitution",
+        "gravity",
+        "time",
+        "counters",
+        "groups",
+        "all",
+    ]
+    .iter()
+    .enumerate()
+    {
+        let (picture, found) = last(&format!("o{k}"), &["--overlay", &format!("none,{name}")]);
+        assert_ne!(picture, plain, "{name}");
+        assert_eq!(found, hash, "{name}");
+    }
+    for (k, style) in ["dark", "print"].iter().enumerate() {
+        let (picture, _) = last(&format!("s{k}"), &["--overlay", "none", "--style", style]);
+        assert_ne!(picture, plain, "{style}");
+    }
+    let other = ["--out", "plain", "--resume", "--overlay", "time"];
+    render(folder.path(), &other).refused(&["plain", "cannot be resumed"]);
+    let ran = render(folder.path(), &["--overlay", "velocity"]);
+    assert_eq!(ran.code, Some(2));
+    assert!(ran.err.contains("velocities"), "{}", ran.err);
+}
+
+#[test]
+fn a_second_run_into_one_folder_is_refused_while_the_first_goes_on() {
+    let folder = tempfile::tempdir().unwrap();
+    let about = "anything";
+    let held = carom_render::OutputFolder::open(
+        folder.path().join("out"),
+        carom_render::Existing::Refuse,
+        about,
+    );
+    render(folder.path(), &["--out", "out"]).refused(&["out", "in use"]);
+    drop(held);
+    render(folder.path(), &["--out", "out"]).done();
+}
