@@ -58,10 +58,7 @@ pub(crate) fn highest_over(hull: &Hull<'_>, points: [Vec2; 2], but: Option<usize
     let mut high = f64::NEG_INFINITY;
     let [p, q] = points;
     for (number, block) in hull.blocks.iter().enumerate() {
-        let over = [0, 1, 2, 3].map(|lane| {
-            let height = |p: Vec2| block.normal_x[lane] * p.x + block.normal_y[lane] * p.y;
-            smaller(height(p), height(q)) - block.offset[lane]
-        });
+        let over = [0, 1, 2, 3].map(|lane| smaller(over(block, lane, p), over(block, lane, q)));
         for (lane, height) in over.into_iter().enumerate() {
             let edge = 4 * number + lane;
             if height > high && edge < hull.normals.len() && Some(edge) != but {
@@ -70,6 +67,11 @@ pub(crate) fn highest_over(hull: &Hull<'_>, points: [Vec2; 2], but: Option<usize
         }
     }
     high
+}
+
+/// How far a point is over the line of an edge, in m.
+fn over(block: &EdgeBlock, lane: usize, p: Vec2) -> f64 {
+    block.normal_x[lane] * (p.x - block.x[lane]) + block.normal_y[lane] * (p.y - block.y[lane])
 }
 
 /// How far each of four edges separates its hull from `facing`, in m, without radii: the height of the
@@ -81,7 +83,7 @@ pub(crate) fn heights(block: &EdgeBlock, facing: &Hull<'_>, turn: Rot, offset: V
     let mut x = [0.0; 4];
     let mut y = [0.0; 4];
     let mut low = [f64::INFINITY; 4];
-    // n·(R q + d) = (R⁻¹ n)·q + n·d
+    // n·(R q + d − p) = (R⁻¹ n)·q + n·(d − p)
     for lane in 0..4 {
         x[lane] = cos * block.normal_x[lane] + sin * block.normal_y[lane];
         y[lane] = cos * block.normal_y[lane] - sin * block.normal_x[lane];
@@ -91,10 +93,7 @@ pub(crate) fn heights(block: &EdgeBlock, facing: &Hull<'_>, turn: Rot, offset: V
             low[lane] = smaller(x[lane] * q.x + y[lane] * q.y, low[lane]);
         }
     }
-    [0, 1, 2, 3].map(|lane| {
-        let base = block.normal_x[lane] * offset.x + block.normal_y[lane] * offset.y;
-        low[lane] + (base - block.offset[lane])
-    })
+    [0, 1, 2, 3].map(|lane| low[lane] + over(block, lane, offset))
 }
 
 /// Visits every edge of `own` with its height under `facing`, in order: see [`heights`].
@@ -107,7 +106,7 @@ pub(crate) fn each_height(
 ) {
     if own.blocks.is_empty() {
         for (edge, normal) in own.normals.iter().enumerate() {
-            let base = normal.dot(offset) - normal.dot(own.vertices[edge]);
+            let base = normal.dot(offset - own.vertices[edge]);
             visit(edge, lowest(facing, turn.inverse_mul(*normal)).1 + base);
         }
         return;

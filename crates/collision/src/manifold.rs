@@ -5,7 +5,7 @@ use carom_math::{Pose, Vec2, perp};
 
 use crate::distance::apart;
 use crate::outline::{Pair, nearest_boundary};
-use crate::sat::{Face, best_face};
+use crate::sat::{Face, widest_edge};
 use crate::{AxisFeature, Convex, Hull, Side, separating_axis};
 
 /// A's edge is preferred to B's unless B's separates by more than this fraction of A's edge.
@@ -220,20 +220,22 @@ fn collide_round(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose, margin: f64) -> Touch
 /// Two polygons (or segments): the edge of least overlap, and the facing edge clipped to it.
 fn collide_polygons(pair: &Pair<'_>, margin: f64) -> Touch {
     let [a, b] = &pair.hulls;
-    let of_a = best_face(a, b, pair.poses[0]);
+    let of_a = widest_edge(a, b, pair.poses[0]);
     if of_a.separation > margin {
         return Touch::Apart;
     }
-    let of_b = best_face(b, a, pair.poses[1]);
+    let of_b = widest_edge(b, a, pair.poses[1]);
     if of_b.separation > margin {
         return Touch::Apart;
     }
-    let (from, to) = a.edge(of_a.edge);
-    let length = (to - from).length();
-    let best = if of_b.separation > of_a.separation + TIE * length {
-        (Side::B, of_b)
+    let tie = || {
+        let (from, to) = a.edge(of_a.edge);
+        TIE * (to - from).length()
+    };
+    let best = if of_b.separation > of_a.separation && of_b.separation > of_a.separation + tie() {
+        (Side::B, of_b.face(b, a, pair.poses[1]))
     } else {
-        (Side::A, of_a)
+        (Side::A, of_a.face(a, b, pair.poses[0]))
     };
     let overlap = best.1.separation <= 0.0;
     let touchable = !pair.has_cuts() || pair.allows(best.0, best.1);
@@ -259,7 +261,7 @@ fn collide_polygons(pair: &Pair<'_>, margin: f64) -> Touch {
     }
     // The vertex is beyond the end of the edge: vertex on vertex, if they are apart at all. Closer
     // than rounding the way from vertex to vertex has no direction, but the edge still has.
-    match apart(a, b, pair.poses[0]).filter(|way| way.distance > TIE * length) {
+    match apart(a, b, pair.poses[0]).filter(|way| way.distance > tie()) {
         Some(way) if way.distance <= margin && pair.allows_way(&way) => {
             let (i, j) = way.vertices(a, b, pair.poses[0]);
             let middle = 0.5 * (way.point_a + way.point_b);

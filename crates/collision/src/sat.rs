@@ -7,6 +7,7 @@
 use carom_math::{Pose, Vec2, perp};
 
 use crate::Hull;
+use crate::lanes::{self, heights};
 
 /// One of the two shapes of a pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -87,12 +88,13 @@ pub fn separating_axis(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose) -> Axis {
         let axis = point_axis(b, b_in_a.inverse_point(a.vertices[0]), a.radius);
         return axis.of_swapped(b_in_a);
     }
-    let of_a = best_face(a, b, b_in_a);
-    let of_b = best_face(b, a, b_in_a.inverse());
+    let of_a = widest_edge(a, b, b_in_a);
+    let a_in_b = b_in_a.inverse();
+    let of_b = widest_edge(b, a, a_in_b);
     let axis = if of_b.separation > of_a.separation {
-        of_b.axis(b, Side::A).of_swapped(b_in_a)
+        of_b.face(b, a, a_in_b).axis(b, Side::A).of_swapped(b_in_a)
     } else {
-        of_a.axis(a, Side::A)
+        of_a.face(a, b, b_in_a).axis(a, Side::A)
     };
     if a.normals.len() == 2 && b.normals.len() == 2 {
         return along_segments(a, b, b_in_a, axis);
@@ -132,10 +134,52 @@ pub(crate) struct Face {
 
 /// The edge of `own` that separates `other` most, or the least deep one.
 pub(crate) fn best_face(own: &Hull<'_>, other: &Hull<'_>, other_in_own: Pose) -> Face {
-    let mut best = Face {
+    widest_edge(own, other, other_in_own).face(own, other, other_in_own)
+}
+
+/// The edge of a hull that separates another most (the first of equals).
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Widest {
+    pub(crate) separation: f64,
+    pub(crate) edge: usize,
+}
+
+impl Widest {
+    pub(crate) fn face(self, own: &Hull<'_>, other: &Hull<'_>, other_in_own: Pose) -> Face {
+        face(own, self.edge, other, other_in_own, None)
+    }
+}
+
+/// The edge of `own` that separates `other` most: the bits of [`widest_edge_by_edge`].
+pub(crate) fn widest_edge(own: &Hull<'_>, other: &Hull<'_>, other_in_own: Pose) -> Widest {
+    /// Above this many vertices of the other, edges are left out by a look at one of them.
+    const WIDE: usize = 12;
+    if own.blocks.is_empty() || other.is_half_plane() || other.vertices.len() > WIDE {
+        return widest_edge_by_edge(own, other, other_in_own);
+    }
+    let mut best = Widest {
         separation: f64::NEG_INFINITY,
         edge: 0,
-        vertex: 0,
+    };
+    let (rotation, position) = (other_in_own.rotation, other_in_own.position);
+    for (number, block) in own.blocks.iter().enumerate() {
+        let four = heights(block, other, rotation, position);
+        for (lane, height) in four.into_iter().enumerate() {
+            let separation = height - other.radius - own.radius;
+            if separation > best.separation {
+                best.separation = separation;
+                best.edge = 4 * number + lane;
+            }
+        }
+    }
+    best
+}
+
+/// One edge after the other; what [`widest_edge`] is held against.
+fn widest_edge_by_edge(own: &Hull<'_>, other: &Hull<'_>, other_in_own: Pose) -> Widest {
+    let mut best = Widest {
+        separation: f64::NEG_INFINITY,
+        edge: 0,
     };
     let mut hint = None;
     for edge in 0..own.normals.len() {
@@ -149,7 +193,8 @@ pub(crate) fn best_face(own: &Hull<'_>, other: &Hull<'_>, other_in_own: Pose) ->
         let face = face(own, edge, other, other_in_own, hint);
         hint = Some(face.vertex);
         if face.separation > best.separation {
-            best = face;
+            best.separation = face.separation;
+            best.edge = edge;
         }
     }
     best
@@ -187,6 +232,7 @@ fn face_each_other(own: &Hull<'_>, other: &Hull<'_>, other_in_own: Pose) -> bool
 }
 
 /// How far `other` is beyond one edge of `own`; `hint` is the deepest vertex of the edge before.
+#[inline]
 pub(crate) fn face(
     own: &Hull<'_>,
     edge: usize,
@@ -214,6 +260,7 @@ pub(crate) fn face(
 }
 
 /// The vertex that is lowest along `direction`, and its height.
+#[inline]
 fn lowest(hull: &Hull<'_>, direction: Vec2, hint: Option<usize>) -> (usize, f64) {
     /// Above this many vertices a walk along the outline is cheaper than a look at all.
     const WALK_ABOVE: usize = 12;
@@ -234,16 +281,17 @@ fn lowest(hull: &Hull<'_>, direction: Vec2, hint: Option<usize>) -> (usize, f64)
             }
             best
         }
-        _ => {
-            let mut best = (0, height(0));
-            for i in 1..hull.vertices.len() {
-                let h = height(i);
-                if h < best.1 {
-                    best = (i, h);
-                }
-            }
-            best
+        None if hull.vertices.len() > WALK_ABOVE => {
+            // The other edges walk, and leave the blocks alone: they stay out of the cache.
+            lanes::lowest(
+                &Hull {
+                    blocks: &[],
+                    ..*hull
+                },
+                direction,
+            )
         }
+        _ => lanes::lowest(hull, direction),
     }
 }
 
@@ -381,4 +429,27 @@ fn along_segments(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose, axis: Axis) -> Axis 
         }
     }
     best
+}
+
+#[cfg(test)]
+mod tests {
+    use carom_geometry::ConvexPolygon;
+    use carom_math::{Rot, vec2};
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::Convex;
+
+    proptest! {
+        #[test]
+        fn four_edges_at_a_time_have_the_bits_of_one_by_one(
+            sides in 3..14_usize, other in 3..20_usize, turn in -4.0..4.0_f64, tidy in any::<bool>(), x in -2.0..2.0_f64, y in -2.0..2.0_f64,
+        ) {
+            let (a, b) = (ConvexPolygon::regular(sides, 1.0).unwrap(), ConvexPolygon::regular(other, 0.7).unwrap());
+            let rotation = if tidy { Rot::from_degrees((turn * 4.0).round() * 30.0) } else { Rot::from_angle(turn) };
+            let pose = Pose::new(vec2(x, y), rotation);
+            let (fast, slow) = (widest_edge(&a.hull(), &b.hull(), pose), widest_edge_by_edge(&a.hull(), &b.hull(), pose));
+            prop_assert_eq!((fast.separation.to_bits(), fast.edge), (slow.separation.to_bits(), slow.edge));
+        }
+    }
 }

@@ -5,7 +5,7 @@ use carom_math::Vec2;
 /// Four edges of a convex polygon side by side, each number as an array of four.
 ///
 /// A loop over the four lanes has no branch in it, and compiles to wide instructions.
-/// 160 bytes; where the edges are no multiple of four the last one is repeated, which changes
+/// 128 bytes; where the edges are no multiple of four the last one is repeated, which changes
 /// neither a smallest nor a largest value.
 ///
 /// # Examples
@@ -15,7 +15,7 @@ use carom_math::Vec2;
 /// let [block] = triangle.blocks() else { panic!("three edges fit in one") };
 /// assert_eq!(block.x[2], triangle.vertices()[2].x);
 /// assert_eq!(block.x[3], block.x[2]);
-/// assert!((block.offset[0] - 0.5).abs() < 1e-15);                 // m, inradius
+/// assert_eq!(block.normal_y[1], triangle.normals()[1].y);
 /// # Ok::<(), carom_geometry::PolygonError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,8 +29,6 @@ pub struct EdgeBlock {
     pub normal_x: [f64; 4],
     /// Outward unit normals.
     pub normal_y: [f64; 4],
-    /// How far the lines of the edges are from the origin, along their normals, in m.
-    pub offset: [f64; 4],
 }
 
 /// The edges in order, four at a time; `normals[i]` belongs to the edge that begins at `vertices[i]`.
@@ -45,7 +43,6 @@ pub(crate) fn edge_blocks(vertices: &[Vec2], normals: &[Vec2]) -> Vec<EdgeBlock>
             y: lanes.map(|lane| vertex(lane).y),
             normal_x: lanes.map(|lane| normal(lane).x),
             normal_y: lanes.map(|lane| normal(lane).y),
-            offset: lanes.map(|lane| normal(lane).dot(vertex(lane))),
         }
     };
     blocks.map(block).collect()

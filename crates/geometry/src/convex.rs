@@ -92,7 +92,7 @@ impl ConvexPolygon {
         &self.normals
     }
 
-    /// The edges in order, four at a time: corners, normals, distances from the origin.
+    /// The edges in order, four at a time: corners and normals.
     #[must_use]
     pub fn blocks(&self) -> &[EdgeBlock] {
         &self.blocks
