@@ -1,17 +1,19 @@
 //! An impact on a body that others hold: the contacts that it runs into are resolved with it.
 //!
-//! Without friction it is the [blend](crate::impact::blend) of several contacts, right to rounding.
-//! With friction it is Newton's law for all of them at once, as one complementarity problem in velocities:
+//! From the struck contact outwards: a contact joins when the shock reaches it. As long as they are few, and
+//! wherever none has friction, [several contacts at once](crate::impact::several) are solved for to
+//! rounding, by the law that the settings name. In a pile, where they become many, it is Newton's
+//! law for all of them at once, as one complementarity problem in velocities:
 //! `v_n⁺ ≥ −e v_n⁻` and `j_n ≥ 0`, of which one holds with equality at every contact, and Coulomb's
 //! cone for friction. Struck contacts have their approach to give back; contacts that lasted have
-//! none and only must not close. Solved by projected Gauss–Seidel over accumulated impulses, from
-//! the struck contact outwards: a contact joins when the shock reaches it.
+//! none and only must not close. Solved by projected Gauss–Seidel over accumulated impulses, in bounded time.
 
 use carom_math::{SimTime, Vec2, perp};
 
+use crate::Settings;
 use crate::bodies::Bodies;
 use crate::body::Collider;
-use crate::impact::{ImpactBody, ImpactContact, Response, SharedContact, blend};
+use crate::impact::{ImpactBody, ImpactContact, Response, SharedContact, several};
 use crate::narrow::{Narrow, TOUCH, rest_speed};
 use crate::pairs::Pairs;
 
@@ -20,6 +22,9 @@ const SWEEPS: u32 = 300;
 
 /// Contacts in one shock; what it reaches beyond them is struck in its turn.
 const STRIKES: usize = 64;
+
+/// Contacts with friction that are solved for to rounding; a pile takes more, and has them swept.
+const FEW: usize = 8;
 
 /// Change of velocity in a sweep, as a fraction of the struck speed, at which it has converged.
 const CONVERGED: f64 = 1e-12;
@@ -216,24 +221,55 @@ impl Shock {
     /// Solves for all contacts at once; they grow in number as the shock spreads.
     pub(crate) fn solve(
         &mut self,
+        settings: &Settings,
         bodies: &Bodies,
         colliders: &[Collider],
         pairs: &mut Pairs,
         narrow: &mut Narrow,
     ) {
-        if self
-            .strikes
-            .iter()
-            .all(|strike| strike.contact.friction == 0.0)
-        {
-            return self.solve_smooth(bodies, colliders, pairs, narrow);
+        while self.is_few() {
+            self.solve_exactly(settings);
+            if !self.spread(bodies, colliders, pairs, narrow) {
+                return;
+            }
         }
-        for shaken in &mut self.bodies {
-            shaken.after = shaken.before;
+        self.solve_swept(bodies, colliders, pairs, narrow);
+    }
+
+    fn is_few(&self) -> bool {
+        let smooth = |strike: &Strike| strike.contact.friction == 0.0;
+        self.strikes.len() <= FEW || self.strikes.iter().all(smooth)
+    }
+
+    fn solve_exactly(&mut self, settings: &Settings) {
+        let shared = |strike: &Strike| SharedContact {
+            a: strike.ends.0,
+            b: strike.ends.1,
+            contact: strike.contact,
+        };
+        let contacts: Vec<SharedContact> = self.strikes.iter().map(shared).collect();
+        let before: Vec<ImpactBody> = self.bodies.iter().map(|shaken| shaken.before).collect();
+        let found = several(settings.impact_law, settings.several, &before, &contacts);
+        for (shaken, after) in self.bodies.iter_mut().zip(found.bodies) {
+            shaken.after = after;
         }
-        for strike in &mut self.strikes {
-            (strike.normal_impulse, strike.tangential_impulse) = (0.0, 0.0);
+        let impulses = found
+            .normal_impulses
+            .into_iter()
+            .zip(found.tangential_impulses);
+        for (strike, (normal, tangential)) in self.strikes.iter_mut().zip(impulses) {
+            (strike.normal_impulse, strike.tangential_impulse) = (normal, tangential);
         }
+    }
+
+    /// Newton's law by sweeps, from the impulses that are there on.
+    fn solve_swept(
+        &mut self,
+        bodies: &Bodies,
+        colliders: &[Collider],
+        pairs: &mut Pairs,
+        narrow: &mut Narrow,
+    ) {
         let struck = self
             .strikes
             .iter()
@@ -251,38 +287,6 @@ impl Shock {
             let grew = due && self.spread(bodies, colliders, pairs, narrow);
             if converged && !grew {
                 break;
-            }
-        }
-    }
-
-    /// Solves for all contacts at once where none has friction.
-    fn solve_smooth(
-        &mut self,
-        bodies: &Bodies,
-        colliders: &[Collider],
-        pairs: &mut Pairs,
-        narrow: &mut Narrow,
-    ) {
-        loop {
-            let contacts: Vec<SharedContact> = self
-                .strikes
-                .iter()
-                .map(|strike| SharedContact {
-                    a: strike.ends.0,
-                    b: strike.ends.1,
-                    contact: strike.contact,
-                })
-                .collect();
-            let before: Vec<ImpactBody> = self.bodies.iter().map(|shaken| shaken.before).collect();
-            let found = blend(&before, &contacts);
-            for (shaken, after) in self.bodies.iter_mut().zip(found.bodies) {
-                shaken.after = after;
-            }
-            for (strike, impulse) in self.strikes.iter_mut().zip(found.normal_impulses) {
-                strike.normal_impulse = impulse;
-            }
-            if !self.spread(bodies, colliders, pairs, narrow) {
-                return;
             }
         }
     }
