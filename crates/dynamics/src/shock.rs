@@ -8,12 +8,12 @@
 //! cone for friction. Struck contacts have their approach to give back; contacts that lasted have
 //! none and only must not close. Solved by projected Gauss–Seidel over accumulated impulses, in bounded time.
 
-use carom_math::{SimTime, Vec2, perp};
+use carom_math::{SimTime, perp};
 
 use crate::Settings;
 use crate::bodies::Bodies;
 use crate::body::Collider;
-use crate::impact::{ImpactBody, ImpactContact, Response, SharedContact, several};
+use crate::impact::{ImpactBody, ImpactContact, SharedContact, Sweeper, several};
 use crate::narrow::{Narrow, TOUCH, rest_speed};
 use crate::pairs::Pairs;
 
@@ -44,7 +44,6 @@ pub(crate) struct Strike {
     target: f64,
     /// Normal speed of approach before, in m/s.
     pub(crate) speed: f64,
-    response: Response,
     pub(crate) normal_impulse: f64,
     pub(crate) tangential_impulse: f64,
 }
@@ -107,8 +106,8 @@ impl Shock {
         self.rest = self.rest.min(rest);
         let ends = (self.place(bodies, i), self.place(bodies, j));
         let (a, b) = (&self.bodies[ends.0].before, &self.bodies[ends.1].before);
-        let response = Response::of(a, b, &contact);
-        let speed = -response.u_n;
+        let opening = b.velocity_of(contact.point) - a.velocity_of(contact.point);
+        let speed = -opening.dot(contact.normal);
         let bounces = speed > rest;
         self.strikes.push(Strike {
             pair,
@@ -120,7 +119,6 @@ impl Shock {
                 0.0
             },
             speed,
-            response,
             normal_impulse: 0.0,
             tangential_impulse: 0.0,
         });
@@ -276,55 +274,48 @@ impl Shock {
             .map(|strike| strike.speed)
             .fold(0.0, f64::max);
         let settled = (CONVERGED * struck).max(SETTLED * self.rest);
+        let mut sweeper = Sweeper::default();
         for sweep in 0..SWEEPS {
-            let mut change = 0.0_f64;
-            for k in 0..self.strikes.len() {
-                change = change.max(self.sweep(k));
-            }
-            let converged = change <= settled;
+            self.hand_over(&mut sweeper);
+            let converged = sweeper.sweep() <= settled;
             // Who is reached is asked at every doubling, and at last: asking costs more than a sweep.
             let due = converged || (sweep + 1_u32).is_power_of_two();
-            let grew = due && self.spread(bodies, colliders, pairs, narrow);
+            if !due && sweep + 1 < SWEEPS {
+                continue;
+            }
+            self.take_over(&sweeper);
+            let grew = self.spread(bodies, colliders, pairs, narrow);
             if converged && !grew {
                 break;
             }
         }
     }
 
-    /// One contact's turn; the largest change of its velocity.
-    fn sweep(&mut self, k: usize) -> f64 {
-        let strike = self.strikes[k];
-        let (contact, response) = (&strike.contact, &strike.response);
-        let u = self.opening(&strike);
-        let (n, t) = (contact.normal, perp(contact.normal));
-        let wanted = (strike.target - u.dot(n)) / response.k_nn;
-        let normal = (strike.normal_impulse + wanted).max(0.0);
-        self.push(&strike, n * (normal - strike.normal_impulse));
-        let slip = self.opening(&strike).dot(t);
-        let limit = contact.friction * normal;
-        let tangential = (strike.tangential_impulse - slip / response.k_tt).clamp(-limit, limit);
-        self.push(&strike, t * (tangential - strike.tangential_impulse));
-        let strike = &mut self.strikes[k];
-        let change = ((normal - strike.normal_impulse) * response.k_nn)
-            .abs()
-            .max(((tangential - strike.tangential_impulse) * response.k_tt).abs());
-        (strike.normal_impulse, strike.tangential_impulse) = (normal, tangential);
-        change
+    /// Bodies and contacts that the sweeps do not know yet.
+    fn hand_over(&self, sweeper: &mut Sweeper) {
+        let (bodies, contacts) = sweeper.len();
+        for shaken in &self.bodies[bodies..] {
+            sweeper.add_body(&shaken.after);
+        }
+        for strike in &self.strikes[contacts..] {
+            let (a, b) = strike.ends;
+            sweeper.add_contact(
+                strike.ends,
+                (&self.bodies[a].before, &self.bodies[b].before),
+                &strike.contact,
+                strike.target,
+                (strike.normal_impulse, strike.tangential_impulse),
+            );
+        }
     }
 
-    fn opening(&self, strike: &Strike) -> Vec2 {
-        let (a, b) = (
-            &self.bodies[strike.ends.0].after,
-            &self.bodies[strike.ends.1].after,
-        );
-        b.velocity_of(strike.contact.point) - a.velocity_of(strike.contact.point)
-    }
-
-    fn push(&mut self, strike: &Strike, impulse: Vec2) {
-        let point = strike.contact.point;
-        let (a, b) = strike.ends;
-        self.bodies[a].after = self.bodies[a].after.pushed(-impulse, point);
-        self.bodies[b].after = self.bodies[b].after.pushed(impulse, point);
+    fn take_over(&mut self, sweeper: &Sweeper) {
+        for (k, shaken) in self.bodies.iter_mut().enumerate() {
+            (shaken.after.velocity, shaken.after.spin) = sweeper.velocity(k);
+        }
+        for (k, strike) in self.strikes.iter_mut().enumerate() {
+            (strike.normal_impulse, strike.tangential_impulse) = sweeper.impulses(k);
+        }
     }
 
     /// What pushed: one impact for both ends of a flat landing, where their impulses act together.

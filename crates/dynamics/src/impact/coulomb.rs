@@ -60,13 +60,13 @@ pub(super) fn stop(rows: &Rows<'_>) -> (Vec<f64>, bool) {
     let (none, off) = still();
     let found = settled(none, off).or_else(|| {
         let (near, parts) = pivoted(rows, &start)?;
-        polished(rows, &near, &parts).or_else(|| settled(near, parts))
+        polished(rows, &near, &parts, None).or_else(|| settled(near, parts))
     });
     let found = found.map_or_else(
         || {
             let near = swept(rows);
             let parts = holding(rows, &near);
-            let found = polished(rows, &near, &parts);
+            let found = polished(rows, &near, &parts, None);
             found.or_else(|| settled(near.clone(), parts)).ok_or(near)
         },
         Ok,
@@ -89,14 +89,16 @@ fn settled(
 ) -> Option<Vec<f64>> {
     let zero = GUESSED * fastest(rows);
     let mut speeds = along(rows, start, &impulses);
+    let mut system = None;
     for _ in 0..GUESSES {
         let next = guess(rows, &impulses, &speeds, &parts, zero);
         if next == parts {
-            return polished(rows, &impulses, &parts);
+            return polished(rows, &impulses, &parts, system);
         }
-        parts = next;
-        impulses = System::new(rows, &parts, COMPLIANCE)?.solve(start);
+        let solved = System::new(rows, &next, COMPLIANCE)?;
+        impulses = solved.solve(start);
         speeds = along(rows, start, &impulses);
+        (parts, system) = (next, Some(solved));
     }
     None
 }
@@ -189,13 +191,13 @@ fn guess(
 /// The equations of a guess: `u_r = 0` wherever a row holds.
 struct System<'a> {
     rows: &'a Rows<'a>,
-    parts: &'a [Part],
+    parts: Vec<Part>,
     held: Vec<usize>,
     factored: Factored,
 }
 
 impl<'a> System<'a> {
-    fn new(rows: &'a Rows<'a>, parts: &'a [Part], compliance: f64) -> Option<Self> {
+    fn new(rows: &'a Rows<'a>, parts: &[Part], compliance: f64) -> Option<Self> {
         let size = rows.len();
         let held: Vec<usize> = (0..size).filter(|&r| parts[r] == Part::Hold).collect();
         let mut place = vec![usize::MAX; size];
@@ -224,7 +226,7 @@ impl<'a> System<'a> {
         let factored = Factored::of(n, entries)?;
         Some(Self {
             rows,
-            parts,
+            parts: parts.to_vec(),
             held,
             factored,
         })
@@ -286,10 +288,16 @@ fn sign(part: Part) -> Option<f64> {
     }
 }
 
-/// Impulses near an answer, to rounding: what they leave is taken away until it is no smaller.
+/// Impulses near an answer, to rounding: what they leave is taken away until it is no smaller, by
+/// the equations that are known already, if they are.
 ///
 /// Each time by the least impulses that do it, so loads that rows share stay shared as they are.
-fn polished(rows: &Rows<'_>, near: &[f64], parts: &[Part]) -> Option<Vec<f64>> {
+fn polished(
+    rows: &Rows<'_>,
+    near: &[f64],
+    parts: &[Part],
+    mut known: Option<System<'_>>,
+) -> Option<Vec<f64>> {
     let fastest = fastest(rows);
     let mut near = near.to_vec();
     for (impulse, part) in near.iter_mut().zip(parts) {
@@ -299,7 +307,10 @@ fn polished(rows: &Rows<'_>, near: &[f64], parts: &[Part]) -> Option<Vec<f64>> {
     }
     let mut best: Option<(f64, Vec<f64>)> = None;
     for compliance in [COMPLIANCE, LEAST_COMPLIANCE] {
-        let system = System::new(rows, parts, compliance)?;
+        let system = match known.take() {
+            Some(system) => system,
+            None => System::new(rows, parts, compliance)?,
+        };
         let mut impulses = best.as_ref().map_or(&near, |(_, held)| held).clone();
         system.spread(&[], &mut impulses);
         for _ in 0..REFINEMENTS {

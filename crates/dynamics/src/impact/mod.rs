@@ -19,9 +19,9 @@ mod sweeps;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use body::Response;
 pub use body::{ImpactBody, ImpactContact, Outcome};
 pub use law::{ImpactLaw, newton, poisson, resolve, stronge};
 pub use several::{
     Several, SharedContact, SharedOutcome, blend, generalised_reflections, newton_lcp, several,
 };
+pub(crate) use sweeps::Sweeper;

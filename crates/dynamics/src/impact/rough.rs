@@ -9,7 +9,7 @@ use super::coulomb::stop;
 use super::law::{ImpactLaw, poisson, stronge};
 use super::restitution::{Impulses, Return, give_back, push};
 use super::routh::EndRule;
-use super::rows::{Bound, Rows, contact_rows};
+use super::rows::{Bound, Row, Rows, contact_rows};
 use super::several::{SharedContact, SharedOutcome, with_restitution};
 use super::sweeps::swept;
 
@@ -182,6 +182,47 @@ fn outcome(
         tangential_impulses: impulses.iter().map(|impulse| impulse.1).collect(),
         exhausted,
     }
+}
+
+/// Speed with which a contact opens that rounding has left closing, as a part of its points' speeds.
+const OPENS: f64 = 4.0 * f64::EPSILON;
+
+/// Takes away what rounding has left of an approach, so that nobody strikes at once what is resolved.
+///
+/// Such contacts are stopped once more, and open as slowly as numbers can tell.
+pub(super) fn opened(mut found: SharedOutcome, contacts: &[SharedContact]) -> SharedOutcome {
+    if found.exhausted || is_large(contacts) {
+        return found;
+    }
+    let mut closing = vec![false; contacts.len()];
+    for _ in 0..4 {
+        let mut any = false;
+        for (closes, shared) in closing.iter_mut().zip(contacts) {
+            let now = opening(&found.bodies, shared) < 0.0;
+            (*closes, any) = (*closes || now, any || now);
+        }
+        if !any {
+            break;
+        }
+        let places: Vec<usize> = (0..contacts.len()).filter(|&k| closing[k]).collect();
+        let row = |&k: &usize| {
+            let normal = contacts[k].contact.normal;
+            Row::new(&found.bodies, &contacts[k], normal, Bound::Push)
+        };
+        let mut rows = Rows::new(&found.bodies, places.iter().map(row).collect());
+        let asked = |&k: &usize| {
+            let (shared, point) = (&contacts[k], contacts[k].contact.point);
+            let speed = |body: usize| found.bodies[body].velocity_of(point).length();
+            OPENS * (speed(shared.a) + speed(shared.b))
+        };
+        rows.ask(&places.iter().map(asked).collect::<Vec<_>>());
+        let (impulses, _) = stop(&rows);
+        for (k, impulse) in places.into_iter().zip(impulses) {
+            push(&mut found.bodies, &contacts[k], (impulse, 0.0));
+            found.normal_impulses[k] += impulse;
+        }
+    }
+    found
 }
 
 pub(super) fn opening(bodies: &[ImpactBody], shared: &SharedContact) -> f64 {

@@ -11,7 +11,7 @@ use carom_math::{cross, vec2};
 use super::body::{ImpactBody, ImpactContact, Response};
 use super::law::{ImpactLaw, resolve};
 use super::project::nearest;
-use super::rough::{is_large, is_rough, newton_rough, opening, reflections};
+use super::rough::{is_large, is_rough, newton_rough, opened, opening, reflections};
 
 /// Reflections before the rest is stopped: a wedge of angle θ takes π/θ of them, a row of a hundred
 /// discs a hundred.
@@ -106,7 +106,7 @@ pub fn several(
     match choice {
         Several::Blend => blend_by(law, bodies, contacts),
         Several::NewtonLcp => newton_lcp(bodies, contacts),
-        Several::Reflections => reflections(law, bodies, contacts, None),
+        Several::Reflections => opened(reflections(law, bodies, contacts, None), contacts),
     }
 }
 
@@ -151,7 +151,7 @@ fn single(
 #[must_use]
 pub fn newton_lcp(bodies: &[ImpactBody], contacts: &[SharedContact]) -> SharedOutcome {
     if is_rough(contacts) {
-        return newton_rough(bodies, contacts);
+        return opened(newton_rough(bodies, contacts), contacts);
     }
     let scaled = Scaled::of(bodies, contacts);
     let speeds = opening_speeds(bodies, contacts);
@@ -174,7 +174,10 @@ pub fn newton_lcp(bodies: &[ImpactBody], contacts: &[SharedContact]) -> SharedOu
 #[must_use]
 pub fn generalised_reflections(bodies: &[ImpactBody], contacts: &[SharedContact]) -> SharedOutcome {
     if is_rough(contacts) {
-        return reflections(ImpactLaw::Stronge, bodies, contacts, Some(1.0));
+        return opened(
+            reflections(ImpactLaw::Stronge, bodies, contacts, Some(1.0)),
+            contacts,
+        );
     }
     let tolerance = tolerance(&opening_speeds(bodies, contacts));
     let mut impulses = vec![0.0; contacts.len()];
@@ -277,6 +280,13 @@ pub fn blend(bodies: &[ImpactBody], contacts: &[SharedContact]) -> SharedOutcome
 }
 
 fn blend_by(law: ImpactLaw, bodies: &[ImpactBody], contacts: &[SharedContact]) -> SharedOutcome {
+    if is_rough(contacts) {
+        return opened(mixed(law, bodies, contacts), contacts);
+    }
+    mixed(law, bodies, contacts)
+}
+
+fn mixed(law: ImpactLaw, bodies: &[ImpactBody], contacts: &[SharedContact]) -> SharedOutcome {
     let stuck = newton_lcp(bodies, &with_restitution(contacts, 0.0));
     let e = mean_restitution(contacts, &stuck.normal_impulses);
     if e <= 0.0 {
@@ -291,13 +301,13 @@ fn blend_by(law: ImpactLaw, bodies: &[ImpactBody], contacts: &[SharedContact]) -
         return thrown;
     }
     let mix = |at_0: f64, at_1: f64| (1.0 - e) * at_0 + e * at_1;
-    let mixed = |at_0: &[f64], at_1: &[f64]| -> Vec<f64> {
+    let mix_all = |at_0: &[f64], at_1: &[f64]| -> Vec<f64> {
         at_0.iter().zip(at_1).map(|(s, t)| mix(*s, *t)).collect()
     };
     let both = stuck.bodies.iter().zip(&thrown.bodies);
     SharedOutcome {
-        normal_impulses: mixed(&stuck.normal_impulses, &thrown.normal_impulses),
-        tangential_impulses: mixed(&stuck.tangential_impulses, &thrown.tangential_impulses),
+        normal_impulses: mix_all(&stuck.normal_impulses, &thrown.normal_impulses),
+        tangential_impulses: mix_all(&stuck.tangential_impulses, &thrown.tangential_impulses),
         bodies: both
             .map(|(s, t)| ImpactBody {
                 velocity: s.velocity * (1.0 - e) + t.velocity * e,

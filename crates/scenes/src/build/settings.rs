@@ -39,7 +39,7 @@ pub(crate) fn settings(file: &SceneFile) -> Settings {
             .several
             .map_or(default.several, |choice| match choice {
                 SeveralName::Blend => Several::Blend,
-                SeveralName::NewtonLcp => Several::NewtonLcp,
+                SeveralName::Newton => Several::NewtonLcp,
                 SeveralName::Reflections => Several::Reflections,
             }),
         contact: Softness {

@@ -44,10 +44,10 @@ pub(crate) enum LawName {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[serde(rename_all = "lowercase")]
 pub(crate) enum SeveralName {
     Blend,
-    NewtonLcp,
+    Newton,
     Reflections,
 }
 
