@@ -15,4 +15,5 @@ mod observing;
 mod regressions;
 mod skipping;
 mod stability;
+mod stepped;
 mod twins;

@@ -61,10 +61,14 @@ pub(crate) struct Bodies {
     pub(crate) history: History,
     pub(crate) book: EnergyBook,
     pub(crate) pull: Pull,
+    /// Bodies that came, went, woke or were changed since the last sub-step; only where somebody
+    /// reads the list.
+    pub(crate) touched: Vec<u32>,
+    pub(crate) notes_touched: bool,
 }
 
 impl Bodies {
-    pub(crate) fn new(gravity: Vec2, history: usize) -> Self {
+    pub(crate) fn new(gravity: Vec2, history: usize, notes_touched: bool) -> Self {
         Self {
             list: Vec::new(),
             alive: Vec::new(),
@@ -75,6 +79,8 @@ impl Bodies {
                 gravity,
                 fields: Vec::new(),
             },
+            touched: Vec::new(),
+            notes_touched,
         }
     }
 
@@ -95,7 +101,19 @@ impl Bodies {
         })
     }
 
+    /// Notes that a body is not as its solver knows it.
+    pub(crate) fn touch(&mut self, index: u32) {
+        if self.notes_touched {
+            self.touched.push(index);
+        }
+    }
+
+    pub(crate) fn is_alive(&self, index: u32) -> bool {
+        self.alive[index as usize]
+    }
+
     pub(crate) fn insert(&mut self, state: BodyState) {
+        self.touch(state.id.index);
         let index = state.id.index as usize;
         if index == self.list.len() {
             self.list.push(state);
@@ -164,6 +182,7 @@ impl Bodies {
     /// The one door for changes of a motion: closes the piece that ends at `time`, books its
     /// energy, logs it, and opens the next one with a new version.
     pub(crate) fn change(&mut self, index: u32, time: SimTime, change: impl FnOnce(&mut Motion)) {
+        self.touch(index);
         let piece = self.piece(&self.list[index as usize], time);
         self.book.forces.add(piece.forces);
         self.book.scheme.add(piece.scheme);

@@ -9,7 +9,7 @@ use carom_math::{SimTime, Vec2};
 use crate::bodies::Bodies;
 use crate::body::Collider;
 use crate::flyers::Flyers;
-use crate::pairs::{Pair, Pairs};
+use crate::pairs::{Lie, Pair, Pairs};
 use crate::{BodyId, BodyKind, PairMaterial, PairSearch};
 
 /// Boxes are stretched along the motion over this many sub-steps, so that a body that keeps its
@@ -17,7 +17,7 @@ use crate::{BodyId, BodyKind, PairMaterial, PairSearch};
 const LOOK_AHEAD: f64 = 8.0;
 
 /// Boxes are padded by this fraction of the body's reach, so that a body that jitters stays inside.
-const PADDING: f64 = 0.05;
+pub(crate) const PADDING: f64 = 0.05;
 
 /// Everything a search for pairs reads and writes.
 #[derive(Clone, Debug)]
@@ -227,6 +227,7 @@ impl Broad {
             impacts: 0,
             spent: 0.0,
             given_up: false,
+            built: Lie::default(),
         });
         bodies.get_mut(ends.0).pairs.push(place);
         bodies.get_mut(ends.1).pairs.push(place);

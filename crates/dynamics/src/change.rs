@@ -176,6 +176,10 @@ impl World {
 
     /// A body that is new where it is: it gets its flight, its boxes and its pairs.
     pub(crate) fn arrive(&mut self, index: u32) {
+        if self.settings.mode == Mode::Stepped {
+            self.bodies.touch(index);
+            return;
+        }
         let now = self.clock.now;
         self.flyers.leave(&mut self.bodies, index);
         self.discharge(index);

@@ -27,6 +27,11 @@ impl Clock {
         SimTime::multiple(self.begun, self.h)
     }
 
+    /// Where the present sub-step began.
+    pub(crate) fn last(&self) -> SimTime {
+        SimTime::multiple(self.begun.saturating_sub(1), self.h)
+    }
+
     /// Whether a sub-step must begin for the world to be known up to `end`.
     ///
     /// A look at the grid's own instants sees the end of one sub-step, not the start of the next,

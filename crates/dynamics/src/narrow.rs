@@ -68,7 +68,7 @@ impl Narrow {
 }
 
 /// A new contact in the world, with the impulses of the old one of the same parts.
-fn carried(new: &PartManifold, pose_a: Pose, old: &[PairContact]) -> PairContact {
+pub(crate) fn carried(new: &PartManifold, pose_a: Pose, old: &[PairContact]) -> PairContact {
     let parts = (new.part_a, new.part_b);
     let before = old.iter().find(|contact| contact.parts == parts);
     let normal = pose_a.vector(new.manifold.normal);
@@ -91,6 +91,7 @@ fn carried(new: &PartManifold, pose_a: Pose, old: &[PairContact]) -> PairContact
         normal,
         points,
         tangent_impulse: kept.map_or(0.0, |contact| contact.tangent_impulse),
+        row: before.and_then(|contact| contact.row),
     }
 }
 

@@ -4,6 +4,7 @@ use arrayvec::ArrayVec;
 use carom_collision::FeatureId;
 use carom_math::Vec2;
 
+use crate::solver::RowId;
 use crate::{ContactMode, PairMaterial};
 
 /// Two colliders of different bodies whose boxes overlap; the lower body comes first.
@@ -33,6 +34,17 @@ pub(crate) struct Pair {
     pub(crate) spent: f64,
     /// The impacts of this sub-step outran the budget.
     pub(crate) given_up: bool,
+    /// How the two lay when their contacts were found: stepping looks again once they moved.
+    pub(crate) built: Lie,
+}
+
+/// How two bodies lie to each other.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Lie {
+    /// From the centre of A to that of B, in m.
+    pub(crate) apart: Vec2,
+    /// Angles of both, in rad.
+    pub(crate) angles: (f64, f64),
 }
 
 /// A contact of two convex parts at the last look.
@@ -43,6 +55,8 @@ pub(crate) struct PairContact {
     pub(crate) normal: Vec2,
     pub(crate) points: ArrayVec<PairPoint, 2>,
     pub(crate) tangent_impulse: f64,
+    /// Its row, while both bodies are stepped.
+    pub(crate) row: Option<RowId>,
 }
 
 /// A point of a contact.
@@ -137,14 +151,24 @@ impl Pairs {
             .sort_unstable_by_key(|i| list[*i as usize].as_ref().map(|pair| pair.colliders));
     }
 
+    /// Places of all pairs in order of colliders.
+    pub(crate) fn in_order(&self) -> Vec<u32> {
+        if !self.dirty {
+            return self.order.clone();
+        }
+        let places = (0u32..).zip(&self.list);
+        let alive = places.filter(|(_, pair)| pair.is_some());
+        let mut order: Vec<u32> = alive.map(|(place, _)| place).collect();
+        order.sort_unstable_by_key(|place| {
+            self.list[*place as usize]
+                .as_ref()
+                .map(|pair| pair.colliders)
+        });
+        order
+    }
+
     /// Place number `i` in the order of the last [`Self::sort`].
     pub(crate) fn place(&self, i: usize) -> Option<u32> {
         self.order.get(i).copied()
-    }
-
-    pub(crate) fn iter(&self) -> impl Iterator<Item = &Pair> {
-        self.order
-            .iter()
-            .filter_map(|i| self.list[*i as usize].as_ref())
     }
 }

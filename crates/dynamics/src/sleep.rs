@@ -131,18 +131,18 @@ fn moves(bodies: &Bodies, index: u32) -> bool {
 }
 
 /// Union by index: the smaller root wins, so that groups do not depend on the order of links.
-struct Tree {
+pub(crate) struct Tree {
     parents: Vec<u32>,
 }
 
 impl Tree {
-    fn new(count: usize) -> Self {
+    pub(crate) fn new(count: usize) -> Self {
         Self {
             parents: (0u32..).take(count).collect(),
         }
     }
 
-    fn root(&mut self, mut i: u32) -> u32 {
+    pub(crate) fn root(&mut self, mut i: u32) -> u32 {
         while self.parents[i as usize] != i {
             let up = self.parents[self.parents[i as usize] as usize];
             self.parents[i as usize] = up;
@@ -151,7 +151,7 @@ impl Tree {
         i
     }
 
-    fn join(&mut self, a: u32, b: u32) {
+    pub(crate) fn join(&mut self, a: u32, b: u32) {
         let (a, b) = (self.root(a), self.root(b));
         let (low, high) = if a < b { (a, b) } else { (b, a) };
         self.parents[high as usize] = low;

@@ -7,7 +7,7 @@ use crate::flyers::Cause;
 use crate::predict::{predict, price};
 use crate::resolve::{Struck, strike};
 use crate::sleep::{wake, wake_around};
-use crate::{Refusal, StepReport, World};
+use crate::{Mode, Refusal, StepReport, World};
 
 /// More ticks than this in one step are refused.
 const TICKS: f64 = 1e7;
@@ -46,7 +46,11 @@ impl World {
         }
         // What the caller's changes brought about is told first.
         if !stop_at_event || self.events.is_empty() {
-            self.clock.now = self.advance(end, stop_at_event);
+            self.clock.now = if self.settings.mode == Mode::Stepped {
+                self.advance_stepped(end, stop_at_event)
+            } else {
+                self.advance(end, stop_at_event)
+            };
         }
         self.stopwatch.lap(|p| &mut p.impacts);
         if dt > 0.0 {
@@ -111,7 +115,7 @@ impl World {
                     continue;
                 }
                 let struck = strike(
-                    &self.settings,
+                    self.settings.impact_law,
                     &mut self.bodies,
                     &self.colliders,
                     &mut self.pairs,
@@ -149,6 +153,9 @@ impl World {
     /// A body with a new motion in the middle of a sub-step: its pairs are predicted again, and so
     /// are those of the contact group that it was or is in.
     pub(crate) fn deflected(&mut self, index: u32, time: SimTime) {
+        if self.settings.mode == Mode::Stepped {
+            return;
+        }
         self.redirect(index, time);
         self.regroup(index, time);
     }
@@ -198,7 +205,7 @@ impl World {
     }
 
     /// What lies beside a body that started asleep must be known before either is struck.
-    fn look_at_fresh(&mut self, time: SimTime) {
+    pub(crate) fn look_at_fresh(&mut self, time: SimTime) {
         for place in core::mem::take(&mut self.pairs.fresh) {
             let Some(pair) = self.pairs.find(place).filter(|pair| pair.fresh) else {
                 continue;
@@ -246,6 +253,12 @@ impl World {
 
     /// Has the sub-steps take bodies that woke, and makes their pairs with the flyers near them.
     pub(crate) fn rouse(&mut self, woken: &[u32], time: SimTime) {
+        if self.settings.mode == Mode::Stepped {
+            for &index in woken {
+                self.bodies.touch(index);
+            }
+            return;
+        }
         for &index in woken {
             self.enlist(index, time);
         }

@@ -17,9 +17,10 @@ use crate::narrow::Narrow;
 use crate::pairs::Pairs;
 use crate::profile::Stopwatch;
 use crate::solver::Law;
+use crate::stepped::Stepped;
 use crate::{
     Body, BodyDef, BodyError, BodyId, BodyKind, Contact, EnergyLedger, EventKind, Events, Material,
-    Momentum, Settings, SettingsError, StepProfile, StepReport,
+    Mode, Momentum, Settings, SettingsError, StepProfile, StepReport,
 };
 
 /// Rigid bodies and the time that passes for them.
@@ -69,6 +70,8 @@ pub struct World {
     /// Bodies with a force that waits for a step or acts during this one.
     pub(crate) forced: Vec<u32>,
     pub(crate) stopwatch: Stopwatch,
+    /// The solver of stepped mode.
+    pub(crate) pool: Stepped,
 }
 
 impl World {
@@ -82,7 +85,11 @@ impl World {
         Ok(Self {
             law: Law::new(&settings.contact, h),
             clock: Clock::new(h),
-            bodies: Bodies::new(settings.gravity, settings.history),
+            bodies: Bodies::new(
+                settings.gravity,
+                settings.history,
+                settings.mode == Mode::Stepped,
+            ),
             colliders: Vec::new(),
             free_colliders: Vec::new(),
             pairs: Pairs::default(),
@@ -98,6 +105,7 @@ impl World {
             spent: 0.0,
             forced: Vec::new(),
             stopwatch: Stopwatch::default(),
+            pool: Stepped::default(),
             settings,
         })
     }
@@ -222,8 +230,10 @@ impl World {
 
     /// All pairs that touch, as of the last sub-step, in order of their shapes.
     pub fn contacts(&self) -> impl Iterator<Item = Contact> + use<'_> {
-        let touching = self.pairs.iter().filter(|pair| pair.touching);
-        touching.flat_map(|pair| Contact::of(&self.bodies, pair))
+        let places = self.pairs.in_order().into_iter();
+        let touching = places.map(|place| self.pairs.get(place));
+        let touching = touching.filter(|pair| pair.touching);
+        touching.flat_map(|pair| self.pool.contacts_of(&self.bodies, pair))
     }
 
     /// Frame of a body's shapes at `time`; `None` if it was not there or the log does not reach.
@@ -259,6 +269,13 @@ impl World {
     #[must_use]
     pub fn energy(&self) -> EnergyLedger {
         let mut ledger = self.bodies.ledger(self.clock.now);
+        if self.settings.mode == Mode::Stepped {
+            ledger.friction += self.pool.seats.rig.heat;
+            ledger.impacts += self.pool.bounces.cost();
+            // One sum for all rows and push-outs: what they did is what the energies tell.
+            ledger.scheme += ledger.residual();
+            return ledger;
+        }
         let (heat, driven) = self.closed.unbooked(self.clock.now);
         ledger.friction += heat;
         ledger.external += driven;
@@ -349,10 +366,11 @@ impl World {
 
     /// Takes a pair out and says so if it touched.
     pub(crate) fn part(&mut self, place: u32, time: SimTime) {
-        let Some(pair) = part(&mut self.bodies, &mut self.pairs, place) else {
+        let Some(mut pair) = part(&mut self.bodies, &mut self.pairs, place) else {
             return;
         };
         self.loosen(place, pair.bodies, time);
+        self.pool.release(&mut pair);
         self.agenda.forget(place);
         if pair.touching {
             let (a, b) = (

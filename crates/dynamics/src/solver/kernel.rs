@@ -119,22 +119,20 @@ fn block<S: Simd, const RELAX: bool>(
     let r2 = k12 * j1 + k22 * j2 - u2;
     let product = s11 * s22;
     let det = product - k12 * k12;
-    // Locked rotations make both points one: the point that wants more takes it all.
+    // Locked rotations make both points one: then one of them pushes alone.
     let regular = det.simd_gt(product * f64x8::splat(simd, 1e-12));
     let det = regular.select(det, one);
     let q = one / (product * det);
     let (y1, y2) = (r1 * (q * s22 * det), r2 * (q * s11 * det));
     let inverse = q * product;
-    let first = y1.simd_ge(y2);
-    let x1 = regular.select((s22 * r1 - k12 * r2) * inverse, first.select(y1, -one));
-    let x2 = regular.select((s11 * r2 - k12 * r1) * inverse, first.select(-one, y2));
-    let (off2, off1) = (x2.simd_lt(zero), x1.simd_lt(zero));
-    let (y1, y2) = (
-        y1.simd_gt(zero).select(y1, zero),
-        y2.simd_gt(zero).select(y2, zero),
-    );
-    let x1 = off2.select(y1, off1.select(zero, x1));
-    let x2 = off2.select(zero, off1.select(y2, x2));
+    let x1 = (s22 * r1 - k12 * r2) * inverse;
+    let x2 = (s11 * r2 - k12 * r1) * inverse;
+    let both = regular & x1.simd_ge(zero) & x2.simd_ge(zero);
+    // The first alone, if that keeps the second from closing; else the second, if it closes.
+    let first = y1.simd_ge(zero) & (k12 * y1).simd_ge(r2);
+    let y2 = y2.simd_gt(zero).select(y2, zero);
+    let x1 = both.select(x1, first.select(y1, zero));
+    let x2 = both.select(x2, first.select(zero, y2));
 
     // A face that did not push yet has no error to damp: its first impulse is taken as it is.
     let acted = (j1 + j2).simd_gt(zero);

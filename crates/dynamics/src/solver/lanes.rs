@@ -35,6 +35,8 @@ pub(crate) struct Lanes {
     pub(super) colours: Vec<Vec<Wide>>,
     /// Whose the lanes of each colour are, in order.
     owners: Vec<Vec<RowId>>,
+    /// Lanes that pushed when they were last asked, a bit each, block by block.
+    acts: Vec<Vec<u8>>,
     places: Vec<Place>,
     free: Vec<RowId>,
     /// Colours that each body has rows in.
@@ -48,6 +50,7 @@ impl Default for Lanes {
         Self {
             colours: vec![Vec::new(); COLOURS + 1],
             owners: vec![Vec::new(); COLOURS + 1],
+            acts: vec![Vec::new(); COLOURS + 1],
             places: Vec::new(),
             free: Vec::new(),
             masks: Vec::new(),
@@ -90,16 +93,22 @@ impl Lanes {
             id
         });
         let (blocks, owners) = (&mut self.colours[colour], &mut self.owners[colour]);
+        let acts = &mut self.acts[colour];
         let index = if colour == COLOURS {
+            acts.push(0);
             blocks.push(Wide::EMPTY);
             (blocks.len() - 1) * LANES
         } else {
             if owners.len().is_multiple_of(LANES) {
+                acts.push(0);
                 blocks.push(Wide::EMPTY);
             }
             owners.len()
         };
         owners.push(id);
+        if row.acts() {
+            acts[index / LANES] |= 1 << (index % LANES);
+        }
         blocks[index / LANES].put(index % LANES, row, &lines[a], &lines[b]);
         #[expect(clippy::cast_possible_truncation, reason = "fewer than 2^32 rows")]
         {
@@ -131,7 +140,9 @@ impl Lanes {
             }
         }
         let owners = &mut self.owners[colour];
+        let acts = &mut self.acts[colour];
         let owner = if colour == COLOURS {
+            acts.swap_remove(block);
             blocks.swap_remove(block);
             owners.swap_remove(block);
             owners.get(block).copied()
@@ -139,8 +150,12 @@ impl Lanes {
             let last = owners.len() - 1;
             let moved = blocks[last / LANES];
             blocks[block].copy_lane(lane, &moved, last % LANES);
+            let bit = acts[last / LANES] >> (last % LANES) & 1;
+            acts[block] = acts[block] & !(1 << lane) | bit << lane;
+            acts[last / LANES] &= !(1 << (last % LANES));
             owners.swap_remove(block * LANES + lane);
             if last.is_multiple_of(LANES) {
+                acts.pop();
                 blocks.pop();
             } else {
                 blocks[last / LANES].copy_lane(last % LANES, &Wide::EMPTY, 0);
@@ -164,6 +179,42 @@ impl Lanes {
         let place = self.places[id.0 as usize];
         let (block, lane) = place.block();
         (&mut self.colours[place.colour as usize][block], lane)
+    }
+
+    /// Whether a row pushed when [`Self::turned`] was last asked, or came with impulses since.
+    pub(crate) fn acted(&self, id: RowId) -> bool {
+        let place = self.places[id.0 as usize];
+        let (block, lane) = place.block();
+        self.acts[place.colour as usize][block] >> lane & 1 == 1
+    }
+
+    /// Rows that began or ceased to push since this was last asked.
+    pub(crate) fn turned(&mut self, changed: &mut Vec<RowId>) {
+        for (c, blocks) in self.colours.iter().enumerate() {
+            for (k, (wide, acts)) in blocks.iter().zip(&mut self.acts[c]).enumerate() {
+                let mut now = 0;
+                for lane in 0..LANES {
+                    now |= u8::from(wide.j1[lane] + wide.j2[lane] > 0.0) << lane;
+                }
+                let mut turned = now ^ *acts;
+                *acts = now;
+                while turned != 0 {
+                    let lane = turned.trailing_zeros() as usize;
+                    turned &= turned - 1;
+                    let index = if c == COLOURS { k } else { k * LANES + lane };
+                    changed.push(self.owners[c][index]);
+                }
+            }
+        }
+    }
+
+    /// Bodies of all rows that push.
+    pub(crate) fn links(&self) -> impl Iterator<Item = (u32, u32)> + use<'_> {
+        self.colours.iter().flatten().flat_map(|wide| {
+            (0..LANES)
+                .filter(|lane| wide.j1[*lane] + wide.j2[*lane] > 0.0)
+                .map(|lane| (wide.a[lane], wide.b[lane]))
+        })
     }
 
     /// All rows, in the order in which they are solved for.

@@ -67,22 +67,14 @@ fn row(pass: Pass, law: &Law, lines: &mut [Line], wide: &mut Wide, lane: usize, 
     let q = 1.0 / (product * det);
     let (y1, y2) = (r1 * (q * s22 * det), r2 * (q * s11 * det));
     let inverse = q * product;
-    let (x1, x2) = if regular {
-        (
-            (s22 * r1 - k12 * r2) * inverse,
-            (s11 * r2 - k12 * r1) * inverse,
-        )
-    } else if y1 >= y2 {
-        (y1, -1.0)
-    } else {
-        (-1.0, y2)
-    };
-    let (x1, x2) = if x2 < 0.0 {
-        (positive(y1), 0.0)
-    } else if x1 < 0.0 {
-        (0.0, positive(y2))
-    } else {
+    let x1 = (s22 * r1 - k12 * r2) * inverse;
+    let x2 = (s11 * r2 - k12 * r1) * inverse;
+    let (x1, x2) = if regular && x1 >= 0.0 && x2 >= 0.0 {
         (x1, x2)
+    } else if y1 >= 0.0 && k12 * y1 >= r2 {
+        (y1, 0.0)
+    } else {
+        (0.0, positive(y2))
     };
 
     let omega = if j1 + j2 > 0.0 {

@@ -74,12 +74,6 @@ impl Default for Rig {
 }
 
 impl Rig {
-    /// Computes with another width from now on: the bits stay the same.
-    #[cfg(test)]
-    pub(crate) const fn set_level(&mut self, level: Level) {
-        self.level = level;
-    }
-
     /// Takes a body in, where it is now; its line counts from there.
     pub(crate) fn admit(&mut self, member: &Member) -> u32 {
         let slot = self.free.pop().unwrap_or_else(|| {
@@ -153,6 +147,11 @@ impl Rig {
         debug_assert_eq!(old.bodies, row.bodies, "a lane is of two bodies");
         self.warm(&old, -1.0);
         self.warm(row, 1.0);
+        self.retell(id, row);
+    }
+
+    /// Tells a row's gaps anew, from where its bodies' lines count now; its impulses stay.
+    pub(crate) fn retell(&mut self, id: RowId, row: &Row) {
         let (a, b) = (row.bodies.0 as usize, row.bodies.1 as usize);
         let (line_a, line_b) = (self.lines[a], self.lines[b]);
         let (wide, lane) = self.lanes.at_mut(id);
@@ -205,6 +204,7 @@ impl Rig {
         line.0[..3].copy_from_slice(&[v.x, v.y, w]);
     }
 
+    #[cfg(test)]
     /// Changes a mass: the same impulses, other velocities. Moving bodies only.
     pub(crate) fn set_mass(&mut self, slot: u32, inverse_mass: f64, inverse_inertia: f64) {
         let (line, start) = (
@@ -230,6 +230,7 @@ impl Rig {
         self.pull[slot as usize]
     }
 
+    #[cfg(test)]
     /// Impulses and warm starts for another length of the sub-step: `ratio` = new over old.
     pub(crate) fn rescale(&mut self, ratio: f64) {
         for wide in self.lanes.colours.iter_mut().flatten() {
@@ -258,7 +259,9 @@ impl Rig {
     }
 
     /// One sub-step. Displacements grow by it; rows are read where they are.
-    pub(crate) fn step(&mut self, law: &Law) {
+    ///
+    /// `bounce` may change velocities before displacements are made of second order.
+    pub(crate) fn step(&mut self, law: &Law, bounce: impl FnOnce(&mut Self)) {
         self.pull_and_warm(law.h);
         sweep(
             self.level,
@@ -275,7 +278,62 @@ impl Rig {
             &mut self.lines,
             &mut self.lanes.colours,
         );
+        bounce(self);
         self.second_order(law.h);
+    }
+
+    /// Opening speeds of a row's points.
+    pub(crate) fn opening(&self, row: &Row) -> [f64; 2] {
+        let lines = [row.bodies.0, row.bodies.1].map(|i| &self.lines[i as usize]);
+        let v = row.n.dot(lines[1].v() - lines[0].v());
+        let (wa, wb) = (lines[0].w(), lines[1].w());
+        [
+            v + row.b[0] * wb - row.a[0] * wa,
+            v + row.b[1] * wb - row.a[1] * wa,
+        ]
+    }
+
+    /// Opens the gaps of a row so wide that it does not act; gives what [`Self::show`] needs.
+    pub(crate) fn hide(&mut self, id: RowId) -> [f64; 2] {
+        let (wide, lane) = self.lanes.at_mut(id);
+        let gaps = [wide.s1[lane], wide.s2[lane]];
+        (wide.s1[lane], wide.s2[lane]) = (Row::OPEN, Row::OPEN);
+        gaps
+    }
+
+    pub(crate) fn show(&mut self, id: RowId, gaps: [f64; 2]) {
+        let (wide, lane) = self.lanes.at_mut(id);
+        [wide.s1[lane], wide.s2[lane]] = gaps;
+    }
+
+    /// Makes the points of a row that pushes open at `e` times the speeds at which they were met, one
+    /// after the other; 0: not met. Gives the energy that is lost, in J: impulse × mean closing speed.
+    pub(crate) fn bounce(&mut self, id: RowId, e: f64, met: [f64; 2]) -> f64 {
+        let mut lost = 0.0;
+        for (i, met) in met.into_iter().enumerate() {
+            let row = self.row(id);
+            if met <= 0.0 || row.j[i] <= 0.0 {
+                continue;
+            }
+            let (a, b) = (row.bodies.0 as usize, row.bodies.1 as usize);
+            let [ma, ia] = [3, 7].map(|k| self.lines[a].0[k]);
+            let [mb, ib] = [3, 7].map(|k| self.lines[b].0[k]);
+            let k = ma + mb + ia * row.a[i] * row.a[i] + ib * row.b[i] * row.b[i];
+            let j = ((e * met - self.opening(&row)[i]) / k).max(-row.j[i]);
+            lost += (row.j[i] + j) * 0.5 * (1.0 - e) * met;
+            let line = &mut self.lines[a].0;
+            line[0] -= row.n.x * j * ma;
+            line[1] -= row.n.y * j * ma;
+            line[2] -= row.a[i] * j * ia;
+            let line = &mut self.lines[b].0;
+            line[0] += row.n.x * j * mb;
+            line[1] += row.n.y * j * mb;
+            line[2] += row.b[i] * j * ib;
+            let (wide, lane) = self.lanes.at_mut(id);
+            let column = if i == 0 { &mut wide.j1 } else { &mut wide.j2 };
+            column[lane] += j;
+        }
+        lost
     }
 
     /// `p = v − start; start = v + h a; v = start + p`
@@ -314,6 +372,12 @@ impl Rig {
                 line.0[6] -= 0.5 * h * dw;
             }
         }
+    }
+
+    /// Whether contacts act on a body.
+    pub(crate) fn is_pushed(&self, slot: u32) -> bool {
+        let (line, start) = (&self.lines[slot as usize], &self.start[slot as usize]);
+        line.v() != start.v || (line.w() - start.w).abs() > 0.0
     }
 
     /// Velocities at the start of the last sub-step.

@@ -20,16 +20,18 @@ pub(crate) struct Law {
 }
 
 impl Law {
+    /// 1/h.
+    pub(crate) const fn inverse_h(&self) -> f64 {
+        self.inverse_h
+    }
+
     /// ```text
     /// ω = 2π f,  c = 2ζ + hω,  rate = ω/c,  γ = κ/(hωc)
     /// ```
     /// so that at rest `gap = −κ load (1/m)/ω²`: softness, not lack of sweeps, is what a resting
     /// contact sinks in by.
     pub(crate) fn new(softness: &Softness, h: f64) -> Self {
-        // 4 sub-steps of 1/240 s are the measured base: quiet with κ = 0.3, and with the square of
-        // the sub-step below.
-        let relative = h * 240.0;
-        let kappa = softness.compliance.unwrap_or(0.3 * relative * relative);
+        let kappa = softness.compliance;
         let frequency = softness.frequency.min(0.125 / h);
         let soft = |f: f64| {
             let omega = 2.0 * core::f64::consts::PI * f;
@@ -107,24 +109,19 @@ fn normals(
     let r2 = k12 * row.j[0] + k22 * row.j[1] - u[1];
     let (s11, s22) = (k11 * softened[0], k22 * softened[1]);
     let determinant = s11 * s22 - k12 * k12;
-    // Locked rotations make both points one: any split of the sum is right, and the point that
-    // wants more takes it all.
-    let x = if determinant > 1e-12 * s11 * s22 {
-        [
-            (s22 * r1 - k12 * r2) / determinant,
-            (s11 * r2 - k12 * r1) / determinant,
-        ]
-    } else if r1 * s22 >= r2 * s11 {
-        [r1 / s11, -1.0]
+    // Locked rotations make both points one: then one of them pushes alone.
+    let both = [
+        (s22 * r1 - k12 * r2) / determinant,
+        (s11 * r2 - k12 * r1) / determinant,
+    ];
+    let regular = determinant > 1e-12 * s11 * s22;
+    let first = r1 / s11;
+    let x = if regular && both[0] >= 0.0 && both[1] >= 0.0 {
+        both
+    } else if first >= 0.0 && k12 * first >= r2 {
+        [first, 0.0]
     } else {
-        [-1.0, r2 / s22]
-    };
-    let x = if x[1] < 0.0 {
-        [(r1 / s11).max(0.0), 0.0]
-    } else if x[0] < 0.0 {
         [0.0, (r2 / s22).max(0.0)]
-    } else {
-        x
     };
     let step = |j: f64, x: f64| (j + law.over_relaxation * (x - j)).max(0.0);
     let j = [step(row.j[0], x[0]), step(row.j[1], x[1])];

@@ -1,9 +1,9 @@
 //! `[settings]`, gravity and the parameters that stand for them.
 
 use carom_dynamics::impact::ImpactLaw;
-use carom_dynamics::{Mode, PairSearch, Settings, Several, Sleep, Softness};
+use carom_dynamics::{Mode, PairSearch, Settings, Sleep, Softness};
 
-use crate::model::{LawName, ModeName, PairsName, SceneFile, SeveralName, SleepChoice};
+use crate::model::{LawName, ModeName, PairsName, SceneFile, SleepChoice};
 
 /// The engine's settings; what the file does not say is the engine's default.
 pub(crate) fn settings(file: &SceneFile) -> Settings {
@@ -35,17 +35,10 @@ pub(crate) fn settings(file: &SceneFile) -> Settings {
                 LawName::Poisson => ImpactLaw::Poisson,
                 LawName::Stronge => ImpactLaw::Stronge,
             }),
-        several: table
-            .several
-            .map_or(default.several, |choice| match choice {
-                SeveralName::Blend => Several::Blend,
-                SeveralName::Newton => Several::NewtonLcp,
-                SeveralName::Reflections => Several::Reflections,
-            }),
         contact: Softness {
             frequency: contact.frequency.unwrap_or(soft.frequency),
             damping_ratio: contact.damping_ratio.unwrap_or(soft.damping_ratio),
-            compliance: contact.compliance.or(soft.compliance),
+            compliance: contact.compliance.unwrap_or(soft.compliance),
             over_relaxation: contact.over_relaxation.unwrap_or(soft.over_relaxation),
             push_out: contact.push_out.unwrap_or(soft.push_out),
         },

@@ -1,0 +1,91 @@
+//! Restitution: what a face gives back of the speed at which it was met.
+//!
+//! A row stops a body at its surface by the end of a sub-step. Where the pair bounces, the opening
+//! speed is then set to e times the speed at which the surface was reached: that of the start of the
+//! sub-step, and what the pull added along the gap.
+
+use crate::solver::{Rig, Row, RowId};
+
+/// Rows of pairs that bounce.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Bounces {
+    /// Restitution by row; 0 for rows that do not bounce.
+    restitution: Vec<f64>,
+    rows: Vec<RowId>,
+    /// What bounces cost, in J.
+    cost: f64,
+    /// Rows that are about to be met in this sub-step: closing speeds of both points at the surface.
+    armed: Vec<(RowId, [f64; 2])>,
+    /// Rows that are met later: hidden in this sub-step, so that nothing brakes them early.
+    hidden: Vec<(RowId, [f64; 2])>,
+}
+
+impl Bounces {
+    pub(crate) fn note(&mut self, id: RowId, e: f64) {
+        let at = id.0 as usize;
+        if self.restitution.len() <= at {
+            self.restitution.resize(at + 1, 0.0);
+        }
+        self.restitution[at] = e;
+        if e > 0.0 {
+            self.rows.push(id);
+        }
+    }
+
+    pub(crate) fn forget(&mut self, id: RowId) {
+        if core::mem::take(&mut self.restitution[id.0 as usize]) > 0.0 {
+            self.rows.retain(|other| *other != id);
+        }
+    }
+
+    /// Before a sub-step: which rows will be met faster than rest.
+    pub(crate) fn arm(&mut self, rig: &mut Rig, h: f64) {
+        self.armed.clear();
+        self.hidden.clear();
+        for &id in &self.rows {
+            let row = rig.row(id);
+            let (a, b) = (row.bodies.0, row.bodies.1);
+            let pull = rig.pull(b).acceleration - rig.pull(a).acceleration;
+            let along = row.n.dot(pull);
+            let rest = 2.0 * h * pull.length();
+            let opening = rig.opening(&row);
+            let (mut met, mut later, mut held) = ([0.0; 2], false, false);
+            for i in 0..2 {
+                let (gap, speed) = (row.gap[i].max(0.0), -opening[i]);
+                // A face of one point has no second.
+                if gap > 0.5 * Row::OPEN {
+                    continue;
+                }
+                let within = row.gap[i] <= 0.0 || gap <= (speed - along * h) * h;
+                if speed <= rest {
+                    held |= within;
+                } else if !within {
+                    later = true;
+                } else {
+                    met[i] = (speed * speed - 2.0 * along * gap).max(0.0).sqrt();
+                }
+            }
+            if met[0] > 0.0 || met[1] > 0.0 {
+                self.armed.push((id, met));
+            } else if later && !held {
+                self.hidden.push((id, rig.hide(id)));
+            }
+        }
+    }
+
+    /// After a sub-step: the opening speeds that are owed.
+    pub(crate) fn pay(&mut self, rig: &mut Rig) {
+        for (id, gaps) in self.hidden.drain(..) {
+            rig.show(id, gaps);
+        }
+        for &(id, met) in &self.armed {
+            let e = self.restitution[id.0 as usize];
+            self.cost += rig.bounce(id, e, met);
+        }
+    }
+
+    /// What bounces have cost so far, in J.
+    pub(crate) const fn cost(&self) -> f64 {
+        self.cost
+    }
+}

@@ -1,0 +1,248 @@
+//! A look at a pair: its contacts, and their rows.
+
+use carom_collision::contacts;
+use carom_math::{Pose, SimTime, Vec2};
+
+use super::Stepped;
+use super::seats::pull_of;
+use crate::World;
+use crate::narrow::carried;
+use crate::pairs::{Lie, Pair, PairContact};
+use crate::solver::{Row, RowId};
+
+/// Two bodies that moved less than this against each other since their contacts were found, as a
+/// fraction of the smaller reach, are not looked at again: 20 mm for boxes of 1 m.
+const KEPT: f64 = 0.028;
+
+/// The same for two that do not push each other.
+const KEPT_APART: f64 = 0.014;
+
+/// Contacts are looked for this far beyond a tick's travel, as a fraction of the smaller reach.
+const MARGIN: f64 = 0.028;
+
+/// Normals are kept in the world: a pair that turned by more, in rad, is looked at again.
+const TURNED: f64 = 0.1;
+
+impl World {
+    /// Finds the contacts of a pair anew if it moved, and gives them rows. Whoever wakes goes to `moved`.
+    pub(super) fn look_at(&mut self, place: u32, time: SimTime, moved: &mut Vec<u32>) {
+        let pair = self.pairs.get(place);
+        let bodies = pair.bodies;
+        let active = [bodies.0, bodies.1].map(|i| self.bodies.get(i).is_active());
+        if active == [false, false] {
+            return;
+        }
+        for index in [bodies.0, bodies.1] {
+            if self.bodies.get(index).asleep {
+                if !self.meets_sleeper(place, time) {
+                    return;
+                }
+                self.call_up(index, time, moved);
+            }
+        }
+        let slots = [bodies.0, bodies.1].map(|i| self.sit(i, time));
+        let seats = &self.pool.seats;
+        let [a, b] = slots.map(|slot| seats.get(slot));
+        let lines = slots.map(|slot| &seats.rig.lines[slot as usize]);
+        let size = a.reach.min(b.reach);
+        let centres = [
+            a.base.position + lines[0].d(),
+            b.base.position + lines[1].d(),
+        ];
+        let lie = Lie {
+            apart: centres[1] - centres[0],
+            angles: (
+                a.base_angle + lines[0].turn(),
+                b.base_angle + lines[1].turn(),
+            ),
+        };
+        let pair = self.pairs.get_mut(place);
+        // Asked of the rows: what callers were told last depends on when they looked.
+        let rows = pair.contacts.iter().filter_map(|contact| contact.row);
+        let pushes = rows.into_iter().any(|id| seats.rig.row(id).acts());
+        let kept = if pushes { KEPT } else { KEPT_APART };
+        if !pair.fresh && stirred(&pair.built, &lie, size) <= kept * size {
+            return;
+        }
+        pair.fresh = false;
+        pair.built = lie;
+        let pair_was_touching = pair.touching;
+        let rim = |w: f64, reach: f64| if w == 0.0 { 0.0 } else { w.abs() * reach };
+        let closing = (lines[1].v() - lines[0].v()).length()
+            + rim(lines[0].w(), a.reach)
+            + rim(lines[1].w(), b.reach);
+        let tick = self.settings.tick;
+        let pull = seats.rig.pull(slots[0]).acceleration - seats.rig.pull(slots[1]).acceleration;
+        let margin = MARGIN * size + (closing + pull.length() * tick) * tick;
+        let near = a.reach + b.reach + margin;
+        let found = &mut self.pool.found;
+        found.clear();
+        if lie.apart.length_squared() <= near * near {
+            let poses = slots.map(|slot| self.pool.seats.pose(slot));
+            contacts(
+                &self.colliders[pair.colliders.0 as usize].solid,
+                &self.colliders[pair.colliders.1 as usize].solid,
+                poses[1].seen_from(poses[0]),
+                margin,
+                found,
+            );
+            self.report.pairs += 1;
+            self.face(place, slots, poses);
+        } else {
+            self.pool.release(pair);
+            pair.contacts.clear();
+        }
+        if pair_was_touching {
+            self.judge(place, time);
+        }
+    }
+
+    /// Whether an active body is about to touch a sleeper of its pair: then that one wakes.
+    fn meets_sleeper(&mut self, place: u32, time: SimTime) -> bool {
+        let pair = self.pairs.get(place);
+        let (a, b) = (
+            self.bodies.get(pair.bodies.0),
+            self.bodies.get(pair.bodies.1),
+        );
+        let (asleep, awake) = if a.asleep { (a, b) } else { (b, a) };
+        let slot = self.pool.seats.slot(awake.id.index);
+        let Some(slot) = slot.filter(|_| asleep.asleep) else {
+            return false;
+        };
+        let line = self.pool.seats.rig.lines[slot as usize];
+        let size = a.reach.min(b.reach);
+        let rim = if line.w() == 0.0 {
+            0.0
+        } else {
+            line.w().abs() * awake.reach
+        };
+        let closing = line.v().length() + rim;
+        let resting = self.settings.sleep.map_or(0.0, |sleep| sleep.speed);
+        let margin = if closing > resting {
+            closing * self.settings.tick + KEPT_APART * size
+        } else {
+            0.0
+        };
+        let moving = self.pool.seats.pose(slot);
+        let still = asleep.motion.pose_at(time);
+        let near = a.reach + b.reach + margin;
+        if (moving.position - still.position).length_squared() > near * near {
+            return false;
+        }
+        let (pose_a, pose_b) = if a.asleep {
+            (still, moving)
+        } else {
+            (moving, still)
+        };
+        let found = &mut self.pool.found;
+        found.clear();
+        contacts(
+            &self.colliders[pair.colliders.0 as usize].solid,
+            &self.colliders[pair.colliders.1 as usize].solid,
+            pose_b.seen_from(pose_a),
+            margin,
+            found,
+        );
+        self.report.pairs += 1;
+        !found.is_empty()
+    }
+
+    /// The slot of a body of a pair that is stepped; a fixed one gets it when it is first met.
+    pub(super) fn sit(&mut self, index: u32, time: SimTime) -> u32 {
+        if let Some(slot) = self.pool.seats.slot(index) {
+            return slot;
+        }
+        let state = self.bodies.get(index);
+        let pull = pull_of(&self.bodies, state, state.motion.centre_at(time));
+        self.pool.seats.admit(state, pull, time)
+    }
+
+    /// Gives the contacts that were found their rows: lanes go over by parts, impulses by feature.
+    fn face(&mut self, place: u32, slots: [u32; 2], poses: [Pose; 2]) {
+        let pair = self.pairs.get_mut(place);
+        let stepped = &mut self.pool;
+        for contact in &mut pair.contacts {
+            if let Some(id) = contact.row {
+                let row = stepped.seats.rig.row(id);
+                for (point, j) in contact.points.iter_mut().zip(row.j) {
+                    point.impulse = j;
+                }
+                contact.tangent_impulse = row.jt;
+            }
+        }
+        let mut old = core::mem::take(&mut pair.contacts);
+        let found = core::mem::take(&mut stepped.found);
+        for new in &found {
+            let mut contact = carried(new, poses[0], &old);
+            let row = row_of(&contact, slots, poses, pair);
+            if let Some(id) = contact.row {
+                for before in &mut old {
+                    if before.row == contact.row {
+                        before.row = None;
+                    }
+                }
+                stepped.seats.rig.rewrite(id, &row);
+            } else {
+                let id = stepped.seats.rig.insert(&row);
+                contact.row = Some(id);
+                stepped.bounces.note(id, pair.material.restitution);
+                stepped.owns(id, place);
+            }
+            pair.contacts.push(contact);
+        }
+        stepped.found = found;
+        for gone in old {
+            if let Some(id) = gone.row {
+                stepped.seats.rig.remove(id);
+                stepped.bounces.forget(id);
+            }
+        }
+    }
+}
+
+impl Stepped {
+    fn owns(&mut self, id: RowId, place: u32) {
+        let at = id.0 as usize;
+        if self.pair_of.len() <= at {
+            self.pair_of.resize(at + 1, place);
+        }
+        self.pair_of[at] = place;
+    }
+}
+
+/// The row of a contact.
+fn row_of(contact: &PairContact, slots: [u32; 2], poses: [Pose; 2], pair: &Pair) -> Row {
+    let arms = contact.points.iter().map(|p| {
+        (
+            p.position - poses[0].position,
+            p.position - poses[1].position,
+        )
+    });
+    let arms: arrayvec::ArrayVec<(Vec2, Vec2), 2> = arms.collect();
+    let mut row = Row::new(
+        (slots[0], slots[1]),
+        contact.normal,
+        &arms,
+        pair.material.friction,
+    );
+    for (i, point) in contact.points.iter().enumerate() {
+        row.gap[i] = point.separation;
+        row.j[i] = point.impulse;
+    }
+    let limit = row.mu * (row.j[0] + row.j[1]);
+    row.jt = contact.tangent_impulse.clamp(-limit, limit);
+    row
+}
+
+/// How far two bodies moved against each other where they meet, in m; infinite if their normals are stale.
+fn stirred(built: &Lie, now: &Lie, size: f64) -> f64 {
+    let turns = (now.angles.0 - built.angles.0, now.angles.1 - built.angles.1);
+    if turns.0.abs() > TURNED || turns.1.abs() > TURNED {
+        return f64::INFINITY;
+    }
+    // B's centre as A sees it, and what the gap's linear form leaves out for a far centre.
+    let carried_along = Vec2::new(-built.apart.y, built.apart.x) * turns.0;
+    let slid = (now.apart - built.apart - carried_along).length();
+    let bent = 0.5 * built.apart.length() * turns.0 * turns.0;
+    slid + bent + size * (turns.1 - turns.0).abs()
+}

@@ -1,0 +1,108 @@
+//! Every moving body in one solver: [`crate::Mode::Stepped`].
+//!
+//! ```text
+//! changes ─► look (once a tick) ─► sub-steps ─► write
+//! seats      near, faces           rig, bounce   motions, touch
+//! ```
+//! During a step bodies live in the solver's lines, and pairs in its rows. Motions are written once,
+//! at the end; a look does nothing for a pair that kept its relative pose.
+
+mod bounce;
+mod faces;
+mod near;
+mod rest;
+mod seats;
+mod touch;
+mod write;
+
+use carom_collision::PartManifold;
+use carom_math::SimTime;
+
+use crate::World;
+use crate::solver::RowId;
+use bounce::Bounces;
+use seats::Seats;
+
+/// Ticks between two works-out of the warm start from the impulses.
+const REFRESH: u32 = 64;
+
+/// What stepping keeps between steps.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Stepped {
+    pub(crate) seats: Seats,
+    pub(crate) bounces: Bounces,
+    /// Scratch of a look.
+    found: Vec<PartManifold>,
+    /// Pair of each row, by the row's name.
+    pair_of: Vec<u32>,
+    /// Rows that began or ceased to push: scratch.
+    changed: Vec<RowId>,
+    /// Time since groups at rest were last looked for, in s.
+    since_rest: f64,
+    /// Sub-steps until the next look.
+    until_look: u32,
+    /// Looks so far, modulo [`REFRESH`].
+    looks: u32,
+    /// Bodies that moved since they were last looked at.
+    moved: Vec<u32>,
+    /// Bodies that are looked at in every sub-step until the next tick.
+    quick: Vec<u32>,
+    /// Pairs that this look has been through, by place: number of the look.
+    seen: Vec<u32>,
+    look: u32,
+}
+
+impl World {
+    /// Sub-steps up to `end`.
+    pub(crate) fn advance_stepped(&mut self, end: SimTime, stop_at_event: bool) -> SimTime {
+        let mut first = true;
+        while self.clock.is_due(end) {
+            let time = self.clock.next();
+            if first {
+                self.take_changes(time);
+            } else if self.settings.history > 0 {
+                self.write_motions();
+            }
+            self.book_forces(time, first);
+            first = false;
+            if self.pool.until_look == 0 {
+                self.tell_touches(time);
+                if let Some(sleep) = self.settings.sleep {
+                    self.rest(sleep, time);
+                    self.stopwatch.lap(|p| &mut p.sleep);
+                }
+                self.look_around(time);
+                self.pool.until_look = self.settings.substeps_per_tick();
+            } else if !self.pool.quick.is_empty() {
+                self.look_between(time);
+            }
+            self.pool.until_look -= 1;
+            self.clock.begin();
+            self.report.substeps += 1;
+            self.substep();
+            if stop_at_event {
+                self.tell_touches(self.clock.next());
+                if !self.events.is_empty() {
+                    self.write_motions();
+                    return self.clock.next().min(end);
+                }
+            }
+        }
+        if !first {
+            self.tell_touches(self.clock.next());
+            self.write_motions();
+            self.stopwatch.lap(|p| &mut p.flight);
+        }
+        end
+    }
+
+    fn substep(&mut self) {
+        let (rig, bounces) = (&mut self.pool.seats.rig, &mut self.pool.bounces);
+        bounces.arm(rig, self.clock.h);
+        rig.step(&self.law, |rig| bounces.pay(rig));
+        let rig = &self.pool.seats.rig;
+        self.report.rows += rig.lanes.len() as u64;
+        self.report.handed_over += self.pool.seats.len() as u64;
+        self.stopwatch.lap(|p| &mut p.solver);
+    }
+}

@@ -1,0 +1,208 @@
+//! Who may meet whom: changes from outside, and the look around at the start of a tick.
+
+use carom_geometry::Aabb;
+use carom_math::{SimTime, Vec2};
+
+use super::seats::{pull_of, wandered};
+use super::{REFRESH, Stepped};
+use crate::broad::PADDING;
+use crate::pairs::Pair;
+use crate::{BodyKind, World};
+
+impl World {
+    /// Takes over what a caller changed since the last sub-step: who came, went, woke, was moved.
+    pub(super) fn take_changes(&mut self, time: SimTime) {
+        let mut touched = core::mem::take(&mut self.bodies.touched);
+        touched.sort_unstable();
+        touched.dedup();
+        for &index in &touched {
+            let state = self.bodies.get(index);
+            let seats = &mut self.pool.seats;
+            let mut slot = seats.slot(index);
+            let belongs = self.bodies.is_alive(index) && state.is_active();
+            if let Some(old) = slot
+                && !(seats.fits(old, state) && (belongs || state.kind == BodyKind::Fixed))
+            {
+                self.leave(index, old);
+                slot = None;
+            }
+            let state = self.bodies.get(index);
+            match slot {
+                Some(slot) => {
+                    let pull = pull_of(&self.bodies, state, state.motion.centre_at(time));
+                    self.pool.seats.follow(slot, state, time);
+                    self.pool.seats.rig.set_pull(slot, pull);
+                }
+                None if belongs => {
+                    let pull = pull_of(&self.bodies, state, state.motion.centre_at(time));
+                    self.pool.seats.admit(state, pull, time);
+                }
+                // What stands or sleeps has boxes, and those who move find it.
+                None if self.bodies.is_alive(index) => {
+                    let tick = self.settings.tick;
+                    self.refit(index, time, tick);
+                }
+                None => continue,
+            }
+            self.pool.moved.push(index);
+        }
+        if !touched.is_empty() {
+            self.pool.until_look = 0;
+        }
+        touched.clear();
+        self.bodies.touched = touched;
+        self.pool.seats.close_up();
+        self.stopwatch.lap(|p| &mut p.pairs);
+    }
+
+    /// Takes a body out of the solver: its rows leave their impulses with the pairs.
+    pub(super) fn leave(&mut self, index: u32, slot: u32) {
+        for k in 0..self.bodies.get(index).pairs.len() {
+            let pair = self.pairs.get_mut(self.bodies.get(index).pairs[k]);
+            self.pool.release(pair);
+        }
+        self.pool.seats.dismiss(slot);
+    }
+
+    /// The look at the start of a tick: whoever moved gets new boxes, and its pairs are looked at.
+    pub(super) fn look_around(&mut self, time: SimTime) {
+        self.look_at_fresh(time);
+        self.pool.looks = (self.pool.looks + 1) % REFRESH;
+        if self.pool.looks == 0 {
+            self.pool.seats.rig.refresh();
+        }
+        let mut moved = core::mem::take(&mut self.pool.moved);
+        for (slot, seat) in self.pool.seats.moving() {
+            let line = &self.pool.seats.rig.lines[slot as usize];
+            if wandered(seat, line.d(), line.turn()) > seat.leash {
+                moved.push(seat.body);
+            }
+        }
+        moved.sort_unstable();
+        moved.dedup();
+        let tick = self.settings.tick;
+        for &index in &moved {
+            let Some(slot) = self.pool.seats.slot(index) else {
+                continue;
+            };
+            if self.pool.seats.strayed(slot) {
+                let pairs = &self.pairs;
+                let places = self.bodies.get(index).pairs.iter();
+                let contacts = places.flat_map(|place| &pairs.get(*place).contacts);
+                let rows: Vec<_> = contacts.filter_map(|contact| contact.row).collect();
+                self.pool.seats.rebase(slot, rows.into_iter());
+            }
+            let seats = &mut self.pool.seats;
+            let line = seats.rig.lines[slot as usize];
+            let seat = seats.get_mut(slot);
+            // The boxes hold what stays within their padding until the next look.
+            seat.roamed += wandered(seat, line.d(), line.turn());
+            seat.checked = (line.d(), line.turn());
+            let ahead = speed_of(line.v(), line.w(), seat.reach) * tick;
+            if seat.roamed + ahead + seat.leash > PADDING * seat.reach {
+                seat.roamed = 0.0;
+                self.sync(index, slot, time);
+                // Anew even if the old ones still hold: what they have left is not known.
+                for at in &self.bodies.get(index).colliders {
+                    self.colliders[*at as usize].fat = Aabb::EMPTY;
+                }
+                self.refit(index, time, tick);
+            }
+        }
+        self.stopwatch.lap(|p| &mut p.pairs);
+        self.look_at_pairs(&mut moved, time);
+        moved.clear();
+        self.pool.moved = moved;
+        // Who is quick is looked at again in every sub-step of the tick.
+        let seats = &self.pool.seats;
+        self.pool.quick.clear();
+        for (slot, seat) in seats.moving() {
+            let line = &seats.rig.lines[slot as usize];
+            if speed_of(line.v(), line.w(), seat.reach) * tick > QUICK * seat.leash {
+                self.pool.quick.push(seat.body);
+            }
+        }
+        self.stopwatch.lap(|p| &mut p.contacts);
+    }
+
+    /// The look between ticks: at the pairs of quick bodies that moved. Boxes hold for the whole tick.
+    pub(super) fn look_between(&mut self, time: SimTime) {
+        let mut moved = core::mem::take(&mut self.pool.moved);
+        let seats = &mut self.pool.seats;
+        for &index in &self.pool.quick {
+            let Some(slot) = seats.slot(index) else {
+                continue;
+            };
+            let line = seats.rig.lines[slot as usize];
+            let seat = seats.get_mut(slot);
+            let went = wandered(seat, line.d(), line.turn());
+            if went > seat.leash {
+                seat.roamed += went;
+                seat.checked = (line.d(), line.turn());
+                moved.push(index);
+            }
+        }
+        self.look_at_pairs(&mut moved, time);
+        moved.clear();
+        self.pool.moved = moved;
+        self.stopwatch.lap(|p| &mut p.contacts);
+    }
+
+    /// Looks at all pairs of these bodies, and of those who wake meanwhile.
+    fn look_at_pairs(&mut self, moved: &mut Vec<u32>, time: SimTime) {
+        self.pool.look = self.pool.look.wrapping_add(1);
+        let mut k = 0;
+        while k < moved.len() {
+            let index = moved[k];
+            k += 1;
+            let mut i = 0;
+            while i < self.bodies.get(index).pairs.len() {
+                let place = self.bodies.get(index).pairs[i];
+                if self.pool.sees(place) {
+                    if !self.broad.keeps(&self.colliders, self.pairs.get(place)) {
+                        self.part(place, time);
+                        continue;
+                    }
+                    self.look_at(place, time, moved);
+                }
+                i += 1;
+            }
+        }
+    }
+}
+
+/// Fastest that a point of a body moves, in m/s.
+fn speed_of(v: Vec2, w: f64, reach: f64) -> f64 {
+    v.length() + if w == 0.0 { 0.0 } else { w.abs() * reach }
+}
+
+/// A body that goes so many leashes in a tick is quick.
+const QUICK: f64 = 2.0;
+
+impl Stepped {
+    /// Whether this look has not been at the pair yet.
+    fn sees(&mut self, place: u32) -> bool {
+        let place = place as usize;
+        if self.seen.len() <= place {
+            self.seen.resize(place + 1, self.look.wrapping_sub(1));
+        }
+        core::mem::replace(&mut self.seen[place], self.look) != self.look
+    }
+
+    /// Takes a pair's rows out of the solver; their impulses stay with the pair.
+    pub(crate) fn release(&mut self, pair: &mut Pair) {
+        for contact in &mut pair.contacts {
+            let Some(id) = contact.row.take() else {
+                continue;
+            };
+            let row = self.seats.rig.row(id);
+            for (point, j) in contact.points.iter_mut().zip(row.j) {
+                point.impulse = j;
+            }
+            contact.tangent_impulse = row.jt;
+            self.seats.rig.remove(id);
+            self.bounces.forget(id);
+            pair.fresh = true;
+        }
+    }
+}

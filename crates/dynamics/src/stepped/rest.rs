@@ -1,0 +1,102 @@
+//! Groups at rest leave the solver; whoever is met comes back.
+
+use carom_math::{SimTime, Vec2};
+
+use crate::{BodyKind, EventKind, Sleep, World};
+
+/// Looks for groups at rest so often in the time that a group must have been at rest.
+const LOOKS: f64 = 4.0;
+
+impl World {
+    /// Puts every group to sleep whose bodies have all been slow for long enough.
+    pub(super) fn rest(&mut self, sleep: Sleep, time: SimTime) {
+        let tick = self.settings.tick;
+        self.pool.since_rest += tick;
+        let passed = self.pool.since_rest;
+        if passed < sleep.time / LOOKS {
+            return;
+        }
+        self.pool.since_rest = 0.0;
+        let seats = &self.pool.seats;
+        let mut ready = false;
+        for (slot, seat) in seats.moving() {
+            if seat.kind != BodyKind::Dynamic {
+                continue;
+            }
+            let line = &seats.rig.lines[slot as usize];
+            let speed = line.v().length() + line.w().abs() * seat.reach;
+            // Only what something holds can be at rest: the top of a throw is not.
+            let held = seats.rig.is_pushed(slot);
+            let state = self.bodies.get_mut(seat.body);
+            state.slow_for = if held && speed <= sleep.speed {
+                state.slow_for + passed
+            } else {
+                0.0
+            };
+            ready |= state.slow_for >= sleep.time;
+        }
+        if ready {
+            self.fall_asleep(sleep, time);
+        }
+    }
+
+    fn fall_asleep(&mut self, sleep: Sleep, time: SimTime) {
+        let seats = &self.pool.seats;
+        let mut tree = crate::sleep::Tree::new(seats.rig.lines.len());
+        let mut restless = Vec::new();
+        for (a, b) in seats.rig.lanes.links() {
+            match (seats.get(a).kind, seats.get(b).kind) {
+                (BodyKind::Dynamic, BodyKind::Dynamic) => tree.join(a, b),
+                (BodyKind::Kinematic, _) => restless.push((a, b)),
+                (_, BodyKind::Kinematic) => restless.push((b, a)),
+                _ => {}
+            }
+        }
+        let mut least = vec![f64::INFINITY; seats.rig.lines.len()];
+        for (slot, seat) in seats.moving() {
+            if seat.kind == BodyKind::Dynamic {
+                let root = tree.root(slot) as usize;
+                least[root] = least[root].min(self.bodies.get(seat.body).slow_for);
+            }
+        }
+        for (driven, other) in restless {
+            let line = &seats.rig.lines[driven as usize];
+            if line.v() != Vec2::ZERO || line.w() != 0.0 {
+                least[tree.root(other) as usize] = 0.0;
+            }
+        }
+        let sleepers = seats.moving().filter(|(slot, seat)| {
+            seat.kind == BodyKind::Dynamic && least[tree.root(*slot) as usize] >= sleep.time
+        });
+        let mut sleepers: Vec<(u32, u32)> =
+            sleepers.map(|(slot, seat)| (seat.body, slot)).collect();
+        sleepers.sort_unstable();
+        for (index, slot) in sleepers {
+            self.sync(index, slot, time);
+            self.leave(index, slot);
+            let state = self.bodies.get_mut(index);
+            state.motion.velocity = Vec2::ZERO;
+            state.motion.acceleration = Vec2::ZERO;
+            state.motion.spin = 0.0;
+            state.motion.angular_acceleration = 0.0;
+            state.version = state.version.wrapping_add(1);
+            state.asleep = true;
+            self.events.push(time, EventKind::Asleep(state.id));
+        }
+        self.pool.seats.close_up();
+    }
+
+    /// Wakes a body, and gives everyone who wakes with it a seat; they are looked at in this look.
+    pub(super) fn call_up(&mut self, index: u32, time: SimTime, moved: &mut Vec<u32>) {
+        self.wake(index, time);
+        let mut woken = core::mem::take(&mut self.bodies.touched);
+        woken.sort_unstable();
+        for index in woken.drain(..) {
+            if self.pool.seats.slot(index).is_none() {
+                self.sit(index, time);
+                moved.push(index);
+            }
+        }
+        self.bodies.touched = woken;
+    }
+}

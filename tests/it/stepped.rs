@@ -1,0 +1,363 @@
+//! Stepped mode: every moving body in one solver, contacts kept from step to step.
+
+use carom_dynamics::{BodyDef, BodyId, BodyKind, EventKind, Material, Mode, Settings, World};
+use carom_geometry::{Circle, ConvexPolygon, HalfPlane};
+use carom_math::{Pose, Rot, Vec2, vec2};
+use carom_tests::{elastic, overlaps, run};
+
+fn scene(name: &str) -> World {
+    let mut scene = carom_scenes::find(name).expect("a built-in scene");
+    scene.set("settings.mode", "stepped").expect("a mode");
+    scene.build().expect("a built-in scene builds").world
+}
+
+fn world(settings: Settings) -> World {
+    World::new(Settings {
+        mode: Mode::Stepped,
+        ..settings
+    })
+    .expect("valid settings")
+}
+
+fn floor(world: &mut World, material: Material) {
+    let floor = ConvexPolygon::rectangle(40.0, 2.0).expect("a floor");
+    world
+        .insert(BodyDef::fixed().at(vec2(0.0, -1.0)), floor, material)
+        .expect("valid");
+}
+
+fn boxed(world: &mut World, at: Vec2, material: Material) -> BodyId {
+    let square = ConvexPolygon::square(1.0).expect("a box");
+    world
+        .insert(BodyDef::dynamic().at(at), square, material)
+        .expect("valid")
+}
+
+#[test]
+fn thesis_scene_stays_inside_and_apart_for_a_minute() {
+    let mut world = scene("thesis");
+    let mut deepest = 0.0_f64;
+    run(&mut world, 60.0, |world| {
+        deepest = deepest.max(overlaps(world).0);
+        let moving = world
+            .bodies()
+            .filter(|body| body.kind() == BodyKind::Dynamic);
+        for body in moving {
+            let c = body.centre();
+            assert!(
+                c.x.abs() < 8.0 && (0.0..12.0).contains(&c.y),
+                "{} at {c} after {} s",
+                body.id(),
+                world.time().as_secs()
+            );
+        }
+    });
+    assert!(deepest <= 0.02, "deepest overlap {deepest:.2e} m");
+}
+
+#[test]
+fn a_stack_of_ten_stands_for_half_a_minute() {
+    let mut world = scene("stack");
+    let top = world
+        .bodies()
+        .max_by(|a, b| a.centre().y.total_cmp(&b.centre().y))
+        .map(|body| (body.id(), body.centre()))
+        .expect("ten boxes");
+    let mut moved = 0.0_f64;
+    run(&mut world, 30.0, |world| {
+        let now = world.body(top.0).expect("it stays").centre();
+        moved = moved.max((now - top.1).length());
+    });
+    assert!(
+        moved <= 5e-3,
+        "the top moved {moved:.2e} m, expected at most 5e-3"
+    );
+}
+
+#[test]
+fn a_pile_of_200_polygons_comes_to_rest_without_sinking() {
+    let mut world = scene("pile");
+    run(&mut world, 20.0, |_| {});
+    let (_, mean) = overlaps(&world);
+    assert!(
+        mean <= 5e-3,
+        "mean overlap {mean:.2e} m, expected at most 5e-3"
+    );
+    let moving = world
+        .bodies()
+        .filter(|body| body.kind() == BodyKind::Dynamic);
+    let scale: f64 = moving
+        .map(|body| body.mass() * 9.81 * body.aabb().extents().max_element())
+        .sum();
+    let kinetic = world.energy().kinetic;
+    assert!(
+        kinetic < 1e-4 * scale,
+        "kinetic {kinetic:.2e} J of {scale:.2e}, expected below 1e-4"
+    );
+}
+
+#[test]
+fn the_apex_of_an_elastic_ball_stays_within_a_thousandth() {
+    let mut world = world(Settings::default());
+    floor(&mut world, elastic());
+    let ball = Circle::new(0.25).expect("a ball");
+    let ball = world
+        .insert(BodyDef::dynamic().at(vec2(0.0, 1.25)), ball, elastic())
+        .expect("valid");
+    let mut apexes = Vec::new();
+    let mut before = (1.25, 0.0);
+    run(&mut world, 12.0, |world| {
+        let body = world.body(ball).expect("it stays");
+        let now = (body.centre().y, body.velocity().y);
+        if before.1 > 0.0 && now.1 <= 0.0 {
+            // From any point of a parabola to its top: v²/2g.
+            apexes.push(now.0 + now.1 * now.1 / (2.0 * 9.81) - 0.25);
+        }
+        before = now;
+    });
+    for (i, apex) in apexes.iter().take(10).enumerate() {
+        assert!(
+            (apex - 1.0).abs() < 1e-3,
+            "apex {i} at {apex} m, expected 1 within 1e-3"
+        );
+    }
+    assert!(apexes.len() >= 10, "{} apexes", apexes.len());
+}
+
+#[test]
+fn a_column_of_a_hundred_boxes_rests_for_a_minute() {
+    let mut world = world(Settings {
+        sleep: None,
+        ..Settings::accurate()
+    });
+    floor(&mut world, Material::default());
+    let mut top = None;
+    for i in 0..100 {
+        top = Some(boxed(
+            &mut world,
+            vec2(0.0, 0.5 + f64::from(i)),
+            Material::default(),
+        ));
+    }
+    let top = top.expect("a hundred");
+    run(&mut world, 5.0, |_| {});
+    let settled = world.body(top).expect("it stays").centre();
+    let mut moved = 0.0_f64;
+    run(&mut world, 60.0, |world| {
+        let now = world.body(top).expect("it stays").centre();
+        moved = moved.max((now - settled).length());
+    });
+    assert!(
+        moved < 1e-4,
+        "the top moved {moved:.2e} m after settling, expected below 1e-4"
+    );
+}
+
+#[test]
+fn a_pile_at_rest_looks_at_no_pair() {
+    let mut world = world(Settings {
+        sleep: None,
+        ..Settings::default()
+    });
+    floor(&mut world, Material::default());
+    for i in 0..30 {
+        boxed(
+            &mut world,
+            vec2(f64::from(i % 6) * 1.1, 0.5 + f64::from(i / 6)),
+            Material::default(),
+        );
+    }
+    run(&mut world, 5.0, |_| {});
+    let mut looks = 0;
+    for _ in 0..60 {
+        let report = world.step(1.0 / 60.0);
+        looks += report.pairs;
+        assert!(report.rows > 0);
+    }
+    assert_eq!(looks, 0, "pairs that were looked at in a second at rest");
+}
+
+#[test]
+fn a_stack_falls_asleep_and_wakes_when_it_is_hit() {
+    let mut world = world(Settings::default());
+    floor(&mut world, Material::default());
+    let stack: Vec<_> = (0..3)
+        .map(|i| {
+            boxed(
+                &mut world,
+                vec2(0.0, 0.5 + f64::from(i)),
+                Material::default(),
+            )
+        })
+        .collect();
+    run(&mut world, 3.0, |_| {});
+    for id in &stack {
+        assert!(world.body(*id).expect("it stays").is_asleep());
+    }
+    let report = world.step(1.0 / 60.0);
+    assert_eq!((report.rows, report.handed_over), (0, 0));
+    let ball = Circle::new(0.25).expect("a ball");
+    world
+        .insert(
+            BodyDef::dynamic()
+                .at(vec2(-6.0, 1.5))
+                .moving(vec2(12.0, 0.0)),
+            ball,
+            Material::default(),
+        )
+        .expect("valid");
+    let mut woken = 0;
+    run(&mut world, 1.0, |world| {
+        let events = world.events().iter();
+        woken += events
+            .filter(|event| matches!(event.kind, EventKind::Awake(_)))
+            .count();
+    });
+    assert_eq!(woken, 3);
+    let pushed = world.body(stack[1]).expect("it stays").centre().x;
+    assert!(pushed > 0.01, "the middle box moved {pushed} m");
+}
+
+#[test]
+fn a_box_slides_to_rest_where_coulomb_says() {
+    let ice = Material {
+        friction: 0.3,
+        ..Material::default()
+    };
+    let mut world = world(Settings::default());
+    floor(&mut world, ice);
+    let id = boxed(&mut world, vec2(-10.0, 0.5), ice);
+    run(&mut world, 0.5, |_| {});
+    let from = world.body(id).expect("it stays").centre().x;
+    world.set_velocity(id, vec2(4.0, 0.0), 0.0).expect("valid");
+    let before = world.energy();
+    run(&mut world, 3.0, |_| {});
+    let went = world.body(id).expect("it stays").centre().x - from;
+    let exact = 16.0 / (2.0 * 0.3 * 9.81);
+    assert!(
+        (went - exact).abs() < 1e-3,
+        "slid {went} m, expected {exact}"
+    );
+    // Slip is taken as the row sees it: to first order in the sub-step.
+    let heat = world.energy().friction - before.friction;
+    assert!((heat - 8.0).abs() < 0.05, "friction took {heat} J of 8");
+}
+
+#[test]
+fn steps_of_any_length_give_the_same_motions() {
+    let build = || {
+        let mut world = world(Settings::default());
+        floor(&mut world, Material::default());
+        for i in 0..12 {
+            let at = vec2(0.3 * f64::from(i % 3), 1.0 + 1.2 * f64::from(i));
+            boxed(&mut world, at, Material::default());
+        }
+        world
+    };
+    let (mut one, mut many) = (build(), build());
+    one.step(2.0);
+    for _ in 0..2000 {
+        many.step(1e-3);
+    }
+    for (a, b) in one.bodies().zip(many.bodies()) {
+        assert!(
+            (a.centre() - b.centre()).length() < 1e-12,
+            "{} {}",
+            a.centre(),
+            b.centre()
+        );
+    }
+    let mut again = build();
+    again.step(2.0);
+    assert_eq!(again.state_hash(), one.state_hash());
+}
+
+#[test]
+fn what_a_caller_changes_is_taken_over() {
+    let mut world = world(Settings::default());
+    floor(&mut world, Material::default());
+    let low = boxed(&mut world, vec2(0.0, 0.5), Material::default());
+    let high = boxed(&mut world, vec2(0.0, 1.5), Material::default());
+    run(&mut world, 2.0, |_| {});
+    // The support goes: what stood on it falls.
+    world.remove(low).expect("it is there");
+    run(&mut world, 1.0, |_| {});
+    let y = world.body(high).expect("it stays").centre().y;
+    assert!((y - 0.5).abs() < 1e-3, "fell to {y}");
+    // Teleported into the air: falls again, freely.
+    world
+        .teleport(high, Pose::new(vec2(3.0, 5.0), Rot::from_degrees(90.0)))
+        .expect("valid");
+    world.step(0.5);
+    let body = world.body(high).expect("it stays");
+    let exact = 5.0 - 0.5 * 9.81 * 0.25;
+    assert!(
+        (body.centre() - vec2(3.0, exact)).length() < 1e-9,
+        "{}",
+        body.centre()
+    );
+    run(&mut world, 2.0, |_| {});
+    world.set_kind(high, BodyKind::Fixed).expect("valid");
+    let rest = boxed(&mut world, vec2(3.0, 1.6), Material::default());
+    run(&mut world, 1.0, |_| {});
+    let y = world.body(rest).expect("it stays").centre().y;
+    assert!((y - 1.5).abs() < 1e-3, "rests at {y}");
+    // A box of the same place in the store.
+    world.remove(rest).expect("it is there");
+    let new = boxed(&mut world, vec2(-3.0, 2.0), Material::default());
+    run(&mut world, 2.0, |_| {});
+    let y = world.body(new).expect("it stays").centre().y;
+    assert!((y - 0.5).abs() < 1e-3, "fell to {y}");
+}
+
+#[test]
+fn a_pile_is_the_same_a_million_metres_away() {
+    let build = |far: Vec2| {
+        let mut world = world(Settings::default());
+        world
+            .insert(
+                BodyDef::fixed().at(far),
+                HalfPlane::new(Vec2::ZERO, vec2(0.0, 1.0)).expect("a floor"),
+                Material::default(),
+            )
+            .expect("valid");
+        for i in 0..10 {
+            boxed(
+                &mut world,
+                far + vec2(0.0, 0.5 + f64::from(i)),
+                Material::default(),
+            );
+        }
+        world.step(5.0);
+        world
+    };
+    let (near, far) = (build(Vec2::ZERO), build(vec2(1048576.0, 0.0)));
+    for (a, b) in near.bodies().zip(far.bodies()) {
+        let difference = (b.centre() - vec2(1048576.0, 0.0) - a.centre()).length();
+        assert!(difference < 1e-8, "{difference:.2e} m apart");
+    }
+}
+
+#[test]
+fn forces_act_for_their_step() {
+    let mut world = world(Settings {
+        gravity: Vec2::ZERO,
+        ..Settings::default()
+    });
+    let id = boxed(&mut world, Vec2::ZERO, Material::default());
+    for dt in [0.5, 1.0 / 60.0, 1e-3, 0.0123] {
+        let before = world.body(id).expect("it stays").velocity().x;
+        world
+            .apply_force(id, carom_dynamics::Force::central(vec2(2.0, 0.0)))
+            .expect("valid");
+        world.step(dt);
+        let gained = world.body(id).expect("it stays").velocity().x - before;
+        assert!((gained - 2.0 * dt).abs() < 1e-12, "{gained} in {dt} s");
+    }
+    let work = world.energy().forces;
+    let kinetic = world.energy().kinetic;
+    assert!(
+        (work - kinetic).abs() < 1e-9 * kinetic,
+        "work {work} J of {kinetic}"
+    );
+}
