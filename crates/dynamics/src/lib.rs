@@ -76,7 +76,7 @@ pub use event::{ContactMode, Event, EventKind, Events};
 pub use field::{Field, RadialField};
 pub use force::{Force, Impulse};
 pub use id::BodyId;
-pub use impact::ImpactLaw;
+pub use impact::{ImpactLaw, Several};
 pub use ledger::{EnergyLedger, Momentum};
 pub use material::{Material, PairMaterial};
 pub use profile::StepProfile;

@@ -6,12 +6,12 @@ use crate::agenda::Entry;
 use crate::bodies::Bodies;
 use crate::body::Collider;
 use crate::event::EventKind;
-use crate::impact::{ImpactContact, ImpactLaw, resolve};
+use crate::impact::{ImpactContact, resolve};
 use crate::narrow::{Narrow, opening_speed, rest_speed};
 use crate::pairs::Pairs;
 use crate::predict::{BUDGET, price};
 use crate::shock::Shock;
-use crate::{Events, StepReport};
+use crate::{Events, Settings, StepReport};
 
 /// What an entry that came up did.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,7 +33,7 @@ pub(crate) enum Struck {
     reason = "what an impact reads, and the stores it writes"
 )]
 pub(crate) fn strike(
-    law: ImpactLaw,
+    settings: &Settings,
     bodies: &mut Bodies,
     colliders: &[Collider],
     pairs: &mut Pairs,
@@ -75,7 +75,12 @@ pub(crate) fn strike(
     let single = shock.strikes.len() == 1;
     if single {
         let before = (a.in_impact(entry.time), b.in_impact(entry.time));
-        let outcome = resolve(law, &before.0, &before.1, &shock.strikes[0].contact);
+        let outcome = resolve(
+            settings.impact_law,
+            &before.0,
+            &before.1,
+            &shock.strikes[0].contact,
+        );
         shock.set(
             outcome.a,
             outcome.b,
@@ -83,7 +88,7 @@ pub(crate) fn strike(
         );
     }
     if !single || shock.spread(bodies, colliders, pairs, narrow) {
-        shock.solve(bodies, colliders, pairs, narrow);
+        shock.solve(settings, bodies, colliders, pairs, narrow);
     }
     Struck::Impact(apply(bodies, entry.time, &shock, events, report))
 }

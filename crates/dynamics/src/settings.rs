@@ -3,7 +3,7 @@
 use carom_math::{Vec2, vec2};
 
 use crate::error::SettingsError;
-use crate::impact::ImpactLaw;
+use crate::impact::{ImpactLaw, Several};
 
 /// All that a world can be told before it starts.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,6 +23,8 @@ pub struct Settings {
     pub pair_search: PairSearch,
     /// Which law single impacts follow.
     pub impact_law: ImpactLaw,
+    /// How contacts at one instant share an impact.
+    pub several: Several,
     /// The soft law of lasting contacts.
     pub contact: Softness,
     /// When groups at rest fall asleep; `None`: never.
@@ -42,6 +44,7 @@ impl Default for Settings {
             mode: Mode::default(),
             pair_search: PairSearch::default(),
             impact_law: ImpactLaw::default(),
+            several: Several::default(),
             contact: Softness::default(),
             sleep: Some(Sleep::default()),
             history: 0,

@@ -1,17 +1,19 @@
 //! An impact on a body that others hold: the contacts that it runs into are resolved with it.
 //!
-//! Without friction it is the [blend](crate::impact::blend) of several contacts, right to rounding.
-//! With friction it is Newton's law for all of them at once, as one complementarity problem in velocities:
+//! From the struck contact outwards: a contact joins when the shock reaches it. As long as they are few, and
+//! wherever none has friction, [several contacts at once](crate::impact::several) are solved for to
+//! rounding, by the law that the settings name. In a pile, where they become many, it is Newton's
+//! law for all of them at once, as one complementarity problem in velocities:
 //! `v_n⁺ ≥ −e v_n⁻` and `j_n ≥ 0`, of which one holds with equality at every contact, and Coulomb's
 //! cone for friction. Struck contacts have their approach to give back; contacts that lasted have
-//! none and only must not close. Solved by projected Gauss–Seidel over accumulated impulses, from
-//! the struck contact outwards: a contact joins when the shock reaches it.
+//! none and only must not close. Solved by projected Gauss–Seidel over accumulated impulses, in bounded time.
 
-use carom_math::{SimTime, Vec2, perp};
+use carom_math::{SimTime, perp};
 
+use crate::Settings;
 use crate::bodies::Bodies;
 use crate::body::Collider;
-use crate::impact::{ImpactBody, ImpactContact, Response, SharedContact, blend};
+use crate::impact::{ImpactBody, ImpactContact, SharedContact, Sweeper, several};
 use crate::narrow::{Narrow, TOUCH, rest_speed};
 use crate::pairs::Pairs;
 
@@ -20,6 +22,9 @@ const SWEEPS: u32 = 300;
 
 /// Contacts in one shock; what it reaches beyond them is struck in its turn.
 const STRIKES: usize = 64;
+
+/// Contacts with friction that are solved for to rounding; a pile takes more, and has them swept.
+const FEW: usize = 8;
 
 /// Change of velocity in a sweep, as a fraction of the struck speed, at which it has converged.
 const CONVERGED: f64 = 1e-12;
@@ -39,7 +44,6 @@ pub(crate) struct Strike {
     target: f64,
     /// Normal speed of approach before, in m/s.
     pub(crate) speed: f64,
-    response: Response,
     pub(crate) normal_impulse: f64,
     pub(crate) tangential_impulse: f64,
 }
@@ -102,8 +106,8 @@ impl Shock {
         self.rest = self.rest.min(rest);
         let ends = (self.place(bodies, i), self.place(bodies, j));
         let (a, b) = (&self.bodies[ends.0].before, &self.bodies[ends.1].before);
-        let response = Response::of(a, b, &contact);
-        let speed = -response.u_n;
+        let opening = b.velocity_of(contact.point) - a.velocity_of(contact.point);
+        let speed = -opening.dot(contact.normal);
         let bounces = speed > rest;
         self.strikes.push(Strike {
             pair,
@@ -115,7 +119,6 @@ impl Shock {
                 0.0
             },
             speed,
-            response,
             normal_impulse: 0.0,
             tangential_impulse: 0.0,
         });
@@ -216,111 +219,103 @@ impl Shock {
     /// Solves for all contacts at once; they grow in number as the shock spreads.
     pub(crate) fn solve(
         &mut self,
+        settings: &Settings,
         bodies: &Bodies,
         colliders: &[Collider],
         pairs: &mut Pairs,
         narrow: &mut Narrow,
     ) {
-        if self
-            .strikes
-            .iter()
-            .all(|strike| strike.contact.friction == 0.0)
-        {
-            return self.solve_smooth(bodies, colliders, pairs, narrow);
-        }
-        for shaken in &mut self.bodies {
-            shaken.after = shaken.before;
-        }
-        for strike in &mut self.strikes {
-            (strike.normal_impulse, strike.tangential_impulse) = (0.0, 0.0);
-        }
-        let struck = self
-            .strikes
-            .iter()
-            .map(|strike| strike.speed)
-            .fold(0.0, f64::max);
-        let settled = (CONVERGED * struck).max(SETTLED * self.rest);
-        for sweep in 0..SWEEPS {
-            let mut change = 0.0_f64;
-            for k in 0..self.strikes.len() {
-                change = change.max(self.sweep(k));
+        while self.is_few() {
+            self.solve_exactly(settings);
+            if !self.spread(bodies, colliders, pairs, narrow) {
+                return;
             }
-            let converged = change <= settled;
-            // Who is reached is asked at every doubling, and at last: asking costs more than a sweep.
-            let due = converged || (sweep + 1_u32).is_power_of_two();
-            let grew = due && self.spread(bodies, colliders, pairs, narrow);
-            if converged && !grew {
-                break;
-            }
+        }
+        self.solve_swept(bodies, colliders, pairs, narrow);
+    }
+
+    fn is_few(&self) -> bool {
+        let smooth = |strike: &Strike| strike.contact.friction == 0.0;
+        self.strikes.len() <= FEW || self.strikes.iter().all(smooth)
+    }
+
+    fn solve_exactly(&mut self, settings: &Settings) {
+        let shared = |strike: &Strike| SharedContact {
+            a: strike.ends.0,
+            b: strike.ends.1,
+            contact: strike.contact,
+        };
+        let contacts: Vec<SharedContact> = self.strikes.iter().map(shared).collect();
+        let before: Vec<ImpactBody> = self.bodies.iter().map(|shaken| shaken.before).collect();
+        let found = several(settings.impact_law, settings.several, &before, &contacts);
+        for (shaken, after) in self.bodies.iter_mut().zip(found.bodies) {
+            shaken.after = after;
+        }
+        let impulses = found
+            .normal_impulses
+            .into_iter()
+            .zip(found.tangential_impulses);
+        for (strike, (normal, tangential)) in self.strikes.iter_mut().zip(impulses) {
+            (strike.normal_impulse, strike.tangential_impulse) = (normal, tangential);
         }
     }
 
-    /// Solves for all contacts at once where none has friction.
-    fn solve_smooth(
+    /// Newton's law by sweeps, from the impulses that are there on.
+    fn solve_swept(
         &mut self,
         bodies: &Bodies,
         colliders: &[Collider],
         pairs: &mut Pairs,
         narrow: &mut Narrow,
     ) {
-        loop {
-            let contacts: Vec<SharedContact> = self
-                .strikes
-                .iter()
-                .map(|strike| SharedContact {
-                    a: strike.ends.0,
-                    b: strike.ends.1,
-                    contact: strike.contact,
-                })
-                .collect();
-            let before: Vec<ImpactBody> = self.bodies.iter().map(|shaken| shaken.before).collect();
-            let found = blend(&before, &contacts);
-            for (shaken, after) in self.bodies.iter_mut().zip(found.bodies) {
-                shaken.after = after;
+        let struck = self
+            .strikes
+            .iter()
+            .map(|strike| strike.speed)
+            .fold(0.0, f64::max);
+        let settled = (CONVERGED * struck).max(SETTLED * self.rest);
+        let mut sweeper = Sweeper::default();
+        for sweep in 0..SWEEPS {
+            self.hand_over(&mut sweeper);
+            let converged = sweeper.sweep() <= settled;
+            // Who is reached is asked at every doubling, and at last: asking costs more than a sweep.
+            let due = converged || (sweep + 1_u32).is_power_of_two();
+            if !due && sweep + 1 < SWEEPS {
+                continue;
             }
-            for (strike, impulse) in self.strikes.iter_mut().zip(found.normal_impulses) {
-                strike.normal_impulse = impulse;
-            }
-            if !self.spread(bodies, colliders, pairs, narrow) {
-                return;
+            self.take_over(&sweeper);
+            let grew = self.spread(bodies, colliders, pairs, narrow);
+            if converged && !grew {
+                break;
             }
         }
     }
 
-    /// One contact's turn; the largest change of its velocity.
-    fn sweep(&mut self, k: usize) -> f64 {
-        let strike = self.strikes[k];
-        let (contact, response) = (&strike.contact, &strike.response);
-        let u = self.opening(&strike);
-        let (n, t) = (contact.normal, perp(contact.normal));
-        let wanted = (strike.target - u.dot(n)) / response.k_nn;
-        let normal = (strike.normal_impulse + wanted).max(0.0);
-        self.push(&strike, n * (normal - strike.normal_impulse));
-        let slip = self.opening(&strike).dot(t);
-        let limit = contact.friction * normal;
-        let tangential = (strike.tangential_impulse - slip / response.k_tt).clamp(-limit, limit);
-        self.push(&strike, t * (tangential - strike.tangential_impulse));
-        let strike = &mut self.strikes[k];
-        let change = ((normal - strike.normal_impulse) * response.k_nn)
-            .abs()
-            .max(((tangential - strike.tangential_impulse) * response.k_tt).abs());
-        (strike.normal_impulse, strike.tangential_impulse) = (normal, tangential);
-        change
+    /// Bodies and contacts that the sweeps do not know yet.
+    fn hand_over(&self, sweeper: &mut Sweeper) {
+        let (bodies, contacts) = sweeper.len();
+        for shaken in &self.bodies[bodies..] {
+            sweeper.add_body(&shaken.after);
+        }
+        for strike in &self.strikes[contacts..] {
+            let (a, b) = strike.ends;
+            sweeper.add_contact(
+                strike.ends,
+                (&self.bodies[a].before, &self.bodies[b].before),
+                &strike.contact,
+                strike.target,
+                (strike.normal_impulse, strike.tangential_impulse),
+            );
+        }
     }
 
-    fn opening(&self, strike: &Strike) -> Vec2 {
-        let (a, b) = (
-            &self.bodies[strike.ends.0].after,
-            &self.bodies[strike.ends.1].after,
-        );
-        b.velocity_of(strike.contact.point) - a.velocity_of(strike.contact.point)
-    }
-
-    fn push(&mut self, strike: &Strike, impulse: Vec2) {
-        let point = strike.contact.point;
-        let (a, b) = strike.ends;
-        self.bodies[a].after = self.bodies[a].after.pushed(-impulse, point);
-        self.bodies[b].after = self.bodies[b].after.pushed(impulse, point);
+    fn take_over(&mut self, sweeper: &Sweeper) {
+        for (k, shaken) in self.bodies.iter_mut().enumerate() {
+            (shaken.after.velocity, shaken.after.spin) = sweeper.velocity(k);
+        }
+        for (k, strike) in self.strikes.iter_mut().enumerate() {
+            (strike.normal_impulse, strike.tangential_impulse) = sweeper.impulses(k);
+        }
     }
 
     /// What pushed: one impact for both ends of a flat landing, where their impulses act together.

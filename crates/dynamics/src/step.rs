@@ -115,7 +115,7 @@ impl World {
                     continue;
                 }
                 let struck = strike(
-                    self.settings.impact_law,
+                    &self.settings,
                     &mut self.bodies,
                     &self.colliders,
                     &mut self.pairs,

@@ -30,9 +30,10 @@ const TABLES: [&str; 21] = [
 ];
 
 /// Places where one of several words stands.
-const WORDS: [&str; 7] = [
+const WORDS: [&str; 8] = [
     "settings.mode = '?'",
     "settings.impact_law = '?'",
+    "settings.several = '?'",
     "settings.pairs = '?'",
     "look.theme = '?'",
     "[[field]]\nkind = '?'",

@@ -155,6 +155,7 @@ impl World {
             shock.add(&self.bodies, u32::MAX, impact.bodies, contact, 0.0);
         }
         shock.solve(
+            &self.settings,
             &self.bodies,
             &self.colliders,
             &mut self.pairs,

@@ -1,16 +1,27 @@
 //! What an impact does: pure functions from velocities before to velocities after.
 
 mod body;
+mod coulomb;
+mod dense;
 mod law;
+mod lemke;
 pub(crate) mod project;
+mod restitution;
+mod rough;
+#[cfg(test)]
+mod rough_tests;
 mod routh;
+mod rows;
 mod several;
 #[cfg(test)]
 mod several_tests;
+mod sweeps;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use body::Response;
 pub use body::{ImpactBody, ImpactContact, Outcome};
 pub use law::{ImpactLaw, newton, poisson, resolve, stronge};
-pub use several::{SharedContact, SharedOutcome, blend, generalised_reflections, newton_lcp};
+pub use several::{
+    Several, SharedContact, SharedOutcome, blend, generalised_reflections, newton_lcp, several,
+};
+pub(crate) use sweeps::Sweeper;

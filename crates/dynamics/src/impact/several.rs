@@ -1,13 +1,17 @@
-//! Several contacts that act at one instant, without friction.
+//! Several contacts that act at one instant.
 //!
 //! No law of a single impact says what happens then, and no answer is unique. Ours keeps momentum to
 //! rounding, never gains energy, leaves no contact closing, gives symmetric answers to symmetric
 //! questions, does not depend on the order of contacts, and is the single law for one contact.
+//! This file is for contacts without friction, where all of it holds to rounding; for those with it see
+//! `rough`.
 
 use carom_math::{cross, vec2};
 
 use super::body::{ImpactBody, ImpactContact, Response};
+use super::law::{ImpactLaw, resolve};
 use super::project::nearest;
+use super::rough::{is_large, is_rough, newton_rough, opened, opening, reflections};
 
 /// Reflections before the rest is stopped: a wedge of angle θ takes π/θ of them, a row of a hundred
 /// discs a hundred.
@@ -31,20 +35,124 @@ pub struct SharedOutcome {
     pub bodies: Vec<ImpactBody>,
     /// Impulse on B along the normal, for each contact, in N·s, ≥ 0.
     pub normal_impulses: Vec<f64>,
-    /// Whether a thousand reflections were not enough: what still approached then was stopped, and
-    /// energy was lost that e = 1 would have kept.
+    /// Impulse on B along the normal turned by +90 degrees, for each contact, in N·s.
+    pub tangential_impulses: Vec<f64>,
+    /// Whether the law was not followed to its end: a thousand reflections (200 with friction) were not enough,
+    /// and what still approached was stopped with a loss that e = 1 would not have had; or bodies are
+    /// squeezed so that nothing meets all conditions, and some contact may still close.
     pub exhausted: bool,
+}
+
+/// How contacts at one instant share an impact.
+///
+/// No answer is unique: an instant is a limit of many short impacts one after the other, and which
+/// limit depends on what a rigid body leaves out. Each choice keeps momentum to rounding, keeps
+/// friction in its cone, leaves no contact closing, and follows [`ImpactLaw`] where one
+/// contact acts alone. With more than 64 rows (a contact has one, with friction two) all are
+/// Newton's law by sweeps, in bounded time.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Several {
+    /// (1 − e) of a common stop and e of reflections: see [`blend`]. Symmetric, never gains energy,
+    /// knows Newton's cradle at e = 1 and a dead stop at e = 0.
+    #[default]
+    Blend,
+    /// Newton's law for all at once: see [`newton_lcp`]. Symmetric, passes no impact on, and may gain
+    /// energy where contacts have friction or differ in e.
+    NewtonLcp,
+    /// Reflections that give back e each time, until nothing closes. Never gains energy and passes
+    /// impacts on at every e; takes longest.
+    Reflections,
+}
+
+/// What an impact at several contacts does under the world's choices.
+///
+/// One contact follows `law`, and so does one that approaches alone and closes no other.
+///
+/// # Examples
+/// A box lands flat on a rough floor, without restitution, while it slides: it neither turns nor
+/// rises, and friction takes µ (m v) from its slide.
+/// ```
+/// use carom_dynamics::impact::{ImpactBody, ImpactContact, ImpactLaw, Several, SharedContact, several};
+/// use carom_math::{Vec2, vec2};
+/// let floor = ImpactBody::immovable(Vec2::ZERO, Vec2::ZERO, 0.0);
+/// let landing = ImpactBody {
+///     inverse_mass: 1.0, inverse_inertia: 6.0, centre: vec2(0.0, 0.5), velocity: vec2(3.0, -2.0), spin: 0.0,
+/// };
+/// let corner = |x: f64| SharedContact {
+///     a: 0, b: 1,
+///     contact: ImpactContact { point: vec2(x, 0.0), normal: Vec2::Y, restitution: 0.0, friction: 0.1 },
+/// };
+/// let contacts = [corner(-0.5), corner(0.5)];
+/// let after = several(ImpactLaw::Stronge, Several::Blend, &[floor, landing], &contacts).bodies[1];
+/// assert!((after.velocity - vec2(2.8, 0.0)).length() < 1e-15);     // m/s
+/// assert!(after.spin.abs() < 1e-15);                               // rad/s
+/// ```
+///
+/// # Panics
+/// If a contact names a body that is not in the list.
+#[must_use]
+pub fn several(
+    law: ImpactLaw,
+    choice: Several,
+    bodies: &[ImpactBody],
+    contacts: &[SharedContact],
+) -> SharedOutcome {
+    if let Some(single) = single(law, bodies, contacts) {
+        return single;
+    }
+    if is_large(contacts) && is_rough(contacts) {
+        return newton_rough(bodies, contacts);
+    }
+    match choice {
+        Several::Blend => blend_by(law, bodies, contacts),
+        Several::NewtonLcp => newton_lcp(bodies, contacts),
+        Several::Reflections => opened(reflections(law, bodies, contacts, None), contacts),
+    }
+}
+
+/// The only contact that approaches, if no other closes by it.
+fn single(
+    law: ImpactLaw,
+    bodies: &[ImpactBody],
+    contacts: &[SharedContact],
+) -> Option<SharedOutcome> {
+    let mut approaching = (0..contacts.len()).filter(|&k| opening(bodies, &contacts[k]) < 0.0);
+    let (only, None) = (approaching.next()?, approaching.next()) else {
+        return None;
+    };
+    let shared = &contacts[only];
+    let outcome = resolve(law, &bodies[shared.a], &bodies[shared.b], &shared.contact);
+    let mut after = bodies.to_vec();
+    (after[shared.a], after[shared.b]) = (outcome.a, outcome.b);
+    let others = contacts.iter().enumerate().filter(|(k, _)| *k != only);
+    let mut closed = others.filter(|(_, other)| opening(&after, other) < 0.0);
+    if closed.next().is_some() {
+        return None;
+    }
+    let mut found = SharedOutcome {
+        bodies: after,
+        normal_impulses: vec![0.0; contacts.len()],
+        tangential_impulses: vec![0.0; contacts.len()],
+        exhausted: false,
+    };
+    found.normal_impulses[only] = outcome.normal_impulse;
+    found.tangential_impulses[only] = outcome.tangential_impulse;
+    Some(found)
 }
 
 /// Newton's law at all contacts at once: `0 ≤ u⁺ + e u⁻ ⟂ j ≥ 0`.
 ///
-/// u is the opening speed. Keeps energy where every e is 1, but passes nothing on: the first of three
-/// touching discs bounces back from the other two together.
+/// u is the opening speed. Keeps energy where every e is 1 and none has friction, but passes nothing
+/// on: the first of three touching discs bounces back from the other two together. Friction
+/// is Coulomb's against the slip that is left.
 ///
 /// # Panics
 /// If a contact names a body that is not in the list.
 #[must_use]
 pub fn newton_lcp(bodies: &[ImpactBody], contacts: &[SharedContact]) -> SharedOutcome {
+    if is_rough(contacts) {
+        return opened(newton_rough(bodies, contacts), contacts);
+    }
     let scaled = Scaled::of(bodies, contacts);
     let speeds = opening_speeds(bodies, contacts);
     let wanted = speeds.iter().zip(contacts);
@@ -58,11 +166,19 @@ pub fn newton_lcp(bodies: &[ImpactBody], contacts: &[SharedContact]) -> SharedOu
 ///
 /// The generalised reflections of Smith, Kaufman, Vouga, Tamstorf and Grinspun (2012), for e = 1
 /// whatever the contacts say: energy is kept, and an impact runs through a row of touching discs.
+/// With friction each reflection is a common stop by Coulomb's law and then Routh's path, which gives
+/// back the work of compression and loses what friction takes.
 ///
 /// # Panics
 /// If a contact names a body that is not in the list.
 #[must_use]
 pub fn generalised_reflections(bodies: &[ImpactBody], contacts: &[SharedContact]) -> SharedOutcome {
+    if is_rough(contacts) {
+        return opened(
+            reflections(ImpactLaw::Stronge, bodies, contacts, Some(1.0)),
+            contacts,
+        );
+    }
     let tolerance = tolerance(&opening_speeds(bodies, contacts));
     let mut impulses = vec![0.0; contacts.len()];
     let mut now = bodies.to_vec();
@@ -74,6 +190,7 @@ pub fn generalised_reflections(bodies: &[ImpactBody], contacts: &[SharedContact]
         if approaching.is_empty() {
             return SharedOutcome {
                 bodies: now,
+                tangential_impulses: vec![0.0; contacts.len()],
                 normal_impulses: impulses,
                 exhausted: false,
             };
@@ -90,6 +207,7 @@ pub fn generalised_reflections(bodies: &[ImpactBody], contacts: &[SharedContact]
     SharedOutcome {
         bodies: stopped.bodies,
         normal_impulses: all.map(|(before, j)| before + j).collect(),
+        tangential_impulses: vec![0.0; contacts.len()],
         exhausted: true,
     }
 }
@@ -119,7 +237,7 @@ fn reflected(
     (next.collect(), impulses.collect())
 }
 
-fn with_restitution(contacts: &[SharedContact], restitution: f64) -> Vec<SharedContact> {
+pub(super) fn with_restitution(contacts: &[SharedContact], restitution: f64) -> Vec<SharedContact> {
     let set = |shared: &SharedContact| SharedContact {
         contact: ImpactContact {
             restitution,
@@ -158,20 +276,38 @@ fn with_restitution(contacts: &[SharedContact], restitution: f64) -> Vec<SharedC
 /// If a contact names a body that is not in the list.
 #[must_use]
 pub fn blend(bodies: &[ImpactBody], contacts: &[SharedContact]) -> SharedOutcome {
+    blend_by(ImpactLaw::Stronge, bodies, contacts)
+}
+
+fn blend_by(law: ImpactLaw, bodies: &[ImpactBody], contacts: &[SharedContact]) -> SharedOutcome {
+    if is_rough(contacts) {
+        return opened(mixed(law, bodies, contacts), contacts);
+    }
+    mixed(law, bodies, contacts)
+}
+
+fn mixed(law: ImpactLaw, bodies: &[ImpactBody], contacts: &[SharedContact]) -> SharedOutcome {
     let stuck = newton_lcp(bodies, &with_restitution(contacts, 0.0));
     let e = mean_restitution(contacts, &stuck.normal_impulses);
     if e <= 0.0 {
         return stuck;
     }
-    let thrown = generalised_reflections(bodies, contacts);
+    let thrown = if is_rough(contacts) {
+        reflections(law, bodies, contacts, Some(1.0))
+    } else {
+        generalised_reflections(bodies, contacts)
+    };
     if e >= 1.0 {
         return thrown;
     }
     let mix = |at_0: f64, at_1: f64| (1.0 - e) * at_0 + e * at_1;
-    let impulses = stuck.normal_impulses.iter().zip(&thrown.normal_impulses);
+    let mix_all = |at_0: &[f64], at_1: &[f64]| -> Vec<f64> {
+        at_0.iter().zip(at_1).map(|(s, t)| mix(*s, *t)).collect()
+    };
     let both = stuck.bodies.iter().zip(&thrown.bodies);
     SharedOutcome {
-        normal_impulses: impulses.map(|(s, t)| mix(*s, *t)).collect(),
+        normal_impulses: mix_all(&stuck.normal_impulses, &thrown.normal_impulses),
+        tangential_impulses: mix_all(&stuck.tangential_impulses, &thrown.tangential_impulses),
         bodies: both
             .map(|(s, t)| ImpactBody {
                 velocity: s.velocity * (1.0 - e) + t.velocity * e,
@@ -179,11 +315,11 @@ pub fn blend(bodies: &[ImpactBody], contacts: &[SharedContact]) -> SharedOutcome
                 ..*s
             })
             .collect(),
-        exhausted: thrown.exhausted,
+        exhausted: stuck.exhausted || thrown.exhausted,
     }
 }
 
-fn mean_restitution(contacts: &[SharedContact], impulses: &[f64]) -> f64 {
+pub(super) fn mean_restitution(contacts: &[SharedContact], impulses: &[f64]) -> f64 {
     let all: f64 = impulses.iter().sum();
     if all <= 0.0 {
         return 0.0;
@@ -280,6 +416,7 @@ impl Scaled {
         }
         SharedOutcome {
             bodies: after,
+            tangential_impulses: vec![0.0; found.multipliers.len()],
             normal_impulses: found.multipliers,
             exhausted: false,
         }

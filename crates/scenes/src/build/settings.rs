@@ -1,9 +1,9 @@
 //! `[settings]`, gravity and the parameters that stand for them.
 
 use carom_dynamics::impact::ImpactLaw;
-use carom_dynamics::{Mode, PairSearch, Settings, Sleep, Softness};
+use carom_dynamics::{Mode, PairSearch, Settings, Several, Sleep, Softness};
 
-use crate::model::{LawName, ModeName, PairsName, SceneFile, SleepChoice};
+use crate::model::{LawName, ModeName, PairsName, SceneFile, SeveralName, SleepChoice};
 
 /// The engine's settings; what the file does not say is the engine's default.
 pub(crate) fn settings(file: &SceneFile) -> Settings {
@@ -34,6 +34,13 @@ pub(crate) fn settings(file: &SceneFile) -> Settings {
                 LawName::Newton => ImpactLaw::Newton,
                 LawName::Poisson => ImpactLaw::Poisson,
                 LawName::Stronge => ImpactLaw::Stronge,
+            }),
+        several: table
+            .several
+            .map_or(default.several, |choice| match choice {
+                SeveralName::Blend => Several::Blend,
+                SeveralName::Newton => Several::NewtonLcp,
+                SeveralName::Reflections => Several::Reflections,
             }),
         contact: Softness {
             frequency: contact.frequency.unwrap_or(soft.frequency),

@@ -14,7 +14,7 @@ pub(crate) use body::{BodyTable, Kind, MaterialChoice, MaterialTable};
 pub(crate) use generate::{
     GridTable, PlainTable, PopulationTable, PyramidTable, RandomShape, StackTable, WallsTable,
 };
-pub(crate) use settings::{LawName, ModeName, PairsName, SettingsTable, SleepChoice};
+pub(crate) use settings::{LawName, ModeName, PairsName, SettingsTable, SeveralName, SleepChoice};
 pub(crate) use shape::ShapeTable;
 pub(crate) use value::{Corners, Pixels, Point, Range};
 

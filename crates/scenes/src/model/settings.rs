@@ -12,6 +12,7 @@ pub(crate) struct SettingsTable {
     pub(crate) mode: Option<ModeName>,
     pub(crate) pairs: Option<PairsName>,
     pub(crate) impact_law: Option<LawName>,
+    pub(crate) several: Option<SeveralName>,
     pub(crate) sleep: Option<SleepChoice>,
     pub(crate) contact: ContactTable,
     pub(crate) history: Option<usize>,
@@ -40,6 +41,14 @@ pub(crate) enum LawName {
     Newton,
     Poisson,
     Stronge,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum SeveralName {
+    Blend,
+    Newton,
+    Reflections,
 }
 
 /// `sleep = true`, `false` or `{ speed, time }`.

@@ -1,0 +1,101 @@
+//! A dense system of a few equations.
+
+/// A square matrix as L U, its rows exchanged so that the largest of a column comes first.
+pub(super) struct Factored {
+    size: usize,
+    /// Row by row: L below the diagonal, U on and above it.
+    entries: Vec<f64>,
+    /// Row of the matrix that stands at each place.
+    order: Vec<usize>,
+}
+
+impl Factored {
+    /// Of a matrix given row by row; `None` if a pivot is 0 or not finite.
+    pub(super) fn of(size: usize, mut entries: Vec<f64>) -> Option<Self> {
+        let mut order: Vec<usize> = (0..size).collect();
+        for k in 0..size {
+            let mut best = k;
+            for row in k + 1..size {
+                if entries[row * size + k].abs() > entries[best * size + k].abs() {
+                    best = row;
+                }
+            }
+            let pivot = entries[best * size + k];
+            if pivot == 0.0 || !pivot.is_finite() {
+                return None;
+            }
+            if best != k {
+                order.swap(best, k);
+                for column in 0..size {
+                    entries.swap(best * size + column, k * size + column);
+                }
+            }
+            let (above, below) = entries.split_at_mut((k + 1) * size);
+            let pivots = &above[k * size..];
+            for row in below.chunks_exact_mut(size) {
+                let factor = row[k] / pivot;
+                if factor == 0.0 {
+                    continue;
+                }
+                row[k] = factor;
+                for (entry, of_pivot) in row[k + 1..].iter_mut().zip(&pivots[k + 1..]) {
+                    *entry -= factor * of_pivot;
+                }
+            }
+        }
+        Some(Self {
+            size,
+            entries,
+            order,
+        })
+    }
+
+    /// The x with A x = `right`.
+    pub(super) fn solve(&self, right: &[f64]) -> Vec<f64> {
+        let mut x: Vec<f64> = self.order.iter().map(|&row| right[row]).collect();
+        for k in 0..self.size {
+            let row = &self.entries[k * self.size..];
+            let known: f64 = row.iter().zip(&x[..k]).map(|(l, x)| l * x).sum();
+            x[k] -= known;
+        }
+        for k in (0..self.size).rev() {
+            let row = &self.entries[k * self.size..(k + 1) * self.size];
+            let known: f64 = row[k + 1..]
+                .iter()
+                .zip(&x[k + 1..])
+                .map(|(u, x)| u * x)
+                .sum();
+            x[k] = (x[k] - known) / row[k];
+        }
+        x
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn what_is_solved_solves(
+            entries in prop::collection::vec(-1.0..1.0_f64, 49),
+            wanted in prop::collection::vec(-1.0..1.0_f64, 7),
+        ) {
+            let times = |x: &[f64]| -> Vec<f64> {
+                let rows = entries.chunks_exact(7);
+                rows.map(|row| row.iter().zip(x).map(|(a, x)| a * x).sum()).collect()
+            };
+            let right = times(&wanted);
+            let found = Factored::of(7, entries.clone()).unwrap().solve(&right);
+            let off = times(&found).iter().zip(&right).map(|(l, r)| (l - r).abs()).fold(0.0, f64::max);
+            let size = found.iter().map(|x| x.abs()).fold(1.0, f64::max);
+            prop_assert!(off < 1e-13 * size, "{off:e}");
+        }
+    }
+
+    #[test]
+    fn a_matrix_without_inverse_is_refused() {
+        assert!(Factored::of(2, vec![0.0, 0.0, 0.0, 1.0]).is_none());
+    }
+}

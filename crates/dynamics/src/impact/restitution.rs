@@ -1,0 +1,190 @@
+//! Restitution after a common compression: Routh's path for several contacts.
+//!
+//! What was pressed in together springs back together: the normal impulses grow in the proportions that
+//! they had in compression, `j_n = τ p`, and friction follows them by Coulomb's law at every instant.
+//! Between changes of slip velocities are linear in τ, so the path has a few straight pieces, as that
+//! of a single contact.
+
+use carom_math::{Vec2, perp};
+
+use super::body::ImpactBody;
+use super::coulomb::stop;
+use super::routh::EndRule;
+use super::rows::{Bound, Row, Rows};
+use super::several::SharedContact;
+
+/// Restitution never lasts longer than this many times as long as compression: a jam would go on for ever.
+const LONGEST: f64 = 2.0;
+
+/// Impulses of each contact along its normal and along the normal turned by +90 degrees, in N·s.
+pub(super) type Impulses = Vec<(f64, f64)>;
+
+/// How much comes back, and by which measure.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Return {
+    pub(super) rule: EndRule,
+    /// Coefficient of restitution of all contacts.
+    pub(super) restitution: f64,
+    /// Work of compression, in J. No more than e² of it comes back by any measure.
+    pub(super) work: f64,
+    /// Slip below this is none, in m/s.
+    pub(super) zero: f64,
+}
+
+/// What restitution adds, and the bodies after it.
+pub(super) fn give_back(
+    stopped: &[ImpactBody],
+    contacts: &[SharedContact],
+    presses: &[f64],
+    how: &Return,
+) -> (Vec<ImpactBody>, Impulses) {
+    let e = how.restitution;
+    let mut path = Path {
+        contacts,
+        presses,
+        zero: how.zero,
+        bodies: stopped.to_vec(),
+    };
+    let mut work = e * e * how.work;
+    let mut length = match how.rule {
+        EndRule::Impulse => e,
+        EndRule::Work => LONGEST * e,
+    };
+    let mut total = vec![(0.0, 0.0); contacts.len()];
+    // Each piece ends a slip or begins one; the bound is for rounding alone.
+    for _ in 0..(8 + 4 * contacts.len()) {
+        let piece = path.piece();
+        let (start, slope) = path.power(&piece);
+        // ∫ (start + slope τ) dτ = work, in the form that does not cancel.
+        let root = start * start + 2.0 * slope * work;
+        let to_work = if root >= 0.0 && start + root.sqrt() > 0.0 {
+            2.0 * work / (start + root.sqrt())
+        } else {
+            f64::INFINITY
+        };
+        let to_end = to_work.min(length);
+        let step = to_end.min(path.to_change_of_slip(&piece));
+        if !(step.is_finite() && step >= 0.0) {
+            break;
+        }
+        path.advance(&piece, step, &mut total);
+        work -= step * (start + 0.5 * slope * step);
+        length -= step;
+        if step >= to_end || work <= 0.0 {
+            break;
+        }
+    }
+    (path.bodies, total)
+}
+
+/// One straight piece: friction of every contact, and what velocities gain, per unit of τ.
+struct Piece {
+    friction: Vec<f64>,
+    rates: Vec<ImpactBody>,
+}
+
+struct Path<'a> {
+    contacts: &'a [SharedContact],
+    presses: &'a [f64],
+    zero: f64,
+    bodies: Vec<ImpactBody>,
+}
+
+impl Path<'_> {
+    fn velocity(&self, bodies: &[ImpactBody], k: usize) -> (f64, f64) {
+        let shared = &self.contacts[k];
+        let (point, normal) = (shared.contact.point, shared.contact.normal);
+        let u = bodies[shared.b].velocity_of(point) - bodies[shared.a].velocity_of(point);
+        (u.dot(normal), u.dot(perp(normal)))
+    }
+
+    /// Direction in which contact k slips; 0 if it sticks.
+    fn slip(&self, k: usize) -> f64 {
+        let (_, u_t) = self.velocity(&self.bodies, k);
+        if u_t.abs() > self.zero {
+            u_t.signum()
+        } else {
+            0.0
+        }
+    }
+
+    /// What slips is held back by its limit; what sticks is held, if the limit allows it.
+    fn piece(&self) -> Piece {
+        let mut rates: Vec<ImpactBody> = self
+            .bodies
+            .iter()
+            .map(|body| ImpactBody {
+                velocity: Vec2::ZERO,
+                spin: 0.0,
+                ..*body
+            })
+            .collect();
+        let mut friction = vec![0.0; self.contacts.len()];
+        let (mut rows, mut places) = (Vec::new(), Vec::new());
+        for (k, (shared, press)) in self.contacts.iter().zip(self.presses).enumerate() {
+            if *press <= 0.0 {
+                continue;
+            }
+            let limit = shared.contact.friction * press;
+            let slip = self.slip(k);
+            if slip == 0.0 && limit > 0.0 {
+                let tangent = perp(shared.contact.normal);
+                rows.push(Row::new(&rates, shared, tangent, Bound::Limit(limit)));
+                places.push(k);
+            }
+            friction[k] = -slip * limit;
+            push(&mut rates, shared, (*press, friction[k]));
+        }
+        if !rows.is_empty() {
+            let held = Rows::new(&rates, rows);
+            let (holds, _) = stop(&held);
+            for (k, hold) in places.into_iter().zip(holds) {
+                friction[k] = hold;
+                push(&mut rates, &self.contacts[k], (0.0, hold));
+            }
+        }
+        Piece { friction, rates }
+    }
+
+    /// Power of the normal impulses per unit of τ, and how it grows.
+    fn power(&self, piece: &Piece) -> (f64, f64) {
+        let mut power = (0.0, 0.0);
+        for (k, press) in self.presses.iter().enumerate() {
+            power.0 += press * self.velocity(&self.bodies, k).0;
+            power.1 += press * self.velocity(&piece.rates, k).0;
+        }
+        power
+    }
+
+    fn to_change_of_slip(&self, piece: &Piece) -> f64 {
+        let mut first = f64::INFINITY;
+        for (k, press) in self.presses.iter().enumerate() {
+            let slip = self.slip(k);
+            let rate = self.velocity(&piece.rates, k).1;
+            if *press > 0.0 && slip * rate < 0.0 {
+                first = first.min(-self.velocity(&self.bodies, k).1 / rate);
+            }
+        }
+        first
+    }
+
+    fn advance(&mut self, piece: &Piece, step: f64, total: &mut Impulses) {
+        for (k, press) in self.presses.iter().enumerate() {
+            let added = (press * step, piece.friction[k] * step);
+            push(&mut self.bodies, &self.contacts[k], added);
+            total[k].0 += added.0;
+            total[k].1 += added.1;
+        }
+    }
+}
+
+/// ±J of a contact, given along its normal and its tangent.
+pub(super) fn push(bodies: &mut [ImpactBody], shared: &SharedContact, (n, t): (f64, f64)) {
+    if n == 0.0 && t == 0.0 {
+        return;
+    }
+    let contact = &shared.contact;
+    let impulse = contact.normal * n + perp(contact.normal) * t;
+    bodies[shared.a] = bodies[shared.a].pushed(-impulse, contact.point);
+    bodies[shared.b] = bodies[shared.b].pushed(impulse, contact.point);
+}

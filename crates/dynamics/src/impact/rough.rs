@@ -1,0 +1,255 @@
+//! Several contacts that act at one instant, with friction.
+//!
+//! The two ends of the [blend](super::blend): at e = 0 Signorini's condition and Coulomb's law for all
+//! impulses at once, at e = 1 reflections whose restitution follows Routh's path. Both keep momentum to
+//! rounding, keep friction in its cone, never gain energy and leave no contact closing, so every mean of them does.
+
+use super::body::ImpactBody;
+use super::coulomb::stop;
+use super::law::{ImpactLaw, poisson, stronge};
+use super::restitution::{Impulses, Return, give_back, push};
+use super::routh::EndRule;
+use super::rows::{Bound, Row, Rows, contact_rows};
+use super::several::{SharedContact, SharedOutcome, with_restitution};
+use super::sweeps::swept;
+
+/// Rows that are solved for exactly; above, sweeps end in bounded time.
+const ROWS: usize = 64;
+
+/// Reflections before the rest is stopped.
+const REFLECTIONS: u32 = 200;
+
+/// Whether friction has a part in it.
+pub(super) fn is_rough(contacts: &[SharedContact]) -> bool {
+    contacts.iter().any(|shared| shared.contact.friction > 0.0)
+}
+
+/// Whether there are too many rows for an exact answer.
+pub(super) fn is_large(contacts: &[SharedContact]) -> bool {
+    let frictions = contacts
+        .iter()
+        .filter(|shared| shared.contact.friction > 0.0);
+    contacts.len() + frictions.count() > ROWS
+}
+
+/// Newton's law with Coulomb's friction against what slip is left: `0 ≤ u_n⁺ + e u_n⁻ ⟂ j_n ≥ 0`.
+///
+/// Each contact has its own e. At e = 0 for all it never gains energy.
+pub(super) fn newton_rough(bodies: &[ImpactBody], contacts: &[SharedContact]) -> SharedOutcome {
+    let large = is_large(contacts);
+    let all = contact_rows(bodies, contacts);
+    let mut rows = if large {
+        Rows::loose(bodies, all)
+    } else {
+        Rows::new(bodies, all)
+    };
+    let mut wanted = Vec::with_capacity(rows.len());
+    let mut restitutions = contacts.iter().map(|shared| shared.contact.restitution);
+    for row in &rows.rows {
+        let approach = -row.speed(bodies);
+        wanted.push(match row.bound {
+            Bound::Push => restitutions.next().unwrap_or(0.0) * approach.max(0.0),
+            Bound::Friction(..) | Bound::Limit(_) => 0.0,
+        });
+    }
+    rows.ask(&wanted);
+    let (impulses, sure) = if large {
+        (rows.unscaled(&swept(&rows)).collect(), false)
+    } else {
+        stop(&rows)
+    };
+    outcome(bodies, contacts, &by_contact(&rows, &impulses), !sure)
+}
+
+/// Reflections of all approaching contacts together, again and again until none approaches.
+///
+/// Each gives back by one restitution for all: `common`, or else the mean of those that approach.
+pub(super) fn reflections(
+    law: ImpactLaw,
+    bodies: &[ImpactBody],
+    contacts: &[SharedContact],
+    common: Option<f64>,
+) -> SharedOutcome {
+    let zero = rounding(bodies, contacts);
+    let mut total: Impulses = vec![(0.0, 0.0); contacts.len()];
+    let mut now = bodies.to_vec();
+    let (mut exhausted, mut unsure) = (true, false);
+    for _ in 0..REFLECTIONS {
+        let places: Vec<usize> = (0..contacts.len())
+            .filter(|&k| opening(&now, &contacts[k]) < -zero)
+            .collect();
+        if places.is_empty() {
+            exhausted = false;
+            break;
+        }
+        let some: Vec<SharedContact> = places.iter().map(|&k| contacts[k]).collect();
+        let (next, pushes, sure) = reflected(law, &now, &some, common, zero);
+        for (&k, pushed) in places.iter().zip(pushes) {
+            total[k].0 += pushed.0;
+            total[k].1 += pushed.1;
+        }
+        now = next;
+        unsure |= !sure;
+    }
+    if exhausted {
+        let stopped = newton_rough(&now, &with_restitution(contacts, 0.0));
+        for (sum, k) in total.iter_mut().zip(0..) {
+            sum.0 += stopped.normal_impulses[k];
+            sum.1 += stopped.tangential_impulses[k];
+        }
+    }
+    outcome(bodies, contacts, &total, exhausted || unsure)
+}
+
+/// One reflection: compression of all contacts to a stop, then restitution along Routh's path.
+fn reflected(
+    law: ImpactLaw,
+    bodies: &[ImpactBody],
+    contacts: &[SharedContact],
+    common: Option<f64>,
+    zero: f64,
+) -> (Vec<ImpactBody>, Impulses, bool) {
+    let rule = match law {
+        ImpactLaw::Poisson => EndRule::Impulse,
+        ImpactLaw::Stronge | ImpactLaw::Newton => EndRule::Work,
+    };
+    if let [only] = contacts {
+        let mut contact = only.contact;
+        contact.restitution = common.unwrap_or(contact.restitution);
+        let (a, b) = (&bodies[only.a], &bodies[only.b]);
+        let outcome = match rule {
+            EndRule::Impulse => poisson(a, b, &contact),
+            EndRule::Work => stronge(a, b, &contact),
+        };
+        let mut after = bodies.to_vec();
+        (after[only.a], after[only.b]) = (outcome.a, outcome.b);
+        let impulses = vec![(outcome.normal_impulse, outcome.tangential_impulse)];
+        return (after, impulses, true);
+    }
+    let stopped = newton_rough(bodies, &with_restitution(contacts, 0.0));
+    let presses = &stopped.normal_impulses;
+    let restitution = common.unwrap_or_else(|| super::several::mean_restitution(contacts, presses));
+    // Work of the normal impulses on the way to the stop, and all energy that went: friction that
+    // turned a slip round has given some back.
+    let (mut work, mut loss) = (0.0, 0.0);
+    for (k, shared) in contacts.iter().enumerate() {
+        let (n, t) = (presses[k], stopped.tangential_impulses[k]);
+        let u = sum_of_velocities(bodies, &stopped.bodies, shared);
+        work -= 0.5 * n * u.0;
+        loss -= 0.5 * (n * u.0 + t * u.1);
+    }
+    let how = Return {
+        rule,
+        restitution,
+        work: work.min(loss).max(0.0),
+        zero,
+    };
+    let (after, mut pushes) = give_back(&stopped.bodies, contacts, presses, &how);
+    for (k, pushed) in pushes.iter_mut().enumerate() {
+        pushed.0 += presses[k];
+        pushed.1 += stopped.tangential_impulses[k];
+    }
+    (after, pushes, !stopped.exhausted)
+}
+
+/// Normal and tangential impulse of each contact.
+fn by_contact(rows: &Rows<'_>, impulses: &[f64]) -> Impulses {
+    let mut all = Impulses::new();
+    for (row, impulse) in rows.rows.iter().zip(impulses) {
+        match (row.bound, all.last_mut()) {
+            (Bound::Push, _) => all.push((impulse.max(0.0), 0.0)),
+            (_, Some(last)) => last.1 = *impulse,
+            (_, None) => {}
+        }
+    }
+    all
+}
+
+/// ±J of every contact applied once.
+fn outcome(
+    bodies: &[ImpactBody],
+    contacts: &[SharedContact],
+    impulses: &Impulses,
+    exhausted: bool,
+) -> SharedOutcome {
+    let mut after = bodies.to_vec();
+    for (shared, impulse) in contacts.iter().zip(impulses) {
+        push(&mut after, shared, *impulse);
+    }
+    SharedOutcome {
+        bodies: after,
+        normal_impulses: impulses.iter().map(|impulse| impulse.0).collect(),
+        tangential_impulses: impulses.iter().map(|impulse| impulse.1).collect(),
+        exhausted,
+    }
+}
+
+/// Speed with which a contact opens that rounding has left closing, as a part of its points' speeds.
+const OPENS: f64 = 4.0 * f64::EPSILON;
+
+/// Takes away what rounding has left of an approach, so that nobody strikes at once what is resolved.
+///
+/// Such contacts are stopped once more, and open as slowly as numbers can tell.
+pub(super) fn opened(mut found: SharedOutcome, contacts: &[SharedContact]) -> SharedOutcome {
+    if found.exhausted || is_large(contacts) {
+        return found;
+    }
+    let mut closing = vec![false; contacts.len()];
+    for _ in 0..4 {
+        let mut any = false;
+        for (closes, shared) in closing.iter_mut().zip(contacts) {
+            let now = opening(&found.bodies, shared) < 0.0;
+            (*closes, any) = (*closes || now, any || now);
+        }
+        if !any {
+            break;
+        }
+        let places: Vec<usize> = (0..contacts.len()).filter(|&k| closing[k]).collect();
+        let row = |&k: &usize| {
+            let normal = contacts[k].contact.normal;
+            Row::new(&found.bodies, &contacts[k], normal, Bound::Push)
+        };
+        let mut rows = Rows::new(&found.bodies, places.iter().map(row).collect());
+        let asked = |&k: &usize| {
+            let (shared, point) = (&contacts[k], contacts[k].contact.point);
+            let speed = |body: usize| found.bodies[body].velocity_of(point).length();
+            OPENS * (speed(shared.a) + speed(shared.b))
+        };
+        rows.ask(&places.iter().map(asked).collect::<Vec<_>>());
+        let (impulses, _) = stop(&rows);
+        for (k, impulse) in places.into_iter().zip(impulses) {
+            push(&mut found.bodies, &contacts[k], (impulse, 0.0));
+            found.normal_impulses[k] += impulse;
+        }
+    }
+    found
+}
+
+pub(super) fn opening(bodies: &[ImpactBody], shared: &SharedContact) -> f64 {
+    velocity(bodies, shared).0
+}
+
+/// Normal and tangential velocity of B's point minus A's, in m/s.
+fn velocity(bodies: &[ImpactBody], shared: &SharedContact) -> (f64, f64) {
+    let (point, normal) = (shared.contact.point, shared.contact.normal);
+    let u = bodies[shared.b].velocity_of(point) - bodies[shared.a].velocity_of(point);
+    (u.dot(normal), u.dot(carom_math::perp(normal)))
+}
+
+fn sum_of_velocities(
+    before: &[ImpactBody],
+    after: &[ImpactBody],
+    shared: &SharedContact,
+) -> (f64, f64) {
+    let (one, other) = (velocity(before, shared), velocity(after, shared));
+    (one.0 + other.0, one.1 + other.1)
+}
+
+/// What counts as rounding of a speed: friction makes one of slip as well as of approach.
+fn rounding(bodies: &[ImpactBody], contacts: &[SharedContact]) -> f64 {
+    let fastest = contacts.iter().fold(0.0, |most: f64, shared| {
+        let u = velocity(bodies, shared);
+        most.max(u.0.abs()).max(u.1.abs())
+    });
+    64.0 * f64::EPSILON * fastest
+}

@@ -1,0 +1,215 @@
+//! Directions in which contacts push, and what the pushes do to velocities.
+//!
+//! ```text
+//! u = u₀ + K j        u_r: velocity of B's point minus A's along row r's direction, in m/s
+//!                     K_rs: change of u_r by an impulse of 1 N·s along row s (Delassus)
+//! ```
+
+use carom_math::{Vec2, cross, perp};
+
+use super::body::ImpactBody;
+use super::several::SharedContact;
+
+/// What an impulse along a row may be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Bound {
+    /// `0 ≤ j ⟂ u ≥ 0`: bodies push, and do not close.
+    Push,
+    /// Coulomb: `|j| ≤ µ j_n`, against u where it is at its limit. The row of `j_n`, and µ.
+    Friction(usize, f64),
+    /// The same with a limit that is given, in N·s.
+    Limit(f64),
+}
+
+/// A direction in which a contact pushes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Row {
+    /// Places of A and B among the bodies.
+    pub(super) a: usize,
+    pub(super) b: usize,
+    /// Direction of a push on B.
+    pub(super) direction: Vec2,
+    pub(super) point: Vec2,
+    pub(super) bound: Bound,
+    /// Arms of the direction about the centres of A and B, in m.
+    arms: (f64, f64),
+}
+
+impl Row {
+    pub(super) fn new(
+        bodies: &[ImpactBody],
+        shared: &SharedContact,
+        direction: Vec2,
+        bound: Bound,
+    ) -> Self {
+        let point = shared.contact.point;
+        let arm = |body: &ImpactBody| cross(point - body.centre, direction);
+        Self {
+            a: shared.a,
+            b: shared.b,
+            direction,
+            point,
+            bound,
+            arms: (arm(&bodies[shared.a]), arm(&bodies[shared.b])),
+        }
+    }
+
+    /// Velocity of B's point minus A's along the direction, in m/s.
+    pub(super) fn speed(&self, bodies: &[ImpactBody]) -> f64 {
+        let (a, b) = (&bodies[self.a], &bodies[self.b]);
+        (b.velocity_of(self.point) - a.velocity_of(self.point)).dot(self.direction)
+    }
+
+    /// Applies ±`impulse`, in N·s.
+    pub(super) fn push(&self, bodies: &mut [ImpactBody], impulse: f64) {
+        let along = self.direction * impulse;
+        bodies[self.a] = bodies[self.a].pushed(-along, self.point);
+        bodies[self.b] = bodies[self.b].pushed(along, self.point);
+    }
+
+    /// Entry of K for this row and another.
+    fn response(&self, other: &Self, bodies: &[ImpactBody]) -> f64 {
+        let through = |index: usize, own: f64, its: f64| {
+            let body = &bodies[index];
+            self.direction.dot(other.direction) * body.inverse_mass
+                + own * its * body.inverse_inertia
+        };
+        let mut sum = 0.0;
+        if self.a == other.a {
+            sum += through(self.a, self.arms.0, other.arms.0);
+        }
+        if self.b == other.b {
+            sum += through(self.b, self.arms.1, other.arms.1);
+        }
+        if self.a == other.b {
+            sum -= through(self.a, self.arms.0, other.arms.1);
+        }
+        if self.b == other.a {
+            sum -= through(self.b, self.arms.1, other.arms.0);
+        }
+        sum
+    }
+}
+
+/// Rows of all contacts with the matrix K, scaled so that its diagonal is 1.
+pub(super) struct Rows<'a> {
+    pub(super) bodies: &'a [ImpactBody],
+    pub(super) rows: Vec<Row>,
+    /// K row by row, each entry divided by both rows' scales.
+    pub(super) k: Vec<f64>,
+    /// √`K_rr`; an impulse times it is the scaled impulse, a speed by it the scaled speed.
+    pub(super) scales: Vec<f64>,
+    /// Speeds that count as none, in m/s: what contacts are to open with.
+    asked: Vec<f64>,
+}
+
+impl<'a> Rows<'a> {
+    /// Rows that nothing can move have a scale of 0, and get no impulse.
+    pub(super) fn new(bodies: &'a [ImpactBody], rows: Vec<Row>) -> Self {
+        let mut all = Self::loose(bodies, rows);
+        let size = all.len();
+        all.k = vec![0.0; size * size];
+        for r in 0..size {
+            for s in 0..=r {
+                let scale = all.scales[r] * all.scales[s];
+                if scale > 0.0 {
+                    let entry = all.rows[r].response(&all.rows[s], bodies) / scale;
+                    all.k[r * size + s] = entry;
+                    all.k[s * size + r] = entry;
+                }
+            }
+        }
+        all
+    }
+
+    /// Without the matrix: enough for sweeps, whatever their number.
+    pub(super) fn loose(bodies: &'a [ImpactBody], rows: Vec<Row>) -> Self {
+        let own = rows.iter().map(|row| row.response(row, bodies).sqrt());
+        Self {
+            scales: own.collect(),
+            asked: vec![0.0; rows.len()],
+            k: Vec::new(),
+            bodies,
+            rows,
+        }
+    }
+
+    /// Speeds are counted from these on, in m/s.
+    pub(super) fn ask(&mut self, speeds: &[f64]) {
+        self.asked = speeds.to_vec();
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// Speeds along the rows after scaled impulses, scaled; by way of the bodies, so that no
+    /// entry of K takes its rounding there.
+    pub(super) fn speeds(&self, impulses: &[f64]) -> Vec<f64> {
+        let after = self.pushed(impulses);
+        (0..self.len()).map(|r| self.speed(r, &after)).collect()
+    }
+
+    /// Scaled speed along a row.
+    pub(super) fn speed(&self, r: usize, bodies: &[ImpactBody]) -> f64 {
+        if self.scales[r] > 0.0 {
+            (self.rows[r].speed(bodies) - self.asked[r]) / self.scales[r]
+        } else {
+            0.0
+        }
+    }
+
+    /// The bodies after scaled impulses.
+    pub(super) fn pushed(&self, impulses: &[f64]) -> Vec<ImpactBody> {
+        let mut after = self.bodies.to_vec();
+        for (k, impulse) in self.unscaled(impulses).enumerate() {
+            if impulse != 0.0 {
+                self.rows[k].push(&mut after, impulse);
+            }
+        }
+        after
+    }
+
+    /// Impulses in N·s.
+    pub(super) fn unscaled<'b>(&'b self, impulses: &'b [f64]) -> impl Iterator<Item = f64> + 'b {
+        impulses.iter().zip(&self.scales).map(
+            |(impulse, scale)| {
+                if *scale > 0.0 { impulse / scale } else { 0.0 }
+            },
+        )
+    }
+
+    /// Scaled limit of a row's impulse, in terms of the scaled impulses.
+    pub(super) fn limit(&self, row: usize, impulses: &[f64]) -> f64 {
+        match self.rows[row].bound {
+            Bound::Push => f64::INFINITY,
+            Bound::Friction(normal, _) => self.factor(row) * impulses[normal],
+            Bound::Limit(limit) => limit * self.scales[row],
+        }
+    }
+
+    /// Scaled µ: limit of a friction row for a scaled normal impulse of 1.
+    pub(super) fn factor(&self, row: usize) -> f64 {
+        match self.rows[row].bound {
+            Bound::Friction(normal, mu) if self.scales[normal] > 0.0 => {
+                mu * (self.scales[row] / self.scales[normal])
+            }
+            _ => 0.0,
+        }
+    }
+}
+
+/// A normal row for each contact and a friction row for each that has friction.
+pub(super) fn contact_rows(bodies: &[ImpactBody], contacts: &[SharedContact]) -> Vec<Row> {
+    let mut rows = Vec::with_capacity(2 * contacts.len());
+    for shared in contacts {
+        let normal = shared.contact.normal;
+        let place = rows.len();
+        rows.push(Row::new(bodies, shared, normal, Bound::Push));
+        if shared.contact.friction > 0.0 {
+            let bound = Bound::Friction(place, shared.contact.friction);
+            rows.push(Row::new(bodies, shared, perp(normal), bound));
+        }
+    }
+    rows
+}
