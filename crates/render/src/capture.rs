@@ -1,11 +1,13 @@
 //! From a world to marks: what the camera sees at this instant.
 
+use core::convert::Infallible;
+
 use carom_dynamics::{Body, BodyKind, World};
-use carom_geometry::{Outline, Shape};
-use carom_math::{Pose, Vec2, vec2};
+use carom_geometry::{Aabb, Outline, Shape};
+use carom_math::{Pose, SimTime, Vec2, vec2};
 
 use crate::overlay::{Groups, Overlaid, unit};
-use crate::{Camera, Frame, Ink, Look, Op, Paint, Source, Trace};
+use crate::{Camera, Frame, Ink, Look, Op, Paint, RenderError, Source, Trace};
 
 /// Pixels that a mark reaches beyond its body's box: half an outline and some.
 const REACH: f64 = 4.0;
@@ -45,7 +47,47 @@ impl Frame {
         frame
     }
 
-    /// The same with what a trace remembers of the time before: trails, fading flashes, impacts so far.
+    /// The bodies where they were at an instant of the last step, without overlays: for frames between two steps.
+    ///
+    /// # Errors
+    /// [`RenderError::Instant`] if the world does not know where a body was then: before its last change that takes
+    /// [`Settings::history`](carom_dynamics::Settings), after the present nothing is known.
+    ///
+    /// # Examples
+    /// ```
+    /// use carom_dynamics::{BodyDef, Material, Settings, World};
+    /// use carom_geometry::Circle;
+    /// use carom_math::{SimTime, vec2};
+    /// use carom_render::{Camera, Frame, Look, Op};
+    ///
+    /// let mut world = World::new(Settings { gravity: vec2(0.0, 0.0), ..Settings::default() })?;
+    /// let ball = BodyDef::dynamic().moving(vec2(2.0, 0.0));                                    // m/s
+    /// world.insert(ball, Circle::new(0.5)?, Material::default())?;
+    /// world.step(0.5);
+    /// let camera = Camera::new(vec2(0.0, 0.0), 50.0, 400, 300)?;                               // m, px/m, px
+    /// let frame = Frame::capture_at(&world, SimTime::from_secs(0.25), &Look::default(), &camera)?;
+    /// let Op::Disc { centre, .. } = &frame.ops()[0] else { unreachable!() };
+    /// assert!((centre.x - 225.0).abs() < 1e-9);                                                // half a metre from the middle
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn capture_at(
+        world: &World,
+        time: SimTime,
+        look: &Look,
+        camera: &Camera,
+    ) -> Result<Self, RenderError> {
+        let mut frame = Self::new(camera.size());
+        let mut sketch = Sketch::new(&mut frame, world, look, camera);
+        sketch.bodies(world, |body| {
+            let pose = world.pose_at(body.id(), time);
+            pose.ok_or(RenderError::Instant {
+                time: time.as_secs(),
+            })
+        })?;
+        Ok(frame)
+    }
+
+    /// The same as [`Frame::capture`] with what a trace remembers of the time before: trails, fading flashes, impacts so far.
     #[must_use]
     pub fn capture_traced(world: &World, look: &Look, camera: &Camera, trace: &Trace) -> Self {
         let mut frame = Self::new(camera.size());
@@ -72,15 +114,9 @@ impl Frame {
     ) {
         self.clear(camera.size());
         Overlaid::new(self, world, look, camera, trace).beneath();
-        let mut sketch = Sketch {
-            frame: self,
-            look,
-            camera,
-            unit: unit(camera),
-            source: Source::default(),
-            groups: look.overlay.groups.then(|| Groups::of(world)),
-        };
-        sketch.bodies(world);
+        let mut sketch = Sketch::new(self, world, look, camera);
+        let done: Result<(), Infallible> = sketch.bodies(world, |body| Ok(body.pose()));
+        let Ok(()) = done;
         Overlaid::new(self, world, look, camera, trace).above();
     }
 }
@@ -91,19 +127,39 @@ struct Sketch<'a> {
     camera: &'a Camera,
     /// Pixels that one pixel of the overlay's sizes takes.
     unit: f64,
-    /// The body at hand.
+    /// The body at hand, and where it is.
     source: Source,
+    pose: Pose,
     /// Who touches whom, if bodies are coloured by it.
     groups: Option<Groups>,
 }
 
-impl Sketch<'_> {
-    fn bodies(&mut self, world: &World) {
+impl<'a> Sketch<'a> {
+    fn new(frame: &'a mut Frame, world: &World, look: &'a Look, camera: &'a Camera) -> Self {
+        Self {
+            frame,
+            look,
+            camera,
+            unit: unit(camera),
+            source: Source::default(),
+            pose: Pose::IDENTITY,
+            groups: look.overlay.groups.then(|| Groups::of(world)),
+        }
+    }
+
+    /// All bodies in view, where `place` says they are.
+    fn bodies<E>(
+        &mut self,
+        world: &World,
+        place: impl Fn(&Body<'_>) -> Result<Pose, E>,
+    ) -> Result<(), E> {
         let view = self.camera.view().grown(REACH / self.camera.scale());
         for awake in [false, true] {
             let layer = world.bodies().filter(|body| is_awake(body) == awake);
             for body in layer {
-                if view.overlaps(body.aabb()) {
+                self.pose = place(&body)?;
+                let boxes = body.shapes().map(|(shape, _)| shape.aabb(self.pose));
+                if view.overlaps(boxes.fold(Aabb::EMPTY, Aabb::union)) {
                     self.source = Source {
                         body: Some(body.id()),
                         awake,
@@ -112,6 +168,7 @@ impl Sketch<'_> {
                 }
             }
         }
+        Ok(())
     }
 
     fn body(&mut self, body: &Body<'_>) {
@@ -130,7 +187,7 @@ impl Sketch<'_> {
     }
 
     fn shape(&mut self, body: &Body<'_>, shape: &Shape, paint: Paint) {
-        let pose = body.pose();
+        let pose = self.pose;
         match shape.outline() {
             Outline::Circle { centre, radius } => {
                 let centre = self.camera.point(pose.point(centre));
@@ -200,7 +257,7 @@ impl Sketch<'_> {
                 paint,
             },
         );
-        let turn = self.camera.turn(body.pose().rotation);
+        let turn = self.camera.turn(self.pose.rotation);
         if let Some(face) = self.look.face(body) {
             self.frame.push_from(
                 self.source,

@@ -87,6 +87,15 @@ pub enum RenderError {
         found: crate::Size,
     },
 
+    /// A world does not know where a body was at an instant.
+    #[error(
+        "where a body was at {time} s is not known: that is to come, or before its last change and no history is kept"
+    )]
+    Instant {
+        /// The instant, in seconds.
+        time: f64,
+    },
+
     /// Bytes are no PNG that can be read.
     #[error("not a readable PNG: {reason}")]
     Decode {

@@ -40,8 +40,11 @@
     )
 )]
 
+#[cfg(test)]
+mod agreement_tests;
 mod apng;
 mod axis;
+mod buffer;
 mod camera;
 mod capture;
 mod chart;
@@ -85,6 +88,7 @@ mod y4m;
 
 pub use apng::Animation;
 pub use axis::{Axis, Scale};
+pub use buffer::Ground;
 pub use camera::Camera;
 pub use chart::{Chart, Marker, Series};
 pub use colour::{BODY_COLOURS, Colour};

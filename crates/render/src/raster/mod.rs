@@ -181,10 +181,8 @@ fn sweep(cells: &mut Cells, row: usize, place: Place, line: &mut [Pixel], shade:
             for (column, (cell, pixel)) in (column..).zip(seen) {
                 sum += *cell;
                 *cell = 0.0;
-                let coverage = quantised(sum);
-                if coverage > 0 {
-                    shade.pixel(pixel, column, coverage);
-                }
+                // What is not covered comes out as it was: cheaper than to ask.
+                shade.pixel(pixel, column, quantised(sum));
             }
         }
         for cell in &mut sums[after..] {

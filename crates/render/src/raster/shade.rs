@@ -79,12 +79,15 @@ impl Shade for Flat {
     }
 }
 
-/// A row of colours, found before it is painted.
-fn paint_row(colours: &[u32], out: &mut [Pixel], coverage: u32) {
-    for (pixel, &colour) in out.iter_mut().zip(colours) {
-        if coverage == FULL && colour >> 24 == 255 {
+/// Paints colours that were found before.
+fn paint_row(colours: &[u32], out: &mut [Pixel], coverage: u32, opaque: bool) {
+    let pixels = out.iter_mut().zip(colours);
+    if opaque && coverage == FULL {
+        for (pixel, colour) in pixels {
             *pixel = colour.to_le_bytes();
-        } else {
+        }
+    } else {
+        for (pixel, &colour) in pixels {
             blend(pixel, colour, coverage);
         }
     }
@@ -146,15 +149,17 @@ impl Shade for Radial<'_> {
         /// Added to a number below 2^22 it leaves its nearest integer in the lowest bits.
         const ROUND: f32 = 8_388_608.0;
         self.first = first;
-        self.colours.clear();
-        self.colours.resize(end - first, 0);
+        let count = end - first;
+        if self.colours.len() < count {
+            self.colours.resize(count, 0);
+        }
         let dy = (y as f64 + 0.5 - self.focus.y) as f32;
         let dx = (0.5 - self.focus.x) as f32;
         let (begin, per, from, by, opacity) =
             (self.begin, self.per, self.from, self.by, self.opacity);
         let square = dy * dy;
         let columns = i32::try_from(first).unwrap_or(0)..;
-        for (column, colour) in columns.zip(self.colours.iter_mut()) {
+        for (column, colour) in columns.zip(&mut self.colours[..count]) {
             let across = dx + column as f32;
             let distance = (across * across + square).sqrt();
             let part = (distance - begin) * per;
@@ -168,7 +173,8 @@ impl Shade for Radial<'_> {
     }
 
     fn span(&self, out: &mut [Pixel], first: usize, coverage: u32) {
-        paint_row(&self.colours[first - self.first..], out, coverage);
+        let opaque = self.opacity == 0xFF00_0000;
+        paint_row(&self.colours[first - self.first..], out, coverage, opaque);
     }
 
     #[inline]
@@ -245,7 +251,7 @@ impl Shade for Textured<'_> {
     }
 
     fn span(&self, out: &mut [Pixel], first: usize, coverage: u32) {
-        paint_row(&self.colours[first - self.first..], out, coverage);
+        paint_row(&self.colours[first - self.first..], out, coverage, false);
     }
 
     #[inline]
