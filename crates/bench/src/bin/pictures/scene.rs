@@ -1,0 +1,256 @@
+//! The scene that everybody draws: walls, a bar, a field, and balls and polygons that fly on straight lines.
+
+use carom_math::{Rot, Vec2, vec2};
+use carom_render::{Colour, Frame, Ink, Op, Paint, Size, Source};
+
+/// One thing to draw, in pixels.
+#[derive(Clone, Debug)]
+pub(crate) enum Thing {
+    /// A filled ring of points.
+    Area(Vec<Vec2>, Colour),
+    /// A disc from its colour within 0.2 r of a point moved by −0.2 r to a third of it at 1.3 r.
+    Ball(Vec2, f64, Colour),
+    /// A flat disc.
+    Dot(Vec2, f64, Colour),
+    /// A circle line of a width.
+    Ring(Vec2, f64, f64, Colour),
+    /// A straight line of a width with flat ends.
+    Stroke(Vec2, Vec2, f64, Colour),
+}
+
+/// How an arrow is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Arrows {
+    /// By three strokes.
+    Strokes,
+    /// By one outline.
+    Outlines,
+}
+
+/// A body: a ball, or a polygon with so many corners.
+#[derive(Clone, Debug)]
+struct Body {
+    corners: usize,
+    radius: f64,
+    at: Vec2,
+    angle: f64,
+    velocity: Vec2,
+    spin: f64,
+    colour: Colour,
+}
+
+/// The state that frames are drawn from.
+#[derive(Clone, Debug)]
+pub(crate) struct Scene {
+    pub(crate) size: Size,
+    bodies: Vec<Body>,
+    /// How many of them move.
+    awake: usize,
+}
+
+/// `xorshift64*` (Vigna 2016).
+pub(crate) struct Random(pub(crate) u64);
+
+impl Random {
+    fn unit(&mut self) -> f64 {
+        self.0 ^= self.0 >> 12;
+        self.0 ^= self.0 << 25;
+        self.0 ^= self.0 >> 27;
+        let bits = self.0.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 40;
+        f64::from(u32::try_from(bits).unwrap_or(0)) / f64::from(1_u32 << 24)
+    }
+
+    pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.unit()
+    }
+}
+
+const WALL: Colour = Colour::rgb(128, 128, 128);
+const BAR: Colour = Colour::rgb(255, 255, 0);
+
+impl Scene {
+    /// `count` bodies that cover about a third of the canvas, the first `awake` of them moving.
+    pub(crate) fn new(size: Size, count: usize, awake: usize) -> Self {
+        let mut random = Random(0x9E37_79B9_7F4A_7C15 ^ count as u64);
+        let corner = size.corner();
+        let mean = (0.35 * corner.x * corner.y / (count as f64 * core::f64::consts::PI)).sqrt();
+        let bodies = (0..count).map(|i| Body {
+            corners: if i % 2 == 0 { 3 + (i / 2) % 6 } else { 0 },
+            radius: mean * random.between(0.7, 1.3),
+            at: vec2(random.between(0.0, corner.x), random.between(0.0, corner.y)),
+            angle: random.between(0.0, core::f64::consts::TAU),
+            velocity: vec2(random.between(-40.0, 40.0), random.between(-40.0, 40.0)),
+            spin: random.between(-3.0, 3.0),
+            colour: Colour::hsv(random.unit(), 0.7, random.between(0.6, 1.0)),
+        });
+        Self {
+            size,
+            bodies: bodies.collect(),
+            awake,
+        }
+    }
+
+    /// A sixtieth of a second on; who leaves comes in on the other side.
+    pub(crate) fn step(&mut self) {
+        let corner = self.size.corner();
+        for body in &mut self.bodies[..self.awake] {
+            body.at += body.velocity / 60.0;
+            body.angle += body.spin / 60.0;
+            body.at -= corner * (body.at / corner).floor();
+        }
+    }
+
+    /// Things and whether they move, lowest first.
+    pub(crate) fn each(&self, arrows: Arrows, mut draw: impl FnMut(Thing, bool)) {
+        let Vec2 { x: w, y: h } = self.size.corner();
+        let triangle = |points: [Vec2; 3]| Thing::Area(points.to_vec(), WALL);
+        draw(
+            triangle([vec2(0.0, h), vec2(0.3 * w, h), vec2(0.0, 0.7 * h)]),
+            false,
+        );
+        draw(
+            triangle([vec2(w, h), vec2(0.7 * w, h), vec2(w, 0.7 * h)]),
+            false,
+        );
+        draw(
+            Thing::Stroke(
+                vec2(0.05 * w, 0.95 * h),
+                vec2(0.35 * w, 0.95 * h),
+                10.0,
+                BAR,
+            ),
+            false,
+        );
+        draw(
+            Thing::Stroke(
+                vec2(0.9 * w, 0.05 * h),
+                vec2(0.9 * w, 0.15 * h),
+                2.0,
+                Colour::WHITE,
+            ),
+            false,
+        );
+        draw(
+            Thing::Dot(vec2(0.9 * w, 0.15 * h), 4.0, Colour::WHITE),
+            false,
+        );
+        draw(
+            Thing::Ring(
+                vec2(0.5 * w, 0.45 * h),
+                0.3 * h,
+                3.0,
+                Colour::rgb(90, 140, 255),
+            ),
+            false,
+        );
+        // Those asleep lie below.
+        for (first, end, awake) in [
+            (self.awake, self.bodies.len(), false),
+            (0, self.awake, true),
+        ] {
+            for body in &self.bodies[first..end] {
+                draw(body.shape(), awake);
+                draw(Thing::Dot(body.at, 1.0, Colour::WHITE), awake);
+                body.arrow(arrows, |thing| draw(thing, awake));
+            }
+        }
+    }
+
+    /// All things.
+    pub(crate) fn things(&self, arrows: Arrows) -> Vec<Thing> {
+        let mut things = Vec::new();
+        self.each(arrows, |thing, _| things.push(thing));
+        things
+    }
+
+    /// The scene as carom's display list.
+    pub(crate) fn frame_into(&self, arrows: Arrows, frame: &mut Frame) {
+        frame.clear(self.size);
+        self.each(arrows, |thing, awake| {
+            frame.push_from(Source { body: None, awake }, op(thing));
+        });
+    }
+}
+
+impl Body {
+    fn shape(&self) -> Thing {
+        if self.corners == 0 {
+            return Thing::Ball(self.at, self.radius, self.colour);
+        }
+        let turn = Rot::from_angle(core::f64::consts::TAU / self.corners as f64);
+        let mut arm = self.radius * Rot::from_angle(self.angle).x_axis();
+        let corner = |_| {
+            arm = turn * arm;
+            self.at + arm
+        };
+        Thing::Area((0..self.corners).map(corner).collect(), self.colour)
+    }
+
+    /// Half a second of its way.
+    fn arrow(&self, arrows: Arrows, mut draw: impl FnMut(Thing)) {
+        let way = 0.5 * self.velocity;
+        let length = way.length();
+        let tip = self.at + way;
+        let back = -way / length.max(1e-9) * length.min(10.0);
+        let barbs = [0.5, -0.5].map(|angle| tip + Rot::from_angle(angle) * back);
+        match arrows {
+            Arrows::Strokes => {
+                draw(Thing::Stroke(self.at, tip, 2.0, Colour::WHITE));
+                for barb in barbs {
+                    draw(Thing::Stroke(tip, barb, 2.0, Colour::WHITE));
+                }
+            }
+            Arrows::Outlines => {
+                let across = vec2(-way.y, way.x) / length.max(1e-9);
+                let neck = tip + 0.8 * back;
+                let points = vec![
+                    self.at + across,
+                    neck + across,
+                    barbs[1],
+                    tip,
+                    barbs[0],
+                    neck - across,
+                    self.at - across,
+                ];
+                draw(Thing::Area(points, Colour::WHITE));
+            }
+        }
+    }
+}
+
+/// A thing as a mark.
+fn op(thing: Thing) -> Op {
+    match thing {
+        Thing::Area(points, colour) => Op::Area {
+            points,
+            ink: Ink::Of(colour),
+        },
+        Thing::Ball(centre, radius, colour) => Op::Disc {
+            centre,
+            radius,
+            paint: Paint::flat(colour).shaded(),
+        },
+        Thing::Dot(centre, radius, colour) => Op::Dot {
+            centre,
+            radius,
+            ink: Ink::Of(colour),
+        },
+        Thing::Ring(centre, radius, width, colour) => Op::Ring {
+            centre,
+            radius,
+            width,
+            ink: Ink::Of(colour),
+        },
+        Thing::Stroke(a, b, width, colour) => Op::Area {
+            points: quad(a, b, width).to_vec(),
+            ink: Ink::Of(colour),
+        },
+    }
+}
+
+/// What a stroke with flat ends covers.
+pub(crate) fn quad(a: Vec2, b: Vec2, width: f64) -> [Vec2; 4] {
+    let along = (b - a).normalize_or_zero();
+    let across = vec2(-along.y, along.x) * (0.5 * width);
+    [a + across, b + across, b - across, a - across]
+}
