@@ -11,7 +11,7 @@ use carom_math::{SimTime, Vec2, cross_scalar, perp};
 
 use crate::flight::fly;
 use crate::modes::{BodyMove, GroupMove, TouchMove, judge, land};
-use crate::touching::Gathered;
+use crate::touching::{Gathered, Looks, Refused};
 use crate::{ContactMode, EventKind, Mode, World};
 
 /// Sub-steps that a body waits after a judgement that failed: doubled each time, up to this.
@@ -28,9 +28,9 @@ pub(crate) const NO_GROUP: u32 = u32::MAX;
 pub(crate) struct Membership {
     /// Place of the group, or [`NO_GROUP`].
     pub(crate) group: u32,
-    /// Sub-steps still to wait before it is judged again.
-    wait: u32,
-    /// How long it waited the last time.
+    /// Not judged again before this instant, while nothing happens to it.
+    not_before: SimTime,
+    /// Sub-steps that it waited the last time.
     waited: u32,
 }
 
@@ -38,7 +38,7 @@ impl Default for Membership {
     fn default() -> Self {
         Self {
             group: NO_GROUP,
-            wait: 0,
+            not_before: SimTime::ZERO,
             waited: 0,
         }
     }
@@ -47,6 +47,11 @@ impl Default for Membership {
 impl Membership {
     pub(crate) const fn is_closed(self) -> bool {
         self.group != NO_GROUP
+    }
+
+    /// Until when a judgement that failed stands, if it still does at `time`.
+    pub(crate) fn waits(self, time: SimTime) -> Option<SimTime> {
+        Some(self.not_before).filter(|until| *until > time)
     }
 }
 
@@ -164,7 +169,6 @@ impl World {
         if self.settings.mode == Mode::Stepped || !self.bodies.pull.fields.is_empty() {
             return;
         }
-        let mut seeds = Vec::new();
         let mut i = 0;
         while let Some(place) = self.pairs.place(i) {
             i += 1;
@@ -175,27 +179,14 @@ impl World {
             let ends = [pair.bodies.0, pair.bodies.1];
             let joins = ends.map(|index| self.bodies.get(index).membership.is_closed());
             for index in ends {
-                let state = self.bodies.get_mut(index);
-                if state.is_dynamic() && !state.asleep && !state.membership.is_closed() {
-                    // Nobody else looks after a touch with a group.
-                    if joins.contains(&true) {
-                        state.membership.wait = 0;
-                    }
-                    seeds.push(index);
+                let state = self.bodies.get(index);
+                if !state.is_dynamic() || state.asleep || state.membership.is_closed() {
+                    continue;
                 }
-            }
-        }
-        seeds.sort_unstable();
-        seeds.dedup();
-        for index in seeds {
-            let membership = &mut self.bodies.get_mut(index).membership;
-            if membership.is_closed() {
-                continue;
-            }
-            if membership.wait > 0 {
-                membership.wait -= 1;
-            } else {
-                self.judge_around(index, time, 0.0);
+                // Nobody else looks after a touch with a group.
+                if joins.contains(&true) || state.membership.waits(time).is_none() {
+                    self.judge_around(index, time, 0.0, Looks::Fresh);
+                }
             }
         }
         self.keep_closed();
@@ -249,7 +240,7 @@ impl World {
                 let speed = group.speed;
                 (self.dissolve(place, time), speed)
             }
-            None if state.is_dynamic() && !state.asleep => {
+            None if state.is_dynamic() && !state.asleep && self.may_last(index) => {
                 self.bodies.get_mut(index).membership = Membership::default();
                 (vec![index], 0.0)
             }
@@ -258,13 +249,21 @@ impl World {
         self.judge_all(&members, time, speed);
     }
 
+    /// Whether something may hold a body that just changed its motion: what bounces off does not.
+    fn may_last(&self, index: u32) -> bool {
+        let pairs = self.bodies.get(index).pairs.iter();
+        pairs
+            .map(|place| self.pairs.get(*place))
+            .any(|pair| pair.lasting || (pair.touching && pair.material.restitution == 0.0))
+    }
+
     fn judge_all(&mut self, members: &[u32], time: SimTime, speed: f64) {
         if self.closed.stalls(time) {
             return;
         }
         for &index in members {
             if !self.bodies.get(index).membership.is_closed() {
-                self.judge_around(index, time, speed);
+                self.judge_around(index, time, speed, Looks::Old);
             }
         }
     }
@@ -301,14 +300,21 @@ impl World {
     }
 
     /// Judges all that touches a body, and whoever touches that, and so on.
-    fn judge_around(&mut self, index: u32, time: SimTime, speed: f64) {
-        let mut gathered = match self.gather_touching(index, time) {
+    fn judge_around(&mut self, index: u32, time: SimTime, speed: f64, looks: Looks) {
+        let mut gathered = match self.gather_touching(index, time, looks) {
             Ok(gathered) => gathered,
-            Err(seen) => {
+            Err(Refused { seen, until }) => {
                 for &index in &seen {
                     self.dissolve(self.bodies.get(index).membership.group, time);
                 }
-                return self.wait_around(&seen);
+                let Some(until) = until else {
+                    return self.wait_around(&seen, time);
+                };
+                // A neighbour's judgement stands for all.
+                for index in seen {
+                    self.bodies.get_mut(index).membership.not_before = until;
+                }
+                return;
             }
         };
         let mut speed = speed;
@@ -332,12 +338,12 @@ impl World {
             return;
         }
         if gathered.closing > gathered.rest {
-            return self.wait_around(&gathered.dynamic());
+            return self.wait_around(&gathered.dynamic(), time);
         }
         if gathered.closing > 0.0 {
             match land(&gathered.bodies, &gathered.touches) {
                 Ok(landed) => gathered.landed(&landed),
-                Err(_) => return self.wait_around(&gathered.dynamic()),
+                Err(_) => return self.wait_around(&gathered.dynamic(), time),
             }
         }
         // What is slower than rest by all digits is still.
@@ -348,19 +354,20 @@ impl World {
         };
         match judge(&gathered.bodies, &gathered.touches, speed) {
             Ok(moves) => self.close(&gathered, &moves, time, speed),
-            Err(_) => self.wait_around(&gathered.dynamic()),
+            Err(_) => self.wait_around(&gathered.dynamic(), time),
         }
     }
 
-    /// A judgement failed: the next one is later.
-    fn wait_around(&mut self, members: &[u32]) {
+    /// A judgement failed: the next one is later, and later each time.
+    fn wait_around(&mut self, members: &[u32], time: SimTime) {
         for &index in members {
+            let h = self.clock.h;
             let membership = &mut self.bodies.get_mut(index).membership;
             if membership.is_closed() {
                 continue;
             }
             membership.waited = (2 * membership.waited + 1).min(LONGEST_WAIT);
-            membership.wait = membership.waited;
+            membership.not_before = time + h * (f64::from(membership.waited) - 0.5);
         }
     }
 

@@ -127,7 +127,12 @@ impl World {
                 );
                 match struck {
                     Struck::Nothing => {}
-                    Struck::Rests => self.predict(entry.pair, entry.time),
+                    Struck::Rests => {
+                        self.predict(entry.pair, entry.time);
+                        let (a, b) = self.pairs.get(entry.pair).bodies;
+                        self.regroup(a, entry.time);
+                        self.regroup(b, entry.time);
+                    }
                     Struck::Impact(changed) => {
                         self.spent += price(self.pairs.get(entry.pair));
                         for index in changed {

@@ -9,6 +9,7 @@ use crate::bodies::Bodies;
 use crate::body::BodyState;
 use crate::modes::{CLOSED, Feature, ModeBody, ROWS, Touch};
 use crate::narrow::{TOUCH, rest_speed};
+use crate::pairs::PairContact;
 
 /// Sine of the angle up to which an edge lies along a contact: far above rounding.
 const FLUSH: f64 = 1e-9;
@@ -16,6 +17,22 @@ const FLUSH: f64 = 1e-9;
 /// Overlap beyond which a pair is pushed apart first, as a part of the smaller reach: closed forms keep what
 /// overlap there is.
 const SUNK: f64 = 1e-6;
+
+/// Whether the contacts of all pairs are those of this instant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Looks {
+    Fresh,
+    Old,
+}
+
+/// No group for closed forms.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Refused {
+    /// Dynamic bodies that were seen.
+    pub(crate) seen: Vec<u32>,
+    /// One of them waits so long.
+    pub(crate) until: Option<SimTime>,
+}
 
 /// All that hangs together by touch around a body.
 #[derive(Clone, Debug, Default)]
@@ -41,6 +58,13 @@ impl Gathered {
         all.filter(|(_, body)| body.inverse_mass > 0.0)
             .map(|(index, _)| *index)
             .collect()
+    }
+
+    fn refused(&self) -> Refused {
+        Refused {
+            seen: self.dynamic(),
+            until: None,
+        }
     }
 
     /// Velocities after a landing; what opens then is let go.
@@ -112,13 +136,14 @@ impl World {
     /// All that hangs together by touch around a dynamic body.
     ///
     /// # Errors
-    /// The bodies that were seen, if these are too many for closed forms, or somebody is asleep, or
-    /// deeper in another than rounding.
+    /// If these are too many for closed forms, or somebody is asleep, deeper in another than
+    /// rounding, or waits after a judgement that failed.
     pub(crate) fn gather_touching(
         &mut self,
         index: u32,
         time: SimTime,
-    ) -> Result<Gathered, Vec<u32>> {
+        looks: Looks,
+    ) -> Result<Gathered, Refused> {
         let mut found = Gathered::default();
         found.place_of(&self.bodies, index, time);
         let (mut next, mut rows) = (0, 0);
@@ -129,40 +154,68 @@ impl World {
             let state = self.bodies.get(index);
             if !state.is_dynamic() {
                 if state.motion.acceleration != Vec2::ZERO {
-                    return Err(found.dynamic());
+                    return Err(found.refused());
                 }
                 continue;
             }
             if state.asleep {
-                return Err(found.dynamic());
+                return Err(found.refused());
             }
-            for place in state.pairs.clone() {
+            let pairs = state.pairs.clone();
+            if let Some(until) = self.neighbour_waits(index, &pairs, time) {
+                return Err(Refused {
+                    until: Some(until),
+                    ..found.refused()
+                });
+            }
+            for place in pairs {
                 if looked.contains(&place) {
                     continue;
                 }
                 looked.push(place);
-                let Some(more) = self.touches_of(&mut found, place, time) else {
-                    return Err(found.dynamic());
+                let Some(more) = self.touches_of(&mut found, place, time, looks) else {
+                    return Err(found.refused());
                 };
                 rows += more;
                 if rows > ROWS {
-                    return Err(found.dynamic());
+                    return Err(found.refused());
                 }
             }
         }
         Ok(found)
     }
 
+    /// Until when somebody who touches the body waits after a judgement that failed.
+    fn neighbour_waits(&self, index: u32, pairs: &[u32], time: SimTime) -> Option<SimTime> {
+        let near = pairs.iter().map(|place| self.pairs.get(*place));
+        near.filter(|pair| pair.touching).find_map(|pair| {
+            let other = if pair.bodies.0 == index {
+                pair.bodies.1
+            } else {
+                pair.bodies.0
+            };
+            self.bodies.get(other).membership.waits(time)
+        })
+    }
+
     /// Adds the touches of a pair; returns how many rows they have.
-    fn touches_of(&mut self, found: &mut Gathered, place: u32, time: SimTime) -> Option<usize> {
+    fn touches_of(
+        &mut self,
+        found: &mut Gathered,
+        place: u32,
+        time: SimTime,
+        looks: Looks,
+    ) -> Option<usize> {
         let h = self.clock.h;
-        let pair = self.pairs.get_mut(place);
-        self.narrow
-            .look(&self.bodies, &self.colliders, pair, time, h);
-        let pair = self.pairs.get(place);
-        if !pair.touching {
-            return Some(0);
+        let mut touching = self.pairs.get(place).touching;
+        if looks == Looks::Old {
+            let pair = self.pairs.get_mut(place);
+            self.narrow
+                .look(&self.bodies, &self.colliders, pair, time, h);
+            // Who begins and ends to touch is for the sub-steps to say.
+            core::mem::swap(&mut touching, &mut pair.touching);
         }
+        let pair = self.pairs.get(place);
         let (a, b) = (
             self.bodies.get(pair.bodies.0),
             self.bodies.get(pair.bodies.1),
@@ -173,6 +226,25 @@ impl World {
         if points.any(|point| point.separation < -SUNK * size) {
             return None;
         }
+        let rest = rest_speed(&self.bodies, pair, h);
+        let (mode_a, mode_b) = (
+            mode_body(&self.bodies, a, time),
+            mode_body(&self.bodies, b, time),
+        );
+        let ends = (&mode_a, &mode_b);
+        // What the soft solver holds across a gap is no free surface.
+        let hovers = |contact: &PairContact| {
+            contact.points.iter().any(|point| {
+                let rate = opening(ends, point.position, contact.normal).0;
+                point.separation > gap && point.impulse > 0.0 && rate.abs() <= rest
+            })
+        };
+        if pair.contacts.iter().any(hovers) {
+            return None;
+        }
+        if !touching {
+            return Some(0);
+        }
         let hulls = |parts: (u32, u32)| {
             let solid = |collider: u32| &*self.colliders[collider as usize].solid;
             (
@@ -180,7 +252,6 @@ impl World {
                 part(solid(pair.colliders.1), parts.1 as usize),
             )
         };
-        let rest = rest_speed(&self.bodies, pair, h);
         found.rest = if rest > found.rest { rest } else { found.rest };
         let mut rows = 0;
         for (number, contact) in pair.contacts.iter().enumerate() {
@@ -190,10 +261,6 @@ impl World {
                 .iter()
                 .filter(|point| point.separation <= gap)
             {
-                let ends = (
-                    &mode_body(&self.bodies, a, time),
-                    &mode_body(&self.bodies, b, time),
-                );
                 match approach(ends, point.position, contact.normal, rest) {
                     Approach::Leaves => {}
                     Approach::Stays => points.push(point.position),
@@ -240,6 +307,19 @@ impl World {
 }
 
 fn approach(ends: (&ModeBody, &ModeBody), point: Vec2, normal: Vec2, rest: f64) -> Approach {
+    let (rate, size) = opening(ends, point, normal);
+    let rounding = CLOSED * (size + rest);
+    if rate > rounding {
+        Approach::Leaves
+    } else if rate < -rounding {
+        Approach::Closes(-rate)
+    } else {
+        Approach::Stays
+    }
+}
+
+/// Speed at which a point opens, and the sum of the speeds that it is made of, in m/s.
+fn opening(ends: (&ModeBody, &ModeBody), point: Vec2, normal: Vec2) -> (f64, f64) {
     let of = |body: &ModeBody| {
         let turning = cross_scalar(body.spin, point - body.centre);
         (
@@ -248,15 +328,7 @@ fn approach(ends: (&ModeBody, &ModeBody), point: Vec2, normal: Vec2, rest: f64) 
         )
     };
     let ((v_a, size_a), (v_b, size_b)) = (of(ends.0), of(ends.1));
-    let rate = (v_b - v_a).dot(normal);
-    let rounding = CLOSED * (size_a + size_b + rest);
-    if rate > rounding {
-        Approach::Leaves
-    } else if rate < -rounding {
-        Approach::Closes(-rate)
-    } else {
-        Approach::Stays
-    }
+    ((v_b - v_a).dot(normal), size_a + size_b)
 }
 
 enum Approach {
