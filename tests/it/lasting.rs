@@ -334,3 +334,35 @@ fn a_slender_rod_that_slides_on_its_tip_stays_finite_and_loses_energy() {
     });
     assert!(centre(&world, id).is_finite());
 }
+
+#[test]
+fn a_block_on_a_plank_comes_to_ride_it() {
+    let mut world = world();
+    let block_def = BodyDef::dynamic()
+        .at(vec2(0.0, 0.625))
+        .moving(vec2(2.0, 0.0))
+        .with_mass(1.0);
+    let top = world
+        .insert(block_def, block(4.0, 0.25), rough(0.2))
+        .expect("valid");
+    world
+        .insert(
+            BodyDef::fixed().at(vec2(0.0, -1.0)),
+            block(2000.0, 2.0),
+            rough(0.0),
+        )
+        .expect("valid");
+    let plank_def = BodyDef::dynamic().at(vec2(0.0, 0.25)).with_mass(1000.0);
+    let plank = world
+        .insert(plank_def, block(1000.0, 0.5), rough(0.2))
+        .expect("valid");
+    run(&mut world, 2.0, |_| {});
+    let common = 2.0 / 1001.0;
+    for id in [top, plank] {
+        let velocity = world.body(id).expect("it is there").velocity();
+        assert!(
+            (velocity - vec2(common, 0.0)).length() < 1e-14,
+            "{velocity}"
+        );
+    }
+}

@@ -144,9 +144,9 @@ impl Play for FrictionCase {
     }
 }
 
-/// Whether a block has kept its side on the floor.
+/// Whether a block has kept its side on the floor: whole turns count.
 fn lies(stage: &Stage) -> bool {
-    stage.rotation(BODY).cos() > 0.99
+    stage.angle(BODY).abs() < 0.1
 }
 
 /// The reference's word for a mode.

@@ -360,6 +360,8 @@ impl World {
             let (a, b) = (self.bodies.get(a).id, self.bodies.get(b).id);
             self.events.push(time, EventKind::Begin { a, b });
             self.predict(place, time);
+            self.regroup(impact.bodies.0, time);
+            self.regroup(impact.bodies.1, time);
         }
     }
 
@@ -375,6 +377,19 @@ impl World {
         state.version = state.version.wrapping_add(1);
         self.flyers.leave(&mut self.bodies, index);
         self.enlist(index, time);
+        // What was too large for the grid keeps its box, and has met no pairs with it.
+        for slot in 0..self.bodies.get(index).colliders.len() {
+            let at = self.bodies.get(index).colliders[slot];
+            if self.colliders[at as usize].node.is_some() {
+                self.broad.meet(
+                    &mut self.bodies,
+                    &self.colliders,
+                    &mut self.pairs,
+                    at,
+                    &self.flyers,
+                );
+            }
+        }
         self.deflected(index, time);
     }
 
