@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use carom_dynamics::EnergyLedger;
 use carom_math::SimTime;
-use carom_render::{Frame, FrameRate, Trace};
+use carom_render::{Frame, FrameRate, Painter, Picture, Size, Style, Trace};
 use carom_scenes::Built;
 
 use crate::clock::Clock;
@@ -41,6 +41,28 @@ pub(crate) struct Footage {
     pub(crate) interrupted: bool,
 }
 
+/// What a drawing thread works with: it leaves alone what did not change since the frame that it drew before.
+#[derive(Debug)]
+pub(crate) struct Easel {
+    painter: Painter,
+    picture: Picture,
+}
+
+impl Easel {
+    fn new(size: Size, style: Style) -> Self {
+        Self {
+            picture: Picture::new(size, style.background),
+            painter: Painter::new(style),
+        }
+    }
+
+    /// The picture of a frame; its bytes do not depend on what was drawn before.
+    pub(crate) fn paint(&mut self, frame: &Frame) -> &Picture {
+        self.painter.paint(frame, &mut self.picture);
+        &self.picture
+    }
+}
+
 /// Runs the scene, captures the frames that are `wanted`, and hands what `draw` makes of them to `take`, in order.
 ///
 /// Steps and captures run on this thread, `draw` on others.
@@ -49,7 +71,7 @@ pub(crate) fn shoot<T: Send>(
     plan: &Plan,
     label: &str,
     wanted: impl Fn(u64) -> bool,
-    draw: impl Fn(u64, Frame) -> Result<T, Failure> + Sync,
+    draw: impl Fn(&mut Easel, u64, Frame) -> Result<T, Failure> + Sync,
     mut take: impl FnMut(u64, T) -> Result<(), Failure>,
 ) -> Result<Footage, Failure> {
     let mut progress = Progress::new(label, plan.slice.end, "frames");
@@ -61,6 +83,7 @@ pub(crate) fn shoot<T: Send>(
         drawn: 0,
         interrupted: false,
     };
+    let (size, style) = (built.camera.size(), built.look.style.clone());
     let drawing = RefCell::new((Times::default(), 0));
     let mut indices = 0..plan.slice.end;
     let mut trace = Trace::new(&built.look.overlay);
@@ -90,9 +113,10 @@ pub(crate) fn shoot<T: Send>(
         }
         Ok(None)
     };
-    let work = |(index, frame): (u64, Frame)| {
+    let equip = || Easel::new(size, style.clone());
+    let work = |easel: &mut Easel, (index, frame): (u64, Frame)| {
         let clock = Clock::start();
-        let made = draw(index, frame)?;
+        let made = draw(easel, index, frame)?;
         Ok((index, made, clock.seconds()))
     };
     let collect = |(index, made, seconds): (u64, T, f64)| {
@@ -101,7 +125,7 @@ pub(crate) fn shoot<T: Send>(
         drawing.1 += 1;
         take(index, made)
     };
-    parallel::in_order(plan.threads, produce, work, collect)?;
+    parallel::in_order_with(plan.threads, equip, produce, work, collect)?;
     progress.finish();
     (footage.drawing, footage.drawn) = drawing.into_inner();
     Ok(footage)

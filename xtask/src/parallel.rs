@@ -19,13 +19,25 @@ pub(crate) fn cores() -> usize {
 /// The first failure ends it all.
 pub(crate) fn in_order<J: Send, T: Send>(
     threads: usize,
-    mut produce: impl FnMut() -> Result<Option<J>, Failure>,
+    produce: impl FnMut() -> Result<Option<J>, Failure>,
     work: impl Fn(J) -> Result<T, Failure> + Sync,
+    take: impl FnMut(T) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    in_order_with(threads, || (), produce, |(), job| work(job), take)
+}
+
+/// The same; each worker has something of its own, made by `equip`, that it takes from job to job.
+pub(crate) fn in_order_with<S, J: Send, T: Send>(
+    threads: usize,
+    equip: impl Fn() -> S + Sync,
+    mut produce: impl FnMut() -> Result<Option<J>, Failure>,
+    work: impl Fn(&mut S, J) -> Result<T, Failure> + Sync,
     mut take: impl FnMut(T) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
     if threads <= 1 {
+        let mut own = equip();
         while let Some(job) = produce()? {
-            take(work(job)?)?;
+            take(work(&mut own, job)?)?;
         }
         return Ok(());
     }
@@ -36,11 +48,12 @@ pub(crate) fn in_order<J: Send, T: Send>(
         // Dropped with this closure: then the workers find the queue closed and end.
         let jobs = jobs;
         for _ in 0..threads {
-            let (results, queue, work) = (results.clone(), &queue, &work);
+            let (results, queue, equip, work) = (results.clone(), &queue, &equip, &work);
             scope.spawn(move || {
+                let mut own = equip();
                 while let Some((index, job)) = next(queue) {
                     // A panic must not leave the caller waiting for a result that never comes.
-                    let result = catch_unwind(AssertUnwindSafe(|| work(job)));
+                    let result = catch_unwind(AssertUnwindSafe(|| work(&mut own, job)));
                     if results.send((index, result)).is_err() {
                         break;
                     }

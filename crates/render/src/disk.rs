@@ -52,6 +52,12 @@ impl DiskFile {
         matches!(self.0.try_lock(), Err(TryLockError::WouldBlock))
     }
 
+    /// Lets go of the lock at once: closing the file would not, while a process that was just started still shares it.
+    pub(crate) fn release(&self) {
+        // Closing it does the rest.
+        let _gone = self.0.unlock();
+    }
+
     /// Appends a text whole or not at all.
     pub(crate) fn append(&mut self, text: &str) -> io::Result<()> {
         let before = self.0.metadata()?.len();

@@ -40,6 +40,14 @@ struct State {
     locks: Vec<DiskFile>,
 }
 
+impl Drop for State {
+    fn drop(&mut self) {
+        for lock in &self.locks {
+            lock.release();
+        }
+    }
+}
+
 impl OutputFolder {
     /// Opens `path`, made if it is missing, for the run that `about` describes in one line (scene, size, rate).
     ///
@@ -55,7 +63,7 @@ impl OutputFolder {
         about: &str,
     ) -> Result<Self, RenderError> {
         let path = path.as_ref();
-        if path.is_file() {
+        if path.exists() && !path.is_dir() {
             return Err(RenderError::NotAFolder {
                 path: path.to_path_buf(),
             });
@@ -74,6 +82,20 @@ impl OutputFolder {
                 folder: path.to_path_buf(),
             });
         }
+        let folder = Self {
+            path: path.to_path_buf(),
+            state: Mutex::new(State {
+                manifest: Manifest::default(),
+                locks: vec![lock],
+            }),
+        };
+        folder.begin(existing, about)?;
+        Ok(folder)
+    }
+
+    /// What is there is kept or removed, and the manifest written anew.
+    fn begin(&self, existing: Existing, about: String) -> Result<(), RenderError> {
+        let path = &self.path;
         let mut files = checked(path, existing, &about)?.files;
         if existing == Existing::Resume {
             for (name, sum) in &mut files {
@@ -87,15 +109,9 @@ impl OutputFolder {
             }
             files.clear();
         }
-        let folder = Self {
-            path: path.to_path_buf(),
-            state: Mutex::new(State {
-                manifest: Manifest { about, files },
-                locks: vec![lock],
-            }),
-        };
-        folder.rewrite(&mut folder.state())?;
-        Ok(folder)
+        let mut state = self.state();
+        state.manifest = Manifest { about, files };
+        self.rewrite(&mut state)
     }
 
     /// The folder.

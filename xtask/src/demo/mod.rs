@@ -12,7 +12,7 @@ use carom_scenes::Built;
 
 use crate::clock::Clock;
 use crate::exit::{End, Failure, Outcome};
-use crate::film::{Footage, Plan, shoot};
+use crate::film::{Easel, Footage, Plan, shoot};
 use crate::flags::DemoArgs;
 use crate::interrupt;
 use crate::out::say;
@@ -120,9 +120,9 @@ fn draw(
     let mut sheet = Sheet::new(COLUMNS, size.width() / 3).titled(name);
     let tiles = tiles(plan.frames);
     let relay = Relay::from(0);
-    let draw = |index: u64, frame: Frame| {
+    let draw = |easel: &mut Easel, index: u64, frame: Frame| {
         let turn = relay.turn(index);
-        let (before, now) = turn.pass(frame.paint(&style));
+        let (before, now) = turn.pass(easel.paint(&frame).clone());
         folder.save(&Sequence::name(index), &now.to_png())?;
         let patch = Patch::between(before.as_deref(), &now, Packing::Fast);
         Ok((patch, tiles.contains(&index).then_some(now)))

@@ -103,8 +103,9 @@ fn announce(plan: &Plan, built: &Built, place: &str) {
     let size = built.camera.size();
     #[expect(clippy::cast_precision_loss, reason = "for reading")]
     let megabytes = count as f64 * 3e-6 * size.pixels() as f64;
+    let frames = if count == 1 { "frame" } else { "frames" };
     say!(
-        "{count} frames of {size} px ({} MB unpacked) at {} per second into {place}",
+        "{count} {frames} of {size} px ({} MB unpacked) at {} per second into {place}",
         summary::short(megabytes),
         plan.rate.get()
     );

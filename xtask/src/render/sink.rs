@@ -4,12 +4,12 @@ use std::io::{self, BufWriter, Write};
 
 use carom_render::{
     Animation, Chroma, Draft, Film, Frame, OutputFolder, Packing, Patch, RenderError, Sequence,
-    Sheet, Style,
+    Sheet,
 };
 use carom_scenes::Built;
 
 use crate::exit::Failure;
-use crate::film::{Footage, Plan, shoot};
+use crate::film::{Easel, Footage, Plan, shoot};
 use crate::out::is_closed_pipe;
 use crate::relay::Relay;
 
@@ -27,13 +27,14 @@ pub(super) fn frames(
     folder: &OutputFolder,
     packing: Packing,
 ) -> Shot {
-    let draw = |frame: Frame, style: &Style| frame.paint(style).to_png_packed(packing);
+    let draw = |easel: &mut Easel, frame: &Frame| easel.paint(frame).to_png_packed(packing);
     numbered(built, plan, folder, Sequence::name, draw)
 }
 
 /// Numbered SVG files; those that are there already are kept.
 pub(super) fn drawings(built: &mut Built, plan: &Plan, folder: &OutputFolder) -> Shot {
-    let draw = |frame: Frame, style: &Style| frame.to_svg(style).into_bytes();
+    let style = built.look.style.clone();
+    let draw = |_: &mut Easel, frame: &Frame| frame.to_svg(&style).into_bytes();
     numbered(built, plan, folder, Sequence::svg_name, draw)
 }
 
@@ -42,20 +43,19 @@ fn numbered(
     plan: &Plan,
     folder: &OutputFolder,
     name: impl Fn(u64) -> String + Sync,
-    draw: impl Fn(Frame, &Style) -> Vec<u8> + Sync,
+    draw: impl Fn(&mut Easel, &Frame) -> Vec<u8> + Sync,
 ) -> Shot {
     let kept = plan
         .slice
         .clone()
         .filter(|&index| folder.has(&name(index)))
         .count();
-    let style = built.look.style.clone();
     let footage = shoot(
         built,
         plan,
         "render",
         |index| !folder.has(&name(index)),
-        |index, frame| Ok(folder.save(&name(index), &draw(frame, &style))?),
+        |easel, index, frame| Ok(folder.save(&name(index), &draw(easel, &frame))?),
         |_, ()| Ok(()),
     )?;
     let place = folder.path().display();
@@ -76,16 +76,15 @@ pub(super) fn apng(
 ) -> Shot {
     let path = folder.claim(name)?;
     let mut film = Animation::create(&path, built.camera.size(), plan.rate)?;
-    let style = built.look.style.clone();
     let relay = Relay::from(plan.slice.start);
     let footage = shoot(
         built,
         plan,
         "render",
         |_| true,
-        |index, frame| {
+        |easel, index, frame| {
             let turn = relay.turn(index);
-            let (before, now) = turn.pass(frame.paint(&style));
+            let (before, now) = turn.pass(easel.paint(&frame).clone());
             Ok(Patch::between(before.as_deref(), &now, packing))
         },
         |_, patch| Ok(film.push_patch(patch)?),
@@ -125,13 +124,12 @@ pub(super) fn y4m_to_stdout(built: &mut Built, plan: &Plan) -> Result<Option<Foo
 
 fn film<W: Write>(built: &mut Built, plan: &Plan, out: W) -> Result<(Footage, W), Failure> {
     let mut film = Film::new(out, built.camera.size(), plan.rate, Chroma::Quarter)?;
-    let style = built.look.style.clone();
     let footage = shoot(
         built,
         plan,
         "render",
         |_| true,
-        |_, frame| Ok(frame.paint(&style)),
+        |easel, _, frame| Ok(easel.paint(&frame).clone()),
         |_, picture| Ok(film.push(&picture)?),
     )?;
     Ok((footage, film.finish()?))
@@ -178,7 +176,7 @@ pub(super) fn sheet(
         plan,
         "render",
         |index| tiles.contains(&index),
-        |_, frame| Ok(frame.paint(&style)),
+        |easel, _, frame| Ok(easel.paint(&frame).clone()),
         |index, picture| Ok(sheet.push(&picture, caption(index, plan))?),
     )?;
     let name = format!("{name}.png");
