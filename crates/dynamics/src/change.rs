@@ -181,7 +181,7 @@ impl World {
             return;
         }
         let now = self.clock.now;
-        self.flyers.leave(&mut self.bodies, index);
+        self.flyers.vanish(&mut self.bodies, index);
         self.discharge(index);
         let flies = self.may_fly(index);
         let state = self.bodies.get_mut(index);

@@ -152,8 +152,7 @@ impl World {
 
     /// Shapes of flyers in the grid that may be in `bounds`.
     fn flying_in(&self, bounds: Aabb) -> Vec<u32> {
-        let mut bodies = Vec::new();
-        self.flyers.overlapping(&self.bodies, bounds, &mut bodies);
+        let bodies = self.flyers.present(&self.bodies, bounds, self.clock.now);
         let shapes = bodies
             .iter()
             .flat_map(|body| &self.bodies.get(*body).colliders);

@@ -98,7 +98,7 @@ impl World {
             groups: Groups::default(),
             closed: Closed::default(),
             agenda: Agenda::default(),
-            flyers: Flyers::default(),
+            flyers: Flyers::under(settings.gravity),
             stepped: Vec::new(),
             events: Events::new(settings.events),
             report: StepReport::default(),
@@ -198,7 +198,7 @@ impl World {
         for place in self.bodies.get(index).pairs.clone() {
             self.part(place, now);
         }
-        self.flyers.leave(&mut self.bodies, index);
+        self.flyers.vanish(&mut self.bodies, index);
         self.discharge(index);
         let colliders = core::mem::take(&mut self.bodies.get_mut(index).colliders);
         self.flyers.forget(index, &colliders);

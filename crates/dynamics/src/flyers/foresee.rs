@@ -4,15 +4,19 @@ use carom_collision::{AxisFeature, Impact, TimeOfImpact, contacts, time_of_impac
 use carom_geometry::Aabb;
 use carom_math::SimTime;
 
-use super::Foreseen;
+use super::frame::Track;
 use super::queue::{Ahead, Entry};
 use super::window::{self, Window};
+use super::{Foreseen, drift};
 use crate::body::BodyState;
 use crate::narrow::{TOUCH, opening_speed, rest_speed_between};
 use crate::{BodyKind, PairSearch, World};
 
 /// Part of a cell that a flyer travels within its horizon.
 const TRAVEL: f64 = 0.4;
+
+/// Way, in cells, that a flyer looks down for first.
+const SPAN: f64 = 2.0;
 
 /// Longest horizon, in s: what rests is looked for again at least this often.
 const LONGEST: f64 = 1024.0;
@@ -40,44 +44,116 @@ impl World {
             self.report.stopped += 1;
             self.stop(index, time);
         }
-        self.flyers.resize(&mut self.bodies);
-        self.flyers.leave(&mut self.bodies, index);
-        let side = self.flyers.grid.side();
-        let state = self.bodies.get_mut(index);
-        let seconds = horizon(state, time, TRAVEL * side);
-        state.course.horizon = time + seconds;
-        state.course.swept = swept(state, time, seconds);
-        let swept = state.course.swept;
-        if self.flyers.enter(&mut self.bodies, index) {
+        self.flyers.resize(&mut self.bodies, time);
+        if self.look_round(index, time) {
             self.leave_tree(index);
-            for &at in &self.bodies.get(index).colliders {
-                self.colliders[at as usize].fat = swept;
-            }
+            let span = Track::of(&self.bodies.get(index).motion, time)
+                .seconds_for(SPAN * self.flyers.grid.side());
+            self.look_down(index, time, span);
         } else {
-            self.broad
-                .follow(&self.bodies, &mut self.colliders, index, time, seconds);
+            self.follow(index, time);
         }
-        let state = self.bodies.get(index);
-        let entry = Entry {
-            time: state.course.horizon,
-            a: index,
-            b: index,
-            stamp: state.version.wrapping_mul(2),
-            ahead: Ahead::Horizon,
-        };
-        self.flyers.queue.push(entry);
         self.meet_flyers(index, time, cause, but);
         self.meet_shapes(index, time, cause);
     }
 
+    /// Registers a flyer in the grid up to its horizon; whether it fits.
+    fn look_round(&mut self, index: u32, time: SimTime) -> bool {
+        self.flyers.leave(&mut self.bodies, index);
+        let way = TRAVEL * self.flyers.grid.side();
+        let state = self.bodies.get_mut(index);
+        let track = Track::of(&state.motion, time);
+        let seen = self.flyers.frame.track(&track, time);
+        let seconds = at_most(seen.seconds_for(way));
+        state.course.horizon = time + seconds;
+        state.course.swept = swept(state, &seen, seconds);
+        if !self.flyers.enter(&mut self.bodies, index) {
+            return false;
+        }
+        self.queue_end(index, Ahead::Horizon);
+        true
+    }
+
+    /// Boxes of a flyer in the world for the next `span` seconds.
+    fn look_down(&mut self, index: u32, time: SimTime, span: f64) {
+        let span = at_most(span);
+        let state = self.bodies.get_mut(index);
+        state.course.span = span;
+        state.course.ground = time + span;
+        state.course.reached = swept(state, &Track::of(&state.motion, time), span);
+        self.flyers.lift(&mut state.course, index);
+        for &at in &state.colliders {
+            self.colliders[at as usize].fat = state.course.reached;
+        }
+        self.queue_end(index, Ahead::Ground);
+    }
+
+    /// Boxes in the tree of a flyer that is too large for the grid.
+    fn follow(&mut self, index: u32, time: SimTime) {
+        let way = TRAVEL * self.flyers.grid.side();
+        let state = self.bodies.get_mut(index);
+        let track = Track::of(&state.motion, time);
+        let seconds = at_most(track.seconds_for(way));
+        state.course.ground = time + seconds;
+        state.course.span = seconds;
+        state.course.horizon = state.course.ground;
+        state.course.reached = swept(state, &track, seconds);
+        self.broad
+            .follow(&self.bodies, &mut self.colliders, index, time, seconds);
+        self.queue_end(index, Ahead::Ground);
+    }
+
+    /// Enters the end of a search.
+    fn queue_end(&mut self, index: u32, ahead: Ahead) {
+        let state = self.bodies.get(index);
+        let time = if ahead == Ahead::Ground {
+            state.course.ground
+        } else {
+            state.course.horizon
+        };
+        let stamp = state.version.wrapping_mul(2);
+        self.flyers.queue.push(Entry {
+            time,
+            a: index,
+            b: index,
+            stamp,
+            ahead,
+        });
+    }
+
+    /// A frame that is no faster than its flyers among themselves: all of them look round in it.
+    fn retune(&mut self, time: SimTime) {
+        self.flyers.drifts = false;
+        let here = |i: &u32| self.bodies.get(*i).course.cells.is_some();
+        let flying: Vec<u32> = self.bodies.indices().filter(here).collect();
+        let Some(mean) = drift(&self.flyers.frame, &self.bodies, &flying, time) else {
+            return;
+        };
+        for &index in &flying {
+            self.flyers.leave(&mut self.bodies, index);
+        }
+        self.flyers.frame = self.flyers.frame.boosted(time, mean);
+        let (fit, large): (Vec<u32>, Vec<u32>) = flying
+            .into_iter()
+            .partition(|index| self.look_round(*index, time));
+        for index in fit {
+            self.meet_flyers(index, time, Cause::Horizon, None);
+        }
+        for index in large {
+            self.flyers.vanish(&mut self.bodies, index);
+            self.foresee(index, time, Cause::Horizon, None);
+        }
+    }
+
     /// Flyers that `index` may meet up to its horizon.
     fn meet_flyers(&mut self, index: u32, time: SimTime, cause: Cause, but: Option<u32>) {
-        let swept = self.bodies.get(index).course.swept;
-        let mut near = match self.bodies.get(index).course.cells {
+        let course = &self.bodies.get(index).course;
+        let mut near = match course.cells {
             Some(cells) => self.flyers.search(cells, self.bodies.places()),
             None => {
                 let mut near = Vec::new();
-                self.flyers.overlapping(&self.bodies, swept, &mut near);
+                self.flyers
+                    .overlapping(&self.bodies, course.reached, &mut near);
                 near
             }
         };
@@ -100,13 +176,13 @@ impl World {
         self.flyers.near = near;
     }
 
-    /// Shapes in the tree that `index` may meet up to its horizon: of bodies that do not fly, and of
-    /// flyers too large for the grid.
-    fn meet_shapes(&mut self, index: u32, time: SimTime, cause: Cause) {
-        for at in self
-            .broad
-            .in_tree(&self.colliders, self.bodies.get(index).course.swept)
-        {
+    /// Shapes in the tree that `index` may meet before it looks down again: of bodies that do not fly,
+    /// and of flyers too large for the grid; whether there are any.
+    fn meet_shapes(&mut self, index: u32, time: SimTime, cause: Cause) -> bool {
+        let reached = self.bodies.get(index).course.reached;
+        let near = self.broad.in_tree(&self.colliders, reached);
+        let any = !near.is_empty();
+        for at in near {
             let owner = self.colliders[at as usize].body;
             if owner == index {
                 continue;
@@ -123,6 +199,7 @@ impl World {
         for slot in 0..self.bodies.get(index).pairs.len() {
             self.predict(self.bodies.get(index).pairs[slot], time);
         }
+        any
     }
 
     /// Two flyers that may meet before one of their horizons ends.
@@ -131,7 +208,7 @@ impl World {
         if a.kind != BodyKind::Dynamic && b.kind != BodyKind::Dynamic {
             return;
         }
-        let horizon = a.course.horizon.min(b.course.horizon);
+        let horizon = common_horizon(a, b);
         let (window, _) = circles(a, b, time);
         let Some(window) = window else { return };
         if window.from > 0.0 {
@@ -172,7 +249,7 @@ impl World {
     fn seek(&mut self, a: u32, b: u32, time: SimTime, window: Window, cause: Cause) {
         let (a, b) = if a < b { (a, b) } else { (b, a) };
         let (one, two) = (self.bodies.get(a), self.bodies.get(b));
-        let horizon = one.course.horizon.min(two.course.horizon) - time;
+        let horizon = common_horizon(one, two) - time;
         let end = if window.to.is_finite() {
             window.to
         } else {
@@ -210,7 +287,7 @@ impl World {
             body.reach,
             self.colliders[at as usize].fat,
         );
-        let left = body.course.horizon - time;
+        let left = body.course.ground - time;
         if from > left {
             return;
         }
@@ -236,7 +313,7 @@ impl World {
     fn seek_shape(&mut self, index: u32, at: u32, time: SimTime, cause: Cause) {
         let owner = self.colliders[at as usize].body;
         let (body, other) = (self.bodies.get(index), self.bodies.get(owner));
-        let (length, cut) = cut_by_turn(body, other, time, body.course.horizon - time);
+        let (length, cut) = cut_by_turn(body, other, time, body.course.ground - time);
         let mut met = false;
         for slot in 0..self.bodies.get(index).colliders.len() {
             let mine = self.bodies.get(index).colliders[slot];
@@ -368,13 +445,24 @@ impl World {
             return;
         };
         let (index, time) = (entry.a, entry.time);
+        if self.flyers.drifts {
+            self.retune(time);
+        }
         match entry.ahead {
             Ahead::Horizon => {
-                let state = self.bodies.get(index);
-                let due =
-                    state.version.wrapping_mul(2) == entry.stamp && state.course.horizon == time;
-                if state.course.flies && due {
-                    self.foresee(index, time, Cause::Horizon, None);
+                if self.ends_now(&entry) && self.bodies.get(index).course.cells.is_some() {
+                    self.flyers.resize(&mut self.bodies, time);
+                    if self.look_round(index, time) {
+                        self.meet_flyers(index, time, Cause::Horizon, None);
+                    } else {
+                        self.flyers.vanish(&mut self.bodies, index);
+                        self.foresee(index, time, Cause::Horizon, None);
+                    }
+                }
+            }
+            Ahead::Ground => {
+                if self.ends_now(&entry) {
+                    self.look_down_again(index, time);
                 }
             }
             Ahead::Near => {
@@ -402,6 +490,34 @@ impl World {
                 }
             }
         }
+    }
+
+    /// Whether the search that an entry ends is the last one.
+    fn ends_now(&self, entry: &Entry) -> bool {
+        let state = self.bodies.get(entry.a);
+        let end = if entry.ahead == Ahead::Ground {
+            state.course.ground
+        } else {
+            state.course.horizon
+        };
+        let same = state.version.wrapping_mul(2) == entry.stamp;
+        state.course.flies && same && end == entry.time
+    }
+
+    /// What does not fly is looked for anew: twice as far ahead where there was nothing.
+    fn look_down_again(&mut self, index: u32, time: SimTime) {
+        let course = &self.bodies.get(index).course;
+        if course.cells.is_none() {
+            self.follow(index, time);
+            self.meet_flyers(index, time, Cause::Horizon, None);
+            self.meet_shapes(index, time, Cause::Horizon);
+            return;
+        }
+        let span = course.span;
+        let near = self.broad.in_tree(&self.colliders, course.reached);
+        let span = if near.is_empty() { 2.0 * span } else { span };
+        self.look_down(index, time, span);
+        self.meet_shapes(index, time, Cause::Horizon);
     }
 
     fn both_fly(&self, a: u32, b: u32) -> bool {
@@ -435,26 +551,34 @@ fn circles(a: &BodyState, b: &BodyState, time: SimTime) -> (Option<Window>, bool
     (window, pull == carom_math::Vec2::ZERO)
 }
 
-/// Seconds that a flyer takes to travel `way` metres along either axis, at most.
-fn horizon(state: &BodyState, time: SimTime, way: f64) -> f64 {
-    let (v, a) = (
-        state.motion.velocity_at(time).abs(),
-        state.motion.acceleration.abs(),
-    );
-    let along = |v: f64, a: f64| 2.0 * way / (v + (v * v + 2.0 * a * way).sqrt());
-    let (x, y) = (along(v.x, a.x), along(v.y, a.y));
-    let first = if x < y { x } else { y };
-    if first < LONGEST { first } else { LONGEST }
+/// Until when two flyers have looked for each other.
+fn common_horizon(a: &BodyState, b: &BodyState) -> SimTime {
+    let (a, b) = (&a.course, &b.course);
+    if a.cells.is_some() && b.cells.is_some() {
+        a.horizon.min(b.horizon)
+    } else {
+        // The larger one is in the tree, and met where the other looks down.
+        a.ground.min(b.ground)
+    }
 }
 
-/// Box of a body's bounding circle from `time` on for `seconds`.
-fn swept(state: &BodyState, time: SimTime, seconds: f64) -> Aabb {
-    let motion = &state.motion;
-    let (from, to) = (motion.centre_at(time), motion.centre_at(time + seconds));
-    let bulge = motion.acceleration.length() * (0.125 * seconds * seconds);
-    let largest = from.abs().max(to.abs()).max_element();
-    let room = 1e-9 * state.reach + 1e-14 * largest + motion.left_out;
-    Aabb::from_points([from, to]).grown(state.reach + bulge + room)
+fn at_most(seconds: f64) -> f64 {
+    if seconds < LONGEST { seconds } else { LONGEST }
+}
+
+/// Box of a body's bounding circle along a track for `seconds`: both ends, and where it turns.
+fn swept(state: &BodyState, track: &Track, seconds: f64) -> Aabb {
+    let (from, to) = (track.centre, track.centre_after(seconds));
+    let mut bounds = Aabb::from_points([from, to]);
+    let turns = (-track.velocity / track.acceleration).to_array();
+    for turn in turns {
+        if turn > 0.0 && turn < seconds {
+            bounds = bounds.union(Aabb::from_points([track.centre_after(turn)]));
+        }
+    }
+    let largest = bounds.min.abs().max(bounds.max.abs()).max_element();
+    let room = 1e-9 * state.reach + 1e-14 * largest + state.motion.left_out;
+    bounds.grown(state.reach + room)
 }
 
 /// A search of `length` seconds, or as much of it as two bodies turn by [`TURN`] in; whether that

@@ -7,6 +7,7 @@
 //! A body that nothing can happen to has no entry, and costs nothing.
 
 mod foresee;
+mod frame;
 mod gap;
 mod grid;
 mod queue;
@@ -15,12 +16,13 @@ mod strike;
 mod window;
 
 use arrayvec::ArrayVec;
-use carom_collision::Side;
+use carom_collision::{BoxTree, NodeId, Side, roundable};
 use carom_geometry::Aabb;
 use carom_math::{SimTime, Vec2};
 
 use crate::bodies::Bodies;
 pub(crate) use foresee::Cause;
+use frame::{Frame, Track};
 pub(crate) use grid::{Cells, Grid};
 use queue::{Ahead, Entry, Queue};
 use streak::Streak;
@@ -30,12 +32,20 @@ use streak::Streak;
 pub(crate) struct Course {
     /// Moves in closed form, from event to event.
     pub(crate) flies: bool,
-    /// Until when its box holds, and partners have been looked for.
+    /// Until when other flyers have been looked for.
     pub(crate) horizon: SimTime,
-    /// Box of its bounding circle up to the horizon.
+    /// Box of its bounding circle up to the horizon, in the frame that falls.
     pub(crate) swept: Aabb,
     /// Where it is in the grid; none for what is too large for it, and is in the tree of boxes.
     pub(crate) cells: Option<Cells>,
+    /// Until when what does not fly has been looked for.
+    pub(crate) ground: SimTime,
+    /// Box of its bounding circle up to then, in the world.
+    pub(crate) reached: Aabb,
+    /// How long that was, in s.
+    pub(crate) span: f64,
+    /// Node of that box in the tree aloft.
+    pub(crate) node: Option<NodeId>,
     /// The tick in which it last struck, and what its impacts spent in it.
     pub(crate) tick: i64,
     pub(crate) spent: f64,
@@ -49,6 +59,10 @@ impl Default for Course {
             horizon: SimTime::ZERO,
             swept: Aabb::EMPTY,
             cells: None,
+            ground: SimTime::ZERO,
+            reached: Aabb::EMPTY,
+            span: 0.0,
+            node: None,
             tick: 0,
             spent: 0.0,
             streak: Streak::default(),
@@ -79,6 +93,11 @@ const MOST_CELLS: u64 = 64;
 #[derive(Clone, Debug)]
 pub(crate) struct Flyers {
     pub(crate) grid: Grid,
+    frame: Frame,
+    /// The frame has got too fast for its flyers.
+    drifts: bool,
+    /// Boxes of the grid's flyers in the world, while somebody needs to find them there.
+    aloft: Option<BoxTree>,
     queue: Queue,
     impacts: Vec<Option<Foreseen>>,
     free: Vec<u32>,
@@ -94,10 +113,14 @@ pub(crate) struct Flyers {
     hop: Option<(f64, Foreseen)>,
 }
 
-impl Default for Flyers {
-    fn default() -> Self {
+impl Flyers {
+    /// No flyers yet, under uniform gravity.
+    pub(crate) fn under(gravity: Vec2) -> Self {
         Self {
             grid: Grid::new(1.0, 0),
+            frame: Frame::falling(gravity),
+            drifts: false,
+            aloft: None,
             queue: Queue::default(),
             impacts: Vec::new(),
             free: Vec::new(),
@@ -109,9 +132,7 @@ impl Default for Flyers {
             hop: None,
         }
     }
-}
 
-impl Flyers {
     /// When the next entry is due.
     pub(crate) fn next(&mut self) -> Option<SimTime> {
         self.queue.next()
@@ -172,7 +193,7 @@ impl Flyers {
         near
     }
 
-    /// Bodies of the grid whose swept boxes overlap `bounds`, in order.
+    /// Bodies of the grid that may be in `bounds` before they look down again, in order.
     pub(crate) fn overlapping(&self, bodies: &Bodies, bounds: Aabb, near: &mut Vec<u32>) {
         near.clear();
         if self.grid.count() == 0 {
@@ -180,9 +201,34 @@ impl Flyers {
         }
         let here = |body: u32| {
             let course = &bodies.get(body).course;
-            course.cells.is_some() && course.swept.overlaps(bounds)
+            course.cells.is_some() && course.reached.overlaps(bounds)
         };
-        let cells = self.grid.cells(bounds);
+        match &self.aloft {
+            Some(tree) => tree.query(bounds, |body| {
+                if here(body) {
+                    near.push(body);
+                }
+            }),
+            None => near.extend(bodies.indices().filter(|body| here(*body))),
+        }
+        near.sort_unstable();
+    }
+
+    /// Bodies of the grid that may be in `bounds` at `time`, in order.
+    pub(crate) fn present(&self, bodies: &Bodies, bounds: Aabb, time: SimTime) -> Vec<u32> {
+        let mut near = Vec::new();
+        if self.grid.count() == 0 {
+            return near;
+        }
+        let seen = Aabb::new(
+            self.frame.point(bounds.min, time),
+            self.frame.point(bounds.max, time),
+        );
+        let here = |body: u32| {
+            let course = &bodies.get(body).course;
+            course.cells.is_some() && course.swept.overlaps(seen)
+        };
+        let cells = self.grid.cells(seen);
         if cells.count() > self.grid.count() as u64 {
             near.extend(bodies.indices().filter(|body| here(*body)));
         } else {
@@ -194,6 +240,40 @@ impl Flyers {
         }
         near.sort_unstable();
         near.dedup();
+        near
+    }
+
+    /// From now on bodies look for flyers by boxes in the world.
+    pub(crate) fn raise(&mut self, bodies: &mut Bodies) {
+        let mut tree = BoxTree::new();
+        for index in bodies.indices().collect::<Vec<_>>() {
+            let course = &mut bodies.get_mut(index).course;
+            course.node = course.cells.map(|_| {
+                let bounds = course.reached;
+                tree.insert(bounds.grown(roundable(bounds)), index)
+            });
+        }
+        self.aloft = Some(tree);
+    }
+
+    /// Nobody looks for flyers any more.
+    pub(crate) fn lower(&mut self) {
+        self.aloft = None;
+    }
+
+    /// Keeps the box in the world of a flyer in the grid.
+    fn lift(&mut self, course: &mut Course, index: u32) {
+        let Some(tree) = &mut self.aloft else {
+            course.node = None;
+            return;
+        };
+        let bounds = course.reached.grown(roundable(course.reached));
+        match course.node {
+            Some(node) => {
+                tree.update(node, bounds);
+            }
+            None => course.node = Some(tree.insert(bounds, index)),
+        }
     }
 
     /// Puts a body into the grid, if it fits.
@@ -212,8 +292,9 @@ impl Flyers {
     }
 
     /// Takes a body out of the grid.
-    pub(crate) fn leave(&mut self, bodies: &mut Bodies, index: u32) {
-        if let Some(cells) = bodies.get_mut(index).course.cells.take() {
+    fn leave(&mut self, bodies: &mut Bodies, index: u32) {
+        let course = &mut bodies.get_mut(index).course;
+        if let Some(cells) = course.cells.take() {
             self.grid.remove(index, cells);
         }
     }
@@ -229,6 +310,15 @@ impl Flyers {
             stamp: 0,
             ahead,
         });
+    }
+
+    /// Takes a body out of the grid, and its box out of the tree aloft.
+    pub(crate) fn vanish(&mut self, bodies: &mut Bodies, index: u32) {
+        self.leave(bodies, index);
+        let node = bodies.get_mut(index).course.node.take();
+        if let (Some(tree), Some(node)) = (&mut self.aloft, node) {
+            tree.remove(node);
+        }
     }
 
     /// Drops all that is ahead of a body and of its shapes: others may take their places.
@@ -248,7 +338,7 @@ impl Flyers {
     }
 
     /// Sizes the cells anew where searches meet too many bodies, or hardly any.
-    fn resize(&mut self, bodies: &mut Bodies) {
+    fn resize(&mut self, bodies: &mut Bodies, time: SimTime) {
         let crowded = self.grid.count() > self.grid.room();
         if self.searches < 64.max(4 * self.grid.count()) && !crowded {
             return;
@@ -265,6 +355,7 @@ impl Flyers {
         }
         #[expect(clippy::cast_precision_loss, reason = "fewer than 2^32 bodies")]
         let reach = flying.iter().map(|i| bodies.get(*i).reach).sum::<f64>() / flying.len() as f64;
+        self.drifts = drift(&self.frame, bodies, &flying, time).is_some();
         let factor = if met > PARTNERS.end {
             0.75
         } else if met < PARTNERS.start {
@@ -284,4 +375,21 @@ impl Flyers {
             course.cells = Some(cells);
         }
     }
+}
+
+/// Mean velocity of flyers in the frame, in m/s, where it is faster than they are among themselves.
+fn drift(frame: &Frame, bodies: &Bodies, flying: &[u32], time: SimTime) -> Option<Vec2> {
+    let (mut sum, mut squares) = (Vec2::ZERO, 0.0);
+    for &index in flying {
+        let track = Track::of(&bodies.get(index).motion, time);
+        let velocity = frame.track(&track, time).velocity;
+        sum += velocity;
+        squares += velocity.length_squared();
+    }
+    #[expect(clippy::cast_precision_loss, reason = "fewer than 2^32 bodies")]
+    let count = flying.len() as f64;
+    let mean = sum / count;
+    // The mean square is that of the mean and that about it.
+    let square = mean.length_squared();
+    (square > 2.0 * (squares / count - square)).then_some(mean)
 }

@@ -8,8 +8,10 @@ use carom_math::SimTime;
 /// What happens at an entry's time, if the bodies still move as they did.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Ahead {
-    /// The search for partners of `a` reaches no further.
+    /// The search for flyers that `a` meets reaches no further.
     Horizon,
+    /// The search for what does not fly reaches no further.
+    Ground,
     /// From now on flyers `a` and `b` are near enough to meet.
     Near,
     /// From now on flyer `a` is near enough to meet shape `b` of a body that does not fly.

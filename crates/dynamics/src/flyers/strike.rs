@@ -228,7 +228,7 @@ impl World {
         // Another look when the approach may have gone deeper than impacts leave.
         let (one, two) = (self.bodies.get(a), self.bodies.get(b));
         let slack = SLACK * one.reach.min(two.reach);
-        let left = (one.course.horizon.max(two.course.horizon) - time).max(1e-9);
+        let left = (one.course.ground.max(two.course.ground) - time).max(1e-9);
         let wait = if speed > 0.0 { slack / speed } else { left };
         self.look_again(impact, time + wait.clamp(1e-9 * left, left));
     }
@@ -375,7 +375,7 @@ impl World {
         state.idle = 0;
         // What was foreseen for a flyer is stale.
         state.version = state.version.wrapping_add(1);
-        self.flyers.leave(&mut self.bodies, index);
+        self.flyers.vanish(&mut self.bodies, index);
         self.enlist(index, time);
         // What was too large for the grid keeps its box, and has met no pairs with it.
         for slot in 0..self.bodies.get(index).colliders.len() {
@@ -414,6 +414,7 @@ impl World {
         if self.stepped.is_empty() {
             // Nobody was: the grid of sub-steps was not followed.
             self.clock.catch_up(time);
+            self.flyers.raise(&mut self.bodies);
         }
         if let Err(at) = self.stepped.binary_search(&index) {
             self.stepped.insert(at, index);
@@ -424,6 +425,9 @@ impl World {
     pub(crate) fn discharge(&mut self, index: u32) {
         if let Ok(at) = self.stepped.binary_search(&index) {
             self.stepped.remove(at);
+            if self.stepped.is_empty() {
+                self.flyers.lower();
+            }
         }
     }
 }
