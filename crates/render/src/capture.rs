@@ -281,9 +281,11 @@ impl<'a> Sketch<'a> {
         }
     }
 
-    fn points(&self, pose: Pose, local: &[Vec2]) -> Vec<Vec2> {
-        let place = |&p: &Vec2| self.camera.point(pose.point(p));
-        local.iter().map(place).collect()
+    fn points(&mut self, pose: Pose, local: &[Vec2]) -> Vec<Vec2> {
+        let mut points = self.frame.points();
+        let camera = self.camera;
+        points.extend(local.iter().map(|&p| camera.point(pose.point(p))));
+        points
     }
 }
 

@@ -32,6 +32,15 @@ pub(crate) struct Level {
     pub(crate) width: u32,
     pub(crate) height: u32,
     pub(crate) rgba: Vec<u8>,
+    /// The same with 16 bits a channel, ready to be mixed: see [`widened`].
+    pub(crate) wide: Vec<u64>,
+}
+
+/// A pixel with room between its channels, in the order red, blue, green, opacity from the lowest bits.
+pub(crate) const fn widened(pixel: [u8; 4]) -> u64 {
+    const PAIR: u32 = 0x00FF_00FF;
+    let pixel = u32::from_le_bytes(pixel);
+    (pixel & PAIR) as u64 | ((pixel >> 8 & PAIR) as u64) << 32
 }
 
 impl Face {
@@ -58,11 +67,7 @@ impl Face {
                 *channel = round_u8(f64::from(*channel) * alpha);
             }
         }
-        let mut levels = vec![Level {
-            width: size.width(),
-            height: size.height(),
-            rgba,
-        }];
+        let mut levels = vec![Level::new(size.width(), size.height(), rgba)];
         while let Some(half) = levels.last().and_then(Level::half) {
             levels.push(half);
         }
@@ -125,6 +130,17 @@ impl core::fmt::Debug for Face {
 }
 
 impl Level {
+    fn new(width: u32, height: u32, rgba: Vec<u8>) -> Self {
+        let (pixels, _) = rgba.as_chunks();
+        let wide = pixels.iter().map(|&pixel| widened(pixel)).collect();
+        Self {
+            width,
+            height,
+            rgba,
+            wide,
+        }
+    }
+
     /// Pixels of the canvas per pixel of this level, if the shorter side spans a disc of `radius`.
     fn scale(&self, radius: f64) -> f64 {
         2.0 * radius / f64::from(self.width.min(self.height))
@@ -150,11 +166,7 @@ impl Level {
                 }
             }
         }
-        Some(Self {
-            width,
-            height,
-            rgba,
-        })
+        Some(Self::new(width, height, rgba))
     }
 }
 

@@ -272,6 +272,23 @@ pub struct Frame {
     ops: Vec<Op>,
     /// Of each mark.
     sources: Vec<Source>,
+    spare: Spare,
+}
+
+/// Lists of points that marks had before they were cleared away: no part of what a frame is.
+#[derive(Debug, Default)]
+struct Spare(Vec<Vec<Vec2>>);
+
+impl Clone for Spare {
+    fn clone(&self) -> Self {
+        Self::default()
+    }
+}
+
+impl PartialEq for Spare {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
 }
 
 impl Frame {
@@ -282,6 +299,7 @@ impl Frame {
             size,
             ops: Vec::new(),
             sources: Vec::new(),
+            spare: Spare(Vec::new()),
         }
     }
 
@@ -362,11 +380,27 @@ impl Frame {
         asleep.count()
     }
 
-    /// Takes all marks away and keeps the memory.
+    /// Takes all marks away and keeps the memory: [`Frame::points`] hands it out again.
     pub fn clear(&mut self, size: Size) {
         self.size = size;
-        self.ops.clear();
         self.sources.clear();
+        self.spare.0.clear();
+        // The first mark's memory comes to lie on top.
+        for op in self.ops.drain(..).rev() {
+            if let Op::Polygon { mut points, .. }
+            | Op::Area { mut points, .. }
+            | Op::Line { mut points, .. } = op
+            {
+                points.clear();
+                self.spare.0.push(points);
+            }
+        }
+    }
+
+    /// An empty list for the points of a mark, with memory of a mark cleared away if there is any.
+    #[must_use]
+    pub fn points(&mut self) -> Vec<Vec2> {
+        self.spare.0.pop().unwrap_or_default()
     }
 
     /// Paints the frame into a new picture.

@@ -55,7 +55,12 @@ pub struct Painter {
     below: Tiles,
     tiles: Tiles,
     changes: Changes,
+    /// Frames that are painted in full before the next comparison, and how many the last such stretch had.
+    busy: (u32, u32),
 }
+
+/// Most frames painted in full without a look at what they have in common.
+const BUSY: u32 = 16;
 
 impl Painter {
     /// A painter that has painted nothing yet.
@@ -72,6 +77,7 @@ impl Painter {
             below: Tiles::default(),
             tiles: Tiles::default(),
             changes: Changes::default(),
+            busy: (0, 0),
         }
     }
 
@@ -124,14 +130,26 @@ impl Painter {
         match self.shown.take() {
             Some((mut shown, beneath)) if known && !self.redraw && shown.size() == frame.size() => {
                 let same = self.update((&shown, beneath), frame, picture.rgba_mut());
-                if !same {
-                    shown.copy(frame);
+                // Where nearly all moves a comparison finds little: the next frames do without, twice as many each time.
+                let most = self.tiles.most() && 4 * frame.beneath() < frame.ops().len();
+                let stretch = if most {
+                    BUSY.min(2 * self.busy.1 + 1)
+                } else {
+                    0
+                };
+                self.busy = (stretch, stretch);
+                if !most {
+                    if !same {
+                        shown.copy(frame);
+                    }
+                    self.shown = Some((shown, frame.beneath()));
                 }
-                self.shown = Some((shown, frame.beneath()));
             }
             _ => {
                 self.anew(frame, picture.rgba_mut());
-                self.shown = (!self.redraw).then(|| (frame.clone(), frame.beneath()));
+                self.busy.0 = self.busy.0.saturating_sub(1);
+                let keep = !self.redraw && self.busy.0 == 0;
+                self.shown = keep.then(|| (frame.clone(), frame.beneath()));
             }
         }
         self.compare(frame, picture);
@@ -143,7 +161,7 @@ impl Painter {
         let ground = Base::Colour(self.ground());
         let (beneath, all) = (frame.beneath(), frame.ops().len());
         let (style, sheets) = (&self.style, &mut self.sheets);
-        if self.redraw || beneath == 0 {
+        if self.redraw || beneath == 0 || self.busy.0 > 1 {
             sheets.paint(frame, 0..all, style, ground, bytes);
         } else {
             self.layer.resize(bytes.len(), 0);

@@ -225,8 +225,7 @@ impl Shade for Textured<'_> {
         const ONE: f64 = 4_294_967_296.0;
         self.first = first;
         self.colours.clear();
-        let (texels, _) = self.level.rgba.as_chunks::<4>();
-        let texel = |at: usize| texels.get(at).map_or(0, |&pixel| u32::from_le_bytes(pixel));
+        let texels = &self.level.wide[..];
         // Where the middle of the first column falls, less half a texel: the corner of four.
         let start = self.origin + self.down * (y as f64 + 0.5) + 0.5 * (self.right - Vec2::ONE);
         let [du, dv] = [self.right.x, self.right.y].map(|step| (step * ONE) as i64);
@@ -236,18 +235,39 @@ impl Shade for Textured<'_> {
         let stride = self.level.width as usize;
         let most_u = i64::from(self.level.width - 1) << 32;
         let most_v = i64::from(self.level.height - 1) << 32;
-        self.colours.extend((first..end).map(|_| {
-            let (x, y) = (u.clamp(0, most_u), v.clamp(0, most_v));
-            u = u.wrapping_add(du);
-            v = v.wrapping_add(dv);
-            let at = (y >> 32) as usize * stride + (x >> 32) as usize;
-            let (part_x, part_y) = ((x >> 24 & 0xFF) as u32, (y >> 24 & 0xFF) as u32);
-            let beside = usize::from(x < most_u);
-            let below = at + if y < most_v { stride } else { 0 };
-            let upper = mixed(texel(at), texel(at + beside), part_x);
-            let lower = mixed(texel(below), texel(below + beside), part_x);
-            mixed(upper, lower, part_y)
-        }));
+        let steps = i64::try_from(end - first - 1).unwrap_or(0);
+        let inside = |from: i64, by: i64, most: i64| {
+            let to = from.wrapping_add(by.wrapping_mul(steps));
+            from.min(to) >= 0 && from.max(to) < most
+        };
+        if inside(u, du, most_u) && inside(v, dv, most_v) {
+            // All four neighbours are there.
+            self.colours.extend((first..end).map(|_| {
+                let at = (v >> 32) as usize * stride + (u >> 32) as usize;
+                let (part_x, part_y) = ((u >> 24 & 0xFF) as u64, (v >> 24 & 0xFF) as u64);
+                u = u.wrapping_add(du);
+                v = v.wrapping_add(dv);
+                let pair = |at: usize| {
+                    texels
+                        .get(at..at + 2)
+                        .map_or((0, 0), |pair| (pair[0], pair[1]))
+                };
+                mixed(pair(at), pair(at + stride), part_x, part_y)
+            }));
+        } else {
+            self.colours.extend((first..end).map(|_| {
+                let (x, y) = (u.clamp(0, most_u), v.clamp(0, most_v));
+                u = u.wrapping_add(du);
+                v = v.wrapping_add(dv);
+                let at = (y >> 32) as usize * stride + (x >> 32) as usize;
+                let (part_x, part_y) = ((x >> 24 & 0xFF) as u64, (y >> 24 & 0xFF) as u64);
+                let beside = usize::from(x < most_u);
+                let below = at + if y < most_v { stride } else { 0 };
+                let texel = |at: usize| texels.get(at).copied().unwrap_or(0);
+                let pair = |at: usize| (texel(at), texel(at + beside));
+                mixed(pair(at), pair(below), part_x, part_y)
+            }));
+        }
     }
 
     fn span(&self, out: &mut [Pixel], first: usize, coverage: u32) {
@@ -260,15 +280,23 @@ impl Shade for Textured<'_> {
     }
 }
 
-/// `part` of 256 of the way from `a` to `b`, two channels at a time.
+/// The colour between four neighbours, given in pairs from left to right, `part_x` and `part_y` of 256 of the way;
+/// all channels at once, with room between them.
 #[inline]
-const fn mixed(a: u32, b: u32, part: u32) -> u32 {
-    const PAIR: u32 = 0x00FF_00FF;
-    const HALF: u32 = 0x0080_0080;
-    let rest = FULL - part;
-    let low = (a & PAIR) * rest + (b & PAIR) * part + HALF;
-    let high = (a >> 8 & PAIR) * rest + (b >> 8 & PAIR) * part + HALF;
-    (low >> 8 & PAIR) | (high & !PAIR)
+const fn mixed(upper: (u64, u64), lower: (u64, u64), part_x: u64, part_y: u64) -> u32 {
+    let upper = between(upper.0, upper.1, part_x);
+    let lower = between(lower.0, lower.1, part_x);
+    let wide = between(upper, lower, part_y);
+    // Red and blue stay, green and opacity come down between them.
+    ((wide | wide >> 24) & 0xFFFF_FFFF) as u32
+}
+
+/// `part` of 256 of the way from `a` to `b`.
+#[inline]
+const fn between(a: u64, b: u64, part: u64) -> u64 {
+    const BYTES: u64 = 0x00FF_00FF_00FF_00FF;
+    const HALF: u64 = 0x0080_0080_0080_0080;
+    (a * (256 - part) + b * part + HALF) >> 8 & BYTES
 }
 
 #[cfg(test)]
@@ -299,7 +327,9 @@ mod tests {
             });
             let found = over(a, b, coverage).to_le_bytes();
             prop_assert!(found[..3].iter().all(|&c| c <= found[3].saturating_add(1)), "{found:?}");
-            prop_assert_eq!(mixed(a, a, coverage.min(255)), a);
+            let wide = crate::face::widened(a.to_le_bytes());
+            let part = u64::from(coverage.min(255));
+            prop_assert_eq!(mixed((wide, wide), (wide, wide), part, 255 - part), a);
         }
     }
 }

@@ -100,19 +100,19 @@ impl Scene {
         }
     }
 
-    /// Things and whether they move, lowest first.
-    pub(crate) fn each(&self, arrows: Arrows, mut draw: impl FnMut(Thing, bool)) {
+    /// Hands over all things and whether they move, lowest first.
+    fn each(&self, arrows: Arrows, sink: &mut impl Sink) {
         let Vec2 { x: w, y: h } = self.size.corner();
         let triangle = |points: [Vec2; 3]| Thing::Area(points.to_vec(), WALL);
-        draw(
+        sink.draw(
             triangle([vec2(0.0, h), vec2(0.3 * w, h), vec2(0.0, 0.7 * h)]),
             false,
         );
-        draw(
+        sink.draw(
             triangle([vec2(w, h), vec2(0.7 * w, h), vec2(w, 0.7 * h)]),
             false,
         );
-        draw(
+        sink.draw(
             Thing::Stroke(
                 vec2(0.05 * w, 0.95 * h),
                 vec2(0.35 * w, 0.95 * h),
@@ -121,7 +121,7 @@ impl Scene {
             ),
             false,
         );
-        draw(
+        sink.draw(
             Thing::Stroke(
                 vec2(0.9 * w, 0.05 * h),
                 vec2(0.9 * w, 0.15 * h),
@@ -130,11 +130,11 @@ impl Scene {
             ),
             false,
         );
-        draw(
+        sink.draw(
             Thing::Dot(vec2(0.9 * w, 0.15 * h), 4.0, Colour::WHITE),
             false,
         );
-        draw(
+        sink.draw(
             Thing::Ring(
                 vec2(0.5 * w, 0.45 * h),
                 0.3 * h,
@@ -149,9 +149,10 @@ impl Scene {
             (0, self.awake, true),
         ] {
             for body in &self.bodies[first..end] {
-                draw(body.shape(), awake);
-                draw(Thing::Dot(body.at, 1.0, Colour::WHITE), awake);
-                body.arrow(arrows, |thing| draw(thing, awake));
+                let shape = body.shape(sink);
+                sink.draw(shape, awake);
+                sink.draw(Thing::Dot(body.at, 1.0, Colour::WHITE), awake);
+                body.arrow(arrows, awake, sink);
             }
         }
     }
@@ -159,21 +160,46 @@ impl Scene {
     /// All things.
     pub(crate) fn things(&self, arrows: Arrows) -> Vec<Thing> {
         let mut things = Vec::new();
-        self.each(arrows, |thing, _| things.push(thing));
+        self.each(arrows, &mut things);
         things
     }
 
     /// The scene as carom's display list.
     pub(crate) fn frame_into(&self, arrows: Arrows, frame: &mut Frame) {
         frame.clear(self.size);
-        self.each(arrows, |thing, awake| {
-            frame.push_from(Source { body: None, awake }, op(thing));
-        });
+        self.each(arrows, frame);
+    }
+}
+
+/// Takes things; whoever makes one asks it for memory.
+trait Sink {
+    fn points(&mut self) -> Vec<Vec2>;
+    fn draw(&mut self, thing: Thing, awake: bool);
+}
+
+impl Sink for Vec<Thing> {
+    fn points(&mut self) -> Vec<Vec2> {
+        Vec::new()
+    }
+
+    fn draw(&mut self, thing: Thing, _: bool) {
+        self.push(thing);
+    }
+}
+
+impl Sink for Frame {
+    fn points(&mut self) -> Vec<Vec2> {
+        Self::points(self)
+    }
+
+    fn draw(&mut self, thing: Thing, awake: bool) {
+        let op = op(thing, self);
+        self.push_from(Source { body: None, awake }, op);
     }
 }
 
 impl Body {
-    fn shape(&self) -> Thing {
+    fn shape(&self, sink: &mut impl Sink) -> Thing {
         if self.corners == 0 {
             return Thing::Ball(self.at, self.radius, self.colour);
         }
@@ -183,11 +209,13 @@ impl Body {
             arm = turn * arm;
             self.at + arm
         };
-        Thing::Area((0..self.corners).map(corner).collect(), self.colour)
+        let mut points = sink.points();
+        points.extend((0..self.corners).map(corner));
+        Thing::Area(points, self.colour)
     }
 
     /// Half a second of its way.
-    fn arrow(&self, arrows: Arrows, mut draw: impl FnMut(Thing)) {
+    fn arrow(&self, arrows: Arrows, awake: bool, sink: &mut impl Sink) {
         let way = 0.5 * self.velocity;
         let length = way.length();
         let tip = self.at + way;
@@ -195,15 +223,15 @@ impl Body {
         let barbs = [0.5, -0.5].map(|angle| tip + Rot::from_angle(angle) * back);
         match arrows {
             Arrows::Strokes => {
-                draw(Thing::Stroke(self.at, tip, 2.0, Colour::WHITE));
+                sink.draw(Thing::Stroke(self.at, tip, 2.0, Colour::WHITE), awake);
                 for barb in barbs {
-                    draw(Thing::Stroke(tip, barb, 2.0, Colour::WHITE));
+                    sink.draw(Thing::Stroke(tip, barb, 2.0, Colour::WHITE), awake);
                 }
             }
             Arrows::Outlines => {
                 let across = vec2(-way.y, way.x) / length.max(1e-9);
                 let neck = tip + 0.8 * back;
-                let points = vec![
+                let outline = [
                     self.at + across,
                     neck + across,
                     barbs[1],
@@ -212,14 +240,16 @@ impl Body {
                     neck - across,
                     self.at - across,
                 ];
-                draw(Thing::Area(points, Colour::WHITE));
+                let mut points = sink.points();
+                points.extend(outline);
+                sink.draw(Thing::Area(points, Colour::WHITE), awake);
             }
         }
     }
 }
 
 /// A thing as a mark.
-fn op(thing: Thing) -> Op {
+fn op(thing: Thing, frame: &mut Frame) -> Op {
     match thing {
         Thing::Area(points, colour) => Op::Area {
             points,
@@ -241,10 +271,14 @@ fn op(thing: Thing) -> Op {
             width,
             ink: Ink::Of(colour),
         },
-        Thing::Stroke(a, b, width, colour) => Op::Area {
-            points: quad(a, b, width).to_vec(),
-            ink: Ink::Of(colour),
-        },
+        Thing::Stroke(a, b, width, colour) => {
+            let mut points = frame.points();
+            points.extend(quad(a, b, width));
+            Op::Area {
+                points,
+                ink: Ink::Of(colour),
+            }
+        }
     }
 }
 
