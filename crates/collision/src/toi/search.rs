@@ -1,7 +1,7 @@
 //! The search: advance along an axis until it closes, look again, until all are closed.
 
 use arrayvec::ArrayVec;
-use carom_math::Vec2;
+use carom_math::{Vec2, perp};
 
 use super::approach::{Approach, Axis, Instant, Window};
 use super::facing::{Facing, Gap};
@@ -228,7 +228,7 @@ impl Search<'_> {
     }
 
     /// The contact at the present instant, after a last Newton step.
-    fn contact(&self, axis: Axis, start: bool) -> TimeOfImpact {
+    fn contact(&self, mut axis: Axis, start: bool) -> TimeOfImpact {
         let approach = self.approach;
         let near = NEAR * approach.size();
         let mut tau = self.tau;
@@ -246,6 +246,11 @@ impl Search<'_> {
                 least = facing.least(approach);
             }
         }
+        if let Some(beside) = self.edge_beside(axis, &least, &at) {
+            axis = beside;
+            facing = approach.facing(axis, &at);
+            least = facing.least(approach);
+        }
         if !self.touches(axis, &least, &at) {
             // The vertex comes through a cut: it has touched another piece before.
             return TimeOfImpact::Clear;
@@ -253,7 +258,7 @@ impl Search<'_> {
         let normal = approach.normal(axis, &at);
         let mut stretch: Option<Stretch> = None;
         let mut rate = f64::INFINITY;
-        let tangent = carom_math::perp(normal);
+        let tangent = perp(normal);
         facing.each_gap(approach, |gap| {
             if gap.gap > least.gap + near {
                 return;
@@ -307,6 +312,40 @@ impl Search<'_> {
         } else {
             TimeOfImpact::Hit(impact)
         }
+    }
+
+    /// The neighbour of an edge that the vertex touches beyond its end: at a nearly straight corner both are
+    /// closed within [`NEAR`].
+    fn edge_beside(&self, axis: Axis, least: &Gap, at: &Instant) -> Option<Axis> {
+        let approach = self.approach;
+        let Axis::Edge { owner, edge } = axis else {
+            return None;
+        };
+        let (own, other) = (&approach.hulls[owner], &approach.hulls[1 - owner]);
+        if own.normals.len() < 3 {
+            return None;
+        }
+        let near = NEAR * approach.size();
+        let d = if owner == 0 { at.d } else { -at.d };
+        let vertex = at.rotation[1 - owner] * other.vertices[least.vertices[1 - owner]];
+        let vertex = at.rotation[owner].inverse_mul(d + vertex);
+        let (from, to) = own.edge(edge);
+        let along = perp(own.normals[edge]);
+        let beside = if along.dot(vertex - from) < -near {
+            own.previous(edge)
+        } else if along.dot(vertex - to) > near {
+            own.next(edge)
+        } else {
+            return None;
+        };
+        let axis = Axis::Edge {
+            owner,
+            edge: beside,
+        };
+        let next = approach.facing(axis, at).least(approach);
+        let same = next.vertices[1 - owner] == least.vertices[1 - owner];
+        (same && (next.gap - least.gap).abs() <= near && self.touches(axis, &next, at))
+            .then_some(axis)
     }
 
     /// Where a vertex touches, from A's centre.

@@ -173,6 +173,47 @@ fn off(touch: &ImpactFeature, point: Vec2, sides: [(&Shape, Pose); 2]) -> f64 {
     }
 }
 
+/// A needle's tip at the nearly straight corner of another one: it touches beyond the end of the edge that closes last,
+/// and was named after the corner, 2 mm away.
+#[test]
+fn a_tip_beside_a_nearly_straight_corner_touches_the_edge_that_it_is_over() {
+    let needle = |corners: [(f64, f64); 3]| {
+        let corners = corners.map(Vec2::from).to_vec();
+        Shape::from(ConvexPolygon::new(corners).expect("a triangle"))
+    };
+    let a = needle([
+        (-0.5163486265338328, 0.4585700911147092),
+        (-0.22431042693758343, 0.19921052273180515),
+        (-0.39716093398236707, 0.3527193913695989),
+    ]);
+    let b = needle([
+        (-0.5519295297410103, -0.09840449676465209),
+        (0.2953425559480826, 0.052657142403036684),
+        (-0.2931306395408151, -0.05226276603640013),
+    ]);
+    let motion_a = Motion {
+        rotation: Rot::from_direction(vec2(-0.9812017929683443, -0.19298456279118884))
+            .expect("not 0"),
+        spin: 2.2782693771404956,
+        ..Motion::resting(vec2(-3.0, 0.0))
+    };
+    let motion_b = Motion {
+        rotation: Rot::from_degrees(90.0),
+        spin: -3.1199171593778035,
+        velocity: vec2(-1.4176113197186069, 0.0),
+        ..Motion::resting(vec2(3.0, -0.11144633720570168))
+    };
+    let TimeOfImpact::Hit(hit) = time_of_impact(&a, &motion_a, &b, &motion_b, 8.0) else {
+        panic!("they meet");
+    };
+    let time = SimTime::from_secs(hit.time);
+    let sides = [(&a, motion_a.pose_at(time)), (&b, motion_b.pose_at(time))];
+    for (point, touch) in hit.points.iter().zip(&hit.features) {
+        let off = off(touch, *point, sides);
+        assert!(off < 1e-8, "{off:e} m off {touch:?} of {hit:?}");
+    }
+}
+
 fn body() -> impl Strategy<Value = Shape> {
     prop_oneof![
         convex().prop_map(Shape::from),
