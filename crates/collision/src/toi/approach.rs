@@ -34,10 +34,14 @@ pub(super) struct Window {
     bends: Option<[f64; 3]>,
 }
 
-impl Window {
-    pub(super) const fn is_steady(&self) -> bool {
-        self.bends.is_some()
-    }
+/// Bounds on the second time derivative of every gap along an axis, from now until `end`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bend {
+    pub(super) end: f64,
+    /// Bound on −g'': below 0 if the gaps open ever faster.
+    pub(super) down: f64,
+    /// Bound on |g''|.
+    pub(super) most: f64,
 }
 
 /// Two hulls whose motions start together.
@@ -48,7 +52,7 @@ pub(super) struct Approach<'a> {
     motion: Motion,
     d: Vec2,
     v: Vec2,
-    acceleration: Vec2,
+    pub(super) acceleration: Vec2,
     rotation: [Rot; 2],
     pub(super) spin: [f64; 2],
     angular_acceleration: [f64; 2],
@@ -323,76 +327,81 @@ impl<'a> Approach<'a> {
         }
     }
 
-    /// A time in the window, and a bound on −g'' of every vertex along the axis between `tau` and then.
-    pub(super) fn bend(&self, window: &Window, axis: Axis, at: &Instant, tau: f64) -> (f64, f64) {
-        if let Some(bends) = window.bends {
-            let bend = match axis {
-                Axis::Edge { owner, .. } => bends[owner],
-                Axis::World { .. } => bends[2],
-            };
-            return (window.until, bend);
-        }
-        let end = (tau + self.segment(at)).min(window.until);
-        (end, self.bend_until(axis, at, tau, end))
-    }
-
-    /// Bound M on −g'' of every vertex along the axis between `tau` and `end`.
+    /// Bounds on g'' of every vertex along the axis, from `tau` until a time in the window.
     ///
     /// ```text
     /// |g''| ≤ a + 2 ω_E s + (ω_E² + α_E) R + ((ω_V − ω_E)² + |α_V − α_E|) ρ
     /// ```
     /// R the distance of the centres, s its rate, ρ the reach of the vertices. An axis that does
     /// not turn leaves −n·a, sign and all: then a fall without spin is one exact step.
-    fn bend_until(&self, axis: Axis, at: &Instant, tau: f64, end: f64) -> f64 {
+    pub(super) fn bend(&self, window: &Window, axis: Axis, at: &Instant, tau: f64) -> Bend {
+        if let Some(bends) = window.bends {
+            let bend = match axis {
+                Axis::Edge { owner, .. } => bends[owner],
+                Axis::World { .. } => bends[2],
+            };
+            return Bend {
+                end: window.until,
+                down: bend,
+                most: bend,
+            };
+        }
+        let still = match axis {
+            Axis::Edge { owner, .. } => self.spin[owner] == 0.0,
+            Axis::World { .. } => true,
+        };
+        // Bounds along an axis that stays as it is hold for all times.
+        let end = if still && self.turns_evenly() {
+            window.until
+        } else {
+            (tau + self.segment(at)).min(window.until)
+        };
         let alpha = self.angular_acceleration;
         let spin = |k: usize| self.spin_over(k, tau, end);
         let turning = |k: usize| spin(k) * spin(k) + alpha[k].abs();
-        let relative = |e: usize, v: usize| {
-            let alpha = alpha[v] - alpha[e];
-            let difference = |tau: f64| (self.spin[v] - self.spin[e] + alpha * tau).abs();
-            let w = difference(tau).max(difference(end));
-            w * w + alpha.abs()
-        };
-        match axis {
+        let (turns, falls) = match axis {
             Axis::Edge { owner, .. } if turning(owner) == 0.0 => {
-                let n = self.normal(axis, at);
-                turning(1 - owner) * self.arm[1 - owner] - n.dot(self.acceleration)
+                let other = 1 - owner;
+                let falls = self.normal(axis, at).dot(self.acceleration);
+                (turning(other) * self.arm[other], falls)
             }
             Axis::Edge { owner, .. } => {
                 let lasts = end - tau;
                 let pull = self.pull_of_centres;
-                let (s, far) = if pull > 0.0 {
-                    let s = at.v.length() + pull * lasts;
-                    (s, at.d.length() + s * lasts)
-                } else {
-                    // A straight way is farthest at one of its ends.
-                    let (here, there) = (at.d, at.d + at.v * lasts);
-                    let far = here.length_squared().max(there.length_squared());
-                    (self.speed_of_centres, far.sqrt())
-                };
-                pull + 2.0 * spin(owner) * s
-                    + turning(owner) * far
-                    + relative(owner, 1 - owner) * self.arm[1 - owner]
+                let s = at.v.length() + pull * lasts;
+                let far = at.d.length() + s * lasts;
+                let other = 1 - owner;
+                let alpha = alpha[other] - alpha[owner];
+                let apart = self.spin[other] - self.spin[owner];
+                let w = |tau: f64| (apart + alpha * tau).abs();
+                let w = w(tau).max(w(end));
+                let relative = w * w + alpha.abs();
+                let turns = pull + 2.0 * spin(owner) * s + turning(owner) * far;
+                (turns + relative * self.arm[other], 0.0)
             }
             Axis::World { normal } => {
-                turning(0) * self.arm[0] + turning(1) * self.arm[1] - normal.dot(self.acceleration)
+                let turns = turning(0) * self.arm[0] + turning(1) * self.arm[1];
+                (turns, normal.dot(self.acceleration))
             }
+        };
+        Bend {
+            end,
+            down: turns - falls,
+            most: turns + falls.abs(),
         }
+    }
+
+    /// Whether neither hull's spin changes.
+    pub(super) fn turns_evenly(&self) -> bool {
+        self.angular_acceleration.iter().all(|alpha| *alpha == 0.0)
     }
 
     /// How long bounds taken now stay tight: two sizes of travel.
     fn segment(&self, at: &Instant) -> f64 {
         let size = 2.0 * (self.reach[0] + self.reach[1]);
-        let (fast, root) = if self.pull_of_centres > 0.0 {
-            let fast = at.v.length();
-            // fast t + pull t²/2 = size, in the form that does not cancel.
-            (
-                fast,
-                (fast * fast + 2.0 * self.pull_of_centres * size).sqrt(),
-            )
-        } else {
-            (self.speed_of_centres, self.speed_of_centres)
-        };
+        // fast t + pull t²/2 = size, in the form that does not cancel.
+        let fast = at.v.length();
+        let root = (fast * fast + 2.0 * self.pull_of_centres * size).sqrt();
         if fast + root > 0.0 {
             2.0 * size / (fast + root)
         } else {

@@ -32,7 +32,7 @@ pub(super) struct Facing {
     base: f64,
     base_rate: f64,
     w: f64,
-    /// Second time derivative of `base` when nothing accelerates.
+    /// Second time derivative of `base` while spins stay as they are.
     base_bend: f64,
 }
 
@@ -52,7 +52,8 @@ impl Facing {
                 // n turns with its owner: d(n·d)/dt = n·v + ω n × d, and d(n × d)/dt = n × v − ω n·d.
                 let spin = at.spin[owner];
                 let rate = n.dot(at.v) + spin * across;
-                let bend = spin * (2.0 * cross(n, at.v) - spin * along);
+                let bend =
+                    spin * (2.0 * cross(n, at.v) - spin * along) + n.dot(approach.acceleration);
                 let m = at.rotation[side].inverse_mul(n * sign);
                 (side, edge, m, base, rate, at.spin[side] - spin, bend)
             }
@@ -65,7 +66,7 @@ impl Facing {
                 let base = n.dot(at.d + centre) - radius;
                 let spin = at.spin[disc];
                 let rate = n.dot(at.v) - spin * cross(n, centre);
-                let bend = -spin * spin * n.dot(centre);
+                let bend = n.dot(approach.acceleration) - spin * spin * n.dot(centre);
                 let m = at.rotation[side].inverse_mul(n * sign);
                 (side, 0, m, base, rate, at.spin[side], bend)
             }
@@ -106,7 +107,7 @@ impl Facing {
         }
     }
 
-    /// A gap seen before, as it is now, with its second time derivative when nothing accelerates.
+    /// A gap seen before, as it is now, with its second time derivative while spins stay as they are.
     pub(super) fn again(&self, approach: &Approach<'_>, before: &Gap) -> (Gap, f64) {
         let gap = self.gap(approach, before.vertices[self.side]);
         (

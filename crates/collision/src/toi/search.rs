@@ -3,7 +3,7 @@
 use arrayvec::ArrayVec;
 use carom_math::{Vec2, perp};
 
-use super::approach::{Approach, Axis, Instant, Window};
+use super::approach::{Approach, Axis, Bend, Instant, Window};
 use super::facing::{Facing, Gap};
 use super::touching::{End, Stretch};
 use super::{Impact, ImpactFeature, TimeOfImpact};
@@ -163,20 +163,21 @@ impl Search<'_> {
         while self.steps < STEPS {
             self.steps += 1;
             let tolerance = approach.tolerance(self.tau);
-            let level = self.level.unwrap_or(tolerance);
-            if least.gap <= level {
-                return Advance::Closed(least);
-            }
             // Once clear of the contact it left, the pair is like any other.
             if least.gap > 2.0 * tolerance {
                 self.level = None;
             }
-            let (end, bend) = approach.bend(&self.window, axis, &self.at, self.tau);
-            let next = if let Some(crossing) = self.crossing(axis, &facing, &least, bend) {
+            let level = self.level.unwrap_or(tolerance);
+            if least.gap <= level {
+                return Advance::Closed(least);
+            }
+            let bend = approach.bend(&self.window, axis, &self.at, self.tau);
+            let next = if let Some(crossing) = self.crossing(axis, &facing, &least, &bend) {
                 crossing
             } else {
-                let limit = end - self.tau;
-                self.tau + facing.certified_step(approach, &least, level, bend, limit)
+                let limit = self.opens_within(&least, &bend);
+                let level = self.level.unwrap_or(tolerance);
+                self.tau + facing.certified_step(approach, &least, level, bend.down, limit)
             };
             if next >= until {
                 self.tau = until;
@@ -190,19 +191,38 @@ impl Search<'_> {
         Advance::Spent
     }
 
+    /// How far the next step may go: for a pair that overlaps no farther than it surely goes on to overlap, since
+    /// what comes after that is another contact.
+    fn opens_within(&mut self, least: &Gap, bend: &Bend) -> f64 {
+        let limit = bend.end - self.tau;
+        let Some(level) = self.level else {
+            return limit;
+        };
+        let slack = self.slack();
+        if least.gap >= -slack {
+            // It touches, and may sink in no deeper than that again.
+            self.level = Some(level.max(least.gap - slack));
+            return limit;
+        }
+        // The first root of g + g' τ + M τ²/2: the lowest vertex is below 0 until then.
+        let root = (least.rate * least.rate - 2.0 * bend.most * least.gap).sqrt();
+        let opens = -2.0 * least.gap / (least.rate + root);
+        if opens > 0.0 { limit.min(opens) } else { limit }
+    }
+
     /// When the lowest vertex reaches the edge, if it is certain to, and before any other.
     ///
     /// With |g''| ≤ M a gap is down within the first root of `g + g' τ + M τ²/2`, and falls all the way, if
     /// `g'² > 2 M g`. Newton's method with the exact g'' as third term (Halley 1694) then finds where.
-    fn crossing(&self, axis: Axis, facing: &Facing, least: &Gap, bend: f64) -> Option<f64> {
+    fn crossing(&self, axis: Axis, facing: &Facing, least: &Gap, bend: &Bend) -> Option<f64> {
         let approach = self.approach;
-        let certain = least.rate * least.rate > 2.5 * bend * least.gap;
-        if !self.window.is_steady() || self.level.is_some() || least.rate >= 0.0 || !certain {
+        let certain = least.rate * least.rate > 2.5 * bend.most * least.gap;
+        if !approach.turns_evenly() || self.level.is_some() || least.rate >= 0.0 || !certain {
             return None;
         }
-        let root = (least.rate * least.rate - 2.0 * bend * least.gap).sqrt();
+        let root = (least.rate * least.rate - 2.0 * bend.most * least.gap).sqrt();
         let latest = self.tau + 2.0 * least.gap / (root - least.rate);
-        if latest >= self.window.until {
+        if latest >= bend.end {
             return None;
         }
         let fine = 0.01 * approach.tolerance(latest);
@@ -217,9 +237,9 @@ impl Search<'_> {
             }
             let step = 2.0 * gap.gap / (square.sqrt() - gap.rate);
             tau = (tau + step).clamp(self.tau, latest);
-            // The third derivative is at most 3/2 ω M: this is what the step leaves of the gap.
-            if 0.25 * fastest * bend * step.abs() * step * step <= fine {
-                let open = facing.others_stay_open(approach, least, bend, tau - self.tau);
+            // The third derivative is at most 3 ω M: this is what the step leaves of the gap.
+            if 0.5 * fastest * bend.most * step.abs() * step * step <= fine {
+                let open = facing.others_stay_open(approach, least, bend.down, tau - self.tau);
                 return open.then_some(tau);
             }
             then = approach.facing(axis, &approach.at(tau));

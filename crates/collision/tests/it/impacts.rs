@@ -3,7 +3,7 @@
 use carom_collision::{
     AxisFeature, Impact, ImpactFeature, Motion, Side, TimeOfImpact, part, time_of_impact,
 };
-use carom_geometry::{Circle, ConvexPolygon, Polygon, Shape};
+use carom_geometry::{Circle, ConvexPolygon, HalfPlane, Polygon, Shape};
 use carom_math::{Pose, Rot, SimTime, Vec2, vec2};
 use proptest::prelude::*;
 
@@ -169,6 +169,34 @@ fn off(touch: &ImpactFeature, point: Vec2, sides: [(&Shape, Pose); 2]) -> f64 {
             let share = (point - from).dot(to - from) / (to - from).length_squared();
             let from_edge = (point - from.lerp(to, share.clamp(0.0, 1.0))).length();
             from_edge.max(from_vertex(1 - own, vertex))
+        }
+    }
+}
+
+/// A box thrown out of a floor that it overlaps lands when it touches again, not when it is as deep as before.
+#[test]
+fn what_leaves_an_overlap_lands_on_the_surface() {
+    let floor = Shape::from(HalfPlane::new(Vec2::ZERO, Vec2::Y).expect("a floor"));
+    let slab = box_(20.0, 2.0);
+    for (ground, top) in [(&floor, 0.0), (&slab, 1.0)] {
+        for spin in [0.0, 1e-3] {
+            // y = top + 0.45 + 3 t − 5 t² is back at top + 0.5 after (3 + √8) / 10 s.
+            let thrown = Motion {
+                velocity: vec2(0.0, 3.0),
+                acceleration: vec2(0.0, -10.0),
+                spin,
+                ..Motion::resting(vec2(0.0, top + 0.45))
+            };
+            let still = Motion::resting(Vec2::ZERO);
+            let found = time_of_impact(ground, &still, &box_(1.0, 1.0), &thrown, 2.0);
+            let TimeOfImpact::Hit(hit) = found else {
+                panic!("it falls back: {found:?}");
+            };
+            let late = hit.time - 0.1 * (3.0 + 8.0_f64.sqrt());
+            assert!(
+                late.abs() < 1e-14 + 0.2 * spin,
+                "{late:e} s late with {spin} rad/s"
+            );
         }
     }
 }
