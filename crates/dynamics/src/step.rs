@@ -88,7 +88,7 @@ impl World {
             };
             let due = |time: &SimTime| *time <= grid;
             let change = self.closed.next().filter(due);
-            let flight = self.flyers.next().filter(due);
+            let flight = self.flyers.next(&self.bodies, &self.colliders, grid);
             let impact = self.agenda.next().filter(due);
             let before = |one: Option<SimTime>, other: Option<SimTime>| match (one, other) {
                 (Some(one), Some(other)) => one <= other,

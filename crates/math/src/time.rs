@@ -57,6 +57,28 @@ impl SimTime {
         Self::ZERO + upper + product + (error + upper_error)
     }
 
+    /// Number of the interval of 2⁻⁶ s / 2^`shift` that the instant lies in, counted from the start;
+    /// 0 before it. `shift` is at most 20.
+    ///
+    /// # Examples
+    /// ```
+    /// use carom_math::SimTime;
+    /// assert_eq!(SimTime::from_secs(1.0).bin(2), 256);
+    /// assert_eq!(SimTime::from_secs(0.999).bin(0), 63);
+    /// ```
+    #[must_use]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        clippy::cast_precision_loss,
+        reason = "the rest is below one unit, which holds 2^20 intervals at most"
+    )]
+    pub fn bin(self, shift: u32) -> u64 {
+        let units = self.units.max(0) as u64;
+        let within = (self.rest * (UNITS_PER_SECOND * (1_u64 << shift) as f64)) as u64;
+        (units.saturating_mul(1 << shift)).saturating_add(within)
+    }
+
     /// Seconds since the start, rounded to one `f64`.
     #[must_use]
     #[expect(

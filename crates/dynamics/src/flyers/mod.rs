@@ -21,6 +21,7 @@ use carom_geometry::Aabb;
 use carom_math::{SimTime, Vec2};
 
 use crate::bodies::Bodies;
+use crate::body::Collider;
 pub(crate) use foresee::Cause;
 use frame::{Frame, Track};
 pub(crate) use grid::{Cells, Grid};
@@ -133,9 +134,22 @@ impl Flyers {
         }
     }
 
-    /// When the next entry is due.
-    pub(crate) fn next(&mut self) -> Option<SimTime> {
-        self.queue.next()
+    /// When the next entry is due, if that is by `limit`.
+    pub(crate) fn next(
+        &mut self,
+        bodies: &Bodies,
+        colliders: &[Collider],
+        limit: SimTime,
+    ) -> Option<SimTime> {
+        let (impacts, free) = (&mut self.impacts, &mut self.free);
+        self.queue.next(limit, |entry| {
+            let stale = is_stale(entry, bodies, colliders);
+            if let (true, Ahead::Impact { slot }) = (stale, entry.ahead) {
+                impacts[slot as usize] = None;
+                free.push(slot);
+            }
+            stale
+        })
     }
 
     /// Takes the next entry out; an impact with all that belongs to it.
@@ -392,4 +406,15 @@ fn drift(frame: &Frame, bodies: &Bodies, flying: &[u32], time: SimTime) -> Optio
     // The mean square is that of the mean and that about it.
     let square = mean.length_squared();
     (square > 2.0 * (squares / count - square)).then_some(mean)
+}
+
+/// Whether a motion has changed since an entry was made.
+fn is_stale(entry: &Entry, bodies: &Bodies, colliders: &[Collider]) -> bool {
+    let version = |index: u32| bodies.get(index).version;
+    let other = match entry.ahead {
+        Ahead::Collapse => return false,
+        Ahead::NearShape => colliders[entry.b as usize].body,
+        _ => entry.b,
+    };
+    version(entry.a).wrapping_add(version(other)) != entry.stamp
 }

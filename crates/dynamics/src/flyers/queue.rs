@@ -47,28 +47,219 @@ impl PartialOrd for Entry {
     }
 }
 
-/// The entries. Stale ones are not searched for: they are dropped when they come up.
-#[derive(Clone, Debug, Default)]
+/// Days of a year: entries within it have a list a day.
+const YEAR: u64 = 4096;
+
+/// Entries a day that the length of a day is chosen for: more, and a day's heap is deep; fewer, and
+/// most days are looked at in vain.
+const CROWD: core::ops::Range<u64> = 8..64;
+
+/// A calendar: a heap for today, a list for every day of the year, one list for all that is later.
+///
+/// Entries are dropped at the start of their day if they are stale by then, so that most of them never
+/// see a heap. Order does not depend on the length of a day. After R. Brown, *Calendar queues* (1988).
+#[derive(Clone, Debug)]
 pub(crate) struct Queue {
-    heap: BinaryHeap<Reverse<Entry>>,
+    /// A day is 2⁻⁶ s / 2^shift.
+    shift: u32,
+    /// Number of today.
+    today: u64,
+    /// The last day of the year.
+    last: u64,
+    due: BinaryHeap<Reverse<Entry>>,
+    days: Vec<Vec<Entry>>,
+    /// Entries in `days`.
+    waiting: usize,
+    later: Vec<Entry>,
+    /// Entries whose day came this year, stale or not.
+    come: u64,
+}
+
+impl Default for Queue {
+    fn default() -> Self {
+        Self {
+            shift: 0,
+            today: 0,
+            last: YEAR - 1,
+            due: BinaryHeap::new(),
+            days: (0..YEAR).map(|_| Vec::new()).collect(),
+            waiting: 0,
+            later: Vec::new(),
+            come: 0,
+        }
+    }
 }
 
 impl Queue {
     pub(crate) fn push(&mut self, entry: Entry) {
-        self.heap.push(Reverse(entry));
+        let day = entry.time.bin(self.shift);
+        if day <= self.today {
+            self.due.push(Reverse(entry));
+        } else if day <= self.last {
+            self.days[slot(day)].push(entry);
+            self.waiting += 1;
+        } else {
+            self.later.push(entry);
+        }
     }
 
-    /// When the next entry is due.
-    pub(crate) fn next(&mut self) -> Option<SimTime> {
-        self.heap.peek().map(|Reverse(entry)| entry.time)
+    /// When the next entry is due, if that is by `limit`; `stale` says what may be dropped, and is told
+    /// everything once that is.
+    pub(crate) fn next(
+        &mut self,
+        limit: SimTime,
+        mut stale: impl FnMut(&Entry) -> bool,
+    ) -> Option<SimTime> {
+        while self.due.is_empty() {
+            let end = limit.bin(self.shift);
+            if self.today >= end || self.waiting == 0 && self.later.is_empty() {
+                return None;
+            }
+            if self.waiting == 0 {
+                self.turn_the_year(end);
+            } else if self.today == self.last {
+                self.turn_the_year(self.last + 1);
+            } else {
+                self.today += 1;
+            }
+            self.open(&mut stale);
+        }
+        let Reverse(first) = self.due.peek()?;
+        (first.time <= limit).then_some(first.time)
     }
 
     pub(crate) fn pop(&mut self) -> Option<Entry> {
-        self.heap.pop().map(|Reverse(entry)| entry)
+        self.due.pop().map(|Reverse(entry)| entry)
     }
 
     /// Keeps only what `keep` says.
     pub(crate) fn retain(&mut self, mut keep: impl FnMut(&Entry) -> bool) {
-        self.heap.retain(|Reverse(entry)| keep(entry));
+        self.due.retain(|Reverse(entry)| keep(entry));
+        self.later.retain(&mut keep);
+        self.waiting = 0;
+        for day in &mut self.days {
+            day.retain(&mut keep);
+            self.waiting += day.len();
+        }
+    }
+
+    /// Today's list becomes the heap.
+    fn open(&mut self, stale: &mut impl FnMut(&Entry) -> bool) {
+        let mut list = core::mem::take(&mut self.days[slot(self.today)]);
+        self.waiting -= list.len();
+        self.come += list.len() as u64;
+        for entry in list.drain(..) {
+            if !stale(&entry) {
+                self.due.push(Reverse(entry));
+            }
+        }
+        self.days[slot(self.today)] = list;
+    }
+
+    /// A new year begins on the first day with an entry, or on `day` if that is earlier; its days are
+    /// longer or shorter if those of the last one were empty or crowded.
+    fn turn_the_year(&mut self, day: u64) {
+        let days = self
+            .today
+            .saturating_sub(self.last.saturating_sub(YEAR - 1))
+            + 1;
+        let crowd = self.come / days;
+        let (old, mut entries) = (self.shift, core::mem::take(&mut self.later));
+        if crowd >= CROWD.end && self.shift < 20 {
+            self.shift += 1;
+        } else if crowd < CROWD.start && self.shift > 0 {
+            self.shift -= 1;
+        }
+        for list in &mut self.days {
+            entries.append(list);
+        }
+        self.waiting = 0;
+        self.come = 0;
+        let shift = self.shift;
+        let renamed = if shift >= old {
+            day << (shift - old)
+        } else {
+            day >> (old - shift)
+        };
+        let first = entries.iter().map(|entry| entry.time.bin(shift)).min();
+        self.today = first.map_or(renamed, |first| first.min(renamed));
+        self.last = self.today + (YEAR - 1);
+        for entry in entries {
+            let day = entry.time.bin(shift);
+            if day <= self.last {
+                self.days[slot(day)].push(entry);
+                self.waiting += 1;
+            } else {
+                self.later.push(entry);
+            }
+        }
+    }
+}
+
+const fn slot(day: u64) -> usize {
+    (day % YEAR) as usize
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    const POWERS: [f64; 6] = [1.0, 1e1, 1e2, 1e3, 1e4, 1e6];
+
+    fn entry(time: f64, a: u32) -> Entry {
+        let (time, ahead) = (SimTime::from_secs(time), Ahead::Horizon);
+        Entry {
+            time,
+            a,
+            b: a,
+            stamp: 0,
+            ahead,
+        }
+    }
+
+    proptest! {
+        /// The slow twin is a sorted list.
+        #[test]
+        fn entries_come_in_order_whatever_the_calendar(
+            times in prop::collection::vec((0.0..1.0_f64, 0..6_usize), 1..400),
+            step in 0.01..3.0_f64,
+        ) {
+            let (mut queue, mut list) = (Queue::default(), Vec::new());
+            let (mut now, mut waiting) = (SimTime::ZERO, (0..).zip(&times));
+            let mut left = times.len();
+            while left > 0 {
+                // Some are pushed now and then, up to 10⁶ s ahead.
+                for (a, (part, power)) in waiting.by_ref().take(7) {
+                    let ahead = entry(now.as_secs() + part * POWERS[*power], a);
+                    queue.push(ahead);
+                    list.push(ahead);
+                }
+                list.sort_unstable();
+                let end = if list.len() < left { now + step } else { SimTime::from_secs(1e9) };
+                while let Some(time) = queue.next(end, |_| false) {
+                    let next = queue.pop().expect("it is due");
+                    prop_assert_eq!(next, list.remove(0));
+                    prop_assert!(next.time == time && time <= end);
+                    left -= 1;
+                }
+                prop_assert!(list.first().is_none_or(|first| first.time > end));
+                now = end;
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_stale_on_its_day_never_comes() {
+        let mut queue = Queue::default();
+        for a in 0..100 {
+            queue.push(entry(0.5 + 0.01 * f64::from(a), a));
+        }
+        let end = SimTime::from_secs(10.0);
+        let mut seen = Vec::new();
+        while queue.next(end, |entry| entry.a % 3 != 0).is_some() {
+            seen.extend(queue.pop().map(|entry| entry.a));
+        }
+        assert!(seen.iter().all(|a| a % 3 == 0) && seen.len() == 34);
     }
 }
