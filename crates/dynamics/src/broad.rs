@@ -228,6 +228,7 @@ impl Broad {
             spent: 0.0,
             given_up: false,
             built: Lie::default(),
+            slack: 0.0,
         });
         bodies.get_mut(ends.0).pairs.push(place);
         bodies.get_mut(ends.1).pairs.push(place);
@@ -267,7 +268,7 @@ pub(crate) fn part(bodies: &mut Bodies, pairs: &mut Pairs, place: u32) -> Option
 ///
 /// Of a body that turns, the box of the whole circle about its centre; of one that does not, the
 /// boxes at both ends and the turning point of the parabola: |a| h²/8 beyond the chord.
-fn swept_box(collider: &Collider, motion: &Motion, time: SimTime, h: f64) -> Aabb {
+pub(crate) fn swept_box(collider: &Collider, motion: &Motion, time: SimTime, h: f64) -> Aabb {
     let end = time + h;
     let boxed = |at: SimTime| collider.solid.aabb(motion.pose_at(at));
     if !collider.solid.is_bounded() {

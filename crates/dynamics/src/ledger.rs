@@ -8,6 +8,8 @@
 /// ```text
 /// kinetic + potential + impacts + friction = external + forces + scheme
 /// ```
+/// In [`crate::Mode::Stepped`] `scheme` is what the other columns do not explain, and the balance
+/// checks nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EnergyLedger {
     /// ½ m v² + ½ I ω² of all dynamic bodies now.

@@ -36,6 +36,8 @@ pub(crate) struct Pair {
     pub(crate) given_up: bool,
     /// How the two lay when their contacts were found: stepping looks again once they moved.
     pub(crate) built: Lie,
+    /// How much farther than usual they may move before they are looked at again, in m.
+    pub(crate) slack: f64,
 }
 
 /// How two bodies lie to each other.

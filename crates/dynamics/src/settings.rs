@@ -87,9 +87,8 @@ impl Settings {
 
 /// Which method a world may use.
 ///
-/// At this stage impacts are found at their exact instants within each sub-step in every mode,
-/// and every moving body is looked at once a sub-step; the report of a run in [`Mode::Exact`]
-/// says how many groups had to be sub-stepped.
+/// In hybrid and exact mode impacts are found at their exact instants; the report of a run in
+/// [`Mode::Exact`] says how many groups had to be sub-stepped.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Mode {
     /// Each group the cheapest method that is right for it.
@@ -97,7 +96,9 @@ pub enum Mode {
     Hybrid,
     /// Closed forms only; what they cannot finish is sub-stepped and marks the run as not exact.
     Exact,
-    /// Every moving body is sub-stepped.
+    /// Every moving body is sub-stepped in one solver, without an agenda: contacts stay from step to
+    /// step, a pair that keeps its relative pose costs no look. Impacts are as sharp as a sub-step;
+    /// what moves more than its own size in a tick may pass through what is thin.
     Stepped,
 }
 

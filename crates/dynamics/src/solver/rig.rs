@@ -374,6 +374,12 @@ impl Rig {
         }
     }
 
+    /// Whether a row pushes.
+    pub(crate) fn pushes(&self, id: RowId) -> bool {
+        let (wide, lane) = self.lanes.at(id);
+        wide.j1[lane] + wide.j2[lane] > 0.0
+    }
+
     /// Whether contacts act on a body.
     pub(crate) fn is_pushed(&self, slot: u32) -> bool {
         let (line, start) = (&self.lines[slot as usize], &self.start[slot as usize]);

@@ -58,14 +58,17 @@ impl World {
         };
         let pair = self.pairs.get_mut(place);
         // Asked of the rows: what callers were told last depends on when they looked.
-        let rows = pair.contacts.iter().filter_map(|contact| contact.row);
-        let pushes = rows.into_iter().any(|id| seats.rig.row(id).acts());
-        let kept = if pushes { KEPT } else { KEPT_APART };
-        if !pair.fresh && stirred(&pair.built, &lie, size) <= kept * size {
+        let went = stirred(&pair.built, &lie, size);
+        if !pair.fresh && went <= KEPT_APART * size + pair.slack {
+            return;
+        }
+        let mut rows = pair.contacts.iter().filter_map(|contact| contact.row);
+        if !pair.fresh && went <= KEPT * size && rows.any(|id| seats.rig.pushes(id)) {
             return;
         }
         pair.fresh = false;
         pair.built = lie;
+        pair.slack = 0.0;
         let pair_was_touching = pair.touching;
         let rim = |w: f64, reach: f64| if w == 0.0 { 0.0 } else { w.abs() * reach };
         let closing = (lines[1].v() - lines[0].v()).length()
@@ -91,6 +94,9 @@ impl World {
         } else {
             self.pool.release(pair);
             pair.contacts.clear();
+            // Circles that are apart stay so until half of what parts them is gone, at this pace.
+            pair.slack = 0.5 * (lie.apart.length() - near);
+            pair.fresh = false;
         }
         if pair_was_touching {
             self.judge(place, time);

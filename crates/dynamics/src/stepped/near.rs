@@ -5,7 +5,7 @@ use carom_math::{SimTime, Vec2};
 
 use super::seats::{pull_of, wandered};
 use super::{REFRESH, Stepped};
-use crate::broad::PADDING;
+use crate::broad::{PADDING, swept_box};
 use crate::pairs::Pair;
 use crate::{BodyKind, World};
 
@@ -95,22 +95,23 @@ impl World {
             let seats = &mut self.pool.seats;
             let line = seats.rig.lines[slot as usize];
             let seat = seats.get_mut(slot);
-            // The boxes hold what stays within their padding until the next look.
             seat.roamed += wandered(seat, line.d(), line.turn());
             seat.checked = (line.d(), line.turn());
+            let padding = PADDING * seat.reach;
             let ahead = speed_of(line.v(), line.w(), seat.reach) * tick;
-            if seat.roamed + ahead + seat.leash > PADDING * seat.reach {
+            if ahead > 0.5 * padding {
+                // The boxes of a quick body are stretched along its way, and asked every time.
+                seat.roamed = f64::INFINITY;
+                self.rebox(index, slot, time, tick);
+            } else if seat.roamed + ahead + seat.leash > padding {
+                // Those of a slow one hold what stays within their padding.
                 seat.roamed = 0.0;
                 self.sync(index, slot, time);
-                // Anew even if the old ones still hold: what they have left is not known.
-                for at in &self.bodies.get(index).colliders {
-                    self.colliders[*at as usize].fat = Aabb::EMPTY;
-                }
-                self.refit(index, time, tick);
+                self.box_anew(index, time);
             }
         }
         self.stopwatch.lap(|p| &mut p.pairs);
-        self.look_at_pairs(&mut moved, time);
+        self.look_at_pairs(&mut moved, time, true);
         moved.clear();
         self.pool.moved = moved;
         // Who is quick is looked at again in every sub-step of the tick.
@@ -128,28 +129,53 @@ impl World {
     /// The look between ticks: at the pairs of quick bodies that moved. Boxes hold for the whole tick.
     pub(super) fn look_between(&mut self, time: SimTime) {
         let mut moved = core::mem::take(&mut self.pool.moved);
-        let seats = &mut self.pool.seats;
-        for &index in &self.pool.quick {
+        for k in 0..self.pool.quick.len() {
+            let index = self.pool.quick[k];
+            let seats = &mut self.pool.seats;
             let Some(slot) = seats.slot(index) else {
                 continue;
             };
             let line = seats.rig.lines[slot as usize];
             let seat = seats.get_mut(slot);
-            let went = wandered(seat, line.d(), line.turn());
-            if went > seat.leash {
-                seat.roamed += went;
+            if wandered(seat, line.d(), line.turn()) > FAR * seat.leash {
                 seat.checked = (line.d(), line.turn());
                 moved.push(index);
+                let h = self.clock.h;
+                self.rebox(index, slot, time, h);
             }
         }
-        self.look_at_pairs(&mut moved, time);
+        self.look_at_pairs(&mut moved, time, false);
         moved.clear();
         self.pool.moved = moved;
         self.stopwatch.lap(|p| &mut p.contacts);
     }
 
-    /// Looks at all pairs of these bodies, and of those who wake meanwhile.
-    fn look_at_pairs(&mut self, moved: &mut Vec<u32>, time: SimTime) {
+    /// New boxes for a body that leaves its old ones within `seconds`.
+    fn rebox(&mut self, index: u32, slot: u32, time: SimTime, seconds: f64) {
+        self.sync(index, slot, time);
+        let state = self.bodies.get(index);
+        let holds = |at: &u32| {
+            let collider = &self.colliders[*at as usize];
+            let swept = swept_box(collider, &state.motion, time, seconds);
+            collider.node.is_some() && collider.fat.contains(swept)
+        };
+        if !state.colliders.iter().all(holds) {
+            self.box_anew(index, time);
+        }
+    }
+
+    /// New boxes, stretched over two ticks of the body's motion.
+    fn box_anew(&mut self, index: u32, time: SimTime) {
+        for at in &self.bodies.get(index).colliders {
+            self.colliders[*at as usize].fat = Aabb::EMPTY;
+        }
+        let quarter = 0.25 * self.settings.tick;
+        self.refit(index, time, quarter);
+    }
+
+    /// Looks at all pairs of these bodies, and of those who wake meanwhile; `parts`: those whose boxes
+    /// parted are let go.
+    fn look_at_pairs(&mut self, moved: &mut Vec<u32>, time: SimTime, parts: bool) {
         self.pool.look = self.pool.look.wrapping_add(1);
         let mut k = 0;
         while k < moved.len() {
@@ -159,7 +185,7 @@ impl World {
             while i < self.bodies.get(index).pairs.len() {
                 let place = self.bodies.get(index).pairs[i];
                 if self.pool.sees(place) {
-                    if !self.broad.keeps(&self.colliders, self.pairs.get(place)) {
+                    if parts && !self.broad.keeps(&self.colliders, self.pairs.get(place)) {
                         self.part(place, time);
                         continue;
                     }
@@ -176,8 +202,11 @@ fn speed_of(v: Vec2, w: f64, reach: f64) -> f64 {
     v.length() + if w == 0.0 { 0.0 } else { w.abs() * reach }
 }
 
-/// A body that goes so many leashes in a tick is quick.
-const QUICK: f64 = 2.0;
+/// A body that goes so many leashes in a tick, a quarter of its reach, is quick: 11 m/s for boxes of 1 m.
+const QUICK: f64 = 36.0;
+
+/// Within a tick a quick body is looked at again after so many leashes.
+const FAR: f64 = 4.0;
 
 impl Stepped {
     /// Whether this look has not been at the pair yet.
