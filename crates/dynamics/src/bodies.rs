@@ -24,6 +24,8 @@ pub(crate) struct EnergyBook {
 pub(crate) struct Pull {
     pub(crate) gravity: Vec2,
     pub(crate) fields: Vec<Arc<dyn Field>>,
+    /// What a flight in a field may leave out, in m/s.
+    pub(crate) error: f64,
 }
 
 impl Pull {
@@ -68,7 +70,7 @@ pub(crate) struct Bodies {
 }
 
 impl Bodies {
-    pub(crate) fn new(gravity: Vec2, history: usize, notes_touched: bool) -> Self {
+    pub(crate) fn new(gravity: Vec2, error: f64, history: usize, notes_touched: bool) -> Self {
         Self {
             list: Vec::new(),
             alive: Vec::new(),
@@ -78,6 +80,7 @@ impl Bodies {
             pull: Pull {
                 gravity,
                 fields: Vec::new(),
+                error,
             },
             touched: Vec::new(),
             notes_touched,
@@ -179,6 +182,11 @@ impl Bodies {
         &mut self.list[index as usize]
     }
 
+    /// Whether a body flies along anything but a parabola.
+    pub(crate) fn bends(&self, index: u32) -> bool {
+        !self.pull.fields.is_empty() || self.get(index).is_damped()
+    }
+
     /// The one door for changes of a motion: closes the piece that ends at `time`, books its
     /// energy, logs it, and opens the next one with a new version.
     pub(crate) fn change(&mut self, index: u32, time: SimTime, change: impl FnOnce(&mut Motion)) {
@@ -190,9 +198,15 @@ impl Bodies {
         let old = state.motion;
         self.history.replaced(index, &old, time);
         state.turned += old.turn(time - old.start);
-        let velocity = state.velocity_at(time);
+        let (velocity, spin) = (state.velocity_at(time), state.spin_at(time));
         state.motion = old.rebased(time);
-        state.motion.velocity = velocity;
+        if state.flight.is_some() {
+            state.motion.centre = state.centre_at(time);
+            state.motion.rotation = state.rotation_at(time);
+            state.motion.left_out = 0.0;
+            state.flight = None;
+        }
+        (state.motion.velocity, state.motion.spin) = (velocity, spin);
         state.lag = Lag::default();
         change(&mut state.motion);
         state.version = state.version.wrapping_add(1);
@@ -208,12 +222,16 @@ impl Bodies {
             || (motion.acceleration == free
                 && motion.angular_acceleration == 0.0
                 && state.force == Vec2::ZERO
-                && self.pull.fields.is_empty())
+                && !self.bends(state.id.index))
         {
             return Piece::default();
         }
         let elapsed = time - motion.start;
-        let (travel, turn) = (motion.travel(elapsed), motion.turn(elapsed));
+        let (travel, turn) = if state.flight.is_some() {
+            (state.centre_at(time) - motion.centre, motion.turn(elapsed))
+        } else {
+            (motion.travel(elapsed), motion.turn(elapsed))
+        };
         let mass = state.mass.mass;
         let straight = if state.lag == Lag::default() {
             motion.acceleration.dot(travel)
@@ -221,14 +239,19 @@ impl Bodies {
             let (from, to) = (motion.velocity, state.velocity_at(time));
             (to - from).dot(0.5 * (to + from))
         };
-        let kinetic =
-            mass * straight + state.turning_inertia() * motion.angular_acceleration * turn;
+        let turning = if state.lag == Lag::default() {
+            motion.angular_acceleration * turn
+        } else {
+            let (from, to) = (motion.spin, state.spin_at(time));
+            (to - from) * (0.5 * (to + from))
+        };
+        let kinetic = mass * straight + state.turning_inertia() * turning;
         let mut potential = -mass * free.dot(travel);
         for field in &self.pull.fields {
             let (from, to) = (motion.centre, motion.centre + travel);
             potential += mass * state.gravity_scale * (field.potential(to) - field.potential(from));
         }
-        let forces = state.force.dot(travel) + state.torque * turn;
+        let forces = state.force.dot(travel) + state.torque * turn - damping_loss(state, time);
         Piece {
             forces,
             scheme: kinetic + potential - forces,
@@ -241,7 +264,7 @@ impl Bodies {
         if !state.is_dynamic() {
             return (0.0, 0.0);
         }
-        let centre = state.motion.centre_at(time);
+        let centre = state.centre_at(time);
         let potential = state.mass.mass * state.gravity_scale * self.pull.potential(centre);
         (state.kinetic_energy(time), potential)
     }
@@ -274,4 +297,28 @@ impl Bodies {
 struct Piece {
     forces: f64,
     scheme: f64,
+}
+
+/// What damping has taken along the present piece of a flight up to `time`, in J: ∫ (c m v² + c′ I ω²) dt.
+fn damping_loss(state: &BodyState, time: SimTime) -> f64 {
+    /// Gauss–Legendre points and weights of (−1, 1), mirrored: exact for polynomials of degree 7.
+    const POINTS: [(f64, f64); 2] = [
+        (0.861_136_311_594_052_6, 0.347_854_845_137_453_86),
+        (0.339_981_043_584_856_26, 0.652_145_154_862_546_1),
+    ];
+    if !state.is_damped() || state.flight.is_none() {
+        return 0.0;
+    }
+    let (start, (linear, angular)) = (state.motion.start, state.damping);
+    let half = 0.5 * (time - start);
+    let power = |at: f64| {
+        let at = start + half * (1.0 + at);
+        let (v, w) = (state.velocity_at(at), state.spin_at(at));
+        linear * state.mass.mass * v.length_squared() + angular * state.turning_inertia() * w * w
+    };
+    let sum: f64 = POINTS
+        .iter()
+        .map(|(at, weight)| weight * (power(*at) + power(-at)))
+        .sum();
+    half * sum
 }

@@ -8,6 +8,7 @@ use carom_math::{Pose, Rot, SimTime, Vec2};
 
 use crate::closed::Membership;
 use crate::error::BodyError;
+use crate::flight::Flight;
 use crate::flyers::Course;
 use crate::impact::ImpactBody;
 use crate::{BodyDef, BodyId, BodyKind, Material};
@@ -36,6 +37,10 @@ pub(crate) struct BodyState {
     pub(crate) pending: (Vec2, f64),
     /// What the velocity has beyond the motion's along the present piece of a flight in a field.
     pub(crate) lag: Lag,
+    /// The law of a flight in a field or with damping, since anything else changed the motion.
+    pub(crate) flight: Option<Box<Flight>>,
+    /// Of velocity and spin, in 1/s.
+    pub(crate) damping: (f64, f64),
     /// Solved for as part of a group in this sub-step.
     pub(crate) member: bool,
     pub(crate) asleep: bool,
@@ -63,6 +68,8 @@ pub(crate) struct BodyState {
 pub(crate) struct Lag {
     /// L, in m/s².
     pub(crate) rate: Vec2,
+    /// The same for the spin, in rad/s².
+    pub(crate) angular: f64,
     /// h, in s.
     pub(crate) length: f64,
 }
@@ -73,6 +80,13 @@ impl Lag {
             return Vec2::ZERO;
         }
         self.rate * (u * (3.0 * u / self.length - 2.0))
+    }
+
+    fn spin_at(self, u: f64) -> f64 {
+        if self.length == 0.0 {
+            return 0.0;
+        }
+        self.angular * (u * (3.0 * u / self.length - 2.0))
     }
 }
 
@@ -134,6 +148,8 @@ impl BodyState {
             torque: 0.0,
             pending: (Vec2::ZERO, 0.0),
             lag: Lag::default(),
+            flight: None,
+            damping: (def.linear_damping, def.angular_damping),
             member: false,
             asleep: false,
             membership: Membership::default(),
@@ -163,6 +179,7 @@ impl BodyState {
         self.motion.acceleration = Vec2::ZERO;
         self.motion.angular_acceleration = 0.0;
         self.lag = Lag::default();
+        self.flight = None;
         self.member = false;
         if kind == BodyKind::Fixed {
             self.motion.velocity = Vec2::ZERO;
@@ -194,21 +211,60 @@ impl BodyState {
         self.is_active() && !self.course.flies
     }
 
+    /// Whether anything slows it down by itself.
+    pub(crate) fn is_damped(&self) -> bool {
+        self.damping != (0.0, 0.0)
+    }
+
+    /// Centre of mass at `time`, in m, by the law of its flight.
+    pub(crate) fn centre_at(&self, time: SimTime) -> Vec2 {
+        match &self.flight {
+            Some(flight) => flight.at(time).0,
+            None => self.motion.centre_at(time),
+        }
+    }
+
     /// Velocity of the centre of mass at `time`, in m/s.
     pub(crate) fn velocity_at(&self, time: SimTime) -> Vec2 {
-        self.motion.velocity_at(time) + self.lag.at(time - self.motion.start)
+        match &self.flight {
+            Some(flight) => flight.at(time).1,
+            None => self.motion.velocity_at(time) + self.lag.at(time - self.motion.start),
+        }
+    }
+
+    /// Rotation at `time`, by the law of its flight.
+    pub(crate) fn rotation_at(&self, time: SimTime) -> Rot {
+        match &self.flight {
+            Some(flight) => flight.turn_at(time).0,
+            None => self.motion.rotation_at(time),
+        }
+    }
+
+    /// Angular velocity at `time`, in rad/s.
+    pub(crate) fn spin_at(&self, time: SimTime) -> f64 {
+        match &self.flight {
+            Some(flight) => flight.turn_at(time).1,
+            None => self.motion.spin_at(time) + self.lag.spin_at(time - self.motion.start),
+        }
     }
 
     /// Frame of the shapes as drawn.
     pub(crate) fn pose(&self, time: SimTime) -> Pose {
-        frame_of(&self.motion, self.mass.centroid, time)
+        if self.flight.is_none() {
+            return frame_of(&self.motion, self.mass.centroid, time);
+        }
+        let rotation = self.rotation_at(time);
+        Pose::new(
+            self.centre_at(time) - rotation * self.mass.centroid,
+            rotation,
+        )
     }
 
     pub(crate) fn kinetic_energy(&self, time: SimTime) -> f64 {
         if !self.is_dynamic() {
             return 0.0;
         }
-        let spin = self.motion.spin_at(time);
+        let spin = self.spin_at(time);
         0.5 * (self.mass.mass * self.velocity_at(time).length_squared()
             + self.turning_inertia() * spin * spin)
     }
@@ -227,9 +283,9 @@ impl BodyState {
         ImpactBody {
             inverse_mass: self.inverse_mass,
             inverse_inertia: self.inverse_inertia,
-            centre: self.motion.centre_at(time),
+            centre: self.centre_at(time),
             velocity: self.velocity_at(time),
-            spin: self.motion.spin_at(time),
+            spin: self.spin_at(time),
         }
     }
 }
@@ -351,7 +407,7 @@ impl<'w> Body<'w> {
     /// Centre of mass, in m.
     #[must_use]
     pub fn centre(&self) -> Vec2 {
-        self.state.motion.centre_at(self.now)
+        self.state.centre_at(self.now)
     }
 
     /// Velocity of the centre of mass, in m/s.
@@ -363,7 +419,7 @@ impl<'w> Body<'w> {
     /// Angular velocity, in rad/s, counter-clockwise.
     #[must_use]
     pub fn angular_velocity(&self) -> f64 {
-        self.state.motion.spin_at(self.now)
+        self.state.spin_at(self.now)
     }
 
     /// Angle since the definition's zero with all whole turns, in rad.
@@ -372,7 +428,7 @@ impl<'w> Body<'w> {
         const TURN: f64 = 2.0 * core::f64::consts::PI;
         let counted =
             self.state.turned + self.state.motion.turn(self.now - self.state.motion.start);
-        let principal = self.state.motion.rotation_at(self.now).angle();
+        let principal = self.state.rotation_at(self.now).angle();
         principal + TURN * ((counted - principal) / TURN).round()
     }
 

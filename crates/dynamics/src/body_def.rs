@@ -56,6 +56,10 @@ pub struct BodyDef {
     pub locked_rotation: bool,
     /// Factor on gravity and fields for this body.
     pub gravity_scale: f64,
+    /// What the velocity loses by itself: `dv/dt = … − linear_damping · v`, in 1/s, ≥ 0.
+    pub linear_damping: f64,
+    /// What the spin loses by itself: `dω/dt = … − angular_damping · ω`, in 1/s, ≥ 0.
+    pub angular_damping: f64,
     /// Whether the body starts asleep: it stays where it is until something touches it or the caller changes it.
     ///
     /// Without effect where [`Settings::sleep`](crate::Settings::sleep) is off, and on a body that moves or is not
@@ -79,6 +83,8 @@ impl BodyDef {
             inertia: None,
             locked_rotation: false,
             gravity_scale: 1.0,
+            linear_damping: 0.0,
+            angular_damping: 0.0,
             asleep: false,
             tag: 0,
         }
@@ -158,6 +164,14 @@ impl BodyDef {
         self
     }
 
+    /// What velocity and spin lose by themselves, in 1/s: see [`Self::linear_damping`].
+    #[must_use]
+    pub const fn damped(mut self, linear: f64, angular: f64) -> Self {
+        self.linear_damping = linear;
+        self.angular_damping = angular;
+        self
+    }
+
     /// The body starts asleep, with [what that asks for](Self::asleep).
     #[must_use]
     pub const fn asleep(mut self) -> Self {
@@ -172,12 +186,35 @@ impl BodyDef {
         self
     }
 
+    /// For worlds that know no damping.
+    pub(crate) fn check_undamped(&self) -> Result<(), BodyError> {
+        for (field, value) in self.dampings() {
+            if value > 0.0 {
+                return Err(BodyError::NotDamped { field, value });
+            }
+        }
+        Ok(())
+    }
+
+    const fn dampings(&self) -> [(&'static str, f64); 2] {
+        [
+            ("linear_damping", self.linear_damping),
+            ("angular_damping", self.angular_damping),
+        ]
+    }
+
     pub(crate) fn check(&self) -> Result<(), BodyError> {
         check_vec2("position.x", "position.y", self.position)?;
         check_finite("angle", self.angle)?;
         check_vec2("velocity.x", "velocity.y", self.velocity)?;
         check_finite("spin", self.spin)?;
         check_finite("gravity_scale", self.gravity_scale)?;
+        for (field, value) in self.dampings() {
+            check_finite(field, value)?;
+            if value < 0.0 {
+                return Err(BodyError::Negative { field, value });
+            }
+        }
         for (field, given) in [("mass", self.mass), ("inertia", self.inertia)] {
             if let Some(value) = given {
                 check_finite(field, value)?;

@@ -208,9 +208,7 @@ impl World {
         match self.bodies.get(index).kind {
             BodyKind::Fixed => false,
             BodyKind::Kinematic => true,
-            BodyKind::Dynamic => {
-                self.settings.mode != Mode::Stepped && self.bodies.pull.fields.is_empty()
-            }
+            BodyKind::Dynamic => self.settings.mode != Mode::Stepped && !self.bodies.bends(index),
         }
     }
 

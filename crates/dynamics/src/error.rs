@@ -36,6 +36,14 @@ pub enum BodyError {
         /// What it was.
         value: f64,
     },
+    /// [`Mode::Stepped`](crate::Mode::Stepped) knows no damping.
+    #[error("{field} is {value}, but Mode::Stepped knows no damping")]
+    NotDamped {
+        /// The field of the definition.
+        field: &'static str,
+        /// What it was.
+        value: f64,
+    },
     /// A number must be above zero.
     #[error("{field} is {value}, not above 0")]
     NotPositive {

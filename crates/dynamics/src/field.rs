@@ -20,6 +20,23 @@ pub trait Field: fmt::Debug + Send + Sync {
     ///
     /// It says how far a piece of the path may go before the acceleration must be asked again.
     fn gradient_bound(&self, position: Vec2, radius: f64) -> f64;
+
+    /// The Newtonian centre that the field is outside a core, if it is one: flights about it are conics,
+    /// in closed form.
+    fn newtonian(&self) -> Option<NewtonianCentre> {
+        None
+    }
+}
+
+/// A centre that pulls with `strength / r²` outside its core.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NewtonianCentre {
+    /// Where it is, in m.
+    pub centre: Vec2,
+    /// GM in m³/s², positive attracts.
+    pub strength: f64,
+    /// Radius of the core, in m, within which the field is another.
+    pub core: f64,
 }
 
 /// Newton's gravity of a solid core: 1/r² outside, linear inside.
@@ -108,5 +125,13 @@ impl Field for RadialField {
         let near = (position - self.centre).length() - radius;
         let d = if near > self.core { near } else { self.core };
         2.0 * self.strength.abs() / (d * d * d)
+    }
+
+    fn newtonian(&self) -> Option<NewtonianCentre> {
+        Some(NewtonianCentre {
+            centre: self.centre,
+            strength: self.strength,
+            core: self.core,
+        })
     }
 }

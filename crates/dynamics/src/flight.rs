@@ -1,16 +1,30 @@
-//! Free flight: closed form in a uniform field, pieces of fourth order in any other.
+//! Free flight: closed form in a uniform field, with damping and about a Newtonian centre; an
+//! integrator of order 15 in any other field.
+
+mod damped;
+mod integrate;
+mod kepler;
+mod law;
+#[cfg(test)]
+mod tests;
 
 use carom_math::{SimTime, Vec2};
 
 use crate::bodies::Bodies;
-use crate::body::Lag;
+use crate::body::{BodyState, Lag};
+use damped::damped;
+use kepler::Conic;
+pub(crate) use law::{Flight, Turn};
+
+/// Sub-steps that one stretch of the integrator may cover.
+const LONGEST: f64 = 64.0;
 
 /// Gives a flying body its motion from `time` to `time + h`.
 ///
 /// Under uniform gravity and a constant force that is the parabola itself, and a body that is on
-/// it already is not touched. In a field one step of Nyström's method of fourth order finds where
-/// the body will be; the piece between is the parabola through both ends for prediction, and a cubic
-/// for the velocity.
+/// it already is not touched. In a field and with damping its law is kept beside the motion from the
+/// instant on at which the flight began, and says where the body is; the motion is the parabola through
+/// both ends of the piece, for prediction.
 #[expect(
     clippy::float_cmp,
     reason = "a body that is on its parabola has these very numbers"
@@ -23,7 +37,7 @@ pub(crate) fn fly(bodies: &mut Bodies, index: u32, time: SimTime, h: f64) {
         Vec2::ZERO
     };
     let turning = state.torque * state.inverse_inertia;
-    if bodies.pull.fields.is_empty() || !state.is_dynamic() {
+    if !state.is_dynamic() || !bodies.bends(index) {
         let motion = &state.motion;
         if motion.acceleration != free || motion.angular_acceleration != turning {
             bodies.change(index, time, |motion| {
@@ -36,30 +50,95 @@ pub(crate) fn fly(bodies: &mut Bodies, index: u32, time: SimTime, h: f64) {
         state.lag = Lag::default();
         return;
     }
-    let (x, v) = (state.motion.centre_at(time), state.velocity_at(time));
+    let known = bodies.get(index).flight.clone();
+    let flight = match known {
+        Some(flight) if flight.holds(time, h) => flight,
+        _ => Box::new(law_of(bodies, index, time, h)),
+    };
+    follow(bodies, index, flight, time, h);
+}
+
+/// The law that a body flies by from `time` on.
+fn law_of(bodies: &Bodies, index: u32, time: SimTime, h: f64) -> Flight {
+    let (state, pull) = (bodies.get(index), &bodies.pull);
+    let (x, v) = (state.centre_at(time), state.velocity_at(time));
+    let (linear, angular) = state.damping;
+    let turn = Turn {
+        rotation: state.rotation_at(time),
+        spin: state.spin_at(time),
+        pull: state.torque * state.inverse_inertia,
+        damping: angular,
+    };
     let scale = state.gravity_scale;
     let push = state.force * state.inverse_mass;
-    let f = |at: Vec2| scale * bodies.pull.at(at) + push;
-    // Nyström, order 4 for x'' = f(x): E. Hairer, S. P. Nørsett, G. Wanner, Solving ODEs I, II.14.
-    let k1 = f(x);
-    let k2 = f(x + v * (0.5 * h) + k1 * (0.125 * h * h));
-    let k3 = f(x + v * h + k2 * (0.5 * h * h));
-    let acceleration = (k1 + 2.0 * k2) / 3.0;
-    let end_velocity = v + (k1 + 4.0 * k2 + k3) * (h / 6.0);
+    let uniform = scale * pull.gravity + push;
+    if pull.fields.is_empty() {
+        return Flight::damped(time, (x, v), uniform, linear, turn);
+    }
+    if let [field] = pull.fields.as_slice()
+        && let Some(centre) = field.newtonian()
+        && uniform == Vec2::ZERO
+        && linear == 0.0
+        && let Some(conic) = Conic::through(centre.centre, scale * centre.strength, x, v)
+        && let Some(flight) = Flight::conic(time, conic, centre.core, h, turn)
+    {
+        return flight;
+    }
+    let law = |x: Vec2, v: Vec2| scale * pull.at(x) + push - v * linear;
+    let lengths = (h, LONGEST * h);
+    Flight::integrated(time, (x, v), &law, lengths, pull.error, turn)
+}
+
+/// Gives a body the piece of its flight from `time` to `time + h`: the parabola through both ends for
+/// prediction, and what its velocity lacks.
+fn follow(bodies: &mut Bodies, index: u32, flight: Box<Flight>, time: SimTime, h: f64) {
+    let ((x, v), (rotation, spin)) = (flight.at(time), flight.turn_at(time));
+    let ((x_end, v_end), (_, spin_end)) = (flight.at(time + h), flight.turn_at(time + h));
+    let acceleration = (x_end - x - v * h) * (2.0 / (h * h));
+    let state = bodies.get(index);
+    let (linear, angular) = state.damping;
+    let (angle, _) = damped(spin, state.torque * state.inverse_inertia, angular, h);
+    let angular_acceleration = (angle - spin * h) * (2.0 / (h * h));
     let lag = Lag {
-        rate: (end_velocity - (v + acceleration * h)) / h,
+        rate: (v_end - (v + acceleration * h)) / h,
+        angular: (spin_end - (spin + angular_acceleration * h)) / h,
         length: h,
     };
-    // Path and parabola part by at most |ȧ| h³/24 at h/2, with |ȧ| ≤ |∇f| |v|.
+    // Path and parabola share both ends and the first velocity, so they part by at most 2/81 h³ times the
+    // largest third derivative: |∇f| |v| + c |a|. A turn parts by the same, times the reach.
     let reach = (v.length() + acceleration.length() * h) * h;
-    let speed = reach / h;
-    let left_out = scale.abs() * bodies.pull.gradient_bound(x, reach) * speed * h * h * h / 24.0;
+    let gradient = state.gravity_scale.abs() * bodies.pull.gradient_bound(x, reach);
+    let bend = gradient * reach / h + linear * (acceleration.length() + linear * v.length() * h);
+    let twist = angular * (angular_acceleration.abs() + angular * spin.abs() * h) * state.reach;
+    let left_out = 2.0 / 81.0 * (bend + twist) * h * h * h;
     bodies.change(index, time, |motion| {
+        motion.centre = x;
+        motion.velocity = v;
         motion.acceleration = acceleration;
-        motion.angular_acceleration = turning;
+        motion.rotation = rotation;
+        motion.spin = spin;
+        motion.angular_acceleration = angular_acceleration;
         motion.left_out = left_out;
     });
     let state = bodies.get_mut(index);
     state.member = false;
     state.lag = lag;
+    state.flight = Some(flight);
+}
+
+/// Velocity in m/s and spin in rad/s that a body has after `h` seconds of a constant pull, in m/s² and rad/s²,
+/// and of its damping.
+pub(crate) fn driven(
+    state: &BodyState,
+    (v, w): (Vec2, f64),
+    (pull, twist): (Vec2, f64),
+    h: f64,
+) -> (Vec2, f64) {
+    if !state.is_damped() {
+        return (v + pull * h, w + twist * h);
+    }
+    let (linear, angular) = state.damping;
+    let along = |v: f64, a: f64| damped(v, a, linear, h).1;
+    let velocity = Vec2::new(along(v.x, pull.x), along(v.y, pull.y));
+    (velocity, damped(w, twist, angular, h).1)
 }

@@ -4,6 +4,7 @@ use carom_math::SimTime;
 
 use crate::StepReport;
 use crate::bodies::Bodies;
+use crate::flight::driven;
 use crate::narrow::{TOUCH, opening_speed, rest_speed};
 use crate::pairs::{PairPoint, Pairs};
 use crate::solver::{Law, Row, SolverBody, relax, solve};
@@ -152,11 +153,14 @@ impl Groups {
             return known;
         }
         let state = bodies.get(index);
-        let (mut v, mut w) = (state.motion.velocity_at(time), state.motion.spin_at(time));
+        let (mut v, mut w) = (state.velocity_at(time), state.spin_at(time));
         if state.inverse_mass > 0.0 {
             let pull = state.gravity_scale * bodies.pull.at(state.motion.centre_at(time));
-            v += (pull + state.force * state.inverse_mass) * h;
-            w += state.torque * state.inverse_inertia * h;
+            let pulls = (
+                pull + state.force * state.inverse_mass,
+                state.torque * state.inverse_inertia,
+            );
+            (v, w) = driven(state, (v, w), pulls, h);
         }
         #[expect(
             clippy::cast_possible_truncation,

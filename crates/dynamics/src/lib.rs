@@ -73,7 +73,7 @@ pub use carom_math as math;
 pub use contact::{Contact, ContactPoint};
 pub use error::{BodyError, SettingsError, WORLD_LIMIT};
 pub use event::{ContactMode, Event, EventKind, Events};
-pub use field::{Field, RadialField};
+pub use field::{Field, NewtonianCentre, RadialField};
 pub use force::{Force, Impulse};
 pub use id::BodyId;
 pub use impact::{ImpactLaw, Several};

@@ -116,11 +116,7 @@ pub(crate) fn opening_speed(
     normal: Vec2,
 ) -> f64 {
     let of = |body: &BodyState| {
-        body.velocity_at(time)
-            + cross_scalar(
-                body.motion.spin_at(time),
-                point - body.motion.centre_at(time),
-            )
+        body.velocity_at(time) + cross_scalar(body.spin_at(time), point - body.centre_at(time))
     };
     (of(b) - of(a)).dot(normal)
 }

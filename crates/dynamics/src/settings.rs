@@ -25,6 +25,9 @@ pub struct Settings {
     pub impact_law: ImpactLaw,
     /// How contacts at one instant share an impact.
     pub several: Several,
+    /// What the path of a body in a field may leave out, in m for each second of its flight. About a
+    /// single Newtonian centre without uniform gravity paths are conics, and leave out nothing.
+    pub field_error: f64,
     /// The soft law of lasting contacts.
     pub contact: Softness,
     /// When groups at rest fall asleep; `None`: never.
@@ -45,6 +48,7 @@ impl Default for Settings {
             pair_search: PairSearch::default(),
             impact_law: ImpactLaw::default(),
             several: Several::default(),
+            field_error: 1e-12,
             contact: Softness::default(),
             sleep: Some(Sleep::default()),
             history: 0,
@@ -170,6 +174,7 @@ impl Settings {
         range("substep", self.substep, 1e-9, 1e6)?;
         // A tick of more sub-steps than this is a typing error, not a wish.
         range("tick / substep", self.tick / self.substep, 0.0, 1e6)?;
+        range("field_error", self.field_error, 1e-15, 1e3)?;
         let contact = &self.contact;
         range("contact.frequency", contact.frequency, 1e-9, 1e9)?;
         range("contact.damping_ratio", contact.damping_ratio, 1e-9, 1e9)?;

@@ -177,8 +177,7 @@ impl World {
         }
         let left = (self.clock.next() - time).max(0.0);
         let state = self.bodies.get(index);
-        if left > 0.0 && state.is_stepped() && !state.member && !self.bodies.pull.fields.is_empty()
-        {
+        if left > 0.0 && state.is_stepped() && !state.member && self.bodies.bends(index) {
             fly(&mut self.bodies, index, time, left);
         }
         self.refit(index, time, left);

@@ -239,7 +239,11 @@ impl World {
             let near = |place: &u32| !self.pairs.get(*place).contacts.is_empty();
             let held = self.groups.pushed(index) || self.bodies.get(index).pairs.iter().any(near);
             let state = self.bodies.get_mut(index);
-            state.idle = if held { 0 } else { state.idle + 1 };
+            state.idle = if held || state.is_damped() {
+                0
+            } else {
+                state.idle + 1
+            };
             if state.idle >= IDLE {
                 self.take_off(index, time);
             }

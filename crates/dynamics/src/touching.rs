@@ -158,7 +158,7 @@ impl World {
                 }
                 continue;
             }
-            if state.asleep {
+            if state.asleep || state.is_damped() {
                 return Err(found.refused());
             }
             let pairs = state.pairs.clone();

@@ -87,6 +87,7 @@ impl World {
             clock: Clock::new(h),
             bodies: Bodies::new(
                 settings.gravity,
+                settings.field_error,
                 settings.history,
                 settings.mode == Mode::Stepped,
             ),
@@ -156,6 +157,9 @@ impl World {
         shapes: Vec<(Shape, Material)>,
     ) -> Result<BodyId, BodyError> {
         def.check()?;
+        if self.settings.mode == Mode::Stepped {
+            def.check_undamped()?;
+        }
         if shapes.is_empty() {
             return Err(BodyError::NoShape);
         }

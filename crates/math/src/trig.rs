@@ -147,3 +147,15 @@ mod tests {
         }
     }
 }
+
+/// `exp(x) − 1`, with all digits where x is small.
+#[must_use]
+pub fn exp_m1(x: f64) -> f64 {
+    libm::expm1(x)
+}
+
+/// Hyperbolic sine and cosine.
+#[must_use]
+pub fn sinh_cosh(x: f64) -> (f64, f64) {
+    (libm::sinh(x), libm::cosh(x))
+}

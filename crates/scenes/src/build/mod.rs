@@ -196,6 +196,7 @@ fn written_body(
     body.inertia = table.inertia;
     body.locked_rotation = table.locked_rotation;
     body.gravity_scale = table.gravity_scale;
+    body.damping = (table.linear_damping, table.angular_damping);
     body.asleep = table.asleep;
     body.impulse = table.impulse.map(|impulse| (impulse.at.0, impulse.value.0));
     body.colour.clone_from(&table.colour);
@@ -250,6 +251,8 @@ fn insert(document: &Document, world: &mut World, body: &Planned) -> Result<Body
         inertia: body.inertia,
         locked_rotation: body.locked_rotation,
         gravity_scale: body.gravity_scale,
+        linear_damping: body.damping.0,
+        angular_damping: body.damping.1,
         asleep: body.asleep,
         ..BodyDef::new(body.kind)
     };

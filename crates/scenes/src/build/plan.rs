@@ -31,6 +31,8 @@ pub(crate) struct Planned {
     pub(crate) inertia: Option<f64>,
     pub(crate) locked_rotation: bool,
     pub(crate) gravity_scale: f64,
+    /// Of velocity and spin, in 1/s.
+    pub(crate) damping: (f64, f64),
     pub(crate) asleep: bool,
     /// Point and impulse.
     pub(crate) impulse: Option<(Vec2, Vec2)>,
@@ -54,6 +56,7 @@ impl Planned {
             inertia: None,
             locked_rotation: false,
             gravity_scale: 1.0,
+            damping: (0.0, 0.0),
             asleep: false,
             impulse: None,
             colour: None,

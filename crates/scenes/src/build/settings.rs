@@ -42,6 +42,7 @@ pub(crate) fn settings(file: &SceneFile) -> Settings {
                 SeveralName::Newton => Several::NewtonLcp,
                 SeveralName::Reflections => Several::Reflections,
             }),
+        field_error: table.field_error.unwrap_or(default.field_error),
         contact: Softness {
             frequency: contact.frequency.unwrap_or(soft.frequency),
             damping_ratio: contact.damping_ratio.unwrap_or(soft.damping_ratio),

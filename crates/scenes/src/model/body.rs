@@ -41,6 +41,10 @@ pub(crate) struct BodyTable {
     #[serde(default = "one")]
     pub(crate) gravity_scale: f64,
     #[serde(default)]
+    pub(crate) linear_damping: f64,
+    #[serde(default)]
+    pub(crate) angular_damping: f64,
+    #[serde(default)]
     pub(crate) asleep: bool,
     /// A push at t = 0.
     #[serde(default)]

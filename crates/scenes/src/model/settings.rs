@@ -13,6 +13,7 @@ pub(crate) struct SettingsTable {
     pub(crate) pairs: Option<PairsName>,
     pub(crate) impact_law: Option<LawName>,
     pub(crate) several: Option<SeveralName>,
+    pub(crate) field_error: Option<f64>,
     pub(crate) sleep: Option<SleepChoice>,
     pub(crate) contact: ContactTable,
     pub(crate) history: Option<usize>,

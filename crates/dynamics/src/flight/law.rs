@@ -1,0 +1,155 @@
+//! The law of a flight that no quadratic is: kept beside the motion, which serves prediction.
+
+use carom_math::{Rot, SimTime, Vec2};
+
+use super::damped::damped;
+use super::integrate::Stretch;
+use super::kepler::Conic;
+
+/// Shortest stretch of the integrator, as a part of the time it is asked for: where a field has an edge.
+const SHORTEST: f64 = 1.0 / 1024.0;
+
+/// Where a flying body is from `start` on, to rounding or to the world's error for fields.
+#[derive(Clone, Debug)]
+pub(crate) struct Flight {
+    start: SimTime,
+    path: Path,
+    turn: Turn,
+}
+
+/// Path of the centre of mass.
+#[derive(Clone, Debug)]
+enum Path {
+    Damped {
+        place: Vec2,
+        velocity: Vec2,
+        pull: Vec2,
+        damping: f64,
+    },
+    /// With the radius of the core, where it comes so near.
+    Conic { conic: Conic, core: Option<f64> },
+    /// One after the other.
+    Stretches(Vec<Stretch>),
+}
+
+/// How the body turns.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Turn {
+    pub(crate) rotation: Rot,
+    /// In rad/s.
+    pub(crate) spin: f64,
+    /// Angular acceleration, in rad/s².
+    pub(crate) pull: f64,
+    /// In 1/s.
+    pub(crate) damping: f64,
+}
+
+impl Flight {
+    /// Under a constant pull, in m/s², and linear damping, in 1/s.
+    pub(crate) fn damped(
+        start: SimTime,
+        (place, velocity): (Vec2, Vec2),
+        pull: Vec2,
+        damping: f64,
+        turn: Turn,
+    ) -> Self {
+        let path = Path::Damped {
+            place,
+            velocity,
+            pull,
+            damping,
+        };
+        Self { start, path, turn }
+    }
+
+    /// On a conic, outside a core: `None` if it may enter that within `h` seconds.
+    pub(crate) fn conic(
+        start: SimTime,
+        conic: Conic,
+        core: f64,
+        h: f64,
+        turn: Turn,
+    ) -> Option<Self> {
+        let core = (conic.nearest() <= core).then_some(core);
+        let path = Path::Conic { conic, core };
+        let flight = Self { start, path, turn };
+        flight.holds(start, h).then_some(flight)
+    }
+
+    /// Under any law, for at least `h` seconds, leaving out `error` metres a second.
+    pub(crate) fn integrated(
+        start: SimTime,
+        (mut place, mut velocity): (Vec2, Vec2),
+        law: &impl Fn(Vec2, Vec2) -> Vec2,
+        (h, longest): (f64, f64),
+        error: f64,
+        turn: Turn,
+    ) -> Self {
+        let mut stretches = Vec::with_capacity(1);
+        let (mut left, mut reach) = (h, longest);
+        // Rounding leaves no stretch of its own.
+        while left > 1e-12 * h {
+            let stretch = Stretch::follow(law, place, velocity, reach, SHORTEST * h, error);
+            (place, velocity) = stretch.at(stretch.length);
+            left -= stretch.length;
+            reach = left;
+            stretches.push(stretch);
+        }
+        Self {
+            start,
+            path: Path::Stretches(stretches),
+            turn,
+        }
+    }
+
+    /// Whether the law is known from `time` on for `h` seconds.
+    pub(crate) fn holds(&self, time: SimTime, h: f64) -> bool {
+        let t = time - self.start;
+        match &self.path {
+            Path::Damped { .. } | Path::Conic { core: None, .. } => true,
+            Path::Conic {
+                conic,
+                core: Some(core),
+            } => conic.stays_outside(t, h, *core),
+            Path::Stretches(stretches) => {
+                let whole: f64 = stretches.iter().map(|stretch| stretch.length).sum();
+                t + h <= whole * (1.0 + 1e-12)
+            }
+        }
+    }
+
+    /// Place in m and velocity in m/s of the centre of mass.
+    pub(crate) fn at(&self, time: SimTime) -> (Vec2, Vec2) {
+        let t = time - self.start;
+        match &self.path {
+            Path::Damped {
+                place,
+                velocity,
+                pull,
+                damping,
+            } => {
+                let (x, along) = damped(velocity.x, pull.x, *damping, t);
+                let (y, up) = damped(velocity.y, pull.y, *damping, t);
+                (*place + Vec2::new(x, y), Vec2::new(along, up))
+            }
+            Path::Conic { conic, .. } => conic.at(t),
+            Path::Stretches(stretches) => {
+                let (mut t, last) = (t, stretches.len() - 1);
+                for stretch in &stretches[..last] {
+                    if t <= stretch.length {
+                        return stretch.at(t);
+                    }
+                    t -= stretch.length;
+                }
+                stretches[last].at(t)
+            }
+        }
+    }
+
+    /// Rotation, and spin in rad/s.
+    pub(crate) fn turn_at(&self, time: SimTime) -> (Rot, f64) {
+        let turn = &self.turn;
+        let (angle, spin) = damped(turn.spin, turn.pull, turn.damping, time - self.start);
+        (turn.rotation.turned(angle), spin)
+    }
+}
