@@ -20,7 +20,7 @@ mod sweeps;
 mod tests;
 
 pub use body::{ImpactBody, ImpactContact, Outcome};
-pub use law::{ImpactLaw, newton, poisson, resolve, stronge};
+pub use law::{ImpactLaw, jam, newton, poisson, resolve, stronge};
 pub use several::{
     Several, SharedContact, SharedOutcome, blend, generalised_reflections, newton_lcp, several,
 };

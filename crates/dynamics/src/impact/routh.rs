@@ -29,9 +29,17 @@ struct Piece {
     length: f64,
 }
 
+/// Whether friction presses a contact that slips together faster than its normal force pushes it apart:
+/// no force holds it (Painlevé 1895), only an impulse that ends the slip.
+pub(super) fn jams(k: &Response, contact: &ImpactContact) -> bool {
+    k.u_n <= 0.0 && k.u_t != 0.0 && k.k_nn < contact.friction * k.k_nt * k.u_t.signum()
+}
+
 /// Normal and tangential impulse on B, in N·s.
+///
+/// A contact that does not approach gets none, unless it jams.
 pub(super) fn follow(k: &Response, contact: &ImpactContact, rule: EndRule) -> (f64, f64) {
-    if k.u_n >= 0.0 || k.k_nn == 0.0 {
+    if k.u_n >= 0.0 && !jams(k, contact) || k.k_nn == 0.0 {
         return (0.0, 0.0);
     }
     let mut path = Path {
