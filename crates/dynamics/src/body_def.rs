@@ -2,7 +2,7 @@
 
 use carom_math::{Vec2, vec2};
 
-use crate::error::{BodyError, check_finite, check_vec2};
+use crate::error::{BodyError, check_finite, check_mass, check_vec2};
 
 /// What moves a body.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -217,7 +217,7 @@ impl BodyDef {
         }
         for (field, given) in [("mass", self.mass), ("inertia", self.inertia)] {
             if let Some(value) = given {
-                check_finite(field, value)?;
+                check_mass(field, value)?;
                 if value <= 0.0 {
                     return Err(BodyError::NotPositive { field, value });
                 }

@@ -145,6 +145,24 @@ pub(crate) fn check_finite(field: &'static str, value: f64) -> Result<(), BodyEr
     Ok(())
 }
 
+/// Largest mass or moment of inertia that a world accepts, in kg or kg·m²: half a sun; energies stay
+/// finite at the largest speed.
+const MASS_LIMIT: f64 = 1e30;
+
+pub(crate) fn check_mass(field: &'static str, value: f64) -> Result<(), BodyError> {
+    if !value.is_finite() {
+        return Err(BodyError::NotFinite { field, value });
+    }
+    if value > MASS_LIMIT {
+        return Err(BodyError::TooLarge {
+            field,
+            value,
+            limit: MASS_LIMIT,
+        });
+    }
+    Ok(())
+}
+
 pub(crate) fn check_vec2(
     x_field: &'static str,
     y_field: &'static str,

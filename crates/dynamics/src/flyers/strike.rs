@@ -18,6 +18,9 @@ use crate::{BodyKind, EventKind, Mode, World};
 /// relative speed. Not counted in [`Mode::Exact`].
 const BUDGET: f64 = 256.0;
 
+/// Speeds of the ends of a flat landing that differ by less, as a fraction, are one: roundings of a spin.
+const ALIKE: f64 = 1e-12;
+
 /// Speed of an approach that rounding alone can make, as a fraction of the bodies' speeds.
 const NOISE: f64 = 8.0 * f64::EPSILON;
 
@@ -150,6 +153,12 @@ impl World {
         if let [contact] = struck.as_slice() {
             return self.strike_once(impact, contact, time);
         }
+        if let [first, last] = struck.as_slice()
+            && friction == 0.0
+            && let Some(point) = self.common_point(impact, (first, last), time)
+        {
+            return self.strike_once(impact, &ImpactContact { point, ..*first }, time);
+        }
         let mut shock = Shock::new(time, self.clock.h);
         for contact in struck {
             shock.add(&self.bodies, u32::MAX, impact.bodies, contact, 0.0);
@@ -168,6 +177,39 @@ impl World {
             &mut self.events,
             &mut self.report,
         );
+    }
+
+    /// Where one impulse acts as those of a flat landing do that turns neither body against the other.
+    ///
+    /// Both ends approach alike, and after an impulse at x on their line they still do: the spins it adds,
+    /// `(x − a)/I_A` and `(x − b)/I_B` with a and b the centres of mass along the line, cancel there.
+    fn common_point(
+        &self,
+        impact: &Foreseen,
+        (first, last): (&ImpactContact, &ImpactContact),
+        time: SimTime,
+    ) -> Option<Vec2> {
+        let (one, two) = (
+            self.bodies.get(impact.bodies.0),
+            self.bodies.get(impact.bodies.1),
+        );
+        let speed = |point: Vec2| opening_speed(one, two, time, point, impact.normal);
+        let (u, v) = (speed(first.point), speed(last.point));
+        if (u - v).abs() > ALIKE * u.abs() {
+            return None;
+        }
+        let stretch = last.point - first.point;
+        let along = |state: &BodyState| {
+            let from = state.motion.centre_at(time) - first.point;
+            from.dot(stretch) / stretch.length_squared() * state.inverse_inertia
+        };
+        let stiffness = one.inverse_inertia + two.inverse_inertia;
+        let x = if stiffness > 0.0 {
+            (along(one) + along(two)) / stiffness
+        } else {
+            0.5
+        };
+        (0.0..=1.0).contains(&x).then(|| first.point + stretch * x)
     }
 
     /// A bounce so low that the search for its end would see rounding: it lasts 2 u⁺/a.
