@@ -15,7 +15,7 @@ pub struct StepProfile {
     pub sleep: f64,
     /// Times of impact.
     pub prediction: f64,
-    /// Impacts, and the predictions that follow from each.
+    /// What is ahead of flyers, impacts, and the predictions that follow from each.
     pub impacts: f64,
 }
 

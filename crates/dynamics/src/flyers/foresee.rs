@@ -25,6 +25,9 @@ const LONGEST: f64 = 1024.0;
 /// derivative are loose over more.
 const TURN: f64 = 8.0;
 
+/// How far a search goes beyond its end, as a fraction.
+const BEYOND: f64 = 1e-6;
+
 /// Why a flyer looks ahead.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Cause {
@@ -350,7 +353,9 @@ impl World {
             &self.colliders[shapes.0 as usize],
             &self.colliders[shapes.1 as usize],
         );
-        let next = time_of_impact(&first.solid, &motion_a, &second.solid, &motion_b, length);
+        // A little beyond: an impact at the very end is found to its last digit, too.
+        let end = length * (1.0 + BEYOND);
+        let next = time_of_impact(&first.solid, &motion_a, &second.solid, &motion_b, end);
         let (wait, impact) = match next {
             TimeOfImpact::Clear => (f64::INFINITY, None),
             TimeOfImpact::Hit(impact) => (impact.time, Some(impact)),

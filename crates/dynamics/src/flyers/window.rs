@@ -4,8 +4,7 @@ use carom_geometry::Aabb;
 use carom_math::Vec2;
 
 /// Reaches are taken this much larger, so that no rounding at a rim loses a pair, and the search for the
-/// time of impact begins well before it: from a gap that its tolerance (of the larger shape's size, 1e-12 m
-/// for a floor of 1 km) already takes for closed it could not find the end.
+/// time of impact begins before it, where the gap is above its tolerance.
 const ROOM: f64 = 1.0 + 1.0 / 1024.0;
 
 /// When circles overlap, in s from now.
