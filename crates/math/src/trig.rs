@@ -102,6 +102,18 @@ pub fn pow(base: f64, exponent: f64) -> f64 {
     libm::pow(base, exponent)
 }
 
+/// `exp(x) − 1`, with all digits where x is small.
+#[must_use]
+pub fn exp_m1(x: f64) -> f64 {
+    libm::expm1(x)
+}
+
+/// Hyperbolic sine and cosine.
+#[must_use]
+pub fn sinh_cosh(x: f64) -> (f64, f64) {
+    (libm::sinh(x), libm::cosh(x))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -146,16 +158,4 @@ mod tests {
             pair_is_single([x / (1_u64 << shrink) as f64, 8.0 * y]);
         }
     }
-}
-
-/// `exp(x) − 1`, with all digits where x is small.
-#[must_use]
-pub fn exp_m1(x: f64) -> f64 {
-    libm::expm1(x)
-}
-
-/// Hyperbolic sine and cosine.
-#[must_use]
-pub fn sinh_cosh(x: f64) -> (f64, f64) {
-    (libm::sinh(x), libm::cosh(x))
 }
