@@ -423,6 +423,11 @@ impl Frame {
     }
 }
 
+/// The corners of a box, counter-clockwise in pixels that count downwards, and the first one again.
+pub(crate) const fn box_ring(min: Vec2, max: Vec2) -> [Vec2; 5] {
+    [min, vec2(max.x, min.y), max, vec2(min.x, max.y), min]
+}
+
 /// The outline of an arrow: seven points, or `None` if it is shorter than half a pixel.
 pub(crate) fn arrow_outline(from: Vec2, to: Vec2, width: f64) -> Option<[Vec2; 7]> {
     let along = to - from;

@@ -59,6 +59,8 @@ mod font;
 mod frame;
 mod glyphs;
 #[cfg(test)]
+mod golden_overlay_tests;
+#[cfg(test)]
 mod golden_tests;
 mod layout;
 mod look;

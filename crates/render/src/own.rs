@@ -7,12 +7,13 @@ use tiny_skia::{FillRule, IntSize, Mask, Path, Transform};
 
 use crate::clip::{FAR, Window};
 use crate::colour::round_u8;
-use crate::frame::arrow_outline;
+use crate::frame::{arrow_outline, box_ring};
 use crate::raster::{
     Canvas, Cells, Flat, Outliner, Pixel, Place, Radial, Raster, Shade, Textured, greater,
     is_convex, is_simple, lesser,
 };
-use crate::skia::{Fill, Ground, INNER, OUTER, Paths, Pen, SHIFT, shade, usable_width};
+use crate::skia::{Fill, Ground, INNER, OUTER, Paths, Pen, SHIFT, usable_width};
+use crate::style::shade;
 use crate::{Colour, Face, Mark, Op, PixelBox, Size, Style};
 
 /// Room left and right of the canvas that polygons are cut to, in pixels.
@@ -71,9 +72,7 @@ impl Hand<'_, '_> {
         match op {
             Op::Polygon { points, paint } => {
                 self.ring(points, paint.fill);
-                let outline = paint
-                    .outline
-                    .unwrap_or_else(|| self.style.outline_of(paint.fill));
+                let outline = self.style.outline_for(*paint);
                 self.outline(points, self.style.outline, outline);
             }
             Op::Region { rings, paint } => {
@@ -82,9 +81,7 @@ impl Hand<'_, '_> {
                 } else {
                     self.general(|pen| pen.fill_rings(rings, paint.fill));
                 }
-                let outline = paint
-                    .outline
-                    .unwrap_or_else(|| self.style.outline_of(paint.fill));
+                let outline = self.style.outline_for(*paint);
                 for ring in rings {
                     self.outline(ring, self.style.outline, outline);
                 }
@@ -99,12 +96,7 @@ impl Hand<'_, '_> {
                 } else {
                     self.disc(*centre, *radius, paint.fill);
                 }
-                let edge = if paint.shaded {
-                    shade(paint.fill)
-                } else {
-                    paint.fill
-                };
-                let outline = paint.outline.unwrap_or_else(|| self.style.outline_of(edge));
+                let outline = self.style.rim_for(*paint);
                 self.circle(*centre, *radius, self.style.outline, outline);
             }
             Op::Area { points, ink } => self.ring(points, self.style.colour(*ink)),
@@ -149,7 +141,7 @@ impl Hand<'_, '_> {
                 width,
                 dash,
             } => {
-                let corners = [*min, vec2(max.x, min.y), *max, vec2(min.x, max.y), *min];
+                let corners = box_ring(*min, *max);
                 if let Some(ink) = fill
                     && max.cmpgt(*min).all()
                 {

@@ -13,8 +13,9 @@ use tiny_skia::{
 use crate::camera::narrow;
 use crate::clip::{Cover, Window};
 use crate::colour::round_u8;
-use crate::frame::arrow_outline;
+use crate::frame::{arrow_outline, box_ring};
 use crate::path::{push, push_circle, push_dashes};
+use crate::style::shade;
 use crate::{Colour, Face, Ink, Label, Op, Size, Style, font};
 
 /// Widest stroke, in pixels; wider ones are drawn as wide as this.
@@ -31,16 +32,6 @@ const LARGE_DISC: f64 = 2048.0;
 pub(crate) const INNER: f64 = 0.2;
 pub(crate) const OUTER: f64 = 1.3;
 pub(crate) const SHIFT: f64 = -0.2;
-
-/// The dark end of a ball's shading.
-pub(crate) fn shade(colour: Colour) -> Colour {
-    Colour {
-        red: colour.red / 3,
-        green: colour.green / 3,
-        blue: colour.blue / 3,
-        alpha: colour.alpha,
-    }
-}
 
 /// What a path is filled with.
 pub(crate) enum Fill<'a> {
@@ -113,16 +104,12 @@ impl<'a, G: Ground> Pen<'a, G> {
         match op {
             Op::Polygon { points, paint } => {
                 self.fill_ring(points, paint.fill);
-                let outline = paint
-                    .outline
-                    .unwrap_or_else(|| self.style.outline_of(paint.fill));
+                let outline = self.style.outline_for(*paint);
                 self.outline_ring(points, self.style.outline, outline);
             }
             Op::Region { rings, paint } => {
                 self.fill_rings(rings, paint.fill);
-                let outline = paint
-                    .outline
-                    .unwrap_or_else(|| self.style.outline_of(paint.fill));
+                let outline = self.style.outline_for(*paint);
                 for ring in rings {
                     self.outline_ring(ring, self.style.outline, outline);
                 }
@@ -137,14 +124,7 @@ impl<'a, G: Ground> Pen<'a, G> {
                 } else {
                     self.fill_disc(*centre, *radius, Fill::Flat(paint.fill));
                 }
-                let outline = paint.outline.unwrap_or_else(|| {
-                    let edge = if paint.shaded {
-                        shade(paint.fill)
-                    } else {
-                        paint.fill
-                    };
-                    self.style.outline_of(edge)
-                });
+                let outline = self.style.rim_for(*paint);
                 self.ring(*centre, *radius, self.style.outline, outline);
             }
             Op::Area { points, ink } => self.fill_ring(points, self.style.colour(*ink)),
@@ -306,19 +286,11 @@ impl<'a, G: Ground> Pen<'a, G> {
         dash: Option<f64>,
     ) {
         if let (Some(ink), Some((min, max))) = (fill, self.window.rectangle(min, max)) {
-            let corners = [min, Vec2::new(max.x, min.y), max, Vec2::new(min.x, max.y)];
-            push(&mut self.paths.builder, &corners, true);
+            push(&mut self.paths.builder, &box_ring(min, max)[..4], true);
             self.fill(&Fill::Flat(self.style.colour(ink)));
         }
         if let Some(ink) = border {
-            let corners = [
-                min,
-                Vec2::new(max.x, min.y),
-                max,
-                Vec2::new(min.x, max.y),
-                min,
-            ];
-            self.polyline(&corners, width, dash, self.style.colour(ink));
+            self.polyline(&box_ring(min, max), width, dash, self.style.colour(ink));
         }
     }
 

@@ -1,6 +1,6 @@
 //! The ink a frame is painted with: ground, text, overlays and the series of a chart.
 
-use crate::Colour;
+use crate::{Colour, Paint};
 
 /// Colours and stroke widths of a picture.
 ///
@@ -142,10 +142,35 @@ impl Style {
         }
     }
 
+    /// The outline of a mark painted so: its own, or that of its fill.
+    pub(crate) fn outline_for(&self, paint: Paint) -> Colour {
+        paint.outline.unwrap_or_else(|| self.outline_of(paint.fill))
+    }
+
+    /// The outline of a disc painted so: of a ball it goes with the colour at the rim.
+    pub(crate) fn rim_for(&self, paint: Paint) -> Colour {
+        let fill = if paint.shaded {
+            shade(paint.fill)
+        } else {
+            paint.fill
+        };
+        paint.outline.unwrap_or_else(|| self.outline_of(fill))
+    }
+
     /// The outline of a body filled with `fill`: the fill with a good part of the text's colour.
     #[must_use]
     pub fn outline_of(&self, fill: Colour) -> Colour {
         fill.mixed(self.text.with_alpha(fill.alpha), 0.45 + 0.5 * self.wash)
+    }
+}
+
+/// The dark end of a ball's shading.
+pub(crate) fn shade(colour: Colour) -> Colour {
+    Colour {
+        red: colour.red / 3,
+        green: colour.green / 3,
+        blue: colour.blue / 3,
+        alpha: colour.alpha,
     }
 }
 

@@ -5,8 +5,9 @@ use core::fmt::Write;
 use carom_math::{Rot, Vec2};
 
 use crate::clip::is_near;
-use crate::frame::arrow_outline;
-use crate::skia::{INNER, OUTER, SHIFT, shade, usable_width};
+use crate::frame::{arrow_outline, box_ring};
+use crate::skia::{INNER, OUTER, SHIFT, usable_width};
+use crate::style::shade;
 use crate::{Colour, Face, Ink, Label, Op, Packing, Size, Style, font, png};
 
 /// The document. Coordinates have two digits after the point, so equal frames are equal bytes.
@@ -42,18 +43,14 @@ impl Svg<'_> {
     fn op(&mut self, op: &Op) {
         match op {
             Op::Polygon { points, paint } => {
-                let outline = paint
-                    .outline
-                    .unwrap_or_else(|| self.style.outline_of(paint.fill));
+                let outline = self.style.outline_for(*paint);
                 if let Some(path) = path(points, true) {
                     let (fill, stroke) = (fill(paint.fill), stroke(outline, self.style.outline));
                     self.line(format_args!(r#"<path d="{path}" {fill} {stroke}/>"#));
                 }
             }
             Op::Region { rings, paint } => {
-                let outline = paint
-                    .outline
-                    .unwrap_or_else(|| self.style.outline_of(paint.fill));
+                let outline = self.style.outline_for(*paint);
                 let all: String = rings.iter().filter_map(|ring| path(ring, true)).collect();
                 if !all.is_empty() {
                     let (fill, stroke) = (fill(paint.fill), stroke(outline, self.style.outline));
@@ -65,12 +62,7 @@ impl Svg<'_> {
                 radius,
                 paint,
             } => {
-                let edge = if paint.shaded {
-                    shade(paint.fill)
-                } else {
-                    paint.fill
-                };
-                let outline = paint.outline.unwrap_or_else(|| self.style.outline_of(edge));
+                let outline = self.style.rim_for(*paint);
                 if let Some(circle) = circle(*centre, *radius) {
                     let inside = if paint.shaded {
                         self.gradient(*centre, *radius, paint.fill)
@@ -140,13 +132,7 @@ impl Svg<'_> {
                 width,
                 dash,
             } => {
-                let corners = [
-                    *min,
-                    Vec2::new(max.x, min.y),
-                    *max,
-                    Vec2::new(min.x, max.y),
-                    *min,
-                ];
+                let corners = box_ring(*min, *max);
                 if let (Some(ink), Some(path)) = (inside, path(&corners[..4], true)) {
                     let inside = fill(self.style.colour(*ink));
                     self.line(format_args!(r#"<path d="{path}" {inside}/>"#));
