@@ -8,6 +8,7 @@ mod determinism;
 mod documents;
 mod errors;
 mod failures;
+mod filters;
 mod forces;
 mod impacts;
 mod lasting;

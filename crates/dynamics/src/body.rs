@@ -11,7 +11,7 @@ use crate::error::BodyError;
 use crate::flight::Flight;
 use crate::flyers::Course;
 use crate::impact::ImpactBody;
-use crate::{BodyDef, BodyId, BodyKind, Material};
+use crate::{BodyDef, BodyId, BodyKind, Filter, Material};
 
 /// All that a world keeps of one body. Nothing else stores a pose.
 #[derive(Clone, Debug)]
@@ -99,6 +99,7 @@ pub(crate) struct Collider {
     /// About the body's centre of mass: what collides.
     pub(crate) solid: Arc<Shape>,
     pub(crate) material: Material,
+    pub(crate) filter: Filter,
     /// Node in the tree of boxes.
     pub(crate) node: Option<NodeId>,
     /// Box that the pairs were searched with.
@@ -465,6 +466,13 @@ impl<'w> Body<'w> {
             let collider = &colliders[i as usize];
             (&*collider.drawn, &collider.material)
         })
+    }
+
+    /// Whom the shapes may touch, in their order.
+    pub fn filters(&self) -> impl Iterator<Item = Filter> + use<'w> {
+        let colliders = self.colliders;
+        let shapes = self.state.colliders.iter();
+        shapes.map(move |&i| colliders[i as usize].filter)
     }
 
     /// The motion from its last change on, about the centre of mass.

@@ -2,6 +2,7 @@
 
 use carom_math::{Vec2, vec2};
 
+use crate::Filter;
 use crate::error::{BodyError, check_finite, check_mass, check_vec2};
 
 /// What moves a body.
@@ -65,6 +66,8 @@ pub struct BodyDef {
     /// Without effect where [`Settings::sleep`](crate::Settings::sleep) is off, and on a body that moves or is not
     /// dynamic.
     pub asleep: bool,
+    /// Whom its shapes may touch.
+    pub filter: Filter,
     /// Anything the caller wants to find again.
     pub tag: u64,
 }
@@ -86,6 +89,11 @@ impl BodyDef {
             linear_damping: 0.0,
             angular_damping: 0.0,
             asleep: false,
+            filter: Filter {
+                categories: 1,
+                mask: u64::MAX,
+                group: 0,
+            },
             tag: 0,
         }
     }
@@ -176,6 +184,13 @@ impl BodyDef {
     #[must_use]
     pub const fn asleep(mut self) -> Self {
         self.asleep = true;
+        self
+    }
+
+    /// Whom its shapes may touch.
+    #[must_use]
+    pub const fn filtered(mut self, filter: Filter) -> Self {
+        self.filter = filter;
         self
     }
 

@@ -196,6 +196,10 @@ impl Broad {
         if a.kind != BodyKind::Dynamic && b.kind != BodyKind::Dynamic {
             return;
         }
+        let filter = |i: u32| colliders[i as usize].filter;
+        if !filter(first).touches(filter(second)) {
+            return;
+        }
         let known = if a.pairs.len() < b.pairs.len() {
             &a.pairs
         } else {
@@ -305,6 +309,7 @@ mod tests {
             drawn: Arc::clone(&plank),
             solid: Arc::clone(&plank),
             material: Material::default(),
+            filter: crate::Filter::default(),
             node: None,
             fat: Aabb::EMPTY,
         };

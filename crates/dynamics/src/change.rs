@@ -11,7 +11,9 @@ use crate::body::BodyState;
 use crate::error::{check_finite, check_vec2};
 use crate::flight::fly;
 use crate::flyers::Course;
-use crate::{BodyError, BodyId, BodyKind, Field, Force, Impulse, Mode, PairMaterial, World};
+use crate::{
+    BodyError, BodyId, BodyKind, Field, Filter, Force, Impulse, Mode, PairMaterial, World,
+};
 
 impl World {
     /// Places a body's frame anew; its velocity stays.
@@ -72,13 +74,48 @@ impl World {
                 }
             }
         }
-        for place in state.pairs.clone() {
-            self.part(place, self.clock.now);
-        }
+        self.part_all(index);
         self.disturb(index, |state| state.set_kind(kind));
         // Pairs are made by kind: boxes that are new find them anew.
         self.forget_boxes(index);
         self.arrive(index);
+        Ok(())
+    }
+
+    /// Changes whom all shapes of a body may touch.
+    ///
+    /// # Errors
+    /// If the body is not there.
+    pub fn set_filter(&mut self, id: BodyId, filter: Filter) -> Result<(), BodyError> {
+        let index = self.bodies.find(id)?;
+        for at in self.bodies.get(index).colliders.clone() {
+            self.colliders[at as usize].filter = filter;
+        }
+        self.meet_anew(index);
+        Ok(())
+    }
+
+    /// Changes whom one shape of a body may touch; shapes count from 0 in the order of insertion.
+    ///
+    /// # Errors
+    /// If the body or the shape is not there.
+    pub fn set_shape_filter(
+        &mut self,
+        id: BodyId,
+        shape: usize,
+        filter: Filter,
+    ) -> Result<(), BodyError> {
+        let index = self.bodies.find(id)?;
+        let shapes = &self.bodies.get(index).colliders;
+        let Some(&at) = shapes.get(shape) else {
+            return Err(BodyError::NoSuchShape {
+                body: id,
+                shape,
+                count: shapes.len(),
+            });
+        };
+        self.colliders[at as usize].filter = filter;
+        self.meet_anew(index);
         Ok(())
     }
 
@@ -158,6 +195,21 @@ impl World {
         }
     }
 
+    /// Lets go of all pairs of a body, and has it looked for anew.
+    fn meet_anew(&mut self, index: u32) {
+        self.part_all(index);
+        self.disturb(index, |_| {});
+        self.forget_boxes(index);
+        self.arrive(index);
+    }
+
+    fn part_all(&mut self, index: u32) {
+        self.wake_around(index, self.clock.now);
+        for place in self.bodies.get(index).pairs.clone() {
+            self.part(place, self.clock.now);
+        }
+    }
+
     /// A caller's change of a body: its energy counts as brought in from outside, sleepers that
     /// touch it wake, and what was predicted for it is predicted anew.
     fn disturb(&mut self, index: u32, change: impl FnOnce(&mut BodyState)) {
@@ -178,7 +230,7 @@ impl World {
     pub(crate) fn arrive(&mut self, index: u32) {
         if self.settings.mode == Mode::Stepped {
             self.bodies.touch(index);
-            return;
+            return self.deflected(index, self.clock.now);
         }
         let now = self.clock.now;
         self.flyers.vanish(&mut self.bodies, index);

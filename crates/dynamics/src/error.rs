@@ -76,6 +76,16 @@ pub enum BodyError {
     /// The id belongs to a body that was removed, or to another world.
     #[error("{0} is not in this world")]
     Stale(BodyId),
+    /// The body has fewer shapes.
+    #[error("{body} has {count} shapes: there is no shape {shape}")]
+    NoSuchShape {
+        /// The body.
+        body: BodyId,
+        /// Which shape was asked for, from 0.
+        shape: usize,
+        /// How many there are.
+        count: usize,
+    },
     /// A pair needs two bodies.
     #[error("{0} cannot form a pair with itself")]
     SameBody(BodyId),

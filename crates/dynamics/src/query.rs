@@ -8,7 +8,7 @@ use carom_geometry::{Aabb, Shape};
 use carom_math::{Pose, Vec2};
 
 use crate::body::{BodyState, Collider};
-use crate::{BodyId, World};
+use crate::{BodyId, Filter, World};
 
 /// What a ray met first.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,7 +40,76 @@ pub struct ShapeHit {
     pub normal: Vec2,
 }
 
+/// The questions of a [`World`], answered by the shapes that a filter touches alone.
+///
+/// # Examples
+/// A ray that starts inside a body, and does not see its own kind.
+/// ```
+/// use carom_dynamics::{BodyDef, Filter, Material, Settings, World};
+/// use carom_geometry::Circle;
+/// use carom_math::{Vec2, vec2};
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let mut world = World::new(Settings::default())?;
+/// let own = Filter { group: -1, ..Filter::default() };
+/// world.insert(BodyDef::dynamic().filtered(own), Circle::new(1.0)?, Material::default())?;
+/// let wall = world.insert(BodyDef::fixed().at(vec2(5.0, 0.0)), Circle::new(1.0)?, Material::default())?;
+/// let hit = world.filtered(own).cast_ray(Vec2::ZERO, Vec2::X, 10.0).ok_or("the wall")?;
+/// assert_eq!((hit.body, hit.distance), (wall, 4.0));
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Filtered<'w> {
+    world: &'w World,
+    /// `None`: all shapes.
+    filter: Option<Filter>,
+}
+
 impl World {
+    /// The same questions, answered by the shapes that `filter` touches alone.
+    #[must_use]
+    pub const fn filtered(&self, filter: Filter) -> Filtered<'_> {
+        Filtered {
+            world: self,
+            filter: Some(filter),
+        }
+    }
+
+    const fn unfiltered(&self) -> Filtered<'_> {
+        Filtered {
+            world: self,
+            filter: None,
+        }
+    }
+
+    /// The first shape on a ray from `origin` along `direction` (any length above 0), up to `max` m.
+    ///
+    /// `None` if there is none, or if the ray has no direction or is not finite.
+    #[must_use]
+    pub fn cast_ray(&self, origin: Vec2, direction: Vec2, max: f64) -> Option<RayHit> {
+        self.unfiltered().cast_ray(origin, direction, max)
+    }
+
+    /// Bodies with a shape that contains `point` (in m), in order.
+    #[must_use]
+    pub fn bodies_at(&self, point: Vec2) -> Vec<BodyId> {
+        self.unfiltered().bodies_at(point)
+    }
+
+    /// Bodies with a shape whose box overlaps `bounds`, in order.
+    #[must_use]
+    pub fn bodies_in(&self, bounds: Aabb) -> Vec<BodyId> {
+        self.unfiltered().bodies_in(bounds)
+    }
+
+    /// The first body that `shape` at `pose` meets on its way along `translation` (in m), not turning.
+    #[must_use]
+    pub fn cast_shape(&self, shape: &Shape, pose: Pose, translation: Vec2) -> Option<ShapeHit> {
+        self.unfiltered().cast_shape(shape, pose, translation)
+    }
+}
+
+impl Filtered<'_> {
     /// The first shape on a ray from `origin` along `direction` (any length above 0), up to `max` m.
     ///
     /// `None` if there is none, or if the ray has no direction or is not finite.
@@ -53,10 +122,12 @@ impl World {
         let mut best: Option<((f64, Place), RayHit)> = None;
         let mut meet = |at| {
             let (body, shape, collider) = self.shape_at(at);
-            let pose = body.motion.pose_at(self.clock.now);
+            let pose = body.motion.pose_at(self.world.clock.now);
             let reach = best.map_or(max, |(_, hit)| hit.distance);
             let local = (pose.inverse_point(origin), pose.inverse_vector(direction));
-            if let Some(hit) = collider.solid.cast_ray(local.0, local.1, reach) {
+            if self.sees(collider)
+                && let Some(hit) = collider.solid.cast_ray(local.0, local.1, reach)
+            {
                 let order = (hit.distance, (body.id.index, shape));
                 if best.is_none_or(|(known, _)| order < known) {
                     let hit = RayHit {
@@ -81,7 +152,7 @@ impl World {
         for at in self.flying_in(Aabb::from_points([origin, end])) {
             reach = reach.min(meet(at));
         }
-        self.broad.tree.ray(origin, direction, reach, meet);
+        self.world.broad.tree.ray(origin, direction, reach, meet);
         best.map(|(_, hit)| hit)
     }
 
@@ -109,8 +180,10 @@ impl World {
         let mut best: Option<((f64, Place), ShapeHit)> = None;
         let mut meet = |at| {
             let (body, index, collider) = self.shape_at(at);
-            let target = body.motion.pose_at(self.clock.now);
-            if let Some(hit) = cast(shape, pose, translation, &collider.solid, target) {
+            let target = body.motion.pose_at(self.world.clock.now);
+            if self.sees(collider)
+                && let Some(hit) = cast(shape, pose, translation, &collider.solid, target)
+            {
                 let order = (hit.fraction, (body.id.index, index));
                 if best.is_none_or(|(known, _)| order < known) {
                     let hit = ShapeHit {
@@ -130,7 +203,7 @@ impl World {
         for at in self.flying_in(start.union(end)) {
             reach = reach.min(meet(at));
         }
-        self.broad.tree.sweep(start, translation, reach, meet);
+        self.world.broad.tree.sweep(start, translation, reach, meet);
         best.map(|(_, hit)| hit)
     }
 
@@ -139,12 +212,12 @@ impl World {
         let mut found: Vec<BodyId> = Vec::new();
         let mut look = |at| {
             let (body, _, collider) = self.shape_at(at);
-            if matches(body.motion.pose_at(self.clock.now), collider) {
+            if self.sees(collider) && matches(body.motion.pose_at(self.world.clock.now), collider) {
                 found.push(body.id);
             }
         };
         self.flying_in(bounds).into_iter().for_each(&mut look);
-        self.broad.tree.query(bounds, look);
+        self.world.broad.tree.query(bounds, look);
         found.sort_unstable();
         found.dedup();
         found
@@ -152,17 +225,25 @@ impl World {
 
     /// Shapes of flyers in the grid that may be in `bounds`.
     fn flying_in(&self, bounds: Aabb) -> Vec<u32> {
-        let bodies = self.flyers.present(&self.bodies, bounds, self.clock.now);
+        let bodies = self
+            .world
+            .flyers
+            .present(&self.world.bodies, bounds, self.world.clock.now);
         let shapes = bodies
             .iter()
-            .flat_map(|body| &self.bodies.get(*body).colliders);
+            .flat_map(|body| &self.world.bodies.get(*body).colliders);
         shapes.copied().collect()
+    }
+
+    fn sees(&self, collider: &Collider) -> bool {
+        self.filter
+            .is_none_or(|filter| filter.touches(collider.filter))
     }
 
     /// A shape that the tree named, with its body and its place there.
     fn shape_at(&self, at: u32) -> (&BodyState, usize, &Collider) {
-        let collider = &self.colliders[at as usize];
-        let body = self.bodies.get(collider.body);
+        let collider = &self.world.colliders[at as usize];
+        let body = self.world.bodies.get(collider.body);
         let place = body.colliders.iter().take_while(|i| **i != at).count();
         (body, place, collider)
     }

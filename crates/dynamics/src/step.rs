@@ -159,7 +159,8 @@ impl World {
     /// are those of the contact group that it was or is in.
     pub(crate) fn deflected(&mut self, index: u32, time: SimTime) {
         if self.settings.mode == Mode::Stepped {
-            return;
+            // The next sub-step takes it from here; questions find it by its boxes until then.
+            return self.refit(index, time, 0.25 * self.settings.tick);
         }
         self.redirect(index, time);
         self.regroup(index, time);

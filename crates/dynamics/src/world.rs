@@ -19,8 +19,8 @@ use crate::profile::Stopwatch;
 use crate::solver::Law;
 use crate::stepped::Stepped;
 use crate::{
-    Body, BodyDef, BodyError, BodyId, BodyKind, Contact, EnergyLedger, EventKind, Events, Material,
-    Mode, Momentum, Settings, SettingsError, StepProfile, StepReport,
+    Body, BodyDef, BodyError, BodyId, BodyKind, Contact, EnergyLedger, EventKind, Events, Filter,
+    Material, Mode, Momentum, Settings, SettingsError, StepProfile, StepReport,
 };
 
 /// Rigid bodies and the time that passes for them.
@@ -174,7 +174,7 @@ impl World {
         let centroid = state.mass.centroid;
         self.bodies.insert(state);
         for (shape, material) in shapes {
-            self.add_collider(id.index, shape, material, centroid);
+            self.add_collider(id.index, shape, (material, def.filter), centroid);
         }
         let (kinetic, potential) = self.bodies.energy_of(id.index, now);
         self.bodies.book.external.add(kinetic + potential);
@@ -337,7 +337,13 @@ impl World {
         }
     }
 
-    fn add_collider(&mut self, body: u32, shape: Shape, material: Material, centroid: Vec2) {
+    fn add_collider(
+        &mut self,
+        body: u32,
+        shape: Shape,
+        (material, filter): (Material, Filter),
+        centroid: Vec2,
+    ) {
         let drawn = Arc::new(shape);
         // A shape drawn about its centre is its own solid.
         let solid = if centroid == Vec2::ZERO {
@@ -350,6 +356,7 @@ impl World {
             drawn,
             solid,
             material,
+            filter,
             node: None,
             fat: Aabb::EMPTY,
         };

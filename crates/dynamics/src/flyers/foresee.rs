@@ -211,6 +211,11 @@ impl World {
         if a.kind != BodyKind::Dynamic && b.kind != BodyKind::Dynamic {
             return;
         }
+        if let ([one], [two]) = (&*a.colliders, &*b.colliders)
+            && !self.may_touch((*one, *two))
+        {
+            return;
+        }
         let horizon = common_horizon(a, b);
         let (window, _) = circles(a, b, time);
         let Some(window) = window else { return };
@@ -341,6 +346,9 @@ impl World {
         length: f64,
         cause: Cause,
     ) -> bool {
+        if !self.may_touch(shapes) {
+            return false;
+        }
         self.report.pairs += 1;
         if cause == Cause::Arrived && self.holds((a, b), shapes, time) {
             self.land(a, time);
@@ -396,6 +404,12 @@ impl World {
         };
         self.flyers.push_impact(time + wait, stamp, foreseen);
         true
+    }
+
+    /// Whether the filters of two shapes let them touch.
+    fn may_touch(&self, shapes: (u32, u32)) -> bool {
+        let filter = |at: u32| self.colliders[at as usize].filter;
+        filter(shapes.0).touches(filter(shapes.1))
     }
 
     /// Whether two shapes that the caller put where they are overlap by more than rounding, or rest on

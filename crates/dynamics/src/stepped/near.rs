@@ -92,6 +92,7 @@ impl World {
                 let rows: Vec<_> = contacts.filter_map(|contact| contact.row).collect();
                 self.pool.seats.rebase(slot, rows.into_iter());
             }
+            let boxed = !self.lacks_boxes(index);
             let seats = &mut self.pool.seats;
             let line = seats.rig.lines[slot as usize];
             let seat = seats.get_mut(slot);
@@ -103,7 +104,7 @@ impl World {
                 // The boxes of a quick body are stretched along its way, and asked every time.
                 seat.roamed = f64::INFINITY;
                 self.rebox(index, slot, time, tick);
-            } else if seat.roamed + ahead + seat.leash > padding {
+            } else if !boxed || seat.roamed + ahead + seat.leash > padding {
                 // Those of a slow one hold what stays within their padding.
                 seat.roamed = 0.0;
                 self.sync(index, slot, time);
@@ -148,6 +149,12 @@ impl World {
         moved.clear();
         self.pool.moved = moved;
         self.stopwatch.lap(|p| &mut p.contacts);
+    }
+
+    /// Whether a change by the caller took the boxes of a body.
+    fn lacks_boxes(&self, index: u32) -> bool {
+        let mut shapes = self.bodies.get(index).colliders.iter();
+        shapes.any(|at| self.colliders[*at as usize].node.is_none())
     }
 
     /// New boxes for a body that leaves its old ones within `seconds`.
