@@ -17,4 +17,5 @@ mod regressions;
 mod skipping;
 mod stability;
 mod stepped;
+mod stepped_swift;
 mod twins;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use carom_collision::{Motion, NodeId};
+use carom_collision::{Hull, Motion, NodeId, hulls};
 use carom_geometry::{Aabb, AreaProperties, MassProperties, Shape};
 use carom_math::{Pose, Rot, SimTime, Vec2};
 
@@ -53,6 +53,8 @@ pub(crate) struct BodyState {
     pub(crate) slow_for: f64,
     /// Largest distance of a point of its shapes from the centre of mass, in m.
     pub(crate) reach: f64,
+    /// Least half width of its shapes, in m: the narrowest thing that can hold it back.
+    pub(crate) inner: f64,
     pub(crate) colliders: Vec<u32>,
     /// Pairs of its colliders with others.
     pub(crate) pairs: Vec<u32>,
@@ -161,6 +163,10 @@ impl BodyState {
                 .iter()
                 .map(|(shape, _)| shape.reach_about(mass.centroid))
                 .fold(0.0, f64::max),
+            inner: shapes
+                .iter()
+                .map(|(shape, _)| half_width(shape, mass.centroid))
+                .fold(f64::INFINITY, f64::min),
             colliders: Vec::new(),
             pairs: Vec::new(),
         })
@@ -289,6 +295,24 @@ impl BodyState {
             spin: self.spin_at(time),
         }
     }
+}
+
+/// About half the width of the widest part of a shape, in m; at least a thousandth of its size.
+fn half_width(shape: &Shape, centroid: Vec2) -> f64 {
+    // From the middle of the vertices to the nearest edge: half a width, or less of what tapers.
+    let least = |hull: Hull<'_>| {
+        if hull.normals.is_empty() {
+            return hull.radius;
+        }
+        #[expect(clippy::cast_precision_loss, reason = "vertices are counted exactly")]
+        let middle = hull.vertices.iter().sum::<Vec2>() / hull.vertices.len() as f64;
+        let edges = hull.normals.iter().zip(hull.vertices);
+        edges
+            .map(|(n, v)| n.dot(*v - middle))
+            .fold(f64::INFINITY, f64::min)
+    };
+    let widest = hulls(shape).map(least).fold(0.0, f64::max);
+    widest.max(1e-3 * shape.reach_about(centroid))
 }
 
 /// Frame of the shapes as drawn, for a motion of the centre of mass.

@@ -18,6 +18,6 @@ mod tests;
 mod wide;
 
 pub(crate) use lanes::RowId;
-pub(crate) use rig::{Member, Pull, Rig};
+pub(crate) use rig::{Limit, Member, Pull, Rig};
 pub(crate) use row::{Row, SolverBody};
 pub(crate) use soft::{Law, relax, solve};

@@ -27,6 +27,10 @@ pub(crate) struct Rig {
     /// What pulls on each body: acceleration, and angular acceleration.
     pull: Vec<Pull>,
     pub(crate) lanes: Lanes,
+    /// How far each body may move in a sub-step before it is swift.
+    limits: Vec<Limit>,
+    /// Who went farther in the last sub-step, and where it was before.
+    pub(crate) swift: Vec<Swift>,
     free: Vec<u32>,
     /// What friction turned into heat, in J.
     pub(crate) heat: f64,
@@ -45,6 +49,30 @@ pub(crate) struct Pull {
     pub(crate) acceleration: Vec2,
     /// In rad/s².
     pub(crate) angular: f64,
+}
+
+/// How far a body may move in a sub-step before it is swift.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Limit {
+    /// Square of the travel, in m².
+    pub(crate) travel: f64,
+    /// In rad.
+    pub(crate) turn: f64,
+}
+
+impl Limit {
+    pub(crate) const NONE: Self = Self {
+        travel: f64::INFINITY,
+        turn: f64::INFINITY,
+    };
+}
+
+/// Where a swift body was before a sub-step, against its base.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Swift {
+    pub(crate) slot: u32,
+    pub(crate) d: Vec2,
+    pub(crate) turn: f64,
 }
 
 /// A body that joins.
@@ -67,6 +95,8 @@ impl Default for Rig {
             start: vec![Start::default()],
             pull: vec![Pull::default()],
             lanes,
+            limits: vec![Limit::NONE],
+            swift: Vec::new(),
             free: Vec::new(),
             heat: 0.0,
         }
@@ -82,6 +112,7 @@ impl Rig {
             self.lines.push(Line::EMPTY);
             self.start.push(Start::default());
             self.pull.push(Pull::default());
+            self.limits.push(Limit::NONE);
             slot
         });
         let i = slot as usize;
@@ -90,6 +121,7 @@ impl Rig {
         self.lines[i] = Line::new(v, w, member.inverse_mass, member.inverse_inertia);
         self.start[i] = Start { v, w };
         self.pull[i] = member.pull;
+        self.limits[i] = Limit::NONE;
         self.lanes.admit(slot);
         slot
     }
@@ -102,7 +134,17 @@ impl Rig {
         self.lines[i] = Line::new(Vec2::ZERO, 0.0, 0.0, 0.0);
         self.start[i] = Start::default();
         self.pull[i] = Pull::default();
+        self.limits[i] = Limit::NONE;
         self.free.push(slot);
+    }
+
+    pub(crate) fn set_limit(&mut self, slot: u32, limit: Limit) {
+        self.limits[slot as usize] = limit;
+    }
+
+    /// Whether a body moves farther than its limit in a sub-step of `h`, as fast as it is now.
+    pub(crate) fn is_swift(&self, slot: u32, h: f64) -> bool {
+        exceeds(&self.lines[slot as usize], self.limits[slot as usize], h)
     }
 
     /// Lines that nobody uses.
@@ -125,12 +167,14 @@ impl Rig {
             self.lines[to] = self.lines[i];
             self.start[to] = self.start[i];
             self.pull[to] = self.pull[i];
+            self.limits[to] = self.limits[i];
             *slot = next;
             next += 1;
         }
         self.lines.truncate(next as usize);
         self.start.truncate(next as usize);
         self.pull.truncate(next as usize);
+        self.limits.truncate(next as usize);
         self.lanes.renumber(&new);
         new
     }
@@ -349,7 +393,12 @@ impl Rig {
 
     /// `d += h v`
     fn displace(&mut self, h: f64) {
-        for line in &mut self.lines {
+        self.swift.clear();
+        for (slot, (line, limit)) in (0u32..).zip(self.lines.iter_mut().zip(&self.limits)) {
+            if exceeds(line, *limit, h) {
+                let (d, turn) = (line.d(), line.turn());
+                self.swift.push(Swift { slot, d, turn });
+            }
             for k in 0..3 {
                 line.0[4 + k] += h * line.0[k];
             }
@@ -397,4 +446,10 @@ impl Rig {
         let (line, start) = (&self.lines[slot as usize], &self.start[slot as usize]);
         (line.v() - start.v, line.w() - start.w)
     }
+}
+
+/// Whether a body goes beyond its limit within `h`.
+fn exceeds(line: &Line, limit: Limit, h: f64) -> bool {
+    let v = line.v();
+    v.length_squared() * h * h > limit.travel || line.w().abs() * h > limit.turn
 }

@@ -76,7 +76,14 @@ impl World {
             + rim(lines[1].w(), b.reach);
         let tick = self.settings.tick;
         let pull = seats.rig.pull(slots[0]).acceleration - seats.rig.pull(slots[1]).acceleration;
-        let margin = MARGIN * size + (closing + pull.length() * tick) * tick;
+        // Who is swift is stopped where it touches, and looked at there.
+        let h = self.clock.h;
+        let ahead = if slots.iter().any(|slot| seats.rig.is_swift(*slot, h)) {
+            0.0
+        } else {
+            closing * tick
+        };
+        let margin = MARGIN * size + ahead + pull.length() * tick * tick;
         let near = a.reach + b.reach + margin;
         let found = &mut self.pool.found;
         found.clear();
@@ -90,6 +97,8 @@ impl World {
                 found,
             );
             self.report.pairs += 1;
+            let colliders = pair.colliders;
+            self.drop_grazes(colliders, slots, size);
             self.face(place, slots, poses);
         } else {
             self.pool.release(pair);

@@ -1,17 +1,19 @@
 //! Every moving body in one solver: [`crate::Mode::Stepped`].
 //!
 //! ```text
-//! changes ─► look (once a tick) ─► sub-steps ─► write
-//! seats      near, faces           rig, bounce   motions, touch
+//! changes ─► look (once a tick) ─► sub-steps ─────────► write
+//! seats      near, faces           rig, bounce, swift   motions, touch
 //! ```
 //! During a step bodies live in the solver's lines, and pairs in its rows. Motions are written once,
 //! at the end; a look does nothing for a pair that kept its relative pose.
 
 mod bounce;
 mod faces;
+mod graze;
 mod near;
 mod rest;
 mod seats;
+mod swift;
 mod touch;
 mod write;
 
@@ -22,6 +24,7 @@ use crate::World;
 use crate::solver::RowId;
 use bounce::Bounces;
 use seats::Seats;
+use swift::Cores;
 
 /// Ticks between two works-out of the warm start from the impulses.
 const REFRESH: u32 = 64;
@@ -47,6 +50,8 @@ pub(crate) struct Stepped {
     moved: Vec<u32>,
     /// Bodies that are looked at in every sub-step until the next tick.
     quick: Vec<u32>,
+    /// Cores of shapes, for those who move far in a sub-step.
+    cores: Cores,
     /// Pairs that this look has been through, by place: number of the look.
     seen: Vec<u32>,
     look: u32,
@@ -73,7 +78,7 @@ impl World {
                 }
                 self.look_around(time);
                 self.pool.until_look = self.settings.substeps_per_tick();
-            } else if !self.pool.quick.is_empty() {
+            } else if !(self.pool.quick.is_empty() && self.pool.moved.is_empty()) {
                 self.look_between(time);
             }
             self.pool.until_look -= 1;
@@ -100,6 +105,7 @@ impl World {
         let (rig, bounces) = (&mut self.pool.seats.rig, &mut self.pool.bounces);
         bounces.arm(rig, self.clock.h);
         rig.step(&self.law, |rig| bounces.pay(rig));
+        self.stop_swift();
         let rig = &self.pool.seats.rig;
         self.report.rows += rig.lanes.len() as u64;
         self.report.handed_over += self.pool.seats.len() as u64;

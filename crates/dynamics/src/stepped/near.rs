@@ -160,6 +160,11 @@ impl World {
     /// New boxes for a body that leaves its old ones within `seconds`.
     fn rebox(&mut self, index: u32, slot: u32, time: SimTime, seconds: f64) {
         self.sync(index, slot, time);
+        self.hold_way(index, slot, time, seconds);
+    }
+
+    /// New boxes for a body that leaves its old ones along its motion within `seconds`.
+    pub(super) fn hold_way(&mut self, index: u32, slot: u32, time: SimTime, seconds: f64) {
         let state = self.bodies.get(index);
         let holds = |at: &u32| {
             let collider = &self.colliders[*at as usize];
@@ -167,6 +172,7 @@ impl World {
             collider.node.is_some() && collider.fat.contains(swept)
         };
         if !state.colliders.iter().all(holds) {
+            self.pool.seats.get_mut(slot).roamed = f64::INFINITY;
             self.box_anew(index, time);
         }
     }

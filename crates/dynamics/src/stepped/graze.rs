@@ -1,0 +1,109 @@
+//! Contacts of bodies that pass each other by a hair.
+//!
+//! A box on a floor of tiles sinks in by its softness. The side of the next tile then stands in its way
+//! by that much, and so does the tile's corner while the two are apart. A row made of such a contact
+//! stops the box at a seam that nobody can feel. So corners that are to meet, and sides that share but a
+//! hair of their length, become rows only if the bodies would meet without their skin.
+
+use carom_collision::{Motion, PartManifold, TimeOfImpact, part, time_of_impact_of_parts};
+use carom_math::{SimTime, Vec2};
+
+use crate::World;
+
+/// Stretches of contact shorter than this fraction of the smaller reach are a hair: 1 mm for boxes of 1 m.
+/// A box of 1 m sinks in by 0.1 mm, one that carries ten by 1 mm.
+const HAIR: f64 = 1.5e-3;
+
+/// Sine of the angle by which a normal may differ from that of an edge.
+const ALONG: f64 = 1e-6;
+
+impl World {
+    /// Drops the contacts of the present look along which two bodies pass each other.
+    pub(super) fn drop_grazes(&mut self, colliders: (u32, u32), slots: [u32; 2], size: f64) {
+        let mut found = core::mem::take(&mut self.pool.found);
+        found.retain(|contact| {
+            !self.is_hair(contact, colliders, slots, size)
+                || self.meet_without_skin(contact, colliders, slots)
+        });
+        self.pool.found = found;
+    }
+
+    /// Whether corners are to meet corners, or sides share but a hair of their length.
+    fn is_hair(
+        &self,
+        contact: &PartManifold,
+        colliders: (u32, u32),
+        slots: [u32; 2],
+        size: f64,
+    ) -> bool {
+        let solids = [colliders.0, colliders.1].map(|at| &self.colliders[at as usize].solid);
+        let parts = [
+            part(solids[0], contact.part_a as usize),
+            part(solids[1], contact.part_b as usize),
+        ];
+        if parts.iter().any(|part| part.normals.is_empty()) {
+            return false;
+        }
+        let normal = contact.manifold.normal;
+        match contact.manifold.points.as_slice() {
+            [one] if one.separation > 0.0 => {
+                let [a, b] = slots.map(|slot| self.pool.seats.pose(slot).rotation);
+                let in_b = b.inverse() * (a * -normal);
+                let along = |normals: &[Vec2], n: Vec2| {
+                    normals
+                        .iter()
+                        .any(|edge| edge.dot(n) > 0.0 && carom_math::cross(*edge, n).abs() < ALONG)
+                };
+                !along(parts[0].normals, normal) && !along(parts[1].normals, in_b)
+            }
+            [first, second] => {
+                let stretch = (second.point - first.point).length();
+                // A short edge that is all in touch is a face.
+                let edges = [
+                    parts[0].edge(first.feature.vertices().0),
+                    parts[0].edge(second.feature.vertices().0),
+                    parts[1].edge(first.feature.vertices().1),
+                    parts[1].edge(second.feature.vertices().1),
+                ];
+                let shortest = edges
+                    .iter()
+                    .map(|(from, to)| (*to - *from).length())
+                    .fold(f64::INFINITY, f64::min);
+                stretch < HAIR * size && stretch < 0.5 * shortest
+            }
+            _ => false,
+        }
+    }
+
+    /// Whether the two parts would meet within a tick, the first without its skin.
+    fn meet_without_skin(
+        &mut self,
+        contact: &PartManifold,
+        colliders: (u32, u32),
+        slots: [u32; 2],
+    ) -> bool {
+        let solid = &self.colliders[colliders.0 as usize].solid;
+        let cores = self.pool.cores.of(colliders.0, solid);
+        let target = &self.colliders[colliders.1 as usize].solid;
+        let seats = &self.pool.seats;
+        let [a, b] = slots.map(|slot| {
+            let (pose, line) = (seats.pose(slot), &seats.rig.lines[slot as usize]);
+            Motion {
+                start: SimTime::ZERO,
+                velocity: line.v(),
+                rotation: pose.rotation,
+                spin: line.w(),
+                ..Motion::resting(pose.position)
+            }
+        });
+        self.report.pairs += 1;
+        let next = time_of_impact_of_parts(
+            &part(cores[contact.part_a as usize].skinned(), 0),
+            &a,
+            &part(target, contact.part_b as usize),
+            &b,
+            self.settings.tick,
+        );
+        !matches!(next, TimeOfImpact::Clear)
+    }
+}

@@ -1,0 +1,360 @@
+//! Who moves far within a sub-step stops where it first touches what it would pass through.
+//!
+//! Rows know where bodies are when a sub-step begins. That is enough for whoever moves a part of its
+//! width at a time; for the others the way through the sub-step is searched, and they end it at their
+//! time of impact. The next sub-step finds them in touch, and its rows do the rest. What is left of the
+//! sub-step is lost to them, speed is not.
+//!
+//! ```text
+//! ways of all swift bodies ─► first touches, in order of (time, pair) ─► stop ─► searched again against it
+//! ```
+//! Whoever slides, rolls or grazes is not stopped: only the core of a body must not pass.
+
+use core::cmp::Reverse;
+use std::collections::BinaryHeap;
+use std::sync::Arc;
+
+use carom_collision::{Motion, TimeOfImpact, hulls, time_of_impact};
+use carom_geometry::{Circle, ConvexPolygon, Shape};
+use carom_math::{SimTime, Vec2};
+
+use crate::{BodyKind, World};
+
+/// The core of a convex part: the part, shrunk by this factor about its middle.
+const CORE: f64 = 0.95;
+
+/// A convex part without its skin: shrunk by this factor, 2 mm for a box of 1 m.
+const SKINNED: f64 = 0.996;
+
+/// Who is stopped stops short of the surface by this part of its reach: what overlaps is held softly,
+/// and what is met at 100 m/s would sink in.
+const SHORT: f64 = 1e-7;
+
+/// The way of a swift body through a sub-step.
+#[derive(Clone, Copy, Debug)]
+struct Way {
+    body: u32,
+    slot: u32,
+    /// Displacement and turn at the start, against the base.
+    from: (Vec2, f64),
+    motion: Motion,
+    stopped: bool,
+}
+
+/// A first touch of a swift body. In order of (time, pair); `b` only where that one is swift, too.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Touch {
+    time: SimTime,
+    colliders: (u32, u32),
+    place: u32,
+    a: usize,
+    b: Option<usize>,
+}
+
+impl World {
+    /// After a sub-step: whoever went through something goes back to where it touched it first.
+    pub(super) fn stop_swift(&mut self) {
+        if self.pool.seats.rig.swift.is_empty() {
+            return;
+        }
+        let start = self.clock.last();
+        let mut ways = self.ways(start);
+        let mut touches = BinaryHeap::new();
+        for k in 0..ways.len() {
+            self.search(&ways, k, start, None, &mut touches);
+        }
+        while let Some(Reverse(touch)) = touches.pop() {
+            let ends = [Some(touch.a), touch.b];
+            if ends.iter().flatten().any(|k| ways[*k].stopped) {
+                continue;
+            }
+            self.pairs.get_mut(touch.place).fresh = true;
+            for k in ends.into_iter().flatten() {
+                self.halt(&mut ways[k], touch.time - start);
+            }
+            for k in ends.into_iter().flatten() {
+                self.search_against(&ways, k, touch.time, &mut touches);
+            }
+        }
+    }
+
+    /// The ways of all swift bodies, in order of bodies; their boxes hold them.
+    fn ways(&mut self, start: SimTime) -> Vec<Way> {
+        let h = self.clock.h;
+        let swift = core::mem::take(&mut self.pool.seats.rig.swift);
+        let mut ways: Vec<Way> = Vec::with_capacity(swift.len());
+        for before in &swift {
+            let seats = &self.pool.seats;
+            let (seat, line) = (
+                seats.get(before.slot),
+                seats.rig.lines[before.slot as usize],
+            );
+            if seat.kind != BodyKind::Dynamic {
+                continue;
+            }
+            let motion = Motion {
+                start,
+                velocity: (line.d() - before.d) * self.law.inverse_h(),
+                rotation: seat.base.rotation.turned_slightly(before.turn),
+                spin: (line.turn() - before.turn) * self.law.inverse_h(),
+                ..Motion::resting(seat.base.position + before.d)
+            };
+            let (body, angle) = (seat.body, seat.base_angle + before.turn);
+            let state = self.bodies.get_mut(body);
+            (state.motion, state.turned) = (motion, angle);
+            self.hold_way(body, before.slot, start, h);
+            ways.push(Way {
+                body,
+                slot: before.slot,
+                from: (before.d, before.turn),
+                motion,
+                stopped: false,
+            });
+        }
+        self.pool.seats.rig.swift = swift;
+        ways.sort_unstable_by_key(|way| way.body);
+        ways
+    }
+
+    /// Enters the first touch of way `k` with each partner, or with one.
+    fn search(
+        &mut self,
+        ways: &[Way],
+        k: usize,
+        from: SimTime,
+        only: Option<u32>,
+        touches: &mut BinaryHeap<Reverse<Touch>>,
+    ) {
+        let way = ways[k];
+        for i in 0..self.bodies.get(way.body).pairs.len() {
+            let place = self.bodies.get(way.body).pairs[i];
+            let pair = self.pairs.get(place);
+            let (other, mine, theirs) = if pair.bodies.0 == way.body {
+                (pair.bodies.1, pair.colliders.0, pair.colliders.1)
+            } else {
+                (pair.bodies.0, pair.colliders.1, pair.colliders.0)
+            };
+            if only.is_some_and(|only| only != other) {
+                continue;
+            }
+            let colliders = pair.colliders;
+            let partner = ways.binary_search_by_key(&other, |way| way.body).ok();
+            // Of two swift bodies the first one looks.
+            if only.is_none() && partner.is_some_and(|other| other < k) {
+                continue;
+            }
+            let motion = partner.map_or_else(
+                || self.way_of(other, from),
+                |other| ways[other].motion.rebased(from),
+            );
+            let left = self.clock.next() - from;
+            let Some(wait) = self.first_touch(&way, mine, (other, theirs), &motion, (from, left))
+            else {
+                continue;
+            };
+            touches.push(Reverse(Touch {
+                time: from + wait,
+                colliders,
+                place,
+                a: k,
+                b: partner.filter(|other| !ways[*other].stopped),
+            }));
+        }
+    }
+
+    /// Who is still under way may meet one that has stopped.
+    fn search_against(
+        &mut self,
+        ways: &[Way],
+        stopped: usize,
+        from: SimTime,
+        touches: &mut BinaryHeap<Reverse<Touch>>,
+    ) {
+        let body = ways[stopped].body;
+        for i in 0..self.bodies.get(body).pairs.len() {
+            let (a, b) = self.pairs.get(self.bodies.get(body).pairs[i]).bodies;
+            let other = if a == body { b } else { a };
+            if let Ok(k) = ways.binary_search_by_key(&other, |way| way.body)
+                && !ways[k].stopped
+            {
+                self.search(ways, k, from, Some(body), touches);
+            }
+        }
+    }
+
+    /// Seconds after `from` at which the core of a shape would touch another, or before that the
+    /// shape itself; `None` within `left` seconds.
+    fn first_touch(
+        &mut self,
+        way: &Way,
+        mine: u32,
+        (other, theirs): (u32, u32),
+        motion: &Motion,
+        (from, left): (SimTime, f64),
+    ) -> Option<f64> {
+        let own = way.motion.rebased(from);
+        let size = self.bodies.get(way.body).reach;
+        let near = size + self.bodies.get(other).reach;
+        if !comes_within(&own, motion, near, left) {
+            return None;
+        }
+        self.report.pairs += 1;
+        let solid = &self.colliders[mine as usize].solid;
+        let parts = self.pool.cores.of(mine, solid);
+        let target = &self.colliders[theirs as usize].solid;
+        let mut first: Option<f64> = None;
+        for part in parts.iter() {
+            let left = first.unwrap_or(left);
+            let wait = match time_of_impact(&part.core, &own, target, motion, left) {
+                TimeOfImpact::Hit(hit) => hit.time,
+                TimeOfImpact::Unresolved { safe_until } => {
+                    self.report.unresolved += 1;
+                    safe_until
+                }
+                // In touch from the start: its rows hold it.
+                TimeOfImpact::Clear | TimeOfImpact::Touching(_) => continue,
+            };
+            let whole = part.whole.as_ref().unwrap_or(solid);
+            let wait = match time_of_impact(whole, &own, target, motion, wait) {
+                TimeOfImpact::Hit(hit) => (hit.time + SHORT * size / hit.gap_rate).max(0.0),
+                _ => wait,
+            };
+            first = Some(wait);
+        }
+        first
+    }
+
+    /// How a body that is not swift goes through the sub-step.
+    fn way_of(&self, body: u32, from: SimTime) -> Motion {
+        let seats = &self.pool.seats;
+        let slot = seats.slot(body);
+        let Some(slot) = slot.filter(|slot| seats.get(*slot).kind != BodyKind::Fixed) else {
+            return self.bodies.get(body).motion.rebased(from);
+        };
+        let (pose, line) = (seats.pose(slot), &seats.rig.lines[slot as usize]);
+        let left = self.clock.next() - from;
+        Motion {
+            start: from,
+            velocity: line.v(),
+            rotation: pose.rotation.turned_slightly(-left * line.w()),
+            spin: line.w(),
+            ..Motion::resting(pose.position - line.v() * left)
+        }
+    }
+
+    /// Ends a way after `wait` seconds; pull that came later did not act.
+    fn halt(&mut self, way: &mut Way, wait: f64) {
+        let left = self.clock.h - wait;
+        let rig = &mut self.pool.seats.rig;
+        let (motion, (d, turn)) = (&way.motion, way.from);
+        rig.set_displacement(
+            way.slot,
+            d + motion.velocity * wait,
+            turn + motion.spin * wait,
+        );
+        let (line, pull) = (rig.lines[way.slot as usize], rig.pull(way.slot));
+        rig.set_velocity(
+            way.slot,
+            line.v() - pull.acceleration * left,
+            line.w() - pull.angular * left,
+        );
+        way.motion = Motion {
+            velocity: Vec2::ZERO,
+            spin: 0.0,
+            start: motion.start + wait,
+            centre: motion.centre + motion.velocity * wait,
+            rotation: motion.rotation.turned_slightly(motion.spin * wait),
+            ..*motion
+        };
+        way.stopped = true;
+        self.pool.moved.push(way.body);
+    }
+}
+
+/// Whether the centres of two motions come nearer to each other than `near` within `left` seconds.
+fn comes_within(a: &Motion, b: &Motion, near: f64, left: f64) -> bool {
+    let (apart, closing) = (b.centre - a.centre, b.velocity - a.velocity);
+    let square = closing.length_squared();
+    let nearest = if square > 0.0 {
+        (-apart.dot(closing) / square).clamp(0.0, left)
+    } else {
+        0.0
+    };
+    let near = near * (1.0 + 1e-9);
+    (apart + closing * nearest).length_squared() <= near * near
+}
+
+/// The cores of shapes whose bodies were swift once, by collider.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Cores(Vec<Option<Cored>>);
+
+#[derive(Clone, Debug)]
+struct Cored {
+    of: Arc<Shape>,
+    parts: Arc<[Part]>,
+}
+
+/// A convex part of a shape.
+#[derive(Clone, Debug)]
+pub(super) struct Part {
+    core: Shape,
+    /// The part without its skin.
+    skinned: Shape,
+    /// `None`: the shape itself.
+    whole: Option<Shape>,
+}
+
+impl Part {
+    pub(super) const fn skinned(&self) -> &Shape {
+        &self.skinned
+    }
+}
+
+impl Cores {
+    pub(super) fn of(&mut self, collider: u32, solid: &Arc<Shape>) -> Arc<[Part]> {
+        let at = collider as usize;
+        if self.0.len() <= at {
+            self.0.resize(at + 1, None);
+        }
+        let known = self.0[at]
+            .as_ref()
+            .filter(|cored| Arc::ptr_eq(&cored.of, solid));
+        if let Some(cored) = known {
+            return Arc::clone(&cored.parts);
+        }
+        let parts = parts_of(solid);
+        self.0[at] = Some(Cored {
+            of: Arc::clone(solid),
+            parts: Arc::clone(&parts),
+        });
+        parts
+    }
+}
+
+fn parts_of(solid: &Shape) -> Arc<[Part]> {
+    let single = hulls(solid).len() == 1;
+    let parts = hulls(solid).map(|hull| {
+        let count = hull.vertices.len().max(1);
+        #[expect(clippy::cast_precision_loss, reason = "vertices are few")]
+        let middle = hull.vertices.iter().sum::<Vec2>() / count as f64;
+        let shaped = |scale: f64| {
+            let points = hull.vertices.iter().map(|v| middle + (*v - middle) * scale);
+            if hull.normals.is_empty() {
+                Circle::at(middle, scale * hull.radius)
+                    .ok()
+                    .map(Shape::from)
+            } else {
+                let points: Vec<Vec2> = points.collect();
+                ConvexPolygon::new(points).ok().map(Shape::from)
+            }
+        };
+        // What cannot be shrunk, a segment, is all core.
+        let core = shaped(CORE).or_else(|| shaped(1.0));
+        Part {
+            core: core.unwrap_or_else(|| solid.clone()),
+            skinned: shaped(SKINNED).unwrap_or_else(|| solid.clone()),
+            whole: if single { None } else { shaped(1.0) },
+        }
+    });
+    parts.collect()
+}
