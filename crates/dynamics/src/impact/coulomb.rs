@@ -10,10 +10,10 @@
 //! Lemke's pivoting finds a solution, which exists (M. Anitescu, F. Potra 1997); where bodies
 //! are squeezed between others that do not yield none does, and sweeps end it.
 
-use super::dense::Factored;
-use super::lemke::pivoted;
+use super::pivots::pivoted;
 use super::rows::{Bound, Rows};
 use super::sweeps::swept;
+use crate::dense::Factored;
 
 /// Guesses before pivoting takes over; a pile of 32 contacts needs 5 to 8.
 const GUESSES: usize = 24;

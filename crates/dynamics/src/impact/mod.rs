@@ -2,9 +2,8 @@
 
 mod body;
 mod coulomb;
-mod dense;
 mod law;
-mod lemke;
+mod pivots;
 pub(crate) mod project;
 mod restitution;
 mod rough;

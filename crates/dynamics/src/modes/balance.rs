@@ -11,7 +11,7 @@
 
 use super::NotMine;
 use super::faces::{Face, Faces, dot};
-use super::lemke::complementary;
+use crate::lemke::complementary;
 
 /// Accelerations below this part of what they are the difference of are none.
 const ROUNDING: f64 = 1e-11;
@@ -65,16 +65,11 @@ pub(super) fn balance(faces: &Faces, tangents: &[Tangent]) -> Result<Balance, No
             return Err(NotMine::Painleve);
         }
     }
-    let mut m = Vec::with_capacity(unknowns.len());
+    let mut m = Vec::with_capacity(unknowns.len() * unknowns.len());
     let mut q = Vec::with_capacity(unknowns.len());
     for row in &unknowns {
-        m.push(
-            unknowns
-                .iter()
-                .zip(&columns)
-                .map(|(other, column)| entry(faces, *row, *other, column))
-                .collect(),
-        );
+        let others = unknowns.iter().zip(&columns);
+        m.extend(others.map(|(other, column)| entry(faces, *row, *other, column)));
         q.push(rate(faces, *row, &faces.free));
     }
     let failed = if slides {
@@ -82,7 +77,7 @@ pub(super) fn balance(faces: &Faces, tangents: &[Tangent]) -> Result<Balance, No
     } else {
         NotMine::Unsolved
     };
-    let z = complementary(&m, &q).ok_or(failed)?;
+    let z = complementary(&m, &q).ok_or(failed)?.z;
     let mut state = faces.free.clone();
     for (column, z) in columns.iter().zip(&z) {
         for (x, y) in state.iter_mut().zip(column) {

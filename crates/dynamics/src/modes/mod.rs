@@ -10,7 +10,6 @@
 mod balance;
 mod change;
 mod faces;
-mod lemke;
 #[cfg(test)]
 mod naive;
 mod rest;

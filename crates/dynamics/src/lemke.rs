@@ -7,6 +7,8 @@
 //! Complementary pivoting with lexicographic ties, which ends (Cottle, Pang, Stone 1992, section 4.4).
 //! The tableau's rounding only decides who is in the basis: the answer is solved for once more.
 
+use crate::dense::Factored;
+
 /// A pivot smaller than this part of its column counts as 0.
 const PIVOT: f64 = 1e-11;
 
@@ -16,12 +18,22 @@ const TIE: f64 = 1e-13;
 /// The covering variable counts as 0 below this part of the largest number of q.
 const UNCOVERED: f64 = 1e-12;
 
-/// The z of a solution; `None` if the method ends on a ray.
-pub(super) fn complementary(m: &[Vec<f64>], q: &[f64]) -> Option<Vec<f64>> {
+/// A solution: every z, and which of them the basis solves for.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Solution {
+    pub(crate) z: Vec<f64>,
+    pub(crate) basic: Vec<bool>,
+}
+
+/// A solution for a matrix given row by row; `None` if the method ends on a ray.
+pub(crate) fn complementary(m: &[f64], q: &[f64]) -> Option<Solution> {
     let n = q.len();
     let size = q.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
     if q.iter().all(|&x| x >= -TIE * size) {
-        return Some(vec![0.0; n]);
+        return Some(Solution {
+            z: vec![0.0; n],
+            basic: vec![false; n],
+        });
     }
     let mut tableau = Tableau::new(m, q, size);
     let mut entering = tableau.begin();
@@ -45,13 +57,13 @@ struct Tableau {
 }
 
 impl Tableau {
-    fn new(m: &[Vec<f64>], q: &[f64], size: f64) -> Self {
+    fn new(m: &[f64], q: &[f64], size: f64) -> Self {
         let n = q.len();
         let rows = (0..n).map(|i| {
             let mut row = vec![0.0; 2 * n + 2];
             row[i] = 1.0;
-            for j in 0..n {
-                row[n + j] = -m[i][j];
+            for (to, from) in row[n..2 * n].iter_mut().zip(&m[i * n..]) {
+                *to = -from;
             }
             row[2 * n] = -1.0;
             row[2 * n + 1] = q[i] / size;
@@ -152,55 +164,32 @@ impl Tableau {
 
     /// The basis solved for from the numbers as they were given; if its rows depend on each other, as
     /// the tableau has it.
-    fn solution(&self, m: &[Vec<f64>], q: &[f64], size: f64) -> Vec<f64> {
+    fn solution(&self, m: &[f64], q: &[f64], size: f64) -> Solution {
         let n = self.n;
         let held: Vec<(usize, usize)> = (0..n)
             .filter(|&row| (n..2 * n).contains(&self.basis[row]))
             .map(|row| (row, self.basis[row] - n))
             .collect();
-        let square: Vec<Vec<f64>> = held
+        let square = held
             .iter()
-            .map(|&(_, i)| held.iter().map(|&(_, j)| m[i][j]).collect())
-            .collect();
+            .flat_map(|&(_, i)| held.iter().map(move |&(_, j)| m[i * n + j]));
         let right: Vec<f64> = held.iter().map(|&(_, i)| -q[i]).collect();
         let rough = held
             .iter()
             .map(|&(row, _)| self.rows[row][2 * n + 1] * size);
-        let found = solve(square, right).unwrap_or_else(|| rough.collect());
-        let mut z = vec![0.0; n];
+        let exact = Factored::of(held.len(), square.collect())
+            .filter(|factored| factored.least_pivot() > f64::EPSILON);
+        let found = exact.map_or_else(|| rough.collect(), |factored| factored.solve(&right));
+        let mut solution = Solution {
+            z: vec![0.0; n],
+            basic: vec![false; n],
+        };
         for ((_, place), value) in held.into_iter().zip(found) {
-            z[place] = if value > 0.0 { value } else { 0.0 };
+            solution.z[place] = if value > 0.0 { value } else { 0.0 };
+            solution.basic[place] = true;
         }
-        z
+        solution
     }
-}
-
-/// Gaussian elimination with rows exchanged for the largest pivot; `None` if singular.
-fn solve(mut a: Vec<Vec<f64>>, mut x: Vec<f64>) -> Option<Vec<f64>> {
-    let n = x.len();
-    for k in 0..n {
-        let best = (k..n).max_by(|&i, &j| a[i][k].abs().total_cmp(&a[j][k].abs()))?;
-        if a[best][k].abs() <= f64::EPSILON {
-            return None;
-        }
-        a.swap(k, best);
-        x.swap(k, best);
-        let (above, below) = a.split_at_mut(k + 1);
-        for (i, row) in below.iter_mut().enumerate() {
-            let factor = row[k] / above[k][k];
-            if factor != 0.0 {
-                for (to, from) in row[k..].iter_mut().zip(&above[k][k..]) {
-                    *to -= factor * from;
-                }
-                x[k + 1 + i] -= factor * x[k];
-            }
-        }
-    }
-    for k in (0..n).rev() {
-        let known: f64 = (k + 1..n).map(|j| a[k][j] * x[j]).sum();
-        x[k] = (x[k] - known) / a[k][k];
-    }
-    Some(x)
 }
 
 #[cfg(test)]
@@ -211,13 +200,14 @@ mod tests {
     #[test]
     fn a_problem_of_two_is_solved() {
         // w = (z₁ + z₂ − 3, z₁ + 2 z₂ − 4): both are held.
-        let found = complementary(&[vec![1.0, 1.0], vec![1.0, 2.0]], &[-3.0, -4.0]);
-        assert_eq!(found, Some(vec![2.0, 1.0]));
+        let found = complementary(&[1.0, 1.0, 1.0, 2.0], &[-3.0, -4.0]).unwrap();
+        assert_eq!(found.z, [2.0, 1.0]);
+        assert_eq!(found.basic, [true, true]);
     }
 
     #[test]
     fn a_problem_without_a_solution_ends() {
-        assert_eq!(complementary(&[vec![-1.0]], &[-1.0]), None);
+        assert_eq!(complementary(&[-1.0], &[-1.0]), None);
     }
 
     proptest! {
@@ -228,11 +218,11 @@ mod tests {
         ) {
             // M = R Rᵀ, singular if there are more rows than coordinates; q is within its reach.
             let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
-            let m: Vec<Vec<f64>> = rows.iter().map(|a| rows.iter().map(|b| dot(a, b)).collect()).collect();
+            let m: Vec<f64> = rows.iter().flat_map(|a| rows.iter().map(|b| dot(a, b))).collect();
             let q: Vec<f64> = rows.iter().map(|row| dot(row, &force)).collect();
             // One of many is so nearly singular that rounding hides its last pivot.
-            let Some(z) = complementary(&m, &q) else { return Ok(()) };
-            for (i, row) in m.iter().enumerate() {
+            let Some(Solution { z, .. }) = complementary(&m, &q) else { return Ok(()) };
+            for (i, row) in m.chunks_exact(q.len()).enumerate() {
                 let w = dot(row, &z) + q[i];
                 prop_assert!(w > -1e-9 && (w * z[i]).abs() < 1e-9, "w {w:e}, z {:e}", z[i]);
             }

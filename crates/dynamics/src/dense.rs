@@ -1,7 +1,7 @@
 //! A dense system of a few equations.
 
 /// A square matrix as L U, its rows exchanged so that the largest of a column comes first.
-pub(super) struct Factored {
+pub(crate) struct Factored {
     size: usize,
     /// Row by row: L below the diagonal, U on and above it.
     entries: Vec<f64>,
@@ -10,8 +10,8 @@ pub(super) struct Factored {
 }
 
 impl Factored {
-    /// Of a matrix given row by row; `None` if a pivot is 0 or not finite.
-    pub(super) fn of(size: usize, mut entries: Vec<f64>) -> Option<Self> {
+    /// Of a square matrix given row by row; `None` if a pivot is 0 or not finite.
+    pub(crate) fn of(size: usize, mut entries: Vec<f64>) -> Option<Self> {
         let mut order: Vec<usize> = (0..size).collect();
         for k in 0..size {
             let mut best = k;
@@ -50,8 +50,14 @@ impl Factored {
         })
     }
 
+    /// The smallest pivot by size; infinite where there is none.
+    pub(crate) fn least_pivot(&self) -> f64 {
+        let diagonal = self.entries.iter().step_by(self.size + 1);
+        diagonal.fold(f64::INFINITY, |least, pivot| least.min(pivot.abs()))
+    }
+
     /// The x with A x = `right`.
-    pub(super) fn solve(&self, right: &[f64]) -> Vec<f64> {
+    pub(crate) fn solve(&self, right: &[f64]) -> Vec<f64> {
         let mut x: Vec<f64> = self.order.iter().map(|&row| right[row]).collect();
         for k in 0..self.size {
             let row = &self.entries[k * self.size..];
