@@ -4,164 +4,16 @@
 //! at the instant of its own next change. Between these nobody touches it: its motions are right for
 //! as long as its mode lasts. What does not qualify is left to the sub-steps.
 
-use core::cmp::Reverse;
-use std::collections::BinaryHeap;
+mod store;
 
 use carom_math::{SimTime, Vec2, cross_scalar, perp};
 
 use crate::flight::fly;
-use crate::modes::{BodyMove, GroupMove, TouchMove, judge, land};
+use crate::modes::{BodyMove, GroupMove, judge, land};
 use crate::touching::{Gathered, Looks, Refused};
 use crate::{ContactMode, EventKind, Mode, World};
-
-/// Sub-steps that a body waits after a judgement that failed: doubled each time, up to this.
-const LONGEST_WAIT: u32 = 256;
-
-/// Judgements of one group at one instant: more, and rounding moves it to and fro.
-const STALLED: u32 = 16;
-
-/// No group.
-pub(crate) const NO_GROUP: u32 = u32::MAX;
-
-/// What a body knows of groups.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Membership {
-    /// Place of the group, or [`NO_GROUP`].
-    pub(crate) group: u32,
-    /// Not judged again before this instant, while nothing happens to it.
-    not_before: SimTime,
-    /// Sub-steps that it waited the last time.
-    waited: u32,
-}
-
-impl Default for Membership {
-    fn default() -> Self {
-        Self {
-            group: NO_GROUP,
-            not_before: SimTime::ZERO,
-            waited: 0,
-        }
-    }
-}
-
-impl Membership {
-    pub(crate) const fn is_closed(self) -> bool {
-        self.group != NO_GROUP
-    }
-
-    /// Until when a judgement that failed stands, if it still does at `time`.
-    pub(crate) fn waits(self, time: SimTime) -> Option<SimTime> {
-        Some(self.not_before).filter(|until| *until > time)
-    }
-}
-
-/// The groups of a world, and when they change.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Closed {
-    groups: Vec<Option<Group>>,
-    free: Vec<u32>,
-    /// Stale entries are dropped when they come up: a group's stamp tells.
-    changes: BinaryHeap<Reverse<(SimTime, u32, u64)>>,
-    stamp: u64,
-    /// Where and how often in a row judgements took place at one instant.
-    stall: (SimTime, u32),
-}
-
-#[derive(Clone, Debug)]
-struct Group {
-    stamp: u64,
-    since: SimTime,
-    /// Dynamic members, and the version that their motion has since then.
-    members: Vec<(u32, u32)>,
-    touches: Vec<Kept>,
-    /// Largest speed of the mode: what its roundings are measured by, in m/s.
-    speed: f64,
-    sleeps: bool,
-}
-
-/// A touch of a group while its mode lasts.
-#[derive(Clone, Copy, Debug)]
-struct Kept {
-    pair: u32,
-    contact: usize,
-    moved: TouchMove,
-    /// How fast the slip grows, in m/s².
-    slip_rate: f64,
-    /// Power that a driven partner puts in, in W.
-    driven: f64,
-}
-
-impl Kept {
-    /// Heat by friction in the first `elapsed` seconds, in J.
-    fn heat(&self, elapsed: f64) -> f64 {
-        -self.moved.tangential * (self.moved.slip + 0.5 * self.slip_rate * elapsed) * elapsed
-    }
-}
-
-impl Closed {
-    /// When the next change is due.
-    pub(crate) fn next(&mut self) -> Option<SimTime> {
-        loop {
-            let &Reverse((time, group, stamp)) = self.changes.peek()?;
-            if self.get(group).is_some_and(|group| group.stamp == stamp) {
-                return Some(time);
-            }
-            self.changes.pop();
-        }
-    }
-
-    fn get(&self, group: u32) -> Option<&Group> {
-        self.groups.get(group as usize)?.as_ref()
-    }
-
-    fn insert(&mut self, group: Group, change: Option<SimTime>) -> u32 {
-        let stamp = group.stamp;
-        let place = self.free.pop().unwrap_or_else(|| {
-            self.groups.push(None);
-            #[expect(
-                clippy::cast_possible_truncation,
-                reason = "fewer than there are bodies"
-            )]
-            let place = (self.groups.len() - 1) as u32;
-            place
-        });
-        self.groups[place as usize] = Some(group);
-        if let Some(time) = change {
-            self.changes.push(Reverse((time, place, stamp)));
-        }
-        place
-    }
-
-    fn remove(&mut self, place: u32) -> Option<Group> {
-        let group = self.groups.get_mut(place as usize)?.take();
-        if group.is_some() {
-            self.free.push(place);
-        }
-        group
-    }
-
-    /// Friction's heat, and the work of driven partners, that nobody has booked yet, in J.
-    pub(crate) fn unbooked(&self, now: SimTime) -> (f64, f64) {
-        let groups = self.groups.iter().flatten();
-        let touches = groups.flat_map(|group| group.touches.iter().map(move |t| (t, group.since)));
-        touches.fold((0.0, 0.0), |(heat, driven), (touch, since)| {
-            (
-                heat + touch.heat(now - since),
-                driven + touch.driven * (now - since),
-            )
-        })
-    }
-
-    /// Whether judgements go round in circles here.
-    fn stalls(&mut self, time: SimTime) -> bool {
-        if self.stall.0 == time {
-            self.stall.1 += 1;
-        } else {
-            self.stall = (time, 0);
-        }
-        self.stall.1 > STALLED
-    }
-}
+pub(crate) use store::{Closed, Membership};
+use store::{Group, Kept};
 
 impl World {
     /// Closed forms for all groups that allow them at the start of a sub-step.
@@ -195,7 +47,7 @@ impl World {
     /// Contacts of groups last, and carry what the group says.
     fn keep_closed(&mut self) {
         let h = self.clock.h;
-        for group in self.closed.groups.iter().flatten() {
+        for group in self.closed.iter() {
             for touch in &group.touches {
                 let pair = self.pairs.get_mut(touch.pair);
                 pair.lasting = true;
@@ -211,10 +63,10 @@ impl World {
 
     /// The change of a group that is due.
     pub(crate) fn change_group(&mut self) {
-        let Some(Reverse((time, place, stamp))) = self.closed.changes.pop() else {
+        let Some((time, place)) = self.closed.pop() else {
             return;
         };
-        let Some(group) = self.closed.get(place).filter(|group| group.stamp == stamp) else {
+        let Some(group) = self.closed.get(place) else {
             return;
         };
         if group.sleeps {
@@ -310,9 +162,8 @@ impl World {
                 let Some(until) = until else {
                     return self.wait_around(&seen, time);
                 };
-                // A neighbour's judgement stands for all.
                 for index in seen {
-                    self.bodies.get_mut(index).membership.not_before = until;
+                    self.bodies.get_mut(index).membership.wait_until(until);
                 }
                 return;
             }
@@ -363,11 +214,9 @@ impl World {
         for &index in members {
             let h = self.clock.h;
             let membership = &mut self.bodies.get_mut(index).membership;
-            if membership.is_closed() {
-                continue;
+            if !membership.is_closed() {
+                membership.wait(time, h);
             }
-            membership.waited = (2 * membership.waited + 1).min(LONGEST_WAIT);
-            membership.not_before = time + h * (f64::from(membership.waited) - 0.5);
         }
     }
 
@@ -401,9 +250,7 @@ impl World {
             (None, Some(sleep)) => Some(time + sleep.time),
             (None, None) => None,
         };
-        self.closed.stamp += 1;
         let group = Group {
-            stamp: self.closed.stamp,
             since: time,
             touches: self.kept(gathered, moves),
             members: members.clone(),
@@ -412,10 +259,7 @@ impl World {
         };
         let place = self.closed.insert(group, change);
         for &(index, _) in &members {
-            self.bodies.get_mut(index).membership = Membership {
-                group: place,
-                ..Membership::default()
-            };
+            self.bodies.get_mut(index).membership = Membership::of(place);
         }
         self.tell_modes(gathered, moves, time);
         for (index, _) in members {

@@ -1,0 +1,188 @@
+//! The groups of a world that move in closed form, and when they change.
+
+use core::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use carom_math::SimTime;
+
+use crate::modes::TouchMove;
+
+/// Judgements of one group at one instant: more, and rounding moves it to and fro.
+const STALLED: u32 = 16;
+
+/// Sub-steps that a body waits after a judgement that failed: doubled each time, up to this.
+const LONGEST_WAIT: u32 = 256;
+
+/// No group.
+const NO_GROUP: u32 = u32::MAX;
+
+/// What a body knows of groups.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Membership {
+    /// Place of the group, or [`NO_GROUP`].
+    pub(crate) group: u32,
+    /// Not judged again before this instant, while nothing happens to it.
+    not_before: SimTime,
+    /// Sub-steps that it waited the last time.
+    waited: u32,
+}
+
+impl Default for Membership {
+    fn default() -> Self {
+        Self {
+            group: NO_GROUP,
+            not_before: SimTime::ZERO,
+            waited: 0,
+        }
+    }
+}
+
+impl Membership {
+    pub(crate) const fn is_closed(self) -> bool {
+        self.group != NO_GROUP
+    }
+
+    /// A member of the group at `place`.
+    pub(super) fn of(place: u32) -> Self {
+        Self {
+            group: place,
+            ..Self::default()
+        }
+    }
+
+    /// A judgement failed: the next one is later, and later each time, in sub-steps of `h` seconds.
+    pub(super) fn wait(&mut self, time: SimTime, h: f64) {
+        self.waited = (2 * self.waited + 1).min(LONGEST_WAIT);
+        self.not_before = time + h * (f64::from(self.waited) - 0.5);
+    }
+
+    /// A neighbour's judgement stands for all.
+    pub(super) fn wait_until(&mut self, until: SimTime) {
+        self.not_before = until;
+    }
+
+    /// Until when a judgement that failed stands, if it still does at `time`.
+    pub(crate) fn waits(self, time: SimTime) -> Option<SimTime> {
+        Some(self.not_before).filter(|until| *until > time)
+    }
+}
+
+/// The groups of a world, and when they change.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Closed {
+    /// With the stamp that tells a group from those that had its place before.
+    groups: Vec<Option<(u64, Group)>>,
+    free: Vec<u32>,
+    /// Stale entries are dropped when they come up: a group's stamp tells.
+    changes: BinaryHeap<Reverse<(SimTime, u32, u64)>>,
+    stamp: u64,
+    /// Where and how often in a row judgements took place at one instant.
+    stall: (SimTime, u32),
+}
+
+#[derive(Clone, Debug)]
+pub(super) struct Group {
+    pub(super) since: SimTime,
+    /// Dynamic members, and the version that their motion has since then.
+    pub(super) members: Vec<(u32, u32)>,
+    pub(super) touches: Vec<Kept>,
+    /// Largest speed of the mode: what its roundings are measured by, in m/s.
+    pub(super) speed: f64,
+    pub(super) sleeps: bool,
+}
+
+/// A touch of a group while its mode lasts.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Kept {
+    pub(super) pair: u32,
+    pub(super) contact: usize,
+    pub(super) moved: TouchMove,
+    /// How fast the slip grows, in m/s².
+    pub(super) slip_rate: f64,
+    /// Power that a driven partner puts in, in W.
+    pub(super) driven: f64,
+}
+
+impl Kept {
+    /// Heat by friction in the first `elapsed` seconds, in J.
+    pub(super) fn heat(&self, elapsed: f64) -> f64 {
+        -self.moved.tangential * (self.moved.slip + 0.5 * self.slip_rate * elapsed) * elapsed
+    }
+}
+
+impl Closed {
+    /// When the next change is due.
+    pub(crate) fn next(&mut self) -> Option<SimTime> {
+        loop {
+            let &Reverse((time, group, stamp)) = self.changes.peek()?;
+            let held = self.groups[group as usize].as_ref();
+            if held.is_some_and(|(held, _)| *held == stamp) {
+                return Some(time);
+            }
+            self.changes.pop();
+        }
+    }
+
+    /// Takes out the change that is due next: its instant, and the place of its group.
+    pub(super) fn pop(&mut self) -> Option<(SimTime, u32)> {
+        self.next()?;
+        let Reverse((time, place, _)) = self.changes.pop()?;
+        Some((time, place))
+    }
+
+    pub(super) fn get(&self, place: u32) -> Option<&Group> {
+        let (_, group) = self.groups.get(place as usize)?.as_ref()?;
+        Some(group)
+    }
+
+    pub(super) fn iter(&self) -> impl Iterator<Item = &Group> {
+        self.groups.iter().flatten().map(|(_, group)| group)
+    }
+
+    pub(super) fn insert(&mut self, group: Group, change: Option<SimTime>) -> u32 {
+        self.stamp += 1;
+        let place = self.free.pop().unwrap_or_else(|| {
+            self.groups.push(None);
+            #[expect(
+                clippy::cast_possible_truncation,
+                reason = "fewer than there are bodies"
+            )]
+            let place = (self.groups.len() - 1) as u32;
+            place
+        });
+        self.groups[place as usize] = Some((self.stamp, group));
+        if let Some(time) = change {
+            self.changes.push(Reverse((time, place, self.stamp)));
+        }
+        place
+    }
+
+    pub(super) fn remove(&mut self, place: u32) -> Option<Group> {
+        let (_, group) = self.groups.get_mut(place as usize)?.take()?;
+        self.free.push(place);
+        Some(group)
+    }
+
+    /// Friction's heat, and the work of driven partners, that nobody has booked yet, in J.
+    pub(crate) fn unbooked(&self, now: SimTime) -> (f64, f64) {
+        let touches = self
+            .iter()
+            .flat_map(|group| group.touches.iter().map(move |t| (t, group.since)));
+        touches.fold((0.0, 0.0), |(heat, driven), (touch, since)| {
+            (
+                heat + touch.heat(now - since),
+                driven + touch.driven * (now - since),
+            )
+        })
+    }
+
+    /// Whether judgements go round in circles here.
+    pub(super) fn stalls(&mut self, time: SimTime) -> bool {
+        if self.stall.0 == time {
+            self.stall.1 += 1;
+        } else {
+            self.stall = (time, 0);
+        }
+        self.stall.1 > STALLED
+    }
+}
