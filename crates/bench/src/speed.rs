@@ -48,7 +48,10 @@ pub struct Limits {
 /// What one process measured.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SpeedReading {
-    /// Median over the measured steps, in ms: CPU time on one thread, wall time on several.
+    /// Mean over the measured steps, in ms: CPU time on one thread, wall time on several.
+    #[serde(with = "crate::number")]
+    pub ms_mean: f64,
+    /// Median over the measured steps, in ms.
     #[serde(with = "crate::number")]
     pub ms_median: f64,
     /// 99th percentile over the measured steps, in ms.
@@ -125,6 +128,7 @@ pub(crate) fn run(job: &SpeedJob) -> Result<SpeedReading, EngineError> {
     let rms_acceleration = race.unrest(&scene);
     times.sort_by(f64::total_cmp);
     Ok(SpeedReading {
+        ms_mean: mean(&times),
         ms_median: times[times.len() / 2],
         ms_p99: times[99 * times.len() / 100],
         ms_first,
@@ -141,6 +145,11 @@ pub(crate) fn run(job: &SpeedJob) -> Result<SpeedReading, EngineError> {
         own_mib,
         settings,
     })
+}
+
+#[expect(clippy::cast_precision_loss, reason = "a count of steps")]
+fn mean(times: &[f64]) -> f64 {
+    times.iter().sum::<f64>() / times.len() as f64
 }
 
 /// The steps of a job without judge and without a second look at their times.

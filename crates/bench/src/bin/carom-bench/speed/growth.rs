@@ -30,7 +30,7 @@ pub(super) fn outgrown(rows: &[Row], planned: &Planned) -> bool {
             .and_then(|job| parts(&job.scene))
             .is_some_and(|(other, fewer)| other == kind && fewer < bodies);
         let over = match &row.reading {
-            Reading::Speed(reading) => reading.ms_median > STEP_BUDGET,
+            Reading::Speed(reading) => reading.ms_mean > STEP_BUDGET,
             _ => true,
         };
         smaller && over && row.job.engine() == planned.job.engine()
@@ -72,7 +72,7 @@ fn panels(rows: &[SpeedRow]) -> Panels {
                 let here = found == kind && row.engine == *engine;
                 here.then_some(vec2(
                     f64::from(bodies),
-                    row.ms_median.unwrap_or(f64::INFINITY),
+                    row.ms_mean.unwrap_or(f64::INFINITY),
                 ))
             };
             let points: Vec<_> = rows.iter().filter_map(place).collect();

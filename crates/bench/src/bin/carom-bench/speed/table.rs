@@ -10,8 +10,8 @@ use crate::text;
 pub(crate) fn markdown(head: &Head, rows: &[SpeedRow]) -> String {
     let mut text = String::from("# Milliseconds a step, and what they bought\n\n");
     text += &head.markdown();
-    text += "\nms: CPU time of a step on one thread, wall time on several; median and 99th percentile over the measured steps, \
-             median of the repetitions. Ratio: to the fastest peer with as many threads that reads as much. Energy: after the measured \
+    text += "\nms: CPU time of a step on one thread, wall time on several: mean, median and 99th percentile over the measured steps, \
+             median of the repetitions. Ratio: of the means, to the fastest peer with as many threads that reads as much. Energy: after the measured \
              steps over before them. Overlap (m), rms acceleration (m/s²) and drift (m): judged by the same code for all. \
              MiB: peak memory of the process; KiB a body: beyond what it took before the scene, over the dynamic bodies. \
              – was not measured; cut: time ran out before all steps were made.\n";
@@ -44,6 +44,7 @@ fn lines(text: &mut String, rows: &[&SpeedRow]) {
         "mode",
         "threads",
         "ms",
+        "median",
         "p99",
         "ratio",
         "energy",
@@ -85,6 +86,7 @@ fn lines(text: &mut String, rows: &[&SpeedRow]) {
             row.engine.to_string(),
             format!("{}{}", row.mode, if row.cut { " (cut)" } else { "" }),
             row.threads.to_string(),
+            text::number(row.ms_mean),
             text::number(row.ms_median),
             text::number(row.ms_p99),
             text::number(row.ratio_to_best_peer),
@@ -124,7 +126,7 @@ mod tests {
             "{text}"
         );
         assert!(
-            text.contains("| carom | hybrid | 1 | 6.00 | 12.0 | 3.00 | 1.2500 |"),
+            text.contains("| carom | hybrid | 1 | 6.00 | 6.00 | 12.0 | 3.00 | 1.2500 |"),
             "{text}"
         );
         assert!(
