@@ -2,6 +2,8 @@
 
 mod body;
 mod coulomb;
+#[cfg(test)]
+mod heaps;
 mod law;
 mod pivots;
 pub(crate) mod project;

@@ -1,76 +1,20 @@
 //! Laws of several contacts with friction, over random heaps with mass ratios to 1e12.
 
-use carom_math::{Rot, Vec2, cross, perp, vec2};
+use carom_math::{Vec2, cross, perp, vec2};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
 
 use super::coulomb::stop;
+use super::heaps::{self, energy, least_opening, velocity};
 use super::rows::{Rows, contact_rows};
-use super::{ImpactBody, ImpactContact, ImpactLaw, Several, SharedContact, SharedOutcome, several};
+use super::{ImpactBody, ImpactContact, ImpactLaw, Several, SharedContact, several};
 
-/// Bodies and contacts, masses of 10^±`decades` kg, the first body perhaps immovable.
+/// Bodies and contacts of all materials, masses of 10^±`decades` kg.
 fn heap(decades: f64, most: usize) -> impl Strategy<Value = (Vec<ImpactBody>, Vec<SharedContact>)> {
-    let number = || -2.0..2.0_f64;
-    let body = (
-        -decades..=decades,
-        0.1..3.0_f64,
-        [number(), number(), number(), number(), number()],
-    );
     let friction = prop_oneof![Just(0.0), 0.0..2.0_f64, Just(0.6), Just(1e3)];
     let restitution = prop_oneof![Just(0.0), Just(1.0), 0.0..1.0_f64];
-    let contact = (
-        any::<prop::sample::Index>(),
-        1..5_usize,
-        -3.2..3.2_f64,
-        [number(), number()],
-        restitution,
-        friction,
-    );
-    let bodies = prop::collection::vec(body, 2..6);
-    (
-        any::<bool>(),
-        bodies,
-        prop::collection::vec(contact, 1..most),
-    )
-        .prop_map(|(floor, bodies, contacts)| {
-            let body = |(exponent, gyration, [x, y, vx, vy, spin]): (f64, f64, [f64; 5])| {
-                let mass = carom_math::trig::pow(10.0, exponent);
-                ImpactBody {
-                    inverse_mass: mass.recip(),
-                    inverse_inertia: (mass * gyration).recip(),
-                    centre: vec2(x, y),
-                    velocity: vec2(vx, vy),
-                    spin,
-                }
-            };
-            let mut bodies: Vec<ImpactBody> = bodies.into_iter().map(body).collect();
-            if floor {
-                bodies[0] = ImpactBody::immovable(Vec2::ZERO, Vec2::ZERO, 0.0);
-            }
-            let count = bodies.len();
-            let contacts = contacts.into_iter().map(
-                |(first, offset, angle, [x, y], restitution, friction)| {
-                    let a = first.index(count);
-                    SharedContact {
-                        a,
-                        b: (a + 1 + offset % (count - 1)) % count,
-                        contact: ImpactContact {
-                            point: vec2(x, y),
-                            normal: Rot::from_angle(angle).x_axis(),
-                            restitution,
-                            friction,
-                        },
-                    }
-                },
-            );
-            let contacts = contacts.collect();
-            (bodies, contacts)
-        })
-}
-
-fn energy(bodies: &[ImpactBody]) -> f64 {
-    bodies.iter().map(ImpactBody::kinetic_energy).sum()
+    heaps::heap(decades, most, (restitution, friction))
 }
 
 /// Momentum, and the sum of its absolute parts.
@@ -85,16 +29,6 @@ fn momentum(bodies: &[ImpactBody]) -> ([f64; 3], f64) {
         sum.1 += 4.0 * p.length() + (body.spin / body.inverse_inertia).abs();
     }
     sum
-}
-
-fn velocity(bodies: &[ImpactBody], shared: &SharedContact) -> Vec2 {
-    let point = shared.contact.point;
-    bodies[shared.b].velocity_of(point) - bodies[shared.a].velocity_of(point)
-}
-
-fn least_opening(after: &SharedOutcome, contacts: &[SharedContact]) -> f64 {
-    let opening = |shared| velocity(&after.bodies, shared).dot(shared.contact.normal);
-    contacts.iter().map(opening).fold(f64::INFINITY, f64::min)
 }
 
 const CHOICES: [Several; 3] = [Several::Blend, Several::Reflections, Several::NewtonLcp];

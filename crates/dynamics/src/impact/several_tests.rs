@@ -1,74 +1,24 @@
 //! Laws of several contacts at once, over random heaps.
 
-use carom_math::{Rot, Vec2, cross, vec2};
+use carom_math::{Vec2, cross, vec2};
 use proptest::prelude::*;
 
+use super::heaps::{self, energy, least_opening};
 use super::{
-    ImpactBody, ImpactContact, ImpactLaw, SharedContact, SharedOutcome, blend,
-    generalised_reflections, newton_lcp, resolve,
+    ImpactBody, ImpactContact, ImpactLaw, SharedContact, blend, generalised_reflections,
+    newton_lcp, resolve,
 };
 
+/// Smooth bodies and contacts.
 fn heap() -> impl Strategy<Value = (Vec<ImpactBody>, Vec<SharedContact>)> {
-    prop_oneof![heap_on(false), heap_on(true)]
+    heaps::heap(2.0, 8, (0.0..1.0_f64, Just(0.0)))
 }
 
-/// Bodies and contacts between them, the first body perhaps immovable.
-fn heap_on(floor: bool) -> impl Strategy<Value = (Vec<ImpactBody>, Vec<SharedContact>)> {
-    let number = || -2.0..2.0_f64;
-    let body = (
-        -2.0..2.0_f64,
-        0.1..3.0_f64,
-        [number(), number(), number(), number(), number()],
-    );
-    let bodies = prop::collection::vec(body, 2..6);
-    let contact = (
-        any::<prop::sample::Index>(),
-        1..5_usize,
-        -3.2..3.2_f64,
-        [number(), number()],
-        0.0..1.0_f64,
-    );
-    let contacts = prop::collection::vec(contact, 1..8);
-    (bodies, contacts).prop_map(move |(bodies, contacts)| {
-        let mut bodies: Vec<ImpactBody> = bodies
-            .into_iter()
-            .map(|(exponent, gyration, [x, y, vx, vy, spin])| {
-                let mass = carom_math::trig::pow(10.0, exponent);
-                ImpactBody {
-                    inverse_mass: mass.recip(),
-                    inverse_inertia: (mass * gyration).recip(),
-                    centre: vec2(x, y),
-                    velocity: vec2(vx, vy),
-                    spin,
-                }
-            })
-            .collect();
-        if floor {
-            bodies[0] = ImpactBody::immovable(Vec2::ZERO, Vec2::ZERO, 0.0);
-        }
-        let count = bodies.len();
-        let contacts = contacts
-            .into_iter()
-            .map(|(first, offset, angle, [x, y], restitution)| {
-                let a = first.index(count);
-                SharedContact {
-                    a,
-                    b: (a + 1 + offset % (count - 1)) % count,
-                    contact: ImpactContact {
-                        point: vec2(x, y),
-                        normal: Rot::from_angle(angle).x_axis(),
-                        restitution,
-                        friction: 0.0,
-                    },
-                }
-            });
-        let contacts = contacts.collect();
-        (bodies, contacts)
+/// The same with nobody immovable.
+fn free_heap() -> impl Strategy<Value = (Vec<ImpactBody>, Vec<SharedContact>)> {
+    heap().prop_filter("nobody is immovable", |(bodies, _)| {
+        bodies[0].inverse_mass > 0.0
     })
-}
-
-fn energy(bodies: &[ImpactBody]) -> f64 {
-    bodies.iter().map(ImpactBody::kinetic_energy).sum()
 }
 
 fn momentum(bodies: &[ImpactBody]) -> (Vec2, f64) {
@@ -78,15 +28,6 @@ fn momentum(bodies: &[ImpactBody]) -> (Vec2, f64) {
         let angular = cross(body.centre, linear) + body.spin / body.inverse_inertia;
         (p + linear, l + angular)
     })
-}
-
-fn least_opening(after: &SharedOutcome, contacts: &[SharedContact]) -> f64 {
-    let opening = |shared: &SharedContact| {
-        let point = shared.contact.point;
-        let (a, b) = (&after.bodies[shared.a], &after.bodies[shared.b]);
-        (b.velocity_of(point) - a.velocity_of(point)).dot(shared.contact.normal)
-    };
-    contacts.iter().map(opening).fold(f64::INFINITY, f64::min)
 }
 
 /// Random contacts may be parallel to 1e-4, and be struck a thousand times: what doubles lose there.
@@ -113,7 +54,7 @@ proptest! {
     }
 
     #[test]
-    fn free_heaps_keep_their_momentum((bodies, contacts) in heap_on(false)) {
+    fn free_heaps_keep_their_momentum((bodies, contacts) in free_heap()) {
         let (p, l) = momentum(&bodies);
         for law in [newton_lcp, blend, generalised_reflections] {
             let after = law(&bodies, &contacts).bodies;
