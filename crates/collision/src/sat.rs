@@ -50,6 +50,25 @@ pub enum AxisFeature {
     },
 }
 
+impl AxisFeature {
+    /// The same with A and B exchanged.
+    #[must_use]
+    pub const fn swapped(self) -> Self {
+        match self {
+            Self::Edge {
+                owner,
+                edge,
+                vertex,
+            } => Self::Edge {
+                owner: owner.other(),
+                edge,
+                vertex,
+            },
+            Self::Vertices { a, b } => Self::Vertices { a: b, b: a },
+        }
+    }
+}
+
 /// A direction and how far apart two hulls are along it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Axis {
@@ -313,22 +332,10 @@ impl Face {
 impl Axis {
     /// The axis of (A, B), from the one of (B, A) in B's frame.
     fn of_swapped(self, b_in_a: Pose) -> Self {
-        let feature = match self.feature {
-            AxisFeature::Edge {
-                owner,
-                edge,
-                vertex,
-            } => AxisFeature::Edge {
-                owner: owner.other(),
-                edge,
-                vertex,
-            },
-            AxisFeature::Vertices { a, b } => AxisFeature::Vertices { a: b, b: a },
-        };
         Self {
             separation: self.separation,
             normal: -b_in_a.vector(self.normal),
-            feature,
+            feature: self.feature.swapped(),
         }
     }
 }

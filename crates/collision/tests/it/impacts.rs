@@ -34,21 +34,6 @@ fn features(impact: &Impact) -> Vec<AxisFeature> {
     impact.features.iter().map(|f| f.feature).collect()
 }
 
-fn mirrored(feature: AxisFeature) -> AxisFeature {
-    match feature {
-        AxisFeature::Edge {
-            owner,
-            edge,
-            vertex,
-        } => AxisFeature::Edge {
-            owner: owner.other(),
-            edge,
-            vertex,
-        },
-        AxisFeature::Vertices { a, b } => AxisFeature::Vertices { a: b, b: a },
-    }
-}
-
 /// The features that are named, and the same with A and B exchanged.
 fn assert_features(b: &Shape, motion: &Motion, wanted: &[AxisFeature]) {
     let floor = box_(4.0, 1.0);
@@ -58,7 +43,7 @@ fn assert_features(b: &Shape, motion: &Motion, wanted: &[AxisFeature]) {
     let mut given = features(&found);
     let mut back: Vec<AxisFeature> = features(&hit(b, motion, &floor, &still))
         .into_iter()
-        .map(mirrored)
+        .map(AxisFeature::swapped)
         .collect();
     let order = |f: &AxisFeature| format!("{f:?}");
     given.sort_by_key(order);
