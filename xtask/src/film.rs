@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use carom_dynamics::EnergyLedger;
 use carom_math::SimTime;
-use carom_render::{Frame, FrameRate, Painter, Picture, Size, Style, Trace};
+use carom_render::{Frame, FrameRate, Packer, Packing, Painter, Picture, Size, Style, Trace};
 use carom_scenes::Built;
 
 use crate::clock::Clock;
@@ -46,6 +46,8 @@ pub(crate) struct Footage {
 pub(crate) struct Easel {
     painter: Painter,
     picture: Picture,
+    /// Who packed all pictures so far, if somebody did.
+    packer: Option<Packer>,
 }
 
 impl Easel {
@@ -53,12 +55,26 @@ impl Easel {
         Self {
             picture: Picture::new(size, style.background),
             painter: Painter::new(style),
+            packer: None,
         }
     }
 
     /// The picture of a frame; its bytes do not depend on what was drawn before.
     pub(crate) fn paint(&mut self, frame: &Frame) -> &Picture {
         self.painter.paint(frame, &mut self.picture);
+        self.packer = None;
+        &self.picture
+    }
+
+    /// The picture of a frame as a PNG file; one easel packs all its frames alike.
+    pub(crate) fn png(&mut self, frame: &Frame, packing: Packing) -> &[u8] {
+        let changes = self.painter.paint(frame, &mut self.picture);
+        let packer = self.packer.get_or_insert_with(|| Packer::new(packing));
+        packer.pack(&self.picture, changes)
+    }
+
+    /// What was painted last.
+    pub(crate) const fn picture(&self) -> &Picture {
         &self.picture
     }
 }

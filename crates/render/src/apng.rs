@@ -77,7 +77,7 @@ impl Animation {
         header[..4].copy_from_slice(&size.width().to_be_bytes());
         header[4..8].copy_from_slice(&size.height().to_be_bytes());
         header[8..].copy_from_slice(&[8, 6, 0, 0, 0]); // 8 bits, RGBA, deflate, adaptive filters, not interlaced
-        film.draft.append(&chunk(*b"IHDR", &[&header]))?;
+        film.draft.append(&whole(*b"IHDR", &[&header]))?;
         film.draft.append(&control(0))?;
         Ok(film)
     }
@@ -142,7 +142,7 @@ impl Animation {
             return Err(RenderError::NoFrames);
         }
         self.store()?;
-        self.draft.append(&chunk(*b"IEND", &[]))?;
+        self.draft.append(&whole(*b"IEND", &[]))?;
         let count = self.stored;
         if let Some(file) = self.draft.file()? {
             file.seek(SeekFrom::Start(CONTROL_AT))
@@ -174,13 +174,13 @@ impl Animation {
         frame[20..22].copy_from_slice(&shows.to_be_bytes());
         frame[22..24].copy_from_slice(&self.rate.get().to_be_bytes());
         frame[25] = u8::from(patch.blend() == Blend::Over);
-        self.draft.append(&chunk(*b"fcTL", &[&frame]))?;
+        self.draft.append(&whole(*b"fcTL", &[&frame]))?;
         if self.stored == 0 {
-            self.draft.append(&chunk(*b"IDAT", &[patch.data()]))?;
+            self.draft.append(&whole(*b"IDAT", &[patch.data()]))?;
         } else {
             let number = self.next_number();
             self.draft
-                .append(&chunk(*b"fdAT", &[&number, patch.data()]))?;
+                .append(&whole(*b"fdAT", &[&number, patch.data()]))?;
         }
         // 2^32 frames would take years to play.
         self.stored = self.stored.wrapping_add(1);
@@ -196,7 +196,14 @@ impl Animation {
 
 /// The animation's control chunk: number of frames, played forever.
 fn control(frames: u32) -> Vec<u8> {
-    chunk(*b"acTL", &[&frames.to_be_bytes(), &[0; 4]])
+    whole(*b"acTL", &[&frames.to_be_bytes(), &[0; 4]])
+}
+
+/// A chunk by itself.
+fn whole(name: [u8; 4], parts: &[&[u8]]) -> Vec<u8> {
+    let mut out = Vec::new();
+    chunk(name, parts, &mut out);
+    out
 }
 
 #[cfg(test)]

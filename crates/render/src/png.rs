@@ -7,6 +7,7 @@ use ::png::{
     Transformations,
 };
 
+use crate::bands::Bands;
 use crate::output::write_file;
 use crate::{MAX_SIDE, Picture, RenderError, Size};
 
@@ -40,7 +41,15 @@ impl Picture {
     /// The picture as a PNG file in memory.
     #[must_use]
     pub fn to_png_packed(&self, packing: Packing) -> Vec<u8> {
-        encode(self.size(), &self.to_rgb(), ColorType::Rgb, packing)
+        match packing {
+            Packing::Fast => {
+                let (mut bands, mut file) = (Bands::default(), Vec::new());
+                bands.pack(self, None);
+                bands.file(&mut file);
+                file
+            }
+            Packing::Small => encode(self.size(), &self.to_rgb(), ColorType::Rgb, packing),
+        }
     }
 
     /// Writes the picture as a PNG, first under a temporary name in the same folder.
@@ -110,19 +119,19 @@ fn encode_with(
 
 pub(crate) const SIGNATURE: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
 
-/// A PNG chunk: length, name, data, checksum of name and data.
-pub(crate) fn chunk(name: [u8; 4], parts: &[&[u8]]) -> Vec<u8> {
+/// Appends a PNG chunk: length, name, data, checksum of name and data.
+pub(crate) fn chunk(name: [u8; 4], parts: &[&[u8]], out: &mut Vec<u8>) {
     let length: usize = parts.iter().map(|part| part.len()).sum();
-    let mut out = Vec::with_capacity(length + 12);
+    out.reserve(length + 12);
     // A frame of 64 Mi pixels packs to less than 2^31 bytes.
     out.extend(u32::try_from(length).unwrap_or(u32::MAX).to_be_bytes());
+    let begin = out.len();
     out.extend(name);
     for part in parts {
         out.extend_from_slice(part);
     }
-    let sum = crc32fast::hash(&out[4..]);
+    let sum = crc32fast::hash(&out[begin..]);
     out.extend(sum.to_be_bytes());
-    out
 }
 
 /// Data of the IDAT chunks of a PNG, in order.

@@ -122,8 +122,8 @@ fn draw(
     let relay = Relay::from(0);
     let draw = |easel: &mut Easel, index: u64, frame: Frame| {
         let turn = relay.turn(index);
-        let (before, now) = turn.pass(easel.paint(&frame).clone());
-        folder.save(&Sequence::name(index), &now.to_png())?;
+        folder.save(&Sequence::name(index), easel.png(&frame, Packing::Fast))?;
+        let (before, now) = turn.pass(easel.picture().clone());
         let patch = Patch::between(before.as_deref(), &now, Packing::Fast);
         Ok((patch, tiles.contains(&index).then_some(now)))
     };

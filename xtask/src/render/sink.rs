@@ -1,5 +1,6 @@
 //! Where drawn frames go.
 
+use std::borrow::Cow;
 use std::io::{self, BufWriter, Write};
 
 use carom_render::{
@@ -27,15 +28,17 @@ pub(super) fn frames(
     folder: &OutputFolder,
     packing: Packing,
 ) -> Shot {
-    let draw = |easel: &mut Easel, frame: &Frame| easel.paint(frame).to_png_packed(packing);
-    numbered(built, plan, folder, Sequence::name, draw)
+    numbered(built, plan, folder, Sequence::name, |easel, frame| {
+        Cow::Borrowed(easel.png(frame, packing))
+    })
 }
 
 /// Numbered SVG files; those that are there already are kept.
 pub(super) fn drawings(built: &mut Built, plan: &Plan, folder: &OutputFolder) -> Shot {
     let style = built.look.style.clone();
-    let draw = |_: &mut Easel, frame: &Frame| frame.to_svg(&style).into_bytes();
-    numbered(built, plan, folder, Sequence::svg_name, draw)
+    numbered(built, plan, folder, Sequence::svg_name, |_, frame| {
+        Cow::Owned(frame.to_svg(&style).into_bytes())
+    })
 }
 
 fn numbered(
@@ -43,7 +46,7 @@ fn numbered(
     plan: &Plan,
     folder: &OutputFolder,
     name: impl Fn(u64) -> String + Sync,
-    draw: impl Fn(&mut Easel, &Frame) -> Vec<u8> + Sync,
+    draw: impl for<'a> Fn(&'a mut Easel, &Frame) -> Cow<'a, [u8]> + Sync,
 ) -> Shot {
     let kept = plan
         .slice
