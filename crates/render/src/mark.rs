@@ -52,6 +52,11 @@ impl Mark<'_> {
             PixelBox::around(min, max, size)
         })
     }
+
+    /// Whether its rings are known not to cross themselves: a body's were checked when its shape was made.
+    pub(crate) const fn is_sound(&self) -> bool {
+        self.source.body.is_some()
+    }
 }
 
 /// A rectangle of whole pixels, counted from the upper left corner.

@@ -14,7 +14,7 @@ use crate::raster::{
 };
 use crate::skia::{Fill, Ground, INNER, OUTER, Paths, Pen, SHIFT, usable_width};
 use crate::style::shade;
-use crate::{Colour, Face, Mark, Op, PixelBox, Size, Style};
+use crate::{Colour, Face, Ink, Mark, Op, Paint, PixelBox, Size, Style};
 
 /// Room left and right of the canvas that polygons are cut to, in pixels.
 const MARGIN: f64 = 1.0;
@@ -45,21 +45,31 @@ impl Own {
         canvas: &mut Canvas<'_>,
         size: Size,
     ) {
+        self.hand((index, mark.is_sound()), style, canvas, size)
+            .op(mark.op);
+    }
+
+    /// What paints mark number `index`; `sound` says that its rings do not cross themselves.
+    pub(crate) fn hand<'a, 'c>(
+        &'a mut self,
+        (index, sound): (usize, bool),
+        style: &'a Style,
+        canvas: &'a mut Canvas<'c>,
+        size: Size,
+    ) -> Hand<'a, 'c> {
         self.masks.key = (index, 0);
-        let mut hand = Hand {
+        Hand {
             own: self,
             style,
             canvas,
             size,
-            // A body's rings were checked when its shape was made.
-            sound: mark.source.body.is_some(),
-        };
-        hand.op(mark.op);
+            sound,
+        }
     }
 }
 
 /// Everything that painting one mark needs.
-struct Hand<'a, 'c> {
+pub(crate) struct Hand<'a, 'c> {
     own: &'a mut Own,
     style: &'a Style,
     canvas: &'a mut Canvas<'c>,
@@ -68,13 +78,10 @@ struct Hand<'a, 'c> {
 }
 
 impl Hand<'_, '_> {
-    fn op(&mut self, op: &Op) {
+    /// Paints a mark.
+    pub(crate) fn op(&mut self, op: &Op) {
         match op {
-            Op::Polygon { points, paint } => {
-                self.ring(points, paint.fill);
-                let outline = self.style.outline_for(*paint);
-                self.outline(points, self.style.outline, outline);
-            }
+            Op::Polygon { points, paint } => self.polygon(points, *paint),
             Op::Region { rings, paint } => {
                 if self.sound {
                     self.fill(rings.iter().map(Vec::as_slice), paint.fill);
@@ -90,21 +97,13 @@ impl Hand<'_, '_> {
                 centre,
                 radius,
                 paint,
-            } => {
-                if paint.shaded {
-                    self.ball(*centre, *radius, paint.fill);
-                } else {
-                    self.disc(*centre, *radius, paint.fill);
-                }
-                let outline = self.style.rim_for(*paint);
-                self.circle(*centre, *radius, self.style.outline, outline);
-            }
-            Op::Area { points, ink } => self.ring(points, self.style.colour(*ink)),
+            } => self.round(*centre, *radius, *paint),
+            Op::Area { points, ink } => self.area(points, *ink),
             Op::Dot {
                 centre,
                 radius,
                 ink,
-            } => self.disc(*centre, *radius, self.style.colour(*ink)),
+            } => self.dot(*centre, *radius, *ink),
             Op::Ring {
                 centre,
                 radius,
@@ -153,6 +152,34 @@ impl Hand<'_, '_> {
             }
             Op::Label(_) => self.general(|pen| pen.op(op)),
         }
+    }
+
+    /// [`Op::Polygon`].
+    pub(crate) fn polygon(&mut self, points: &[Vec2], paint: Paint) {
+        self.ring(points, paint.fill);
+        let outline = self.style.outline_for(paint);
+        self.outline(points, self.style.outline, outline);
+    }
+
+    /// [`Op::Area`].
+    pub(crate) fn area(&mut self, points: &[Vec2], ink: Ink) {
+        self.ring(points, self.style.colour(ink));
+    }
+
+    /// [`Op::Disc`].
+    pub(crate) fn round(&mut self, centre: Vec2, radius: f64, paint: Paint) {
+        if paint.shaded {
+            self.ball(centre, radius, paint.fill);
+        } else {
+            self.disc(centre, radius, paint.fill);
+        }
+        let outline = self.style.rim_for(paint);
+        self.circle(centre, radius, self.style.outline, outline);
+    }
+
+    /// [`Op::Dot`].
+    pub(crate) fn dot(&mut self, centre: Vec2, radius: f64, ink: Ink) {
+        self.disc(centre, radius, self.style.colour(ink));
     }
 
     /// Fills a ring of any shape.

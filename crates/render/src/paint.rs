@@ -1,15 +1,15 @@
 //! Whole frames to pixels, by either engine.
 
-use core::hint::black_box;
 use core::ops::Range;
 
+use carom_math::Vec2;
 use tiny_skia::PixmapMut;
 
 use crate::own::{Own, packed};
 use crate::raster::{Canvas, Pixel};
 use crate::skia::{Paths, Pen};
 use crate::tiles::Tiles;
-use crate::{Colour, Engine, Frame, Op, Picture, PixelBox, Size, Style};
+use crate::{Colour, Engine, Frame, Ink, Mark, Op, Paint, Picture, PixelBox, Size, Style};
 
 /// Bytes of a picture that are painted at a time: half of a processor's second cache, so that the pixels of scattered
 /// marks are near.
@@ -80,8 +80,7 @@ impl Base<'_> {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Sheets {
     own: Own,
-    /// The marks that touch each sheet, lowest first.
-    marks: Vec<Vec<u32>>,
+    sheets: Vec<Sheet>,
 }
 
 impl Sheets {
@@ -99,7 +98,7 @@ impl Sheets {
         let rows = rows(size);
         self.sort(frame, range, style, rows);
         self.own.start();
-        for (marks, top) in self.marks.iter().zip((0..).step_by(rows as usize)) {
+        for (sheet, top) in self.sheets.iter().zip((0..).step_by(rows as usize)) {
             let clip = PixelBox {
                 top,
                 bottom: size.height().min(top + rows),
@@ -111,18 +110,17 @@ impl Sheets {
                 width: size.width() as usize,
                 clip,
             };
-            let mut read = 0.0;
-            for (i, &index) in marks.iter().enumerate() {
-                // A sheet's marks lie scattered in the list: what comes soon is read already, so that it is near by then.
-                let coming =
-                    |ahead: usize| marks.get(i + ahead).map(|&k| frame.mark(k as usize).op);
-                read +=
-                    coming(2 * AHEAD).map_or(0.0, peek) + coming(AHEAD).map_or(0.0, peek_points);
-                let index = index as usize;
-                let mark = (index, frame.mark(index));
-                self.own.mark(mark, style, &mut canvas, size);
+            for item in &sheet.items {
+                let index = item.index as usize;
+                let mut hand = self.own.hand((index, item.sound), style, &mut canvas, size);
+                match item.what {
+                    What::Polygon(points, paint) => hand.polygon(sheet.points(points), paint),
+                    What::Area(points, ink) => hand.area(sheet.points(points), ink),
+                    What::Disc(centre, radius, paint) => hand.round(centre, radius, paint),
+                    What::Dot(centre, radius, ink) => hand.dot(centre, radius, ink),
+                    What::Other => hand.op(&frame.ops()[index]),
+                }
             }
-            black_box(read);
         }
     }
 
@@ -152,48 +150,98 @@ impl Sheets {
         }
     }
 
-    /// Lists the marks of each sheet.
+    /// Hands each sheet its marks, lowest first.
     fn sort(&mut self, frame: &Frame, range: Range<usize>, style: &Style, rows: u32) {
         let size = frame.size();
         let count = size.height().div_ceil(rows) as usize;
-        self.marks.resize(count, Vec::new());
-        for marks in &mut self.marks {
-            marks.clear();
+        self.sheets.resize(count, Sheet::default());
+        for sheet in &mut self.sheets {
+            sheet.items.clear();
+            sheet.points.clear();
         }
         for index in range {
-            let seen = frame.mark(index).pixels(style, size);
-            let index = u32::try_from(index).unwrap_or(u32::MAX);
+            let mark = frame.mark(index);
+            let seen = mark.pixels(style, size);
             if !seen.is_empty() {
                 for sheet in seen.top / rows..=(seen.bottom - 1) / rows {
-                    self.marks[sheet as usize].push(index);
+                    self.sheets[sheet as usize].add(index, mark);
                 }
             }
         }
     }
 }
 
-/// Marks between reading the points of one for the first time and painting it.
-const AHEAD: usize = 4;
+/// The marks that touch a sheet, lowest first. Of those that there may be many of it has a copy: they lie scattered in
+/// the frame, and to wait for each of them took a quarter of the time of 100,000.
+#[derive(Clone, Debug, Default)]
+struct Sheet {
+    items: Vec<Item>,
+    points: Vec<Vec2>,
+}
 
-/// Reads some number of a mark.
-#[inline]
-fn peek(op: &Op) -> f64 {
-    match op {
-        Op::Area { points, .. } | Op::Polygon { points, .. } => {
-            f64::from(u8::from(points.is_empty()))
-        }
-        Op::Disc { centre, .. } | Op::Dot { centre, .. } => centre.x,
-        _ => 0.0,
+/// A mark, or which mark it is.
+#[derive(Clone, Copy, Debug)]
+struct Item {
+    index: u32,
+    /// Whether its rings are known not to cross themselves.
+    sound: bool,
+    what: What,
+}
+
+/// First of some points, and how many they are.
+type Points = (u32, u32);
+
+#[derive(Clone, Copy, Debug)]
+enum What {
+    Polygon(Points, Paint),
+    Area(Points, Ink),
+    Disc(Vec2, f64, Paint),
+    Dot(Vec2, f64, Ink),
+    Other,
+}
+
+impl Sheet {
+    fn add(&mut self, index: usize, mark: Mark<'_>) {
+        /// Most points that are copied: 256 bytes.
+        const FEW: usize = 16;
+        let what = match mark.op {
+            Op::Polygon { points, paint } if points.len() <= FEW => {
+                What::Polygon(self.copy(points), *paint)
+            }
+            Op::Area { points, ink } if points.len() <= FEW => What::Area(self.copy(points), *ink),
+            &Op::Disc {
+                centre,
+                radius,
+                paint,
+            } => What::Disc(centre, radius, paint),
+            &Op::Dot {
+                centre,
+                radius,
+                ink,
+            } => What::Dot(centre, radius, ink),
+            _ => What::Other,
+        };
+        self.items.push(Item {
+            index: narrow(index),
+            sound: mark.is_sound(),
+            what,
+        });
+    }
+
+    fn copy(&mut self, points: &[Vec2]) -> Points {
+        let first = self.points.len();
+        self.points.extend_from_slice(points);
+        (narrow(first), narrow(points.len()))
+    }
+
+    fn points(&self, (first, count): Points) -> &[Vec2] {
+        &self.points[first as usize..][..count as usize]
     }
 }
 
-/// Reads some number of a mark's points.
-#[inline]
-fn peek_points(op: &Op) -> f64 {
-    match op {
-        Op::Area { points, .. } | Op::Polygon { points, .. } => points.first().map_or(0.0, |p| p.x),
-        _ => 0.0,
-    }
+/// A number of marks or of their points: 2^32 of them would fill 64 GiB.
+fn narrow(count: usize) -> u32 {
+    u32::try_from(count).unwrap_or(u32::MAX)
 }
 
 /// Rows of a sheet.
