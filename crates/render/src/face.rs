@@ -32,16 +32,14 @@ pub(crate) struct Level {
     pub(crate) width: u32,
     pub(crate) height: u32,
     pub(crate) rgba: Vec<u8>,
-    /// The same with 16 bits a channel, ready to be mixed: see [`widened`].
-    pub(crate) wide: Vec<u64>,
+    /// The same with 16 bits a channel, ready to be mixed.
+    pub(crate) wide: Vec<Texel>,
+    /// Whether no pixel lets anything through.
+    pub(crate) opaque: bool,
 }
 
-/// A pixel with room between its channels, in the order red, blue, green, opacity from the lowest bits.
-pub(crate) const fn widened(pixel: [u8; 4]) -> u64 {
-    const PAIR: u32 = 0x00FF_00FF;
-    let pixel = u32::from_le_bytes(pixel);
-    (pixel & PAIR) as u64 | ((pixel >> 8 & PAIR) as u64) << 32
-}
+/// Red, green, blue and opacity, 255 at most, with room for products.
+pub(crate) type Texel = [u16; 4];
 
 impl Face {
     /// A face from a PNG of any colour type; transparent parts show the body's paint.
@@ -132,12 +130,14 @@ impl core::fmt::Debug for Face {
 impl Level {
     fn new(width: u32, height: u32, rgba: Vec<u8>) -> Self {
         let (pixels, _) = rgba.as_chunks();
-        let wide = pixels.iter().map(|&pixel| widened(pixel)).collect();
+        let wide = pixels.iter().map(|pixel| pixel.map(u16::from)).collect();
+        let opaque = pixels.iter().all(|pixel| pixel[3] == 255);
         Self {
             width,
             height,
             rgba,
             wide,
+            opaque,
         }
     }
 

@@ -5,7 +5,7 @@
 
 use carom_math::Vec2;
 
-use crate::face::Level;
+use crate::face::{Level, Texel};
 
 /// A pixel: premultiplied red, green, blue, and opacity.
 pub(crate) type Pixel = [u8; 4];
@@ -224,7 +224,10 @@ impl Shade for Textured<'_> {
         /// One in fixed point.
         const ONE: f64 = 4_294_967_296.0;
         self.first = first;
-        self.colours.clear();
+        let count = end - first;
+        if self.colours.len() < count {
+            self.colours.resize(count, 0);
+        }
         let texels = &self.level.wide[..];
         // Where the middle of the first column falls, less half a texel: the corner of four.
         let start = self.origin + self.down * (y as f64 + 0.5) + 0.5 * (self.right - Vec2::ONE);
@@ -235,43 +238,45 @@ impl Shade for Textured<'_> {
         let stride = self.level.width as usize;
         let most_u = i64::from(self.level.width - 1) << 32;
         let most_v = i64::from(self.level.height - 1) << 32;
-        let steps = i64::try_from(end - first - 1).unwrap_or(0);
+        let steps = i64::try_from(count - 1).unwrap_or(0);
         let inside = |from: i64, by: i64, most: i64| {
             let to = from.wrapping_add(by.wrapping_mul(steps));
             from.min(to) >= 0 && from.max(to) < most
         };
-        if inside(u, du, most_u) && inside(v, dv, most_v) {
-            // All four neighbours are there.
-            self.colours.extend((first..end).map(|_| {
-                let at = (v >> 32) as usize * stride + (u >> 32) as usize;
-                let (part_x, part_y) = ((u >> 24 & 0xFF) as u64, (v >> 24 & 0xFF) as u64);
+        let inside = inside(u, du, most_u) && inside(v, dv, most_v);
+        let mut four = Four::default();
+        for colours in self.colours[..count].chunks_mut(LANES) {
+            for lane in 0..colours.len() {
+                if inside {
+                    // All four neighbours are there.
+                    let at = (v >> 32) as usize * stride + (u >> 32) as usize;
+                    let pair = |at: usize| {
+                        let pair = texels.get(at..).and_then(<[Texel]>::first_chunk);
+                        pair.copied().unwrap_or_default()
+                    };
+                    four.put(lane, [pair(at), pair(at + stride)], (u, v));
+                } else {
+                    let (x, y) = (u.clamp(0, most_u), v.clamp(0, most_v));
+                    let at = (y >> 32) as usize * stride + (x >> 32) as usize;
+                    let beside = usize::from(x < most_u);
+                    let below = at + if y < most_v { stride } else { 0 };
+                    let texel = |at: usize| texels.get(at).copied().unwrap_or_default();
+                    let pair = |at: usize| [texel(at), texel(at + beside)];
+                    four.put(lane, [pair(at), pair(below)], (x, y));
+                }
                 u = u.wrapping_add(du);
                 v = v.wrapping_add(dv);
-                let pair = |at: usize| {
-                    texels
-                        .get(at..at + 2)
-                        .map_or((0, 0), |pair| (pair[0], pair[1]))
-                };
-                mixed(pair(at), pair(at + stride), part_x, part_y)
-            }));
-        } else {
-            self.colours.extend((first..end).map(|_| {
-                let (x, y) = (u.clamp(0, most_u), v.clamp(0, most_v));
-                u = u.wrapping_add(du);
-                v = v.wrapping_add(dv);
-                let at = (y >> 32) as usize * stride + (x >> 32) as usize;
-                let (part_x, part_y) = ((x >> 24 & 0xFF) as u64, (y >> 24 & 0xFF) as u64);
-                let beside = usize::from(x < most_u);
-                let below = at + if y < most_v { stride } else { 0 };
-                let texel = |at: usize| texels.get(at).copied().unwrap_or(0);
-                let pair = |at: usize| (texel(at), texel(at + beside));
-                mixed(pair(at), pair(below), part_x, part_y)
-            }));
+            }
+            let mixed = four.mixed();
+            for (colour, mixed) in colours.iter_mut().zip(mixed.as_chunks().0) {
+                *colour = u32::from_le_bytes(*mixed);
+            }
         }
     }
 
     fn span(&self, out: &mut [Pixel], first: usize, coverage: u32) {
-        paint_row(&self.colours[first - self.first..], out, coverage, false);
+        let colours = &self.colours[first - self.first..];
+        paint_row(colours, out, coverage, self.level.opaque);
     }
 
     #[inline]
@@ -280,23 +285,61 @@ impl Shade for Textured<'_> {
     }
 }
 
-/// The colour between four neighbours, given in pairs from left to right, `part_x` and `part_y` of 256 of the way;
-/// all channels at once, with room between them.
-#[inline]
-const fn mixed(upper: (u64, u64), lower: (u64, u64), part_x: u64, part_y: u64) -> u32 {
-    let upper = between(upper.0, upper.1, part_x);
-    let lower = between(lower.0, lower.1, part_x);
-    let wide = between(upper, lower, part_y);
-    // Red and blue stay, green and opacity come down between them.
-    ((wide | wide >> 24) & 0xFFFF_FFFF) as u32
+/// Pixels that are mixed at once.
+const LANES: usize = 8;
+
+/// Four channels of so many pixels, with room between them: eight to a register of 128 bits.
+type Wide = [u16; 4 * LANES];
+
+/// Four neighbours each of some places in a picture, and how far from the first to the others the places lie.
+#[derive(Default)]
+struct Four {
+    /// Upper left, upper right, lower left, lower right.
+    corners: [[Texel; LANES]; 4],
+    /// Right and down, of 256, the same for each channel.
+    parts: [[Texel; LANES]; 2],
 }
 
-/// `part` of 256 of the way from `a` to `b`.
+impl Four {
+    /// Sets a place by its neighbours, an upper and a lower pair, and where it lies, in fixed point.
+    #[inline]
+    #[expect(clippy::cast_sign_loss, reason = "eight bits of each")]
+    fn put(&mut self, lane: usize, [upper, lower]: [[Texel; 2]; 2], (u, v): (i64, i64)) {
+        [self.corners[0][lane], self.corners[1][lane]] = upper;
+        [self.corners[2][lane], self.corners[3][lane]] = lower;
+        self.parts[0][lane] = [(u >> 24 & 0xFF) as u16; 4];
+        self.parts[1][lane] = [(v >> 24 & 0xFF) as u16; 4];
+    }
+
+    /// The colours at all places, four bytes each.
+    #[inline]
+    fn mixed(&self) -> [u8; 4 * LANES] {
+        let [a, b, c, d] = self.corners.each_ref().map(flat);
+        let [right, down] = self.parts.each_ref().map(flat);
+        let upper = between(&a, &b, &right);
+        let lower = between(&c, &d, &right);
+        #[expect(clippy::cast_possible_truncation, reason = "at most 255")]
+        between(&upper, &lower, &down).map(|channel| channel as u8)
+    }
+}
+
 #[inline]
-const fn between(a: u64, b: u64, part: u64) -> u64 {
-    const BYTES: u64 = 0x00FF_00FF_00FF_00FF;
-    const HALF: u64 = 0x0080_0080_0080_0080;
-    (a * (256 - part) + b * part + HALF) >> 8 & BYTES
+fn flat(texels: &[Texel; LANES]) -> Wide {
+    *texels
+        .as_flattened()
+        .first_chunk()
+        .unwrap_or(&[0; 4 * LANES])
+}
+
+/// `part` of 256 of the way from `from` to `to`, rounded: sums stay below 2^16.
+#[inline]
+fn between(from: &Wide, to: &Wide, part: &Wide) -> Wide {
+    let mut all = [0; 4 * LANES];
+    let parts = from.iter().zip(to).zip(part);
+    for (out, ((&from, &to), &part)) in all.iter_mut().zip(parts) {
+        *out = (from * (256 - part) + to * part + 128) >> 8;
+    }
+    all
 }
 
 #[cfg(test)]
@@ -327,9 +370,11 @@ mod tests {
             });
             let found = over(a, b, coverage).to_le_bytes();
             prop_assert!(found[..3].iter().all(|&c| c <= found[3].saturating_add(1)), "{found:?}");
-            let wide = crate::face::widened(a.to_le_bytes());
-            let part = u64::from(coverage.min(255));
-            prop_assert_eq!(mixed((wide, wide), (wide, wide), part, 255 - part), a);
+            let texel = a.to_le_bytes().map(u16::from);
+            let part = i64::from(coverage.min(255)) << 24;
+            let mut four = Four::default();
+            four.put(3, [[texel; 2]; 2], (part, (255 << 24) - part));
+            prop_assert_eq!(&four.mixed()[12..16], &a.to_le_bytes());
         }
     }
 }
