@@ -11,7 +11,39 @@ const AHEAD: usize = 64;
 /// Marks looked at between two looks at how much is marked.
 const OFTEN: usize = 64;
 
-/// Marks the tiles that differ between marks of two frames of one size; whether the lists are the same.
+/// What a comparison found.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Found {
+    /// Marks of the new list that are not as those in their places of the old one.
+    places: Vec<usize>,
+    /// Whether marks stand in other places than they did, or were not all looked at.
+    shifted: bool,
+}
+
+impl Found {
+    pub(crate) fn start(&mut self) {
+        self.places.clear();
+        self.shifted = false;
+    }
+
+    /// Whether both lists are the same.
+    pub(crate) const fn is_same(&self) -> bool {
+        self.places.is_empty() && !self.shifted
+    }
+
+    /// Makes the old frame a copy of the new one.
+    pub(crate) fn renew(&self, old: &mut Frame, new: &Frame) {
+        if self.shifted {
+            old.copy(new);
+        } else {
+            for &place in &self.places {
+                old.copy_mark(place, new);
+            }
+        }
+    }
+}
+
+/// Marks the tiles that differ between marks of two frames of one size, and adds to what was found.
 ///
 /// Equal marks are paired in order; what finds no partner is marked where it was and where it is. Elsewhere both lists
 /// have the same marks in the same order, and so the same pixels, however well the pairs were found. Once most tiles
@@ -21,26 +53,30 @@ pub(crate) fn mark(
     (new, news): (&Frame, Range<usize>),
     style: &Style,
     tiles: &mut Tiles,
-) -> bool {
+    found: &mut Found,
+) {
     let size = new.size();
-    let mut same = olds.len() == news.len();
+    found.shifted |= olds != news;
     let (mut i, mut j) = (olds.start, news.start);
     let mut looks = 0;
     while i < olds.end && j < news.end {
         looks += 1;
         if looks % OFTEN == 0 && tiles.most() {
             tiles.add(PixelBox::of(size));
-            return false;
+            found.shifted = true;
+            return;
         }
         let mut changed = |mark: Mark<'_>| tiles.add(mark.pixels(style, size));
         let (a, b) = (old.mark(i), new.mark(j));
         if a.op == b.op {
             // Who moves is no matter of looks.
-            same &= a.source == b.source;
+            if a.source != b.source {
+                found.places.push(j);
+            }
             (i, j) = (i + 1, j + 1);
             continue;
         }
-        same = false;
+        found.places.push(j);
         let (gone, come) = if a.source.body == b.source.body {
             (1, 1)
         } else {
@@ -54,6 +90,7 @@ pub(crate) fn mark(
                 (None, None) => (1, 1),
             }
         };
+        found.shifted |= gone != come;
         for k in i..i + gone {
             changed(old.mark(k));
         }
@@ -68,5 +105,4 @@ pub(crate) fn mark(
     {
         tiles.add(mark.pixels(style, size));
     }
-    same
 }

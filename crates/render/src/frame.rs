@@ -162,6 +162,35 @@ pub enum Op {
     Label(Label),
 }
 
+impl Op {
+    /// Makes it a copy of another mark; the lists of points that there are many of keep their memory.
+    fn copy(&mut self, other: &Self) {
+        match (self, other) {
+            (
+                Self::Polygon { points, paint },
+                Self::Polygon {
+                    points: other,
+                    paint: with,
+                },
+            ) => {
+                points.clone_from(other);
+                *paint = *with;
+            }
+            (
+                Self::Area { points, ink },
+                Self::Area {
+                    points: other,
+                    ink: with,
+                },
+            ) => {
+                points.clone_from(other);
+                *ink = *with;
+            }
+            (op, from) => op.clone_from(from),
+        }
+    }
+}
+
 /// A line of text in the built-in stroke font.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Label {
@@ -347,31 +376,15 @@ impl Frame {
         self.ops.truncate(other.ops.len());
         let (known, new) = other.ops.split_at(self.ops.len());
         for (op, from) in self.ops.iter_mut().zip(known) {
-            match (op, from) {
-                (
-                    Op::Polygon { points, paint },
-                    Op::Polygon {
-                        points: other,
-                        paint: with,
-                    },
-                ) => {
-                    points.clone_from(other);
-                    *paint = *with;
-                }
-                (
-                    Op::Area { points, ink },
-                    Op::Area {
-                        points: other,
-                        ink: with,
-                    },
-                ) => {
-                    points.clone_from(other);
-                    *ink = *with;
-                }
-                (op, from) => op.clone_from(from),
-            }
+            op.copy(from);
         }
         self.ops.extend_from_slice(new);
+    }
+
+    /// The same with one mark alone, which both have.
+    pub(crate) fn copy_mark(&mut self, index: usize, other: &Self) {
+        self.sources[index] = other.sources[index];
+        self.ops[index].copy(&other.ops[index]);
     }
 
     /// Number of marks at the beginning of the list that are not awake.

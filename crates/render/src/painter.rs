@@ -1,5 +1,6 @@
 //! Painting frame after frame: what did not change is not painted again.
 
+use crate::diff::{self, Found};
 use crate::paint::{Base, Sheets};
 use crate::tiles::Tiles;
 use crate::{Colour, Frame, Picture, PixelBox, Size, Style};
@@ -55,6 +56,8 @@ pub struct Painter {
     below: Tiles,
     tiles: Tiles,
     changes: Changes,
+    /// How the frame differs from the one shown.
+    found: Found,
     /// Frames that are painted in full before the next comparison, and how many the last such stretch had.
     busy: (u32, u32),
 }
@@ -77,6 +80,7 @@ impl Painter {
             below: Tiles::default(),
             tiles: Tiles::default(),
             changes: Changes::default(),
+            found: Found::default(),
             busy: (0, 0),
         }
     }
@@ -129,7 +133,7 @@ impl Painter {
         picture.shape(frame.size());
         match self.shown.take() {
             Some((mut shown, beneath)) if known && !self.redraw && shown.size() == frame.size() => {
-                let same = self.update((&shown, beneath), frame, picture.rgba_mut());
+                self.update((&shown, beneath), frame, picture.rgba_mut());
                 // Where nearly all moves a comparison finds little: the next frames do without, twice as many each time.
                 let most = self.tiles.most() && 4 * frame.beneath() < frame.ops().len();
                 let stretch = if most {
@@ -139,9 +143,7 @@ impl Painter {
                 };
                 self.busy = (stretch, stretch);
                 if !most {
-                    if !same {
-                        shown.copy(frame);
-                    }
+                    self.found.renew(&mut shown, frame);
                     self.shown = Some((shown, frame.beneath()));
                 }
             }
@@ -171,21 +173,23 @@ impl Painter {
         self.changes.all(frame.size());
     }
 
-    /// Paints what differs from the frame shown; whether nothing does.
-    fn update(&mut self, (old, sunk): (&Frame, usize), frame: &Frame, bytes: &mut [u8]) -> bool {
+    /// Paints what differs from the frame shown.
+    fn update(&mut self, (old, sunk): (&Frame, usize), frame: &Frame, bytes: &mut [u8]) {
         let (beneath, all) = (frame.beneath(), frame.ops().len());
         let ground = Base::Colour(self.ground());
         let (style, sheets) = (&self.style, &mut self.sheets);
         let (below, tiles) = (&mut self.below, &mut self.tiles);
         below.start(frame.size());
         tiles.start(frame.size());
-        let mut same = crate::diff::mark((old, 0..sunk), (frame, 0..beneath), style, below);
+        let found = &mut self.found;
+        found.start();
+        diff::mark((old, 0..sunk), (frame, 0..beneath), style, below, found);
         let rest = (old, sunk..old.ops().len());
-        same &= crate::diff::mark(rest, (frame, beneath..all), style, tiles);
+        diff::mark(rest, (frame, beneath..all), style, tiles, found);
         tiles.unite(below);
-        if same || tiles.is_empty() {
+        if found.is_same() || tiles.is_empty() {
             self.changes.none(frame.size());
-            return same;
+            return;
         }
         let base = if beneath == 0 {
             ground
@@ -205,7 +209,6 @@ impl Painter {
             sheets.repaint(frame, beneath..all, style, base, (tiles, bytes));
         }
         self.changes.bounds = tiles.bands(&mut self.changes.bands);
-        false
     }
 
     const fn ground(&self) -> Colour {
