@@ -8,7 +8,7 @@ pub(crate) struct Huffman {
     weights: Vec<usize>,
 }
 
-/// Bits of a symbol in a number that also holds how often it occurs: less than 2^20 times, the bytes of a band.
+/// Bits of a symbol in a number that also holds how often it occurs: less than 2^21 times, the bytes of a strip.
 const SYMBOL: u32 = 9;
 
 /// A code's bits, the first in the lowest place, and how many they are.

@@ -6,7 +6,7 @@ use crate::{Changes, Packing, Picture, Size};
 /// Packs one picture after another into PNG files, and packs again only what changed.
 ///
 /// The file is byte for byte the one that [`Picture::to_png_packed`] makes.
-/// [`Packing::Fast`] packs the bands that changed, [`Packing::Small`] the whole picture unless nothing changed.
+/// [`Packing::Fast`] packs the strips of two bands that changed, [`Packing::Small`] the whole picture unless nothing changed.
 ///
 /// # Examples
 /// ```
@@ -56,7 +56,7 @@ impl Packer {
         self.size = Some(picture.size());
         match self.packing {
             Packing::Fast => {
-                self.bands.pack(picture, Some(changes));
+                self.bands.pack(picture, changes);
                 self.bands.file(&mut self.file);
             }
             Packing::Small => self.file = picture.to_png_packed(Packing::Small),

@@ -7,9 +7,8 @@ use ::png::{
     Transformations,
 };
 
-use crate::bands::Bands;
 use crate::output::write_file;
-use crate::{MAX_SIDE, Picture, RenderError, Size};
+use crate::{MAX_SIDE, Picture, RenderError, Size, bands};
 
 /// How hard a PNG is packed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -42,12 +41,7 @@ impl Picture {
     #[must_use]
     pub fn to_png_packed(&self, packing: Packing) -> Vec<u8> {
         match packing {
-            Packing::Fast => {
-                let (mut bands, mut file) = (Bands::default(), Vec::new());
-                bands.pack(self, None);
-                bands.file(&mut file);
-                file
-            }
+            Packing::Fast => bands::file(self),
             Packing::Small => encode(self.size(), &self.to_rgb(), ColorType::Rgb, packing),
         }
     }
