@@ -265,20 +265,29 @@ impl Hand<'_, '_> {
         };
         match *points {
             [a, b] if dash.is_none() && crate::clip::is_near(a) && crate::clip::is_near(b) => {
-                let mut outliner = core::mem::take(&mut self.own.outliner);
                 // A long line is cut before its width is added: that is exact, and ends lie beyond the canvas.
                 let room = Window::new(self.size.corner(), usable + MARGIN);
                 if let Some((first, last)) = room.segment(a, b) {
                     let along = b - a;
-                    let stick = outliner.stick(a + along * first, a + along * last, 0.5 * usable);
-                    self.fill_one(stick, colour);
+                    self.stick(a + along * first, a + along * last, 0.5 * usable, colour);
                 }
-                self.own.outliner = outliner;
             }
             [first, .., last] if dash.is_none() && first == last && is_convex(&points[1..]) => {
                 self.outline(&points[1..], usable, colour);
             }
             _ => self.general(|pen| pen.polyline(points, width, dash, colour)),
+        }
+    }
+
+    /// A straight line with round ends.
+    fn stick(&mut self, a: Vec2, b: Vec2, half: f64, colour: Colour) {
+        let reach = Vec2::splat(half);
+        if let Some(place) = Place::new(self.canvas, a.min(b) - reach, a.max(b) + reach) {
+            let left = vec2(place.left(), 0.0);
+            let limit = place.limit();
+            let mut flat = Flat(packed(colour));
+            let edges = |cells: &mut Cells| cells.stick(a - left, b - left, half, limit);
+            self.own.raster.draw(self.canvas, place, edges, &mut flat);
         }
     }
 

@@ -204,6 +204,29 @@ impl Cells {
         }
     }
 
+    /// The left (`side` −1) or right (1) side of a circle between two of its heights.
+    pub(super) fn rim(&mut self, circle: &Circle, side: f64, from: f64, to: f64) {
+        let centre = circle.centre;
+        let mut y = greater(from, number(self.top));
+        let end = lesser(to, number(self.bottom));
+        if y >= end {
+            return;
+        }
+        let at = |y: f64| Vec2::new(centre.x + side * circle.half(y - centre.y), y);
+        let mut row = floor(y);
+        while y < end {
+            let below = lesser(number(row + 1), end);
+            // It turns around at the height of the centre.
+            if y < centre.y && centre.y < below {
+                self.arc(circle, row, -side, at(y), at(centre.y));
+                y = centre.y;
+            }
+            self.arc(circle, row, -side, at(y), at(below));
+            y = below;
+            row += 1;
+        }
+    }
+
     /// Left and right arc of a circle between two heights of one row, given with half the chord there.
     fn arcs(&mut self, circle: &Circle, row: usize, upper: (f64, f64), lower: (f64, f64)) {
         for side in [-1.0, 1.0] {
@@ -267,7 +290,8 @@ impl Cells {
     }
 }
 
-struct Circle {
+/// A circle of which some columns are kept.
+pub(super) struct Circle {
     centre: Vec2,
     radius: f64,
     /// 1 / (12 r) and 1 / (4 r²).
@@ -278,7 +302,7 @@ struct Circle {
 }
 
 impl Circle {
-    fn new(centre: Vec2, radius: f64, sign: f64, limit: f64) -> Self {
+    pub(super) fn new(centre: Vec2, radius: f64, sign: f64, limit: f64) -> Self {
         Self {
             centre,
             radius,

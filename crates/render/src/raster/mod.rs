@@ -7,6 +7,7 @@
 mod cells;
 mod outline;
 mod shade;
+mod stick;
 #[cfg(test)]
 mod tests;
 

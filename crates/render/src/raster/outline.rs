@@ -13,22 +13,6 @@ pub(crate) struct Outliner {
 }
 
 impl Outliner {
-    /// What a round pen covers that is drawn straight from `a` to `b`: a ring of points.
-    pub(crate) fn stick(&mut self, a: Vec2, b: Vec2, half: f64) -> &[Vec2] {
-        self.outer.clear();
-        let along = (b - a).normalize_or_zero();
-        let along = if along == Vec2::ZERO { Vec2::X } else { along };
-        let normal = vec2(along.y, -along.x);
-        for (end, out, normal) in [(b, along, normal), (a, -along, -normal)] {
-            self.outer.push(end + normal * half);
-            bend(&mut self.outer, end, normal, out, half);
-            self.outer.push(end + out * half);
-            bend(&mut self.outer, end, out, -normal, half);
-            self.outer.push(end - normal * half);
-        }
-        &self.outer
-    }
-
     /// What a round pen covers that is drawn once around a ring: its outer and its inner border, which run opposite ways.
     ///
     /// `None` where a border would cross itself: the ring has features smaller than the pen.
