@@ -134,7 +134,7 @@ proptest! {
     ) {
         let mut world = World::new(Settings { gravity: Vec2::ZERO, sleep: None, ..Settings::default() })
             .expect("valid settings");
-        let material = carom_dynamics::Material { density: 1.0, friction: mu, restitution: e };
+        let material = carom_dynamics::Material { friction: mu, restitution: e, ..carom_dynamics::Material::default() };
         let heavy = carom_dynamics::Material { density: carom_math::trig::pow(10.0, ratio), ..material };
         world.insert(BodyDef::dynamic().at(vec2(-4.5, offset)).moving(vec2(speed, aim * speed)).spinning(spins.0), a, material)
             .expect("valid");

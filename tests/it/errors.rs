@@ -180,6 +180,7 @@ fn setters_refuse_and_leave_the_world_as_it_was() {
             PairMaterial {
                 friction: 0.1,
                 restitution: 0.1,
+                ..PairMaterial::default()
             },
         ),
         world.set_pair_material(
@@ -188,6 +189,7 @@ fn setters_refuse_and_leave_the_world_as_it_was() {
             PairMaterial {
                 friction: 0.1,
                 restitution: 1.1,
+                ..PairMaterial::default()
             },
         ),
     ];

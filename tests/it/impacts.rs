@@ -157,6 +157,7 @@ fn a_pair_s_own_material_wins_over_mixing() {
             PairMaterial {
                 friction: 0.0,
                 restitution: 0.25,
+                ..PairMaterial::default()
             },
         )
         .expect("valid");

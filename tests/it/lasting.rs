@@ -227,10 +227,7 @@ fn a_flyer_that_hits_a_sliding_block_joins_the_account_at_its_instant() {
     let stone = world
         .insert(stone, block(2.0, 0.5), rough(0.2))
         .expect("valid");
-    let smooth = PairMaterial {
-        friction: 0.0,
-        restitution: 0.0,
-    };
+    let smooth = PairMaterial::default();
     world
         .set_pair_material(slider, stone, smooth)
         .expect("valid");

@@ -3,6 +3,7 @@
 #![allow(clippy::float_cmp, reason = "tests compare exact results on purpose")]
 
 mod asleep;
+mod belts;
 mod conservation;
 mod determinism;
 mod documents;

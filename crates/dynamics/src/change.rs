@@ -5,6 +5,7 @@
 
 use std::sync::Arc;
 
+use carom_collision::contacts;
 use carom_math::{Pose, SimTime, Vec2};
 
 use crate::body::BodyState;
@@ -50,6 +51,36 @@ impl World {
             }
         });
         Ok(())
+    }
+
+    /// Gives a kinematic body the velocity and spin that bring its frame to `pose` in `seconds`, by the shorter
+    /// turn. It keeps them: on its way from pose to pose it is told anew at each.
+    ///
+    /// # Errors
+    /// If the body is not there or not kinematic, a number is not finite, or `seconds` is not above 0.
+    pub fn drive_to(&mut self, id: BodyId, pose: Pose, seconds: f64) -> Result<(), BodyError> {
+        let index = self.bodies.find(id)?;
+        check_vec2("position.x", "position.y", pose.position)?;
+        check_finite("rotation", pose.rotation.angle())?;
+        check_finite("seconds", seconds)?;
+        if seconds <= 0.0 {
+            return Err(BodyError::NotPositive {
+                field: "seconds",
+                value: seconds,
+            });
+        }
+        let state = self.bodies.get(index);
+        if state.kind != BodyKind::Kinematic {
+            return Err(BodyError::NotKinematic(id));
+        }
+        let now = self.clock.now;
+        let way = pose.point(state.mass.centroid) - state.centre_at(now);
+        let turn = (pose.rotation * state.rotation_at(now).inverse()).angle();
+        let turn = if state.locked_rotation { 0.0 } else { turn };
+        let (velocity, spin) = (way / seconds, turn / seconds);
+        check_vec2("velocity.x", "velocity.y", velocity)?;
+        check_finite("spin", spin)?;
+        self.set_velocity(id, velocity, spin)
     }
 
     /// Changes what moves a body.
@@ -224,6 +255,51 @@ impl World {
             .external
             .add((after.0 + after.1) - (before.0 + before.1));
         self.deflected(index, now);
+        if self.bodies.get(index).kind == BodyKind::Kinematic {
+            self.unsettle_on(index, now);
+        }
+    }
+
+    /// What rests on a kinematic body whose motion is new: sleepers wake, groups in closed form are judged anew.
+    ///
+    /// A kinematic body has no pairs with what sleeps: it is looked for by boxes.
+    fn unsettle_on(&mut self, index: u32, time: SimTime) {
+        let mut around: Vec<u32> = Vec::new();
+        for place in &self.bodies.get(index).pairs {
+            let pair = self.pairs.get(*place);
+            if pair.touching {
+                around.extend([pair.bodies.0, pair.bodies.1]);
+            }
+        }
+        let mut found = Vec::new();
+        let state = self.bodies.get(index);
+        for at in &state.colliders {
+            let mine = &self.colliders[*at as usize];
+            let pose = state.motion.pose_at(time);
+            for other in self.broad.in_tree(&self.colliders, mine.solid.aabb(pose)) {
+                let theirs = &self.colliders[other as usize];
+                let partner = self.bodies.get(theirs.body);
+                if !partner.asleep || !mine.filter.touches(theirs.filter) {
+                    continue;
+                }
+                // What fell asleep on it may have sunk in, or hover within the solver's margin.
+                let touch = 1e-3 * partner.reach.min(state.reach);
+                let seen = partner.motion.pose_at(time).seen_from(pose);
+                found.clear();
+                contacts(&mine.solid, &theirs.solid, seen, touch, &mut found);
+                if !found.is_empty() {
+                    around.push(theirs.body);
+                }
+            }
+        }
+        around.sort_unstable();
+        around.dedup();
+        for other in around {
+            if self.bodies.get(other).asleep {
+                self.wake(other, time);
+            }
+            self.rejudge(other, time);
+        }
     }
 
     /// A body that is new where it is: it gets its flight, its boxes and its pairs.

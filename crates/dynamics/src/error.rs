@@ -76,6 +76,9 @@ pub enum BodyError {
     /// The id belongs to a body that was removed, or to another world.
     #[error("{0} is not in this world")]
     Stale(BodyId),
+    /// Only a kinematic body goes where it is told.
+    #[error("{0} is not kinematic")]
+    NotKinematic(BodyId),
     /// The body has fewer shapes.
     #[error("{body} has {count} shapes: there is no shape {shape}")]
     NoSuchShape {

@@ -128,6 +128,7 @@ impl Groups {
                         .map(|p| (p.position - centre_a, p.position - centre_b))
                         .collect();
                     let mut row = Row::new(ends, contact.normal, &arms, pair.material.friction);
+                    row.belt = pair.material.tangent_speed;
                     for (k, point) in contact.points.iter().enumerate() {
                         if lasts(point) {
                             row.gap[k] = point.separation;
@@ -234,10 +235,11 @@ impl Groups {
                 w: body.turn / h,
                 ..*body
             };
-            let heat = -row.jt * row.slip(&mean(a), &mean(b));
+            let heat = -row.jt * (row.slip(&mean(a), &mean(b)) - row.belt);
             bodies.book.friction.add(heat);
             bodies.book.scheme.add(heat);
-            let driven = row.driven_work(a, b);
+            // What runs a belt puts in what the bodies get, and the heat.
+            let driven = row.driven_work(a, b) + row.jt * row.belt;
             bodies.book.external.add(driven);
             bodies.book.scheme.add(-driven);
         }

@@ -62,7 +62,8 @@ pub(crate) fn strike(
                 restitution: material.restitution,
                 friction: material.friction,
             };
-            shock.add(bodies, entry.pair, ends, contact, rest);
+            let struck = (contact, material.tangent_speed);
+            shock.add(bodies, entry.pair, ends, struck, rest);
         }
     }
     if shock.strikes.is_empty() {
@@ -74,7 +75,7 @@ pub(crate) fn strike(
     }
     let single = shock.strikes.len() == 1;
     if single {
-        let before = (a.in_impact(entry.time), b.in_impact(entry.time));
+        let before = shock.ends_of_single();
         let outcome = resolve(
             settings.impact_law,
             &before.0,

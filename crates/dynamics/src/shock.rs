@@ -8,7 +8,7 @@
 //! cone for friction. Struck contacts have their approach to give back; contacts that lasted have
 //! none and only must not close. Solved by projected Gauss–Seidel over accumulated impulses, in bounded time.
 
-use carom_math::{SimTime, perp};
+use carom_math::{SimTime, Vec2, perp};
 
 use crate::Settings;
 use crate::bodies::Bodies;
@@ -100,11 +100,12 @@ impl Shock {
         bodies: &Bodies,
         pair: u32,
         (i, j): (u32, u32),
-        contact: ImpactContact,
+        (contact, belt): (ImpactContact, f64),
         rest: f64,
     ) {
         self.rest = self.rest.min(rest);
-        let ends = (self.place(bodies, i), self.place(bodies, j));
+        let run = perp(contact.normal) * belt;
+        let ends = (self.place(bodies, i, run), self.place(bodies, j, -run));
         let (a, b) = (&self.bodies[ends.0].before, &self.bodies[ends.1].before);
         let opening = b.velocity_of(contact.point) - a.velocity_of(contact.point);
         let speed = -opening.dot(contact.normal);
@@ -122,6 +123,12 @@ impl Shock {
             normal_impulse: 0.0,
             tangential_impulse: 0.0,
         });
+    }
+
+    /// The two bodies of a single impact.
+    pub(crate) fn ends_of_single(&self) -> (ImpactBody, ImpactBody) {
+        let (a, b) = self.strikes[0].ends;
+        (self.bodies[a].after, self.bodies[b].after)
     }
 
     /// Velocities after a single impact, by whatever law gave them.
@@ -197,8 +204,8 @@ impl Shock {
                     continue;
                 }
                 let ends = (
-                    self.place(bodies, pair.bodies.0),
-                    self.place(bodies, pair.bodies.1),
+                    self.place(bodies, pair.bodies.0, Vec2::ZERO),
+                    self.place(bodies, pair.bodies.1, Vec2::ZERO),
                 );
                 let (a, b) = (&self.bodies[ends.0].after, &self.bodies[ends.1].after);
                 let closing = (a.velocity_of(point.position) - b.velocity_of(point.position))
@@ -210,7 +217,8 @@ impl Shock {
                         restitution: pair.material.restitution,
                         friction: pair.material.friction,
                     };
-                    self.add(bodies, place, pair.bodies, contact, rest);
+                    let belt = pair.material.tangent_speed;
+                    self.add(bodies, place, pair.bodies, (contact, belt), rest);
                 }
             }
         }
@@ -370,7 +378,18 @@ impl Shock {
         (loss, driven)
     }
 
-    fn place(&mut self, bodies: &Bodies, index: u32) -> usize {
+    /// Place of a body; of one that nothing moves with its surface's speed `run`, a new one.
+    fn place(&mut self, bodies: &Bodies, index: u32, run: Vec2) -> usize {
+        if run != Vec2::ZERO && bodies.get(index).inverse_mass == 0.0 {
+            let mut state = bodies.get(index).in_impact(self.time);
+            state.velocity += run;
+            self.bodies.push(Shaken {
+                index,
+                before: state,
+                after: state,
+            });
+            return self.bodies.len() - 1;
+        }
         if let Some(known) = self.bodies.iter().position(|shaken| shaken.index == index) {
             return known;
         }

@@ -288,6 +288,10 @@ impl World {
                 // Not flush: it may rest, but not slide.
                 features = (Feature::Corner, Feature::Corner);
             }
+            // A surface that runs is no body that moves.
+            if pair.material.tangent_speed != 0.0 {
+                return None;
+            }
             rows += points.len() + usize::from(pair.material.friction > 0.0);
             let ends = (
                 found.place_of(&self.bodies, pair.bodies.0, time),

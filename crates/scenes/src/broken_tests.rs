@@ -71,7 +71,7 @@ fn broken_texts_are_named() {
         (
             "version = 1\n[[body]]\nshapes = [{ square = 1 }, { pentagram = 1 }]\n",
             "bad.toml:3:29: body.shapes[1].pentagram: unknown shape, expected one of circle, rectangle, square, regular, \
-             triangle, polygon, hull, star, segment, offset, turn, turn_deg, material",
+             triangle, polygon, hull, star, segment, offset, turn, turn_deg, material, filter",
         ),
         (
             "version = 1\n[settings]\nmode = 'exakt'\n",
@@ -116,7 +116,7 @@ fn broken_texts_are_named() {
         ),
         (
             "version = 1\n[[body]]\nmaterial = 3\n",
-            "bad.toml:3:12: body.material: found the integer 3, expected the name of a material or { density, friction, restitution }",
+            "bad.toml:3:12: body.material: found the integer 3, expected the name of a material or { density, friction, restitution, tangent_speed }",
         ),
         (
             "version = 1\n[[field]]\nkind = 'radial'\ncentre = [0, 0]\ncore = 1\n",

@@ -31,6 +31,22 @@ fn wrong_values_are_named_with_their_place() {
             "bad.toml:5:28: body.material.restitution: restitution is 1.5, outside 0..1 (body \"ball\")",
         ),
         (
+            body("material = { tangent_speed = 1e13 }"),
+            "bad.toml:5:30: body.material.tangent_speed: tangent_speed is 1e13, beyond the limit of 1e12 (body \"ball\")",
+        ),
+        (
+            body("filter = { mask = [3, 64] }"),
+            "bad.toml:5:19: body.filter.mask: there is no category 64: they are 0..63",
+        ),
+        (
+            body("[[pair]]\nbodies = ['ball', 'bal']\nfriction = 1"),
+            "bad.toml:6:19: pair.bodies[1]: unknown body, did you mean \"ball\"?",
+        ),
+        (
+            body("[[pair]]\nbodies = ['ball', 'ball']\nfriction = 1"),
+            "bad.toml:6:10: pair.bodies: body 0 cannot form a pair with itself",
+        ),
+        (
             body("material = { friction = -0.5 }"),
             "bad.toml:5:25: body.material.friction: friction is -0.5, below 0 (body \"ball\")",
         ),

@@ -59,7 +59,15 @@ impl fmt::Display for FieldPath {
 }
 
 /// Fields of the root that are lists of tables.
-const LISTS: [&str; 6] = ["body", "field", "stack", "pyramid", "grid", "population"];
+const LISTS: [&str; 7] = [
+    "body",
+    "field",
+    "stack",
+    "pyramid",
+    "grid",
+    "population",
+    "pair",
+];
 
 /// The field that a stretch of the text belongs to: the deepest whose key or value it is, else the smallest around it.
 pub(crate) fn field_at(root: &DeTable<'_>, span: &Range<usize>) -> Option<FieldPath> {

@@ -5,7 +5,7 @@ use crate::{Problem, Scene};
 const README: &str = include_str!("../README.md");
 
 /// A table of each kind, with a key that nobody knows in place of `?`.
-const TABLES: [&str; 21] = [
+const TABLES: [&str; 23] = [
     "? = 1",
     "[settings]\n? = 1",
     "settings.sleep = { ? = 1 }",
@@ -23,6 +23,8 @@ const TABLES: [&str; 21] = [
     "[[body]]\nshape = { triangle = { ? = 1 } }",
     "[[body]]\nshape = { star = { ? = 1 } }",
     "[[body]]\nimpulse = { ? = 1 }",
+    "[[body]]\nfilter = { ? = 1 }",
+    "[[pair]]\n? = 1",
     "[[stack]]\n? = 1",
     "[[pyramid]]\n? = 1",
     "[[grid]]\n? = 1",

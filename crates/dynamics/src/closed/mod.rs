@@ -101,6 +101,16 @@ impl World {
         self.judge_all(&members, time, speed);
     }
 
+    /// Judges the group of a body anew, whether its members have other motions or not.
+    pub(crate) fn rejudge(&mut self, index: u32, time: SimTime) {
+        let place = self.bodies.get(index).membership.group;
+        if let Some(group) = self.closed.get(place) {
+            let speed = group.speed;
+            let members = self.dissolve(place, time);
+            self.judge_all(&members, time, speed);
+        }
+    }
+
     /// Whether something may hold a body that just changed its motion: what bounces off does not.
     fn may_last(&self, index: u32) -> bool {
         let pairs = self.bodies.get(index).pairs.iter();

@@ -12,7 +12,7 @@ use crate::narrow::opening_speed;
 use crate::predict::price_of;
 use crate::resolve::apply;
 use crate::shock::Shock;
-use crate::{BodyKind, EventKind, Mode, World};
+use crate::{BodyKind, EventKind, Mode, PairMaterial, World};
 
 /// What the impacts of one flyer may spend in a tick before the solver takes the rest, in losses of
 /// relative speed. Not counted in [`Mode::Exact`].
@@ -79,7 +79,11 @@ impl World {
         let streak = self.streak(impact, time, speed, left);
         let ends = e < 1.0 && streak.has_faded(speed, FADED);
         let e = if ends { 0.0 } else { e };
-        self.strike_at(impact, time, (e, material.friction));
+        let material = PairMaterial {
+            restitution: e,
+            ..material
+        };
+        self.strike_at(impact, time, material);
         if press <= 0.0 {
             self.deflect_both(impact.bodies, time);
         } else if e == 0.0 {
@@ -134,7 +138,12 @@ impl World {
     }
 
     /// The impact itself, by the law at one point or at all that approach.
-    fn strike_at(&mut self, impact: &Foreseen, time: SimTime, (restitution, friction): (f64, f64)) {
+    fn strike_at(&mut self, impact: &Foreseen, time: SimTime, material: PairMaterial) {
+        let PairMaterial {
+            restitution,
+            friction,
+            tangent_speed,
+        } = material;
         let (one, two) = (
             self.bodies.get(impact.bodies.0),
             self.bodies.get(impact.bodies.1),
@@ -150,7 +159,9 @@ impl World {
                 friction,
             })
             .collect();
-        if let [contact] = struck.as_slice() {
+        if let [contact] = struck.as_slice()
+            && tangent_speed == 0.0
+        {
             return self.strike_once(impact, contact, time);
         }
         if let [first, last] = struck.as_slice()
@@ -161,7 +172,13 @@ impl World {
         }
         let mut shock = Shock::new(time, self.clock.h);
         for contact in struck {
-            shock.add(&self.bodies, u32::MAX, impact.bodies, contact, 0.0);
+            shock.add(
+                &self.bodies,
+                u32::MAX,
+                impact.bodies,
+                (contact, tangent_speed),
+                0.0,
+            );
         }
         shock.solve(
             &self.settings,

@@ -156,7 +156,8 @@ fn block<S: Simd, const RELAX: bool>(
         let at = f64x8::from_slice(simd, &wide.at);
         let bt = f64x8::from_slice(simd, &wide.bt);
         let jt = f64x8::from_slice(simd, &wide.jt);
-        let vt = nx * (bvy - avy) - ny * (bvx - avx) + bt * bw - at * aw;
+        let belt = f64x8::from_slice(simd, &wide.belt);
+        let vt = nx * (bvy - avy) - ny * (bvx - avx) + bt * bw - at * aw - belt;
         let k = m + ia * at * at + ib * bt * bt;
         let limit = f64x8::from_slice(simd, &wide.mu) * (new1 + new2);
         let wanted = jt - vt / k;

@@ -98,7 +98,7 @@ fn row(pass: Pass, law: &Law, lines: &mut [Line], wide: &mut Wide, lane: usize, 
 
     if relax {
         let (at, bt, jt) = (wide.at[lane], wide.bt[lane], wide.jt[lane]);
-        let vt = nx * (bvy - avy) - ny * (bvx - avx) + bt * bw - at * aw;
+        let vt = nx * (bvy - avy) - ny * (bvx - avx) + bt * bw - at * aw - wide.belt[lane];
         let k = m + i_a * at * at + i_b * bt * bt;
         let limit = wide.mu[lane] * (new1 + new2);
         let wanted = jt - vt / k;

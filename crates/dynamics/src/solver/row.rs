@@ -35,6 +35,8 @@ pub(crate) struct Row {
     pub(crate) at: f64,
     pub(crate) bt: f64,
     pub(crate) mu: f64,
+    /// Slip at which both surfaces run along with each other, in m/s: see [`crate::PairMaterial`].
+    pub(crate) belt: f64,
     /// Gaps at the start of the sub-step, in m.
     pub(crate) gap: [f64; 2],
     /// Normal impulses, in N·s.
@@ -70,6 +72,7 @@ impl Row {
             at: mid_a.dot(n),
             bt: mid_b.dot(n),
             mu,
+            belt: 0.0,
             gap: [Self::OPEN; 2],
             j: [0.0; 2],
             jt: 0.0,
@@ -86,7 +89,7 @@ impl Row {
         ]
     }
 
-    /// Slip of the face.
+    /// Slip of the bodies at the face; of its surfaces, with their belts left out.
     pub(crate) fn slip(&self, a: &SolverBody, b: &SolverBody) -> f64 {
         perp(self.n).dot(b.v - a.v) + self.bt * b.w - self.at * a.w
     }

@@ -80,7 +80,7 @@ pub(crate) fn relax(law: &Law, bodies: &mut [SolverBody], rows: &mut [Row]) {
                 + row.at * row.at * a.inverse_inertia
                 + row.bt * row.bt * b.inverse_inertia;
             let limit = row.mu * (row.j[0] + row.j[1]);
-            let jt = (row.jt - row.slip(&a, &b) / k).clamp(-limit, limit);
+            let jt = (row.jt - (row.slip(&a, &b) - row.belt) / k).clamp(-limit, limit);
             row.push(&mut a, &mut b, [0.0, 0.0], jt - row.jt);
             row.jt = jt;
         }

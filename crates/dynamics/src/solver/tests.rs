@@ -184,6 +184,9 @@ impl Dice {
             row.gap[i] = self.between(-0.01, 0.01);
             row.j[i] = self.between(0.0, 0.1);
         }
+        if self.pick(4) == 0 {
+            row.belt = self.between(-2.0, 2.0);
+        }
         row.jt = mu * (row.j[0] + row.j[1]) * self.between(-1.0, 1.0);
         row
     }

@@ -51,7 +51,7 @@ impl Line {
     }
 }
 
-/// Eight rows of one colour: no two of them move the same body. 960 bytes, 120 a row.
+/// Eight rows of one colour: no two of them move the same body. 1 KiB, 128 bytes a row.
 ///
 /// The letters are those of [`Row`]; `s` is a gap told so that it holds however the bodies move on:
 ///
@@ -77,6 +77,7 @@ pub(crate) struct Wide {
     pub(crate) j1: [f64; LANES],
     pub(crate) j2: [f64; LANES],
     pub(crate) jt: [f64; LANES],
+    pub(crate) belt: [f64; LANES],
 }
 
 impl Wide {
@@ -98,6 +99,7 @@ impl Wide {
         j1: [0.0; LANES],
         j2: [0.0; LANES],
         jt: [0.0; LANES],
+        belt: [0.0; LANES],
     };
 
     /// Puts a row into a lane; its gaps are those of now, with the bodies where their lines say.
@@ -113,6 +115,7 @@ impl Wide {
         self.s2[lane] = row.gap[1] - moved - row.b[1] * b.turn() + row.a[1] * a.turn();
         [self.j1[lane], self.j2[lane]] = row.j;
         self.jt[lane] = row.jt;
+        self.belt[lane] = row.belt;
     }
 
     /// The row of a lane, with its gaps as the bodies are now.
@@ -130,6 +133,7 @@ impl Wide {
             at: self.at[lane],
             bt: self.bt[lane],
             mu: self.mu[lane],
+            belt: self.belt[lane],
             gap: [
                 gap(self.s1[lane], self.a1[lane], self.b1[lane]),
                 gap(self.s2[lane], self.a2[lane], self.b2[lane]),
@@ -148,14 +152,14 @@ impl Wide {
         }
     }
 
-    fn columns(&self) -> [&[f64; LANES]; 14] {
+    fn columns(&self) -> [&[f64; LANES]; 15] {
         [
             &self.nx, &self.ny, &self.a1, &self.b1, &self.a2, &self.b2, &self.at, &self.bt,
-            &self.mu, &self.s1, &self.s2, &self.j1, &self.j2, &self.jt,
+            &self.mu, &self.s1, &self.s2, &self.j1, &self.j2, &self.jt, &self.belt,
         ]
     }
 
-    fn columns_mut(&mut self) -> [&mut [f64; LANES]; 14] {
+    fn columns_mut(&mut self) -> [&mut [f64; LANES]; 15] {
         [
             &mut self.nx,
             &mut self.ny,
@@ -171,6 +175,7 @@ impl Wide {
             &mut self.j1,
             &mut self.j2,
             &mut self.jt,
+            &mut self.belt,
         ]
     }
 }

@@ -240,6 +240,7 @@ fn row_of(contact: &PairContact, slots: [u32; 2], poses: [Pose; 2], pair: &Pair)
         &arms,
         pair.material.friction,
     );
+    row.belt = pair.material.tangent_speed;
     for (i, point) in contact.points.iter().enumerate() {
         row.gap[i] = point.separation;
         row.j[i] = point.impulse;

@@ -7,7 +7,9 @@ use carom_math::{Vec2, vec2};
 use super::plan::{MAX_BODIES, Planned, Planner};
 use super::shape::shape;
 use crate::error::SceneError;
-use crate::model::{GridTable, Kind, MaterialChoice, PyramidTable, StackTable, WallsTable};
+use crate::model::{
+    FilterTable, GridTable, Kind, MaterialChoice, PyramidTable, StackTable, WallsTable,
+};
 use crate::path::FieldPath;
 
 /// A closed box (or, without a ceiling, a bin) of fixed walls around the inner rectangle.
@@ -22,7 +24,7 @@ pub(crate) fn walls(planner: &mut Planner<'_>, table: &WallsTable) -> Result<(),
         );
         return Err(planner.refuse(&field.key("inner"), reason));
     }
-    let material = planner.surface(&table.material, field.key("material"))?;
+    let material = planner.surface(&table.material, &table.filter, &field)?;
     let middle = min + 0.5 * room;
     let above = if table.ceiling { t } else { 0.0 };
     let side = vec2(t, room.y + t + above);
@@ -54,6 +56,7 @@ struct Batch<'a> {
     name: &'a str,
     kind: Kind,
     material: &'a MaterialChoice,
+    filter: &'a FilterTable,
     colour: Option<&'a str>,
 }
 
@@ -74,6 +77,7 @@ pub(crate) fn stack(
         name: &table.name,
         kind: Kind::Dynamic,
         material: &table.material,
+        filter: &table.filter,
         colour: table.colour.as_deref(),
     };
     batch.add(planner, &shape, places)
@@ -112,6 +116,7 @@ pub(crate) fn pyramid(
         name: &table.name,
         kind: Kind::Dynamic,
         material: &table.material,
+        filter: &table.filter,
         colour: table.colour.as_deref(),
     };
     batch.add(planner, &shape, places)
@@ -141,6 +146,7 @@ pub(crate) fn grid(
         name: &table.name,
         kind: table.kind,
         material: &table.material,
+        filter: &table.filter,
         colour: table.colour.as_deref(),
     };
     batch.add(planner, &made, places)
@@ -153,7 +159,7 @@ impl Batch<'_> {
         shape: &Shape,
         places: impl Iterator<Item = Vec2>,
     ) -> Result<(), SceneError> {
-        let material = planner.surface(self.material, self.field.key("material"))?;
+        let material = planner.surface(self.material, self.filter, &self.field)?;
         for (k, place) in places.enumerate() {
             let mut body = Planned::new(format!("{}/{k}", self.name), self.field.clone());
             body.kind = self.kind.into();

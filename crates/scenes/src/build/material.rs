@@ -1,10 +1,10 @@
 //! Materials by value or by name.
 
-use carom_dynamics::Material;
+use carom_dynamics::{Filter, Material};
 
 use crate::document::Document;
 use crate::error::{Problem, SceneError, nearest};
-use crate::model::{MaterialChoice, MaterialTable, SceneFile};
+use crate::model::{FilterTable, MaterialChoice, MaterialTable, SceneFile};
 use crate::path::FieldPath;
 
 /// A material and where in the file it was written.
@@ -14,6 +14,8 @@ pub(crate) struct Resolved {
     pub(crate) field: FieldPath,
     /// Whether `parameters.restitution` stands in for the material's own.
     pub(crate) by_parameter: bool,
+    /// Whom the surface may touch.
+    pub(crate) filter: Filter,
 }
 
 impl Resolved {
@@ -25,6 +27,32 @@ impl Resolved {
             self.field.key(key)
         }
     }
+}
+
+/// The filter that is written at `field`.
+pub(crate) fn filter(
+    document: &Document,
+    table: &FilterTable,
+    field: &FieldPath,
+) -> Result<Filter, SceneError> {
+    let default = Filter::default();
+    let bits = |key: &str, numbers: &Option<Vec<u8>>, default: u64| {
+        let Some(numbers) = numbers else {
+            return Ok(default);
+        };
+        numbers.iter().try_fold(0, |bits, number| {
+            let bit = 1_u64.checked_shl(u32::from(*number)).ok_or_else(|| {
+                let reason = format!("there is no category {number}: they are 0..63");
+                document.error(&field.key(key), Problem::Refused(reason))
+            })?;
+            Ok(bits | bit)
+        })
+    };
+    Ok(Filter {
+        categories: bits("categories", &table.categories, default.categories)?,
+        mask: bits("mask", &table.mask, default.mask)?,
+        group: table.group,
+    })
 }
 
 /// The material that is chosen at `field`.
@@ -62,8 +90,10 @@ fn filled(table: MaterialTable, field: FieldPath) -> Resolved {
             density: table.density.unwrap_or(default.density),
             friction: table.friction.unwrap_or(default.friction),
             restitution: table.restitution.unwrap_or(default.restitution),
+            tangent_speed: table.tangent_speed.unwrap_or(default.tangent_speed),
         },
         field,
         by_parameter: false,
+        filter: Filter::default(),
     }
 }

@@ -10,12 +10,13 @@ mod settings;
 mod shape;
 
 use carom_dynamics::{
-    BodyDef, BodyError, BodyId, BodyKind, Impulse, RadialField, SettingsError, World,
+    BodyDef, BodyError, BodyId, BodyKind, Filter, Impulse, PairMaterial, RadialField,
+    SettingsError, World,
 };
 use carom_geometry::Circle;
 
 use crate::document::Document;
-use crate::error::{Problem, SceneError};
+use crate::error::{Problem, SceneError, nearest};
 use crate::model::{BodyTable, FieldTable, Kind, SceneFile};
 use crate::path::FieldPath;
 use crate::{Built, PlainScene, Scene};
@@ -44,6 +45,7 @@ pub(crate) fn build(scene: &Scene) -> Result<Built, SceneError> {
     for body in &planned {
         names.push((body.name.clone(), insert(document, &mut world, body)?));
     }
+    pairs(document, &file, &mut world, &names)?;
     look::dress(scene, &file, world, &planned, names)
 }
 
@@ -164,7 +166,8 @@ fn written_body(
 ) -> Result<(), SceneError> {
     let field = FieldPath::root("body").index(index);
     let document = planner.document;
-    let material = planner.material(&table.material, field.key("material"))?;
+    let mut material = planner.material(&table.material, field.key("material"))?;
+    material.filter = material::filter(document, &table.filter, &field.key("filter"))?;
     let mut body = Planned::new(
         table
             .name
@@ -176,9 +179,13 @@ fn written_body(
     let several = table.shapes.iter().enumerate();
     let several = several.map(|(k, shape)| (shape, field.key("shapes").index(k)));
     for (shape_table, place) in single.chain(several) {
-        let surface = match &shape_table.material {
+        let mut surface = match &shape_table.material {
             Some(own) => planner.material(own, place.key("material"))?,
             None => material.clone(),
+        };
+        surface.filter = match &shape_table.filter {
+            Some(own) => material::filter(document, own, &place.key("filter"))?,
+            None => material.filter,
         };
         body.shapes
             .push((shape::shape(document, shape_table, &place)?, surface));
@@ -202,6 +209,47 @@ fn written_body(
     body.colour.clone_from(&table.colour);
     body.face.clone_from(&table.face);
     planner.add(body)
+}
+
+/// What `[[pair]]` says of two bodies by name.
+fn pairs(
+    document: &Document,
+    file: &SceneFile,
+    world: &mut World,
+    names: &[(String, BodyId)],
+) -> Result<(), SceneError> {
+    for (index, table) in file.pair.iter().enumerate() {
+        let field = FieldPath::root("pair").index(index);
+        let id = |k: usize| {
+            let name = &table.bodies[k];
+            let found = names.iter().find(|(known, _)| known == name);
+            found.map(|(_, id)| *id).ok_or_else(|| {
+                let known = names.iter().map(|(known, _)| known.as_str());
+                let problem = Problem::Unknown {
+                    what: "body",
+                    nearest: nearest(name, known).map(str::to_owned),
+                    expected: Vec::new(),
+                };
+                document.error(&field.key("bodies").index(k), problem)
+            })
+        };
+        let material = PairMaterial {
+            friction: table.friction,
+            restitution: table.restitution,
+            tangent_speed: table.tangent_speed,
+        };
+        world
+            .set_pair_material(id(0)?, id(1)?, material)
+            .map_err(|error| {
+                let key = match &error {
+                    BodyError::Restitution { .. } => "restitution",
+                    BodyError::SameBody(_) => "bodies",
+                    other => field_of(other).unwrap_or("friction"),
+                };
+                document.error(&field.key(key), Problem::Refused(error.to_string()))
+            })?;
+    }
+    Ok(())
 }
 
 fn new_world(document: &Document, file: &SceneFile) -> Result<World, SceneError> {
@@ -242,7 +290,10 @@ fn new_world(document: &Document, file: &SceneFile) -> Result<World, SceneError>
 }
 
 fn insert(document: &Document, world: &mut World, body: &Planned) -> Result<BodyId, SceneError> {
+    let filter = body.shapes.first();
+    let filter = filter.map_or_else(Filter::default, |(_, surface)| surface.filter);
     let def = BodyDef {
+        filter,
         position: body.position,
         angle: body.angle,
         velocity: body.velocity,
@@ -265,6 +316,12 @@ fn insert(document: &Document, world: &mut World, body: &Planned) -> Result<Body
         document.error(&origin_of(&error, body), problem)
     };
     let id = world.insert_compound(def, shapes).map_err(refused)?;
+    for (k, (_, surface)) in body.shapes.iter().enumerate() {
+        if surface.filter != filter {
+            let set = world.set_shape_filter(id, k, surface.filter);
+            set.map_err(refused)?;
+        }
+    }
     if let Some((point, impulse)) = body.impulse {
         world
             .apply(id, Impulse::at(point, impulse))
@@ -291,6 +348,7 @@ fn origin_of(error: &BodyError, body: &Planned) -> FieldPath {
             let held = match key {
                 "density" => material.density,
                 "friction" => material.friction,
+                "tangent_speed" => material.tangent_speed,
                 _ => material.restitution,
             };
             held.to_bits() == value.to_bits()
@@ -304,7 +362,7 @@ fn origin_of(error: &BodyError, body: &Planned) -> FieldPath {
         | BodyError::TooLarge { field, value, .. }
         | BodyError::Negative { field, value }
         | BodyError::NotPositive { field, value } => match field {
-            "density" | "friction" | "restitution" => of_material(field, value),
+            "density" | "friction" | "restitution" | "tangent_speed" => of_material(field, value),
             _ => body.field.key(field.split('.').next().unwrap_or(field)),
         },
         _ => body.field.clone(),

@@ -70,6 +70,7 @@ pub(super) fn bodies(planner: &mut Planner<'_>, scene: &PlainScene) -> Result<()
                 material,
                 field: field.clone(),
                 by_parameter: by_parameter.is_some(),
+                filter: def.filter,
             }
         };
         planned.shapes = solids

@@ -4,10 +4,10 @@ use carom_dynamics::BodyKind;
 use carom_geometry::Shape;
 use carom_math::{Pose, Rot, Vec2};
 
-use super::material::{Resolved, resolve};
+use super::material::{Resolved, filter, resolve};
 use crate::document::Document;
 use crate::error::{Problem, SceneError};
-use crate::model::{MaterialChoice, SceneFile};
+use crate::model::{FilterTable, MaterialChoice, SceneFile};
 use crate::path::FieldPath;
 
 /// Most bodies of a scene.
@@ -87,13 +87,15 @@ impl Planner<'_> {
         resolve(self.document, self.file, choice, field)
     }
 
-    /// The material of walls and generated bodies, whose restitution a parameter may set.
+    /// Material and filter of walls and generated bodies, whose restitution a parameter may set; `field` has both.
     pub(crate) fn surface(
         &self,
         choice: &MaterialChoice,
-        field: FieldPath,
+        filter_table: &FilterTable,
+        field: &FieldPath,
     ) -> Result<Resolved, SceneError> {
-        let mut resolved = self.material(choice, field)?;
+        let mut resolved = self.material(choice, field.key("material"))?;
+        resolved.filter = filter(self.document, filter_table, &field.key("filter"))?;
         if let Some(restitution) = self.file.parameters.restitution {
             resolved.material.restitution = restitution;
             resolved.by_parameter = true;

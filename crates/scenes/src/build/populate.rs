@@ -25,7 +25,7 @@ pub(crate) fn populate(
 ) -> Result<(), SceneError> {
     let field = FieldPath::root("population").index(index);
     check(planner, index, table, &field)?;
-    let material = planner.surface(&table.material, field.key("material"))?;
+    let material = planner.surface(&table.material, &table.filter, &field)?;
     let mut random = Random::new(planner.file.seed, index as u64);
     let mut free = FreeSpace::new(planner, table);
     for k in 0..table.count {

@@ -5,6 +5,7 @@ use core::fmt;
 use serde::Deserialize;
 use serde::de::{Deserializer, Error, MapAccess, Visitor, value::MapAccessDeserializer};
 
+use super::filter::FilterTable;
 use super::shape::ShapeTable;
 use super::value::Point;
 
@@ -32,6 +33,8 @@ pub(crate) struct BodyTable {
     pub(crate) spin: f64,
     #[serde(default)]
     pub(crate) material: MaterialChoice,
+    #[serde(default)]
+    pub(crate) filter: FilterTable,
     #[serde(default)]
     pub(crate) mass: Option<f64>,
     #[serde(default)]
@@ -96,6 +99,7 @@ pub(crate) struct MaterialTable {
     pub(crate) density: Option<f64>,
     pub(crate) friction: Option<f64>,
     pub(crate) restitution: Option<f64>,
+    pub(crate) tangent_speed: Option<f64>,
 }
 
 impl<'de> Deserialize<'de> for MaterialChoice {
@@ -104,7 +108,9 @@ impl<'de> Deserialize<'de> for MaterialChoice {
         impl<'de> Visitor<'de> for Choice {
             type Value = MaterialChoice;
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("the name of a material or { density, friction, restitution }")
+                f.write_str(
+                    "the name of a material or { density, friction, restitution, tangent_speed }",
+                )
             }
             fn visit_str<E: Error>(self, name: &str) -> Result<MaterialChoice, E> {
                 Ok(MaterialChoice::Named(name.to_owned()))

@@ -3,6 +3,7 @@
 use serde::Deserialize;
 
 use super::body::{Kind, MaterialChoice};
+use super::filter::FilterTable;
 use super::shape::ShapeTable;
 use super::value::{Corners, CountRange, Point, Range};
 
@@ -33,6 +34,8 @@ pub(crate) struct WallsTable {
     pub(crate) ceiling: bool,
     #[serde(default)]
     pub(crate) material: MaterialChoice,
+    #[serde(default)]
+    pub(crate) filter: FilterTable,
     #[serde(default)]
     pub(crate) colour: Option<String>,
 }
@@ -65,6 +68,8 @@ pub(crate) struct PopulationTable {
     pub(crate) corners: CountRange,
     #[serde(default)]
     pub(crate) material: MaterialChoice,
+    #[serde(default)]
+    pub(crate) filter: FilterTable,
     #[serde(default)]
     pub(crate) colour: Option<String>,
 }
@@ -107,6 +112,8 @@ pub(crate) struct StackTable {
     #[serde(default)]
     pub(crate) material: MaterialChoice,
     #[serde(default)]
+    pub(crate) filter: FilterTable,
+    #[serde(default)]
     pub(crate) colour: Option<String>,
 }
 
@@ -125,6 +132,8 @@ pub(crate) struct PyramidTable {
     pub(crate) gap: Option<Point>,
     #[serde(default)]
     pub(crate) material: MaterialChoice,
+    #[serde(default)]
+    pub(crate) filter: FilterTable,
     #[serde(default)]
     pub(crate) colour: Option<String>,
 }
@@ -145,6 +154,8 @@ pub(crate) struct GridTable {
     pub(crate) shape: ShapeTable,
     #[serde(default)]
     pub(crate) material: MaterialChoice,
+    #[serde(default)]
+    pub(crate) filter: FilterTable,
     #[serde(default)]
     pub(crate) colour: Option<String>,
 }

@@ -1,6 +1,7 @@
 //! The tables of a scene file, as they are written. What they may hold is checked when a scene is built.
 
 mod body;
+mod filter;
 mod generate;
 mod settings;
 mod shape;
@@ -11,6 +12,7 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 
 pub(crate) use body::{BodyTable, Kind, MaterialChoice, MaterialTable};
+pub(crate) use filter::{FilterTable, PairTable};
 pub(crate) use generate::{
     GridTable, PlainTable, PopulationTable, PyramidTable, RandomShape, StackTable, WallsTable,
 };
@@ -77,6 +79,8 @@ pub(crate) struct SceneFile {
     pub(crate) grid: Vec<GridTable>,
     #[serde(default)]
     pub(crate) population: Vec<PopulationTable>,
+    #[serde(default)]
+    pub(crate) pair: Vec<PairTable>,
 }
 
 impl SceneFile {

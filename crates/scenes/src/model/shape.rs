@@ -3,6 +3,7 @@
 use serde::Deserialize;
 
 use super::body::MaterialChoice;
+use super::filter::FilterTable;
 use super::value::Point;
 
 /// A shape. Exactly one of the fields up to `segment` is given.
@@ -25,6 +26,8 @@ pub(crate) struct ShapeTable {
     pub(crate) turn_deg: Option<f64>,
     /// Instead of the body's material.
     pub(crate) material: Option<MaterialChoice>,
+    /// Instead of the body's filter.
+    pub(crate) filter: Option<FilterTable>,
 }
 
 /// The keys that name a shape.

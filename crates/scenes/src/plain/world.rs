@@ -90,6 +90,7 @@ impl From<PlainMaterial> for Material {
             density: plain.density,
             friction: plain.friction,
             restitution: plain.restitution,
+            ..Self::default()
         }
     }
 }
