@@ -106,7 +106,8 @@ impl Bodies {
 
     /// Notes that a body is not as its solver knows it.
     pub(crate) fn touch(&mut self, index: u32) {
-        if self.notes_touched {
+        let state = self.list.get(index as usize);
+        if self.notes_touched || state.is_some_and(|state| state.in_crowd || state.has_line) {
             self.touched.push(index);
         }
     }
@@ -218,7 +219,9 @@ impl Bodies {
     fn piece(&self, state: &BodyState, time: SimTime) -> Piece {
         let motion = &state.motion;
         let free = state.gravity_scale * self.pull.gravity;
+        // Crowds keep their own account.
         if !state.is_dynamic()
+            || state.in_crowd
             || (motion.acceleration == free
                 && motion.angular_acceleration == 0.0
                 && state.force == Vec2::ZERO

@@ -43,6 +43,10 @@ pub(crate) struct BodyState {
     pub(crate) damping: (f64, f64),
     /// Solved for as part of a group in this sub-step.
     pub(crate) member: bool,
+    /// Moved by the wide solver, in hybrid mode.
+    pub(crate) in_crowd: bool,
+    /// Fixed or kinematic, with a line in the wide solver.
+    pub(crate) has_line: bool,
     pub(crate) asleep: bool,
     /// The contact group in closed form that it belongs to.
     pub(crate) membership: Membership,
@@ -154,6 +158,8 @@ impl BodyState {
             flight: None,
             damping: (def.linear_damping, def.angular_damping),
             member: false,
+            in_crowd: false,
+            has_line: false,
             asleep: false,
             membership: Membership::default(),
             course: Course::default(),
@@ -216,6 +222,11 @@ impl BodyState {
     /// Moved by the sub-steps.
     pub(crate) fn is_stepped(&self) -> bool {
         self.is_active() && !self.course.flies
+    }
+
+    /// Dynamic, and sub-stepped pair by pair.
+    pub(crate) fn is_held(&self) -> bool {
+        self.is_dynamic() && self.is_stepped() && !self.in_crowd
     }
 
     /// Whether anything slows it down by itself.

@@ -217,6 +217,7 @@ impl Broad {
             &colliders[first as usize],
             &colliders[second as usize],
         );
+        let fringe = a.in_crowd != b.in_crowd && a.is_dynamic() && b.is_dynamic();
         let place = pairs.insert(Pair {
             colliders: (first, second),
             bodies: ends,
@@ -234,6 +235,9 @@ impl Broad {
             built: Lie::default(),
             slack: 0.0,
         });
+        if fringe {
+            pairs.fringe.push(place);
+        }
         bodies.get_mut(ends.0).pairs.push(place);
         bodies.get_mut(ends.1).pairs.push(place);
     }

@@ -105,6 +105,7 @@ impl World {
                 }
             }
         }
+        self.quit(index, self.clock.now);
         self.part_all(index);
         self.disturb(index, |state| state.set_kind(kind));
         // Pairs are made by kind: boxes that are new find them anew.
@@ -250,10 +251,11 @@ impl World {
         self.bodies.change(index, now, |_| {});
         change(self.bodies.get_mut(index));
         let after = self.bodies.energy_of(index, now);
-        self.bodies
-            .book
-            .external
-            .add((after.0 + after.1) - (before.0 + before.1));
+        let brought = (after.0 + after.1) - (before.0 + before.1);
+        self.bodies.book.external.add(brought);
+        if self.bodies.get(index).in_crowd {
+            self.pool.crowd.balance.add(-brought);
+        }
         self.deflected(index, now);
         if self.bodies.get(index).kind == BodyKind::Kinematic {
             self.unsettle_on(index, now);
@@ -309,6 +311,7 @@ impl World {
             return self.deflected(index, self.clock.now);
         }
         let now = self.clock.now;
+        self.quit(index, now);
         self.flyers.vanish(&mut self.bodies, index);
         self.discharge(index);
         let flies = self.may_fly(index);

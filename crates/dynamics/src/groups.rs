@@ -97,6 +97,8 @@ impl Groups {
                     || !(a.is_stepped() || b.is_stepped())
                     || a.is_flying()
                     || b.is_flying()
+                    || a.in_crowd
+                    || b.in_crowd
                 {
                     continue;
                 }

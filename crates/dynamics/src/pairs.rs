@@ -4,6 +4,7 @@ use arrayvec::ArrayVec;
 use carom_collision::FeatureId;
 use carom_math::Vec2;
 
+use crate::bodies::Bodies;
 use crate::solver::RowId;
 use crate::{ContactMode, PairMaterial};
 
@@ -76,11 +77,14 @@ pub(crate) struct PairPoint {
 pub(crate) struct Pairs {
     list: Vec<Option<Pair>>,
     free: Vec<u32>,
-    /// Places in order of colliders: rows and searches go through pairs in this order.
+    /// Places of pairs with a body that is sub-stepped, and none of a crowd, in order of colliders: rows and
+    /// searches go through pairs in this order.
     order: Vec<u32>,
     dirty: bool,
     /// Places of pairs that nobody has looked at yet.
     pub(crate) fresh: Vec<u32>,
+    /// Places of all pairs of a member of a crowd and a dynamic body that is none, and of some that were.
+    pub(crate) fringe: Vec<u32>,
 }
 
 impl Pairs {
@@ -135,29 +139,36 @@ impl Pairs {
             .expect("a listed pair is there")
     }
 
-    /// Places in order of colliders.
-    pub(crate) fn sort(&mut self) {
-        if !self.dirty {
+    /// Collects the pairs of these bodies that no crowd takes, in order of colliders.
+    pub(crate) fn sort(&mut self, bodies: &Bodies, stepped: &[u32]) {
+        if !core::mem::take(&mut self.dirty) {
             return;
         }
-        self.dirty = false;
         self.order.clear();
-        self.order.extend(
-            (0u32..)
-                .zip(&self.list)
-                .filter(|(_, p)| p.is_some())
-                .map(|(i, _)| i),
-        );
+        for &index in stepped {
+            for &place in &bodies.get(index).pairs {
+                let (a, b) = self.get(place).bodies;
+                let other = if a == index { b } else { a };
+                let state = bodies.get(other);
+                // A pair of two of them is listed by the lower one.
+                let twice = state.is_held() && other < index;
+                if !state.in_crowd && !twice {
+                    self.order.push(place);
+                }
+            }
+        }
         let list = &self.list;
         self.order
             .sort_unstable_by_key(|i| list[*i as usize].as_ref().map(|pair| pair.colliders));
     }
 
+    /// Who is sub-stepped, or in a crowd, has changed.
+    pub(crate) const fn reorder(&mut self) {
+        self.dirty = true;
+    }
+
     /// Places of all pairs in order of colliders.
     pub(crate) fn in_order(&self) -> Vec<u32> {
-        if !self.dirty {
-            return self.order.clone();
-        }
         let places = (0u32..).zip(&self.list);
         let alive = places.filter(|(_, pair)| pair.is_some());
         let mut order: Vec<u32> = alive.map(|(place, _)| place).collect();

@@ -49,7 +49,9 @@ impl World {
             self.clock.now = if self.settings.mode == Mode::Stepped {
                 self.advance_stepped(end, stop_at_event)
             } else {
-                self.advance(end, stop_at_event)
+                let time = self.advance(end, stop_at_event);
+                self.write_crowds();
+                time
             };
         }
         self.stopwatch.lap(|p| &mut p.impacts);
@@ -81,10 +83,10 @@ impl World {
     /// Entries of the agenda and sub-steps, whichever comes first, up to `end`.
     fn advance(&mut self, end: SimTime, stop_at_event: bool) -> SimTime {
         loop {
-            let grid = if self.stepped.is_empty() {
-                end
-            } else {
+            let grid = if self.is_substepping() {
                 end.min(self.clock.next())
+            } else {
+                end
             };
             let due = |time: &SimTime| *time <= grid;
             let change = self.closed.next().filter(due);
@@ -143,7 +145,7 @@ impl World {
                 if stop_at_event && !self.events.is_empty() {
                     return entry.time;
                 }
-            } else if !self.stepped.is_empty() && self.clock.is_due(end) {
+            } else if self.is_substepping() && self.clock.is_due(end) {
                 let time = self.clock.next();
                 self.begin_substep();
                 if stop_at_event && !self.events.is_empty() {
@@ -173,6 +175,9 @@ impl World {
             self.wake(index, time);
         }
         let state = self.bodies.get(index);
+        if state.in_crowd {
+            return;
+        }
         if state.course.flies {
             return self.foresee(index, time, Cause::Arrived, None);
         }
@@ -228,6 +233,12 @@ impl World {
 
     /// Wakes a body and all sleepers that it touches, and so on.
     pub(crate) fn wake(&mut self, index: u32, time: SimTime) {
+        let woken = self.woken_with(index, time);
+        self.rouse(&woken, time);
+    }
+
+    /// Ends the sleep of a body and all sleepers that it touches, and so on; who they are.
+    pub(crate) fn woken_with(&mut self, index: u32, time: SimTime) -> Vec<u32> {
         self.look_at_fresh(time);
         let mut woken = Vec::new();
         wake(
@@ -238,7 +249,7 @@ impl World {
             &mut self.events,
             &mut woken,
         );
-        self.rouse(&woken, time);
+        woken
     }
 
     /// Wakes all sleepers that touch a body, and itself: what held them has changed.
@@ -262,6 +273,9 @@ impl World {
             for &index in woken {
                 self.bodies.touch(index);
             }
+            return;
+        }
+        if self.crowd_wakes(woken, time) {
             return;
         }
         for &index in woken {
@@ -306,6 +320,9 @@ impl World {
     }
 
     pub(crate) fn predict(&mut self, place: u32, time: SimTime) {
+        if self.is_crowds(place) {
+            return self.knock_between(place, time);
+        }
         predict(
             &self.bodies,
             &self.colliders,

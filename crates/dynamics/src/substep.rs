@@ -7,6 +7,7 @@ use crate::narrow::{TOUCH, opening_speed, rest_speed};
 use crate::pairs::PairContact;
 use crate::predict::BUDGET;
 use crate::sleep::settle;
+use crate::stepped::{FEW, MANY};
 use crate::{EventKind, Mode, World};
 
 /// Sub-steps with nothing near after which a body flies: fewer, and what rattles changes sides all the time.
@@ -22,12 +23,15 @@ impl World {
         self.agenda.clear();
         self.spent = 0.0;
         self.report.substeps += 1;
+        self.look_at_fresh(time);
         self.guard(time);
         self.find_pairs(time, h);
         self.stopwatch.lap(|p| &mut p.pairs);
         self.gather_landings(time, h);
         self.look(time, h);
+        self.gather_crowds(MANY, time);
         self.close_groups(time);
+        self.gather_crowds(FEW, time);
         self.stopwatch.lap(|p| &mut p.contacts);
         self.groups.step(
             &self.law,
@@ -61,7 +65,8 @@ impl World {
         }
         self.release(time);
         self.stopwatch.lap(|p| &mut p.sleep);
-        self.pairs.sort();
+        self.step_crowds(time, h);
+        self.pairs.sort(&self.bodies, &self.stepped);
         let mut i = 0;
         while let Some(place) = self.pairs.place(i) {
             self.predict(place, time);
@@ -102,7 +107,7 @@ impl World {
         for index in self.stepped.clone() {
             self.refit(index, time, h);
         }
-        self.pairs.sort();
+        self.pairs.sort(&self.bodies, &self.stepped);
         let mut gone = Vec::new();
         let mut i = 0;
         while let Some(place) = self.pairs.place(i) {
@@ -114,7 +119,7 @@ impl World {
         for place in gone {
             self.part(place, time);
         }
-        self.pairs.sort();
+        self.pairs.sort(&self.bodies, &self.stepped);
     }
 
     /// Flyers that come to rest on stepped bodies are stepped from here on, and so on with those that
@@ -133,7 +138,7 @@ impl World {
             for index in landed {
                 self.land(index, time);
             }
-            self.pairs.sort();
+            self.pairs.sort(&self.bodies, &self.stepped);
         }
     }
 
@@ -170,6 +175,9 @@ impl World {
         let mut i = 0;
         while let Some(place) = self.pairs.place(i) {
             i += 1;
+            if self.is_crowds(place) {
+                continue;
+            }
             let pair = self.pairs.get_mut(place);
             let (a, b) = pair.bodies;
             let active = (
@@ -221,10 +229,16 @@ impl World {
     pub(crate) fn lie_down(&mut self, index: u32, time: SimTime) {
         self.discharge(index);
         for place in self.bodies.get(index).pairs.clone() {
-            let (a, b) = self.pairs.get(place).bodies;
+            let pair = self.pairs.get_mut(place);
+            let (a, b) = pair.bodies;
             let other = if a == index { b } else { a };
-            if self.bodies.get(other).course.flies {
+            let state = self.bodies.get(other);
+            if state.course.flies {
                 self.part(place, time);
+            } else if !state.is_stepped() {
+                // Nobody looks at it before somebody wakes.
+                (pair.lasting, pair.held, pair.given_up) = (false, pair.lasting, false);
+                (pair.impacts, pair.spent) = (0, 0.0);
             }
         }
         self.show(index, time);

@@ -158,7 +158,7 @@ impl World {
                 }
                 continue;
             }
-            if state.asleep || state.is_damped() {
+            if state.asleep || state.is_damped() || state.in_crowd {
                 return Err(found.refused());
             }
             let pairs = state.pairs.clone();

@@ -195,6 +195,7 @@ impl World {
     pub fn remove(&mut self, id: BodyId) -> Result<(), BodyError> {
         let index = self.bodies.find(id)?;
         let now = self.clock.now;
+        self.quit(index, now);
         self.bodies.change(index, now, |_| {});
         let (kinetic, potential) = self.bodies.energy_of(index, now);
         self.bodies.book.external.add(-(kinetic + potential));
@@ -204,6 +205,7 @@ impl World {
         }
         self.flyers.vanish(&mut self.bodies, index);
         self.discharge(index);
+        self.take_line(index);
         let colliders = core::mem::take(&mut self.bodies.get_mut(index).colliders);
         self.flyers.forget(index, &colliders);
         for at in colliders {
@@ -280,6 +282,7 @@ impl World {
             ledger.scheme += ledger.residual();
             return ledger;
         }
+        self.book_crowd(&mut ledger);
         let (heat, driven) = self.closed.unbooked(self.clock.now);
         ledger.friction += heat;
         ledger.external += driven;

@@ -32,7 +32,11 @@ impl World {
             let joins = ends.map(|index| self.bodies.get(index).membership.is_closed());
             for index in ends {
                 let state = self.bodies.get(index);
-                if !state.is_dynamic() || state.asleep || state.membership.is_closed() {
+                if !state.is_dynamic()
+                    || state.asleep
+                    || state.in_crowd
+                    || state.membership.is_closed()
+                {
                     continue;
                 }
                 // Nobody else looks after a touch with a group.
@@ -92,7 +96,11 @@ impl World {
                 let speed = group.speed;
                 (self.dissolve(place, time), speed)
             }
-            None if state.is_dynamic() && !state.asleep && self.may_last(index) => {
+            None if state.is_dynamic()
+                && !state.asleep
+                && !state.in_crowd
+                && self.may_last(index) =>
+            {
                 self.bodies.get_mut(index).membership = Membership::default();
                 (vec![index], 0.0)
             }

@@ -46,6 +46,10 @@ impl World {
             if self.bodies.get(index).asleep {
                 // Awake it is in the hands of the solver, which is struck with all that it holds.
                 self.wake(index, time);
+                if self.bodies.get(index).in_crowd {
+                    // It waits at the surface of those who woke for the next sub-step.
+                    self.join(if index == a { b } else { a }, time);
+                }
                 return;
             }
             let state = self.bodies.get(index);
@@ -470,21 +474,27 @@ impl World {
 
     /// Adds a body to those that are sub-stepped.
     pub(crate) fn enlist(&mut self, index: u32, time: SimTime) {
-        if self.stepped.is_empty() {
-            // Nobody was: the grid of sub-steps was not followed.
-            self.clock.catch_up(time);
-            self.flyers.raise(&mut self.bodies);
+        if !self.is_substepping() {
+            self.begin_substeps(time);
         }
         if let Err(at) = self.stepped.binary_search(&index) {
             self.stepped.insert(at, index);
+            self.pairs.reorder();
         }
+    }
+
+    /// Somebody is sub-stepped from now on: until now the grid of sub-steps was not followed.
+    pub(crate) fn begin_substeps(&mut self, time: SimTime) {
+        self.clock.catch_up(time);
+        self.flyers.raise(&mut self.bodies);
     }
 
     /// Takes a body from those that are sub-stepped.
     pub(crate) fn discharge(&mut self, index: u32) {
         if let Ok(at) = self.stepped.binary_search(&index) {
             self.stepped.remove(at);
-            if self.stepped.is_empty() {
+            self.pairs.reorder();
+            if !self.is_substepping() {
                 self.flyers.lower();
             }
         }

@@ -15,7 +15,7 @@ use fearless_simd::Level;
 use super::kernel::{Pass, sweep};
 use super::lanes::{Lanes, RowId};
 use super::wide::Line;
-use super::{Law, Row};
+use super::{Law, Row, SolverBody};
 
 /// The bodies of a solver, their rows, and the warm start.
 #[derive(Clone, Debug)]
@@ -335,6 +335,21 @@ impl Rig {
             v + row.b[0] * wb - row.a[0] * wa,
             v + row.b[1] * wb - row.a[1] * wa,
         ]
+    }
+
+    /// Work that driven bodies did through a row in the last sub-step, in J: impulse × their velocity.
+    pub(crate) fn driven_work(&self, id: RowId) -> f64 {
+        let row = self.row(id);
+        let body = |slot: u32| {
+            let line = &self.lines[slot as usize];
+            SolverBody {
+                v: line.v(),
+                w: line.w(),
+                inverse_mass: line.inverse_mass(),
+                ..SolverBody::default()
+            }
+        };
+        row.driven_work(&body(row.bodies.0), &body(row.bodies.1))
     }
 
     /// Opens the gaps of a row so wide that it does not act; gives what [`Self::show`] needs.

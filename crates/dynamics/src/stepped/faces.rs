@@ -5,7 +5,7 @@ use carom_math::{Pose, SimTime, Vec2};
 
 use super::Stepped;
 use super::seats::pull_of;
-use crate::World;
+use crate::{BodyKind, World};
 use crate::narrow::carried;
 use crate::pairs::{Lie, Pair, PairContact};
 use crate::solver::{Row, RowId};
@@ -29,7 +29,7 @@ impl World {
         let pair = self.pairs.get(place);
         let bodies = pair.bodies;
         let active = [bodies.0, bodies.1].map(|i| self.bodies.get(i).is_active());
-        if active == [false, false] {
+        if active == [false, false] || !self.moves_all() && !self.is_inside(place) {
             return;
         }
         for index in [bodies.0, bodies.1] {
@@ -169,7 +169,14 @@ impl World {
         }
         let state = self.bodies.get(index);
         let pull = pull_of(&self.bodies, state, state.motion.centre_at(time));
-        self.pool.seats.admit(state, pull, time)
+        let slot = self.pool.seats.admit(state, pull, time);
+        if !self.moves_all() {
+            if state.kind == BodyKind::Kinematic {
+                self.pool.crowd.drivers.push(index);
+            }
+            self.bodies.get_mut(index).has_line = true;
+        }
+        slot
     }
 
     /// Gives the contacts that were found their rows: lanes go over by parts, impulses by feature.

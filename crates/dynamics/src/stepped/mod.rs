@@ -7,7 +7,9 @@
 //! During a step bodies live in the solver's lines, and pairs in its rows. Motions are written once,
 //! at the end; a look does nothing for a pair that kept its relative pose.
 
+mod among;
 mod bounce;
+mod crowd;
 mod faces;
 mod graze;
 mod near;
@@ -23,6 +25,8 @@ use carom_math::SimTime;
 use crate::World;
 use crate::solver::RowId;
 use bounce::Bounces;
+use crowd::Crowd;
+pub(crate) use crowd::{FEW, MANY};
 use seats::Seats;
 use swift::Cores;
 
@@ -55,6 +59,7 @@ pub(crate) struct Stepped {
     /// Pairs that this look has been through, by place: number of the look.
     seen: Vec<u32>,
     look: u32,
+    pub(crate) crowd: Crowd,
 }
 
 impl World {

@@ -62,6 +62,7 @@ impl World {
             self.pool.release(pair);
         }
         self.pool.seats.dismiss(slot);
+        self.bodies.get_mut(index).has_line = false;
     }
 
     /// The look at the start of a tick: whoever moved gets new boxes, and its pairs are looked at.
@@ -80,7 +81,7 @@ impl World {
         }
         moved.sort_unstable();
         moved.dedup();
-        let tick = self.settings.tick;
+        let (tick, all) = (self.settings.tick, self.moves_all());
         for &index in &moved {
             let Some(slot) = self.pool.seats.slot(index) else {
                 continue;
@@ -98,6 +99,10 @@ impl World {
             let seat = seats.get_mut(slot);
             seat.roamed += wandered(seat, line.d(), line.turn());
             seat.checked = (line.d(), line.turn());
+            if seat.kind == BodyKind::Kinematic && !all {
+                // A flyer: its boxes are its own.
+                continue;
+            }
             let padding = PADDING * seat.reach;
             let ahead = speed_of(line.v(), line.w(), seat.reach) * tick;
             if ahead > 0.5 * padding {
@@ -142,7 +147,9 @@ impl World {
                 seat.checked = (line.d(), line.turn());
                 moved.push(index);
                 let h = self.clock.h;
-                self.rebox(index, slot, time, h);
+                if self.pool.seats.get(slot).kind == BodyKind::Dynamic || self.moves_all() {
+                    self.rebox(index, slot, time, h);
+                }
             }
         }
         self.look_at_pairs(&mut moved, time, false);
@@ -178,7 +185,7 @@ impl World {
     }
 
     /// New boxes, stretched over two ticks of the body's motion.
-    fn box_anew(&mut self, index: u32, time: SimTime) {
+    pub(super) fn box_anew(&mut self, index: u32, time: SimTime) {
         for at in &self.bodies.get(index).colliders {
             self.colliders[*at as usize].fat = Aabb::EMPTY;
         }
@@ -188,7 +195,7 @@ impl World {
 
     /// Looks at all pairs of these bodies, and of those who wake meanwhile; `parts`: those whose boxes
     /// parted are let go.
-    fn look_at_pairs(&mut self, moved: &mut Vec<u32>, time: SimTime, parts: bool) {
+    pub(super) fn look_at_pairs(&mut self, moved: &mut Vec<u32>, time: SimTime, parts: bool) {
         self.pool.look = self.pool.look.wrapping_add(1);
         let mut k = 0;
         while k < moved.len() {

@@ -71,6 +71,7 @@ impl World {
         let mut sleepers: Vec<(u32, u32)> =
             sleepers.map(|(slot, seat)| (seat.body, slot)).collect();
         sleepers.sort_unstable();
+        let mut lying = Vec::new();
         for (index, slot) in sleepers {
             self.sync(index, slot, time);
             self.leave(index, slot);
@@ -82,12 +83,23 @@ impl World {
             state.version = state.version.wrapping_add(1);
             state.asleep = true;
             self.events.push(time, EventKind::Asleep(state.id));
+            lying.push(index);
+        }
+        if !self.moves_all() {
+            for index in lying {
+                self.quit(index, time);
+                self.lie_down(index, time);
+            }
         }
         self.pool.seats.close_up();
     }
 
     /// Wakes a body, and gives everyone who wakes with it a seat; they are looked at in this look.
     pub(super) fn call_up(&mut self, index: u32, time: SimTime, moved: &mut Vec<u32>) {
+        if !self.moves_all() {
+            let woken = self.woken_with(index, time);
+            return self.join_awake(&woken, time);
+        }
         self.wake(index, time);
         let mut woken = core::mem::take(&mut self.bodies.touched);
         woken.sort_unstable();

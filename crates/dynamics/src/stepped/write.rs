@@ -46,7 +46,9 @@ impl World {
     /// Motions of the last sub-step for all who move.
     pub(super) fn write_motions(&mut self) {
         for slot in 0..self.pool.seats.places() {
-            if self.pool.seats.get(slot).kind != BodyKind::Fixed {
+            let kind = self.pool.seats.get(slot).kind;
+            // Kinematic bodies fly beside a crowd.
+            if kind == BodyKind::Dynamic || kind == BodyKind::Kinematic && self.moves_all() {
                 self.write_motion(slot);
             }
         }

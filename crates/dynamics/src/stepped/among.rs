@@ -1,0 +1,146 @@
+//! A sub-step of the crowds of [`crate::Mode::Hybrid`].
+
+use carom_math::{SimTime, Vec2};
+
+use crate::{BodyKind, World};
+
+impl World {
+    /// Moves all members on by one sub-step.
+    pub(crate) fn step_crowds(&mut self, time: SimTime, h: f64) {
+        self.take_crowd_changes(time);
+        if self.pool.crowd.members == 0 {
+            return;
+        }
+        self.drive(time);
+        let look = self.pool.until_look == 0;
+        if look {
+            self.tell_touches(time);
+            if let Some(sleep) = self.settings.sleep {
+                self.rest(sleep, time);
+            }
+            self.disperse(time);
+            self.stopwatch.lap(|p| &mut p.sleep);
+        }
+        self.admit_fringe(time, h, look);
+        self.stopwatch.lap(|p| &mut p.pairs);
+        if look {
+            let newcomers = &mut self.pool.crowd.newcomers;
+            self.pool.moved.append(newcomers);
+            self.look_around(time);
+            self.pool.until_look = self.settings.substeps_per_tick();
+        } else {
+            self.welcome(time);
+            if !self.pool.quick.is_empty() {
+                self.look_between(time);
+            }
+        }
+        // A look may wake sleepers, and find whom they touch.
+        while !self.pool.crowd.newcomers.is_empty() {
+            self.welcome(time);
+        }
+        self.pool.until_look -= 1;
+        let before: Vec<(u32, Vec2, f64)> = self.forced_lines().collect();
+        self.substep();
+        self.book_drivers();
+        for (index, d, turn) in before {
+            let Some(slot) = self.pool.seats.slot(index) else {
+                continue;
+            };
+            let (line, state) = (
+                &self.pool.seats.rig.lines[slot as usize],
+                self.bodies.get(index),
+            );
+            let work = state.force.dot(line.d() - d) + state.torque * (line.turn() - turn);
+            self.pool.crowd.forced.add(work);
+        }
+        self.pool.crowd.unwritten = true;
+        if self.settings.history > 0 {
+            self.write_crowds();
+        }
+    }
+
+    /// Motions of all members, where somebody may ask for them.
+    pub(crate) fn write_crowds(&mut self) {
+        if core::mem::take(&mut self.pool.crowd.unwritten) {
+            self.write_motions();
+        }
+    }
+
+    /// Takes over what a caller changed since the last sub-step.
+    fn take_crowd_changes(&mut self, time: SimTime) {
+        let mut touched = core::mem::take(&mut self.bodies.touched);
+        touched.sort_unstable();
+        touched.dedup();
+        for index in touched.drain(..) {
+            let Some(slot) = self.pool.seats.slot(index) else {
+                continue;
+            };
+            let state = self.bodies.get(index);
+            let belongs = state.in_crowd || !state.is_dynamic();
+            if !(belongs && self.bodies.is_alive(index) && self.pool.seats.fits(slot, state)) {
+                self.leave(index, slot);
+                continue;
+            }
+            let pull = super::seats::pull_of(&self.bodies, state, state.motion.centre_at(time));
+            self.pool.seats.follow(slot, state, time);
+            self.pool.seats.rig.set_pull(slot, pull);
+            self.pool.moved.push(index);
+            self.pool.until_look = 0;
+        }
+        self.bodies.touched = touched;
+        self.pool.seats.close_up();
+    }
+
+    /// Kinematic bodies move as they do, whatever their lines say.
+    fn drive(&mut self, time: SimTime) {
+        let mut drivers = core::mem::take(&mut self.pool.crowd.drivers);
+        drivers.retain(|&index| {
+            let Some(slot) = self.pool.seats.slot(index) else {
+                return false;
+            };
+            let state = self.bodies.get(index);
+            self.pool.seats.follow(slot, state, time);
+            true
+        });
+        self.pool.crowd.drivers = drivers;
+    }
+
+    /// What kinematic bodies put in: impulse × their own velocity, row by row.
+    fn book_drivers(&mut self) {
+        let rig = &self.pool.seats.rig;
+        for &index in &self.pool.crowd.drivers {
+            let Some(slot) = self.pool.seats.slot(index) else {
+                continue;
+            };
+            let line = &rig.lines[slot as usize];
+            let (v, w) = (line.v(), line.w());
+            if v == Vec2::ZERO && w == 0.0 {
+                continue;
+            }
+            for place in &self.bodies.get(index).pairs {
+                let contacts = &self.pairs.get(*place).contacts;
+                for id in contacts.iter().filter_map(|contact| contact.row) {
+                    let work = rig.driven_work(id);
+                    self.pool.crowd.driven.add(work);
+                }
+            }
+        }
+    }
+
+    /// Contacts for those who joined since the last look.
+    fn welcome(&mut self, time: SimTime) {
+        let mut newcomers = core::mem::take(&mut self.pool.crowd.newcomers);
+        newcomers.retain(|index| self.bodies.get(*index).in_crowd);
+        newcomers.sort_unstable();
+        self.look_at_pairs(&mut newcomers, time, false);
+    }
+
+    fn forced_lines(&self) -> impl Iterator<Item = (u32, Vec2, f64)> + use<'_> {
+        let members = self.forced.iter().filter_map(|&index| {
+            let slot = self.pool.seats.slot(index)?;
+            let line = &self.pool.seats.rig.lines[slot as usize];
+            Some((index, line.d(), line.turn()))
+        });
+        members.filter(|(index, ..)| self.bodies.get(*index).kind == BodyKind::Dynamic)
+    }
+}

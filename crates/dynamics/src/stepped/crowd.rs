@@ -1,0 +1,351 @@
+//! Crowds: in [`Mode::Hybrid`], groups too large for impacts one by one are moved by the solver of stepped mode.
+//!
+//! Everybody else flies, or is sub-stepped pair by pair. A body joins when it touches a large group, or when it
+//! would meet a crowd before the next sub-step; it leaves when nothing has been near for two ticks.
+
+use carom_collision::contacts;
+use carom_math::{SimTime, Sum};
+
+use super::seats::pull_of;
+use crate::pairs::Pair;
+use crate::sleep::Tree;
+use crate::{BodyKind, EnergyLedger, Mode, World};
+
+/// Groups of more bodies in touch than this are a crowd.
+pub(crate) const FEW: usize = 16;
+
+/// Groups of more bodies in touch than this have more than [`crate::modes::ROWS`] rows: no closed form is tried.
+pub(crate) const MANY: usize = 64;
+
+/// Ticks without a contact near after which a body flies.
+const IDLE: u8 = 2;
+
+/// What nears a crowd joins this far beyond a sub-step's travel, as a fraction of the smaller reach.
+const MARGIN: f64 = 1.0 / 128.0;
+
+/// What hybrid mode keeps of its crowds.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Crowd {
+    /// How many bodies belong.
+    pub(crate) members: usize,
+    /// Who joined since the last look.
+    pub(super) newcomers: Vec<u32>,
+    /// Kinematic bodies that have a line.
+    pub(super) drivers: Vec<u32>,
+    /// Motions are older than the lines.
+    pub(super) unwritten: bool,
+    /// Energy of those who left less that of those who came, in J.
+    pub(crate) balance: Sum,
+    /// Work of kinematic bodies, and of the caller's forces, in J.
+    pub(super) driven: Sum,
+    pub(super) forced: Sum,
+}
+
+impl World {
+    /// Whether somebody needs sub-steps.
+    pub(crate) const fn is_substepping(&self) -> bool {
+        !self.stepped.is_empty() || self.pool.crowd.members > 0
+    }
+
+    /// Whether this world may have crowds at all.
+    const fn may_crowd(&self) -> bool {
+        matches!(self.settings.mode, Mode::Hybrid) && self.bodies.pull.fields.is_empty()
+    }
+
+    /// Every group of more than `most` sub-stepped bodies in touch joins.
+    pub(crate) fn gather_crowds(&mut self, most: usize, time: SimTime) {
+        if !self.may_crowd() || self.stepped.len() <= most {
+            return;
+        }
+        let mut tree = Tree::new(self.bodies.places());
+        let mut i = 0;
+        while let Some(place) = self.pairs.place(i) {
+            i += 1;
+            let Some(pair) = self.pairs.find(place) else {
+                continue;
+            };
+            let (a, b) = pair.bodies;
+            let held = |index| self.bodies.get(index).is_held();
+            if pair.touching && held(a) && held(b) {
+                tree.join(a, b);
+            }
+        }
+        let mut count = vec![0usize; self.bodies.places()];
+        for &index in &self.stepped {
+            let state = self.bodies.get(index);
+            let at = tree.root(index) as usize;
+            if !state.is_held() || state.is_damped() || state.membership.is_closed() {
+                // Whose group keeps its method.
+                count[at] = usize::MAX;
+            }
+            count[at] = count[at].saturating_add(1);
+        }
+        for index in self.stepped.clone() {
+            let size = count[tree.root(index) as usize];
+            if size > most && size != usize::MAX {
+                self.join(index, time);
+            }
+        }
+        self.pairs.sort(&self.bodies, &self.stepped);
+    }
+
+    /// All who woke together join if they are many; whether they did.
+    pub(crate) fn crowd_wakes(&mut self, woken: &[u32], time: SimTime) -> bool {
+        let many = woken.len() > FEW && self.may_crowd();
+        let fit = |index: &u32| !self.bodies.get(*index).is_damped();
+        if !many || !woken.iter().all(fit) {
+            return false;
+        }
+        self.join_awake(woken, time);
+        let left = self.clock.next() - time;
+        self.admit_fringe(time, left, false);
+        true
+    }
+
+    /// Bodies that woke beside a member, or together: those whom no law of their own slows down join.
+    pub(super) fn join_awake(&mut self, woken: &[u32], time: SimTime) {
+        let (damped, fit): (Vec<u32>, Vec<u32>) = woken
+            .iter()
+            .partition(|index| self.bodies.get(**index).is_damped());
+        for index in fit {
+            self.join(index, time);
+        }
+        if !damped.is_empty() {
+            self.rouse(&damped, time);
+        }
+    }
+
+    /// From now on the wide solver moves this body. In the middle of a sub-step it waits where it is for the next.
+    pub(crate) fn join(&mut self, index: u32, time: SimTime) {
+        let state = self.bodies.get(index);
+        if !state.is_dynamic() || state.asleep || state.in_crowd {
+            return;
+        }
+        let group = state.membership.group;
+        self.dissolve(group, time);
+        if !self.is_substepping() {
+            self.begin_substeps(time);
+        }
+        if self.pool.crowd.members == 0 {
+            self.pool.until_look = 0;
+        }
+        if self.bodies.get(index).course.flies {
+            self.bodies.get_mut(index).course.flies = false;
+            self.flyers.vanish(&mut self.bodies, index);
+        } else if let Ok(at) = self.stepped.binary_search(&index) {
+            self.stepped.remove(at);
+        }
+        self.pool.crowd.members += 1;
+        self.bodies.change(index, time, |_| {});
+        let (kinetic, potential) = self.bodies.energy_of(index, time);
+        self.pool.crowd.balance.add(-(kinetic + potential));
+        let state = self.bodies.get_mut(index);
+        state.in_crowd = true;
+        state.idle = 0;
+        let state = self.bodies.get(index);
+        let pull = pull_of(&self.bodies, state, state.motion.centre_at(time));
+        let slot = self.pool.seats.admit(state, pull, time);
+        self.pool.crowd.newcomers.push(index);
+        self.box_anew(index, time);
+        self.pool.seats.get_mut(slot).roamed = 0.0;
+        self.mark_pairs(index);
+    }
+
+    /// The pairs of a body that joined or left are no longer those that they were.
+    fn mark_pairs(&mut self, index: u32) {
+        self.pairs.reorder();
+        for &place in &self.bodies.get(index).pairs {
+            if self.pairs.get(place).contacts.iter().all(|c| c.row.is_none()) {
+                self.pairs.get_mut(place).fresh = true;
+            }
+            self.pairs.fringe.push(place);
+        }
+    }
+
+    /// A member leaves, with the motion that it has at `time`: who moves it next is for the caller to say.
+    pub(crate) fn quit(&mut self, index: u32, time: SimTime) {
+        if !self.bodies.get(index).in_crowd {
+            return;
+        }
+        if let Some(slot) = self.pool.seats.slot(index) {
+            self.leave(index, slot);
+        }
+        self.pool.crowd.members -= 1;
+        let (kinetic, potential) = self.bodies.energy_of(index, time);
+        self.pool.crowd.balance.add(kinetic + potential);
+        let state = self.bodies.get_mut(index);
+        state.in_crowd = false;
+        state.member = false;
+        state.idle = 0;
+        state.version = state.version.wrapping_add(1);
+        self.mark_pairs(index);
+    }
+
+    /// Members that nothing neared for a while fly from here on. At the start of a tick.
+    pub(super) fn disperse(&mut self, time: SimTime) {
+        let seats = &self.pool.seats;
+        let mut gone = Vec::new();
+        for (slot, seat) in seats.moving() {
+            if seat.kind != BodyKind::Dynamic {
+                continue;
+            }
+            let state = self.bodies.get_mut(seat.body);
+            if seats.rig.lanes.degree(slot) > 0 {
+                state.idle = 0;
+                continue;
+            }
+            state.idle += 1;
+            if state.idle > IDLE {
+                gone.push((seat.body, slot));
+            }
+        }
+        gone.sort_unstable();
+        for (index, slot) in gone {
+            self.sync(index, slot, time);
+            self.quit(index, time);
+            self.take_off(index, time);
+        }
+    }
+
+    /// Who would meet a member before the next sub-step joins, and whoever would meet those.
+    pub(super) fn admit_fringe(&mut self, time: SimTime, h: f64, parts: bool) {
+        let mut checked = Vec::new();
+        loop {
+            let mut fringe = core::mem::take(&mut self.pairs.fringe);
+            fringe.sort_unstable();
+            fringe.dedup();
+            let before = self.pool.crowd.members;
+            fringe.retain(|&place| {
+                if self.outsider(place).is_none() {
+                    return false;
+                }
+                if parts && !self.broad.keeps(&self.colliders, self.pairs.get(place)) {
+                    self.part(place, time);
+                    return false;
+                }
+                self.knock(place, time, h);
+                true
+            });
+            checked.append(&mut fringe);
+            if self.pool.crowd.members == before {
+                break;
+            }
+        }
+        self.pairs.fringe.append(&mut checked);
+    }
+
+    /// The end of a fringe pair that is no member, if it is one.
+    fn outsider(&self, place: u32) -> Option<u32> {
+        let (a, b) = self.pairs.find(place)?.bodies;
+        let (one, two) = (self.bodies.get(a), self.bodies.get(b));
+        let (index, state) = match (one.in_crowd, two.in_crowd) {
+            (true, false) => (b, two),
+            (false, true) => (a, one),
+            _ => return None,
+        };
+        (state.is_dynamic() && !state.asleep).then_some(index)
+    }
+
+    /// Whether a member belongs to a pair.
+    pub(crate) fn is_crowds(&self, place: u32) -> bool {
+        let (a, b) = self.pairs.get(place).bodies;
+        self.bodies.get(a).in_crowd || self.bodies.get(b).in_crowd
+    }
+
+    /// Whether a pair is for the wide solver to look at: of a member, and of nobody else's.
+    pub(super) fn is_inside(&self, place: u32) -> bool {
+        self.is_crowds(place) && self.outsider(place).is_none()
+    }
+
+    /// Whether one solver moves everybody.
+    pub(super) fn moves_all(&self) -> bool {
+        self.settings.mode == Mode::Stepped
+    }
+
+    /// Takes the line of a fixed or kinematic body away.
+    pub(crate) fn take_line(&mut self, index: u32) {
+        if !self.moves_all()
+            && let Some(slot) = self.pool.seats.slot(index)
+        {
+            self.leave(index, slot);
+        }
+    }
+
+    /// A pair of a member and somebody with a new motion, in the middle of a sub-step.
+    pub(crate) fn knock_between(&mut self, place: u32, time: SimTime) {
+        let left = self.clock.next() - time;
+        let before = self.pool.crowd.members;
+        if left > 0.0 {
+            self.knock(place, time, left);
+        }
+        if self.pool.crowd.members > before {
+            self.admit_fringe(time, left, false);
+        }
+    }
+
+    /// Has the other end of a member's pair join if it would meet the member within `left` seconds.
+    fn knock(&mut self, place: u32, time: SimTime, left: f64) {
+        let Some(index) = self.outsider(place) else {
+            return;
+        };
+        if !self.bodies.get(index).is_damped() && self.nears(self.pairs.get(place), index, time, left) {
+            self.join(index, time);
+        }
+    }
+
+    fn nears(&self, pair: &Pair, outsider: u32, time: SimTime, left: f64) -> bool {
+        let (a, b) = pair.bodies;
+        let inside = if a == outsider { b } else { a };
+        let Some(slot) = self.pool.seats.slot(inside) else {
+            return false;
+        };
+        let state = self.bodies.get(outsider);
+        let other = self.bodies.get(inside);
+        let line = self.pool.seats.rig.lines[slot as usize];
+        let rim = |w: f64, reach: f64| if w == 0.0 { 0.0 } else { w.abs() * reach };
+        let motion = &state.motion;
+        let closing = (motion.velocity_at(time) - line.v()).length()
+            + rim(motion.spin_at(time), state.reach)
+            + rim(line.w(), other.reach);
+        let pull = motion.acceleration - self.pool.seats.rig.pull(slot).acceleration;
+        let margin = MARGIN * state.reach.min(other.reach) + (closing + pull.length() * left) * left;
+        let near = state.reach + other.reach + margin;
+        let (mine, theirs) = (motion.pose_at(time), self.pool.seats.pose(slot));
+        if (mine.position - theirs.position).length_squared() > near * near {
+            return false;
+        }
+        let (pose_a, pose_b) = if a == outsider {
+            (mine, theirs)
+        } else {
+            (theirs, mine)
+        };
+        let mut found = Vec::new();
+        contacts(
+            &self.colliders[pair.colliders.0 as usize].solid,
+            &self.colliders[pair.colliders.1 as usize].solid,
+            pose_b.seen_from(pose_a),
+            margin,
+            &mut found,
+        );
+        !found.is_empty()
+    }
+
+    /// The columns of the ledger that crowds have.
+    pub(crate) fn book_crowd(&self, ledger: &mut EnergyLedger) {
+        let crowd = &self.pool.crowd;
+        let mut gained = crowd.balance;
+        for state in self.bodies.iter().filter(|state| state.in_crowd) {
+            let (kinetic, potential) = self.bodies.energy_of(state.id.index, self.clock.now);
+            gained.add(kinetic);
+            gained.add(potential);
+        }
+        let (heat, cost) = (self.pool.seats.rig.heat, self.pool.bounces.cost());
+        let (driven, forced) = (crowd.driven.value(), crowd.forced.value());
+        ledger.friction += heat;
+        ledger.impacts += cost;
+        ledger.external += driven;
+        ledger.forces += forced;
+        // What rows and push-outs did is what the energies tell beside that.
+        ledger.scheme += gained.value() + heat + cost - driven - forced;
+    }
+}
