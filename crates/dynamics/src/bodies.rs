@@ -17,6 +17,8 @@ pub(crate) struct EnergyBook {
     pub(crate) forces: Sum,
     pub(crate) external: Sum,
     pub(crate) scheme: Sum,
+    /// Given to members of crowds by impacts, which have booked it.
+    pub(crate) struck: Sum,
 }
 
 /// What pulls on every body.
@@ -209,8 +211,22 @@ impl Bodies {
         }
         (state.motion.velocity, state.motion.spin) = (velocity, spin);
         state.lag = Lag::default();
-        change(&mut state.motion);
+        let before = self.kinetic_in_crowd(index);
+        change(&mut self.list[index as usize].motion);
+        let after = self.kinetic_in_crowd(index);
+        self.book.struck.add(after - before);
+        let state = &mut self.list[index as usize];
         state.version = state.version.wrapping_add(1);
+    }
+
+    /// Kinetic energy at the start of the motion of a body that a crowd accounts for, in J.
+    fn kinetic_in_crowd(&self, index: u32) -> f64 {
+        let state = &self.list[index as usize];
+        if state.in_crowd {
+            state.kinetic_energy(state.motion.start)
+        } else {
+            0.0
+        }
     }
 
     /// What forces and the scheme did along the present piece of a motion up to `time`.

@@ -110,6 +110,8 @@ pub(crate) struct Collider {
     pub(crate) node: Option<NodeId>,
     /// Box that the pairs were searched with.
     pub(crate) fat: Aabb,
+    /// Box for the coming tick of a shape that is driven beside a crowd: a flyer's own reaches farther.
+    pub(crate) tight: Option<Aabb>,
 }
 
 impl BodyState {

@@ -53,7 +53,7 @@ impl Broad {
         index: u32,
         time: SimTime,
         h: f64,
-        flyers: &Flyers,
+        flyers: Option<&Flyers>,
     ) {
         for slot in 0..bodies.get(index).colliders.len() {
             let body = bodies.get(index);
@@ -136,7 +136,7 @@ impl Broad {
         colliders: &[Collider],
         pairs: &mut Pairs,
         at: u32,
-        flyers: &Flyers,
+        flyers: Option<&Flyers>,
     ) {
         let mine = &colliders[at as usize];
         let mut near = core::mem::take(&mut self.near);
@@ -154,9 +154,11 @@ impl Broad {
             }
             PairSearch::Indexed => {
                 self.tree.query(mine.fat, |other| near.push(other));
-                let mut flying = Vec::new();
-                flyers.overlapping(bodies, mine.fat, &mut flying);
-                near.extend(flying.iter().flat_map(|body| &bodies.get(*body).colliders));
+                if let Some(flyers) = flyers {
+                    let mut flying = Vec::new();
+                    flyers.overlapping(bodies, mine.fat, &mut flying);
+                    near.extend(flying.iter().flat_map(|body| &bodies.get(*body).colliders));
+                }
             }
         }
         near.sort_unstable();
@@ -198,6 +200,16 @@ impl Broad {
         }
         let filter = |i: u32| colliders[i as usize].filter;
         if !filter(first).touches(filter(second)) {
+            return;
+        }
+        if a.in_crowd && b.is_flying() || b.in_crowd && a.is_flying() {
+            // Watched for a tick.
+            pairs.near.push((first, second));
+            return;
+        }
+        if (a.in_crowd || b.in_crowd)
+            && misses(&colliders[first as usize], &colliders[second as usize])
+        {
             return;
         }
         let known = if a.pairs.len() < b.pairs.len() {
@@ -263,6 +275,14 @@ impl Broad {
     }
 }
 
+/// Whether a shape of a crowd is out of the tight box of one that is driven.
+pub(crate) fn misses(a: &Collider, b: &Collider) -> bool {
+    let apart = |driven: &Collider, other: &Collider| {
+        driven.tight.is_some_and(|tight| !tight.overlaps(other.fat))
+    };
+    apart(a, b) || apart(b, a)
+}
+
 /// Takes a pair out of the store and out of its bodies' lists.
 pub(crate) fn part(bodies: &mut Bodies, pairs: &mut Pairs, place: u32) -> Option<Pair> {
     let pair = pairs.remove(place)?;
@@ -316,6 +336,7 @@ mod tests {
             filter: crate::Filter::default(),
             node: None,
             fat: Aabb::EMPTY,
+            tight: None,
         };
         // Half a radian there and back: at both ends of the second nothing has turned.
         let motion = Motion {

@@ -85,6 +85,8 @@ pub(crate) struct Pairs {
     pub(crate) fresh: Vec<u32>,
     /// Places of all pairs of a member of a crowd and a dynamic body that is none, and of some that were.
     pub(crate) fringe: Vec<u32>,
+    /// Colliders of members of crowds and of flyers that may meet them within a tick.
+    pub(crate) near: Vec<(u32, u32)>,
 }
 
 impl Pairs {

@@ -289,7 +289,7 @@ impl World {
                     &self.colliders,
                     &mut self.pairs,
                     at,
-                    &self.flyers,
+                    Some(&self.flyers),
                 );
             }
             for slot in 0..self.bodies.get(index).pairs.len() {
@@ -308,6 +308,11 @@ impl World {
     }
 
     pub(crate) fn refit(&mut self, index: u32, time: SimTime, h: f64) {
+        self.refit_among(index, time, h, true);
+    }
+
+    /// [`Self::refit`]; `meets`: flyers in the new boxes are found.
+    pub(crate) fn refit_among(&mut self, index: u32, time: SimTime, h: f64, meets: bool) {
         self.broad.refit(
             &mut self.bodies,
             &mut self.colliders,
@@ -315,7 +320,7 @@ impl World {
             index,
             time,
             h,
-            &self.flyers,
+            meets.then_some(&self.flyers),
         );
     }
 

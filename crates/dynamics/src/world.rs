@@ -362,6 +362,7 @@ impl World {
             filter,
             node: None,
             fat: Aabb::EMPTY,
+            tight: None,
         };
         let at = if let Some(at) = self.free_colliders.pop() {
             self.colliders[at as usize] = collider;

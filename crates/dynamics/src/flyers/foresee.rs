@@ -193,6 +193,12 @@ impl World {
             let state = self.bodies.get(owner);
             if state.course.flies {
                 self.approach(index, owner, time, cause);
+            } else if state.in_crowd {
+                self.pair_flyer(index, at);
+                self.knock_at(index, at, time);
+                if !self.bodies.get(index).course.flies {
+                    return any;
+                }
             } else if state.is_active() {
                 self.pair_flyer(index, at);
             } else {

@@ -449,7 +449,7 @@ impl World {
                     &self.colliders,
                     &mut self.pairs,
                     at,
-                    &self.flyers,
+                    Some(&self.flyers),
                 );
             }
         }
@@ -462,7 +462,7 @@ impl World {
         for place in self.bodies.get(index).pairs.clone() {
             let (a, b) = self.pairs.get(place).bodies;
             let other = if a == index { b } else { a };
-            if !self.bodies.get(other).is_stepped() {
+            if !self.bodies.get(other).is_held() {
                 self.part(place, time);
             }
         }

@@ -2,6 +2,7 @@
 
 use carom_math::{SimTime, Vec2};
 
+use crate::broad::swept_box;
 use crate::{BodyKind, World};
 
 impl World {
@@ -21,23 +22,25 @@ impl World {
             self.disperse(time);
             self.stopwatch.lap(|p| &mut p.sleep);
         }
-        self.admit_fringe(time, h, look);
-        self.stopwatch.lap(|p| &mut p.pairs);
         if look {
             let newcomers = &mut self.pool.crowd.newcomers;
             self.pool.moved.append(newcomers);
+            self.box_drivers(time);
             self.look_around(time);
+            self.scout(time);
             self.pool.until_look = self.settings.substeps_per_tick();
-        } else {
-            self.welcome(time);
-            if !self.pool.quick.is_empty() {
-                self.look_between(time);
+        } else if !(self.pool.quick.is_empty() && self.pool.moved.is_empty()) {
+            self.look_between(time);
+        }
+        // A look may wake sleepers, and those who join find others.
+        loop {
+            self.admit_fringe(time, h);
+            if self.pool.crowd.newcomers.is_empty() {
+                break;
             }
-        }
-        // A look may wake sleepers, and find whom they touch.
-        while !self.pool.crowd.newcomers.is_empty() {
             self.welcome(time);
         }
+        self.stopwatch.lap(|p| &mut p.contacts);
         self.pool.until_look -= 1;
         let before: Vec<(u32, Vec2, f64)> = self.forced_lines().collect();
         self.substep();
@@ -103,6 +106,37 @@ impl World {
             true
         });
         self.pool.crowd.drivers = drivers;
+    }
+
+    /// Boxes of kinematic bodies for two ticks, and the members in them.
+    fn box_drivers(&mut self, time: SimTime) {
+        let tick = self.settings.tick;
+        for k in 0..self.pool.crowd.drivers.len() {
+            let index = self.pool.crowd.drivers[k];
+            for slot in 0..self.bodies.get(index).colliders.len() {
+                let state = self.bodies.get(index);
+                let at = state.colliders[slot];
+                let collider = &self.colliders[at as usize];
+                let ahead = |ticks: f64| swept_box(collider, &state.motion, time, ticks * tick);
+                if collider
+                    .tight
+                    .is_some_and(|tight| tight.contains(ahead(1.0)))
+                {
+                    continue;
+                }
+                let tight = ahead(2.0);
+                self.colliders[at as usize].tight = Some(tight);
+                for other in self.broad.in_tree(&self.colliders, tight) {
+                    if self
+                        .bodies
+                        .get(self.colliders[other as usize].body)
+                        .in_crowd
+                    {
+                        self.pair_flyer(index, other);
+                    }
+                }
+            }
+        }
     }
 
     /// What kinematic bodies put in: impulse × their own velocity, row by row.

@@ -4,10 +4,11 @@
 //! would meet a crowd before the next sub-step; it leaves when nothing has been near for two ticks.
 
 use carom_collision::contacts;
+use carom_geometry::Aabb;
 use carom_math::{SimTime, Sum};
 
 use super::seats::pull_of;
-use crate::pairs::Pair;
+use crate::body::BodyState;
 use crate::sleep::Tree;
 use crate::{BodyKind, EnergyLedger, Mode, World};
 
@@ -71,6 +72,16 @@ impl World {
             }
         }
         let mut count = vec![0usize; self.bodies.places()];
+        let mut i = 0;
+        while let Some(place) = self.pairs.place(i) {
+            i += 1;
+            // What was put deep into each other is pushed apart pair by pair first.
+            if let Some(pair) = self.pairs.find(place).filter(|pair| pair.buried) {
+                for index in [pair.bodies.0, pair.bodies.1] {
+                    count[tree.root(index) as usize] = usize::MAX;
+                }
+            }
+        }
         for &index in &self.stepped {
             let state = self.bodies.get(index);
             let at = tree.root(index) as usize;
@@ -97,8 +108,7 @@ impl World {
             return false;
         }
         self.join_awake(woken, time);
-        let left = self.clock.next() - time;
-        self.admit_fringe(time, left, false);
+        self.admit_near(time, self.clock.next() - time);
         true
     }
 
@@ -146,7 +156,10 @@ impl World {
         let pull = pull_of(&self.bodies, state, state.motion.centre_at(time));
         let slot = self.pool.seats.admit(state, pull, time);
         self.pool.crowd.newcomers.push(index);
-        self.box_anew(index, time);
+        for &at in &self.bodies.get(index).colliders {
+            self.colliders[at as usize].fat = Aabb::EMPTY;
+        }
+        self.refit(index, time, 0.25 * self.settings.tick);
         self.pool.seats.get_mut(slot).roamed = 0.0;
         self.mark_pairs(index);
     }
@@ -155,7 +168,13 @@ impl World {
     fn mark_pairs(&mut self, index: u32) {
         self.pairs.reorder();
         for &place in &self.bodies.get(index).pairs {
-            if self.pairs.get(place).contacts.iter().all(|c| c.row.is_none()) {
+            if self
+                .pairs
+                .get(place)
+                .contacts
+                .iter()
+                .all(|c| c.row.is_none())
+            {
                 self.pairs.get_mut(place).fresh = true;
             }
             self.pairs.fringe.push(place);
@@ -207,26 +226,62 @@ impl World {
         }
     }
 
+    /// Flyers that may meet a member within a tick; the members' boxes hold them that long.
+    pub(super) fn scout(&mut self, time: SimTime) {
+        self.pairs.near.clear();
+        let mut bounds = Aabb::EMPTY;
+        for (_, seat) in self.pool.seats.moving() {
+            if seat.kind == BodyKind::Dynamic {
+                for &at in &self.bodies.get(seat.body).colliders {
+                    bounds = bounds.union(self.colliders[at as usize].fat);
+                }
+            }
+        }
+        let tick = self.settings.tick;
+        let mut flying = Vec::new();
+        for state in self.bodies.iter().filter(|state| state.is_flying()) {
+            let ahead = disc_swept(state, time, tick);
+            if ahead.overlaps(bounds) {
+                flying.push((state.id.index, ahead));
+            }
+        }
+        for (index, ahead) in flying {
+            for at in self.broad.in_tree(&self.colliders, ahead) {
+                if self.bodies.get(self.colliders[at as usize].body).in_crowd {
+                    self.pair_flyer(index, at);
+                }
+            }
+        }
+    }
+
     /// Who would meet a member before the next sub-step joins, and whoever would meet those.
-    pub(super) fn admit_fringe(&mut self, time: SimTime, h: f64, parts: bool) {
+    pub(super) fn admit_fringe(&mut self, time: SimTime, h: f64) {
+        self.admit_near(time, h);
         let mut checked = Vec::new();
         loop {
             let mut fringe = core::mem::take(&mut self.pairs.fringe);
             fringe.sort_unstable();
             fringe.dedup();
             let before = self.pool.crowd.members;
-            fringe.retain(|&place| {
-                if self.outsider(place).is_none() {
-                    return false;
-                }
-                if parts && !self.broad.keeps(&self.colliders, self.pairs.get(place)) {
+            for place in fringe {
+                let Some(pair) = self.pairs.find(place) else {
+                    continue;
+                };
+                let shapes = pair.colliders;
+                let Some((_, outsider)) = self.ends(shapes) else {
+                    continue;
+                };
+                let flies = self.bodies.get(outsider).course.flies;
+                if flies || !self.broad.keeps(&self.colliders, self.pairs.get(place)) {
                     self.part(place, time);
-                    return false;
+                    if flies {
+                        self.pairs.near.push(shapes);
+                    }
+                    continue;
                 }
-                self.knock(place, time, h);
-                true
-            });
-            checked.append(&mut fringe);
+                self.knock(shapes, time, h);
+                checked.push(place);
+            }
             if self.pool.crowd.members == before {
                 break;
             }
@@ -234,16 +289,27 @@ impl World {
         self.pairs.fringe.append(&mut checked);
     }
 
-    /// The end of a fringe pair that is no member, if it is one.
-    fn outsider(&self, place: u32) -> Option<u32> {
-        let (a, b) = self.pairs.find(place)?.bodies;
-        let (one, two) = (self.bodies.get(a), self.bodies.get(b));
-        let (index, state) = match (one.in_crowd, two.in_crowd) {
-            (true, false) => (b, two),
-            (false, true) => (a, one),
+    /// Flyers that would meet a member within `left` seconds join, and whoever would meet those.
+    fn admit_near(&mut self, time: SimTime, left: f64) {
+        let mut k = 0;
+        while k < self.pairs.near.len() {
+            let shapes = self.pairs.near[k];
+            k += 1;
+            self.knock(shapes, time, left);
+        }
+    }
+
+    /// Member and dynamic body awake that is none, of two shapes, if that is what they belong to.
+    fn ends(&self, (first, second): (u32, u32)) -> Option<(u32, u32)> {
+        let [a, b] = [first, second].map(|at| self.colliders[at as usize].body);
+        let (inside, outsider) = match (self.bodies.get(a).in_crowd, self.bodies.get(b).in_crowd) {
+            (true, false) => (a, b),
+            (false, true) => (b, a),
             _ => return None,
         };
-        (state.is_dynamic() && !state.asleep).then_some(index)
+        let state = self.bodies.get(outsider);
+        let alive = self.bodies.is_alive(outsider);
+        (alive && state.is_dynamic() && !state.asleep).then_some((inside, outsider))
     }
 
     /// Whether a member belongs to a pair.
@@ -254,7 +320,7 @@ impl World {
 
     /// Whether a pair is for the wide solver to look at: of a member, and of nobody else's.
     pub(super) fn is_inside(&self, place: u32) -> bool {
-        self.is_crowds(place) && self.outsider(place).is_none()
+        self.is_crowds(place) && self.ends(self.pairs.get(place).colliders).is_none()
     }
 
     /// Whether one solver moves everybody.
@@ -273,29 +339,40 @@ impl World {
 
     /// A pair of a member and somebody with a new motion, in the middle of a sub-step.
     pub(crate) fn knock_between(&mut self, place: u32, time: SimTime) {
-        let left = self.clock.next() - time;
-        let before = self.pool.crowd.members;
-        if left > 0.0 {
-            self.knock(place, time, left);
-        }
-        if self.pool.crowd.members > before {
-            self.admit_fringe(time, left, false);
+        self.knock(
+            self.pairs.get(place).colliders,
+            time,
+            self.clock.next() - time,
+        );
+    }
+
+    /// A flyer with a new motion, and a shape of a member.
+    pub(crate) fn knock_at(&mut self, index: u32, at: u32, time: SimTime) {
+        for slot in 0..self.bodies.get(index).colliders.len() {
+            let mine = self.bodies.get(index).colliders[slot];
+            self.knock((mine, at), time, self.clock.next() - time);
         }
     }
 
-    /// Has the other end of a member's pair join if it would meet the member within `left` seconds.
-    fn knock(&mut self, place: u32, time: SimTime, left: f64) {
-        let Some(index) = self.outsider(place) else {
+    /// Has the one of two shapes that is no member's join if it would meet the other within `left` seconds.
+    fn knock(&mut self, shapes: (u32, u32), time: SimTime, left: f64) {
+        let Some((inside, outsider)) = self.ends(shapes) else {
             return;
         };
-        if !self.bodies.get(index).is_damped() && self.nears(self.pairs.get(place), index, time, left) {
-            self.join(index, time);
+        let fit = left > 0.0 && !self.bodies.get(outsider).is_damped();
+        if fit && self.nears(shapes, inside, outsider, time, left) {
+            self.join(outsider, time);
         }
     }
 
-    fn nears(&self, pair: &Pair, outsider: u32, time: SimTime, left: f64) -> bool {
-        let (a, b) = pair.bodies;
-        let inside = if a == outsider { b } else { a };
+    fn nears(
+        &self,
+        (first, second): (u32, u32),
+        inside: u32,
+        outsider: u32,
+        time: SimTime,
+        left: f64,
+    ) -> bool {
         let Some(slot) = self.pool.seats.slot(inside) else {
             return false;
         };
@@ -308,21 +385,23 @@ impl World {
             + rim(motion.spin_at(time), state.reach)
             + rim(line.w(), other.reach);
         let pull = motion.acceleration - self.pool.seats.rig.pull(slot).acceleration;
-        let margin = MARGIN * state.reach.min(other.reach) + (closing + pull.length() * left) * left;
+        let margin =
+            MARGIN * state.reach.min(other.reach) + (closing + pull.length() * left) * left;
         let near = state.reach + other.reach + margin;
-        let (mine, theirs) = (motion.pose_at(time), self.pool.seats.pose(slot));
-        if (mine.position - theirs.position).length_squared() > near * near {
+        let (centre, theirs) = (motion.centre_at(time), self.pool.seats.pose(slot));
+        if (centre - theirs.position).length_squared() > near * near {
             return false;
         }
-        let (pose_a, pose_b) = if a == outsider {
+        let mine = motion.pose_at(time);
+        let (pose_a, pose_b) = if self.colliders[first as usize].body == outsider {
             (mine, theirs)
         } else {
             (theirs, mine)
         };
         let mut found = Vec::new();
         contacts(
-            &self.colliders[pair.colliders.0 as usize].solid,
-            &self.colliders[pair.colliders.1 as usize].solid,
+            &self.colliders[first as usize].solid,
+            &self.colliders[second as usize].solid,
             pose_b.seen_from(pose_a),
             margin,
             &mut found,
@@ -339,6 +418,7 @@ impl World {
             gained.add(kinetic);
             gained.add(potential);
         }
+        gained.add(-self.bodies.book.struck.value());
         let (heat, cost) = (self.pool.seats.rig.heat, self.pool.bounces.cost());
         let (driven, forced) = (crowd.driven.value(), crowd.forced.value());
         ledger.friction += heat;
@@ -348,4 +428,12 @@ impl World {
         // What rows and push-outs did is what the energies tell beside that.
         ledger.scheme += gained.value() + heat + cost - driven - forced;
     }
+}
+
+/// Box of a body's bounding circle over `seconds` from `time` on.
+fn disc_swept(state: &BodyState, time: SimTime, seconds: f64) -> Aabb {
+    let motion = &state.motion;
+    let ends = [time, time + seconds].map(|at| motion.centre_at(at));
+    let bulge = 0.125 * motion.acceleration.length() * seconds * seconds;
+    Aabb::from_points(ends).grown(state.reach + bulge)
 }

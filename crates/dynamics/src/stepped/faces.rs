@@ -5,10 +5,10 @@ use carom_math::{Pose, SimTime, Vec2};
 
 use super::Stepped;
 use super::seats::pull_of;
-use crate::{BodyKind, World};
 use crate::narrow::carried;
 use crate::pairs::{Lie, Pair, PairContact};
 use crate::solver::{Row, RowId};
+use crate::{BodyKind, World};
 
 /// Two bodies that moved less than this against each other since their contacts were found, as a
 /// fraction of the smaller reach, are not looked at again: 20 mm for boxes of 1 m.

@@ -5,7 +5,7 @@ use carom_math::{SimTime, Vec2};
 
 use super::seats::{pull_of, wandered};
 use super::{REFRESH, Stepped};
-use crate::broad::{PADDING, swept_box};
+use crate::broad::{PADDING, misses, swept_box};
 use crate::pairs::Pair;
 use crate::{BodyKind, World};
 
@@ -62,7 +62,11 @@ impl World {
             self.pool.release(pair);
         }
         self.pool.seats.dismiss(slot);
-        self.bodies.get_mut(index).has_line = false;
+        let state = self.bodies.get_mut(index);
+        state.has_line = false;
+        for at in &state.colliders {
+            self.colliders[*at as usize].tight = None;
+        }
     }
 
     /// The look at the start of a tick: whoever moved gets new boxes, and its pairs are looked at.
@@ -164,6 +168,12 @@ impl World {
         shapes.any(|at| self.colliders[*at as usize].node.is_none())
     }
 
+    fn keeps(&self, place: u32) -> bool {
+        let pair = self.pairs.get(place);
+        let ends = [pair.colliders.0, pair.colliders.1].map(|at| &self.colliders[at as usize]);
+        self.broad.keeps(&self.colliders, pair) && !misses(ends[0], ends[1])
+    }
+
     /// New boxes for a body that leaves its old ones within `seconds`.
     fn rebox(&mut self, index: u32, slot: u32, time: SimTime, seconds: f64) {
         self.sync(index, slot, time);
@@ -190,7 +200,7 @@ impl World {
             self.colliders[*at as usize].fat = Aabb::EMPTY;
         }
         let quarter = 0.25 * self.settings.tick;
-        self.refit(index, time, quarter);
+        self.refit_among(index, time, quarter, false);
     }
 
     /// Looks at all pairs of these bodies, and of those who wake meanwhile; `parts`: those whose boxes
@@ -205,7 +215,7 @@ impl World {
             while i < self.bodies.get(index).pairs.len() {
                 let place = self.bodies.get(index).pairs[i];
                 if self.pool.sees(place) {
-                    if parts && !self.broad.keeps(&self.colliders, self.pairs.get(place)) {
+                    if parts && !self.keeps(place) {
                         self.part(place, time);
                         continue;
                     }
