@@ -108,9 +108,9 @@ impl Broad {
         }
     }
 
-    /// Colliders in the tree whose boxes overlap `bounds`, in order.
-    pub(crate) fn in_tree(&self, colliders: &[Collider], bounds: Aabb) -> Vec<u32> {
-        let mut near = Vec::new();
+    /// Colliders in the tree whose boxes overlap `bounds`, in order, in `near`.
+    pub(crate) fn in_tree(&self, colliders: &[Collider], bounds: Aabb, near: &mut Vec<u32>) {
+        near.clear();
         match self.search {
             PairSearch::None => {}
             PairSearch::AllPairs => {
@@ -126,7 +126,6 @@ impl Broad {
                 near.sort_unstable();
             }
         }
-        near
     }
 
     /// New pairs of a collider whose box is new.

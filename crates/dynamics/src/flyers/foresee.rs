@@ -1,6 +1,5 @@
 //! Looking ahead: whom a flyer may meet up to its horizon, from when on, and when they touch.
 
-use carom_collision::{AxisFeature, Impact, TimeOfImpact, contacts, time_of_impact};
 use carom_geometry::Aabb;
 use carom_math::SimTime;
 
@@ -9,7 +8,6 @@ use super::queue::{Ahead, Entry};
 use super::window::{self, Window};
 use super::{Foreseen, drift};
 use crate::body::BodyState;
-use crate::narrow::{TOUCH, opening_speed, rest_speed_between};
 use crate::{BodyKind, PairSearch, World};
 
 /// Part of a cell that a flyer travels within its horizon.
@@ -20,13 +18,6 @@ const SPAN: f64 = 2.0;
 
 /// Longest horizon, in s: what rests is looked for again at least this often.
 const LONGEST: f64 = 1024.0;
-
-/// Largest turn that one search for a time of impact goes through, in rad: bounds on a gap's second
-/// derivative are loose over more.
-const TURN: f64 = 8.0;
-
-/// How far a search goes beyond its end, as a fraction.
-const BEYOND: f64 = 1e-6;
 
 /// Why a flyer looks ahead.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -180,12 +171,14 @@ impl World {
     }
 
     /// Shapes in the tree that `index` may meet before it looks down again: of bodies that do not fly,
-    /// and of flyers too large for the grid; whether there are any.
-    fn meet_shapes(&mut self, index: u32, time: SimTime, cause: Cause) -> bool {
-        let reached = self.bodies.get(index).course.reached;
-        let near = self.broad.in_tree(&self.colliders, reached);
-        let any = !near.is_empty();
-        for at in near {
+    /// and of flyers too large for the grid.
+    fn meet_shapes(&mut self, index: u32, time: SimTime, cause: Cause) {
+        let mut near = core::mem::take(&mut self.flyers.shapes);
+        let course = &mut self.bodies.get_mut(index).course;
+        self.broad
+            .in_tree(&self.colliders, course.reached, &mut near);
+        course.alone = near.is_empty();
+        for &at in &near {
             let owner = self.colliders[at as usize].body;
             if owner == index {
                 continue;
@@ -197,7 +190,8 @@ impl World {
                 self.pair_flyer(index, at);
                 self.knock_at(index, at, time);
                 if !self.bodies.get(index).course.flies {
-                    return any;
+                    self.flyers.shapes = near;
+                    return;
                 }
             } else if state.is_active() {
                 self.pair_flyer(index, at);
@@ -208,11 +202,11 @@ impl World {
         for slot in 0..self.bodies.get(index).pairs.len() {
             self.predict(self.bodies.get(index).pairs[slot], time);
         }
-        any
+        self.flyers.shapes = near;
     }
 
     /// Two flyers that may meet before one of their horizons ends.
-    fn approach(&mut self, index: u32, other: u32, time: SimTime, cause: Cause) {
+    pub(super) fn approach(&mut self, index: u32, other: u32, time: SimTime, cause: Cause) {
         let (a, b) = (self.bodies.get(index), self.bodies.get(other));
         if a.kind != BodyKind::Dynamic && b.kind != BodyKind::Dynamic {
             return;
@@ -223,8 +217,9 @@ impl World {
             return;
         }
         let horizon = common_horizon(a, b);
-        let (window, _) = circles(a, b, time);
-        let Some(window) = window else { return };
+        let Some(window) = circles(a, b, time) else {
+            return;
+        };
         if window.from > 0.0 {
             let meet = time + window.from;
             if meet <= horizon {
@@ -239,7 +234,7 @@ impl World {
         self.seek(index, other, time, window, cause);
     }
 
-    fn queue_near(&mut self, a: u32, b: u32, time: SimTime) {
+    pub(super) fn queue_near(&mut self, a: u32, b: u32, time: SimTime) {
         let (a, b) = if a < b { (a, b) } else { (b, a) };
         let entry = Entry {
             time,
@@ -251,39 +246,11 @@ impl World {
         self.flyers.queue.push(entry);
     }
 
-    fn stamp(&self, a: u32, b: u32) -> u32 {
+    pub(super) fn stamp(&self, a: u32, b: u32) -> u32 {
         self.bodies
             .get(a)
             .version
             .wrapping_add(self.bodies.get(b).version)
-    }
-
-    /// Time of impact of two flyers from now on, to the end of their window or, where that is not
-    /// known, to the nearer horizon.
-    fn seek(&mut self, a: u32, b: u32, time: SimTime, window: Window, cause: Cause) {
-        let (a, b) = if a < b { (a, b) } else { (b, a) };
-        let (one, two) = (self.bodies.get(a), self.bodies.get(b));
-        let horizon = common_horizon(one, two) - time;
-        let end = if window.to.is_finite() {
-            window.to
-        } else {
-            horizon
-        };
-        let (length, cut) = cut_by_turn(one, two, time, end);
-        let ends = (one.colliders.len(), two.colliders.len());
-        let mut met = false;
-        for i in 0..ends.0 {
-            for j in 0..ends.1 {
-                let shapes = (
-                    self.bodies.get(a).colliders[i],
-                    self.bodies.get(b).colliders[j],
-                );
-                met |= self.seek_shapes((a, b), shapes, time, length, cause);
-            }
-        }
-        if cut && !met {
-            self.queue_near(a, b, time + length);
-        }
     }
 
     /// A flyer and a shape that rests.
@@ -312,7 +279,7 @@ impl World {
         self.seek_shape(index, at, time, cause);
     }
 
-    fn queue_near_shape(&mut self, index: u32, at: u32, time: SimTime) {
+    pub(super) fn queue_near_shape(&mut self, index: u32, at: u32, time: SimTime) {
         let entry = Entry {
             time,
             a: index,
@@ -321,125 +288,6 @@ impl World {
             ahead: Ahead::NearShape,
         };
         self.flyers.queue.push(entry);
-    }
-
-    /// Time of impact of a flyer and a shape that rests, from now to the flyer's horizon.
-    fn seek_shape(&mut self, index: u32, at: u32, time: SimTime, cause: Cause) {
-        let owner = self.colliders[at as usize].body;
-        let (body, other) = (self.bodies.get(index), self.bodies.get(owner));
-        let (length, cut) = cut_by_turn(body, other, time, body.course.ground - time);
-        let mut met = false;
-        for slot in 0..self.bodies.get(index).colliders.len() {
-            let mine = self.bodies.get(index).colliders[slot];
-            let (ends, shapes) = if index < owner {
-                ((index, owner), (mine, at))
-            } else {
-                ((owner, index), (at, mine))
-            };
-            met |= self.seek_shapes(ends, shapes, time, length, cause);
-        }
-        if cut && !met {
-            self.queue_near_shape(index, at, time + length);
-        }
-    }
-
-    /// Time of impact of two shapes within `length` seconds; whether they meet.
-    fn seek_shapes(
-        &mut self,
-        (a, b): (u32, u32),
-        shapes: (u32, u32),
-        time: SimTime,
-        length: f64,
-        cause: Cause,
-    ) -> bool {
-        if !self.may_touch(shapes) {
-            return false;
-        }
-        self.report.pairs += 1;
-        if cause == Cause::Arrived && self.holds((a, b), shapes, time) {
-            self.land(a, time);
-            self.land(b, time);
-            return true;
-        }
-        let (one, two) = (self.bodies.get(a), self.bodies.get(b));
-        let (motion_a, motion_b) = (one.motion.rebased(time), two.motion.rebased(time));
-        let (first, second) = (
-            &self.colliders[shapes.0 as usize],
-            &self.colliders[shapes.1 as usize],
-        );
-        // A little beyond: an impact at the very end is found to its last digit, too.
-        let end = length * (1.0 + BEYOND);
-        let next = time_of_impact(&first.solid, &motion_a, &second.solid, &motion_b, end);
-        let (wait, impact) = match next {
-            TimeOfImpact::Clear => (f64::INFINITY, None),
-            TimeOfImpact::Hit(impact) => (impact.time, Some(impact)),
-            TimeOfImpact::Touching(impact) => (0.0, Some(impact)),
-            TimeOfImpact::Unresolved { .. } => {
-                self.report.unresolved += 1;
-                self.land(a, time);
-                self.land(b, time);
-                return true;
-            }
-        };
-        let stamp = self.stamp(a, b);
-        if let Some((end, next)) = self
-            .flyers
-            .hop
-            .take_if(|(_, next)| next.colliders == shapes)
-        {
-            // The search may find the same end, blurred, or another point that strikes before.
-            let near = 1e-6 * self.bodies.get(a).reach.min(self.bodies.get(b).reach);
-            let same = |other: &Impact| (other.points[0] - next.points[0]).length() <= near;
-            if wait > 0.5 * end && impact.as_ref().is_none_or(same) || wait > end {
-                self.flyers.push_impact(time + end, stamp, next);
-                return true;
-            }
-        }
-        let Some(impact) = impact else {
-            return false;
-        };
-        let foreseen = Foreseen {
-            bodies: (a, b),
-            colliders: shapes,
-            normal: impact.normal,
-            face: match impact.features[0].feature {
-                AxisFeature::Edge { owner, .. } => Some(owner),
-                AxisFeature::Vertices { .. } => None,
-            },
-            points: impact.points,
-        };
-        self.flyers.push_impact(time + wait, stamp, foreseen);
-        true
-    }
-
-    /// Whether the filters of two shapes let them touch.
-    fn may_touch(&self, shapes: (u32, u32)) -> bool {
-        let filter = |at: u32| self.colliders[at as usize].filter;
-        filter(shapes.0).touches(filter(shapes.1))
-    }
-
-    /// Whether two shapes that the caller put where they are overlap by more than rounding, or rest on
-    /// each other.
-    fn holds(&self, (a, b): (u32, u32), shapes: (u32, u32), time: SimTime) -> bool {
-        let (one, two) = (self.bodies.get(a), self.bodies.get(b));
-        let (pose_a, pose_b) = (one.motion.pose_at(time), two.motion.pose_at(time));
-        let touch = TOUCH * one.reach.min(two.reach);
-        let mut found = Vec::new();
-        contacts(
-            &self.colliders[shapes.0 as usize].solid,
-            &self.colliders[shapes.1 as usize].solid,
-            pose_b.seen_from(pose_a),
-            touch,
-            &mut found,
-        );
-        let rest = rest_speed_between(&self.bodies, (a, b), self.clock.h);
-        found.iter().any(|part| {
-            let normal = pose_a.vector(part.manifold.normal);
-            part.manifold.points.iter().any(|point| {
-                let rate = opening_speed(one, two, time, pose_a.point(point.point), normal);
-                point.separation < -touch || rest > 0.0 && rate.abs() <= rest
-            })
-        })
     }
 
     /// Another look at a pair of bodies that a flyer belongs to, at `time`.
@@ -538,9 +386,8 @@ impl World {
             self.meet_shapes(index, time, Cause::Horizon);
             return;
         }
-        let span = course.span;
-        let near = self.broad.in_tree(&self.colliders, course.reached);
-        let span = if near.is_empty() { 2.0 * span } else { span };
+        let factor = if course.alone { 2.0 } else { 1.0 };
+        let span = factor * course.span;
         self.look_down(index, time, span);
         self.meet_shapes(index, time, Cause::Horizon);
     }
@@ -548,36 +395,21 @@ impl World {
     fn both_fly(&self, a: u32, b: u32) -> bool {
         self.bodies.get(a).course.flies && self.bodies.get(b).course.flies
     }
-
-    /// The instant from which on two flyers may meet.
-    fn come_near(&mut self, index: u32, other: u32, time: SimTime) {
-        let (a, b) = (self.bodies.get(index), self.bodies.get(other));
-        let (window, exact) = circles(a, b, time);
-        let Some(window) = window else { return };
-        // A bound may come early; a root is there but for its rounding.
-        if !exact && window.from > 0.0 {
-            self.approach(index, other, time, Cause::Deflected);
-        } else {
-            self.seek(index, other, time, window, Cause::Deflected);
-        }
-    }
 }
 
-/// When the circles of two flyers overlap, from `time` on; whether the window is exact.
-fn circles(a: &BodyState, b: &BodyState, time: SimTime) -> (Option<Window>, bool) {
+/// When the circles of two flyers overlap, from `time` on.
+pub(super) fn circles(a: &BodyState, b: &BodyState, time: SimTime) -> Option<Window> {
     let (one, two) = (&a.motion, &b.motion);
-    let pull = two.acceleration - one.acceleration;
-    let window = window::of_circles(
+    window::of_circles(
         two.centre_at(time) - one.centre_at(time),
         two.velocity_at(time) - one.velocity_at(time),
-        pull,
+        two.acceleration - one.acceleration,
         a.reach + b.reach,
-    );
-    (window, pull == carom_math::Vec2::ZERO)
+    )
 }
 
 /// Until when two flyers have looked for each other.
-fn common_horizon(a: &BodyState, b: &BodyState) -> SimTime {
+pub(super) fn common_horizon(a: &BodyState, b: &BodyState) -> SimTime {
     let (a, b) = (&a.course, &b.course);
     if a.cells.is_some() && b.cells.is_some() {
         a.horizon.min(b.horizon)
@@ -604,22 +436,4 @@ fn swept(state: &BodyState, track: &Track, seconds: f64) -> Aabb {
     let largest = bounds.min.abs().max(bounds.max.abs()).max_element();
     let room = 1e-9 * state.reach + 1e-14 * largest + state.motion.left_out;
     bounds.grown(state.reach + room)
-}
-
-/// A search of `length` seconds, or as much of it as two bodies turn by [`TURN`] in; whether that
-/// is less.
-fn cut_by_turn(a: &BodyState, b: &BodyState, time: SimTime, length: f64) -> (f64, bool) {
-    let spin = |state: &BodyState| {
-        let (now, pull) = (
-            state.motion.spin_at(time),
-            state.motion.angular_acceleration,
-        );
-        now.abs() + pull.abs() * length
-    };
-    let longest = TURN / (spin(a) + spin(b));
-    if length > longest {
-        (longest, true)
-    } else {
-        (length, false)
-    }
 }

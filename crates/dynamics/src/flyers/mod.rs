@@ -11,6 +11,7 @@ mod frame;
 mod gap;
 mod grid;
 mod queue;
+mod seek;
 mod streak;
 mod strike;
 mod window;
@@ -45,6 +46,8 @@ pub(crate) struct Course {
     pub(crate) reached: Aabb,
     /// How long that was, in s.
     pub(crate) span: f64,
+    /// Nothing was found there.
+    pub(crate) alone: bool,
     /// Node of that box in the tree aloft.
     pub(crate) node: Option<NodeId>,
     /// The tick in which it last struck, and what its impacts spent in it.
@@ -63,6 +66,7 @@ impl Default for Course {
             ground: SimTime::ZERO,
             reached: Aabb::EMPTY,
             span: 0.0,
+            alone: false,
             node: None,
             tick: 0,
             spent: 0.0,
@@ -108,8 +112,9 @@ pub(crate) struct Flyers {
     /// Since the cells were sized: searches, and the bodies they met.
     searches: usize,
     met: usize,
-    /// Scratch of a search.
+    /// Scratch of a search: flyers, and shapes of what does not fly.
     near: Vec<u32>,
+    shapes: Vec<u32>,
     /// The end of a low bounce, in s from the impact that is being resolved.
     hop: Option<(f64, Foreseen)>,
 }
@@ -130,6 +135,7 @@ impl Flyers {
             searches: 0,
             met: 0,
             near: Vec::new(),
+            shapes: Vec::new(),
             hop: None,
         }
     }

@@ -1,0 +1,199 @@
+//! When two bodies touch that are near enough to meet, and what is already in contact.
+
+use carom_collision::{AxisFeature, Impact, TimeOfImpact, contacts, time_of_impact};
+use carom_math::SimTime;
+
+use super::Foreseen;
+use super::foresee::{Cause, circles, common_horizon};
+use super::window::Window;
+use crate::World;
+use crate::body::BodyState;
+use crate::narrow::{TOUCH, opening_speed, rest_speed_between};
+
+/// Largest turn that one search for a time of impact goes through, in rad: bounds on a gap's second
+/// derivative are loose over more.
+const TURN: f64 = 8.0;
+
+/// How far a search goes beyond its end, as a fraction.
+const BEYOND: f64 = 1e-6;
+
+impl World {
+    /// The instant from which on two flyers may meet.
+    pub(super) fn come_near(&mut self, index: u32, other: u32, time: SimTime) {
+        let (a, b) = (self.bodies.get(index), self.bodies.get(other));
+        let Some(window) = circles(a, b, time) else {
+            return;
+        };
+        // A bound, whose end is not known, may come early; a root is there but for its rounding.
+        if window.to.is_infinite() && window.from > 0.0 {
+            self.approach(index, other, time, Cause::Deflected);
+        } else {
+            self.seek(index, other, time, window, Cause::Deflected);
+        }
+    }
+
+    /// Time of impact of two flyers from now on, to the end of their window or, where that is not
+    /// known, to the nearer horizon.
+    pub(super) fn seek(&mut self, a: u32, b: u32, time: SimTime, window: Window, cause: Cause) {
+        let (a, b) = if a < b { (a, b) } else { (b, a) };
+        let (one, two) = (self.bodies.get(a), self.bodies.get(b));
+        let horizon = common_horizon(one, two) - time;
+        let end = if window.to.is_finite() {
+            window.to
+        } else {
+            horizon
+        };
+        let (length, cut) = cut_by_turn(one, two, time, end);
+        let ends = (one.colliders.len(), two.colliders.len());
+        let mut met = false;
+        for i in 0..ends.0 {
+            for j in 0..ends.1 {
+                let shapes = (
+                    self.bodies.get(a).colliders[i],
+                    self.bodies.get(b).colliders[j],
+                );
+                met |= self.seek_shapes((a, b), shapes, time, length, cause);
+            }
+        }
+        if cut && !met {
+            self.queue_near(a, b, time + length);
+        }
+    }
+
+    /// Time of impact of a flyer and a shape that rests, from now to the flyer's horizon.
+    pub(super) fn seek_shape(&mut self, index: u32, at: u32, time: SimTime, cause: Cause) {
+        let owner = self.colliders[at as usize].body;
+        let (body, other) = (self.bodies.get(index), self.bodies.get(owner));
+        let (length, cut) = cut_by_turn(body, other, time, body.course.ground - time);
+        let mut met = false;
+        for slot in 0..self.bodies.get(index).colliders.len() {
+            let mine = self.bodies.get(index).colliders[slot];
+            let (ends, shapes) = if index < owner {
+                ((index, owner), (mine, at))
+            } else {
+                ((owner, index), (at, mine))
+            };
+            met |= self.seek_shapes(ends, shapes, time, length, cause);
+        }
+        if cut && !met {
+            self.queue_near_shape(index, at, time + length);
+        }
+    }
+
+    /// Time of impact of two shapes within `length` seconds; whether they meet.
+    fn seek_shapes(
+        &mut self,
+        (a, b): (u32, u32),
+        shapes: (u32, u32),
+        time: SimTime,
+        length: f64,
+        cause: Cause,
+    ) -> bool {
+        if !self.may_touch(shapes) {
+            return false;
+        }
+        self.report.pairs += 1;
+        if cause == Cause::Arrived && self.holds((a, b), shapes, time) {
+            self.land(a, time);
+            self.land(b, time);
+            return true;
+        }
+        let (one, two) = (self.bodies.get(a), self.bodies.get(b));
+        let (motion_a, motion_b) = (one.motion.rebased(time), two.motion.rebased(time));
+        let (first, second) = (
+            &self.colliders[shapes.0 as usize],
+            &self.colliders[shapes.1 as usize],
+        );
+        // A little beyond: an impact at the very end is found to its last digit, too.
+        let end = length * (1.0 + BEYOND);
+        let next = time_of_impact(&first.solid, &motion_a, &second.solid, &motion_b, end);
+        let (wait, impact) = match next {
+            TimeOfImpact::Clear => (f64::INFINITY, None),
+            TimeOfImpact::Hit(impact) => (impact.time, Some(impact)),
+            TimeOfImpact::Touching(impact) => (0.0, Some(impact)),
+            TimeOfImpact::Unresolved { .. } => {
+                self.report.unresolved += 1;
+                self.land(a, time);
+                self.land(b, time);
+                return true;
+            }
+        };
+        let stamp = self.stamp(a, b);
+        if let Some((end, next)) = self
+            .flyers
+            .hop
+            .take_if(|(_, next)| next.colliders == shapes)
+        {
+            // The search may find the same end, blurred, or another point that strikes before.
+            let near = 1e-6 * self.bodies.get(a).reach.min(self.bodies.get(b).reach);
+            let same = |other: &Impact| (other.points[0] - next.points[0]).length() <= near;
+            if wait > 0.5 * end && impact.as_ref().is_none_or(same) || wait > end {
+                self.flyers.push_impact(time + end, stamp, next);
+                return true;
+            }
+        }
+        let Some(impact) = impact else {
+            return false;
+        };
+        let foreseen = Foreseen {
+            bodies: (a, b),
+            colliders: shapes,
+            normal: impact.normal,
+            face: match impact.features[0].feature {
+                AxisFeature::Edge { owner, .. } => Some(owner),
+                AxisFeature::Vertices { .. } => None,
+            },
+            points: impact.points,
+        };
+        self.flyers.push_impact(time + wait, stamp, foreseen);
+        true
+    }
+
+    /// Whether the filters of two shapes let them touch.
+    pub(super) fn may_touch(&self, shapes: (u32, u32)) -> bool {
+        let filter = |at: u32| self.colliders[at as usize].filter;
+        filter(shapes.0).touches(filter(shapes.1))
+    }
+
+    /// Whether two shapes that the caller put where they are overlap by more than rounding, or rest on
+    /// each other.
+    fn holds(&self, (a, b): (u32, u32), shapes: (u32, u32), time: SimTime) -> bool {
+        let (one, two) = (self.bodies.get(a), self.bodies.get(b));
+        let (pose_a, pose_b) = (one.motion.pose_at(time), two.motion.pose_at(time));
+        let touch = TOUCH * one.reach.min(two.reach);
+        let mut found = Vec::new();
+        contacts(
+            &self.colliders[shapes.0 as usize].solid,
+            &self.colliders[shapes.1 as usize].solid,
+            pose_b.seen_from(pose_a),
+            touch,
+            &mut found,
+        );
+        let rest = rest_speed_between(&self.bodies, (a, b), self.clock.h);
+        found.iter().any(|part| {
+            let normal = pose_a.vector(part.manifold.normal);
+            part.manifold.points.iter().any(|point| {
+                let rate = opening_speed(one, two, time, pose_a.point(point.point), normal);
+                point.separation < -touch || rest > 0.0 && rate.abs() <= rest
+            })
+        })
+    }
+}
+
+/// A search of `length` seconds, or as much of it as two bodies turn by [`TURN`] in; whether that
+/// is less.
+fn cut_by_turn(a: &BodyState, b: &BodyState, time: SimTime, length: f64) -> (f64, bool) {
+    let spin = |state: &BodyState| {
+        let (now, pull) = (
+            state.motion.spin_at(time),
+            state.motion.angular_acceleration,
+        );
+        now.abs() + pull.abs() * length
+    };
+    let longest = TURN / (spin(a) + spin(b));
+    if length > longest {
+        (longest, true)
+    } else {
+        (length, false)
+    }
+}
