@@ -6,7 +6,7 @@ use carom_math::SimTime;
 use super::frame::Track;
 use super::queue::{Ahead, Entry};
 use super::window::{self, Window};
-use super::{Foreseen, drift};
+use super::{Foreseen, Seat, drift};
 use crate::body::BodyState;
 use crate::{BodyKind, PairSearch, World};
 
@@ -143,7 +143,10 @@ impl World {
     fn meet_flyers(&mut self, index: u32, time: SimTime, cause: Cause, but: Option<u32>) {
         let course = &self.bodies.get(index).course;
         let mut near = match course.cells {
-            Some(cells) => self.flyers.search(cells, self.bodies.places()),
+            Some(cells) => {
+                let seat = Seat::new(index, course.swept);
+                self.flyers.search(&seat, cells, self.bodies.places())
+            }
             None => {
                 let mut near = Vec::new();
                 self.flyers
@@ -152,7 +155,6 @@ impl World {
             }
         };
         self.flyers.searches += 1;
-        self.flyers.met += near.len();
         match self.broad.search {
             PairSearch::Indexed => {}
             PairSearch::None => near.clear(),
@@ -435,5 +437,5 @@ fn swept(state: &BodyState, track: &Track, seconds: f64) -> Aabb {
     }
     let largest = bounds.min.abs().max(bounds.max.abs()).max_element();
     let room = 1e-9 * state.reach + 1e-14 * largest + state.motion.left_out;
-    bounds.grown(state.reach + room)
+    bounds.grown(state.reach * window::ROOM + room)
 }

@@ -25,7 +25,7 @@ use crate::bodies::Bodies;
 use crate::body::Collider;
 pub(crate) use foresee::Cause;
 use frame::{Frame, Track};
-pub(crate) use grid::{Cells, Grid};
+pub(crate) use grid::{Cells, Grid, Seat};
 use queue::{Ahead, Entry, Queue};
 use streak::Streak;
 
@@ -88,8 +88,8 @@ pub(crate) struct Foreseen {
     pub(crate) face: Option<Side>,
 }
 
-/// Bodies tested per registration that a cell is sized for: fewer waste horizons, more waste tests.
-const PARTNERS: core::ops::Range<f64> = 8.0..24.0;
+/// Boxes tested per registration that a cell is sized for: fewer waste horizons, more waste tests.
+const PARTNERS: core::ops::Range<f64> = 16.0..48.0;
 
 /// Cells that a box may cover before the body goes to the tree instead.
 const MOST_CELLS: u64 = 64;
@@ -109,7 +109,7 @@ pub(crate) struct Flyers {
     /// Mark of the last search that met a body.
     seen: Vec<u32>,
     mark: u32,
-    /// Since the cells were sized: searches, and the bodies they met.
+    /// Since the cells were sized: searches, and the boxes they tested.
     searches: usize,
     met: usize,
     /// Scratch of a search: flyers, and shapes of what does not fly.
@@ -194,8 +194,8 @@ impl Flyers {
         });
     }
 
-    /// Bodies of the grid that may be in `bounds`, each once, in `near`.
-    fn search(&mut self, cells: Cells, bodies: usize) -> Vec<u32> {
+    /// Bodies of the grid whose boxes overlap that of a seat, each once.
+    fn search(&mut self, seat: &Seat, cells: Cells, bodies: usize) -> Vec<u32> {
         let mut near = core::mem::take(&mut self.near);
         near.clear();
         if self.seen.len() < bodies {
@@ -203,7 +203,7 @@ impl Flyers {
         }
         self.mark = self.mark.wrapping_add(1);
         let (mark, seen) = (self.mark, &mut self.seen);
-        self.grid.visit(cells, |body| {
+        self.met += self.grid.visit(seat, cells, |body| {
             let last = &mut seen[body as usize];
             if *last != mark {
                 *last = mark;
@@ -252,7 +252,7 @@ impl Flyers {
         if cells.count() > self.grid.count() as u64 {
             near.extend(bodies.indices().filter(|body| here(*body)));
         } else {
-            self.grid.visit(cells, |body| {
+            self.grid.visit(&Seat::new(u32::MAX, seen), cells, |body| {
                 if here(body) {
                     near.push(body);
                 }
@@ -306,7 +306,7 @@ impl Flyers {
         if cells.count() > MOST_CELLS {
             return false;
         }
-        self.grid.insert(index, cells);
+        self.grid.insert(Seat::new(index, course.swept), cells);
         course.cells = Some(cells);
         true
     }
@@ -391,7 +391,7 @@ impl Flyers {
         for index in flying {
             let course = &mut bodies.get_mut(index).course;
             let cells = self.grid.cells(course.swept);
-            self.grid.insert(index, cells);
+            self.grid.insert(Seat::new(index, course.swept), cells);
             course.cells = Some(cells);
         }
     }

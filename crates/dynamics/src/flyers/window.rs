@@ -5,7 +5,7 @@ use carom_math::Vec2;
 
 /// Reaches are taken this much larger, so that no rounding at a rim loses a pair, and the search for the
 /// time of impact begins before it, where the gap is above its tolerance.
-const ROOM: f64 = 1.0 + 1.0 / 1024.0;
+pub(super) const ROOM: f64 = 1.0 + 1.0 / 1024.0;
 
 /// When circles overlap, in s from now.
 #[derive(Clone, Copy, Debug, PartialEq)]
