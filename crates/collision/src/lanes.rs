@@ -22,24 +22,28 @@ pub(crate) fn lowest(hull: &Hull<'_>, direction: Vec2) -> (usize, f64) {
         }
         return best;
     }
-    let mut low = [f64::INFINITY; 4];
-    let mut at = [0_usize; 4];
-    for (number, block) in hull.blocks.iter().enumerate() {
+    let along = |block: &EdgeBlock| {
+        [0, 1, 2, 3].map(|lane| direction.x * block.x[lane] + direction.y * block.y[lane])
+    };
+    let mut low = along(&hull.blocks[0]);
+    let mut at = [0, 1, 2, 3_usize];
+    for (number, block) in hull.blocks.iter().enumerate().skip(1) {
+        let next = along(block);
         for lane in 0..4 {
-            let along = direction.x * block.x[lane] + direction.y * block.y[lane];
-            let less = along < low[lane];
-            low[lane] = if less { along } else { low[lane] };
-            at[lane] = if less { number } else { at[lane] };
+            let less = next[lane] < low[lane];
+            low[lane] = if less { next[lane] } else { low[lane] };
+            at[lane] = if less { 4 * number + lane } else { at[lane] };
         }
     }
-    let mut best = (4 * at[0], low[0]);
-    for lane in 1..4 {
-        let vertex = 4 * at[lane] + lane;
-        if low[lane] < best.1 || (low[lane] <= best.1 && vertex < best.0) {
-            best = (vertex, low[lane]);
+    let first = |i: (usize, f64), j: (usize, f64)| {
+        if j.1 < i.1 || (j.1 <= i.1 && j.0 < i.0) {
+            j
+        } else {
+            i
         }
-    }
-    best
+    };
+    let lane = |k: usize| (at[k], low[k]);
+    first(first(lane(0), lane(1)), first(lane(2), lane(3)))
 }
 
 /// The smallest `direction · q` of all vertices but one, in m for a unit direction.
@@ -96,6 +100,44 @@ pub(crate) fn heights(block: &EdgeBlock, facing: &Hull<'_>, turn: Rot, offset: V
     [0, 1, 2, 3].map(|lane| low[lane] + over(block, lane, offset))
 }
 
+/// Which edge of `own` is farthest from `facing`, the first of equals, and its height: see [`heights`].
+pub(crate) fn widest_edge(
+    own: &Hull<'_>,
+    facing: &Hull<'_>,
+    turn: Rot,
+    offset: Vec2,
+) -> (usize, f64) {
+    let mut best = (0, f64::NEG_INFINITY);
+    if own.blocks.is_empty() {
+        each_height(own, facing, turn, offset, |edge, height| {
+            if height > best.1 {
+                best = (edge, height);
+            }
+        });
+        return best;
+    }
+    let mut high = heights(&own.blocks[0], facing, turn, offset);
+    let mut at = [0, 1, 2, 3_usize];
+    for (number, block) in own.blocks.iter().enumerate().skip(1) {
+        let next = heights(block, facing, turn, offset);
+        for lane in 0..4 {
+            let more = next[lane] > high[lane];
+            high[lane] = if more { next[lane] } else { high[lane] };
+            at[lane] = if more { 4 * number + lane } else { at[lane] };
+        }
+    }
+    let first = |i: (usize, f64), j: (usize, f64)| {
+        if j.1 > i.1 || (j.1 >= i.1 && j.0 < i.0) {
+            j
+        } else {
+            i
+        }
+    };
+    let lane = |k: usize| (at[k], high[k]);
+    // Edges that pad the last block repeat the last one, which comes before them.
+    first(first(lane(0), lane(1)), first(lane(2), lane(3)))
+}
+
 /// Visits every edge of `own` with its height under `facing`, in order: see [`heights`].
 pub(crate) fn each_height(
     own: &Hull<'_>,
@@ -144,6 +186,8 @@ mod tests {
             let mut fast = Vec::new();
             each_height(&own.hull(), &facing.hull(), turn, offset, |edge, height| fast.push((edge, height)));
             prop_assert_eq!(&fast[..slow.len()], &slow[..]);
+            let widest = slow.iter().fold((0, f64::NEG_INFINITY), |best, next| if next.1 > best.1 { *next } else { best });
+            prop_assert_eq!(widest_edge(&own.hull(), &facing.hull(), turn, offset), widest);
             // The last edge again, as padding.
             prop_assert!(fast[slow.len()..].iter().all(|(_, height)| *height == slow[slow.len() - 1].1));
         }

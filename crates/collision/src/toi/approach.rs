@@ -3,7 +3,7 @@
 use carom_math::{Pose, Rot, Vec2};
 
 use super::facing::{Facing, Gap};
-use crate::lanes::{each_height, highest_over};
+use crate::lanes::{each_height, highest_over, widest_edge};
 use crate::{Hull, Motion};
 
 /// A direction that may separate two hulls.
@@ -202,13 +202,25 @@ impl<'a> Approach<'a> {
 
     /// The axis along which the hulls are farthest apart at `at`; the first of equals.
     pub(super) fn widest(&self, at: &Instant) -> Axis {
-        let mut best = (f64::NEG_INFINITY, Axis::World { normal: Vec2::X });
-        self.each_axis(at, |axis, height| {
-            if height > best.0 {
-                best = (height, axis);
-            }
+        if let Some(owner) = self.wall {
+            return Axis::Edge { owner, edge: 0 };
+        }
+        if let Some(disc) = self.disc {
+            return self.axis_of_disc(disc, at);
+        }
+        let [a, b] = [0, 1].map(|owner| {
+            let (turn, offset) = self.seen_from(owner, at);
+            widest_edge(&self.hulls[owner], &self.hulls[1 - owner], turn, offset)
         });
-        best.1
+        let (owner, edge) = if b.1 > a.1 { (1, b.0) } else { (0, a.0) };
+        Axis::Edge { owner, edge }
+    }
+
+    /// Pose of the other hull in the frame of one.
+    fn seen_from(&self, owner: usize, at: &Instant) -> (Rot, Vec2) {
+        let [from, to] = [owner, 1 - owner].map(|k| at.rotation[k]);
+        let d = if owner == 0 { at.d } else { -at.d };
+        (from.inverse() * to, from.inverse_mul(d))
     }
 
     /// Visits every axis that can separate the hulls at `at`, with the gap along it, radii left out. To rounding: what
@@ -224,24 +236,12 @@ impl<'a> Approach<'a> {
         }
         for owner in 0..2 {
             let [own, facing] = [owner, 1 - owner].map(|k| &self.hulls[k]);
-            let [from, to] = [owner, 1 - owner].map(|k| at.rotation[k]);
-            let d = if owner == 0 { at.d } else { -at.d };
-            each_height(
-                own,
-                facing,
-                from.inverse() * to,
-                from.inverse_mul(d),
-                |edge, height| {
-                    // Edges that pad the last block repeat the last one.
-                    visit(
-                        Axis::Edge {
-                            owner,
-                            edge: edge.min(own.normals.len() - 1),
-                        },
-                        height,
-                    );
-                },
-            );
+            let (turn, offset) = self.seen_from(owner, at);
+            each_height(own, facing, turn, offset, |edge, height| {
+                // Edges that pad the last block repeat the last one.
+                let edge = edge.min(own.normals.len() - 1);
+                visit(Axis::Edge { owner, edge }, height);
+            });
         }
     }
 

@@ -46,7 +46,7 @@ pub(super) fn first_contact(approach: &Approach<'_>, horizon: f64) -> TimeOfImpa
         search.level = None;
         if least.gap <= approach.tolerance(search.tau) {
             // Closed on every side. The pair opens if any of its closed axes opens.
-            let (opening, rate) = search.opening(axis, least.gap);
+            let (opening, rate) = search.opening(axis, &facing, &least);
             if rate < closing || (sank && rate < 0.0) {
                 return search.contact(opening, query == 0 && window.from <= 0.0);
             }
@@ -74,6 +74,17 @@ pub(super) fn first_contact(approach: &Approach<'_>, horizon: f64) -> TimeOfImpa
     TimeOfImpact::Unresolved {
         safe_until: search.tau,
     }
+}
+
+/// The slowest rate of all gaps up to `most`.
+fn slowest(approach: &Approach<'_>, facing: &Facing, most: f64) -> f64 {
+    let mut rate = f64::INFINITY;
+    facing.each_gap(approach, |vertex| {
+        if vertex.gap <= most && vertex.rate < rate {
+            rate = vertex.rate;
+        }
+    });
+    rate
 }
 
 enum Advance {
@@ -107,13 +118,16 @@ impl Search<'_> {
 
     /// Of the axes closed within [`NEAR`] of the widest, the one whose gap opens fastest (or
     /// closes slowest), and that rate. Cuts through concave shapes are left aside if they can be.
-    fn opening(&self, widest: Axis, gap: f64) -> (Axis, f64) {
-        let (approach, at) = (self.approach, &self.at);
+    fn opening(&self, widest: Axis, facing: &Facing, least: &Gap) -> (Axis, f64) {
+        let (approach, at, gap) = (self.approach, &self.at, least.gap);
         let near = NEAR * approach.size();
-        let mut best: Option<(bool, f64, Axis)> = None;
-        let radius = approach.hulls[0].radius + approach.hulls[1].radius;
         // Twice as near, since heights are rounded otherwise than gaps.
-        let floor = gap + radius - 2.0 * near;
+        let floor = gap - 2.0 * near;
+        if approach.is_alone(widest, least, at, floor) {
+            return (widest, slowest(approach, facing, gap + near));
+        }
+        let floor = floor + approach.hulls[0].radius + approach.hulls[1].radius;
+        let mut best: Option<(bool, f64, Axis)> = None;
         approach.each_axis(at, |axis, height| {
             if height < floor && axis != widest {
                 return;
@@ -123,12 +137,7 @@ impl Search<'_> {
             if least.gap < gap - near {
                 return;
             }
-            let mut rate = f64::INFINITY;
-            facing.each_gap(approach, |vertex| {
-                if vertex.gap <= least.gap + near && vertex.rate < rate {
-                    rate = vertex.rate;
-                }
-            });
+            let rate = slowest(approach, &facing, least.gap + near);
             let real = self.touches(axis, &least, at);
             if best.is_none_or(|(r, fastest, _)| (real, rate) > (r, fastest)) {
                 best = Some((real, rate, axis));

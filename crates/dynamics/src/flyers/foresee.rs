@@ -97,20 +97,19 @@ impl World {
         self.queue_end(index, Ahead::Ground);
     }
 
-    /// Enters the end of a search.
+    /// Enters the end of a search, unless an earlier entry will come to it: a motion changes more often
+    /// than its searches end.
     fn queue_end(&mut self, index: u32, ahead: Ahead) {
-        let state = self.bodies.get(index);
-        let time = if ahead == Ahead::Ground {
-            state.course.ground
-        } else {
-            state.course.horizon
-        };
-        let stamp = state.version.wrapping_mul(2);
+        let (end, entered) = self.bodies.get_mut(index).course.end(ahead);
+        if *entered <= end {
+            return;
+        }
+        *entered = end;
         self.flyers.queue.push(Entry {
-            time,
+            time: end,
             a: index,
             b: index,
-            stamp,
+            stamp: 0,
             ahead,
         });
     }
@@ -164,9 +163,10 @@ impl World {
                 near.extend(self.bodies.indices().filter(here));
             }
         }
+        let own = Circle::of(self.bodies.get(index), time);
         for &other in &near {
             if other != index && Some(other) != but {
-                self.approach(index, other, time, cause);
+                self.approach(index, &own, other, time, cause);
             }
         }
         self.flyers.near = near;
@@ -187,7 +187,8 @@ impl World {
             }
             let state = self.bodies.get(owner);
             if state.course.flies {
-                self.approach(index, owner, time, cause);
+                let own = Circle::of(self.bodies.get(index), time);
+                self.approach(index, &own, owner, time, cause);
             } else if state.in_crowd {
                 self.pair_flyer(index, at);
                 self.knock_at(index, at, time);
@@ -207,9 +208,19 @@ impl World {
         self.flyers.shapes = near;
     }
 
-    /// Two flyers that may meet before one of their horizons ends.
-    pub(super) fn approach(&mut self, index: u32, other: u32, time: SimTime, cause: Cause) {
+    /// Two flyers that may meet before one of their horizons ends, `own` the circle of the first.
+    pub(super) fn approach(
+        &mut self,
+        index: u32,
+        own: &Circle,
+        other: u32,
+        time: SimTime,
+        cause: Cause,
+    ) {
         let (a, b) = (self.bodies.get(index), self.bodies.get(other));
+        let Some(window) = own.meets(&Circle::of(b, time)) else {
+            return;
+        };
         if a.kind != BodyKind::Dynamic && b.kind != BodyKind::Dynamic {
             return;
         }
@@ -218,13 +229,9 @@ impl World {
         {
             return;
         }
-        let horizon = common_horizon(a, b);
-        let Some(window) = circles(a, b, time) else {
-            return;
-        };
         if window.from > 0.0 {
             let meet = time + window.from;
-            if meet <= horizon {
+            if meet <= common_horizon(a, b) {
                 self.queue_near(index, other, meet);
             }
             return;
@@ -325,7 +332,7 @@ impl World {
         }
         match entry.ahead {
             Ahead::Horizon => {
-                if self.ends_now(&entry) && self.bodies.get(index).course.cells.is_some() {
+                if self.ends_now(&entry) {
                     self.flyers.resize(&mut self.bodies, time);
                     if self.look_round(index, time) {
                         self.meet_flyers(index, time, Cause::Horizon, None);
@@ -367,16 +374,21 @@ impl World {
         }
     }
 
-    /// Whether the search that an entry ends is the last one.
-    fn ends_now(&self, entry: &Entry) -> bool {
-        let state = self.bodies.get(entry.a);
-        let end = if entry.ahead == Ahead::Ground {
-            state.course.ground
-        } else {
-            state.course.horizon
-        };
-        let same = state.version.wrapping_mul(2) == entry.stamp;
-        state.course.flies && same && end == entry.time
+    /// Whether the search that an entry is for ends now; if it ends later, that is entered.
+    fn ends_now(&mut self, entry: &Entry) -> bool {
+        let course = &mut self.bodies.get_mut(entry.a).course;
+        let (end, entered) = course.end(entry.ahead);
+        if *entered != entry.time {
+            return false;
+        }
+        *entered = SimTime::NEVER;
+        if !course.flies || entry.ahead == Ahead::Horizon && course.cells.is_none() {
+            return false;
+        }
+        if end > entry.time {
+            self.queue_end(entry.a, entry.ahead);
+        }
+        end == entry.time
     }
 
     /// What does not fly is looked for anew: twice as far ahead where there was nothing.
@@ -399,15 +411,30 @@ impl World {
     }
 }
 
-/// When the circles of two flyers overlap, from `time` on.
-pub(super) fn circles(a: &BodyState, b: &BodyState, time: SimTime) -> Option<Window> {
-    let (one, two) = (&a.motion, &b.motion);
-    window::of_circles(
-        two.centre_at(time) - one.centre_at(time),
-        two.velocity_at(time) - one.velocity_at(time),
-        two.acceleration - one.acceleration,
-        a.reach + b.reach,
-    )
+/// The bounding circle of a body at an instant, in motion.
+pub(super) struct Circle {
+    track: Track,
+    reach: f64,
+}
+
+impl Circle {
+    pub(super) fn of(state: &BodyState, time: SimTime) -> Self {
+        Self {
+            track: Track::of(&state.motion, time),
+            reach: state.reach,
+        }
+    }
+
+    /// When it overlaps another one, from now on.
+    pub(super) fn meets(&self, other: &Self) -> Option<Window> {
+        let (a, b) = (&self.track, &other.track);
+        window::of_circles(
+            b.centre - a.centre,
+            b.velocity - a.velocity,
+            b.acceleration - a.acceleration,
+            self.reach + other.reach,
+        )
+    }
 }
 
 /// Until when two flyers have looked for each other.

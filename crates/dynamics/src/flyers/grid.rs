@@ -27,7 +27,7 @@ impl Seat {
     }
 
     /// Four comparisons at once: most boxes are apart, and nobody can tell in which way.
-    fn is_within(&self, limits: &[f32; 4]) -> bool {
+    fn is_within(&self, limits: [f32; 4]) -> bool {
         let apart = [0, 1, 2, 3].map(|side| u32::from(self.sides[side] > limits[side]));
         apart[0] | apart[1] | apart[2] | apart[3] == 0
     }
@@ -133,7 +133,7 @@ impl Grid {
             let list = &self.lists[self.list(cell)];
             seats += list.len();
             for other in list {
-                if other.is_within(&limits) {
+                if other.is_within(limits) {
                     visit(other.body);
                 }
             }
@@ -141,13 +141,9 @@ impl Grid {
         seats
     }
 
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "the cast saturates: beyond 2^31 cells all share the last one"
-    )]
     fn cell(&self, point: Vec2) -> (i32, i32) {
-        let cell = (point / self.side).floor();
-        (cell.x as i32, cell.y as i32)
+        let cell = point / self.side;
+        (floor(cell.x), floor(cell.y))
     }
 
     /// Neighbours get neighbouring lists along a row; rows are spread by a golden-ratio hash.
@@ -156,6 +152,15 @@ impl Grid {
         let hash = (x as u32).wrapping_add((y as u32).wrapping_mul(0x9E37_79B1));
         hash as usize & (self.lists.len() - 1)
     }
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "the cast saturates: beyond 2^31 cells all share the last one"
+)]
+fn floor(x: f64) -> i32 {
+    let whole = x as i32;
+    whole.saturating_sub(i32::from(f64::from(whole) > x))
 }
 
 #[cfg(test)]

@@ -48,6 +48,8 @@ pub(crate) struct Course {
     pub(crate) span: f64,
     /// Nothing was found there.
     pub(crate) alone: bool,
+    /// The earliest entries for the ends of both searches.
+    pub(crate) entered: (SimTime, SimTime),
     /// Node of that box in the tree aloft.
     pub(crate) node: Option<NodeId>,
     /// The tick in which it last struck, and what its impacts spent in it.
@@ -67,10 +69,21 @@ impl Default for Course {
             reached: Aabb::EMPTY,
             span: 0.0,
             alone: false,
+            entered: (SimTime::NEVER, SimTime::NEVER),
             node: None,
             tick: 0,
             spent: 0.0,
             streak: Streak::default(),
+        }
+    }
+}
+
+impl Course {
+    /// When a search ends, and the entry for that.
+    fn end(&mut self, ahead: Ahead) -> (SimTime, &mut SimTime) {
+        match ahead {
+            Ahead::Ground => (self.ground, &mut self.entered.1),
+            _ => (self.horizon, &mut self.entered.0),
         }
     }
 }
@@ -414,11 +427,13 @@ fn drift(frame: &Frame, bodies: &Bodies, flying: &[u32], time: SimTime) -> Optio
     (square > 2.0 * (squares / count - square)).then_some(mean)
 }
 
-/// Whether a motion has changed since an entry was made.
+/// Whether an entry is for nothing: a motion has changed since it was made, or another one comes before it.
 fn is_stale(entry: &Entry, bodies: &Bodies, colliders: &[Collider]) -> bool {
     let version = |index: u32| bodies.get(index).version;
     let other = match entry.ahead {
         Ahead::Collapse => return false,
+        Ahead::Horizon => return bodies.get(entry.a).course.entered.0 != entry.time,
+        Ahead::Ground => return bodies.get(entry.a).course.entered.1 != entry.time,
         Ahead::NearShape => colliders[entry.b as usize].body,
         _ => entry.b,
     };

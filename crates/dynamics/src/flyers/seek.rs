@@ -4,7 +4,7 @@ use carom_collision::{AxisFeature, Impact, TimeOfImpact, contacts, time_of_impac
 use carom_math::SimTime;
 
 use super::Foreseen;
-use super::foresee::{Cause, circles, common_horizon};
+use super::foresee::{Cause, Circle, common_horizon};
 use super::window::Window;
 use crate::World;
 use crate::body::BodyState;
@@ -20,13 +20,13 @@ const BEYOND: f64 = 1e-6;
 impl World {
     /// The instant from which on two flyers may meet.
     pub(super) fn come_near(&mut self, index: u32, other: u32, time: SimTime) {
-        let (a, b) = (self.bodies.get(index), self.bodies.get(other));
-        let Some(window) = circles(a, b, time) else {
+        let [own, theirs] = [index, other].map(|body| Circle::of(self.bodies.get(body), time));
+        let Some(window) = own.meets(&theirs) else {
             return;
         };
         // A bound, whose end is not known, may come early; a root is there but for its rounding.
         if window.to.is_infinite() && window.from > 0.0 {
-            self.approach(index, other, time, Cause::Deflected);
+            self.approach(index, &own, other, time, Cause::Deflected);
         } else {
             self.seek(index, other, time, window, Cause::Deflected);
         }
