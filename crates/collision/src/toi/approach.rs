@@ -4,7 +4,7 @@ use carom_math::{Pose, Rot, Vec2};
 
 use super::facing::{Facing, Gap};
 use crate::lanes::{each_height, highest_over, widest_edge};
-use crate::{Hull, Motion};
+use crate::{AxisFeature, Hull, Motion, Side};
 
 /// A direction that may separate two hulls.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,6 +13,19 @@ pub(super) enum Axis {
     Edge { owner: usize, edge: usize },
     /// A direction fixed in the world, from A to B; one of the hulls is a disc.
     World { normal: Vec2 },
+}
+
+impl Axis {
+    /// The axis along which something touches, where that is an edge's.
+    pub(super) fn of(feature: AxisFeature) -> Option<Self> {
+        match feature {
+            AxisFeature::Edge { owner, edge, .. } => Some(Self::Edge {
+                owner: usize::from(owner == Side::B),
+                edge,
+            }),
+            AxisFeature::Vertices { .. } => None,
+        }
+    }
 }
 
 /// Relative state at one instant.

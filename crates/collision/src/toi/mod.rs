@@ -18,7 +18,7 @@ use carom_math::{Vec2, cross, perp};
 
 use crate::parts::is_single;
 use crate::{AxisFeature, Hull, Motion, part};
-use approach::Approach;
+use approach::{Approach, Axis};
 use parts::first_of_parts;
 
 /// Contacts are flush where they part by less than this fraction of the stretch between them, and
@@ -136,6 +136,23 @@ pub fn time_of_impact(
     first_of_parts(a, motion_a, b, motion_b, horizon)
 }
 
+/// [`time_of_impact`] of two shapes that have just struck each other at `last` and part: as right, and sooner.
+#[must_use]
+pub fn time_of_impact_after(
+    last: ImpactFeature,
+    a: &Shape,
+    motion_a: &Motion,
+    b: &Shape,
+    motion_b: &Motion,
+    horizon: f64,
+) -> TimeOfImpact {
+    if !(is_single(a) && is_single(b)) {
+        return time_of_impact(a, motion_a, b, motion_b, horizon);
+    }
+    let approach = Approach::new(part(a, 0), motion_a, part(b, 0), motion_b);
+    search::first_contact(&approach, horizon, Axis::of(last.feature))
+}
+
 /// [`time_of_impact`] of two convex parts, which count as part 0 of their shapes in
 /// [`Impact::features`].
 #[must_use]
@@ -151,7 +168,7 @@ pub fn time_of_impact_of_parts(
         return TimeOfImpact::Clear;
     }
     let approach = Approach::new(*a, motion_a, *b, motion_b);
-    search::first_contact(&approach, horizon)
+    search::first_contact(&approach, horizon, None)
 }
 
 /// The one that happens first; a contact that is there already goes before all, the faster first.

@@ -24,8 +24,12 @@ const NEAR: f64 = 1e-9;
 /// size: rounding after an impact, never a visible overlap.
 const SLACK: f64 = 1e-12;
 
-/// The first contact of two convex hulls within `horizon`.
-pub(super) fn first_contact(approach: &Approach<'_>, horizon: f64) -> TimeOfImpact {
+/// The first contact of two convex hulls within `horizon`; they may part along `last` now.
+pub(super) fn first_contact(
+    approach: &Approach<'_>,
+    horizon: f64,
+    last: Option<Axis>,
+) -> TimeOfImpact {
     let Some(window) = approach.window(horizon) else {
         return TimeOfImpact::Clear;
     };
@@ -40,20 +44,29 @@ pub(super) fn first_contact(approach: &Approach<'_>, horizon: f64) -> TimeOfImpa
     let closing = -1e-13 * approach.speed;
     let mut sank = false;
     for query in 0..QUERIES {
-        let mut axis = approach.widest(&search.at);
-        let mut facing = approach.facing(axis, &search.at);
-        let mut least = facing.least(approach);
+        let parting = last.filter(|_| query == 0);
+        let (mut axis, mut facing, mut least);
         search.level = None;
-        if least.gap <= approach.tolerance(search.tau) {
-            // Closed on every side. The pair opens if any of its closed axes opens.
-            let (opening, rate) = search.opening(axis, &facing, &least);
-            if rate < closing || (sank && rate < 0.0) {
-                return search.contact(opening, query == 0 && window.from <= 0.0);
-            }
-            axis = opening;
+        if let Some(known) = parting.and_then(|axis| search.parts_along(axis, -closing)) {
+            (axis, facing, least) = known;
+            search.level = Some(least.gap - search.slack());
+        } else {
+            axis = approach.widest(&search.at);
             facing = approach.facing(axis, &search.at);
             least = facing.least(approach);
-            search.level = Some(least.gap - search.slack());
+            if least.gap <= approach.tolerance(search.tau) {
+                // Closed on every side. The pair opens if any of its closed axes opens.
+                let (opening, rate) = search.opening(axis, &facing, &least);
+                if rate < closing || (sank && rate < 0.0) {
+                    return search.contact(opening, query == 0 && window.from <= 0.0);
+                }
+                if opening != axis {
+                    axis = opening;
+                    facing = approach.facing(axis, &search.at);
+                    least = facing.least(approach);
+                }
+                search.level = Some(least.gap - search.slack());
+            }
         }
         match search.advance(axis, facing, least) {
             Advance::Closed(least) => {
@@ -114,6 +127,18 @@ impl Search<'_> {
     fn move_to(&mut self, tau: f64) {
         self.tau = tau;
         self.at = self.approach.at(tau);
+    }
+
+    /// Whether a pair that touches opens along an axis by more than `rate`: then no other axis matters.
+    fn parts_along(&self, axis: Axis, rate: f64) -> Option<(Axis, Facing, Gap)> {
+        let approach = self.approach;
+        let facing = approach.facing(axis, &self.at);
+        let least = facing.least(approach);
+        let touches =
+            least.gap <= approach.tolerance(self.tau) && least.gap >= -self.slack();
+        let near = NEAR * approach.size();
+        (touches && slowest(approach, &facing, least.gap + near) > rate)
+            .then_some((axis, facing, least))
     }
 
     /// Of the axes closed within [`NEAR`] of the widest, the one whose gap opens fastest (or

@@ -17,7 +17,7 @@ mod strike;
 mod window;
 
 use arrayvec::ArrayVec;
-use carom_collision::{BoxTree, NodeId, Side, roundable};
+use carom_collision::{AxisFeature, BoxTree, ImpactFeature, NodeId, Side, roundable};
 use carom_geometry::Aabb;
 use carom_math::{SimTime, Vec2};
 
@@ -97,8 +97,18 @@ pub(crate) struct Foreseen {
     pub(crate) normal: Vec2,
     /// One point, or both ends of a common stretch, in m.
     pub(crate) points: ArrayVec<Vec2, 2>,
+    /// What touches at the first point.
+    pub(crate) feature: ImpactFeature,
+}
+
+impl Foreseen {
     /// Whose straight face is struck, if one is.
-    pub(crate) face: Option<Side>,
+    const fn face(&self) -> Option<Side> {
+        match self.feature.feature {
+            AxisFeature::Edge { owner, .. } => Some(owner),
+            AxisFeature::Vertices { .. } => None,
+        }
+    }
 }
 
 /// Boxes tested per registration that a cell is sized for: fewer waste horizons, more waste tests.
@@ -130,6 +140,8 @@ pub(crate) struct Flyers {
     shapes: Vec<u32>,
     /// The end of a low bounce, in s from the impact that is being resolved.
     hop: Option<(f64, Foreseen)>,
+    /// The shapes whose impact is being resolved, and where they part.
+    struck: Option<((u32, u32), ImpactFeature)>,
 }
 
 impl Flyers {
@@ -150,6 +162,7 @@ impl Flyers {
             near: Vec::new(),
             shapes: Vec::new(),
             hop: None,
+            struck: None,
         }
     }
 

@@ -1,6 +1,6 @@
 //! When two bodies touch that are near enough to meet, and what is already in contact.
 
-use carom_collision::{AxisFeature, Impact, TimeOfImpact, contacts, time_of_impact};
+use carom_collision::{Impact, TimeOfImpact, contacts, time_of_impact, time_of_impact_after};
 use carom_math::SimTime;
 
 use super::Foreseen;
@@ -106,7 +106,14 @@ impl World {
         );
         // A little beyond: an impact at the very end is found to its last digit, too.
         let end = length * (1.0 + BEYOND);
-        let next = time_of_impact(&first.solid, &motion_a, &second.solid, &motion_b, end);
+        let (first, second) = (&first.solid, &second.solid);
+        let struck = self.flyers.struck.filter(|(struck, _)| *struck == shapes);
+        let next = match struck {
+            Some((_, last)) => {
+                time_of_impact_after(last, first, &motion_a, second, &motion_b, end)
+            }
+            None => time_of_impact(first, &motion_a, second, &motion_b, end),
+        };
         let (wait, impact) = match next {
             TimeOfImpact::Clear => (f64::INFINITY, None),
             TimeOfImpact::Hit(impact) => (impact.time, Some(impact)),
@@ -139,10 +146,7 @@ impl World {
             bodies: (a, b),
             colliders: shapes,
             normal: impact.normal,
-            face: match impact.features[0].feature {
-                AxisFeature::Edge { owner, .. } => Some(owner),
-                AxisFeature::Vertices { .. } => None,
-            },
+            feature: impact.features[0],
             points: impact.points,
         };
         self.flyers.push_impact(time + wait, stamp, foreseen);

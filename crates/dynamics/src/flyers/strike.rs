@@ -65,9 +65,10 @@ impl World {
             &self.colliders[first as usize],
             &self.colliders[second as usize],
         );
-        let speed = self.approach_speed(impact, time);
+        let before = [a, b].map(|index| self.bodies.get(index).in_impact(time));
+        let speed = approach_speed(impact, &before);
         let press = self.press(impact, time);
-        if speed <= NOISE * self.scale(impact, time) {
+        if speed <= NOISE * self.scale(impact, &before) {
             return self.touches(impact, time, speed, press);
         }
         let e = material.restitution;
@@ -87,9 +88,9 @@ impl World {
             restitution: e,
             ..material
         };
-        self.strike_at(impact, time, material);
+        self.strike_at(impact, time, &before, material);
         if press <= 0.0 {
-            self.deflect_both(impact.bodies, time);
+            self.deflect_both(impact, time);
         } else if e == 0.0 {
             if ends {
                 self.flyers.announce(streak.limit(left), impact.bodies);
@@ -97,33 +98,19 @@ impl World {
             self.begins_to_last(impact, time);
         } else {
             self.hop(impact, time);
-            self.deflect_both(impact.bodies, time);
+            self.deflect_both(impact, time);
             self.flyers.hop = None;
         }
     }
 
-    /// Fastest approach of the points of an impact, in m/s.
-    fn approach_speed(&self, impact: &Foreseen, time: SimTime) -> f64 {
-        let (one, two) = (
-            self.bodies.get(impact.bodies.0),
-            self.bodies.get(impact.bodies.1),
-        );
-        let speed = |point: &Vec2| -opening_speed(one, two, time, *point, impact.normal);
-        impact
-            .points
-            .iter()
-            .map(speed)
-            .fold(f64::NEG_INFINITY, f64::max)
-    }
-
     /// Speed whose rounding an approach is judged by, in m/s: that of the bodies, or with which their
     /// impacts began to come ever faster.
-    fn scale(&self, impact: &Foreseen, time: SimTime) -> f64 {
-        let of = |index: u32| {
+    fn scale(&self, impact: &Foreseen, before: &[ImpactBody; 2]) -> f64 {
+        let of = |index: u32, body: &ImpactBody| {
             let state = self.bodies.get(index);
-            pace(state, time).max(state.course.streak.top())
+            pace(body, state.reach).max(state.course.streak.top())
         };
-        of(impact.bodies.0) + of(impact.bodies.1)
+        of(impact.bodies.0, &before[0]) + of(impact.bodies.1, &before[1])
     }
 
     /// Counts an impact among those that come ever faster.
@@ -142,20 +129,22 @@ impl World {
     }
 
     /// The impact itself, by the law at one point or at all that approach.
-    fn strike_at(&mut self, impact: &Foreseen, time: SimTime, material: PairMaterial) {
+    fn strike_at(
+        &mut self,
+        impact: &Foreseen,
+        time: SimTime,
+        before: &[ImpactBody; 2],
+        material: PairMaterial,
+    ) {
         let PairMaterial {
             restitution,
             friction,
             tangent_speed,
         } = material;
-        let (one, two) = (
-            self.bodies.get(impact.bodies.0),
-            self.bodies.get(impact.bodies.1),
-        );
         let struck: ArrayVec<ImpactContact, 2> = impact
             .points
             .iter()
-            .filter(|point| opening_speed(one, two, time, **point, impact.normal) < 0.0)
+            .filter(|point| opening(before, **point, impact.normal) < 0.0)
             .map(|point| ImpactContact {
                 point: *point,
                 normal: impact.normal,
@@ -166,13 +155,13 @@ impl World {
         if let [contact] = struck.as_slice()
             && tangent_speed == 0.0
         {
-            return self.strike_once(impact, contact, time);
+            return self.strike_once(impact, contact, before, time);
         }
         if let [first, last] = struck.as_slice()
             && friction == 0.0
-            && let Some(point) = self.common_point(impact, (first, last), time)
+            && let Some(point) = common_point(impact, (first, last), before)
         {
-            return self.strike_once(impact, &ImpactContact { point, ..*first }, time);
+            return self.strike_once(impact, &ImpactContact { point, ..*first }, before, time);
         }
         let mut shock = Shock::new(time, self.clock.h);
         for contact in struck {
@@ -200,46 +189,14 @@ impl World {
         );
     }
 
-    /// Where one impulse acts as those of a flat landing do that turns neither body against the other.
-    ///
-    /// Both ends approach alike, and after an impulse at x on their line they still do: the spins it adds,
-    /// `(x − a)/I_A` and `(x − b)/I_B` with a and b the centres of mass along the line, cancel there.
-    fn common_point(
-        &self,
-        impact: &Foreseen,
-        (first, last): (&ImpactContact, &ImpactContact),
-        time: SimTime,
-    ) -> Option<Vec2> {
-        let (one, two) = (
-            self.bodies.get(impact.bodies.0),
-            self.bodies.get(impact.bodies.1),
-        );
-        let speed = |point: Vec2| opening_speed(one, two, time, point, impact.normal);
-        let (u, v) = (speed(first.point), speed(last.point));
-        if (u - v).abs() > ALIKE * u.abs() {
-            return None;
-        }
-        let stretch = last.point - first.point;
-        let along = |state: &BodyState| {
-            let from = state.motion.centre_at(time) - first.point;
-            from.dot(stretch) / stretch.length_squared() * state.inverse_inertia
-        };
-        let stiffness = one.inverse_inertia + two.inverse_inertia;
-        let x = if stiffness > 0.0 {
-            (along(one) + along(two)) / stiffness
-        } else {
-            0.5
-        };
-        (0.0..=1.0).contains(&x).then(|| first.point + stretch * x)
-    }
-
     /// A bounce so low that the search for its end would see rounding: it lasts 2 u⁺/a.
     ///
     /// The gap is `u t − a t²/2` but for what the normal turns by: nothing where neither turns or the
     /// one that does is a disc, else less than the spin times the bounce, which is why that must be lower.
     fn hop(&mut self, impact: &Foreseen, time: SimTime) {
-        let (rise, press) = (-self.approach_speed(impact, time), self.press(impact, time));
         let (a, b) = impact.bodies;
+        let after = [a, b].map(|index| self.bodies.get(index).in_impact(time));
+        let (rise, press) = (-approach_speed(impact, &after), self.press(impact, time));
         let (one, two) = (self.bodies.get(a), self.bodies.get(b));
         let round = |at: u32| self.colliders[at as usize].solid.vertices().len() == 1;
         let steady = |state: &BodyState, at: u32| state.motion.spin == 0.0 || round(at);
@@ -271,7 +228,7 @@ impl World {
         };
         let a = feature(impact.bodies.0, impact.colliders.0);
         let b = feature(impact.bodies.1, impact.colliders.1);
-        -gap_acceleration(&a, &b, impact.normal, impact.face)
+        -gap_acceleration(&a, &b, impact.normal, impact.face())
     }
 
     /// They touch, and approach by rounding alone: what is pressed together lasts; what is not has
@@ -310,9 +267,14 @@ impl World {
     }
 
     /// The impact law at one point.
-    fn strike_once(&mut self, impact: &Foreseen, contact: &ImpactContact, time: SimTime) {
+    fn strike_once(
+        &mut self,
+        impact: &Foreseen,
+        contact: &ImpactContact,
+        before: &[ImpactBody; 2],
+        time: SimTime,
+    ) {
         let (a, b) = impact.bodies;
-        let before = [a, b].map(|index| self.bodies.get(index).in_impact(time));
         let outcome = resolve(self.settings.impact_law, &before[0], &before[1], contact);
         let speed = (before[0].velocity_of(contact.point) - before[1].velocity_of(contact.point))
             .dot(contact.normal);
@@ -361,7 +323,9 @@ impl World {
     }
 
     /// New horizons for two bodies that struck each other.
-    fn deflect_both(&mut self, (a, b): (u32, u32), time: SimTime) {
+    fn deflect_both(&mut self, impact: &Foreseen, time: SimTime) {
+        let (a, b) = impact.bodies;
+        self.flyers.struck = Some((impact.colliders, impact.feature));
         let moved = [a, b].map(|index| self.bodies.get(index).inverse_mass > 0.0);
         if moved[0] {
             let partner = moved[1].then_some(b);
@@ -370,6 +334,7 @@ impl World {
         if moved[1] {
             self.foresee(b, time, Cause::Deflected, None);
         }
+        self.flyers.struck = None;
     }
 
     /// Counts an impact; whether one of the bodies has used up those of the present tick.
@@ -502,8 +467,53 @@ impl World {
 }
 
 /// Speed of a body's fastest point, in m/s.
-fn pace(state: &BodyState, time: SimTime) -> f64 {
-    let spin = state.motion.spin_at(time).abs();
-    let rim = if spin > 0.0 { spin * state.reach } else { 0.0 };
-    state.motion.velocity_at(time).length() + rim
+fn pace(body: &ImpactBody, reach: f64) -> f64 {
+    let spin = body.spin.abs();
+    let rim = if spin > 0.0 { spin * reach } else { 0.0 };
+    body.velocity.length() + rim
+}
+
+/// Normal velocity of a point of contact: positive opens.
+fn opening(bodies: &[ImpactBody; 2], point: Vec2, normal: Vec2) -> f64 {
+    (bodies[1].velocity_of(point) - bodies[0].velocity_of(point)).dot(normal)
+}
+
+/// Fastest approach of the points of an impact, in m/s.
+fn approach_speed(impact: &Foreseen, bodies: &[ImpactBody; 2]) -> f64 {
+    let speed = |point: &Vec2| -opening(bodies, *point, impact.normal);
+    impact
+        .points
+        .iter()
+        .map(speed)
+        .fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// Where one impulse acts as those of a flat landing do that turns neither body against the other.
+///
+/// Both ends approach alike, and after an impulse at x on their line they still do: the spins it adds,
+/// `(x − a)/I_A` and `(x − b)/I_B` with a and b the centres of mass along the line, cancel there.
+fn common_point(
+    impact: &Foreseen,
+    (first, last): (&ImpactContact, &ImpactContact),
+    bodies: &[ImpactBody; 2],
+) -> Option<Vec2> {
+    let (u, v) = (
+        opening(bodies, first.point, impact.normal),
+        opening(bodies, last.point, impact.normal),
+    );
+    if (u - v).abs() > ALIKE * u.abs() {
+        return None;
+    }
+    let stretch = last.point - first.point;
+    let along = |body: &ImpactBody| {
+        let from = body.centre - first.point;
+        from.dot(stretch) / stretch.length_squared() * body.inverse_inertia
+    };
+    let stiffness = bodies[0].inverse_inertia + bodies[1].inverse_inertia;
+    let x = if stiffness > 0.0 {
+        (along(&bodies[0]) + along(&bodies[1])) / stiffness
+    } else {
+        0.5
+    };
+    (0.0..=1.0).contains(&x).then(|| first.point + stretch * x)
 }
