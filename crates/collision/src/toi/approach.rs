@@ -304,7 +304,8 @@ impl<'a> Approach<'a> {
     }
 
     /// Whether the axis of an edge is the only one along which the hulls are that little apart: along every other the
-    /// gap is below `floor`. An answer of no may be wrong.
+    /// gap is below `floor`. An answer of no may be wrong. Where nothing turns an edge flush with this one counts as
+    /// the same: their gaps have one rate.
     pub(super) fn is_alone(&self, axis: Axis, least: &Gap, at: &Instant, floor: f64) -> bool {
         let Axis::Edge { owner, edge } = axis else {
             return false;
@@ -315,13 +316,18 @@ impl<'a> Approach<'a> {
             return false;
         }
         let d = if owner == 0 { at.d } else { -at.d };
-        let (from, to) = own.edge(edge);
         // The vertex seen from the edge's hull, and the edge seen from the vertex's.
         let vertex = at.rotation[side] * other.vertices[least.vertices[side]] + d;
         let vertex = at.rotation[owner].inverse_mul(vertex);
-        let ends = [from, to].map(|p| at.rotation[side].inverse_mul(at.rotation[owner] * p - d));
-        highest_over(own, [vertex; 2], Some(edge)) < floor
-            && highest_over(other, ends, None) < floor
+        if highest_over(own, [vertex; 2], Some(edge)) >= floor {
+            return false;
+        }
+        let turns = self.spin != [0.0; 2] || self.angular_acceleration != [0.0; 2];
+        let ends = || {
+            let (from, to) = own.edge(edge);
+            [from, to].map(|p| at.rotation[side].inverse_mul(at.rotation[owner] * p - d))
+        };
+        !turns || highest_over(other, ends(), None) < floor
     }
 
     /// The axis at an instant.
