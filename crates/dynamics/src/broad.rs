@@ -108,8 +108,15 @@ impl Broad {
         }
     }
 
-    /// Colliders in the tree whose boxes overlap `bounds`, in order, in `near`.
-    pub(crate) fn in_tree(&self, colliders: &[Collider], bounds: Aabb, near: &mut Vec<u32>) {
+    /// Colliders in the tree whose boxes overlap `bounds`, in order.
+    pub(crate) fn in_tree(&self, colliders: &[Collider], bounds: Aabb) -> Vec<u32> {
+        let mut near = Vec::new();
+        self.search_tree(colliders, bounds, &mut near);
+        near
+    }
+
+    /// [`Self::in_tree`], in the memory of an earlier search.
+    pub(crate) fn search_tree(&self, colliders: &[Collider], bounds: Aabb, near: &mut Vec<u32>) {
         near.clear();
         match self.search {
             PairSearch::None => {}

@@ -197,7 +197,7 @@ impl World {
 
     /// Has all flyers near a body that rests look at it.
     pub(crate) fn show(&mut self, index: u32, time: SimTime) {
-        let (mut flying, mut near) = (Vec::new(), Vec::new());
+        let mut flying = Vec::new();
         for at in self.bodies.get(index).colliders.clone() {
             let bounds = self.colliders[at as usize].fat;
             self.flyers.overlapping(&self.bodies, bounds, &mut flying);
@@ -205,8 +205,7 @@ impl World {
                 self.approach_shape(flyer, at, time, Cause::Arrived);
             }
             // Those in the tree are few and large.
-            self.broad.in_tree(&self.colliders, bounds, &mut near);
-            for &other in &near {
+            for other in self.broad.in_tree(&self.colliders, bounds) {
                 let owner = self.colliders[other as usize].body;
                 if self.bodies.get(owner).course.flies {
                     self.approach_shape(owner, at, time, Cause::Arrived);

@@ -322,7 +322,8 @@ impl<'a> Approach<'a> {
         if highest_over(own, [vertex; 2], Some(edge)) >= floor {
             return false;
         }
-        let turns = self.spin != [0.0; 2] || self.angular_acceleration != [0.0; 2];
+        let mut turning = self.spin.iter().chain(&self.angular_acceleration);
+        let turns = turning.any(|rate| *rate != 0.0);
         let ends = || {
             let (from, to) = own.edge(edge);
             [from, to].map(|p| at.rotation[side].inverse_mul(at.rotation[owner] * p - d))

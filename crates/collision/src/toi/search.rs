@@ -134,8 +134,7 @@ impl Search<'_> {
         let approach = self.approach;
         let facing = approach.facing(axis, &self.at);
         let least = facing.least(approach);
-        let touches =
-            least.gap <= approach.tolerance(self.tau) && least.gap >= -self.slack();
+        let touches = least.gap <= approach.tolerance(self.tau) && least.gap >= -self.slack();
         let near = NEAR * approach.size();
         (touches && slowest(approach, &facing, least.gap + near) > rate)
             .then_some((axis, facing, least))

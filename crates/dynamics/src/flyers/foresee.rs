@@ -178,7 +178,7 @@ impl World {
         let mut near = core::mem::take(&mut self.flyers.shapes);
         let course = &mut self.bodies.get_mut(index).course;
         self.broad
-            .in_tree(&self.colliders, course.reached, &mut near);
+            .search_tree(&self.colliders, course.reached, &mut near);
         course.alone = near.is_empty();
         for &at in &near {
             let owner = self.colliders[at as usize].body;

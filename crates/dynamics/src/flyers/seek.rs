@@ -109,9 +109,7 @@ impl World {
         let (first, second) = (&first.solid, &second.solid);
         let struck = self.flyers.struck.filter(|(struck, _)| *struck == shapes);
         let next = match struck {
-            Some((_, last)) => {
-                time_of_impact_after(last, first, &motion_a, second, &motion_b, end)
-            }
+            Some((_, last)) => time_of_impact_after(last, first, &motion_a, second, &motion_b, end),
             None => time_of_impact(first, &motion_a, second, &motion_b, end),
         };
         let (wait, impact) = match next {
