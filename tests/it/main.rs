@@ -5,6 +5,7 @@
 mod asleep;
 mod belts;
 mod conservation;
+mod crowds;
 mod determinism;
 mod documents;
 mod errors;

@@ -136,7 +136,9 @@ impl World {
                         self.regroup(b, entry.time);
                     }
                     Struck::Impact(changed) => {
-                        self.spent += price(self.pairs.get(entry.pair));
+                        let lost = price(self.pairs.get(entry.pair));
+                        self.spent += lost;
+                        self.rush(&changed, lost, entry.time);
                         for index in changed {
                             self.deflected(index, entry.time);
                         }

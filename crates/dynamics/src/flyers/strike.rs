@@ -72,7 +72,8 @@ impl World {
             return self.touches(impact, time, speed, press);
         }
         let e = material.restitution;
-        if self.outruns(impact, time, price_of(e)) {
+        let lost = price_of(e);
+        if self.outruns(impact, time, lost) {
             return;
         }
         // Bounces of one point on what presses it: 2 u⁺/a, and e times that, and so on.
@@ -100,6 +101,19 @@ impl World {
             self.hop(impact, time);
             self.deflect_both(impact, time);
             self.flyers.hop = None;
+        }
+        self.count_strike(impact, lost, time);
+    }
+
+    /// Counts an impact of flyers among those of the tick.
+    fn count_strike(&mut self, impact: &Foreseen, lost: f64, time: SimTime) {
+        let (a, b) = impact.bodies;
+        let [one, two] = [a, b].map(|index| self.bodies.get(index).is_dynamic());
+        match (one, two) {
+            (true, true) => self.rush(&[a, b], lost, time),
+            (true, false) => self.rush(&[a], lost, time),
+            (false, true) => self.rush(&[b], lost, time),
+            _ => {}
         }
     }
 

@@ -45,6 +45,7 @@ impl World {
         let before: Vec<(u32, Vec2, f64)> = self.forced_lines().collect();
         self.substep();
         self.book_drivers();
+        self.book_belts();
         for (index, d, turn) in before {
             let Some(slot) = self.pool.seats.slot(index) else {
                 continue;
@@ -159,6 +160,27 @@ impl World {
                 }
             }
         }
+    }
+
+    /// What belts put in: friction impulse × the speed at which the surfaces run along.
+    fn book_belts(&mut self) {
+        let mut belts = core::mem::take(&mut self.pool.crowd.belts);
+        belts.sort_unstable();
+        belts.dedup();
+        belts.retain(|&place| {
+            let Some(pair) = self.pairs.find(place) else {
+                return false;
+            };
+            let speed = pair.material.tangent_speed;
+            let mut runs = false;
+            for id in pair.contacts.iter().filter_map(|contact| contact.row) {
+                runs = speed != 0.0;
+                let work = self.pool.seats.rig.row(id).jt * speed;
+                self.pool.crowd.driven.add(work);
+            }
+            runs
+        });
+        self.pool.crowd.belts = belts;
     }
 
     /// Contacts for those who joined since the last look.

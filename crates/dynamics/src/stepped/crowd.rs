@@ -33,6 +33,8 @@ pub(crate) struct Crowd {
     pub(super) newcomers: Vec<u32>,
     /// Kinematic bodies that have a line.
     pub(super) drivers: Vec<u32>,
+    /// Pairs whose surfaces run along, and some that were: their places.
+    pub(super) belts: Vec<u32>,
     /// Motions are older than the lines.
     pub(super) unwritten: bool,
     /// Energy of those who left less that of those who came, in J.
@@ -45,7 +47,7 @@ pub(crate) struct Crowd {
 impl World {
     /// Whether somebody needs sub-steps.
     pub(crate) const fn is_substepping(&self) -> bool {
-        !self.stepped.is_empty() || self.pool.crowd.members > 0
+        !self.stepped.is_empty() || self.pool.crowd.members > 0 || self.pool.rush.is_due()
     }
 
     /// Whether this world may have crowds at all.
@@ -190,6 +192,7 @@ impl World {
             self.leave(index, slot);
         }
         self.pool.crowd.members -= 1;
+        self.bodies.change(index, time, |_| {});
         let (kinetic, potential) = self.bodies.energy_of(index, time);
         self.pool.crowd.balance.add(kinetic + potential);
         let state = self.bodies.get_mut(index);

@@ -213,6 +213,9 @@ impl World {
             pair.contacts.push(contact);
         }
         stepped.found = found;
+        if pair.material.tangent_speed != 0.0 && !pair.contacts.is_empty() {
+            stepped.crowd.belts.push(place);
+        }
         for gone in old {
             if let Some(id) = gone.row {
                 stepped.seats.rig.remove(id);

@@ -14,6 +14,7 @@ mod faces;
 mod graze;
 mod near;
 mod rest;
+mod rush;
 mod seats;
 mod swift;
 mod touch;
@@ -27,6 +28,7 @@ use crate::solver::RowId;
 use bounce::Bounces;
 use crowd::Crowd;
 pub(crate) use crowd::{FEW, MANY};
+use rush::Rush;
 use seats::Seats;
 use swift::Cores;
 
@@ -60,6 +62,7 @@ pub(crate) struct Stepped {
     seen: Vec<u32>,
     look: u32,
     pub(crate) crowd: Crowd,
+    pub(crate) rush: Rush,
 }
 
 impl World {
