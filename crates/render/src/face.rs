@@ -32,11 +32,14 @@ pub(crate) struct Level {
     pub(crate) width: u32,
     pub(crate) height: u32,
     pub(crate) rgba: Vec<u8>,
-    /// The same with 16 bits a channel, ready to be mixed.
+    /// The same with 16 bits a channel, ready to be mixed, and [`PAD`] more pixels on each side that repeat the border.
     pub(crate) wide: Vec<Texel>,
     /// Whether no pixel lets anything through.
     pub(crate) opaque: bool,
 }
+
+/// Pixels that a level's border is repeated by: what lies on the rim of a disc reads so far outside.
+pub(crate) const PAD: u32 = 3;
 
 /// Red, green, blue and opacity, 255 at most, with room for products.
 pub(crate) type Texel = [u16; 4];
@@ -130,7 +133,13 @@ impl core::fmt::Debug for Face {
 impl Level {
     fn new(width: u32, height: u32, rgba: Vec<u8>) -> Self {
         let (pixels, _) = rgba.as_chunks();
-        let wide = pixels.iter().map(|pixel| pixel.map(u16::from)).collect();
+        let within = |place: u32, side: u32| place.saturating_sub(PAD).min(side - 1) as usize;
+        let mut wide = Vec::with_capacity((width + 2 * PAD) as usize * (height + 2 * PAD) as usize);
+        for y in 0..height + 2 * PAD {
+            let row = &pixels[within(y, height) * width as usize..][..width as usize];
+            let columns = (0..width + 2 * PAD).map(|x| row[within(x, width)].map(u16::from));
+            wide.extend(columns);
+        }
         let opaque = pixels.iter().all(|pixel| pixel[3] == 255);
         Self {
             width,

@@ -5,7 +5,7 @@
 
 use carom_math::Vec2;
 
-use crate::face::{Level, Texel};
+use crate::face::{Level, PAD, Texel};
 
 /// A pixel: premultiplied red, green, blue, and opacity.
 pub(crate) type Pixel = [u8; 4];
@@ -230,14 +230,18 @@ impl Shade for Textured<'_> {
         }
         let texels = &self.level.wide[..];
         // Where the middle of the first column falls, less half a texel: the corner of four.
-        let start = self.origin + self.down * (y as f64 + 0.5) + 0.5 * (self.right - Vec2::ONE);
+        let start = self.origin
+            + self.down * (y as f64 + 0.5)
+            + 0.5 * (self.right - Vec2::ONE)
+            + Vec2::splat(f64::from(PAD));
         let [du, dv] = [self.right.x, self.right.y].map(|step| (step * ONE) as i64);
         let column = i64::try_from(first).unwrap_or(0);
         let mut u = ((start.x * ONE) as i64).wrapping_add(du.wrapping_mul(column));
         let mut v = ((start.y * ONE) as i64).wrapping_add(dv.wrapping_mul(column));
-        let stride = self.level.width as usize;
-        let most_u = i64::from(self.level.width - 1) << 32;
-        let most_v = i64::from(self.level.height - 1) << 32;
+        let [wide, high] = [self.level.width, self.level.height].map(|side| side + 2 * PAD);
+        let stride = wide as usize;
+        let most_u = i64::from(wide - 1) << 32;
+        let most_v = i64::from(high - 1) << 32;
         let steps = i64::try_from(count - 1).unwrap_or(0);
         let inside = |from: i64, by: i64, most: i64| {
             let to = from.wrapping_add(by.wrapping_mul(steps));
@@ -286,7 +290,7 @@ impl Shade for Textured<'_> {
 }
 
 /// Pixels that are mixed at once.
-const LANES: usize = 8;
+const LANES: usize = 16;
 
 /// Four channels of so many pixels, with room between them: eight to a register of 128 bits.
 type Wide = [u16; 4 * LANES];
