@@ -6,6 +6,7 @@ use carom_math::Vec2;
 use tiny_skia::PixmapMut;
 
 use crate::own::{Own, packed};
+use crate::painter::BAND;
 use crate::raster::{Canvas, Pixel};
 use crate::skia::{Paths, Pen};
 use crate::tiles::Tiles;
@@ -81,6 +82,8 @@ impl Base<'_> {
 pub(crate) struct Sheets {
     own: Own,
     sheets: Vec<Sheet>,
+    /// Marks that touch each sheet where it is painted again, and their boxes.
+    marks: Vec<Vec<(u32, PixelBox)>>,
 }
 
 impl Sheets {
@@ -135,18 +138,41 @@ impl Sheets {
     ) {
         let size = frame.size();
         let (pixels, _) = bytes.as_chunks_mut();
-        tiles.each(PixelBox::of(size), |run| base.restore(pixels, run, size));
-        self.own.start();
+        // Whole rows of tiles, so that a tile lies in one sheet.
+        let rows = rows(size).next_multiple_of(BAND);
+        for marks in &mut self.marks {
+            marks.clear();
+        }
+        self.marks
+            .resize(size.height().div_ceil(rows) as usize, Vec::new());
         for index in range {
-            let mark = frame.mark(index);
-            tiles.each(mark.pixels(style, size), |clip| {
-                let mut canvas = Canvas {
-                    pixels,
-                    width: size.width() as usize,
-                    clip,
-                };
-                self.own.mark((index, mark), style, &mut canvas, size);
-            });
+            let seen = frame.mark(index).pixels(style, size);
+            if !seen.is_empty() && tiles.touch(seen) {
+                for sheet in seen.top / rows..=(seen.bottom - 1) / rows {
+                    self.marks[sheet as usize].push((narrow(index), seen));
+                }
+            }
+        }
+        self.own.start();
+        for (marks, top) in self.marks.iter().zip((0..).step_by(rows as usize)) {
+            let sheet = PixelBox {
+                top,
+                bottom: size.height().min(top + rows),
+                ..PixelBox::of(size)
+            };
+            tiles.each(sheet, |run| base.restore(pixels, run, size));
+            for &(index, seen) in marks {
+                let index = index as usize;
+                tiles.each(seen.common(sheet), |clip| {
+                    let mut canvas = Canvas {
+                        pixels,
+                        width: size.width() as usize,
+                        clip,
+                    };
+                    self.own
+                        .mark((index, frame.mark(index)), style, &mut canvas, size);
+                });
+            }
         }
     }
 

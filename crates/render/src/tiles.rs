@@ -55,6 +55,15 @@ impl Tiles {
         }
     }
 
+    /// Whether a box touches a marked tile.
+    pub(crate) fn touch(&self, pixels: PixelBox) -> bool {
+        let (columns, mut rows) = spans(pixels);
+        rows.any(|row| {
+            let at = row * self.columns;
+            self.marked[at + columns.start..at + columns.end].contains(&true)
+        })
+    }
+
     /// Hands over rectangles that together are the marked tiles of a box, each as wide as can be; at once if all are.
     pub(crate) fn each(&self, pixels: PixelBox, mut each: impl FnMut(PixelBox)) {
         let Some(size) = self.size.filter(|_| !pixels.is_empty() && self.count > 0) else {
