@@ -1,5 +1,7 @@
 //! The scene that everybody draws: walls, a bar, a field, and balls and polygons that fly on straight lines.
 
+use core::f64::consts::TAU;
+
 use carom_math::{Rot, Vec2, vec2};
 use carom_render::{Colour, Frame, Ink, Op, Paint, Size, Source};
 
@@ -33,9 +35,11 @@ struct Body {
     corners: usize,
     radius: f64,
     at: Vec2,
-    angle: f64,
+    turn: Rot,
     velocity: Vec2,
-    spin: f64,
+    /// Turn of a step, and from corner to corner.
+    by: Rot,
+    corner: Rot,
     colour: Colour,
 }
 
@@ -46,6 +50,8 @@ pub(crate) struct Scene {
     bodies: Vec<Body>,
     /// How many of them move.
     awake: usize,
+    /// From an arrow backwards to the ends of its head.
+    barbs: [Rot; 2],
 }
 
 /// `xorshift64*` (Vigna 2016).
@@ -74,19 +80,24 @@ impl Scene {
         let mut random = Random(0x9E37_79B9_7F4A_7C15 ^ count as u64);
         let corner = size.corner();
         let mean = (0.35 * corner.x * corner.y / (count as f64 * core::f64::consts::PI)).sqrt();
-        let bodies = (0..count).map(|i| Body {
-            corners: if i % 2 == 0 { 3 + (i / 2) % 6 } else { 0 },
-            radius: mean * random.between(0.7, 1.3),
-            at: vec2(random.between(0.0, corner.x), random.between(0.0, corner.y)),
-            angle: random.between(0.0, core::f64::consts::TAU),
-            velocity: vec2(random.between(-40.0, 40.0), random.between(-40.0, 40.0)),
-            spin: random.between(-3.0, 3.0),
-            colour: Colour::hsv(random.unit(), 0.7, random.between(0.6, 1.0)),
+        let bodies = (0..count).map(|i| {
+            let corners = if i % 2 == 0 { 3 + (i / 2) % 6 } else { 0 };
+            Body {
+                corners,
+                radius: mean * random.between(0.7, 1.3),
+                at: vec2(random.between(0.0, corner.x), random.between(0.0, corner.y)),
+                turn: Rot::from_angle(random.between(0.0, TAU)),
+                velocity: vec2(random.between(-40.0, 40.0), random.between(-40.0, 40.0)),
+                by: Rot::from_angle(random.between(-3.0, 3.0) / 60.0),
+                corner: Rot::from_angle(TAU / corners.max(1) as f64),
+                colour: Colour::hsv(random.unit(), 0.7, random.between(0.6, 1.0)),
+            }
         });
         Self {
             size,
             bodies: bodies.collect(),
             awake,
+            barbs: [0.5, -0.5].map(Rot::from_angle),
         }
     }
 
@@ -95,7 +106,7 @@ impl Scene {
         let corner = self.size.corner();
         for body in &mut self.bodies[..self.awake] {
             body.at += body.velocity / 60.0;
-            body.angle += body.spin / 60.0;
+            body.turn = body.by * body.turn;
             body.at -= corner * (body.at / corner).floor();
         }
     }
@@ -152,7 +163,7 @@ impl Scene {
                 let shape = body.shape(sink);
                 sink.draw(shape, awake);
                 sink.draw(Thing::Dot(body.at, 1.0, Colour::WHITE), awake);
-                body.arrow(arrows, awake, sink);
+                body.arrow(arrows, self.barbs, awake, sink);
             }
         }
     }
@@ -203,10 +214,9 @@ impl Body {
         if self.corners == 0 {
             return Thing::Ball(self.at, self.radius, self.colour);
         }
-        let turn = Rot::from_angle(core::f64::consts::TAU / self.corners as f64);
-        let mut arm = self.radius * Rot::from_angle(self.angle).x_axis();
+        let mut arm = self.radius * self.turn.x_axis();
         let corner = |_| {
-            arm = turn * arm;
+            arm = self.corner * arm;
             self.at + arm
         };
         let mut points = sink.points();
@@ -215,12 +225,12 @@ impl Body {
     }
 
     /// Half a second of its way.
-    fn arrow(&self, arrows: Arrows, awake: bool, sink: &mut impl Sink) {
+    fn arrow(&self, arrows: Arrows, barbs: [Rot; 2], awake: bool, sink: &mut impl Sink) {
         let way = 0.5 * self.velocity;
         let length = way.length();
         let tip = self.at + way;
         let back = -way / length.max(1e-9) * length.min(10.0);
-        let barbs = [0.5, -0.5].map(|angle| tip + Rot::from_angle(angle) * back);
+        let barbs = barbs.map(|turn| tip + turn * back);
         match arrows {
             Arrows::Strokes => {
                 sink.draw(Thing::Stroke(self.at, tip, 2.0, Colour::WHITE), awake);

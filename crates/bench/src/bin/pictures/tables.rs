@@ -5,7 +5,9 @@ use std::path::Path;
 
 use carom_bench::CpuClock;
 use carom_math::Rot;
-use carom_render::{Colour, Face, Frame, Op, Packing, Painter, Picture, Size, Style, write_file};
+use carom_render::{
+    Changes, Colour, Face, Frame, Op, Packer, Packing, Painter, Picture, Size, Style, write_file,
+};
 
 use crate::faces::{Balls, Turned};
 use crate::peers::{Bytes, Cairo, Skia, Vello, Way};
@@ -187,6 +189,7 @@ pub(crate) fn frames() {
         let mut cairo = Cairo::new(size, Way::Direct).expect("libcairo makes a surface");
         let mut skia = Skia::new(size).expect("a size that is not zero");
         let mut carom = Painter::new(style());
+        let mut packer = Packer::new(Packing::Fast);
         let mut picture = Picture::new(size, Colour::BLACK);
         let mut frame = Frame::new(size);
         let mut times: [Vec<f64>; 5] = Default::default();
@@ -208,10 +211,11 @@ pub(crate) fn frames() {
                     }
                     _ => {
                         list = timed(|| scene.frame_into(Arrows::Strokes, &mut frame));
+                        let mut changes = Changes::default();
                         drawing = timed(|| {
-                            carom.paint(&frame, &mut picture);
+                            changes.clone_from(carom.paint(&frame, &mut picture));
                         });
-                        black_box(picture.to_png());
+                        black_box(packer.pack(&picture, &changes));
                     }
                 });
                 times[who].push(time);
@@ -233,9 +237,9 @@ pub(crate) fn frames() {
 /// What is saved when few bodies move.
 pub(crate) fn skipping() {
     println!(
-        "| N, awake | drawn in full | skipping | part | list | packing | list and skipping of a full frame | dirty bands |"
+        "| N, awake | list | drawn in full | skipping | part | packed in full | what changed | part | all that is left of a full frame | dirty bands |"
     );
-    println!("|---|---:|---:|---:|---:|---:|---:|---:|");
+    println!("|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|");
     let size = Size::new(800, 800).expect("a canvas of the table");
     for (count, awake, rounds) in [
         (20, 20, 61),
@@ -252,32 +256,39 @@ pub(crate) fn skipping() {
         let mut painters = [Painter::new(style()).redrawing(), Painter::new(style())];
         let mut pictures = [0, 1].map(|_| Picture::new(size, Colour::BLACK));
         let mut frame = Frame::new(size);
-        let mut times: [Vec<f64>; 4] = Default::default();
+        let mut packer = Packer::new(Packing::Fast);
+        let mut times: [Vec<f64>; 5] = Default::default();
         let mut dirty = 0.0;
         for round in 0..rounds {
             scene.step();
             times[2].push(timed(|| scene.frame_into(Arrows::Strokes, &mut frame)));
             for turn in 0..2 {
                 let who = (turn + round) % 2;
+                let mut changes = Changes::default();
                 times[who].push(timed(|| {
-                    let changes = painters[who].paint(&frame, &mut pictures[who]);
-                    dirty += if who == 1 {
-                        ratio(changes.count(), changes.bands().len())
-                    } else {
-                        0.0
-                    };
+                    changes.clone_from(painters[who].paint(&frame, &mut pictures[who]));
                 }));
+                if who == 1 {
+                    dirty += ratio(changes.count(), changes.bands().len());
+                    times[4].push(timed(|| {
+                        black_box(packer.pack(&pictures[1], &changes));
+                    }));
+                }
             }
-            times[3].push(timed(|| {
-                black_box(pictures[0].to_png());
-            }));
+            let mut file = Vec::new();
+            times[3].push(timed(|| file = pictures[0].to_png()));
             assert!(pictures[0] == pictures[1], "skipping changes no pixel");
+            assert!(
+                packer.pack(&pictures[1], &Changes::default()) == file,
+                "nor a byte"
+            );
         }
-        let [full, skipped, list, packed] = times.map(|mut t| median(&mut t));
+        let [full, skipped, list, packed, again] = times.map(|mut t| median(&mut t));
         println!(
-            "| {count}, {awake} | {full:.2} | {skipped:.3} | {:.3} | {list:.3} | {packed:.2} | {:.2} % | {:.0} % |",
+            "| {count}, {awake} | {list:.3} | {full:.2} | {skipped:.3} | {:.3} | {packed:.2} | {again:.3} | {:.3} | {:.2} % | {:.0} % |",
             skipped / full,
-            100.0 * (list + skipped) / (list + full + packed),
+            again / packed,
+            100.0 * (list + skipped + again) / (list + full + packed),
             100.0 * dirty / ratio(rounds, 1),
         );
     }
