@@ -8,7 +8,8 @@ use std::path::{Path, PathBuf};
 use carom_math::{Rot, Vec2, vec2};
 
 use crate::{
-    Colour, Face, Frame, Ink, Label, Op, Packing, Paint, Picture, Size, Style, second_reader,
+    Chroma, Colour, Face, Film, Frame, FrameRate, Ink, Label, Op, Packing, Paint, Picture, Size,
+    Style, agreement_tests, second_reader,
 };
 
 /// Asserts that a picture is the one in the folder of goldens.
@@ -60,6 +61,27 @@ fn star(centre: Vec2, corners: u32, outer: f64, inner: f64) -> Vec<Vec2> {
         centre + radius * Rot::from_degrees(turn * f64::from(k) + 7.0).x_axis()
     };
     (0..2 * corners).map(corner).collect()
+}
+
+/// Pictures are compared pixel by pixel elsewhere; here it is the bytes of files.
+#[test]
+fn golden_files() {
+    let picture = agreement_tests::frame().paint(&Style::light());
+    let png = crc32fast::hash(&picture.to_png());
+    let mut film = Film::new(
+        Vec::new(),
+        picture.size(),
+        FrameRate::per_second(25).unwrap(),
+        Chroma::Quarter,
+    )
+    .unwrap();
+    film.push(&picture).unwrap();
+    let film = crc32fast::hash(&film.finish().unwrap());
+    assert_eq!(
+        [png, film],
+        [0xC50F_39EF, 0x07AD_5637],
+        "CRC-32 of a PNG and of a Y4M film"
+    );
 }
 
 #[test]

@@ -18,7 +18,7 @@ type Check = fn(&Path) -> Result<bool, Failure>;
 pub(crate) fn run() -> Outcome {
     let root = laboratory::workspace();
     let all = Clock::start();
-    let steps: [(&str, Check); 7] = [
+    let steps: [(&str, Check); 8] = [
         ("format: cargo fmt --check", |root| {
             cargo(root, &["fmt", "--all", "--check"])
         }),
@@ -34,6 +34,10 @@ pub(crate) fn run() -> Outcome {
         }),
         // The README's example is among the doc tests.
         ("tests: cargo test", |root| cargo(root, &["test"])),
+        (
+            "pictures: the same with every instruction of this processor",
+            native_pictures,
+        ),
         // No default member: without peers it needs neither a C compiler nor their crates.
         ("laboratory: clippy and tests of carom-bench", |root| {
             let package = ["--package", "carom-bench"];
@@ -60,6 +64,17 @@ pub(crate) fn run() -> Outcome {
         all.seconds()
     );
     Ok(End::Done)
+}
+
+/// The golden pictures and files again, by a build for this very processor: `cargo test` built for any of its kind.
+fn native_pictures(root: &Path) -> Result<bool, Failure> {
+    let target = std::env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| root.join("target").into());
+    let mut command = cargo_in(root);
+    command
+        .args(["test", "--package", "carom-render", "--lib", "--", "golden"])
+        .env("RUSTFLAGS", "-C target-cpu=native")
+        .env("CARGO_TARGET_DIR", Path::new(&target).join("native"));
+    succeeds(&mut command)
 }
 
 /// The demo of the README, quick and into a temporary folder, and a look at what it wrote.

@@ -4,6 +4,7 @@ mod inertia;
 mod kill;
 mod laboratory;
 mod merge;
+mod names;
 mod output;
 mod reference;
 mod scenes;

@@ -276,6 +276,19 @@ fn the_demo_writes_what_it_says_and_replaces_only_its_own() {
 #[cfg(unix)]
 #[test]
 fn ctrl_c_finishes_the_frame_and_prints_the_summary() {
+    stopped_by("-INT");
+}
+
+/// `kill` and whoever shuts a machine down ask this way.
+#[cfg(unix)]
+#[test]
+fn termination_finishes_the_frame_and_prints_the_summary() {
+    stopped_by("-TERM");
+}
+
+#[cfg(unix)]
+#[track_caller]
+fn stopped_by(signal: &str) {
     use std::process::{Command, Stdio};
     let folder = tempfile::tempdir().unwrap();
     let child = Command::new(env!("CARGO_BIN_EXE_xtask"))
@@ -303,7 +316,7 @@ fn ctrl_c_finishes_the_frame_and_prints_the_summary() {
         std::thread::sleep(patience);
     }
     let stopped = Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
+        .args([signal, &child.id().to_string()])
         .status()
         .unwrap();
     assert!(stopped.success());
