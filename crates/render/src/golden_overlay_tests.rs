@@ -19,6 +19,7 @@ const ELASTIC: Material = Material {
     friction: 0.0,
     restitution: 1.0,
     density: 1.0,
+    tangent_speed: 0.0,
 };
 
 /// Bodies at rest in various ways, at time 0: nothing depends on a solver.
