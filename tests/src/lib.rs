@@ -6,6 +6,8 @@ use carom_dynamics::{BodyKind, Material, World};
 use carom_geometry::Shape;
 use carom_math::Pose;
 
+pub mod gas;
+
 /// Steps `world` at 60 Hz until `seconds` more have passed and calls `look` after every step.
 ///
 /// # Panics

@@ -1,7 +1,7 @@
 //! Two bodies at one point: the variables of an impact.
 
 use carom_geometry::MassProperties;
-use carom_math::{Vec2, cross, cross_scalar, perp};
+use carom_math::{Sum, Vec2, cross, cross_scalar, perp, two_product};
 
 /// A body in the instant of an impact.
 ///
@@ -106,7 +106,20 @@ impl Outcome {
     ) -> Self {
         let point = contact.point;
         let impulse = contact.normal * normal_impulse + perp(contact.normal) * tangential_impulse;
-        let (after_a, after_b) = (a.pushed(-impulse, point), b.pushed(impulse, point));
+        let after = (a.pushed(-impulse, point), b.pushed(impulse, point));
+        Self::between(a, b, contact, (normal_impulse, tangential_impulse), after)
+    }
+
+    /// Velocities before and after, and what that cost.
+    fn between(
+        a: &ImpactBody,
+        b: &ImpactBody,
+        contact: &ImpactContact,
+        (normal_impulse, tangential_impulse): (f64, f64),
+        (after_a, after_b): (ImpactBody, ImpactBody),
+    ) -> Self {
+        let point = contact.point;
+        let impulse = contact.normal * normal_impulse + perp(contact.normal) * tangential_impulse;
         let before = b.velocity_of(point) - a.velocity_of(point);
         let after = after_b.velocity_of(point) - after_a.velocity_of(point);
         Self {
@@ -116,6 +129,64 @@ impl Outcome {
             b: after_b,
             loss: -0.5 * impulse.dot(before + after),
         }
+    }
+}
+
+impl Outcome {
+    /// The impact where nothing rubs, by the one law there is: `u_n⁺ = −e u_n⁻`.
+    ///
+    /// A factor 1 + ε on the impulse of an elastic impact gives ε of the energy `2 u_n²/K` that goes to and fro.
+    /// So what rounds the same way for a pair, an edge or all turned normals adds up over millions of
+    /// impacts. Therefore K is summed with twice the digits, and with the true n², which is short of 1 by
+    /// 3e-17 in the mean; and each body's share of the bounce is a quotient that is rounded once.
+    ///
+    /// ```text
+    /// Δv_b = n w / (m_b K)        w = −(1 + e) u_n,  K = (1/m_a + 1/m_b) n² + (r_a×n)²/I_a + (r_b×n)²/I_b
+    /// ```
+    /// What strikes something immovable along its normal leaves with −e times its speed, to the last bit.
+    pub(super) fn smooth(a: &ImpactBody, b: &ImpactBody, contact: &ImpactContact) -> Self {
+        let (point, n) = (contact.point, contact.normal);
+        let u = (b.velocity_of(point) - a.velocity_of(point)).dot(n);
+        let mut over = Sum::ZERO; // n² − 1
+        over.add(-1.0);
+        over.add_product(n.x, n.x);
+        over.add_product(n.y, n.y);
+        let over = over.value();
+        let mut k = Sum::ZERO;
+        for body in [a, b] {
+            let arm = cross(point - body.centre, n);
+            k.add(body.inverse_mass);
+            k.add(body.inverse_mass * over);
+            k.add_product(arm * body.inverse_inertia, arm);
+        }
+        let high = k.value();
+        if u >= 0.0 || high == 0.0 {
+            return Self::of(a, b, contact, (0.0, 0.0));
+        }
+        k.add(-high);
+        let low = k.value();
+        let w = -(1.0 + contact.restitution) * u;
+        // q K = w x but for a rest, which moves q to its neighbour where that is nearer.
+        let share = |x: f64| {
+            let (wanted, rest) = two_product(w, x);
+            let q = wanted / high;
+            let (product, error) = two_product(q, high);
+            q + ((((wanted - product) - error) + rest) - q * low) / high
+        };
+        let impulse = share(1.0);
+        let pushed = |body: &ImpactBody, sign: f64| ImpactBody {
+            velocity: body.velocity + n * (sign * share(body.inverse_mass)),
+            spin: body.spin
+                + cross(point - body.centre, n * (sign * impulse)) * body.inverse_inertia,
+            ..*body
+        };
+        Self::between(
+            a,
+            b,
+            contact,
+            (impulse, 0.0),
+            (pushed(a, -1.0), pushed(b, 1.0)),
+        )
     }
 }
 

@@ -21,6 +21,9 @@ pub enum ImpactLaw {
 /// What the impact of `a` and `b` at `contact` does under `law`.
 #[must_use]
 pub fn resolve(law: ImpactLaw, a: &ImpactBody, b: &ImpactBody, contact: &ImpactContact) -> Outcome {
+    if contact.friction == 0.0 {
+        return Outcome::smooth(a, b, contact);
+    }
     match law {
         ImpactLaw::Stronge => stronge(a, b, contact),
         ImpactLaw::Poisson => poisson(a, b, contact),
