@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use carom_collision::{Hull, Motion, NodeId, hulls};
 use carom_geometry::{Aabb, AreaProperties, MassProperties, Shape};
-use carom_math::{Pose, Rot, SimTime, Vec2};
+use carom_math::{Pose, Rot, SimTime, StateHash, Vec2};
 
 use crate::closed::Membership;
 use crate::error::BodyError;
@@ -17,6 +17,8 @@ use crate::{BodyDef, BodyId, BodyKind, Filter, Material};
 #[derive(Clone, Debug)]
 pub(crate) struct BodyState {
     pub(crate) id: BodyId,
+    /// Fingerprint of how it began: who is A and who is B in a pair of flyers.
+    pub(crate) rank: u64,
     pub(crate) kind: BodyKind,
     /// Where the centre of mass is at every instant from the motion's start on.
     pub(crate) motion: Motion,
@@ -114,6 +116,16 @@ pub(crate) struct Collider {
     pub(crate) tight: Option<Aabb>,
 }
 
+/// The same for equal definitions, whatever else is in the world.
+fn rank_of(def: &BodyDef) -> u64 {
+    let mut hash = StateHash::default();
+    hash.write_vec2(def.position);
+    hash.write(def.angle);
+    hash.write_vec2(def.velocity);
+    hash.write(def.spin);
+    hash.finish()
+}
+
 impl BodyState {
     pub(crate) fn new(
         id: BodyId,
@@ -133,6 +145,7 @@ impl BodyState {
         let inverse = |x: f64| if moving && x > 0.0 { x.recip() } else { 0.0 };
         Ok(Self {
             id,
+            rank: rank_of(def),
             kind: def.kind,
             motion: Motion {
                 start: now,

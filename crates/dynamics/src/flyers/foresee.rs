@@ -326,13 +326,26 @@ impl World {
         let Some((entry, impact)) = self.flyers.pop() else {
             return;
         };
+        let Some(impact) = impact else {
+            return self.run_search(&entry);
+        };
+        if self.flyers.drifts {
+            self.retune(entry.time);
+        }
+        if self.stamp(entry.a, entry.b) == entry.stamp {
+            self.strike_with_others((entry, impact));
+        }
+    }
+
+    /// The end of a search, or the begin of a narrower one.
+    pub(super) fn run_search(&mut self, entry: &Entry) {
         let (index, time) = (entry.a, entry.time);
         if self.flyers.drifts {
             self.retune(time);
         }
         match entry.ahead {
             Ahead::Horizon => {
-                if self.ends_now(&entry) {
+                if self.ends_now(entry) {
                     self.flyers.resize(&mut self.bodies, time);
                     if self.look_round(index, time) {
                         self.meet_flyers(index, time, Cause::Horizon, None);
@@ -343,7 +356,7 @@ impl World {
                 }
             }
             Ahead::Ground => {
-                if self.ends_now(&entry) {
+                if self.ends_now(entry) {
                     self.look_down_again(index, time);
                 }
             }
@@ -364,13 +377,7 @@ impl World {
                 }
             }
             Ahead::Collapse => self.report_collapse((index, entry.b), 0.0, time),
-            Ahead::Impact { .. } => {
-                if let Some(impact) = impact
-                    && self.stamp(index, entry.b) == entry.stamp
-                {
-                    self.strike_flyer(&impact, time);
-                }
-            }
+            Ahead::Impact { .. } => {}
         }
     }
 

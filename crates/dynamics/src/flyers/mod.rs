@@ -14,6 +14,7 @@ mod queue;
 mod seek;
 mod streak;
 mod strike;
+mod together;
 mod window;
 
 use arrayvec::ArrayVec;

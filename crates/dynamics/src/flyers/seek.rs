@@ -35,7 +35,11 @@ impl World {
     /// Time of impact of two flyers from now on, to the end of their window or, where that is not
     /// known, to the nearer horizon.
     pub(super) fn seek(&mut self, a: u32, b: u32, time: SimTime, window: Window, cause: Cause) {
-        let (a, b) = if a < b { (a, b) } else { (b, a) };
+        let (a, b) = if self.goes_first(a, b) {
+            (a, b)
+        } else {
+            (b, a)
+        };
         let (one, two) = (self.bodies.get(a), self.bodies.get(b));
         let horizon = common_horizon(one, two) - time;
         let end = if window.to.is_finite() {
@@ -60,6 +64,13 @@ impl World {
         }
     }
 
+    /// Whether `a` is the first body of the pair: by how both began, so that roundings do not depend on the
+    /// order in which they came.
+    fn goes_first(&self, a: u32, b: u32) -> bool {
+        let rank = |index: u32| (self.bodies.get(index).rank, index);
+        rank(a) < rank(b)
+    }
+
     /// Time of impact of a flyer and a shape that rests, from now to the flyer's horizon.
     pub(super) fn seek_shape(&mut self, index: u32, at: u32, time: SimTime, cause: Cause) {
         let owner = self.colliders[at as usize].body;
@@ -68,7 +79,7 @@ impl World {
         let mut met = false;
         for slot in 0..self.bodies.get(index).colliders.len() {
             let mine = self.bodies.get(index).colliders[slot];
-            let (ends, shapes) = if index < owner {
+            let (ends, shapes) = if self.goes_first(index, owner) {
                 ((index, owner), (mine, at))
             } else {
                 ((owner, index), (at, mine))

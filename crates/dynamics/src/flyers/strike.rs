@@ -57,14 +57,7 @@ impl World {
                 return;
             }
         }
-        let (one, two) = (self.bodies.get(a), self.bodies.get(b));
-        let (first, second) = impact.colliders;
-        let material = self.broad.material(
-            one.id,
-            two.id,
-            &self.colliders[first as usize],
-            &self.colliders[second as usize],
-        );
+        let material = self.material_of(impact);
         let before = [a, b].map(|index| self.bodies.get(index).in_impact(time));
         let speed = approach_speed(impact, &before);
         let press = self.press(impact, time);
@@ -117,6 +110,23 @@ impl World {
         }
     }
 
+    /// How the two surfaces meet.
+    pub(super) fn material_of(&self, impact: &Foreseen) -> PairMaterial {
+        let (a, b) = impact.bodies;
+        let (first, second) = impact.colliders;
+        self.broad.material(
+            self.bodies.get(a).id,
+            self.bodies.get(b).id,
+            &self.colliders[first as usize],
+            &self.colliders[second as usize],
+        )
+    }
+
+    /// Whether the approach of an impact is more than rounding.
+    pub(super) fn approaches(&self, impact: &Foreseen, before: &[ImpactBody; 2]) -> bool {
+        approach_speed(impact, before) > NOISE * self.scale(impact, before)
+    }
+
     /// Speed whose rounding an approach is judged by, in m/s: that of the bodies, or with which their
     /// impacts began to come ever faster.
     fn scale(&self, impact: &Foreseen, before: &[ImpactBody; 2]) -> f64 {
@@ -128,7 +138,13 @@ impl World {
     }
 
     /// Counts an impact among those that come ever faster.
-    fn streak(&mut self, impact: &Foreseen, time: SimTime, speed: f64, left: f64) -> Streak {
+    pub(super) fn streak(
+        &mut self,
+        impact: &Foreseen,
+        time: SimTime,
+        speed: f64,
+        left: f64,
+    ) -> Streak {
         let mut found = Streak::default();
         for index in [impact.bodies.0, impact.bodies.1] {
             let state = self.bodies.get_mut(index);
@@ -352,7 +368,7 @@ impl World {
     }
 
     /// Counts an impact; whether one of the bodies has used up those of the present tick.
-    fn outruns(&mut self, impact: &Foreseen, time: SimTime, price: f64) -> bool {
+    pub(super) fn outruns(&mut self, impact: &Foreseen, time: SimTime, price: f64) -> bool {
         if self.settings.mode == Mode::Exact {
             return false;
         }
@@ -481,19 +497,19 @@ impl World {
 }
 
 /// Speed of a body's fastest point, in m/s.
-fn pace(body: &ImpactBody, reach: f64) -> f64 {
+pub(super) fn pace(body: &ImpactBody, reach: f64) -> f64 {
     let spin = body.spin.abs();
     let rim = if spin > 0.0 { spin * reach } else { 0.0 };
     body.velocity.length() + rim
 }
 
 /// Normal velocity of a point of contact: positive opens.
-fn opening(bodies: &[ImpactBody; 2], point: Vec2, normal: Vec2) -> f64 {
+pub(super) fn opening(bodies: &[ImpactBody; 2], point: Vec2, normal: Vec2) -> f64 {
     (bodies[1].velocity_of(point) - bodies[0].velocity_of(point)).dot(normal)
 }
 
 /// Fastest approach of the points of an impact, in m/s.
-fn approach_speed(impact: &Foreseen, bodies: &[ImpactBody; 2]) -> f64 {
+pub(super) fn approach_speed(impact: &Foreseen, bodies: &[ImpactBody; 2]) -> f64 {
     let speed = |point: &Vec2| -opening(bodies, *point, impact.normal);
     impact
         .points

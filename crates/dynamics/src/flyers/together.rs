@@ -1,0 +1,219 @@
+//! Impacts of flyers at one instant: a body struck from two sides, three that meet in a point, a ball on a joint.
+//!
+//! With e < 1 they are resolved one after the other: a series that comes ever faster is followed to its limit,
+//! in which all instants are one.
+
+use carom_math::SimTime;
+
+use super::strike::{approach_speed, opening, pace};
+use super::{Ahead, Entry, Foreseen};
+use crate::World;
+use crate::body::BodyState;
+use crate::flyers::Cause;
+use crate::impact::{ImpactBody, ImpactContact};
+use crate::predict::price_of;
+use crate::resolve::apply;
+use crate::shock::Shock;
+
+/// Instants that differ by less are one, as a fraction of the way to them over the speed: impacts make
+/// differences of roundings larger, by a decade each.
+const INSTANT: f64 = 1e-12;
+
+/// Points and normals that differ by less, as a fraction of the size, are those of a seam.
+const SEAM: f64 = 1e-6;
+
+/// An impact that waits for its turn, with its entry.
+type Due = (Entry, Foreseen);
+
+impl World {
+    /// Resolves an impact with all others of the same instant that it hangs together with.
+    pub(super) fn strike_with_others(&mut self, first: Due) {
+        let time = first.0.time;
+        let Some(mut due) = self.due_by(time + self.instant(&first.1, time)) else {
+            return self.strike_flyer(&first.1, time);
+        };
+        let mut struck = vec![first];
+        // Whoever moves and is in one of them brings in all others that he is in.
+        let mut k = 0;
+        while k < struck.len() {
+            let (a, b) = struck[k].1.bodies;
+            k += 1;
+            let moves = |index: u32| self.bodies.get(index).inverse_mass > 0.0;
+            let joins = |(_, other): &Due| -> bool {
+                let (c, d) = other.bodies;
+                (moves(a) && (a == c || a == d)) || (moves(b) && (b == c || b == d))
+            };
+            let (joined, rest): (Vec<Due>, Vec<Due>) = due.into_iter().partition(joins);
+            due = rest;
+            for (entry, other) in joined {
+                // A pair may have been found twice.
+                if struck
+                    .iter()
+                    .all(|(_, known)| known.colliders != other.colliders)
+                {
+                    struck.push((entry, other));
+                }
+            }
+        }
+        self.put_back(due);
+        if struck.len() > 1 && self.are_real(&struck, time) {
+            self.drop_corners_of_seams(&mut struck);
+        }
+        let elastic = |(_, impact): &Due| self.material_of(impact).restitution >= 1.0;
+        if struck.len() > 1 && self.are_real(&struck, time) && struck.iter().all(elastic) {
+            let impacts: Vec<Foreseen> = struck.into_iter().map(|(_, impact)| impact).collect();
+            self.strike_all(&impacts, time);
+        } else {
+            let rest = struck.split_off(1);
+            self.put_back(rest);
+            self.strike_flyer(&struck[0].1, time);
+        }
+    }
+
+    /// How much later an impact may be that happens at the same instant but for rounding, in s.
+    fn instant(&self, impact: &Foreseen, time: SimTime) -> f64 {
+        let (a, b) = (
+            self.bodies.get(impact.bodies.0),
+            self.bodies.get(impact.bodies.1),
+        );
+        let way = impact.points[0].abs().max_element() + a.reach.min(b.reach);
+        let speed = pace(&a.in_impact(time), a.reach) + pace(&b.in_impact(time), b.reach);
+        if speed > 0.0 {
+            INSTANT * way / speed
+        } else {
+            0.0
+        }
+    }
+
+    /// Both bodies just before.
+    fn ends_of(&self, impact: &Foreseen, time: SimTime) -> [ImpactBody; 2] {
+        [impact.bodies.0, impact.bodies.1].map(|index| self.bodies.get(index).in_impact(time))
+    }
+
+    /// Impacts due by `limit`, in order, once all searches due by then are done; `None` if there are none.
+    fn due_by(&mut self, limit: SimTime) -> Option<Vec<Due>> {
+        let mut due = None;
+        while self
+            .flyers
+            .next(&self.bodies, &self.colliders, limit)
+            .is_some()
+        {
+            let Some((entry, impact)) = self.flyers.pop() else {
+                break;
+            };
+            match (entry.ahead, impact) {
+                (Ahead::Impact { .. }, Some(impact)) => {
+                    if self.stamp(entry.a, entry.b) == entry.stamp {
+                        due.get_or_insert_with(Vec::new).push((entry, impact));
+                    }
+                }
+                (Ahead::Impact { .. }, None) => {}
+                _ => self.run_search(&entry),
+            }
+        }
+        due
+    }
+
+    fn put_back(&mut self, due: Vec<Due>) {
+        for (entry, impact) in due {
+            self.flyers.push_impact(entry.time, entry.stamp, impact);
+        }
+    }
+
+    /// Whether all are approaches, by flyers and what rests.
+    fn are_real(&self, struck: &[Due], time: SimTime) -> bool {
+        struck.iter().all(|(_, impact)| {
+            let ends = [impact.bodies.0, impact.bodies.1].map(|index| self.bodies.get(index));
+            let flies =
+                |state: &&BodyState| !state.asleep && (state.course.flies || !state.is_active());
+            ends.iter().all(flies) && self.approaches(impact, &self.ends_of(impact, time))
+        })
+    }
+
+    /// A ball that comes down on the joint of two tiles meets a face and, at the same instant, the other
+    /// tile's corner: the corner lies in the face, and has no normal of its own.
+    fn drop_corners_of_seams(&self, struck: &mut Vec<Due>) {
+        let faces: Vec<Foreseen> = struck
+            .iter()
+            .filter(|(_, impact)| impact.face().is_some())
+            .map(|(_, impact)| impact.clone())
+            .collect();
+        struck.retain(|(_, impact)| {
+            let on_seam = |face: &Foreseen| {
+                let common = |index: u32| {
+                    self.bodies.get(index).inverse_mass > 0.0
+                        && (index == face.bodies.0 || index == face.bodies.1)
+                };
+                let Some(body) = [impact.bodies.0, impact.bodies.1]
+                    .into_iter()
+                    .find(|index| common(*index))
+                else {
+                    return false;
+                };
+                let size = self.bodies.get(body).reach;
+                let away = |impact: &Foreseen| {
+                    if impact.bodies.0 == body {
+                        impact.normal
+                    } else {
+                        -impact.normal
+                    }
+                };
+                (impact.points[0] - face.points[0]).length() <= SEAM * size
+                    && (away(impact) - away(face)).length() <= SEAM
+            };
+            impact.face().is_some() || !faces.iter().any(on_seam)
+        });
+    }
+
+    /// Several impacts at one instant, by [`crate::Settings::several`].
+    fn strike_all(&mut self, impacts: &[Foreseen], time: SimTime) {
+        let mut outrun = false;
+        for impact in impacts {
+            let e = self.material_of(impact).restitution;
+            outrun |= self.outruns(impact, time, price_of(e));
+        }
+        if outrun {
+            return;
+        }
+        let mut shock = Shock::new(time, self.clock.h);
+        for (pair, impact) in (0..u32::MAX).rev().zip(impacts) {
+            let before = self.ends_of(impact, time);
+            self.streak(impact, time, approach_speed(impact, &before), 0.0);
+            let material = self.material_of(impact);
+            for &point in &impact.points {
+                if opening(&before, point, impact.normal) < 0.0 {
+                    let contact = ImpactContact {
+                        point,
+                        normal: impact.normal,
+                        restitution: material.restitution,
+                        friction: material.friction,
+                    };
+                    shock.add(
+                        &self.bodies,
+                        pair,
+                        impact.bodies,
+                        (contact, material.tangent_speed),
+                        0.0,
+                    );
+                }
+            }
+        }
+        shock.solve(
+            &self.settings,
+            &self.bodies,
+            &self.colliders,
+            &mut self.pairs,
+            &mut self.narrow,
+        );
+        let changed = apply(
+            &mut self.bodies,
+            time,
+            &shock,
+            &mut self.events,
+            &mut self.report,
+        );
+        for index in changed {
+            self.foresee(index, time, Cause::Deflected, None);
+        }
+    }
+}
