@@ -2,3 +2,5 @@
 
 mod collision;
 mod geometry;
+mod impacts;
+mod motion;

@@ -4,6 +4,7 @@
 
 mod asleep;
 mod belts;
+mod break_shot;
 mod conservation;
 mod crowds;
 mod determinism;
@@ -12,8 +13,10 @@ mod errors;
 mod failures;
 mod filters;
 mod forces;
+mod gases;
 mod impacts;
 mod lasting;
+mod laws;
 mod observing;
 mod regressions;
 mod skipping;

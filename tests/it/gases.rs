@@ -1,0 +1,108 @@
+//! Gases in a box: what single impacts keep, and what a minute of them does.
+//!
+//! Ten thousand seconds of the same gases, measured: `cargo run --release -p carom-tests --example gases`.
+
+use carom_dynamics::World;
+use carom_math::Pose;
+use carom_tests::gas::{Molecule, Watch, gas, kinetic, size};
+
+/// A minute of a gas, sampled every `sample` seconds.
+fn a_minute_keeps_everything(molecule: Molecule, side: u32, sample: f64) {
+    let mut world = gas(molecule, side, 7);
+    let start = kinetic(&world);
+    let mut worst = 0.0_f64;
+    let mut watch = Watch::default();
+    watch.run(&mut world, 60.0, sample, |_, energy| {
+        worst = worst.max((energy / start - 1.0).abs());
+    });
+    let (mean, chance) = watch.bias();
+    assert!(watch.report.is_exact(), "{:?}", watch.report);
+    assert!(
+        watch.collisions > 10 * u64::from(side * side),
+        "too quiet: {watch:?}"
+    );
+    assert!(worst < 1e-12, "energy is off by {worst:.2e} of itself");
+    assert!(
+        mean.abs() < 4.0 * chance,
+        "errors lean to one side: {mean:.2e}, by chance ± {chance:.2e}"
+    );
+    assert!(watch.linear < 1e-15, "momentum {:.2e}", watch.linear);
+    assert!(watch.angular < 1e-15, "turning {:.2e}", watch.angular);
+    assert!(watch.deepest < 1e-12, "overlap {:.2e}", watch.deepest);
+}
+
+#[test]
+fn a_minute_of_sixteen_elastic_discs_keeps_everything() {
+    a_minute_keeps_everything(Molecule::Disc, 4, 1.0 / 60.0);
+}
+
+#[test]
+fn a_minute_of_sixteen_elastic_boxes_keeps_everything() {
+    a_minute_keeps_everything(Molecule::Box, 4, 1.0 / 60.0);
+}
+
+#[test]
+fn a_minute_of_a_hundred_elastic_polygons_keeps_everything() {
+    a_minute_keeps_everything(Molecule::Polygon, 10, 0.1);
+}
+
+/// Poses of all bodies after `seconds` backwards.
+fn backwards(world: &World, seconds: f64) -> Vec<Pose> {
+    let mut world = world.clone();
+    let moving: Vec<_> = world
+        .bodies()
+        .filter(|b| b.mass().is_finite())
+        .map(|b| (b.id(), -b.velocity(), -b.angular_velocity()))
+        .collect();
+    for (id, velocity, spin) in moving {
+        world.set_velocity(id, velocity, spin).expect("it is there");
+    }
+    world.step(seconds);
+    world.bodies().map(|b| b.pose()).collect()
+}
+
+/// Largest distance of two bodies' places, in sizes, or of their angles, in radians.
+fn farthest(world: &World, one: &[Pose], two: &[Pose]) -> f64 {
+    let mut worst = 0.0_f64;
+    for ((body, a), b) in world.bodies().zip(one).zip(two) {
+        let moved = (a.position - b.position).length() / size(&body);
+        let turned = (a.rotation * b.rotation.inverse()).angle().abs();
+        worst = worst.max(moved).max(turned);
+    }
+    worst
+}
+
+#[test]
+fn elastic_gases_run_backwards_to_where_they_began() {
+    for (molecule, side) in [
+        (Molecule::Disc, 4),
+        (Molecule::Box, 4),
+        (Molecule::Polygon, 10),
+    ] {
+        let mut chaotic = 0;
+        for seed in 0..8 {
+            let mut world = gas(molecule, side, seed);
+            let start: Vec<Pose> = world.bodies().map(|b| b.pose()).collect();
+            let bodies = u64::from(side * side);
+            // Five impacts a body: one of two bodies counts for both.
+            let mut watch = Watch::default();
+            while watch.impacts + watch.collisions < 5 * bodies {
+                watch.next(&mut world, 60.0);
+            }
+            // Half the way to the next impact: nobody touches.
+            let turn = world.time();
+            let mut ahead = world.clone();
+            ahead.step_to_next_event(60.0);
+            world.step(0.5 * (ahead.time() - turn));
+            let way = world.time().as_secs();
+            let off = farthest(&world, &backwards(&world, way), &start);
+            // Where one body has had a dozen of the impacts, roundings have grown 12 decades.
+            chaotic += u32::from(off >= 1e-6);
+            assert!(off < 1e-4, "{molecule:?} {seed}: {off:.2e} of a size off");
+        }
+        assert!(
+            chaotic <= 1,
+            "{molecule:?}: {chaotic} of 8 are off by more than 1e-6"
+        );
+    }
+}
