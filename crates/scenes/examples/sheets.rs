@@ -8,7 +8,7 @@ use std::error::Error;
 use std::path::PathBuf;
 
 use carom_math::SimTime;
-use carom_render::{Frame, Picture, Sheet};
+use carom_render::{Frame, Picture, Sheet, Trace};
 use carom_scenes::{find, list};
 
 /// Tiles in a row and in a column, and the width of each in pixels.
@@ -37,12 +37,14 @@ fn sheet(name: &str) -> Result<Picture, Box<dyn Error>> {
     let last = frames(built.duration * f64::from(built.rate.get()));
     let mut kept = (0..tiles).map(|k| k * last / (tiles - 1)).peekable();
     let mut sheet = Sheet::new(SIDE, WIDTH).titled(name);
+    let mut trace = Trace::new(&built.look.overlay);
     for index in 0..=last {
         let time = SimTime::multiple(index, built.rate.interval());
         built.world.step(time - built.world.time());
+        trace.watch(&built.world);
         if kept.next_if_eq(&index).is_some() {
-            let picture =
-                Frame::capture(&built.world, &built.look, &built.camera).paint(&built.look.style);
+            let frame = Frame::capture_traced(&built.world, &built.look, &built.camera, &trace);
+            let picture = frame.paint(&built.look.style);
             sheet.push(&picture, format!("{:.2} s", time.as_secs()))?;
         }
     }

@@ -170,7 +170,7 @@ fn a_mark_and_dos_lines_are_accepted_and_counted() {
     assert_eq!(
         error_of("version = 1\nlook = { face = 'ünïcödé', tock = 1 }\n"),
         "bad.toml:2:28: look.tock: unknown field, expected one of theme, palette, shaded, spokes, face, centroids, \
-         velocities, velocity_scale, contacts, boxes, asleep, time, gravity, restitution, field, stats, caption"
+         velocities, velocity_scale, contacts, boxes, asleep, time, gravity, restitution, field, counters, stats, caption"
     );
 }
 

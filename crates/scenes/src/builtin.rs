@@ -21,7 +21,7 @@ pub struct SceneInfo {
 }
 
 /// Names and files, in the order of the list.
-static FILES: [(&str, &str); 30] = [
+static FILES: [(&str, &str); 32] = [
     ("thesis", include_str!("../scenes/thesis.toml")),
     ("flying-balls", include_str!("../scenes/flying-balls.toml")),
     (
@@ -47,6 +47,8 @@ static FILES: [(&str, &str); 30] = [
         include_str!("../scenes/infinite-mass.toml"),
     ),
     ("sleepers", include_str!("../scenes/sleepers.toml")),
+    ("pi", include_str!("../scenes/pi.toml")),
+    ("cradle", include_str!("../scenes/cradle.toml")),
     (
         "a_large_pyramid",
         include_str!("../scenes/a_large_pyramid.toml"),

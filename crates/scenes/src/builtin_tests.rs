@@ -258,3 +258,32 @@ fn a_written_body_can_start_asleep() {
     let built = Scene::from_toml(text, "x.toml").unwrap().build().unwrap();
     assert!(built.world.bodies().all(|body| body.is_asleep()));
 }
+
+#[test]
+fn pi_counts_its_first_four_digits() {
+    let mut pi = built("pi");
+    let mut impacts = 0;
+    for _ in 0..180 {
+        impacts += pi.world.step(1.0 / 30.0).impacts;
+    }
+    assert_eq!(impacts, 3141);
+    let large = pi.world.body(pi.body("large").unwrap()).unwrap();
+    assert!(large.velocity().x > 0.999, "it turned back");
+}
+
+#[test]
+fn as_many_balls_leave_the_cradle_as_come_in() {
+    let mut cradle = built("cradle");
+    for _ in 0..300 {
+        let report = cradle.world.step(1.0 / 30.0);
+        assert!(report.is_exact());
+        for (row, count) in [("one", 1), ("two", 2), ("three", 3)] {
+            let speeds = (0..5).map(|k| {
+                let id = cradle.body(&format!("{row} {k}")).unwrap();
+                cradle.world.body(id).unwrap().velocity().abs()
+            });
+            let moving: Vec<_> = speeds.filter(|speed| *speed != vec2(0.0, 0.0)).collect();
+            assert_eq!(moving, vec![vec2(2.0, 0.0); count], "{row}");
+        }
+    }
+}

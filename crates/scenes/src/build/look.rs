@@ -105,6 +105,7 @@ fn wanted(file: &SceneFile, all: Overlay) -> Overlay {
         asleep: table.asleep,
         gravity: table.gravity,
         time: table.time,
+        counters: table.counters,
         restitution: all.restitution.filter(|_| table.restitution),
         field: all.field.filter(|_| table.field),
         caption: all.caption,

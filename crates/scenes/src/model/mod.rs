@@ -186,6 +186,7 @@ pub(crate) struct LookTable {
     pub(crate) gravity: bool,
     pub(crate) restitution: bool,
     pub(crate) field: bool,
+    pub(crate) counters: bool,
     pub(crate) stats: bool,
     pub(crate) caption: String,
 }
