@@ -22,5 +22,8 @@ mod regressions;
 mod skipping;
 mod stability;
 mod stepped;
+mod stepped_cases;
+mod stepped_laws;
+mod stepped_slopes;
 mod stepped_swift;
 mod twins;

@@ -3,18 +3,12 @@
 use carom_dynamics::{BodyDef, BodyKind, Settings, World};
 use carom_geometry::{Circle, ConvexPolygon};
 use carom_math::vec2;
+use carom_tests::scenes::built;
 use carom_tests::{elastic, overlaps, run};
-
-fn scene(name: &str) -> World {
-    carom_scenes::find(name)
-        .and_then(|scene| scene.build())
-        .expect("a built-in scene builds")
-        .world
-}
 
 #[test]
 fn thesis_scene_keeps_everything_inside_and_apart_for_a_minute() {
-    let mut world = scene("thesis");
+    let mut world = built("thesis");
     let mut deepest = 0.0_f64;
     run(&mut world, 60.0, |world| {
         deepest = deepest.max(overlaps(world).0);
@@ -39,7 +33,7 @@ fn thesis_scene_keeps_everything_inside_and_apart_for_a_minute() {
 
 #[test]
 fn a_stack_of_ten_stands_for_half_a_minute() {
-    let mut world = scene("stack");
+    let mut world = built("stack");
     let top = world
         .bodies()
         .max_by(|a, b| a.centre().y.total_cmp(&b.centre().y))
@@ -61,7 +55,7 @@ fn a_stack_of_ten_stands_for_half_a_minute() {
 
 #[test]
 fn a_pile_of_200_polygons_comes_to_rest_without_sinking() {
-    let mut world = scene("pile");
+    let mut world = built("pile");
     run(&mut world, 20.0, |_| {});
     let (_, mean) = overlaps(&world);
     assert!(
@@ -115,7 +109,7 @@ fn the_tenth_apex_of_an_elastic_ball_is_the_first() {
 
 #[test]
 fn a_hundred_elastic_discs_keep_their_energy_for_a_minute() {
-    let mut world = scene("elastic-discs");
+    let mut world = built("elastic-discs");
     let before = world.energy().kinetic;
     let mut impacts = 0;
     for _ in 0..3600 {

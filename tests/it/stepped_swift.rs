@@ -1,13 +1,13 @@
 //! Stepped mode: who moves far in a sub-step is stopped at its time of impact.
 
-use carom_dynamics::{BodyDef, BodyId, Material, Mode, Settings, World};
-use carom_geometry::{Circle, ConvexPolygon, Polygon, Shape};
+use carom_dynamics::{BodyDef, Material, Settings, World};
+use carom_geometry::Polygon;
 use carom_math::{Vec2, vec2};
+use carom_tests::scenes::{block, disc, put, stepped};
 use carom_tests::{overlaps, run};
 
 fn weightless(restitution: f64) -> (World, Material) {
-    let world = World::new(Settings {
-        mode: Mode::Stepped,
+    let world = stepped(Settings {
         gravity: Vec2::ZERO,
         ..Settings::default()
     });
@@ -16,19 +16,7 @@ fn weightless(restitution: f64) -> (World, Material) {
         restitution,
         ..Material::default()
     };
-    (world.expect("valid"), material)
-}
-
-fn put(world: &mut World, def: BodyDef, shape: impl Into<Shape>, material: Material) -> BodyId {
-    world.insert(def, shape, material).expect("valid")
-}
-
-fn disc(radius: f64) -> Circle {
-    Circle::new(radius).expect("a disc")
-}
-
-fn block(width: f64, height: f64) -> ConvexPolygon {
-    ConvexPolygon::rectangle(width, height).expect("a block")
+    (world, material)
 }
 
 /// Sixteen bullets of 2 cm at a wall of 1 cm; their final velocities, and that of the wall.
@@ -109,11 +97,7 @@ fn a_swift_body_passes_where_there_is_room() {
 
 #[test]
 fn a_swift_box_slides_over_tiles_without_a_stop() {
-    let mut world = World::new(Settings {
-        mode: Mode::Stepped,
-        ..Settings::default()
-    })
-    .expect("valid");
+    let mut world = stepped(Settings::default());
     let ice = Material {
         friction: 0.0,
         ..Material::default()
@@ -208,11 +192,7 @@ fn a_swift_needle_and_a_plank_that_whirls_stop_at_a_wall() {
 
 #[test]
 fn shots_into_a_pile_leave_everything_inside() {
-    let mut world = World::new(Settings {
-        mode: Mode::Stepped,
-        ..Settings::default()
-    })
-    .expect("valid");
+    let mut world = stepped(Settings::default());
     let material = Material {
         restitution: 0.3,
         ..Material::default()

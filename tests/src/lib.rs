@@ -7,6 +7,7 @@ use carom_geometry::Shape;
 use carom_math::Pose;
 
 pub mod gas;
+pub mod scenes;
 
 /// Steps `world` at 60 Hz until `seconds` more have passed and calls `look` after every step.
 ///

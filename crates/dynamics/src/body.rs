@@ -325,20 +325,22 @@ impl BodyState {
 
 /// About half the width of the widest part of a shape, in m; at least a thousandth of its size.
 fn half_width(shape: &Shape, centroid: Vec2) -> f64 {
-    // From the middle of the vertices to the nearest edge: half a width, or less of what tapers.
-    let least = |hull: Hull<'_>| {
-        if hull.normals.is_empty() {
-            return hull.radius;
-        }
-        #[expect(clippy::cast_precision_loss, reason = "vertices are counted exactly")]
-        let middle = hull.vertices.iter().sum::<Vec2>() / hull.vertices.len() as f64;
-        let edges = hull.normals.iter().zip(hull.vertices);
-        edges
-            .map(|(n, v)| n.dot(*v - middle))
-            .fold(f64::INFINITY, f64::min)
-    };
-    let widest = hulls(shape).map(least).fold(0.0, f64::max);
+    let inner = hulls(shape).map(|hull| inner_of(&hull));
+    let widest = inner.fold(0.0, f64::max);
     widest.max(1e-3 * shape.reach_about(centroid))
+}
+
+/// From the middle of a part's vertices to its nearest edge, in m: half its width, or less where it tapers.
+pub(crate) fn inner_of(hull: &Hull<'_>) -> f64 {
+    if hull.normals.is_empty() {
+        return hull.radius;
+    }
+    #[expect(clippy::cast_precision_loss, reason = "vertices are counted exactly")]
+    let middle = hull.vertices.iter().sum::<Vec2>() / hull.vertices.len() as f64;
+    let edges = hull.normals.iter().zip(hull.vertices);
+    edges
+        .map(|(n, v)| n.dot(*v - middle))
+        .fold(f64::INFINITY, f64::min)
 }
 
 /// Frame of the shapes as drawn, for a motion of the centre of mass.

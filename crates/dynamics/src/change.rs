@@ -106,8 +106,12 @@ impl World {
             }
         }
         self.quit(index, self.clock.now);
+        if let Some(slot) = self.pool.seats.slot(index) {
+            // The line of a body of the old kind: what is solved for next gets a new one.
+            self.leave(index, slot);
+        }
         self.part_all(index);
-        self.disturb(index, |state| state.set_kind(kind));
+        self.alter(index, |state| state.set_kind(kind));
         // Pairs are made by kind: boxes that are new find them anew.
         self.forget_boxes(index);
         self.arrive(index);
@@ -230,9 +234,10 @@ impl World {
     /// Lets go of all pairs of a body, and has it looked for anew.
     fn meet_anew(&mut self, index: u32) {
         self.part_all(index);
-        self.disturb(index, |_| {});
+        self.alter(index, |_| {});
         self.forget_boxes(index);
         self.arrive(index);
+        self.unsettle_on(index, self.clock.now);
     }
 
     fn part_all(&mut self, index: u32) {
@@ -245,6 +250,12 @@ impl World {
     /// A caller's change of a body: its energy counts as brought in from outside, sleepers that
     /// touch it wake, and what was predicted for it is predicted anew.
     fn disturb(&mut self, index: u32, change: impl FnOnce(&mut BodyState)) {
+        self.alter(index, change);
+        self.unsettle_on(index, self.clock.now);
+    }
+
+    /// [`Self::disturb`], but for what rests on the body: it is not yet where its pairs are made.
+    fn alter(&mut self, index: u32, change: impl FnOnce(&mut BodyState)) {
         let now = self.clock.now;
         self.wake_around(index, now);
         let before = self.bodies.energy_of(index, now);
@@ -257,15 +268,19 @@ impl World {
             self.pool.crowd.balance.add(-brought);
         }
         self.deflected(index, now);
-        if self.bodies.get(index).kind == BodyKind::Kinematic {
-            self.unsettle_on(index, now);
-        }
     }
 
     /// What rests on a kinematic body whose motion is new: sleepers wake, groups in closed form are judged anew.
     ///
     /// A kinematic body has no pairs with what sleeps: it is looked for by boxes.
-    fn unsettle_on(&mut self, index: u32, time: SimTime) {
+    ///
+    /// A fixed body that was put into sleepers wakes them; what sleeps beside it sleeps on.
+    pub(crate) fn unsettle_on(&mut self, index: u32, time: SimTime) {
+        let drives = match self.bodies.get(index).kind {
+            BodyKind::Dynamic => return,
+            BodyKind::Kinematic => true,
+            BodyKind::Fixed => false,
+        };
         let mut around: Vec<u32> = Vec::new();
         for place in &self.bodies.get(index).pairs {
             let pair = self.pairs.get(*place);
@@ -285,11 +300,13 @@ impl World {
                     continue;
                 }
                 // What fell asleep on it may have sunk in, or hover within the solver's margin.
-                let touch = 1e-3 * partner.reach.min(state.reach);
+                let size = partner.reach.min(state.reach);
+                let touch = if drives { 1e-3 } else { -1e-3 } * size;
                 let seen = partner.motion.pose_at(time).seen_from(pose);
                 found.clear();
-                contacts(&mine.solid, &theirs.solid, seen, touch, &mut found);
-                if !found.is_empty() {
+                contacts(&mine.solid, &theirs.solid, seen, touch.max(0.0), &mut found);
+                let depths = found.iter().filter_map(|part| part.manifold.deepest());
+                if depths.fold(f64::INFINITY, f64::min) <= touch {
                     around.push(theirs.body);
                 }
             }

@@ -17,7 +17,7 @@ pub(crate) const TOUCH: f64 = 1e-9;
 
 /// Overlap beyond which a pair is buried, as a fraction of the smaller reach: 44 mm for boxes of 1 m.
 /// Impacts leave none, and the lowest contact of a stack of ten such boxes 0.8 mm.
-const BURIED: f64 = 1.0 / 16.0;
+pub(crate) const BURIED: f64 = 1.0 / 16.0;
 
 /// Scratch of the narrow phase, kept between pairs.
 #[derive(Clone, Debug, Default)]

@@ -101,8 +101,8 @@ pub enum Mode {
     /// Closed forms only; what they cannot finish is sub-stepped and marks the run as not exact.
     Exact,
     /// Every moving body is sub-stepped in one solver, without an agenda: contacts stay from step to
-    /// step, a pair that keeps its relative pose costs no look. Impacts are as sharp as a sub-step;
-    /// what moves more than its own size in a tick may pass through what is thin.
+    /// step, a pair that keeps its relative pose costs no look. Impacts are as sharp as a sub-step,
+    /// but who is too fast for it is stopped at its time of impact.
     Stepped,
 }
 

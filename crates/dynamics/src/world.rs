@@ -184,6 +184,7 @@ impl World {
             self.show(id.index, now);
         } else {
             self.arrive(id.index);
+            self.unsettle_on(id.index, now);
         }
         Ok(id)
     }

@@ -6,10 +6,13 @@
 
 #![allow(clippy::inline_always, reason = "the wide instructions end at a call")]
 
-use fearless_simd::{Level, Select, Simd, SimdBase, SimdSplit, dispatch, f64x8};
+use fearless_simd::{Level, Select, Simd, SimdBase, SimdMask, SimdSplit, dispatch, f64x8};
 
-use super::Law;
 use super::wide::{LANES, Line, Wide};
+use super::{Law, Row};
+
+/// What closes faster than this is met, not at rest, in m/s: what pushes then is no guess for what will.
+const MET: f64 = 0.25;
 
 /// One pass over all rows, colour by colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,17 +23,28 @@ pub(crate) enum Pass {
     Relax,
 }
 
-/// Sweeps over all blocks; what friction turned to heat in a relaxing sweep, in J.
+/// Rows of a block that are met with a speed when a solving sweep comes to them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Met {
+    pub(crate) colour: u32,
+    pub(crate) block: u32,
+    /// A bit for each lane.
+    pub(crate) lanes: u64,
+}
+
+/// Sweeps over all blocks; what friction turned to heat in a relaxing sweep, in J. A solving sweep adds the
+/// rows that are met to `met`.
 pub(crate) fn sweep(
     level: Level,
     pass: Pass,
     law: &Law,
     lines: &mut [Line],
     colours: &mut [Vec<Wide>],
+    met: &mut Vec<Met>,
 ) -> f64 {
     match pass {
-        Pass::Solve => dispatch!(level, simd => all::<_, false>(simd, law, lines, colours)),
-        Pass::Relax => dispatch!(level, simd => all::<_, true>(simd, law, lines, colours)),
+        Pass::Solve => dispatch!(level, simd => all::<_, false>(simd, law, lines, colours, met)),
+        Pass::Relax => dispatch!(level, simd => all::<_, true>(simd, law, lines, colours, met)),
     }
 }
 
@@ -40,11 +54,20 @@ fn all<S: Simd, const RELAX: bool>(
     law: &Law,
     lines: &mut [Line],
     colours: &mut [Vec<Wide>],
+    met: &mut Vec<Met>,
 ) -> f64 {
     let mut heat = f64x8::splat(simd, 0.0);
-    for colour in colours {
-        for wide in colour {
-            block::<S, RELAX>(simd, law, lines, wide, &mut heat);
+    for (colour, blocks) in (0u32..).zip(colours) {
+        for (k, wide) in (0u32..).zip(blocks) {
+            let lanes = block::<S, RELAX>(simd, law, lines, wide, &mut heat);
+            if lanes != 0 {
+                let block = k;
+                met.push(Met {
+                    colour,
+                    block,
+                    lanes,
+                });
+            }
         }
     }
     let mut sum = 0.0;
@@ -64,7 +87,7 @@ fn block<S: Simd, const RELAX: bool>(
     lines: &mut [Line],
     wide: &mut Wide,
     heat: &mut f64x8<S>,
-) {
+) -> u64 {
     let zero = f64x8::splat(simd, 0.0);
     let one = f64x8::splat(simd, 1.0);
     let [mut avx, mut avy, mut aw, ma, adx, ady, aturn, ia] = gather(simd, lines, &wide.a);
@@ -84,8 +107,19 @@ fn block<S: Simd, const RELAX: bool>(
     let gap2 = f64x8::from_slice(simd, &wide.s2) + dn + b2 * bturn - a2 * aturn;
     let (open1, open2) = (gap1.simd_gt(zero), gap2.simd_gt(zero));
     let rate = f64x8::splat(simd, law.inverse_h);
-    let mut u1 = vn + b1 * bw - a1 * aw + open1.select(gap1, zero) * rate;
-    let mut u2 = vn + b2 * bw - a2 * aw + open2.select(gap2, zero) * rate;
+    let (v1, v2) = (vn + b1 * bw - a1 * aw, vn + b2 * bw - a2 * aw);
+    let mut met = 0;
+    if !RELAX {
+        let (fast, near) = (
+            f64x8::splat(simd, -MET),
+            f64x8::splat(simd, 0.5 * Row::OPEN),
+        );
+        let met1 = v1.simd_lt(fast) & gap1.simd_lt(near);
+        let met2 = v2.simd_lt(fast) & gap2.simd_lt(near);
+        met = (met1 | met2).to_bitmask();
+    }
+    let mut u1 = v1 + open1.select(gap1, zero) * rate;
+    let mut u2 = v2 + open2.select(gap2, zero) * rate;
 
     // K of both points; softened where they overlap.
     let m = ma + mb;
@@ -183,6 +217,7 @@ fn block<S: Simd, const RELAX: bool>(
     }
     scatter(simd, lines, &wide.a, [avx, avy, aw, ma]);
     scatter(simd, lines, &wide.b, [bvx, bvy, bw, mb]);
+    met
 }
 
 /// Reads eight lines and turns them into columns: three rounds of a perfect shuffle.

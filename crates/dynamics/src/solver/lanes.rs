@@ -188,6 +188,24 @@ impl Lanes {
         self.acts[place.colour as usize][block] >> lane & 1 == 1
     }
 
+    /// The row of a block's lane, if there is one.
+    pub(super) fn owner(&self, colour: usize, block: usize, lane: usize) -> Option<RowId> {
+        let index = if colour == COLOURS {
+            block
+        } else {
+            block * LANES + lane
+        };
+        let there = colour != COLOURS || lane == 0;
+        self.owners[colour].get(index).copied().filter(|_| there)
+    }
+
+    /// Whether a row of this name is in a lane.
+    pub(super) fn holds(&self, id: RowId) -> bool {
+        let place = self.places[id.0 as usize];
+        let (block, lane) = place.block();
+        self.owner(place.colour as usize, block, lane) == Some(id)
+    }
+
     /// Rows that began or ceased to push since this was last asked.
     pub(crate) fn turned(&mut self, changed: &mut Vec<RowId>) {
         for (c, blocks) in self.colours.iter().enumerate() {

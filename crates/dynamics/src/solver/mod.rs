@@ -21,3 +21,4 @@ pub(crate) use lanes::RowId;
 pub(crate) use rig::{Limit, Member, Pull, Rig};
 pub(crate) use row::{Row, SolverBody};
 pub(crate) use soft::{Law, relax, solve};
+pub(crate) use wide::Line;

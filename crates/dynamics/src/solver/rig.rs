@@ -12,9 +12,9 @@
 use carom_math::{Vec2, perp};
 use fearless_simd::Level;
 
-use super::kernel::{Pass, sweep};
+use super::kernel::{Met, Pass, sweep};
 use super::lanes::{Lanes, RowId};
-use super::wide::Line;
+use super::wide::{LANES, Line};
 use super::{Law, Row, SolverBody};
 
 /// The bodies of a solver, their rows, and the warm start.
@@ -31,6 +31,10 @@ pub(crate) struct Rig {
     limits: Vec<Limit>,
     /// Who went farther in the last sub-step, and where it was before.
     pub(crate) swift: Vec<Swift>,
+    /// Rows that were met in the last sub-step: their impulses stopped something once.
+    pub(crate) met: Vec<RowId>,
+    /// The same as the sweep tells it: scratch.
+    blocks: Vec<Met>,
     free: Vec<u32>,
     /// What friction turned into heat, in J.
     pub(crate) heat: f64,
@@ -97,6 +101,8 @@ impl Default for Rig {
             lanes,
             limits: vec![Limit::NONE],
             swift: Vec::new(),
+            met: Vec::new(),
+            blocks: Vec::new(),
             free: Vec::new(),
             heat: 0.0,
         }
@@ -305,25 +311,59 @@ impl Rig {
     /// One sub-step. Displacements grow by it; rows are read where they are.
     ///
     /// `bounce` may change velocities before displacements are made of second order.
-    pub(crate) fn step(&mut self, law: &Law, bounce: impl FnOnce(&mut Self)) {
+    pub(crate) fn step(&mut self, law: &Law, sweeps: usize, bounce: impl FnOnce(&mut Self)) {
+        self.forget_impacts();
         self.pull_and_warm(law.h);
+        self.blocks.clear();
         sweep(
             self.level,
             Pass::Solve,
             law,
             &mut self.lines,
             &mut self.lanes.colours,
+            &mut self.blocks,
         );
+        for met in &self.blocks {
+            let (colour, block) = (met.colour as usize, met.block as usize);
+            let lanes = (0..LANES).filter(|lane| met.lanes >> lane & 1 == 1);
+            let rows = lanes.filter_map(|lane| self.lanes.owner(colour, block, lane));
+            self.met.extend(rows);
+        }
         self.displace(law.h);
-        self.heat += sweep(
-            self.level,
-            Pass::Relax,
-            law,
-            &mut self.lines,
-            &mut self.lanes.colours,
-        );
+        for _ in 0..sweeps {
+            self.heat += sweep(
+                self.level,
+                Pass::Relax,
+                law,
+                &mut self.lines,
+                &mut self.lanes.colours,
+                &mut self.blocks,
+            );
+        }
         bounce(self);
         self.second_order(law.h);
+    }
+
+    /// Rows that were met start cold: what stopped a body, and what friction took from it then, does not act
+    /// once more. Only those that one sweep solves for: in a pile what came in goes on for some sub-steps.
+    fn forget_impacts(&mut self) {
+        let mut met = core::mem::take(&mut self.met);
+        for id in met.drain(..) {
+            if !self.lanes.holds(id) {
+                continue;
+            }
+            let row = self.row(id);
+            let alone = |slot: u32| {
+                self.lines[slot as usize].inverse_mass() == 0.0 || self.lanes.degree(slot) == 1
+            };
+            if !(alone(row.bodies.0) && alone(row.bodies.1)) {
+                continue;
+            }
+            self.warm(&row, -1.0);
+            let (wide, lane) = self.lanes.at_mut(id);
+            (wide.j1[lane], wide.j2[lane], wide.jt[lane]) = (0.0, 0.0, 0.0);
+        }
+        self.met = met;
     }
 
     /// Opening speeds of a row's points.
@@ -367,8 +407,9 @@ impl Rig {
 
     /// Makes the points of a row that pushes open at `e` times the speeds at which they were met, one
     /// after the other; 0: not met. Gives the energy that is lost, in J: impulse × mean closing speed.
-    pub(crate) fn bounce(&mut self, id: RowId, e: f64, met: [f64; 2]) -> f64 {
+    pub(crate) fn bounce(&mut self, id: RowId, e: f64, met: [f64; 2], h: f64) -> f64 {
         let mut lost = 0.0;
+        let most = self.energy_before(id, h);
         for (i, met) in met.into_iter().enumerate() {
             let row = self.row(id);
             if met <= 0.0 || row.j[i] <= 0.0 {
@@ -378,7 +419,17 @@ impl Rig {
             let [ma, ia] = [3, 7].map(|k| self.lines[a].0[k]);
             let [mb, ib] = [3, 7].map(|k| self.lines[b].0[k]);
             let k = ma + mb + ia * row.a[i] * row.a[i] + ib * row.b[i] * row.b[i];
-            let j = ((e * met - self.opening(&row)[i]) / k).max(-row.j[i]);
+            let opening = self.opening(&row)[i];
+            let j = ((e * met - opening) / k).max(-row.j[i]);
+            // E + u j + k j²/2 at most what there was: friction may have taken what restitution counts on.
+            let room = most - self.energy_of(a) - self.energy_of(b);
+            let square = opening * opening + 2.0 * k * room;
+            let highest = if square > 0.0 {
+                (square.sqrt() - opening) / k
+            } else {
+                0.0
+            };
+            let j = j.min(highest.max(0.0));
             lost += (row.j[i] + j) * 0.5 * (1.0 - e) * met;
             let line = &mut self.lines[a].0;
             line[0] -= row.n.x * j * ma;
@@ -392,7 +443,47 @@ impl Rig {
             let column = if i == 0 { &mut wide.j1 } else { &mut wide.j2 };
             column[lane] += j;
         }
+        self.keep_cone(id);
         lost
+    }
+
+    /// Takes back what friction did beyond its cone, where less pushes than when it acted.
+    fn keep_cone(&mut self, id: RowId) {
+        let row = self.row(id);
+        let limit = row.mu * (row.j[0] + row.j[1]);
+        let jt = row.jt.clamp(-limit, limit);
+        let change = jt - row.jt;
+        if change.abs() > 0.0 {
+            let impulse = perp(row.n) * change;
+            let (a, b) = (row.bodies.0 as usize, row.bodies.1 as usize);
+            for (slot, sign, arm) in [(a, -1.0, row.at), (b, 1.0, row.bt)] {
+                let line = &mut self.lines[slot];
+                let (m, i) = (line.inverse_mass(), line.inverse_inertia());
+                line.0[0] += sign * impulse.x * m;
+                line.0[1] += sign * impulse.y * m;
+                line.0[2] += sign * arm * change * i;
+            }
+            let (wide, lane) = self.lanes.at_mut(id);
+            wide.jt[lane] = jt;
+        }
+    }
+
+    /// Kinetic energy of both bodies of a row before contacts acted in this sub-step, and what the pull may
+    /// have done beyond it on the way to the surface, in J.
+    fn energy_before(&self, id: RowId, h: f64) -> f64 {
+        let row = self.row(id);
+        let (a, b) = (row.bodies.0 as usize, row.bodies.1 as usize);
+        let [start_a, start_b] = [self.start[a], self.start[b]];
+        let energy = kinetic(&self.lines[a], start_a.v, start_a.w)
+            + kinetic(&self.lines[b], start_b.v, start_b.w);
+        let pulled = (self.pull[b].acceleration - self.pull[a].acceleration).length() * h;
+        let inverse_mass = self.lines[a].inverse_mass() + self.lines[b].inverse_mass();
+        energy + 0.5 * pulled * pulled / inverse_mass
+    }
+
+    fn energy_of(&self, slot: usize) -> f64 {
+        let line = &self.lines[slot];
+        kinetic(line, line.v(), line.w())
     }
 
     /// `p = v − start; start = v + h a; v = start + p`
@@ -461,6 +552,18 @@ impl Rig {
         let (line, start) = (&self.lines[slot as usize], &self.start[slot as usize]);
         (line.v() - start.v, line.w() - start.w)
     }
+}
+
+/// Kinetic energy of a body that moves like this, in J; 0 for what cannot be moved.
+fn kinetic(line: &Line, v: Vec2, w: f64) -> f64 {
+    let part = |inverse: f64, square: f64| {
+        if inverse > 0.0 {
+            0.5 * square / inverse
+        } else {
+            0.0
+        }
+    };
+    part(line.inverse_mass(), v.length_squared()) + part(line.inverse_inertia(), w * w)
 }
 
 /// Whether a body goes beyond its limit within `h`.

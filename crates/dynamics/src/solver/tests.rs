@@ -50,7 +50,7 @@ fn a_column_comes_to_rest_and_carries_its_weight() {
     let law = Law::new(&Softness::default(), 1.0 / 360.0);
     let (mut rig, slots, rows) = column(10);
     for _ in 0..3600 {
-        rig.step(&law, |_| ());
+        rig.step(&law, 1, |_| ());
     }
     rig.lanes.check(&rig.lines);
     for (i, (slot, id)) in slots[1..].iter().zip(&rows).enumerate() {
@@ -83,7 +83,7 @@ fn free_flight_is_the_parabola() {
         },
     });
     for _ in 0..240 {
-        rig.step(&law, |_| ());
+        rig.step(&law, 1, |_| ());
     }
     let line = rig.lines[slot as usize];
     assert!(
@@ -239,7 +239,14 @@ proptest! {
             let heat = plain::sweep(pass, &law, &mut plain.lines, &mut plain.lanes.colours);
             for level in levels() {
                 let mut wide = rig.clone();
-                let same = sweep(level, pass, &law, &mut wide.lines, &mut wide.lanes.colours);
+                let same = sweep(
+                    level,
+                    pass,
+                    &law,
+                    &mut wide.lines,
+                    &mut wide.lanes.colours,
+                    &mut Vec::new(),
+                );
                 prop_assert_eq!(same.to_bits(), heat.to_bits());
                 for (x, y) in wide.lines.iter().zip(&plain.lines) {
                     prop_assert_eq!(x.0.map(f64::to_bits), y.0.map(f64::to_bits));
@@ -301,7 +308,7 @@ proptest! {
                         rig.set_mass(slot, m, i);
                     }
                 }
-                _ => rig.step(&law, |_| ()),
+                _ => rig.step(&law, 1, |_| ()),
             }
             rig.lanes.check(&rig.lines);
             prop_assert!(warmth_error(&rig, &slots) < 1e-10, "after {op}: {:e}", warmth_error(&rig, &slots));
@@ -326,7 +333,7 @@ proptest! {
         // The impulses that the rows came with are not part of the velocities yet.
         let before = momentum(&rig, &slots);
         for _ in 0..20 {
-            rig.step(&law, |_| ());
+            rig.step(&law, 1, |_| ());
             for id in &ids {
                 let row = rig.row(*id);
                 prop_assert!(row.j[0] >= 0.0 && row.j[1] >= 0.0);
@@ -350,7 +357,7 @@ fn a_rocking_face_is_stopped_at_the_corner_that_comes_down() {
     row.gap = [0.06, 0.0];
     rig.rewrite(rows[0], &row);
     rig.set_velocity(slots[1], vec2(0.0, -0.5), -1.0);
-    rig.step(&law, |_| ());
+    rig.step(&law, 1, |_| ());
     let [_, opening] = rig.opening(&rig.row(rows[0]));
     // Pushed out softly: it may open a little, by no more than the push-out of its travel.
     assert!(
@@ -383,7 +390,7 @@ fn a_body_of_a_hundred_contacts_finds_room() {
         })
         .collect();
     rig.lanes.check(&rig.lines);
-    rig.step(&law, |_| ());
+    rig.step(&law, 1, |_| ());
     for id in ids.into_iter().step_by(3) {
         rig.remove(id);
         rig.lanes.check(&rig.lines);

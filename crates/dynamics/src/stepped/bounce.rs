@@ -74,13 +74,13 @@ impl Bounces {
     }
 
     /// After a sub-step: the opening speeds that are owed.
-    pub(crate) fn pay(&mut self, rig: &mut Rig) {
+    pub(crate) fn pay(&mut self, rig: &mut Rig, h: f64) {
         for (id, gaps) in self.hidden.drain(..) {
             rig.show(id, gaps);
         }
         for &(id, met) in &self.armed {
             let e = self.restitution[id.0 as usize];
-            self.cost += rig.bounce(id, e, met);
+            self.cost += rig.bounce(id, e, met, h);
         }
     }
 

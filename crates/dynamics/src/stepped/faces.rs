@@ -4,11 +4,12 @@ use carom_collision::contacts;
 use carom_math::{Pose, SimTime, Vec2};
 
 use super::Stepped;
+use super::near::is_quick;
 use super::seats::pull_of;
-use crate::narrow::carried;
+use crate::narrow::{BURIED, carried};
 use crate::pairs::{Lie, Pair, PairContact};
 use crate::solver::{Row, RowId};
-use crate::{BodyKind, World};
+use crate::{BodyKind, Mode, World};
 
 /// Two bodies that moved less than this against each other since their contacts were found, as a
 /// fraction of the smaller reach, are not looked at again: 20 mm for boxes of 1 m.
@@ -58,7 +59,7 @@ impl World {
         };
         let pair = self.pairs.get_mut(place);
         // Asked of the rows: what callers were told last depends on when they looked.
-        let went = stirred(&pair.built, &lie, size);
+        let went = stirred(&pair.built, &lie, size, [a.rim > 0.0, b.rim > 0.0]);
         if !pair.fresh && went <= KEPT_APART * size + pair.slack {
             return;
         }
@@ -70,15 +71,20 @@ impl World {
         pair.built = lie;
         pair.slack = 0.0;
         let pair_was_touching = pair.touching;
+        let tick = self.settings.tick;
         let rim = |w: f64, reach: f64| if w == 0.0 { 0.0 } else { w.abs() * reach };
         let closing = (lines[1].v() - lines[0].v()).length()
-            + rim(lines[0].w(), a.reach)
-            + rim(lines[1].w(), b.reach);
-        let tick = self.settings.tick;
+            + rim(lines[0].w(), a.rim)
+            + rim(lines[1].w(), b.rim);
         let pull = seats.rig.pull(slots[0]).acceleration - seats.rig.pull(slots[1]).acceleration;
         // Who is swift is stopped where it touches, and looked at there.
         let h = self.clock.h;
-        let ahead = if slots.iter().any(|slot| seats.rig.is_swift(*slot, h)) {
+        let stepped = self.settings.mode == Mode::Stepped;
+        let stops = |slot: &u32| {
+            let line = &seats.rig.lines[*slot as usize];
+            seats.rig.is_swift(*slot, h) && is_quick(seats.get(*slot), line, tick, stepped)
+        };
+        let ahead = if stepped && slots.iter().any(stops) {
             0.0
         } else {
             closing * tick
@@ -194,7 +200,13 @@ impl World {
         }
         let mut old = core::mem::take(&mut pair.contacts);
         let found = core::mem::take(&mut stepped.found);
+        let size = {
+            let of = |slot: u32| stepped.seats.get(slot).reach;
+            of(slots[0]).min(of(slots[1]))
+        };
         for new in &found {
+            let deepest = new.manifold.deepest().unwrap_or(0.0);
+            stepped.buried |= deepest < -BURIED * size;
             let mut contact = carried(new, poses[0], &old);
             let row = row_of(&contact, slots, poses, pair);
             if let Some(id) = contact.row {
@@ -261,8 +273,14 @@ fn row_of(contact: &PairContact, slots: [u32; 2], poses: [Pose; 2], pair: &Pair)
 }
 
 /// How far two bodies moved against each other where they meet, in m; infinite if their normals are stale.
-fn stirred(built: &Lie, now: &Lie, size: f64) -> f64 {
-    let turns = (now.angles.0 - built.angles.0, now.angles.1 - built.angles.1);
+///
+/// A disc that turns about its centre stays where it is.
+fn stirred(built: &Lie, now: &Lie, size: f64, turns: [bool; 2]) -> f64 {
+    let turn = |turns: bool, now: f64, built: f64| if turns { now - built } else { 0.0 };
+    let turns = (
+        turn(turns[0], now.angles.0, built.angles.0),
+        turn(turns[1], now.angles.1, built.angles.1),
+    );
     if turns.0.abs() > TURNED || turns.1.abs() > TURNED {
         return f64::INFINITY;
     }

@@ -3,7 +3,7 @@
 //! A box on a floor of tiles sinks in by its softness. The side of the next tile then stands in its way
 //! by that much, and so does the tile's corner while the two are apart. A row made of such a contact
 //! stops the box at a seam that nobody can feel. So corners that are to meet, and sides that share but a
-//! hair of their length, become rows only if the bodies would meet without their skin.
+//! hair of their length, become rows only if the bodies would meet but for a skin of their width.
 
 use carom_collision::{Motion, PartManifold, TimeOfImpact, part, time_of_impact_of_parts};
 use carom_math::{SimTime, Vec2};
@@ -23,7 +23,7 @@ impl World {
         let mut found = core::mem::take(&mut self.pool.found);
         found.retain(|contact| {
             !self.is_hair(contact, colliders, slots, size)
-                || self.meet_without_skin(contact, colliders, slots)
+                || self.cores_meet(contact, colliders, slots)
         });
         self.pool.found = found;
     }
@@ -76,7 +76,7 @@ impl World {
     }
 
     /// Whether the two parts would meet within a tick, the first without its skin.
-    fn meet_without_skin(
+    fn cores_meet(
         &mut self,
         contact: &PartManifold,
         colliders: (u32, u32),
@@ -98,7 +98,7 @@ impl World {
         });
         self.report.pairs += 1;
         let next = time_of_impact_of_parts(
-            &part(cores[contact.part_a as usize].skinned(), 0),
+            &part(cores[contact.part_a as usize].core(), 0),
             &a,
             &part(target, contact.part_b as usize),
             &b,

@@ -23,8 +23,8 @@ mod write;
 use carom_collision::PartManifold;
 use carom_math::SimTime;
 
-use crate::World;
 use crate::solver::RowId;
+use crate::{Mode, World};
 use bounce::Bounces;
 use crowd::Crowd;
 pub(crate) use crowd::{FEW, MANY};
@@ -34,6 +34,9 @@ use swift::Cores;
 
 /// Ticks between two works-out of the warm start from the impulses.
 const REFRESH: u32 = 64;
+
+/// Sweeps without bias while bodies lie deep in each other.
+const BURIED_SWEEPS: usize = 30;
 
 /// What stepping keeps between steps.
 #[derive(Clone, Debug, Default)]
@@ -58,6 +61,8 @@ pub(crate) struct Stepped {
     quick: Vec<u32>,
     /// Cores of shapes, for those who move far in a sub-step.
     cores: Cores,
+    /// The looks of this tick found bodies deep in each other.
+    buried: bool,
     /// Pairs that this look has been through, by place: number of the look.
     seen: Vec<u32>,
     look: u32,
@@ -111,8 +116,21 @@ impl World {
 
     fn substep(&mut self) {
         let (rig, bounces) = (&mut self.pool.seats.rig, &mut self.pool.bounces);
-        bounces.arm(rig, self.clock.h);
-        rig.step(&self.law, |rig| bounces.pay(rig));
+        let h = self.clock.h;
+        bounces.arm(rig, h);
+        // What was put deep into each other is pushed by many at once: one sweep would leave a part of
+        // the push in the velocities.
+        let stepped = self.settings.mode == Mode::Stepped;
+        let sweeps = if stepped && self.pool.buried {
+            BURIED_SWEEPS
+        } else {
+            1
+        };
+        if !stepped {
+            // What strikes a crowd of hybrid mode has been resolved as an impact.
+            rig.met.clear();
+        }
+        rig.step(&self.law, sweeps, |rig| bounces.pay(rig, h));
         self.stop_swift();
         let rig = &self.pool.seats.rig;
         self.report.rows += rig.lanes.len() as u64;

@@ -2,7 +2,7 @@
 
 use carom_math::{SimTime, Vec2};
 
-use crate::{BodyKind, EventKind, Sleep, World};
+use crate::{BodyKind, EventKind, Mode, Sleep, World};
 
 /// Looks for groups at rest so often in the time that a group must have been at rest.
 const LOOKS: f64 = 4.0;
@@ -17,22 +17,30 @@ impl World {
             return;
         }
         self.pool.since_rest = 0.0;
-        let seats = &self.pool.seats;
         let mut ready = false;
-        for (slot, seat) in seats.moving() {
-            if seat.kind != BodyKind::Dynamic {
+        let stepped = self.settings.mode == Mode::Stepped;
+        for slot in 0..self.pool.seats.places() {
+            if self.pool.seats.get(slot).kind != BodyKind::Dynamic {
                 continue;
             }
+            let seats = &mut self.pool.seats;
+            let centre = seats.centre(slot);
+            let seat = seats.get_mut(slot);
+            // What is pushed out of an overlap goes its way without a velocity.
+            let way = (centre - core::mem::replace(&mut seat.rested, centre)).length();
+            let seats = &self.pool.seats;
+            let seat = seats.get(slot);
             let line = &seats.rig.lines[slot as usize];
             let speed = line.v().length() + line.w().abs() * seat.reach;
             // Only what something holds can be at rest: the top of a throw is not.
             let held = seats.rig.is_pushed(slot);
             let state = self.bodies.get_mut(seat.body);
-            state.slow_for = if held && speed <= sleep.speed {
-                state.slow_for + passed
-            } else {
-                0.0
-            };
+            state.slow_for =
+                if held && speed <= sleep.speed && (!stepped || way <= sleep.speed * passed) {
+                    state.slow_for + passed
+                } else {
+                    0.0
+                };
             ready |= state.slow_for >= sleep.time;
         }
         if ready {

@@ -45,12 +45,16 @@ pub(crate) struct Seat {
     pub(crate) kind: BodyKind,
     /// Largest distance of a point of its shapes from the centre, in m; may be infinite.
     pub(crate) reach: f64,
+    /// The same for what a turn moves: 0 for a disc about its centre.
+    pub(crate) rim: f64,
     /// Where displacement and turn count from.
     pub(crate) base: Pose,
     /// Angle of the base with whole turns.
     pub(crate) base_angle: f64,
     /// Displacement and turn when it was last looked at.
     pub(crate) checked: (Vec2, f64),
+    /// Where its centre was when it was last asked whether it rests.
+    pub(crate) rested: Vec2,
     /// How far it may move before it is looked at again, in m.
     pub(crate) leash: f64,
     /// How far it went since its boxes were made, at most, in m.
@@ -66,9 +70,11 @@ impl Seat {
         },
         kind: BodyKind::Fixed,
         reach: 0.0,
+        rim: 0.0,
         base: Pose::IDENTITY,
         base_angle: 0.0,
         checked: (Vec2::ZERO, 0.0),
+        rested: Vec2::NAN,
         leash: f64::INFINITY,
         roamed: 0.0,
     };
@@ -137,9 +143,15 @@ impl Seats {
             id: state.id,
             kind: state.kind,
             reach: state.reach,
+            rim: if state.inner < state.reach {
+                state.reach
+            } else {
+                0.0
+            },
             base: motion.pose_at(time),
             base_angle: state.turned + motion.turn(time - motion.start),
             checked: (Vec2::ZERO, 0.0),
+            rested: Vec2::NAN,
             leash: LEASH * state.reach,
             roamed: f64::INFINITY,
         };
@@ -256,6 +268,6 @@ pub(crate) fn pull_of(bodies: &Bodies, state: &BodyState, centre: Vec2) -> Pull 
 /// How far a body went since it was last looked at, in m, at most.
 pub(crate) fn wandered(seat: &Seat, d: Vec2, turn: f64) -> f64 {
     let by = (turn - seat.checked.1).abs();
-    let turned = if by > 0.0 { by * seat.reach } else { 0.0 };
+    let turned = if by > 0.0 { by * seat.rim } else { 0.0 };
     (d - seat.checked.0).length() + turned
 }

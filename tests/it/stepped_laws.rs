@@ -1,0 +1,165 @@
+//! Stepped mode on random piles: what must hold whatever falls on what.
+
+use carom_dynamics::{BodyDef, BodyId, Material, Settings, World};
+use carom_math::{Pose, Rot, Vec2, vec2};
+use carom_tests::run;
+use carom_tests::scenes::{block, disc, put, stepped};
+use proptest::prelude::*;
+
+/// A body of a pile: place in a grid of 6 × 6, offset, size, turn, velocity, disc or box.
+#[derive(Clone, Copy, Debug)]
+struct Piece {
+    offset: Vec2,
+    size: f64,
+    angle: f64,
+    velocity: Vec2,
+    spin: f64,
+    round: bool,
+    friction: f64,
+    restitution: f64,
+}
+
+fn piece() -> impl Strategy<Value = Piece> {
+    (
+        (-0.1..0.1_f64, -0.1..0.1_f64),
+        0.3..0.9_f64,
+        -1.6..1.6_f64,
+        (-3.0..3.0_f64, -3.0..3.0_f64),
+        -3.0..3.0_f64,
+        any::<bool>(),
+        prop_oneof![Just(0.0), 0.0..1.2_f64],
+        prop_oneof![Just(0.0), Just(1.0), 0.0..1.0_f64],
+    )
+        .prop_map(
+            |((x, y), size, angle, (vx, vy), spin, round, friction, restitution)| Piece {
+                offset: vec2(x, y),
+                size,
+                angle,
+                velocity: vec2(vx, vy),
+                spin,
+                round,
+                friction,
+                restitution,
+            },
+        )
+}
+
+fn pile(pieces: &[Piece]) -> World {
+    let mut world = stepped(Settings {
+        sleep: None,
+        ..Settings::default()
+    });
+    let wall = Material {
+        friction: 0.4,
+        ..Material::default()
+    };
+    for (at, w, h) in [
+        (vec2(0.0, -0.5), 12.0, 1.0),
+        (vec2(-5.5, 48.0), 1.0, 98.0),
+        (vec2(5.5, 48.0), 1.0, 98.0),
+    ] {
+        put(&mut world, BodyDef::fixed().at(at), block(w, h), wall);
+    }
+    for (k, piece) in pieces.iter().enumerate() {
+        add(&mut world, k, piece);
+    }
+    world
+}
+
+fn add(world: &mut World, k: usize, piece: &Piece) -> BodyId {
+    #[expect(clippy::cast_precision_loss, reason = "small")]
+    let cell = vec2((k % 6) as f64, (k / 6) as f64);
+    let def = BodyDef::dynamic()
+        .at(vec2(-3.75, 0.9) + 1.5 * cell + piece.offset)
+        .turned(piece.angle)
+        .moving(piece.velocity)
+        .spinning(piece.spin);
+    let material = Material {
+        friction: piece.friction,
+        restitution: piece.restitution,
+        ..Material::default()
+    };
+    if piece.round {
+        put(world, def, disc(0.5 * piece.size), material)
+    } else {
+        put(world, def, block(piece.size, 0.7 * piece.size), material)
+    }
+}
+
+/// No contact pushes sideways by more than its friction allows, or pulls.
+fn cone_is_kept(world: &World) -> Result<(), TestCaseError> {
+    for contact in world.contacts() {
+        let friction = |id| {
+            let body = world.body(id).expect("it is there");
+            body.shapes().next().expect("a shape").1.friction
+        };
+        let mu: f64 = (friction(contact.a) * friction(contact.b)).sqrt();
+        let pushes = contact.points.iter().map(|p| p.normal_impulse);
+        prop_assert!(pushes.clone().all(|j| j >= 0.0));
+        let limit = mu * pushes.sum::<f64>();
+        prop_assert!(
+            contact.tangent_impulse.abs() <= limit * (1.0 + 1e-12),
+            "{} over {limit}",
+            contact.tangent_impulse
+        );
+    }
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(48))]
+
+    #[test]
+    fn energy_goes_and_the_friction_cone_is_never_left(
+        pieces in prop::collection::vec(piece(), 1..36),
+    ) {
+        let mut world = pile(&pieces);
+        let first = world.energy().mechanical();
+        let (mut before, mut most) = (first, 0.0_f64);
+        let mut verdict = Ok(());
+        run(&mut world, 6.0, |world| {
+            let now = world.energy().mechanical();
+            most = most.max(now - before);
+            before = now;
+            if verdict.is_ok() {
+                verdict = cone_is_kept(world);
+            }
+        });
+        verdict?;
+        // What overlaps is pushed out, and lifts what lies on it: in a step never more than a twentieth of what was lost.
+        prop_assert!(before < first, "{before} J of {first} are left");
+        prop_assert!(most <= 0.05 * (first - before), "energy rose by {most:.1e} of {} J in a step", first - before);
+    }
+
+    #[test]
+    fn changes_at_any_instant_leave_a_pile_that_rests(
+        pieces in prop::collection::vec(piece(), 8..24),
+        changes in prop::collection::vec((0..4_u8, any::<prop::sample::Index>(), 0.001..0.1_f64, piece()), 1..12),
+    ) {
+        let mut world = pile(&pieces);
+        let mut ids: Vec<BodyId> = world.bodies().map(|body| body.id()).skip(3).collect();
+        world.step(0.5);
+        for (k, (what, which, dt, piece)) in changes.iter().enumerate() {
+            let id = ids[which.index(ids.len())];
+            match what {
+                0 if ids.len() > 4 => {
+                    world.remove(id).expect("it is there");
+                    ids.retain(|other| *other != id);
+                }
+                1 => ids.push(add(&mut world, 42 + k % 6, piece)),
+                2 => {
+                    let pose = Pose::new(vec2(3.0 * piece.offset.x * 10.0, 12.0), Rot::from_angle(piece.angle));
+                    world.teleport(id, pose).expect("valid");
+                }
+                _ => world.set_velocity(id, piece.velocity, piece.spin).expect("valid"),
+            }
+            world.step(*dt);
+        }
+        run(&mut world, 10.0, |_| {});
+        for body in world.bodies() {
+            let c = body.centre();
+            prop_assert!(c.x.abs() < 6.5 && c.y > -1.5, "{} at {c}", body.id());
+        }
+        cone_is_kept(&world)?;
+    }
+}

@@ -1,0 +1,78 @@
+//! Small worlds that many tests begin with.
+
+use carom_dynamics::{BodyDef, BodyId, Material, Mode, Settings, World};
+use carom_geometry::{Circle, ConvexPolygon, Shape};
+use carom_math::{Vec2, vec2};
+
+/// A built-in scene, as it is.
+///
+/// # Panics
+/// If there is none of that name.
+#[must_use]
+pub fn built(name: &str) -> World {
+    carom_scenes::find(name)
+        .and_then(|scene| scene.build())
+        .expect("a built-in scene builds")
+        .world
+}
+
+/// A built-in scene in stepped mode.
+///
+/// # Panics
+/// If there is none of that name.
+#[must_use]
+pub fn built_stepped(name: &str) -> World {
+    let mut scene = carom_scenes::find(name).expect("a built-in scene");
+    scene.set("settings.mode", "stepped").expect("a mode");
+    scene.build().expect("a built-in scene builds").world
+}
+
+/// An empty world in stepped mode.
+///
+/// # Panics
+/// If a setting is out of its range.
+#[must_use]
+pub fn stepped(settings: Settings) -> World {
+    World::new(Settings {
+        mode: Mode::Stepped,
+        ..settings
+    })
+    .expect("valid settings")
+}
+
+/// A fixed floor of 40 m whose top is at y = 0.
+pub fn floor(world: &mut World, material: Material) -> BodyId {
+    let def = BodyDef::fixed().at(vec2(0.0, -1.0));
+    put(world, def, block(40.0, 2.0), material)
+}
+
+/// A box of 1 m.
+pub fn boxed(world: &mut World, at: Vec2, material: Material) -> BodyId {
+    put(world, BodyDef::dynamic().at(at), block(1.0, 1.0), material)
+}
+
+/// A body.
+///
+/// # Panics
+/// If the world refuses it.
+pub fn put(world: &mut World, def: BodyDef, shape: impl Into<Shape>, material: Material) -> BodyId {
+    world.insert(def, shape, material).expect("a valid body")
+}
+
+/// A rectangle about its centre.
+///
+/// # Panics
+/// If a side is not above 0.
+#[must_use]
+pub fn block(width: f64, height: f64) -> ConvexPolygon {
+    ConvexPolygon::rectangle(width, height).expect("a rectangle")
+}
+
+/// A disc about its centre.
+///
+/// # Panics
+/// If the radius is not above 0.
+#[must_use]
+pub fn disc(radius: f64) -> Circle {
+    Circle::new(radius).expect("a disc")
+}
