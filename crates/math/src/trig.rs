@@ -108,6 +108,12 @@ pub fn exp_m1(x: f64) -> f64 {
     libm::expm1(x)
 }
 
+/// Inverse hyperbolic sine.
+#[must_use]
+pub fn asinh(x: f64) -> f64 {
+    libm::asinh(x)
+}
+
 /// Hyperbolic sine and cosine.
 #[must_use]
 pub fn sinh_cosh(x: f64) -> (f64, f64) {
