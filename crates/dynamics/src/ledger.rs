@@ -9,7 +9,7 @@
 /// kinetic + potential + impacts + friction = external + forces + scheme
 /// ```
 /// In [`crate::Mode::Stepped`] `scheme` is what the other columns do not explain, and the balance
-/// checks nothing.
+/// checks nothing; in [`crate::Mode::Hybrid`] that is so for the part of it that large groups in touch have.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EnergyLedger {
     /// ½ m v² + ½ I ω² of all dynamic bodies now.

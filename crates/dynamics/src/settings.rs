@@ -95,7 +95,8 @@ impl Settings {
 /// [`Mode::Exact`] says how many groups had to be sub-stepped.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Mode {
-    /// Each group the cheapest method that is right for it.
+    /// Each group the cheapest method that is right for it. Large groups in touch, and many bodies whose impacts come
+    /// fast, are moved by the solver of [`Mode::Stepped`]; what strikes them joins them.
     #[default]
     Hybrid,
     /// Closed forms only; what they cannot finish is sub-stepped and marks the run as not exact.

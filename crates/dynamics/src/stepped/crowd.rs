@@ -1,7 +1,7 @@
 //! Crowds: in [`Mode::Hybrid`], groups too large for impacts one by one are moved by the solver of stepped mode.
 //!
 //! Everybody else flies, or is sub-stepped pair by pair. A body joins when it touches a large group, or when it
-//! would meet a crowd before the next sub-step; it leaves when nothing has been near for two ticks.
+//! would meet a crowd before the next sub-step; it leaves when nothing has been near for three ticks.
 
 use carom_collision::contacts;
 use carom_geometry::Aabb;
@@ -18,7 +18,7 @@ pub(crate) const FEW: usize = 16;
 /// Groups of more bodies in touch than this have more than [`crate::modes::ROWS`] rows: no closed form is tried.
 pub(crate) const MANY: usize = 64;
 
-/// Ticks without a contact near after which a body flies.
+/// A body flies after more ticks than these without a contact near.
 const IDLE: u8 = 2;
 
 /// What nears a crowd joins this far beyond a sub-step's travel, as a fraction of the smaller reach.
