@@ -324,6 +324,7 @@ impl World {
             h,
             meets.then_some(&self.flyers),
         );
+        self.look_down_first(time);
     }
 
     pub(crate) fn predict(&mut self, place: u32, time: SimTime) {

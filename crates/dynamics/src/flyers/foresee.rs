@@ -41,9 +41,7 @@ impl World {
         self.flyers.resize(&mut self.bodies, time);
         if self.look_round(index, time) {
             self.leave_tree(index);
-            let span = Track::of(&self.bodies.get(index).motion, time)
-                .seconds_for(SPAN * self.flyers.grid.side());
-            self.look_down(index, time, span);
+            self.look_down(index, time, self.first_span(index, time));
         } else {
             self.follow(index, time);
         }
@@ -68,8 +66,17 @@ impl World {
         true
     }
 
-    /// Boxes of a flyer in the world for the next `span` seconds.
+    /// Boxes of a flyer in the world for the next `span` seconds; without end while nothing is there.
     fn look_down(&mut self, index: u32, time: SimTime, span: f64) {
+        if !self.flyers.grounded {
+            let state = self.bodies.get_mut(index);
+            state.course.ground = SimTime::NEVER;
+            state.course.reached = Aabb::EMPTY;
+            for &at in &state.colliders {
+                self.colliders[at as usize].fat = Aabb::EMPTY;
+            }
+            return;
+        }
         let span = at_most(span);
         let state = self.bodies.get_mut(index);
         state.course.span = span;
@@ -80,6 +87,26 @@ impl World {
             self.colliders[at as usize].fat = state.course.reached;
         }
         self.queue_end(index, Ahead::Ground);
+    }
+
+    /// From the first box in the tree on flyers look down for what is there.
+    pub(crate) fn look_down_first(&mut self, time: SimTime) {
+        if self.flyers.grounded || self.broad.tree.is_empty() {
+            return;
+        }
+        self.flyers.grounded = true;
+        for index in self.bodies.indices().collect::<Vec<_>>() {
+            if self.bodies.get(index).course.cells.is_some() {
+                self.look_down(index, time, self.first_span(index, time));
+                self.meet_shapes(index, time, Cause::Horizon);
+            }
+        }
+    }
+
+    /// How long a flyer with a new motion looks down for, in s.
+    fn first_span(&self, index: u32, time: SimTime) -> f64 {
+        let track = Track::of(&self.bodies.get(index).motion, time);
+        track.seconds_for(SPAN * self.flyers.grid.side())
     }
 
     /// Boxes in the tree of a flyer that is too large for the grid.
@@ -95,6 +122,7 @@ impl World {
         self.broad
             .follow(&self.bodies, &mut self.colliders, index, time, seconds);
         self.queue_end(index, Ahead::Ground);
+        self.look_down_first(time);
     }
 
     /// Enters the end of a search, unless an earlier entry will come to it: a motion changes more often

@@ -80,6 +80,15 @@ impl Default for Course {
 }
 
 impl Course {
+    /// Until when all has been looked for that does not fly; all that flies, where nothing else is there.
+    fn end_of_search(&self) -> SimTime {
+        if self.ground == SimTime::NEVER {
+            self.horizon
+        } else {
+            self.ground
+        }
+    }
+
     /// When a search ends, and the entry for that.
     fn end(&mut self, ahead: Ahead) -> (SimTime, &mut SimTime) {
         match ahead {
@@ -125,6 +134,8 @@ pub(crate) struct Flyers {
     frame: Frame,
     /// The frame has got too fast for its flyers.
     drifts: bool,
+    /// There is, or was, something in the tree of boxes that they look down for.
+    grounded: bool,
     /// Boxes of the grid's flyers in the world, while somebody needs to find them there.
     aloft: Option<BoxTree>,
     queue: Queue,
@@ -152,6 +163,7 @@ impl Flyers {
             grid: Grid::new(1.0, 0),
             frame: Frame::falling(gravity),
             drifts: false,
+            grounded: false,
             aloft: None,
             queue: Queue::default(),
             impacts: Vec::new(),
