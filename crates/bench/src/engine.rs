@@ -27,6 +27,11 @@ pub trait Engine {
     /// What the engine says about its work.
     fn counters(&self) -> Counters;
 
+    /// Impacts since the start, where the engine counts them one by one.
+    fn impacts(&self) -> Option<u64> {
+        None
+    }
+
     /// Seconds that each stage of the last step took, where the engine tells.
     ///
     /// The first call turns the engine's own profile on; it costs a few clock readings a step.

@@ -78,6 +78,9 @@ pub struct SpeedReading {
     /// Farthest that a dynamic body's centre moved during the measured steps, in m.
     #[serde(with = "crate::number")]
     pub drift: f64,
+    /// Impacts of a body in a simulated second of the measured steps, where the engine counts them: each has two bodies.
+    #[serde(default)]
+    pub impact_rate: Option<f64>,
     /// In the engine's own words, after the last measured step.
     pub counters: Counters,
     /// Largest resident memory up to the last measured step, in MiB.
@@ -113,7 +116,9 @@ pub(crate) fn run(job: &SpeedJob) -> Result<SpeedReading, EngineError> {
     let mut race = Race::start(job)?;
     let ms_first = race.warm_up();
     let before = race.snapshot();
+    let impacts = race.engine.impacts();
     let mut times = race.measure();
+    let impacts = impacts.zip(race.engine.impacts());
     let after = race.snapshot();
     // Before judging: the judge's memory is not the engine's.
     let peak_mib = peak_memory();
@@ -140,6 +145,10 @@ pub(crate) fn run(job: &SpeedJob) -> Result<SpeedReading, EngineError> {
         after: after.judge(&scene),
         rms_acceleration,
         drift: before.drift(&after, &scene),
+        impact_rate: impacts.map(|(before, after)| {
+            let seconds = f64::from(measured_steps) * scene.dt;
+            rate(after - before, dynamic(&scene), seconds)
+        }),
         counters,
         peak_mib,
         own_mib,
@@ -150,6 +159,11 @@ pub(crate) fn run(job: &SpeedJob) -> Result<SpeedReading, EngineError> {
 #[expect(clippy::cast_precision_loss, reason = "a count of steps")]
 fn mean(times: &[f64]) -> f64 {
     times.iter().sum::<f64>() / times.len() as f64
+}
+
+#[expect(clippy::cast_precision_loss, reason = "counts far below 2^52")]
+fn rate(impacts: u64, bodies: usize, seconds: f64) -> f64 {
+    2.0 * impacts as f64 / (bodies as f64 * seconds)
 }
 
 /// The steps of a job without judge and without a second look at their times.

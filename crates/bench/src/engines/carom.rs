@@ -12,6 +12,7 @@ struct Carom {
     dt: f64,
     ids: Vec<BodyId>,
     poses: Vec<Pose>,
+    impacts: u64,
 }
 
 pub(super) fn open(scene: &PlainScene, setup: &Setup) -> Result<Box<dyn Engine>, EngineError> {
@@ -36,6 +37,7 @@ pub(super) fn open(scene: &PlainScene, setup: &Setup) -> Result<Box<dyn Engine>,
         dt: setup.hz.recip(),
         ids,
         poses: Vec::new(),
+        impacts: 0,
     }))
 }
 
@@ -62,7 +64,7 @@ fn settings(scene: &PlainScene, setup: &Setup) -> Settings {
 
 impl Engine for Carom {
     fn step(&mut self) {
-        let _ = self.world.step(self.dt);
+        self.impacts += self.world.step(self.dt).impacts;
     }
 
     fn state(&self, body: usize) -> State {
@@ -100,6 +102,10 @@ impl Engine for Carom {
                 .count(),
             touching: self.world.contacts().count(),
         }
+    }
+
+    fn impacts(&self) -> Option<u64> {
+        Some(self.impacts)
     }
 
     fn profile(&mut self) -> Option<Vec<(&'static str, f64)>> {

@@ -55,6 +55,43 @@ fn flying(name: &str, spread: f64) -> PlainScene {
     scene
 }
 
+/// Bodies of a gas of [`spaced_scene`].
+const SPACED: u32 = 1024;
+
+/// The bodies of scene e, about a thousand of them, on a square grid of `spacing` millimetres (1,150 to 20,000, else the
+/// nearest of these) in a closed box, named `gas_spaced_1300`: the denser, the more impacts.
+///
+/// # Examples
+/// ```
+/// use carom_scenes::{plain_scene, spaced_scene};
+/// let scene = spaced_scene(1300);                              // as dense as scene e
+/// assert_eq!(plain_scene("gas_spaced_1300"), Some(scene));
+/// ```
+#[must_use]
+pub fn spaced_scene(spacing: u32) -> PlainScene {
+    let spacing = spacing.clamp(*SPACINGS.start(), *SPACINGS.end());
+    let metres = f64::from(spacing) / 1000.0;
+    let side = SPACED.isqrt();
+    let half = 0.5 * f64::from(side - 1) * metres;
+    let mut scene = closed_box(&format!("gas_spaced_{spacing}"), half + metres, 0.3).steps(60, 300);
+    let mut random = Harness::new(42, &[]);
+    for i in 0..SPACED {
+        let at = vec2(f64::from(i % side), f64::from(i / side)) * metres - Vec2::splat(half);
+        flyer(&mut scene, &mut random, at);
+    }
+    scene
+}
+
+/// Spacings of [`spaced_scene`], in mm: at 1.12 m two of its bodies overlap.
+const SPACINGS: core::ops::RangeInclusive<u32> = 1150..=20_000;
+
+/// Spacing of a name like `gas_spaced_1300`; no other spelling, and none out of range.
+pub(crate) fn spacing_of(name: &str) -> Option<u32> {
+    let number = name.strip_prefix("gas_spaced_")?;
+    let spacing: u32 = number.parse().ok()?;
+    (SPACINGS.contains(&spacing) && spacing.to_string() == number).then_some(spacing)
+}
+
 /// A disc (one in seven) or a polygon of three to eight corners.
 pub(super) fn flyer(scene: &mut PlainScene, random: &mut Harness, at: Vec2) {
     let draw = random.below(7);

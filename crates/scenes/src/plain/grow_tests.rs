@@ -54,7 +54,9 @@ fn published_and_growing_scenes_start_apart() {
         info.name != "case19_polygon_pairs"
     });
     let growing = GrowthKind::ALL.map(|kind| growth_scene(kind, 2000));
-    for scene in published.map(super::PlainInfo::scene).chain(growing) {
+    let spaced = [1150, 5200].map(super::spaced_scene);
+    let made = growing.into_iter().chain(spaced);
+    for scene in published.map(super::PlainInfo::scene).chain(made) {
         let mut world = world(&scene);
         // One sub-step looks at every pair before anything has moved.
         let report = world.step(world.settings().substep);

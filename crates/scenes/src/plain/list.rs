@@ -105,7 +105,8 @@ pub fn plain_scenes() -> &'static [PlainInfo] {
 }
 
 /// The plain scene of a name, or of a letter: `a` is `a_large_pyramid`, `e` is `e_flying_polygons`;
-/// or a [growth scene](super::growth_scene) of any size: `grow_pile_2000`.
+/// or a [growth scene](super::growth_scene) of any size: `grow_pile_2000`; or a [gas](super::spaced_scene) of any
+/// density: `gas_spaced_1300`.
 ///
 /// # Examples
 /// ```
@@ -121,6 +122,7 @@ pub fn plain_scene(name: &str) -> Option<PlainScene> {
     found
         .map(PlainInfo::scene)
         .or_else(|| growth_of(name).map(|(kind, bodies)| growth_scene(kind, bodies)))
+        .or_else(|| gas::spacing_of(name).map(gas::spaced_scene))
 }
 
 /// The name that a letter stands for.

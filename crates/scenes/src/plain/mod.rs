@@ -15,6 +15,7 @@ mod resting;
 mod sparse;
 mod world;
 
+pub use gas::spaced_scene;
 pub use grow::{GrowthKind, MAX_GROWTH, growth_scene};
 pub use list::{PlainInfo, plain_scene, plain_scenes};
 pub use world::PlainError;

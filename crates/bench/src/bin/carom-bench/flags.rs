@@ -63,6 +63,7 @@ pub(crate) struct AccuracyArgs {
     cargo xtask speed --scene e --scene a\n  \
     cargo xtask speed --peers --out out/speed\n  \
     cargo xtask speed --peers --growth\n  \
+    cargo xtask speed --peers --crossing\n  \
     cargo xtask speed --engine carom --engine box2d-sse2 --threads 1,2\n  \
     cargo xtask speed --instructions --scene i --scene h\n  \
     cargo xtask speed --profile\n\n\
@@ -86,8 +87,11 @@ pub(crate) struct SpeedArgs {
     /// Growth curves instead: a pile, a gas and free bodies from 200 to 200,000; an engine goes no further once a step takes 250 ms
     #[arg(long, conflicts_with_all = ["scene", "repeat", "threads"])]
     pub(crate) growth: bool,
+    /// Gases of the same bodies instead, ever denser: at how many impacts exact motion costs as much as each peer
+    #[arg(long, conflicts_with_all = ["growth", "scene", "repeat", "threads"])]
+    pub(crate) crossing: bool,
     /// Instructions a step instead of times, counted by valgrind's callgrind: the same on a busy machine; some fifty times slower
-    #[arg(long, conflicts_with_all = ["growth", "profile", "repeat", "threads"])]
+    #[arg(long, conflicts_with_all = ["growth", "crossing", "profile", "repeat", "threads"])]
     pub(crate) instructions: bool,
     /// Steps before the counted ones, at most the scene's own
     #[arg(long, value_name = "N", default_value_t = 5, requires = "instructions", value_parser = clap::value_parser!(u32).range(1..))]
@@ -96,12 +100,12 @@ pub(crate) struct SpeedArgs {
     #[arg(long, value_name = "N", default_value_t = 5, requires = "instructions", value_parser = clap::value_parser!(u32).range(1..))]
     pub(crate) steps: u32,
     /// Where the time of a step goes instead, stage by stage, as the engine's own clock tells it: carom and Box2D
-    #[arg(long, conflicts_with_all = ["growth", "repeat", "threads"])]
+    #[arg(long, conflicts_with_all = ["growth", "crossing", "repeat", "threads"])]
     pub(crate) profile: bool,
     /// Built as for development, in seconds: not for comparing times
     #[arg(long)]
     pub(crate) quick: bool,
-    /// Folder for tables and charts [default: out/speed, out/growth, out/instructions or out/profile]
+    /// Folder for tables and charts [default: out/speed, out/growth, out/crossing, out/instructions or out/profile]
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
     #[command(flatten)]

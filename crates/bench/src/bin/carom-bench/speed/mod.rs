@@ -2,6 +2,7 @@
 
 mod chart;
 mod counts;
+mod crossing;
 mod growth;
 mod row;
 mod stages;
@@ -24,8 +25,11 @@ use crate::plan::{self, Planned, Speed};
 use crate::store::{Row, Store};
 
 pub(crate) fn run(args: &SpeedArgs) -> Outcome {
-    let scenes = scenes(&args.scene)?;
     let what = What::of(args);
+    let scenes = match what {
+        What::Crossing => crossing::scenes(),
+        _ => scenes(&args.scene)?,
+    };
     if what == What::Instructions && !builds::answers("valgrind", &["--version"]) {
         fail!("--instructions needs valgrind, which cannot be started (apt install valgrind)");
     }
@@ -70,6 +74,7 @@ pub(crate) fn run(args: &SpeedArgs) -> Outcome {
 enum What {
     Times,
     Growth,
+    Crossing,
     Instructions,
     Profile,
 }
@@ -78,6 +83,7 @@ impl What {
     const fn of(args: &SpeedArgs) -> Self {
         match args {
             SpeedArgs { growth: true, .. } => Self::Growth,
+            SpeedArgs { crossing: true, .. } => Self::Crossing,
             SpeedArgs {
                 instructions: true, ..
             } => Self::Instructions,
@@ -91,6 +97,7 @@ impl What {
         match self {
             Self::Times => "speed",
             Self::Growth => "growth",
+            Self::Crossing => "crossing",
             Self::Instructions => "instructions",
             Self::Profile => "profile",
         }
@@ -112,6 +119,7 @@ fn plan(args: &SpeedArgs, what: What, scenes: &[String], engines: &[EngineName])
             cpu_s,
         }),
         What::Growth => plan::growth(engines, cpu_s),
+        What::Crossing => plan::once(scenes, engines, in_time, Job::Speed),
         What::Instructions => {
             let few = Limits {
                 warm_up_steps: Some(args.warm_up),
@@ -143,6 +151,15 @@ fn write(args: &SpeedArgs, what: What, out: &Path, store: &Store) -> Result<(), 
             (
                 row::csv(head, &rows)?,
                 stages::markdown(head, &rows),
+                Vec::new(),
+            )
+        }
+        What::Crossing => {
+            let rows = row::of(&store.rows);
+            json.map_or(Ok(()), |path| files::write_json(path, &rows))?;
+            (
+                row::csv(head, &rows)?,
+                crossing::markdown(head, &rows),
                 Vec::new(),
             )
         }

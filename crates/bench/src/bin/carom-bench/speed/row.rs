@@ -39,6 +39,8 @@ pub(crate) struct SpeedRow {
     pub(crate) drift: Option<f64>,
     pub(crate) bodies_awake: Option<usize>,
     pub(crate) touching: Option<usize>,
+    /// Impacts of a body in a simulated second, where the engine counts them.
+    pub(crate) impact_rate: Option<f64>,
     pub(crate) escaped: Option<usize>,
     pub(crate) non_finite: Option<usize>,
     pub(crate) peak_mib: Option<f64>,
@@ -115,6 +117,7 @@ fn row(job: &SpeedJob, readings: &[&Reading]) -> SpeedRow {
         drift: of(|reading| reading.drift),
         bodies_awake: last.map(|reading| reading.counters.awake),
         touching: last.map(|reading| reading.counters.touching),
+        impact_rate: last.and_then(|reading| reading.impact_rate),
         escaped: good.iter().map(|reading| reading.after.escaped).max(),
         non_finite: good.iter().map(|reading| reading.after.non_finite).max(),
         peak_mib: median(good.iter().filter_map(|reading| reading.peak_mib).collect()),
@@ -239,6 +242,7 @@ pub(crate) mod tests {
             after: quality(5.0),
             rms_acceleration: 0.1,
             drift: 0.2,
+            impact_rate: None,
             counters: Counters {
                 awake: 7,
                 touching: 9,
