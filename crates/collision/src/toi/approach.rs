@@ -258,6 +258,11 @@ impl<'a> Approach<'a> {
         }
     }
 
+    /// Whether there is but one axis to look at: of a disc, or of a half-plane.
+    pub(super) const fn has_one_axis(&self) -> bool {
+        self.wall.is_some() || self.disc.is_some()
+    }
+
     /// Disc against anything: the edge it lies over, or the direction to the nearest corner.
     fn axis_of_disc(&self, disc: usize, at: &Instant) -> Axis {
         let owner = 1 - disc;

@@ -147,7 +147,7 @@ impl Search<'_> {
         let near = NEAR * approach.size();
         // Twice as near, since heights are rounded otherwise than gaps.
         let floor = gap - 2.0 * near;
-        if approach.is_alone(widest, least, at, floor) {
+        if approach.has_one_axis() || approach.is_alone(widest, least, at, floor) {
             return (widest, slowest(approach, facing, gap + near));
         }
         let floor = floor + approach.hulls[0].radius + approach.hulls[1].radius;

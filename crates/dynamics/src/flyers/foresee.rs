@@ -11,7 +11,7 @@ use crate::body::BodyState;
 use crate::{BodyKind, PairSearch, World};
 
 /// Part of a cell that a flyer travels within its horizon.
-const TRAVEL: f64 = 0.4;
+const TRAVEL: f64 = 0.35;
 
 /// Way, in cells, that a flyer looks down for first.
 const SPAN: f64 = 2.0;
@@ -182,6 +182,7 @@ impl World {
             }
         };
         self.flyers.searches += 1;
+        self.flyers.renewed += usize::from(cause == Cause::Horizon);
         match self.broad.search {
             PairSearch::Indexed => {}
             PairSearch::None => near.clear(),

@@ -62,6 +62,9 @@ impl Cells {
     }
 }
 
+/// Where the origin lies in its cell: scenes are often laid out about it, and what lies on a border is in two cells.
+const CORNER: f64 = 0.381_966_011_250_105;
+
 /// Lists of bodies by cell. Cells share lists by a hash of their numbers: the plane has no border,
 /// and a list may name bodies of a cell far away.
 #[derive(Clone, Debug)]
@@ -142,7 +145,7 @@ impl Grid {
     }
 
     fn cell(&self, point: Vec2) -> (i32, i32) {
-        let cell = point / self.side;
+        let cell = point / self.side + CORNER;
         (floor(cell.x), floor(cell.y))
     }
 

@@ -121,8 +121,9 @@ impl Foreseen {
     }
 }
 
-/// Boxes tested per registration that a cell is sized for: fewer waste horizons, more waste tests.
-const PARTNERS: core::ops::Range<f64> = 16.0..48.0;
+/// Boxes tested per search that a cell is sized for, where all searches follow impacts, and how many more where all
+/// follow the ends of horizons: larger cells make horizons longer, and searches dearer.
+const PARTNERS: (f64, f64) = (24.0, 72.0);
 
 /// Cells that a box may cover before the body goes to the tree instead.
 const MOST_CELLS: u64 = 64;
@@ -144,8 +145,9 @@ pub(crate) struct Flyers {
     /// Mark of the last search that met a body.
     seen: Vec<u32>,
     mark: u32,
-    /// Since the cells were sized: searches, and the boxes they tested.
+    /// Since the cells were sized: searches, those at the ends of horizons, and the boxes they tested.
     searches: usize,
+    renewed: usize,
     met: usize,
     /// Scratch of a search: flyers, and shapes of what does not fly.
     near: Vec<u32>,
@@ -171,6 +173,7 @@ impl Flyers {
             seen: Vec::new(),
             mark: 0,
             searches: 0,
+            renewed: 0,
             met: 0,
             near: Vec::new(),
             shapes: Vec::new(),
@@ -399,12 +402,15 @@ impl Flyers {
     /// Sizes the cells anew where searches meet too many bodies, or hardly any.
     fn resize(&mut self, bodies: &mut Bodies, time: SimTime) {
         let crowded = self.grid.count() > self.grid.room();
-        if self.searches < 64.max(4 * self.grid.count()) && !crowded {
+        if self.searches < 64.max(self.grid.count()) && !crowded {
             return;
         }
         #[expect(clippy::cast_precision_loss, reason = "fewer than 2^52 searches")]
-        let met = self.met as f64 / self.searches.max(1) as f64;
-        (self.searches, self.met) = (0, 0);
+        let (met, renewed) = {
+            let searches = self.searches.max(1) as f64;
+            (self.met as f64 / searches, self.renewed as f64 / searches)
+        };
+        (self.searches, self.renewed, self.met) = (0, 0, 0);
         let flying: Vec<u32> = bodies
             .indices()
             .filter(|i| bodies.get(*i).course.cells.is_some())
@@ -415,12 +421,12 @@ impl Flyers {
         #[expect(clippy::cast_precision_loss, reason = "fewer than 2^32 bodies")]
         let reach = flying.iter().map(|i| bodies.get(*i).reach).sum::<f64>() / flying.len() as f64;
         self.drifts = drift(&self.frame, bodies, &flying, time).is_some();
-        let factor = if met > PARTNERS.end {
-            0.75
-        } else if met < PARTNERS.start {
-            1.5
-        } else {
+        // What is met grows with the area that is searched.
+        let wanted = (PARTNERS.0 + PARTNERS.1 * renewed) / met.max(1.0);
+        let factor = if (0.5..2.0).contains(&wanted) {
             1.0
+        } else {
+            wanted.sqrt().clamp(0.5, 4.0)
         };
         let side = (factor * self.grid.side()).clamp(2.0 * reach, 1e6 * reach);
         if (side - self.grid.side()).abs() < 0.1 * side && !crowded {

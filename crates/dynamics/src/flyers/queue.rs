@@ -54,6 +54,12 @@ const YEAR: u64 = 4096;
 /// most days are looked at in vain.
 const CROWD: core::ops::Range<u64> = 8..64;
 
+/// Entries of one day that it is cut for at once, instead of at the end of the year.
+const CROWDED: usize = 256;
+
+/// The shortest day is 2⁻⁶ s / 2^20.
+const SHORTEST: u32 = 20;
+
 /// A calendar: a heap for today, a list for every day of the year, one list for all that is later.
 ///
 /// Entries are dropped at the start of their day if they are stale by then, so that most of them never
@@ -123,6 +129,9 @@ impl Queue {
                 self.today += 1;
             }
             self.open(&mut stale);
+            if self.due.len() > CROWDED && self.shift < SHORTEST {
+                self.refine();
+            }
         }
         let Reverse(first) = self.due.peek()?;
         (first.time <= limit).then_some(first.time)
@@ -164,18 +173,33 @@ impl Queue {
             .saturating_sub(self.last.saturating_sub(YEAR - 1))
             + 1;
         let crowd = self.come / days;
-        let (old, mut entries) = (self.shift, core::mem::take(&mut self.later));
-        if crowd >= CROWD.end && self.shift < 20 {
-            self.shift += 1;
+        let shift = if crowd >= CROWD.end && self.shift < SHORTEST {
+            self.shift + 1
         } else if crowd < CROWD.start && self.shift > 0 {
-            self.shift -= 1;
-        }
+            self.shift - 1
+        } else {
+            self.shift
+        };
+        self.begin_year(day, shift);
+    }
+
+    /// A new year begins today, with days so short that a usual number of today's entries is in each.
+    fn refine(&mut self) {
+        let parts = self.due.len() / (CROWDED / 8);
+        self.later
+            .extend(self.due.drain().map(|Reverse(entry)| entry));
+        self.begin_year(self.today, (self.shift + parts.ilog2()).min(SHORTEST));
+    }
+
+    /// Sorts all that is not today's into the days of a year from `day` on, or from the first with an entry.
+    fn begin_year(&mut self, day: u64, shift: u32) {
+        let (old, mut entries) = (self.shift, core::mem::take(&mut self.later));
+        self.shift = shift;
         for list in &mut self.days {
             entries.append(list);
         }
         self.waiting = 0;
         self.come = 0;
-        let shift = self.shift;
         let renamed = if shift >= old {
             day << (shift - old)
         } else {
