@@ -129,8 +129,9 @@ impl Queue {
                 self.today += 1;
             }
             self.open(&mut stale);
-            if self.due.len() > CROWDED && self.shift < SHORTEST {
+            while self.is_crowded() {
                 self.refine();
+                self.open(&mut stale);
             }
         }
         let Reverse(first) = self.due.peek()?;
@@ -181,6 +182,16 @@ impl Queue {
             self.shift
         };
         self.begin_year(day, shift);
+    }
+
+    /// Whether today has so many entries that it should be cut, and there is something to cut.
+    fn is_crowded(&self) -> bool {
+        let mut times = self.due.iter().map(|Reverse(entry)| entry.time);
+        self.due.len() > CROWDED
+            && self.shift < SHORTEST
+            && times
+                .next()
+                .is_some_and(|first| times.any(|time| time != first))
     }
 
     /// A new year begins today, with days so short that a usual number of today's entries is in each.
@@ -270,6 +281,40 @@ mod tests {
                 prop_assert!(list.first().is_none_or(|first| first.time > end));
                 now = end;
             }
+        }
+    }
+
+    /// They were left behind on the first part of the day that was cut, and came a year late.
+    #[test]
+    fn a_crowded_day_is_cut_without_losing_its_first_hour() {
+        for together in [0.5, 0.500_001] {
+            let mut queue = Queue::default();
+            let times = (0..2000).map(|a| {
+                if a < 1500 {
+                    together
+                } else {
+                    0.5 + 1e-6 * f64::from(a)
+                }
+            });
+            let mut list: Vec<Entry> = (0..).zip(times).map(|(a, time)| entry(time, a)).collect();
+            for &entry in &list {
+                queue.push(entry);
+            }
+            list.sort_unstable();
+            let mut now = SimTime::ZERO;
+            let mut found = Vec::new();
+            for _ in 0..100 {
+                now += 1.0 / 64.0;
+                while queue.next(now, |_| false).is_some() {
+                    found.extend(queue.pop());
+                }
+                assert!(
+                    list[found.len()..]
+                        .first()
+                        .is_none_or(|next| next.time > now)
+                );
+            }
+            assert_eq!(found, list);
         }
     }
 
