@@ -24,6 +24,9 @@ const MARGIN: f64 = 0.028;
 /// Normals are kept in the world: a pair that turned by more, in rad, is looked at again.
 const TURNED: f64 = 0.1;
 
+/// Mass ratio of a pair from which on one sweep a sub-step does not carry the load.
+const HEAVY: f64 = 64.0;
+
 impl World {
     /// Finds the contacts of a pair anew if it moved, and gives them rows. Whoever wakes goes to `moved`.
     pub(super) fn look_at(&mut self, place: u32, time: SimTime, moved: &mut Vec<u32>) {
@@ -187,7 +190,10 @@ impl World {
 
     /// Gives the contacts that were found their rows: lanes go over by parts, impulses by feature.
     fn face(&mut self, place: u32, slots: [u32; 2], poses: [Pose; 2]) {
+        let all = self.moves_all();
         let pair = self.pairs.get_mut(place);
+        let masses =
+            [pair.bodies.0, pair.bodies.1].map(|index| self.bodies.get(index).inverse_mass);
         let stepped = &mut self.pool;
         for contact in &mut pair.contacts {
             if let Some(id) = contact.row {
@@ -204,9 +210,18 @@ impl World {
             let of = |slot: u32| stepped.seats.get(slot).reach;
             of(slots[0]).min(of(slots[1]))
         };
+        if all {
+            // What was put there is deep at its first contact; what sinks in later is left to go on, but
+            // for a load that one sweep does not carry.
+            let depths = found.iter().filter_map(|new| new.manifold.deepest());
+            let deep = depths.fold(0.0, f64::min) < -BURIED * size;
+            let [light, heavy] = [masses[0].max(masses[1]), masses[0].min(masses[1])];
+            pair.buried = deep && (pair.buried || old.is_empty());
+            stepped.depths.buried |= pair.buried;
+            stepped.depths.sunk |= deep;
+            stepped.depths.loaded |= heavy > 0.0 && light > HEAVY * heavy && !found.is_empty();
+        }
         for new in &found {
-            let deepest = new.manifold.deepest().unwrap_or(0.0);
-            stepped.buried |= deepest < -BURIED * size;
             let mut contact = carried(new, poses[0], &old);
             let row = row_of(&contact, slots, poses, pair);
             if let Some(id) = contact.row {

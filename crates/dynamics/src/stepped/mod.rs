@@ -38,6 +38,25 @@ const REFRESH: u32 = 64;
 /// Sweeps without bias while bodies lie deep in each other.
 const BURIED_SWEEPS: usize = 30;
 
+/// What the looks of a tick found of bodies deep in each other.
+#[derive(Clone, Copy, Debug, Default)]
+struct Depths {
+    /// Some were put there.
+    buried: bool,
+    /// Some sank in.
+    sunk: bool,
+    /// Heavy ones touch light ones.
+    loaded: bool,
+}
+
+impl Depths {
+    /// Whether one sweep would leave a part of the push in the velocities: what was put deep into each other
+    /// is pushed by many at once, and a light body between a heavy one and the floor gives way to both in turn.
+    const fn wants_sweeps(self) -> bool {
+        self.buried || self.sunk && self.loaded
+    }
+}
+
 /// What stepping keeps between steps.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Stepped {
@@ -61,8 +80,7 @@ pub(crate) struct Stepped {
     quick: Vec<u32>,
     /// Cores of shapes, for those who move far in a sub-step.
     cores: Cores,
-    /// The looks of this tick found bodies deep in each other.
-    buried: bool,
+    depths: Depths,
     /// Pairs that this look has been through, by place: number of the look.
     seen: Vec<u32>,
     look: u32,
@@ -118,10 +136,8 @@ impl World {
         let (rig, bounces) = (&mut self.pool.seats.rig, &mut self.pool.bounces);
         let h = self.clock.h;
         bounces.arm(rig, h);
-        // What was put deep into each other is pushed by many at once: one sweep would leave a part of
-        // the push in the velocities.
         let stepped = self.settings.mode == Mode::Stepped;
-        let sweeps = if stepped && self.pool.buried {
+        let sweeps = if stepped && self.pool.depths.wants_sweeps() {
             BURIED_SWEEPS
         } else {
             1

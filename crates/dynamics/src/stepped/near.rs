@@ -4,7 +4,7 @@ use carom_geometry::Aabb;
 use carom_math::{SimTime, Vec2};
 
 use super::seats::{Seat, pull_of, wandered};
-use super::{REFRESH, Stepped};
+use super::{Depths, REFRESH, Stepped};
 use crate::broad::{PADDING, misses, swept_box};
 use crate::pairs::Pair;
 use crate::solver::Line;
@@ -72,7 +72,7 @@ impl World {
 
     /// The look at the start of a tick: whoever moved gets new boxes, and its pairs are looked at.
     pub(super) fn look_around(&mut self, time: SimTime) {
-        self.pool.buried = false;
+        self.pool.depths = Depths::default();
         self.look_at_fresh(time);
         self.pool.looks = (self.pool.looks + 1) % REFRESH;
         if self.pool.looks == 0 {
