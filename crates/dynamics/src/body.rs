@@ -116,14 +116,16 @@ pub(crate) struct Collider {
     pub(crate) tight: Option<Aabb>,
 }
 
-/// The same for equal definitions, whatever else is in the world.
+/// The same for equal definitions, whatever else is in the world. What forces do not move comes first, so
+/// that of a pair B is the one that an impulse moves.
 fn rank_of(def: &BodyDef) -> u64 {
     let mut hash = StateHash::default();
     hash.write_vec2(def.position);
     hash.write(def.angle);
     hash.write_vec2(def.velocity);
     hash.write(def.spin);
-    hash.finish()
+    let moves = u64::from(def.kind == BodyKind::Dynamic);
+    moves << 63 | hash.finish() >> 1
 }
 
 impl BodyState {
