@@ -116,16 +116,14 @@ pub(crate) struct Collider {
     pub(crate) tight: Option<Aabb>,
 }
 
-/// The same for equal definitions, whatever else is in the world. What forces do not move comes first, so
-/// that of a pair B is the one that an impulse moves.
+/// The same for equal definitions, whatever else is in the world.
 fn rank_of(def: &BodyDef) -> u64 {
     let mut hash = StateHash::default();
     hash.write_vec2(def.position);
     hash.write(def.angle);
     hash.write_vec2(def.velocity);
     hash.write(def.spin);
-    let moves = u64::from(def.kind == BodyKind::Dynamic);
-    moves << 63 | hash.finish() >> 1
+    hash.finish()
 }
 
 impl BodyState {

@@ -47,7 +47,8 @@ impl Overlaid<'_> {
         });
     }
 
-    /// Arrows along the impulses on B, each as long as the way that they would send the lighter body.
+    /// Arrows along the impulses on the lighter body of a pair, on B of equals, each as long as the way that they
+    /// would send it.
     pub(super) fn impulses(&mut self) {
         let Some(seconds) = self.look.overlay.impulses else {
             return;
@@ -80,14 +81,18 @@ impl Overlaid<'_> {
         }
     }
 
-    /// One arrow, from an impulse times a time, in N·s².
+    /// One arrow, from an impulse on B times a time, in N·s².
     fn impulse(&mut self, point: Vec2, impulse: Vec2, (a, b): (BodyId, BodyId)) {
         let masses = [a, b].map(|id| {
             let body = self.world.body(id);
             body.filter(|body| body.kind() == BodyKind::Dynamic)
                 .map_or(f64::INFINITY, |body| body.mass())
         });
-        let lighter = masses[0].min(masses[1]);
+        let (lighter, impulse) = if masses[0] < masses[1] {
+            (masses[0], -impulse)
+        } else {
+            (masses[1], impulse)
+        };
         let from = self.camera.point(point);
         self.frame.push(Op::Arrow {
             from,
