@@ -5,8 +5,8 @@ use std::sync::Arc;
 use carom_collision::Motion;
 use carom_math::{SimTime, Sum, Vec2};
 
-use crate::body::{BodyState, Lag};
 use crate::history::History;
+use crate::state::{BodyState, Lag};
 use crate::{BodyError, BodyId, BodyKind, EnergyLedger, Field};
 
 /// Running sums of the energy ledger's columns, with twice the digits.

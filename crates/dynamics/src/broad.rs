@@ -7,9 +7,9 @@ use carom_geometry::Aabb;
 use carom_math::{SimTime, Vec2};
 
 use crate::bodies::Bodies;
-use crate::body::Collider;
 use crate::flyers::Flyers;
 use crate::pairs::{Lie, Pair, Pairs};
+use crate::state::Collider;
 use crate::{BodyId, BodyKind, PairMaterial, PairSearch};
 
 /// Boxes are stretched along the motion over this many sub-steps, so that a body that keeps its

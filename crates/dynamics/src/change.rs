@@ -8,10 +8,10 @@ use std::sync::Arc;
 use carom_collision::contacts;
 use carom_math::{Pose, SimTime, Vec2};
 
-use crate::body::BodyState;
 use crate::error::{check_finite, check_vec2};
 use crate::flight::fly;
 use crate::flyers::Course;
+use crate::state::BodyState;
 use crate::{
     BodyError, BodyId, BodyKind, Field, Filter, Force, Impulse, Mode, PairMaterial, World,
 };

@@ -11,7 +11,7 @@ mod tests;
 use carom_math::{SimTime, Vec2};
 
 use crate::bodies::Bodies;
-use crate::body::{BodyState, Lag};
+use crate::state::{BodyState, Lag};
 use damped::damped;
 use kepler::Conic;
 pub(crate) use law::{Flight, Turn};

@@ -62,6 +62,7 @@ mod settings;
 mod shock;
 mod sleep;
 mod solver;
+mod state;
 mod step;
 mod stepped;
 mod substep;

@@ -9,9 +9,9 @@ use carom_math::{SimTime, Vec2};
 
 use crate::agenda::{Agenda, Entry};
 use crate::bodies::Bodies;
-use crate::body::Collider;
 use crate::narrow::{Narrow, TOUCH, opening_speed, rest_speed};
 use crate::pairs::{Pair, PairPoint, Pairs};
+use crate::state::Collider;
 use crate::{BodyKind, StepReport};
 
 /// What the impacts of one pair may spend in one sub-step before the solver takes the rest: bodies that
@@ -143,7 +143,7 @@ fn strikes_with(parts: (u32, u32), point: &PairPoint) -> ImpactFeature {
 }
 
 /// How fast a contact point wanders: with the two bodies' mean.
-fn both_move(a: &crate::body::BodyState, b: &crate::body::BodyState, time: SimTime) -> Vec2 {
+fn both_move(a: &crate::state::BodyState, b: &crate::state::BodyState, time: SimTime) -> Vec2 {
     0.5 * (a.motion.velocity_at(time) + b.motion.velocity_at(time))
 }
 

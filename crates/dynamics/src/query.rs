@@ -7,7 +7,7 @@ use carom_collision::{cast, roundable};
 use carom_geometry::{Aabb, Shape};
 use carom_math::{Pose, Vec2};
 
-use crate::body::{BodyState, Collider};
+use crate::state::{BodyState, Collider};
 use crate::{BodyId, Filter, World};
 
 /// What a ray met first.

@@ -4,13 +4,13 @@ use carom_math::SimTime;
 
 use crate::agenda::Entry;
 use crate::bodies::Bodies;
-use crate::body::Collider;
 use crate::event::EventKind;
 use crate::impact::{ImpactContact, resolve};
 use crate::narrow::{Narrow, opening_speed, rest_speed};
 use crate::pairs::Pairs;
 use crate::predict::{BUDGET, price};
 use crate::shock::Shock;
+use crate::state::Collider;
 use crate::{Events, Settings, StepReport};
 
 /// What an entry that came up did.

@@ -12,10 +12,10 @@ use carom_math::{SimTime, Vec2, perp};
 
 use crate::Settings;
 use crate::bodies::Bodies;
-use crate::body::Collider;
 use crate::impact::{ImpactBody, ImpactContact, SharedContact, Sweeper, several};
 use crate::narrow::{Narrow, TOUCH, rest_speed};
 use crate::pairs::Pairs;
+use crate::state::Collider;
 
 /// Sweeps before the rest is left to the next look: what still closes then is struck again.
 const SWEEPS: u32 = 300;

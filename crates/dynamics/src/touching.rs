@@ -6,10 +6,10 @@ use carom_math::{Pose, SimTime, Vec2, cross_scalar, perp};
 
 use crate::World;
 use crate::bodies::Bodies;
-use crate::body::BodyState;
 use crate::modes::{CLOSED, Feature, ModeBody, ROWS, Touch};
 use crate::narrow::{TOUCH, rest_speed};
 use crate::pairs::PairContact;
+use crate::state::BodyState;
 
 /// Sine of the angle up to which an edge lies along a contact: far above rounding.
 const FLUSH: f64 = 1e-9;

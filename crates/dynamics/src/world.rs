@@ -7,7 +7,6 @@ use carom_math::{Pose, SimTime, StateHash, Sum, Vec2, cross};
 
 use crate::agenda::Agenda;
 use crate::bodies::Bodies;
-use crate::body::{BodyState, Collider, frame_of};
 use crate::broad::{Broad, part};
 use crate::clock::Clock;
 use crate::closed::Closed;
@@ -17,6 +16,7 @@ use crate::narrow::Narrow;
 use crate::pairs::Pairs;
 use crate::profile::Stopwatch;
 use crate::solver::Law;
+use crate::state::{BodyState, Collider, frame_of};
 use crate::stepped::Stepped;
 use crate::{
     Body, BodyDef, BodyError, BodyId, BodyKind, Contact, EnergyLedger, EventKind, Events, Filter,

@@ -7,7 +7,7 @@ use super::frame::Track;
 use super::queue::{Ahead, Entry};
 use super::window::{self, Window};
 use super::{Foreseen, Seat, drift};
-use crate::body::BodyState;
+use crate::state::BodyState;
 use crate::{BodyKind, PairSearch, World};
 
 /// Part of a cell that a flyer travels within its horizon.

@@ -10,6 +10,7 @@ mod foresee;
 mod frame;
 mod gap;
 mod grid;
+mod held;
 mod queue;
 mod seek;
 mod streak;
@@ -23,7 +24,7 @@ use carom_geometry::Aabb;
 use carom_math::{SimTime, Vec2};
 
 use crate::bodies::Bodies;
-use crate::body::Collider;
+use crate::state::Collider;
 pub(crate) use foresee::Cause;
 use frame::{Frame, Track};
 pub(crate) use grid::{Cells, Grid, Seat};

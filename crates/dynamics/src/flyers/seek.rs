@@ -7,8 +7,8 @@ use super::Foreseen;
 use super::foresee::{Cause, Circle, common_horizon};
 use super::window::Window;
 use crate::World;
-use crate::body::BodyState;
 use crate::narrow::{TOUCH, opening_speed, rest_speed_between};
+use crate::state::BodyState;
 
 /// Largest turn that one search for a time of impact goes through, in rad: bounds on a gap's second
 /// derivative are loose over more.

@@ -8,12 +8,11 @@ use carom_math::SimTime;
 use super::strike::{approach_speed, opening, pace};
 use super::{Ahead, Entry, Foreseen};
 use crate::World;
-use crate::body::BodyState;
 use crate::flyers::Cause;
 use crate::impact::{ImpactBody, ImpactContact};
 use crate::predict::price_of;
-use crate::resolve::apply;
 use crate::shock::Shock;
+use crate::state::BodyState;
 
 /// Instants that differ by less are one, as a fraction of the way to them over the speed: impacts make
 /// differences of roundings larger, by a decade each.
@@ -198,21 +197,7 @@ impl World {
                 }
             }
         }
-        shock.solve(
-            &self.settings,
-            &self.bodies,
-            &self.colliders,
-            &mut self.pairs,
-            &mut self.narrow,
-        );
-        let changed = apply(
-            &mut self.bodies,
-            time,
-            &shock,
-            &mut self.events,
-            &mut self.report,
-        );
-        for index in changed {
+        for index in self.strike_together(shock, time) {
             self.foresee(index, time, Cause::Deflected, None);
         }
     }

@@ -8,8 +8,8 @@ use carom_geometry::Aabb;
 use carom_math::{SimTime, Sum};
 
 use super::seats::pull_of;
-use crate::body::BodyState;
 use crate::sleep::Tree;
+use crate::state::BodyState;
 use crate::{BodyKind, EnergyLedger, Mode, World};
 
 /// Groups of more bodies in touch than this are a crowd.

@@ -3,8 +3,8 @@
 use carom_math::{Pose, SimTime, Vec2};
 
 use crate::bodies::Bodies;
-use crate::body::BodyState;
 use crate::solver::{Limit, Member, Pull, Rig, Row, RowId};
+use crate::state::BodyState;
 use crate::{BodyId, BodyKind};
 
 /// No seat.

@@ -18,7 +18,7 @@ use carom_collision::{Hull, Motion, TimeOfImpact, hulls, time_of_impact};
 use carom_geometry::{Circle, ConvexPolygon, Shape};
 use carom_math::{SimTime, Vec2};
 
-use crate::body::inner_of;
+use crate::state::inner_of;
 use crate::{BodyKind, Mode, World};
 
 /// The core of a convex part lies so deep inside, as a fraction of its least half width: 2.5 mm for a box

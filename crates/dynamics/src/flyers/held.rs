@@ -1,0 +1,103 @@
+//! Bodies that begin to be held, or cease to: they land, and take off.
+
+use carom_math::SimTime;
+
+use super::{Cause, Foreseen};
+use crate::{BodyKind, EventKind, World};
+
+impl World {
+    /// What is pressed together and does not bounce stays in contact from now on.
+    pub(super) fn begins_to_last(&mut self, impact: &Foreseen, time: SimTime) {
+        let (a, b) = impact.bodies;
+        self.land(a, time);
+        self.land(b, time);
+        let found = self
+            .bodies
+            .get(a)
+            .pairs
+            .iter()
+            .copied()
+            .find(|&place| self.pairs.get(place).colliders == impact.colliders);
+        if let Some(place) = found {
+            let pair = self.pairs.get_mut(place);
+            (pair.lasting, pair.touching) = (true, true);
+            let (a, b) = (self.bodies.get(a).id, self.bodies.get(b).id);
+            self.events.push(time, EventKind::Begin { a, b });
+            self.predict(place, time);
+            self.regroup(impact.bodies.0, time);
+            self.regroup(impact.bodies.1, time);
+        }
+    }
+
+    /// From now on the sub-steps move this body: something holds it, or is too near to tell.
+    pub(crate) fn land(&mut self, index: u32, time: SimTime) {
+        let state = self.bodies.get_mut(index);
+        if state.kind != BodyKind::Dynamic || !state.course.flies {
+            return;
+        }
+        state.course.flies = false;
+        state.idle = 0;
+        // What was foreseen for a flyer is stale.
+        state.version = state.version.wrapping_add(1);
+        self.flyers.vanish(&mut self.bodies, index);
+        self.enlist(index, time);
+        // What was too large for the grid keeps its box, and has met no pairs with it.
+        for slot in 0..self.bodies.get(index).colliders.len() {
+            let at = self.bodies.get(index).colliders[slot];
+            if self.colliders[at as usize].node.is_some() {
+                self.broad.meet(
+                    &mut self.bodies,
+                    &self.colliders,
+                    &mut self.pairs,
+                    at,
+                    Some(&self.flyers),
+                );
+            }
+        }
+        self.deflected(index, time);
+    }
+
+    /// A body that nothing holds any more flies from event to event.
+    pub(crate) fn take_off(&mut self, index: u32, time: SimTime) {
+        self.discharge(index);
+        for place in self.bodies.get(index).pairs.clone() {
+            let (a, b) = self.pairs.get(place).bodies;
+            let other = if a == index { b } else { a };
+            if !self.bodies.get(other).is_held() {
+                self.part(place, time);
+            }
+        }
+        let state = self.bodies.get_mut(index);
+        state.course.flies = true;
+        state.version = state.version.wrapping_add(1);
+        self.foresee(index, time, Cause::Deflected, None);
+    }
+
+    /// Adds a body to those that are sub-stepped.
+    pub(crate) fn enlist(&mut self, index: u32, time: SimTime) {
+        if !self.is_substepping() {
+            self.begin_substeps(time);
+        }
+        if let Err(at) = self.stepped.binary_search(&index) {
+            self.stepped.insert(at, index);
+            self.pairs.reorder();
+        }
+    }
+
+    /// Somebody is sub-stepped from now on: until now the grid of sub-steps was not followed.
+    pub(crate) fn begin_substeps(&mut self, time: SimTime) {
+        self.clock.catch_up(time);
+        self.flyers.raise(&mut self.bodies);
+    }
+
+    /// Takes a body from those that are sub-stepped.
+    pub(crate) fn discharge(&mut self, index: u32) {
+        if let Ok(at) = self.stepped.binary_search(&index) {
+            self.stepped.remove(at);
+            self.pairs.reorder();
+            if !self.is_substepping() {
+                self.flyers.lower();
+            }
+        }
+    }
+}

@@ -1,0 +1,431 @@
+//! What the world keeps of a body.
+
+use std::sync::Arc;
+
+use carom_collision::{Hull, Motion, NodeId, hulls};
+use carom_geometry::{Aabb, AreaProperties, MassProperties, Shape};
+use carom_math::{Pose, Rot, SimTime, StateHash, Vec2};
+
+use crate::closed::Membership;
+use crate::error::BodyError;
+use crate::flight::Flight;
+use crate::flyers::Course;
+use crate::impact::ImpactBody;
+use crate::{BodyDef, BodyId, BodyKind, Filter, Material};
+
+/// All that a world keeps of one body. Nothing else stores a pose.
+#[derive(Clone, Debug)]
+pub(crate) struct BodyState {
+    pub(crate) id: BodyId,
+    /// Fingerprint of how it began: who is A and who is B in a pair of flyers.
+    pub(crate) rank: u64,
+    pub(crate) kind: BodyKind,
+    /// Where the centre of mass is at every instant from the motion's start on.
+    pub(crate) motion: Motion,
+    /// Raised by every change of the motion: what was predicted with another version is stale.
+    pub(crate) version: u32,
+    /// Angle at the motion's start with all whole turns, to about 1e-10 rad: it counts turns.
+    pub(crate) turned: f64,
+    pub(crate) mass: MassProperties,
+    pub(crate) inverse_mass: f64,
+    pub(crate) inverse_inertia: f64,
+    pub(crate) locked_rotation: bool,
+    pub(crate) gravity_scale: f64,
+    pub(crate) tag: u64,
+    /// Force and torque of the present step.
+    pub(crate) force: Vec2,
+    pub(crate) torque: f64,
+    /// Force and torque that the next step begins with.
+    pub(crate) pending: (Vec2, f64),
+    /// What the velocity has beyond the motion's along the present piece of a flight in a field.
+    pub(crate) lag: Lag,
+    /// The law of a flight in a field or with damping, since anything else changed the motion.
+    pub(crate) flight: Option<Box<Flight>>,
+    /// Of velocity and spin, in 1/s.
+    pub(crate) damping: (f64, f64),
+    /// Solved for as part of a group in this sub-step.
+    pub(crate) member: bool,
+    /// Moved by the wide solver, in hybrid mode.
+    pub(crate) in_crowd: bool,
+    /// Fixed or kinematic, with a line in the wide solver.
+    pub(crate) has_line: bool,
+    pub(crate) asleep: bool,
+    /// The contact group in closed form that it belongs to.
+    pub(crate) membership: Membership,
+    pub(crate) course: Course,
+    /// Sub-steps in which nothing was near.
+    pub(crate) idle: u8,
+    /// How long the body has been slow, in s.
+    pub(crate) slow_for: f64,
+    /// Largest distance of a point of its shapes from the centre of mass, in m.
+    pub(crate) reach: f64,
+    /// Least half width of its shapes, in m: the narrowest thing that can hold it back.
+    pub(crate) inner: f64,
+    pub(crate) colliders: Vec<u32>,
+    /// Pairs of its colliders with others.
+    pub(crate) pairs: Vec<u32>,
+}
+
+/// The difference of the cubic through both ends of a piece, in place and velocity, and the
+/// parabola that serves for prediction and meets the end in place alone.
+///
+/// ```text
+/// v(u) = v₀ + A u + L u (3 u/h − 2)         L h: what the parabola's velocity lacks at the end
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Lag {
+    /// L, in m/s².
+    pub(crate) rate: Vec2,
+    /// The same for the spin, in rad/s².
+    pub(crate) angular: f64,
+    /// h, in s.
+    pub(crate) length: f64,
+}
+
+impl Lag {
+    fn at(self, u: f64) -> Vec2 {
+        if self.length == 0.0 {
+            return Vec2::ZERO;
+        }
+        self.rate * (u * (3.0 * u / self.length - 2.0))
+    }
+
+    fn spin_at(self, u: f64) -> f64 {
+        if self.length == 0.0 {
+            return 0.0;
+        }
+        self.angular * (u * (3.0 * u / self.length - 2.0))
+    }
+}
+
+/// A shape of a body.
+#[derive(Clone, Debug)]
+pub(crate) struct Collider {
+    pub(crate) body: u32,
+    /// As the caller drew it.
+    pub(crate) drawn: Arc<Shape>,
+    /// About the body's centre of mass: what collides.
+    pub(crate) solid: Arc<Shape>,
+    pub(crate) material: Material,
+    pub(crate) filter: Filter,
+    /// Node in the tree of boxes.
+    pub(crate) node: Option<NodeId>,
+    /// Box that the pairs were searched with.
+    pub(crate) fat: Aabb,
+    /// Box for the coming tick of a shape that is driven beside a crowd: a flyer's own reaches farther.
+    pub(crate) tight: Option<Aabb>,
+}
+
+/// The same for equal definitions, whatever else is in the world.
+fn rank_of(def: &BodyDef) -> u64 {
+    let mut hash = StateHash::default();
+    hash.write_vec2(def.position);
+    hash.write(def.angle);
+    hash.write_vec2(def.velocity);
+    hash.write(def.spin);
+    hash.finish()
+}
+
+impl BodyState {
+    pub(crate) fn new(
+        id: BodyId,
+        def: &BodyDef,
+        shapes: &[(Shape, Material)],
+        now: SimTime,
+    ) -> Result<Self, BodyError> {
+        let mass = mass_of(def, shapes)?;
+        let moving = def.kind == BodyKind::Dynamic;
+        let frame = Pose::new(def.position, Rot::from_angle(def.angle));
+        let still = def.kind == BodyKind::Fixed;
+        let spin = if def.locked_rotation || still {
+            0.0
+        } else {
+            def.spin
+        };
+        let inverse = |x: f64| if moving && x > 0.0 { x.recip() } else { 0.0 };
+        Ok(Self {
+            id,
+            rank: rank_of(def),
+            kind: def.kind,
+            motion: Motion {
+                start: now,
+                velocity: if still { Vec2::ZERO } else { def.velocity },
+                rotation: frame.rotation,
+                spin,
+                ..Motion::resting(frame.point(mass.centroid))
+            },
+            version: 0,
+            turned: def.angle,
+            mass,
+            inverse_mass: inverse(mass.mass),
+            inverse_inertia: if def.locked_rotation {
+                0.0
+            } else {
+                inverse(mass.inertia)
+            },
+            locked_rotation: def.locked_rotation,
+            gravity_scale: def.gravity_scale,
+            tag: def.tag,
+            force: Vec2::ZERO,
+            torque: 0.0,
+            pending: (Vec2::ZERO, 0.0),
+            lag: Lag::default(),
+            flight: None,
+            damping: (def.linear_damping, def.angular_damping),
+            member: false,
+            in_crowd: false,
+            has_line: false,
+            asleep: false,
+            membership: Membership::default(),
+            course: Course::default(),
+            idle: 0,
+            slow_for: 0.0,
+            reach: shapes
+                .iter()
+                .map(|(shape, _)| shape.reach_about(mass.centroid))
+                .fold(0.0, f64::max),
+            inner: shapes
+                .iter()
+                .map(|(shape, _)| half_width(shape, mass.centroid))
+                .fold(f64::INFINITY, f64::min),
+            colliders: Vec::new(),
+            pairs: Vec::new(),
+        })
+    }
+
+    /// Changes what moves the body; a fixed one comes to rest.
+    pub(crate) fn set_kind(&mut self, kind: BodyKind) {
+        let moving = kind == BodyKind::Dynamic;
+        self.kind = kind;
+        self.inverse_mass = if moving { self.mass.mass.recip() } else { 0.0 };
+        let turns = moving && !self.locked_rotation;
+        self.inverse_inertia = if turns {
+            self.mass.inertia.recip()
+        } else {
+            0.0
+        };
+        self.motion.acceleration = Vec2::ZERO;
+        self.motion.angular_acceleration = 0.0;
+        self.lag = Lag::default();
+        self.flight = None;
+        self.member = false;
+        if kind == BodyKind::Fixed {
+            self.motion.velocity = Vec2::ZERO;
+            self.motion.spin = 0.0;
+        }
+    }
+
+    pub(crate) fn is_dynamic(&self) -> bool {
+        self.kind == BodyKind::Dynamic
+    }
+
+    /// Nothing but its own motion would keep it awake.
+    pub(crate) fn can_sleep(&self) -> bool {
+        self.is_dynamic() && self.motion.velocity == Vec2::ZERO && self.motion.spin == 0.0
+    }
+
+    /// Moves by itself now: neither fixed nor asleep.
+    pub(crate) fn is_active(&self) -> bool {
+        self.kind != BodyKind::Fixed && !self.asleep
+    }
+
+    /// Dynamic, and nothing holds it.
+    pub(crate) fn is_flying(&self) -> bool {
+        self.is_dynamic() && self.course.flies
+    }
+
+    /// Moved by the sub-steps.
+    pub(crate) fn is_stepped(&self) -> bool {
+        self.is_active() && !self.course.flies
+    }
+
+    /// Dynamic, and sub-stepped pair by pair.
+    pub(crate) fn is_held(&self) -> bool {
+        self.is_dynamic() && self.is_stepped() && !self.in_crowd
+    }
+
+    /// Whether anything slows it down by itself.
+    pub(crate) fn is_damped(&self) -> bool {
+        self.damping != (0.0, 0.0)
+    }
+
+    /// Centre of mass at `time`, in m, by the law of its flight.
+    pub(crate) fn centre_at(&self, time: SimTime) -> Vec2 {
+        match &self.flight {
+            Some(flight) => flight.at(time).0,
+            None => self.motion.centre_at(time),
+        }
+    }
+
+    /// Velocity of the centre of mass at `time`, in m/s.
+    pub(crate) fn velocity_at(&self, time: SimTime) -> Vec2 {
+        match &self.flight {
+            Some(flight) => flight.at(time).1,
+            None => self.motion.velocity_at(time) + self.lag.at(time - self.motion.start),
+        }
+    }
+
+    /// Rotation at `time`, by the law of its flight.
+    pub(crate) fn rotation_at(&self, time: SimTime) -> Rot {
+        match &self.flight {
+            Some(flight) => flight.turn_at(time).0,
+            None => self.motion.rotation_at(time),
+        }
+    }
+
+    /// Angular velocity at `time`, in rad/s.
+    pub(crate) fn spin_at(&self, time: SimTime) -> f64 {
+        match &self.flight {
+            Some(flight) => flight.turn_at(time).1,
+            None => self.motion.spin_at(time) + self.lag.spin_at(time - self.motion.start),
+        }
+    }
+
+    /// Frame of the shapes as drawn.
+    pub(crate) fn pose(&self, time: SimTime) -> Pose {
+        if self.flight.is_none() {
+            return frame_of(&self.motion, self.mass.centroid, time);
+        }
+        let rotation = self.rotation_at(time);
+        Pose::new(
+            self.centre_at(time) - rotation * self.mass.centroid,
+            rotation,
+        )
+    }
+
+    pub(crate) fn kinetic_energy(&self, time: SimTime) -> f64 {
+        if !self.is_dynamic() {
+            return 0.0;
+        }
+        let spin = self.spin_at(time);
+        0.5 * (self.mass.mass * self.velocity_at(time).length_squared()
+            + self.turning_inertia() * spin * spin)
+    }
+
+    /// Moment of inertia that a spin feels: none where the rotation is locked.
+    pub(crate) fn turning_inertia(&self) -> f64 {
+        if self.inverse_inertia > 0.0 {
+            self.mass.inertia
+        } else {
+            0.0
+        }
+    }
+
+    /// The body as the impact laws see it.
+    pub(crate) fn in_impact(&self, time: SimTime) -> ImpactBody {
+        ImpactBody {
+            inverse_mass: self.inverse_mass,
+            inverse_inertia: self.inverse_inertia,
+            centre: self.centre_at(time),
+            velocity: self.velocity_at(time),
+            spin: self.spin_at(time),
+        }
+    }
+}
+
+/// About half the width of the widest part of a shape, in m; at least a thousandth of its size.
+fn half_width(shape: &Shape, centroid: Vec2) -> f64 {
+    let inner = hulls(shape).map(|hull| inner_of(&hull));
+    let widest = inner.fold(0.0, f64::max);
+    widest.max(1e-3 * shape.reach_about(centroid))
+}
+
+/// From the middle of a part's vertices to its nearest edge, in m: half its width, or less where it tapers.
+pub(crate) fn inner_of(hull: &Hull<'_>) -> f64 {
+    if hull.normals.is_empty() {
+        return hull.radius;
+    }
+    #[expect(clippy::cast_precision_loss, reason = "vertices are counted exactly")]
+    let middle = hull.vertices.iter().sum::<Vec2>() / hull.vertices.len() as f64;
+    let edges = hull.normals.iter().zip(hull.vertices);
+    edges
+        .map(|(n, v)| n.dot(*v - middle))
+        .fold(f64::INFINITY, f64::min)
+}
+
+/// Frame of the shapes as drawn, for a motion of the centre of mass.
+pub(crate) fn frame_of(motion: &Motion, centroid: Vec2, time: SimTime) -> Pose {
+    let rotation = motion.rotation_at(time);
+    Pose::new(motion.centre_at(time) - rotation * centroid, rotation)
+}
+
+/// Mass, centre of mass and inertia of a definition.
+fn mass_of(def: &BodyDef, shapes: &[(Shape, Material)]) -> Result<MassProperties, BodyError> {
+    if def.kind != BodyKind::Fixed {
+        let unbounded = shapes.iter().position(|(shape, _)| !shape.is_bounded());
+        if let Some(shape) = unbounded {
+            return Err(BodyError::HalfPlaneMoves { shape });
+        }
+    }
+    let mut mass = MassProperties::ZERO;
+    // A half-plane, on a fixed body, weighs nothing.
+    for (area, material) in areas(shapes) {
+        mass = mass + area.with_density(material.density);
+    }
+    if def.kind != BodyKind::Dynamic {
+        // Infinite: only where the centre is matters, and any density gives that.
+        if mass.mass == 0.0 {
+            mass = middle_of(shapes);
+        }
+        return Ok(mass);
+    }
+    if mass.mass <= 0.0 && def.mass.is_none() {
+        return Err(BodyError::NoMass {
+            density: shapes[0].1.density,
+        });
+    }
+    if let Some(given) = def.mass {
+        if mass.mass <= 0.0 {
+            // Shapes without density share the given mass by area.
+            let mut area = MassProperties::ZERO;
+            for (next, _) in areas(shapes) {
+                area = area + next.with_density(1.0);
+            }
+            mass = if area.mass > 0.0 {
+                area
+            } else {
+                middle_of(shapes)
+            };
+        }
+        mass.inertia = if mass.mass > 0.0 {
+            mass.inertia * (given / mass.mass)
+        } else {
+            0.0
+        };
+        mass.mass = given;
+    }
+    if let Some(given) = def.inertia {
+        mass.inertia = given;
+    }
+    if mass.inertia <= 0.0 && !def.locked_rotation {
+        return Err(BodyError::NotPositive {
+            field: "inertia",
+            value: mass.inertia,
+        });
+    }
+    Ok(mass)
+}
+
+/// Areas of the shapes that have one.
+fn areas(shapes: &[(Shape, Material)]) -> impl Iterator<Item = (AreaProperties, &Material)> {
+    shapes.iter().filter_map(|(shape, material)| {
+        let area = shape.area_properties().ok()?;
+        Some((area, material))
+    })
+}
+
+/// Shapes without area: the middle of their box, that of a half-plane being its point.
+fn middle_of(shapes: &[(Shape, Material)]) -> MassProperties {
+    let mut bounds = Aabb::EMPTY;
+    for (shape, _) in shapes {
+        bounds = bounds.union(if shape.is_bounded() {
+            shape.aabb(Pose::IDENTITY)
+        } else {
+            Aabb::from_points(shape.vertices().iter().copied())
+        });
+    }
+    MassProperties {
+        centroid: bounds.centre(),
+        ..MassProperties::ZERO
+    }
+}
