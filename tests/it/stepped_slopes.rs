@@ -4,7 +4,7 @@ use carom_dynamics::{BodyDef, BodyId, Material, Settings, World};
 use carom_geometry::ConvexPolygon;
 use carom_math::{Rot, Vec2, vec2};
 use carom_tests::run;
-use carom_tests::scenes::{block, boxed, disc, put, stepped};
+use carom_tests::scenes::{block, boxed, column, disc, put, stepped};
 
 const G: f64 = 10.0;
 
@@ -140,15 +140,7 @@ fn case_13_a_stack_sinks_in_less_with_shorter_sub_steps() {
             block(200.0, 2.0),
             Material::default(),
         );
-        let ids: Vec<_> = (0..20)
-            .map(|i| {
-                boxed(
-                    &mut world,
-                    vec2(0.0, 0.5 + f64::from(i)),
-                    Material::default(),
-                )
-            })
-            .collect();
+        let ids = column(&mut world, 20, Material::default());
         run(&mut world, 10.0, |_| {});
         let y = |k: usize| world.body(ids[k]).expect("it stays").centre().y;
         for id in &ids {

@@ -1,7 +1,7 @@
 //! Small worlds that many tests begin with.
 
 use carom_dynamics::{BodyDef, BodyId, Material, Mode, Settings, World};
-use carom_geometry::{Circle, ConvexPolygon, Shape};
+use carom_geometry::{Circle, ConvexPolygon, Polygon, Shape};
 use carom_math::{Vec2, vec2};
 
 /// A built-in scene, as it is.
@@ -51,12 +51,30 @@ pub fn boxed(world: &mut World, at: Vec2, material: Material) -> BodyId {
     put(world, BodyDef::dynamic().at(at), block(1.0, 1.0), material)
 }
 
+/// Boxes of 1 m on each other, from the ground up.
+pub fn column(world: &mut World, count: u32, material: Material) -> Vec<BodyId> {
+    let heights = (0..count).map(|k| 0.5 + f64::from(k));
+    heights
+        .map(|y| boxed(world, vec2(0.0, y), material))
+        .collect()
+}
+
 /// A body.
 ///
 /// # Panics
 /// If the world refuses it.
 pub fn put(world: &mut World, def: BodyDef, shape: impl Into<Shape>, material: Material) -> BodyId {
     world.insert(def, shape, material).expect("a valid body")
+}
+
+/// A surface by its restitution and friction.
+#[must_use]
+pub fn surface(restitution: f64, friction: f64) -> Material {
+    Material {
+        friction,
+        restitution,
+        ..Material::default()
+    }
 }
 
 /// A rectangle about its centre.
@@ -75,4 +93,27 @@ pub fn block(width: f64, height: f64) -> ConvexPolygon {
 #[must_use]
 pub fn disc(radius: f64) -> Circle {
     Circle::new(radius).expect("a disc")
+}
+
+/// A C about its centre: walls around a hollow of 3 m, with a gap of 1 m.
+///
+/// # Panics
+/// Never.
+#[must_use]
+pub fn hollow() -> Polygon {
+    let corners = [
+        (-2.0, -2.0),
+        (2.0, -2.0),
+        (2.0, 2.0),
+        (0.5, 2.0),
+        (0.5, 1.5),
+        (1.5, 1.5),
+        (1.5, -1.5),
+        (-1.5, -1.5),
+        (-1.5, 1.5),
+        (-0.5, 1.5),
+        (-0.5, 2.0),
+        (-2.0, 2.0),
+    ];
+    Polygon::new(corners.map(|(x, y)| vec2(x, y)).to_vec()).expect("a C")
 }
