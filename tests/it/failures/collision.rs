@@ -5,6 +5,7 @@ use carom_collision::{
 };
 use carom_geometry::{Circle, Compound, ConvexPolygon, Polygon, Segment, Shape};
 use carom_math::{Pose, Rot, SimTime, Vec2, vec2};
+use carom_tests::scenes::hollow;
 use core::f64::consts::PI;
 
 fn ball(radius: f64) -> Shape {
@@ -386,23 +387,7 @@ fn case_31_a_repeated_vertex_changes_no_answer() {
 /// liabru/matter-js#842, #1299: a body in the hollow of another was pushed, or went through its wall.
 #[test]
 fn case_32_a_body_in_a_turning_hollow_is_free_until_it_meets_a_wall() {
-    // A C: a ring of walls with a gap, 4 m wide, the hollow 3 m.
-    let c: Shape = Polygon::new([
-        vec2(-2.0, -2.0),
-        vec2(2.0, -2.0),
-        vec2(2.0, 2.0),
-        vec2(0.5, 2.0),
-        vec2(0.5, 1.5),
-        vec2(1.5, 1.5),
-        vec2(1.5, -1.5),
-        vec2(-1.5, -1.5),
-        vec2(-1.5, 1.5),
-        vec2(-0.5, 1.5),
-        vec2(-0.5, 2.0),
-        vec2(-2.0, 2.0),
-    ])
-    .expect("a C")
-    .into();
+    let c: Shape = hollow().into();
     let body = ball(0.6);
     for i in 0..360 {
         let turn = Rot::from_degrees(f64::from(i));
