@@ -3,8 +3,8 @@
 use carom_dynamics::{
     BodyDef, BodyId, BodyKind, Force, Impulse, Material, PairMaterial, Settings, World,
 };
-use carom_geometry::{Circle, ConvexPolygon};
 use carom_math::{Pose, Rot, Vec2, vec2};
+use carom_tests::scenes::{block, disc, put};
 use carom_tests::{overlaps, run};
 
 fn stone() -> Material {
@@ -28,15 +28,12 @@ fn awake() -> Settings {
 }
 
 fn floor(world: &mut World) -> BodyId {
-    let floor = ConvexPolygon::rectangle(60.0, 2.0).expect("a floor");
-    world
-        .insert(BodyDef::fixed().at(vec2(0.0, -1.0)), floor, stone())
-        .expect("valid")
+    let def = BodyDef::fixed().at(vec2(0.0, -1.0));
+    put(world, def, block(60.0, 2.0), stone())
 }
 
 fn boxed(world: &mut World, def: BodyDef) -> BodyId {
-    let square = ConvexPolygon::square(1.0).expect("a box");
-    world.insert(def, square, stone()).expect("valid")
+    put(world, def, block(1.0, 1.0), stone())
 }
 
 /// Rows of boxes that touch, the lowest on y = 0.
@@ -100,11 +97,10 @@ fn how_time_is_cut_does_not_matter_to_a_crowd() {
         let mut world = world(awake());
         floor(&mut world);
         wall(&mut world, 8, 5);
-        let disc = Circle::new(0.4).expect("a disc");
         let thrown = BodyDef::dynamic()
             .at(vec2(-12.0, 6.0))
             .moving(vec2(9.0, 0.0));
-        world.insert(thrown, disc, stone()).expect("valid");
+        put(&mut world, thrown, disc(0.4), stone());
         for _ in 0..128 * cuts {
             world.step(1.0 / (64.0 * f64::from(cuts)));
         }
@@ -128,11 +124,10 @@ fn a_blow_on_a_sleeping_crowd_keeps_momentum_and_adds_no_energy() {
             boxed(&mut world, BodyDef::dynamic().at(at).asleep());
         }
     }
-    let bullet = ConvexPolygon::rectangle(3.0, 2.0).expect("a bullet");
     let def = BodyDef::dynamic()
         .at(vec2(-20.0, 0.1))
         .moving(vec2(60.0, 0.0));
-    world.insert(def, bullet, stone()).expect("valid");
+    put(&mut world, def, block(3.0, 2.0), stone());
     let before = (world.momentum(), world.energy().kinetic);
     run(&mut world, 3.0, |world| {
         let now = world.energy().kinetic;
@@ -166,9 +161,8 @@ fn a_ball_bounces_off_a_crowd_by_its_restitution() {
         })
         .collect();
     run(&mut world, 1.0, |_| {});
-    let ball = Circle::new(0.1).expect("a ball");
     let def = BodyDef::dynamic().at(vec2(-0.5, 4.1));
-    let ball = world.insert(def, ball, stone()).expect("valid");
+    let ball = put(&mut world, def, disc(0.1), stone());
     let bouncy = PairMaterial {
         restitution: 0.8,
         ..PairMaterial::default()
@@ -196,15 +190,7 @@ fn a_ball_bounces_off_a_crowd_by_its_restitution() {
 #[test]
 fn a_drum_puts_in_what_its_crowd_gets() {
     let mut world = world(Settings::default());
-    let bar = |half: Vec2, at: Vec2| {
-        let corners = [
-            vec2(-half.x, -half.y),
-            vec2(half.x, -half.y),
-            vec2(half.x, half.y),
-            vec2(-half.x, half.y),
-        ];
-        ConvexPolygon::new(corners.map(|corner| corner + at).to_vec()).expect("a wall")
-    };
+    let bar = |half: Vec2, at: Vec2| block(2.0 * half.x, 2.0 * half.y).translated(at);
     let walls = [
         bar(vec2(0.5, 7.0), vec2(7.0, 0.0)),
         bar(vec2(0.5, 7.0), vec2(-7.0, 0.0)),

@@ -3,9 +3,10 @@
 use carom_dynamics::{
     BodyDef, BodyError, BodyId, BodyKind, Filter, Material, Mode, Settings, World,
 };
-use carom_geometry::{Aabb, Circle, ConvexPolygon, Shape};
+use carom_geometry::{Aabb, Shape};
 use carom_math::{Pose, Vec2, vec2};
 use carom_tests::run;
+use carom_tests::scenes::{block, disc, put};
 
 const MODES: [Mode; 3] = [Mode::Hybrid, Mode::Exact, Mode::Stepped];
 
@@ -35,19 +36,23 @@ fn world(mode: Mode) -> World {
 }
 
 fn floor(world: &mut World) -> BodyId {
-    let floor = ConvexPolygon::rectangle(40.0, 2.0).expect("a floor");
     let def = BodyDef::fixed().at(vec2(0.0, -1.0)).filtered(WALL);
-    world
-        .insert(def, floor, Material::default())
-        .expect("valid")
+    put(world, def, block(40.0, 2.0), Material::default())
 }
 
 fn boxed(world: &mut World, at: Vec2, filter: Filter) -> BodyId {
-    let square = ConvexPolygon::square(1.0).expect("a box");
     let def = BodyDef::dynamic().at(at).filtered(filter);
-    world
-        .insert(def, square, Material::default())
-        .expect("valid")
+    put(world, def, block(1.0, 1.0), Material::default())
+}
+
+/// A world, its floor, and a coin that sleeps on it.
+fn asleep_on_a_floor(mode: Mode) -> (World, BodyId, BodyId) {
+    let mut world = world(mode);
+    let floor = floor(&mut world);
+    let id = boxed(&mut world, vec2(0.0, 0.5), COIN);
+    run(&mut world, 2.0, |_| {});
+    assert!(world.body(id).expect("it stays").is_asleep(), "{mode:?}");
+    (world, floor, id)
 }
 
 fn height(world: &World, id: BodyId) -> f64 {
@@ -93,11 +98,7 @@ fn a_group_outweighs_the_masks() {
 #[test]
 fn a_filter_that_changes_lets_fall_what_it_held() {
     for mode in MODES {
-        let mut world = world(mode);
-        let floor = floor(&mut world);
-        let id = boxed(&mut world, vec2(0.0, 0.5), COIN);
-        run(&mut world, 2.0, |_| {});
-        assert!(world.body(id).expect("it stays").is_asleep(), "{mode:?}");
+        let (mut world, floor, id) = asleep_on_a_floor(mode);
         world.set_filter(floor, GHOST).expect("it is there");
         run(&mut world, 0.5, |_| {});
         let fallen = 0.5 - height(&world, id);
@@ -117,10 +118,7 @@ fn a_filter_that_changes_lets_fall_what_it_held() {
 fn shapes_of_one_body_have_filters_of_their_own() {
     for mode in MODES {
         let mut world = world(mode);
-        let beam = |x: f64| {
-            let beam = ConvexPolygon::rectangle(2.0, 1.0).expect("a beam");
-            Shape::from(beam.translated(vec2(x, 0.0)))
-        };
+        let beam = |x: f64| Shape::from(block(2.0, 1.0).translated(vec2(x, 0.0)));
         let shapes = vec![
             (beam(-2.0), Material::default()),
             (beam(2.0), Material::default()),
@@ -151,11 +149,7 @@ fn shapes_of_one_body_have_filters_of_their_own() {
 #[test]
 fn a_fixed_support_that_becomes_dynamic_wakes_what_it_held() {
     for mode in MODES {
-        let mut world = world(mode);
-        let floor = floor(&mut world);
-        let id = boxed(&mut world, vec2(0.0, 0.5), COIN);
-        run(&mut world, 2.0, |_| {});
-        assert!(world.body(id).expect("it stays").is_asleep(), "{mode:?}");
+        let (mut world, floor, id) = asleep_on_a_floor(mode);
         world
             .set_kind(floor, BodyKind::Dynamic)
             .expect("it has mass");
@@ -190,7 +184,7 @@ fn questions_see_what_their_filter_touches() {
         assert_eq!(world.filtered(COIN).bodies_in(bounds), [floor]);
         assert_eq!(world.filtered(WALL).bodies_at(vec2(0.0, 3.0)), [coin]);
         assert_eq!(world.filtered(COIN).bodies_at(vec2(0.0, 3.0)), []);
-        let ball = Shape::from(Circle::new(0.2).expect("a ball"));
+        let ball = Shape::from(disc(0.2));
         let from = Pose::at(vec2(0.0, 9.0));
         let hit = world
             .filtered(COIN)

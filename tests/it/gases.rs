@@ -1,6 +1,6 @@
 //! Gases in a box: what single impacts keep, and what a minute of them does.
 //!
-//! Ten thousand seconds of the same gases, measured: `cargo run --release -p carom-tests --example gases`.
+//! Ten thousand seconds of the same gases, measured: `cargo run --release -p carom-tests --example gases -- docs/pictures/exact_energy.png`.
 
 use carom_dynamics::World;
 use carom_math::Pose;

@@ -1,10 +1,11 @@
 //! Laws of exact motion that hold for whatever strikes: momentum and energy, nothing missed, symmetry, order.
 
-use carom_dynamics::{BodyDef, EventKind, ImpactLaw, Material, PairSearch, Settings, World};
+use carom_dynamics::{Body, BodyDef, EventKind, ImpactLaw, Material, PairSearch, Settings, World};
 use carom_geometry::{Circle, ConvexPolygon, Polygon, Shape};
 use carom_math::{Rot, Vec2, trig, vec2};
 use carom_tests::elastic;
 use carom_tests::gas::{Molecule, Watch, deepest, gas, kinetic, numbers};
+use carom_tests::scenes::put;
 use proptest::prelude::*;
 
 /// Discs, polygons to slivers of 1 : 1000, and stars, of 1 cm to 1 m.
@@ -111,21 +112,25 @@ fn rough_gas(molecule: Molecule, friction: f64) -> World {
     let mut world = World::new(*smooth.settings()).expect("valid settings");
     for body in smooth.bodies() {
         let (shape, material) = body.shapes().next().expect("it has a shape");
-        let def = if body.mass().is_finite() {
-            BodyDef::dynamic()
-                .moving(body.velocity())
-                .spinning(body.angular_velocity())
-        } else {
-            BodyDef::fixed()
-        };
-        let def = def.at(body.pose().position).turned(body.angle());
         let material = Material {
             friction,
             ..*material
         };
-        world.insert(def, shape.clone(), material).expect("valid");
+        put(&mut world, again(&body), shape.clone(), material);
     }
     world
+}
+
+/// What a gas's body was made from, without its tag.
+fn again(body: &Body<'_>) -> BodyDef {
+    let def = if body.mass().is_finite() {
+        BodyDef::dynamic()
+            .moving(body.velocity())
+            .spinning(body.angular_velocity())
+    } else {
+        BodyDef::fixed()
+    };
+    def.at(body.pose().position).turned(body.angle())
 }
 
 /// A gas with its bodies in another order, found in another way.
@@ -140,20 +145,18 @@ fn reordered(molecule: Molecule, search: PairSearch, order: impl Fn(usize) -> us
     for k in 0..bodies.len() {
         let body = &bodies[order(k)];
         let (shape, material) = body.shapes().next().expect("it has a shape");
-        let def = if body.mass().is_finite() {
-            BodyDef::dynamic()
-                .moving(body.velocity())
-                .spinning(body.angular_velocity())
-        } else {
-            BodyDef::fixed()
-        };
-        let def = def.at(body.pose().position).turned(body.angle());
-        let def = def.tagged(if body.mass().is_finite() {
+        // Tag 0 is a wall.
+        let tag = if body.mass().is_finite() {
             1 + body.tag()
         } else {
             0
-        });
-        world.insert(def, shape.clone(), *material).expect("valid");
+        };
+        put(
+            &mut world,
+            again(body).tagged(tag),
+            shape.clone(),
+            *material,
+        );
     }
     world
 }

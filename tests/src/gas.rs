@@ -1,11 +1,10 @@
 //! Gases: elastic bodies without friction in a closed box, and what an impact keeps.
 
-use carom_collision::{hulls, separating_axis};
 use carom_dynamics::{Body, BodyDef, BodyId, EventKind, Material, Settings, StepReport, World};
 use carom_geometry::{Circle, ConvexPolygon, Polygon, Shape};
 use carom_math::{Sum, Vec2, cross, vec2};
 
-use crate::elastic;
+use crate::{depth, elastic};
 
 /// Numbers from 0 to 1 by SplitMix64: the same seed, the same numbers.
 pub fn numbers(seed: u64) -> impl FnMut() -> f64 {
@@ -310,20 +309,8 @@ pub fn deepest(world: &World) -> f64 {
 }
 
 /// Depth of the deepest overlap of two bodies' convex parts in parts of the smaller size, ≥ 0.
-#[must_use]
-pub fn overlap(a: &Body<'_>, b: &Body<'_>) -> f64 {
-    let b_in_a = b.pose().seen_from(a.pose());
-    let mut depth = 0.0_f64;
-    for (shape_a, _) in a.shapes() {
-        for (shape_b, _) in b.shapes() {
-            for part_a in hulls(shape_a) {
-                for part_b in hulls(shape_b) {
-                    depth = depth.max(-separating_axis(&part_a, &part_b, b_in_a).separation);
-                }
-            }
-        }
-    }
-    depth / size(a).min(size(b))
+fn overlap(a: &Body<'_>, b: &Body<'_>) -> f64 {
+    depth(a, b) / size(a).min(size(b))
 }
 
 /// Distance of the farthest point of a body's shapes from its centre of mass, in m.

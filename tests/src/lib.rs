@@ -1,10 +1,7 @@
 //! Shared helpers of the integration tests.
 
-use carom_collision::hulls;
-use carom_collision::separating_axis;
-use carom_dynamics::{BodyKind, Material, World};
-use carom_geometry::Shape;
-use carom_math::Pose;
+use carom_collision::{hulls, separating_axis};
+use carom_dynamics::{Body, BodyKind, Material, World};
 
 pub mod gas;
 pub mod scenes;
@@ -45,12 +42,7 @@ pub fn overlaps(world: &World) -> (f64, f64) {
             if !moves || !a.aabb().overlaps(b.aabb()) {
                 continue;
             }
-            let mut depth = 0.0_f64;
-            for (shape_a, _) in a.shapes() {
-                for (shape_b, _) in b.shapes() {
-                    depth = depth.max(overlap(shape_a, shape_b, b.pose().seen_from(a.pose())));
-                }
-            }
+            let depth = depth(a, b);
             if depth > 0.0 {
                 deepest = deepest.max(depth);
                 sum += depth;
@@ -61,12 +53,17 @@ pub fn overlaps(world: &World) -> (f64, f64) {
     (deepest, if count > 0.0 { sum / count } else { 0.0 })
 }
 
-/// Depth of the deepest overlap of two shapes' convex parts, in m, ≥ 0.
-fn overlap(a: &Shape, b: &Shape, b_in_a: Pose) -> f64 {
+/// Depth of the deepest overlap of two bodies' convex parts, in m, ≥ 0.
+fn depth(a: &Body<'_>, b: &Body<'_>) -> f64 {
+    let b_in_a = b.pose().seen_from(a.pose());
     let mut depth = 0.0_f64;
-    for part_a in hulls(a) {
-        for part_b in hulls(b) {
-            depth = depth.max(-separating_axis(&part_a, &part_b, b_in_a).separation);
+    for (shape_a, _) in a.shapes() {
+        for (shape_b, _) in b.shapes() {
+            for part_a in hulls(shape_a) {
+                for part_b in hulls(shape_b) {
+                    depth = depth.max(-separating_axis(&part_a, &part_b, b_in_a).separation);
+                }
+            }
         }
     }
     depth
