@@ -4,7 +4,7 @@ use carom_dynamics::BodyId;
 use carom_math::Vec2;
 
 use crate::clip::is_near;
-use crate::frame::arrow_outline;
+use crate::op::arrow_outline;
 use crate::skia::{MAX_STROKE, usable_width};
 use crate::{Op, Size, Style, font};
 
@@ -18,7 +18,8 @@ use crate::{Op, Size, Style, font};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Source {
-    /// The body that it shows, if it shows one.
+    /// The body that it shows, if it shows one. Rings of such a mark must not cross themselves, as those of a body's shapes
+    /// do not: they are filled without a look, and where they did cross the picture would be wrong.
     pub body: Option<BodyId>,
     /// Whether it may move soon. What is said not to is painted beneath once and kept, and painted anew when it does
     /// move: a wrong flag costs time, never a pixel.

@@ -130,12 +130,13 @@ impl Painter {
             return &self.changes;
         }
         let known = picture.size() == frame.size();
+        let beneath = frame.beneath();
         picture.shape(frame.size());
         match self.shown.take() {
-            Some((mut shown, beneath)) if known && !self.redraw && shown.size() == frame.size() => {
-                self.update((&shown, beneath), frame, picture.rgba_mut());
+            Some((mut shown, sunk)) if known && !self.redraw && shown.size() == frame.size() => {
+                self.update((&shown, sunk), (frame, beneath), picture.rgba_mut());
                 // Where nearly all moves a comparison finds little: the next frames do without, twice as many each time.
-                let most = self.tiles.most() && 4 * frame.beneath() < frame.ops().len();
+                let most = self.tiles.most() && 4 * beneath < frame.ops().len();
                 let stretch = if most {
                     BUSY.min(2 * self.busy.1 + 1)
                 } else {
@@ -144,24 +145,24 @@ impl Painter {
                 self.busy = (stretch, stretch);
                 if !most {
                     self.found.renew(&mut shown, frame);
-                    self.shown = Some((shown, frame.beneath()));
+                    self.shown = Some((shown, beneath));
                 }
             }
             _ => {
-                self.anew(frame, picture.rgba_mut());
+                self.anew((frame, beneath), picture.rgba_mut());
                 self.busy.0 = self.busy.0.saturating_sub(1);
                 let keep = !self.redraw && self.busy.0 == 0;
-                self.shown = keep.then(|| (frame.clone(), frame.beneath()));
+                self.shown = keep.then(|| (frame.clone(), beneath));
             }
         }
         self.compare(frame, picture);
         &self.changes
     }
 
-    /// Paints all of a frame.
-    fn anew(&mut self, frame: &Frame, bytes: &mut [u8]) {
+    /// Paints all of a frame, of whose marks `beneath` are not awake.
+    fn anew(&mut self, (frame, beneath): (&Frame, usize), bytes: &mut [u8]) {
         let ground = Base::Colour(self.ground());
-        let (beneath, all) = (frame.beneath(), frame.ops().len());
+        let all = frame.ops().len();
         let (style, sheets) = (&self.style, &mut self.sheets);
         if self.redraw || beneath == 0 || self.busy.0 > 1 {
             sheets.paint(frame, 0..all, style, ground, bytes);
@@ -173,9 +174,14 @@ impl Painter {
         self.changes.all(frame.size());
     }
 
-    /// Paints what differs from the frame shown.
-    fn update(&mut self, (old, sunk): (&Frame, usize), frame: &Frame, bytes: &mut [u8]) {
-        let (beneath, all) = (frame.beneath(), frame.ops().len());
+    /// Paints what differs from the frame shown; beside each frame stands how many of its first marks are not awake.
+    fn update(
+        &mut self,
+        (old, sunk): (&Frame, usize),
+        (frame, beneath): (&Frame, usize),
+        bytes: &mut [u8],
+    ) {
+        let all = frame.ops().len();
         let ground = Base::Colour(self.ground());
         let (style, sheets) = (&self.style, &mut self.sheets);
         let (below, tiles) = (&mut self.below, &mut self.tiles);

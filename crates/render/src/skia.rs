@@ -13,7 +13,7 @@ use tiny_skia::{
 use crate::camera::narrow;
 use crate::clip::{Cover, Window};
 use crate::colour::round_u8;
-use crate::frame::{arrow_outline, box_ring};
+use crate::op::{arrow_outline, box_ring};
 use crate::path::{push, push_circle, push_dashes};
 use crate::style::shade;
 use crate::{Colour, Face, Ink, Label, Op, Size, Style, font};

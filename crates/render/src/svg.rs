@@ -5,7 +5,7 @@ use core::fmt::Write;
 use carom_math::{Rot, Vec2};
 
 use crate::clip::is_near;
-use crate::frame::{arrow_outline, box_ring};
+use crate::op::{arrow_outline, box_ring};
 use crate::skia::{INNER, OUTER, SHIFT, usable_width};
 use crate::style::shade;
 use crate::{Colour, Face, Ink, Label, Op, Packing, Size, Style, font, png};
