@@ -7,7 +7,8 @@ use carom_geometry::{Aabb, Outline, Shape};
 use carom_math::{Pose, SimTime, Vec2, vec2};
 
 use crate::overlay::{Groups, Overlaid, unit};
-use crate::{Camera, Frame, Ink, Look, Op, Paint, RenderError, Source, Trace};
+use crate::standing::Resting;
+use crate::{Camera, Frame, Ink, Look, Op, Overlay, Paint, RenderError, Source, Trace};
 
 /// Pixels that a mark reaches beyond its body's box: half an outline and some.
 const REACH: f64 = 4.0;
@@ -95,7 +96,8 @@ impl Frame {
         frame
     }
 
-    /// The same as [`Frame::capture`] into this frame, whose memory is used again.
+    /// The same as [`Frame::capture`] into this frame, whose memory is used again: marks of bodies that rest as they did
+    /// when this frame last captured them are left as they are.
     pub fn capture_into(&mut self, world: &World, look: &Look, camera: &Camera) {
         let mut trace = Trace::new(&look.overlay);
         if look.overlay.needs_trace() {
@@ -104,7 +106,8 @@ impl Frame {
         self.capture_traced_into(world, look, camera, &trace);
     }
 
-    /// The same as [`Frame::capture_traced`] into this frame, whose memory is used again.
+    /// The same as [`Frame::capture_traced`] into this frame, whose memory is used again: marks of bodies that rest as they
+    /// did when this frame last captured them are left as they are.
     pub fn capture_traced_into(
         &mut self,
         world: &World,
@@ -112,12 +115,53 @@ impl Frame {
         camera: &Camera,
         trace: &Trace,
     ) {
-        self.clear(camera.size());
-        Overlaid::new(self, world, look, camera, trace).beneath();
+        let (mut resting, known) = self.stand(world, look, camera);
+        if resting.is_none() {
+            self.clear(camera.size());
+            Overlaid::new(self, world, look, camera, trace).beneath();
+        }
         let mut sketch = Sketch::new(self, world, look, camera);
-        let done: Result<(), Infallible> = sketch.bodies(world, |body| Ok(body.pose()));
-        let Ok(()) = done;
+        let place = |body: &Body<'_>| Ok::<Pose, Infallible>(body.pose());
+        let Ok(()) = sketch.layer(world, false, known, resting.as_deref_mut(), place);
+        let Ok(()) = sketch.layer(world, true, 0, None, place);
+        if let Some(resting) = resting {
+            self.set_resting(resting);
+        }
         Overlaid::new(self, world, look, camera, trace).above();
+    }
+}
+
+impl Frame {
+    /// Keeps the marks of bodies that rest as they did, and takes away all others; says whom it kept, and how many. Nobody
+    /// is kept where marks lie beneath the bodies, or say who touches whom.
+    fn stand(
+        &mut self,
+        world: &World,
+        look: &Look,
+        camera: &Camera,
+    ) -> (Option<Box<Resting>>, usize) {
+        let Overlay {
+            field,
+            field_lines,
+            trails,
+            groups,
+            ..
+        } = &look.overlay;
+        if field.is_some() || field_lines.is_some() || trails.is_some() || *groups {
+            return (None, 0);
+        }
+        match self.take_resting() {
+            Some(mut resting) if resting.suits(look, camera) => {
+                let (bodies, marks) = resting.unchanged(world);
+                resting.truncate(bodies);
+                self.truncate(marks);
+                (Some(resting), bodies)
+            }
+            _ => {
+                self.clear(camera.size());
+                (Some(Box::new(Resting::new(look, camera))), 0)
+            }
+        }
     }
 }
 
@@ -153,19 +197,33 @@ impl<'a> Sketch<'a> {
         world: &World,
         place: impl Fn(&Body<'_>) -> Result<Pose, E>,
     ) -> Result<(), E> {
+        self.layer(world, false, 0, None, &place)?;
+        self.layer(world, true, 0, None, &place)
+    }
+
+    /// The bodies in view that are awake or not, but for the first `known`; `resting` is told of each.
+    fn layer<E>(
+        &mut self,
+        world: &World,
+        awake: bool,
+        known: usize,
+        mut resting: Option<&mut Resting>,
+        place: impl Fn(&Body<'_>) -> Result<Pose, E>,
+    ) -> Result<(), E> {
         let view = self.camera.view().grown(REACH / self.camera.scale());
-        for awake in [false, true] {
-            let layer = world.bodies().filter(|body| is_awake(body) == awake);
-            for body in layer {
-                self.pose = place(&body)?;
-                let boxes = body.shapes().map(|(shape, _)| shape.aabb(self.pose));
-                if view.overlaps(boxes.fold(Aabb::EMPTY, Aabb::union)) {
-                    self.source = Source {
-                        body: Some(body.id()),
-                        awake,
-                    };
-                    self.body(&body);
-                }
+        let layer = world.bodies().filter(|body| is_awake(body) == awake);
+        for body in layer.skip(known) {
+            self.pose = place(&body)?;
+            let boxes = body.shapes().map(|(shape, _)| shape.aabb(self.pose));
+            if view.overlaps(boxes.fold(Aabb::EMPTY, Aabb::union)) {
+                self.source = Source {
+                    body: Some(body.id()),
+                    awake,
+                };
+                self.body(&body);
+            }
+            if let Some(resting) = &mut resting {
+                resting.add(&body, self.frame.ops().len());
             }
         }
         Ok(())
@@ -290,7 +348,7 @@ impl<'a> Sketch<'a> {
 }
 
 /// Whether a body may have moved by the next frame.
-fn is_awake(body: &Body<'_>) -> bool {
+pub(crate) fn is_awake(body: &Body<'_>) -> bool {
     body.kind() != BodyKind::Fixed && !body.is_asleep()
 }
 

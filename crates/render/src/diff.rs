@@ -18,10 +18,14 @@ pub(crate) struct Found {
     places: Vec<usize>,
     /// Whether marks stand in other places than they did, or were not all looked at.
     shifted: bool,
+    /// How many first marks both lists are known to have in common.
+    pub(crate) common: usize,
 }
 
 impl Found {
-    pub(crate) fn start(&mut self) {
+    /// Begins with lists that are known to have their first `common` marks in common.
+    pub(crate) fn start(&mut self, common: usize) {
+        self.common = common;
         self.places.clear();
         self.shifted = false;
     }
@@ -34,12 +38,13 @@ impl Found {
     /// Makes the old frame a copy of the new one.
     pub(crate) fn renew(&self, old: &mut Frame, new: &Frame) {
         if self.shifted {
-            old.copy(new);
+            old.copy(new, self.common);
         } else {
             for &place in &self.places {
                 old.copy_mark(place, new);
             }
         }
+        old.stand_as(new);
     }
 }
 
@@ -57,7 +62,9 @@ pub(crate) fn mark(
 ) {
     let size = new.size();
     found.shifted |= olds != news;
-    let (mut i, mut j) = (olds.start, news.start);
+    // What stands is passed over.
+    let known = |range: &Range<usize>| range.start.max(found.common.min(range.end));
+    let (mut i, mut j) = (known(&olds), known(&news));
     let mut looks = 0;
     while i < olds.end && j < news.end {
         looks += 1;

@@ -2,6 +2,7 @@
 
 use carom_math::Vec2;
 
+use crate::standing::{Resting, Standing};
 use crate::{Engine, Mark, Op, Picture, Size, Source, Style};
 
 /// A picture as a list of marks: later ones cover earlier ones.
@@ -27,20 +28,27 @@ pub struct Frame {
     ops: Vec<Op>,
     /// Of each mark.
     sources: Vec<Source>,
-    spare: Spare,
+    memory: Memory,
 }
 
-/// Lists of points that marks had before they were cleared away: no part of what a frame is.
+/// What a frame remembers of how it was made: no part of what it is. A clone goes its own way, and remembers nothing.
 #[derive(Debug, Default)]
-struct Spare(Vec<Vec<Vec2>>);
+struct Memory {
+    /// Lists of points that marks had before they were taken away.
+    spare: Vec<Vec<Vec2>>,
+    /// Which marks are those of before.
+    standing: Standing,
+    /// The bodies at rest that its first marks show.
+    resting: Option<Box<Resting>>,
+}
 
-impl Clone for Spare {
+impl Clone for Memory {
     fn clone(&self) -> Self {
         Self::default()
     }
 }
 
-impl PartialEq for Spare {
+impl PartialEq for Memory {
     fn eq(&self, _: &Self) -> bool {
         true
     }
@@ -54,7 +62,11 @@ impl Frame {
             size,
             ops: Vec::new(),
             sources: Vec::new(),
-            spare: Spare(Vec::new()),
+            memory: Memory {
+                spare: Vec::new(),
+                standing: Standing::new(),
+                resting: None,
+            },
         }
     }
 
@@ -95,13 +107,32 @@ impl Frame {
         self.sources.push(source);
     }
 
-    /// Makes it a copy of another frame, with as little new memory as may be.
-    pub(crate) fn copy(&mut self, other: &Self) {
+    /// How many marks at the beginning are known to be those of an earlier state of `other`, without a look.
+    pub(crate) fn common(&self, earlier: &Self) -> usize {
+        let known = self.memory.standing.since(&earlier.memory.standing);
+        known.min(self.ops.len()).min(earlier.ops.len())
+    }
+
+    /// A copy that knows which of its marks this one will still have; it must never get others but by [`Frame::copy`].
+    pub(crate) fn snapshot(&self) -> Self {
+        let mut copy = self.clone();
+        copy.stand_as(self);
+        copy
+    }
+
+    /// Takes over what another frame, of which it is a copy, knows of its marks.
+    pub(crate) fn stand_as(&mut self, other: &Self) {
+        self.memory.standing = other.memory.standing.clone();
+    }
+
+    /// Makes it a copy of another frame, with as little new memory as may be; the first `common` marks are equal.
+    pub(crate) fn copy(&mut self, other: &Self, common: usize) {
         self.size = other.size;
-        self.sources.clone_from(&other.sources);
+        self.sources.truncate(common);
+        self.sources.extend_from_slice(&other.sources[common..]);
         self.ops.truncate(other.ops.len());
         let (known, new) = other.ops.split_at(self.ops.len());
-        for (op, from) in self.ops.iter_mut().zip(known) {
+        for (op, from) in self.ops.iter_mut().zip(known).skip(common) {
             op.copy(from);
         }
         self.ops.extend_from_slice(new);
@@ -122,24 +153,67 @@ impl Frame {
     /// Takes all marks away and keeps the memory: [`Frame::points`] hands it out again.
     pub fn clear(&mut self, size: Size) {
         self.size = size;
-        self.sources.clear();
-        self.spare.0.clear();
-        // The first mark's memory comes to lie on top.
-        for op in self.ops.drain(..).rev() {
+        self.memory.resting = None;
+        self.memory.standing = Standing::anew();
+        self.take_away(0);
+    }
+
+    /// Takes away all but the first `marks` marks, and keeps the memory of the others.
+    ///
+    /// Who knows that the first marks of a list do not change keeps them so from frame to frame: a
+    /// [`Painter`](crate::Painter) does not even compare them.
+    ///
+    /// # Examples
+    /// ```
+    /// use carom_render::{Frame, Ink, Op, Size};
+    /// use carom_math::vec2;
+    /// let dot = |x: f64| Op::Dot { centre: vec2(x, 50.0), radius: 10.0, ink: Ink::Text };    // px
+    /// let mut frame = Frame::new(Size::new(200, 100)?);
+    /// frame.push(dot(30.0));
+    /// for step in 0..10 {
+    ///     frame.truncate(1);
+    ///     frame.push(dot(40.0 + f64::from(step)));
+    /// }
+    /// assert_eq!(frame.ops(), [dot(30.0), dot(49.0)]);
+    /// # Ok::<(), carom_render::RenderError>(())
+    /// ```
+    pub fn truncate(&mut self, marks: usize) {
+        if let Some(resting) = &mut self.memory.resting {
+            resting.keep(marks);
+        }
+        self.memory.standing.cut(marks);
+        self.take_away(marks);
+    }
+
+    /// Takes away marks and their sources; the memory of the first one comes to lie on top.
+    fn take_away(&mut self, from: usize) {
+        self.sources.truncate(from);
+        self.memory.spare.clear();
+        let from = from.min(self.ops.len());
+        for op in self.ops.drain(from..).rev() {
             if let Op::Polygon { mut points, .. }
             | Op::Area { mut points, .. }
             | Op::Line { mut points, .. } = op
             {
                 points.clear();
-                self.spare.0.push(points);
+                self.memory.spare.push(points);
             }
         }
+    }
+
+    /// What it remembers of bodies at rest, to be given back when it holds for the marks at the beginning.
+    pub(crate) const fn take_resting(&mut self) -> Option<Box<Resting>> {
+        self.memory.resting.take()
+    }
+
+    pub(crate) fn set_resting(&mut self, resting: Box<Resting>) {
+        self.memory.resting = Some(resting);
     }
 
     /// An empty list for the points of a mark, with memory of a mark cleared away if there is any.
     #[must_use]
     pub fn points(&mut self) -> Vec<Vec2> {
-        self.spare.0.pop().unwrap_or_default()
+        self.memory.spare.pop().unwrap_or_default()
     }
 
     /// Paints the frame into a new picture.

@@ -89,6 +89,7 @@ mod sequence;
 mod sheet;
 mod size;
 mod skia;
+mod standing;
 mod stencil;
 mod style;
 mod svg;

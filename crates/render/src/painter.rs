@@ -152,7 +152,7 @@ impl Painter {
                 self.anew((frame, beneath), picture.rgba_mut());
                 self.busy.0 = self.busy.0.saturating_sub(1);
                 let keep = !self.redraw && self.busy.0 == 0;
-                self.shown = keep.then(|| (frame.clone(), beneath));
+                self.shown = keep.then(|| (frame.snapshot(), beneath));
             }
         }
         self.compare(frame, picture);
@@ -188,7 +188,7 @@ impl Painter {
         below.start(frame.size());
         tiles.start(frame.size());
         let found = &mut self.found;
-        found.start();
+        found.start(frame.common(old));
         diff::mark((old, 0..sunk), (frame, 0..beneath), style, below, found);
         let rest = (old, sunk..old.ops().len());
         diff::mark(rest, (frame, beneath..all), style, tiles, found);

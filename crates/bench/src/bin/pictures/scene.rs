@@ -111,8 +111,8 @@ impl Scene {
         }
     }
 
-    /// Hands over all things and whether they move, lowest first.
-    fn each(&self, arrows: Arrows, sink: &mut impl Sink) {
+    /// Hands over what does not move, lowest first.
+    fn still(&self, arrows: Arrows, sink: &mut impl Sink) {
         let Vec2 { x: w, y: h } = self.size.corner();
         let triangle = |points: [Vec2; 3]| Thing::Area(points.to_vec(), WALL);
         sink.draw(
@@ -154,31 +154,39 @@ impl Scene {
             ),
             false,
         );
-        // Those asleep lie below.
-        for (first, end, awake) in [
-            (self.awake, self.bodies.len(), false),
-            (0, self.awake, true),
-        ] {
-            for body in &self.bodies[first..end] {
-                let shape = body.shape(sink);
-                sink.draw(shape, awake);
-                sink.draw(Thing::Dot(body.at, 1.0, Colour::WHITE), awake);
-                body.arrow(arrows, self.barbs, awake, sink);
-            }
+        for body in &self.bodies[self.awake..] {
+            body.draw(arrows, self.barbs, false, sink);
+        }
+    }
+
+    /// Hands over what moves, which lies above.
+    fn moving(&self, arrows: Arrows, sink: &mut impl Sink) {
+        for body in &self.bodies[..self.awake] {
+            body.draw(arrows, self.barbs, true, sink);
         }
     }
 
     /// All things.
     pub(crate) fn things(&self, arrows: Arrows) -> Vec<Thing> {
         let mut things = Vec::new();
-        self.each(arrows, &mut things);
+        self.still(arrows, &mut things);
+        self.moving(arrows, &mut things);
         things
     }
 
-    /// The scene as carom's display list.
-    pub(crate) fn frame_into(&self, arrows: Arrows, frame: &mut Frame) {
+    /// The scene as carom's display list; the number of marks that do not move.
+    pub(crate) fn frame_into(&self, arrows: Arrows, frame: &mut Frame) -> usize {
         frame.clear(self.size);
-        self.each(arrows, frame);
+        self.still(arrows, frame);
+        let still = frame.ops().len();
+        self.moving(arrows, frame);
+        still
+    }
+
+    /// The same once more, by who knows that the first `still` marks do not move.
+    pub(crate) fn frame_again(&self, arrows: Arrows, still: usize, frame: &mut Frame) {
+        frame.truncate(still);
+        self.moving(arrows, frame);
     }
 }
 
@@ -210,6 +218,13 @@ impl Sink for Frame {
 }
 
 impl Body {
+    fn draw(&self, arrows: Arrows, barbs: [Rot; 2], awake: bool, sink: &mut impl Sink) {
+        let shape = self.shape(sink);
+        sink.draw(shape, awake);
+        sink.draw(Thing::Dot(self.at, 1.0, Colour::WHITE), awake);
+        self.arrow(arrows, barbs, awake, sink);
+    }
+
     fn shape(&self, sink: &mut impl Sink) -> Thing {
         if self.corners == 0 {
             return Thing::Ball(self.at, self.radius, self.colour);
