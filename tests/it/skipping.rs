@@ -105,3 +105,42 @@ fn a_sleeping_stack_is_not_looked_at_and_wakes_when_struck() {
             .any(|b| b.kind() == BodyKind::Dynamic && !b.is_asleep())
     );
 }
+
+#[test]
+fn a_stack_that_stands_needs_no_sub_steps() {
+    let mut world = World::new(Settings {
+        sleep: None,
+        ..Settings::default()
+    })
+    .expect("valid");
+    let floor = ConvexPolygon::rectangle(20.0, 1.0).expect("a floor");
+    let stone = Material {
+        restitution: 0.0,
+        ..Material::default()
+    };
+    world
+        .insert(BodyDef::fixed().at(vec2(0.0, -0.5)), floor, stone)
+        .expect("valid");
+    for k in 0..3 {
+        let block = ConvexPolygon::square(1.0).expect("a block");
+        let def = BodyDef::dynamic().at(vec2(0.0, 0.5 + f64::from(k)));
+        world.insert(def, block, stone).expect("valid");
+    }
+    world.step(1.0 / 60.0);
+    let report = world.step(10.0);
+    assert_eq!((report.substeps, report.pairs, report.rows), (0, 0, 0));
+    assert!(world.bodies().all(|body| !body.is_asleep()));
+    // What falls on it is met all the same, and the stack stands on.
+    let ball = Circle::new(0.25).expect("a ball");
+    world
+        .insert(BodyDef::dynamic().at(vec2(0.0, 4.0)), ball, stone)
+        .expect("valid");
+    let report = world.step(2.0);
+    assert!(report.impacts > 0, "{report:?}");
+    let fastest = world.bodies().map(|body| body.velocity().length());
+    let fastest = fastest.fold(0.0, f64::max);
+    assert!(fastest < 1e-9, "{fastest:e} m/s, {report:?}");
+    let top = world.bodies().last().expect("the ball").centre();
+    assert!((top - vec2(0.0, 3.25)).length() < 1e-9, "{top}");
+    assert_eq!(world.step(10.0).substeps, 0);
+}

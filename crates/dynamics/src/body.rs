@@ -131,7 +131,7 @@ impl<'w> Body<'w> {
     /// Whether the body sleeps with its group.
     #[must_use]
     pub fn is_asleep(&self) -> bool {
-        self.state.asleep
+        self.state.asleep && !self.state.dozes
     }
 
     /// ½ m v² + ½ I ω², in J; 0 for fixed and kinematic bodies.

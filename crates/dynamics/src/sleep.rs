@@ -87,7 +87,9 @@ pub(crate) fn wake(
         }
         state.asleep = false;
         state.slow_for = 0.0;
-        events.push(time, EventKind::Awake(state.id));
+        if !core::mem::take(&mut state.dozes) {
+            events.push(time, EventKind::Awake(state.id));
+        }
         woken.push(index);
         waking.extend(neighbours(bodies, pairs, index));
     }

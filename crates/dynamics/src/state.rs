@@ -50,6 +50,8 @@ pub(crate) struct BodyState {
     /// Fixed or kinematic, with a line in the wide solver.
     pub(crate) has_line: bool,
     pub(crate) asleep: bool,
+    /// Asleep for the machinery alone: a group in closed form at rest, which the caller sees awake until its time.
+    pub(crate) dozes: bool,
     /// The contact group in closed form that it belongs to.
     pub(crate) membership: Membership,
     pub(crate) course: Course,
@@ -176,6 +178,7 @@ impl BodyState {
             in_crowd: false,
             has_line: false,
             asleep: false,
+            dozes: false,
             membership: Membership::default(),
             course: Course::default(),
             idle: 0,

@@ -139,6 +139,12 @@ impl World {
                         let lost = price(self.pairs.get(entry.pair));
                         self.spent += lost;
                         self.rush(&changed, lost, entry.time);
+                        // Who rested is awake before anybody asks who touches whom.
+                        for &index in &changed {
+                            if self.bodies.get(index).asleep {
+                                self.wake(index, entry.time);
+                            }
+                        }
                         for index in changed {
                             self.deflected(index, entry.time);
                         }
@@ -277,7 +283,13 @@ impl World {
             }
             return;
         }
-        if self.crowd_wakes(woken, time) {
+        let mut dozed = false;
+        for &index in woken {
+            let membership = self.bodies.get(index).membership;
+            dozed |= membership.is_closed();
+            self.dissolve(membership.group, time);
+        }
+        if !dozed && self.crowd_wakes(woken, time) {
             return;
         }
         for &index in woken {

@@ -32,6 +32,7 @@ impl World {
         self.look(time, h);
         self.gather_crowds(MANY, time);
         self.close_groups(time);
+        self.doze(time);
         self.gather_crowds(FEW, time);
         self.stopwatch.lap(|p| &mut p.contacts);
         self.groups.step(

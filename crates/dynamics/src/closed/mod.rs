@@ -11,7 +11,7 @@ use carom_math::{SimTime, Vec2, cross_scalar, perp};
 use crate::flight::fly;
 use crate::modes::{BodyMove, GroupMove, judge, land};
 use crate::touching::{Gathered, Looks, Refused};
-use crate::{ContactMode, EventKind, Mode, World};
+use crate::{BodyKind, ContactMode, EventKind, Mode, World};
 pub(crate) use store::{Closed, Membership};
 use store::{Group, Kept};
 
@@ -51,7 +51,7 @@ impl World {
     /// Contacts of groups last, and carry what the group says.
     fn keep_closed(&mut self) {
         let h = self.clock.h;
-        for group in self.closed.iter() {
+        for group in self.closed.iter().filter(|group| !group.dozes) {
             for touch in &group.touches {
                 let pair = self.pairs.get_mut(touch.pair);
                 pair.lasting = true;
@@ -163,7 +163,11 @@ impl World {
         for index in [bodies.0, bodies.1] {
             let place = self.bodies.get(index).membership.group;
             let group = self.closed.get(place);
-            if group.is_some_and(|group| group.touches.iter().any(|touch| touch.pair == pair)) {
+            let holds = |group: &Group| group.touches.iter().any(|touch| touch.pair == pair);
+            if group.is_some_and(holds) {
+                if self.bodies.get(index).asleep {
+                    self.wake(index, time);
+                }
                 self.dissolve(place, time);
             }
         }
@@ -171,7 +175,16 @@ impl World {
 
     /// Judges all that touches a body, and whoever touches that, and so on.
     fn judge_around(&mut self, index: u32, time: SimTime, speed: f64, looks: Looks) {
-        let mut gathered = match self.gather_touching(index, time, looks) {
+        let mut found = self.gather_touching(index, time, looks);
+        while let Err(Refused { seen, .. }) = &found {
+            let dozes = |index: &u32| self.bodies.get(*index).dozes;
+            let Some(index) = seen.iter().copied().find(dozes) else {
+                break;
+            };
+            self.wake(index, time);
+            found = self.gather_touching(index, time, looks);
+        }
+        let mut gathered = match found {
             Ok(gathered) => gathered,
             Err(Refused { seen, until }) => {
                 for &index in &seen {
@@ -274,8 +287,14 @@ impl World {
             members: members.clone(),
             speed: fastest,
             sleeps: sleep.is_some(),
+            dozes: false,
         };
         let place = self.closed.insert(group, change);
+        // What is driven begins to move without a touch.
+        let drives = |index: &u32| self.bodies.get(*index).kind == BodyKind::Kinematic;
+        if still && !gathered.places.iter().any(drives) {
+            self.closed.stands_still(place);
+        }
         for &(index, _) in &members {
             self.bodies.get_mut(index).membership = Membership::of(place);
         }
@@ -342,15 +361,42 @@ impl World {
         }
     }
 
+    /// Groups at rest leave the sub-steps: whoever meets one wakes it, as if it slept.
+    pub(crate) fn doze(&mut self, time: SimTime) {
+        let still = self.closed.take_still();
+        if still.is_empty() {
+            return;
+        }
+        for place in still {
+            let Some(group) = self.closed.get_mut(place) else {
+                continue;
+            };
+            group.dozes = true;
+            let members = group.members.clone();
+            for &(index, _) in &members {
+                let state = self.bodies.get_mut(index);
+                (state.asleep, state.dozes) = (true, true);
+            }
+            for (index, _) in members {
+                self.lie_down(index, time);
+            }
+        }
+        self.pairs.sort(&self.bodies, &self.stepped);
+    }
+
     /// A group that has been at rest for long enough falls asleep.
     fn lull(&mut self, place: u32, time: SimTime) {
         let members = self.dissolve(place, time);
+        let mut lying = Vec::new();
         for &index in &members {
             let state = self.bodies.get_mut(index);
             state.asleep = true;
+            if !core::mem::take(&mut state.dozes) {
+                lying.push(index);
+            }
             self.events.push(time, EventKind::Asleep(state.id));
         }
-        for index in members {
+        for index in lying {
             self.lie_down(index, time);
         }
     }

@@ -76,6 +76,8 @@ pub(crate) struct Closed {
     /// Stale entries are dropped when they come up: a group's stamp tells.
     changes: BinaryHeap<Reverse<(SimTime, u32, u64)>>,
     stamp: u64,
+    /// Groups at rest that the sub-steps still look after, with their stamps.
+    still: Vec<(u32, u64)>,
     /// Where and how often in a row judgements took place at one instant.
     stall: (SimTime, u32),
 }
@@ -89,6 +91,8 @@ pub(super) struct Group {
     /// Largest speed of the mode: what its roundings are measured by, in m/s.
     pub(super) speed: f64,
     pub(super) sleeps: bool,
+    /// Nobody looks at its members: they rest, as the machinery knows what sleeps.
+    pub(super) dozes: bool,
 }
 
 /// A touch of a group while its mode lasts.
@@ -155,6 +159,26 @@ impl Closed {
             self.changes.push(Reverse((time, place, self.stamp)));
         }
         place
+    }
+
+    /// The next sub-step lets go of a group at rest.
+    pub(super) fn stands_still(&mut self, place: u32) {
+        self.still.push((place, self.stamp));
+    }
+
+    /// Places of the groups that came to rest since the last time, and still do.
+    pub(super) fn take_still(&mut self) -> Vec<u32> {
+        let still = core::mem::take(&mut self.still);
+        let stands = |(place, stamp): (u32, u64)| {
+            let (held, _) = self.groups.get(place as usize)?.as_ref()?;
+            (*held == stamp).then_some(place)
+        };
+        still.into_iter().filter_map(stands).collect()
+    }
+
+    pub(super) fn get_mut(&mut self, place: u32) -> Option<&mut Group> {
+        let (_, group) = self.groups.get_mut(place as usize)?.as_mut()?;
+        Some(group)
     }
 
     pub(super) fn remove(&mut self, place: u32) -> Option<Group> {
