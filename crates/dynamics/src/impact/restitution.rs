@@ -5,10 +5,11 @@
 //! Between changes of slip velocities are linear in τ, so the path has a few straight pieces, as that
 //! of a single contact.
 
-use carom_math::{Vec2, perp};
+use carom_math::{Vec2, cross, perp};
 
 use super::body::ImpactBody;
 use super::coulomb::stop;
+use super::rough::velocity;
 use super::routh::EndRule;
 use super::rows::{Bound, Row, Rows};
 use super::several::SharedContact;
@@ -21,14 +22,14 @@ pub(super) type Impulses = Vec<(f64, f64)>;
 
 /// How much comes back, and by which measure.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Return {
+pub(super) struct Return<'a> {
     pub(super) rule: EndRule,
     /// Coefficient of restitution of all contacts.
     pub(super) restitution: f64,
     /// Work of compression, in J. No more than e² of it comes back by any measure.
     pub(super) work: f64,
-    /// Slip below this is none, in m/s.
-    pub(super) zero: f64,
+    /// Slip of each contact below which it is none, in m/s.
+    pub(super) zero: &'a [f64],
 }
 
 /// What restitution adds, and the bodies after it.
@@ -36,7 +37,7 @@ pub(super) fn give_back(
     stopped: &[ImpactBody],
     contacts: &[SharedContact],
     presses: &[f64],
-    how: &Return,
+    how: &Return<'_>,
 ) -> (Vec<ImpactBody>, Impulses) {
     let e = how.restitution;
     let mut path = Path {
@@ -77,31 +78,28 @@ pub(super) fn give_back(
     (path.bodies, total)
 }
 
-/// One straight piece: friction of every contact, and what velocities gain, per unit of τ.
+/// One straight piece, per unit of τ.
 struct Piece {
-    friction: Vec<f64>,
+    /// Normal impulse and friction of every contact.
+    impulses: Impulses,
+    /// Whether friction is at its limit, and does work.
+    slips: Vec<bool>,
+    /// Velocities that the bodies gain.
     rates: Vec<ImpactBody>,
 }
 
 struct Path<'a> {
     contacts: &'a [SharedContact],
     presses: &'a [f64],
-    zero: f64,
+    zero: &'a [f64],
     bodies: Vec<ImpactBody>,
 }
 
 impl Path<'_> {
-    fn velocity(&self, bodies: &[ImpactBody], k: usize) -> (f64, f64) {
-        let shared = &self.contacts[k];
-        let (point, normal) = (shared.contact.point, shared.contact.normal);
-        let u = bodies[shared.b].velocity_of(point) - bodies[shared.a].velocity_of(point);
-        (u.dot(normal), u.dot(perp(normal)))
-    }
-
     /// Direction in which contact k slips; 0 if it sticks.
     fn slip(&self, k: usize) -> f64 {
-        let (_, u_t) = self.velocity(&self.bodies, k);
-        if u_t.abs() > self.zero {
+        let u_t = tangential(&self.bodies, &self.contacts[k]);
+        if u_t.abs() > self.zero[k] {
             u_t.signum()
         } else {
             0.0
@@ -119,12 +117,10 @@ impl Path<'_> {
                 ..*body
             })
             .collect();
-        let mut friction = vec![0.0; self.contacts.len()];
+        let mut impulses: Impulses = self.presses.iter().map(|press| (*press, 0.0)).collect();
+        let mut slips = vec![true; self.contacts.len()];
         let (mut rows, mut places) = (Vec::new(), Vec::new());
         for (k, (shared, press)) in self.contacts.iter().zip(self.presses).enumerate() {
-            if *press <= 0.0 {
-                continue;
-            }
             let limit = shared.contact.friction * press;
             let slip = self.slip(k);
             if slip == 0.0 && limit > 0.0 {
@@ -132,50 +128,92 @@ impl Path<'_> {
                 rows.push(Row::new(&rates, shared, tangent, Bound::Limit(limit)));
                 places.push(k);
             }
-            friction[k] = -slip * limit;
-            push(&mut rates, shared, (*press, friction[k]));
+            impulses[k].1 = -slip * limit;
+            push(&mut rates, shared, impulses[k]);
         }
         if !rows.is_empty() {
             let held = Rows::new(&rates, rows);
             let (holds, _) = stop(&held);
             for (k, hold) in places.into_iter().zip(holds) {
-                friction[k] = hold;
-                push(&mut rates, &self.contacts[k], (0.0, hold));
+                let shared = &self.contacts[k];
+                slips[k] = hold.abs() >= shared.contact.friction * self.presses[k];
+                impulses[k].1 = hold;
+                push(&mut rates, shared, (0.0, hold));
             }
         }
-        Piece { friction, rates }
+        Piece {
+            impulses,
+            slips,
+            rates,
+        }
     }
 
-    /// Power of the normal impulses per unit of τ, and how it grows.
+    /// Power of the normal impulses per unit of τ, and how it grows: all power but that of friction.
     fn power(&self, piece: &Piece) -> (f64, f64) {
-        let mut power = (0.0, 0.0);
-        for (k, press) in self.presses.iter().enumerate() {
-            power.0 += press * self.velocity(&self.bodies, k).0;
-            power.1 += press * self.velocity(&piece.rates, k).0;
-        }
-        power
+        let given = gathered(&self.bodies, self.contacts, &piece.impulses);
+        let of = |bodies: &[ImpactBody]| {
+            let rubbing = piece.slips.iter().zip(&piece.impulses).zip(self.contacts);
+            let lost = rubbing.filter(|((slips, _), _)| **slips);
+            let lost = lost.map(|((_, impulse), shared)| impulse.1 * tangential(bodies, shared));
+            power(bodies, &given) - lost.sum::<f64>()
+        };
+        (of(&self.bodies), of(&piece.rates))
     }
 
     fn to_change_of_slip(&self, piece: &Piece) -> f64 {
         let mut first = f64::INFINITY;
-        for (k, press) in self.presses.iter().enumerate() {
+        for (k, shared) in self.contacts.iter().enumerate() {
             let slip = self.slip(k);
-            let rate = self.velocity(&piece.rates, k).1;
-            if *press > 0.0 && slip * rate < 0.0 {
-                first = first.min(-self.velocity(&self.bodies, k).1 / rate);
+            let rate = tangential(&piece.rates, shared);
+            if self.presses[k] > 0.0 && slip * rate < 0.0 {
+                first = first.min(-tangential(&self.bodies, shared) / rate);
             }
         }
         first
     }
 
     fn advance(&mut self, piece: &Piece, step: f64, total: &mut Impulses) {
-        for (k, press) in self.presses.iter().enumerate() {
-            let added = (press * step, piece.friction[k] * step);
-            push(&mut self.bodies, &self.contacts[k], added);
+        for (k, shared) in self.contacts.iter().enumerate() {
+            let (press, friction) = piece.impulses[k];
+            let added = (press * step, friction * step);
+            push(&mut self.bodies, shared, added);
             total[k].0 += added.0;
             total[k].1 += added.1;
         }
     }
+}
+
+/// Tangential velocity of B's point minus A's, in m/s.
+fn tangential(bodies: &[ImpactBody], shared: &SharedContact) -> f64 {
+    velocity(bodies, shared).1
+}
+
+/// Impulse in N·s and angular impulse about its centre in N·m·s that contacts give to each body.
+pub(super) fn gathered(
+    bodies: &[ImpactBody],
+    contacts: &[SharedContact],
+    impulses: &Impulses,
+) -> Vec<(Vec2, f64)> {
+    let mut given = vec![(Vec2::ZERO, 0.0); bodies.len()];
+    for (shared, (n, t)) in contacts.iter().zip(impulses) {
+        let contact = &shared.contact;
+        let impulse = contact.normal * *n + perp(contact.normal) * *t;
+        for (body, impulse) in [(shared.a, -impulse), (shared.b, impulse)] {
+            given[body].0 += impulse;
+            given[body].1 += cross(contact.point - bodies[body].centre, impulse);
+        }
+    }
+    given
+}
+
+/// Impulses times velocities, in J: body by body, not contact by contact.
+///
+/// What a light body between heavy ones is given nearly cancels, while the rounding of its velocity is
+/// that of each part: times one contact's impulse it is as much as heavy bodies lose.
+pub(super) fn power(bodies: &[ImpactBody], given: &[(Vec2, f64)]) -> f64 {
+    let each = bodies.iter().zip(given);
+    each.map(|(body, (impulse, turn))| impulse.dot(body.velocity) + turn * body.spin)
+        .sum()
 }
 
 /// ±J of a contact, given along its normal and its tangent.

@@ -4,10 +4,12 @@
 //! impulses at once, at e = 1 reflections whose restitution follows Routh's path. Both keep momentum to
 //! rounding, keep friction in its cone, never gain energy and leave no contact closing, so every mean of them does.
 
+use carom_math::Vec2;
+
 use super::body::ImpactBody;
 use super::coulomb::stop;
 use super::law::{ImpactLaw, poisson, stronge};
-use super::restitution::{Impulses, Return, give_back, push};
+use super::restitution::{Impulses, Return, gathered, give_back, power, push};
 use super::routh::EndRule;
 use super::rows::{Bound, Row, Rows, contact_rows};
 use super::several::{SharedContact, SharedOutcome, with_restitution};
@@ -129,25 +131,34 @@ fn reflected(
     let stopped = newton_rough(bodies, &with_restitution(contacts, 0.0));
     let presses = &stopped.normal_impulses;
     let restitution = common.unwrap_or_else(|| super::several::mean_restitution(contacts, presses));
+    let impulses: Impulses = presses
+        .iter()
+        .copied()
+        .zip(stopped.tangential_impulses.iter().copied())
+        .collect();
     // Work of the normal impulses on the way to the stop, and all energy that went: friction that
     // turned a slip round has given some back.
-    let (mut work, mut loss) = (0.0, 0.0);
+    let given = gathered(bodies, contacts, &impulses);
+    let loss = -0.5 * (power(bodies, &given) + power(&stopped.bodies, &given));
+    let noise = noise(bodies, contacts, &impulses, zero);
+    let mut work = loss;
     for (k, shared) in contacts.iter().enumerate() {
-        let (n, t) = (presses[k], stopped.tangential_impulses[k]);
-        let u = sum_of_velocities(bodies, &stopped.bodies, shared);
-        work -= 0.5 * n * u.0;
-        loss -= 0.5 * (n * u.0 + t * u.1);
+        let slip = |bodies: &[ImpactBody]| {
+            let u_t = velocity(bodies, shared).1;
+            if u_t.abs() > noise[k] { u_t } else { 0.0 }
+        };
+        work += 0.5 * impulses[k].1 * (slip(bodies) + slip(&stopped.bodies));
     }
     let how = Return {
         rule,
         restitution,
         work: work.min(loss).max(0.0),
-        zero,
+        zero: &noise,
     };
     let (after, mut pushes) = give_back(&stopped.bodies, contacts, presses, &how);
-    for (k, pushed) in pushes.iter_mut().enumerate() {
-        pushed.0 += presses[k];
-        pushed.1 += stopped.tangential_impulses[k];
+    for (pushed, (n, t)) in pushes.iter_mut().zip(impulses) {
+        pushed.0 += n;
+        pushed.1 += t;
     }
     (after, pushes, !stopped.exhausted)
 }
@@ -230,19 +241,10 @@ pub(super) fn opening(bodies: &[ImpactBody], shared: &SharedContact) -> f64 {
 }
 
 /// Normal and tangential velocity of B's point minus A's, in m/s.
-fn velocity(bodies: &[ImpactBody], shared: &SharedContact) -> (f64, f64) {
+pub(super) fn velocity(bodies: &[ImpactBody], shared: &SharedContact) -> (f64, f64) {
     let (point, normal) = (shared.contact.point, shared.contact.normal);
     let u = bodies[shared.b].velocity_of(point) - bodies[shared.a].velocity_of(point);
     (u.dot(normal), u.dot(carom_math::perp(normal)))
-}
-
-fn sum_of_velocities(
-    before: &[ImpactBody],
-    after: &[ImpactBody],
-    shared: &SharedContact,
-) -> (f64, f64) {
-    let (one, other) = (velocity(before, shared), velocity(after, shared));
-    (one.0 + other.0, one.1 + other.1)
 }
 
 /// What counts as rounding of a speed: friction makes one of slip as well as of approach.
@@ -252,4 +254,29 @@ fn rounding(bodies: &[ImpactBody], contacts: &[SharedContact]) -> f64 {
         most.max(u.0.abs()).max(u.1.abs())
     });
     64.0 * f64::EPSILON * fastest
+}
+
+/// The same for each contact where impulses have made velocities: no less than what the rounding of the
+/// impulses on its bodies is worth there.
+fn noise(
+    bodies: &[ImpactBody],
+    contacts: &[SharedContact],
+    impulses: &Impulses,
+    zero: f64,
+) -> Vec<f64> {
+    let mut taken = vec![0.0; bodies.len()];
+    for (shared, (n, t)) in contacts.iter().zip(impulses) {
+        taken[shared.a] += n + t.abs();
+        taken[shared.b] += n + t.abs();
+    }
+    let worth = |body: usize, point: Vec2| {
+        let arm = (point - bodies[body].centre).length_squared();
+        taken[body] * (bodies[body].inverse_mass + arm * bodies[body].inverse_inertia)
+    };
+    let each = contacts.iter().map(|shared| {
+        let point = shared.contact.point;
+        let most = worth(shared.a, point).max(worth(shared.b, point));
+        zero.max(4.0 * f64::EPSILON * most)
+    });
+    each.collect()
 }

@@ -242,3 +242,63 @@ fn nearly_every_heap_has_its_common_stop_found() {
         assert!(fails <= most, "{fails} of 2000, masses of 10^±{decades} kg");
     }
 }
+
+#[test]
+fn a_light_body_that_sticks_between_a_heavy_one_and_the_ground_brings_no_energy() {
+    let body = |inverse_mass, inverse_inertia, centre, velocity, spin| ImpactBody {
+        inverse_mass,
+        inverse_inertia,
+        centre,
+        velocity,
+        spin,
+    };
+    let bodies = [
+        ImpactBody::immovable(Vec2::ZERO, Vec2::ZERO, 0.0),
+        body(
+            9.010085607123075e-6,
+            3.21460198246591e-6,
+            vec2(0.24255955229104872, -0.5707971799085455),
+            vec2(-1.646176210814355, 0.0),
+            0.7866180787034676,
+        ),
+        body(
+            3.167315522814884,
+            11.630999964939772,
+            vec2(1.3563798595062664, -0.7226969214590625),
+            vec2(0.47337245636505354, 1.9795958619320306),
+            0.0,
+        ),
+    ];
+    let touch = |a, b, point, normal, friction| SharedContact {
+        a,
+        b,
+        contact: ImpactContact {
+            point,
+            normal,
+            restitution: 1.0,
+            friction,
+        },
+    };
+    let contacts = [
+        touch(
+            2,
+            0,
+            Vec2::ZERO,
+            vec2(-0.03045529907900045, 0.999536129791219),
+            1e3,
+        ),
+        touch(
+            1,
+            2,
+            vec2(-1.992904567850229, 1.7254611854538644),
+            vec2(-0.9566014593544369, 0.2913994645859213),
+            1.9488012674158242,
+        ),
+    ];
+    for choice in [Several::Blend, Several::Reflections] {
+        let after = several(ImpactLaw::Stronge, choice, &bodies, &contacts);
+        let gained = energy(&after.bodies) / energy(&bodies) - 1.0;
+        eprintln!("{gained:e}");
+        assert!(gained <= 1e-15, "{choice:?} gains {gained:e}");
+    }
+}
