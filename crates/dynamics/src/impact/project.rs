@@ -11,6 +11,9 @@
 /// A row counts as dependent on others if less than this part of its length is its own.
 const DEPENDENT: f64 = 1e-10;
 
+/// The same, as a part of its length, at which its rounding shows.
+const NEARLY: f64 = 0.01;
+
 /// A coordinate that the members leave less than this of, as a part of 1, is theirs alone.
 const DETERMINED: f64 = 8.0 * f64::EPSILON;
 
@@ -26,7 +29,18 @@ pub(crate) struct Nearest {
 /// A bound counts as met within `tolerance`. If the polyhedron is empty, which no impact makes it,
 /// the rows that can be met are met.
 pub(crate) fn nearest(rows: &[Vec<f64>], start: &[f64], bounds: &[f64], tolerance: f64) -> Nearest {
-    let mut set = ActiveSet::new(rows, start, bounds);
+    nearest_beside(&[], rows, start, bounds, tolerance)
+}
+
+/// The same where no row has a part along the orthonormal directions `kept`: nor has the way.
+pub(crate) fn nearest_beside(
+    kept: &[Vec<f64>],
+    rows: &[Vec<f64>],
+    start: &[f64],
+    bounds: &[f64],
+    tolerance: f64,
+) -> Nearest {
+    let mut set = ActiveSet::new(kept, rows, start, bounds);
     // A row enters and leaves a few times at most; the bound is for rounding alone.
     for _ in 0..(20 + 10 * rows.len()) {
         match set.most_violated(tolerance) {
@@ -39,19 +53,26 @@ pub(crate) fn nearest(rows: &[Vec<f64>], start: &[f64], bounds: &[f64], toleranc
 
 /// The rows that hold with equality, their multipliers and the point that they lead to.
 struct ActiveSet<'a> {
+    kept: &'a [Vec<f64>],
     rows: &'a [Vec<f64>],
     bounds: &'a [f64],
     members: Vec<usize>,
     multipliers: Vec<f64>,
     start: &'a [f64],
     point: Vec<f64>,
-    /// Rows that depend on members and cannot be met.
+    /// Rows that depend on the members of now and cannot be met, or are met but for rounding.
     hopeless: Vec<usize>,
 }
 
 impl<'a> ActiveSet<'a> {
-    fn new(rows: &'a [Vec<f64>], start: &'a [f64], bounds: &'a [f64]) -> Self {
+    fn new(
+        kept: &'a [Vec<f64>],
+        rows: &'a [Vec<f64>],
+        start: &'a [f64],
+        bounds: &'a [f64],
+    ) -> Self {
         Self {
+            kept,
             rows,
             bounds,
             members: Vec::new(),
@@ -60,6 +81,24 @@ impl<'a> ActiveSet<'a> {
             point: start.to_vec(),
             hopeless: Vec::new(),
         }
+    }
+
+    fn basis(&self) -> Basis {
+        let mut basis = Basis::new();
+        for &member in &self.members {
+            let row = &self.rows[member];
+            let (column, mut own) = basis.reduce(row);
+            // What is left of a row that depends on others is the more its rounding, whose part along
+            // what is kept would be a momentum out of nothing.
+            if dot(&own, &own) < NEARLY * NEARLY * dot(row, row) {
+                for direction in self.kept {
+                    let along = dot(&own, direction);
+                    add_scaled(&mut own, direction, -along);
+                }
+            }
+            basis.add(column, own);
+        }
+        basis
     }
 
     fn slack(&self, row: usize) -> f64 {
@@ -84,15 +123,17 @@ impl<'a> ActiveSet<'a> {
     fn enter(&mut self, row: usize) {
         let mut multiplier = 0.0;
         loop {
-            let basis = Basis::of(self.rows, &self.members);
+            let basis = self.basis();
             let (shares, own) = basis.split(&self.rows[row]);
             let (length, whole) = (dot(&own, &own), dot(&self.rows[row], &self.rows[row]));
-            let blocking = self.first_to_leave(&shares);
-            let to_bound = if length > DEPENDENT * DEPENDENT * whole {
-                -self.slack(row) / length
+            // A share that is rounding alone would let a row that is one of the members go a way without end.
+            let least = DEPENDENT * whole.sqrt();
+            let (to_bound, least) = if length > least * least {
+                (-self.slack(row) / length, 0.0)
             } else {
-                f64::INFINITY
+                (f64::INFINITY, least)
             };
+            let blocking = self.first_to_leave(&shares, least);
             let leaving = blocking.filter(|&(_, way)| way < to_bound);
             let way = leaving.map_or(to_bound, |(_, way)| way);
             if way.is_infinite() {
@@ -114,16 +155,19 @@ impl<'a> ActiveSet<'a> {
                 None => {
                     self.members.push(row);
                     self.multipliers.push(multiplier);
+                    self.hopeless.clear();
                     return;
                 }
             }
         }
     }
 
-    fn first_to_leave(&self, shares: &[f64]) -> Option<(usize, f64)> {
+    /// Of the members with more than a `least` part in the new row.
+    fn first_to_leave(&self, shares: &[f64], least: f64) -> Option<(usize, f64)> {
         let mut first: Option<(usize, f64)> = None;
         for (place, (held, share)) in self.multipliers.iter().zip(shares).enumerate() {
-            if *share > 0.0 {
+            let member = &self.rows[self.members[place]];
+            if *share * dot(member, member).sqrt() > least {
                 let way = (held / share).max(0.0);
                 if first.is_none_or(|(_, least)| way < least) {
                     first = Some((place, way));
@@ -138,7 +182,7 @@ impl<'a> ActiveSet<'a> {
     /// With the members as Q R, `w = Q R⁻ᵀ b + (1 − Q Qᵀ) w₀`: what the members determine comes from the
     /// bounds alone, and is exactly 0 where these are.
     fn polished(self) -> Nearest {
-        let basis = Basis::of(self.rows, &self.members);
+        let basis = self.basis();
         let wanted: Vec<f64> = self.members.iter().map(|&row| self.bounds[row]).collect();
         let lacking = self.members.iter().zip(&wanted);
         let mut shares: Vec<f64> = lacking
@@ -176,40 +220,37 @@ pub(crate) struct Basis {
 }
 
 impl Basis {
-    fn of(rows: &[Vec<f64>], members: &[usize]) -> Self {
-        let mut basis = Self {
-            directions: Vec::with_capacity(members.len()),
-            columns: Vec::with_capacity(members.len()),
-        };
-        for &member in members {
-            let (mut column, mut own) = basis.reduce(&rows[member]);
-            let length = dot(&own, &own).sqrt();
-            own.iter_mut().for_each(|x| *x /= length);
-            column.push(length);
-            basis.directions.push(own);
-            basis.columns.push(column);
+    const fn new() -> Self {
+        Self {
+            directions: Vec::new(),
+            columns: Vec::new(),
         }
-        basis
+    }
+
+    /// One more direction: what is a row's own beside its parts along the others.
+    fn add(&mut self, mut column: Vec<f64>, mut own: Vec<f64>) {
+        let length = dot(&own, &own).sqrt();
+        own.iter_mut().for_each(|x| *x /= length);
+        column.push(length);
+        self.directions.push(own);
+        self.columns.push(column);
     }
 
     /// Of rows that may depend on each other those that add a direction, in their order.
     pub(crate) fn independent(rows: &[Vec<f64>], dependent: f64) -> Self {
-        let mut basis = Self {
-            directions: Vec::new(),
-            columns: Vec::new(),
-        };
+        let mut basis = Self::new();
         for row in rows {
-            let (mut column, mut own) = basis.reduce(row);
-            let length = dot(&own, &own).sqrt();
-            if length <= dependent * dot(row, row).sqrt() {
-                continue;
+            let (column, own) = basis.reduce(row);
+            if dot(&own, &own).sqrt() > dependent * dot(row, row).sqrt() {
+                basis.add(column, own);
             }
-            own.iter_mut().for_each(|x| *x /= length);
-            column.push(length);
-            basis.directions.push(own);
-            basis.columns.push(column);
         }
         basis
+    }
+
+    /// Orthonormal directions that span the rows.
+    pub(crate) fn into_directions(self) -> Vec<Vec<f64>> {
+        self.directions
     }
 
     /// Whether some direction has a part along coordinate k.

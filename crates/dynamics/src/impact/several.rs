@@ -6,11 +6,11 @@
 //! This file is for contacts without friction, where all of it holds to rounding; for those with it see
 //! `rough`.
 
-use carom_math::{cross, vec2};
+use carom_math::{Vec2, cross, vec2};
 
 use super::body::{ImpactBody, ImpactContact, Response};
 use super::law::{ImpactLaw, resolve};
-use super::project::nearest;
+use super::project::{Basis, nearest_beside};
 use super::rough::{is_large, is_rough, newton_rough, opened, opening, reflections};
 
 /// Reflections before the rest is stopped: a wedge of angle θ takes π/θ of them, a row of a hundred
@@ -393,10 +393,35 @@ impl Scaled {
         }
     }
 
+    /// Orthonormal directions of the momenta, linear and about the common centre; none where a body is immovable.
+    fn momenta(&self, bodies: &[ImpactBody]) -> Vec<Vec<f64>> {
+        let free = |body: &&ImpactBody| body.inverse_mass > 0.0 && body.inverse_inertia > 0.0;
+        if self.rows.len() < 2 || !bodies.iter().all(|body| free(&body)) {
+            return Vec::new();
+        }
+        let mass: f64 = bodies.iter().map(|body| body.inverse_mass.recip()).sum();
+        let moments = bodies.iter().map(|body| body.centre / body.inverse_mass);
+        let centre = moments.sum::<Vec2>() / mass;
+        let mut momenta = vec![Vec::new(); 3];
+        for (body, (m, i)) in bodies.iter().zip(&self.roots) {
+            let arm = body.centre - centre;
+            momenta[0].extend([m.recip(), 0.0, 0.0]);
+            momenta[1].extend([0.0, m.recip(), 0.0]);
+            momenta[2].extend([-arm.y / m, arm.x / m, i.recip()]);
+        }
+        Basis::independent(&momenta, 0.0).into_directions()
+    }
+
     /// The bodies, moved as little as lets every contact open with at least its wanted speed.
     fn reach(&self, bodies: &[ImpactBody], wanted: &[f64], tolerance: f64) -> SharedOutcome {
         let bounds: Vec<f64> = wanted.iter().zip(&self.given).map(|(w, g)| w - g).collect();
-        let found = nearest(&self.rows, &self.velocities, &bounds, tolerance);
+        let found = nearest_beside(
+            &self.momenta(bodies),
+            &self.rows,
+            &self.velocities,
+            &bounds,
+            tolerance,
+        );
         let mut after = bodies.to_vec();
         for (k, (body, &(mass, inertia))) in after.iter_mut().zip(&self.roots).enumerate() {
             let place = 3 * k;

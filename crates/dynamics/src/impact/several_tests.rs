@@ -144,3 +144,88 @@ fn a_box_that_lands_flat_without_restitution_lies_still() {
     let after = blend(&[floor, landing], &[corner(-0.9), corner(1.1)]).bodies[1];
     assert_eq!((after.velocity, after.spin), (vec2(0.3, 0.0), 0.0));
 }
+
+#[test]
+fn two_bodies_that_four_contacts_hold_and_a_third_one_stop() {
+    let body = |inverse_mass, inverse_inertia, centre, velocity, spin| ImpactBody {
+        inverse_mass,
+        inverse_inertia,
+        centre,
+        velocity,
+        spin,
+    };
+    let bodies = [
+        body(
+            0.50658677654104,
+            0.21038780910532406,
+            vec2(0.0026007348082136383, -0.6281402077753043),
+            vec2(0.04176844812695691, 0.709694986212173),
+            0.49917925778830174,
+        ),
+        body(
+            42.96653462317391,
+            14.876432571433511,
+            vec2(-0.9817799402302846, -0.17661235279518522),
+            vec2(-1.7793736861824525, 0.0),
+            0.0,
+        ),
+        body(
+            0.8999754991222896,
+            1.423049121300508,
+            vec2(1.2425800298912997, 1.035711336527252),
+            vec2(0.4238860183056028, -1.0720572093453486),
+            1.8345845645524865,
+        ),
+    ];
+    let touch = |a, b, point, normal| SharedContact {
+        a,
+        b,
+        contact: ImpactContact {
+            point,
+            normal,
+            restitution: 0.0,
+            friction: 0.0,
+        },
+    };
+    let contacts = [
+        touch(
+            2,
+            1,
+            vec2(1.0862411227153892, 0.8133818144106565),
+            vec2(0.47085946928584504, -0.8822082294922511),
+        ),
+        touch(
+            0,
+            2,
+            vec2(1.9297969915466535, 0.0),
+            vec2(0.013277145192553437, 0.9999118548229818),
+        ),
+        touch(
+            0,
+            1,
+            vec2(0.40438956287997724, 0.8717024965241938),
+            vec2(-0.8118459920000323, -0.5838716342429076),
+        ),
+        touch(
+            1,
+            2,
+            vec2(1.9863683069995497, -0.4041072985105434),
+            vec2(-0.18429337991235148, -0.9828712785103051),
+        ),
+        touch(
+            1,
+            2,
+            vec2(0.1394869372863602, 1.7276485065671623),
+            vec2(0.6444506133915899, -0.764645935645514),
+        ),
+        touch(
+            1,
+            2,
+            vec2(0.0, 1.1562370578902157),
+            vec2(-0.999996058599902, -0.002807629722971626),
+        ),
+    ];
+    let after = newton_lcp(&bodies, &contacts);
+    let least = least_opening(&after, &contacts);
+    assert!(least > -1e-14, "closes by {least:e} m/s");
+}
