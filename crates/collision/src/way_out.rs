@@ -63,6 +63,13 @@ struct Exit {
     face: Option<(Side, Face)>,
 }
 
+impl Exit {
+    /// Equal for equal conditions. Equal points can stand for others that lead elsewhere.
+    fn bits(&self) -> [u64; 3] {
+        [self.normal.x, self.normal.y, self.depth].map(f64::to_bits)
+    }
+}
+
 /// The translations for which two parts overlap.
 struct Set {
     exits: Vec<Exit>,
@@ -215,7 +222,10 @@ impl Overlap<'_> {
                 {
                     // Lengths are not negative, so that their bits are in order.
                     let length = found.way.length_squared().to_bits();
-                    if seen.insert(found.way.to_array().map(f64::to_bits)) {
+                    let mut conditions: ArrayVec<_, 2> =
+                        found.conditions.iter().map(Exit::bits).collect();
+                    conditions.sort_unstable();
+                    if seen.insert(conditions) {
                         open.push(Reverse((length, tries.len())));
                         tries.push(found);
                     }

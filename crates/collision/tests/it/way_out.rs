@@ -67,6 +67,39 @@ proptest! {
 }
 
 #[test]
+fn two_lists_of_conditions_that_meet_in_one_point_are_both_tried() {
+    let star = Polygon::new([
+        vec2(1.0617386462471468, 0.0),
+        vec2(0.2598076211353316, 0.14999999999999997),
+        vec2(0.6910006647343596, 1.1968482593837784),
+        vec2(8.639900970209296e-17, 1.411002907323929),
+        vec2(-0.36020112415008604, 0.6238866479713743),
+        vec2(-1.0473059835334686, 0.6046623915169537),
+        vec2(-1.0805458599882412, 1.3232870287665237e-16),
+        vec2(-0.5253678307550403, -0.30332125850999236),
+        vec2(-0.5861857281500457, -1.0153034638276357),
+        vec2(-5.510910596163089e-17, -0.3),
+        vec2(0.6428336718219758, -1.1134205804117197),
+        vec2(0.37321355250597643, -0.21547494500454228),
+    ]);
+    let other = ConvexPolygon::new([
+        vec2(-0.9288816867732413, -0.3594280747975512),
+        vec2(0.5815552272688633, -0.3583851041445313),
+        vec2(0.4196664832685932, 0.013033796905621176),
+        vec2(-0.2984654747584914, 0.9134963264953551),
+    ]);
+    let (a, b): (Shape, Shape) = (star.expect("a star").into(), other.expect("a kite").into());
+    let place = vec2(-0.050102599514584886, -0.08686066007025023);
+    let pose = Pose::new(place, Rot::from_angle(-2.6639028725827454));
+    let one = shape_push(&a, &b, pose).expect("they overlap");
+    let other = shape_push(&b, &a, pose.inverse()).expect("they overlap");
+    assert!(
+        (one.length() - other.length()).abs() < 1e-12,
+        "{one} m and {other} m"
+    );
+}
+
+#[test]
 fn a_small_box_across_a_cut_leaves_through_the_outline() {
     let l = Polygon::new([
         vec2(0.0, 0.0),
