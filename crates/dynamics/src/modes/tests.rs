@@ -377,7 +377,9 @@ proptest! {
                 }).collect();
                 let off = |twin: &Vec<f64>| twin.iter().zip(&physical).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
                 let best = twins.iter().map(off).fold(f64::INFINITY, f64::min);
-                prop_assert!(best < 1e-8, "off by {best:e}, {} twins: {physical:?} {twins:?}", twins.len());
+                // Near a configuration of Painlevé's accelerations are thousands of g, and known as a part of that.
+                let size = physical.iter().fold(9.81, |most: f64, a| most.max(a.abs()));
+                prop_assert!(best < 1e-9 * size, "off by {best:e}, {} twins: {physical:?} {twins:?}", twins.len());
             }
             Err(why) => prop_assert!(why == NotMine::Painleve, "{why:?} {} {twins:?}", twins.len()),
         }
