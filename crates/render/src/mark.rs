@@ -1,10 +1,11 @@
 //! Whose mark it is, and which pixels it can touch.
 
 use carom_dynamics::BodyId;
-use carom_math::Vec2;
+use carom_math::{Vec2, vec2};
 
 use crate::clip::is_near;
 use crate::op::arrow_outline;
+use crate::raster::{greater, lesser};
 use crate::skia::{MAX_STROKE, usable_width};
 use crate::{Op, Size, Style, font};
 
@@ -140,12 +141,15 @@ impl PixelBox {
     /// The pixels of a canvas that the rectangle from `min` to `max` touches.
     pub(crate) fn around(min: Vec2, max: Vec2, size: Size) -> Self {
         let corner = size.corner();
-        let (min, max) = (min.clamp(Vec2::ZERO, corner), max.clamp(Vec2::ZERO, corner));
+        let cut = |x: f64, most: f64| lesser(greater(x, 0.0), most);
+        let (right, bottom) = (cut(max.x, corner.x), cut(max.y, corner.y));
+        // Up to the next whole pixel; a call of `ceil` takes longer than all the rest.
+        let up = |x: f64| whole(x) + u32::from(x > f64::from(whole(x)));
         let found = Self {
-            left: whole(min.x),
-            top: whole(min.y),
-            right: whole(max.x.ceil()),
-            bottom: whole(max.y.ceil()),
+            left: whole(cut(min.x, corner.x)),
+            top: whole(cut(min.y, corner.y)),
+            right: up(right),
+            bottom: up(bottom),
         };
         if found.is_empty() { Self::EMPTY } else { found }
     }
@@ -228,20 +232,22 @@ fn line(points: &[Vec2]) -> Option<(Vec2, Vec2)> {
 /// The box around a closed ring; `None` without points or where one is not a number.
 fn hull(points: &[Vec2]) -> Option<(Vec2, Vec2)> {
     let first = *points.first()?;
-    let mut all = (first, first);
-    let mut sound = !first.is_nan();
+    let (mut min, mut max) = (first, first);
+    // A sum is no number where a point is none, or where points are infinite: neither ring is drawn.
+    let mut sum = Vec2::ZERO;
     for &point in points {
-        all = (all.0.min(point), all.1.max(point));
-        sound &= !point.is_nan();
+        min = vec2(lesser(point.x, min.x), lesser(point.y, min.y));
+        max = vec2(greater(point.x, max.x), greater(point.y, max.y));
+        sum += point;
     }
-    sound.then_some(all)
+    (!sum.is_nan()).then_some((min, max))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::{Ink, Label};
-    use carom_math::vec2;
+    use proptest::prelude::*;
 
     fn size() -> Size {
         Size::new(100, 80).unwrap()
@@ -273,6 +279,20 @@ mod tests {
         assert!(pixels(&dot(vec2(f64::NAN, 40.0), 3.0)).is_empty());
         assert!(pixels(&dot(vec2(50.0, 40.0), -1.0)).is_empty());
         assert_eq!(pixels(&dot(vec2(50.0, 40.0), 1e9)), PixelBox::of(size()));
+    }
+
+    proptest! {
+        #[test]
+        fn a_box_reaches_to_whole_pixels(x in -50.0..150.0_f64, y in -50.0..130.0_f64, w in 0.0..40.0_f64, on_pixels: bool) {
+            let snap = |x: f64| if on_pixels { x.floor() } else { x };
+            let (min, max) = (vec2(snap(x), snap(y)), vec2(snap(x + w), snap(y + w)));
+            let corner = size().corner();
+            let (low, high) = (min.clamp(Vec2::ZERO, corner), max.clamp(Vec2::ZERO, corner));
+            let found = PixelBox::around(min, max, size());
+            let [left, top, right, bottom] = [low.x, low.y, high.x.ceil(), high.y.ceil()].map(whole);
+            let want = PixelBox { left, top, right, bottom };
+            prop_assert_eq!(found, if want.is_empty() { PixelBox::EMPTY } else { want });
+        }
     }
 
     #[test]
