@@ -1,5 +1,6 @@
 //! `ci`: every check of the project, in the order in which a failure costs least.
 
+mod native;
 mod outside;
 mod pictures;
 
@@ -39,7 +40,7 @@ pub(crate) fn run() -> Outcome {
         ("tests: cargo test", |root| cargo(root, &["test"])),
         (
             "pictures: the same with every instruction of this processor",
-            native_pictures,
+            native::check,
         ),
         // No default member: without peers it needs neither a C compiler nor their crates.
         ("laboratory: clippy and tests of carom-bench", |root| {
@@ -67,17 +68,6 @@ pub(crate) fn run() -> Outcome {
         all.seconds()
     );
     Ok(End::Done)
-}
-
-/// The golden pictures and files again, by a build for this very processor: `cargo test` built for any of its kind.
-fn native_pictures(root: &Path) -> Result<bool, Failure> {
-    let target = std::env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| root.join("target").into());
-    let mut command = cargo_in(root);
-    command
-        .args(["test", "--package", "carom-render", "--lib", "--", "golden"])
-        .env("RUSTFLAGS", "-C target-cpu=native")
-        .env("CARGO_TARGET_DIR", Path::new(&target).join("native"));
-    succeeds(&mut command)
 }
 
 /// The demo of the README, quick and into a temporary folder, and a look at what it wrote.
