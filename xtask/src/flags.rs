@@ -13,7 +13,7 @@ use crate::values::{KeyValue, Seconds, Shard, parse_rate, parse_size};
     name = "cargo xtask",
     bin_name = "cargo xtask",
     version,
-    after_help = "Exit codes: 0 done, 1 a check fell short, 2 bad usage or input, 130 interrupted.\n\
+    after_help = "Exit codes: 0 done, 1 a check fell short, 2 bad usage or input, 130 interrupted, 143 terminated.\n\
                   Start here: cargo xtask demo"
 )]
 pub(crate) struct Cli {

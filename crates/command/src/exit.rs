@@ -9,17 +9,17 @@ pub enum End {
     Done,
     /// A check fell short of what it asks for.
     Short,
-    /// Ctrl-C: the frame in hand was finished, the summary printed.
+    /// Ctrl-C or termination: the frame in hand was finished, the summary printed.
     Interrupted,
 }
 
 impl End {
-    /// 0, 1 or 130.
+    /// 0, 1, or 128 and the number of the signal: 130 for Ctrl-C, 143 for termination.
     pub fn code(self) -> ExitCode {
         match self {
             Self::Done => ExitCode::SUCCESS,
             Self::Short => ExitCode::from(1),
-            Self::Interrupted => ExitCode::from(130),
+            Self::Interrupted => ExitCode::from(crate::interrupt::code()),
         }
     }
 }
