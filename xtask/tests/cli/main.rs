@@ -8,6 +8,8 @@ mod names;
 mod output;
 mod reference;
 mod scenes;
+#[cfg(unix)]
+mod signals;
 mod simulate;
 mod stress;
 mod usage;
