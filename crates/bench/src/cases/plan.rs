@@ -14,13 +14,13 @@ pub(super) const QUICK: &[u32] = &[60, 240];
 /// The rate at which sub-steps are swept.
 const SWEPT_AT: u32 = 60;
 
-/// Rates at which carom's modes beside its default are looked at.
+/// Rates at which carom's exact mode is looked at.
 const BESIDE: [u32; 3] = [60, 240, 960];
 
 /// The points of an engine's curves in a case: each mode over the rates, then sub-steps at 60 Hz.
 ///
-/// Peers' sub-steps are swept with tuned settings only, carom's in its default mode. carom's other modes are looked at
-/// at three rates: where they do the same as the default the table shows it. A quick run has the engine's first mode
+/// Peers' sub-steps are swept with tuned settings only, carom's in its default and its stepped mode. Its exact mode is
+/// looked at at three rates: where it does the same as the default the table shows it. A quick run has the engine's first mode
 /// and the case's quick rates alone.
 #[must_use]
 pub fn points(case: &Case, engine: EngineName, quick: bool) -> Vec<Point> {
@@ -38,7 +38,7 @@ pub fn points(case: &Case, engine: EngineName, quick: bool) -> Vec<Point> {
         substeps,
     };
     let modes = modes.iter().copied();
-    let beside = |mode: Mode| engine == EngineName::Carom && mode != engine.modes()[0];
+    let beside = |mode: Mode| mode == Mode::Exact;
     let mut points: Vec<Point> = modes
         .clone()
         .flat_map(|mode| {
@@ -80,9 +80,9 @@ mod tests {
     }
 
     #[test]
-    fn carom_sweeps_its_default_and_looks_at_its_other_modes() {
+    fn carom_sweeps_its_default_and_stepped_mode_and_looks_at_its_exact_one() {
         let points = points(case("01"), EngineName::Carom, false);
-        assert_eq!(points.len(), 8 + 7 + 2 * 3);
+        assert_eq!(points.len(), 2 * (8 + 7) + 3);
     }
 
     #[test]
