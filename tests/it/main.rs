@@ -27,3 +27,4 @@ mod stepped_laws;
 mod stepped_slopes;
 mod stepped_swift;
 mod twins;
+mod zones;

@@ -340,6 +340,9 @@ impl World {
         if state.is_stepped() {
             self.enlist(index, now);
         }
+        if flies {
+            self.note_flight(index);
+        }
         let left = if flies {
             self.clock.h
         } else {

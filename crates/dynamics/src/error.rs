@@ -137,6 +137,14 @@ pub enum SettingsError {
         /// Largest accepted value.
         high: f64,
     },
+    /// The threads could not be started.
+    #[error("settings.threads is {threads}, but they could not be started: {reason}")]
+    Threads {
+        /// How many there should be.
+        threads: usize,
+        /// What the system says.
+        reason: String,
+    },
 }
 
 /// Largest coordinate, speed or spin that a world accepts, in its unit.

@@ -66,6 +66,7 @@ mod state;
 mod step;
 mod stepped;
 mod substep;
+mod threads;
 mod touching;
 mod world;
 

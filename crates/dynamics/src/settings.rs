@@ -36,6 +36,12 @@ pub struct Settings {
     pub history: usize,
     /// How many events of a step are kept; the buffer says what it left out.
     pub events: usize,
+    /// Whether piles of more than 8,192 contacts are cut into zones that threads may share. It changes the order in
+    /// which contacts are solved for, and so bits; and one thread alone is slower with it.
+    pub zones: bool,
+    /// How many threads a step may use on zones, 1 to 1024, with the cargo feature `parallel`; without it there is
+    /// one. Their number changes no bit. With 1 a world that is stepped within a rayon pool uses that pool.
+    pub threads: usize,
 }
 
 impl Default for Settings {
@@ -53,6 +59,8 @@ impl Default for Settings {
             sleep: Some(Sleep::default()),
             history: 0,
             events: 4096,
+            zones: false,
+            threads: 1,
         }
     }
 }
@@ -176,6 +184,8 @@ impl Settings {
         // A tick of more sub-steps than this is a typing error, not a wish.
         range("tick / substep", self.tick / self.substep, 0.0, 1e6)?;
         range("field_error", self.field_error, 1e-15, 1e3)?;
+        #[expect(clippy::cast_precision_loss, reason = "any such number is refused")]
+        range("threads", self.threads as f64, 1.0, 1024.0)?;
         let contact = &self.contact;
         range("contact.frequency", contact.frequency, 1e-9, 1e9)?;
         range("contact.damping_ratio", contact.damping_ratio, 1e-9, 1e9)?;

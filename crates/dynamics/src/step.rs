@@ -19,12 +19,12 @@ impl World {
     /// hundred gives the same motions. 0 delivers events only. There is no error path: a negative,
     /// NaN, infinite or too long `dt` (over 1e7 ticks) moves nothing, and the report says so.
     pub fn step(&mut self, dt: f64) -> StepReport {
-        self.run(dt, false)
+        self.threads.clone().run(|| self.run(dt, false))
     }
 
     /// Goes on until something happens (see [`World::events`]), at most `max` seconds.
     pub fn step_to_next_event(&mut self, max: f64) -> StepReport {
-        self.run(max, true)
+        self.threads.clone().run(|| self.run(max, true))
     }
 
     fn run(&mut self, dt: f64, stop_at_event: bool) -> StepReport {

@@ -18,6 +18,7 @@ use crate::profile::Stopwatch;
 use crate::solver::Law;
 use crate::state::{BodyState, Collider, frame_of};
 use crate::stepped::Stepped;
+use crate::threads::Threads;
 use crate::{
     Body, BodyDef, BodyError, BodyId, BodyKind, Contact, EnergyLedger, EventKind, Events, Filter,
     Material, Mode, Momentum, Settings, SettingsError, StepProfile, StepReport,
@@ -72,6 +73,7 @@ pub struct World {
     pub(crate) stopwatch: Stopwatch,
     /// The solver of stepped mode.
     pub(crate) pool: Stepped,
+    pub(crate) threads: Threads,
 }
 
 impl World {
@@ -81,7 +83,10 @@ impl World {
     /// If a setting is not finite or out of its range.
     pub fn new(settings: Settings) -> Result<Self, SettingsError> {
         settings.check()?;
+        let threads = Threads::new(settings.threads)?;
         let h = settings.h();
+        let mut pool = Stepped::default();
+        pool.seats.rig.zones |= settings.zones;
         Ok(Self {
             law: Law::new(&settings.contact, h),
             clock: Clock::new(h),
@@ -106,7 +111,8 @@ impl World {
             spent: 0.0,
             forced: Vec::new(),
             stopwatch: Stopwatch::default(),
-            pool: Stepped::default(),
+            pool,
+            threads,
             settings,
         })
     }

@@ -70,6 +70,7 @@ impl World {
         let state = self.bodies.get_mut(index);
         state.course.flies = true;
         state.version = state.version.wrapping_add(1);
+        self.note_flight(index);
         self.foresee(index, time, Cause::Deflected, None);
     }
 

@@ -21,6 +21,8 @@ pub(crate) enum Pass {
     Solve,
     /// Normals without bias, then friction.
     Relax,
+    /// The same where some surface runs along.
+    RelaxBelts,
 }
 
 /// Rows of a block that are met with a speed when a solving sweep comes to them.
@@ -43,13 +45,20 @@ pub(crate) fn sweep(
     met: &mut Vec<Met>,
 ) -> f64 {
     match pass {
-        Pass::Solve => dispatch!(level, simd => all::<_, false>(simd, law, lines, colours, met)),
-        Pass::Relax => dispatch!(level, simd => all::<_, true>(simd, law, lines, colours, met)),
+        Pass::Solve => {
+            dispatch!(level, simd => all::<_, false, false>(simd, law, lines, colours, met))
+        }
+        Pass::Relax => {
+            dispatch!(level, simd => all::<_, true, false>(simd, law, lines, colours, met))
+        }
+        Pass::RelaxBelts => {
+            dispatch!(level, simd => all::<_, true, true>(simd, law, lines, colours, met))
+        }
     }
 }
 
 #[inline(always)]
-fn all<S: Simd, const RELAX: bool>(
+fn all<S: Simd, const RELAX: bool, const BELTS: bool>(
     simd: S,
     law: &Law,
     lines: &mut [Line],
@@ -59,7 +68,7 @@ fn all<S: Simd, const RELAX: bool>(
     let mut heat = f64x8::splat(simd, 0.0);
     for (colour, blocks) in (0u32..).zip(colours) {
         for (k, wide) in (0u32..).zip(blocks) {
-            let lanes = block::<S, RELAX>(simd, law, lines, wide, &mut heat);
+            let lanes = block::<S, RELAX, BELTS>(simd, law, lines, wide, &mut heat);
             if lanes != 0 {
                 let block = k;
                 met.push(Met {
@@ -81,7 +90,7 @@ fn all<S: Simd, const RELAX: bool>(
 type Eight<S> = [f64x8<S>; 8];
 
 #[inline(always)]
-fn block<S: Simd, const RELAX: bool>(
+fn block<S: Simd, const RELAX: bool, const BELTS: bool>(
     simd: S,
     law: &Law,
     lines: &mut [Line],
@@ -190,8 +199,10 @@ fn block<S: Simd, const RELAX: bool>(
         let at = f64x8::from_slice(simd, &wide.at);
         let bt = f64x8::from_slice(simd, &wide.bt);
         let jt = f64x8::from_slice(simd, &wide.jt);
-        let belt = f64x8::from_slice(simd, &wide.belt);
-        let vt = nx * (bvy - avy) - ny * (bvx - avx) + bt * bw - at * aw - belt;
+        let mut vt = nx * (bvy - avy) - ny * (bvx - avx) + bt * bw - at * aw;
+        if BELTS {
+            vt -= f64x8::from_slice(simd, &wide.belt);
+        }
         let k = m + ia * at * at + ib * bt * bt;
         let limit = f64x8::from_slice(simd, &wide.mu) * (new1 + new2);
         let wanted = jt - vt / k;

@@ -6,6 +6,7 @@
 //! ```
 //! [`row`] and [`soft`] hold the same law for rows that are rebuilt in every sub-step.
 
+mod coast;
 mod kernel;
 mod lanes;
 #[cfg(test)]
@@ -16,6 +17,7 @@ mod soft;
 #[cfg(test)]
 mod tests;
 mod wide;
+mod zone;
 
 pub(crate) use lanes::RowId;
 pub(crate) use rig::{Limit, Member, Pull, Rig};

@@ -22,12 +22,13 @@ fn positive(x: f64) -> f64 {
 
 /// One lane; bodies that no lane of the block shares may be written at once.
 fn row(pass: Pass, law: &Law, lines: &mut [Line], wide: &mut Wide, lane: usize, heat: &mut f64) {
-    let relax = pass == Pass::Relax;
+    let relax = pass != Pass::Solve;
     let (ia, ib) = (wide.a[lane] as usize, wide.b[lane] as usize);
     let Line([mut avx, mut avy, mut aw, ma, adx, ady, aturn, i_a]) = lines[ia];
     let Line([mut bvx, mut bvy, mut bw, mb, bdx, bdy, bturn, i_b]) = lines[ib];
     let (nx, ny) = (wide.nx[lane], wide.ny[lane]);
-    let (a1, a2, b1, b2) = (wide.a1[lane], wide.a2[lane], wide.b1[lane], wide.b2[lane]);
+    let (a1, a2) = (wide.a1[lane], wide.a2[lane]);
+    let (b1, b2) = (wide.b1[lane], wide.b2[lane]);
     let (j1, j2) = (wide.j1[lane], wide.j2[lane]);
 
     let vn = nx * (bvx - avx) + ny * (bvy - avy);
@@ -98,7 +99,12 @@ fn row(pass: Pass, law: &Law, lines: &mut [Line], wide: &mut Wide, lane: usize, 
 
     if relax {
         let (at, bt, jt) = (wide.at[lane], wide.bt[lane], wide.jt[lane]);
-        let vt = nx * (bvy - avy) - ny * (bvx - avx) + bt * bw - at * aw - wide.belt[lane];
+        let belt = if pass == Pass::RelaxBelts {
+            wide.belt[lane]
+        } else {
+            0.0
+        };
+        let vt = nx * (bvy - avy) - ny * (bvx - avx) + bt * bw - at * aw - belt;
         let k = m + i_a * at * at + i_b * bt * bt;
         let limit = wide.mu[lane] * (new1 + new2);
         let wanted = jt - vt / k;

@@ -10,14 +10,16 @@
 //! Everything that changes a row, a velocity or a mass keeps it.
 
 mod restitution;
+mod substep;
+mod zoning;
 
 use carom_math::{Vec2, perp};
 use fearless_simd::Level;
 
-use super::kernel::{Met, Pass, sweep};
+use super::coast::Quad;
 use super::lanes::{Lanes, RowId};
-use super::wide::{LANES, Line};
-use super::{Law, Row, SolverBody};
+use super::wide::Line;
+use super::{Row, SolverBody};
 
 /// The bodies of a solver, their rows, and the warm start.
 #[derive(Clone, Debug)]
@@ -25,9 +27,9 @@ pub(crate) struct Rig {
     level: Level,
     pub(crate) lines: Vec<Line>,
     /// Velocities just before contacts acted.
-    start: Vec<Start>,
+    start: Vec<Quad>,
     /// What pulls on each body: acceleration, and angular acceleration.
-    pull: Vec<Pull>,
+    pull: Vec<Quad>,
     pub(crate) lanes: Lanes,
     /// How far each body may move in a sub-step before it is swift.
     limits: Vec<Limit>,
@@ -35,17 +37,13 @@ pub(crate) struct Rig {
     pub(crate) swift: Vec<Swift>,
     /// Rows that were met in the last sub-step: their impulses stopped something once.
     pub(crate) met: Vec<RowId>,
-    /// The same as the sweep tells it: scratch.
-    blocks: Vec<Met>,
+    /// Whether large piles are cut into zones.
+    pub(crate) zones: bool,
+    /// Rows over all lines when the zones were made.
+    cut: usize,
     free: Vec<u32>,
     /// What friction turned into heat, in J.
     pub(crate) heat: f64,
-}
-
-#[derive(Clone, Copy, Debug, Default)]
-struct Start {
-    v: Vec2,
-    w: f64,
 }
 
 /// What pulls on a body.
@@ -71,6 +69,12 @@ impl Limit {
         travel: f64::INFINITY,
         turn: f64::INFINITY,
     };
+
+    /// Whether a body goes beyond it within `h`.
+    pub(super) fn is_exceeded(self, line: &Line, h: f64) -> bool {
+        let v = line.v();
+        v.length_squared() * h * h > self.travel || line.w().abs() * h > self.turn
+    }
 }
 
 /// Where a swift body was before a sub-step, against its base.
@@ -98,13 +102,14 @@ impl Default for Rig {
         Self {
             level: Level::new(),
             lines: vec![Line::EMPTY],
-            start: vec![Start::default()],
-            pull: vec![Pull::default()],
+            start: vec![Quad::of(Vec2::ZERO, 0.0, 1.0)],
+            pull: vec![Quad::default()],
             lanes,
             limits: vec![Limit::NONE],
             swift: Vec::new(),
             met: Vec::new(),
-            blocks: Vec::new(),
+            zones: cfg!(test),
+            cut: 0,
             free: Vec::new(),
             heat: 0.0,
         }
@@ -118,8 +123,8 @@ impl Rig {
             #[expect(clippy::cast_possible_truncation, reason = "no more than bodies")]
             let slot = self.lines.len() as u32;
             self.lines.push(Line::EMPTY);
-            self.start.push(Start::default());
-            self.pull.push(Pull::default());
+            self.start.push(Quad::default());
+            self.pull.push(Quad::default());
             self.limits.push(Limit::NONE);
             slot
         });
@@ -127,8 +132,8 @@ impl Rig {
         // No −0: a line that nothing moves must come back as it was written.
         let (v, w) = (member.velocity + Vec2::ZERO, member.spin + 0.0);
         self.lines[i] = Line::new(v, w, member.inverse_mass, member.inverse_inertia);
-        self.start[i] = Start { v, w };
-        self.pull[i] = member.pull;
+        self.start[i] = Quad::of(v, w, member.inverse_mass);
+        self.set_pull(slot, member.pull);
         self.limits[i] = Limit::NONE;
         self.lanes.admit(slot);
         slot
@@ -140,8 +145,8 @@ impl Rig {
         let i = slot as usize;
         // It stays as a line that nothing moves until somebody takes the place.
         self.lines[i] = Line::new(Vec2::ZERO, 0.0, 0.0, 0.0);
-        self.start[i] = Start::default();
-        self.pull[i] = Pull::default();
+        self.start[i] = Quad::default();
+        self.pull[i] = Quad::default();
         self.limits[i] = Limit::NONE;
         self.free.push(slot);
     }
@@ -152,39 +157,12 @@ impl Rig {
 
     /// Whether a body moves farther than its limit in a sub-step of `h`, as fast as it is now.
     pub(crate) fn is_swift(&self, slot: u32, h: f64) -> bool {
-        exceeds(&self.lines[slot as usize], self.limits[slot as usize], h)
+        self.limits[slot as usize].is_exceeded(&self.lines[slot as usize], h)
     }
 
     /// Lines that nobody uses.
     pub(crate) fn holes(&self) -> usize {
         self.free.len()
-    }
-
-    /// Moves the bodies together; gives the new slot of each old one, `u32::MAX` for holes.
-    pub(crate) fn compact(&mut self) -> Vec<u32> {
-        let mut new: Vec<u32> = (0u32..).take(self.lines.len()).collect();
-        for slot in self.free.drain(..) {
-            new[slot as usize] = u32::MAX;
-        }
-        let mut next = 0;
-        for (i, slot) in new.iter_mut().enumerate() {
-            if *slot == u32::MAX {
-                continue;
-            }
-            let to = next as usize;
-            self.lines[to] = self.lines[i];
-            self.start[to] = self.start[i];
-            self.pull[to] = self.pull[i];
-            self.limits[to] = self.limits[i];
-            *slot = next;
-            next += 1;
-        }
-        self.lines.truncate(next as usize);
-        self.start.truncate(next as usize);
-        self.pull.truncate(next as usize);
-        self.limits.truncate(next as usize);
-        self.lanes.renumber(&new);
-        new
     }
 
     /// Gives a row a lane; its impulses are warm from the next sub-step on.
@@ -204,10 +182,7 @@ impl Rig {
 
     /// Tells a row's gaps anew, from where its bodies' lines count now; its impulses stay.
     pub(crate) fn retell(&mut self, id: RowId, row: &Row) {
-        let (a, b) = (row.bodies.0 as usize, row.bodies.1 as usize);
-        let (line_a, line_b) = (self.lines[a], self.lines[b]);
-        let (wide, lane) = self.lanes.at_mut(id);
-        wide.put(lane, row, &line_a, &line_b);
+        self.lanes.rewrite(id, row, &self.lines);
     }
 
     /// Takes a row out.
@@ -219,15 +194,14 @@ impl Rig {
             if self.lanes.degree(slot) == 0 {
                 // Free flight is free of the rounding that rows leave behind.
                 let i = slot as usize;
-                (self.start[i].v, self.start[i].w) = (self.lines[i].v(), self.lines[i].w());
+                self.start[i].set(self.lines[i].v(), self.lines[i].w());
             }
         }
     }
 
     /// A row as it is now, with its gaps where the bodies are.
     pub(crate) fn row(&self, id: RowId) -> Row {
-        let (wide, lane) = self.lanes.at(id);
-        wide.row(lane, &self.lines)
+        self.lanes.row(id, &self.lines)
     }
 
     /// Adds `sign` times a row's impulses to the warm start of its bodies.
@@ -238,10 +212,9 @@ impl Rig {
         let (turn_a, turn_b) = (arm(row.a, row.at), arm(row.b, row.bt));
         let (a, b) = (row.bodies.0 as usize, row.bodies.1 as usize);
         let (line_a, line_b) = (self.lines[a], self.lines[b]);
-        self.start[a].v += impulse * line_a.inverse_mass();
-        self.start[a].w += turn_a * line_a.inverse_inertia();
-        self.start[b].v -= impulse * line_b.inverse_mass();
-        self.start[b].w -= turn_b * line_b.inverse_inertia();
+        let (mass_a, mass_b) = (line_a.inverse_mass(), line_b.inverse_mass());
+        self.start[a].add(impulse * mass_a, turn_a * line_a.inverse_inertia());
+        self.start[b].add(-impulse * mass_b, -turn_b * line_b.inverse_inertia());
     }
 
     /// Sets a velocity; what contacts do to the body stays.
@@ -251,8 +224,7 @@ impl Rig {
             &mut self.start[slot as usize],
         );
         let (v, w) = (v + Vec2::ZERO, w + 0.0);
-        start.v = v - (line.v() - start.v);
-        start.w = w - (line.w() - start.w);
+        start.set(v - (line.v() - start.v()), w - (line.w() - start.w()));
         line.0[..3].copy_from_slice(&[v.x, v.y, w]);
     }
 
@@ -264,8 +236,11 @@ impl Rig {
             &mut self.start[slot as usize],
         );
         let (v, w) = (line.v(), line.w());
-        start.v = v - (v - start.v) * (inverse_mass / line.inverse_mass());
-        start.w = w - (w - start.w) * (inverse_inertia / line.inverse_inertia());
+        *start = Quad::of(
+            v - (v - start.v()) * (inverse_mass / line.inverse_mass()),
+            w - (w - start.w()) * (inverse_inertia / line.inverse_inertia()),
+            inverse_mass,
+        );
         (line.0[3], line.0[7]) = (inverse_mass, inverse_inertia);
     }
 
@@ -275,17 +250,22 @@ impl Rig {
     }
 
     pub(crate) fn set_pull(&mut self, slot: u32, pull: Pull) {
-        self.pull[slot as usize] = pull;
+        self.pull[slot as usize] = Quad::of(pull.acceleration, pull.angular, 0.0);
     }
 
     pub(crate) fn pull(&self, slot: u32) -> Pull {
-        self.pull[slot as usize]
+        let pull = &self.pull[slot as usize];
+        Pull {
+            acceleration: pull.v(),
+            angular: pull.w(),
+        }
     }
 
     #[cfg(test)]
     /// Impulses and warm starts for another length of the sub-step: `ratio` = new over old.
     pub(crate) fn rescale(&mut self, ratio: f64) {
-        for wide in self.lanes.colours.iter_mut().flatten() {
+        let zones = self.lanes.zones.iter_mut();
+        for wide in zones.flat_map(|zone| zone.colours.iter_mut().flatten()) {
             for column in [&mut wide.j1, &mut wide.j2, &mut wide.jt] {
                 for j in column {
                     *j *= ratio;
@@ -293,57 +273,22 @@ impl Rig {
             }
         }
         for (line, start) in self.lines.iter().zip(&mut self.start) {
-            start.v = line.v() - (line.v() - start.v) * ratio;
-            start.w = line.w() - (line.w() - start.w) * ratio;
+            let v = line.v() - (line.v() - start.v()) * ratio;
+            let w = line.w() - (line.w() - start.w()) * ratio;
+            start.set(v, w);
         }
     }
 
     /// Works the warm start out from the impulses, against slow rounding.
     pub(crate) fn refresh(&mut self) {
         for (line, start) in self.lines.iter().zip(&mut self.start) {
-            (start.v, start.w) = (line.v(), line.w());
+            start.set(line.v(), line.w());
         }
         let lanes = core::mem::take(&mut self.lanes);
-        for row in lanes.rows(&self.lines.clone()) {
-            self.warm(&row, 1.0);
+        for id in lanes.ids() {
+            self.warm(&lanes.row(id, &self.lines), 1.0);
         }
         self.lanes = lanes;
-    }
-
-    /// One sub-step. Displacements grow by it; rows are read where they are.
-    ///
-    /// `bounce` may change velocities before displacements are made of second order.
-    pub(crate) fn step(&mut self, law: &Law, sweeps: usize, bounce: impl FnOnce(&mut Self)) {
-        self.forget_impacts();
-        self.pull_and_warm(law.h);
-        self.blocks.clear();
-        sweep(
-            self.level,
-            Pass::Solve,
-            law,
-            &mut self.lines,
-            &mut self.lanes.colours,
-            &mut self.blocks,
-        );
-        for met in &self.blocks {
-            let (colour, block) = (met.colour as usize, met.block as usize);
-            let lanes = (0..LANES).filter(|lane| met.lanes >> lane & 1 == 1);
-            let rows = lanes.filter_map(|lane| self.lanes.owner(colour, block, lane));
-            self.met.extend(rows);
-        }
-        self.displace(law.h);
-        for _ in 0..sweeps {
-            self.heat += sweep(
-                self.level,
-                Pass::Relax,
-                law,
-                &mut self.lines,
-                &mut self.lanes.colours,
-                &mut self.blocks,
-            );
-        }
-        bounce(self);
-        self.second_order(law.h);
     }
 
     /// Rows that were met start cold: what stopped a body, and what friction took from it then, does not act
@@ -383,49 +328,6 @@ impl Rig {
         row.driven_work(&body(row.bodies.0), &body(row.bodies.1))
     }
 
-    /// `p = v − start; start = v + h a; v = start + p`
-    fn pull_and_warm(&mut self, h: f64) {
-        for ((line, start), pull) in self.lines.iter_mut().zip(&mut self.start).zip(&self.pull) {
-            let p = (line.v() - start.v, line.w() - start.w);
-            start.v = line.v() + pull.acceleration * h;
-            start.w = line.w() + pull.angular * h;
-            let (v, w) = (start.v + p.0, start.w + p.1);
-            (line.0[0], line.0[1], line.0[2]) = (v.x, v.y, w);
-        }
-    }
-
-    /// `d += h v`
-    fn displace(&mut self, h: f64) {
-        self.swift.clear();
-        for (slot, (line, limit)) in (0u32..).zip(self.lines.iter_mut().zip(&self.limits)) {
-            if exceeds(line, *limit, h) {
-                let (d, turn) = (line.d(), line.turn());
-                self.swift.push(Swift { slot, d, turn });
-            }
-            for k in 0..3 {
-                line.0[4 + k] += h * line.0[k];
-            }
-        }
-    }
-
-    /// Makes displacements of second order where velocities change smoothly.
-    ///
-    /// `h v` with the velocity at the end overshoots the trapezoid by h/2 Δv: g h²/2 in free flight,
-    /// and likewise where friction brakes. Where a contact stopped the body at its surface there is
-    /// nothing to take back; a stop is what changes the velocity by more than four times the pull.
-    fn second_order(&mut self, h: f64) {
-        for ((line, start), pull) in self.lines.iter_mut().zip(&self.start).zip(&self.pull) {
-            let dv = line.v() - start.v + pull.acceleration * h;
-            let most = 4.0 * h * pull.acceleration.length();
-            if dv.length_squared() <= most * most {
-                let dw = line.w() - start.w + pull.angular * h;
-                line.0[4] -= 0.5 * h * dv.x;
-                line.0[5] -= 0.5 * h * dv.y;
-                line.0[6] -= 0.5 * h * dw;
-            }
-        }
-    }
-
     /// Whether a row pushes.
     pub(crate) fn pushes(&self, id: RowId) -> bool {
         let (wide, lane) = self.lanes.at(id);
@@ -435,24 +337,18 @@ impl Rig {
     /// Whether contacts act on a body.
     pub(crate) fn is_pushed(&self, slot: u32) -> bool {
         let (line, start) = (&self.lines[slot as usize], &self.start[slot as usize]);
-        line.v() != start.v || (line.w() - start.w).abs() > 0.0
+        line.v() != start.v() || (line.w() - start.w()).abs() > 0.0
     }
 
     /// Velocities at the start of the last sub-step.
     pub(crate) fn before(&self, slot: u32, h: f64) -> (Vec2, f64) {
         let (start, pull) = (&self.start[slot as usize], &self.pull[slot as usize]);
-        (start.v - pull.acceleration * h, start.w - pull.angular * h)
+        (start.v() - pull.v() * h, start.w() - pull.w() * h)
     }
 
     #[cfg(test)]
     pub(super) fn warm_start(&self, slot: u32) -> (Vec2, f64) {
         let (line, start) = (&self.lines[slot as usize], &self.start[slot as usize]);
-        (line.v() - start.v, line.w() - start.w)
+        (line.v() - start.v(), line.w() - start.w())
     }
-}
-
-/// Whether a body goes beyond its limit within `h`.
-fn exceeds(line: &Line, limit: Limit, h: f64) -> bool {
-    let v = line.v();
-    v.length_squared() * h * h > limit.travel || line.w().abs() * h > limit.turn
 }

@@ -234,9 +234,10 @@ proptest! {
     fn every_width_gives_the_bits_of_the_plain_sweep(seed in any::<u64>()) {
         let law = Law::new(&Softness::default(), 1.0 / 240.0);
         let (rig, ..) = heap(seed, 12, 40);
-        for pass in [Pass::Solve, Pass::Relax] {
+        for pass in [Pass::Solve, Pass::Relax, Pass::RelaxBelts] {
             let mut plain = rig.clone();
-            let heat = plain::sweep(pass, &law, &mut plain.lines, &mut plain.lanes.colours);
+            let colours = &mut plain.lanes.zones[0].colours;
+            let heat = plain::sweep(pass, &law, &mut plain.lines, colours);
             for level in levels() {
                 let mut wide = rig.clone();
                 let same = sweep(
@@ -244,15 +245,15 @@ proptest! {
                     pass,
                     &law,
                     &mut wide.lines,
-                    &mut wide.lanes.colours,
+                    &mut wide.lanes.zones[0].colours,
                     &mut Vec::new(),
                 );
                 prop_assert_eq!(same.to_bits(), heat.to_bits());
                 for (x, y) in wide.lines.iter().zip(&plain.lines) {
                     prop_assert_eq!(x.0.map(f64::to_bits), y.0.map(f64::to_bits));
                 }
-                let blocks = wide.lanes.colours.iter().flatten();
-                for (x, y) in blocks.zip(plain.lanes.colours.iter().flatten()) {
+                let blocks = wide.lanes.zones[0].colours.iter().flatten();
+                for (x, y) in blocks.zip(plain.lanes.zones[0].colours.iter().flatten()) {
                     for (x, y) in [(x.j1, y.j1), (x.j2, y.j2), (x.jt, y.jt)] {
                         prop_assert_eq!(x.map(f64::to_bits), y.map(f64::to_bits));
                     }
@@ -396,4 +397,54 @@ fn a_body_of_a_hundred_contacts_finds_room() {
         rig.lanes.check(&rig.lines);
     }
     assert_eq!(rig.lanes.len(), 66);
+}
+
+/// How zones lie says nothing about how many threads sweep them.
+#[cfg(feature = "parallel")]
+#[test]
+fn the_number_of_threads_changes_no_bit() {
+    let law = Law::new(&Softness::default(), 1.0 / 360.0);
+    let (mut heap, ..) = heap(11, 200, 500);
+    heap.compact();
+    assert!(heap.lanes.zones.len() > 8, "too few zones to tell");
+    let swept = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        let mut rig = heap.clone();
+        let mut run = || (0..50).for_each(|_| rig.step(&law, 2, |_| ()));
+        match threads {
+            0 => run(),
+            _ => pool.expect("threads").install(run),
+        }
+        let bits = rig.lines.iter().map(|line| line.0.map(f64::to_bits));
+        (bits.collect::<Vec<_>>(), rig.heat.to_bits())
+    };
+    let alone = swept(0);
+    for threads in [1, 2, 3] {
+        assert!(swept(threads) == alone, "{threads} threads give other bits");
+    }
+}
+
+/// A row keeps its impulses, its gaps and its bodies wherever zones put it.
+#[test]
+fn zones_leave_rows_as_they_are() {
+    for seed in 0..40 {
+        let (mut rig, slots, ids) = heap(seed, 30, 60);
+        let before: Vec<Row> = ids.iter().map(|id| rig.row(*id)).collect();
+        let degrees: Vec<u32> = slots.iter().map(|slot| rig.lanes.degree(*slot)).collect();
+        let new = rig.compact();
+        rig.lanes.check(&rig.lines);
+        assert!(rig.lanes.zones.len() > 1);
+        for (slot, degree) in slots.iter().zip(degrees) {
+            assert_eq!(rig.lanes.degree(new[*slot as usize]), degree);
+        }
+        for (id, before) in ids.iter().zip(before) {
+            let after = rig.row(*id);
+            let (a, b) = before.bodies;
+            assert_eq!(after.bodies, (new[a as usize], new[b as usize]));
+            assert_eq!((after.j, after.jt), (before.j, before.jt));
+            for (x, y) in after.gap.iter().zip(before.gap) {
+                assert!((x - y).abs() <= 1e-12 * y.abs().max(1.0), "{x} for {y}");
+            }
+        }
+    }
 }

@@ -26,6 +26,7 @@ impl World {
             let newcomers = &mut self.pool.crowd.newcomers;
             self.pool.moved.append(newcomers);
             self.box_drivers(time);
+            self.pool.seats.zone();
             self.look_around(time);
             self.scout(time);
             self.pool.until_look = self.settings.substeps_per_tick();

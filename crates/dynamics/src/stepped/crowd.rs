@@ -35,6 +35,10 @@ pub(crate) struct Crowd {
     pub(super) drivers: Vec<u32>,
     /// Pairs whose surfaces run along, and some that were: their places.
     pub(super) belts: Vec<u32>,
+    /// Members that had no contact near at the last look, and for how many ticks; in order of bodies.
+    idle: Vec<(u32, u8)>,
+    /// Bodies that took to flight, and some that landed since.
+    pub(crate) aloft: Vec<u32>,
     /// Motions are older than the lines.
     pub(super) unwritten: bool,
     /// Energy of those who left less that of those who came, in J.
@@ -203,24 +207,39 @@ impl World {
         self.mark_pairs(index);
     }
 
+    /// Notes that a body flies.
+    pub(crate) fn note_flight(&mut self, index: u32) {
+        let most = 2 * self.bodies.places() + 64;
+        let aloft = &mut self.pool.crowd.aloft;
+        if self.settings.mode == Mode::Hybrid {
+            aloft.push(index);
+            if aloft.len() > most {
+                aloft.sort_unstable();
+                aloft.dedup();
+            }
+        }
+    }
+
     /// Members that nothing neared for a while fly from here on. At the start of a tick.
     pub(super) fn disperse(&mut self, time: SimTime) {
         let seats = &self.pool.seats;
+        let before = core::mem::take(&mut self.pool.crowd.idle);
         let mut gone = Vec::new();
+        let mut idle = Vec::new();
         for (slot, seat) in seats.moving() {
-            if seat.kind != BodyKind::Dynamic {
+            if seat.kind != BodyKind::Dynamic || seats.rig.lanes.degree(slot) > 0 {
                 continue;
             }
-            let state = self.bodies.get_mut(seat.body);
-            if seats.rig.lanes.degree(slot) > 0 {
-                state.idle = 0;
-                continue;
-            }
-            state.idle += 1;
-            if state.idle > IDLE {
+            let last = before.binary_search_by_key(&seat.body, |(body, _)| *body);
+            let ticks = last.map_or(0, |at| before[at].1) + 1;
+            if ticks > IDLE {
                 gone.push((seat.body, slot));
+            } else {
+                idle.push((seat.body, ticks));
             }
         }
+        idle.sort_unstable();
+        self.pool.crowd.idle = idle;
         gone.sort_unstable();
         for (index, slot) in gone {
             self.sync(index, slot, time);
@@ -232,6 +251,14 @@ impl World {
     /// Flyers that may meet a member within a tick; the members' boxes hold them that long.
     pub(super) fn scout(&mut self, time: SimTime) {
         self.pairs.near.clear();
+        let aloft = &mut self.pool.crowd.aloft;
+        aloft.sort_unstable();
+        aloft.dedup();
+        let bodies = &self.bodies;
+        aloft.retain(|&index| bodies.is_alive(index) && bodies.get(index).is_flying());
+        if aloft.is_empty() {
+            return;
+        }
         let mut bounds = Aabb::EMPTY;
         for (_, seat) in self.pool.seats.moving() {
             if seat.kind == BodyKind::Dynamic {
@@ -242,10 +269,10 @@ impl World {
         }
         let tick = self.settings.tick;
         let mut flying = Vec::new();
-        for state in self.bodies.iter().filter(|state| state.is_flying()) {
-            let ahead = disc_swept(state, time, tick);
+        for &index in &self.pool.crowd.aloft {
+            let ahead = disc_swept(self.bodies.get(index), time, tick);
             if ahead.overlaps(bounds) {
-                flying.push((state.id.index, ahead));
+                flying.push((index, ahead));
             }
         }
         for (index, ahead) in flying {

@@ -107,6 +107,7 @@ impl World {
                     self.rest(sleep, time);
                     self.stopwatch.lap(|p| &mut p.sleep);
                 }
+                self.pool.seats.zone();
                 self.look_around(time);
                 self.pool.until_look = self.settings.substeps_per_tick();
             } else if !(self.pool.quick.is_empty() && self.pool.moved.is_empty()) {

@@ -180,17 +180,28 @@ impl Seats {
 
     /// Moves everybody together once half of the lines are empty.
     pub(crate) fn close_up(&mut self) {
-        if self.rig.holes() * 2 < self.list.len() {
-            return;
+        if self.rig.holes() * 2 >= self.list.len() {
+            self.resettle();
         }
+    }
+
+    /// Makes zones where they are due. At ticks: how the caller cuts time must change no bit.
+    pub(crate) fn zone(&mut self) {
+        if self.rig.wants_zones() {
+            self.resettle();
+        }
+    }
+
+    fn resettle(&mut self) {
         let new = self.rig.compact();
         let old = core::mem::take(&mut self.list);
+        self.list.resize(self.rig.lines.len(), Seat::EMPTY);
         for (seat, slot) in old.into_iter().zip(new) {
             if slot != NONE {
                 if seat.body != NONE {
                     self.slots[seat.body as usize] = slot;
                 }
-                self.list.push(seat);
+                self.list[slot as usize] = seat;
             }
         }
     }

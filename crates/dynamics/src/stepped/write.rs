@@ -36,7 +36,7 @@ impl World {
                 continue;
             };
             if !first {
-                self.write_motion(slot);
+                self.write_motion(slot, self.clock.last());
             }
             self.bodies.change(index, time, |_| {});
         }
@@ -45,19 +45,20 @@ impl World {
 
     /// Motions of the last sub-step for all who move.
     pub(super) fn write_motions(&mut self) {
+        let start = self.clock.last();
         for slot in 0..self.pool.seats.places() {
             let kind = self.pool.seats.get(slot).kind;
             // Kinematic bodies fly beside a crowd.
             if kind == BodyKind::Dynamic || kind == BodyKind::Kinematic && self.moves_all() {
-                self.write_motion(slot);
+                self.write_motion(slot, start);
             }
         }
     }
 
-    /// A body's motion of the last sub-step: from the velocity before to the one after, to where it is.
-    fn write_motion(&mut self, slot: u32) {
+    /// A body's motion of the last sub-step, begun at `start`: from the velocity before to the one after, to
+    /// where it is.
+    fn write_motion(&mut self, slot: u32, start: SimTime) {
         let h = self.clock.h;
-        let start = self.clock.last();
         let seats = &self.pool.seats;
         let (seat, line) = (seats.get(slot), &seats.rig.lines[slot as usize]);
         let (v, w) = seats.rig.before(slot, h);

@@ -61,5 +61,7 @@ pub(crate) fn settings(file: &SceneFile) -> Settings {
         },
         history: table.history.unwrap_or(default.history),
         events: table.events.unwrap_or(default.events),
+        zones: default.zones,
+        threads: default.threads,
     }
 }

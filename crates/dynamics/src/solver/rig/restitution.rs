@@ -101,9 +101,9 @@ impl Rig {
         let row = self.row(id);
         let (a, b) = (row.bodies.0 as usize, row.bodies.1 as usize);
         let [start_a, start_b] = [self.start[a], self.start[b]];
-        let energy = kinetic(&self.lines[a], start_a.v, start_a.w)
-            + kinetic(&self.lines[b], start_b.v, start_b.w);
-        let pulled = (self.pull[b].acceleration - self.pull[a].acceleration).length() * h;
+        let energy = kinetic(&self.lines[a], start_a.v(), start_a.w())
+            + kinetic(&self.lines[b], start_b.v(), start_b.w());
+        let pulled = (self.pull[b].v() - self.pull[a].v()).length() * h;
         let inverse_mass = self.lines[a].inverse_mass() + self.lines[b].inverse_mass();
         energy + 0.5 * pulled * pulled / inverse_mass
     }

@@ -1,0 +1,173 @@
+//! A sub-step: zone by zone, and over all lines what crosses from one to another.
+//!
+//! ```text
+//! in zones        warm, solve ─┐           ┌─ displace, relax ─┐
+//! over all lines               └─ solve ───┘                   └─ relax
+//! ```
+//! What a zone does depends on nothing but itself, so neither threads nor their number change a bit.
+
+use fearless_simd::Level;
+
+use super::Rig;
+use crate::solver::Law;
+use crate::solver::coast::{self, Bodies};
+use crate::solver::kernel::{Pass, sweep};
+use crate::solver::zone::Zone;
+
+/// Some bodies in one stretch, and the rows among them.
+struct Work<'a> {
+    bodies: Bodies<'a>,
+    zone: &'a mut Zone,
+}
+
+impl Work<'_> {
+    fn solve(&mut self, level: Level, law: &Law) {
+        let Zone { colours, met, .. } = &mut *self.zone;
+        met.clear();
+        sweep(level, Pass::Solve, law, self.bodies.lines, colours, met);
+    }
+
+    fn displace(&mut self, level: Level, law: &Law) {
+        let Zone { swift, first, .. } = &mut *self.zone;
+        swift.clear();
+        coast::displace(level, &mut self.bodies, law.h, *first, swift);
+    }
+
+    fn relax(&mut self, level: Level, law: &Law, pass: Pass) {
+        let Zone { colours, met, .. } = &mut *self.zone;
+        self.zone.heat += sweep(level, pass, law, self.bodies.lines, colours, met);
+    }
+}
+
+/// Calls `f` with each of them: in parallel within a thread pool, else one after the other.
+#[cfg(feature = "parallel")]
+fn each<T: Send>(items: &mut [T], f: impl Fn(&mut T) + Send + Sync) {
+    use rayon::prelude::*;
+    if items.len() > 1 && rayon::current_thread_index().is_some() {
+        items.par_iter_mut().with_max_len(1).for_each(f);
+    } else {
+        items.iter_mut().for_each(f);
+    }
+}
+
+#[cfg(not(feature = "parallel"))]
+fn each<T>(items: &mut [T], f: impl Fn(&mut T)) {
+    items.iter_mut().for_each(f);
+}
+
+impl Rig {
+    /// One sub-step. Displacements grow by it; rows are read where they are.
+    ///
+    /// `bounce` may change velocities before displacements are made of second order.
+    pub(crate) fn step(&mut self, law: &Law, sweeps: usize, bounce: impl FnOnce(&mut Self)) {
+        let (level, h) = (self.level, law.h);
+        let pass = if self.lanes.has_belts() {
+            Pass::RelaxBelts
+        } else {
+            Pass::Relax
+        };
+        self.forget_impacts();
+        self.follow();
+        // Where no row crosses from zone to zone nothing has to wait for anything.
+        let alone = self.lanes.loose() == 0 && sweeps == 1;
+        self.in_zones(|work| {
+            coast::pull_and_warm(level, &mut work.bodies, h);
+            work.solve(level, law);
+            if alone {
+                work.displace(level, law);
+                work.relax(level, law, pass);
+            }
+        });
+        self.outside(|bodies, _, _| coast::pull_and_warm(level, bodies, h));
+        self.over_all(|work| work.solve(level, law));
+        self.outside(|bodies, first, swift| coast::displace(level, bodies, h, first, swift));
+        if !alone {
+            self.in_zones(|work| {
+                work.displace(level, law);
+                work.relax(level, law, pass);
+            });
+            self.over_all(|work| work.relax(level, law, pass));
+        }
+        for _ in 1..sweeps {
+            self.in_zones(|work| work.relax(level, law, pass));
+            self.over_all(|work| work.relax(level, law, pass));
+        }
+        self.collect();
+        bounce(self);
+        self.in_zones(|work| coast::second_order(level, &mut work.bodies, h));
+        self.outside(|bodies, _, _| coast::second_order(level, bodies, h));
+    }
+
+    /// Doubles are where their masters are.
+    fn follow(&mut self) {
+        for zone in &self.lanes.zones {
+            for &(master, double) in &zone.doubles {
+                let (from, to) = (master as usize, double as usize);
+                self.lines[to] = self.lines[from];
+                self.start[to] = self.start[from];
+                self.pull[to] = self.pull[from];
+            }
+        }
+    }
+
+    /// What zones tell of a sub-step, in their order.
+    fn collect(&mut self) {
+        let (over_all, zones) = self.lanes.zones.split_at_mut(1);
+        self.swift.clear();
+        for zone in zones.iter_mut().chain(over_all) {
+            self.heat += core::mem::take(&mut zone.heat);
+            self.met.extend(zone.met());
+            self.swift.append(&mut zone.swift);
+        }
+        self.swift.sort_unstable_by_key(|swift| swift.slot);
+    }
+
+    /// For every zone, with the bodies in it.
+    fn in_zones(&mut self, f: impl Fn(&mut Work<'_>) + Send + Sync) {
+        let (first, last) = self.lanes.zoned();
+        let (bodies, _) =
+            bodies_of(&mut self.lines, &mut self.start, &self.pull, &self.limits).split_at(last);
+        let (_, mut rest) = bodies.split_at(first);
+        let zones = &mut self.lanes.zones[1..];
+        let mut works = Vec::with_capacity(zones.len());
+        for zone in zones {
+            let (bodies, others) = rest.split_at(zone.count as usize);
+            rest = others;
+            works.push(Work { bodies, zone });
+        }
+        each(&mut works, f);
+    }
+
+    /// With all lines, for the rows that know them.
+    fn over_all(&mut self, f: impl Fn(&mut Work<'_>)) {
+        let bodies = bodies_of(&mut self.lines, &mut self.start, &self.pull, &self.limits);
+        let zone = &mut self.lanes.zones[0];
+        f(&mut Work { bodies, zone });
+    }
+
+    /// For bodies in no zone: the number of the first, and where to tell who is swift.
+    fn outside(&mut self, f: impl Fn(&mut Bodies<'_>, u32, &mut Vec<super::Swift>)) {
+        let (first, last) = self.lanes.zoned();
+        let bodies = bodies_of(&mut self.lines, &mut self.start, &self.pull, &self.limits);
+        let (bodies, mut tail) = bodies.split_at(last);
+        let (mut head, _) = bodies.split_at(first);
+        let swift = &mut self.lanes.zones[0].swift;
+        f(&mut head, 0, swift);
+        #[expect(clippy::cast_possible_truncation, reason = "slots are u32")]
+        f(&mut tail, last as u32, swift);
+    }
+}
+
+fn bodies_of<'a>(
+    lines: &'a mut [super::Line],
+    start: &'a mut [super::Quad],
+    pull: &'a [super::Quad],
+    limits: &'a [super::Limit],
+) -> Bodies<'a> {
+    Bodies {
+        lines,
+        start,
+        pull,
+        limits,
+    }
+}

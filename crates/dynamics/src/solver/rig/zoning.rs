@@ -1,0 +1,222 @@
+//! Which bodies belong to which zone: groups that hang together stay together while they are small, and
+//! large ones are cut where few rows cross.
+
+use super::{Limit, Rig};
+use crate::solver::coast::Quad;
+use crate::solver::wide::Line;
+use crate::solver::zone::Zone;
+
+/// Fewer rows than this are swept as a whole: they fit into the cache. In unit tests few are many.
+const LARGE: usize = if cfg!(test) { 16 } else { 8192 };
+
+/// Rows of a zone, about: with their lines half of a second-level cache of 1 MiB.
+const ROWS: usize = if cfg!(test) { 4 } else { 3072 };
+
+/// Zones come in multiples of this: as much for each of two or four threads.
+const EVEN: usize = 4;
+
+/// Nobody.
+const NONE: u32 = u32::MAX;
+
+/// Where everybody goes.
+struct Plan {
+    /// New line of each old one; holes get none.
+    new: Vec<u32>,
+    /// Old line of each new one; `None`: an empty line.
+    old: Vec<Option<u32>>,
+    zones: Vec<Zone>,
+}
+
+impl Rig {
+    /// Whether zones would leave fewer rows to be swept one after the other.
+    pub(crate) fn wants_zones(&self) -> bool {
+        let (rows, loose) = (self.lanes.len(), self.lanes.loose());
+        self.zones && rows >= LARGE && loose > rows / 8 && loose > 2 * self.cut
+    }
+
+    /// Moves the bodies together; gives the new slot of each old one, `u32::MAX` for holes.
+    pub(crate) fn compact(&mut self) -> Vec<u32> {
+        let plan = self.plan();
+        let lines = |old: &Option<u32>| old.map_or(Line::EMPTY, |i| self.lines[i as usize]);
+        let lines: Vec<Line> = plan.old.iter().map(lines).collect();
+        let start = |old: &Option<u32>| old.map_or(Quad::EMPTY, |i| self.start[i as usize]);
+        let pull = |old: &Option<u32>| old.map_or(Quad::default(), |i| self.pull[i as usize]);
+        let limit = |old: &Option<u32>| old.map_or(Limit::NONE, |i| self.limits[i as usize]);
+        self.start = plan.old.iter().map(start).collect();
+        self.pull = plan.old.iter().map(pull).collect();
+        self.limits = plan.old.iter().map(limit).collect();
+        self.free.clear();
+        if plan.zones.len() == 1 && self.lanes.zones.len() == 1 {
+            self.lanes.renumber(&plan.new);
+        } else {
+            self.lanes
+                .settle(&self.lines, &plan.new, plan.zones, &lines);
+        }
+        self.lines = lines;
+        self.cut = self.lanes.loose();
+        plan.new
+    }
+
+    fn plan(&self) -> Plan {
+        let mut taken = vec![true; self.lines.len()];
+        for slot in &self.free {
+            taken[*slot as usize] = false;
+        }
+        // Doubles are nobody's.
+        for zone in &self.lanes.zones[1..] {
+            taken[zone.first as usize] = false;
+            for (_, double) in &zone.doubles {
+                taken[*double as usize] = false;
+            }
+        }
+        let mut plan = Plan {
+            new: vec![NONE; self.lines.len()],
+            old: Vec::with_capacity(self.lines.len()),
+            zones: vec![Zone::new(0, 0, Vec::new())],
+        };
+        let zones = if !self.zones || self.lanes.len() < LARGE {
+            Vec::new()
+        } else {
+            self.divide()
+        };
+        let mut zone_of = vec![0u32; self.lines.len()];
+        for (number, members) in (1u32..).zip(&zones) {
+            for &slot in members {
+                zone_of[slot as usize] = number;
+            }
+        }
+        for slot in (0u32..).take(self.lines.len()) {
+            if taken[slot as usize] && zone_of[slot as usize] == 0 {
+                plan.add(slot);
+            }
+        }
+        let mut met: Vec<Vec<u32>> = vec![Vec::new(); zones.len() + 1];
+        for id in self.lanes.ids() {
+            let (a, b) = self.row(id).bodies;
+            for (one, other) in [(a, b), (b, a)] {
+                if self.lines[one as usize].inverse_mass() == 0.0 {
+                    met[zone_of[other as usize] as usize].push(one);
+                }
+            }
+        }
+        for (members, mut met) in zones.iter().zip(met.into_iter().skip(1)) {
+            met.sort_unstable_by_key(|slot| plan.new[*slot as usize]);
+            met.dedup();
+            let first = plan.next();
+            plan.old.push(None);
+            let mut doubles = Vec::new();
+            for slot in met {
+                doubles.push((plan.new[slot as usize], plan.next()));
+                plan.old.push(Some(slot));
+            }
+            for &slot in members {
+                plan.add(slot);
+            }
+            plan.zones
+                .push(Zone::new(first, plan.next() - first, doubles));
+        }
+        plan
+    }
+
+    /// Members of each zone, as their lines lie.
+    fn divide(&self) -> Vec<Vec<u32>> {
+        let near = self.neighbours();
+        let rows = self.lanes.len();
+        let count = rows.div_ceil(EVEN * ROWS) * EVEN;
+        let most = rows.div_ceil(count);
+        let mut marks = vec![0; self.lines.len()];
+        let mut zones: Vec<Vec<u32>> = Vec::new();
+        let (mut zone, mut size) = (Vec::new(), 0);
+        for slot in (0u32..).take(self.lines.len()) {
+            let moves = self.lines[slot as usize].inverse_mass() > 0.0;
+            if marks[slot as usize] == NONE || !moves || self.lanes.degree(slot) == 0 {
+                continue;
+            }
+            // From one end of the group to the other: a front that goes through it is short.
+            let end = near.walk(slot, slot + 1, &mut marks);
+            let end = end.last().copied().unwrap_or(slot);
+            for slot in near.walk(end, NONE, &mut marks) {
+                // A row belongs to two.
+                size += 2 * self.lanes.degree(slot) as usize - near.of(slot).len();
+                zone.push(slot);
+                if size >= 2 * most {
+                    zones.push(core::mem::take(&mut zone));
+                    size = 0;
+                }
+            }
+        }
+        if !zone.is_empty() {
+            zones.push(zone);
+        }
+        for zone in &mut zones {
+            zone.sort_unstable();
+        }
+        zones
+    }
+
+    fn neighbours(&self) -> Neighbours {
+        let moves = |i: u32| self.lines[i as usize].inverse_mass() > 0.0;
+        let pairs = self.lanes.ids().map(|id| self.row(id).bodies);
+        let pairs: Vec<(u32, u32)> = pairs.filter(|(a, b)| moves(*a) && moves(*b)).collect();
+        let mut first = vec![0usize; self.lines.len() + 1];
+        for (a, b) in &pairs {
+            first[*a as usize + 1] += 1;
+            first[*b as usize + 1] += 1;
+        }
+        for i in 1..first.len() {
+            first[i] += first[i - 1];
+        }
+        let mut next = first.clone();
+        let mut list = vec![0; 2 * pairs.len()];
+        for (a, b) in pairs {
+            for (one, other) in [(a, b), (b, a)] {
+                list[next[one as usize]] = other;
+                next[one as usize] += 1;
+            }
+        }
+        Neighbours { first, list }
+    }
+}
+
+/// Who shares rows with whom, among those who move.
+struct Neighbours {
+    /// Where the neighbours of each line begin in the list.
+    first: Vec<usize>,
+    list: Vec<u32>,
+}
+
+impl Neighbours {
+    fn of(&self, slot: u32) -> &[u32] {
+        &self.list[self.first[slot as usize]..self.first[slot as usize + 1]]
+    }
+
+    /// All who hang together with `from`, the nearer ones first; they get the mark.
+    fn walk(&self, from: u32, mark: u32, marks: &mut [u32]) -> Vec<u32> {
+        let mut walked = vec![from];
+        marks[from as usize] = mark;
+        let mut i = 0;
+        while i < walked.len() {
+            for &other in self.of(walked[i]) {
+                if marks[other as usize] != mark {
+                    marks[other as usize] = mark;
+                    walked.push(other);
+                }
+            }
+            i += 1;
+        }
+        walked
+    }
+}
+
+impl Plan {
+    fn next(&self) -> u32 {
+        #[expect(clippy::cast_possible_truncation, reason = "slots are u32")]
+        let next = self.old.len() as u32;
+        next
+    }
+
+    fn add(&mut self, slot: u32) {
+        self.new[slot as usize] = self.next();
+        self.old.push(Some(slot));
+    }
+}

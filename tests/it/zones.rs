@@ -1,0 +1,83 @@
+//! Large piles in zones: threads share them, and nobody can tell how many.
+
+use carom_dynamics::{BodyDef, Material, Mode, Settings, World};
+use carom_math::vec2;
+use carom_tests::overlaps;
+use carom_tests::scenes::{block, boxed, put};
+
+/// A pyramid of 78 rows, 3,081 boxes of 1 m with some 9,000 contacts, and a box that strikes it.
+fn pyramid(settings: Settings) -> World {
+    let mut world = World::new(settings).expect("valid");
+    let floor = BodyDef::fixed().at(vec2(0.0, -1.0));
+    put(&mut world, floor, block(200.0, 2.0), Material::default());
+    for row in 0..78_u32 {
+        for k in 0..78 - row {
+            let x = f64::from(k) + 0.5 * f64::from(row) - 39.0;
+            let at = vec2(x, 0.5 + f64::from(row));
+            boxed(&mut world, at, Material::default());
+        }
+    }
+    let thrown = BodyDef::dynamic()
+        .at(vec2(-45.0, 20.0))
+        .moving(vec2(30.0, 0.0));
+    put(&mut world, thrown, block(1.0, 1.0), Material::default());
+    world
+}
+
+fn settings(mode: Mode, threads: usize) -> Settings {
+    Settings {
+        mode,
+        zones: true,
+        threads,
+        sleep: None,
+        ..Settings::default()
+    }
+}
+
+#[test]
+fn the_number_of_threads_changes_no_bit_of_a_large_pile() {
+    let ends = [1, 2, 3].map(|threads| {
+        let mut world = pyramid(settings(Mode::Stepped, threads));
+        let ends = (0..40).map(|_| {
+            world.step(1.0 / 60.0);
+            world.state_hash()
+        });
+        ends.collect::<Vec<_>>()
+    });
+    assert!(ends[1] == ends[0], "two threads give other bits than one");
+    assert!(ends[2] == ends[0], "three threads give other bits than one");
+}
+
+#[test]
+fn how_a_step_is_cut_changes_no_bit_of_a_pile_in_zones() {
+    let mut whole = pyramid(settings(Mode::Stepped, 1));
+    let mut cut = pyramid(settings(Mode::Stepped, 1));
+    whole.step(0.5);
+    for _ in 0..64 {
+        cut.step(1.0 / 128.0);
+    }
+    assert!(whole.state_hash() == cut.state_hash());
+}
+
+#[test]
+fn zones_carry_a_pile_as_one_sweep_does() {
+    for mode in [Mode::Stepped, Mode::Hybrid] {
+        let mut zoned = pyramid(settings(mode, 1));
+        let mut whole = pyramid(Settings {
+            zones: false,
+            ..settings(mode, 1)
+        });
+        for world in [&mut zoned, &mut whole] {
+            world.step(2.0);
+        }
+        assert!(
+            zoned.state_hash() != whole.state_hash(),
+            "there are no zones"
+        );
+        let [zoned, whole] = [&zoned, &whole].map(overlaps);
+        assert!(
+            zoned.0 < 1.2 * whole.0 && zoned.1 < 1.05 * whole.1,
+            "{mode:?}: overlaps {zoned:?} m with zones, {whole:?} m without"
+        );
+    }
+}
