@@ -10,6 +10,11 @@ fn smaller(x: f64, y: f64) -> f64 {
     if x < y { x } else { y }
 }
 
+/// The larger of two numbers that are none of them NaN.
+fn larger(x: f64, y: f64) -> f64 {
+    if x > y { x } else { y }
+}
+
 /// The vertex with the smallest `direction · q` (the first of equals), and that, in m for a unit direction.
 pub(crate) fn lowest(hull: &Hull<'_>, direction: Vec2) -> (usize, f64) {
     if hull.blocks.is_empty() {
@@ -44,6 +49,24 @@ pub(crate) fn lowest(hull: &Hull<'_>, direction: Vec2) -> (usize, f64) {
     };
     let lane = |k: usize| (at[k], low[k]);
     first(first(lane(0), lane(1)), first(lane(2), lane(3)))
+}
+
+/// Largest distance of a vertex from the origin, in m.
+pub(crate) fn farthest(hull: &Hull<'_>) -> f64 {
+    let Some((first, rest)) = hull.blocks.split_first() else {
+        let squares = hull.vertices.iter().map(|q| q.length_squared());
+        return squares.fold(0.0, larger).sqrt();
+    };
+    let square = |block: &EdgeBlock, lane: usize| {
+        block.x[lane] * block.x[lane] + block.y[lane] * block.y[lane]
+    };
+    let mut most = [0, 1, 2, 3].map(|lane| square(first, lane));
+    for block in rest {
+        for (lane, most) in most.iter_mut().enumerate() {
+            *most = larger(square(block, lane), *most);
+        }
+    }
+    larger(larger(most[0], most[1]), larger(most[2], most[3])).sqrt()
 }
 
 /// The smallest `direction · q` of all vertices but one, in m for a unit direction.

@@ -3,7 +3,7 @@
 use carom_math::{Pose, Rot, Vec2};
 
 use super::facing::{Facing, Gap};
-use crate::lanes::{each_height, highest_over, widest_edge};
+use crate::lanes::{each_height, farthest, highest_over, widest_edge};
 use crate::{AxisFeature, Hull, Motion, Side};
 
 /// A direction that may separate two hulls.
@@ -439,12 +439,6 @@ impl<'a> Approach<'a> {
         let at = |tau: f64| (self.spin[k] + self.angular_acceleration[k] * tau).abs();
         at(from).max(at(to))
     }
-}
-
-/// Largest distance of a vertex from the origin.
-fn farthest(hull: &Hull<'_>) -> f64 {
-    let square = hull.vertices.iter().map(|v| v.length_squared());
-    square.fold(0.0, f64::max).sqrt()
 }
 
 /// When two points on straight ways are within `reach` of each other, from 0 to `horizon`.
