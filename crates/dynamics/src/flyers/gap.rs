@@ -22,14 +22,15 @@ pub(super) struct Feature {
 impl Feature {
     /// What touches at `point`.
     pub(super) fn of(motion: &Motion, solid: &Shape, point: Vec2, time: SimTime) -> Self {
-        let pose = motion.pose_at(time);
+        let centre = motion.centre_at(time);
         let at = match solid {
             // A disc rolls about its centre: its own spin does not move its rim.
-            Shape::Circle(disc) => pose.point(disc.centre()),
+            Shape::Circle(disc) if disc.centre() == Vec2::ZERO => centre,
+            Shape::Circle(disc) => motion.pose_at(time).point(disc.centre()),
             _ => point,
         };
         let (arm, spin, turning) = (
-            at - pose.position,
+            at - centre,
             motion.spin_at(time),
             motion.angular_acceleration,
         );
@@ -40,7 +41,7 @@ impl Feature {
             acceleration: motion.acceleration + cross_scalar(turning, arm) - arm * (spin * spin),
             spin,
             turning,
-            centre: pose.position,
+            centre,
             centre_velocity,
             centre_acceleration: motion.acceleration,
         }
