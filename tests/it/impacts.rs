@@ -260,3 +260,47 @@ fn two_bodies_at_one_place_part_by_a_fixed_rule() {
     };
     assert_eq!(run(), run());
 }
+
+/// A flyer that has seen that nothing is about it does not look again with every impact, but where something came.
+#[test]
+fn a_wall_that_came_where_nothing_was_is_struck() {
+    let settings = Settings {
+        gravity: Vec2::ZERO,
+        ..Settings::default()
+    };
+    let mut world = World::new(settings).expect("settings");
+    let material = Material {
+        restitution: 1.0,
+        friction: 0.0,
+        ..Material::default()
+    };
+    let slab = |width, height| ConvexPolygon::rectangle(width, height).expect("a slab");
+    let fixed = |x, y| BodyDef::fixed().at(vec2(x, y));
+    world
+        .insert(fixed(0.0, -30.0), slab(80.0, 1.0), material)
+        .expect("a floor");
+    let discs = [
+        (-12.0, 3.0),
+        (-4.0, 3.0),
+        (-2.0, 0.0),
+        (0.0, 0.0),
+        (2.0, 0.0),
+    ];
+    let ids = discs.map(|(x, speed)| {
+        let def = BodyDef::dynamic().at(vec2(x, 0.0)).moving(vec2(speed, 0.0));
+        let disc = Circle::new(0.5).expect("a disc");
+        world.insert(def, disc, material).expect("a disc")
+    });
+    // The first blow has gone through the row: each gave it on and stands where it met the next.
+    let report = world.step(1.5);
+    assert_eq!(report.impacts, 3);
+    world
+        .insert(fixed(2.5, 0.0), slab(0.4, 4.0), material)
+        .expect("a wall");
+    // The second blow brings the last of them against the wall, and comes back.
+    world.step(4.0);
+    let at = |k: usize| world.body(ids[k]).expect("it is there").centre().x;
+    assert!(at(3) < 1.8 + 1e-12, "through the wall: {} m", at(3));
+    let velocity = world.body(ids[0]).expect("it is there").velocity();
+    assert!((velocity - vec2(-3.0, 0.0)).length() < 1e-12, "{velocity}");
+}

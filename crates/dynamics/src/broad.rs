@@ -24,6 +24,8 @@ pub(crate) const PADDING: f64 = 0.05;
 pub(crate) struct Broad {
     pub(crate) search: PairSearch,
     pub(crate) tree: BoxTree,
+    /// When last a box came into the tree, or was changed there.
+    pub(crate) changed: SimTime,
     pub(crate) overrides: BTreeMap<(BodyId, BodyId), PairMaterial>,
     /// What the last search found: kept for its memory.
     near: Vec<u32>,
@@ -34,6 +36,7 @@ impl Broad {
         Self {
             search,
             tree: BoxTree::new(),
+            changed: SimTime::ZERO,
             overrides: BTreeMap::new(),
             near: Vec::new(),
         }
@@ -74,6 +77,7 @@ impl Broad {
             collider.fat = fat;
             // The tree is asked where a body is at instants in between, too.
             let kept = fat.grown(roundable(fat));
+            self.changed = time;
             match collider.node {
                 Some(node) => {
                     self.tree.update(node, kept);
@@ -99,6 +103,7 @@ impl Broad {
             let fat = swept_box(collider, &body.motion, time, seconds);
             collider.fat = fat;
             let kept = fat.grown(roundable(fat));
+            self.changed = time;
             match collider.node {
                 Some(node) => {
                     self.tree.update(node, kept);

@@ -3,6 +3,7 @@
 use carom_geometry::Aabb;
 use carom_math::SimTime;
 
+use super::circle::Circle;
 use super::frame::Track;
 use super::queue::{Ahead, Entry};
 use super::window::{self, Window};
@@ -12,9 +13,6 @@ use crate::{BodyKind, PairSearch, World};
 
 /// Part of a cell that a flyer travels within its horizon.
 const TRAVEL: f64 = 0.35;
-
-/// Way, in cells, that a flyer looks down for first.
-const SPAN: f64 = 2.0;
 
 /// Longest horizon, in s: what rests is looked for again at least this often.
 const LONGEST: f64 = 1024.0;
@@ -39,11 +37,14 @@ impl World {
             self.stop(index, time);
         }
         self.flyers.resize(&mut self.bodies, time);
-        if self.look_round(index, time) {
+        if !self.look_round(index, time) {
+            self.follow(index, time);
+        } else if cause == Cause::Deflected && self.is_clear(index, time) {
+            self.meet_flyers(index, time, cause, but);
+            return self.predict_pairs(index, time);
+        } else {
             self.leave_tree(index);
             self.look_down(index, time, self.first_span(index, time));
-        } else {
-            self.follow(index, time);
         }
         self.meet_flyers(index, time, cause, but);
         self.meet_shapes(index, time, cause);
@@ -66,51 +67,8 @@ impl World {
         true
     }
 
-    /// Boxes of a flyer in the world for the next `span` seconds; without end while nothing is there.
-    fn look_down(&mut self, index: u32, time: SimTime, span: f64) {
-        if !self.flyers.grounded {
-            let state = self.bodies.get_mut(index);
-            state.course.ground = SimTime::NEVER;
-            state.course.reached = Aabb::EMPTY;
-            for &at in &state.colliders {
-                self.colliders[at as usize].fat = Aabb::EMPTY;
-            }
-            return;
-        }
-        let span = at_most(span);
-        let state = self.bodies.get_mut(index);
-        state.course.span = span;
-        state.course.ground = time + span;
-        state.course.reached = swept(state, &Track::of(&state.motion, time), span);
-        self.flyers.lift(&mut state.course, index);
-        for &at in &state.colliders {
-            self.colliders[at as usize].fat = state.course.reached;
-        }
-        self.queue_end(index, Ahead::Ground);
-    }
-
-    /// From the first box in the tree on flyers look down for what is there.
-    pub(crate) fn look_down_first(&mut self, time: SimTime) {
-        if self.flyers.grounded || self.broad.tree.is_empty() {
-            return;
-        }
-        self.flyers.grounded = true;
-        for index in self.bodies.indices().collect::<Vec<_>>() {
-            if self.bodies.get(index).course.cells.is_some() {
-                self.look_down(index, time, self.first_span(index, time));
-                self.meet_shapes(index, time, Cause::Horizon);
-            }
-        }
-    }
-
-    /// How long a flyer with a new motion looks down for, in s.
-    fn first_span(&self, index: u32, time: SimTime) -> f64 {
-        let track = Track::of(&self.bodies.get(index).motion, time);
-        track.seconds_for(SPAN * self.flyers.grid.side())
-    }
-
     /// Boxes in the tree of a flyer that is too large for the grid.
-    fn follow(&mut self, index: u32, time: SimTime) {
+    pub(super) fn follow(&mut self, index: u32, time: SimTime) {
         let way = TRAVEL * self.flyers.grid.side();
         let state = self.bodies.get_mut(index);
         let track = Track::of(&state.motion, time);
@@ -127,7 +85,7 @@ impl World {
 
     /// Enters the end of a search, unless an earlier entry will come to it: a motion changes more often
     /// than its searches end.
-    fn queue_end(&mut self, index: u32, ahead: Ahead) {
+    pub(super) fn queue_end(&mut self, index: u32, ahead: Ahead) {
         let (end, entered) = self.bodies.get_mut(index).course.end(ahead);
         if *entered <= end {
             return;
@@ -167,7 +125,13 @@ impl World {
     }
 
     /// Flyers that `index` may meet up to its horizon.
-    fn meet_flyers(&mut self, index: u32, time: SimTime, cause: Cause, but: Option<u32>) {
+    pub(super) fn meet_flyers(
+        &mut self,
+        index: u32,
+        time: SimTime,
+        cause: Cause,
+        but: Option<u32>,
+    ) {
         let course = &self.bodies.get(index).course;
         let mut near = match course.cells {
             Some(cells) => {
@@ -194,62 +158,30 @@ impl World {
         }
         let own = Circle::of(self.bodies.get(index), time);
         for &other in &near {
-            if other != index && Some(other) != but {
-                self.approach(index, &own, other, time, cause);
+            if other == index || Some(other) == but {
+                continue;
+            }
+            let theirs = self
+                .flyers
+                .circle(other, time)
+                .unwrap_or_else(|| Circle::of(self.bodies.get(other), time));
+            if let Some(window) = own.meets(&theirs) {
+                self.approach(index, other, window, time, cause);
             }
         }
         self.flyers.near = near;
     }
 
-    /// Shapes in the tree that `index` may meet before it looks down again: of bodies that do not fly,
-    /// and of flyers too large for the grid.
-    fn meet_shapes(&mut self, index: u32, time: SimTime, cause: Cause) {
-        let mut near = core::mem::take(&mut self.flyers.shapes);
-        let course = &mut self.bodies.get_mut(index).course;
-        self.broad
-            .search_tree(&self.colliders, course.reached, &mut near);
-        course.alone = near.is_empty();
-        for &at in &near {
-            let owner = self.colliders[at as usize].body;
-            if owner == index {
-                continue;
-            }
-            let state = self.bodies.get(owner);
-            if state.course.flies {
-                let own = Circle::of(self.bodies.get(index), time);
-                self.approach(index, &own, owner, time, cause);
-            } else if state.in_crowd {
-                self.pair_flyer(index, at);
-                self.knock_at(index, at, time);
-                if !self.bodies.get(index).course.flies {
-                    self.flyers.shapes = near;
-                    return;
-                }
-            } else if state.is_active() {
-                self.pair_flyer(index, at);
-            } else {
-                self.approach_shape(index, at, time, cause);
-            }
-        }
-        for slot in 0..self.bodies.get(index).pairs.len() {
-            self.predict(self.bodies.get(index).pairs[slot], time);
-        }
-        self.flyers.shapes = near;
-    }
-
-    /// Two flyers that may meet before one of their horizons ends, `own` the circle of the first.
+    /// Two flyers whose circles meet, perhaps before one of their horizons ends.
     pub(super) fn approach(
         &mut self,
         index: u32,
-        own: &Circle,
         other: u32,
+        window: Window,
         time: SimTime,
         cause: Cause,
     ) {
         let (a, b) = (self.bodies.get(index), self.bodies.get(other));
-        let Some(window) = own.meets(&Circle::of(b, time)) else {
-            return;
-        };
         if a.kind != BodyKind::Dynamic && b.kind != BodyKind::Dynamic {
             return;
         }
@@ -289,32 +221,6 @@ impl World {
             .get(a)
             .version
             .wrapping_add(self.bodies.get(b).version)
-    }
-
-    /// A flyer and a shape that rests.
-    pub(crate) fn approach_shape(&mut self, index: u32, at: u32, time: SimTime, cause: Cause) {
-        let body = self.bodies.get(index);
-        let owner = self.bodies.get(self.colliders[at as usize].body);
-        if body.kind != BodyKind::Dynamic && owner.kind != BodyKind::Dynamic {
-            return;
-        }
-        let motion = &body.motion;
-        let from = window::from_box(
-            motion.centre_at(time),
-            motion.velocity_at(time),
-            motion.acceleration,
-            body.reach,
-            self.colliders[at as usize].fat,
-        );
-        let left = body.course.ground - time;
-        if from > left {
-            return;
-        }
-        if from > 0.0 {
-            self.queue_near_shape(index, at, time + from);
-            return;
-        }
-        self.seek_shape(index, at, time, cause);
     }
 
     pub(super) fn queue_near_shape(&mut self, index: u32, at: u32, time: SimTime) {
@@ -427,49 +333,8 @@ impl World {
         end == entry.time
     }
 
-    /// What does not fly is looked for anew: twice as far ahead where there was nothing.
-    fn look_down_again(&mut self, index: u32, time: SimTime) {
-        let course = &self.bodies.get(index).course;
-        if course.cells.is_none() {
-            self.follow(index, time);
-            self.meet_flyers(index, time, Cause::Horizon, None);
-            self.meet_shapes(index, time, Cause::Horizon);
-            return;
-        }
-        let factor = if course.alone { 2.0 } else { 1.0 };
-        let span = factor * course.span;
-        self.look_down(index, time, span);
-        self.meet_shapes(index, time, Cause::Horizon);
-    }
-
-    fn both_fly(&self, a: u32, b: u32) -> bool {
+    pub(super) fn both_fly(&self, a: u32, b: u32) -> bool {
         self.bodies.get(a).course.flies && self.bodies.get(b).course.flies
-    }
-}
-
-/// The bounding circle of a body at an instant, in motion.
-pub(super) struct Circle {
-    track: Track,
-    reach: f64,
-}
-
-impl Circle {
-    pub(super) fn of(state: &BodyState, time: SimTime) -> Self {
-        Self {
-            track: Track::of(&state.motion, time),
-            reach: state.reach,
-        }
-    }
-
-    /// When it overlaps another one, from now on.
-    pub(super) fn meets(&self, other: &Self) -> Option<Window> {
-        let (a, b) = (&self.track, &other.track);
-        window::of_circles(
-            b.centre - a.centre,
-            b.velocity - a.velocity,
-            b.acceleration - a.acceleration,
-            self.reach + other.reach,
-        )
     }
 }
 
@@ -484,12 +349,12 @@ pub(super) fn common_horizon(a: &BodyState, b: &BodyState) -> SimTime {
     }
 }
 
-fn at_most(seconds: f64) -> f64 {
+pub(super) fn at_most(seconds: f64) -> f64 {
     if seconds < LONGEST { seconds } else { LONGEST }
 }
 
 /// Box of a body's bounding circle along a track for `seconds`: both ends, and where it turns.
-fn swept(state: &BodyState, track: &Track, seconds: f64) -> Aabb {
+pub(super) fn swept(state: &BodyState, track: &Track, seconds: f64) -> Aabb {
     let (from, to) = (track.centre, track.centre_after(seconds));
     let mut bounds = Aabb::from_points([from, to]);
     let turns = (-track.velocity / track.acceleration).to_array();
@@ -498,7 +363,11 @@ fn swept(state: &BodyState, track: &Track, seconds: f64) -> Aabb {
             bounds = bounds.union(Aabb::from_points([track.centre_after(turn)]));
         }
     }
+    bounds.grown(state.reach * window::ROOM + room_about(state, bounds))
+}
+
+/// Rounding of where a body is within a box, and how far its motion is from its true path, in m.
+pub(super) fn room_about(state: &BodyState, bounds: Aabb) -> f64 {
     let largest = bounds.min.abs().max(bounds.max.abs()).max_element();
-    let room = 1e-9 * state.reach + 1e-14 * largest + state.motion.left_out;
-    bounds.grown(state.reach * window::ROOM + room)
+    1e-9 * state.reach + 1e-14 * largest + state.motion.left_out
 }

@@ -128,18 +128,21 @@ impl Grid {
         }
     }
 
-    /// Calls `visit` with every body in the cells whose box overlaps that of `seat`, itself included; with
-    /// some more than once. How many seats there are.
-    pub(crate) fn visit(&self, seat: &Seat, cells: Cells, mut visit: impl FnMut(u32)) -> usize {
+    /// Appends every body in the cells whose box overlaps that of `seat`, itself included; some more than once.
+    /// How many seats there are.
+    pub(crate) fn gather(&self, seat: &Seat, cells: Cells, near: &mut Vec<u32>) -> usize {
         let (limits, mut seats) = (seat.limits(), 0);
         for cell in cells.each() {
             let list = &self.lists[self.list(cell)];
             seats += list.len();
+            // Everybody is written down, and kept by moving on: nobody can tell who overlaps.
+            let mut end = near.len();
+            near.resize(end + list.len(), 0);
             for other in list {
-                if other.is_within(limits) {
-                    visit(other.body);
-                }
+                near[end] = other.body;
+                end += usize::from(other.is_within(limits));
             }
+            near.truncate(end);
         }
         seats
     }
@@ -189,7 +192,7 @@ mod tests {
             for (i, bounds) in (0_u32..).zip(&boxes) {
                 let mut near = Vec::new();
                 let seat = Seat::new(i, *bounds);
-                grid.visit(&seat, grid.cells(*bounds), |body| near.push(body));
+                grid.gather(&seat, grid.cells(*bounds), &mut near);
                 for (j, other) in (0_u32..).zip(&boxes) {
                     prop_assert!(near.contains(&j) || !bounds.overlaps(*other), "{} misses {}", i, j);
                     let apart = !bounds.grown(1e-3).overlaps(other.grown(1e-3));

@@ -6,10 +6,12 @@
 //! meet, and its time of impact is sought only when that instant comes with both motions unchanged.
 //! A body that nothing can happen to has no entry, and costs nothing.
 
+mod circle;
 mod foresee;
 mod frame;
 mod gap;
 mod grid;
+mod ground;
 mod held;
 mod queue;
 mod seek;
@@ -25,6 +27,7 @@ use carom_math::{SimTime, Vec2};
 
 use crate::bodies::Bodies;
 use crate::state::Collider;
+use circle::Registered;
 pub(crate) use foresee::Cause;
 use frame::{Frame, Track};
 pub(crate) use grid::{Cells, Grid, Seat};
@@ -50,6 +53,8 @@ pub(crate) struct Course {
     pub(crate) span: f64,
     /// Nothing was found there.
     pub(crate) alone: bool,
+    /// Then: when that was.
+    pub(crate) clear_at: Option<SimTime>,
     /// The earliest entries for the ends of both searches.
     pub(crate) entered: (SimTime, SimTime),
     /// Node of that box in the tree aloft.
@@ -71,6 +76,7 @@ impl Default for Course {
             reached: Aabb::EMPTY,
             span: 0.0,
             alone: false,
+            clear_at: None,
             entered: (SimTime::NEVER, SimTime::NEVER),
             node: None,
             tick: 0,
@@ -126,6 +132,9 @@ impl Foreseen {
 /// follow the ends of horizons: larger cells make horizons longer, and searches dearer.
 const PARTNERS: (f64, f64) = (24.0, 72.0);
 
+/// How much later the size of the cells is looked at again where it was right.
+const FITS: usize = 8;
+
 /// Cells that a box may cover before the body goes to the tree instead.
 const MOST_CELLS: u64 = 64;
 
@@ -140,6 +149,8 @@ pub(crate) struct Flyers {
     grounded: bool,
     /// Boxes of the grid's flyers in the world, while somebody needs to find them there.
     aloft: Option<BoxTree>,
+    /// Circles of the grid's flyers, by body.
+    circles: Vec<Registered>,
     queue: Queue,
     impacts: Vec<Option<Foreseen>>,
     free: Vec<u32>,
@@ -150,6 +161,8 @@ pub(crate) struct Flyers {
     searches: usize,
     renewed: usize,
     met: usize,
+    /// They were of the right size when that was last looked at.
+    fits: bool,
     /// Scratch of a search: flyers, and shapes of what does not fly.
     near: Vec<u32>,
     shapes: Vec<u32>,
@@ -168,6 +181,7 @@ impl Flyers {
             drifts: false,
             grounded: false,
             aloft: None,
+            circles: Vec::new(),
             queue: Queue::default(),
             impacts: Vec::new(),
             free: Vec::new(),
@@ -176,6 +190,7 @@ impl Flyers {
             searches: 0,
             renewed: 0,
             met: 0,
+            fits: false,
             near: Vec::new(),
             shapes: Vec::new(),
             hop: None,
@@ -246,12 +261,10 @@ impl Flyers {
         }
         self.mark = self.mark.wrapping_add(1);
         let (mark, seen) = (self.mark, &mut self.seen);
-        self.met += self.grid.visit(seat, cells, |body| {
-            let last = &mut seen[body as usize];
-            if *last != mark {
-                *last = mark;
-                near.push(body);
-            }
+        self.met += self.grid.gather(seat, cells, &mut near);
+        near.retain(|body| {
+            let last = core::mem::replace(&mut seen[*body as usize], mark);
+            last != mark
         });
         near
     }
@@ -295,11 +308,9 @@ impl Flyers {
         if cells.count() > self.grid.count() as u64 {
             near.extend(bodies.indices().filter(|body| here(*body)));
         } else {
-            self.grid.visit(&Seat::new(u32::MAX, seen), cells, |body| {
-                if here(body) {
-                    near.push(body);
-                }
-            });
+            let seat = Seat::new(u32::MAX, seen);
+            self.grid.gather(&seat, cells, &mut near);
+            near.retain(|body| here(*body));
         }
         near.sort_unstable();
         near.dedup();
@@ -317,6 +328,11 @@ impl Flyers {
             });
         }
         self.aloft = Some(tree);
+    }
+
+    /// Whether bodies look for flyers by boxes in the world.
+    const fn is_raised(&self) -> bool {
+        self.aloft.is_some()
     }
 
     /// Nobody looks for flyers any more.
@@ -351,6 +367,11 @@ impl Flyers {
         }
         self.grid.insert(Seat::new(index, course.swept), cells);
         course.cells = Some(cells);
+        let place = index as usize;
+        if self.circles.len() <= place {
+            self.circles.resize(place + 1, Registered::default());
+        }
+        self.circles[place] = Registered::of(bodies.get(index), &self.frame);
         true
     }
 
@@ -403,7 +424,8 @@ impl Flyers {
     /// Sizes the cells anew where searches meet too many bodies, or hardly any.
     fn resize(&mut self, bodies: &mut Bodies, time: SimTime) {
         let crowded = self.grid.count() > self.grid.room();
-        if self.searches < 64.max(self.grid.count()) && !crowded {
+        let patience = if self.fits { FITS } else { 1 };
+        if self.searches < patience * 64.max(self.grid.count()) && !crowded {
             return;
         }
         #[expect(clippy::cast_precision_loss, reason = "fewer than 2^52 searches")]
@@ -430,7 +452,8 @@ impl Flyers {
             wanted.sqrt().clamp(0.5, 4.0)
         };
         let side = (factor * self.grid.side()).clamp(2.0 * reach, 1e6 * reach);
-        if (side - self.grid.side()).abs() < 0.1 * side && !crowded {
+        self.fits = (side - self.grid.side()).abs() < 0.1 * side && !crowded;
+        if self.fits {
             return;
         }
         self.grid = Grid::new(side, flying.len());

@@ -4,7 +4,8 @@ use carom_collision::{Impact, TimeOfImpact, contacts, time_of_impact, time_of_im
 use carom_math::SimTime;
 
 use super::Foreseen;
-use super::foresee::{Cause, Circle, common_horizon};
+use super::circle::Circle;
+use super::foresee::{Cause, common_horizon};
 use super::window::Window;
 use crate::World;
 use crate::narrow::{TOUCH, opening_speed, rest_speed_between};
@@ -26,7 +27,7 @@ impl World {
         };
         // A bound, whose end is not known, may come early; a root is there but for its rounding.
         if window.to.is_infinite() && window.from > 0.0 {
-            self.approach(index, &own, other, time, Cause::Deflected);
+            self.approach(index, other, window, time, Cause::Deflected);
         } else {
             self.seek(index, other, time, window, Cause::Deflected);
         }

@@ -1,0 +1,80 @@
+//! Bounding circles in motion: what most partners of a search are looked at by, and no more.
+
+use carom_math::{SimTime, Vec2};
+
+use super::Flyers;
+use super::frame::{Frame, Track};
+use super::window::{self, Window};
+use crate::state::BodyState;
+
+/// The bounding circle of a body at an instant, in motion.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Circle {
+    track: Track,
+    reach: f64,
+}
+
+impl Circle {
+    pub(super) fn of(state: &BodyState, time: SimTime) -> Self {
+        Self {
+            track: Track::of(&state.motion, time),
+            reach: state.reach,
+        }
+    }
+
+    /// When it overlaps another one, from now on.
+    pub(super) fn meets(&self, other: &Self) -> Option<Window> {
+        let (a, b) = (&self.track, &other.track);
+        window::of_circles(
+            b.centre - a.centre,
+            b.velocity - a.velocity,
+            b.acceleration - a.acceleration,
+            self.reach + other.reach,
+        )
+    }
+}
+
+/// The circle of a flyer with the motion that it looked round with: 64 bytes, where the body has ten times as many.
+#[derive(Clone, Copy, Debug, Default)]
+#[repr(align(64))]
+pub(super) struct Registered {
+    since: SimTime,
+    centre: Vec2,
+    velocity: Vec2,
+    reach: f64,
+    /// It falls as the frame does.
+    falls: bool,
+}
+
+impl Registered {
+    pub(super) fn of(state: &BodyState, frame: &Frame) -> Self {
+        let motion = &state.motion;
+        Self {
+            since: motion.start,
+            centre: motion.centre,
+            velocity: motion.velocity,
+            reach: state.reach,
+            falls: motion.acceleration == frame.acceleration(),
+        }
+    }
+}
+
+impl Flyers {
+    /// The circle at `time` of a body in the grid, if it falls as the frame does: the bits of [`Circle::of`].
+    pub(super) fn circle(&self, body: u32, time: SimTime) -> Option<Circle> {
+        let known = self
+            .circles
+            .get(body as usize)
+            .filter(|known| known.falls)?;
+        let (u, acceleration) = (time - known.since, self.frame.acceleration());
+        let track = Track {
+            centre: known.centre + (known.velocity + acceleration * (0.5 * u)) * u,
+            velocity: known.velocity + acceleration * u,
+            acceleration,
+        };
+        Some(Circle {
+            track,
+            reach: known.reach,
+        })
+    }
+}

@@ -1,0 +1,180 @@
+//! Looking down: what a flyer may meet that does not fly, or is too large for the grid.
+
+use carom_geometry::Aabb;
+use carom_math::SimTime;
+
+use super::circle::Circle;
+use super::foresee::{Cause, at_most, room_about, swept};
+use super::frame::Track;
+use super::queue::Ahead;
+use super::window;
+use crate::{BodyKind, World};
+
+/// Way, in cells, that a flyer looks down for first.
+const SPAN: f64 = 2.0;
+
+/// How much farther it looks about that way, in cells, where it remembers.
+const CLEARING: f64 = 0.75;
+
+impl World {
+    /// Boxes of a flyer in the world for the next `span` seconds; without end while nothing is there.
+    pub(super) fn look_down(&mut self, index: u32, time: SimTime, span: f64) {
+        if !self.flyers.grounded {
+            let state = self.bodies.get_mut(index);
+            state.course.ground = SimTime::NEVER;
+            state.course.reached = Aabb::EMPTY;
+            for &at in &state.colliders {
+                self.colliders[at as usize].fat = Aabb::EMPTY;
+            }
+            return;
+        }
+        let span = at_most(span);
+        let room = if self.clears() {
+            CLEARING * self.flyers.grid.side()
+        } else {
+            0.0
+        };
+        let state = self.bodies.get_mut(index);
+        state.course.span = span;
+        state.course.ground = time + span;
+        state.course.reached = swept(state, &Track::of(&state.motion, time), span).grown(room);
+        self.flyers.lift(&mut state.course, index);
+        for &at in &state.colliders {
+            self.colliders[at as usize].fat = state.course.reached;
+        }
+        self.queue_end(index, Ahead::Ground);
+    }
+
+    /// Whether a flyer with a new motion stays in a clearing for as long as it has looked round: where it looked down
+    /// last, nothing was there, and nothing has come. It does not look down again before it leaves.
+    pub(super) fn is_clear(&mut self, index: u32, time: SimTime) -> bool {
+        let (clears, changed) = (self.clears(), self.broad.changed);
+        let state = self.bodies.get_mut(index);
+        // Not at the same instant: what is found must not depend on the order in which bodies come.
+        if !clears || state.course.clear_at.is_none_or(|at| at <= changed) {
+            return false;
+        }
+        let clearing = state.course.reached;
+        let rim = state.reach * window::ROOM + room_about(state, clearing);
+        let stays = Track::of(&state.motion, time).seconds_within(clearing.grown(-rim));
+        if time + stays < state.course.horizon {
+            return false;
+        }
+        let span = at_most(stays);
+        state.course.span = span;
+        state.course.ground = time + span;
+        self.queue_end(index, Ahead::Ground);
+        true
+    }
+
+    /// Whether flyers remember where nothing was: not while somebody needs to find them by narrow boxes.
+    fn clears(&self) -> bool {
+        !self.flyers.is_raised()
+    }
+
+    /// From the first box in the tree on flyers look down for what is there.
+    pub(crate) fn look_down_first(&mut self, time: SimTime) {
+        if self.flyers.grounded || self.broad.tree.is_empty() {
+            return;
+        }
+        self.flyers.grounded = true;
+        for index in self.bodies.indices().collect::<Vec<_>>() {
+            if self.bodies.get(index).course.cells.is_some() {
+                self.look_down(index, time, self.first_span(index, time));
+                self.meet_shapes(index, time, Cause::Horizon);
+            }
+        }
+    }
+
+    /// How long a flyer with a new motion looks down for, in s.
+    pub(super) fn first_span(&self, index: u32, time: SimTime) -> f64 {
+        let track = Track::of(&self.bodies.get(index).motion, time);
+        track.seconds_for(SPAN * self.flyers.grid.side())
+    }
+
+    /// Shapes in the tree that `index` may meet before it looks down again: of bodies that do not fly,
+    /// and of flyers too large for the grid.
+    pub(super) fn meet_shapes(&mut self, index: u32, time: SimTime, cause: Cause) {
+        let mut near = core::mem::take(&mut self.flyers.shapes);
+        let course = &mut self.bodies.get_mut(index).course;
+        let reached = course.reached;
+        self.broad.search_tree(&self.colliders, reached, &mut near);
+        let overlaps = |at: &u32| self.colliders[*at as usize].fat.overlaps(reached);
+        course.alone = !near.iter().any(overlaps);
+        course.clear_at = course.alone.then_some(time);
+        for &at in &near {
+            let owner = self.colliders[at as usize].body;
+            if owner == index {
+                continue;
+            }
+            let state = self.bodies.get(owner);
+            if state.course.flies {
+                let [own, theirs] =
+                    [index, owner].map(|body| Circle::of(self.bodies.get(body), time));
+                if let Some(window) = own.meets(&theirs) {
+                    self.approach(index, owner, window, time, cause);
+                }
+            } else if state.in_crowd {
+                self.pair_flyer(index, at);
+                self.knock_at(index, at, time);
+                if !self.bodies.get(index).course.flies {
+                    self.flyers.shapes = near;
+                    return;
+                }
+            } else if state.is_active() {
+                self.pair_flyer(index, at);
+            } else {
+                self.approach_shape(index, at, time, cause);
+            }
+        }
+        self.predict_pairs(index, time);
+        self.flyers.shapes = near;
+    }
+
+    pub(super) fn predict_pairs(&mut self, index: u32, time: SimTime) {
+        for slot in 0..self.bodies.get(index).pairs.len() {
+            self.predict(self.bodies.get(index).pairs[slot], time);
+        }
+    }
+
+    /// A flyer and a shape that rests.
+    pub(crate) fn approach_shape(&mut self, index: u32, at: u32, time: SimTime, cause: Cause) {
+        let body = self.bodies.get(index);
+        let owner = self.bodies.get(self.colliders[at as usize].body);
+        if body.kind != BodyKind::Dynamic && owner.kind != BodyKind::Dynamic {
+            return;
+        }
+        let motion = &body.motion;
+        let from = window::from_box(
+            motion.centre_at(time),
+            motion.velocity_at(time),
+            motion.acceleration,
+            body.reach,
+            self.colliders[at as usize].fat,
+        );
+        let left = body.course.ground - time;
+        if from > left {
+            return;
+        }
+        if from > 0.0 {
+            self.queue_near_shape(index, at, time + from);
+            return;
+        }
+        self.seek_shape(index, at, time, cause);
+    }
+
+    /// What does not fly is looked for anew: twice as far ahead where there was nothing.
+    pub(super) fn look_down_again(&mut self, index: u32, time: SimTime) {
+        let course = &self.bodies.get(index).course;
+        if course.cells.is_none() {
+            self.follow(index, time);
+            self.meet_flyers(index, time, Cause::Horizon, None);
+            self.meet_shapes(index, time, Cause::Horizon);
+            return;
+        }
+        let factor = if course.alone { 2.0 } else { 1.0 };
+        let span = factor * course.span;
+        self.look_down(index, time, span);
+        self.meet_shapes(index, time, Cause::Horizon);
+    }
+}
