@@ -5,15 +5,27 @@
 //! ```
 
 use std::error::Error;
+use std::process::ExitCode;
 
 use carom_math::vec2;
 use carom_render::{Chart, Series, Size, Style};
 use carom_tests::gas::{Molecule, Watch, gas, kinetic};
 
-fn main() -> Result<(), Box<dyn Error>> {
+fn main() -> ExitCode {
+    if let Err(error) = run() {
+        eprintln!("error: {error}");
+        return ExitCode::from(2);
+    }
+    ExitCode::SUCCESS
+}
+
+fn run() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);
-    let file = arguments.next().ok_or("which file for the chart?")?;
-    let seconds: f64 = arguments.next().as_deref().unwrap_or("10000").parse()?;
+    let file = arguments.next().ok_or("usage: gases CHART [SECONDS]")?;
+    let seconds = arguments.next().unwrap_or_else(|| "10000".to_owned());
+    let seconds: f64 = seconds
+        .parse()
+        .map_err(|_| format!("'{seconds}' is not a number of seconds"))?;
     let mut chart = Chart::new("What elastic gases lose")
         .subtitled("worst error of the energy so far, single impacts rounded once; a gas in a box, no friction")
         .x("time (s)")

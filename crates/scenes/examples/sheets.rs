@@ -6,6 +6,7 @@
 
 use std::error::Error;
 use std::path::PathBuf;
+use std::process::ExitCode;
 
 use carom_math::SimTime;
 use carom_render::{Frame, Picture, Sheet, Trace};
@@ -15,9 +16,17 @@ use carom_scenes::{find, list};
 const SIDE: u32 = 3;
 const WIDTH: u32 = 300;
 
-fn main() -> Result<(), Box<dyn Error>> {
+fn main() -> ExitCode {
+    if let Err(error) = run() {
+        eprintln!("error: {error}");
+        return ExitCode::from(2);
+    }
+    ExitCode::SUCCESS
+}
+
+fn run() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);
-    let folder = PathBuf::from(arguments.next().ok_or("which folder?")?);
+    let folder = PathBuf::from(arguments.next().ok_or("usage: sheets FOLDER [SCENE]…")?);
     let mut names: Vec<String> = arguments.collect();
     if names.is_empty() {
         names = list().iter().map(|info| info.name.to_owned()).collect();
