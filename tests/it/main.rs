@@ -26,5 +26,6 @@ mod stepped_cases;
 mod stepped_laws;
 mod stepped_slopes;
 mod stepped_swift;
+mod tipping;
 mod twins;
 mod zones;

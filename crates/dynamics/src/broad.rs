@@ -250,6 +250,7 @@ impl Broad {
             touching: false,
             lasting: false,
             mode: None,
+            tips: false,
             held: false,
             buried: false,
             impacts: 0,

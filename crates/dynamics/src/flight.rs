@@ -8,11 +8,13 @@ mod law;
 #[cfg(test)]
 mod tests;
 
+use carom_collision::Motion;
 use carom_math::{SimTime, Vec2};
 
 use crate::bodies::Bodies;
 use crate::state::{BodyState, Lag};
 use damped::damped;
+pub(crate) use integrate::{NODES, ROUNDS, STANDS};
 use kepler::Conic;
 pub(crate) use law::{Flight, Turn};
 
@@ -39,7 +41,8 @@ pub(crate) fn fly(bodies: &mut Bodies, index: u32, time: SimTime, h: f64) {
     let turning = state.torque * state.inverse_inertia;
     if !state.is_dynamic() || !bodies.bends(index) {
         let motion = &state.motion;
-        if motion.acceleration != free || motion.angular_acceleration != turning {
+        let curves = state.flight.is_some();
+        if curves || motion.acceleration != free || motion.angular_acceleration != turning {
             bodies.change(index, time, |motion| {
                 motion.acceleration = free;
                 motion.angular_acceleration = turning;
@@ -55,7 +58,7 @@ pub(crate) fn fly(bodies: &mut Bodies, index: u32, time: SimTime, h: f64) {
         Some(flight) if flight.holds(time, h) => flight,
         _ => Box::new(law_of(bodies, index, time, h)),
     };
-    follow(bodies, index, flight, time, h);
+    follow(bodies, index, flight, time, h, 0.0);
 }
 
 /// The law that a body flies by from `time` on.
@@ -90,14 +93,21 @@ fn law_of(bodies: &Bodies, index: u32, time: SimTime, h: f64) -> Flight {
 }
 
 /// Gives a body the piece of its flight from `time` to `time + h`: the parabola through both ends for
-/// prediction, and what its velocity lacks.
-fn follow(bodies: &mut Bodies, index: u32, flight: Box<Flight>, time: SimTime, h: f64) {
+/// prediction, and what its velocity lacks. `jerk` bounds what contacts add to the third derivative, in m/s³.
+pub(crate) fn follow(
+    bodies: &mut Bodies,
+    index: u32,
+    flight: Box<Flight>,
+    time: SimTime,
+    h: f64,
+    jerk: f64,
+) {
     let ((x, v), (rotation, spin)) = (flight.at(time), flight.turn_at(time));
     let ((x_end, v_end), (_, spin_end)) = (flight.at(time + h), flight.turn_at(time + h));
     let acceleration = (x_end - x - v * h) * (2.0 / (h * h));
     let state = bodies.get(index);
     let (linear, angular) = state.damping;
-    let (angle, _) = damped(spin, state.torque * state.inverse_inertia, angular, h);
+    let angle = flight.angle_over(time, h);
     let angular_acceleration = (angle - spin * h) * (2.0 / (h * h));
     let lag = Lag {
         rate: (v_end - (v + acceleration * h)) / h,
@@ -110,7 +120,7 @@ fn follow(bodies: &mut Bodies, index: u32, flight: Box<Flight>, time: SimTime, h
     let gradient = state.gravity_scale.abs() * bodies.pull.gradient_bound(x, reach);
     let bend = gradient * reach / h + linear * (acceleration.length() + linear * v.length() * h);
     let twist = angular * (angular_acceleration.abs() + angular * spin.abs() * h) * state.reach;
-    let left_out = 2.0 / 81.0 * (bend + twist) * h * h * h;
+    let left_out = 2.0 / 81.0 * (bend + twist + jerk) * h * h * h;
     bodies.change(index, time, |motion| {
         motion.centre = x;
         motion.velocity = v;
@@ -124,6 +134,25 @@ fn follow(bodies: &mut Bodies, index: u32, flight: Box<Flight>, time: SimTime, h
     state.member = false;
     state.lag = lag;
     state.flight = Some(flight);
+}
+
+/// The parabola through both ends of `h` seconds of a body's flight from `time` on.
+pub(crate) fn motion_along(state: &BodyState, time: SimTime, h: f64) -> Motion {
+    let Some(flight) = &state.flight else {
+        return state.motion.rebased(time);
+    };
+    let ((x, v), (rotation, spin)) = (flight.at(time), flight.turn_at(time));
+    let per = 2.0 / (h * h);
+    Motion {
+        start: time,
+        centre: x,
+        velocity: v,
+        acceleration: (flight.at(time + h).0 - x - v * h) * per,
+        rotation,
+        spin,
+        angular_acceleration: (flight.angle_over(time, h) - spin * h) * per,
+        left_out: 0.0,
+    }
 }
 
 /// Velocity in m/s and spin in rad/s that a body has after `h` seconds of a constant pull, in m/s² and rad/s²,

@@ -67,6 +67,7 @@ mod step;
 mod stepped;
 mod substep;
 mod threads;
+mod tipping;
 mod touching;
 mod world;
 

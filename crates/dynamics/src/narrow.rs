@@ -36,7 +36,7 @@ impl Narrow {
         h: f64,
     ) {
         let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
-        let (pose_a, pose_b) = (a.motion.pose_at(time), b.motion.pose_at(time));
+        let (pose_a, pose_b) = (a.centre_pose(time), b.centre_pose(time));
         let size = a.reach.min(b.reach);
         let margin = MARGIN * size + h * closing_bound(a, b, time);
         let near = a.reach + b.reach + margin;

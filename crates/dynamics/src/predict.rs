@@ -2,16 +2,17 @@
 
 use arrayvec::ArrayVec;
 use carom_collision::{
-    AxisFeature, Impact, ImpactFeature, TimeOfImpact, earlier, part, part_count,
+    AxisFeature, Hull, Impact, ImpactFeature, TimeOfImpact, earlier, part, part_count,
     time_of_impact_of_parts,
 };
 use carom_math::{SimTime, Vec2};
 
 use crate::agenda::{Agenda, Entry};
 use crate::bodies::Bodies;
+use crate::flight::motion_along;
 use crate::narrow::{Narrow, TOUCH, opening_speed, rest_speed};
-use crate::pairs::{Pair, PairPoint, Pairs};
-use crate::state::Collider;
+use crate::pairs::{Pair, PairContact, PairPoint, Pairs};
+use crate::state::{BodyState, Collider};
 use crate::{BodyKind, StepReport};
 
 /// What the impacts of one pair may spend in one sub-step before the solver takes the rest: bodies that
@@ -67,9 +68,12 @@ pub(crate) fn predict(
     report.pairs += 1;
     let mut first = TimeOfImpact::Clear;
     let rest = pair.lasting.then(|| rest_speed(bodies, pair, h));
-    if let Some(rest) = rest {
+    let touch = TOUCH * a.reach.min(b.reach);
+    if rest.is_some() {
         narrow.look(bodies, colliders, pair, time, h);
-        let touch = TOUCH * a.reach.min(b.reach);
+    }
+    // What becomes of the contacts of a group that turns is that group's next change.
+    if let Some(rest) = rest.filter(|_| !pair.tips) {
         for contact in &pair.contacts {
             for point in &contact.points {
                 let rate = opening_speed(a, b, time, point.position, contact.normal);
@@ -100,11 +104,17 @@ pub(crate) fn predict(
     for i in 0..part_count(shapes.0) {
         for j in 0..part_count(shapes.1) {
             let held = |&(x, y): &(u32, u32)| x as usize == i && y as usize == j;
-            if pair.lasting && pair.contacts.iter().any(|contact| held(&contact.parts)) {
+            let touches = |contact: &PairContact| {
+                contact.points.iter().any(|point| point.separation <= touch)
+            };
+            let holds =
+                |contact: &PairContact| held(&contact.parts) && (!pair.tips || touches(contact));
+            if pair.lasting && pair.contacts.iter().any(holds) {
                 continue;
             }
-            let (part_a, part_b) = (part(shapes.0, i), part(shapes.1, j));
-            let next = time_of_impact_of_parts(&part_a, &motion_a, &part_b, &motion_b, horizon);
+            let parts = (part(shapes.0, i), part(shapes.1, j));
+            let next = time_of_impact_of_parts(&parts.0, &motion_a, &parts.1, &motion_b, horizon);
+            let next = polished(next, (a, b), parts, time);
             // A contact that lasts holds what closes slowly on other parts, too.
             match &next {
                 TimeOfImpact::Hit(slow) | TimeOfImpact::Touching(slow)
@@ -133,6 +143,39 @@ pub(crate) fn predict(
     });
 }
 
+/// An impact that was found for the parabolas of two bodies, found once more for what they fly by near that instant.
+fn polished(
+    found: TimeOfImpact,
+    (a, b): (&BodyState, &BodyState),
+    parts: (Hull<'_>, Hull<'_>),
+    time: SimTime,
+) -> TimeOfImpact {
+    let TimeOfImpact::Hit(impact) = &found else {
+        return found;
+    };
+    let left_out = a.motion.left_out + b.motion.left_out;
+    if left_out == 0.0 || impact.gap_rate >= 0.0 {
+        return found;
+    }
+    let near = (4.0 * left_out / -impact.gap_rate).max(1e-6);
+    let from = if impact.time > near {
+        impact.time - near
+    } else {
+        0.0
+    };
+    let span = impact.time - from + near;
+    let motions = [a, b].map(|state| motion_along(state, time + from, span));
+    match time_of_impact_of_parts(&parts.0, &motions[0], &parts.1, &motions[1], span) {
+        TimeOfImpact::Hit(near) => TimeOfImpact::Hit(Impact {
+            time: from + near.time,
+            ..near
+        }),
+        // A graze that was none, or one that began before: the parabola's word stands.
+        TimeOfImpact::Clear => TimeOfImpact::Clear,
+        TimeOfImpact::Touching(_) | TimeOfImpact::Unresolved { .. } => found,
+    }
+}
+
 /// What touches at a contact point: the corners that the contact is named after.
 fn strikes_with(parts: (u32, u32), point: &PairPoint) -> ImpactFeature {
     let (a, b) = point.feature.vertices();
@@ -143,7 +186,7 @@ fn strikes_with(parts: (u32, u32), point: &PairPoint) -> ImpactFeature {
 }
 
 /// How fast a contact point wanders: with the two bodies' mean.
-fn both_move(a: &crate::state::BodyState, b: &crate::state::BodyState, time: SimTime) -> Vec2 {
+fn both_move(a: &BodyState, b: &BodyState, time: SimTime) -> Vec2 {
     0.5 * (a.motion.velocity_at(time) + b.motion.velocity_at(time))
 }
 

@@ -284,6 +284,14 @@ impl BodyState {
         }
     }
 
+    /// Frame of the centre of mass at `time`, by the law of its flight.
+    pub(crate) fn centre_pose(&self, time: SimTime) -> Pose {
+        if self.flight.is_none() {
+            return self.motion.pose_at(time);
+        }
+        Pose::new(self.centre_at(time), self.rotation_at(time))
+    }
+
     /// Frame of the shapes as drawn.
     pub(crate) fn pose(&self, time: SimTime) -> Pose {
         if self.flight.is_none() {

@@ -2,6 +2,7 @@
 
 use carom_math::SimTime;
 
+use crate::agenda::Entry;
 use crate::flight::fly;
 use crate::flyers::Cause;
 use crate::predict::{predict, price};
@@ -116,40 +117,7 @@ impl World {
                     self.give_up();
                     continue;
                 }
-                let struck = strike(
-                    &self.settings,
-                    &mut self.bodies,
-                    &self.colliders,
-                    &mut self.pairs,
-                    &mut self.narrow,
-                    &entry,
-                    self.clock.h,
-                    &mut self.events,
-                    &mut self.report,
-                );
-                match struck {
-                    Struck::Nothing => {}
-                    Struck::Rests => {
-                        self.predict(entry.pair, entry.time);
-                        let (a, b) = self.pairs.get(entry.pair).bodies;
-                        self.regroup(a, entry.time);
-                        self.regroup(b, entry.time);
-                    }
-                    Struck::Impact(changed) => {
-                        let lost = price(self.pairs.get(entry.pair));
-                        self.spent += lost;
-                        self.rush(&changed, lost, entry.time);
-                        // Who rested is awake before anybody asks who touches whom.
-                        for &index in &changed {
-                            if self.bodies.get(index).asleep {
-                                self.wake(index, entry.time);
-                            }
-                        }
-                        for index in changed {
-                            self.deflected(index, entry.time);
-                        }
-                    }
-                }
+                self.strike_entry(&entry);
                 if stop_at_event && !self.events.is_empty() {
                     return entry.time;
                 }
@@ -161,6 +129,44 @@ impl World {
                 }
             } else {
                 return end;
+            }
+        }
+    }
+
+    /// An impact that is due, unless its bodies have other motions by now.
+    pub(crate) fn strike_entry(&mut self, entry: &Entry) {
+        let struck = strike(
+            &self.settings,
+            &mut self.bodies,
+            &self.colliders,
+            &mut self.pairs,
+            &mut self.narrow,
+            entry,
+            self.clock.h,
+            &mut self.events,
+            &mut self.report,
+        );
+        match struck {
+            Struck::Nothing => {}
+            Struck::Rests => {
+                self.predict(entry.pair, entry.time);
+                let (a, b) = self.pairs.get(entry.pair).bodies;
+                self.regroup(a, entry.time);
+                self.regroup(b, entry.time);
+            }
+            Struck::Impact(changed) => {
+                let lost = price(self.pairs.get(entry.pair));
+                self.spent += lost;
+                self.rush(&changed, lost, entry.time);
+                // Who rested is awake before anybody asks who touches whom.
+                for &index in &changed {
+                    if self.bodies.get(index).asleep {
+                        self.wake(index, entry.time);
+                    }
+                }
+                for index in changed {
+                    self.deflected(index, entry.time);
+                }
             }
         }
     }

@@ -24,6 +24,7 @@ impl World {
         self.spent = 0.0;
         self.report.substeps += 1;
         self.look_at_fresh(time);
+        self.follow_tips(time, h);
         self.end_rush(time);
         self.guard(time);
         self.find_pairs(time, h);

@@ -120,9 +120,9 @@ fn mode_body(bodies: &Bodies, state: &BodyState, time: SimTime) -> ModeBody {
     ModeBody {
         inverse_mass: state.inverse_mass,
         inverse_inertia: state.inverse_inertia,
-        centre: state.motion.centre_at(time),
+        centre: state.centre_at(time),
         velocity: state.velocity_at(time),
-        spin: state.motion.spin_at(time),
+        spin: state.spin_at(time),
         pull: if dynamic {
             state.gravity_scale * bodies.pull.gravity + state.force * state.inverse_mass
         } else {
@@ -278,7 +278,7 @@ impl World {
                 continue;
             };
             let (hull_a, hull_b) = hulls(contact.parts);
-            let pose = |state: &BodyState| state.motion.pose_at(time);
+            let pose = |state: &BodyState| state.centre_pose(time);
             let mut features = (
                 feature(&hull_a, pose(a), contact.normal, contact.normal, origin),
                 feature(&hull_b, pose(b), -contact.normal, contact.normal, origin),

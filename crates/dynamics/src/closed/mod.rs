@@ -4,12 +4,18 @@
 //! at the instant of its own next change. Between these nobody touches it: its motions are right for
 //! as long as its mode lasts. What does not qualify is left to the sub-steps.
 
+mod jam;
+mod joints;
 mod store;
+mod tips;
 
+use arrayvec::ArrayVec;
 use carom_math::{SimTime, Vec2, cross_scalar, perp};
 
+use crate::agenda::Entry;
 use crate::flight::fly;
-use crate::modes::{BodyMove, GroupMove, judge, land};
+use crate::modes::{BodyMove, GroupMove, NotMine, TouchMove, judge, land};
+use crate::narrow::TOUCH;
 use crate::touching::{Gathered, Looks, Refused};
 use crate::{BodyKind, ContactMode, EventKind, Mode, World};
 pub(crate) use store::{Closed, Membership};
@@ -54,10 +60,17 @@ impl World {
         for group in self.closed.iter().filter(|group| !group.dozes) {
             for touch in &group.touches {
                 let pair = self.pairs.get_mut(touch.pair);
-                pair.lasting = true;
+                let reach = |index| self.bodies.get(index).reach;
+                let gap = TOUCH * reach(pair.bodies.0).min(reach(pair.bodies.1));
+                pair.lasting = touch.moved.mode != ContactMode::Open;
                 if let Some(contact) = pair.contacts.get_mut(touch.contact) {
                     contact.tangent_impulse = touch.moved.tangential * h;
-                    for (point, force) in contact.points.iter_mut().zip(touch.moved.normal) {
+                    let mut forces = touch.moved.normal.iter();
+                    for point in &mut contact.points {
+                        let mut force = 0.0;
+                        if point.separation <= gap {
+                            force = *forces.next().unwrap_or(&0.0);
+                        }
                         point.impulse = force * h;
                     }
                 }
@@ -77,8 +90,29 @@ impl World {
             return self.lull(place, time);
         }
         let speed = group.speed;
+        let landing = group.landing();
         let members = self.dissolve(place, time);
+        if let Some((pair, normal, at)) = landing {
+            self.comes_down(pair, normal, at, time);
+        }
         self.judge_all(&members, time, speed);
+    }
+
+    /// A corner of a group that turned comes down on an edge that it touched already.
+    fn comes_down(&mut self, place: u32, normal: Vec2, at: Vec2, time: SimTime) {
+        let Some(pair) = self.pairs.find(place) else {
+            return;
+        };
+        let versions = [pair.bodies.0, pair.bodies.1].map(|index| self.bodies.get(index).version);
+        let entry = Entry {
+            time,
+            key: pair.colliders,
+            pair: place,
+            versions: (versions[0], versions[1]),
+            normal,
+            points: ArrayVec::from_iter([at]),
+        };
+        self.strike_entry(&entry);
     }
 
     /// A member of a group has another motion: the group is judged anew, with who touches it now.
@@ -143,19 +177,27 @@ impl World {
         let Some(group) = self.closed.remove(place) else {
             return Vec::new();
         };
-        let elapsed = time - group.since;
-        for touch in &group.touches {
-            let heat = touch.heat(elapsed);
-            self.bodies.book.friction.add(heat);
-            self.bodies.book.scheme.add(heat);
-            self.bodies.book.external.add(touch.driven * elapsed);
-            self.bodies.book.scheme.add(-touch.driven * elapsed);
-        }
+        let (heat, driven) = group.works(time - group.since);
+        self.bodies.book.friction.add(heat);
+        self.bodies.book.external.add(driven);
+        self.bodies.book.scheme.add(heat - driven);
         let members: Vec<u32> = group.members.iter().map(|(index, _)| *index).collect();
         for &index in &members {
             self.bodies.get_mut(index).membership = Membership::default();
         }
+        self.leave_path(&group, time);
         members
+    }
+
+    /// A body flies from here on; those of its group are judged without it.
+    pub(crate) fn leave_group(&mut self, index: u32, time: SimTime) {
+        let place = self.bodies.get(index).membership.group;
+        if let Some(group) = self.closed.get(place) {
+            let speed = group.speed;
+            let mut members = self.dissolve(place, time);
+            members.retain(|member| *member != index);
+            self.judge_all(&members, time, speed);
+        }
     }
 
     /// A pair is no more: a group that it held together is taken apart.
@@ -236,7 +278,17 @@ impl World {
         };
         match judge(&gathered.bodies, &gathered.touches, speed) {
             Ok(moves) => self.close(&gathered, &moves, time, speed),
-            Err(_) => self.wait_around(&gathered.dynamic(), time),
+            Err(why) => {
+                let known = match why {
+                    NotMine::Turns | NotMine::Curved => self.tip_over(&gathered, time, speed),
+                    why => Err(why),
+                };
+                match known {
+                    Ok(()) => {}
+                    Err(NotMine::Painleve) if self.jams(&gathered, time) => {}
+                    Err(_) => self.wait_around(&gathered.dynamic(), time),
+                }
+            }
         }
     }
 
@@ -288,6 +340,7 @@ impl World {
             speed: fastest,
             sleeps: sleep.is_some(),
             dozes: false,
+            tipping: None,
         };
         let place = self.closed.insert(group, change);
         // What is driven begins to move without a touch.
@@ -298,7 +351,7 @@ impl World {
         for &(index, _) in &members {
             self.bodies.get_mut(index).membership = Membership::of(place);
         }
-        self.tell_modes(gathered, moves, time);
+        self.tell_modes(&gathered.pairs, &moves.touches, time);
         for (index, _) in members {
             self.redirect(index, time);
         }
@@ -342,12 +395,12 @@ impl World {
     }
 
     /// A mode that is new is an event.
-    fn tell_modes(&mut self, gathered: &Gathered, moves: &GroupMove, time: SimTime) {
-        for (&(place, contact), moved) in gathered.pairs.iter().zip(&moves.touches) {
+    fn tell_modes(&mut self, pairs: &[(u32, usize)], touches: &[TouchMove], time: SimTime) {
+        for (&(place, contact), moved) in pairs.iter().zip(touches) {
             let pair = self.pairs.get_mut(place);
             pair.lasting = moved.mode != ContactMode::Open;
             // A pair of several contacts moves as its first.
-            let first = gathered.pairs.iter().find(|other| other.0 == place);
+            let first = pairs.iter().find(|other| other.0 == place);
             if first != Some(&(place, contact)) || pair.mode == Some(moved.mode) {
                 continue;
             }

@@ -3,9 +3,11 @@
 use core::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use carom_math::SimTime;
+use carom_math::{SimTime, Vec2};
 
+use super::tips::Tipping;
 use crate::modes::TouchMove;
+use crate::tipping::Ends;
 
 /// Judgements of one group at one instant: more, and rounding moves it to and fro.
 const STALLED: u32 = 16;
@@ -93,6 +95,33 @@ pub(super) struct Group {
     pub(super) sleeps: bool,
     /// Nobody looks at its members: they rest, as the machinery knows what sleeps.
     pub(super) dozes: bool,
+    /// The path of one that turns.
+    pub(super) tipping: Option<Tipping>,
+}
+
+impl Group {
+    /// Heat by friction, and the work of driven partners, in the first `elapsed` seconds, in J.
+    pub(super) fn works(&self, elapsed: f64) -> (f64, f64) {
+        if let Some(tipping) = &self.tipping {
+            return (tipping.tip.heat(elapsed), 0.0);
+        }
+        let touches = self.touches.iter();
+        touches.fold((0.0, 0.0), |(heat, driven), touch| {
+            (heat + touch.heat(elapsed), driven + touch.driven * elapsed)
+        })
+    }
+
+    /// The pair whose corner comes down at the next change, the normal from A to B, and where.
+    pub(super) fn landing(&self) -> Option<(u32, Vec2, Vec2)> {
+        match self.tipping.as_ref()?.tip.ends {
+            Ends::Changes => None,
+            Ends::Lands {
+                contact,
+                normal,
+                at,
+            } => Some((self.touches.get(contact)?.pair, normal, at)),
+        }
+    }
 }
 
 /// A touch of a group while its mode lasts.
@@ -161,6 +190,18 @@ impl Closed {
         place
     }
 
+    /// Places of the groups that turn.
+    pub(super) fn tipping(&self) -> Vec<u32> {
+        let turns = |held: &Option<(u64, Group)>| {
+            held.as_ref()
+                .is_some_and(|(_, group)| group.tipping.is_some())
+        };
+        let all = (0_u32..).zip(&self.groups);
+        all.filter(|(_, held)| turns(held))
+            .map(|(place, _)| place)
+            .collect()
+    }
+
     /// The next sub-step lets go of a group at rest.
     pub(super) fn stands_still(&mut self, place: u32) {
         self.still.push((place, self.stamp));
@@ -189,14 +230,9 @@ impl Closed {
 
     /// Friction's heat, and the work of driven partners, that nobody has booked yet, in J.
     pub(crate) fn unbooked(&self, now: SimTime) -> (f64, f64) {
-        let touches = self
-            .iter()
-            .flat_map(|group| group.touches.iter().map(move |t| (t, group.since)));
-        touches.fold((0.0, 0.0), |(heat, driven), (touch, since)| {
-            (
-                heat + touch.heat(now - since),
-                driven + touch.driven * (now - since),
-            )
+        let works = self.iter().map(|group| group.works(now - group.since));
+        works.fold((0.0, 0.0), |(heat, driven), (more, work)| {
+            (heat + more, driven + work)
         })
     }
 

@@ -13,7 +13,7 @@
 use carom_math::Vec2;
 
 /// Gauss–Radau points of (0, 1], with 0 the first: roots of `P₇(s) + P₈(s)` for s = 2 τ − 1.
-const NODES: [f64; 8] = [
+pub(crate) const NODES: [f64; 8] = [
     0.0,
     0.056_262_560_536_922_15,
     0.180_240_691_736_892_36,
@@ -25,10 +25,10 @@ const NODES: [f64; 8] = [
 ];
 
 /// Rounds of correction at most; a stretch that needs more is too long.
-const ROUNDS: u32 = 12;
+pub(crate) const ROUNDS: u32 = 12;
 
 /// Change of the polynomial, as a part of the acceleration, at which it stands.
-const STANDS: f64 = 2.0 * f64::EPSILON;
+pub(crate) const STANDS: f64 = 2.0 * f64::EPSILON;
 
 /// A stretch of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,10 +1,13 @@
 //! The law of a flight that no quadratic is: kept beside the motion, which serves prediction.
 
+use std::sync::Arc;
+
 use carom_math::{Rot, SimTime, Vec2};
 
 use super::damped::damped;
 use super::integrate::Stretch;
 use super::kepler::Conic;
+use crate::tipping::Tip;
 
 /// Shortest stretch of the integrator, as a part of the time it is asked for: where a field has an edge.
 const SHORTEST: f64 = 1.0 / 1024.0;
@@ -30,6 +33,8 @@ enum Path {
     Conic { conic: Conic, core: Option<f64> },
     /// One after the other.
     Stretches(Vec<Stretch>),
+    /// Held by contacts: the path of a group, and which of its bodies this is.
+    Held { tip: Arc<Tip>, body: usize },
 }
 
 /// How the body turns.
@@ -76,6 +81,21 @@ impl Flight {
         flight.holds(start, h).then_some(flight)
     }
 
+    /// Of a body of a contact group.
+    pub(crate) fn held(tip: Arc<Tip>, body: usize) -> Self {
+        let turn = Turn {
+            rotation: tip.path.rotation(body),
+            spin: 0.0,
+            pull: 0.0,
+            damping: 0.0,
+        };
+        Self {
+            start: tip.path.start,
+            path: Path::Held { tip, body },
+            turn,
+        }
+    }
+
     /// Under any law, for at least `h` seconds, leaving out `error` metres a second.
     pub(crate) fn integrated(
         start: SimTime,
@@ -115,6 +135,7 @@ impl Flight {
                 let whole: f64 = stretches.iter().map(|stretch| stretch.length).sum();
                 t + h <= whole * (1.0 + 1e-12)
             }
+            Path::Held { tip, .. } => t + h <= tip.path.length * (1.0 + 1e-12),
         }
     }
 
@@ -143,13 +164,35 @@ impl Flight {
                 }
                 stretches[last].at(t)
             }
+            Path::Held { tip, body } => {
+                let (place, velocity, ..) = tip.path.body_after(*body, t);
+                (place, velocity)
+            }
         }
     }
 
     /// Rotation, and spin in rad/s.
     pub(crate) fn turn_at(&self, time: SimTime) -> (Rot, f64) {
-        let turn = &self.turn;
-        let (angle, spin) = damped(turn.spin, turn.pull, turn.damping, time - self.start);
-        (turn.rotation.turned(angle), spin)
+        let (angle, spin) = self.angle_at(time);
+        (self.turn.rotation.turned(angle), spin)
+    }
+
+    /// Angle that the body turns by in `h` seconds from `time` on, in rad.
+    pub(crate) fn angle_over(&self, time: SimTime, h: f64) -> f64 {
+        let (angle, spin) = self.angle_at(time);
+        if let Path::Held { .. } = self.path {
+            return self.angle_at(time + h).0 - angle;
+        }
+        damped(spin, self.turn.pull, self.turn.damping, h).0
+    }
+
+    /// Angle since the start, in rad, and spin in rad/s.
+    pub(crate) fn angle_at(&self, time: SimTime) -> (f64, f64) {
+        let (turn, t) = (&self.turn, time - self.start);
+        if let Path::Held { tip, body } = &self.path {
+            let (_, _, angle, spin) = tip.path.body_after(*body, t);
+            return (angle, spin);
+        }
+        damped(turn.spin, turn.pull, turn.damping, t)
     }
 }

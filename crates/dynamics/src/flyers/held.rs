@@ -59,6 +59,7 @@ impl World {
 
     /// A body that nothing holds any more flies from event to event.
     pub(crate) fn take_off(&mut self, index: u32, time: SimTime) {
+        self.leave_group(index, time);
         self.discharge(index);
         for place in self.bodies.get(index).pairs.clone() {
             let (a, b) = self.pairs.get(place).bodies;

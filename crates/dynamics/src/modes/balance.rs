@@ -10,7 +10,7 @@
 //! Trinkle 1996). Both friction forces of a face act along one line, so it has one.
 
 use super::NotMine;
-use super::faces::{Face, Faces, dot};
+use super::faces::{Face, Faces, Row, dot};
 use crate::lemke::complementary;
 
 /// Accelerations below this part of what they are the difference of are none.
@@ -70,7 +70,7 @@ pub(super) fn balance(faces: &Faces, tangents: &[Tangent]) -> Result<Balance, No
     for row in &unknowns {
         let others = unknowns.iter().zip(&columns);
         m.extend(others.map(|(other, column)| entry(faces, *row, *other, column)));
-        q.push(rate(faces, *row, &faces.free));
+        q.push(growth(faces, *row, &faces.free));
     }
     let failed = if slides {
         NotMine::Painleve
@@ -138,6 +138,15 @@ fn rate(faces: &Faces, row: Unknown, state: &[f64]) -> f64 {
     }
 }
 
+/// [`rate`] of accelerations, with what velocities add.
+fn growth(faces: &Faces, row: Unknown, state: &[f64]) -> f64 {
+    match row {
+        Unknown::Normal { face, point } => faces.list[face].normals[point].growth(state),
+        Unknown::Friction { face, sign } => sign * faces.list[face].tangent.growth(state),
+        Unknown::Rate { .. } => 0.0,
+    }
+}
+
 fn entry(faces: &Faces, row: Unknown, of: Unknown, column: &[f64]) -> f64 {
     match (row, of) {
         (Unknown::Friction { face, .. }, Unknown::Rate { face: other }) if face == other => 1.0,
@@ -183,18 +192,15 @@ fn read(
             found.tangential[i] = -sign * limit;
         }
         for (point, row) in face.normals.iter().enumerate() {
-            let (rate, rounding) = (
-                row.rate(&found.state),
-                faces.rounding(&row.unit, &found.state),
-            );
+            let (rate, rounding) = (row.growth(&found.state), faces.rounding(row, &found.state));
             if rate < -rounding || (found.normal[i][point] > 0.0 && rate > rounding) {
                 return None;
             }
             found.closed[i][point] = rate <= rounding;
         }
         if tangents[i] == Tangent::Holds {
-            let rounding = faces.rounding(&face.tangent.unit, &found.state);
-            found.sticks[i] = face.tangent.rate(&found.state).abs() <= rounding;
+            let rounding = faces.rounding(&face.tangent, &found.state);
+            found.sticks[i] = face.tangent.growth(&found.state).abs() <= rounding;
         }
     }
     Some(found)
@@ -202,14 +208,14 @@ fn read(
 
 impl Faces {
     /// What rounding may leave of a row's rate, where free and found accelerations cancel.
-    fn rounding(&self, row: &[f64], state: &[f64]) -> f64 {
+    fn rounding(&self, row: &Row, state: &[f64]) -> f64 {
         let sizes: Vec<f64> = self
             .free
             .iter()
             .zip(state)
             .map(|(a, b)| a.abs().max(b.abs()))
             .collect();
-        let lengths: Vec<f64> = row.iter().map(|x| x.abs()).collect();
-        ROUNDING * dot(&lengths, &sizes)
+        let lengths: Vec<f64> = row.unit.iter().map(|x| x.abs()).collect();
+        ROUNDING * (dot(&lengths, &sizes) + row.bend.abs())
     }
 }

@@ -19,6 +19,8 @@ const DEPENDENT: f64 = 1e-10;
 pub(super) struct Row {
     pub(super) unit: Vec<f64>,
     pub(super) length: f64,
+    /// What velocities alone add to its rate: 0 where the row does not turn.
+    pub(super) bend: f64,
 }
 
 /// The rows of one touch.
@@ -166,11 +168,20 @@ impl Row {
         if length > 0.0 {
             unit.iter_mut().for_each(|x| *x /= length);
         }
-        Self { unit, length }
+        Self {
+            unit,
+            length,
+            bend: 0.0,
+        }
     }
 
     pub(super) fn rate(&self, state: &[f64]) -> f64 {
         dot(&self.unit, state)
+    }
+
+    /// [`Self::rate`] of accelerations, with what velocities add.
+    pub(super) fn growth(&self, state: &[f64]) -> f64 {
+        self.rate(state) + self.bend
     }
 }
 

@@ -188,6 +188,56 @@ pub(crate) fn judge(
     })
 }
 
+/// How a group begins to move whose rows turn.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Begun {
+    /// Points that do not open.
+    pub(crate) closed: Vec<[bool; 2]>,
+    /// Touches that friction holds.
+    pub(crate) sticks: Vec<bool>,
+    /// Exactly 0 where they are no more than rounding, in m/s.
+    pub(crate) slips: Vec<f64>,
+    /// In N.
+    pub(crate) tangential: Vec<f64>,
+    /// What was given, without the roundings against the rows, in m/s and rad/s.
+    pub(crate) velocities: Vec<(Vec2, f64)>,
+}
+
+/// Modes at an instant of a group whose rows turn; `bends` is what velocities add to the rates of each touch's points,
+/// and of its tangent, in m/s².
+pub(crate) fn begin(
+    bodies: &[ModeBody],
+    touches: &[Touch],
+    bends: &[([f64; 2], f64)],
+    speed: f64,
+) -> Result<Begun, NotMine> {
+    if bodies.iter().any(faces::is_driven) {
+        return Err(NotMine::Turns);
+    }
+    let mut faces = Faces::new(bodies, touches);
+    for (face, (points, tangent)) in faces.list.iter_mut().zip(bends) {
+        for (row, bend) in face.normals.iter_mut().zip(points) {
+            row.bend = bend / row.length;
+        }
+        if face.tangent.length > 0.0 {
+            face.tangent.bend = tangent / face.tangent.length;
+        }
+    }
+    let slips = faces::slips(bodies, touches, speed)?;
+    let found = balance(&faces, &tangents(touches, &slips))?;
+    let moves = faces.moves(bodies, &found, &slips);
+    Ok(Begun {
+        closed: found.closed,
+        sticks: found.sticks,
+        slips,
+        tangential: found.tangential,
+        velocities: moves
+            .iter()
+            .map(|body| (body.velocity, body.spin))
+            .collect(),
+    })
+}
+
 /// Velocities after touches that close have come to rest along their normals, and against slip as
 /// far as friction can: the impact without restitution of the whole group.
 ///

@@ -139,6 +139,10 @@ impl World {
         }
         let group = state.membership.group;
         self.dissolve(group, time);
+        // What leaves a path looks for whom it meets, and may have met the crowd.
+        if self.bodies.get(index).in_crowd {
+            return;
+        }
         if !self.is_substepping() {
             self.begin_substeps(time);
         }

@@ -1,0 +1,85 @@
+//! Painlevé's configurations: friction outweighs the normal force that makes it, and no acceleration obeys Coulomb.
+//!
+//! An impulse does. Along Routh's path it grows from an approach of nothing: the normal speed falls as long as the
+//! contact slides, and rises once it does not (an impact without collision: Génot and Brogliato 1999).
+
+use carom_math::{SimTime, perp};
+
+use crate::impact::{ImpactContact, resolve};
+use crate::touching::Gathered;
+use crate::{EventKind, World};
+
+/// Approach that the impulse begins with, as a part of the slip.
+const NUDGE: f64 = 1e-13;
+
+/// A slip that loses less than this part by the impulse did not jam.
+const JAMS: f64 = 1e-6;
+
+impl World {
+    /// Gives a group of one point the impulse of a jam; whether it jams.
+    pub(super) fn jams(&mut self, gathered: &Gathered, time: SimTime) -> bool {
+        let ([touch], [(place, _)]) = (&*gathered.touches, &*gathered.pairs) else {
+            return false;
+        };
+        let [point] = *touch.points else {
+            return false;
+        };
+        let ends = [touch.bodies.0, touch.bodies.1].map(|slot| gathered.places[slot]);
+        let mut before = ends.map(|index| self.bodies.get(index).in_impact(time));
+        let tangent = perp(touch.normal);
+        let relative = before[1].velocity_of(point) - before[0].velocity_of(point);
+        let (slip, opening) = (relative.dot(tangent), relative.dot(touch.normal));
+        // From exactly the nudge on, whatever rounding left.
+        let moves = usize::from(before[0].inverse_mass < before[1].inverse_mass);
+        let excess = touch.normal * (opening + NUDGE * slip.abs());
+        before[moves].velocity += if moves == 1 { -excess } else { excess };
+        let contact = ImpactContact {
+            point,
+            normal: touch.normal,
+            restitution: self.pairs.get(*place).material.restitution,
+            friction: touch.friction,
+        };
+        let outcome = resolve(self.settings.impact_law, &before[0], &before[1], &contact);
+        let after = [outcome.a, outcome.b];
+        let left = (after[1].velocity_of(point) - after[0].velocity_of(point)).dot(tangent);
+        if (left - slip).abs() <= JAMS * slip.abs() {
+            return false;
+        }
+        let had: f64 = ends
+            .iter()
+            .map(|index| self.bodies.energy_of(*index, time).0)
+            .sum();
+        for (index, body) in ends.into_iter().zip(after) {
+            if body.inverse_mass > 0.0 {
+                self.bodies.change(index, time, |motion| {
+                    motion.velocity = body.velocity;
+                    motion.spin = body.spin;
+                });
+            }
+        }
+        let has: f64 = ends
+            .iter()
+            .map(|index| self.bodies.energy_of(*index, time).0)
+            .sum();
+        self.bodies.book.impacts.add(had - has);
+        self.report.impacts += 1;
+        self.events.push(
+            time,
+            EventKind::Impact {
+                a: self.bodies.get(ends[0]).id,
+                b: self.bodies.get(ends[1]).id,
+                point,
+                normal: touch.normal,
+                normal_impulse: outcome.normal_impulse,
+                tangential_impulse: outcome.tangential_impulse,
+                speed: 0.0,
+            },
+        );
+        for index in ends {
+            if self.bodies.get(index).inverse_mass > 0.0 {
+                self.deflected(index, time);
+            }
+        }
+        true
+    }
+}

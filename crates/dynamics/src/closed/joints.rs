@@ -1,0 +1,175 @@
+//! What of two parts touches at a point of contact that turns: a corner or a disc on an edge, a disc on a corner.
+
+use arrayvec::ArrayVec;
+use carom_collision::Hull;
+use carom_math::{Pose, Vec2, cross_scalar, perp};
+
+use crate::tipping::{End, Joint};
+
+/// Sine of the angle up to which an edge lies along a contact: far above rounding.
+const FLUSH: f64 = 1e-9;
+
+/// A convex part of a body at an instant.
+pub(super) struct Held<'a> {
+    pub(super) hull: Hull<'a>,
+    pub(super) pose: Pose,
+    pub(super) velocity: Vec2,
+    pub(super) spin: f64,
+}
+
+impl Held<'_> {
+    fn is_disc(&self) -> bool {
+        self.hull.normals.is_empty()
+    }
+
+    fn velocity_of(&self, point: Vec2) -> Vec2 {
+        self.velocity + cross_scalar(self.spin, point - self.pose.position)
+    }
+
+    /// The edge that lies along a contact whose normal points out of the part.
+    fn flush_edge(&self, outward: Vec2) -> Option<usize> {
+        let local = self.pose.inverse_vector(outward);
+        (0..self.hull.normals.len())
+            .find(|edge| (self.hull.normals[*edge] - local).length() <= FLUSH)
+    }
+
+    /// The vertex next to a point, and how far it is, in m.
+    fn vertex_near(&self, point: Vec2) -> Option<(usize, f64)> {
+        let local = self.pose.inverse_point(point);
+        let far = |vertex: &Vec2| (*vertex - local).length();
+        let all = self.hull.vertices.iter().map(far).enumerate();
+        all.min_by(|x, y| x.1.total_cmp(&y.1))
+    }
+
+    fn edge_line(&self, edge: usize) -> (Vec2, f64, [f64; 2]) {
+        let normal = self.hull.normals[edge];
+        if self.hull.is_half_plane() {
+            let ends = [f64::NEG_INFINITY, f64::INFINITY];
+            return (normal, normal.dot(self.hull.vertices[0]), ends);
+        }
+        let (from, to) = self.hull.edge(edge);
+        let (x, y) = (perp(normal).dot(from), perp(normal).dot(to));
+        let ends = if x < y { [x, y] } else { [y, x] };
+        (normal, normal.dot(from), ends)
+    }
+}
+
+/// What two parts touch with at a point; `normal` points from A to B.
+pub(super) fn joint(
+    a: &Held<'_>,
+    b: &Held<'_>,
+    normal: Vec2,
+    point: Vec2,
+    points: usize,
+    near: f64,
+) -> Option<Joint> {
+    match (a.is_disc(), b.is_disc()) {
+        (true, true) => Some(Joint::Points {
+            a: a.hull.vertices[0],
+            b: b.hull.vertices[0],
+            radii: (a.hull.radius, b.hull.radius),
+            cone: None,
+        }),
+        (false, true) => disc_on(a, b, End::A, normal, near),
+        (true, false) => disc_on(b, a, End::B, -normal, near),
+        (false, false) => corner_on(a, b, End::A, normal, point, points, near)
+            .or_else(|| corner_on(b, a, End::B, -normal, point, points, near)),
+    }
+}
+
+/// A disc on an edge or a corner of `own`; `outward` points from `own` to the disc.
+fn disc_on(own: &Held<'_>, disc: &Held<'_>, owner: End, outward: Vec2, near: f64) -> Option<Joint> {
+    let (tip, radius) = (disc.hull.vertices[0], disc.hull.radius);
+    let centre = disc.pose.point(tip);
+    let local = own.pose.inverse_point(centre);
+    if let Some(edge) = own.flush_edge(outward) {
+        let (normal, height, ends) = own.edge_line(edge);
+        let t = perp(normal);
+        let along = t.dot(local);
+        let glide = own
+            .pose
+            .inverse_vector(disc.velocity_of(centre) - own.velocity_of(centre))
+            .dot(t);
+        // At the very end it is the way it goes that tells edge from corner.
+        let leaves = along <= ends[0] + near * FLUSH && glide < 0.0
+            || along >= ends[1] - near * FLUSH && glide > 0.0;
+        if !leaves {
+            return Some(Joint::Line {
+                owner,
+                normal,
+                height,
+                ends,
+                tip,
+                radius,
+                beside: ArrayVec::new(),
+            });
+        }
+    }
+    let (vertex, _) = own.vertex_near(centre)?;
+    let corner = own.hull.vertices[vertex];
+    let count = own.hull.vertices.len();
+    let normals = [
+        own.hull.normals[(vertex + count - 1) % count],
+        own.hull.normals[vertex],
+    ];
+    let cone = Some((owner, normals));
+    Some(match owner {
+        End::A => Joint::Points {
+            a: corner,
+            b: tip,
+            radii: (0.0, radius),
+            cone,
+        },
+        End::B => Joint::Points {
+            a: tip,
+            b: corner,
+            radii: (radius, 0.0),
+            cone,
+        },
+    })
+}
+
+/// A corner of `other` on an edge of `own`; `outward` points from `own` to `other`.
+fn corner_on(
+    own: &Held<'_>,
+    other: &Held<'_>,
+    owner: End,
+    outward: Vec2,
+    point: Vec2,
+    points: usize,
+    near: f64,
+) -> Option<Joint> {
+    let edge = own.flush_edge(outward)?;
+    let (vertex, far) = other.vertex_near(point)?;
+    if far > near {
+        return None;
+    }
+    let (normal, height, ends) = own.edge_line(edge);
+    let local = |vertex: usize| {
+        own.pose
+            .inverse_point(other.pose.point(other.hull.vertices[vertex]))
+    };
+    let along = perp(normal).dot(local(vertex));
+    if along < ends[0] - near || along > ends[1] + near {
+        return None;
+    }
+    let count = other.hull.vertices.len();
+    let mut beside: ArrayVec<Vec2, 2> = ArrayVec::new();
+    for k in [(vertex + 1) % count, (vertex + count - 1) % count] {
+        let corner = other.hull.vertices[k];
+        // What lies flush is a point of the contact itself, or beyond its end.
+        let lies = points > 1 && normal.dot(local(k)) - height <= near;
+        if k != vertex && !lies && !beside.contains(&corner) {
+            beside.push(corner);
+        }
+    }
+    Some(Joint::Line {
+        owner,
+        normal,
+        height,
+        ends,
+        tip: other.hull.vertices[vertex],
+        radius: 0.0,
+        beside,
+    })
+}

@@ -1,0 +1,265 @@
+//! Groups that turn about their contacts, in a world: who touches with what, and whom the path moves.
+
+use std::sync::Arc;
+
+use arrayvec::ArrayVec;
+use carom_collision::part;
+use carom_math::SimTime;
+
+use super::joints::{Held, joint};
+use super::store::{Group, Kept, Membership};
+use crate::World;
+use crate::flight::{Flight, follow};
+use crate::modes::{BodyMove, NotMine, TouchMove};
+use crate::tipping::{Contact, Joint, Place, Tip, tip};
+use crate::touching::Gathered;
+
+/// A corner this near to a point of contact is what touches there, as a part of the smaller reach.
+const NEAR: f64 = 1e-6;
+
+/// Bodies that move in a group that turns: more are the solver's.
+const MOST: usize = 8;
+
+/// Shortest piece that a parabola is laid through, in s.
+const PIECE: f64 = 1e-4;
+
+/// A group that turns.
+#[derive(Clone, Debug)]
+pub(super) struct Tipping {
+    pub(super) tip: Arc<Tip>,
+    /// Place of each member in the group's list of bodies.
+    pub(super) slots: Vec<usize>,
+}
+
+impl World {
+    /// Moves a group along the path that its contacts leave it.
+    pub(super) fn tip_over(
+        &mut self,
+        gathered: &Gathered,
+        time: SimTime,
+        speed: f64,
+    ) -> Result<(), NotMine> {
+        let moving = gathered.bodies.iter();
+        if moving.filter(|body| body.inverse_mass > 0.0).count() > MOST {
+            return Err(NotMine::TooLarge);
+        }
+        // Flyers land first.
+        let flies = |index: &u32| self.bodies.get(*index).is_flying();
+        if gathered.places.iter().any(flies) {
+            return Err(NotMine::Turns);
+        }
+        let contacts = self.joints(gathered, time).ok_or(NotMine::Curved)?;
+        let both = gathered.places.iter().zip(&gathered.bodies);
+        let (mut places, mut reaches) = (Vec::new(), Vec::new());
+        for (&index, body) in both {
+            let state = self.bodies.get(index);
+            places.push(Place {
+                centre: body.centre,
+                rotation: state.rotation_at(time),
+                velocity: body.velocity,
+                spin: body.spin,
+            });
+            reaches.push(if body.inverse_mass > 0.0 {
+                state.reach
+            } else {
+                0.0
+            });
+        }
+        let tip = tip(&gathered.bodies, &places, &reaches, contacts, time, speed)?;
+        let touches = tip.touches_after(0.0).ok_or(NotMine::Unsolved)?;
+        let moves: Vec<BodyMove> = tip.path.places_after(0.0).iter().map(moved).collect();
+        let lost = gathered.kinetic(&self.bodies, time) - super::kinetic(gathered, &moves);
+        self.bodies.book.impacts.add(lost);
+        let (mut members, mut slots) = (Vec::new(), Vec::new());
+        let mut fastest = speed;
+        for (slot, (&index, moved)) in gathered.places.iter().zip(&moves).enumerate() {
+            if self.bodies.get(index).inverse_mass == 0.0 {
+                continue;
+            }
+            self.bodies.change(index, time, |motion| {
+                motion.velocity = moved.velocity;
+                motion.spin = moved.spin;
+            });
+            let state = self.bodies.get_mut(index);
+            state.member = true;
+            members.push((index, state.version));
+            slots.push(slot);
+            for fast in [moved.velocity.length(), moved.spin.abs() * state.reach] {
+                fastest = if fast > fastest { fast } else { fastest };
+            }
+        }
+        let kept = |(&(pair, contact), moved): (&(u32, usize), &TouchMove)| Kept {
+            pair,
+            contact,
+            moved: *moved,
+            slip_rate: 0.0,
+            driven: 0.0,
+        };
+        let change = time + tip.after;
+        let group = Group {
+            since: time,
+            touches: gathered.pairs.iter().zip(&touches).map(kept).collect(),
+            members: members.clone(),
+            speed: fastest,
+            sleeps: false,
+            dozes: false,
+            tipping: Some(Tipping {
+                tip: Arc::new(tip),
+                slots,
+            }),
+        };
+        let place = self.closed.insert(group, Some(change));
+        for &(index, _) in &members {
+            self.bodies.get_mut(index).membership = Membership::of(place);
+        }
+        for &(pair, _) in &gathered.pairs {
+            self.pairs.get_mut(pair).tips = true;
+        }
+        self.lay_pieces(place, time, self.clock.next() - time);
+        self.tell_modes(&gathered.pairs, &touches, time);
+        for (index, _) in members {
+            self.redirect(index, time);
+        }
+        Ok(())
+    }
+
+    /// Pieces of motion for the coming sub-step of all groups that turn.
+    pub(crate) fn follow_tips(&mut self, time: SimTime, h: f64) {
+        for place in self.closed.tipping() {
+            let stands = |group: &Group| {
+                let mut members = group.members.iter();
+                members.all(|&(index, version)| self.bodies.get(index).version == version)
+            };
+            match self.closed.get(place) {
+                Some(group) if stands(group) => self.lay_pieces(place, time, h),
+                Some(group) => {
+                    let first = group.members[0].0;
+                    self.rejudge(first, time);
+                }
+                None => {}
+            }
+        }
+    }
+
+    /// The members of a group that turned go on by the parabola that their path has at `time`.
+    pub(super) fn leave_path(&mut self, group: &Group, time: SimTime) {
+        let Some(Tipping { tip, slots }) = &group.tipping else {
+            return;
+        };
+        for touch in &group.touches {
+            if self.pairs.find(touch.pair).is_some() {
+                self.pairs.get_mut(touch.pair).tips = false;
+            }
+        }
+        let accelerations = tip.accelerations_after(time - tip.path.start);
+        for (&(index, _), &slot) in group.members.iter().zip(slots) {
+            // Who was given another motion has left the path already.
+            if self.bodies.get(index).flight.is_some() {
+                let (acceleration, angular) = accelerations[slot];
+                self.bodies.change(index, time, |motion| {
+                    motion.acceleration = acceleration;
+                    motion.angular_acceleration = angular;
+                });
+            }
+            self.redirect(index, time);
+        }
+    }
+
+    /// Gives every member of a group that turns the parabola through both ends of its path's next piece.
+    fn lay_pieces(&mut self, place: u32, time: SimTime, left: f64) {
+        let Some(group) = self.closed.get(place) else {
+            return;
+        };
+        let Some(Tipping { tip, slots }) = group.tipping.clone() else {
+            return;
+        };
+        let members = group.members.clone();
+        let passed = time - tip.path.start;
+        let h = if left > 0.0 { left } else { self.clock.h };
+        let known = tip.path.length - passed;
+        let h = h.min(known).max(PIECE.min(tip.path.length));
+        let mut renewed = Vec::with_capacity(members.len());
+        for (&(index, _), &slot) in members.iter().zip(&slots) {
+            let flight = Box::new(Flight::held(tip.clone(), slot));
+            let (bend, twist) = tip.path.jerk(slot);
+            let jerk = bend + twist * self.bodies.get(index).reach;
+            follow(&mut self.bodies, index, flight, time, h, jerk);
+            let state = self.bodies.get_mut(index);
+            state.member = true;
+            renewed.push((index, state.version));
+        }
+        let moved = tip.touches_after(passed);
+        if let Some(group) = self.closed.get_mut(place) {
+            group.members = renewed;
+            for (kept, moved) in group.touches.iter_mut().zip(moved.into_iter().flatten()) {
+                kept.moved = moved;
+            }
+        }
+    }
+
+    /// What touches what in every contact of a group; `None` where two corners meet.
+    fn joints(&self, gathered: &Gathered, time: SimTime) -> Option<Vec<Contact>> {
+        let all = gathered.pairs.iter().zip(&gathered.touches);
+        all.map(|(&(place, number), touch)| {
+            let pair = self.pairs.get(place);
+            let (a, b) = (
+                self.bodies.get(pair.bodies.0),
+                self.bodies.get(pair.bodies.1),
+            );
+            let parts = pair.contacts.get(number)?.parts;
+            let hull = |collider: u32, at: u32| {
+                part(&self.colliders[collider as usize].solid, at as usize)
+            };
+            let side = |k: usize, hull, pose| {
+                let body = &gathered.bodies[k];
+                Held {
+                    hull,
+                    pose,
+                    velocity: body.velocity,
+                    spin: body.spin,
+                }
+            };
+            let ends = (
+                side(
+                    touch.bodies.0,
+                    hull(pair.colliders.0, parts.0),
+                    a.centre_pose(time),
+                ),
+                side(
+                    touch.bodies.1,
+                    hull(pair.colliders.1, parts.1),
+                    b.centre_pose(time),
+                ),
+            );
+            let near = NEAR * a.reach.min(b.reach);
+            let joints: Option<ArrayVec<Joint, 2>> = touch
+                .points
+                .iter()
+                .map(|point| {
+                    joint(
+                        &ends.0,
+                        &ends.1,
+                        touch.normal,
+                        *point,
+                        touch.points.len(),
+                        near,
+                    )
+                })
+                .collect();
+            Some(Contact {
+                bodies: touch.bodies,
+                joints: joints?,
+                friction: touch.friction,
+            })
+        })
+        .collect()
+    }
+}
+
+fn moved(place: &Place) -> BodyMove {
+    BodyMove {
+        velocity: place.velocity,
+        spin: place.spin,
+        ..BodyMove::default()
+    }
+}

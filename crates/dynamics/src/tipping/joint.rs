@@ -1,0 +1,336 @@
+//! A point of contact between two bodies that turn: its gap, its rows, and what they change by.
+//!
+//! ```text
+//! g″   = n·(a_B − a_A) + (r_B × n) α_B − (r_A × n) α_A + γ_n
+//! v_t′ = t·(a_B − a_A) + (r_B × t) α_B − (r_A × t) α_A + γ_t         n from A to B, t = n turned by +90°
+//! ```
+//!
+//! The rows are those of a contact that does not turn; γ is what velocities alone do to them.
+
+use arrayvec::ArrayVec;
+use carom_math::{Rot, Vec2, cross, perp};
+
+/// Where a body is and how it moves at an instant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Place {
+    /// Centre of mass, in m.
+    pub(crate) centre: Vec2,
+    pub(crate) rotation: Rot,
+    /// In m/s.
+    pub(crate) velocity: Vec2,
+    /// In rad/s.
+    pub(crate) spin: f64,
+}
+
+impl Place {
+    fn point(&self, local: Vec2) -> Vec2 {
+        self.centre + self.rotation * local
+    }
+
+    fn velocity_of(&self, point: Vec2) -> Vec2 {
+        self.velocity + perp(point - self.centre) * self.spin
+    }
+}
+
+/// Which of the two bodies of a contact.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum End {
+    A,
+    B,
+}
+
+/// What touches what, in the frames of the two bodies about their centres of mass.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Joint {
+    /// A corner, or a disc about a point, on a straight edge.
+    Line {
+        /// Whose edge it is.
+        owner: End,
+        /// Outward unit normal of the edge.
+        normal: Vec2,
+        /// Distance of the edge's line from the owner's centre of mass along the normal, in m.
+        height: f64,
+        /// Both ends of the edge along the normal turned by +90°, in m.
+        ends: [f64; 2],
+        /// The corner, or the disc's centre, of the other body.
+        tip: Vec2,
+        /// 0 for a corner, in m.
+        radius: f64,
+        /// The corners beside the tip, where they do not touch themselves.
+        beside: ArrayVec<Vec2, 2>,
+    },
+    /// Two discs, or a disc and a corner.
+    Points {
+        a: Vec2,
+        b: Vec2,
+        /// 0 for a corner, in m.
+        radii: (f64, f64),
+        /// Whose corner it is, and the normals of the edges that end there, clockwise one first.
+        cone: Option<(End, [Vec2; 2])>,
+    },
+}
+
+/// A contact at an instant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Seen {
+    /// Unit normal from A to B.
+    pub(crate) normal: Vec2,
+    /// In m.
+    pub(crate) point: Vec2,
+    /// In m; negative: overlap.
+    pub(crate) gap: f64,
+    /// Speed of B against A along the tangent, in m/s.
+    pub(crate) slip: f64,
+    /// `γ_n`, in m/s².
+    pub(crate) bend: f64,
+    /// `γ_t`, in m/s².
+    pub(crate) drift: f64,
+}
+
+/// What must stay positive as long as a joint lasts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Margin {
+    /// Way left on the edge, in m; for a disc on a corner, on the arc.
+    Way(f64),
+    /// Gap of a corner beside the tip, in m: it lands.
+    Corner {
+        gap: f64,
+        /// Where it would land, in m.
+        at: Vec2,
+    },
+}
+
+impl Margin {
+    pub(crate) const fn value(self) -> f64 {
+        match self {
+            Self::Way(left) => left,
+            Self::Corner { gap, .. } => gap,
+        }
+    }
+}
+
+impl Joint {
+    /// Normal from A to B and point of contact, with all that moves them.
+    pub(crate) fn seen(&self, a: &Place, b: &Place) -> Seen {
+        match *self {
+            Self::Line {
+                owner,
+                normal,
+                height,
+                tip,
+                radius,
+                ..
+            } => {
+                let (own, other) = match owner {
+                    End::A => (a, b),
+                    End::B => (b, a),
+                };
+                let n = own.rotation * normal;
+                let t = perp(n);
+                let q = other.point(tip);
+                let (arm, way) = (q - other.centre, q - own.centre);
+                let q_rate = other.velocity_of(q);
+                let point = q - n * radius;
+                // g = n·(q − c) − h − r, with n′ = ω t and t′ = −ω n.
+                let bend = 2.0 * own.spin * t.dot(q_rate - own.velocity)
+                    - own.spin * own.spin * n.dot(way)
+                    - other.spin * other.spin * n.dot(arm);
+                let point_rate = q_rate - t * (radius * own.spin);
+                let slip = other.velocity_of(point) - own.velocity_of(point);
+                let drift = -own.spin * n.dot(slip)
+                    + t.dot(
+                        perp(point_rate - other.velocity) * other.spin
+                            - perp(point_rate - own.velocity) * own.spin,
+                    );
+                Seen {
+                    // Seen from A; both rates are the same from either side.
+                    normal: if owner == End::A { n } else { -n },
+                    point,
+                    gap: n.dot(way) - height - radius,
+                    slip: t.dot(slip),
+                    bend,
+                    drift,
+                }
+            }
+            Self::Points {
+                a: of_a,
+                b: of_b,
+                radii,
+                ..
+            } => {
+                let (p, q) = (a.point(of_a), b.point(of_b));
+                let d = q - p;
+                let distance = d.length();
+                let n = d / distance;
+                let t = perp(n);
+                let (p_rate, q_rate) = (a.velocity_of(p), b.velocity_of(q));
+                let across = t.dot(q_rate - p_rate);
+                // n′ = t (t·d′)/|d|
+                let turning = across / distance;
+                let bend = n
+                    .dot((p - a.centre) * (a.spin * a.spin) - (q - b.centre) * (b.spin * b.spin))
+                    + across * turning;
+                let point = p + n * radii.0;
+                let point_rate = p_rate + t * (radii.0 * turning);
+                let slip = b.velocity_of(point) - a.velocity_of(point);
+                let drift = -turning * n.dot(slip)
+                    + t.dot(
+                        perp(point_rate - b.velocity) * b.spin
+                            - perp(point_rate - a.velocity) * a.spin,
+                    );
+                Seen {
+                    normal: n,
+                    point,
+                    gap: distance - radii.0 - radii.1,
+                    slip: t.dot(slip),
+                    bend,
+                    drift,
+                }
+            }
+        }
+    }
+
+    /// What ends the joint when it falls to 0.
+    pub(crate) fn margins(&self, a: &Place, b: &Place) -> ArrayVec<Margin, 4> {
+        let mut margins = ArrayVec::new();
+        match self {
+            Self::Line {
+                owner,
+                normal,
+                height,
+                ends,
+                tip,
+                beside,
+                ..
+            } => {
+                let (own, other) = match owner {
+                    End::A => (a, b),
+                    End::B => (b, a),
+                };
+                let n = own.rotation * *normal;
+                let along = perp(n).dot(other.point(*tip) - own.centre);
+                for left in [along - ends[0], ends[1] - along] {
+                    if left.is_finite() {
+                        margins.push(Margin::Way(left));
+                    }
+                }
+                for corner in beside {
+                    let at = other.point(*corner);
+                    let gap = n.dot(at - own.centre) - height;
+                    margins.push(Margin::Corner { gap, at });
+                }
+            }
+            Self::Points { cone: None, .. } => {}
+            Self::Points {
+                a: of_a,
+                b: of_b,
+                radii,
+                cone: Some((owner, normals)),
+            } => {
+                let n = (b.point(*of_b) - a.point(*of_a)).normalize();
+                let (own, outward) = match owner {
+                    End::A => (a, n),
+                    End::B => (b, -n),
+                };
+                let arc = radii.0 + radii.1;
+                let (low, high) = (own.rotation * normals[0], own.rotation * normals[1]);
+                margins.push(Margin::Way(cross(low, outward) * arc));
+                margins.push(Margin::Way(cross(outward, high) * arc));
+            }
+        }
+        margins
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use carom_math::vec2;
+    use proptest::prelude::*;
+
+    fn moved(place: &Place, (a, alpha): (Vec2, f64), t: f64) -> Place {
+        Place {
+            centre: place.centre + place.velocity * t + a * (0.5 * t * t),
+            rotation: place.rotation.turned(place.spin * t + 0.5 * alpha * t * t),
+            velocity: place.velocity + a * t,
+            spin: place.spin + alpha * t,
+        }
+    }
+
+    fn place() -> impl Strategy<Value = Place> {
+        let number = || -2.0..2.0_f64;
+        (number(), number(), number(), number(), number(), number()).prop_map(
+            |(x, y, angle, vx, vy, spin)| Place {
+                centre: vec2(x, y),
+                rotation: Rot::from_angle(angle),
+                velocity: vec2(vx, vy),
+                spin,
+            },
+        )
+    }
+
+    fn joint() -> impl Strategy<Value = Joint> {
+        let number = || -1.0..1.0_f64;
+        let owner = || prop_oneof![Just(End::A), Just(End::B)];
+        let line = (
+            owner(),
+            number(),
+            number(),
+            number(),
+            number(),
+            0.0..0.5_f64,
+        )
+            .prop_map(|(owner, angle, height, x, y, radius)| Joint::Line {
+                owner,
+                normal: Rot::from_angle(3.0 * angle) * Vec2::X,
+                height,
+                ends: [-1.0, 1.0],
+                tip: vec2(x, y),
+                radius,
+                beside: ArrayVec::new(),
+            });
+        let points = (
+            number(),
+            number(),
+            number(),
+            number(),
+            0.1..0.5_f64,
+            0.0..0.5_f64,
+        )
+            .prop_map(|(x, y, z, w, r, s)| Joint::Points {
+                a: vec2(x, y),
+                b: vec2(z, w),
+                radii: (r, s),
+                cone: None,
+            });
+        prop_oneof![line, points]
+    }
+
+    proptest! {
+        /// Rows and what they change by, against differences of gap and slip themselves.
+        #[test]
+        fn rates_are_those_of_the_gap_and_the_slip(
+            joint in joint(), a in place(), b in place(), pull in prop::array::uniform6(-3.0..3.0_f64),
+        ) {
+            let accelerations = (
+                (vec2(pull[0], pull[1]), pull[2]),
+                (vec2(pull[3], pull[4]), pull[5]),
+            );
+            if let Joint::Points { a: p, b: q, .. } = &joint {
+                prop_assume!((b.point(*q) - a.point(*p)).length() > 0.3);
+            }
+            let at = |t: f64| joint.seen(&moved(&a, accelerations.0, t), &moved(&b, accelerations.1, t));
+            let now = at(0.0);
+            let rate = |along: Vec2| {
+                let of = |place: &Place, (a, alpha): (Vec2, f64)| a + perp(now.point - place.centre) * alpha;
+                (of(&b, accelerations.1) - of(&a, accelerations.0)).dot(along)
+            };
+            let h = 1e-4;
+            let gap = (at(h).gap - 2.0 * now.gap + at(-h).gap) / (h * h);
+            prop_assert!((rate(now.normal) + now.bend - gap).abs() < 1e-4 * (1.0 + gap.abs()));
+            let slip = (at(h).slip - at(-h).slip) / (2.0 * h);
+            let found = rate(perp(now.normal)) + now.drift;
+            prop_assert!((found - slip).abs() < 1e-4 * (1.0 + slip.abs()), "{found} not {slip}");
+        }
+    }
+}

@@ -1,0 +1,297 @@
+//! Contact groups whose rows turn with their bodies: a box that tips about its corner, a disc that rolls over a disc.
+//!
+//! While every contact keeps its mode the accelerations follow from where the bodies are ([`equations`]); they are
+//! integrated with dense output ([`path`]), and the mode ends at the first root of its margins ([`roots`]).
+//!
+//! Pure functions on plain data: nothing here knows a world.
+
+mod equations;
+mod joint;
+mod path;
+mod roots;
+#[cfg(test)]
+mod tests;
+
+use arrayvec::ArrayVec;
+use carom_math::{SimTime, Vec2};
+
+use crate::ContactMode;
+use crate::modes::{Feature, ModeBody, NotMine, ROWS, Touch, TouchMove, begin};
+pub(crate) use equations::{Equations, Forces};
+pub(crate) use joint::{End, Joint, Place};
+pub(crate) use path::Path;
+use roots::{Limit, first, heat};
+
+/// Longest stretch of a path, in s.
+const LONGEST: f64 = 0.25;
+
+/// Shortest one, in s: below it forces grow without bound.
+const SHORTEST: f64 = 1e-7;
+
+/// What a path may leave out, as a fraction of the smallest reach a second.
+const ERROR: f64 = 1e-11;
+
+/// Modes tried at one instant.
+const TRIES: usize = 8;
+
+/// A contact of two bodies: one point, or both ends of a stretch, with one friction.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Contact {
+    /// Places of A and B in the list of bodies.
+    pub(crate) bodies: (usize, usize),
+    pub(crate) joints: ArrayVec<Joint, 2>,
+    /// Coefficient of friction.
+    pub(crate) friction: f64,
+}
+
+/// Friction while a mode lasts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Rub {
+    /// There is none.
+    Smooth,
+    /// The points in touch move alike.
+    Sticks,
+    /// It opposes a slip of this sign.
+    Slides(f64),
+}
+
+/// Mode of a contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Hold {
+    /// Points that stay in touch.
+    pub(crate) closed: [bool; 2],
+    /// Points that have come over the end of an edge: there is no line under them any more.
+    pub(crate) over: [bool; 2],
+    pub(crate) rub: Rub,
+}
+
+/// Why a path ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Ends {
+    /// A mode changes, or the stretch is over: the group is judged anew.
+    Changes,
+    /// A corner comes down on the edge of a contact.
+    Lands {
+        contact: usize,
+        /// From A to B.
+        normal: Vec2,
+        /// In m.
+        at: Vec2,
+    },
+}
+
+/// How a group moves until its next change.
+#[derive(Clone, Debug)]
+pub(crate) struct Tip {
+    pub(crate) path: Path,
+    pub(crate) equations: Equations,
+    /// In s from the start of the path.
+    pub(crate) after: f64,
+    pub(crate) ends: Ends,
+}
+
+impl Tip {
+    /// Heat by friction in the first `elapsed` seconds, in J.
+    pub(crate) fn heat(&self, elapsed: f64) -> f64 {
+        heat(&self.equations, &self.path, elapsed)
+    }
+
+    /// Accelerations of all bodies `t` seconds after the start: those of gravity alone where forces have none.
+    pub(crate) fn accelerations_after(&self, t: f64) -> Vec<(Vec2, f64)> {
+        let forces = self.equations.forces(&self.path.places_after(t));
+        let free = |body: &ModeBody| (body.pull, body.twist);
+        forces.map_or_else(
+            || self.equations.bodies.iter().map(free).collect(),
+            |forces| forces.accelerations,
+        )
+    }
+
+    /// What every contact does `t` seconds after the start.
+    pub(crate) fn touches_after(&self, t: f64) -> Option<Vec<TouchMove>> {
+        let places = self.path.places_after(t);
+        let forces = self.equations.forces(&places)?;
+        let seen = self.equations.seen(&places);
+        let all = self.equations.holds.iter().enumerate();
+        Some(
+            all.map(|(i, hold)| TouchMove {
+                mode: self.mode(i),
+                normal: forces.normal[i],
+                tangential: forces.tangential[i],
+                slip: match hold.rub {
+                    Rub::Slides(_) => seen[i][0].map_or(0.0, |seen| seen.slip),
+                    Rub::Smooth | Rub::Sticks => 0.0,
+                },
+            })
+            .collect(),
+        )
+    }
+
+    fn mode(&self, i: usize) -> ContactMode {
+        let (contact, hold) = (&self.equations.contacts[i], &self.equations.holds[i]);
+        let round = |joint: &Joint| match joint {
+            Joint::Line { radius, .. } => *radius > 0.0,
+            Joint::Points { .. } => true,
+        };
+        if !hold.closed.contains(&true) {
+            ContactMode::Open
+        } else if hold.rub != Rub::Sticks {
+            ContactMode::Slide
+        } else if contact.joints.iter().any(round) {
+            ContactMode::Roll
+        } else {
+            ContactMode::Stick
+        }
+    }
+}
+
+/// The path of a group from `start` on.
+///
+/// `speed` is the largest speed from whose roundings the given velocities may come, in m/s; `reaches` are those of the
+/// bodies, in m.
+pub(crate) fn tip(
+    bodies: &[ModeBody],
+    places: &[Place],
+    reaches: &[f64],
+    contacts: Vec<Contact>,
+    start: SimTime,
+    speed: f64,
+) -> Result<Tip, NotMine> {
+    let rows = |contact: &Contact| contact.joints.len() + usize::from(contact.friction > 0.0);
+    if contacts.iter().map(rows).sum::<usize>() > ROWS {
+        return Err(NotMine::TooLarge);
+    }
+    let mut bodies = bodies.to_vec();
+    let mut places = places.to_vec();
+    let (holds, velocities) = modes(&bodies, &places, &contacts, speed)?;
+    let mut fastest = speed;
+    for ((place, body), (velocity, spin)) in places.iter_mut().zip(&mut bodies).zip(velocities) {
+        (place.velocity, place.spin) = (velocity, spin);
+        (body.velocity, body.spin) = (velocity, spin);
+        fastest = fastest.max(velocity.length());
+    }
+    let moving = bodies.iter().zip(reaches);
+    let moving = moving.filter(|(body, _)| body.inverse_mass > 0.0);
+    let size = moving
+        .map(|(_, reach)| *reach)
+        .fold(f64::INFINITY, f64::min);
+    let mut equations = Equations {
+        bodies,
+        contacts,
+        holds,
+    };
+    for _ in 0..TRIES {
+        let flat = |forces: Forces| {
+            let all = forces.accelerations.into_iter();
+            all.flat_map(|(a, alpha)| [a.x, a.y, alpha]).collect()
+        };
+        let f = |places: &[Place]| equations.forces(places).map(flat);
+        let lengths = (LONGEST, SHORTEST);
+        let path = Path::follow(&f, start, &places, reaches, lengths, ERROR * size)
+            .ok_or(NotMine::Unsolved)?;
+        let (after, limit) = match first(&equations, &path, (size, fastest)) {
+            roots::End::Open => (path.length, None),
+            roots::End::After(after, limit) => (after, Some(limit)),
+            roots::End::Never(limit) => {
+                // The edge of a mode: what rounding decided was decided wrongly.
+                amend(&mut equations, limit)?;
+                continue;
+            }
+            roots::End::Lost => return Err(NotMine::Unsolved),
+        };
+        let ends = match limit {
+            Some(Limit::Corner {
+                contact,
+                normal,
+                at,
+            }) => Ends::Lands {
+                contact,
+                normal,
+                at,
+            },
+            _ => Ends::Changes,
+        };
+        return Ok(Tip {
+            path,
+            equations,
+            after,
+            ends,
+        });
+    }
+    Err(NotMine::Unsolved)
+}
+
+/// A contact whose margin is 0 and falls is in the next mode already.
+fn amend(equations: &mut Equations, limit: Limit) -> Result<(), NotMine> {
+    let holds = &mut equations.holds;
+    match limit {
+        Limit::Press { contact, point } => {
+            holds[contact].closed[point] = false;
+            Ok(())
+        }
+        Limit::Grip { contact, sign } => {
+            holds[contact].rub = Rub::Slides(sign);
+            Ok(())
+        }
+        Limit::Slip { contact } => {
+            holds[contact].rub = Rub::Sticks;
+            Ok(())
+        }
+        // A corner that slides over the end of an edge moves on along that edge's line, and what follows it rises: it
+        // leaves. A disc rolls round the corner.
+        Limit::Way { contact, point } => match equations.contacts[contact].joints[point] {
+            Joint::Line { radius: 0.0, .. } => {
+                holds[contact].closed[point] = false;
+                holds[contact].over[point] = true;
+                Ok(())
+            }
+            _ => Err(NotMine::Curved),
+        },
+        Limit::Corner { .. } => Err(NotMine::Unsolved),
+    }
+}
+
+/// Modes by the complementarity problem of this instant, and the velocities without the roundings against them.
+type Modes = (Vec<Hold>, Vec<(Vec2, f64)>);
+
+fn modes(
+    bodies: &[ModeBody],
+    places: &[Place],
+    contacts: &[Contact],
+    speed: f64,
+) -> Result<Modes, NotMine> {
+    let mut touches = Vec::with_capacity(contacts.len());
+    let mut bends = Vec::with_capacity(contacts.len());
+    for contact in contacts {
+        let (a, b) = (&places[contact.bodies.0], &places[contact.bodies.1]);
+        let seen: ArrayVec<_, 2> = contact
+            .joints
+            .iter()
+            .map(|joint| joint.seen(a, b))
+            .collect();
+        let bend = |k: usize| seen.get(k).map_or(0.0, |seen| seen.bend);
+        bends.push(([bend(0), bend(1)], seen[0].drift));
+        touches.push(Touch {
+            bodies: contact.bodies,
+            normal: seen[0].normal,
+            points: seen.iter().map(|seen| seen.point).collect(),
+            features: (Feature::Corner, Feature::Corner),
+            friction: contact.friction,
+        });
+    }
+    let begun = begin(bodies, &touches, &bends, speed)?;
+    let hold = |(i, touch): (usize, &Touch)| Hold {
+        closed: begun.closed[i],
+        over: [false; 2],
+        rub: if touch.friction == 0.0 {
+            Rub::Smooth
+        } else if begun.sticks[i] {
+            Rub::Sticks
+        } else if begun.slips[i] != 0.0 {
+            Rub::Slides(begun.slips[i].signum())
+        } else {
+            Rub::Slides(-begun.tangential[i].signum())
+        },
+    };
+    let holds = touches.iter().enumerate().map(hold).collect();
+    Ok((holds, begun.velocities))
+}

@@ -1,0 +1,180 @@
+//! Paths of several bodies at once, `y″ = f(y, y′)`: the collocation of [`crate::flight`] for any number of coordinates.
+//!
+//! Three coordinates a body: both of its centre in m, and the angle since the start of the path in rad.
+
+use carom_math::{Rot, SimTime, Vec2, vec2};
+
+use super::joint::Place;
+use crate::flight::{NODES, ROUNDS, STANDS};
+
+/// Where bodies are for a while, as polynomials of degree 9.
+#[derive(Clone, Debug)]
+pub(crate) struct Path {
+    pub(crate) start: SimTime,
+    /// In s.
+    pub(crate) length: f64,
+    rotations: Vec<Rot>,
+    place: Vec<f64>,
+    velocity: Vec<f64>,
+    /// b₀ … b₇ of each coordinate.
+    terms: Vec<[f64; 8]>,
+}
+
+impl Path {
+    /// From these places on under `f`, for `longest` seconds or less: as far as it leaves out less than `error`
+    /// metres a second, an angle counting as the way at its `reach`; `None` if it is not known for `shortest` seconds.
+    pub(crate) fn follow(
+        f: &impl Fn(&[Place]) -> Option<Vec<f64>>,
+        start: SimTime,
+        places: &[Place],
+        reaches: &[f64],
+        (longest, shortest): (f64, f64),
+        error: f64,
+    ) -> Option<Self> {
+        let first = f(places)?;
+        let flat = |of: fn(&Place) -> [f64; 3]| places.iter().flat_map(of).collect::<Vec<f64>>();
+        let mut path = Self {
+            start,
+            length: longest,
+            rotations: places.iter().map(|place| place.rotation).collect(),
+            place: flat(|place| [place.centre.x, place.centre.y, 0.0]),
+            velocity: flat(|place| [place.velocity.x, place.velocity.y, place.spin]),
+            terms: Vec::new(),
+        };
+        let scale = |k: usize| if k % 3 == 2 { reaches[k / 3] } else { 1.0 };
+        while path.length >= shortest {
+            let stands = path.collocate(f, &first, &scale);
+            let left_out = path.left_out(&scale);
+            if stands && left_out <= error * path.length {
+                return Some(path);
+            }
+            let ratio = error * path.length / left_out;
+            let shrink = if stands && ratio > 0.0 && ratio.is_finite() {
+                (0.9 * ratio.sqrt().sqrt().sqrt()).clamp(0.1, 0.8)
+            } else {
+                0.25
+            };
+            path.length *= shrink;
+        }
+        None
+    }
+
+    fn collocate(
+        &mut self,
+        f: &impl Fn(&[Place]) -> Option<Vec<f64>>,
+        first: &[f64],
+        scale: &impl Fn(usize) -> f64,
+    ) -> bool {
+        let begins = |first: &f64| [*first, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+        self.terms = first.iter().map(begins).collect();
+        let sizes = first.iter().enumerate().map(|(k, x)| (x * scale(k)).abs());
+        let size = sizes.fold(f64::MIN_POSITIVE, f64::max);
+        let mut before = f64::INFINITY;
+        for _ in 0..ROUNDS {
+            let mut values: Vec<[f64; 8]> = first.iter().map(|x| [*x; 8]).collect();
+            for (k, node) in NODES.into_iter().enumerate().skip(1) {
+                let Some(found) = f(&self.places_after(node * self.length)) else {
+                    return false;
+                };
+                for (values, found) in values.iter_mut().zip(found) {
+                    values[k] = found;
+                }
+            }
+            let mut change = 0.0_f64;
+            for (k, (terms, values)) in self.terms.iter_mut().zip(values).enumerate() {
+                let new = through(values);
+                for (new, old) in new.iter().zip(terms.iter()) {
+                    change = change.max((new - old).abs() * scale(k));
+                }
+                *terms = new;
+            }
+            if !change.is_finite() {
+                return false;
+            }
+            if change <= STANDS * size || change >= 0.5 * before && change <= 1e-11 * size {
+                return true;
+            }
+            before = change;
+        }
+        false
+    }
+
+    /// What the path lacks, at most, in m.
+    fn left_out(&self, scale: &impl Fn(usize) -> f64) -> f64 {
+        let last = self.terms.iter().enumerate();
+        let most = last.map(|(k, terms)| (terms[7] * scale(k)).abs());
+        most.fold(0.0, f64::max) * self.length * self.length / 72.0
+    }
+
+    /// All bodies `t` seconds after the start.
+    pub(crate) fn places_after(&self, t: f64) -> Vec<Place> {
+        (0..self.rotations.len())
+            .map(|body| {
+                let (centre, velocity, angle, spin) = self.body_after(body, t);
+                Place {
+                    centre,
+                    rotation: self.rotations[body].turned(angle),
+                    velocity,
+                    spin,
+                }
+            })
+            .collect()
+    }
+
+    /// Rotation of a body at the start.
+    pub(crate) fn rotation(&self, body: usize) -> Rot {
+        self.rotations[body]
+    }
+
+    /// Centre, velocity, angle since the start, and spin of a body `t` seconds after it.
+    pub(crate) fn body_after(&self, body: usize, t: f64) -> (Vec2, Vec2, f64, f64) {
+        let [(x, u), (y, v), (angle, spin)] = [0, 1, 2].map(|k| self.coordinate(3 * body + k, t));
+        (vec2(x, y), vec2(u, v), angle, spin)
+    }
+
+    /// Bound on the third derivative of a body's path, in m/s³, and of its angle, in rad/s³.
+    pub(crate) fn jerk(&self, body: usize) -> (f64, f64) {
+        let of = |k: usize| {
+            let mut sum = 0.0;
+            for (power, term) in (0_u32..).zip(self.terms[3 * body + k]) {
+                sum += f64::from(power) * term.abs();
+            }
+            sum / self.length
+        };
+        (of(0) + of(1), of(2))
+    }
+
+    fn coordinate(&self, k: usize, t: f64) -> (f64, f64) {
+        let tau = t / self.length;
+        let (mut v, mut x) = (0.0, 0.0);
+        for (power, term) in (0_u32..8).zip(self.terms[k]).rev() {
+            let n = f64::from(power);
+            v = v * tau + term / (n + 1.0);
+            x = x * tau + term / ((n + 1.0) * (n + 2.0));
+        }
+        (
+            self.place[k] + (self.velocity[k] + x * t) * t,
+            self.velocity[k] + v * t,
+        )
+    }
+}
+
+/// Coefficients of the polynomial through values at the nodes: Newton's divided differences, multiplied out.
+fn through(values: [f64; 8]) -> [f64; 8] {
+    let mut differences = values;
+    for order in 1..8 {
+        for k in (order..8).rev() {
+            let span = NODES[k] - NODES[k - order];
+            differences[k] = (differences[k] - differences[k - 1]) / span;
+        }
+    }
+    let mut terms = [0.0; 8];
+    for (difference, node) in differences.iter().zip(NODES).rev() {
+        for k in (0..8).rev() {
+            let below = if k > 0 { terms[k - 1] } else { 0.0 };
+            terms[k] = below - terms[k] * node;
+        }
+        terms[0] += *difference;
+    }
+    terms
+}

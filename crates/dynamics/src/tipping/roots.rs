@@ -1,0 +1,243 @@
+//! Where a mode ends: the first instant at which one of its margins falls to 0.
+
+use carom_math::Vec2;
+
+use super::Rub;
+use super::equations::Equations;
+use super::joint::{Margin, Place};
+use super::path::Path;
+
+/// Instants of a stretch at which margins are looked at.
+const LOOKS: u32 = 24;
+
+/// A margin below this part of what it is the difference of is 0.
+const NOTHING: f64 = 1e-12;
+
+/// What a margin belongs to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Limit {
+    /// A normal force: the point opens.
+    Press { contact: usize, point: usize },
+    /// What friction could hold beyond what it does: it begins to slip, with this sign.
+    Grip { contact: usize, sign: f64 },
+    /// Slip against the sign that it has: it comes to rest.
+    Slip { contact: usize },
+    /// A disc or a corner comes to the end of an edge.
+    Way { contact: usize, point: usize },
+    /// A corner lands on the edge of a contact, or a point that had opened closes.
+    Corner {
+        contact: usize,
+        normal: Vec2,
+        at: Vec2,
+    },
+}
+
+/// A margin at an instant.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Left {
+    pub(super) limit: Limit,
+    pub(super) value: f64,
+    /// What counts as 0.
+    pub(super) nothing: f64,
+}
+
+/// What ends a mode.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum End {
+    /// Nothing does as long as the path is known.
+    Open,
+    /// The mode is none: this margin falls below 0 from the start.
+    Never(Limit),
+    /// After so many seconds.
+    After(f64, Limit),
+    /// Forces were not found.
+    Lost,
+}
+
+/// The first margin to fall to 0.
+pub(super) fn first(equations: &Equations, path: &Path, sizes: (f64, f64)) -> End {
+    let at = |t: f64| all(equations, &path.places_after(t), sizes);
+    let Some(mut before) = at(0.0) else {
+        return End::Lost;
+    };
+    // What begins at 0 counts once it has been above.
+    let mut armed: Vec<bool> = before.iter().map(|m| m.value > m.nothing).collect();
+    let mut from = 0.0;
+    for k in 1..=LOOKS {
+        let to = path.length * f64::from(k) / f64::from(LOOKS);
+        let Some(now) = at(to) else {
+            return End::Lost;
+        };
+        if now.len() != before.len() {
+            return End::Lost;
+        }
+        let mut found: Option<(f64, Limit)> = None;
+        for (i, margin) in now.iter().enumerate() {
+            if margin.value > margin.nothing {
+                armed[i] = true;
+                continue;
+            }
+            if !armed[i] {
+                if margin.value < -margin.nothing {
+                    return End::Never(margin.limit);
+                }
+                continue;
+            }
+            if margin.value > 0.0 {
+                continue;
+            }
+            let Some((after, limit)) = fall(&at, i, (from, before[i].value), (to, margin.value))
+            else {
+                return End::Lost;
+            };
+            if found.is_none_or(|(known, _)| after < known) {
+                found = Some((after, limit));
+            }
+        }
+        if let Some((after, limit)) = found {
+            return End::After(after, limit);
+        }
+        (before, from) = (now, to);
+    }
+    End::Open
+}
+
+/// Where margin `i` falls through 0 between two looks: false position with the Illinois rule, to the last bits.
+fn fall(
+    at: &impl Fn(f64) -> Option<Vec<Left>>,
+    i: usize,
+    (mut low, mut above): (f64, f64),
+    (mut high, mut below): (f64, f64),
+) -> Option<(f64, Limit)> {
+    let mut side = 0;
+    for _ in 0..100 {
+        if high - low <= 4.0 * f64::EPSILON * high {
+            break;
+        }
+        let guess = low + (high - low) * (above / (above - below));
+        let middle = if guess > low && guess < high {
+            guess
+        } else {
+            0.5 * (low + high)
+        };
+        if !(middle > low && middle < high) {
+            break;
+        }
+        let value = at(middle)?.get(i)?.value;
+        if value > 0.0 {
+            (low, above) = (middle, value);
+            if side == 1 {
+                below *= 0.5;
+            }
+            side = 1;
+        } else {
+            (high, below) = (middle, value);
+            if side == 2 {
+                above *= 0.5;
+            }
+            side = 2;
+        }
+    }
+    Some((high, at(high)?.get(i)?.limit))
+}
+
+/// All margins; `sizes`: a length in m and a speed in m/s that roundings are measured by.
+fn all(equations: &Equations, places: &[Place], (size, speed): (f64, f64)) -> Option<Vec<Left>> {
+    let forces = equations.forces(places)?;
+    let most = forces.normal.iter().flatten();
+    let most = most.fold(0.0_f64, |most, force| most.max(force.abs()));
+    let mut margins = Vec::new();
+    let mut add = |limit: Limit, value: f64, scale: f64| {
+        margins.push(Left {
+            limit,
+            value,
+            nothing: NOTHING * scale,
+        });
+    };
+    for (contact, (of, hold)) in equations.contacts.iter().zip(&equations.holds).enumerate() {
+        let (a, b) = (&places[of.bodies.0], &places[of.bodies.1]);
+        let mut slips = None;
+        let mut pressed = 0.0;
+        for (point, joint) in of.joints.iter().enumerate() {
+            let seen = joint.seen(a, b);
+            if hold.over[point] {
+                continue;
+            }
+            if !hold.closed[point] {
+                let limit = Limit::Corner {
+                    contact,
+                    normal: seen.normal,
+                    at: seen.point,
+                };
+                add(limit, seen.gap, size);
+                continue;
+            }
+            slips.get_or_insert(seen.slip);
+            let force = forces.normal[contact][point];
+            pressed += force;
+            add(Limit::Press { contact, point }, force, most);
+            for margin in joint.margins(a, b) {
+                let limit = match margin {
+                    Margin::Way(_) => Limit::Way { contact, point },
+                    Margin::Corner { at, .. } => Limit::Corner {
+                        contact,
+                        normal: seen.normal,
+                        at,
+                    },
+                };
+                add(limit, margin.value(), size);
+            }
+        }
+        match (hold.rub, slips) {
+            (Rub::Sticks, Some(_)) => {
+                let pull = forces.tangential[contact];
+                let limit = Limit::Grip {
+                    contact,
+                    sign: -pull.signum(),
+                };
+                add(limit, of.friction * pressed - pull.abs(), most);
+            }
+            (Rub::Slides(sign), Some(slip)) => {
+                add(Limit::Slip { contact }, slip * sign, speed);
+            }
+            _ => {}
+        }
+    }
+    Some(margins)
+}
+
+/// Heat by friction in the first `elapsed` seconds, in J: Gauss–Legendre in two halves.
+pub(super) fn heat(equations: &Equations, path: &Path, elapsed: f64) -> f64 {
+    /// Points and weights of (−1, 1), mirrored.
+    const POINTS: [(f64, f64); 3] = [
+        (0.238_619_186_083_196_9, 0.467_913_934_572_691_05),
+        (0.661_209_386_466_264_5, 0.360_761_573_048_138_6),
+        (0.932_469_514_203_152, 0.171_324_492_379_170_35),
+    ];
+    let slides = |hold: &super::Hold| matches!(hold.rub, Rub::Slides(_));
+    if !equations.holds.iter().any(slides) {
+        return 0.0;
+    }
+    let power = |t: f64| {
+        let places = path.places_after(t);
+        let Some(forces) = equations.forces(&places) else {
+            return 0.0;
+        };
+        let seen = equations.seen(&places);
+        let both = seen.iter().zip(&equations.holds).zip(&forces.tangential);
+        both.map(|((seen, hold), pull)| {
+            let points = seen.iter().zip(hold.closed);
+            let mut closed = points.filter_map(|(seen, closed)| seen.filter(|_| closed));
+            closed.next().map_or(0.0, |seen| -pull * seen.slip)
+        })
+        .sum::<f64>()
+    };
+    let half = 0.25 * elapsed;
+    let mut sum = 0.0;
+    for middle in [half, 3.0 * half] {
+        for (at, weight) in POINTS {
+            sum += weight * (power(middle - half * at) + power(middle + half * at));
+        }
+    }
+    half * sum
+}

@@ -1,0 +1,253 @@
+//! Paths of groups that turn, against closed forms and laws.
+
+use arrayvec::ArrayVec;
+use carom_math::{Rot, SimTime, Vec2, cross, perp, vec2};
+
+use super::*;
+use crate::modes::ModeBody;
+
+const G: f64 = 9.81;
+
+fn body(mass: f64, inertia: f64, place: &Place) -> ModeBody {
+    ModeBody {
+        inverse_mass: mass.recip(),
+        inverse_inertia: inertia.recip(),
+        centre: place.centre,
+        velocity: place.velocity,
+        spin: place.spin,
+        pull: vec2(0.0, -G),
+        twist: 0.0,
+    }
+}
+
+fn floor() -> (ModeBody, Place) {
+    let place = Place {
+        centre: Vec2::ZERO,
+        rotation: Rot::IDENTITY,
+        velocity: Vec2::ZERO,
+        spin: 0.0,
+    };
+    let body = ModeBody {
+        inverse_mass: 0.0,
+        inverse_inertia: 0.0,
+        pull: Vec2::ZERO,
+        ..body(1.0, 1.0, &place)
+    };
+    (body, place)
+}
+
+/// A corner at `tip` of body 1 on the floor's line y = 0.
+fn on_floor(tip: Vec2, friction: f64) -> Contact {
+    Contact {
+        bodies: (0, 1),
+        joints: ArrayVec::from_iter([Joint::Line {
+            owner: End::A,
+            normal: Vec2::Y,
+            height: 0.0,
+            ends: [f64::NEG_INFINITY, f64::INFINITY],
+            tip,
+            radius: 0.0,
+            beside: ArrayVec::new(),
+        }]),
+        friction,
+    }
+}
+
+/// A rod of length 2 whose lower end is at the origin, at an angle from the vertical.
+fn rod(angle: f64, spin: f64, slip: f64) -> Place {
+    let rotation = Rot::from_angle(angle);
+    let centre = rotation * Vec2::Y;
+    Place {
+        centre,
+        rotation,
+        velocity: vec2(slip, 0.0) + perp(centre) * spin,
+        spin,
+    }
+}
+
+/// The path of a rod under a friction, stretch by stretch, up to `seconds`; all that ended a stretch.
+fn run(start: Place, friction: f64, seconds: f64) -> (Place, Vec<(f64, Tip)>) {
+    let (floor_body, floor_place) = floor();
+    let mut place = start;
+    let (mut now, mut found) = (0.0, Vec::new());
+    while now < seconds {
+        let bodies = [floor_body, body(1.0, 1.0 / 3.0, &place)];
+        let contacts = vec![on_floor(vec2(0.0, -1.0), friction)];
+        let places = [floor_place, place];
+        let tip = tip(
+            &bodies,
+            &places,
+            &[0.0, 1.0],
+            contacts,
+            SimTime::from_secs(now),
+            1.0,
+        )
+        .expect("it tips");
+        let step = tip.after.min(seconds - now);
+        place = tip.path.places_after(step)[1];
+        now += step;
+        found.push((now, tip));
+    }
+    (place, found)
+}
+
+fn energy(place: &Place) -> f64 {
+    0.5 * place.velocity.length_squared() + place.spin * place.spin / 6.0 + G * place.centre.y
+}
+
+/// θ″ = (3 g/4) sin θ by the classic method of order 4, a million small steps a second.
+fn pendulum(mut angle: f64, mut spin: f64, seconds: f64) -> (f64, f64) {
+    let steps = 200_000;
+    let h = seconds / f64::from(steps);
+    let f = |angle: f64| 0.75 * G * carom_math::trig::sin_cos(angle).0;
+    for _ in 0..steps {
+        let (a1, w1) = (spin, f(angle));
+        let (a2, w2) = (spin + 0.5 * h * w1, f(angle + 0.5 * h * a1));
+        let (a3, w3) = (spin + 0.5 * h * w2, f(angle + 0.5 * h * a2));
+        let (a4, w4) = (spin + h * w3, f(angle + h * a3));
+        angle += h / 6.0 * (a1 + 2.0 * (a2 + a3) + a4);
+        spin += h / 6.0 * (w1 + 2.0 * (w2 + w3) + w4);
+    }
+    (angle, spin)
+}
+
+#[test]
+fn a_rod_that_tips_is_a_pendulum() {
+    let (angle, spin) = pendulum(0.2, 0.3, 0.4);
+    let start = rod(0.2, 0.3, 0.0);
+    let (place, _) = run(start, 100.0, 0.4);
+    let wanted = rod(angle, spin, 0.0);
+    let off = (place.centre - wanted.centre).length();
+    assert!(off < 1e-11, "{off:e} m");
+    assert!((place.spin - spin).abs() < 1e-11);
+    let lost = energy(&place) - energy(&start);
+    assert!(lost.abs() < 1e-13 * energy(&start), "{lost:e} J");
+}
+
+#[test]
+fn on_ice_the_centre_falls_straight() {
+    // Energy alone: ½ (1/3 + sin² θ) ω² = g (cos θ₀ − cos θ).
+    let start = rod(0.3, 0.0, 0.0);
+    let (place, found) = run(start, 0.0, 0.5);
+    assert!(place.centre.x - start.centre.x < 1e-14);
+    let (sin, fallen) = (place.rotation.sin(), start.centre.y - place.centre.y);
+    let spin = (2.0 * G * fallen / (1.0 / 3.0 + sin * sin)).sqrt();
+    assert!(
+        (place.spin - spin).abs() < 1e-12,
+        "{} not {spin}",
+        place.spin
+    );
+    assert!(found.iter().all(|(_, tip)| tip.heat(tip.after) == 0.0));
+}
+
+#[test]
+fn what_friction_takes_is_heat() {
+    let start = rod(0.3, 0.0, 0.8);
+    let (place, found) = run(start, 0.25, 0.6);
+    let mut last = 0.0;
+    let mut heat = 0.0;
+    for (now, tip) in &found {
+        heat += tip.heat(now - last);
+        last = *now;
+    }
+    let lost = energy(&start) - energy(&place);
+    assert!(heat > 0.1, "{heat}");
+    assert!((lost - heat).abs() < 1e-12, "{lost} not {heat}");
+    let slides = |tip: &Tip| matches!(tip.equations.holds[0].rub, Rub::Slides(_));
+    assert!(found.iter().any(|(_, tip)| slides(tip)));
+}
+
+#[test]
+fn friction_holds_until_its_cone_is_left() {
+    // N = m g (1 − 3 c)²/4 and T = (3/4) m g s (3 c − 2) from rest at the top: with µ = 0.2 it slips at 0.4 rad or so.
+    let start = rod(1e-2, 0.0, 0.0);
+    let (_, found) = run(start, 0.2, 1.6);
+    let first = found
+        .iter()
+        .find(|(_, tip)| matches!(tip.equations.holds[0].rub, Rub::Slides(_)));
+    let (_, tip) = first.expect("it slips");
+    let (sin, cos) = {
+        let rotation = tip.path.places_after(0.0)[1].rotation;
+        (rotation.sin(), rotation.cos())
+    };
+    let top = carom_math::trig::sin_cos(1e-2).1;
+    // ω² = (3/2) g (c₀ − c)
+    let squared = 1.5 * G * (top - cos);
+    let alpha = 0.75 * G * sin;
+    // Centre at (−s, c): its acceleration is α (−c, −s) − ω² (−s, c).
+    let pull = vec2(
+        -alpha * cos + squared * sin,
+        G - alpha * sin - squared * cos,
+    );
+    assert!((pull.x.abs() - 0.2 * pull.y).abs() < 1e-11, "{pull}");
+}
+
+#[test]
+fn a_disc_leaves_a_disc_where_the_textbook_says() {
+    // Without friction: cos θ = 2/3 from rest at the top.
+    let (floor_body, floor_place) = floor();
+    let mut place = Place {
+        centre: Rot::from_angle(-1e-4) * vec2(0.0, 1.5),
+        rotation: Rot::IDENTITY,
+        velocity: Vec2::ZERO,
+        spin: 0.0,
+    };
+    let start = place.centre.y;
+    let mut now = 0.0;
+    loop {
+        let contact = Contact {
+            bodies: (0, 1),
+            joints: ArrayVec::from_iter([Joint::Points {
+                a: Vec2::ZERO,
+                b: Vec2::ZERO,
+                radii: (1.0, 0.5),
+                cone: None,
+            }]),
+            friction: 0.0,
+        };
+        let bodies = [floor_body, body(2.0, 0.25, &place)];
+        let time = SimTime::from_secs(now);
+        let tip = tip(
+            &bodies,
+            &[floor_place, place],
+            &[0.0, 0.5],
+            vec![contact],
+            time,
+            1.0,
+        )
+        .expect("it slides");
+        place = tip.path.places_after(tip.after)[1];
+        now += tip.after;
+        if !tip.equations.holds[0].closed[0] {
+            break;
+        }
+        let off = (place.centre.length() - 1.5).abs();
+        assert!(off < 1e-13, "{off:e} m off the disc");
+        assert!(now < 5.0);
+        let height = place.centre.y;
+        let kinetic = 0.5 * place.velocity.length_squared();
+        assert!((kinetic - G * (start - height)).abs() < 1e-12);
+        if tip.after < tip.path.length {
+            let cos = height / 1.5;
+            let wanted = 2.0 / 3.0 * start / 1.5;
+            assert!((cos - wanted).abs() < 1e-12, "{cos} not {wanted}");
+        }
+    }
+}
+
+#[test]
+fn a_path_turned_as_a_whole_is_the_same_path() {
+    let start = rod(0.4, 0.1, 0.5);
+    let (place, _) = run(start, 0.3, 0.3);
+    let angular = cross(place.centre, place.velocity) + place.spin / 3.0;
+    let mirrored = Place {
+        centre: vec2(-start.centre.x, start.centre.y),
+        rotation: start.rotation.inverse(),
+        velocity: vec2(-start.velocity.x, start.velocity.y),
+        spin: -start.spin,
+    };
+    let (other, _) = run(mirrored, 0.3, 0.3);
+    let turned = cross(other.centre, other.velocity) + other.spin / 3.0;
+    assert!((angular + turned).abs() < 1e-13);
+    assert!((place.centre.x + other.centre.x).abs() < 1e-13);
+}
