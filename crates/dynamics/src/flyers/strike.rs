@@ -129,7 +129,7 @@ impl World {
 
     /// Speed whose rounding an approach is judged by, in m/s: that of the bodies, or with which their
     /// impacts began to come ever faster.
-    fn scale(&self, impact: &Foreseen, before: &[ImpactBody; 2]) -> f64 {
+    pub(super) fn scale(&self, impact: &Foreseen, before: &[ImpactBody; 2]) -> f64 {
         let of = |index: u32, body: &ImpactBody| {
             let state = self.bodies.get(index);
             pace(body, state.reach).max(state.course.streak.top())

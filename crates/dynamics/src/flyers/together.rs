@@ -1,7 +1,6 @@
 //! Impacts of flyers at one instant: a body struck from two sides, three that meet in a point, a ball on a joint.
 //!
-//! With e < 1 they are resolved one after the other: a series that comes ever faster is followed to its limit,
-//! in which all instants are one.
+//! With e < 1 a series that comes ever faster is followed to its limit one after the other: there all instants are one.
 
 use carom_math::SimTime;
 
@@ -17,6 +16,12 @@ use crate::state::BodyState;
 /// Instants that differ by less are one, as a fraction of the way to them over the speed: impacts make
 /// differences of roundings larger, by a decade each.
 const INSTANT: f64 = 1e-12;
+
+/// Instants of impacts with a loss that are longer, in s, are the end of many.
+const SHORT: f64 = 1e-9;
+
+/// Approaches with a loss that are slower, as a part of the speeds that they are the difference of, are the end of many.
+const FADING: f64 = 1e-6;
 
 /// Points and normals that differ by less, as a fraction of the size, are those of a seam.
 const SEAM: f64 = 1e-6;
@@ -58,8 +63,7 @@ impl World {
         if struck.len() > 1 && self.are_real(&struck, time) {
             self.drop_corners_of_seams(&mut struck);
         }
-        let elastic = |(_, impact): &Due| self.material_of(impact).restitution >= 1.0;
-        if struck.len() > 1 && self.are_real(&struck, time) && struck.iter().all(elastic) {
+        if struck.len() > 1 && self.are_real(&struck, time) && self.are_one(&struck, time) {
             let impacts: Vec<Foreseen> = struck.into_iter().map(|(_, impact)| impact).collect();
             self.strike_all(&impacts, time);
         } else {
@@ -126,6 +130,19 @@ impl World {
             let flies =
                 |state: &&BodyState| !state.asleep && (state.course.flies || !state.is_active());
             ends.iter().all(flies) && self.approaches(impact, &self.ends_of(impact, time))
+        })
+    }
+
+    /// Whether impacts of one instant are resolved together: where nothing is lost always, else unless a series that
+    /// comes ever faster makes many instants look like one.
+    fn are_one(&self, struck: &[Due], time: SimTime) -> bool {
+        struck.iter().all(|(_, impact)| {
+            let (a, b) = impact.bodies;
+            let streaks = [a, b].map(|index| self.bodies.get(index).course.streak.is_one());
+            let ends = self.ends_of(impact, time);
+            let fades = approach_speed(impact, &ends) <= FADING * self.scale(impact, &ends);
+            self.material_of(impact).restitution >= 1.0
+                || (streaks == [false, false] && !fades && self.instant(impact, time) <= SHORT)
         })
     }
 
