@@ -304,3 +304,44 @@ fn a_wall_that_came_where_nothing_was_is_struck() {
     let velocity = world.body(ids[0]).expect("it is there").velocity();
     assert!((velocity - vec2(-3.0, 0.0)).length() < 1e-12, "{velocity}");
 }
+
+/// A ball that comes down between two others strikes both at one instant: neither comes first, with losses too.
+#[test]
+fn a_ball_between_two_parts_them_alike_whatever_is_lost() {
+    for (restitution, friction) in [(0.0, 0.0), (0.5, 0.0), (0.5, 0.4), (0.9, 0.1), (1.0, 0.0)] {
+        let mut world = World::new(Settings {
+            gravity: Vec2::ZERO,
+            ..Settings::default()
+        })
+        .expect("valid");
+        let material = Material {
+            restitution,
+            friction,
+            ..Material::default()
+        };
+        let mut ball = |at: Vec2, velocity: Vec2| {
+            let shape = Circle::new(0.5).expect("a ball");
+            let def = BodyDef::dynamic().at(at).moving(velocity);
+            world.insert(def, shape, material).expect("valid")
+        };
+        let middle = ball(vec2(0.0, 3.0), vec2(0.0, -2.0));
+        let (left, right) = (
+            ball(vec2(-0.6, 0.0), Vec2::ZERO),
+            ball(vec2(0.6, 0.0), Vec2::ZERO),
+        );
+        let report = world.step(2.0);
+        assert_eq!(report.impacts, 2, "e = {restitution}");
+        let [middle, left, right] = [middle, left, right]
+            .map(|id| world.body(id).expect("it is there"))
+            .map(|body| (body.velocity(), body.angular_velocity()));
+        assert!(
+            middle.0.x.abs() < 1e-14,
+            "{} at e = {restitution}",
+            middle.0
+        );
+        assert!(middle.1.abs() < 1e-13);
+        assert!((left.0.x + right.0.x).abs() < 1e-14 && (left.0.y - right.0.y).abs() < 1e-14);
+        assert!((left.1 + right.1).abs() < 1e-13);
+        assert!(right.0.x > 0.1);
+    }
+}

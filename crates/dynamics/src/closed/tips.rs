@@ -18,7 +18,7 @@ use crate::touching::Gathered;
 const NEAR: f64 = 1e-6;
 
 /// Bodies that move in a group that turns: more are the solver's.
-const MOST: usize = 8;
+const MOST: usize = 4;
 
 /// Shortest piece that a parabola is laid through, in s.
 const PIECE: f64 = 1e-4;

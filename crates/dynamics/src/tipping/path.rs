@@ -7,6 +7,9 @@ use carom_math::{Rot, SimTime, Vec2, vec2};
 use super::joint::Place;
 use crate::flight::{NODES, ROUNDS, STANDS};
 
+/// First guess of how far a body turns in a stretch, in rad.
+const TURN: f64 = 1.0 / 7.0;
+
 /// Where bodies are for a while, as polynomials of degree 9.
 #[derive(Clone, Debug)]
 pub(crate) struct Path {
@@ -41,6 +44,14 @@ impl Path {
             velocity: flat(|place| [place.velocity.x, place.velocity.y, place.spin]),
             terms: Vec::new(),
         };
+        // In 1/7 of a radian by what turns fastest the polynomials are as right as is asked for, or nearly.
+        let mut rate = 0.0_f64;
+        for (place, turn) in places.iter().zip(first.iter().skip(2).step_by(3)) {
+            rate = rate.max(place.spin.abs().max(turn.abs().sqrt()));
+        }
+        if rate * path.length > TURN {
+            path.length = TURN / rate;
+        }
         let scale = |k: usize| if k % 3 == 2 { reaches[k / 3] } else { 1.0 };
         while path.length >= shortest {
             let stands = path.collocate(f, &first, &scale);
@@ -93,6 +104,10 @@ impl Path {
             }
             if change <= STANDS * size || change >= 0.5 * before && change <= 1e-11 * size {
                 return true;
+            }
+            // A stretch that is too long gets no nearer.
+            if change > before {
+                return false;
             }
             before = change;
         }

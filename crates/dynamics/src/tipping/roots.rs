@@ -8,7 +8,7 @@ use super::joint::{Margin, Place};
 use super::path::Path;
 
 /// Instants of a stretch at which margins are looked at.
-const LOOKS: u32 = 24;
+const LOOKS: u32 = 12;
 
 /// A margin below this part of what it is the difference of is 0.
 const NOTHING: f64 = 1e-12;
