@@ -146,11 +146,11 @@ pub fn time_of_impact_after(
     motion_b: &Motion,
     horizon: f64,
 ) -> TimeOfImpact {
-    if !(is_single(a) && is_single(b)) {
-        return time_of_impact(a, motion_a, b, motion_b, horizon);
+    if is_single(a) && is_single(b) {
+        let (a, b) = (part(a, 0), part(b, 0));
+        return of_parts(&a, motion_a, &b, motion_b, horizon, Axis::of(last.feature));
     }
-    let approach = Approach::new(part(a, 0), motion_a, part(b, 0), motion_b);
-    search::first_contact(&approach, horizon, Axis::of(last.feature))
+    time_of_impact(a, motion_a, b, motion_b, horizon)
 }
 
 /// [`time_of_impact`] of two convex parts, which count as part 0 of their shapes in
@@ -163,12 +163,24 @@ pub fn time_of_impact_of_parts(
     motion_b: &Motion,
     horizon: f64,
 ) -> TimeOfImpact {
+    of_parts(a, motion_a, b, motion_b, horizon, None)
+}
+
+/// The search begins with the axis along which the parts have just struck each other, if they have.
+fn of_parts(
+    a: &Hull<'_>,
+    motion_a: &Motion,
+    b: &Hull<'_>,
+    motion_b: &Motion,
+    horizon: f64,
+    struck: Option<Axis>,
+) -> TimeOfImpact {
     if a.is_half_plane() && b.is_half_plane() {
         // Neither can move.
         return TimeOfImpact::Clear;
     }
     let approach = Approach::new(*a, motion_a, *b, motion_b);
-    search::first_contact(&approach, horizon, None)
+    search::first_contact(&approach, horizon, struck)
 }
 
 /// The one that happens first; a contact that is there already goes before all, the faster first.
