@@ -23,6 +23,7 @@ mod skipping;
 mod stability;
 mod stepped;
 mod stepped_cases;
+mod stepped_changes;
 mod stepped_laws;
 mod stepped_slopes;
 mod stepped_swift;

@@ -111,6 +111,11 @@ impl Bodies {
         let state = self.list.get(index as usize);
         if self.notes_touched || state.is_some_and(|state| state.in_crowd || state.has_line) {
             self.touched.push(index);
+            // A caller may change a body any number of times between two sub-steps.
+            if self.touched.len() > 2 * self.list.len() + 64 {
+                self.touched.sort_unstable();
+                self.touched.dedup();
+            }
         }
     }
 

@@ -8,13 +8,13 @@ use carom_math::{SimTime, Vec2};
 
 use crate::bodies::Bodies;
 use crate::flyers::Flyers;
-use crate::pairs::{Lie, Pair, Pairs};
+use crate::pairs::{Pair, Pairs};
 use crate::state::Collider;
 use crate::{BodyId, BodyKind, PairMaterial, PairSearch};
 
 /// Boxes are stretched along the motion over this many sub-steps, so that a body that keeps its
 /// course is looked for again only now and then. Wider boxes find more pairs in vain.
-const LOOK_AHEAD: f64 = 8.0;
+pub(crate) const LOOK_AHEAD: f64 = 8.0;
 
 /// Boxes are padded by this fraction of the body's reach, so that a body that jitters stays inside.
 pub(crate) const PADDING: f64 = 0.05;
@@ -256,8 +256,6 @@ impl Broad {
             impacts: 0,
             spent: 0.0,
             given_up: false,
-            built: Lie::default(),
-            slack: 0.0,
         });
         if fringe {
             pairs.fringe.push(place);

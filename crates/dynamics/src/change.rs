@@ -200,17 +200,24 @@ impl World {
         material: PairMaterial,
     ) -> Result<(), BodyError> {
         material.check()?;
-        let first = self.bodies.find(a)?;
-        self.bodies.find(b)?;
+        let ends = [self.bodies.find(a)?, self.bodies.find(b)?];
         if a == b {
             return Err(BodyError::SameBody(a));
         }
         let key = if a < b { (a, b) } else { (b, a) };
         self.broad.overrides.insert(key, material);
-        for place in self.bodies.get(first).pairs.clone() {
+        for place in self.bodies.get(ends[0]).pairs.clone() {
             let pair = self.pairs.get_mut(place);
             if pair.bodies == (key.0.index, key.1.index) {
                 pair.material = material;
+                // Rows keep what they were made with.
+                self.pool.release(pair);
+                self.pairs.glance_mut(place).holds = false;
+            }
+        }
+        for index in ends {
+            if self.bodies.get(index).is_dynamic() {
+                self.disturb(index, |_| {});
             }
         }
         Ok(())

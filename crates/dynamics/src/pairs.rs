@@ -37,19 +37,20 @@ pub(crate) struct Pair {
     pub(crate) spent: f64,
     /// The impacts of this sub-step outran the budget.
     pub(crate) given_up: bool,
-    /// How the two lay when their contacts were found: stepping looks again once they moved.
-    pub(crate) built: Lie,
-    /// How much farther than usual they may move before they are looked at again, in m.
-    pub(crate) slack: f64,
 }
 
-/// How two bodies lie to each other.
+/// What a look asks of a pair that it need not look at: kept apart from all else, since most are asked in vain.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Lie {
-    /// From the centre of A to that of B, in m.
+pub(crate) struct Glance {
+    /// Everything here is as the last look of stepping left it, and both bodies have their lines.
+    pub(crate) holds: bool,
+    pub(crate) bodies: (u32, u32),
+    /// From the centre of A to that of B when their contacts were found, in m.
     pub(crate) apart: Vec2,
-    /// Angles of both, in rad.
+    /// Angles of both then, in rad.
     pub(crate) angles: (f64, f64),
+    /// How much farther than usual they may move before they are looked at again, in m.
+    pub(crate) slack: f64,
 }
 
 /// A contact of two convex parts at the last look.
@@ -78,6 +79,8 @@ pub(crate) struct PairPoint {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Pairs {
     list: Vec<Option<Pair>>,
+    /// By place.
+    glances: Vec<Glance>,
     free: Vec<u32>,
     /// Places of pairs with a body that is sub-stepped, and none of a crowd, in order of colliders: rows and
     /// searches go through pairs in this order.
@@ -102,9 +105,11 @@ impl Pairs {
     fn place_for(&mut self, pair: Pair) -> u32 {
         if let Some(place) = self.free.pop() {
             self.list[place as usize] = Some(pair);
+            self.glances[place as usize].holds = false;
             return place;
         }
         self.list.push(Some(pair));
+        self.glances.push(Glance::default());
         #[expect(
             clippy::cast_possible_truncation,
             reason = "four billion pairs fill 500 GB long before"
@@ -141,6 +146,14 @@ impl Pairs {
         self.list[place as usize]
             .as_mut()
             .expect("a listed pair is there")
+    }
+
+    pub(crate) fn glance(&self, place: u32) -> &Glance {
+        &self.glances[place as usize]
+    }
+
+    pub(crate) fn glance_mut(&mut self, place: u32) -> &mut Glance {
+        &mut self.glances[place as usize]
     }
 
     /// Collects the pairs of these bodies that no crowd takes, in order of colliders.

@@ -139,7 +139,7 @@ pub struct Softness {
     pub damping_ratio: f64,
     /// Factor on the compliance that the frequency implies. Below 0.3 piles chatter.
     pub compliance: f64,
-    /// Over-relaxation of the sweeps, 1..2.
+    /// Over-relaxation of the sweeps, 0.1..=1.9; below 1 it is under-relaxation.
     pub over_relaxation: f64,
     /// Fastest push-out of an overlap, in m/s.
     pub push_out: f64,

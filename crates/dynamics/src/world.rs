@@ -85,7 +85,7 @@ impl World {
         settings.check()?;
         let threads = Threads::new(settings.threads)?;
         let h = settings.h();
-        let mut pool = Stepped::default();
+        let mut pool = Stepped::new(settings.tick);
         pool.seats.rig.zones |= settings.zones;
         Ok(Self {
             law: Law::new(&settings.contact, h),

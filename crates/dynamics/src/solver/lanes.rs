@@ -91,6 +91,16 @@ impl Lanes {
         self.belts
     }
 
+    /// Zone and colour of a row, and its lane there, counted through all blocks.
+    pub(super) fn place_of(&self, id: RowId) -> (usize, usize, usize) {
+        let place = self.places[id.0 as usize];
+        (
+            place.zone as usize,
+            place.colour as usize,
+            place.index as usize,
+        )
+    }
+
     /// Puts a row of the same two bodies into the lane of an old one.
     pub(super) fn rewrite(&mut self, id: RowId, row: &Row, lines: &[Line]) {
         self.belts |= row.belt != 0.0;

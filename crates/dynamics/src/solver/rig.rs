@@ -9,6 +9,7 @@
 //! ```
 //! Everything that changes a row, a velocity or a mass keeps it.
 
+mod local;
 mod restitution;
 mod substep;
 mod zoning;

@@ -11,7 +11,11 @@ use crate::solver::{Rig, Row, RowId};
 pub(crate) struct Bounces {
     /// Restitution by row; 0 for rows that do not bounce.
     restitution: Vec<f64>,
-    rows: Vec<RowId>,
+    /// In the order in which they came; `None` where one went.
+    rows: Vec<Option<RowId>>,
+    /// Where a row that bounces stands in `rows`, by row.
+    at: Vec<u32>,
+    gone: usize,
     /// What bounces cost, in J.
     cost: f64,
     /// Rows that are about to be met in this sub-step: closing speeds of both points at the surface.
@@ -25,16 +29,35 @@ impl Bounces {
         let at = id.0 as usize;
         if self.restitution.len() <= at {
             self.restitution.resize(at + 1, 0.0);
+            self.at.resize(at + 1, 0);
         }
         self.restitution[at] = e;
         if e > 0.0 {
-            self.rows.push(id);
+            #[expect(clippy::cast_possible_truncation, reason = "fewer than 2^32 rows")]
+            let end = self.rows.len() as u32;
+            self.at[at] = end;
+            self.rows.push(Some(id));
         }
     }
 
     pub(crate) fn forget(&mut self, id: RowId) {
         if core::mem::take(&mut self.restitution[id.0 as usize]) > 0.0 {
-            self.rows.retain(|other| *other != id);
+            self.rows[self.at[id.0 as usize] as usize] = None;
+            self.gone += 1;
+            if 2 * self.gone > self.rows.len() {
+                self.close_up();
+            }
+        }
+    }
+
+    /// Closes the holes; the order stays.
+    fn close_up(&mut self) {
+        self.gone = 0;
+        self.rows.retain(Option::is_some);
+        for (place, row) in (0u32..).zip(&self.rows) {
+            if let Some(row) = row {
+                self.at[row.0 as usize] = place;
+            }
         }
     }
 
@@ -42,7 +65,7 @@ impl Bounces {
     pub(crate) fn arm(&mut self, rig: &mut Rig, h: f64) {
         self.armed.clear();
         self.hidden.clear();
-        for &id in &self.rows {
+        for &id in self.rows.iter().flatten() {
             let row = rig.row(id);
             let (a, b) = (row.bodies.0, row.bodies.1);
             let pull = rig.pull(b).acceleration - rig.pull(a).acceleration;

@@ -186,6 +186,7 @@ impl World {
                 .all(|c| c.row.is_none())
             {
                 self.pairs.get_mut(place).fresh = true;
+                self.pairs.glance_mut(place).holds = false;
             }
             self.pairs.fringe.push(place);
         }
@@ -226,6 +227,11 @@ impl World {
 
     /// Members that nothing neared for a while fly from here on. At the start of a tick.
     pub(super) fn disperse(&mut self, time: SimTime) {
+        // A caller's changes bring looks forward, and ticks have their length.
+        if self.pool.since_idle < self.settings.substeps_per_tick() {
+            return;
+        }
+        self.pool.since_idle = 0;
         let seats = &self.pool.seats;
         let before = core::mem::take(&mut self.pool.crowd.idle);
         let mut gone = Vec::new();

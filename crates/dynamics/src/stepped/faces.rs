@@ -1,14 +1,14 @@
 //! A look at a pair: its contacts, and their rows.
 
 use carom_collision::contacts;
-use carom_math::{Pose, SimTime, Vec2};
+use carom_math::{Pose, SimTime, Vec2, perp};
 
 use super::Stepped;
 use super::near::is_quick;
-use super::seats::pull_of;
+use super::seats::{Seat, pull_of};
 use crate::narrow::{BURIED, carried};
-use crate::pairs::{Lie, Pair, PairContact};
-use crate::solver::{Row, RowId};
+use crate::pairs::{Glance, Pair, PairContact};
+use crate::solver::{Line, Row, RowId};
 use crate::{BodyKind, Mode, World};
 
 /// Two bodies that moved less than this against each other since their contacts were found, as a
@@ -28,7 +28,31 @@ const TURNED: f64 = 0.1;
 const HEAVY: f64 = 64.0;
 
 impl World {
-    /// Finds the contacts of a pair anew if it moved, and gives them rows. Whoever wakes goes to `moved`.
+    /// Whether a pair need not be looked at: it moved so little since its contacts were found that they are
+    /// still its contacts.
+    pub(super) fn is_still(&self, place: u32) -> bool {
+        let glance = self.pairs.glance(place);
+        let seats = &self.pool.seats;
+        let slots = [glance.bodies.0, glance.bodies.1].map(|index| seats.slot(index));
+        let (true, [Some(a), Some(b)]) = (glance.holds, slots) else {
+            return false;
+        };
+        let slots = [a, b];
+        let [a, b] = slots.map(|slot| seats.get(slot));
+        let lines = slots.map(|slot| &seats.rig.lines[slot as usize]);
+        let size = a.reach.min(b.reach);
+        let (apart, angles) = lie_of([a, b], lines);
+        let went = stirred(glance, apart, angles, size, [a.rim > 0.0, b.rim > 0.0]);
+        if went <= KEPT_APART * size + glance.slack {
+            return true;
+        }
+        // Asked of the rows: what callers were told last depends on when they looked.
+        let contacts = &self.pairs.get(place).contacts;
+        let mut rows = contacts.iter().filter_map(|contact| contact.row);
+        went <= KEPT * size && rows.any(|id| seats.rig.pushes(id))
+    }
+
+    /// Finds the contacts of a pair anew, and gives them rows. Whoever wakes goes to `moved`.
     pub(super) fn look_at(&mut self, place: u32, time: SimTime, moved: &mut Vec<u32>) {
         let pair = self.pairs.get(place);
         let bodies = pair.bodies;
@@ -49,36 +73,12 @@ impl World {
         let [a, b] = slots.map(|slot| seats.get(slot));
         let lines = slots.map(|slot| &seats.rig.lines[slot as usize]);
         let size = a.reach.min(b.reach);
-        let centres = [
-            a.base.position + lines[0].d(),
-            b.base.position + lines[1].d(),
-        ];
-        let lie = Lie {
-            apart: centres[1] - centres[0],
-            angles: (
-                a.base_angle + lines[0].turn(),
-                b.base_angle + lines[1].turn(),
-            ),
-        };
+        let (apart, angles) = lie_of([a, b], lines);
         let pair = self.pairs.get_mut(place);
-        // Asked of the rows: what callers were told last depends on when they looked.
-        let went = stirred(&pair.built, &lie, size, [a.rim > 0.0, b.rim > 0.0]);
-        if !pair.fresh && went <= KEPT_APART * size + pair.slack {
-            return;
-        }
-        let mut rows = pair.contacts.iter().filter_map(|contact| contact.row);
-        if !pair.fresh && went <= KEPT * size && rows.any(|id| seats.rig.pushes(id)) {
-            return;
-        }
         pair.fresh = false;
-        pair.built = lie;
-        pair.slack = 0.0;
         let pair_was_touching = pair.touching;
         let tick = self.settings.tick;
-        let rim = |w: f64, reach: f64| if w == 0.0 { 0.0 } else { w.abs() * reach };
-        let closing = (lines[1].v() - lines[0].v()).length()
-            + rim(lines[0].w(), a.rim)
-            + rim(lines[1].w(), b.rim);
+        let closing = closing_of([a, b], lines);
         let pull = seats.rig.pull(slots[0]).acceleration - seats.rig.pull(slots[1]).acceleration;
         // Who is swift is stopped where it touches, and looked at there.
         let h = self.clock.h;
@@ -96,7 +96,8 @@ impl World {
         let near = a.reach + b.reach + margin;
         let found = &mut self.pool.found;
         found.clear();
-        if lie.apart.length_squared() <= near * near {
+        let centres_apart = apart.length();
+        let slack = if centres_apart <= near {
             let poses = slots.map(|slot| self.pool.seats.pose(slot));
             contacts(
                 &self.colliders[pair.colliders.0 as usize].solid,
@@ -109,13 +110,21 @@ impl World {
             let colliders = pair.colliders;
             self.drop_grazes(colliders, slots, size);
             self.face(place, slots, poses);
+            0.0
         } else {
             self.pool.release(pair);
             pair.contacts.clear();
-            // Circles that are apart stay so until half of what parts them is gone, at this pace.
-            pair.slack = 0.5 * (lie.apart.length() - near);
             pair.fresh = false;
-        }
+            // Circles that are apart stay so until half of what parts them is gone, at this pace.
+            0.5 * (centres_apart - near)
+        };
+        *self.pairs.glance_mut(place) = Glance {
+            holds: true,
+            bodies,
+            apart,
+            angles,
+            slack,
+        };
         if pair_was_touching {
             self.judge(place, time);
         }
@@ -217,9 +226,8 @@ impl World {
             let deep = depths.fold(0.0, f64::min) < -BURIED * size;
             let [light, heavy] = [masses[0].max(masses[1]), masses[0].min(masses[1])];
             pair.buried = deep && (pair.buried || old.is_empty());
-            stepped.depths.buried |= pair.buried;
-            stepped.depths.sunk |= deep;
-            stepped.depths.loaded |= heavy > 0.0 && light > HEAVY * heavy && !found.is_empty();
+            let loaded = heavy > 0.0 && light > HEAVY * heavy && !found.is_empty();
+            stepped.depths.note(pair, deep, loaded);
         }
         for new in &found {
             let mut contact = carried(new, poses[0], &old);
@@ -240,7 +248,8 @@ impl World {
             pair.contacts.push(contact);
         }
         stepped.found = found;
-        if pair.material.tangent_speed != 0.0 && !pair.contacts.is_empty() {
+        // Stepped mode keeps no account of them.
+        if !all && pair.material.tangent_speed != 0.0 && !pair.contacts.is_empty() {
             stepped.crowd.belts.push(place);
         }
         for gone in old {
@@ -287,21 +296,39 @@ fn row_of(contact: &PairContact, slots: [u32; 2], poses: [Pose; 2], pair: &Pair)
     row
 }
 
+/// From the centre of A to that of B, in m, and the angles of both.
+fn lie_of([a, b]: [&Seat; 2], lines: [&Line; 2]) -> (Vec2, (f64, f64)) {
+    let centres = [
+        a.base.position + lines[0].d(),
+        b.base.position + lines[1].d(),
+    ];
+    let angles = (
+        a.base_angle + lines[0].turn(),
+        b.base_angle + lines[1].turn(),
+    );
+    (centres[1] - centres[0], angles)
+}
+
+/// Fastest that any two points of the bodies can approach, in m/s.
+fn closing_of([a, b]: [&Seat; 2], lines: [&Line; 2]) -> f64 {
+    let rim = |w: f64, reach: f64| if w == 0.0 { 0.0 } else { w.abs() * reach };
+    (lines[1].v() - lines[0].v()).length() + rim(lines[0].w(), a.rim) + rim(lines[1].w(), b.rim)
+}
+
 /// How far two bodies moved against each other where they meet, in m; infinite if their normals are stale.
 ///
 /// A disc that turns about its centre stays where it is.
-fn stirred(built: &Lie, now: &Lie, size: f64, turns: [bool; 2]) -> f64 {
+fn stirred(built: &Glance, apart: Vec2, angles: (f64, f64), size: f64, turns: [bool; 2]) -> f64 {
     let turn = |turns: bool, now: f64, built: f64| if turns { now - built } else { 0.0 };
     let turns = (
-        turn(turns[0], now.angles.0, built.angles.0),
-        turn(turns[1], now.angles.1, built.angles.1),
+        turn(turns[0], angles.0, built.angles.0),
+        turn(turns[1], angles.1, built.angles.1),
     );
     if turns.0.abs() > TURNED || turns.1.abs() > TURNED {
         return f64::INFINITY;
     }
     // B's centre as A sees it, and what the gap's linear form leaves out for a far centre.
-    let carried_along = Vec2::new(-built.apart.y, built.apart.x) * turns.0;
-    let slid = (now.apart - built.apart - carried_along).length();
+    let slid = (apart - built.apart - perp(built.apart) * turns.0).length();
     let bent = 0.5 * built.apart.length() * turns.0 * turns.0;
     slid + bent + size * (turns.1 - turns.0).abs()
 }

@@ -9,7 +9,9 @@
 
 mod among;
 mod bounce;
+mod boxes;
 mod crowd;
+mod depths;
 mod faces;
 mod graze;
 mod near;
@@ -17,6 +19,8 @@ mod rest;
 mod rush;
 mod seats;
 mod swift;
+#[cfg(test)]
+mod tests;
 mod touch;
 mod write;
 
@@ -28,34 +32,13 @@ use crate::{Mode, World};
 use bounce::Bounces;
 use crowd::Crowd;
 pub(crate) use crowd::{FEW, MANY};
+use depths::Depths;
 use rush::Rush;
 use seats::Seats;
 use swift::Cores;
 
 /// Ticks between two works-out of the warm start from the impulses.
 const REFRESH: u32 = 64;
-
-/// Sweeps without bias while bodies lie deep in each other.
-const BURIED_SWEEPS: usize = 30;
-
-/// What the looks of a tick found of bodies deep in each other.
-#[derive(Clone, Copy, Debug, Default)]
-struct Depths {
-    /// Some were put there.
-    buried: bool,
-    /// Some sank in.
-    sunk: bool,
-    /// Heavy ones touch light ones.
-    loaded: bool,
-}
-
-impl Depths {
-    /// Whether one sweep would leave a part of the push in the velocities: what was put deep into each other
-    /// is pushed by many at once, and a light body between a heavy one and the floor gives way to both in turn.
-    const fn wants_sweeps(self) -> bool {
-        self.buried || self.sunk && self.loaded
-    }
-}
 
 /// What stepping keeps between steps.
 #[derive(Clone, Debug, Default)]
@@ -70,6 +53,8 @@ pub(crate) struct Stepped {
     changed: Vec<RowId>,
     /// Time since groups at rest were last looked for, in s.
     since_rest: f64,
+    /// Sub-steps since members of crowds were last asked what nears them.
+    since_idle: u32,
     /// Sub-steps until the next look.
     until_look: u32,
     /// Looks so far, modulo [`REFRESH`].
@@ -86,6 +71,17 @@ pub(crate) struct Stepped {
     look: u32,
     pub(crate) crowd: Crowd,
     pub(crate) rush: Rush,
+}
+
+impl Stepped {
+    /// Who is at rest at the first look counts as at rest for the tick before it.
+    pub(crate) fn new(tick: f64) -> Self {
+        Self {
+            since_rest: tick,
+            since_idle: u32::MAX / 2,
+            ..Self::default()
+        }
+    }
 }
 
 impl World {
@@ -134,20 +130,17 @@ impl World {
     }
 
     fn substep(&mut self) {
+        let (sweeps, often) = self.rows_in_need();
         let (rig, bounces) = (&mut self.pool.seats.rig, &mut self.pool.bounces);
         let h = self.clock.h;
         bounces.arm(rig, h);
-        let stepped = self.settings.mode == Mode::Stepped;
-        let sweeps = if stepped && self.pool.depths.wants_sweeps() {
-            BURIED_SWEEPS
-        } else {
-            1
-        };
-        if !stepped {
+        if self.settings.mode != Mode::Stepped {
             // What strikes a crowd of hybrid mode has been resolved as an impact.
             rig.met.clear();
         }
-        rig.step(&self.law, sweeps, |rig| bounces.pay(rig, h));
+        rig.step(&self.law, (sweeps, &often), |rig| bounces.pay(rig, h));
+        self.pool.since_rest += h;
+        self.pool.since_idle += 1;
         self.stop_swift();
         let rig = &self.pool.seats.rig;
         self.report.rows += rig.lanes.len() as u64;

@@ -1,11 +1,10 @@
 //! Who may meet whom: changes from outside, and the look around at the start of a tick.
 
-use carom_geometry::Aabb;
 use carom_math::{SimTime, Vec2};
 
-use super::seats::{Seat, pull_of, wandered};
-use super::{Depths, REFRESH, Stepped};
-use crate::broad::{PADDING, misses, swept_box};
+use super::seats::{FAR, Seat, pull_of, wandered};
+use super::{REFRESH, Stepped};
+use crate::broad::PADDING;
 use crate::pairs::Pair;
 use crate::solver::Line;
 use crate::{BodyKind, Mode, World};
@@ -59,8 +58,9 @@ impl World {
     /// Takes a body out of the solver: its rows leave their impulses with the pairs.
     pub(crate) fn leave(&mut self, index: u32, slot: u32) {
         for k in 0..self.bodies.get(index).pairs.len() {
-            let pair = self.pairs.get_mut(self.bodies.get(index).pairs[k]);
-            self.pool.release(pair);
+            let place = self.bodies.get(index).pairs[k];
+            self.pairs.glance_mut(place).holds = false;
+            self.pool.release(self.pairs.get_mut(place));
         }
         self.pool.seats.dismiss(slot);
         let state = self.bodies.get_mut(index);
@@ -72,7 +72,7 @@ impl World {
 
     /// The look at the start of a tick: whoever moved gets new boxes, and its pairs are looked at.
     pub(super) fn look_around(&mut self, time: SimTime) {
-        self.pool.depths = Depths::default();
+        self.pool.depths.clear();
         self.look_at_fresh(time);
         self.pool.looks = (self.pool.looks + 1) % REFRESH;
         if self.pool.looks == 0 {
@@ -119,7 +119,7 @@ impl World {
                 // Those of a slow one hold what stays within their padding.
                 seat.roamed = 0.0;
                 self.sync(index, slot, time);
-                self.box_anew(index, time);
+                self.box_anew(index, slot, time);
             }
         }
         self.stopwatch.lap(|p| &mut p.pairs);
@@ -165,47 +165,6 @@ impl World {
         self.stopwatch.lap(|p| &mut p.contacts);
     }
 
-    /// Whether a change by the caller took the boxes of a body.
-    fn lacks_boxes(&self, index: u32) -> bool {
-        let mut shapes = self.bodies.get(index).colliders.iter();
-        shapes.any(|at| self.colliders[*at as usize].node.is_none())
-    }
-
-    fn keeps(&self, place: u32) -> bool {
-        let pair = self.pairs.get(place);
-        let ends = [pair.colliders.0, pair.colliders.1].map(|at| &self.colliders[at as usize]);
-        self.broad.keeps(&self.colliders, pair) && !misses(ends[0], ends[1])
-    }
-
-    /// New boxes for a body that leaves its old ones within `seconds`.
-    fn rebox(&mut self, index: u32, slot: u32, time: SimTime, seconds: f64) {
-        self.sync(index, slot, time);
-        self.hold_way(index, slot, time, seconds);
-    }
-
-    /// New boxes for a body that leaves its old ones along its motion within `seconds`.
-    pub(super) fn hold_way(&mut self, index: u32, slot: u32, time: SimTime, seconds: f64) {
-        let state = self.bodies.get(index);
-        let holds = |at: &u32| {
-            let collider = &self.colliders[*at as usize];
-            let swept = swept_box(collider, &state.motion, time, seconds);
-            collider.node.is_some() && collider.fat.contains(swept)
-        };
-        if !state.colliders.iter().all(holds) {
-            self.pool.seats.get_mut(slot).roamed = f64::INFINITY;
-            self.box_anew(index, time);
-        }
-    }
-
-    /// New boxes, stretched over two ticks of the body's motion.
-    pub(super) fn box_anew(&mut self, index: u32, time: SimTime) {
-        for at in &self.bodies.get(index).colliders {
-            self.colliders[*at as usize].fat = Aabb::EMPTY;
-        }
-        let quarter = 0.25 * self.settings.tick;
-        self.refit_among(index, time, quarter, false);
-    }
-
     /// Looks at all pairs of these bodies, and of those who wake meanwhile; `parts`: those whose boxes
     /// parted are let go.
     pub(super) fn look_at_pairs(&mut self, moved: &mut Vec<u32>, time: SimTime, parts: bool) {
@@ -222,7 +181,9 @@ impl World {
                         self.part(place, time);
                         continue;
                     }
-                    self.look_at(place, time, moved);
+                    if !self.is_still(place) {
+                        self.look_at(place, time, moved);
+                    }
                 }
                 i += 1;
             }
@@ -248,9 +209,6 @@ pub(super) fn is_quick(seat: &Seat, line: &Line, tick: f64, stepped: bool) -> bo
     let turns = stepped && seat.rim > 0.0 && line.w().abs() * tick > WHIRL;
     turns || speed_of(line.v(), line.w(), seat.rim) * tick > QUICK * seat.leash
 }
-
-/// Within a tick a quick body is looked at again after so many leashes.
-const FAR: f64 = 4.0;
 
 impl Stepped {
     /// Whether this look has not been at the pair yet.

@@ -10,8 +10,6 @@ const LOOKS: f64 = 4.0;
 impl World {
     /// Puts every group to sleep whose bodies have all been slow for long enough.
     pub(super) fn rest(&mut self, sleep: Sleep, time: SimTime) {
-        let tick = self.settings.tick;
-        self.pool.since_rest += tick;
         let passed = self.pool.since_rest;
         if passed < sleep.time / LOOKS {
             return;

@@ -2,6 +2,7 @@
 
 use carom_math::{Pose, SimTime, Vec2};
 
+use super::boxes::Course;
 use crate::bodies::Bodies;
 use crate::solver::{Limit, Member, Pull, Rig, Row, RowId};
 use crate::state::BodyState;
@@ -24,6 +25,9 @@ const PART: f64 = 0.25;
 
 /// How far a body may move before it is looked at, as a fraction of its reach: 5 mm for boxes of 1 m.
 const LEASH: f64 = 0.007;
+
+/// Within a tick a quick body is looked at again after so many leashes.
+pub(super) const FAR: f64 = 4.0;
 
 /// The solver's bodies.
 #[derive(Clone, Debug, Default)]
@@ -59,6 +63,8 @@ pub(crate) struct Seat {
     pub(crate) leash: f64,
     /// How far it went since its boxes were made, at most, in m.
     pub(crate) roamed: f64,
+    /// What its boxes were stretched along.
+    pub(super) course: Option<Course>,
 }
 
 impl Seat {
@@ -77,6 +83,7 @@ impl Seat {
         rested: Vec2::NAN,
         leash: f64::INFINITY,
         roamed: 0.0,
+        course: None,
     };
 }
 
@@ -154,6 +161,7 @@ impl Seats {
             rested: Vec2::NAN,
             leash: LEASH * state.reach,
             roamed: f64::INFINITY,
+            course: None,
         };
         if self.slots.len() <= body {
             self.slots.resize(body + 1, NONE);
@@ -225,6 +233,7 @@ impl Seats {
         let d = pose.position - seat.base.position;
         let turn = (pose.rotation * seat.base.rotation.inverse()).angle();
         seat.base_angle = state.turned + state.motion.turn(time - state.motion.start) - turn;
+        seat.course = None;
         self.rig.set_displacement(slot, d, turn);
     }
 

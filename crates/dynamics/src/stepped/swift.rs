@@ -57,23 +57,26 @@ impl World {
         if self.pool.seats.rig.swift.is_empty() || self.settings.mode != Mode::Stepped {
             return;
         }
-        let start = self.clock.last();
+        let (start, end) = (self.clock.last(), self.clock.next());
         let mut ways = self.ways(start);
         let mut touches = BinaryHeap::new();
         for k in 0..ways.len() {
-            self.search(&ways, k, start, None, &mut touches);
+            for i in 0..self.bodies.get(ways[k].body).pairs.len() {
+                let place = self.bodies.get(ways[k].body).pairs[i];
+                self.search(&ways, k, (start, end), (place, true), &mut touches);
+            }
         }
         while let Some(Reverse(touch)) = touches.pop() {
             let ends = [Some(touch.a), touch.b];
             if ends.iter().flatten().any(|k| ways[*k].stopped) {
                 continue;
             }
-            self.pairs.get_mut(touch.place).fresh = true;
+            self.pairs.glance_mut(touch.place).holds = false;
             for k in ends.into_iter().flatten() {
                 self.halt(&mut ways[k], touch.time - start);
             }
             for k in ends.into_iter().flatten() {
-                self.search_against(&ways, k, touch.time, &mut touches);
+                self.search_against(&ways, k, (touch.time, end), &mut touches);
             }
         }
     }
@@ -100,8 +103,7 @@ impl World {
                 ..Motion::resting(seat.base.position + before.d)
             };
             let (body, angle) = (seat.body, seat.base_angle + before.turn);
-            let state = self.bodies.get_mut(body);
-            (state.motion, state.turned) = (motion, angle);
+            self.go_on_as(body, motion, angle);
             self.hold_way(body, before.slot, start, h);
             ways.push(Way {
                 body,
@@ -116,42 +118,38 @@ impl World {
         ways
     }
 
-    /// Enters the first touch of way `k` with each partner, or with one.
+    /// Enters the first touch of way `k` with its partner of a pair; of two swift bodies only the first
+    /// one's if both look.
     fn search(
         &mut self,
         ways: &[Way],
         k: usize,
-        from: SimTime,
-        only: Option<u32>,
+        (from, end): (SimTime, SimTime),
+        (place, both): (u32, bool),
         touches: &mut BinaryHeap<Reverse<Touch>>,
     ) {
         let way = ways[k];
-        for i in 0..self.bodies.get(way.body).pairs.len() {
-            let place = self.bodies.get(way.body).pairs[i];
-            let pair = self.pairs.get(place);
-            let (other, mine, theirs) = if pair.bodies.0 == way.body {
-                (pair.bodies.1, pair.colliders.0, pair.colliders.1)
-            } else {
-                (pair.bodies.0, pair.colliders.1, pair.colliders.0)
-            };
-            if only.is_some_and(|only| only != other) {
-                continue;
-            }
-            let colliders = pair.colliders;
-            let partner = ways.binary_search_by_key(&other, |way| way.body).ok();
-            // Of two swift bodies the first one looks.
-            if only.is_none() && partner.is_some_and(|other| other < k) {
-                continue;
-            }
-            let motion = partner.map_or_else(
-                || self.way_of(other, from),
-                |other| ways[other].motion.rebased(from),
-            );
-            let left = self.clock.next() - from;
-            let Some(wait) = self.first_touch(&way, mine, (other, theirs), &motion, (from, left))
-            else {
-                continue;
-            };
+        let pair = self.pairs.get(place);
+        let (other, mine, theirs) = if pair.bodies.0 == way.body {
+            (pair.bodies.1, pair.colliders.0, pair.colliders.1)
+        } else {
+            (pair.bodies.0, pair.colliders.1, pair.colliders.0)
+        };
+        let colliders = pair.colliders;
+        let partner = ways.binary_search_by_key(&other, |way| way.body).ok();
+        if both && partner.is_some_and(|other| other < k) {
+            return;
+        }
+        let left = end - from;
+        if partner.is_none() && self.stays_off(&way, other, from, left) {
+            return;
+        }
+        let motion = partner.map_or_else(
+            || self.way_of(other, (from, left)),
+            |other| ways[other].motion.rebased(from),
+        );
+        let wait = self.first_touch(&way, mine, (other, theirs), &motion, (from, left));
+        if let Some(wait) = wait {
             touches.push(Reverse(Touch {
                 time: from + wait,
                 colliders,
@@ -167,17 +165,18 @@ impl World {
         &mut self,
         ways: &[Way],
         stopped: usize,
-        from: SimTime,
+        span: (SimTime, SimTime),
         touches: &mut BinaryHeap<Reverse<Touch>>,
     ) {
         let body = ways[stopped].body;
         for i in 0..self.bodies.get(body).pairs.len() {
-            let (a, b) = self.pairs.get(self.bodies.get(body).pairs[i]).bodies;
+            let place = self.bodies.get(body).pairs[i];
+            let (a, b) = self.pairs.get(place).bodies;
             let other = if a == body { b } else { a };
             if let Ok(k) = ways.binary_search_by_key(&other, |way| way.body)
                 && !ways[k].stopped
             {
-                self.search(ways, k, from, Some(body), touches);
+                self.search(ways, k, span, (place, false), touches);
             }
         }
     }
@@ -224,15 +223,29 @@ impl World {
         first
     }
 
+    /// Whether a body that is not swift is too far for a way to meet it.
+    fn stays_off(&self, way: &Way, other: u32, from: SimTime, left: f64) -> bool {
+        let seats = &self.pool.seats;
+        let Some(slot) = seats.slot(other) else {
+            return false;
+        };
+        // Where that one is at the end, and the way so far: what both may still go or have gone.
+        let line = &seats.rig.lines[slot as usize];
+        let here = way.motion.centre + way.motion.velocity * (from - way.motion.start);
+        let gone = (way.motion.velocity.length() + line.v().length()) * left;
+        let near = self.bodies.get(way.body).reach + seats.get(slot).reach + gone;
+        // Rounding is for the search.
+        (seats.centre(slot) - here).length_squared() > near * near * (1.0 + 1e-6)
+    }
+
     /// How a body that is not swift goes through the sub-step.
-    fn way_of(&self, body: u32, from: SimTime) -> Motion {
+    fn way_of(&self, body: u32, (from, left): (SimTime, f64)) -> Motion {
         let seats = &self.pool.seats;
         let slot = seats.slot(body);
         let Some(slot) = slot.filter(|slot| seats.get(*slot).kind != BodyKind::Fixed) else {
             return self.bodies.get(body).motion.rebased(from);
         };
         let (pose, line) = (seats.pose(slot), &seats.rig.lines[slot as usize]);
-        let left = self.clock.next() - from;
         Motion {
             start: from,
             velocity: line.v(),

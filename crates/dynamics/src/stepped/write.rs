@@ -14,8 +14,7 @@ impl World {
         let pull = seats.rig.pull(slot);
         let angle = seat.base_angle + line.turn();
         let (velocity, spin) = (line.v(), line.w());
-        let state = self.bodies.get_mut(index);
-        state.motion = Motion {
+        let motion = Motion {
             start: time,
             centre: pose.position,
             velocity,
@@ -25,7 +24,15 @@ impl World {
             angular_acceleration: pull.angular,
             left_out: 0.0,
         };
-        state.turned = angle;
+        self.go_on_as(index, motion, angle);
+    }
+
+    /// The motion of a body from `motion.start` on, turned by `angle` in all; the log keeps what it did till then.
+    pub(super) fn go_on_as(&mut self, index: u32, motion: Motion, angle: f64) {
+        let old = self.bodies.get(index).motion;
+        self.bodies.history.replaced(index, &old, motion.start);
+        let state = self.bodies.get_mut(index);
+        (state.motion, state.turned) = (motion, angle);
     }
 
     /// Books what forces did since the motions of the bodies they act on were last told.
@@ -75,11 +82,9 @@ impl World {
         motion.centre -= motion.travel(h);
         let turn = line.turn() - motion.turn(h);
         motion.rotation = motion.rotation.turned_slightly(turn);
-        let old = self.bodies.get(seat.body).motion;
-        self.bodies.history.replaced(seat.body, &old, start);
-        let state = self.bodies.get_mut(seat.body);
-        state.motion = motion;
-        state.turned = seat.base_angle + turn;
+        let (index, angle) = (seat.body, seat.base_angle + turn);
+        self.go_on_as(index, motion, angle);
+        let state = self.bodies.get_mut(index);
         state.version = state.version.wrapping_add(1);
     }
 }

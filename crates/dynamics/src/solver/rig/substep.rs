@@ -8,7 +8,7 @@
 
 use fearless_simd::Level;
 
-use super::Rig;
+use super::{Rig, RowId};
 use crate::solver::Law;
 use crate::solver::coast::{self, Bodies};
 use crate::solver::kernel::{Pass, sweep};
@@ -58,8 +58,14 @@ fn each<T>(items: &mut [T], f: impl Fn(&mut T)) {
 impl Rig {
     /// One sub-step. Displacements grow by it; rows are read where they are.
     ///
+    /// The rows in `often` relax `sweeps` more times than the others, which do so once.
     /// `bounce` may change velocities before displacements are made of second order.
-    pub(crate) fn step(&mut self, law: &Law, sweeps: usize, bounce: impl FnOnce(&mut Self)) {
+    pub(crate) fn step(
+        &mut self,
+        law: &Law,
+        (sweeps, often): (usize, &[RowId]),
+        bounce: impl FnOnce(&mut Self),
+    ) {
         let (level, h) = (self.level, law.h);
         let pass = if self.lanes.has_belts() {
             Pass::RelaxBelts
@@ -69,7 +75,7 @@ impl Rig {
         self.forget_impacts();
         self.follow();
         // Where no row crosses from zone to zone nothing has to wait for anything.
-        let alone = self.lanes.loose() == 0 && sweeps == 1;
+        let alone = self.lanes.loose() == 0 && often.is_empty();
         self.in_zones(|work| {
             coast::pull_and_warm(level, &mut work.bodies, h);
             work.solve(level, law);
@@ -82,13 +88,8 @@ impl Rig {
         self.over_all(|work| work.solve(level, law));
         self.outside(|bodies, first, swift| coast::displace(level, bodies, h, first, swift));
         if !alone {
-            self.in_zones(|work| {
-                work.displace(level, law);
-                work.relax(level, law, pass);
-            });
-            self.over_all(|work| work.relax(level, law, pass));
-        }
-        for _ in 1..sweeps {
+            self.in_zones(|work| work.displace(level, law));
+            self.relax_near(law, pass, sweeps, often);
             self.in_zones(|work| work.relax(level, law, pass));
             self.over_all(|work| work.relax(level, law, pass));
         }
