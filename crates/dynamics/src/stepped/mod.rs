@@ -135,7 +135,7 @@ impl World {
         let h = self.clock.h;
         bounces.arm(rig, h);
         if self.settings.mode != Mode::Stepped {
-            // What strikes a crowd of hybrid mode has been resolved as an impact.
+            // Rows of a crowd keep their impulses from step to step, those that have just met too.
             rig.met.clear();
         }
         rig.step(&self.law, (sweeps, &often), |rig| bounces.pay(rig, h));

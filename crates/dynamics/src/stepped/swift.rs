@@ -53,7 +53,7 @@ struct Touch {
 impl World {
     /// After a sub-step: whoever went through something goes back to where it touched it first.
     pub(super) fn stop_swift(&mut self) {
-        // In a crowd of hybrid mode impacts are the agenda's.
+        // Who is swift leaves a crowd of hybrid mode, or strikes it as a flyer.
         if self.pool.seats.rig.swift.is_empty() || self.settings.mode != Mode::Stepped {
             return;
         }
