@@ -9,6 +9,9 @@ use super::tips::Tipping;
 use crate::modes::TouchMove;
 use crate::tipping::Ends;
 
+/// What is no longer than this is one instant, in s.
+const INSTANT: f64 = 1e-12;
+
 /// Judgements of one group at one instant: more, and rounding moves it to and fro.
 const STALLED: u32 = 16;
 
@@ -238,7 +241,7 @@ impl Closed {
 
     /// Whether judgements go round in circles here.
     pub(super) fn stalls(&mut self, time: SimTime) -> bool {
-        if self.stall.0 == time {
+        if time - self.stall.0 < INSTANT {
             self.stall.1 += 1;
         } else {
             self.stall = (time, 0);

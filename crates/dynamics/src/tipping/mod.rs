@@ -31,6 +31,9 @@ const SHORTEST: f64 = 1e-7;
 /// What a path may leave out, as a fraction of the smallest reach a second.
 const ERROR: f64 = 1e-11;
 
+/// A mode that ends sooner is none, in s.
+const AT_ONCE: f64 = 1e-14;
+
 /// Modes tried at one instant.
 const TRIES: usize = 8;
 
@@ -190,8 +193,12 @@ pub(crate) fn tip(
             .ok_or(NotMine::Unsolved)?;
         let (after, limit) = match first(&equations, &path, (size, fastest)) {
             roots::End::Open => (path.length, None),
-            roots::End::After(after, limit) => (after, Some(limit)),
-            roots::End::Never(limit) => {
+            roots::End::After(after, limit)
+                if after > AT_ONCE || matches!(limit, Limit::Corner { .. }) =>
+            {
+                (after, Some(limit))
+            }
+            roots::End::Never(limit) | roots::End::After(_, limit) => {
                 // The edge of a mode: what rounding decided was decided wrongly.
                 amend(&mut equations, limit)?;
                 continue;
