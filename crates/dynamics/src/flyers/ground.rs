@@ -72,6 +72,22 @@ impl World {
         !self.flyers.is_raised()
     }
 
+    /// Boxes of all flyers without the room about their ways: from now on bodies need to find them by narrow ones.
+    pub(super) fn narrow(&mut self, time: SimTime) {
+        for index in self.bodies.indices().collect::<Vec<_>>() {
+            let state = self.bodies.get_mut(index);
+            let left = state.course.ground - time;
+            if state.course.cells.is_none() || !self.flyers.grounded || left < 0.0 {
+                continue;
+            }
+            let way = swept(state, &Track::of(&state.motion, time), at_most(left));
+            state.course.reached = way;
+            for &at in &state.colliders {
+                self.colliders[at as usize].fat = way;
+            }
+        }
+    }
+
     /// From the first box in the tree on flyers look down for what is there.
     pub(crate) fn look_down_first(&mut self, time: SimTime) {
         if self.flyers.grounded || self.broad.tree.is_empty() {
@@ -176,5 +192,45 @@ impl World {
         let span = factor * course.span;
         self.look_down(index, time, span);
         self.meet_shapes(index, time, Cause::Horizon);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use carom_geometry::{Circle, HalfPlane};
+    use carom_math::{Vec2, vec2};
+
+    use crate::{BodyDef, Material, Settings, World};
+
+    #[test]
+    fn the_first_landing_leaves_flyers_narrow_boxes() {
+        let settings = Settings {
+            gravity: vec2(0.0, -10.0),
+            ..Settings::default()
+        };
+        let mut world = World::new(settings).expect("settings");
+        let floor = HalfPlane::new(Vec2::ZERO, Vec2::Y).expect("a floor");
+        let material = Material::default();
+        let ground = BodyDef::fixed();
+        world.insert(ground, floor, material).expect("a floor");
+        for i in 0..64 {
+            let height = if i == 0 { 0.6 } else { 60.0 };
+            let at = vec2(3.0 * f64::from(i), height);
+            let disc = Circle::new(0.5).expect("a disc");
+            let falls = BodyDef::dynamic().at(at).moving(vec2(0.0, -1.0));
+            world.insert(falls, disc, material).expect("a disc");
+        }
+        world.step_to_next_event(1.0);
+        assert!(world.flyers.is_raised(), "the first disc is on the floor");
+        let mut flying = 0;
+        for index in world.bodies.indices() {
+            let course = &world.bodies.get(index).course;
+            if course.flies {
+                flying += 1;
+                let width = course.reached.max.x - course.reached.min.x;
+                assert!(width < 1.1, "a disc of 1 m falls in a box of {width} m");
+            }
+        }
+        assert_eq!(flying, 63);
     }
 }

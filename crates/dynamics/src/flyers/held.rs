@@ -89,6 +89,7 @@ impl World {
     /// Somebody is sub-stepped from now on: until now the grid of sub-steps was not followed.
     pub(crate) fn begin_substeps(&mut self, time: SimTime) {
         self.clock.catch_up(time);
+        self.narrow(time);
         self.flyers.raise(&mut self.bodies);
     }
 
