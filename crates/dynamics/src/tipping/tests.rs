@@ -95,7 +95,7 @@ fn energy(place: &Place) -> f64 {
     0.5 * place.velocity.length_squared() + place.spin * place.spin / 6.0 + G * place.centre.y
 }
 
-/// θ″ = (3 g/4) sin θ by the classic method of order 4, a million small steps a second.
+/// θ″ = (3 g/4) sin θ by the classic method of order 4 in many small steps.
 fn pendulum(mut angle: f64, mut spin: f64, seconds: f64) -> (f64, f64) {
     let steps = 200_000;
     let h = seconds / f64::from(steps);
