@@ -1,21 +1,14 @@
 //! Lasting contacts in closed form: rest, slide, roll, and the instants between them.
 
 use carom_dynamics::{
-    BodyDef, BodyId, ContactMode, EventKind, Impulse, Material, PairMaterial, Settings, World,
+    BodyDef, BodyId, ContactMode, EventKind, Impulse, PairMaterial, Settings, World,
 };
 use carom_geometry::{Circle, ConvexPolygon, HalfPlane, Shape};
 use carom_math::{Rot, SimTime, Vec2, vec2};
 use carom_tests::run;
+use carom_tests::scenes::surface;
 
 const G: f64 = 9.81;
-
-fn rough(friction: f64) -> Material {
-    Material {
-        friction,
-        restitution: 0.0,
-        ..Material::default()
-    }
-}
 
 fn world() -> World {
     World::new(Settings {
@@ -29,7 +22,9 @@ fn on_floor(friction: f64) -> World {
     let mut world = world();
     let floor = ConvexPolygon::rectangle(2000.0, 2.0).expect("a floor");
     let def = BodyDef::fixed().at(vec2(0.0, -1.0));
-    world.insert(def, floor, rough(friction)).expect("valid");
+    world
+        .insert(def, floor, surface(0.0, friction))
+        .expect("valid");
     world
 }
 
@@ -63,7 +58,7 @@ fn a_column_of_ten_boxes_does_not_move_at_all() {
         .map(|k| {
             let def = BodyDef::dynamic().at(vec2(0.0, 0.5 + f64::from(k)));
             world
-                .insert(def, block(1.0, 1.0), rough(0.5))
+                .insert(def, block(1.0, 1.0), surface(0.0, 0.5))
                 .expect("valid")
         })
         .collect();
@@ -88,13 +83,13 @@ fn a_block_on_a_slope_that_is_no_axis_slides_by_the_textbook() {
     let mut world = world();
     let half_plane = HalfPlane::new(Vec2::ZERO, slope * vec2(0.0, 1.0)).expect("a slope");
     world
-        .insert(BodyDef::fixed(), Shape::from(half_plane), rough(0.3))
+        .insert(BodyDef::fixed(), Shape::from(half_plane), surface(0.0, 0.3))
         .expect("valid");
     let def = BodyDef::dynamic()
         .at(slope * vec2(0.0, 0.25))
         .turned(30.0_f64.to_radians());
     let id = world
-        .insert(def, block(2.0, 0.5), rough(0.3))
+        .insert(def, block(2.0, 0.5), surface(0.0, 0.3))
         .expect("valid");
     run(&mut world, 3.0, |_| {});
     let a = G * (slope.sin() - 0.3 * slope.cos());
@@ -123,14 +118,18 @@ fn a_ball_that_rolls_up_a_slope_stops_and_rolls_back() {
     .expect("valid");
     let floor = block(2000.0, 2.0);
     world
-        .insert(BodyDef::fixed().at(vec2(0.0, -1.0)), floor, rough(0.8))
+        .insert(
+            BodyDef::fixed().at(vec2(0.0, -1.0)),
+            floor,
+            surface(0.0, 0.8),
+        )
         .expect("valid");
     let def = BodyDef::dynamic()
         .at(vec2(0.0, 0.5))
         .moving(vec2(-1.0, 0.0))
         .spinning(2.0);
     let id = world
-        .insert(def, Circle::new(0.5).expect("a ball"), rough(0.8))
+        .insert(def, Circle::new(0.5).expect("a ball"), surface(0.0, 0.8))
         .expect("valid");
     let a = G * carom_math::trig::sin_cos(10.0_f64.to_radians()).0 / 1.5;
     run(&mut world, 2.0, |_| {});
@@ -148,7 +147,7 @@ fn a_disc_rolls_off_the_end_of_a_table() {
         .insert(
             BodyDef::fixed().at(vec2(0.0, -1.0)),
             block(4.0, 2.0),
-            rough(0.5),
+            surface(0.0, 0.5),
         )
         .expect("valid");
     let def = BodyDef::dynamic()
@@ -156,7 +155,7 @@ fn a_disc_rolls_off_the_end_of_a_table() {
         .moving(vec2(2.0, 0.0))
         .spinning(-8.0);
     let id = world
-        .insert(def, Circle::new(0.25).expect("a disc"), rough(0.5))
+        .insert(def, Circle::new(0.25).expect("a disc"), surface(0.0, 0.5))
         .expect("valid");
     world.step(1.0);
     assert_eq!(centre(&world, id), vec2(2.0, 0.25));
@@ -170,7 +169,7 @@ fn a_ball_that_lands_and_spins_slips_and_then_rolls() {
     let mut world = on_floor(0.3);
     let def = BodyDef::dynamic().at(vec2(0.0, 1.25)).spinning(-40.0);
     let id = world
-        .insert(def, Circle::new(0.25).expect("a ball"), rough(0.3))
+        .insert(def, Circle::new(0.25).expect("a ball"), surface(0.0, 0.3))
         .expect("valid");
     let found = modes(&mut world, 3.0);
     assert_eq!(
@@ -196,7 +195,7 @@ fn a_struck_block_slides_and_stops_where_it_should() {
     let mut world = on_floor(0.4);
     let def = BodyDef::dynamic().at(vec2(0.0, 0.25));
     let id = world
-        .insert(def, block(2.0, 0.5), rough(0.4))
+        .insert(def, block(2.0, 0.5), surface(0.0, 0.4))
         .expect("valid");
     run(&mut world, 0.5, |_| {});
     assert_eq!(centre(&world, id), vec2(0.0, 0.25));
@@ -221,11 +220,11 @@ fn a_flyer_that_hits_a_sliding_block_joins_the_account_at_its_instant() {
         .moving(vec2(2.0, 0.0))
         .with_mass(1.0);
     let slider = world
-        .insert(slider, block(2.0, 0.5), rough(0.2))
+        .insert(slider, block(2.0, 0.5), surface(0.0, 0.2))
         .expect("valid");
     let stone = BodyDef::dynamic().at(vec2(3.0, 0.25)).with_mass(1.0);
     let stone = world
-        .insert(stone, block(2.0, 0.5), rough(0.2))
+        .insert(stone, block(2.0, 0.5), surface(0.0, 0.2))
         .expect("valid");
     let smooth = PairMaterial::default();
     world
@@ -255,11 +254,11 @@ fn a_conveyor_takes_a_block_along() {
         .at(vec2(0.0, -1.0))
         .moving(vec2(1.5, 0.0));
     world
-        .insert(belt, block(2000.0, 2.0), rough(0.5))
+        .insert(belt, block(2000.0, 2.0), surface(0.0, 0.5))
         .expect("valid");
     let def = BodyDef::dynamic().at(vec2(0.0, 0.25));
     let id = world
-        .insert(def, block(2.0, 0.5), rough(0.5))
+        .insert(def, block(2.0, 0.5), surface(0.0, 0.5))
         .expect("valid");
     let brought = world.energy().external;
     let found = modes(&mut world, 2.0);
@@ -288,14 +287,14 @@ fn what_rests_falls_asleep_and_wakes_when_it_is_struck() {
         .insert(
             BodyDef::fixed().at(vec2(0.0, -1.0)),
             block(20.0, 2.0),
-            rough(0.5),
+            surface(0.0, 0.5),
         )
         .expect("valid");
     let id = world
         .insert(
             BodyDef::dynamic().at(vec2(0.0, 0.5)),
             block(1.0, 1.0),
-            rough(0.5),
+            surface(0.0, 0.5),
         )
         .expect("valid");
     run(&mut world, 1.0, |_| {});
@@ -304,7 +303,7 @@ fn what_rests_falls_asleep_and_wakes_when_it_is_struck() {
         .at(vec2(-3.0, 0.5))
         .moving(vec2(5.0, 0.0));
     world
-        .insert(ball, Circle::new(0.25).expect("a ball"), rough(0.5))
+        .insert(ball, Circle::new(0.25).expect("a ball"), surface(0.0, 0.5))
         .expect("valid");
     run(&mut world, 1.0, |_| {});
     assert!(centre(&world, id).x > 0.01);
@@ -322,7 +321,7 @@ fn a_slender_rod_that_slides_on_its_tip_stays_finite_and_loses_energy() {
         .at(vec2(0.0, -low.y))
         .turned(60.0_f64.to_radians())
         .moving(vec2(-1.0, 0.0));
-    let id = world.insert(def, rod, rough(1.6)).expect("valid");
+    let id = world.insert(def, rod, surface(0.0, 1.6)).expect("valid");
     let mut before = world.energy().mechanical();
     run(&mut world, 2.0, |world| {
         let now = world.energy().mechanical();
@@ -340,18 +339,18 @@ fn a_block_on_a_plank_comes_to_ride_it() {
         .moving(vec2(2.0, 0.0))
         .with_mass(1.0);
     let top = world
-        .insert(block_def, block(4.0, 0.25), rough(0.2))
+        .insert(block_def, block(4.0, 0.25), surface(0.0, 0.2))
         .expect("valid");
     world
         .insert(
             BodyDef::fixed().at(vec2(0.0, -1.0)),
             block(2000.0, 2.0),
-            rough(0.0),
+            surface(0.0, 0.0),
         )
         .expect("valid");
     let plank_def = BodyDef::dynamic().at(vec2(0.0, 0.25)).with_mass(1000.0);
     let plank = world
-        .insert(plank_def, block(1000.0, 0.5), rough(0.2))
+        .insert(plank_def, block(1000.0, 0.5), surface(0.0, 0.2))
         .expect("valid");
     run(&mut world, 2.0, |_| {});
     let common = 2.0 / 1001.0;

@@ -1,19 +1,12 @@
 //! Bodies that turn about what they stand on: against fine integrations and the textbook.
 
-use carom_dynamics::{BodyDef, BodyId, EventKind, Material, Settings, World};
+use carom_dynamics::{BodyDef, BodyId, EventKind, Settings, World};
 use carom_geometry::{Circle, ConvexPolygon, HalfPlane, Shape};
 use carom_math::{Rot, Vec2, trig, vec2};
 use carom_tests::run;
+use carom_tests::scenes::surface;
 
 const G: f64 = 9.81;
-
-fn rough(friction: f64) -> Material {
-    Material {
-        friction,
-        restitution: 0.0,
-        ..Material::default()
-    }
-}
 
 fn on_floor(friction: f64) -> World {
     let mut world = World::new(Settings {
@@ -23,7 +16,7 @@ fn on_floor(friction: f64) -> World {
     .expect("valid");
     let floor = HalfPlane::new(Vec2::ZERO, Vec2::Y).expect("a floor");
     world
-        .insert(BodyDef::fixed(), Shape::from(floor), rough(friction))
+        .insert(BodyDef::fixed(), Shape::from(floor), surface(0.0, friction))
         .expect("valid");
     world
 }
@@ -37,7 +30,9 @@ fn tilted(world: &mut World, angle: f64, spin: f64, friction: f64) -> BodyId {
         .moving(vec2(-arm.y, arm.x) * spin)
         .spinning(spin);
     let shape = ConvexPolygon::rectangle(1.0, 2.0).expect("a box");
-    world.insert(def, shape, rough(friction)).expect("valid")
+    world
+        .insert(def, shape, surface(0.0, friction))
+        .expect("valid")
 }
 
 /// θ″ of a body on its corner by the classic method of order 4 in many small steps; θ: of the arm, from the vertical.
@@ -118,12 +113,12 @@ fn a_disc_leaves_a_disc_at_two_thirds_of_its_height() {
     let mut world = World::new(Settings::default()).expect("valid");
     let dome = Circle::new(1.0).expect("a dome");
     world
-        .insert(BodyDef::fixed(), dome, rough(0.0))
+        .insert(BodyDef::fixed(), dome, surface(0.0, 0.0))
         .expect("valid");
     let from = Rot::from_angle(-0.05) * vec2(0.0, 1.5);
     let disc = Circle::new(0.5).expect("a disc");
     let id = world
-        .insert(BodyDef::dynamic().at(from), disc, rough(0.0))
+        .insert(BodyDef::dynamic().at(from), disc, surface(0.0, 0.0))
         .expect("valid");
     let start = world.energy().mechanical();
     let mut left = None;
@@ -148,7 +143,7 @@ fn what_a_tipping_box_hits_it_hits_at_the_instant() {
     let id = tilted(&mut world, -0.7, 0.0, 5.0);
     let post = ConvexPolygon::rectangle(0.2, 1.0).expect("a post");
     world
-        .insert(BodyDef::fixed().at(vec2(1.9, 0.5)), post, rough(0.0))
+        .insert(BodyDef::fixed().at(vec2(1.9, 0.5)), post, surface(0.0, 0.0))
         .expect("valid");
     let lean = 0.463_647_609_000_806_1;
     let mut struck = false;

@@ -302,8 +302,18 @@ impl World {
             self.enlist(index, time);
         }
         for &index in woken {
-            for slot in 0..self.bodies.get(index).colliders.len() {
-                let at = self.bodies.get(index).colliders[slot];
+            self.meet_near(index);
+            for slot in 0..self.bodies.get(index).pairs.len() {
+                self.predict(self.bodies.get(index).pairs[slot], time);
+            }
+        }
+    }
+
+    /// Makes the pairs of a body's boxes in the tree with what is near them, flyers too.
+    pub(crate) fn meet_near(&mut self, index: u32) {
+        for slot in 0..self.bodies.get(index).colliders.len() {
+            let at = self.bodies.get(index).colliders[slot];
+            if self.colliders[at as usize].node.is_some() {
                 self.broad.meet(
                     &mut self.bodies,
                     &self.colliders,
@@ -311,9 +321,6 @@ impl World {
                     at,
                     Some(&self.flyers),
                 );
-            }
-            for slot in 0..self.bodies.get(index).pairs.len() {
-                self.predict(self.bodies.get(index).pairs[slot], time);
             }
         }
     }

@@ -45,10 +45,12 @@ impl World {
         if (left - slip).abs() <= JAMS * slip.abs() {
             return false;
         }
-        let had: f64 = ends
-            .iter()
-            .map(|index| self.bodies.energy_of(*index, time).0)
-            .sum();
+        let energy = |world: &Self| -> f64 {
+            let each = ends.iter();
+            each.map(|index| world.bodies.energy_of(*index, time).0)
+                .sum()
+        };
+        let had = energy(self);
         for (index, body) in ends.into_iter().zip(after) {
             if body.inverse_mass > 0.0 {
                 self.bodies.change(index, time, |motion| {
@@ -57,11 +59,7 @@ impl World {
                 });
             }
         }
-        let has: f64 = ends
-            .iter()
-            .map(|index| self.bodies.energy_of(*index, time).0)
-            .sum();
-        self.bodies.book.impacts.add(had - has);
+        self.bodies.book.impacts.add(had - energy(self));
         self.report.impacts += 1;
         self.events.push(
             time,

@@ -42,18 +42,7 @@ impl World {
         self.flyers.vanish(&mut self.bodies, index);
         self.enlist(index, time);
         // What was too large for the grid keeps its box, and has met no pairs with it.
-        for slot in 0..self.bodies.get(index).colliders.len() {
-            let at = self.bodies.get(index).colliders[slot];
-            if self.colliders[at as usize].node.is_some() {
-                self.broad.meet(
-                    &mut self.bodies,
-                    &self.colliders,
-                    &mut self.pairs,
-                    at,
-                    Some(&self.flyers),
-                );
-            }
-        }
+        self.meet_near(index);
         self.deflected(index, time);
     }
 

@@ -67,6 +67,23 @@ pub(super) fn heap(
         })
 }
 
+/// A body by all its numbers: 1/m, 1/I, centre, velocity, spin.
+pub(super) const fn body(
+    inverse_mass: f64,
+    inverse_inertia: f64,
+    centre: Vec2,
+    velocity: Vec2,
+    spin: f64,
+) -> ImpactBody {
+    ImpactBody {
+        inverse_mass,
+        inverse_inertia,
+        centre,
+        velocity,
+        spin,
+    }
+}
+
 pub(super) fn energy(bodies: &[ImpactBody]) -> f64 {
     bodies.iter().map(ImpactBody::kinetic_energy).sum()
 }

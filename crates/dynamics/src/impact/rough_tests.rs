@@ -6,7 +6,7 @@ use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
 
 use super::coulomb::stop;
-use super::heaps::{self, energy, least_opening, velocity};
+use super::heaps::{self, body, energy, least_opening, velocity};
 use super::rows::{Rows, contact_rows};
 use super::{ImpactBody, ImpactContact, ImpactLaw, Several, SharedContact, several};
 
@@ -245,13 +245,6 @@ fn nearly_every_heap_has_its_common_stop_found() {
 
 #[test]
 fn a_light_body_that_sticks_between_a_heavy_one_and_the_ground_brings_no_energy() {
-    let body = |inverse_mass, inverse_inertia, centre, velocity, spin| ImpactBody {
-        inverse_mass,
-        inverse_inertia,
-        centre,
-        velocity,
-        spin,
-    };
     let bodies = [
         ImpactBody::immovable(Vec2::ZERO, Vec2::ZERO, 0.0),
         body(

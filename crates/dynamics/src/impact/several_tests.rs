@@ -3,7 +3,7 @@
 use carom_math::{Vec2, cross, vec2};
 use proptest::prelude::*;
 
-use super::heaps::{self, energy, least_opening};
+use super::heaps::{self, body, energy, least_opening};
 use super::{
     ImpactBody, ImpactContact, ImpactLaw, SharedContact, blend, generalised_reflections,
     newton_lcp, resolve,
@@ -147,13 +147,6 @@ fn a_box_that_lands_flat_without_restitution_lies_still() {
 
 #[test]
 fn two_bodies_that_four_contacts_hold_and_a_third_one_stop() {
-    let body = |inverse_mass, inverse_inertia, centre, velocity, spin| ImpactBody {
-        inverse_mass,
-        inverse_inertia,
-        centre,
-        velocity,
-        spin,
-    };
     let bodies = [
         body(
             0.50658677654104,
