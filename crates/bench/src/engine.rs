@@ -88,6 +88,18 @@ pub enum Mode {
     Exact,
     /// carom: every moving body sub-stepped.
     Stepped,
+    /// carom's defaults with the sub-steps of its preset `fast`.
+    Fast,
+    /// Every moving body sub-stepped, with the preset `fast`.
+    SteppedFast,
+}
+
+impl Mode {
+    /// Whether it is another mode at fewer sub-steps.
+    #[must_use]
+    pub const fn is_fast(self) -> bool {
+        matches!(self, Self::Fast | Self::SteppedFast)
+    }
 }
 
 impl fmt::Display for Mode {
@@ -98,6 +110,8 @@ impl fmt::Display for Mode {
             Self::Hybrid => "hybrid",
             Self::Exact => "exact",
             Self::Stepped => "stepped",
+            Self::Fast => "fast",
+            Self::SteppedFast => "stepped-fast",
         })
     }
 }

@@ -37,7 +37,11 @@ pub(super) fn open(scene: &PlainScene, setup: &Setup) -> Result<Box<dyn Engine>,
 
 /// A tick is a step; the default keeps carom's own number of sub-steps in it.
 fn settings(scene: &PlainScene, setup: &Setup) -> Settings {
-    let default = Settings::default();
+    let default = if setup.mode.is_fast() {
+        Settings::fast()
+    } else {
+        Settings::default()
+    };
     let tick = setup.hz.recip();
     let substeps = setup
         .substeps
@@ -48,7 +52,7 @@ fn settings(scene: &PlainScene, setup: &Setup) -> Settings {
         substep: tick / substeps,
         mode: match setup.mode {
             Mode::Exact => carom_dynamics::Mode::Exact,
-            Mode::Stepped => carom_dynamics::Mode::Stepped,
+            Mode::Stepped | Mode::SteppedFast => carom_dynamics::Mode::Stepped,
             _ => carom_dynamics::Mode::Hybrid,
         },
         sleep: setup.sleeping.then(Sleep::default),
@@ -114,8 +118,11 @@ impl Engine for Carom {
     fn settings(&self) -> String {
         let settings = self.world.settings();
         format!(
-            "tick={} substep={} mode={:?}",
-            settings.tick, settings.substep, settings.mode
+            "tick={} substep={} mode={:?} contact={}Hz",
+            settings.tick,
+            settings.substep,
+            settings.mode,
+            settings.contact.frequency.min(0.125 / settings.substep)
         )
     }
 }

@@ -82,7 +82,13 @@ impl EngineName {
     #[must_use]
     pub const fn modes(self) -> &'static [Mode] {
         match self {
-            Self::Carom => &[Mode::Hybrid, Mode::Exact, Mode::Stepped],
+            Self::Carom => &[
+                Mode::Hybrid,
+                Mode::Exact,
+                Mode::Stepped,
+                Mode::Fast,
+                Mode::SteppedFast,
+            ],
             _ => &[Mode::Stock, Mode::Tuned],
         }
     }
