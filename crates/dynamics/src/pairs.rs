@@ -161,7 +161,8 @@ impl Pairs {
         if !core::mem::take(&mut self.dirty) {
             return;
         }
-        self.order.clear();
+        let mut found = core::mem::take(&mut self.order);
+        found.clear();
         for &index in stepped {
             for &place in &bodies.get(index).pairs {
                 let (a, b) = self.get(place).bodies;
@@ -170,13 +171,22 @@ impl Pairs {
                 // A pair of two of them is listed by the lower one.
                 let twice = state.is_held() && other < index;
                 if !state.in_crowd && !twice {
-                    self.order.push(place);
+                    found.push(place);
                 }
             }
         }
-        let list = &self.list;
-        self.order
-            .sort_unstable_by_key(|i| list[*i as usize].as_ref().map(|pair| pair.colliders));
+        self.order = self.by_colliders(found);
+    }
+
+    /// These places in order of colliders, each once.
+    pub(crate) fn by_colliders(&self, places: impl IntoIterator<Item = u32>) -> Vec<u32> {
+        let keyed = places
+            .into_iter()
+            .map(|place| (self.get(place).colliders, place));
+        let mut keyed: Vec<_> = keyed.collect();
+        keyed.sort_unstable();
+        keyed.dedup();
+        keyed.into_iter().map(|(_, place)| place).collect()
     }
 
     /// Who is sub-stepped, or in a crowd, has changed.
@@ -187,14 +197,13 @@ impl Pairs {
     /// Places of all pairs in order of colliders.
     pub(crate) fn in_order(&self) -> Vec<u32> {
         let places = (0u32..).zip(&self.list);
-        let alive = places.filter(|(_, pair)| pair.is_some());
-        let mut order: Vec<u32> = alive.map(|(place, _)| place).collect();
-        order.sort_unstable_by_key(|place| {
-            self.list[*place as usize]
-                .as_ref()
-                .map(|pair| pair.colliders)
-        });
-        order
+        let alive = places.filter_map(|(place, pair)| pair.as_ref().map(|_| place));
+        self.by_colliders(alive)
+    }
+
+    /// The places of the last [`Self::sort`].
+    pub(crate) fn ordered(&self) -> &[u32] {
+        &self.order
     }
 
     /// Place number `i` in the order of the last [`Self::sort`].

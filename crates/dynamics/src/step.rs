@@ -185,15 +185,25 @@ impl World {
     /// A body with a new motion in the middle of a sub-step: it may leave its boxes, and all its
     /// pairs are predicted again.
     pub(crate) fn redirect(&mut self, index: u32, time: SimTime) {
+        if self.steer(index, time) {
+            for slot in 0..self.bodies.get(index).pairs.len() {
+                self.predict(self.bodies.get(index).pairs[slot], time);
+            }
+        }
+    }
+
+    /// As [`Self::redirect`], but for predictions; whether there are any to make.
+    pub(crate) fn steer(&mut self, index: u32, time: SimTime) -> bool {
         if self.bodies.get(index).asleep {
             self.wake(index, time);
         }
         let state = self.bodies.get(index);
         if state.in_crowd {
-            return;
+            return false;
         }
         if state.course.flies {
-            return self.foresee(index, time, Cause::Arrived, None);
+            self.foresee(index, time, Cause::Arrived, None);
+            return false;
         }
         let left = (self.clock.next() - time).max(0.0);
         let state = self.bodies.get(index);
@@ -201,12 +211,11 @@ impl World {
             fly(&mut self.bodies, index, time, left);
         }
         self.refit(index, time, left);
-        if !self.bodies.get(index).is_stepped() {
-            return self.show(index, time);
+        let stepped = self.bodies.get(index).is_stepped();
+        if !stepped {
+            self.show(index, time);
         }
-        for slot in 0..self.bodies.get(index).pairs.len() {
-            self.predict(self.bodies.get(index).pairs[slot], time);
-        }
+        stepped
     }
 
     /// Has all flyers near a body that rests look at it.

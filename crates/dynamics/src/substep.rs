@@ -128,21 +128,23 @@ impl World {
     /// Flyers that come to rest on stepped bodies are stepped from here on, and so on with those that
     /// rest on them.
     fn gather_landings(&mut self, time: SimTime, h: f64) {
+        let mut asked = self.pairs.ordered().to_vec();
         loop {
-            let mut landed = Vec::new();
-            let mut i = 0;
-            while let Some(place) = self.pairs.place(i) {
-                i += 1;
-                landed.extend(self.landing(place, time, h));
-            }
+            let landings = asked.iter();
+            let landed: Vec<u32> = landings
+                .filter_map(|place| self.landing(*place, time, h))
+                .collect();
             if landed.is_empty() {
-                return;
+                break;
             }
-            for index in landed {
-                self.land(index, time);
+            for &index in &landed {
+                self.land_first(index, time);
             }
-            self.pairs.sort(&self.bodies, &self.stepped);
+            // Only their pairs may answer otherwise now.
+            let pairs = landed.iter().flat_map(|i| &self.bodies.get(*i).pairs);
+            asked = self.pairs.by_colliders(pairs.copied());
         }
+        self.pairs.sort(&self.bodies, &self.stepped);
     }
 
     /// The flyer of a pair, if the other one is stepped and holds it.

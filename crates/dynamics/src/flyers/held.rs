@@ -31,9 +31,24 @@ impl World {
 
     /// From now on the sub-steps move this body: something holds it, or is too near to tell.
     pub(crate) fn land(&mut self, index: u32, time: SimTime) {
+        if self.alight(index, time) {
+            self.deflected(index, time);
+        }
+    }
+
+    /// As [`Self::land`], at the start of a sub-step, which predicts all pairs when it is over.
+    pub(crate) fn land_first(&mut self, index: u32, time: SimTime) {
+        if self.alight(index, time) {
+            self.steer(index, time);
+            self.regroup(index, time);
+        }
+    }
+
+    /// Puts a flyer among those that are sub-stepped; whether it was one.
+    fn alight(&mut self, index: u32, time: SimTime) -> bool {
         let state = self.bodies.get_mut(index);
         if state.kind != BodyKind::Dynamic || !state.course.flies {
-            return;
+            return false;
         }
         state.course.flies = false;
         state.idle = 0;
@@ -43,7 +58,7 @@ impl World {
         self.enlist(index, time);
         // What was too large for the grid keeps its box, and has met no pairs with it.
         self.meet_near(index);
-        self.deflected(index, time);
+        true
     }
 
     /// A body that nothing holds any more flies from event to event.

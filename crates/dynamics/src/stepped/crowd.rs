@@ -97,11 +97,15 @@ impl World {
             }
             count[at] = count[at].saturating_add(1);
         }
-        for index in self.stepped.clone() {
-            let size = count[tree.root(index) as usize];
-            if size > most && size != usize::MAX {
-                self.join(index, time);
-            }
+        let joins = |index: &u32| {
+            let size = count[tree.root(*index) as usize];
+            size > most && size != usize::MAX
+        };
+        let stepped = core::mem::take(&mut self.stepped);
+        let (joining, others): (Vec<u32>, _) = stepped.into_iter().partition(joins);
+        self.stepped = others;
+        for index in joining {
+            self.join(index, time);
         }
         self.pairs.sort(&self.bodies, &self.stepped);
     }
