@@ -6,6 +6,7 @@
 //! meet, and its time of impact is sought only when that instant comes with both motions unchanged.
 //! A body that nothing can happen to has no entry, and costs nothing.
 
+mod aside;
 mod circle;
 mod foresee;
 mod frame;
@@ -27,6 +28,7 @@ use carom_math::{SimTime, Vec2};
 
 use crate::bodies::Bodies;
 use crate::state::Collider;
+use aside::Aside;
 use circle::Registered;
 pub(crate) use foresee::Cause;
 use frame::{Frame, Track};
@@ -152,6 +154,7 @@ pub(crate) struct Flyers {
     /// Circles of the grid's flyers, by body.
     circles: Vec<Registered>,
     queue: Queue,
+    aside: Aside,
     impacts: Vec<Option<Foreseen>>,
     free: Vec<u32>,
     /// Mark of the last search that met a body.
@@ -183,6 +186,7 @@ impl Flyers {
             aloft: None,
             circles: Vec::new(),
             queue: Queue::default(),
+            aside: Aside::default(),
             impacts: Vec::new(),
             free: Vec::new(),
             seen: Vec::new(),
@@ -205,6 +209,19 @@ impl Flyers {
         colliders: &[Collider],
         limit: SimTime,
     ) -> Option<SimTime> {
+        let aside = self.aside.first().map(|entry| entry.time);
+        let aside = aside.filter(|time| *time <= limit);
+        self.next_queued(bodies, colliders, aside.unwrap_or(limit))
+            .or(aside)
+    }
+
+    /// The same, of all that nobody laid aside.
+    fn next_queued(
+        &mut self,
+        bodies: &Bodies,
+        colliders: &[Collider],
+        limit: SimTime,
+    ) -> Option<SimTime> {
         let (impacts, free) = (&mut self.impacts, &mut self.free);
         self.queue.next(limit, |entry| {
             let stale = is_stale(entry, bodies, colliders);
@@ -218,8 +235,36 @@ impl Flyers {
 
     /// Takes the next entry out; an impact with all that belongs to it.
     fn pop(&mut self) -> Option<(Entry, Option<Foreseen>)> {
-        let entry = self.queue.pop()?;
+        let aside = self.aside.first().copied();
+        let entry = match (aside, self.queue.peek()) {
+            (Some(first), other) if other.is_none_or(|other| first < *other) => {
+                self.aside.take(&first);
+                first
+            }
+            _ => self.queue.pop()?,
+        };
         Some((entry, self.release(&entry)))
+    }
+
+    /// Takes the next entry that nobody laid aside out, if it is due by `limit`.
+    fn pop_queued(
+        &mut self,
+        bodies: &Bodies,
+        colliders: &[Collider],
+        limit: SimTime,
+    ) -> Option<Entry> {
+        self.next_queued(bodies, colliders, limit)?;
+        self.queue.pop()
+    }
+
+    /// Takes the impacts of a body that were laid aside and are due by `limit`, in order.
+    fn take_aside(&mut self, body: u32, limit: SimTime) -> Vec<Entry> {
+        let due = self.aside.of(body).take_while(|e| e.time <= limit);
+        let due: Vec<Entry> = due.copied().collect();
+        for entry in &due {
+            self.aside.take(entry);
+        }
+        due
     }
 
     fn release(&mut self, entry: &Entry) -> Option<Foreseen> {
@@ -408,14 +453,16 @@ impl Flyers {
     /// Drops all that is ahead of a body and of its shapes: others may take their places.
     pub(crate) fn forget(&mut self, index: u32, colliders: &[u32]) {
         let mut dropped = Vec::new();
-        self.queue.retain(|entry| {
+        let mut keep = |entry: &Entry| {
             let shape = entry.ahead == Ahead::NearShape && colliders.contains(&entry.b);
             let body = entry.a == index || entry.ahead != Ahead::NearShape && entry.b == index;
             if shape || body {
                 dropped.push(*entry);
             }
             !(shape || body)
-        });
+        };
+        self.queue.retain(&mut keep);
+        self.aside.retain(&mut keep);
         for entry in dropped {
             self.release(&entry);
         }

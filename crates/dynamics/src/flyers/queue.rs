@@ -138,6 +138,11 @@ impl Queue {
         (first.time <= limit).then_some(first.time)
     }
 
+    /// The first of today's.
+    pub(crate) fn peek(&self) -> Option<&Entry> {
+        self.due.peek().map(|Reverse(entry)| entry)
+    }
+
     pub(crate) fn pop(&mut self) -> Option<Entry> {
         self.due.pop().map(|Reverse(entry)| entry)
     }

@@ -33,33 +33,35 @@ impl World {
     /// Resolves an impact with all others of the same instant that it hangs together with.
     pub(super) fn strike_with_others(&mut self, first: Due) {
         let time = first.0.time;
-        let Some(mut due) = self.due_by(time + self.instant(&first.1, time)) else {
+        let limit = time + self.instant(&first.1, time);
+        self.lay_aside(limit);
+        if self.flyers.aside.first().is_none() {
             return self.strike_flyer(&first.1, time);
-        };
+        }
         let mut struck = vec![first];
         // Whoever moves and is in one of them brings in all others that he is in.
         let mut k = 0;
         while k < struck.len() {
             let (a, b) = struck[k].1.bodies;
             k += 1;
-            let moves = |index: u32| self.bodies.get(index).inverse_mass > 0.0;
-            let joins = |(_, other): &Due| -> bool {
-                let (c, d) = other.bodies;
-                (moves(a) && (a == c || a == d)) || (moves(b) && (b == c || b == d))
-            };
-            let (joined, rest): (Vec<Due>, Vec<Due>) = due.into_iter().partition(joins);
-            due = rest;
-            for (entry, other) in joined {
+            let mut joined = Vec::new();
+            for index in [a, b] {
+                if self.bodies.get(index).inverse_mass > 0.0 {
+                    joined.extend(self.flyers.take_aside(index, limit));
+                }
+            }
+            joined.sort_unstable();
+            for entry in joined {
+                let Some(other) = self.flyers.release(&entry) else {
+                    continue;
+                };
                 // A pair may have been found twice.
-                if struck
-                    .iter()
-                    .all(|(_, known)| known.colliders != other.colliders)
-                {
+                let known = |(_, known): &Due| known.colliders == other.colliders;
+                if self.stamp(entry.a, entry.b) == entry.stamp && !struck.iter().any(known) {
                     struck.push((entry, other));
                 }
             }
         }
-        self.put_back(due);
         if struck.len() > 1 && self.are_real(&struck, time) {
             self.drop_corners_of_seams(&mut struck);
         }
@@ -93,28 +95,15 @@ impl World {
         [impact.bodies.0, impact.bodies.1].map(|index| self.bodies.get(index).in_impact(time))
     }
 
-    /// Impacts due by `limit`, in order, once all searches due by then are done; `None` if there are none.
-    fn due_by(&mut self, limit: SimTime) -> Option<Vec<Due>> {
-        let mut due = None;
-        while self
-            .flyers
-            .next(&self.bodies, &self.colliders, limit)
-            .is_some()
-        {
-            let Some((entry, impact)) = self.flyers.pop() else {
-                break;
-            };
-            match (entry.ahead, impact) {
-                (Ahead::Impact { .. }, Some(impact)) => {
-                    if self.stamp(entry.a, entry.b) == entry.stamp {
-                        due.get_or_insert_with(Vec::new).push((entry, impact));
-                    }
-                }
-                (Ahead::Impact { .. }, None) => {}
-                _ => self.run_search(&entry),
+    /// Lays all impacts aside that are due by `limit`, once all searches due by then are done.
+    fn lay_aside(&mut self, limit: SimTime) {
+        while let Some(entry) = self.flyers.pop_queued(&self.bodies, &self.colliders, limit) {
+            if matches!(entry.ahead, Ahead::Impact { .. }) {
+                self.flyers.aside.lay(entry);
+            } else {
+                self.run_search(&entry);
             }
         }
-        due
     }
 
     fn put_back(&mut self, due: Vec<Due>) {

@@ -1,0 +1,52 @@
+//! Impacts that are due at the instant of another one.
+//!
+//! Whoever comes first asks who else is due, to be resolved together with those that it hangs together with. The
+//! others are laid aside, where they are found by their bodies: of thousands at one instant each is asked once.
+
+use std::collections::BTreeSet;
+
+use super::queue::Entry;
+
+/// Impacts laid aside, in order, and by body.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Aside {
+    entries: BTreeSet<Entry>,
+    /// `None` comes before all entries of a body.
+    by_body: BTreeSet<(u32, Option<Entry>)>,
+}
+
+impl Aside {
+    pub(super) fn first(&self) -> Option<&Entry> {
+        self.entries.first()
+    }
+
+    pub(super) fn lay(&mut self, entry: Entry) {
+        self.entries.insert(entry);
+        for body in [entry.a, entry.b] {
+            self.by_body.insert((body, Some(entry)));
+        }
+    }
+
+    pub(super) fn take(&mut self, entry: &Entry) {
+        self.entries.remove(entry);
+        for body in [entry.a, entry.b] {
+            self.by_body.remove(&(body, Some(*entry)));
+        }
+    }
+
+    /// Those of a body, in order.
+    pub(super) fn of(&self, body: u32) -> impl Iterator<Item = &Entry> {
+        self.by_body
+            .range((body, None)..)
+            .take_while(move |(other, _)| *other == body)
+            .filter_map(|(_, entry)| entry.as_ref())
+    }
+
+    /// Keeps only what `keep` says.
+    pub(super) fn retain(&mut self, mut keep: impl FnMut(&Entry) -> bool) {
+        let gone: Vec<Entry> = self.entries.iter().filter(|e| !keep(e)).copied().collect();
+        for entry in &gone {
+            self.take(entry);
+        }
+    }
+}
