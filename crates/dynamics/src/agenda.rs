@@ -12,6 +12,7 @@ pub(crate) struct Entry {
     pub(crate) time: SimTime,
     /// Colliders of the pair: equal times are taken in this order, never in order of insertion.
     pub(crate) key: (u32, u32),
+    /// Its place, which may be another pair's by then.
     pub(crate) pair: u32,
     /// Versions of the two bodies that it was predicted with.
     pub(crate) versions: (u32, u32),
@@ -57,11 +58,6 @@ impl Agenda {
             return None;
         }
         self.heap.pop().map(|Reverse(entry)| entry)
-    }
-
-    /// Drops what was foreseen for a pair that is no more: its place is another's next.
-    pub(crate) fn forget(&mut self, pair: u32) {
-        self.heap.retain(|Reverse(entry)| entry.pair != pair);
     }
 
     pub(crate) fn clear(&mut self) {

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use carom_collision::Motion;
 use carom_math::{SimTime, Sum, Vec2};
 
+use crate::flyers::Course;
 use crate::history::History;
 use crate::state::{BodyState, Lag};
 use crate::{BodyError, BodyId, BodyKind, EnergyLedger, Field};
@@ -143,6 +144,9 @@ impl Bodies {
     pub(crate) fn remove(&mut self, index: u32) {
         let state = &mut self.list[index as usize];
         state.kind = BodyKind::Fixed;
+        // Nothing that was foreseen comes true.
+        state.version = state.version.wrapping_add(1);
+        state.course = Course::default();
         state.colliders.clear();
         state.pairs.clear();
         self.alive[index as usize] = false;

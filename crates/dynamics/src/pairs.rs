@@ -4,6 +4,7 @@ use arrayvec::ArrayVec;
 use carom_collision::FeatureId;
 use carom_math::Vec2;
 
+use crate::agenda::Entry;
 use crate::bodies::Bodies;
 use crate::solver::RowId;
 use crate::{ContactMode, PairMaterial};
@@ -125,6 +126,12 @@ impl Pairs {
             self.free.push(place);
         }
         pair
+    }
+
+    /// The pair that an impact was foreseen for, if its place is still its own.
+    pub(crate) fn of_entry(&mut self, entry: &Entry) -> Option<&mut Pair> {
+        let pair = self.list.get_mut(entry.pair as usize)?.as_mut()?;
+        (pair.colliders == entry.key).then_some(pair)
     }
 
     /// The pair of a place, if there is one.

@@ -135,6 +135,9 @@ impl World {
 
     /// An impact that is due, unless its bodies have other motions by now.
     pub(crate) fn strike_entry(&mut self, entry: &Entry) {
+        if self.pairs.of_entry(entry).is_none() {
+            return;
+        }
         let struck = strike(
             &self.settings,
             &mut self.bodies,

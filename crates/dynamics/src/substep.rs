@@ -87,8 +87,9 @@ impl World {
     /// Leaves all impacts that are due in this sub-step to the next one's solver, and says so.
     pub(crate) fn give_up(&mut self) {
         while let Some(entry) = self.agenda.next_until(self.clock.next()) {
-            let pair = self.pairs.get_mut(entry.pair);
-            if !pair.given_up {
+            if let Some(pair) = self.pairs.of_entry(&entry)
+                && !pair.given_up
+            {
                 pair.given_up = true;
                 self.report.collapsed += 1;
             }

@@ -214,7 +214,6 @@ impl World {
         self.discharge(index);
         self.take_line(index);
         let colliders = core::mem::take(&mut self.bodies.get_mut(index).colliders);
-        self.flyers.forget(index, &colliders);
         for at in colliders {
             if let Some(node) = self.colliders[at as usize].node.take() {
                 self.broad.tree.remove(node);
@@ -393,7 +392,6 @@ impl World {
         };
         self.loosen(place, pair.bodies, time);
         self.pool.release(&mut pair);
-        self.agenda.forget(place);
         if pair.touching {
             let (a, b) = (
                 self.bodies.get(pair.bodies.0).id,

@@ -41,12 +41,4 @@ impl Aside {
             .take_while(move |(other, _)| *other == body)
             .filter_map(|(_, entry)| entry.as_ref())
     }
-
-    /// Keeps only what `keep` says.
-    pub(super) fn retain(&mut self, mut keep: impl FnMut(&Entry) -> bool) {
-        let gone: Vec<Entry> = self.entries.iter().filter(|e| !keep(e)).copied().collect();
-        for entry in &gone {
-            self.take(entry);
-        }
-    }
 }

@@ -7,7 +7,7 @@ use super::circle::Circle;
 use super::frame::Track;
 use super::queue::{Ahead, Entry};
 use super::window::{self, Window};
-use super::{Foreseen, Seat, drift};
+use super::{Foreseen, Seat, drift, is_stale};
 use crate::state::BodyState;
 use crate::{BodyKind, PairSearch, World};
 
@@ -311,7 +311,11 @@ impl World {
                     self.seek_shape(index, entry.b, time, Cause::Deflected);
                 }
             }
-            Ahead::Collapse => self.report_collapse((index, entry.b), 0.0, time),
+            Ahead::Collapse => {
+                if !is_stale(entry, &self.bodies, &self.colliders) {
+                    self.report_collapse((index, entry.b), 0.0, time);
+                }
+            }
             Ahead::Impact { .. } => {}
         }
     }

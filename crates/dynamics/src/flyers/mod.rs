@@ -26,6 +26,7 @@ use carom_collision::{AxisFeature, BoxTree, ImpactFeature, NodeId, Side, roundab
 use carom_geometry::Aabb;
 use carom_math::{SimTime, Vec2};
 
+use crate::BodyId;
 use crate::bodies::Bodies;
 use crate::state::Collider;
 use aside::Aside;
@@ -428,15 +429,15 @@ impl Flyers {
         }
     }
 
-    /// Reports the end of infinitely many impacts at its instant.
-    fn announce(&mut self, time: SimTime, bodies: (u32, u32)) {
+    /// Reports the end of infinitely many impacts at its instant, if both bodies are still there.
+    fn announce(&mut self, time: SimTime, ids: [BodyId; 2]) {
         let ahead = Ahead::Collapse;
-        let (a, b) = bodies;
+        let [a, b] = ids.map(|id| id.index);
         self.queue.push(Entry {
             time,
             a,
             b,
-            stamp: 0,
+            stamp: generations(ids),
             ahead,
         });
     }
@@ -447,24 +448,6 @@ impl Flyers {
         let node = bodies.get_mut(index).course.node.take();
         if let (Some(tree), Some(node)) = (&mut self.aloft, node) {
             tree.remove(node);
-        }
-    }
-
-    /// Drops all that is ahead of a body and of its shapes: others may take their places.
-    pub(crate) fn forget(&mut self, index: u32, colliders: &[u32]) {
-        let mut dropped = Vec::new();
-        let mut keep = |entry: &Entry| {
-            let shape = entry.ahead == Ahead::NearShape && colliders.contains(&entry.b);
-            let body = entry.a == index || entry.ahead != Ahead::NearShape && entry.b == index;
-            if shape || body {
-                dropped.push(*entry);
-            }
-            !(shape || body)
-        };
-        self.queue.retain(&mut keep);
-        self.aside.retain(&mut keep);
-        for entry in dropped {
-            self.release(&entry);
         }
     }
 
@@ -534,11 +517,20 @@ fn drift(frame: &Frame, bodies: &Bodies, flying: &[u32], time: SimTime) -> Optio
 fn is_stale(entry: &Entry, bodies: &Bodies, colliders: &[Collider]) -> bool {
     let version = |index: u32| bodies.get(index).version;
     let other = match entry.ahead {
-        Ahead::Collapse => return false,
+        Ahead::Collapse => {
+            let ids = [entry.a, entry.b].map(|index| bodies.get(index).id);
+            let alive = bodies.is_alive(entry.a) && bodies.is_alive(entry.b);
+            return !alive || generations(ids) != entry.stamp;
+        }
         Ahead::Horizon => return bodies.get(entry.a).course.entered.0 != entry.time,
         Ahead::Ground => return bodies.get(entry.a).course.entered.1 != entry.time,
         Ahead::NearShape => colliders[entry.b as usize].body,
         _ => entry.b,
     };
     version(entry.a).wrapping_add(version(other)) != entry.stamp
+}
+
+/// Generations of a place only grow, so that their sum is equal only if both are.
+const fn generations([a, b]: [BodyId; 2]) -> u32 {
+    a.generation.wrapping_add(b.generation)
 }

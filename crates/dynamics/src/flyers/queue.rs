@@ -122,9 +122,9 @@ impl Queue {
                 return None;
             }
             if self.waiting == 0 {
-                self.turn_the_year(end);
+                self.turn_the_year(end, &mut stale);
             } else if self.today == self.last {
-                self.turn_the_year(self.last + 1);
+                self.turn_the_year(self.last + 1, &mut stale);
             } else {
                 self.today += 1;
             }
@@ -147,17 +147,6 @@ impl Queue {
         self.due.pop().map(|Reverse(entry)| entry)
     }
 
-    /// Keeps only what `keep` says.
-    pub(crate) fn retain(&mut self, mut keep: impl FnMut(&Entry) -> bool) {
-        self.due.retain(|Reverse(entry)| keep(entry));
-        self.later.retain(&mut keep);
-        self.waiting = 0;
-        for day in &mut self.days {
-            day.retain(&mut keep);
-            self.waiting += day.len();
-        }
-    }
-
     /// Today's list becomes the heap.
     fn open(&mut self, stale: &mut impl FnMut(&Entry) -> bool) {
         let mut list = core::mem::take(&mut self.days[slot(self.today)]);
@@ -172,8 +161,9 @@ impl Queue {
     }
 
     /// A new year begins on the first day with an entry, or on `day` if that is earlier; its days are
-    /// longer or shorter if those of the last one were empty or crowded.
-    fn turn_the_year(&mut self, day: u64) {
+    /// longer or shorter if those of the last one were empty or crowded. What is stale by now is not kept for years.
+    fn turn_the_year(&mut self, day: u64, stale: &mut impl FnMut(&Entry) -> bool) {
+        self.later.retain(|entry| !stale(entry));
         let days = self
             .today
             .saturating_sub(self.last.saturating_sub(YEAR - 1))

@@ -87,7 +87,8 @@ impl World {
             self.deflect_both(impact, time);
         } else if e == 0.0 {
             if ends {
-                self.flyers.announce(streak.limit(left), impact.bodies);
+                let ids = [a, b].map(|index| self.bodies.get(index).id);
+                self.flyers.announce(streak.limit(left), ids);
             }
             self.begins_to_last(impact, time);
         } else {
