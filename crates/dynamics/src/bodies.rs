@@ -196,7 +196,23 @@ impl Bodies {
 
     /// Whether a body flies along anything but a parabola.
     pub(crate) fn bends(&self, index: u32) -> bool {
-        !self.pull.fields.is_empty() || self.get(index).is_damped()
+        let state = self.get(index);
+        state.is_dynamic() && (!self.pull.fields.is_empty() || state.is_damped())
+    }
+
+    /// Acceleration in m/s², and angular acceleration in rad/s², of a dynamic body that nothing holds.
+    pub(crate) fn freely(&self, index: u32, time: SimTime) -> (Vec2, f64) {
+        let state = self.get(index);
+        let (linear, angular) = state.damping;
+        let pull = if self.pull.fields.is_empty() {
+            self.pull.gravity
+        } else {
+            self.pull.at(state.centre_at(time))
+        };
+        let acceleration = state.gravity_scale * pull + state.force * state.inverse_mass
+            - state.velocity_at(time) * linear;
+        let turning = state.torque * state.inverse_inertia - angular * state.spin_at(time);
+        (acceleration, turning)
     }
 
     /// The one door for changes of a motion: closes the piece that ends at `time`, books its
@@ -209,7 +225,7 @@ impl Bodies {
         let state = &mut self.list[index as usize];
         let old = state.motion;
         self.history.replaced(index, &old, time);
-        state.turned += old.turn(time - old.start);
+        state.turned += state.turn_by(time);
         let (velocity, spin) = (state.velocity_at(time), state.spin_at(time));
         state.motion = old.rebased(time);
         if state.flight.is_some() {
@@ -255,19 +271,21 @@ impl Bodies {
             return Piece::default();
         }
         let elapsed = time - motion.start;
-        let (travel, turn) = if state.flight.is_some() {
-            (state.centre_at(time) - motion.centre, motion.turn(elapsed))
+        let turn = state.turn_by(time);
+        let travel = if state.flight.is_some() {
+            state.centre_at(time) - motion.centre
         } else {
-            (motion.travel(elapsed), motion.turn(elapsed))
+            motion.travel(elapsed)
         };
+        let quadratic = state.flight.is_none() && state.lag == Lag::default();
         let mass = state.mass.mass;
-        let straight = if state.lag == Lag::default() {
+        let straight = if quadratic {
             motion.acceleration.dot(travel)
         } else {
             let (from, to) = (motion.velocity, state.velocity_at(time));
             (to - from).dot(0.5 * (to + from))
         };
-        let turning = if state.lag == Lag::default() {
+        let turning = if quadratic {
             motion.angular_acceleration * turn
         } else {
             let (from, to) = (motion.spin, state.spin_at(time));

@@ -56,8 +56,7 @@ impl<'w> Body<'w> {
     #[must_use]
     pub fn angle(&self) -> f64 {
         const TURN: f64 = 2.0 * core::f64::consts::PI;
-        let counted =
-            self.state.turned + self.state.motion.turn(self.now - self.state.motion.start);
+        let counted = self.state.turned + self.state.turn_by(self.now);
         let principal = self.state.rotation_at(self.now).angle();
         principal + TURN * ((counted - principal) / TURN).round()
     }
@@ -104,7 +103,7 @@ impl<'w> Body<'w> {
         shapes.map(move |&i| colliders[i as usize].filter)
     }
 
-    /// The motion from its last change on, about the centre of mass.
+    /// The motion from its last change on, about the centre of mass; in a field and with damping a parabola near it.
     #[must_use]
     pub fn motion(&self) -> &'w Motion {
         &self.state.motion

@@ -355,7 +355,8 @@ impl World {
         } else {
             self.clock.next() - now
         };
-        if left > 0.0 && self.bodies.get(index).is_dynamic() {
+        let by_law = flies && self.bodies.bends(index);
+        if left > 0.0 && self.bodies.get(index).is_dynamic() && !by_law {
             fly(&mut self.bodies, index, now, left);
         }
         self.deflected(index, now);
@@ -366,7 +367,7 @@ impl World {
         match self.bodies.get(index).kind {
             BodyKind::Fixed => false,
             BodyKind::Kinematic => true,
-            BodyKind::Dynamic => self.settings.mode != Mode::Stepped && !self.bodies.bends(index),
+            BodyKind::Dynamic => self.settings.mode != Mode::Stepped,
         }
     }
 
@@ -394,6 +395,8 @@ impl World {
             motion.rotation = carom_math::Rot::IDENTITY;
         }
         state.gravity_scale = 0.0;
+        state.flight = None;
+        state.course.piece = SimTime::NEVER;
         state.version = state.version.wrapping_add(1);
     }
 

@@ -1,25 +1,37 @@
 //! Free flight: closed form in a uniform field, with damping and about a Newtonian centre; an
 //! integrator of order 15 in any other field.
 
+mod contact;
 mod damped;
 mod integrate;
 mod kepler;
 mod law;
+mod osculating;
 #[cfg(test)]
 mod tests;
+
+use std::sync::Arc;
 
 use carom_collision::Motion;
 use carom_math::{SimTime, Vec2};
 
 use crate::bodies::Bodies;
 use crate::state::{BodyState, Lag};
+pub(crate) use contact::{first_touch, first_touch_of_parts};
 use damped::damped;
 pub(crate) use integrate::{NODES, ROUNDS, STANDS};
 use kepler::Conic;
 pub(crate) use law::{Flight, Turn};
 
-/// Sub-steps that one stretch of the integrator may cover.
-const LONGEST: f64 = 64.0;
+/// Longest stretch of the integrator, in s.
+const LONGEST: f64 = 1024.0;
+
+/// Largest `|∇f| h²`, and damping times h, of a stretch: about a quarter of a turn about a centre. Eight points must see what the field is like.
+const BENT: f64 = 2.0;
+
+/// How far the parabola of a flyer may be from its law, as a part of its reach: larger, and bodies that are not near
+/// count as near; smaller, and pieces are shorter.
+const APART: f64 = 1.0 / 32.0;
 
 /// Gives a flying body its motion from `time` to `time + h`.
 ///
@@ -56,12 +68,44 @@ pub(crate) fn fly(bodies: &mut Bodies, index: u32, time: SimTime, h: f64) {
     let known = bodies.get(index).flight.clone();
     let flight = match known {
         Some(flight) if flight.holds(time, h) => flight,
-        _ => Box::new(law_of(bodies, index, time, h)),
+        _ => Arc::new(law_of(bodies, index, time, h)),
     };
     follow(bodies, index, flight, time, h, 0.0);
 }
 
-/// The law that a body flies by from `time` on.
+/// Gives a flyer in a field or with damping the next piece of its flight: the parabola that touches its law at `time`, for as
+/// long as that stays near. When it ends.
+///
+/// `h` is what counts as short, in s: where a field has an edge, or a centre is near.
+pub(crate) fn begin_piece(bodies: &mut Bodies, index: u32, time: SimTime, h: f64) -> SimTime {
+    let state = bodies.get(index);
+    let reach = state.reach;
+    let known = state.flight.clone();
+    let flight = match known {
+        Some(flight) if flight.is_free() && flight.holds(time, h) => flight,
+        _ => Arc::new(law_of(bodies, index, time, h)),
+    };
+    let touching = flight.osculating(time, reach);
+    let mut span = flight.lasts(time, LONGEST);
+    let shortest = SHORTEST * h;
+    while span > shortest && !(touching.left_out(span) <= APART * reach) {
+        span *= 0.5;
+    }
+    // Never without end, whatever the field says.
+    if !(span > shortest) {
+        span = shortest;
+    }
+    bodies.change(index, time, |motion| *motion = touching.for_seconds(span));
+    let state = bodies.get_mut(index);
+    state.member = false;
+    state.flight = Some(flight);
+    time + span
+}
+
+/// Shortest piece of a flight, as a part of a sub-step.
+const SHORTEST: f64 = 1.0 / 1_048_576.0;
+
+/// The law that a body flies by from `time` on, for `h` seconds or more.
 fn law_of(bodies: &Bodies, index: u32, time: SimTime, h: f64) -> Flight {
     let (state, pull) = (bodies.get(index), &bodies.pull);
     let (x, v) = (state.centre_at(time), state.velocity_at(time));
@@ -88,8 +132,26 @@ fn law_of(bodies: &Bodies, index: u32, time: SimTime, h: f64) -> Flight {
         return flight;
     }
     let law = |x: Vec2, v: Vec2| scale * pull.at(x) + push - v * linear;
-    let lengths = (h, LONGEST * h);
+    let lengths = (h, longest(bodies, index, (x, v), h));
     Flight::integrated(time, (x, v), &law, lengths, pull.error, turn)
+}
+
+/// How far a stretch of the integrator may go, by what the fields say of themselves, in s.
+fn longest(bodies: &Bodies, index: u32, (x, v): (Vec2, Vec2), h: f64) -> f64 {
+    let (state, pull) = (bodies.get(index), &bodies.pull);
+    let scale = state.gravity_scale.abs();
+    let push = state.gravity_scale * pull.at(x) + state.force * state.inverse_mass;
+    let (speed, push) = (v.length(), (push - v * state.damping.0).length());
+    let mut span = LONGEST;
+    while span > h {
+        let way = (speed + push * span) * span;
+        let bent = scale * pull.gradient_bound(x, way) * span * span;
+        if bent <= BENT && state.damping.0 * span <= BENT {
+            return span;
+        }
+        span *= 0.5;
+    }
+    h
 }
 
 /// Gives a body the piece of its flight from `time` to `time + h`: the parabola through both ends for
@@ -97,7 +159,7 @@ fn law_of(bodies: &Bodies, index: u32, time: SimTime, h: f64) -> Flight {
 pub(crate) fn follow(
     bodies: &mut Bodies,
     index: u32,
-    flight: Box<Flight>,
+    flight: Arc<Flight>,
     time: SimTime,
     h: f64,
     jerk: f64,

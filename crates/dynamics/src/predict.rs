@@ -9,7 +9,7 @@ use carom_math::{SimTime, Vec2};
 
 use crate::agenda::{Agenda, Entry};
 use crate::bodies::Bodies;
-use crate::flight::motion_along;
+use crate::flight::{first_touch_of_parts, motion_along};
 use crate::narrow::{Narrow, TOUCH, opening_speed, rest_speed};
 use crate::pairs::{Pair, PairContact, PairPoint, Pairs};
 use crate::state::{BodyState, Collider};
@@ -49,8 +49,11 @@ pub(crate) fn predict(
     h: f64,
 ) {
     let pair = pairs.get_mut(place);
-    let horizon = end - time;
     let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
+    let end = end.min(a.course.stands_until()).min(b.course.stands_until());
+    let horizon = end - time;
+    let by_law = |state: &BodyState| state.is_flying() && state.flight.is_some();
+    let by_law = by_law(a) || by_law(b);
     if pair.given_up || pair.buried || horizon <= 0.0 || !(a.is_stepped() || b.is_stepped()) {
         return;
     }
@@ -113,8 +116,13 @@ pub(crate) fn predict(
                 continue;
             }
             let parts = (part(shapes.0, i), part(shapes.1, j));
-            let next = time_of_impact_of_parts(&parts.0, &motion_a, &parts.1, &motion_b, horizon);
-            let next = polished(next, (a, b), parts, time);
+            let next = if by_law {
+                first_touch_of_parts([a, b], [parts.0, parts.1], time, horizon)
+            } else {
+                let (one, two) = (&parts.0, &parts.1);
+                let next = time_of_impact_of_parts(one, &motion_a, two, &motion_b, horizon);
+                polished(next, (a, b), parts, time)
+            };
             // A contact that lasts holds what closes slowly on other parts, too.
             match &next {
                 TimeOfImpact::Hit(slow) | TimeOfImpact::Touching(slow)
@@ -200,7 +208,7 @@ fn apart(
 ) -> bool {
     let speed = (b.velocity - a.velocity).length();
     let pull = (b.acceleration - a.acceleration).length();
-    let travel = (speed + 0.5 * pull * horizon) * horizon;
+    let travel = (speed + 0.5 * pull * horizon) * horizon + a.left_out + b.left_out;
     let reach = (reach_a + reach_b + travel) * (1.0 + 1e-9);
     (b.centre - a.centre).length_squared() > reach * reach
 }

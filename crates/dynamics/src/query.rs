@@ -122,7 +122,7 @@ impl Filtered<'_> {
         let mut best: Option<((f64, Place), RayHit)> = None;
         let mut meet = |at| {
             let (body, shape, collider) = self.shape_at(at);
-            let pose = body.motion.pose_at(self.world.clock.now);
+            let pose = body.centre_pose(self.world.clock.now);
             let reach = best.map_or(max, |(_, hit)| hit.distance);
             let local = (pose.inverse_point(origin), pose.inverse_vector(direction));
             if self.sees(collider)
@@ -180,7 +180,7 @@ impl Filtered<'_> {
         let mut best: Option<((f64, Place), ShapeHit)> = None;
         let mut meet = |at| {
             let (body, index, collider) = self.shape_at(at);
-            let target = body.motion.pose_at(self.world.clock.now);
+            let target = body.centre_pose(self.world.clock.now);
             if self.sees(collider)
                 && let Some(hit) = cast(shape, pose, translation, &collider.solid, target)
             {
@@ -212,7 +212,7 @@ impl Filtered<'_> {
         let mut found: Vec<BodyId> = Vec::new();
         let mut look = |at| {
             let (body, _, collider) = self.shape_at(at);
-            if self.sees(collider) && matches(body.motion.pose_at(self.world.clock.now), collider) {
+            if self.sees(collider) && matches(body.centre_pose(self.world.clock.now), collider) {
                 found.push(body.id);
             }
         };

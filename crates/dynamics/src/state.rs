@@ -40,7 +40,7 @@ pub(crate) struct BodyState {
     /// What the velocity has beyond the motion's along the present piece of a flight in a field.
     pub(crate) lag: Lag,
     /// The law of a flight in a field or with damping, since anything else changed the motion.
-    pub(crate) flight: Option<Box<Flight>>,
+    pub(crate) flight: Option<Arc<Flight>>,
     /// Of velocity and spin, in 1/s.
     pub(crate) damping: (f64, f64),
     /// Solved for as part of a group in this sub-step.
@@ -250,6 +250,26 @@ impl BodyState {
     /// Whether anything slows it down by itself.
     pub(crate) fn is_damped(&self) -> bool {
         self.damping != (0.0, 0.0)
+    }
+
+    /// The motion told from `time` on, by the law of its flight.
+    pub(crate) fn at(&self, time: SimTime) -> Motion {
+        let mut motion = self.motion.rebased(time);
+        if self.flight.is_some() {
+            motion.centre = self.centre_at(time);
+            motion.velocity = self.velocity_at(time);
+            motion.rotation = self.rotation_at(time);
+            motion.spin = self.spin_at(time);
+        }
+        motion
+    }
+
+    /// Angle that the body turned by since its motion's start, in rad, whole turns included.
+    pub(crate) fn turn_by(&self, time: SimTime) -> f64 {
+        match &self.flight {
+            Some(flight) => flight.angle_at(time).0 - flight.angle_at(self.motion.start).0,
+            None => self.motion.turn(time - self.motion.start),
+        }
     }
 
     /// Centre of mass at `time`, in m, by the law of its flight.

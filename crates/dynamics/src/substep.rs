@@ -252,18 +252,14 @@ impl World {
 
     /// Bodies that nothing held or neared for a while fly from here on.
     fn release(&mut self, time: SimTime) {
-        if self.settings.mode == Mode::Stepped || !self.bodies.pull.fields.is_empty() {
+        if self.settings.mode == Mode::Stepped {
             return;
         }
         for index in self.stepped.clone() {
             let near = |place: &u32| !self.pairs.get(*place).contacts.is_empty();
             let held = self.groups.pushed(index) || self.bodies.get(index).pairs.iter().any(near);
             let state = self.bodies.get_mut(index);
-            state.idle = if held || state.is_damped() {
-                0
-            } else {
-                state.idle + 1
-            };
+            state.idle = if held { 0 } else { state.idle + 1 };
             if state.idle >= IDLE {
                 self.take_off(index, time);
             }

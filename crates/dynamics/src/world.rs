@@ -331,7 +331,7 @@ impl World {
             let id = body.id();
             hash.write_u64(u64::from(id.index) << 32 | u64::from(id.generation));
             hash.write_vec2(body.centre());
-            hash.write_vec2(body.state.motion.rotation_at(self.clock.now).x_axis());
+            hash.write_vec2(body.state.rotation_at(self.clock.now).x_axis());
             hash.write_vec2(body.velocity());
             hash.write(body.angular_velocity());
         }

@@ -180,7 +180,7 @@ impl World {
         let h = h.min(known).max(PIECE.min(tip.path.length));
         let mut renewed = Vec::with_capacity(members.len());
         for (&(index, _), &slot) in members.iter().zip(&slots) {
-            let flight = Box::new(Flight::held(tip.clone(), slot));
+            let flight = Arc::new(Flight::held(tip.clone(), slot));
             let (bend, twist) = tip.path.jerk(slot);
             let jerk = bend + twist * self.bodies.get(index).reach;
             follow(&mut self.bodies, index, flight, time, h, jerk);

@@ -135,6 +135,19 @@ impl Stretch {
         )
     }
 
+    /// Acceleration after `t` seconds, in m/s².
+    pub(crate) fn acceleration(&self, t: f64) -> Vec2 {
+        let tau = t / self.length;
+        let terms = self.terms.iter().rev();
+        terms.fold(Vec2::ZERO, |sum, term| sum * tau + *term)
+    }
+
+    /// Largest third derivative of the path, at most, in m/s³: Σ k |b_k| / h.
+    pub(crate) fn jerk(&self) -> f64 {
+        let terms = (0..8_i32).zip(&self.terms);
+        terms.map(|(k, term)| f64::from(k) * term.length()).sum::<f64>() / self.length
+    }
+
     /// What the path lacks, at most, in m.
     pub(crate) fn left_out(&self) -> f64 {
         self.terms[7].length() * self.length * self.length / 72.0

@@ -14,6 +14,8 @@
 
 use carom_math::{Vec2, cross, perp, trig};
 
+use super::osculating::Jerk;
+
 /// Guesses before the equation counts as solved as well as numbers allow.
 const GUESSES: u32 = 100;
 
@@ -102,6 +104,18 @@ impl Conic {
         let r = (x - self.centre).length();
         let rim = v.length_squared() + 2.0 * self.strength * (1.0 / core - 1.0 / r);
         r > core && r - rim.max(0.0).sqrt() * h > core
+    }
+
+    /// Acceleration at a place with a velocity, in m/s², and how it changes.
+    pub(crate) fn bends(&self, place: Vec2, velocity: Vec2) -> (Vec2, Jerk) {
+        let from = place - self.centre;
+        let (distance, strength) = (from.length(), self.strength);
+        let jerk = Jerk::Newton {
+            strength,
+            distance,
+            speed: velocity.length(),
+        };
+        (from * (-strength / (distance * distance * distance)), jerk)
     }
 
     /// Place in m and velocity in m/s after `t` seconds.

@@ -2,11 +2,13 @@
 
 use std::sync::Arc;
 
+use carom_collision::Motion;
 use carom_math::{Rot, SimTime, Vec2};
 
 use super::damped::damped;
 use super::integrate::Stretch;
 use super::kepler::Conic;
+use super::osculating::{Jerk, Osculating};
 use crate::tipping::Tip;
 
 /// Shortest stretch of the integrator, as a part of the time it is asked for: where a field has an edge.
@@ -136,6 +138,74 @@ impl Flight {
                 t + h <= whole * (1.0 + 1e-12)
             }
             Path::Held { tip, .. } => t + h <= tip.path.length * (1.0 + 1e-12),
+        }
+    }
+
+    /// Seconds from `time` on for which the law is surely known, at most `longest`; 0 where that is too short to say.
+    pub(crate) fn lasts(&self, time: SimTime, longest: f64) -> f64 {
+        let t = time - self.start;
+        let known = match &self.path {
+            Path::Damped { .. } | Path::Conic { core: None, .. } => longest,
+            Path::Conic { .. } => {
+                let mut h = longest;
+                while !self.holds(time, h) {
+                    h *= 0.5;
+                    if h < SHORTEST * SHORTEST * longest {
+                        return 0.0;
+                    }
+                }
+                h
+            }
+            Path::Stretches(stretches) => stretches.iter().map(|s| s.length).sum::<f64>() - t,
+            Path::Held { tip, .. } => tip.path.length - t,
+        };
+        if known < longest { known } else { longest }
+    }
+
+    /// Whether nothing holds the body.
+    pub(crate) const fn is_free(&self) -> bool {
+        !matches!(self.path, Path::Held { .. })
+    }
+
+    /// The parabola that touches the flight at `time`, and how fast that leaves it. `reach` is that of the body.
+    ///
+    /// A body that is held keeps to the parabola through both ends of its piece instead: its own is at rest here.
+    pub(crate) fn osculating(&self, time: SimTime, reach: f64) -> Osculating {
+        let ((x, v), (rotation, spin)) = (self.at(time), self.turn_at(time));
+        let turn = &self.turn;
+        let angular_acceleration = turn.pull - turn.damping * spin;
+        let (acceleration, jerk) = match &self.path {
+            // d³x/dt³ = −c a, and a falls off.
+            Path::Damped { pull, damping, .. } => {
+                let acceleration = *pull - v * *damping;
+                (acceleration, Jerk::Most(damping * acceleration.length()))
+            }
+            Path::Conic { conic, .. } => conic.bends(x, v),
+            Path::Stretches(stretches) => {
+                let (mut t, last) = (time - self.start, stretches.len() - 1);
+                let mut k = 0;
+                while k < last && t > stretches[k].length {
+                    t -= stretches[k].length;
+                    k += 1;
+                }
+                let most = stretches.iter().map(Stretch::jerk).fold(0.0, f64::max);
+                (stretches[k].acceleration(t), Jerk::Most(most))
+            }
+            Path::Held { .. } => (Vec2::ZERO, Jerk::Most(f64::INFINITY)),
+        };
+        Osculating {
+            motion: Motion {
+                start: time,
+                centre: x,
+                velocity: v,
+                acceleration,
+                rotation,
+                spin,
+                angular_acceleration,
+                left_out: 0.0,
+            },
+            jerk,
+            twist: turn.damping * angular_acceleration.abs() * reach,
         }
     }
 

@@ -12,25 +12,32 @@ use crate::state::BodyState;
 pub(super) struct Circle {
     track: Track,
     reach: f64,
+    /// Its track is near its path for a while, and no more.
+    bends: bool,
 }
 
 impl Circle {
     pub(super) fn of(state: &BodyState, time: SimTime) -> Self {
         Self {
             track: Track::of(&state.motion, time),
-            reach: state.reach,
+            reach: state.reach + state.motion.left_out,
+            bends: state.flight.is_some(),
         }
     }
 
     /// When it overlaps another one, from now on.
     pub(super) fn meets(&self, other: &Self) -> Option<Window> {
         let (a, b) = (&self.track, &other.track);
-        window::of_circles(
+        let window = window::of_circles(
             b.centre - a.centre,
             b.velocity - a.velocity,
             b.acceleration - a.acceleration,
             self.reach + other.reach,
-        )
+        );
+        if self.bends || other.bends {
+            return window.map(Window::until_its_horizon);
+        }
+        window
     }
 }
 
@@ -54,7 +61,7 @@ impl Registered {
             centre: motion.centre,
             velocity: motion.velocity,
             reach: state.reach,
-            falls: motion.acceleration == frame.acceleration(),
+            falls: motion.acceleration == frame.acceleration() && state.flight.is_none(),
         }
     }
 }
@@ -75,6 +82,7 @@ impl Flyers {
         Some(Circle {
             track,
             reach: known.reach,
+            bends: false,
         })
     }
 }

@@ -32,6 +32,7 @@ impl World {
     /// Registers a flyer with its motion from `time` on, and finds all that it may meet up to its
     /// horizon, `but` for a flyer that looks for this one next.
     pub(crate) fn foresee(&mut self, index: u32, time: SimTime, cause: Cause, but: Option<u32>) {
+        self.follow_law(index, time);
         if !self.bodies.get(index).motion.is_finite() {
             self.report.stopped += 1;
             self.stop(index, time);
@@ -58,7 +59,7 @@ impl World {
         let track = Track::of(&state.motion, time);
         let seen = self.flyers.frame.track(&track, time);
         let seconds = at_most(seen.seconds_for(way));
-        state.course.horizon = time + seconds;
+        state.course.horizon = (time + seconds).min(state.course.piece);
         state.course.swept = swept(state, &seen, seconds);
         if !self.flyers.enter(&mut self.bodies, index) {
             return false;
@@ -73,7 +74,7 @@ impl World {
         let state = self.bodies.get_mut(index);
         let track = Track::of(&state.motion, time);
         let seconds = at_most(track.seconds_for(way));
-        state.course.ground = time + seconds;
+        state.course.ground = (time + seconds).min(state.course.piece);
         state.course.span = seconds;
         state.course.horizon = state.course.ground;
         state.course.reached = swept(state, &track, seconds);
@@ -279,6 +280,11 @@ impl World {
             self.retune(time);
         }
         match entry.ahead {
+            Ahead::Horizon | Ahead::Ground if self.piece_ends(index, time) => {
+                if self.ends_now(entry) {
+                    self.foresee(index, time, Cause::Deflected, None);
+                }
+            }
             Ahead::Horizon => {
                 if self.ends_now(entry) {
                     self.flyers.resize(&mut self.bodies, time);

@@ -36,7 +36,8 @@ impl World {
         };
         let state = self.bodies.get_mut(index);
         state.course.span = span;
-        state.course.ground = time + span;
+        state.course.ground = (time + span).min(state.course.piece);
+        let span = state.course.ground - time;
         state.course.reached = swept(state, &Track::of(&state.motion, time), span).grown(room);
         self.flyers.lift(&mut state.course, index);
         for &at in &state.colliders {
@@ -62,7 +63,7 @@ impl World {
         }
         let span = at_most(stays);
         state.course.span = span;
-        state.course.ground = time + span;
+        state.course.ground = (time + span).min(state.course.piece);
         self.queue_end(index, Ahead::Ground);
         true
     }
@@ -165,7 +166,7 @@ impl World {
             motion.centre_at(time),
             motion.velocity_at(time),
             motion.acceleration,
-            body.reach,
+            body.reach + motion.left_out,
             self.colliders[at as usize].fat,
         );
         let left = body.course.ground - time;

@@ -74,6 +74,8 @@ impl World {
         }
         let state = self.bodies.get_mut(index);
         state.course.flies = true;
+        // What a sub-step gave it is no piece of its own.
+        state.course.piece = time;
         state.version = state.version.wrapping_add(1);
         self.note_flight(index);
         self.foresee(index, time, Cause::Deflected, None);

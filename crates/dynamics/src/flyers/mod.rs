@@ -14,6 +14,7 @@ mod gap;
 mod grid;
 mod ground;
 mod held;
+mod piece;
 mod queue;
 mod seek;
 mod streak;
@@ -42,6 +43,8 @@ use streak::Streak;
 pub(crate) struct Course {
     /// Moves in closed form, from event to event.
     pub(crate) flies: bool,
+    /// Until when its motion stands for the law that it flies by; for ever where it is the law.
+    pub(crate) piece: SimTime,
     /// Until when other flyers have been looked for.
     pub(crate) horizon: SimTime,
     /// Box of its bounding circle up to the horizon, in the frame that falls.
@@ -72,6 +75,7 @@ impl Default for Course {
     fn default() -> Self {
         Self {
             flies: false,
+            piece: SimTime::NEVER,
             horizon: SimTime::ZERO,
             swept: Aabb::EMPTY,
             cells: None,
@@ -97,6 +101,11 @@ impl Course {
         } else {
             self.ground
         }
+    }
+
+    /// Until when the motion stands, if nothing changes it.
+    pub(crate) fn stands_until(&self) -> SimTime {
+        if self.flies { self.piece } else { SimTime::NEVER }
     }
 
     /// When a search ends, and the entry for that.

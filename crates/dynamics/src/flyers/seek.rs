@@ -8,6 +8,7 @@ use super::circle::Circle;
 use super::foresee::{Cause, common_horizon};
 use super::window::Window;
 use crate::World;
+use crate::flight::first_touch;
 use crate::narrow::{TOUCH, opening_speed, rest_speed_between};
 use crate::state::BodyState;
 
@@ -111,7 +112,6 @@ impl World {
             return true;
         }
         let (one, two) = (self.bodies.get(a), self.bodies.get(b));
-        let (motion_a, motion_b) = (one.motion.rebased(time), two.motion.rebased(time));
         let (first, second) = (
             &self.colliders[shapes.0 as usize],
             &self.colliders[shapes.1 as usize],
@@ -120,9 +120,15 @@ impl World {
         let end = length * (1.0 + BEYOND);
         let (first, second) = (&first.solid, &second.solid);
         let struck = self.flyers.struck.filter(|(struck, _)| *struck == shapes);
-        let next = match struck {
-            Some((_, last)) => time_of_impact_after(last, first, &motion_a, second, &motion_b, end),
-            None => time_of_impact(first, &motion_a, second, &motion_b, end),
+        let last = struck.map(|(_, last)| last);
+        let next = if one.flight.is_some() || two.flight.is_some() {
+            first_touch([one, two], [&**first, &**second], time, length, last)
+        } else {
+            let (a, b) = (one.motion.rebased(time), two.motion.rebased(time));
+            match last {
+                Some(last) => time_of_impact_after(last, first, &a, second, &b, end),
+                None => time_of_impact(first, &a, second, &b, end),
+            }
         };
         let (wait, impact) = match next {
             TimeOfImpact::Clear => (f64::INFINITY, None),
@@ -173,7 +179,7 @@ impl World {
     /// each other.
     fn holds(&self, (a, b): (u32, u32), shapes: (u32, u32), time: SimTime) -> bool {
         let (one, two) = (self.bodies.get(a), self.bodies.get(b));
-        let (pose_a, pose_b) = (one.motion.pose_at(time), two.motion.pose_at(time));
+        let (pose_a, pose_b) = (one.centre_pose(time), two.centre_pose(time));
         let touch = TOUCH * one.reach.min(two.reach);
         let mut found = Vec::new();
         contacts(

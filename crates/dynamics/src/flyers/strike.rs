@@ -237,7 +237,8 @@ impl World {
         let round = |at: u32| self.colliders[at as usize].solid.vertices().len() == 1;
         let steady = |state: &BodyState, at: u32| state.motion.spin == 0.0 || round(at);
         let turns = !(steady(one, impact.colliders.0) && steady(two, impact.colliders.1));
-        let low = if turns { LOW } else { FLAT };
+        let bends = self.bodies.bends(a) || self.bodies.bends(b);
+        let low = if turns || bends { LOW } else { FLAT };
         if rise <= 0.0 || press <= 0.0 || rise * rise > 2.0 * press * low * one.reach.min(two.reach)
         {
             return;
@@ -254,9 +255,14 @@ impl World {
     /// How fast two bodies are pressed together where they touch, in m/s²; negative: pulled apart.
     fn press(&self, impact: &Foreseen, time: SimTime) -> f64 {
         let feature = |index: u32, at: u32| {
-            let motion = &self.bodies.get(index).motion;
+            let mut motion = self.bodies.get(index).motion;
+            if self.bodies.bends(index) {
+                motion = self.bodies.get(index).at(time);
+                let freely = self.bodies.freely(index, time);
+                (motion.acceleration, motion.angular_acceleration) = freely;
+            }
             Feature::of(
-                motion,
+                &motion,
                 &self.colliders[at as usize].solid,
                 impact.points[0],
                 time,

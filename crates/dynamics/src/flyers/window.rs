@@ -16,6 +16,16 @@ pub(crate) struct Window {
     pub(crate) to: f64,
 }
 
+impl Window {
+    /// The same where its end is not known.
+    pub(super) const fn until_its_horizon(self) -> Self {
+        Self {
+            to: f64::INFINITY,
+            ..self
+        }
+    }
+}
+
 /// When two circles overlap whose centres are `d` apart (m), and change that by `v` (m/s) and `a`
 /// (m/s²); `reach` is the sum of their radii (m). `None`: never.
 ///

@@ -403,9 +403,13 @@ impl World {
         let Some((inside, outsider)) = self.ends(shapes) else {
             return;
         };
-        let fit = left > 0.0 && !self.bodies.get(outsider).is_damped();
-        if fit && self.nears(shapes, inside, outsider, time, left) {
-            self.join(outsider, time);
+        if left > 0.0 && self.nears(shapes, inside, outsider, time, left) {
+            if self.bodies.get(outsider).is_damped() {
+                // Its own law goes on, in sub-steps pair by pair.
+                self.land(outsider, time);
+            } else {
+                self.join(outsider, time);
+            }
         }
     }
 
@@ -431,6 +435,7 @@ impl World {
         let pull = motion.acceleration - self.pool.seats.rig.pull(slot).acceleration;
         let margin =
             MARGIN * state.reach.min(other.reach) + (closing + pull.length() * left) * left;
+        let margin = margin + motion.left_out;
         let near = state.reach + other.reach + margin;
         let (centre, theirs) = (motion.centre_at(time), self.pool.seats.pose(slot));
         if (centre - theirs.position).length_squared() > near * near {

@@ -1,0 +1,181 @@
+//! When two shapes first touch of which at least one flies by a law that is no parabola.
+//!
+//! The law is followed by parabolas that touch it. One that leaves it by no more than `e` up to some instant tells, of
+//! shapes grown by e, until when they surely do not touch. With e a part of the gap that is a step that cannot pass a
+//! contact. The next parabola begins there, is shorter, and e falls with its cube: two or three lead to an instant at
+//! which e is below rounding, and the last of them tells the contact itself.
+
+use carom_collision::{
+    Hull, Impact, ImpactFeature, Motion, TimeOfImpact, earlier, part, part_count, separating_axis,
+    time_of_impact_after, time_of_impact_of_parts,
+};
+use carom_geometry::Shape;
+use carom_math::SimTime;
+
+use super::osculating::Osculating;
+use crate::state::BodyState;
+
+/// A parabola that is nearer to its law than this, as a part of the smaller reach, is the law but for rounding.
+const EXACT: f64 = 1.0 / (1_u64 << 46) as f64;
+
+/// Part of a gap that a parabola may leave out.
+const ROOM: f64 = 0.25;
+
+/// Parabolas before a search gives up: bodies that slide along each other, nearer than rounding, for milliseconds.
+const PIECES: usize = 256;
+
+/// How far the last search goes beyond its end, as a fraction.
+const BEYOND: f64 = 1e-6;
+
+/// The parabola that touches the flight of a body at `time`.
+fn near(state: &BodyState, time: SimTime) -> Osculating {
+    match &state.flight {
+        Some(flight) if flight.is_free() => flight.osculating(time, state.reach),
+        _ => Osculating::of(state.motion.rebased(time)),
+    }
+}
+
+/// When two shapes first touch within `length` seconds of `time`; they may have just struck each other at `last`.
+pub(crate) fn first_touch(
+    bodies: [&BodyState; 2],
+    shapes: [&Shape; 2],
+    time: SimTime,
+    length: f64,
+    last: Option<ImpactFeature>,
+) -> TimeOfImpact {
+    let mut first = TimeOfImpact::Clear;
+    let mut left = length;
+    for i in 0..part_count(shapes[0]) {
+        for j in 0..part_count(shapes[1]) {
+            let parts = [part(shapes[0], i), part(shapes[1], j)];
+            let next = match last {
+                Some(last) if shapes.iter().all(|shape| part_count(shape) == 1) => {
+                    let struck = Some((last, shapes));
+                    Search::new(bodies, parts, time).first(left, struck)
+                }
+                _ => first_touch_of_parts(bodies, parts, time, left),
+            };
+            if let TimeOfImpact::Hit(impact) = &next {
+                // What is flush with it is one with it.
+                left = left.min(impact.time * (1.0 + BEYOND));
+            }
+            first = earlier(first, next);
+        }
+    }
+    first
+}
+
+/// [`first_touch`] of two convex parts.
+pub(crate) fn first_touch_of_parts(
+    bodies: [&BodyState; 2],
+    parts: [Hull<'_>; 2],
+    time: SimTime,
+    length: f64,
+) -> TimeOfImpact {
+    Search::new(bodies, parts, time).first(length, None)
+}
+
+/// Two convex parts, from an instant on.
+struct Search<'a> {
+    bodies: [&'a BodyState; 2],
+    parts: [Hull<'a>; 2],
+    /// The smaller reach, in m.
+    size: f64,
+    time: SimTime,
+}
+
+/// Where two shapes have just struck each other, and which.
+type Struck<'a> = (ImpactFeature, [&'a Shape; 2]);
+
+impl<'a> Search<'a> {
+    fn new(bodies: [&'a BodyState; 2], parts: [Hull<'a>; 2], time: SimTime) -> Self {
+        let size = bodies[0].reach.min(bodies[1].reach);
+        Self {
+            bodies,
+            parts,
+            size,
+            time,
+        }
+    }
+
+    fn first(&self, length: f64, last: Option<Struck<'_>>) -> TimeOfImpact {
+        let exact = EXACT * self.size;
+        let (mut at, mut hint) = (0.0, f64::INFINITY);
+        for _ in 0..PIECES {
+            let paths = self.bodies.map(|state| near(state, self.time + at));
+            let gap = self.gap(&paths);
+            let room = if gap > 8.0 * exact { ROOM * gap } else { exact };
+            let mut span = (length - at).min(hint);
+            let left_out = |span: f64| paths[0].left_out(span) + paths[1].left_out(span);
+            while !(left_out(span) <= room) && span > 0.0 {
+                span *= 0.5;
+            }
+            let (off, motions) = (left_out(span), paths.map(|path| path.motion));
+            hint = f64::INFINITY;
+            if off <= exact {
+                let next = self.of_parabolas(&motions, span, last.filter(|_| at == 0.0));
+                match next {
+                    TimeOfImpact::Clear => at += span,
+                    TimeOfImpact::Touching(impact) if at == 0.0 => {
+                        return TimeOfImpact::Touching(impact);
+                    }
+                    TimeOfImpact::Hit(impact) | TimeOfImpact::Touching(impact) => {
+                        let time = at + impact.time;
+                        return TimeOfImpact::Hit(Impact { time, ..impact });
+                    }
+                    TimeOfImpact::Unresolved { .. } => break,
+                }
+            } else {
+                match self.of_grown(&motions, span, off) {
+                    TimeOfImpact::Clear => at += span,
+                    TimeOfImpact::Hit(impact) => {
+                        at += impact.time;
+                        // From about e away at this speed it is twice that to the contact.
+                        hint = 4.0 * off / impact.gap_rate.abs();
+                    }
+                    TimeOfImpact::Unresolved { safe_until } => {
+                        at += safe_until;
+                        hint = 0.125 * span;
+                    }
+                    // The gap was rounded.
+                    TimeOfImpact::Touching(_) => hint = 0.125 * span,
+                }
+            }
+            if at >= length {
+                return TimeOfImpact::Clear;
+            }
+        }
+        TimeOfImpact::Unresolved { safe_until: at }
+    }
+
+    /// Largest gap along an edge's normal, in m.
+    fn gap(&self, paths: &[Osculating; 2]) -> f64 {
+        let [a, b] = paths.each_ref().map(|path| path.motion.pose_at(path.motion.start));
+        separating_axis(&self.parts[0], &self.parts[1], b.seen_from(a)).separation
+    }
+
+    fn of_parabolas(
+        &self,
+        motions: &[Motion; 2],
+        span: f64,
+        last: Option<Struck<'_>>,
+    ) -> TimeOfImpact {
+        // A little beyond: an impact at the very end is found to its last digit, too.
+        let (span, [a, b]) = (span * (1.0 + BEYOND), motions);
+        match last {
+            Some((last, shapes)) => time_of_impact_after(last, shapes[0], a, shapes[1], b, span),
+            None => time_of_impact_of_parts(&self.parts[0], a, &self.parts[1], b, span),
+        }
+    }
+
+    /// The same of shapes of which one is grown by `room` metres. A cut between parts counts as outline: early is safe.
+    fn of_grown(&self, motions: &[Motion; 2], span: f64, room: f64) -> TimeOfImpact {
+        let mut parts = self.parts;
+        for part in &mut parts {
+            part.boundary = None;
+        }
+        let grown = usize::from(parts[0].is_half_plane());
+        parts[grown].radius += room;
+        time_of_impact_of_parts(&parts[0], &motions[0], &parts[1], &motions[1], span)
+    }
+}

@@ -1,0 +1,28 @@
+//! Flyers in a field or with damping: pieces of a law, each a parabola.
+
+use carom_math::SimTime;
+
+use crate::World;
+use crate::flight::begin_piece;
+
+impl World {
+    /// Gives a flyer that flies by a law the piece of it that begins at `time`, if it has none that goes on.
+    ///
+    /// All that is foreseen for a flyer is foreseen for its piece, and all its searches end with it.
+    pub(super) fn follow_law(&mut self, index: u32, time: SimTime) {
+        if !self.bodies.bends(index) {
+            self.bodies.get_mut(index).course.piece = SimTime::NEVER;
+            return;
+        }
+        let state = self.bodies.get(index);
+        if state.flight.is_none() || self.piece_ends(index, time) {
+            let end = begin_piece(&mut self.bodies, index, time, self.clock.h);
+            self.bodies.get_mut(index).course.piece = end;
+        }
+    }
+
+    /// Whether the motion of a flyer stands for its law until now, and no longer.
+    pub(super) fn piece_ends(&self, index: u32, time: SimTime) -> bool {
+        self.bodies.get(index).course.piece <= time
+    }
+}
