@@ -11,6 +11,7 @@ mod determinism;
 mod documents;
 mod errors;
 mod failures;
+mod fields;
 mod filters;
 mod forces;
 mod gases;

@@ -224,7 +224,8 @@ impl Bodies {
         self.book.scheme.add(piece.scheme);
         let state = &mut self.list[index as usize];
         let old = state.motion;
-        self.history.replaced(index, &old, time);
+        self.history
+            .replaced(index, &old, state.flight.as_ref(), time);
         state.turned += state.turn_by(time);
         let (velocity, spin) = (state.velocity_at(time), state.spin_at(time));
         state.motion = old.rebased(time);

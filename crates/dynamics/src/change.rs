@@ -13,7 +13,7 @@ use crate::flight::fly;
 use crate::flyers::Course;
 use crate::state::BodyState;
 use crate::{
-    BodyError, BodyId, BodyKind, Field, Filter, Force, Impulse, Mode, PairMaterial, World,
+    BodyDef, BodyError, BodyId, BodyKind, Field, Filter, Force, Impulse, Mode, PairMaterial, World,
 };
 
 impl World {
@@ -180,7 +180,7 @@ impl World {
         let now = self.clock.now;
         self.wake_around(index, now);
         let state = self.bodies.get_mut(index);
-        let torque = force.about(state.motion.centre_at(now));
+        let torque = force.about(state.centre_at(now));
         state.pending.0 += force.linear;
         state.pending.1 += torque;
         if !self.forced.contains(&index) {
@@ -223,14 +223,39 @@ impl World {
         Ok(())
     }
 
+    /// Changes what velocity and spin of a body lose by themselves, in 1/s, as by
+    /// [`BodyDef::damped`](crate::BodyDef::damped).
+    ///
+    /// # Errors
+    /// If the body is not there, a number is not finite or below 0, or above 0 in [`Mode::Stepped`].
+    pub fn set_damping(&mut self, id: BodyId, linear: f64, angular: f64) -> Result<(), BodyError> {
+        let index = self.bodies.find(id)?;
+        let def = BodyDef::dynamic().damped(linear, angular);
+        def.check()?;
+        if self.settings.mode == Mode::Stepped {
+            def.check_undamped()?;
+        }
+        self.disturb(index, |state| state.damping = (linear, angular));
+        Ok(())
+    }
+
     /// Adds a field that all dynamic bodies feel from now on.
     pub fn add_field(&mut self, field: impl Field + 'static) {
+        self.change_fields(|fields| fields.push(Arc::new(field)));
+    }
+
+    /// Takes all fields away.
+    pub fn clear_fields(&mut self) {
+        self.change_fields(Vec::clear);
+    }
+
+    fn change_fields(&mut self, change: impl FnOnce(&mut Vec<Arc<dyn Field>>)) {
         let now = self.clock.now;
         let before = self.bodies.ledger(now).potential;
         for index in self.bodies.indices().collect::<Vec<_>>() {
             self.bodies.change(index, now, |_| {});
         }
-        self.bodies.pull.fields.push(Arc::new(field));
+        change(&mut self.bodies.pull.fields);
         let after = self.bodies.ledger(now).potential;
         self.bodies.book.external.add(after - before);
         for index in self.bodies.indices().collect::<Vec<_>>() {

@@ -68,7 +68,7 @@ pub(crate) fn fly(bodies: &mut Bodies, index: u32, time: SimTime, h: f64) {
     let known = bodies.get(index).flight.clone();
     let flight = match known {
         Some(flight) if flight.holds(time, h) => flight,
-        _ => Arc::new(law_of(bodies, index, time, h)),
+        _ => Arc::new(law_of(bodies, index, time, h, h)),
     };
     follow(bodies, index, flight, time, h, 0.0);
 }
@@ -81,20 +81,19 @@ pub(crate) fn begin_piece(bodies: &mut Bodies, index: u32, time: SimTime, h: f64
     let state = bodies.get(index);
     let reach = state.reach;
     let known = state.flight.clone();
+    let shortest = SHORTEST * h;
     let flight = match known {
-        Some(flight) if flight.is_free() && flight.holds(time, h) => flight,
-        _ => Arc::new(law_of(bodies, index, time, h)),
+        Some(flight) if flight.is_free() && flight.lasts(time, h) > shortest => flight,
+        _ => Arc::new(law_of(bodies, index, time, h, 0.0)),
     };
     let touching = flight.osculating(time, reach);
     let mut span = flight.lasts(time, LONGEST);
-    let shortest = SHORTEST * h;
-    while span > shortest && !(touching.left_out(span) <= APART * reach) {
+    let stays = |span: f64| touching.left_out(span) <= APART * reach;
+    while span > shortest && !stays(span) {
         span *= 0.5;
     }
-    // Never without end, whatever the field says.
-    if !(span > shortest) {
-        span = shortest;
-    }
+    // They must come to an end, whatever the field says.
+    let span = if span > shortest { span } else { shortest };
     bodies.change(index, time, |motion| *motion = touching.for_seconds(span));
     let state = bodies.get_mut(index);
     state.member = false;
@@ -102,11 +101,11 @@ pub(crate) fn begin_piece(bodies: &mut Bodies, index: u32, time: SimTime, h: f64
     time + span
 }
 
-/// Shortest piece of a flight, as a part of a sub-step.
+/// Shortest piece of a flight, and shortest stretch of the integrator, as a part of a sub-step.
 const SHORTEST: f64 = 1.0 / 1_048_576.0;
 
-/// The law that a body flies by from `time` on, for `h` seconds or more.
-fn law_of(bodies: &Bodies, index: u32, time: SimTime, h: f64) -> Flight {
+/// The law that a body flies by from `time` on, for `cover` seconds or more; `h` is what counts as short.
+fn law_of(bodies: &Bodies, index: u32, time: SimTime, h: f64, cover: f64) -> Flight {
     let (state, pull) = (bodies.get(index), &bodies.pull);
     let (x, v) = (state.centre_at(time), state.velocity_at(time));
     let (linear, angular) = state.damping;
@@ -127,13 +126,13 @@ fn law_of(bodies: &Bodies, index: u32, time: SimTime, h: f64) -> Flight {
         && uniform == Vec2::ZERO
         && linear == 0.0
         && let Some(conic) = Conic::through(centre.centre, scale * centre.strength, x, v)
-        && let Some(flight) = Flight::conic(time, conic, centre.core, h, turn)
+        && let Some(flight) = Flight::conic(time, conic, centre.core, cover.max(h / 64.0), turn)
     {
         return flight;
     }
     let law = |x: Vec2, v: Vec2| scale * pull.at(x) + push - v * linear;
-    let lengths = (h, longest(bodies, index, (x, v), h));
-    Flight::integrated(time, (x, v), &law, lengths, pull.error, turn)
+    let lengths = (SHORTEST * h, longest(bodies, index, (x, v), h));
+    Flight::integrated(time, (x, v), &law, cover, lengths, pull.error, turn)
 }
 
 /// How far a stretch of the integrator may go, by what the fields say of themselves, in s.

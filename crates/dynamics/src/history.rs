@@ -1,14 +1,20 @@
 //! Motions that were replaced, for looking back inside the last steps.
 
 use std::collections::VecDeque;
+use std::sync::Arc;
 
 use carom_collision::Motion;
-use carom_math::SimTime;
+use carom_math::{Pose, SimTime};
+
+use crate::flight::Flight;
+
+/// A motion, and the law that it stood for.
+pub(crate) type Followed = (Motion, Option<Arc<Flight>>);
 
 /// A bounded log: the oldest entries go first, and a look beyond them finds nothing.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct History {
-    log: VecDeque<(u32, Motion)>,
+    log: VecDeque<(u32, Followed)>,
     capacity: usize,
     /// Before this instant something may be missing.
     complete_since: SimTime,
@@ -24,7 +30,13 @@ impl History {
     }
 
     /// Keeps the motion that body `index` followed until `until`.
-    pub(crate) fn replaced(&mut self, index: u32, motion: &Motion, until: SimTime) {
+    pub(crate) fn replaced(
+        &mut self,
+        index: u32,
+        motion: &Motion,
+        flight: Option<&Arc<Flight>>,
+        until: SimTime,
+    ) {
         if self.capacity == 0 {
             self.complete_since = until;
             return;
@@ -35,21 +47,27 @@ impl History {
         if self.log.len() == self.capacity {
             self.log.pop_front();
             // What went may have lasted until the start of what is oldest now.
-            self.complete_since = self.log.front().map_or(until, |(_, oldest)| oldest.start);
+            self.complete_since = self
+                .log
+                .front()
+                .map_or(until, |(_, (oldest, _))| oldest.start);
         }
-        self.log.push_back((index, *motion));
+        self.log.push_back((index, (*motion, flight.cloned())));
     }
 
-    /// The motion that body `index` followed at `time`.
-    pub(crate) fn at(&self, index: u32, time: SimTime) -> Option<&Motion> {
+    /// Frame of the centre of mass of body `index` at `time`.
+    pub(crate) fn pose_at(&self, index: u32, time: SimTime) -> Option<Pose> {
         if time < self.complete_since {
             return None;
         }
         self.log
             .iter()
             .rev()
-            .find(|(of, motion)| *of == index && motion.start <= time)
-            .map(|(_, motion)| motion)
+            .find(|(of, (motion, _))| *of == index && motion.start <= time)
+            .map(|(_, (motion, flight))| match flight {
+                Some(flight) => Pose::new(flight.at(time).0, flight.turn_at(time).0),
+                None => motion.pose_at(time),
+            })
     }
 
     /// Forgets a body whose place another one takes.

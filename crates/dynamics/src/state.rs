@@ -314,14 +314,7 @@ impl BodyState {
 
     /// Frame of the shapes as drawn.
     pub(crate) fn pose(&self, time: SimTime) -> Pose {
-        if self.flight.is_none() {
-            return frame_of(&self.motion, self.mass.centroid, time);
-        }
-        let rotation = self.rotation_at(time);
-        Pose::new(
-            self.centre_at(time) - rotation * self.mass.centroid,
-            rotation,
-        )
+        drawn_at(self.centre_pose(time), self.mass.centroid)
     }
 
     pub(crate) fn kinetic_energy(&self, time: SimTime) -> f64 {
@@ -374,10 +367,9 @@ pub(crate) fn inner_of(hull: &Hull<'_>) -> f64 {
         .fold(f64::INFINITY, f64::min)
 }
 
-/// Frame of the shapes as drawn, for a motion of the centre of mass.
-pub(crate) fn frame_of(motion: &Motion, centroid: Vec2, time: SimTime) -> Pose {
-    let rotation = motion.rotation_at(time);
-    Pose::new(motion.centre_at(time) - rotation * centroid, rotation)
+/// Frame of the shapes as drawn, where the centre of mass has its frame.
+pub(crate) fn drawn_at(frame: Pose, centroid: Vec2) -> Pose {
+    Pose::new(frame.position - frame.rotation * centroid, frame.rotation)
 }
 
 /// Mass, centre of mass and inertia of a definition.

@@ -16,7 +16,7 @@ use crate::narrow::Narrow;
 use crate::pairs::Pairs;
 use crate::profile::Stopwatch;
 use crate::solver::Law;
-use crate::state::{BodyState, Collider, frame_of};
+use crate::state::{BodyState, Collider, drawn_at};
 use crate::stepped::Stepped;
 use crate::threads::Threads;
 use crate::{
@@ -260,8 +260,8 @@ impl World {
         if time >= state.motion.start {
             return Some(state.pose(time));
         }
-        let motion = self.bodies.history.at(id.index, time)?;
-        Some(frame_of(motion, state.mass.centroid, time))
+        let frame = self.bodies.history.pose_at(id.index, time)?;
+        Some(drawn_at(frame, state.mass.centroid))
     }
 
     /// Frames of all bodies in the order of [`Self::bodies`]; `poses` is cleared first.

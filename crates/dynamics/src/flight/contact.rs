@@ -107,7 +107,8 @@ impl<'a> Search<'a> {
             let room = if gap > 8.0 * exact { ROOM * gap } else { exact };
             let mut span = (length - at).min(hint);
             let left_out = |span: f64| paths[0].left_out(span) + paths[1].left_out(span);
-            while !(left_out(span) <= room) && span > 0.0 {
+            let fits = |span: f64| left_out(span) <= room;
+            while span > 0.0 && !fits(span) {
                 span *= 0.5;
             }
             let (off, motions) = (left_out(span), paths.map(|path| path.motion));
@@ -150,7 +151,9 @@ impl<'a> Search<'a> {
 
     /// Largest gap along an edge's normal, in m.
     fn gap(&self, paths: &[Osculating; 2]) -> f64 {
-        let [a, b] = paths.each_ref().map(|path| path.motion.pose_at(path.motion.start));
+        let [a, b] = paths
+            .each_ref()
+            .map(|path| path.motion.pose_at(path.motion.start));
         separating_axis(&self.parts[0], &self.parts[1], b.seen_from(a)).separation
     }
 

@@ -142,10 +142,13 @@ impl Stretch {
         terms.fold(Vec2::ZERO, |sum, term| sum * tau + *term)
     }
 
-    /// Largest third derivative of the path, at most, in m/s³: Σ k |b_k| / h.
+    /// Largest third derivative of the path, at most, in m/s³: the sum of `k |b_k|/h`.
     pub(crate) fn jerk(&self) -> f64 {
         let terms = (0..8_i32).zip(&self.terms);
-        terms.map(|(k, term)| f64::from(k) * term.length()).sum::<f64>() / self.length
+        terms
+            .map(|(k, term)| f64::from(k) * term.length())
+            .sum::<f64>()
+            / self.length
     }
 
     /// What the path lacks, at most, in m.

@@ -98,12 +98,13 @@ impl Conic {
         p / (1.0 + if e2 > 0.0 { e2.sqrt() } else { 0.0 })
     }
 
-    /// Whether it stays outside a core for `h` seconds from `t` on: nothing falls faster than at the rim.
-    pub(crate) fn stays_outside(&self, t: f64, h: f64, core: f64) -> bool {
+    /// Seconds from `t` on for which it surely stays outside a core: nothing falls faster than at the rim.
+    pub(crate) fn time_outside(&self, t: f64, core: f64) -> f64 {
         let (x, v) = self.at(t);
         let r = (x - self.centre).length();
         let rim = v.length_squared() + 2.0 * self.strength * (1.0 / core - 1.0 / r);
-        r > core && r - rim.max(0.0).sqrt() * h > core
+        let outside = (r - core) / rim.max(0.0).sqrt();
+        if outside > 0.0 { outside } else { 0.0 }
     }
 
     /// Acceleration at a place with a velocity, in m/s², and how it changes.

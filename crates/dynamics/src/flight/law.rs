@@ -11,9 +11,6 @@ use super::kepler::Conic;
 use super::osculating::{Jerk, Osculating};
 use crate::tipping::Tip;
 
-/// Shortest stretch of the integrator, as a part of the time it is asked for: where a field has an edge.
-const SHORTEST: f64 = 1.0 / 1024.0;
-
 /// Where a flying body is from `start` on, to rounding or to the world's error for fields.
 #[derive(Clone, Debug)]
 pub(crate) struct Flight {
@@ -98,20 +95,22 @@ impl Flight {
         }
     }
 
-    /// Under any law, for at least `h` seconds, leaving out `error` metres a second.
+    /// Under any law, for at least `h` seconds or one stretch, leaving out `error` metres a second. No stretch is
+    /// planned for more than the longest, and none is shorter than the shortest: that steps over an edge of a field.
     pub(crate) fn integrated(
         start: SimTime,
         (mut place, mut velocity): (Vec2, Vec2),
         law: &impl Fn(Vec2, Vec2) -> Vec2,
-        (h, longest): (f64, f64),
+        h: f64,
+        (shortest, longest): (f64, f64),
         error: f64,
         turn: Turn,
     ) -> Self {
         let mut stretches = Vec::with_capacity(1);
         let (mut left, mut reach) = (h, longest);
         // Rounding leaves no stretch of its own.
-        while left > 1e-12 * h {
-            let stretch = Stretch::follow(law, place, velocity, reach, SHORTEST * h, error);
+        while left > 1e-12 * h || stretches.is_empty() {
+            let stretch = Stretch::follow(law, place, velocity, reach, shortest, error);
             (place, velocity) = stretch.at(stretch.length);
             left -= stretch.length;
             reach = left;
@@ -132,7 +131,7 @@ impl Flight {
             Path::Conic {
                 conic,
                 core: Some(core),
-            } => conic.stays_outside(t, h, *core),
+            } => conic.time_outside(t, *core) > h,
             Path::Stretches(stretches) => {
                 let whole: f64 = stretches.iter().map(|stretch| stretch.length).sum();
                 t + h <= whole * (1.0 + 1e-12)
@@ -141,21 +140,15 @@ impl Flight {
         }
     }
 
-    /// Seconds from `time` on for which the law is surely known, at most `longest`; 0 where that is too short to say.
+    /// Seconds from `time` on for which the law is surely known, at most `longest`.
     pub(crate) fn lasts(&self, time: SimTime, longest: f64) -> f64 {
         let t = time - self.start;
         let known = match &self.path {
             Path::Damped { .. } | Path::Conic { core: None, .. } => longest,
-            Path::Conic { .. } => {
-                let mut h = longest;
-                while !self.holds(time, h) {
-                    h *= 0.5;
-                    if h < SHORTEST * SHORTEST * longest {
-                        return 0.0;
-                    }
-                }
-                h
-            }
+            Path::Conic {
+                conic,
+                core: Some(core),
+            } => conic.time_outside(t, *core),
             Path::Stretches(stretches) => stretches.iter().map(|s| s.length).sum::<f64>() - t,
             Path::Held { tip, .. } => tip.path.length - t,
         };

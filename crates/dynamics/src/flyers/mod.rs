@@ -105,7 +105,11 @@ impl Course {
 
     /// Until when the motion stands, if nothing changes it.
     pub(crate) fn stands_until(&self) -> SimTime {
-        if self.flies { self.piece } else { SimTime::NEVER }
+        if self.flies {
+            self.piece
+        } else {
+            SimTime::NEVER
+        }
     }
 
     /// When a search ends, and the entry for that.

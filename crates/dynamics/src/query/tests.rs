@@ -19,7 +19,7 @@ fn scan_ray(world: &World, origin: Vec2, direction: Vec2, max: f64) -> Option<Ra
     let direction = direction.try_normalize()?;
     let mut best: Option<RayHit> = None;
     for (body, shape, collider) in all_shapes(world) {
-        let pose = body.motion.pose_at(world.clock.now);
+        let pose = body.centre_pose(world.clock.now);
         let local = (pose.inverse_point(origin), pose.inverse_vector(direction));
         if let Some(hit) = collider.solid.cast_ray(local.0, local.1, max)
             && best.is_none_or(|known| hit.distance < known.distance)
@@ -39,7 +39,7 @@ fn scan_ray(world: &World, origin: Vec2, direction: Vec2, max: f64) -> Option<Ra
 fn scan_cast(world: &World, shape: &Shape, pose: Pose, way: Vec2) -> Option<ShapeHit> {
     let mut best: Option<ShapeHit> = None;
     for (body, index, collider) in all_shapes(world) {
-        let target = body.motion.pose_at(world.clock.now);
+        let target = body.centre_pose(world.clock.now);
         if let Some(hit) = cast(shape, pose, way, &collider.solid, target)
             && best.is_none_or(|known| hit.fraction < known.fraction)
         {
@@ -57,7 +57,7 @@ fn scan_cast(world: &World, shape: &Shape, pose: Pose, way: Vec2) -> Option<Shap
 
 fn scan(world: &World, matches: impl Fn(Pose, &Shape) -> bool) -> Vec<BodyId> {
     let mut found: Vec<BodyId> = all_shapes(world)
-        .filter(|(body, _, c)| matches(body.motion.pose_at(world.clock.now), &c.solid))
+        .filter(|(body, _, c)| matches(body.centre_pose(world.clock.now), &c.solid))
         .map(|(body, _, _)| body.id)
         .collect();
     found.dedup();

@@ -30,7 +30,9 @@ impl World {
     /// The motion of a body from `motion.start` on, turned by `angle` in all; the log keeps what it did till then.
     pub(super) fn go_on_as(&mut self, index: u32, motion: Motion, angle: f64) {
         let old = self.bodies.get(index).motion;
-        self.bodies.history.replaced(index, &old, motion.start);
+        self.bodies
+            .history
+            .replaced(index, &old, None, motion.start);
         let state = self.bodies.get_mut(index);
         (state.motion, state.turned) = (motion, angle);
     }
