@@ -60,7 +60,7 @@ pub use overlap::overlap_area;
 pub use sat::{Axis, AxisFeature, Side, minimum_push, separating_axis};
 pub use shape_tree::{ShapeTree, roundable};
 pub use toi::{
-    Impact, ImpactFeature, TimeOfImpact, earlier, time_of_impact, time_of_impact_after,
+    Impact, ImpactFeature, TimeOfImpact, earlier, time_of_impact, time_of_impact_from,
     time_of_impact_of_parts,
 };
 pub use tree::{BoxTree, NodeId};

@@ -61,6 +61,9 @@ impl Pull {
 #[derive(Clone, Debug)]
 pub(crate) struct Bodies {
     list: Vec<BodyState>,
+    /// Raised by every change of a motion: what was predicted with another version is stale. Apart from the bodies, since
+    /// whoever looks at what is predicted asks for nothing else.
+    versions: Vec<u32>,
     alive: Vec<bool>,
     free: Vec<u32>,
     pub(crate) history: History,
@@ -76,6 +79,7 @@ impl Bodies {
     pub(crate) fn new(gravity: Vec2, error: f64, history: usize, notes_touched: bool) -> Self {
         Self {
             list: Vec::new(),
+            versions: Vec::new(),
             alive: Vec::new(),
             free: Vec::new(),
             history: History::new(history),
@@ -129,23 +133,24 @@ impl Bodies {
         let index = state.id.index as usize;
         if index == self.list.len() {
             self.list.push(state);
+            self.versions.push(0);
             self.alive.push(true);
         } else {
             self.free.pop();
             self.history.forget(state.id.index);
             // Versions only grow, also from body to body: nothing foreseen for one is another's.
-            let version = self.list[index].version.wrapping_add(1);
-            self.list[index] = BodyState { version, ..state };
+            self.versions[index] = self.versions[index].wrapping_add(1);
+            self.list[index] = state;
             self.alive[index] = true;
         }
     }
 
     /// Takes a body out; its place is used again unless its generations are used up.
     pub(crate) fn remove(&mut self, index: u32) {
+        // Nothing that was foreseen comes true.
+        self.renew(index);
         let state = &mut self.list[index as usize];
         state.kind = BodyKind::Fixed;
-        // Nothing that was foreseen comes true.
-        state.version = state.version.wrapping_add(1);
         state.course = Course::default();
         state.colliders.clear();
         state.pairs.clear();
@@ -192,6 +197,17 @@ impl Bodies {
     /// For everything but the motion: that changes through [`Bodies::change`].
     pub(crate) fn get_mut(&mut self, index: u32) -> &mut BodyState {
         &mut self.list[index as usize]
+    }
+
+    /// How often the motion of a body has changed.
+    pub(crate) fn version(&self, index: u32) -> u32 {
+        self.versions[index as usize]
+    }
+
+    /// What was predicted with a body's motion is stale from now on.
+    pub(crate) fn renew(&mut self, index: u32) {
+        let version = &mut self.versions[index as usize];
+        *version = version.wrapping_add(1);
     }
 
     /// Whether a body flies along anything but a parabola.
@@ -241,8 +257,7 @@ impl Bodies {
         change(&mut self.list[index as usize].motion);
         let after = self.kinetic_in_crowd(index);
         self.book.struck.add(after - before);
-        let state = &mut self.list[index as usize];
-        state.version = state.version.wrapping_add(1);
+        self.renew(index);
     }
 
     /// Kinetic energy at the start of the motion of a body that a crowd accounts for, in J.

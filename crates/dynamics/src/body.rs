@@ -12,6 +12,7 @@ use crate::{BodyId, BodyKind, Filter, Material};
 pub struct Body<'w> {
     pub(crate) state: &'w BodyState,
     pub(crate) colliders: &'w [Collider],
+    pub(crate) version: u32,
     pub(crate) now: SimTime,
 }
 
@@ -112,7 +113,7 @@ impl<'w> Body<'w> {
     /// Raised by every change of the motion.
     #[must_use]
     pub fn version(&self) -> u32 {
-        self.state.version
+        self.version
     }
 
     /// Factor on gravity and fields.

@@ -422,7 +422,7 @@ impl World {
         state.gravity_scale = 0.0;
         state.flight = None;
         state.course.piece = SimTime::NEVER;
-        state.version = state.version.wrapping_add(1);
+        self.bodies.renew(index);
     }
 
     /// Forces of the step that begins.

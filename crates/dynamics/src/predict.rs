@@ -147,7 +147,7 @@ pub(crate) fn predict(
         time: time + wait,
         key: pair.colliders,
         pair: place,
-        versions: (a.version, b.version),
+        versions: (bodies.version(pair.bodies.0), bodies.version(pair.bodies.1)),
         normal: impact.normal,
         points: impact.points,
     });

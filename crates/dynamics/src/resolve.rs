@@ -45,7 +45,7 @@ pub(crate) fn strike(
 ) -> Struck {
     let ends = pairs.get(entry.pair).bodies;
     let (a, b) = (bodies.get(ends.0), bodies.get(ends.1));
-    if (a.version, b.version) != entry.versions {
+    if (bodies.version(ends.0), bodies.version(ends.1)) != entry.versions {
         return Struck::Nothing;
     }
     touch(bodies, pairs, entry, events);

@@ -14,35 +14,21 @@ use crate::impact::ImpactBody;
 use crate::{BodyDef, BodyId, BodyKind, Filter, Material};
 
 /// All that a world keeps of one body. Nothing else stores a pose.
+///
+/// In the order in which flights and impacts read it: where it is and what moves it in two cache lines, what is asked next in
+/// the lines that follow.
 #[derive(Clone, Debug)]
+#[repr(C, align(64))]
 pub(crate) struct BodyState {
-    pub(crate) id: BodyId,
-    /// Fingerprint of how it began: who is A and who is B in a pair of flyers.
-    pub(crate) rank: u64,
-    pub(crate) kind: BodyKind,
     /// Where the centre of mass is at every instant from the motion's start on.
     pub(crate) motion: Motion,
-    /// Raised by every change of the motion: what was predicted with another version is stale.
-    pub(crate) version: u32,
-    /// Angle at the motion's start with all whole turns, to about 1e-10 rad: it counts turns.
-    pub(crate) turned: f64,
-    pub(crate) mass: MassProperties,
+    /// Fingerprint of how it began: who is A and who is B in a pair of flyers.
+    pub(crate) rank: u64,
     pub(crate) inverse_mass: f64,
     pub(crate) inverse_inertia: f64,
+    pub(crate) id: BodyId,
+    pub(crate) kind: BodyKind,
     pub(crate) locked_rotation: bool,
-    pub(crate) gravity_scale: f64,
-    pub(crate) tag: u64,
-    /// Force and torque of the present step.
-    pub(crate) force: Vec2,
-    pub(crate) torque: f64,
-    /// Force and torque that the next step begins with.
-    pub(crate) pending: (Vec2, f64),
-    /// What the velocity has beyond the motion's along the present piece of a flight in a field.
-    pub(crate) lag: Lag,
-    /// The law of a flight in a field or with damping, since anything else changed the motion.
-    pub(crate) flight: Option<Arc<Flight>>,
-    /// Of velocity and spin, in 1/s.
-    pub(crate) damping: (f64, f64),
     /// Solved for as part of a group in this sub-step.
     pub(crate) member: bool,
     /// Moved by the wide solver, in hybrid mode.
@@ -52,18 +38,34 @@ pub(crate) struct BodyState {
     pub(crate) asleep: bool,
     /// Asleep for the machinery alone: a group in closed form at rest, which the caller sees awake until its time.
     pub(crate) dozes: bool,
-    /// The contact group in closed form that it belongs to.
-    pub(crate) membership: Membership,
-    pub(crate) course: Course,
     /// Sub-steps in which nothing was near.
     pub(crate) idle: u8,
-    /// How long the body has been slow, in s.
-    pub(crate) slow_for: f64,
+    /// The law of a flight in a field or with damping, since anything else changed the motion.
+    pub(crate) flight: Option<Arc<Flight>>,
     /// Largest distance of a point of its shapes from the centre of mass, in m.
     pub(crate) reach: f64,
+    pub(crate) colliders: Vec<u32>,
+    /// Angle at the motion's start with all whole turns, to about 1e-10 rad: it counts turns.
+    pub(crate) turned: f64,
+    /// What the velocity has beyond the motion's along the present piece of a flight in a field.
+    pub(crate) lag: Lag,
+    pub(crate) mass: MassProperties,
+    pub(crate) course: Course,
+    pub(crate) gravity_scale: f64,
+    /// Of velocity and spin, in 1/s.
+    pub(crate) damping: (f64, f64),
+    /// Force and torque of the present step.
+    pub(crate) force: Vec2,
+    pub(crate) torque: f64,
+    /// Force and torque that the next step begins with.
+    pub(crate) pending: (Vec2, f64),
+    pub(crate) tag: u64,
+    /// The contact group in closed form that it belongs to.
+    pub(crate) membership: Membership,
+    /// How long the body has been slow, in s.
+    pub(crate) slow_for: f64,
     /// Least half width of its shapes, in m: the narrowest thing that can hold it back.
     pub(crate) inner: f64,
-    pub(crate) colliders: Vec<u32>,
     /// Pairs of its colliders with others.
     pub(crate) pairs: Vec<u32>,
 }
@@ -100,20 +102,21 @@ impl Lag {
     }
 }
 
-/// A shape of a body.
+/// A shape of a body; what impacts ask comes first.
 #[derive(Clone, Debug)]
+#[repr(C)]
 pub(crate) struct Collider {
-    pub(crate) body: u32,
-    /// As the caller drew it.
-    pub(crate) drawn: Arc<Shape>,
     /// About the body's centre of mass: what collides.
     pub(crate) solid: Arc<Shape>,
-    pub(crate) material: Material,
     pub(crate) filter: Filter,
+    pub(crate) body: u32,
     /// Node in the tree of boxes.
     pub(crate) node: Option<NodeId>,
+    pub(crate) material: Material,
     /// Box that the pairs were searched with.
     pub(crate) fat: Aabb,
+    /// As the caller drew it.
+    pub(crate) drawn: Arc<Shape>,
     /// Box for the coming tick of a shape that is driven beside a crowd: a flyer's own reaches farther.
     pub(crate) tight: Option<Aabb>,
 }
@@ -156,7 +159,6 @@ impl BodyState {
                 spin,
                 ..Motion::resting(frame.point(mass.centroid))
             },
-            version: 0,
             turned: def.angle,
             mass,
             inverse_mass: inverse(mass.mass),

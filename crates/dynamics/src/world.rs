@@ -342,6 +342,7 @@ impl World {
         Body {
             state,
             colliders: &self.colliders,
+            version: self.bodies.version(state.id.index),
             now: self.clock.now,
         }
     }

@@ -38,6 +38,12 @@ impl Rot {
         Self { cos, sin }
     }
 
+    /// The rotation with this cosine and sine: their squares add up to 1 but for rounding, see [`Rot::renormalized`].
+    #[must_use]
+    pub const fn from_cos_sin(cos: f64, sin: f64) -> Self {
+        Self { cos, sin }
+    }
+
     /// Rotation by `degrees`; exact at multiples of 90.
     #[must_use]
     pub fn from_degrees(degrees: f64) -> Self {

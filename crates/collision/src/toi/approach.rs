@@ -442,7 +442,7 @@ impl<'a> Approach<'a> {
 }
 
 /// When two points on straight ways are within `reach` of each other, from 0 to `horizon`.
-fn circles_meet(d: Vec2, v: Vec2, reach: f64, horizon: f64) -> Option<(f64, f64)> {
+pub(super) fn circles_meet(d: Vec2, v: Vec2, reach: f64, horizon: f64) -> Option<(f64, f64)> {
     // |d + v t|² = reach²
     let outside = d.length_squared() - reach * reach;
     let (square, along) = (v.length_squared(), d.dot(v));

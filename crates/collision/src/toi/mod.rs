@@ -7,18 +7,25 @@
 //! When the axis closes, the axes are looked at again: another one is open, or this is the impact.
 
 mod approach;
+mod corners;
+mod even;
+#[cfg(test)]
+mod even_tests;
 mod facing;
 mod parts;
 mod search;
 mod touching;
+mod turns;
 
 use arrayvec::ArrayVec;
 use carom_geometry::Shape;
-use carom_math::{Vec2, cross, perp};
+use carom_math::{SimTime, Vec2, cross, perp};
+use fearless_simd::Level;
 
 use crate::parts::is_single;
 use crate::{AxisFeature, Hull, Motion, part};
 use approach::{Approach, Axis};
+use even::Found;
 use parts::first_of_parts;
 
 /// Contacts are flush where they part by less than this fraction of the stretch between them, and
@@ -136,10 +143,12 @@ pub fn time_of_impact(
     first_of_parts(a, motion_a, b, motion_b, horizon)
 }
 
-/// [`time_of_impact`] of two shapes that have just struck each other at `last` and part: as right, and sooner.
+/// [`time_of_impact`] from `start` on, which neither motion begins after: [`Impact::time`] is in seconds after that. `last` is
+/// where the two have just struck each other and part, if they have: as right, and sooner.
 #[must_use]
-pub fn time_of_impact_after(
-    last: ImpactFeature,
+pub fn time_of_impact_from(
+    start: SimTime,
+    last: Option<ImpactFeature>,
     a: &Shape,
     motion_a: &Motion,
     b: &Shape,
@@ -147,10 +156,12 @@ pub fn time_of_impact_after(
     horizon: f64,
 ) -> TimeOfImpact {
     if is_single(a) && is_single(b) {
-        let (a, b) = (part(a, 0), part(b, 0));
-        return of_parts(&a, motion_a, &b, motion_b, horizon, Axis::of(last.feature));
+        let hulls = (&part(a, 0), &part(b, 0));
+        let last = last.and_then(|last| Axis::of(last.feature));
+        return of_parts(hulls, (motion_a, motion_b), (start, horizon), last);
     }
-    time_of_impact(a, motion_a, b, motion_b, horizon)
+    let motions = [motion_a.rebased(start), motion_b.rebased(start)];
+    first_of_parts(a, &motions[0], b, &motions[1], horizon)
 }
 
 /// [`time_of_impact`] of two convex parts, which count as part 0 of their shapes in
@@ -163,23 +174,51 @@ pub fn time_of_impact_of_parts(
     motion_b: &Motion,
     horizon: f64,
 ) -> TimeOfImpact {
-    of_parts(a, motion_a, b, motion_b, horizon, None)
+    let start = motion_a.start.max(motion_b.start);
+    of_parts((a, b), (motion_a, motion_b), (start, horizon), None)
 }
 
 /// The search begins with the axis along which the parts have just struck each other, if they have.
 fn of_parts(
-    a: &Hull<'_>,
-    motion_a: &Motion,
-    b: &Hull<'_>,
-    motion_b: &Motion,
-    horizon: f64,
+    hulls: (&Hull<'_>, &Hull<'_>),
+    motions: (&Motion, &Motion),
+    (start, horizon): (SimTime, f64),
+    struck: Option<Axis>,
+) -> TimeOfImpact {
+    match even::first_contact(Level::new(), hulls, motions, (start, horizon), struck) {
+        Some(Found::Clear) => TimeOfImpact::Clear,
+        Some(Found::Hit {
+            time,
+            normal,
+            point,
+            feature,
+            gap_rate,
+        }) => TimeOfImpact::Hit(Impact {
+            time,
+            normal,
+            points: ArrayVec::from_iter([point]),
+            features: ArrayVec::from_iter([ImpactFeature::of(feature)]),
+            gap_rate,
+        }),
+        None => general(hulls, motions, (start, horizon), struck),
+    }
+}
+
+/// The search for everything that [`even`] does not know.
+#[cold]
+#[inline(never)]
+fn general(
+    (a, b): (&Hull<'_>, &Hull<'_>),
+    (motion_a, motion_b): (&Motion, &Motion),
+    (start, horizon): (SimTime, f64),
     struck: Option<Axis>,
 ) -> TimeOfImpact {
     if a.is_half_plane() && b.is_half_plane() {
         // Neither can move.
         return TimeOfImpact::Clear;
     }
-    let approach = Approach::new(*a, motion_a, *b, motion_b);
+    let (motion_a, motion_b) = (motion_a.rebased(start), motion_b.rebased(start));
+    let approach = Approach::new(*a, &motion_a, *b, &motion_b);
     search::first_contact(&approach, horizon, struck)
 }
 

@@ -18,11 +18,11 @@ const STEPS: usize = 20_000;
 
 /// Vertices this close to the lowest, as a fraction of the smaller size, touch with it. Far above
 /// the rounding of a gap, far below any feature.
-const NEAR: f64 = 1e-9;
+pub(super) const NEAR: f64 = 1e-9;
 
 /// How deep a pair that touches may sink before that is an impact, as a fraction of the smaller
 /// size: rounding after an impact, never a visible overlap.
-const SLACK: f64 = 1e-12;
+pub(super) const SLACK: f64 = 1e-12;
 
 /// The first contact of two convex hulls within `horizon`; they may part along `last` now.
 pub(super) fn first_contact(

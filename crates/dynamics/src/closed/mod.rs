@@ -103,7 +103,7 @@ impl World {
         let Some(pair) = self.pairs.find(place) else {
             return;
         };
-        let versions = [pair.bodies.0, pair.bodies.1].map(|index| self.bodies.get(index).version);
+        let versions = [pair.bodies.0, pair.bodies.1].map(|index| self.bodies.version(index));
         let entry = Entry {
             time,
             key: pair.colliders,
@@ -124,7 +124,7 @@ impl World {
         let place = state.membership.group;
         let (members, speed) = match self.closed.get(place) {
             Some(group) => {
-                if group.members.contains(&(index, state.version)) {
+                if group.members.contains(&(index, self.bodies.version(index))) {
                     return;
                 }
                 let speed = group.speed;
@@ -321,8 +321,9 @@ impl World {
             });
             let state = self.bodies.get_mut(index);
             state.member = true;
-            members.push((index, state.version));
-            for fast in [moved.velocity.length(), moved.spin.abs() * state.reach] {
+            let reach = state.reach;
+            members.push((index, self.bodies.version(index)));
+            for fast in [moved.velocity.length(), moved.spin.abs() * reach] {
                 fastest = if fast > fastest { fast } else { fastest };
             }
         }

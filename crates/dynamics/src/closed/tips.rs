@@ -82,9 +82,10 @@ impl World {
             });
             let state = self.bodies.get_mut(index);
             state.member = true;
-            members.push((index, state.version));
+            let reach = state.reach;
+            members.push((index, self.bodies.version(index)));
             slots.push(slot);
-            for fast in [moved.velocity.length(), moved.spin.abs() * state.reach] {
+            for fast in [moved.velocity.length(), moved.spin.abs() * reach] {
                 fastest = if fast > fastest { fast } else { fastest };
             }
         }
@@ -128,7 +129,7 @@ impl World {
         for place in self.closed.tipping() {
             let stands = |group: &Group| {
                 let mut members = group.members.iter();
-                members.all(|&(index, version)| self.bodies.get(index).version == version)
+                members.all(|&(index, version)| self.bodies.version(index) == version)
             };
             match self.closed.get(place) {
                 Some(group) if stands(group) => self.lay_pieces(place, time, h),
@@ -184,9 +185,8 @@ impl World {
             let (bend, twist) = tip.path.jerk(slot);
             let jerk = bend + twist * self.bodies.get(index).reach;
             follow(&mut self.bodies, index, flight, time, h, jerk);
-            let state = self.bodies.get_mut(index);
-            state.member = true;
-            renewed.push((index, state.version));
+            self.bodies.get_mut(index).member = true;
+            renewed.push((index, self.bodies.version(index)));
         }
         let moved = tip.touches_after(passed);
         if let Some(group) = self.closed.get_mut(place) {

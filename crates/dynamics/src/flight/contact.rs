@@ -7,7 +7,7 @@
 
 use carom_collision::{
     Hull, Impact, ImpactFeature, Motion, TimeOfImpact, earlier, part, part_count, separating_axis,
-    time_of_impact_after, time_of_impact_of_parts,
+    time_of_impact_from, time_of_impact_of_parts,
 };
 use carom_geometry::Shape;
 use carom_math::SimTime;
@@ -166,7 +166,10 @@ impl<'a> Search<'a> {
         // A little beyond: an impact at the very end is found to its last digit, too.
         let (span, [a, b]) = (span * (1.0 + BEYOND), motions);
         match last {
-            Some((last, shapes)) => time_of_impact_after(last, shapes[0], a, shapes[1], b, span),
+            Some((last, shapes)) => {
+                let start = a.start.max(b.start);
+                time_of_impact_from(start, Some(last), shapes[0], a, shapes[1], b, span)
+            }
             None => time_of_impact_of_parts(&self.parts[0], a, &self.parts[1], b, span),
         }
     }

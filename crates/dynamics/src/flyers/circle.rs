@@ -5,7 +5,8 @@ use carom_math::{SimTime, Vec2};
 use super::Flyers;
 use super::frame::{Frame, Track};
 use super::window::{self, Window};
-use crate::state::BodyState;
+use crate::Filter;
+use crate::state::{BodyState, Collider};
 
 /// The bounding circle of a body at an instant, in motion.
 #[derive(Clone, Copy, Debug)]
@@ -51,10 +52,12 @@ pub(super) struct Registered {
     reach: f64,
     /// It falls as the frame does.
     falls: bool,
+    /// It has one shape, which touches all that have the usual filter.
+    plain: bool,
 }
 
 impl Registered {
-    pub(super) fn of(state: &BodyState, frame: &Frame) -> Self {
+    pub(super) fn of(state: &BodyState, colliders: &[Collider], frame: &Frame) -> Self {
         let motion = &state.motion;
         Self {
             since: motion.start,
@@ -62,11 +65,20 @@ impl Registered {
             velocity: motion.velocity,
             reach: state.reach,
             falls: motion.acceleration == frame.acceleration() && state.flight.is_none(),
+            plain: state.is_dynamic()
+                && matches!(&*state.colliders, [one] if colliders[*one as usize].filter == Filter::default()),
         }
     }
 }
 
 impl Flyers {
+    /// Until when two bodies of the grid have looked for each other, if both touch whatever is usual.
+    pub(super) fn common_horizon(&self, a: u32, b: u32) -> Option<SimTime> {
+        let [a, b] = [a, b].map(|body| body as usize);
+        let plain = self.circles.get(a)?.plain && self.circles.get(b)?.plain;
+        plain.then(|| self.horizons[a].min(self.horizons[b]))
+    }
+
     /// The circle at `time` of a body in the grid, if it falls as the frame does: the bits of [`Circle::of`].
     pub(super) fn circle(&self, body: u32, time: SimTime) -> Option<Circle> {
         let known = self

@@ -61,7 +61,7 @@ impl World {
         let seconds = at_most(seen.seconds_for(way));
         state.course.horizon = (time + seconds).min(state.course.piece);
         state.course.swept = swept(state, &seen, seconds);
-        if !self.flyers.enter(&mut self.bodies, index) {
+        if !self.flyers.enter(&mut self.bodies, &self.colliders, index) {
             return false;
         }
         self.queue_end(index, Ahead::Horizon);
@@ -158,6 +158,7 @@ impl World {
             }
         }
         let own = Circle::of(self.bodies.get(index), time);
+        let in_grid = self.bodies.get(index).course.cells.is_some();
         for &other in &near {
             if other == index || Some(other) == but {
                 continue;
@@ -166,8 +167,18 @@ impl World {
                 .flyers
                 .circle(other, time)
                 .unwrap_or_else(|| Circle::of(self.bodies.get(other), time));
-            if let Some(window) = own.meets(&theirs) {
-                self.approach(index, other, window, time, cause);
+            let Some(window) = own.meets(&theirs) else {
+                continue;
+            };
+            // Most come near later, and nothing else is asked of them now.
+            match self.flyers.common_horizon(index, other) {
+                Some(horizon) if in_grid && window.from > 0.0 => {
+                    let meet = time + window.from;
+                    if meet <= horizon {
+                        self.queue_near(index, other, meet);
+                    }
+                }
+                _ => self.approach(index, other, window, time, cause),
             }
         }
         self.flyers.near = near;
@@ -218,10 +229,7 @@ impl World {
     }
 
     pub(super) fn stamp(&self, a: u32, b: u32) -> u32 {
-        self.bodies
-            .get(a)
-            .version
-            .wrapping_add(self.bodies.get(b).version)
+        self.bodies.version(a).wrapping_add(self.bodies.version(b))
     }
 
     pub(super) fn queue_near_shape(&mut self, index: u32, at: u32, time: SimTime) {

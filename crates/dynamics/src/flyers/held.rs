@@ -53,7 +53,7 @@ impl World {
         state.course.flies = false;
         state.idle = 0;
         // What was foreseen for a flyer is stale.
-        state.version = state.version.wrapping_add(1);
+        self.bodies.renew(index);
         self.flyers.vanish(&mut self.bodies, index);
         self.enlist(index, time);
         // What was too large for the grid keeps its box, and has met no pairs with it.
@@ -72,11 +72,11 @@ impl World {
                 self.part(place, time);
             }
         }
-        let state = self.bodies.get_mut(index);
-        state.course.flies = true;
+        let course = &mut self.bodies.get_mut(index).course;
+        course.flies = true;
         // What a sub-step gave it is no piece of its own.
-        state.course.piece = time;
-        state.version = state.version.wrapping_add(1);
+        course.piece = time;
+        self.bodies.renew(index);
         self.note_flight(index);
         self.foresee(index, time, Cause::Deflected, None);
     }

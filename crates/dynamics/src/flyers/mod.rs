@@ -40,34 +40,35 @@ use streak::Streak;
 
 /// How a body flies.
 #[derive(Clone, Copy, Debug)]
+#[repr(C)]
 pub(crate) struct Course {
-    /// Moves in closed form, from event to event.
-    pub(crate) flies: bool,
-    /// Until when its motion stands for the law that it flies by; for ever where it is the law.
-    pub(crate) piece: SimTime,
     /// Until when other flyers have been looked for.
     pub(crate) horizon: SimTime,
-    /// Box of its bounding circle up to the horizon, in the frame that falls.
-    pub(crate) swept: Aabb,
-    /// Where it is in the grid; none for what is too large for it, and is in the tree of boxes.
-    pub(crate) cells: Option<Cells>,
     /// Until when what does not fly has been looked for.
     pub(crate) ground: SimTime,
-    /// Box of its bounding circle up to then, in the world.
-    pub(crate) reached: Aabb,
-    /// How long that was, in s.
-    pub(crate) span: f64,
-    /// Nothing was found there.
+    /// Where it is in the grid; none for what is too large for it, and is in the tree of boxes.
+    pub(crate) cells: Option<Cells>,
+    /// Moves in closed form, from event to event.
+    pub(crate) flies: bool,
+    /// Nothing was found where it looked down.
     pub(crate) alone: bool,
-    /// Then: when that was.
-    pub(crate) clear_at: Option<SimTime>,
+    /// Until when its motion stands for the law that it flies by; for ever where it is the law.
+    pub(crate) piece: SimTime,
+    /// Box of its bounding circle up to the horizon, in the frame that falls.
+    pub(crate) swept: Aabb,
+    /// Box of its bounding circle up to the end of its look at what does not fly, in the world.
+    pub(crate) reached: Aabb,
     /// The earliest entries for the ends of both searches.
     pub(crate) entered: (SimTime, SimTime),
-    /// Node of that box in the tree aloft.
-    pub(crate) node: Option<NodeId>,
+    /// How long it looked down for, in s.
+    pub(crate) span: f64,
+    /// When it found nothing there.
+    pub(crate) clear_at: Option<SimTime>,
     /// The tick in which it last struck, and what its impacts spent in it.
     pub(crate) tick: i64,
     pub(crate) spent: f64,
+    /// Node of that box in the tree aloft.
+    pub(crate) node: Option<NodeId>,
     pub(crate) streak: Streak,
 }
 
@@ -167,6 +168,8 @@ pub(crate) struct Flyers {
     aloft: Option<BoxTree>,
     /// Circles of the grid's flyers, by body.
     circles: Vec<Registered>,
+    /// Until when they have looked round, by body.
+    horizons: Vec<SimTime>,
     queue: Queue,
     aside: Aside,
     impacts: Vec<Option<Foreseen>>,
@@ -199,6 +202,7 @@ impl Flyers {
             grounded: false,
             aloft: None,
             circles: Vec::new(),
+            horizons: Vec::new(),
             queue: Queue::default(),
             aside: Aside::default(),
             impacts: Vec::new(),
@@ -415,7 +419,7 @@ impl Flyers {
     }
 
     /// Puts a body into the grid, if it fits.
-    fn enter(&mut self, bodies: &mut Bodies, index: u32) -> bool {
+    fn enter(&mut self, bodies: &mut Bodies, colliders: &[Collider], index: u32) -> bool {
         let course = &mut bodies.get_mut(index).course;
         if !course.swept.is_finite() {
             return false;
@@ -429,8 +433,11 @@ impl Flyers {
         let place = index as usize;
         if self.circles.len() <= place {
             self.circles.resize(place + 1, Registered::default());
+            self.horizons.resize(place + 1, SimTime::ZERO);
         }
-        self.circles[place] = Registered::of(bodies.get(index), &self.frame);
+        let state = bodies.get(index);
+        self.circles[place] = Registered::of(state, colliders, &self.frame);
+        self.horizons[place] = state.course.horizon;
         true
     }
 
@@ -528,7 +535,7 @@ fn drift(frame: &Frame, bodies: &Bodies, flying: &[u32], time: SimTime) -> Optio
 
 /// Whether an entry is for nothing: a motion has changed since it was made, or another one comes before it.
 fn is_stale(entry: &Entry, bodies: &Bodies, colliders: &[Collider]) -> bool {
-    let version = |index: u32| bodies.get(index).version;
+    let version = |index: u32| bodies.version(index);
     let other = match entry.ahead {
         Ahead::Collapse => {
             let ids = [entry.a, entry.b].map(|index| bodies.get(index).id);

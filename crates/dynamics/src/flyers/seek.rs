@@ -1,6 +1,6 @@
 //! When two bodies touch that are near enough to meet, and what is already in contact.
 
-use carom_collision::{Impact, TimeOfImpact, contacts, time_of_impact, time_of_impact_after};
+use carom_collision::{Impact, TimeOfImpact, contacts, time_of_impact_from};
 use carom_math::SimTime;
 
 use super::Foreseen;
@@ -124,11 +124,7 @@ impl World {
         let next = if one.flight.is_some() || two.flight.is_some() {
             first_touch([one, two], [&**first, &**second], time, length, last)
         } else {
-            let (a, b) = (one.motion.rebased(time), two.motion.rebased(time));
-            match last {
-                Some(last) => time_of_impact_after(last, first, &a, second, &b, end),
-                None => time_of_impact(first, &a, second, &b, end),
-            }
+            time_of_impact_from(time, last, first, &one.motion, second, &two.motion, end)
         };
         let (wait, impact) = match next {
             TimeOfImpact::Clear => (f64::INFINITY, None),

@@ -60,10 +60,13 @@ impl World {
         let material = self.material_of(impact);
         let before = [a, b].map(|index| self.bodies.get(index).in_impact(time));
         let speed = approach_speed(impact, &before);
-        let press = self.press(impact, time);
         if speed <= NOISE * self.scale(impact, &before) {
+            let press = self.press(impact, time);
             return self.touches(impact, time, speed, press);
         }
+        let smooth = material.restitution >= 1.0 && material.friction == 0.0;
+        let keeps = smooth && !self.bodies.bends(a) && !self.bodies.bends(b);
+        let press = if keeps { 0.0 } else { self.press(impact, time) };
         let e = material.restitution;
         let lost = price_of(e);
         if self.outruns(impact, time, lost) {
@@ -83,7 +86,13 @@ impl World {
             ..material
         };
         self.strike_at(impact, time, &before, material);
-        if press <= 0.0 {
+        if keeps {
+            if !self.bounces_high(impact, time, speed) {
+                self.hop(impact, time);
+            }
+            self.deflect_both(impact, time);
+            self.flyers.hop = None;
+        } else if press <= 0.0 {
             self.deflect_both(impact, time);
         } else if e == 0.0 {
             if ends {
@@ -250,6 +259,40 @@ impl World {
             *point += drift;
         }
         self.flyers.hop = Some((wait, next));
+    }
+
+    /// Whether two bodies part from an impact without loss, at `speed`, so fast that nothing that presses them together makes
+    /// a low bounce of it: they need no [`Self::hop`].
+    ///
+    /// With w the faster spin, and R the reach of what turns, on a face (see [`gap_acceleration`])
+    /// ```text
+    /// |g″| ≤ |a_b − a_a| + 2 w (|v_b − v_a| + w R) + 2 w² R
+    /// ```
+    fn bounces_high(&self, impact: &Foreseen, time: SimTime, speed: f64) -> bool {
+        if impact.points.len() > 1 || impact.face().is_none() {
+            return false;
+        }
+        let (one, two) = (
+            self.bodies.get(impact.bodies.0),
+            self.bodies.get(impact.bodies.1),
+        );
+        let (a, b) = (&one.motion, &two.motion);
+        if a.angular_acceleration != 0.0 || b.angular_acceleration != 0.0 {
+            return false;
+        }
+        let turning = |state: &BodyState| {
+            if state.motion.spin == 0.0 {
+                0.0
+            } else {
+                state.reach
+            }
+        };
+        let far = turning(one) + turning(two);
+        let w = a.spin.abs().max(b.spin.abs());
+        let slip = (b.velocity_at(time) - a.velocity_at(time)).length() + w * far;
+        let press = (b.acceleration - a.acceleration).length() + 2.0 * w * (slip + w * far);
+        // Twice what a low bounce may have: the two speeds differ by rounding.
+        speed * speed > 4.0 * press * FLAT * one.reach.min(two.reach)
     }
 
     /// How fast two bodies are pressed together where they touch, in m/s²; negative: pulled apart.

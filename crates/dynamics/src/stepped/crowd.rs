@@ -212,7 +212,7 @@ impl World {
         state.in_crowd = false;
         state.member = false;
         state.idle = 0;
-        state.version = state.version.wrapping_add(1);
+        self.bodies.renew(index);
         self.mark_pairs(index);
     }
 

@@ -86,9 +86,9 @@ impl World {
             state.motion.acceleration = Vec2::ZERO;
             state.motion.spin = 0.0;
             state.motion.angular_acceleration = 0.0;
-            state.version = state.version.wrapping_add(1);
             state.asleep = true;
             self.events.push(time, EventKind::Asleep(state.id));
+            self.bodies.renew(index);
             lying.push(index);
         }
         if !self.moves_all() {

@@ -86,7 +86,6 @@ impl World {
         motion.rotation = motion.rotation.turned_slightly(turn);
         let (index, angle) = (seat.body, seat.base_angle + turn);
         self.go_on_as(index, motion, angle);
-        let state = self.bodies.get_mut(index);
-        state.version = state.version.wrapping_add(1);
+        self.bodies.renew(index);
     }
 }
