@@ -190,7 +190,7 @@ fn case_39_numbers_that_are_none_are_refused_and_change_nothing() {
 /// dimforge/rapier#868: other bits at a repeat.
 #[test]
 fn case_40_repeats_have_equal_bits_and_other_orders_the_same_laws() {
-    let build = |order: &dyn Fn(usize) -> usize| {
+    let build = |order: &dyn Fn(usize) -> usize, spin: f64| {
         let mut world = stepped(Settings::default());
         floor(&mut world, Material::default());
         for k in 0..60 {
@@ -200,7 +200,7 @@ fn case_40_repeats_have_equal_bits_and_other_orders_the_same_laws() {
             let side = if k.is_multiple_of(3) { 0.6 } else { 0.9 };
             put(
                 &mut world,
-                BodyDef::dynamic().at(at).spinning(0.3),
+                BodyDef::dynamic().at(at).spinning(spin),
                 block(side, 0.8),
                 Material::default(),
             );
@@ -208,20 +208,24 @@ fn case_40_repeats_have_equal_bits_and_other_orders_the_same_laws() {
         run(&mut world, 10.0, |_| {});
         world
     };
-    let first = build(&|k| k);
-    assert_eq!(first.state_hash(), build(&|k| k).state_hash());
-    let other = build(&|k| 59 - k);
-    let (a, b) = (first.energy(), other.energy());
-    assert!(
-        (a.potential - b.potential).abs() < 0.1 * a.potential,
-        "{} {}",
-        a.potential,
-        b.potential
-    );
-    for world in [&first, &other] {
-        assert!(overlaps(world).0 < 5e-3);
-        let kinetic = world.energy().kinetic;
-        assert!(kinetic < 1e-3, "{kinetic:.1e} J");
+    let repeat = build(&|k| k, 0.3).state_hash();
+    for variant in 0..10 {
+        let spin = 0.3 + 0.01 * f64::from(variant);
+        let (first, other) = (build(&|k| k, spin), build(&|k| 59 - k, spin));
+        assert!(variant > 0 || first.state_hash() == repeat);
+        let (a, b) = (first.energy(), other.energy());
+        assert!(
+            (a.potential - b.potential).abs() < 0.1 * a.potential,
+            "{} {}",
+            a.potential,
+            b.potential
+        );
+        for world in [&first, &other] {
+            assert!(overlaps(world).0 < 5e-3);
+            // Columns jammed side by side do not hum.
+            let kinetic = world.energy().kinetic;
+            assert!(kinetic < 1e-3, "variant {variant}: {kinetic:.1e} J");
+        }
     }
 }
 

@@ -1,12 +1,14 @@
 //! The soft sub-step law, eight rows at a time. [`super::plain`] says the same row by row.
 //!
 //! Dispatched once a sub-step; everything below is inlined into the dispatched function, and no
-//! closure sees a register: both would lose the wide instructions. No fused multiply-add and
-//! selects instead of min and max, so that every width gives the same bits.
+//! closure sees a register: both would lose the wide instructions. No fused multiply-add, so that every width
+//! gives the same bits; min and max give their second number where both are equal, or zeros of either sign.
 
 #![allow(clippy::inline_always, reason = "the wide instructions end at a call")]
 
-use fearless_simd::{Level, Select, Simd, SimdBase, SimdMask, SimdSplit, dispatch, f64x8};
+use fearless_simd::{
+    Level, Select, Simd, SimdBase, SimdCombine, SimdMask, SimdSplit, dispatch, f64x4, f64x8,
+};
 
 use super::wide::{LANES, Line, Wide};
 use super::{Law, Row};
@@ -23,6 +25,8 @@ pub(crate) enum Pass {
     Relax,
     /// The same where some surface runs along.
     RelaxBelts,
+    /// The same over rows that relax often, over-relaxed.
+    RelaxOften,
 }
 
 /// Rows of a block that are met with a speed when a solving sweep comes to them.
@@ -46,19 +50,22 @@ pub(crate) fn sweep(
 ) -> f64 {
     match pass {
         Pass::Solve => {
-            dispatch!(level, simd => all::<_, false, false>(simd, law, lines, colours, met))
+            dispatch!(level, simd => all::<_, false, false, false>(simd, law, lines, colours, met))
         }
         Pass::Relax => {
-            dispatch!(level, simd => all::<_, true, false>(simd, law, lines, colours, met))
+            dispatch!(level, simd => all::<_, true, false, false>(simd, law, lines, colours, met))
         }
         Pass::RelaxBelts => {
-            dispatch!(level, simd => all::<_, true, true>(simd, law, lines, colours, met))
+            dispatch!(level, simd => all::<_, true, true, false>(simd, law, lines, colours, met))
+        }
+        Pass::RelaxOften => {
+            dispatch!(level, simd => all::<_, true, true, true>(simd, law, lines, colours, met))
         }
     }
 }
 
 #[inline(always)]
-fn all<S: Simd, const RELAX: bool, const BELTS: bool>(
+fn all<S: Simd, const RELAX: bool, const BELTS: bool, const OFTEN: bool>(
     simd: S,
     law: &Law,
     lines: &mut [Line],
@@ -68,7 +75,7 @@ fn all<S: Simd, const RELAX: bool, const BELTS: bool>(
     let mut heat = f64x8::splat(simd, 0.0);
     for (colour, blocks) in (0u32..).zip(colours) {
         for (k, wide) in (0u32..).zip(blocks) {
-            let lanes = block::<S, RELAX, BELTS>(simd, law, lines, wide, &mut heat);
+            let lanes = block::<S, RELAX, BELTS, OFTEN>(simd, law, lines, wide, &mut heat);
             if lanes != 0 {
                 let block = k;
                 met.push(Met {
@@ -90,7 +97,7 @@ fn all<S: Simd, const RELAX: bool, const BELTS: bool>(
 type Eight<S> = [f64x8<S>; 8];
 
 #[inline(always)]
-fn block<S: Simd, const RELAX: bool, const BELTS: bool>(
+fn block<S: Simd, const RELAX: bool, const BELTS: bool, const OFTEN: bool>(
     simd: S,
     law: &Law,
     lines: &mut [Line],
@@ -105,20 +112,29 @@ fn block<S: Simd, const RELAX: bool, const BELTS: bool>(
     let ny = f64x8::from_slice(simd, &wide.ny);
     let a1 = f64x8::from_slice(simd, &wide.a1);
     let b1 = f64x8::from_slice(simd, &wide.b1);
-    let a2 = f64x8::from_slice(simd, &wide.a2);
-    let b2 = f64x8::from_slice(simd, &wide.b2);
+    let l = f64x8::from_slice(simd, &wide.l);
     let j1 = f64x8::from_slice(simd, &wide.j1);
     let j2 = f64x8::from_slice(simd, &wide.j2);
 
-    let vn = nx * (bvx - avx) + ny * (bvy - avy);
-    let dn = nx * (bdx - adx) + ny * (bdy - ady);
-    let gap1 = f64x8::from_slice(simd, &wide.s1) + dn + b1 * bturn - a1 * aturn;
-    let gap2 = f64x8::from_slice(simd, &wide.s2) + dn + b2 * bturn - a2 * aturn;
-    let (open1, open2) = (gap1.simd_gt(zero), gap2.simd_gt(zero));
-    let rate = f64x8::splat(simd, law.inverse_h);
-    let (v1, v2) = (vn + b1 * bw - a1 * aw, vn + b2 * bw - a2 * aw);
+    let v1 = nx * (bvx - avx) + ny * (bvy - avy) + b1 * bw - a1 * aw;
+    let v2 = v1 + l * (bw - aw);
+    let moved1 = nx * (bdx - adx) + ny * (bdy - ady) + b1 * bturn - a1 * aturn;
+    let moved2 = moved1 + l * (bturn - aturn);
+    let gap1 = f64x8::from_slice(simd, &wide.s1) + moved1;
+    let gap2 = f64x8::from_slice(simd, &wide.s2) + moved2;
+
+    let k11 = f64x8::from_slice(simd, &wide.k11);
+    let k12 = f64x8::from_slice(simd, &wide.k12);
+    let k22 = f64x8::from_slice(simd, &wide.k22);
+    let reach = f64x8::splat(simd, law.inverse_h);
     let mut met = 0;
-    if !RELAX {
+    let (u1, u2, s11, s22, omega);
+    if RELAX {
+        u1 = v1 + gap1.max(zero) * reach;
+        u2 = v2 + gap2.max(zero) * reach;
+        (s11, s22) = (k11, k22);
+        omega = f64x8::splat(simd, law.often);
+    } else {
         let (fast, near) = (
             f64x8::splat(simd, -MET),
             f64x8::splat(simd, 0.5 * Row::OPEN),
@@ -126,19 +142,8 @@ fn block<S: Simd, const RELAX: bool, const BELTS: bool>(
         let met1 = v1.simd_lt(fast) & gap1.simd_lt(near);
         let met2 = v2.simd_lt(fast) & gap2.simd_lt(near);
         met = (met1 | met2).to_bitmask();
-    }
-    let mut u1 = v1 + open1.select(gap1, zero) * rate;
-    let mut u2 = v2 + open2.select(gap2, zero) * rate;
-
-    // K of both points; softened where they overlap.
-    let m = ma + mb;
-    let (iaa1, ibb1) = (ia * a1, ib * b1);
-    let k11 = m + iaa1 * a1 + ibb1 * b1;
-    let k12 = m + iaa1 * a2 + ibb1 * b2;
-    let k22 = m + ia * a2 * a2 + ib * b2 * b2;
-    let (mut s11, mut s22) = (k11, k22);
-    if !RELAX {
-        let ground = ma.simd_eq(zero) | mb.simd_eq(zero);
+        let (open1, open2) = (gap1.simd_gt(zero), gap2.simd_gt(zero));
+        let ground = ma.min(mb).simd_eq(zero);
         let rate = ground.select(
             f64x8::splat(simd, law.soft[1].0),
             f64x8::splat(simd, law.soft[0].0),
@@ -148,66 +153,70 @@ fn block<S: Simd, const RELAX: bool, const BELTS: bool>(
             f64x8::splat(simd, 1.0 + law.soft[0].1),
         );
         let fastest = f64x8::splat(simd, -law.push_out);
-        let (push1, push2) = (rate * gap1, rate * gap2);
-        let push1 = push1.simd_gt(fastest).select(push1, fastest);
-        let push2 = push2.simd_gt(fastest).select(push2, fastest);
-        u1 += open1.select(zero, push1);
-        u2 += open2.select(zero, push2);
-        s11 *= open1.select(one, softened);
-        s22 *= open2.select(one, softened);
+        (s11, s22) = (k11 * softened, k22 * softened);
+        // Softened whether open or not, so that no division waits for a gap; but what an open point pushes
+        // already counts as on a stiff one, and its first impulse is taken as much larger as that is softer.
+        let (stiff1, stiff2) = (open1.select(j1, zero), open2.select(j2, zero));
+        u1 = v1 + (gap1 * open1.select(reach, rate)).max(fastest) - (s11 - k11) * stiff1;
+        u2 = v2 + (gap2 * open2.select(reach, rate)).max(fastest) - (s22 - k22) * stiff2;
+        // A face that did not push yet has no error to damp: its first impulse is taken as it is.
+        let acted = (j1 + j2).simd_gt(zero);
+        omega = acted.select(f64x8::splat(simd, law.over_relaxation), softened);
     }
 
     // The case of the 2 × 2 complementarity problem that holds.
-    let r1 = k11 * j1 + k12 * j2 - u1;
-    let r2 = k12 * j1 + k22 * j2 - u2;
     let product = s11 * s22;
     let det = product - k12 * k12;
-    // Locked rotations make both points one: then one of them pushes alone.
-    let regular = det.simd_gt(product * f64x8::splat(simd, 1e-12));
-    let det = regular.select(det, one);
     let q = one / (product * det);
-    let (y1, y2) = (r1 * (q * s22 * det), r2 * (q * s11 * det));
     let inverse = q * product;
+    let alone = q * det;
+    let r1 = k11 * j1 + k12 * j2 - u1;
+    let r2 = k12 * j1 + k22 * j2 - u2;
+    let y1 = (r1 * (alone * s22)).max(zero);
+    let y2 = (r2 * (alone * s11)).max(zero);
     let x1 = (s22 * r1 - k12 * r2) * inverse;
     let x2 = (s11 * r2 - k12 * r1) * inverse;
-    let both = regular & x1.simd_ge(zero) & x2.simd_ge(zero);
+    let both = x1.min(x2).simd_ge(zero);
     // The first alone, if that keeps the second from closing; else the second, if it closes.
-    let first = y1.simd_ge(zero) & (k12 * y1).simd_ge(r2);
-    let y2 = y2.simd_gt(zero).select(y2, zero);
+    let first = (k12 * y1).simd_ge(r2);
     let x1 = both.select(x1, first.select(y1, zero));
     let x2 = both.select(x2, first.select(zero, y2));
 
-    // A face that did not push yet has no error to damp: its first impulse is taken as it is.
-    let acted = (j1 + j2).simd_gt(zero);
-    let omega = acted.select(f64x8::splat(simd, law.over_relaxation), one);
-    let (new1, new2) = (j1 + omega * (x1 - j1), j2 + omega * (x2 - j2));
-    let new1 = new1.simd_gt(zero).select(new1, zero);
-    let new2 = new2.simd_gt(zero).select(new2, zero);
-    let (d1, d2) = (new1 - j1, new2 - j2);
+    // What relaxes once is not hurried on: friction acts at once by what pushes, and jammed columns would hum.
+    let (new1, new2) = if RELAX && !OFTEN {
+        (x1, x2)
+    } else {
+        (
+            (j1 + omega * (x1 - j1)).max(zero),
+            (j2 + omega * (x2 - j2)).max(zero),
+        )
+    };
     new1.store_slice(&mut wide.j1);
     new2.store_slice(&mut wide.j2);
-    let sum = d1 + d2;
+    let d2 = new2 - j2;
+    let sum = new1 - j1 + d2;
     let (px, py) = (nx * sum, ny * sum);
+    let bend = l * d2;
     avx -= px * ma;
     avy -= py * ma;
     bvx += px * mb;
     bvy += py * mb;
-    aw -= (a1 * d1 + a2 * d2) * ia;
-    bw += (b1 * d1 + b2 * d2) * ib;
+    aw -= (a1 * sum + bend) * ia;
+    bw += (b1 * sum + bend) * ib;
 
     if RELAX {
         let at = f64x8::from_slice(simd, &wide.at);
         let bt = f64x8::from_slice(simd, &wide.bt);
         let jt = f64x8::from_slice(simd, &wide.jt);
-        let mut vt = nx * (bvy - avy) - ny * (bvx - avx) + bt * bw - at * aw;
+        let k = f64x8::from_slice(simd, &wide.kt);
+        let inverse = one / k;
+        let mut vt = nx * (bvy - avy) - ny * (bvx - avx) + (bt * bw - at * aw);
         if BELTS {
             vt -= f64x8::from_slice(simd, &wide.belt);
         }
-        let k = m + ia * at * at + ib * bt * bt;
         let limit = f64x8::from_slice(simd, &wide.mu) * (new1 + new2);
-        let wanted = jt - vt / k;
-        let wanted = wanted.simd_gt(limit).select(limit, wanted);
-        let new = wanted.simd_lt(-limit).select(-limit, wanted);
+        let wanted = limit.min(jt - vt * inverse);
+        let new = (-limit).max(wanted);
         let dt = new - jt;
         new.store_slice(&mut wide.jt);
         let (px, py) = (-ny * dt, nx * dt);
@@ -220,10 +229,9 @@ fn block<S: Simd, const RELAX: bool, const BELTS: bool>(
         // Slip at the end of the sub-step, and half of what friction changed it by: the mean, as
         // far as the row knows. What sticks makes no heat.
         let slip = vt + k * dt;
-        let half = f64x8::splat(simd, 0.5) * k * new;
         let most = slip.abs();
-        let half = half.simd_gt(most).select(most, half);
-        let half = half.simd_lt(-most).select(-most, half);
+        let half = most.min(f64x8::splat(simd, 0.5) * k * new);
+        let half = (-most).max(half);
         *heat -= new * (slip - half);
     }
     scatter(simd, lines, &wide.a, [avx, avy, aw, ma]);
@@ -231,33 +239,43 @@ fn block<S: Simd, const RELAX: bool, const BELTS: bool>(
     met
 }
 
-/// Reads eight lines and turns them into columns: three rounds of a perfect shuffle.
+/// Reads eight lines and turns them into columns: halves of lines side by side, then two rounds that part
+/// even places from odd ones.
 #[inline(always)]
 fn gather<S: Simd>(simd: S, lines: &[Line], at: &[u32; LANES]) -> Eight<S> {
-    let r = [
-        f64x8::from_slice(simd, &lines[at[0] as usize].0),
-        f64x8::from_slice(simd, &lines[at[1] as usize].0),
-        f64x8::from_slice(simd, &lines[at[2] as usize].0),
-        f64x8::from_slice(simd, &lines[at[3] as usize].0),
-        f64x8::from_slice(simd, &lines[at[4] as usize].0),
-        f64x8::from_slice(simd, &lines[at[5] as usize].0),
-        f64x8::from_slice(simd, &lines[at[6] as usize].0),
-        f64x8::from_slice(simd, &lines[at[7] as usize].0),
-    ];
-    shuffle(shuffle(shuffle(r)))
+    let (l0, l1) = (&lines[at[0] as usize].0, &lines[at[1] as usize].0);
+    let (l2, l3) = (&lines[at[2] as usize].0, &lines[at[3] as usize].0);
+    let (l4, l5) = (&lines[at[4] as usize].0, &lines[at[5] as usize].0);
+    let (l6, l7) = (&lines[at[6] as usize].0, &lines[at[7] as usize].0);
+    let [vx, vy, w, m] = columns([
+        pair(simd, &l0[..4], &l1[..4]),
+        pair(simd, &l2[..4], &l3[..4]),
+        pair(simd, &l4[..4], &l5[..4]),
+        pair(simd, &l6[..4], &l7[..4]),
+    ]);
+    let [dx, dy, turn, i] = columns([
+        pair(simd, &l0[4..], &l1[4..]),
+        pair(simd, &l2[4..], &l3[4..]),
+        pair(simd, &l4[4..], &l5[4..]),
+        pair(simd, &l6[4..], &l7[4..]),
+    ]);
+    [vx, vy, w, m, dx, dy, turn, i]
 }
 
 #[inline(always)]
-fn shuffle<S: Simd>(r: Eight<S>) -> Eight<S> {
+fn pair<S: Simd>(simd: S, low: &[f64], high: &[f64]) -> f64x8<S> {
+    f64x4::from_slice(simd, low).combine(f64x4::from_slice(simd, high))
+}
+
+#[inline(always)]
+fn columns<S: Simd>([ab, cd, ef, gh]: [f64x8<S>; 4]) -> [f64x8<S>; 4] {
+    let (even0, odd0) = (ab.unzip_low(cd), ab.unzip_high(cd));
+    let (even1, odd1) = (ef.unzip_low(gh), ef.unzip_high(gh));
     [
-        r[0].zip_low(r[4]),
-        r[0].zip_high(r[4]),
-        r[1].zip_low(r[5]),
-        r[1].zip_high(r[5]),
-        r[2].zip_low(r[6]),
-        r[2].zip_high(r[6]),
-        r[3].zip_low(r[7]),
-        r[3].zip_high(r[7]),
+        even0.unzip_low(even1),
+        odd0.unzip_low(odd1),
+        even0.unzip_high(even1),
+        odd0.unzip_high(odd1),
     ]
 }
 

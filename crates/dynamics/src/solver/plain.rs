@@ -16,8 +16,18 @@ pub(crate) fn sweep(pass: Pass, law: &Law, lines: &mut [Line], colours: &mut [Ve
     heat.iter().fold(0.0, |sum, heat| sum + heat)
 }
 
+/// The second where both are equal, or zeros of either sign.
+fn larger(x: f64, y: f64) -> f64 {
+    if x > y { x } else { y }
+}
+
+/// The second where both are equal, or zeros of either sign.
+fn smaller(x: f64, y: f64) -> f64 {
+    if x < y { x } else { y }
+}
+
 fn positive(x: f64) -> f64 {
-    if x > 0.0 { x } else { 0.0 }
+    larger(x, 0.0)
 }
 
 /// One lane; bodies that no lane of the block shares may be written at once.
@@ -27,89 +37,90 @@ fn row(pass: Pass, law: &Law, lines: &mut [Line], wide: &mut Wide, lane: usize, 
     let Line([mut avx, mut avy, mut aw, ma, adx, ady, aturn, i_a]) = lines[ia];
     let Line([mut bvx, mut bvy, mut bw, mb, bdx, bdy, bturn, i_b]) = lines[ib];
     let (nx, ny) = (wide.nx[lane], wide.ny[lane]);
-    let (a1, a2) = (wide.a1[lane], wide.a2[lane]);
-    let (b1, b2) = (wide.b1[lane], wide.b2[lane]);
+    let (a1, b1, l) = (wide.a1[lane], wide.b1[lane], wide.l[lane]);
     let (j1, j2) = (wide.j1[lane], wide.j2[lane]);
 
-    let vn = nx * (bvx - avx) + ny * (bvy - avy);
-    let dn = nx * (bdx - adx) + ny * (bdy - ady);
-    let gap1 = wide.s1[lane] + dn + b1 * bturn - a1 * aturn;
-    let gap2 = wide.s2[lane] + dn + b2 * bturn - a2 * aturn;
-    let mut u1 = vn + b1 * bw - a1 * aw + positive(gap1) * law.inverse_h;
-    let mut u2 = vn + b2 * bw - a2 * aw + positive(gap2) * law.inverse_h;
-
-    let m = ma + mb;
-    let k11 = m + i_a * a1 * a1 + i_b * b1 * b1;
-    let k12 = m + i_a * a1 * a2 + i_b * b1 * b2;
-    let k22 = m + i_a * a2 * a2 + i_b * b2 * b2;
-    let (mut s11, mut s22) = (k11, k22);
-    if !relax {
+    let v1 = nx * (bvx - avx) + ny * (bvy - avy) + b1 * bw - a1 * aw;
+    let v2 = v1 + l * (bw - aw);
+    let moved1 = nx * (bdx - adx) + ny * (bdy - ady) + b1 * bturn - a1 * aturn;
+    let moved2 = moved1 + l * (bturn - aturn);
+    let (gap1, gap2) = (wide.s1[lane] + moved1, wide.s2[lane] + moved2);
+    let (k11, k12, k22) = (wide.k11[lane], wide.k12[lane], wide.k22[lane]);
+    let (u1, u2, s11, s22, omega);
+    if relax {
+        u1 = v1 + positive(gap1) * law.inverse_h;
+        u2 = v2 + positive(gap2) * law.inverse_h;
+        (s11, s22) = (k11, k22);
+        omega = law.often;
+    } else {
         let ground = ma == 0.0 || mb == 0.0;
         let (rate, gamma) = law.soft[usize::from(ground)];
-        let push = |gap: f64| {
-            if rate * gap > -law.push_out {
-                rate * gap
-            } else {
-                -law.push_out
-            }
+        let softened = 1.0 + gamma;
+        (s11, s22) = (k11 * softened, k22 * softened);
+        let bias = |gap: f64| {
+            let factor = if gap > 0.0 { law.inverse_h } else { rate };
+            larger(gap * factor, -law.push_out)
         };
-        u1 += if gap1 > 0.0 { 0.0 } else { push(gap1) };
-        u2 += if gap2 > 0.0 { 0.0 } else { push(gap2) };
-        s11 *= if gap1 > 0.0 { 1.0 } else { 1.0 + gamma };
-        s22 *= if gap2 > 0.0 { 1.0 } else { 1.0 + gamma };
+        let stiff = |gap: f64, j: f64| if gap > 0.0 { j } else { 0.0 };
+        u1 = v1 + bias(gap1) - (s11 - k11) * stiff(gap1, j1);
+        u2 = v2 + bias(gap2) - (s22 - k22) * stiff(gap2, j2);
+        omega = if j1 + j2 > 0.0 {
+            law.over_relaxation
+        } else {
+            softened
+        };
     }
 
-    let r1 = k11 * j1 + k12 * j2 - u1;
-    let r2 = k12 * j1 + k22 * j2 - u2;
     let product = s11 * s22;
     let det = product - k12 * k12;
-    let regular = det > product * 1e-12;
-    let det = if regular { det } else { 1.0 };
     let q = 1.0 / (product * det);
-    let (y1, y2) = (r1 * (q * s22 * det), r2 * (q * s11 * det));
     let inverse = q * product;
+    let alone = q * det;
+    let r1 = k11 * j1 + k12 * j2 - u1;
+    let r2 = k12 * j1 + k22 * j2 - u2;
+    let (y1, y2) = (positive(r1 * (alone * s22)), positive(r2 * (alone * s11)));
     let x1 = (s22 * r1 - k12 * r2) * inverse;
     let x2 = (s11 * r2 - k12 * r1) * inverse;
-    let (x1, x2) = if regular && x1 >= 0.0 && x2 >= 0.0 {
+    let (x1, x2) = if x1 >= 0.0 && x2 >= 0.0 {
         (x1, x2)
-    } else if y1 >= 0.0 && k12 * y1 >= r2 {
+    } else if k12 * y1 >= r2 {
         (y1, 0.0)
     } else {
-        (0.0, positive(y2))
+        (0.0, y2)
     };
 
-    let omega = if j1 + j2 > 0.0 {
-        law.over_relaxation
+    let (new1, new2) = if relax && pass != Pass::RelaxOften {
+        (x1, x2)
     } else {
-        1.0
+        (
+            positive(j1 + omega * (x1 - j1)),
+            positive(j2 + omega * (x2 - j2)),
+        )
     };
-    let (new1, new2) = (
-        positive(j1 + omega * (x1 - j1)),
-        positive(j2 + omega * (x2 - j2)),
-    );
-    let (d1, d2) = (new1 - j1, new2 - j2);
     (wide.j1[lane], wide.j2[lane]) = (new1, new2);
-    let (px, py) = (nx * (d1 + d2), ny * (d1 + d2));
+    let d2 = new2 - j2;
+    let sum = new1 - j1 + d2;
+    let (px, py) = (nx * sum, ny * sum);
+    let bend = l * d2;
     avx -= px * ma;
     avy -= py * ma;
     bvx += px * mb;
     bvy += py * mb;
-    aw -= (a1 * d1 + a2 * d2) * i_a;
-    bw += (b1 * d1 + b2 * d2) * i_b;
+    aw -= (a1 * sum + bend) * i_a;
+    bw += (b1 * sum + bend) * i_b;
 
     if relax {
         let (at, bt, jt) = (wide.at[lane], wide.bt[lane], wide.jt[lane]);
-        let belt = if pass == Pass::RelaxBelts {
+        let belt = if pass != Pass::Relax {
             wide.belt[lane]
         } else {
             0.0
         };
-        let vt = nx * (bvy - avy) - ny * (bvx - avx) + bt * bw - at * aw - belt;
-        let k = m + i_a * at * at + i_b * bt * bt;
+        let k = wide.kt[lane];
+        let vt = nx * (bvy - avy) - ny * (bvx - avx) + (bt * bw - at * aw) - belt;
         let limit = wide.mu[lane] * (new1 + new2);
-        let wanted = jt - vt / k;
-        let wanted = if wanted > limit { limit } else { wanted };
-        let new = if wanted < -limit { -limit } else { wanted };
+        let wanted = smaller(limit, jt - vt * (1.0 / k));
+        let new = larger(-limit, wanted);
         let dt = new - jt;
         wide.jt[lane] = new;
         let (px, py) = (-ny * dt, nx * dt);
@@ -120,10 +131,8 @@ fn row(pass: Pass, law: &Law, lines: &mut [Line], wide: &mut Wide, lane: usize, 
         aw -= at * dt * i_a;
         bw += bt * dt * i_b;
         let slip = vt + k * dt;
-        let half = 0.5 * k * new;
         let most = slip.abs();
-        let half = if half > most { most } else { half };
-        let half = if half < -most { -most } else { half };
+        let half = larger(-most, smaller(most, 0.5 * k * new));
         *heat -= new * (slip - half);
     }
     lines[ia].0[..3].copy_from_slice(&[avx, avy, aw]);

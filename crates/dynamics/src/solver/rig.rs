@@ -243,6 +243,11 @@ impl Rig {
             inverse_mass,
         );
         (line.0[3], line.0[7]) = (inverse_mass, inverse_inertia);
+        let ids: Vec<RowId> = self.lanes.ids().collect();
+        for id in ids {
+            let row = self.row(id);
+            self.retell(id, &row);
+        }
     }
 
     /// Says where a body is, against its base.

@@ -14,6 +14,10 @@ pub(crate) struct Law {
     pub(super) h: f64,
     pub(super) inverse_h: f64,
     pub(super) over_relaxation: f64,
+    /// The same over rows that are rebuilt in every sub-step.
+    pub(super) milder: f64,
+    /// The same over rows that relax often.
+    pub(super) often: f64,
     pub(super) push_out: f64,
     /// (rate, γ) between moving bodies, and against the ground at twice the frequency.
     pub(super) soft: [(f64, f64); 2],
@@ -42,6 +46,8 @@ impl Law {
             h,
             inverse_h: h.recip(),
             over_relaxation: softness.over_relaxation,
+            milder: 1.0 + 0.6 * (softness.over_relaxation - 1.0),
+            often: 1.0 + 1.4 * (softness.over_relaxation - 1.0),
             push_out: softness.push_out,
             soft: [soft(frequency), soft(2.0 * frequency)],
         }
@@ -58,7 +64,7 @@ pub(crate) fn solve(law: &Law, bodies: &mut [SolverBody], rows: &mut [Row]) {
         let soften = |gap: f64| if gap <= 0.0 { 1.0 + gamma } else { 1.0 };
         let u = [v[0] + bias(row.gap[0]), v[1] + bias(row.gap[1])];
         let softened = [soften(row.gap[0]), soften(row.gap[1])];
-        normals(law, row, &mut a, &mut b, u, softened);
+        normals(law.milder, row, &mut a, &mut b, u, softened);
         store(row, bodies, a, b);
     }
 }
@@ -73,7 +79,7 @@ pub(crate) fn relax(law: &Law, bodies: &mut [SolverBody], rows: &mut [Row]) {
             v[0] + gap[0].max(0.0) / law.h,
             v[1] + gap[1].max(0.0) / law.h,
         ];
-        normals(law, row, &mut a, &mut b, u, [1.0, 1.0]);
+        normals(law.milder, row, &mut a, &mut b, u, [1.0, 1.0]);
         if row.mu > 0.0 {
             let k = a.inverse_mass
                 + b.inverse_mass
@@ -93,7 +99,7 @@ pub(crate) fn relax(law: &Law, bodies: &mut [SolverBody], rows: &mut [Row]) {
 /// `u` is the velocity that the row wants to be zero, taken with the present impulses; the rest of
 /// it, with the softened diagonal, is `K x = k j − u`.
 fn normals(
-    law: &Law,
+    omega: f64,
     row: &mut Row,
     a: &mut SolverBody,
     b: &mut SolverBody,
@@ -123,7 +129,7 @@ fn normals(
     } else {
         [0.0, (r2 / s22).max(0.0)]
     };
-    let step = |j: f64, x: f64| (j + law.over_relaxation * (x - j)).max(0.0);
+    let step = |j: f64, x: f64| (j + omega * (x - j)).max(0.0);
     let j = [step(row.j[0], x[0]), step(row.j[1], x[1])];
     row.push(a, b, [j[0] - row.j[0], j[1] - row.j[1]], 0.0);
     row.j = j;

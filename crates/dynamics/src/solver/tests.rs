@@ -234,7 +234,7 @@ proptest! {
     fn every_width_gives_the_bits_of_the_plain_sweep(seed in any::<u64>()) {
         let law = Law::new(&Softness::default(), 1.0 / 240.0);
         let (rig, ..) = heap(seed, 12, 40);
-        for pass in [Pass::Solve, Pass::Relax, Pass::RelaxBelts] {
+        for pass in [Pass::Solve, Pass::Relax, Pass::RelaxBelts, Pass::RelaxOften] {
             let mut plain = rig.clone();
             let colours = &mut plain.lanes.zones[0].colours;
             let heat = plain::sweep(pass, &law, &mut plain.lines, colours);
@@ -360,9 +360,10 @@ fn a_rocking_face_is_stopped_at_the_corner_that_comes_down() {
     rig.set_velocity(slots[1], vec2(0.0, -0.5), -1.0);
     rig.step(&law, (0, &[]), |_| ());
     let [_, opening] = rig.opening(&rig.row(rows[0]));
-    // Pushed out softly: it may open a little, by no more than the push-out of its travel.
+    // Pushed out softly: it may open a little, by no more than the push-out of its travel. It closes by no more
+    // than rounding.
     assert!(
-        (0.0..0.01).contains(&opening),
+        (-1e-15..0.01).contains(&opening),
         "the corner opens at {opening} m/s"
     );
 }

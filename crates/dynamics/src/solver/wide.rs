@@ -7,6 +7,9 @@ use super::Row;
 /// Rows in a block, and lanes of a wide register.
 pub(crate) const LANES: usize = 8;
 
+/// How much of the product of its diagonal a regular matrix of two points has at least as its determinant.
+const SINGULAR: f64 = 1e-12;
+
 /// A body in the solver, in one cache line:
 ///
 /// ```text
@@ -51,12 +54,14 @@ impl Line {
     }
 }
 
-/// Eight rows of one colour: no two of them move the same body. 120 bytes a row, of which a solving sweep reads 88.
+/// Eight rows of one colour: no two of them move the same body. 152 bytes a row, of which a solving sweep reads 104.
 ///
-/// The letters are those of [`Row`]; `s` is a gap told so that it holds however the bodies move on:
+/// The letters are those of [`Row`]. Both points lie on one face, l apart: a₂ = a₁ + l, b₂ = b₁ + l. `s` is a gap told so
+/// that it holds however the bodies move on; `k` is the unsoftened matrix of the points, and what friction feels:
 ///
 /// ```text
 /// gap_i = s_i + n·(d_B − d_A) + b_i θ_B − a_i θ_A
+/// k_ij  = m_A⁻¹ + m_B⁻¹ + I_A⁻¹ a_i a_j + I_B⁻¹ b_i b_j,   k_t alike with a_t and b_t
 /// ```
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
@@ -67,8 +72,10 @@ pub(crate) struct Wide {
     pub(crate) ny: [f64; LANES],
     pub(crate) a1: [f64; LANES],
     pub(crate) b1: [f64; LANES],
-    pub(crate) a2: [f64; LANES],
-    pub(crate) b2: [f64; LANES],
+    pub(crate) l: [f64; LANES],
+    pub(crate) k11: [f64; LANES],
+    pub(crate) k12: [f64; LANES],
+    pub(crate) k22: [f64; LANES],
     pub(crate) s1: [f64; LANES],
     pub(crate) s2: [f64; LANES],
     pub(crate) j1: [f64; LANES],
@@ -76,6 +83,7 @@ pub(crate) struct Wide {
     /// From here on: friction, for relaxing sweeps.
     pub(crate) at: [f64; LANES],
     pub(crate) bt: [f64; LANES],
+    pub(crate) kt: [f64; LANES],
     pub(crate) mu: [f64; LANES],
     pub(crate) jt: [f64; LANES],
     /// Read only where some surface runs along.
@@ -91,10 +99,13 @@ impl Wide {
         ny: [0.0; LANES],
         a1: [0.0; LANES],
         b1: [0.0; LANES],
-        a2: [1.0; LANES],
-        b2: [1.0; LANES],
+        l: [1.0; LANES],
+        k11: [2.0; LANES],
+        k12: [2.0; LANES],
+        k22: [4.0; LANES],
         at: [0.0; LANES],
         bt: [0.0; LANES],
+        kt: [2.0; LANES],
         mu: [0.0; LANES],
         s1: [Row::OPEN; LANES],
         s2: [Row::OPEN; LANES],
@@ -107,8 +118,17 @@ impl Wide {
     /// Puts a row of the lane's bodies into it; its gaps are those of now, with the bodies where their lines say.
     pub(crate) fn put(&mut self, lane: usize, row: &Row, a: &Line, b: &Line) {
         (self.nx[lane], self.ny[lane]) = (row.n.x, row.n.y);
-        [self.a1[lane], self.a2[lane]] = row.a;
-        [self.b1[lane], self.b2[lane]] = row.b;
+        (self.a1[lane], self.b1[lane]) = (row.a[0], row.b[0]);
+        self.l[lane] = row.a[1] - row.a[0];
+        let m = a.inverse_mass() + b.inverse_mass();
+        let (ia, ib) = (a.inverse_inertia(), b.inverse_inertia());
+        let k = |i: usize, j: usize| m + ia * row.a[i] * row.a[j] + ib * row.b[i] * row.b[j];
+        let (k11, k12, k22) = (k(0, 0), k(0, 1), k(1, 1));
+        // Where nobody can turn both points are one, and may share the load as they like.
+        let singular = k11 * k22 - k12 * k12 <= SINGULAR * k11 * k22;
+        let regular = if singular { 1.0 + SINGULAR } else { 1.0 };
+        (self.k11[lane], self.k12[lane], self.k22[lane]) = (k11 * regular, k12, k22 * regular);
+        self.kt[lane] = m + ia * row.at * row.at + ib * row.bt * row.bt;
         (self.at[lane], self.bt[lane]) = (row.at, row.bt);
         self.mu[lane] = row.mu;
         let moved = row.n.dot(b.d() - a.d());
@@ -124,19 +144,21 @@ impl Wide {
         let (a, b) = (&lines[bodies.0 as usize], &lines[bodies.1 as usize]);
         let n = vec2(self.nx[lane], self.ny[lane]);
         let moved = n.dot(b.d() - a.d());
+        let arms_a = [self.a1[lane], self.a1[lane] + self.l[lane]];
+        let arms_b = [self.b1[lane], self.b1[lane] + self.l[lane]];
         let gap = |s: f64, arm_a: f64, arm_b: f64| s + moved + arm_b * b.turn() - arm_a * a.turn();
         Row {
             bodies,
             n,
-            a: [self.a1[lane], self.a2[lane]],
-            b: [self.b1[lane], self.b2[lane]],
+            a: arms_a,
+            b: arms_b,
             at: self.at[lane],
             bt: self.bt[lane],
             mu: self.mu[lane],
             belt: self.belt[lane],
             gap: [
-                gap(self.s1[lane], self.a1[lane], self.b1[lane]),
-                gap(self.s2[lane], self.a2[lane], self.b2[lane]),
+                gap(self.s1[lane], arms_a[0], arms_b[0]),
+                gap(self.s2[lane], arms_a[1], arms_b[1]),
             ],
             j: [self.j1[lane], self.j2[lane]],
             jt: self.jt[lane],
@@ -152,27 +174,31 @@ impl Wide {
         }
     }
 
-    fn columns(&self) -> [&[f64; LANES]; 15] {
+    fn columns(&self) -> [&[f64; LANES]; 18] {
         [
-            &self.nx, &self.ny, &self.a1, &self.b1, &self.a2, &self.b2, &self.s1, &self.s2,
-            &self.j1, &self.j2, &self.at, &self.bt, &self.mu, &self.jt, &self.belt,
+            &self.nx, &self.ny, &self.a1, &self.b1, &self.l, &self.k11, &self.k12, &self.k22,
+            &self.s1, &self.s2, &self.j1, &self.j2, &self.at, &self.bt, &self.kt, &self.mu,
+            &self.jt, &self.belt,
         ]
     }
 
-    fn columns_mut(&mut self) -> [&mut [f64; LANES]; 15] {
+    fn columns_mut(&mut self) -> [&mut [f64; LANES]; 18] {
         [
             &mut self.nx,
             &mut self.ny,
             &mut self.a1,
             &mut self.b1,
-            &mut self.a2,
-            &mut self.b2,
+            &mut self.l,
+            &mut self.k11,
+            &mut self.k12,
+            &mut self.k22,
             &mut self.s1,
             &mut self.s2,
             &mut self.j1,
             &mut self.j2,
             &mut self.at,
             &mut self.bt,
+            &mut self.kt,
             &mut self.mu,
             &mut self.jt,
             &mut self.belt,

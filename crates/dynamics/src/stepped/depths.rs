@@ -7,13 +7,14 @@ use crate::solver::RowId;
 /// Sweeps without bias while bodies lie deep in each other.
 const SWEEPS: usize = 30;
 
+/// The same where a heavy body bears on a light one, which passes on a thousandth of the momentum in each.
+const LOADED: usize = 120;
+
 /// What the looks of a tick found of bodies deep in each other.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Depths {
     /// Some were put there.
     buried: bool,
-    /// Some sank in.
-    sunk: bool,
     /// Heavy ones touch light ones.
     loaded: bool,
     /// Bodies of those that were put there, and of those that bear a load.
@@ -23,24 +24,28 @@ pub(super) struct Depths {
 impl Depths {
     /// A tick begins.
     pub(super) fn clear(&mut self) {
-        (self.buried, self.sunk, self.loaded) = (false, false, false);
+        (self.buried, self.loaded) = (false, false);
         self.bodies.clear();
     }
 
-    /// Takes note of a pair, that lies deep in each other or bears a load.
-    pub(super) fn note(&mut self, pair: &Pair, deep: bool, loaded: bool) {
+    /// Takes note of a pair, that was put deep into each other or bears a load.
+    pub(super) fn note(&mut self, pair: &Pair, loaded: bool) {
         if pair.buried || loaded {
             self.bodies.extend([pair.bodies.0, pair.bodies.1]);
         }
         self.buried |= pair.buried;
-        self.sunk |= deep;
         self.loaded |= loaded;
     }
 
-    /// Whether one sweep would leave a part of the push in the velocities: what was put deep into each other
-    /// is pushed by many at once, and a light body between a heavy one and the floor gives way to both in turn.
-    const fn wants_sweeps(&self) -> bool {
-        self.buried || self.sunk && self.loaded
+    /// How often rows are swept where once would leave a part of the push in the velocities: what was put deep
+    /// into each other is pushed by many at once, and a light body between a heavy one and the floor gives way to
+    /// both in turn.
+    const fn sweeps(&self) -> usize {
+        match (self.loaded, self.buried) {
+            (true, _) => LOADED,
+            (false, true) => SWEEPS,
+            (false, false) => 1,
+        }
     }
 }
 
@@ -48,7 +53,8 @@ impl World {
     /// Rows that are to be swept more often in this sub-step than the others, and how often more.
     pub(super) fn rows_in_need(&self) -> (usize, Vec<RowId>) {
         let depths = &self.pool.depths;
-        if !self.moves_all() || !depths.wants_sweeps() {
+        let sweeps = depths.sweeps();
+        if !self.moves_all() || sweeps == 1 {
             return (0, Vec::new());
         }
         let mut bodies = depths.bodies.clone();
@@ -59,7 +65,7 @@ impl World {
             .flat_map(|index| &self.bodies.get(*index).pairs);
         let contacts = places.flat_map(|place| &self.pairs.get(*place).contacts);
         (
-            SWEEPS - 1,
+            sweeps - 1,
             contacts.filter_map(|contact| contact.row).collect(),
         )
     }

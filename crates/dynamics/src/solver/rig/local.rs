@@ -15,7 +15,7 @@ struct Near {
 
 impl Rig {
     /// Relaxes these rows alone so many times: zone by zone, in the order of their colours.
-    pub(super) fn relax_near(&mut self, law: &Law, pass: Pass, sweeps: usize, rows: &[RowId]) {
+    pub(super) fn relax_near(&mut self, law: &Law, sweeps: usize, rows: &[RowId]) {
         if sweeps == 0 || rows.is_empty() {
             return;
         }
@@ -31,7 +31,14 @@ impl Rig {
                     let first = zone.first as usize;
                     &mut self.lines[first..first + zone.count as usize]
                 };
-                self.heat += sweep(self.level, pass, law, lines, &mut part.colours, &mut met);
+                self.heat += sweep(
+                    self.level,
+                    Pass::RelaxOften,
+                    law,
+                    lines,
+                    &mut part.colours,
+                    &mut met,
+                );
             }
         }
         for part in &near {

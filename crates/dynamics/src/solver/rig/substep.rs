@@ -89,7 +89,7 @@ impl Rig {
         self.outside(|bodies, first, swift| coast::displace(level, bodies, h, first, swift));
         if !alone {
             self.in_zones(|work| work.displace(level, law));
-            self.relax_near(law, pass, sweeps, often);
+            self.relax_near(law, sweeps, often);
             self.in_zones(|work| work.relax(level, law, pass));
             self.over_all(|work| work.relax(level, law, pass));
         }
