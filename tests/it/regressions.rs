@@ -1,6 +1,7 @@
 //! What went wrong once, each with its story.
 
 mod a_flat_leg_of_an_h_is_not_pushed_sideways;
+mod a_gap_that_rounds_to_the_tolerance_closes;
 mod a_hundred_bodies_at_one_place_end;
 mod a_place_used_again_inherits_nothing;
 mod a_removed_body_strikes_nobody;

@@ -76,7 +76,7 @@ pub(super) struct Approach<'a> {
     /// Fastest that any two points approach at the start, in m/s.
     pub(super) speed: f64,
     /// Fastest that the approach of any two points changes, in m/s².
-    pull: f64,
+    pub(super) pull: f64,
     /// Distance of the centres, its rate and its change of rate at the start.
     distance: f64,
     speed_of_centres: f64,

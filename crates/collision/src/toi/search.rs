@@ -216,8 +216,15 @@ impl Search<'_> {
                 self.tau = until;
                 return Advance::Horizon;
             }
-            // Below one ulp of time the gap changes by less than its rounding: go on by that.
-            self.move_to(next.max(self.tau.next_up()));
+            // Over a shorter step than these the gap changes by less than its rounding.
+            let fastest = approach.speed + approach.pull * self.tau;
+            let step = tolerance / (32.0 * fastest);
+            let shortest = if approach.pull * step <= fastest {
+                self.tau + step
+            } else {
+                self.tau
+            };
+            self.move_to(next.max(shortest).max(self.tau.next_up()));
             facing = approach.facing(axis, &self.at);
             least = facing.least(approach);
         }
