@@ -18,6 +18,10 @@ use crate::state::BodyState;
 /// A parabola that is nearer to its law than this, as a part of the smaller reach, is the law but for rounding.
 const EXACT: f64 = 1.0 / (1_u64 << 46) as f64;
 
+/// Gap, as a part of the smaller reach, below which only such parabolas are followed. The last search begins there: from
+/// much nearer it would not see which of two corners comes first.
+const NEAR: f64 = 1.0 / (1_u64 << 24) as f64;
+
 /// Part of a gap that a parabola may leave out.
 const ROOM: f64 = 0.25;
 
@@ -99,12 +103,16 @@ impl<'a> Search<'a> {
     }
 
     fn first(&self, length: f64, last: Option<Struck<'_>>) -> TimeOfImpact {
-        let exact = EXACT * self.size;
+        let (exact, close) = (EXACT * self.size, NEAR * self.size);
         let (mut at, mut hint) = (0.0, f64::INFINITY);
         for _ in 0..PIECES {
             let paths = self.bodies.map(|state| near(state, self.time + at));
             let gap = self.gap(&paths);
-            let room = if gap > 8.0 * exact { ROOM * gap } else { exact };
+            let room = if ROOM * gap > close {
+                ROOM * gap
+            } else {
+                exact
+            };
             let mut span = (length - at).min(hint);
             let left_out = |span: f64| paths[0].left_out(span) + paths[1].left_out(span);
             let fits = |span: f64| left_out(span) <= room;
@@ -127,11 +135,12 @@ impl<'a> Search<'a> {
                     TimeOfImpact::Unresolved { .. } => break,
                 }
             } else {
+                let off = off.max(close);
                 match self.of_grown(&motions, span, off) {
                     TimeOfImpact::Clear => at += span,
                     TimeOfImpact::Hit(impact) => {
                         at += impact.time;
-                        // From about e away at this speed it is twice that to the contact.
+                        // From about that far away at this speed it is no more than twice that to the contact.
                         hint = 4.0 * off / impact.gap_rate.abs();
                     }
                     TimeOfImpact::Unresolved { safe_until } => {
