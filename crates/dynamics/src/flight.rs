@@ -132,7 +132,10 @@ fn law_of(bodies: &Bodies, index: u32, time: SimTime, h: f64, cover: f64) -> Fli
     }
     let law = |x: Vec2, v: Vec2| scale * pull.at(x) + push - v * linear;
     let lengths = (SHORTEST * h, longest(bodies, index, (x, v), h));
-    Flight::integrated(time, (x, v), &law, cover, lengths, pull.error, turn)
+    let centres = pull.fields.iter().filter_map(|field| field.newtonian());
+    let rims: Vec<_> = centres.map(|c| (c.centre, c.core)).collect();
+    let errors = (pull.error, rims.as_slice());
+    Flight::integrated(time, (x, v), &law, cover, lengths, errors, turn)
 }
 
 /// How far a stretch of the integrator may go, by what the fields say of themselves, in s.

@@ -30,6 +30,12 @@ pub(crate) const ROUNDS: u32 = 12;
 /// Change of the polynomial, as a part of the acceleration, at which it stands.
 pub(crate) const STANDS: f64 = 2.0 * f64::EPSILON;
 
+/// Part of a stretch that may lie beyond a rim.
+const AT: f64 = 1e-12;
+
+/// A circle across which a field has a kink: its centre and radius, in m.
+pub(crate) type Rim = (Vec2, f64);
+
 /// A stretch of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Stretch {
@@ -43,20 +49,27 @@ pub(crate) struct Stretch {
 
 impl Stretch {
     /// The path under `f` from a place and a velocity on, for `longest` seconds or less: as far as it leaves out
-    /// less than `error` metres a second, and no shorter than `shortest`: across an edge of a field.
+    /// less than `error` metres a second, up to a rim at most, and no shorter than `shortest`: across an edge of a field.
     pub(crate) fn follow(
         f: &impl Fn(Vec2, Vec2) -> Vec2,
         place: Vec2,
         velocity: Vec2,
-        longest: f64,
-        shortest: f64,
+        (shortest, longest): (f64, f64),
         error: f64,
+        rims: &[Rim],
     ) -> Self {
         let first = f(place, velocity);
         let mut length = longest;
         // A halved stretch leaves out 2⁹ times less where the field is smooth.
         while length > shortest {
             let (stretch, stands) = Self::collocate(f, place, velocity, first, length);
+            // Beyond a rim is another law: the stretch ends there, and what it has beyond bends it less each time.
+            let crossings = rims.iter().filter_map(|rim| stretch.crosses(rim));
+            let crossing = crossings.fold(length, f64::min);
+            if crossing < length * (1.0 - AT) && crossing > shortest {
+                length = crossing;
+                continue;
+            }
             let left_out = stretch.left_out();
             if stands && left_out <= error * length {
                 return stretch;
@@ -135,6 +148,27 @@ impl Stretch {
         )
     }
 
+    /// When the path first crosses a rim between two nodes, in s.
+    fn crosses(&self, &(centre, radius): &Rim) -> Option<f64> {
+        let outside = |tau: f64| (self.at(tau * self.length).0 - centre).length() > radius;
+        let started = outside(NODES[1]);
+        let after = NODES[2..].iter().chain(&[1.0]).copied();
+        let (mut low, mut high) = NODES[1..]
+            .iter()
+            .copied()
+            .zip(after)
+            .find(|(_, tau)| outside(*tau) != started)?;
+        while high - low > 1e-15 {
+            let middle = 0.5 * (low + high);
+            if outside(middle) == started {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        Some(high * self.length)
+    }
+
     /// Acceleration after `t` seconds, in m/s².
     pub(crate) fn acceleration(&self, t: f64) -> Vec2 {
         let tau = t / self.length;
@@ -206,7 +240,7 @@ mod tests {
         let (mut x, mut v) = start;
         let mut left = seconds;
         while left > 0.0 {
-            let stretch = Stretch::follow(&f, x, v, left.min(1.0), 1e-6, error);
+            let stretch = Stretch::follow(&f, x, v, (1e-6, left.min(1.0)), error, &[]);
             (x, v) = stretch.at(stretch.length);
             left -= stretch.length;
         }
@@ -241,7 +275,7 @@ mod tests {
         let f = |x: Vec2, _| x * (-12.0 / (x.length() * x.length_squared()));
         let conic = Conic::through(Vec2::ZERO, 12.0, start.0, start.1).unwrap();
         for error in [1e-4, 1e-6, 1e-8, 1e-10] {
-            let stretch = Stretch::follow(&f, start.0, start.1, 10.0, 1e-6, error);
+            let stretch = Stretch::follow(&f, start.0, start.1, (1e-6, 10.0), error, &[]);
             for part in [0.1, 0.37, 0.5, 0.81, 1.0] {
                 let t = part * stretch.length;
                 let off = (stretch.at(t).0 - conic.at(t).0).length();

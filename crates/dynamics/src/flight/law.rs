@@ -6,7 +6,7 @@ use carom_collision::Motion;
 use carom_math::{Rot, SimTime, Vec2};
 
 use super::damped::damped;
-use super::integrate::Stretch;
+use super::integrate::{Rim, Stretch};
 use super::kepler::Conic;
 use super::osculating::{Jerk, Osculating};
 use crate::tipping::Tip;
@@ -103,14 +103,15 @@ impl Flight {
         law: &impl Fn(Vec2, Vec2) -> Vec2,
         h: f64,
         (shortest, longest): (f64, f64),
-        error: f64,
+        (error, rims): (f64, &[Rim]),
         turn: Turn,
     ) -> Self {
         let mut stretches = Vec::with_capacity(1);
         let (mut left, mut reach) = (h, longest);
         // Rounding leaves no stretch of its own.
         while left > 1e-12 * h || stretches.is_empty() {
-            let stretch = Stretch::follow(law, place, velocity, reach, shortest, error);
+            let lengths = (shortest, reach);
+            let stretch = Stretch::follow(law, place, velocity, lengths, error, rims);
             (place, velocity) = stretch.at(stretch.length);
             left -= stretch.length;
             reach = left;
