@@ -144,3 +144,38 @@ fn a_stack_that_stands_needs_no_sub_steps() {
     assert!((top - vec2(0.0, 3.25)).length() < 1e-9, "{top}");
     assert_eq!(world.step(10.0).substeps, 0);
 }
+
+/// A landing judges the group anew that it joins, and what that does to the others' pairs is asked too: boxes that were
+/// not asked went to the crowd, and sank in there.
+#[test]
+fn stacks_that_land_at_once_stand_without_sub_steps() {
+    let mut world = World::new(Settings {
+        sleep: None,
+        ..Settings::default()
+    })
+    .expect("valid");
+    let stone = Material {
+        restitution: 0.0,
+        ..Material::default()
+    };
+    let floor = ConvexPolygon::rectangle(3200.0, 2.0).expect("a floor");
+    world
+        .insert(BodyDef::fixed().at(vec2(0.0, -1.0)), floor, stone)
+        .expect("valid");
+    for (i, k) in (0..20).flat_map(|i| (0..10).map(move |k| (i, k))) {
+        let block = ConvexPolygon::square(1.0).expect("a block");
+        let at = vec2(-1500.0 + 3.0 * f64::from(i), 0.5 + f64::from(k));
+        world
+            .insert(BodyDef::dynamic().at(at), block, stone)
+            .expect("valid");
+    }
+    world.step(1.0 / 60.0);
+    let report = world.step(1.0);
+    assert_eq!((report.substeps, report.impacts), (0, 0), "{report:?}");
+    let depths = world.contacts().flat_map(|contact| {
+        let points = contact.points.iter().map(|point| point.separation);
+        points.collect::<Vec<_>>()
+    });
+    let deepest = depths.fold(0.0, f64::min);
+    assert!(deepest > -1e-12, "{deepest:e} m");
+}

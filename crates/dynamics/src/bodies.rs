@@ -204,6 +204,11 @@ impl Bodies {
         self.versions[index as usize]
     }
 
+    /// [`Self::version`] of every place.
+    pub(crate) fn versions(&self) -> &[u32] {
+        &self.versions
+    }
+
     /// What was predicted with a body's motion is stale from now on.
     pub(crate) fn renew(&mut self, index: u32) {
         let version = &mut self.versions[index as usize];

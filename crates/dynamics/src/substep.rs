@@ -138,11 +138,16 @@ impl World {
             if landed.is_empty() {
                 break;
             }
+            let before = self.bodies.versions().to_vec();
             for &index in &landed {
                 self.land_first(index, time);
             }
-            // Only their pairs may answer otherwise now.
-            let pairs = landed.iter().flat_map(|i| &self.bodies.get(*i).pairs);
+            // Only the pairs of those who move otherwise now may answer otherwise: of who landed, and of who was judged
+            // again because of it.
+            let bodies = &self.bodies;
+            let changed = |index: &&u32| bodies.version(**index) != before[**index as usize];
+            let changed = self.stepped.iter().filter(changed);
+            let pairs = changed.flat_map(|index| &bodies.get(*index).pairs);
             asked = self.pairs.by_colliders(pairs.copied());
         }
         self.pairs.sort(&self.bodies, &self.stepped);
