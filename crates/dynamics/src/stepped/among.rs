@@ -104,8 +104,11 @@ impl World {
                 return false;
             };
             let state = self.bodies.get(index);
-            self.pool.seats.follow(slot, state, time);
-            true
+            let drives = state.kind == BodyKind::Kinematic;
+            if drives {
+                self.pool.seats.follow(slot, state, time);
+            }
+            drives
         });
         self.pool.crowd.drivers = drivers;
     }
