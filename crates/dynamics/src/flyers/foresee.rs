@@ -4,10 +4,11 @@ use carom_geometry::Aabb;
 use carom_math::SimTime;
 
 use super::circle::Circle;
+use super::foreseen::is_stale;
 use super::frame::Track;
 use super::queue::{Ahead, Entry};
 use super::window::{self, Window};
-use super::{Foreseen, Seat, drift, is_stale};
+use super::{Foreseen, Seat, drift};
 use crate::state::BodyState;
 use crate::{BodyKind, PairSearch, World};
 

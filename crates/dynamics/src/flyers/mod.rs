@@ -9,12 +9,15 @@
 mod aside;
 mod circle;
 mod foresee;
+mod foreseen;
 mod frame;
 mod gap;
 mod grid;
 mod ground;
 mod held;
+mod low;
 mod piece;
+mod present;
 mod queue;
 mod seek;
 mod streak;
@@ -22,20 +25,19 @@ mod strike;
 mod together;
 mod window;
 
-use arrayvec::ArrayVec;
-use carom_collision::{AxisFeature, BoxTree, ImpactFeature, NodeId, Side, roundable};
+use carom_collision::{BoxTree, ImpactFeature, NodeId};
 use carom_geometry::Aabb;
 use carom_math::{SimTime, Vec2};
 
-use crate::BodyId;
 use crate::bodies::Bodies;
 use crate::state::Collider;
 use aside::Aside;
 use circle::Registered;
 pub(crate) use foresee::Cause;
+pub(crate) use foreseen::Foreseen;
 use frame::{Frame, Track};
 pub(crate) use grid::{Cells, Grid, Seat};
-use queue::{Ahead, Entry, Queue};
+use queue::{Ahead, Queue};
 use streak::Streak;
 
 /// How a body flies.
@@ -122,29 +124,6 @@ impl Course {
     }
 }
 
-/// An impact ahead: all that its response needs.
-#[derive(Clone, Debug)]
-pub(crate) struct Foreseen {
-    pub(crate) bodies: (u32, u32),
-    pub(crate) colliders: (u32, u32),
-    /// Unit normal from the first body to the second.
-    pub(crate) normal: Vec2,
-    /// One point, or both ends of a common stretch, in m.
-    pub(crate) points: ArrayVec<Vec2, 2>,
-    /// What touches at the first point.
-    pub(crate) feature: ImpactFeature,
-}
-
-impl Foreseen {
-    /// Whose straight face is struck, if one is.
-    const fn face(&self) -> Option<Side> {
-        match self.feature.feature {
-            AxisFeature::Edge { owner, .. } => Some(owner),
-            AxisFeature::Vertices { .. } => None,
-        }
-    }
-}
-
 /// Boxes tested per search that a cell is sized for, where all searches follow impacts, and how many more where all
 /// follow the ends of horizons: larger cells make horizons longer, and searches dearer.
 const PARTNERS: (f64, f64) = (24.0, 72.0);
@@ -220,204 +199,6 @@ impl Flyers {
         }
     }
 
-    /// When the next entry is due, if that is by `limit`.
-    pub(crate) fn next(
-        &mut self,
-        bodies: &Bodies,
-        colliders: &[Collider],
-        limit: SimTime,
-    ) -> Option<SimTime> {
-        let aside = self.aside.first().map(|entry| entry.time);
-        let aside = aside.filter(|time| *time <= limit);
-        self.next_queued(bodies, colliders, aside.unwrap_or(limit))
-            .or(aside)
-    }
-
-    /// The same, of all that nobody laid aside.
-    fn next_queued(
-        &mut self,
-        bodies: &Bodies,
-        colliders: &[Collider],
-        limit: SimTime,
-    ) -> Option<SimTime> {
-        let (impacts, free) = (&mut self.impacts, &mut self.free);
-        self.queue.next(limit, |entry| {
-            let stale = is_stale(entry, bodies, colliders);
-            if let (true, Ahead::Impact { slot }) = (stale, entry.ahead) {
-                impacts[slot as usize] = None;
-                free.push(slot);
-            }
-            stale
-        })
-    }
-
-    /// Takes the next entry out; an impact with all that belongs to it.
-    fn pop(&mut self) -> Option<(Entry, Option<Foreseen>)> {
-        let aside = self.aside.first().copied();
-        let entry = match (aside, self.queue.peek()) {
-            (Some(first), other) if other.is_none_or(|other| first < *other) => {
-                self.aside.take(&first);
-                first
-            }
-            _ => self.queue.pop()?,
-        };
-        Some((entry, self.release(&entry)))
-    }
-
-    /// Takes the next entry that nobody laid aside out, if it is due by `limit`.
-    fn pop_queued(
-        &mut self,
-        bodies: &Bodies,
-        colliders: &[Collider],
-        limit: SimTime,
-    ) -> Option<Entry> {
-        self.next_queued(bodies, colliders, limit)?;
-        self.queue.pop()
-    }
-
-    /// Takes the impacts of a body that were laid aside and are due by `limit`, in order.
-    fn take_aside(&mut self, body: u32, limit: SimTime) -> Vec<Entry> {
-        let due = self.aside.of(body).take_while(|e| e.time <= limit);
-        let due: Vec<Entry> = due.copied().collect();
-        for entry in &due {
-            self.aside.take(entry);
-        }
-        due
-    }
-
-    fn release(&mut self, entry: &Entry) -> Option<Foreseen> {
-        let Ahead::Impact { slot } = entry.ahead else {
-            return None;
-        };
-        self.free.push(slot);
-        self.impacts[slot as usize].take()
-    }
-
-    fn push_impact(&mut self, time: SimTime, stamp: u32, impact: Foreseen) {
-        let (a, b) = impact.bodies;
-        let slot = self.free.pop().unwrap_or_else(|| {
-            self.impacts.push(None);
-            #[expect(
-                clippy::cast_possible_truncation,
-                reason = "fewer than 2^32 fit in memory"
-            )]
-            let slot = (self.impacts.len() - 1) as u32;
-            slot
-        });
-        self.impacts[slot as usize] = Some(impact);
-        let ahead = Ahead::Impact { slot };
-        self.queue.push(Entry {
-            time,
-            a,
-            b,
-            stamp,
-            ahead,
-        });
-    }
-
-    /// Bodies of the grid whose boxes overlap that of a seat, each once.
-    fn search(&mut self, seat: &Seat, cells: Cells, bodies: usize) -> Vec<u32> {
-        let mut near = core::mem::take(&mut self.near);
-        near.clear();
-        if self.seen.len() < bodies {
-            self.seen.resize(bodies, self.mark);
-        }
-        self.mark = self.mark.wrapping_add(1);
-        let (mark, seen) = (self.mark, &mut self.seen);
-        self.met += self.grid.gather(seat, cells, &mut near);
-        near.retain(|body| {
-            let last = core::mem::replace(&mut seen[*body as usize], mark);
-            last != mark
-        });
-        near
-    }
-
-    /// Bodies of the grid that may be in `bounds` before they look down again, in order.
-    pub(crate) fn overlapping(&self, bodies: &Bodies, bounds: Aabb, near: &mut Vec<u32>) {
-        near.clear();
-        if self.grid.count() == 0 {
-            return;
-        }
-        let here = |body: u32| {
-            let course = &bodies.get(body).course;
-            course.cells.is_some() && course.reached.overlaps(bounds)
-        };
-        match &self.aloft {
-            Some(tree) => tree.query(bounds, |body| {
-                if here(body) {
-                    near.push(body);
-                }
-            }),
-            None => near.extend(bodies.indices().filter(|body| here(*body))),
-        }
-        near.sort_unstable();
-    }
-
-    /// Bodies of the grid that may be in `bounds` at `time`, in order.
-    pub(crate) fn present(&self, bodies: &Bodies, bounds: Aabb, time: SimTime) -> Vec<u32> {
-        let mut near = Vec::new();
-        if self.grid.count() == 0 {
-            return near;
-        }
-        let seen = Aabb::new(
-            self.frame.point(bounds.min, time),
-            self.frame.point(bounds.max, time),
-        );
-        let here = |body: u32| {
-            let course = &bodies.get(body).course;
-            course.cells.is_some() && course.swept.overlaps(seen)
-        };
-        let cells = self.grid.cells(seen);
-        if cells.count() > self.grid.count() as u64 {
-            near.extend(bodies.indices().filter(|body| here(*body)));
-        } else {
-            let seat = Seat::new(u32::MAX, seen);
-            self.grid.gather(&seat, cells, &mut near);
-            near.retain(|body| here(*body));
-        }
-        near.sort_unstable();
-        near.dedup();
-        near
-    }
-
-    /// From now on bodies look for flyers by boxes in the world.
-    pub(crate) fn raise(&mut self, bodies: &mut Bodies) {
-        let mut tree = BoxTree::new();
-        for index in bodies.indices().collect::<Vec<_>>() {
-            let course = &mut bodies.get_mut(index).course;
-            course.node = course.cells.map(|_| {
-                let bounds = course.reached;
-                tree.insert(bounds.grown(roundable(bounds)), index)
-            });
-        }
-        self.aloft = Some(tree);
-    }
-
-    /// Whether bodies look for flyers by boxes in the world.
-    const fn is_raised(&self) -> bool {
-        self.aloft.is_some()
-    }
-
-    /// Nobody looks for flyers any more.
-    pub(crate) fn lower(&mut self) {
-        self.aloft = None;
-    }
-
-    /// Keeps the box in the world of a flyer in the grid.
-    fn lift(&mut self, course: &mut Course, index: u32) {
-        let Some(tree) = &mut self.aloft else {
-            course.node = None;
-            return;
-        };
-        let bounds = course.reached.grown(roundable(course.reached));
-        match course.node {
-            Some(node) => {
-                tree.update(node, bounds);
-            }
-            None => course.node = Some(tree.insert(bounds, index)),
-        }
-    }
-
     /// Puts a body into the grid, if it fits.
     fn enter(&mut self, bodies: &mut Bodies, colliders: &[Collider], index: u32) -> bool {
         let course = &mut bodies.get_mut(index).course;
@@ -446,28 +227,6 @@ impl Flyers {
         let course = &mut bodies.get_mut(index).course;
         if let Some(cells) = course.cells.take() {
             self.grid.remove(index, cells);
-        }
-    }
-
-    /// Reports the end of infinitely many impacts at its instant, if both bodies are still there.
-    fn announce(&mut self, time: SimTime, ids: [BodyId; 2]) {
-        let ahead = Ahead::Collapse;
-        let [a, b] = ids.map(|id| id.index);
-        self.queue.push(Entry {
-            time,
-            a,
-            b,
-            stamp: generations(ids),
-            ahead,
-        });
-    }
-
-    /// Takes a body out of the grid, and its box out of the tree aloft.
-    pub(crate) fn vanish(&mut self, bodies: &mut Bodies, index: u32) {
-        self.leave(bodies, index);
-        let node = bodies.get_mut(index).course.node.take();
-        if let (Some(tree), Some(node)) = (&mut self.aloft, node) {
-            tree.remove(node);
         }
     }
 
@@ -531,26 +290,4 @@ fn drift(frame: &Frame, bodies: &Bodies, flying: &[u32], time: SimTime) -> Optio
     // The mean square is that of the mean and that about it.
     let square = mean.length_squared();
     (square > 2.0 * (squares / count - square)).then_some(mean)
-}
-
-/// Whether an entry is for nothing: a motion has changed since it was made, or another one comes before it.
-fn is_stale(entry: &Entry, bodies: &Bodies, colliders: &[Collider]) -> bool {
-    let version = |index: u32| bodies.version(index);
-    let other = match entry.ahead {
-        Ahead::Collapse => {
-            let ids = [entry.a, entry.b].map(|index| bodies.get(index).id);
-            let alive = bodies.is_alive(entry.a) && bodies.is_alive(entry.b);
-            return !alive || generations(ids) != entry.stamp;
-        }
-        Ahead::Horizon => return bodies.get(entry.a).course.entered.0 != entry.time,
-        Ahead::Ground => return bodies.get(entry.a).course.entered.1 != entry.time,
-        Ahead::NearShape => colliders[entry.b as usize].body,
-        _ => entry.b,
-    };
-    version(entry.a).wrapping_add(version(other)) != entry.stamp
-}
-
-/// Generations of a place only grow, so that their sum is equal only if both are.
-const fn generations([a, b]: [BodyId; 2]) -> u32 {
-    a.generation.wrapping_add(b.generation)
 }

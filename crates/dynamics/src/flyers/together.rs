@@ -4,8 +4,9 @@
 
 use carom_math::SimTime;
 
+use super::Foreseen;
+use super::queue::{Ahead, Entry};
 use super::strike::{approach_speed, opening, pace};
-use super::{Ahead, Entry, Foreseen};
 use crate::World;
 use crate::flyers::Cause;
 use crate::impact::{ImpactBody, ImpactContact};

@@ -1,0 +1,166 @@
+//! What is ahead of flyers: the entries of the calendar with the impacts that they are for, and which of them still count.
+
+use arrayvec::ArrayVec;
+use carom_collision::{AxisFeature, ImpactFeature, Side};
+use carom_math::{SimTime, Vec2};
+
+use super::Flyers;
+use super::queue::{Ahead, Entry};
+use crate::BodyId;
+use crate::bodies::Bodies;
+use crate::state::Collider;
+
+/// An impact ahead: all that its response needs.
+#[derive(Clone, Debug)]
+pub(crate) struct Foreseen {
+    pub(crate) bodies: (u32, u32),
+    pub(crate) colliders: (u32, u32),
+    /// Unit normal from the first body to the second.
+    pub(crate) normal: Vec2,
+    /// One point, or both ends of a common stretch, in m.
+    pub(crate) points: ArrayVec<Vec2, 2>,
+    /// What touches at the first point.
+    pub(crate) feature: ImpactFeature,
+}
+
+impl Foreseen {
+    /// Whose straight face is struck, if one is.
+    pub(super) const fn face(&self) -> Option<Side> {
+        match self.feature.feature {
+            AxisFeature::Edge { owner, .. } => Some(owner),
+            AxisFeature::Vertices { .. } => None,
+        }
+    }
+}
+
+impl Flyers {
+    /// When the next entry is due, if that is by `limit`.
+    pub(crate) fn next(
+        &mut self,
+        bodies: &Bodies,
+        colliders: &[Collider],
+        limit: SimTime,
+    ) -> Option<SimTime> {
+        let aside = self.aside.first().map(|entry| entry.time);
+        let aside = aside.filter(|time| *time <= limit);
+        self.next_queued(bodies, colliders, aside.unwrap_or(limit))
+            .or(aside)
+    }
+
+    /// The same, of all that nobody laid aside.
+    fn next_queued(
+        &mut self,
+        bodies: &Bodies,
+        colliders: &[Collider],
+        limit: SimTime,
+    ) -> Option<SimTime> {
+        let (impacts, free) = (&mut self.impacts, &mut self.free);
+        self.queue.next(limit, |entry| {
+            let stale = is_stale(entry, bodies, colliders);
+            if let (true, Ahead::Impact { slot }) = (stale, entry.ahead) {
+                impacts[slot as usize] = None;
+                free.push(slot);
+            }
+            stale
+        })
+    }
+
+    /// Takes the next entry out; an impact with all that belongs to it.
+    pub(super) fn pop(&mut self) -> Option<(Entry, Option<Foreseen>)> {
+        let aside = self.aside.first().copied();
+        let entry = match (aside, self.queue.peek()) {
+            (Some(first), other) if other.is_none_or(|other| first < *other) => {
+                self.aside.take(&first);
+                first
+            }
+            _ => self.queue.pop()?,
+        };
+        Some((entry, self.release(&entry)))
+    }
+
+    /// Takes the next entry that nobody laid aside out, if it is due by `limit`.
+    pub(super) fn pop_queued(
+        &mut self,
+        bodies: &Bodies,
+        colliders: &[Collider],
+        limit: SimTime,
+    ) -> Option<Entry> {
+        self.next_queued(bodies, colliders, limit)?;
+        self.queue.pop()
+    }
+
+    /// Takes the impacts of a body that were laid aside and are due by `limit`, in order.
+    pub(super) fn take_aside(&mut self, body: u32, limit: SimTime) -> Vec<Entry> {
+        let due = self.aside.of(body).take_while(|e| e.time <= limit);
+        let due: Vec<Entry> = due.copied().collect();
+        for entry in &due {
+            self.aside.take(entry);
+        }
+        due
+    }
+
+    pub(super) fn release(&mut self, entry: &Entry) -> Option<Foreseen> {
+        let Ahead::Impact { slot } = entry.ahead else {
+            return None;
+        };
+        self.free.push(slot);
+        self.impacts[slot as usize].take()
+    }
+
+    pub(super) fn push_impact(&mut self, time: SimTime, stamp: u32, impact: Foreseen) {
+        let (a, b) = impact.bodies;
+        let slot = self.free.pop().unwrap_or_else(|| {
+            self.impacts.push(None);
+            #[expect(
+                clippy::cast_possible_truncation,
+                reason = "fewer than 2^32 fit in memory"
+            )]
+            let slot = (self.impacts.len() - 1) as u32;
+            slot
+        });
+        self.impacts[slot as usize] = Some(impact);
+        let ahead = Ahead::Impact { slot };
+        self.queue.push(Entry {
+            time,
+            a,
+            b,
+            stamp,
+            ahead,
+        });
+    }
+
+    /// Reports the end of infinitely many impacts at its instant, if both bodies are still there.
+    pub(super) fn announce(&mut self, time: SimTime, ids: [BodyId; 2]) {
+        let ahead = Ahead::Collapse;
+        let [a, b] = ids.map(|id| id.index);
+        self.queue.push(Entry {
+            time,
+            a,
+            b,
+            stamp: generations(ids),
+            ahead,
+        });
+    }
+}
+
+/// Whether an entry is for nothing: a motion has changed since it was made, or another one comes before it.
+pub(super) fn is_stale(entry: &Entry, bodies: &Bodies, colliders: &[Collider]) -> bool {
+    let version = |index: u32| bodies.version(index);
+    let other = match entry.ahead {
+        Ahead::Collapse => {
+            let ids = [entry.a, entry.b].map(|index| bodies.get(index).id);
+            let alive = bodies.is_alive(entry.a) && bodies.is_alive(entry.b);
+            return !alive || generations(ids) != entry.stamp;
+        }
+        Ahead::Horizon => return bodies.get(entry.a).course.entered.0 != entry.time,
+        Ahead::Ground => return bodies.get(entry.a).course.entered.1 != entry.time,
+        Ahead::NearShape => colliders[entry.b as usize].body,
+        _ => entry.b,
+    };
+    version(entry.a).wrapping_add(version(other)) != entry.stamp
+}
+
+/// Generations of a place only grow, so that their sum is equal only if both are.
+const fn generations([a, b]: [BodyId; 2]) -> u32 {
+    a.generation.wrapping_add(b.generation)
+}

@@ -1,0 +1,122 @@
+//! Who is where: flyers by their boxes in the grid, and in the world while somebody looks for them there.
+
+use carom_collision::{BoxTree, roundable};
+use carom_geometry::Aabb;
+use carom_math::SimTime;
+
+use super::{Cells, Course, Flyers, Seat};
+use crate::bodies::Bodies;
+
+impl Flyers {
+    /// Bodies of the grid whose boxes overlap that of a seat, each once.
+    pub(super) fn search(&mut self, seat: &Seat, cells: Cells, bodies: usize) -> Vec<u32> {
+        let mut near = core::mem::take(&mut self.near);
+        near.clear();
+        if self.seen.len() < bodies {
+            self.seen.resize(bodies, self.mark);
+        }
+        self.mark = self.mark.wrapping_add(1);
+        let (mark, seen) = (self.mark, &mut self.seen);
+        self.met += self.grid.gather(seat, cells, &mut near);
+        near.retain(|body| {
+            let last = core::mem::replace(&mut seen[*body as usize], mark);
+            last != mark
+        });
+        near
+    }
+
+    /// Bodies of the grid that may be in `bounds` before they look down again, in order.
+    pub(crate) fn overlapping(&self, bodies: &Bodies, bounds: Aabb, near: &mut Vec<u32>) {
+        near.clear();
+        if self.grid.count() == 0 {
+            return;
+        }
+        let here = |body: u32| {
+            let course = &bodies.get(body).course;
+            course.cells.is_some() && course.reached.overlaps(bounds)
+        };
+        match &self.aloft {
+            Some(tree) => tree.query(bounds, |body| {
+                if here(body) {
+                    near.push(body);
+                }
+            }),
+            None => near.extend(bodies.indices().filter(|body| here(*body))),
+        }
+        near.sort_unstable();
+    }
+
+    /// Bodies of the grid that may be in `bounds` at `time`, in order.
+    pub(crate) fn present(&self, bodies: &Bodies, bounds: Aabb, time: SimTime) -> Vec<u32> {
+        let mut near = Vec::new();
+        if self.grid.count() == 0 {
+            return near;
+        }
+        let seen = Aabb::new(
+            self.frame.point(bounds.min, time),
+            self.frame.point(bounds.max, time),
+        );
+        let here = |body: u32| {
+            let course = &bodies.get(body).course;
+            course.cells.is_some() && course.swept.overlaps(seen)
+        };
+        let cells = self.grid.cells(seen);
+        if cells.count() > self.grid.count() as u64 {
+            near.extend(bodies.indices().filter(|body| here(*body)));
+        } else {
+            let seat = Seat::new(u32::MAX, seen);
+            self.grid.gather(&seat, cells, &mut near);
+            near.retain(|body| here(*body));
+        }
+        near.sort_unstable();
+        near.dedup();
+        near
+    }
+
+    /// From now on bodies look for flyers by boxes in the world.
+    pub(crate) fn raise(&mut self, bodies: &mut Bodies) {
+        let mut tree = BoxTree::new();
+        for index in bodies.indices().collect::<Vec<_>>() {
+            let course = &mut bodies.get_mut(index).course;
+            course.node = course.cells.map(|_| {
+                let bounds = course.reached;
+                tree.insert(bounds.grown(roundable(bounds)), index)
+            });
+        }
+        self.aloft = Some(tree);
+    }
+
+    /// Whether bodies look for flyers by boxes in the world.
+    pub(super) const fn is_raised(&self) -> bool {
+        self.aloft.is_some()
+    }
+
+    /// Nobody looks for flyers any more.
+    pub(crate) fn lower(&mut self) {
+        self.aloft = None;
+    }
+
+    /// Keeps the box in the world of a flyer in the grid.
+    pub(super) fn lift(&mut self, course: &mut Course, index: u32) {
+        let Some(tree) = &mut self.aloft else {
+            course.node = None;
+            return;
+        };
+        let bounds = course.reached.grown(roundable(course.reached));
+        match course.node {
+            Some(node) => {
+                tree.update(node, bounds);
+            }
+            None => course.node = Some(tree.insert(bounds, index)),
+        }
+    }
+
+    /// Takes a body out of the grid, and its box out of the tree aloft.
+    pub(crate) fn vanish(&mut self, bodies: &mut Bodies, index: u32) {
+        self.leave(bodies, index);
+        let node = bodies.get_mut(index).course.node.take();
+        if let (Some(tree), Some(node)) = (&mut self.aloft, node) {
+            tree.remove(node);
+        }
+    }
+}
