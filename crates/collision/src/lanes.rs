@@ -1,17 +1,21 @@
 //! Corners and edges of a hull, four at a time where it has them in blocks.
 
+#![allow(clippy::inline_always, reason = "the wide instructions end at a call")]
+
 use carom_geometry::EdgeBlock;
 use carom_math::{Rot, Vec2};
 
 use crate::Hull;
 
 /// The smaller of two numbers that are none of them NaN: one instruction, unlike `f64::min`.
-fn smaller(x: f64, y: f64) -> f64 {
+#[inline(always)]
+pub(crate) fn smaller(x: f64, y: f64) -> f64 {
     if x < y { x } else { y }
 }
 
 /// The larger of two numbers that are none of them NaN.
-fn larger(x: f64, y: f64) -> f64 {
+#[inline(always)]
+pub(crate) fn larger(x: f64, y: f64) -> f64 {
     if x > y { x } else { y }
 }
 

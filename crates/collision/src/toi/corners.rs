@@ -11,6 +11,7 @@ use carom_math::{Rot, Vec2, vec2};
 use fearless_simd::{Select, Simd, SimdBase, SimdFloat, f64x4};
 
 use crate::Hull;
+use crate::lanes::{larger, smaller};
 
 /// Bits of a number that hold a place.
 const PLACE: u64 = 15;
@@ -111,8 +112,7 @@ impl<'a> Corners<'a> {
     pub(super) fn arm<S: Simd>(&self, simd: S) -> f64 {
         let first = squares(simd, self.first);
         let last = squares(simd, self.last);
-        let [a, b, c, d] = first.max(last).to_array();
-        larger(larger(a, b), larger(c, d)).sqrt()
+        greatest(first.max(last)).sqrt()
     }
 
     /// The corner least far along a direction.
@@ -120,41 +120,42 @@ impl<'a> Corners<'a> {
     pub(super) fn lowest<S: Simd>(&self, simd: S, direction: Vec2) -> usize {
         let first = placed(simd, along(simd, self.first, direction), 0);
         let last = placed(simd, along(simd, self.last, direction), 4);
-        let [a, b, c, d] = first.min(last).to_array();
-        let low = smaller(smaller(a, b), smaller(c, d));
+        let low = least(first.min(last));
         self.number(low.to_bits() & PLACE)
     }
 
     /// How far along a direction the lowest of all corners but one is.
     #[inline(always)]
     pub(super) fn lowest_but<S: Simd>(&self, simd: S, direction: Vec2, but: Vec2) -> f64 {
-        let none = f64x4::splat(simd, f64::INFINITY);
-        let first = except(
-            simd,
-            self.first,
-            but,
-            along(simd, self.first, direction),
-            none,
-        );
-        let last = except(
-            simd,
-            self.last,
-            but,
-            along(simd, self.last, direction),
-            none,
-        );
-        let [a, b, c, d] = first.min(last).to_array();
-        smaller(smaller(a, b), smaller(c, d))
+        let first = along(simd, self.first, direction);
+        let last = along(simd, self.last, direction);
+        let (first, last) = self.without(simd, but, (first, last), f64::INFINITY);
+        least(first.min(last))
     }
 
     /// The largest height of a point over the lines of all edges but that which begins at a corner.
     #[inline(always)]
     pub(super) fn highest_but<S: Simd>(&self, simd: S, point: Vec2, but: Vec2) -> f64 {
-        let none = f64x4::splat(simd, f64::NEG_INFINITY);
-        let first = except(simd, self.first, but, over(simd, self.first, point), none);
-        let last = except(simd, self.last, but, over(simd, self.last, point), none);
-        let [a, b, c, d] = first.max(last).to_array();
-        larger(larger(a, b), larger(c, d))
+        let first = over(simd, self.first, point);
+        let last = over(simd, self.last, point);
+        let (first, last) = self.without(simd, but, (first, last), f64::NEG_INFINITY);
+        greatest(first.max(last))
+    }
+
+    /// Numbers of all corners, with `none` for that of the corner at `but`.
+    #[inline(always)]
+    fn without<S: Simd>(
+        &self,
+        simd: S,
+        but: Vec2,
+        (first, last): (f64x4<S>, f64x4<S>),
+        none: f64,
+    ) -> (f64x4<S>, f64x4<S>) {
+        let none = f64x4::splat(simd, none);
+        (
+            except(simd, self.first, but, first, none),
+            except(simd, self.last, but, last, none),
+        )
     }
 
     /// The edge over whose line a point is highest.
@@ -162,8 +163,7 @@ impl<'a> Corners<'a> {
     pub(super) fn highest<S: Simd>(&self, simd: S, point: Vec2) -> usize {
         let first = placed(simd, over(simd, self.first, point), 0);
         let last = placed(simd, over(simd, self.last, point), 4);
-        let [a, b, c, d] = first.max(last).to_array();
-        let high = larger(larger(a, b), larger(c, d));
+        let high = greatest(first.max(last));
         self.number(high.to_bits() & PLACE)
     }
 
@@ -172,8 +172,7 @@ impl<'a> Corners<'a> {
     pub(super) fn highest_of<S: Simd>(&self, simd: S, p: Vec2, q: Vec2) -> f64 {
         let first = over(simd, self.first, p).min(over(simd, self.first, q));
         let last = over(simd, self.last, p).min(over(simd, self.last, q));
-        let [a, b, c, d] = first.max(last).to_array();
-        larger(larger(a, b), larger(c, d))
+        greatest(first.max(last))
     }
 
     /// Which edge is farthest below `facing`, and how far (in m, to 16 units in the last place).
@@ -206,20 +205,23 @@ impl<'a> Corners<'a> {
         }
         let first = placed(simd, low0 + over(simd, self.first, offset), 0);
         let last = placed(simd, low1 + over(simd, self.last, offset), 4);
-        let [a, b, c, d] = first.max(last).to_array();
-        let high = larger(larger(a, b), larger(c, d));
+        let high = greatest(first.max(last));
         (self.number(high.to_bits() & PLACE), high)
     }
 }
 
+/// The least of four numbers.
 #[inline(always)]
-fn smaller(x: f64, y: f64) -> f64 {
-    if x < y { x } else { y }
+fn least<S: Simd>(four: f64x4<S>) -> f64 {
+    let [a, b, c, d] = four.to_array();
+    smaller(smaller(a, b), smaller(c, d))
 }
 
+/// The greatest of four numbers.
 #[inline(always)]
-fn larger(x: f64, y: f64) -> f64 {
-    if x > y { x } else { y }
+fn greatest<S: Simd>(four: f64x4<S>) -> f64 {
+    let [a, b, c, d] = four.to_array();
+    larger(larger(a, b), larger(c, d))
 }
 
 #[inline(always)]

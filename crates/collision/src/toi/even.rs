@@ -7,88 +7,21 @@
 
 #![allow(clippy::inline_always, reason = "the wide instructions end at a call")]
 
-use carom_math::{Rot, SimTime, Vec2, cross, perp};
+use arrayvec::ArrayVec;
+use carom_math::{Rot, SimTime, Vec2, perp};
 use fearless_simd::{Level, Simd, dispatch};
 
 use super::approach::{Axis, circles_meet};
 use super::corners::Corners;
 use super::search::{NEAR, SLACK};
-use super::turns::{LARGEST, sines_and_cosines, turned};
+use super::sight::{Even, Normal, Place, Sight};
+use super::turns::{LARGEST, turned};
+use super::{Impact, ImpactFeature, TimeOfImpact};
+use crate::lanes::{larger, smaller};
 use crate::{AxisFeature, Hull, Motion, Side};
 
 /// Steps and axes together before the general search takes over: it has a larger budget.
 const STEPS: usize = 64;
-
-/// Both from the instant on at which they are near enough to touch.
-struct Even<'a, S: Simd> {
-    simd: S,
-    hulls: [Corners<'a>; 2],
-    /// Seconds until then, and how long they stay near enough.
-    from: f64,
-    lasts: f64,
-    /// Centre of A now, how fast it moves and how fast that changes.
-    centre: Vec2,
-    velocity: Vec2,
-    acceleration: Vec2,
-    /// Centre of the other minus the centre of each, and its rate.
-    d: [Vec2; 2],
-    v: [Vec2; 2],
-    spin: [f64; 2],
-    /// Bounds on |g''| along the axes of each, and along those of the world.
-    bends: [f64; 3],
-    /// The disc, if one is.
-    disc: Option<usize>,
-    /// Rounding of a gap at the start, and how it grows, in m/s.
-    rounding: (f64, f64),
-    /// The smaller reach.
-    size: f64,
-    /// Slowest approach that is one.
-    closing: f64,
-}
-
-/// Where both are, `tau` seconds into the window.
-#[derive(Clone, Copy)]
-struct Place {
-    tau: f64,
-    d: [Vec2; 2],
-    rotation: [Rot; 2],
-}
-
-/// What an axis is the normal of.
-#[derive(Clone, Copy)]
-enum Normal {
-    /// Of an edge, with which it turns.
-    Edge(usize),
-    /// Of nothing: away from the polygon to the disc, fixed in the world.
-    World(Vec2),
-}
-
-/// An axis, and the vertex that is lowest along it: see [`super::facing::Facing`].
-#[derive(Clone, Copy)]
-struct Sight {
-    /// Whose edge it is; of a fixed axis the polygon.
-    owner: usize,
-    normal: Normal,
-    /// How fast it turns, and the polygon with the vertex against it.
-    spin: f64,
-    w: f64,
-    bend: f64,
-    /// Whose vertex, which, and where in its frame.
-    side: usize,
-    vertex: usize,
-    q: Vec2,
-    /// The axis in the world, away from the owner; and as the vertex sees what it faces.
-    n: Vec2,
-    m: Vec2,
-    /// n·d and n × d, with d from the owner on.
-    along: f64,
-    across: f64,
-    /// What is to be left of n·d when they touch, but for the vertex.
-    height: f64,
-    gap: f64,
-    rate: f64,
-    base_rate: f64,
-}
 
 /// What the search does next.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -105,7 +38,7 @@ enum Next {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Found {
     Clear,
-    /// One point: see [`super::Impact`].
+    /// One point: see [`Impact`].
     Hit {
         time: f64,
         normal: Vec2,
@@ -113,6 +46,27 @@ pub(super) enum Found {
         feature: AxisFeature,
         gap_rate: f64,
     },
+}
+
+impl From<Found> for TimeOfImpact {
+    fn from(found: Found) -> Self {
+        match found {
+            Found::Clear => Self::Clear,
+            Found::Hit {
+                time,
+                normal,
+                point,
+                feature,
+                gap_rate,
+            } => Self::Hit(Impact {
+                time,
+                normal,
+                points: ArrayVec::from_iter([point]),
+                features: ArrayVec::from_iter([ImpactFeature::of(feature)]),
+                gap_rate,
+            }),
+        }
+    }
 }
 
 /// The first contact within `horizon` seconds of `start`, which no motion begins after; `None` if that is not for this
@@ -284,207 +238,6 @@ impl<S: Simd> Even<'_, S> {
         None
     }
 
-    /// The edge whose line is farthest from the other polygon, and its owner.
-    #[inline(always)]
-    fn widest(&self, place: &Place) -> (usize, Normal) {
-        let (a, b) = (&self.hulls[0], &self.hulls[1]);
-        let [from, to] = place.rotation;
-        let turn = from.inverse() * to;
-        let offset = from.inverse_mul(place.d[0]);
-        let of_a = a.widest(self.simd, b, turn, offset);
-        let offset = to.inverse_mul(place.d[1]);
-        let of_b = b.widest(self.simd, a, turn.inverse(), offset);
-        if of_b.1 > of_a.1 {
-            (1, Normal::Edge(of_b.0))
-        } else {
-            (0, Normal::Edge(of_a.0))
-        }
-    }
-
-    /// From the polygon to the disc: the normal of the edge that this lies over, or away from the nearest corner.
-    #[inline(always)]
-    fn toward(&self, disc: usize, place: &Place) -> Normal {
-        let hull = &self.hulls[1 - disc];
-        let rotation = place.rotation[1 - disc];
-        let centre = rotation.inverse_mul(place.d[1 - disc]);
-        let edge = hull.highest(self.simd, centre);
-        let (from, to) = (hull.corner(edge), hull.corner(hull.next(edge)));
-        let along = perp(hull.normal(edge));
-        let corner = if along.dot(centre - from) < 0.0 {
-            from
-        } else if along.dot(centre - to) > 0.0 {
-            to
-        } else {
-            return Normal::Edge(edge);
-        };
-        let away = rotation * (centre - corner);
-        Normal::World(away / away.length())
-    }
-
-    #[inline(always)]
-    fn sight(&self, owner: usize, normal: Normal, place: &Place) -> Sight {
-        let own = &self.hulls[owner];
-        let (n, faced, height, spin, side) = match normal {
-            Normal::Edge(edge) => {
-                let local = own.normal(edge);
-                let n = place.rotation[owner] * local;
-                let height = local.dot(own.corner(edge));
-                (n, n, height, self.spin[owner], 1 - owner)
-            }
-            Normal::World(n) => (n, -n, 0.0, 0.0, owner),
-        };
-        let other = &self.hulls[side];
-        let height = height + (self.hulls[0].radius + self.hulls[1].radius);
-        let m = place.rotation[side].inverse_mul(faced);
-        let vertex = other.lowest(self.simd, m);
-        let q = other.corner(vertex);
-        let (along, across) = (n.dot(place.d[owner]), cross(n, place.d[owner]));
-        let base_rate = n.dot(self.v[owner]) + spin * across;
-        let w = self.spin[side] - spin;
-        Sight {
-            owner,
-            normal,
-            spin,
-            w,
-            bend: self.bends[if side == owner { 2 } else { owner }],
-            side,
-            vertex,
-            q,
-            n,
-            m,
-            along,
-            across,
-            height,
-            gap: (along - height) + m.dot(q),
-            rate: base_rate - w * cross(m, q),
-            base_rate,
-        }
-    }
-
-    /// When the lowest vertex reaches the edge, if it is certain to within `left` seconds, and before any other: seconds
-    /// from now on.
-    ///
-    /// From what is seen now the gap is
-    /// ```text
-    /// g(s) = (n·d + n·v s) cos ω_E s + (n×d + n×v s) sin ω_E s − h + m·q cos w s − m×q sin w s,    w = ω_V − ω_E
-    /// ```
-    /// and Newton's method with g'' as third term (Halley 1694) finds where it is 0.
-    #[inline(always)]
-    fn crossing(&self, sight: &Sight, tau: f64, left: f64) -> Option<f64> {
-        let bend = sight.bend;
-        let square = sight.rate * sight.rate;
-        if sight.rate >= 0.0 || square <= 2.5 * bend * sight.gap {
-            return None;
-        }
-        let latest = 2.0 * sight.gap / ((square - 2.0 * bend * sight.gap).sqrt() - sight.rate);
-        if latest >= left {
-            return None;
-        }
-        let fine = 0.01 * (self.rounding.0 + self.rounding.1 * (tau + latest));
-        let (spin, w) = (sight.spin, sight.w);
-        let third = 0.5 * (self.spin[0].abs() + self.spin[1].abs()) * bend;
-        let v = self.v[sight.owner];
-        let (nv, cv) = (sight.n.dot(v), cross(sight.n, v));
-        let (mq, cq) = (sight.m.dot(sight.q), cross(sight.m, sight.q));
-        let mut s = 0.0;
-        let (mut gap, mut rate) = (sight.gap, sight.rate);
-        let (mut along, mut rising, mut low) = (sight.along, cv, mq);
-        for _ in 0..8 {
-            let curve = spin * (2.0 * rising - spin * along) - w * w * low;
-            let square = rate * rate - 2.0 * curve * gap;
-            if square < 0.0 || rate >= 0.0 {
-                return None;
-            }
-            let step = 2.0 * gap / (square.sqrt() - rate);
-            s = smaller(larger(s + step, 0.0), latest);
-            // The third derivative is at most 3 ω M: this is what the step leaves of the gap.
-            if third * step.abs() * step * step <= fine {
-                return self.others_stay_open(sight, bend, s).then_some(s);
-            }
-            let [s0, s1, c0, c1] = sines_and_cosines(self.simd, [spin * s, w * s]);
-            let (da, dc) = (sight.along + nv * s, sight.across + cv * s);
-            along = c0 * da + s0 * dc;
-            rising = c0 * cv - s0 * nv;
-            low = c1 * mq - s1 * cq;
-            gap = (along - sight.height) + low;
-            rate = (c0 * nv + s0 * cv) + spin * (c0 * dc - s0 * da) - w * (c1 * cq + s1 * mq);
-        }
-        None
-    }
-
-    /// Whether no other vertex can close within the next `step` seconds.
-    #[inline(always)]
-    fn others_stay_open(&self, sight: &Sight, bend: f64, step: f64) -> bool {
-        // Concave parabolas that are positive at both ends are positive between them.
-        let m = self.ahead(sight, step);
-        let others = self.hulls[sight.side].lowest_but(self.simd, m, sight.q);
-        let base = sight.along - sight.height;
-        base + (sight.base_rate - 0.5 * bend * step) * step + others > 0.0
-    }
-
-    /// `m` after `step` seconds, to first order.
-    #[inline(always)]
-    fn ahead(&self, sight: &Sight, step: f64) -> Vec2 {
-        sight.m - perp(sight.m) * (sight.w * step)
-    }
-
-    /// The first time, at most `limit`, at which a gap can be down at `level`: see
-    /// [`super::facing::Facing::certified_step`].
-    #[inline(always)]
-    fn certified_step(&self, sight: &Sight, level: f64, limit: f64) -> f64 {
-        let hull = &self.hulls[sight.side];
-        let base = sight.along - sight.height - level;
-        let (mut step, mut vertex) = (limit, sight.vertex);
-        let (mut gap, mut rate) = (sight.gap - level, sight.rate);
-        loop {
-            let shorter = root(gap, rate, sight.bend, step);
-            if vertex != sight.vertex && shorter >= step {
-                return step;
-            }
-            step = shorter;
-            let lower = hull.lowest(self.simd, self.ahead(sight, step));
-            if lower == vertex {
-                return step;
-            }
-            vertex = lower;
-            let q = hull.corner(vertex);
-            gap = base + sight.m.dot(q);
-            rate = sight.base_rate - sight.w * cross(sight.m, q);
-        }
-    }
-
-    /// Whether another vertex touches with the lowest.
-    #[inline(always)]
-    fn is_flat(&self, sight: &Sight) -> bool {
-        let others = self.hulls[sight.side].lowest_but(self.simd, sight.m, sight.q);
-        (sight.along - sight.height) + others <= sight.gap + NEAR * self.size
-    }
-
-    /// Whether no other axis is that little closed: see [`super::approach::Approach::is_alone`].
-    #[inline(always)]
-    fn is_alone(&self, sight: &Sight, place: &Place) -> bool {
-        let Normal::Edge(edge) = sight.normal else {
-            return false;
-        };
-        let floor = sight.gap - 2.0 * NEAR * self.size;
-        let (own, other) = (&self.hulls[sight.owner], &self.hulls[1 - sight.owner]);
-        let here = place.rotation[sight.owner];
-        let there = place.rotation[1 - sight.owner];
-        let d = place.d[sight.owner];
-        let vertex = here.inverse_mul(there * sight.q + d);
-        let (from, to) = (own.corner(edge), own.corner(own.next(edge)));
-        if other.is_disc() {
-            let along = perp(own.normal(edge));
-            return along.dot(vertex - from) > 0.0 && along.dot(to - vertex) > 0.0;
-        }
-        let seen = [
-            there.inverse_mul(here * from - d),
-            there.inverse_mul(here * to - d),
-        ];
-        own.highest_but(self.simd, vertex, from) < floor
-            && other.highest_of(self.simd, seen[0], seen[1]) < floor
-    }
-
     /// The vertex has come down on the edge, or the disc on the corner.
     #[inline(always)]
     fn contact(&self, sight: &Sight, place: &Place) -> Option<Found> {
@@ -547,31 +300,4 @@ impl<S: Simd> Even<'_, S> {
             gap_rate: sight.rate,
         })
     }
-}
-
-#[inline(always)]
-fn smaller(x: f64, y: f64) -> f64 {
-    if x < y { x } else { y }
-}
-
-#[inline(always)]
-fn larger(x: f64, y: f64) -> f64 {
-    if x > y { x } else { y }
-}
-
-/// The smaller of `limit` and the first root of `g + g' τ − bend τ²/2` with bend ≥ 0.
-#[inline(always)]
-fn root(g: f64, rate: f64, bend: f64, limit: f64) -> f64 {
-    if g + (rate - 0.5 * bend * limit) * limit > 0.0 {
-        return limit;
-    }
-    let root = (rate * rate + 2.0 * bend * g).sqrt();
-    let step = if rate < 0.0 {
-        2.0 * g / (root - rate)
-    } else if bend > 0.0 {
-        (rate + root) / bend
-    } else {
-        return limit;
-    };
-    smaller(larger(step, 0.0), limit)
 }

@@ -1,9 +1,14 @@
 //! An axis at an instant: the gap of every vertex that faces it is linear in the vertex.
 
+#![allow(
+    clippy::inline_always,
+    reason = "roots are inlined into the wide search"
+)]
+
 use carom_math::{Vec2, cross, vec2};
 
 use super::approach::{Approach, Axis, Instant};
-use crate::lanes::{lowest, lowest_other};
+use crate::lanes::{larger, lowest, lowest_other, smaller};
 
 /// A vertex seen along an axis.
 #[derive(Clone, Copy, Debug)]
@@ -186,15 +191,30 @@ impl Facing {
 
 /// The smaller of `limit` and the first root of `g + g' τ − bend τ²/2`: no contact before it.
 fn certified(g: f64, rate: f64, bend: f64, limit: f64) -> f64 {
+    if bend >= 0.0 {
+        concave(g, rate, bend, limit)
+    } else if rate * rate + 2.0 * bend * g < 0.0 {
+        limit
+    } else {
+        first_root(g, rate, bend, limit)
+    }
+}
+
+/// The same where `g` and `bend` are not below 0.
+#[inline(always)]
+pub(super) fn concave(g: f64, rate: f64, bend: f64, limit: f64) -> f64 {
     // A concave parabola that is positive at both ends is positive between them.
-    if bend >= 0.0 && g + (rate - 0.5 * bend * limit) * limit > 0.0 {
-        return limit;
+    if g + (rate - 0.5 * bend * limit) * limit > 0.0 {
+        limit
+    } else {
+        first_root(g, rate, bend, limit)
     }
-    let square = rate * rate + 2.0 * bend * g;
-    if square < 0.0 {
-        return limit;
-    }
-    let root = square.sqrt();
+}
+
+/// The same where there is a root, or none comes down.
+#[inline(always)]
+fn first_root(g: f64, rate: f64, bend: f64, limit: f64) -> f64 {
+    let root = (rate * rate + 2.0 * bend * g).sqrt();
     // Both forms are the same root; each is taken where it does not cancel.
     let step = if rate < 0.0 {
         2.0 * g / (root - rate)
@@ -203,5 +223,5 @@ fn certified(g: f64, rate: f64, bend: f64, limit: f64) -> f64 {
     } else {
         return limit;
     };
-    step.clamp(0.0, limit)
+    smaller(larger(step, 0.0), limit)
 }

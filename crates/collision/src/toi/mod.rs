@@ -14,6 +14,7 @@ mod even_tests;
 mod facing;
 mod parts;
 mod search;
+mod sight;
 mod touching;
 mod turns;
 
@@ -25,7 +26,6 @@ use fearless_simd::Level;
 use crate::parts::is_single;
 use crate::{AxisFeature, Hull, Motion, part};
 use approach::{Approach, Axis};
-use even::Found;
 use parts::first_of_parts;
 
 /// Contacts are flush where they part by less than this fraction of the stretch between them, and
@@ -186,20 +186,7 @@ fn of_parts(
     struck: Option<Axis>,
 ) -> TimeOfImpact {
     match even::first_contact(Level::new(), hulls, motions, (start, horizon), struck) {
-        Some(Found::Clear) => TimeOfImpact::Clear,
-        Some(Found::Hit {
-            time,
-            normal,
-            point,
-            feature,
-            gap_rate,
-        }) => TimeOfImpact::Hit(Impact {
-            time,
-            normal,
-            points: ArrayVec::from_iter([point]),
-            features: ArrayVec::from_iter([ImpactFeature::of(feature)]),
-            gap_rate,
-        }),
+        Some(found) => found.into(),
         None => general(hulls, motions, (start, horizon), struck),
     }
 }

@@ -5,7 +5,7 @@
 use carom_math::Rot;
 use fearless_simd::{Select, Simd, SimdBase, SimdFloat, f64x4, u64x4};
 
-/// Angles up to which [`turns`] keeps its digits, in rad: whole quarters below 2^20 times 33 bits are exact.
+/// Angles up to which [`sines_and_cosines`] keeps its digits, in rad: whole quarters below 2^20 times 33 bits are exact.
 pub(super) const LARGEST: f64 = 1e5;
 
 /// 1.5 · 2^52: what is added to it is rounded to a whole number, which is in the last bits.
