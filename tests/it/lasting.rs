@@ -212,6 +212,29 @@ fn a_struck_block_slides_and_stops_where_it_should() {
     assert!((centre(&world, id).x - 9.0 / (0.8 * G)).abs() < 1e-14);
 }
 
+/// More groups change at one instant than one of them may be judged there: only the first 16 stopped where they should,
+/// all others slid on, and back, to the next sub-step.
+#[test]
+fn a_hundred_blocks_that_come_to_rest_at_one_instant_all_stop_there() {
+    let mut world = on_floor(0.5);
+    let speed = 3.0;
+    let from = |k: i32| -450.0 + 9.0 * f64::from(k);
+    let put = |k| {
+        let def = BodyDef::dynamic().at(vec2(from(k), 0.5));
+        let def = def.moving(vec2(speed, 0.0));
+        world
+            .insert(def, block(1.0, 1.0), surface(0.0, 0.5))
+            .expect("valid")
+    };
+    let blocks: Vec<BodyId> = (0..100).map(put).collect();
+    world.step(2.0);
+    let way = speed * speed / (2.0 * 0.5 * G);
+    for (k, id) in (0..).zip(&blocks) {
+        let off = centre(&world, *id).x - (from(k) + way);
+        assert!(off.abs() < 1e-12, "block {k} is {off:e} m off");
+    }
+}
+
 #[test]
 fn a_flyer_that_hits_a_sliding_block_joins_the_account_at_its_instant() {
     let mut world = on_floor(0.2);

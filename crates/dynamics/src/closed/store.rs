@@ -12,7 +12,7 @@ use crate::tipping::Ends;
 /// What is no longer than this is one instant, in s.
 const INSTANT: f64 = 1e-12;
 
-/// Judgements of one group at one instant: more, and rounding moves it to and fro.
+/// Judgements that a body's motion makes necessary at one instant: more, and rounding moves it to and fro.
 const STALLED: u32 = 16;
 
 /// Sub-steps that a body waits after a judgement that failed: doubled each time, up to this.
@@ -83,8 +83,8 @@ pub(crate) struct Closed {
     stamp: u64,
     /// Groups at rest that the sub-steps still look after, with their stamps.
     still: Vec<(u32, u64)>,
-    /// Where and how often in a row judgements took place at one instant.
-    stall: (SimTime, u32),
+    /// By place of a body: when judgements of it began that took place at one instant, and how many they were.
+    stalls: Vec<(SimTime, u32)>,
 }
 
 #[derive(Clone, Debug)]
@@ -239,14 +239,19 @@ impl Closed {
         })
     }
 
-    /// Whether judgements go round in circles here.
-    pub(super) fn stalls(&mut self, time: SimTime) -> bool {
-        if time - self.stall.0 < INSTANT {
-            self.stall.1 += 1;
-        } else {
-            self.stall = (time, 0);
+    /// Counts a judgement of a body; whether they go round in circles here.
+    pub(super) fn stalls(&mut self, index: u32, time: SimTime) -> bool {
+        let at = index as usize;
+        if at >= self.stalls.len() {
+            self.stalls.resize(at + 1, (SimTime::ZERO, 0));
         }
-        self.stall.1 > STALLED
+        let (since, count) = &mut self.stalls[at];
+        if time - *since < INSTANT {
+            *count += 1;
+        } else {
+            (*since, *count) = (time, 0);
+        }
+        *count > STALLED
     }
 }
 
@@ -261,9 +266,13 @@ mod tests {
         let mut time = SimTime::ZERO + 0.25;
         let judged = (0..1000).take_while(|_| {
             time += 4.6e-17;
-            !closed.stalls(time)
+            !closed.stalls(3, time)
         });
         assert!(judged.count() <= 17);
-        assert!(!closed.stalls(time + 1e-9), "the next instant is another");
+        assert!(!closed.stalls(2, time), "another body is another matter");
+        assert!(
+            !closed.stalls(3, time + 1e-9),
+            "the next instant is another"
+        );
     }
 }
