@@ -155,10 +155,10 @@ fn case_16_a_ball_in_a_box_keeps_its_energy() {
     }
 }
 
-/// erincatto/box2d#604: a ball in a trough of edges never rests, or falls through.
+/// erincatto/box2d#604: a ball in a trough of edges never rests, or falls through. Two edges at once must not give it
+/// more than one after the other; a start off by a millimetre is another sequence of bounces.
 #[test]
 fn case_17_a_ball_in_a_trough_comes_to_rest() {
-    let mut world = stepped(Settings::default());
     let bouncy = Material {
         restitution: 0.75,
         ..Material::default()
@@ -169,23 +169,26 @@ fn case_17_a_ball_in_a_trough_comes_to_rest() {
             vec2(x, 0.15 * x * x)
         })
         .collect();
-    for ends in points.windows(2) {
-        let edge = carom_geometry::Segment::new(ends[0], ends[1]).expect("an edge");
-        put(&mut world, BodyDef::fixed(), edge, bouncy);
+    for shift in 0..24 {
+        let mut world = stepped(Settings::default());
+        for ends in points.windows(2) {
+            let edge = carom_geometry::Segment::new(ends[0], ends[1]).expect("an edge");
+            put(&mut world, BodyDef::fixed(), edge, bouncy);
+        }
+        let def = BodyDef::dynamic().at(vec2(1.7 + 1e-3 * f64::from(shift), 3.0));
+        let ball = put(&mut world, def, disc(0.2), bouncy);
+        let start = world.energy().mechanical();
+        let mut energy = start;
+        run(&mut world, 60.0, |world| {
+            falls(world, &mut energy, give(world));
+        });
+        // Nothing brakes what rolls: it loses where edges meet.
+        let lowest = world.body(ball).expect("it stays").mass() * G * 0.2;
+        assert!(
+            energy - lowest < 0.02 * (start - lowest),
+            "from {shift} mm: {energy} J of {start}"
+        );
     }
-    let def = BodyDef::dynamic().at(vec2(1.7, 3.0));
-    let ball = put(&mut world, def, disc(0.2), bouncy);
-    let start = world.energy().mechanical();
-    let mut energy = start;
-    run(&mut world, 60.0, |world| {
-        falls(world, &mut energy, give(world));
-    });
-    // Nothing brakes what rolls: it loses where edges meet.
-    let lowest = world.body(ball).expect("it stays").mass() * G * 0.2;
-    assert!(
-        energy - lowest < 0.02 * (start - lowest),
-        "{energy} J of {start}"
-    );
 }
 
 /// dimforge/rapier#984, liabru/matter-js#5, #309: small fast discs miss each other; a box falls between two.

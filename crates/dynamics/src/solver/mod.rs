@@ -6,6 +6,7 @@
 //! ```
 //! [`row`] and [`soft`] hold the same law for rows that are rebuilt in every sub-step.
 
+mod budget;
 mod coast;
 mod kernel;
 mod lanes;
@@ -19,6 +20,7 @@ mod tests;
 mod wide;
 mod zone;
 
+pub(crate) use budget::Budget;
 pub(crate) use lanes::RowId;
 pub(crate) use rig::{Limit, Member, Pull, Rig};
 pub(crate) use row::{Row, SolverBody};

@@ -38,6 +38,8 @@ pub(crate) struct Rig {
     pub(crate) swift: Vec<Swift>,
     /// Rows that were met in the last sub-step: their impulses stopped something once.
     pub(crate) met: Vec<RowId>,
+    /// Rows that bounced in the last sub-step.
+    bounced: Vec<RowId>,
     /// Whether large piles are cut into zones.
     pub(crate) zones: bool,
     /// Rows over all lines when the zones were made.
@@ -109,6 +111,7 @@ impl Default for Rig {
             limits: vec![Limit::NONE],
             swift: Vec::new(),
             met: Vec::new(),
+            bounced: Vec::new(),
             zones: cfg!(test),
             cut: 0,
             free: Vec::new(),
@@ -298,25 +301,55 @@ impl Rig {
     }
 
     /// Rows that were met start cold: what stopped a body, and what friction took from it then, does not act
-    /// once more. Only those that one sweep solves for: in a pile what came in goes on for some sub-steps.
+    /// once more. Only those that one sweep solves for, and bounces off what cannot be moved where nothing else pushes: in a pile
+    /// what came in goes on for some sub-steps.
     fn forget_impacts(&mut self) {
         let mut met = core::mem::take(&mut self.met);
+        met.retain(|id| self.lanes.holds(*id));
         for id in met.drain(..) {
-            if !self.lanes.holds(id) {
-                continue;
-            }
-            let row = self.row(id);
+            let (a, b) = self.row(id).bodies;
             let alone = |slot: u32| {
                 self.lines[slot as usize].inverse_mass() == 0.0 || self.lanes.degree(slot) == 1
             };
-            if !(alone(row.bodies.0) && alone(row.bodies.1)) {
-                continue;
+            if alone(a) && alone(b) {
+                self.warm(&self.row(id), -1.0);
+                self.chill(id);
             }
-            self.warm(&row, -1.0);
-            let (wide, lane) = self.lanes.at_mut(id);
-            (wide.j1[lane], wide.j2[lane], wide.jt[lane]) = (0.0, 0.0, 0.0);
         }
         self.met = met;
+        let mut bounced = core::mem::take(&mut self.bounced);
+        bounced.retain(|id| self.lanes.holds(*id) && self.row(*id).ground);
+        for id in &bounced {
+            self.warm(&self.row(*id), -1.0);
+        }
+        let free: Vec<bool> = bounced.iter().map(|id| self.is_free(*id)).collect();
+        for (id, free) in bounced.drain(..).zip(free) {
+            if free {
+                self.chill(id);
+            } else {
+                self.warm(&self.row(id), 1.0);
+            }
+        }
+        self.bounced = bounced;
+    }
+
+    /// Whether nothing pushes the bodies of a row whose own push is taken back, but for rounding.
+    fn is_free(&self, id: RowId) -> bool {
+        let row = self.row(id);
+        let zero = 1e-9 * (row.j[0] + row.j[1]);
+        [row.bodies.0, row.bodies.1].into_iter().all(|slot| {
+            let (line, start) = (&self.lines[slot as usize], &self.start[slot as usize]);
+            let (push, turn) = (line.v() - start.v(), line.w() - start.w());
+            let (m, i) = (line.inverse_mass(), line.inverse_inertia());
+            // As impulse, and as what an impulse off the centre by a radius of gyration turns it by.
+            push.length_squared() <= zero * zero * m * m && turn * turn <= zero * zero * m * i
+        })
+    }
+
+    /// A row starts cold; its push is taken back already.
+    fn chill(&mut self, id: RowId) {
+        let (wide, lane) = self.lanes.at_mut(id);
+        (wide.j1[lane], wide.j2[lane], wide.jt[lane]) = (0.0, 0.0, 0.0);
     }
 
     /// Work that driven bodies did through a row in the last sub-step, in J: impulse × their velocity.

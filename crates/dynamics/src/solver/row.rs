@@ -94,6 +94,16 @@ impl Row {
         perp(self.n).dot(b.v - a.v) + self.bt * b.w - self.at * a.w
     }
 
+    /// Opening speeds of both points, and the slip beyond that of the surfaces, of bodies that move like this.
+    pub(crate) fn seen(&self, (va, wa): (Vec2, f64), (vb, wb): (Vec2, f64)) -> [f64; 3] {
+        let (v, slip) = (self.n.dot(vb - va), perp(self.n).dot(vb - va));
+        [
+            v + self.b[0] * wb - self.a[0] * wa,
+            v + self.b[1] * wb - self.a[1] * wa,
+            slip + self.bt * wb - self.at * wa - self.belt,
+        ]
+    }
+
     /// Gaps after the bodies moved by their displacements.
     pub(crate) fn moved_gap(&self, a: &SolverBody, b: &SolverBody) -> [f64; 2] {
         let d = self.n.dot(b.d - a.d);

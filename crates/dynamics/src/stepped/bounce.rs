@@ -4,7 +4,7 @@
 //! speed is then set to e times the speed at which the surface was reached: that of the start of the
 //! sub-step, and what the pull added along the gap.
 
-use crate::solver::{Rig, Row, RowId};
+use crate::solver::{Budget, Rig, Row, RowId};
 
 /// Rows of pairs that bounce.
 #[derive(Clone, Debug, Default)]
@@ -22,6 +22,7 @@ pub(crate) struct Bounces {
     armed: Vec<(RowId, [f64; 2])>,
     /// Rows that are met later: hidden in this sub-step, so that nothing brakes them early.
     hidden: Vec<(RowId, [f64; 2])>,
+    budget: Budget,
 }
 
 impl Bounces {
@@ -65,13 +66,14 @@ impl Bounces {
     pub(crate) fn arm(&mut self, rig: &mut Rig, h: f64) {
         self.armed.clear();
         self.hidden.clear();
+        self.budget.clear();
         for &id in self.rows.iter().flatten() {
             let row = rig.row(id);
             let (a, b) = (row.bodies.0, row.bodies.1);
             let pull = rig.pull(b).acceleration - rig.pull(a).acceleration;
             let along = row.n.dot(pull);
             let rest = 2.0 * h * pull.length();
-            let opening = rig.opening(&row);
+            let opening = rig.seen(&row);
             let (mut met, mut later, mut held) = ([0.0; 2], false, false);
             for i in 0..2 {
                 let (gap, speed) = (row.gap[i].max(0.0), -opening[i]);
@@ -89,6 +91,7 @@ impl Bounces {
                 }
             }
             if met[0] > 0.0 || met[1] > 0.0 {
+                self.budget.note(rig, &row);
                 self.armed.push((id, met));
             } else if later && !held {
                 self.hidden.push((id, rig.hide(id)));
@@ -101,9 +104,13 @@ impl Bounces {
         for (id, gaps) in self.hidden.drain(..) {
             rig.show(id, gaps);
         }
+        self.budget
+            .settle(rig, self.armed.iter().map(|(id, _)| *id), h);
         for &(id, met) in &self.armed {
             let e = self.restitution[id.0 as usize];
-            self.cost += rig.bounce(id, e, met, h);
+            if let Some(room) = self.budget.room_of(&rig.row(id)) {
+                self.cost += rig.bounce(id, e, met, room);
+            }
         }
     }
 
