@@ -8,6 +8,7 @@
 
 mod aside;
 mod circle;
+mod days;
 mod foresee;
 mod foreseen;
 mod frame;

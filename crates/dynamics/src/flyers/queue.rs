@@ -5,6 +5,8 @@ use std::collections::BinaryHeap;
 
 use carom_math::SimTime;
 
+use super::days::Days;
+
 /// What happens at an entry's time, if the bodies still move as they did.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Ahead {
@@ -73,9 +75,7 @@ pub(crate) struct Queue {
     /// The last day of the year.
     last: u64,
     due: BinaryHeap<Reverse<Entry>>,
-    days: Vec<Vec<Entry>>,
-    /// Entries in `days`.
-    waiting: usize,
+    days: Days,
     later: Vec<Entry>,
     /// Entries whose day came this year, stale or not.
     come: u64,
@@ -88,8 +88,7 @@ impl Default for Queue {
             today: 0,
             last: YEAR - 1,
             due: BinaryHeap::new(),
-            days: (0..YEAR).map(|_| Vec::new()).collect(),
-            waiting: 0,
+            days: Days::new(slot(YEAR - 1) + 1),
             later: Vec::new(),
             come: 0,
         }
@@ -102,8 +101,7 @@ impl Queue {
         if day <= self.today {
             self.due.push(Reverse(entry));
         } else if day <= self.last {
-            self.days[slot(day)].push(entry);
-            self.waiting += 1;
+            self.days.push(slot(day), entry);
         } else {
             self.later.push(entry);
         }
@@ -118,10 +116,10 @@ impl Queue {
     ) -> Option<SimTime> {
         while self.due.is_empty() {
             let end = limit.bin(self.shift);
-            if self.today >= end || self.waiting == 0 && self.later.is_empty() {
+            if self.today >= end || self.days.count() == 0 && self.later.is_empty() {
                 return None;
             }
-            if self.waiting == 0 {
+            if self.days.count() == 0 {
                 self.turn_the_year(end, &mut stale);
             } else if self.today == self.last {
                 self.turn_the_year(self.last + 1, &mut stale);
@@ -149,15 +147,15 @@ impl Queue {
 
     /// Today's list becomes the heap.
     fn open(&mut self, stale: &mut impl FnMut(&Entry) -> bool) {
-        let mut list = core::mem::take(&mut self.days[slot(self.today)]);
-        self.waiting -= list.len();
-        self.come += list.len() as u64;
-        for entry in list.drain(..) {
+        let Self {
+            days, due, come, ..
+        } = self;
+        days.take(slot(self.today), |entry| {
+            *come += 1;
             if !stale(&entry) {
-                self.due.push(Reverse(entry));
+                due.push(Reverse(entry));
             }
-        }
-        self.days[slot(self.today)] = list;
+        });
     }
 
     /// A new year begins on the first day with an entry, or on `day` if that is earlier; its days are
@@ -201,10 +199,9 @@ impl Queue {
     fn begin_year(&mut self, day: u64, shift: u32) {
         let (old, mut entries) = (self.shift, core::mem::take(&mut self.later));
         self.shift = shift;
-        for list in &mut self.days {
-            entries.append(list);
+        for day in 0..YEAR {
+            self.days.take(slot(day), |entry| entries.push(entry));
         }
-        self.waiting = 0;
         self.come = 0;
         let renamed = if shift >= old {
             day << (shift - old)
@@ -217,8 +214,7 @@ impl Queue {
         for entry in entries {
             let day = entry.time.bin(shift);
             if day <= self.last {
-                self.days[slot(day)].push(entry);
-                self.waiting += 1;
+                self.days.push(slot(day), entry);
             } else {
                 self.later.push(entry);
             }
