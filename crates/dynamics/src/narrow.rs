@@ -55,8 +55,11 @@ impl Narrow {
             &mut self.found,
         );
         let old = core::mem::take(&mut pair.contacts);
-        pair.contacts
-            .extend(self.found.iter().map(|new| carried(new, pose_a, &old)));
+        pair.contacts = self
+            .found
+            .iter()
+            .map(|new| carried(new, pose_a, &old))
+            .collect();
         let points = pair.contacts.iter().flat_map(|contact| &contact.points);
         let deepest = points.map(|p| p.separation).fold(0.0, f64::min);
         pair.buried = deepest < -BURIED * size;

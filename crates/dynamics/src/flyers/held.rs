@@ -40,7 +40,18 @@ impl World {
     pub(crate) fn land_first(&mut self, index: u32, time: SimTime) {
         if self.alight(index, time) {
             self.steer(index, time);
+            self.part_far(index, time);
             self.regroup(index, time);
+        }
+    }
+
+    /// Forgets the pairs of a body that its boxes have left: a flyer's reach farther than those of a sub-step.
+    fn part_far(&mut self, index: u32, time: SimTime) {
+        let keeps = |place: &u32| self.broad.keeps(&self.colliders, self.pairs.get(*place));
+        let pairs = self.bodies.get(index).pairs.iter();
+        let far: Vec<u32> = pairs.filter(|place| !keeps(place)).copied().collect();
+        for place in far {
+            self.part(place, time);
         }
     }
 

@@ -241,6 +241,7 @@ impl World {
             let loaded = heavy > 0.0 && light > HEAVY * heavy && gives && !found.is_empty();
             stepped.depths.note(pair, loaded);
         }
+        pair.contacts.reserve_exact(found.len());
         for new in &found {
             let mut contact = carried(new, poses[0], &old);
             let row = row_of(&contact, slots, poses, pair);
