@@ -6,6 +6,7 @@ use super::Flyers;
 use super::frame::{Frame, Track};
 use super::window::{self, Window};
 use crate::Filter;
+use crate::bodies::Bodies;
 use crate::state::{BodyState, Collider};
 
 /// The bounding circle of a body at an instant, in motion.
@@ -42,6 +43,16 @@ impl Circle {
     }
 }
 
+/// Who looks round, and how.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Look {
+    circle: Circle,
+    /// It falls as the frame does.
+    falls: bool,
+    /// Until when it looks for others of the grid, if it touches whatever is usual.
+    horizon: Option<SimTime>,
+}
+
 /// The circle of a flyer with the motion that it looked round with: 64 bytes, where the body has ten times as many.
 #[derive(Clone, Copy, Debug, Default)]
 #[repr(align(64))]
@@ -72,29 +83,51 @@ impl Registered {
 }
 
 impl Flyers {
-    /// Until when two bodies of the grid have looked for each other, if both touch whatever is usual.
-    pub(super) fn common_horizon(&self, a: u32, b: u32) -> Option<SimTime> {
-        let [a, b] = [a, b].map(|body| body as usize);
-        let plain = self.circles.get(a)?.plain && self.circles.get(b)?.plain;
-        plain.then(|| self.horizons[a].min(self.horizons[b]))
+    /// Of a body that looks round: its circle, and until when it looks, if it is in the grid and touches whatever is usual.
+    pub(super) fn looks(&self, bodies: &Bodies, body: u32, time: SimTime) -> Look {
+        let state = bodies.get(body);
+        let known = self.circles.get(body as usize);
+        let known = known.filter(|_| state.course.cells.is_some());
+        Look {
+            circle: Circle::of(state, time),
+            falls: known.is_some_and(|known| known.falls),
+            horizon: known
+                .filter(|known| known.plain)
+                .map(|_| state.course.horizon),
+        }
     }
 
-    /// The circle at `time` of a body in the grid, if it falls as the frame does: the bits of [`Circle::of`].
-    pub(super) fn circle(&self, body: u32, time: SimTime) -> Option<Circle> {
-        let known = self
-            .circles
-            .get(body as usize)
-            .filter(|known| known.falls)?;
-        let (u, acceleration) = (time - known.since, self.frame.acceleration());
-        let track = Track {
-            centre: known.centre + (known.velocity + acceleration * (0.5 * u)) * u,
-            velocity: known.velocity + acceleration * u,
-            acceleration,
-        };
-        Some(Circle {
-            track,
-            reach: known.reach,
-            bends: false,
-        })
+    /// When the circle of a body in the grid overlaps that of one that looks round.
+    #[inline]
+    pub(super) fn window(
+        &self,
+        bodies: &Bodies,
+        look: &Look,
+        body: u32,
+        time: SimTime,
+    ) -> Option<Window> {
+        let (own, acceleration) = (&look.circle, self.frame.acceleration());
+        match self.circles.get(body as usize) {
+            // The bits of [`Circle::of`] and [`Circle::meets`].
+            Some(known) if known.falls && look.falls => {
+                let u = time - known.since;
+                let centre = known.centre + (known.velocity + acceleration * (0.5 * u)) * u;
+                let velocity = known.velocity + acceleration * u;
+                window::of_even_circles(
+                    centre - own.track.centre,
+                    velocity - own.track.velocity,
+                    own.reach + known.reach,
+                )
+            }
+            _ => own.meets(&Circle::of(bodies.get(body), time)),
+        }
+    }
+
+    /// Until when a body looks for one of the grid that looks for it, if both touch whatever is usual.
+    #[inline]
+    pub(super) fn common_horizon(&self, look: &Look, body: u32) -> Option<SimTime> {
+        let (body, horizon) = (body as usize, look.horizon?);
+        let plain = self.circles.get(body)?.plain;
+        plain.then(|| horizon.min(self.horizons[body]))
     }
 }

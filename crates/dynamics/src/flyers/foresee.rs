@@ -3,7 +3,6 @@
 use carom_geometry::Aabb;
 use carom_math::SimTime;
 
-use super::circle::Circle;
 use super::foreseen::is_stale;
 use super::frame::Track;
 use super::queue::{Ahead, Entry};
@@ -138,7 +137,7 @@ impl World {
         let mut near = match course.cells {
             Some(cells) => {
                 let seat = Seat::new(index, course.swept);
-                self.flyers.search(&seat, cells, self.bodies.places())
+                self.flyers.search(&seat, cells)
             }
             None => {
                 let mut near = Vec::new();
@@ -158,22 +157,18 @@ impl World {
                 near.extend(self.bodies.indices().filter(here));
             }
         }
-        let own = Circle::of(self.bodies.get(index), time);
-        let in_grid = self.bodies.get(index).course.cells.is_some();
+        let look = self.flyers.looks(&self.bodies, index, time);
+        let mark = self.flyers.begin_to_meet(self.bodies.places());
         for &other in &near {
-            if other == index || Some(other) == but {
+            if other == index || Some(other) == but || self.flyers.has_met(other, mark) {
                 continue;
             }
-            let theirs = self
-                .flyers
-                .circle(other, time)
-                .unwrap_or_else(|| Circle::of(self.bodies.get(other), time));
-            let Some(window) = own.meets(&theirs) else {
+            let Some(window) = self.flyers.window(&self.bodies, &look, other, time) else {
                 continue;
             };
             // Most come near later, and nothing else is asked of them now.
-            match self.flyers.common_horizon(index, other) {
-                Some(horizon) if in_grid && window.from > 0.0 => {
+            match self.flyers.common_horizon(&look, other) {
+                Some(horizon) if window.from > 0.0 => {
                     let meet = time + window.from;
                     if meet <= horizon {
                         self.queue_near(index, other, meet);

@@ -8,21 +8,26 @@ use super::{Cells, Course, Flyers, Seat};
 use crate::bodies::Bodies;
 
 impl Flyers {
-    /// Bodies of the grid whose boxes overlap that of a seat, each once.
-    pub(super) fn search(&mut self, seat: &Seat, cells: Cells, bodies: usize) -> Vec<u32> {
+    /// Bodies of the grid whose boxes overlap that of a seat, some more than once: see [`Self::has_met`].
+    pub(super) fn search(&mut self, seat: &Seat, cells: Cells) -> Vec<u32> {
         let mut near = core::mem::take(&mut self.near);
         near.clear();
+        self.met += self.grid.gather(seat, cells, &mut near);
+        near
+    }
+
+    /// The mark of a new search, which has met nobody yet.
+    pub(super) fn begin_to_meet(&mut self, bodies: usize) -> u32 {
         if self.seen.len() < bodies {
             self.seen.resize(bodies, self.mark);
         }
         self.mark = self.mark.wrapping_add(1);
-        let (mark, seen) = (self.mark, &mut self.seen);
-        self.met += self.grid.gather(seat, cells, &mut near);
-        near.retain(|body| {
-            let last = core::mem::replace(&mut seen[*body as usize], mark);
-            last != mark
-        });
-        near
+        self.mark
+    }
+
+    /// Whether the search with a mark has met a body before; perhaps not, where another search came between.
+    pub(super) fn has_met(&mut self, body: u32, mark: u32) -> bool {
+        core::mem::replace(&mut self.seen[body as usize], mark) == mark
     }
 
     /// Bodies of the grid that may be in `bounds` before they look down again, in order.

@@ -22,7 +22,8 @@ const BEYOND: f64 = 1e-6;
 impl World {
     /// The instant from which on two flyers may meet.
     pub(super) fn come_near(&mut self, index: u32, other: u32, time: SimTime) {
-        let [own, theirs] = [index, other].map(|body| Circle::of(self.bodies.get(body), time));
+        let own = Circle::of(self.bodies.get(index), time);
+        let theirs = Circle::of(self.bodies.get(other), time);
         let Some(window) = own.meets(&theirs) else {
             return;
         };

@@ -49,7 +49,7 @@ impl World {
             }
         }
         let material = self.material_of(impact);
-        let before = [a, b].map(|index| self.bodies.get(index).in_impact(time));
+        let before = self.ends_of(impact, time);
         let speed = approach_speed(impact, &before);
         if speed <= NOISE * self.scale(impact, &before) {
             let press = self.press(impact, time);

@@ -92,8 +92,11 @@ impl World {
     }
 
     /// Both bodies just before.
-    fn ends_of(&self, impact: &Foreseen, time: SimTime) -> [ImpactBody; 2] {
-        [impact.bodies.0, impact.bodies.1].map(|index| self.bodies.get(index).in_impact(time))
+    pub(super) fn ends_of(&self, impact: &Foreseen, time: SimTime) -> [ImpactBody; 2] {
+        [
+            self.bodies.get(impact.bodies.0).in_impact(time),
+            self.bodies.get(impact.bodies.1).in_impact(time),
+        ]
     }
 
     /// Lays all impacts aside that are due by `limit`, once all searches due by then are done.

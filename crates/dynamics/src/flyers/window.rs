@@ -33,8 +33,8 @@ impl Window {
 /// the centres approach by at most `|v| t + |a| t²/2`.
 pub(crate) fn of_circles(d: Vec2, v: Vec2, a: Vec2, reach: f64) -> Option<Window> {
     let reach = reach * ROOM;
-    let outside = d.length_squared() - reach * reach;
     if a != Vec2::ZERO {
+        let outside = d.length_squared() - reach * reach;
         if outside <= 0.0 {
             return Some(Window {
                 from: 0.0,
@@ -49,6 +49,18 @@ pub(crate) fn of_circles(d: Vec2, v: Vec2, a: Vec2, reach: f64) -> Option<Window
             to: f64::INFINITY,
         });
     }
+    of_even(d, v, reach)
+}
+
+/// [`of_circles`] without relative acceleration.
+#[inline]
+pub(super) fn of_even_circles(d: Vec2, v: Vec2, reach: f64) -> Option<Window> {
+    of_even(d, v, reach * ROOM)
+}
+
+#[inline]
+fn of_even(d: Vec2, v: Vec2, reach: f64) -> Option<Window> {
+    let outside = d.length_squared() - reach * reach;
     let (closing, speed) = (-d.dot(v), v.length_squared());
     let discriminant = closing * closing - speed * outside;
     if outside <= 0.0 {
