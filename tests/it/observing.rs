@@ -190,7 +190,7 @@ fn a_stopwatch_times_every_stage_and_changes_nothing() {
             read.get()
         })
     }
-    // A block that slides: 144 sub-steps in 0.4 s.
+    // A block that slides, slowed down by itself, which no closed form of contacts knows: 144 sub-steps in 0.4 s.
     let [mut timed, mut plain] = [(); 2].map(|()| {
         let mut world = World::new(Settings::default()).expect("valid");
         let floor = HalfPlane::new(Vec2::ZERO, Vec2::Y).expect("a floor");
@@ -200,7 +200,7 @@ fn a_stopwatch_times_every_stage_and_changes_nothing() {
         let def = BodyDef::dynamic().at(vec2(0.0, 0.5)).moving(vec2(9.0, 0.0));
         let block = ConvexPolygon::rectangle(1.0, 1.0).expect("a block");
         world
-            .insert(def, block, Material::default())
+            .insert(def.damped(0.1, 0.0), block, Material::default())
             .expect("valid");
         world
     });

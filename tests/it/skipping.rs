@@ -1,7 +1,7 @@
 //! What a scene lacks costs nothing: shown by counters.
 
 use carom_dynamics::{BodyDef, BodyKind, Material, PairSearch, Settings, World};
-use carom_geometry::{Circle, ConvexPolygon};
+use carom_geometry::{Circle, ConvexPolygon, HalfPlane};
 use carom_math::{Vec2, vec2};
 use carom_tests::run;
 
@@ -178,4 +178,49 @@ fn stacks_that_land_at_once_stand_without_sub_steps() {
     });
     let deepest = depths.fold(0.0, f64::min);
     assert!(deepest > -1e-12, "{deepest:e} m");
+}
+
+/// What slides or rolls moves in closed form until it stops or strikes: nobody need step it.
+#[test]
+fn what_slides_and_rolls_on_a_plane_needs_no_sub_steps() {
+    const G: f64 = 9.81;
+    let mut world = World::new(Settings {
+        gravity: vec2(0.0, -G),
+        sleep: None,
+        ..Settings::default()
+    })
+    .expect("valid");
+    let rough = Material {
+        restitution: 0.0,
+        friction: 0.5,
+        ..Material::default()
+    };
+    let plane = HalfPlane::new(Vec2::ZERO, Vec2::Y).expect("a plane");
+    world.insert(BodyDef::fixed(), plane, rough).expect("valid");
+    let mut bodies = Vec::new();
+    for k in 0..50 {
+        let speed = 2.0 + 0.02 * f64::from(k);
+        let at = vec2(20.0 * f64::from(k), 0.5);
+        let def = BodyDef::dynamic().at(at).moving(vec2(speed, 0.0));
+        let id = if k % 2 == 0 {
+            let block = ConvexPolygon::square(1.0).expect("a block");
+            world.insert(def, block, rough)
+        } else {
+            let disc = Circle::new(0.5).expect("a disc");
+            world.insert(def.spinning(-speed / 0.5), disc, rough)
+        };
+        bodies.push((id.expect("valid"), at.x, speed));
+    }
+    world.step(1.0 / 60.0);
+    let report = world.step(3.0 - 1.0 / 60.0);
+    assert_eq!((report.substeps, report.rows), (0, 0), "{report:?}");
+    for (k, (id, from, speed)) in bodies.into_iter().enumerate() {
+        let way = if k % 2 == 0 {
+            speed * speed / (2.0 * 0.5 * G)
+        } else {
+            speed * 3.0
+        };
+        let off = world.body(id).expect("it is there").centre().x - (from + way);
+        assert!(off.abs() < 1e-12, "body {k} is {off:e} m off");
+    }
 }

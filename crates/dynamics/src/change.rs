@@ -361,6 +361,7 @@ impl World {
         }
         let now = self.clock.now;
         self.quit(index, now);
+        self.hand_back_of(index, now);
         self.flyers.vanish(&mut self.bodies, index);
         self.discharge(index);
         let flies = self.may_fly(index);

@@ -36,17 +36,19 @@ impl Narrow {
         h: f64,
     ) {
         let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
-        let (pose_a, pose_b) = (a.centre_pose(time), b.centre_pose(time));
+        let apart = b.centre_at(time) - a.centre_at(time);
         let size = a.reach.min(b.reach);
         let margin = MARGIN * size + h * closing_bound(a, b, time);
         let near = a.reach + b.reach + margin;
         self.found.clear();
-        if (pose_b.position - pose_a.position).length_squared() > near * near {
+        if apart.length_squared() > near * near {
             pair.contacts.clear();
             pair.touching = false;
             pair.buried = false;
             return;
         }
+        // Rotations cost more than all that is asked before.
+        let (pose_a, pose_b) = (a.centre_pose(time), b.centre_pose(time));
         contacts(
             &colliders[pair.colliders.0 as usize].solid,
             &colliders[pair.colliders.1 as usize].solid,

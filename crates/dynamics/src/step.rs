@@ -135,7 +135,15 @@ impl World {
 
     /// An impact that is due, unless its bodies have other motions by now.
     pub(crate) fn strike_entry(&mut self, entry: &Entry) {
-        if self.pairs.of_entry(entry).is_none() {
+        let Some(pair) = self.pairs.of_entry(entry) else {
+            return;
+        };
+        let (a, b) = pair.bodies;
+        let now = (self.bodies.version(a), self.bodies.version(b));
+        // Who glides is struck with all that holds it: by the impact that is foreseen once it has landed.
+        if now == entry.versions
+            && (self.hand_back_of(a, entry.time) | self.hand_back_of(b, entry.time))
+        {
             return;
         }
         let struck = strike(
@@ -181,6 +189,7 @@ impl World {
             // The next sub-step takes it from here; questions find it by its boxes until then.
             return self.refit(index, time, 0.25 * self.settings.tick);
         }
+        self.hand_back_of(index, time);
         self.redirect(index, time);
         self.regroup(index, time);
     }
@@ -280,6 +289,7 @@ impl World {
 
     /// Wakes all sleepers that touch a body, and itself: what held them has changed.
     pub(crate) fn wake_around(&mut self, index: u32, time: SimTime) {
+        self.hand_back_around(index, time);
         self.look_at_fresh(time);
         let mut woken = Vec::new();
         wake_around(

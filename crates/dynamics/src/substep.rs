@@ -34,6 +34,7 @@ impl World {
         self.gather_crowds(MANY, time);
         self.close_groups(time);
         self.doze(time);
+        self.glide(time);
         self.gather_crowds(FEW, time);
         self.stopwatch.lap(|p| &mut p.contacts);
         self.groups.step(
@@ -128,19 +129,28 @@ impl World {
 
     /// Flyers that come to rest on stepped bodies are stepped from here on, and so on with those that
     /// rest on them.
+    ///
+    /// A stack is judged once all of it has landed, not once a layer.
     fn gather_landings(&mut self, time: SimTime, h: f64) {
         let mut asked = self.pairs.ordered().to_vec();
+        let mut landed = Vec::new();
         loop {
             let landings = asked.iter();
-            let landed: Vec<u32> = landings
+            let lands: Vec<u32> = landings
                 .filter_map(|place| self.landing(*place, time, h))
                 .collect();
-            if landed.is_empty() {
-                break;
-            }
             let before = self.bodies.versions().to_vec();
-            for &index in &landed {
-                self.land_first(index, time);
+            if !lands.is_empty() {
+                for &index in &lands {
+                    self.land_first(index, time);
+                }
+                landed.extend(lands);
+            } else if landed.is_empty() {
+                break;
+            } else {
+                for index in core::mem::take(&mut landed) {
+                    self.regroup(index, time);
+                }
             }
             // Only the pairs of those who move otherwise now may answer otherwise: of who landed, and of who was judged
             // again because of it.

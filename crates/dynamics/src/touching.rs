@@ -288,6 +288,7 @@ impl World {
                 // Not flush: it may rest, but not slide.
                 features = (Feature::Corner, Feature::Corner);
             }
+            features = past_the_end(features, ends, contact.normal);
             // A surface that runs is no body that moves.
             if pair.material.tangent_speed != 0.0 {
                 return None;
@@ -339,6 +340,34 @@ enum Approach {
     Leaves,
     Stays,
     Closes(f64),
+}
+
+/// At the very end of an edge it is the way that a disc goes that tells the edge from its corner: where it leaves, it
+/// leaves at once, and not a rounding later.
+fn past_the_end(
+    features: (Feature, Feature),
+    (a, b): (&ModeBody, &ModeBody),
+    normal: Vec2,
+) -> (Feature, Feature) {
+    let glide = (b.velocity - a.velocity).dot(perp(normal));
+    let room = end_room(a.centre, b.centre);
+    let leaves = |low: f64, high: f64, glide: f64| {
+        (glide > 0.0 && high <= room) || (glide < 0.0 && low >= -room)
+    };
+    match features {
+        (Feature::Edge { low, high }, Feature::Round) if leaves(low, high, glide) => {
+            (Feature::Corner, Feature::Round)
+        }
+        (Feature::Round, Feature::Edge { low, high }) if leaves(low, high, -glide) => {
+            (Feature::Round, Feature::Corner)
+        }
+        _ => features,
+    }
+}
+
+/// How near to the end of an edge is at its end but for the rounding of where both bodies are, in m.
+pub(crate) fn end_room(a: Vec2, b: Vec2) -> f64 {
+    16.0 * f64::EPSILON * (a.length() + b.length())
 }
 
 /// What of a hull lies along a contact: `outward` is the way out of it, `normal` the touch's own.

@@ -240,12 +240,15 @@ impl World {
         self.bodies.iter().map(|state| self.view(state))
     }
 
-    /// All pairs that touch, as of the last sub-step, in order of their shapes.
+    /// All pairs that touch, as of the last sub-step, in order of their shapes; of what moves without sub-steps, as of now.
     pub fn contacts(&self) -> impl Iterator<Item = Contact> + use<'_> {
         let places = self.pairs.in_order().into_iter();
-        let touching = places.map(|place| self.pairs.get(place));
-        let touching = touching.filter(|pair| pair.touching);
-        touching.flat_map(|pair| self.pool.contacts_of(&self.bodies, pair))
+        let touching = places.filter(|place| self.pairs.get(*place).touching);
+        touching.flat_map(|place| {
+            let now = self.gliding_now(place);
+            let pair = now.as_ref().unwrap_or_else(|| self.pairs.get(place));
+            self.pool.contacts_of(&self.bodies, pair)
+        })
     }
 
     /// Frame of a body's shapes at `time`; `None` if it was not there or the log does not reach.

@@ -5,6 +5,7 @@ use carom_collision::Hull;
 use carom_math::{Pose, Vec2, cross_scalar, perp};
 
 use crate::tipping::{End, Joint};
+use crate::touching::end_room;
 
 /// Sine of the angle up to which an edge lies along a contact: far above rounding.
 const FLUSH: f64 = 1e-9;
@@ -91,8 +92,9 @@ fn disc_on(own: &Held<'_>, disc: &Held<'_>, owner: End, outward: Vec2, near: f64
             .inverse_vector(disc.velocity_of(centre) - own.velocity_of(centre))
             .dot(t);
         // At the very end it is the way it goes that tells edge from corner.
-        let leaves = along <= ends[0] + near * FLUSH && glide < 0.0
-            || along >= ends[1] - near * FLUSH && glide > 0.0;
+        let room = near * FLUSH + end_room(own.pose.position, disc.pose.position);
+        let leaves =
+            along <= ends[0] + room && glide < 0.0 || along >= ends[1] - room && glide > 0.0;
         if !leaves {
             return Some(Joint::Line {
                 owner,

@@ -4,6 +4,7 @@
 //! at the instant of its own next change. Between these nobody touches it: its motions are right for
 //! as long as its mode lasts. What does not qualify is left to the sub-steps.
 
+mod glide;
 mod jam;
 mod joints;
 mod store;
@@ -15,7 +16,7 @@ use carom_math::{SimTime, Vec2, cross_scalar, perp};
 use crate::agenda::Entry;
 use crate::flight::fly;
 use crate::modes::{BodyMove, GroupMove, NotMine, TouchMove, judge, land};
-use crate::narrow::TOUCH;
+
 use crate::touching::{Gathered, Looks, Refused};
 use crate::{BodyKind, ContactMode, EventKind, Mode, World};
 pub(crate) use store::{Closed, Membership};
@@ -57,23 +58,13 @@ impl World {
     /// Contacts of groups last, and carry what the group says.
     fn keep_closed(&mut self) {
         let h = self.clock.h;
-        for group in self.closed.iter().filter(|group| !group.dozes) {
+        for group in self
+            .closed
+            .iter()
+            .filter(|group| !(group.dozes || group.glides))
+        {
             for touch in &group.touches {
-                let pair = self.pairs.get_mut(touch.pair);
-                let reach = |index| self.bodies.get(index).reach;
-                let gap = TOUCH * reach(pair.bodies.0).min(reach(pair.bodies.1));
-                pair.lasting = touch.moved.mode != ContactMode::Open;
-                if let Some(contact) = pair.contacts.get_mut(touch.contact) {
-                    contact.tangent_impulse = touch.moved.tangential * h;
-                    let mut forces = touch.moved.normal.iter();
-                    for point in &mut contact.points {
-                        let mut force = 0.0;
-                        if point.separation <= gap {
-                            force = *forces.next().unwrap_or(&0.0);
-                        }
-                        point.impulse = force * h;
-                    }
-                }
+                touch.carry(&self.bodies, self.pairs.get_mut(touch.pair), h);
             }
         }
     }
@@ -89,13 +80,18 @@ impl World {
         if group.sleeps {
             return self.lull(place, time);
         }
-        let speed = group.speed;
+        let (speed, glides) = (group.speed, group.glides);
         let landing = group.landing();
         let members = self.dissolve(place, time);
         if let Some((pair, normal, at)) = landing {
             self.comes_down(pair, normal, at, time);
         }
         self.judge_all(&members, time, speed);
+        if glides {
+            // No sub-step was under way for it, and none need be.
+            self.doze(time);
+            self.glide(time);
+        }
     }
 
     /// A corner of a group that turned comes down on an edge that it touched already.
@@ -177,6 +173,7 @@ impl World {
 
     /// Takes a group apart; its members keep their motions until somebody gives them others.
     pub(crate) fn dissolve(&mut self, place: u32, time: SimTime) -> Vec<u32> {
+        self.hand_back(place, time);
         let Some(group) = self.closed.remove(place) else {
             return Vec::new();
         };
@@ -222,11 +219,16 @@ impl World {
     fn judge_around(&mut self, index: u32, time: SimTime, speed: f64, looks: Looks) {
         let mut found = self.gather_touching(index, time, looks);
         while let Err(Refused { seen, .. }) = &found {
-            let dozes = |index: &u32| self.bodies.get(*index).dozes;
-            let Some(index) = seen.iter().copied().find(dozes) else {
+            let leaves = |index: &u32| {
+                let state = self.bodies.get(*index);
+                state.dozes || state.course.glides
+            };
+            let Some(index) = seen.iter().copied().find(leaves) else {
                 break;
             };
-            self.wake(index, time);
+            if !self.hand_back_of(index, time) {
+                self.wake(index, time);
+            }
             found = self.gather_touching(index, time, looks);
         }
         let mut gathered = match found {
@@ -344,12 +346,16 @@ impl World {
             speed: fastest,
             sleeps: sleep.is_some(),
             dozes: false,
+            glides: false,
+            until: change,
             tipping: None,
         };
         let place = self.closed.insert(group, change);
         // What is driven begins to move without a touch.
         let drives = |index: &u32| self.bodies.get(*index).kind == BodyKind::Kinematic;
-        if still && !gathered.places.iter().any(drives) {
+        if !still {
+            self.closed.moves(place);
+        } else if !gathered.places.iter().any(drives) {
             self.closed.stands_still(place);
         }
         for &(index, _) in &members {
@@ -429,6 +435,9 @@ impl World {
                 continue;
             };
             group.dozes = true;
+            for touch in &group.touches {
+                touch.carry(&self.bodies, self.pairs.get_mut(touch.pair), self.clock.h);
+            }
             let members = group.members.clone();
             for &(index, _) in &members {
                 let state = self.bodies.get_mut(index);

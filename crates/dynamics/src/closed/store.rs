@@ -6,7 +6,11 @@ use std::collections::BinaryHeap;
 use carom_math::{SimTime, Vec2};
 
 use super::tips::Tipping;
+use crate::ContactMode;
+use crate::bodies::Bodies;
 use crate::modes::TouchMove;
+use crate::narrow::TOUCH;
+use crate::pairs::Pair;
 use crate::tipping::Ends;
 
 /// What is no longer than this is one instant, in s.
@@ -83,8 +87,13 @@ pub(crate) struct Closed {
     stamp: u64,
     /// Groups at rest that the sub-steps still look after, with their stamps.
     still: Vec<(u32, u64)>,
+    /// Groups that move, and that the sub-steps still look after, with their stamps.
+    moving: Vec<(u32, u64)>,
     /// By place of a body: when judgements of it began that took place at one instant, and how many they were.
     stalls: Vec<(SimTime, u32)>,
+    /// Nobody is let go of: the slow twin.
+    #[cfg(test)]
+    pub(super) stays: bool,
 }
 
 #[derive(Clone, Debug)]
@@ -98,6 +107,10 @@ pub(super) struct Group {
     pub(super) sleeps: bool,
     /// Nobody looks at its members: they rest, as the machinery knows what sleeps.
     pub(super) dozes: bool,
+    /// Its members fly until it changes.
+    pub(super) glides: bool,
+    /// When it changes by itself.
+    pub(super) until: Option<SimTime>,
     /// The path of one that turns.
     pub(super) tipping: Option<Tipping>,
 }
@@ -140,6 +153,24 @@ pub(super) struct Kept {
 }
 
 impl Kept {
+    /// The contact of a pair carries what the touch says, in sub-steps of `h` seconds.
+    pub(super) fn carry(&self, bodies: &Bodies, pair: &mut Pair, h: f64) {
+        let reach = |index| bodies.get(index).reach;
+        let gap = TOUCH * reach(pair.bodies.0).min(reach(pair.bodies.1));
+        pair.lasting = self.moved.mode != ContactMode::Open;
+        if let Some(contact) = pair.contacts.get_mut(self.contact) {
+            contact.tangent_impulse = self.moved.tangential * h;
+            let mut forces = self.moved.normal.iter();
+            for point in &mut contact.points {
+                let mut force = 0.0;
+                if point.separation <= gap {
+                    force = *forces.next().unwrap_or(&0.0);
+                }
+                point.impulse = force * h;
+            }
+        }
+    }
+
     /// Heat by friction in the first `elapsed` seconds, in J.
     pub(super) fn heat(&self, elapsed: f64) -> f64 {
         -self.moved.tangential * (self.moved.slip + 0.5 * self.slip_rate * elapsed) * elapsed
@@ -213,11 +244,28 @@ impl Closed {
     /// Places of the groups that came to rest since the last time, and still do.
     pub(super) fn take_still(&mut self) -> Vec<u32> {
         let still = core::mem::take(&mut self.still);
+        self.that_are_there(still)
+    }
+
+    /// The sub-steps let go of a group that moves as soon as they may.
+    pub(super) fn moves(&mut self, place: u32) {
+        if let Some(Some((stamp, _))) = self.groups.get(place as usize) {
+            self.moving.push((place, *stamp));
+        }
+    }
+
+    /// Places of the groups that move and have not been let go of.
+    pub(super) fn take_moving(&mut self) -> Vec<u32> {
+        let moving = core::mem::take(&mut self.moving);
+        self.that_are_there(moving)
+    }
+
+    fn that_are_there(&self, stamped: Vec<(u32, u64)>) -> Vec<u32> {
         let stands = |(place, stamp): (u32, u64)| {
             let (held, _) = self.groups.get(place as usize)?.as_ref()?;
             (*held == stamp).then_some(place)
         };
-        still.into_iter().filter_map(stands).collect()
+        stamped.into_iter().filter_map(stands).collect()
     }
 
     pub(super) fn get_mut(&mut self, place: u32) -> Option<&mut Group> {

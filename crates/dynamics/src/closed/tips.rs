@@ -104,6 +104,8 @@ impl World {
             speed: fastest,
             sleeps: false,
             dozes: false,
+            glides: false,
+            until: Some(change),
             tipping: Some(Tipping {
                 tip: Arc::new(tip),
                 slots,

@@ -14,6 +14,9 @@ use crate::{BodyKind, PairSearch, World};
 /// Part of a cell that a flyer travels within its horizon.
 const TRAVEL: f64 = 0.35;
 
+/// Way in reaches that a member of a group looks ahead for: farther, and whoever is stepped nearby looks at it in vain.
+const GLIDE: f64 = 1.0;
+
 /// Longest horizon, in s: what rests is looked for again at least this often.
 const LONGEST: f64 = 1024.0;
 
@@ -38,7 +41,8 @@ impl World {
             self.stop(index, time);
         }
         self.flyers.resize(&mut self.bodies, time);
-        if !self.look_round(index, time) {
+        // Who does not fall leaves the frame that falls ever faster.
+        if self.bodies.get(index).course.glides || !self.look_round(index, time) {
             self.follow(index, time);
         } else if cause == Cause::Deflected && self.is_clear(index, time) {
             self.meet_flyers(index, time, cause, but);
@@ -72,6 +76,11 @@ impl World {
     pub(super) fn follow(&mut self, index: u32, time: SimTime) {
         let way = TRAVEL * self.flyers.grid.side();
         let state = self.bodies.get_mut(index);
+        let way = if state.course.glides {
+            GLIDE * state.reach
+        } else {
+            way
+        };
         let track = Track::of(&state.motion, time);
         let seconds = at_most(track.seconds_for(way));
         state.course.ground = (time + seconds).min(state.course.piece);
@@ -272,7 +281,8 @@ impl World {
         if self.flyers.drifts {
             self.retune(entry.time);
         }
-        if self.stamp(entry.a, entry.b) == entry.stamp {
+        if self.stamp(entry.a, entry.b) == entry.stamp && !self.strikes_gliders(&impact, entry.time)
+        {
             self.strike_with_others((entry, impact));
         }
     }

@@ -161,6 +161,11 @@ impl World {
         if body.kind != BodyKind::Dynamic && owner.kind != BodyKind::Dynamic {
             return;
         }
+        if let [one] = *body.colliders
+            && self.glide_together((index, owner.id.index), (one, at))
+        {
+            return;
+        }
         let motion = &body.motion;
         let from = window::from_box(
             motion.centre_at(time),

@@ -36,12 +36,12 @@ impl World {
         }
     }
 
-    /// As [`Self::land`], at the start of a sub-step, which predicts all pairs when it is over.
+    /// As [`Self::land`], at the start of a sub-step, which predicts all pairs when it is over, and judges whom it
+    /// touches once all have landed.
     pub(crate) fn land_first(&mut self, index: u32, time: SimTime) {
         if self.alight(index, time) {
             self.steer(index, time);
             self.part_far(index, time);
-            self.regroup(index, time);
         }
     }
 
@@ -57,6 +57,9 @@ impl World {
 
     /// Puts a flyer among those that are sub-stepped; whether it was one.
     fn alight(&mut self, index: u32, time: SimTime) -> bool {
+        if self.hand_back_of(index, time) {
+            return true;
+        }
         let state = self.bodies.get_mut(index);
         if state.kind != BodyKind::Dynamic || !state.course.flies {
             return false;
@@ -90,6 +93,23 @@ impl World {
         self.bodies.renew(index);
         self.note_flight(index);
         self.foresee(index, time, Cause::Deflected, None);
+    }
+
+    /// Whether an impact is one on members of groups, which land then: they are struck with all that holds them.
+    pub(super) fn strikes_gliders(&mut self, impact: &Foreseen, time: SimTime) -> bool {
+        let ends = [impact.bodies.0, impact.bodies.1];
+        let glides = |index: u32| self.bodies.get(index).course.glides;
+        if !ends.iter().any(|index| glides(*index)) {
+            return false;
+        }
+        let before = ends.map(|index| self.bodies.get(index).in_impact(time));
+        let strikes = self.approaches(impact, &before);
+        if strikes {
+            for index in ends {
+                self.hand_back_of(index, time);
+            }
+        }
+        strikes
     }
 
     /// Adds a body to those that are sub-stepped.

@@ -53,6 +53,8 @@ pub(crate) struct Course {
     pub(crate) cells: Option<Cells>,
     /// Moves in closed form, from event to event.
     pub(crate) flies: bool,
+    /// Flies with others whom it touches, until their group changes.
+    pub(crate) glides: bool,
     /// Nothing was found where it looked down.
     pub(crate) alone: bool,
     /// Until when its motion stands for the law that it flies by; for ever where it is the law.
@@ -79,6 +81,7 @@ impl Default for Course {
     fn default() -> Self {
         Self {
             flies: false,
+            glides: false,
             piece: SimTime::NEVER,
             horizon: SimTime::ZERO,
             swept: Aabb::EMPTY,

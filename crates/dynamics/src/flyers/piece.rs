@@ -10,6 +10,10 @@ impl World {
     ///
     /// All that is foreseen for a flyer is foreseen for its piece, and all its searches end with it.
     pub(super) fn follow_law(&mut self, index: u32, time: SimTime) {
+        // Its piece is the mode of its group.
+        if self.bodies.get(index).course.glides {
+            return;
+        }
         if !self.bodies.bends(index) {
             self.bodies.get_mut(index).course.piece = SimTime::NEVER;
             return;

@@ -103,7 +103,7 @@ impl World {
         length: f64,
         cause: Cause,
     ) -> bool {
-        if !self.may_touch(shapes) {
+        if !self.may_touch(shapes) || self.glide_together((a, b), shapes) {
             return false;
         }
         self.report.pairs += 1;

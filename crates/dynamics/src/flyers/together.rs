@@ -120,8 +120,9 @@ impl World {
     fn are_real(&self, struck: &[Due], time: SimTime) -> bool {
         struck.iter().all(|(_, impact)| {
             let ends = [impact.bodies.0, impact.bodies.1].map(|index| self.bodies.get(index));
-            let flies =
-                |state: &&BodyState| !state.asleep && (state.course.flies || !state.is_active());
+            let flies = |state: &&BodyState| {
+                !state.asleep && !state.course.glides && (state.course.flies || !state.is_active())
+            };
             ends.iter().all(flies) && self.approaches(impact, &self.ends_of(impact, time))
         })
     }
