@@ -3,7 +3,7 @@
 use carom_geometry::Circle;
 use carom_math::{Vec2, trig, vec2};
 
-use crate::{BodyDef, BodyError, BodyId, Field, Material, Mode, RadialField, Settings, World};
+use crate::{BodyDef, BodyError, BodyId, Material, Mode, RadialField, Settings, World};
 
 fn empty() -> World {
     let settings = Settings {
@@ -67,48 +67,6 @@ fn a_fall_through_the_core_keeps_its_energy() {
     let change = total(&after) - total(&before);
     assert!(change.abs() < 1e-9 * before.potential.abs(), "{change:e} J");
     assert!(world.body(id).expect("there").centre().length() < 3.0 + 1e-9);
-}
-
-/// A spring to the origin: 4 1/s².
-#[derive(Debug)]
-struct Spring;
-
-impl Field for Spring {
-    fn acceleration(&self, position: Vec2) -> Vec2 {
-        position * -4.0
-    }
-    fn potential(&self, position: Vec2) -> f64 {
-        2.0 * position.length_squared()
-    }
-    fn gradient_bound(&self, _: Vec2, _: f64) -> f64 {
-        4.0
-    }
-}
-
-#[test]
-fn a_field_of_the_callers_own_is_followed_to_the_stated_error() {
-    for error in [1e-6, 1e-9, 1e-12] {
-        let mut world = World::new(Settings {
-            gravity: Vec2::ZERO,
-            field_error: error,
-            ..Settings::default()
-        })
-        .expect("valid");
-        world.add_field(Spring);
-        let id = ball(
-            &mut world,
-            BodyDef::dynamic().at(vec2(1.0, 0.0)).moving(vec2(0.0, 2.0)),
-        );
-        for _ in 0..100 {
-            world.step(0.317);
-        }
-        let (sin, cos) = trig::sin_cos(2.0 * world.time().as_secs());
-        let off = (world.body(id).expect("there").centre() - vec2(cos, sin)).length();
-        assert!(
-            off < 100.0 * 0.317 * error + 1e-12,
-            "{off:e} m at {error:e} m/s"
-        );
-    }
 }
 
 #[test]
