@@ -86,6 +86,59 @@ fn add(world: &mut World, k: usize, piece: &Piece) -> BodyId {
     }
 }
 
+/// A pile of 29 pieces in which a lively one, thrown up by the floor, strikes another that lies between it and two
+/// that fall: pieces drawn by splitmix64.
+fn struck_between() -> Vec<Piece> {
+    let mut state = 150 * 7919 + 13_u64;
+    let mut draw = |low: f64, high: f64| {
+        state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let z = (state ^ (state >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        #[expect(clippy::cast_precision_loss, reason = "53 bits")]
+        let unit = ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64;
+        low + (high - low) * unit
+    };
+    // How many pieces there are is drawn, too.
+    draw(0.0, 1.0);
+    let pieces = (0..29).map(|_| Piece {
+        offset: vec2(draw(-0.1, 0.1), draw(-0.1, 0.1)),
+        size: draw(0.3, 0.9),
+        angle: draw(-1.6, 1.6),
+        velocity: vec2(draw(-3.0, 3.0), draw(-3.0, 3.0)),
+        spin: draw(-3.0, 3.0),
+        round: draw(0.0, 1.0) < 0.5,
+        friction: if draw(0.0, 1.0) < 0.5 {
+            0.0
+        } else {
+            draw(0.0, 1.2)
+        },
+        restitution: match draw(0.0, 3.0) {
+            x if x < 1.0 => 0.0,
+            x if x < 2.0 => 1.0,
+            _ => draw(0.0, 1.0),
+        },
+    });
+    pieces.collect()
+}
+
+/// The blow was hurried on: it threw the piece in between into the upper one, faster than what struck it. Then the row
+/// below let go, that above kept what it had pushed, and 18 J of 360 came from nowhere.
+#[test]
+fn a_blow_does_not_throw_what_lies_between_two_others() {
+    let mut world = pile(&struck_between());
+    let first = world.energy().mechanical();
+    let mut before = first;
+    run(&mut world, 2.0, |world| {
+        let now = world.energy().mechanical();
+        assert!(
+            now - before < 1e-3 * first,
+            "{before} J became {now} J after {} s",
+            world.time().as_secs()
+        );
+        before = now;
+    });
+}
+
 /// No contact pushes sideways by more than its friction allows, or pulls.
 fn cone_is_kept(world: &World) -> Result<(), TestCaseError> {
     for contact in world.contacts() {
@@ -126,11 +179,13 @@ proptest! {
         let (first, last) = (energies[0], energies[energies.len() - 1]);
         let (lost, rounding) = (first - last, 1e-12 * first);
         prop_assert!(lost >= -rounding, "{last} J of {first} are left");
-        // A light body that is struck between others is squeezed, and has given back what that took a step later. What
-        // overlaps longer is pushed out, and lifts what lies on it: never by more than a twentieth of what was lost.
+        // A light body that is struck between others sinks in, is pushed out, and lifts what lies on it: by up to 1.2 % of
+        // what was lost in 2,300 piles, of which two steps keep 0.2 %.
+        let step = energies.windows(2).map(|some| some[1] - some[0]).fold(0.0, f64::max);
+        prop_assert!(step <= 0.03 * lost + rounding, "energy rose by {step:.1e} of {lost} J in a step");
         let rise = |some: &[f64]| some[2] - some[0].max(some[1]);
         let most = energies.windows(3).map(rise).fold(0.0, f64::max);
-        prop_assert!(most <= 0.05 * lost + rounding, "energy rose by {most:.1e} of {lost} J in a step");
+        prop_assert!(most <= 0.01 * lost + rounding, "energy rose by {most:.1e} of {lost} J in two steps");
     }
 
     #[test]

@@ -14,7 +14,10 @@ use super::wide::{LANES, Line, Wide};
 use super::{Law, Row};
 
 /// What closes faster than this is met, not at rest, in m/s: what pushes then is no guess for what will.
-const MET: f64 = 0.25;
+pub(super) const MET: f64 = 0.25;
+
+/// A body so many times as heavy as another, or that cannot be moved, counts as a load.
+pub(super) const HEAVY: f64 = 64.0;
 
 /// One pass over all rows, colour by colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -141,7 +144,8 @@ fn block<S: Simd, const RELAX: bool, const BELTS: bool, const OFTEN: bool>(
         );
         let met1 = v1.simd_lt(fast) & gap1.simd_lt(near);
         let met2 = v2.simd_lt(fast) & gap2.simd_lt(near);
-        met = (met1 | met2).to_bitmask();
+        let struck = met1 | met2;
+        met = struck.to_bitmask();
         let (open1, open2) = (gap1.simd_gt(zero), gap2.simd_gt(zero));
         let ground = ma.min(mb).simd_eq(zero);
         let rate = ground.select(
@@ -159,9 +163,12 @@ fn block<S: Simd, const RELAX: bool, const BELTS: bool, const OFTEN: bool>(
         let (stiff1, stiff2) = (open1.select(j1, zero), open2.select(j2, zero));
         u1 = v1 + (gap1 * open1.select(reach, rate)).max(fastest) - (s11 - k11) * stiff1;
         u2 = v2 + (gap2 * open2.select(reach, rate)).max(fastest) - (s22 - k22) * stiff2;
-        // A face that did not push yet has no error to damp: its first impulse is taken as it is.
-        let acted = (j1 + j2).simd_gt(zero);
-        omega = acted.select(f64x8::splat(simd, law.over_relaxation), softened);
+        // A face that did not push yet, or is struck, has no error to damp: that impulse is taken as it is. Hurried on
+        // it would throw a body that is struck from below into what lies on it, faster than what strikes it. But what
+        // stops a heavy body comes through a light one and from the ground in many sweeps.
+        let loaded = ma.max(mb).simd_gt(ma.min(mb) * f64x8::splat(simd, HEAVY));
+        let rests = (j1 + j2).simd_gt(zero) & (loaded | !struck);
+        omega = rests.select(f64x8::splat(simd, law.over_relaxation), softened);
     }
 
     // The case of the 2 × 2 complementarity problem that holds.

@@ -1,9 +1,9 @@
 //! The wide sweeps' slow twin: the same law row by row, in plain numbers, in the same order of
 //! operations, so that the bits are the same.
 
-use super::Law;
-use super::kernel::Pass;
+use super::kernel::{HEAVY, MET, Pass};
 use super::wide::{LANES, Line, Wide};
+use super::{Law, Row};
 
 /// What [`super::kernel::sweep`] does.
 pub(crate) fn sweep(pass: Pass, law: &Law, lines: &mut [Line], colours: &mut [Vec<Wide>]) -> f64 {
@@ -64,7 +64,10 @@ fn row(pass: Pass, law: &Law, lines: &mut [Line], wide: &mut Wide, lane: usize, 
         let stiff = |gap: f64, j: f64| if gap > 0.0 { j } else { 0.0 };
         u1 = v1 + bias(gap1) - (s11 - k11) * stiff(gap1, j1);
         u2 = v2 + bias(gap2) - (s22 - k22) * stiff(gap2, j2);
-        omega = if j1 + j2 > 0.0 {
+        let struck = |v: f64, gap: f64| v < -MET && gap < 0.5 * Row::OPEN;
+        let struck = struck(v1, gap1) || struck(v2, gap2);
+        let loaded = larger(ma, mb) > smaller(ma, mb) * HEAVY;
+        omega = if j1 + j2 > 0.0 && (loaded || !struck) {
             law.over_relaxation
         } else {
             softened
