@@ -7,7 +7,7 @@ use carom_geometry::{Circle, ConvexPolygon, HalfPlane};
 use carom_math::{SimTime, Vec2, trig, vec2};
 use carom_tests::elastic;
 use carom_tests::gas::{Molecule, Watch, deepest, gas, numbers};
-use carom_tests::scenes::{disc, put, surface};
+use carom_tests::scenes::{block, disc, put, surface};
 
 fn still() -> World {
     let settings = Settings {
@@ -467,5 +467,53 @@ fn circles_are_round() {
         .collect();
     for height in &heights {
         assert!((height - heights[0]).abs() < 1e-11, "{heights:?}");
+    }
+}
+
+/// Up, by 20 m/s².
+#[derive(Debug)]
+struct Lift;
+
+impl Field for Lift {
+    fn acceleration(&self, _: Vec2) -> Vec2 {
+        vec2(0.0, 20.0)
+    }
+    fn potential(&self, at: Vec2) -> f64 {
+        -20.0 * at.y
+    }
+    fn gradient_bound(&self, _: Vec2, _: f64) -> f64 {
+        0.0
+    }
+}
+
+/// Whatever rests, slides or rolls on the ground in closed form.
+#[test]
+fn a_field_lifts_what_lies_on_the_ground_at_once() {
+    for (speed, round) in [(0.0, false), (0.0, true), (2.0, false), (2.0, true)] {
+        let mut world = World::new(Settings {
+            gravity: vec2(0.0, -10.0),
+            ..Settings::default()
+        })
+        .expect("valid settings");
+        let stone = surface(0.0, 0.6);
+        let floor = HalfPlane::new(Vec2::ZERO, vec2(0.0, 1.0)).expect("a floor");
+        put(&mut world, BodyDef::fixed(), floor, stone);
+        let def = BodyDef::dynamic().at(vec2(0.0, 0.5));
+        let def = def.moving(vec2(speed, 0.0));
+        let id = if round {
+            put(&mut world, def, disc(0.5), stone)
+        } else {
+            put(&mut world, def, block(1.0, 1.0), stone)
+        };
+        for wait in [0.1, 1.0] {
+            world.step(wait);
+        }
+        world.add_field(Lift);
+        world.step(0.5);
+        let height = world.body(id).expect("it stays").centre().y;
+        assert!(
+            (height - 1.75).abs() < 1e-9,
+            "{speed} m/s, round: {round}: {height} m"
+        );
     }
 }
