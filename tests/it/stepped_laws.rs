@@ -3,7 +3,7 @@
 use carom_dynamics::{BodyDef, BodyId, Material, Settings, World};
 use carom_math::{Pose, Rot, Vec2, vec2};
 use carom_tests::run;
-use carom_tests::scenes::{block, disc, put, stepped};
+use carom_tests::scenes::{block, disc, put, stepped, surface};
 use proptest::prelude::*;
 
 /// A body of a pile: place in a grid of 6 × 6, offset, size, turn, velocity, disc or box.
@@ -218,5 +218,46 @@ proptest! {
             prop_assert!(c.x.abs() < 6.5 && c.y > -1.5, "{} at {c}", body.id());
         }
         cone_is_kept(&world)?;
+    }
+}
+
+/// A load of 3,200 times their mass: what its many sweeps hurried on and cut off point by point grew to 5e7 m/s.
+#[test]
+fn a_heavy_blow_throws_nothing_out_faster_than_it_came() {
+    let mut world = stepped(Settings {
+        gravity: Vec2::ZERO,
+        ..Settings::default()
+    });
+    let stone = surface(0.0, 0.6);
+    let striker = BodyDef::dynamic().at(vec2(-4.3, 0.0));
+    let dense = Material {
+        density: 8.0,
+        ..stone
+    };
+    put(
+        &mut world,
+        striker.moving(vec2(40.0, 0.0)),
+        block(8.0, 8.0),
+        dense,
+    );
+    for (i, k) in (0..20).flat_map(|i| (0..30).map(move |k| (i, k))) {
+        let at = vec2(0.4 * f64::from(i), 0.4 * f64::from(k) - 5.8);
+        put(
+            &mut world,
+            BodyDef::dynamic().at(at),
+            block(0.4, 0.4),
+            stone,
+        );
+    }
+    let before = world.energy().kinetic;
+    for step in 0..20 {
+        world.step(1.0 / 60.0);
+        let fastest = world.bodies().map(|body| body.velocity().length());
+        let fastest = fastest.fold(0.0, f64::max);
+        let kinetic = world.energy().kinetic;
+        assert!(
+            fastest < 80.0 && kinetic < before,
+            "step {step}: {fastest} m/s, {kinetic} of {before} J"
+        );
     }
 }

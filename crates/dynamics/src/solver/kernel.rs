@@ -192,6 +192,11 @@ fn block<S: Simd, const RELAX: bool, const BELTS: bool, const OFTEN: bool>(
     // What relaxes once is not hurried on: friction acts at once by what pushes, and jammed columns would hum.
     let (new1, new2) = if RELAX && !OFTEN {
         (x1, x2)
+    } else if OFTEN {
+        // Where it would pull the solution itself is taken: cut off point by point, it can be farther from it than before.
+        let (h1, h2) = (j1 + omega * (x1 - j1), j2 + omega * (x2 - j2));
+        let pushes = h1.min(h2).simd_ge(zero);
+        (pushes.select(h1, x1), pushes.select(h2, x2))
     } else {
         (
             (j1 + omega * (x1 - j1)).max(zero),
