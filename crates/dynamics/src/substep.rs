@@ -139,19 +139,19 @@ impl World {
             let lands: Vec<u32> = landings
                 .filter_map(|place| self.landing(*place, time, h))
                 .collect();
-            let before = self.bodies.versions().to_vec();
-            if !lands.is_empty() {
-                for &index in &lands {
-                    self.land_first(index, time);
-                }
-                landed.extend(lands);
-            } else if landed.is_empty() {
+            if lands.is_empty() && landed.is_empty() {
                 break;
-            } else {
+            }
+            let before = self.bodies.versions().to_vec();
+            if lands.is_empty() {
                 for index in core::mem::take(&mut landed) {
                     self.regroup(index, time);
                 }
             }
+            for &index in &lands {
+                self.land_first(index, time);
+            }
+            landed.extend(lands);
             // Only the pairs of those who move otherwise now may answer otherwise: of who landed, and of who was judged
             // again because of it.
             let bodies = &self.bodies;

@@ -16,7 +16,6 @@ use carom_math::{SimTime, Vec2, cross_scalar, perp};
 use crate::agenda::Entry;
 use crate::flight::fly;
 use crate::modes::{BodyMove, GroupMove, NotMine, TouchMove, judge, land};
-
 use crate::touching::{Gathered, Looks, Refused};
 use crate::{BodyKind, ContactMode, EventKind, Mode, World};
 pub(crate) use store::{Closed, Membership};
