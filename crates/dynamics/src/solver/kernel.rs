@@ -16,8 +16,9 @@ use super::{Law, Row};
 /// What closes faster than this is met, not at rest, in m/s: what pushes then is no guess for what will.
 pub(super) const MET: f64 = 0.25;
 
-/// A body so many times as heavy as another, or that cannot be moved, counts as a load.
-pub(super) const HEAVY: f64 = 64.0;
+/// A body so many times as heavy as another, or that cannot be moved, counts as a load: one sweep a sub-step does not carry
+/// it.
+pub(crate) const HEAVY: f64 = 64.0;
 
 /// One pass over all rows, colour by colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -189,14 +190,14 @@ fn block<S: Simd, const RELAX: bool, const BELTS: bool, const OFTEN: bool>(
     let x1 = both.select(x1, first.select(y1, zero));
     let x2 = both.select(x2, first.select(zero, y2));
 
-    // What relaxes once is not hurried on: friction acts at once by what pushes, and jammed columns would hum.
-    let (new1, new2) = if RELAX && !OFTEN {
-        (x1, x2)
-    } else if OFTEN {
+    let (new1, new2) = if OFTEN {
         // Where it would pull the solution itself is taken: cut off point by point, it can be farther from it than before.
         let (h1, h2) = (j1 + omega * (x1 - j1), j2 + omega * (x2 - j2));
         let pushes = h1.min(h2).simd_ge(zero);
         (pushes.select(h1, x1), pushes.select(h2, x2))
+    } else if RELAX {
+        // What relaxes once is not hurried on: friction acts at once by what pushes, and jammed columns would hum.
+        (x1, x2)
     } else {
         (
             (j1 + omega * (x1 - j1)).max(zero),

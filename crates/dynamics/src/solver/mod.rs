@@ -21,6 +21,7 @@ mod wide;
 mod zone;
 
 pub(crate) use budget::Budget;
+pub(crate) use kernel::HEAVY;
 pub(crate) use lanes::RowId;
 pub(crate) use rig::{Limit, Member, Pull, Rig};
 pub(crate) use row::{Row, SolverBody};

@@ -92,15 +92,15 @@ fn row(pass: Pass, law: &Law, lines: &mut [Line], wide: &mut Wide, lane: usize, 
         (0.0, y2)
     };
 
-    let (new1, new2) = if relax && pass != Pass::RelaxOften {
-        (x1, x2)
-    } else if pass == Pass::RelaxOften {
+    let (new1, new2) = if pass == Pass::RelaxOften {
         let (h1, h2) = (j1 + omega * (x1 - j1), j2 + omega * (x2 - j2));
         if smaller(h1, h2) >= 0.0 {
             (h1, h2)
         } else {
             (x1, x2)
         }
+    } else if relax {
+        (x1, x2)
     } else {
         (
             positive(j1 + omega * (x1 - j1)),

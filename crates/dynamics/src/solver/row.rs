@@ -82,26 +82,27 @@ impl Row {
 
     /// Normal velocities of both points.
     pub(crate) fn normal_velocity(&self, a: &SolverBody, b: &SolverBody) -> [f64; 2] {
-        let v = self.n.dot(b.v - a.v);
-        [
-            v + self.b[0] * b.w - self.a[0] * a.w,
-            v + self.b[1] * b.w - self.a[1] * a.w,
-        ]
+        let [first, last, _] = self.seen((a.v, a.w), (b.v, b.w));
+        [first, last]
     }
 
     /// Slip of the bodies at the face; of its surfaces, with their belts left out.
     pub(crate) fn slip(&self, a: &SolverBody, b: &SolverBody) -> f64 {
-        perp(self.n).dot(b.v - a.v) + self.bt * b.w - self.at * a.w
+        self.slip_of((a.v, a.w), (b.v, b.w))
     }
 
     /// Opening speeds of both points, and the slip beyond that of the surfaces, of bodies that move like this.
-    pub(crate) fn seen(&self, (va, wa): (Vec2, f64), (vb, wb): (Vec2, f64)) -> [f64; 3] {
-        let (v, slip) = (self.n.dot(vb - va), perp(self.n).dot(vb - va));
+    pub(crate) fn seen(&self, a: (Vec2, f64), b: (Vec2, f64)) -> [f64; 3] {
+        let v = self.n.dot(b.0 - a.0);
         [
-            v + self.b[0] * wb - self.a[0] * wa,
-            v + self.b[1] * wb - self.a[1] * wa,
-            slip + self.bt * wb - self.at * wa - self.belt,
+            v + self.b[0] * b.1 - self.a[0] * a.1,
+            v + self.b[1] * b.1 - self.a[1] * a.1,
+            self.slip_of(a, b) - self.belt,
         ]
+    }
+
+    fn slip_of(&self, (va, wa): (Vec2, f64), (vb, wb): (Vec2, f64)) -> f64 {
+        perp(self.n).dot(vb - va) + self.bt * wb - self.at * wa
     }
 
     /// Gaps after the bodies moved by their displacements.

@@ -8,7 +8,7 @@ use super::near::is_quick;
 use super::seats::{Seat, pull_of};
 use crate::narrow::{BURIED, carried};
 use crate::pairs::{Glance, Pair, PairContact};
-use crate::solver::{Line, Row, RowId};
+use crate::solver::{HEAVY, Line, Row, RowId};
 use crate::{BodyKind, Mode, World};
 
 /// Two bodies that moved less than this against each other since their contacts were found, as a
@@ -27,9 +27,6 @@ const TURNED: f64 = 0.1;
 /// A light body gives way to a heavy one when they lie this deep in each other, or close by as much in a tick, as a
 /// fraction of the smaller reach: 2.8 mm for boxes of 1 m.
 const GIVES: f64 = 1.0 / 256.0;
-
-/// Mass ratio of a pair from which on one sweep a sub-step does not carry the load.
-const HEAVY: f64 = 64.0;
 
 impl World {
     /// Whether a pair need not be looked at: it moved so little since its contacts were found that they are
