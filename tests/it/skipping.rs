@@ -4,6 +4,7 @@ use carom_dynamics::{BodyDef, BodyKind, Material, PairSearch, Settings, World};
 use carom_geometry::{Circle, ConvexPolygon, HalfPlane};
 use carom_math::{Vec2, vec2};
 use carom_tests::run;
+use carom_tests::scenes::{block, disc, put, surface};
 
 #[test]
 fn bodies_far_apart_make_no_pairs_and_no_rows() {
@@ -158,16 +159,16 @@ fn stacks_that_land_at_once_stand_without_sub_steps() {
         restitution: 0.0,
         ..Material::default()
     };
-    let floor = ConvexPolygon::rectangle(3200.0, 2.0).expect("a floor");
-    world
-        .insert(BodyDef::fixed().at(vec2(0.0, -1.0)), floor, stone)
-        .expect("valid");
+    let floor = BodyDef::fixed().at(vec2(0.0, -1.0));
+    put(&mut world, floor, block(3200.0, 2.0), stone);
     for (i, k) in (0..20).flat_map(|i| (0..10).map(move |k| (i, k))) {
-        let block = ConvexPolygon::square(1.0).expect("a block");
         let at = vec2(-1500.0 + 3.0 * f64::from(i), 0.5 + f64::from(k));
-        world
-            .insert(BodyDef::dynamic().at(at), block, stone)
-            .expect("valid");
+        put(
+            &mut world,
+            BodyDef::dynamic().at(at),
+            block(1.0, 1.0),
+            stone,
+        );
     }
     world.step(1.0 / 60.0);
     let report = world.step(1.0);
@@ -190,26 +191,20 @@ fn what_slides_and_rolls_on_a_plane_needs_no_sub_steps() {
         ..Settings::default()
     })
     .expect("valid");
-    let rough = Material {
-        restitution: 0.0,
-        friction: 0.5,
-        ..Material::default()
-    };
+    let rough = surface(0.0, 0.5);
     let plane = HalfPlane::new(Vec2::ZERO, Vec2::Y).expect("a plane");
-    world.insert(BodyDef::fixed(), plane, rough).expect("valid");
+    put(&mut world, BodyDef::fixed(), plane, rough);
     let mut bodies = Vec::new();
     for k in 0..50 {
         let speed = 2.0 + 0.02 * f64::from(k);
         let at = vec2(20.0 * f64::from(k), 0.5);
         let def = BodyDef::dynamic().at(at).moving(vec2(speed, 0.0));
         let id = if k % 2 == 0 {
-            let block = ConvexPolygon::square(1.0).expect("a block");
-            world.insert(def, block, rough)
+            put(&mut world, def, block(1.0, 1.0), rough)
         } else {
-            let disc = Circle::new(0.5).expect("a disc");
-            world.insert(def.spinning(-speed / 0.5), disc, rough)
+            put(&mut world, def.spinning(-speed / 0.5), disc(0.5), rough)
         };
-        bodies.push((id.expect("valid"), at.x, speed));
+        bodies.push((id, at.x, speed));
     }
     world.step(1.0 / 60.0);
     let report = world.step(3.0 - 1.0 / 60.0);
