@@ -19,6 +19,9 @@ const TURN: f64 = 8.0;
 /// How far a search goes beyond its end, as a fraction.
 const BEYOND: f64 = 1e-6;
 
+/// A gap that is rounding, as a fraction of the largest coordinate: each of two centres is off by half a unit.
+const BLUR: f64 = 2.0 * f64::EPSILON;
+
 impl World {
     /// The instant from which on two flyers may meet.
     pub(super) fn come_near(&mut self, index: u32, other: u32, time: SimTime) {
@@ -162,8 +165,31 @@ impl World {
             feature: impact.features[0],
             points: impact.points,
         };
+        let wait = if self.is_blurred(&foreseen, time, wait) {
+            0.0
+        } else {
+            wait
+        };
         self.flyers.push_impact(time + wait, stamp, foreseen);
         true
+    }
+
+    /// Whether the gap that an impact with a loss waits for is no more than rounding made of none.
+    ///
+    /// Where impacts of a cluster come ever faster, a gap of one rounding lasts as long as all that were before when its
+    /// approach has faded: at 20 m from the origin and 1 nm/s for 3.5 µs.
+    fn is_blurred(&self, impact: &Foreseen, time: SimTime, wait: f64) -> bool {
+        let (one, two) = (
+            self.bodies.get(impact.bodies.0),
+            self.bodies.get(impact.bodies.1),
+        );
+        let approach = |at: SimTime| -opening_speed(one, two, at, impact.points[0], impact.normal);
+        // What falls from rest approaches faster at the end of its way than now.
+        let (now, then) = (approach(time), approach(time + wait));
+        let far = impact.points[0].abs().max_element() + one.reach.min(two.reach);
+        now > 0.0
+            && now.max(then) * wait <= BLUR * far
+            && self.material_of(impact).restitution < 1.0
     }
 
     /// Whether the filters of two shapes let them touch.
