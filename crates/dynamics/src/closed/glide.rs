@@ -114,7 +114,7 @@ impl World {
         let members: Vec<u32> = group.members.iter().map(|(index, _)| *index).collect();
         for &index in &members {
             let state = self.bodies.get_mut(index);
-            (state.course.flies, state.course.glides) = (false, false);
+            state.course.land();
             state.idle = 0;
             self.flyers.vanish(&mut self.bodies, index);
         }

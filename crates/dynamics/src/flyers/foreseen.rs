@@ -34,6 +34,12 @@ impl Foreseen {
 }
 
 impl Flyers {
+    /// How many entries the calendar has, stale or not.
+    #[cfg(test)]
+    pub(crate) fn ahead(&self) -> usize {
+        self.queue.len()
+    }
+
     /// When the next entry is due, if that is by `limit`.
     pub(crate) fn next(
         &mut self,

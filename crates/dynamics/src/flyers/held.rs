@@ -64,7 +64,7 @@ impl World {
         if state.kind != BodyKind::Dynamic || !state.course.flies {
             return false;
         }
-        state.course.flies = false;
+        state.course.land();
         state.idle = 0;
         // What was foreseen for a flyer is stale.
         self.bodies.renew(index);

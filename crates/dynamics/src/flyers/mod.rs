@@ -119,6 +119,12 @@ impl Course {
         }
     }
 
+    /// It flies no more, and ends of its searches that are entered are stale: a pile that landed leaves nothing in the calendar.
+    pub(crate) const fn land(&mut self) {
+        (self.flies, self.glides) = (false, false);
+        self.entered = (SimTime::NEVER, SimTime::NEVER);
+    }
+
     /// When a search ends, and the entry for that.
     fn end(&mut self, ahead: Ahead) -> (SimTime, &mut SimTime) {
         match ahead {

@@ -154,7 +154,7 @@ impl World {
             self.pool.until_look = 0;
         }
         if self.bodies.get(index).course.flies {
-            self.bodies.get_mut(index).course.flies = false;
+            self.bodies.get_mut(index).course.land();
             self.flyers.vanish(&mut self.bodies, index);
         } else if let Ok(at) = self.stepped.binary_search(&index) {
             self.stepped.remove(at);

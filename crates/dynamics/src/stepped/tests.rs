@@ -80,3 +80,25 @@ fn a_member_flies_after_three_ticks_however_often_a_caller_changes_others() {
         "it flies after {waited} sub-steps, two ticks are 12"
     );
 }
+
+/// A hundred boxes that rested from the start were carried from year to year of the calendar by the ends of searches
+/// that they had entered as flyers.
+#[test]
+fn a_pile_that_landed_leaves_nothing_in_the_calendar() {
+    let mut world = world(Mode::Hybrid);
+    let floor = BodyDef::fixed().at(vec2(0.0, -1.0));
+    block(&mut world, floor, vec2(60.0, 2.0), Material::default());
+    for i in 0..100 {
+        let at = vec2(f64::from(i % 10), 0.5 + f64::from(i / 10));
+        let def = BodyDef::dynamic().at(at);
+        block(&mut world, def, vec2(1.0, 1.0), Material::default());
+    }
+    let mut most = 0;
+    for _ in 0..120 {
+        world.step(1.0 / 60.0);
+        most = most.max(world.flyers.ahead());
+    }
+    assert_eq!(world.pool.crowd.members, 100);
+    assert_eq!(world.flyers.ahead(), 0, "of {most} at most");
+    assert!(most > 0, "they flew before they landed");
+}
