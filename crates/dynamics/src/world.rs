@@ -391,6 +391,7 @@ impl World {
 
     /// Takes a pair out and says so if it touched.
     pub(crate) fn part(&mut self, place: u32, time: SimTime) {
+        self.hand_back_by(place, time);
         let Some(mut pair) = part(&mut self.bodies, &mut self.pairs, place) else {
             return;
         };

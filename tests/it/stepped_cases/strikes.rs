@@ -296,8 +296,9 @@ fn case_32_a_body_in_a_whirling_hollow_stays_inside() {
 
 /// avianphysics/avian#593: a heavy box thrown back by a light one.
 ///
-/// A ratio of 1000 across a contact is beyond what one sweep a sub-step holds at once: the light box gives way by
-/// 13 cm and the heavy one comes back at 0.28 m/s of 4.4. What is asked, no bounce, is not reached.
+/// A ratio of 1000 across a contact is beyond what one sweep a sub-step holds at once: with 120, the light box gives way by
+/// 4 cm and the heavy one comes back at 0.09 m/s of 4.4. It gave way by 13 cm, and came back at 0.28 m/s, while only
+/// those sweeps were many that push nothing out.
 #[test]
 fn case_36_a_dense_box_that_lands_on_a_light_one_comes_to_rest() {
     let mut world = stepped(restless(Settings::default()));
@@ -314,7 +315,7 @@ fn case_36_a_dense_box_that_lands_on_a_light_one_comes_to_rest() {
         deepest = deepest.max(overlaps(world).0);
     });
     assert!(
-        fastest < 0.3 && deepest < 0.14,
+        fastest < 0.1 && deepest < 0.05,
         "up at {fastest} m/s, {deepest} m deep"
     );
     let y = [light, heavy].map(|id| world.body(id).expect("it stays").centre().y);

@@ -144,6 +144,20 @@ impl World {
         glides
     }
 
+    /// Gives a group that a pair holds together back to the sub-steps, if it glides, before the pair goes: all that it
+    /// touches is looked at then.
+    pub(crate) fn hand_back_by(&mut self, pair: u32, time: SimTime) {
+        let Some(ends) = self.pairs.find(pair).map(|pair| pair.bodies) else {
+            return;
+        };
+        for index in [ends.0, ends.1] {
+            let group = self.closed.get(self.bodies.get(index).membership.group);
+            if group.is_some_and(|group| group.touches.iter().any(|touch| touch.pair == pair)) {
+                self.hand_back_of(index, time);
+            }
+        }
+    }
+
     /// Gives all groups that touch a body back to the sub-steps.
     pub(crate) fn hand_back_around(&mut self, index: u32, time: SimTime) {
         self.hand_back_of(index, time);

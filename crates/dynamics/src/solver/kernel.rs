@@ -25,6 +25,8 @@ pub(crate) const HEAVY: f64 = 64.0;
 pub(crate) enum Pass {
     /// Normals with bias: overlaps are pushed out, gaps may close.
     Solve,
+    /// The same over rows that are swept often.
+    SolveOften,
     /// Normals without bias, then friction.
     Relax,
     /// The same where some surface runs along.
@@ -55,6 +57,9 @@ pub(crate) fn sweep(
     match pass {
         Pass::Solve => {
             dispatch!(level, simd => all::<_, false, false, false>(simd, law, lines, colours, met))
+        }
+        Pass::SolveOften => {
+            dispatch!(level, simd => all::<_, false, false, true>(simd, law, lines, colours, met))
         }
         Pass::Relax => {
             dispatch!(level, simd => all::<_, true, false, false>(simd, law, lines, colours, met))
@@ -169,7 +174,11 @@ fn block<S: Simd, const RELAX: bool, const BELTS: bool, const OFTEN: bool>(
         // stops a heavy body comes through a light one and from the ground in many sweeps.
         let loaded = ma.max(mb).simd_gt(ma.min(mb) * f64x8::splat(simd, HEAVY));
         let rests = (j1 + j2).simd_gt(zero) & (loaded | !struck);
-        omega = rests.select(f64x8::splat(simd, law.over_relaxation), softened);
+        omega = if OFTEN {
+            f64x8::splat(simd, law.often)
+        } else {
+            rests.select(f64x8::splat(simd, law.over_relaxation), softened)
+        };
     }
 
     // The case of the 2 × 2 complementarity problem that holds.

@@ -23,7 +23,7 @@ mod zone;
 pub(crate) use budget::Budget;
 pub(crate) use kernel::HEAVY;
 pub(crate) use lanes::RowId;
-pub(crate) use rig::{Limit, Member, Pull, Rig};
+pub(crate) use rig::{Limit, Member, Often, Pull, Rig};
 pub(crate) use row::{Row, SolverBody};
 pub(crate) use soft::{Law, relax, solve};
 pub(crate) use wide::Line;

@@ -32,7 +32,8 @@ fn positive(x: f64) -> f64 {
 
 /// One lane; bodies that no lane of the block shares may be written at once.
 fn row(pass: Pass, law: &Law, lines: &mut [Line], wide: &mut Wide, lane: usize, heat: &mut f64) {
-    let relax = pass != Pass::Solve;
+    let relax = !matches!(pass, Pass::Solve | Pass::SolveOften);
+    let often = matches!(pass, Pass::SolveOften | Pass::RelaxOften);
     let (ia, ib) = (wide.a[lane] as usize, wide.b[lane] as usize);
     let Line([mut avx, mut avy, mut aw, ma, adx, ady, aturn, i_a]) = lines[ia];
     let Line([mut bvx, mut bvy, mut bw, mb, bdx, bdy, bturn, i_b]) = lines[ib];
@@ -67,7 +68,9 @@ fn row(pass: Pass, law: &Law, lines: &mut [Line], wide: &mut Wide, lane: usize, 
         let struck = |v: f64, gap: f64| v < -MET && gap < 0.5 * Row::OPEN;
         let struck = struck(v1, gap1) || struck(v2, gap2);
         let loaded = larger(ma, mb) > smaller(ma, mb) * HEAVY;
-        omega = if j1 + j2 > 0.0 && (loaded || !struck) {
+        omega = if often {
+            law.often
+        } else if j1 + j2 > 0.0 && (loaded || !struck) {
             law.over_relaxation
         } else {
             softened
@@ -92,7 +95,7 @@ fn row(pass: Pass, law: &Law, lines: &mut [Line], wide: &mut Wide, lane: usize, 
         (0.0, y2)
     };
 
-    let (new1, new2) = if pass == Pass::RelaxOften {
+    let (new1, new2) = if often {
         let (h1, h2) = (j1 + omega * (x1 - j1), j2 + omega * (x2 - j2));
         if smaller(h1, h2) >= 0.0 {
             (h1, h2)

@@ -21,6 +21,7 @@ use super::coast::Quad;
 use super::lanes::{Lanes, RowId};
 use super::wide::Line;
 use super::{Row, SolverBody};
+pub(crate) use local::Often;
 
 /// The bodies of a solver, their rows, and the warm start.
 #[derive(Clone, Debug)]

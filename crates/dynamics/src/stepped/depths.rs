@@ -1,8 +1,8 @@
-//! Bodies that lie deep in each other: the rows about them are relaxed many times in a sub-step.
+//! Bodies that lie deep in each other, and light ones under heavy ones: the rows about them are swept many times in a sub-step.
 
 use crate::World;
 use crate::pairs::Pair;
-use crate::solver::RowId;
+use crate::solver::{Often, RowId};
 
 /// Sweeps without bias while bodies lie deep in each other.
 const SWEEPS: usize = 30;
@@ -37,25 +37,25 @@ impl Depths {
         self.loaded |= loaded;
     }
 
-    /// How often rows are swept where once would leave a part of the push in the velocities: what was put deep
-    /// into each other is pushed by many at once, and a light body between a heavy one and the floor gives way to
-    /// both in turn.
-    const fn sweeps(&self) -> usize {
+    /// How often rows are swept, with bias and without, where once would leave a part of the push in the velocities: what was
+    /// put deep into each other is pushed by many at once, and a light body between a heavy one and the floor gives way to
+    /// both in turn. Only of a load is the bias passed on as well: what lies in one place would be thrown apart by it.
+    const fn sweeps(&self) -> (usize, usize) {
         match (self.loaded, self.buried) {
-            (true, _) => LOADED,
-            (false, true) => SWEEPS,
-            (false, false) => 1,
+            (true, _) => (LOADED, LOADED),
+            (false, true) => (1, SWEEPS),
+            (false, false) => (1, 1),
         }
     }
 }
 
 impl World {
-    /// Rows that are to be swept more often in this sub-step than the others, and how often more.
-    pub(super) fn rows_in_need(&self) -> (usize, Vec<RowId>) {
+    /// Rows that are to be swept more often in this sub-step than the others.
+    pub(super) fn rows_in_need(&self) -> Often {
         let depths = &self.pool.depths;
-        let sweeps = depths.sweeps();
-        if !self.moves_all() || sweeps == 1 {
-            return (0, Vec::new());
+        let (solve, relax) = depths.sweeps();
+        if !self.moves_all() || relax == 1 {
+            return Often::default();
         }
         let mut bodies = depths.bodies.clone();
         bodies.sort_unstable();
@@ -64,9 +64,11 @@ impl World {
             .iter()
             .flat_map(|index| &self.bodies.get(*index).pairs);
         let contacts = places.flat_map(|place| &self.pairs.get(*place).contacts);
-        (
-            sweeps - 1,
-            contacts.filter_map(|contact| contact.row).collect(),
-        )
+        let rows: Vec<RowId> = contacts.filter_map(|contact| contact.row).collect();
+        Often {
+            rows,
+            solve: solve - 1,
+            relax: relax - 1,
+        }
     }
 }

@@ -130,7 +130,7 @@ impl World {
     }
 
     fn substep(&mut self) {
-        let (sweeps, often) = self.rows_in_need();
+        let often = self.rows_in_need();
         let (rig, bounces) = (&mut self.pool.seats.rig, &mut self.pool.bounces);
         let h = self.clock.h;
         bounces.arm(rig, h);
@@ -138,7 +138,7 @@ impl World {
             // Rows of a crowd keep their impulses from step to step, those that have just met too.
             rig.met.clear();
         }
-        rig.step(&self.law, (sweeps, &often), |rig| bounces.pay(rig, h));
+        rig.step(&self.law, &often, |rig| bounces.pay(rig, h));
         self.pool.since_rest += h;
         self.pool.since_idle += 1;
         self.stop_swift();

@@ -6,6 +6,16 @@ use crate::solver::kernel::{Pass, sweep};
 use crate::solver::lanes::COLOURS;
 use crate::solver::wide::{LANES, Wide};
 
+/// Rows that are swept more often in a sub-step than the others, which are swept once with bias and once without.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Often {
+    pub(crate) rows: Vec<RowId>,
+    /// How many times more with bias.
+    pub(crate) solve: usize,
+    /// How many times more without.
+    pub(crate) relax: usize,
+}
+
 /// Rows of one zone, close together, and where each of them lies in it: colour and lane there, then lane here.
 struct Near {
     zone: usize,
@@ -14,8 +24,8 @@ struct Near {
 }
 
 impl Rig {
-    /// Relaxes these rows alone so many times: zone by zone, in the order of their colours.
-    pub(super) fn relax_near(&mut self, law: &Law, sweeps: usize, rows: &[RowId]) {
+    /// Sweeps over these rows alone so many times: zone by zone, in the order of their colours.
+    pub(super) fn sweep_near(&mut self, law: &Law, pass: Pass, sweeps: usize, rows: &[RowId]) {
         if sweeps == 0 || rows.is_empty() {
             return;
         }
@@ -31,14 +41,7 @@ impl Rig {
                     let first = zone.first as usize;
                     &mut self.lines[first..first + zone.count as usize]
                 };
-                self.heat += sweep(
-                    self.level,
-                    Pass::RelaxOften,
-                    law,
-                    lines,
-                    &mut part.colours,
-                    &mut met,
-                );
+                self.heat += sweep(self.level, pass, law, lines, &mut part.colours, &mut met);
             }
         }
         for part in &near {

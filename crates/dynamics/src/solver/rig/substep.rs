@@ -8,7 +8,7 @@
 
 use fearless_simd::Level;
 
-use super::{Rig, RowId};
+use super::{Often, Rig};
 use crate::solver::Law;
 use crate::solver::coast::{self, Bodies};
 use crate::solver::kernel::{Pass, sweep};
@@ -58,14 +58,8 @@ fn each<T>(items: &mut [T], f: impl Fn(&mut T)) {
 impl Rig {
     /// One sub-step. Displacements grow by it; rows are read where they are.
     ///
-    /// The rows in `often` relax `sweeps` more times than the others, which do so once.
     /// `bounce` may change velocities before displacements are made of second order.
-    pub(crate) fn step(
-        &mut self,
-        law: &Law,
-        (sweeps, often): (usize, &[RowId]),
-        bounce: impl FnOnce(&mut Self),
-    ) {
+    pub(crate) fn step(&mut self, law: &Law, often: &Often, bounce: impl FnOnce(&mut Self)) {
         let (level, h) = (self.level, law.h);
         let pass = if self.lanes.has_belts() {
             Pass::RelaxBelts
@@ -75,7 +69,7 @@ impl Rig {
         self.forget_impacts();
         self.follow();
         // Where no row crosses from zone to zone nothing has to wait for anything.
-        let alone = self.lanes.loose() == 0 && often.is_empty();
+        let alone = self.lanes.loose() == 0 && often.rows.is_empty();
         self.in_zones(|work| {
             coast::pull_and_warm(level, &mut work.bodies, h);
             work.solve(level, law);
@@ -86,10 +80,11 @@ impl Rig {
         });
         self.outside(|bodies, _, _| coast::pull_and_warm(level, bodies, h));
         self.over_all(|work| work.solve(level, law));
+        self.sweep_near(law, Pass::SolveOften, often.solve, &often.rows);
         self.outside(|bodies, first, swift| coast::displace(level, bodies, h, first, swift));
         if !alone {
             self.in_zones(|work| work.displace(level, law));
-            self.relax_near(law, sweeps, often);
+            self.sweep_near(law, Pass::RelaxOften, often.relax, &often.rows);
             self.in_zones(|work| work.relax(level, law, pass));
             self.over_all(|work| work.relax(level, law, pass));
         }
