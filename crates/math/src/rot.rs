@@ -4,6 +4,9 @@ use core::ops::Mul;
 
 use crate::{Vec2, trig, vec2};
 
+/// Squares of angles below this have a shorter series: 1/256 rad, where the terms left out are below 1e-18.
+const TINY: f64 = 1.0 / 65536.0;
+
 /// A rotation of the plane, counter-clockwise positive.
 ///
 /// Cosine and sine are kept at unit length to a few units of rounding by [`Rot::renormalized`].
@@ -171,6 +174,11 @@ impl Rot {
             return self.turned(angle);
         }
         let x = angle * angle;
+        if x < TINY {
+            let sin = angle * (1.0 - x * (1.0 / 6.0) * (1.0 - x * (1.0 / 20.0)));
+            let cos = 1.0 - x * 0.5 * (1.0 - x * (1.0 / 12.0) * (1.0 - x * (1.0 / 30.0)));
+            return (Self { cos, sin } * self).renormalized();
+        }
         let sin = 1.0 - x * (1.0 / 110.0) * (1.0 - x * (1.0 / 156.0));
         let sin = 1.0 - x * (1.0 / 42.0) * (1.0 - x * (1.0 / 72.0) * sin);
         let sin = angle * (1.0 - x * (1.0 / 6.0) * (1.0 - x * (1.0 / 20.0) * sin));

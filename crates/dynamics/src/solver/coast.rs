@@ -135,13 +135,13 @@ fn displace_all<S: Simd>(
 #[inline(always)]
 fn bend_all<S: Simd>(simd: S, bodies: &mut Bodies<'_>, h: f64) {
     let hs = f64x4::splat(simd, h);
+    let most = 16.0 * h * h;
     let starts = &*bodies.start;
     for ((line, start), pull) in bodies.lines.iter_mut().zip(starts).zip(bodies.pull) {
         let v = f64x4::from_slice(simd, &line.0[..4]);
         let a = f64x4::from_slice(simd, &pull.0);
         let dv = v - f64x4::from_slice(simd, &start.0) + a * hs;
-        let most = 4.0 * h * pull.v().length();
-        if dv[0] * dv[0] + dv[1] * dv[1] <= most * most {
+        if dv[0] * dv[0] + dv[1] * dv[1] <= most * pull.v().length_squared() {
             let d = f64x4::from_slice(simd, &line.0[4..]);
             (d - f64x4::splat(simd, 0.5 * h) * dv).store_slice(&mut line.0[4..]);
         }

@@ -6,10 +6,9 @@
 
 #![allow(clippy::inline_always, reason = "the wide instructions end at a call")]
 
-use fearless_simd::{
-    Level, Select, Simd, SimdBase, SimdCombine, SimdMask, SimdSplit, dispatch, f64x4, f64x8,
-};
+use fearless_simd::{Level, Select, Simd, SimdBase, SimdMask, dispatch, f64x8};
 
+use super::transpose::{columns, rows};
 use super::wide::{LANES, Line, Wide};
 use super::{Law, Row};
 
@@ -256,67 +255,47 @@ fn block<S: Simd, const RELAX: bool, const BELTS: bool, const OFTEN: bool>(
         let half = (-most).max(half);
         *heat -= new * (slip - half);
     }
-    scatter(simd, lines, &wide.a, [avx, avy, aw, ma]);
-    scatter(simd, lines, &wide.b, [bvx, bvy, bw, mb]);
+    scatter(lines, &wide.a, [avx, avy, aw, ma]);
+    scatter(lines, &wide.b, [bvx, bvy, bw, mb]);
     met
 }
 
-/// Reads eight lines and turns them into columns: halves of lines side by side, then two rounds that part
-/// even places from odd ones.
+/// Reads eight lines as columns.
 #[inline(always)]
 fn gather<S: Simd>(simd: S, lines: &[Line], at: &[u32; LANES]) -> Eight<S> {
     let (l0, l1) = (&lines[at[0] as usize].0, &lines[at[1] as usize].0);
     let (l2, l3) = (&lines[at[2] as usize].0, &lines[at[3] as usize].0);
     let (l4, l5) = (&lines[at[4] as usize].0, &lines[at[5] as usize].0);
     let (l6, l7) = (&lines[at[6] as usize].0, &lines[at[7] as usize].0);
-    let [vx, vy, w, m] = columns([
-        pair(simd, &l0[..4], &l1[..4]),
-        pair(simd, &l2[..4], &l3[..4]),
-        pair(simd, &l4[..4], &l5[..4]),
-        pair(simd, &l6[..4], &l7[..4]),
-    ]);
-    let [dx, dy, turn, i] = columns([
-        pair(simd, &l0[4..], &l1[4..]),
-        pair(simd, &l2[4..], &l3[4..]),
-        pair(simd, &l4[4..], &l5[4..]),
-        pair(simd, &l6[4..], &l7[4..]),
-    ]);
+    let low = [
+        &l0[..4],
+        &l1[..4],
+        &l2[..4],
+        &l3[..4],
+        &l4[..4],
+        &l5[..4],
+        &l6[..4],
+        &l7[..4],
+    ];
+    let high = [
+        &l0[4..],
+        &l1[4..],
+        &l2[4..],
+        &l3[4..],
+        &l4[4..],
+        &l5[4..],
+        &l6[4..],
+        &l7[4..],
+    ];
+    let [vx, vy, w, m] = columns(simd, low);
+    let [dx, dy, turn, i] = columns(simd, high);
     [vx, vy, w, m, dx, dy, turn, i]
-}
-
-#[inline(always)]
-fn pair<S: Simd>(simd: S, low: &[f64], high: &[f64]) -> f64x8<S> {
-    f64x4::from_slice(simd, low).combine(f64x4::from_slice(simd, high))
-}
-
-#[inline(always)]
-fn columns<S: Simd>([ab, cd, ef, gh]: [f64x8<S>; 4]) -> [f64x8<S>; 4] {
-    let (even0, odd0) = (ab.unzip_low(cd), ab.unzip_high(cd));
-    let (even1, odd1) = (ef.unzip_low(gh), ef.unzip_high(gh));
-    [
-        even0.unzip_low(even1),
-        odd0.unzip_low(odd1),
-        even0.unzip_high(even1),
-        odd0.unzip_high(odd1),
-    ]
 }
 
 /// Writes velocities back: the first half of each line.
 #[inline(always)]
-fn scatter<S: Simd>(_: S, lines: &mut [Line], at: &[u32; LANES], columns: [f64x8<S>; 4]) {
-    let [vx, vy, w, m] = columns;
-    let (x_low, x_high) = (vx.zip_low(w), vx.zip_high(w));
-    let (y_low, y_high) = (vy.zip_low(m), vy.zip_high(m));
-    let pairs = [
-        x_low.zip_low(y_low),
-        x_low.zip_high(y_low),
-        x_high.zip_low(y_high),
-        x_high.zip_high(y_high),
-    ];
-    let (l0, l1) = pairs[0].split();
-    let (l2, l3) = pairs[1].split();
-    let (l4, l5) = pairs[2].split();
-    let (l6, l7) = pairs[3].split();
+fn scatter<S: Simd>(lines: &mut [Line], at: &[u32; LANES], columns: [f64x8<S>; 4]) {
+    let [l0, l1, l2, l3, l4, l5, l6, l7] = rows(columns);
     l0.store_slice(&mut lines[at[0] as usize].0[..4]);
     l1.store_slice(&mut lines[at[1] as usize].0[..4]);
     l2.store_slice(&mut lines[at[2] as usize].0[..4]);

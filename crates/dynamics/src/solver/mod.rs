@@ -17,6 +17,7 @@ mod row;
 mod soft;
 #[cfg(test)]
 mod tests;
+mod transpose;
 mod wide;
 mod zone;
 
