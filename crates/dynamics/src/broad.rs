@@ -67,7 +67,8 @@ impl Broad {
                 continue;
             }
             let ahead = swept_box(collider, &body.motion, time, h * LOOK_AHEAD);
-            let padding = if body.reach.is_finite() {
+            // Nothing to spare for what never moves: whoever is in its box looks at it.
+            let padding = if body.kind != BodyKind::Fixed && body.reach.is_finite() {
                 PADDING * body.reach
             } else {
                 0.0
