@@ -10,7 +10,7 @@ use super::corners::Corners;
 use super::facing::concave;
 use super::search::NEAR;
 use super::turns::sines_and_cosines;
-use crate::lanes::{larger, smaller};
+use crate::lanes::larger;
 
 /// Both from the instant on at which they are near enough to touch.
 pub(super) struct Even<'a, S: Simd> {
@@ -161,26 +161,23 @@ impl<S: Simd> Even<'_, S> {
         }
     }
 
-    /// When the lowest vertex reaches the edge, if it is certain to within `left` seconds, and before any other: seconds
-    /// from now on.
+    /// When the lowest vertex reaches the edge, if that is certain to be within `left` seconds and before any other:
+    /// seconds from now on.
     ///
     /// From what is seen now the gap is
     /// ```text
     /// g(s) = (n·d + n·v s) cos ω_E s + (n×d + n×v s) sin ω_E s − h + m·q cos w s − m×q sin w s,    w = ω_V − ω_E
     /// ```
-    /// and Newton's method with g'' as third term (Halley 1694) finds where it is 0.
+    /// and Newton's method with g'' as third term (Halley 1694) finds where it is 0. With −g'' ≤ M it is above 0 for
+    /// (√(g'² + 2 M g) + g')/M after now and for 2 |g'|/M before that root: together that is all the time between, or
+    /// the root need not be the first.
     #[inline(always)]
     pub(super) fn crossing(&self, sight: &Sight, tau: f64, left: f64) -> Option<f64> {
         let bend = sight.bend;
-        let square = sight.rate * sight.rate;
-        if sight.rate >= 0.0 || square <= 2.5 * bend * sight.gap {
+        if sight.rate >= 0.0 {
             return None;
         }
-        let latest = 2.0 * sight.gap / ((square - 2.0 * bend * sight.gap).sqrt() - sight.rate);
-        if latest >= left {
-            return None;
-        }
-        let fine = 0.01 * (self.rounding.0 + self.rounding.1 * (tau + latest));
+        let open = (sight.rate * sight.rate + 2.0 * bend * sight.gap).sqrt() + sight.rate;
         let (spin, w) = (sight.spin, sight.w);
         let third = 0.5 * (self.spin[0].abs() + self.spin[1].abs()) * bend;
         let v = self.v[sight.owner];
@@ -189,22 +186,30 @@ impl<S: Simd> Even<'_, S> {
         let mut s = 0.0;
         let (mut gap, mut rate) = (sight.gap, sight.rate);
         let (mut along, mut rising, mut low) = (sight.along, cv, mq);
+        let mut m = sight.m;
         for _ in 0..8 {
             let curve = spin * (2.0 * rising - spin * along) - w * w * low;
             let square = rate * rate - 2.0 * curve * gap;
             if square < 0.0 || rate >= 0.0 {
                 return None;
             }
-            let step = 2.0 * gap / (square.sqrt() - rate);
-            s = smaller(larger(s + step, 0.0), latest);
+            let root = square.sqrt();
+            let step = 2.0 * gap / (root - rate);
+            s = larger(s + step, 0.0);
+            if s >= left || open + 1.9 * root < bend * s {
+                return None;
+            }
             // The third derivative is at most 3 ω M: this is what the step leaves of the gap.
+            let fine = 0.01 * (self.rounding.0 + self.rounding.1 * (tau + s));
             if third * step.abs() * step * step <= fine {
-                return self.others_stay_open(sight, bend, s).then_some(s);
+                let m = m - perp(m) * (w * step);
+                return self.others_stay_open(sight, m, s).then_some(s);
             }
             let [s0, s1, c0, c1] = sines_and_cosines(self.simd, [spin * s, w * s]);
             let (da, dc) = (sight.along + nv * s, sight.across + cv * s);
             along = c0 * da + s0 * dc;
             rising = c0 * cv - s0 * nv;
+            m = sight.m * c1 - perp(sight.m) * s1;
             low = c1 * mq - s1 * cq;
             gap = (along - sight.height) + low;
             rate = (c0 * nv + s0 * cv) + spin * (c0 * dc - s0 * da) - w * (c1 * cq + s1 * mq);
@@ -212,14 +217,16 @@ impl<S: Simd> Even<'_, S> {
         None
     }
 
-    /// Whether no other vertex can close within the next `step` seconds.
+    /// Whether no other vertex closes until the lowest does, `step` seconds from now, when the other side sees `m`.
+    ///
+    /// Gaps p now and r then with |g''| ≤ M are above `p (1 − x) + r x − K x (1 − x)` between, K = M s²/2, which has no
+    /// root if K < (√p + √r)². All others are at least as wide now as the lowest.
     #[inline(always)]
-    fn others_stay_open(&self, sight: &Sight, bend: f64, step: f64) -> bool {
-        // Concave parabolas that are positive at both ends are positive between them.
-        let m = self.ahead(sight, step);
-        let others = self.hulls[sight.side].lowest_but(self.simd, m, sight.q);
-        let base = sight.along - sight.height;
-        base + (sight.base_rate - 0.5 * bend * step) * step + others > 0.0
+    fn others_stay_open(&self, sight: &Sight, m: Vec2, step: f64) -> bool {
+        let now = sight.gap;
+        let then = self.hulls[sight.side].lowest_but(self.simd, m, sight.q) - m.dot(sight.q);
+        let beyond = 0.5 * sight.bend * step * step - now - then;
+        then > NEAR * self.size && (beyond < 0.0 || beyond * beyond < 4.0 * now * then)
     }
 
     /// `m` after `step` seconds, to first order.
