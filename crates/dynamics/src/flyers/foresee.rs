@@ -57,7 +57,6 @@ impl World {
 
     /// Registers a flyer in the grid up to its horizon; whether it fits.
     fn look_round(&mut self, index: u32, time: SimTime) -> bool {
-        self.flyers.leave(&mut self.bodies, index);
         let way = TRAVEL * self.flyers.grid.side();
         let state = self.bodies.get_mut(index);
         let track = Track::of(&state.motion, time);

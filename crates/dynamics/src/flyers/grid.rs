@@ -56,6 +56,10 @@ impl Cells {
         u64::from(side(self.low.0, self.high.0)) * u64::from(side(self.low.1, self.high.1))
     }
 
+    const fn has(self, (x, y): (i32, i32)) -> bool {
+        self.low.0 <= x && x <= self.high.0 && self.low.1 <= y && y <= self.high.1
+    }
+
     fn each(self) -> impl Iterator<Item = (i32, i32)> {
         (self.low.1..=self.high.1)
             .flat_map(move |y| (self.low.0..=self.high.0).map(move |x| (x, y)))
@@ -121,10 +125,35 @@ impl Grid {
         self.count -= 1;
         for cell in cells.each() {
             let list = self.list(cell);
+            Self::drop_from(&mut self.lists[list], body);
+        }
+    }
+
+    /// Moves a body from cells to others, most of which are the same.
+    pub(crate) fn shift(&mut self, seat: Seat, from: Cells, to: Cells) {
+        for cell in from.each() {
+            let list = self.list(cell);
             let list = &mut self.lists[list];
-            if let Some(at) = list.iter().position(|seat| seat.body == body) {
-                list.swap_remove(at);
+            // Where cells share a list a body is in it more than once: those that are moved already do not count.
+            let old = |known: &Seat| known.body == seat.body && *known != seat;
+            match list.iter().position(old) {
+                Some(at) if to.has(cell) => list[at] = seat,
+                Some(at) => {
+                    list.swap_remove(at);
+                }
+                None if to.has(cell) => {}
+                None => Self::drop_from(list, seat.body),
             }
+        }
+        for cell in to.each().filter(|cell| !from.has(*cell)) {
+            let list = self.list(cell);
+            self.lists[list].push(seat);
+        }
+    }
+
+    fn drop_from(list: &mut Vec<Seat>, body: u32) {
+        if let Some(at) = list.iter().position(|seat| seat.body == body) {
+            list.swap_remove(at);
         }
     }
 
@@ -179,15 +208,24 @@ mod tests {
         #[test]
         fn overlapping_boxes_find_each_other(
             boxes in proptest::collection::vec((-1e3..1e3_f64, -1e3..1e3_f64, 0.0..9.0_f64, 0.0..9.0_f64), 1..60),
-            side in 0.5..20.0_f64,
+            side in 0.5..20.0_f64, moves in (-9.0..9.0_f64, -9.0..9.0_f64),
         ) {
             let mut grid = Grid::new(side, boxes.len());
             let boxes: Vec<Aabb> = boxes
                 .iter()
                 .map(|(x, y, w, h)| Aabb::new(vec2(*x, *y), vec2(x + w, y + h)))
                 .collect();
-            for (i, bounds) in (0..).zip(&boxes) {
+            let before = boxes.clone();
+            let way = vec2(moves.0, moves.1);
+            let boxes: Vec<Aabb> = boxes
+                .into_iter()
+                .map(|b| Aabb::new(b.min + way, b.max + way))
+                .collect();
+            for (i, bounds) in (0..).zip(&before) {
                 grid.insert(Seat::new(i, *bounds), grid.cells(*bounds));
+            }
+            for (i, (from, to)) in (0..).zip(before.iter().zip(&boxes)) {
+                grid.shift(Seat::new(i, *to), grid.cells(*from), grid.cells(*to));
             }
             for (i, bounds) in (0_u32..).zip(&boxes) {
                 let mut near = Vec::new();

@@ -136,7 +136,7 @@ impl Course {
 
 /// Boxes tested per search that a cell is sized for, where all searches follow impacts, and how many more where all
 /// follow the ends of horizons: larger cells make horizons longer, and searches dearer.
-const PARTNERS: (f64, f64) = (24.0, 72.0);
+const PARTNERS: (f64, f64) = (16.0, 72.0);
 
 /// How much later the size of the cells is looked at again where it was right.
 const FITS: usize = 8;
@@ -209,18 +209,19 @@ impl Flyers {
         }
     }
 
-    /// Puts a body into the grid, if it fits.
+    /// Puts a body into the grid, if it fits, or where it belongs there by now.
     fn enter(&mut self, bodies: &mut Bodies, colliders: &[Collider], index: u32) -> bool {
         let course = &mut bodies.get_mut(index).course;
-        if !course.swept.is_finite() {
-            return false;
-        }
         let cells = self.grid.cells(course.swept);
-        if cells.count() > MOST_CELLS {
+        if !course.swept.is_finite() || cells.count() > MOST_CELLS {
+            self.leave(bodies, index);
             return false;
         }
-        self.grid.insert(Seat::new(index, course.swept), cells);
-        course.cells = Some(cells);
+        let seat = Seat::new(index, course.swept);
+        match course.cells.replace(cells) {
+            Some(known) => self.grid.shift(seat, known, cells),
+            None => self.grid.insert(seat, cells),
+        }
         let place = index as usize;
         if self.circles.len() <= place {
             self.circles.resize(place + 1, Registered::default());
@@ -265,7 +266,7 @@ impl Flyers {
         self.drifts = drift(&self.frame, bodies, &flying, time).is_some();
         // What is met grows with the area that is searched.
         let wanted = (PARTNERS.0 + PARTNERS.1 * renewed) / met.max(1.0);
-        let factor = if (0.5..2.0).contains(&wanted) {
+        let factor = if (0.7..1.4).contains(&wanted) {
             1.0
         } else {
             wanted.sqrt().clamp(0.5, 4.0)

@@ -47,11 +47,10 @@ impl World {
             (b, a)
         };
         let (one, two) = (self.bodies.get(a), self.bodies.get(b));
-        let horizon = common_horizon(one, two) - time;
         let end = if window.to.is_finite() {
             window.to
         } else {
-            horizon
+            common_horizon(one, two) - time
         };
         let (length, cut) = cut_by_turn(one, two, time, end);
         let ends = (one.colliders.len(), two.colliders.len());
@@ -233,9 +232,9 @@ fn cut_by_turn(a: &BodyState, b: &BodyState, time: SimTime, length: f64) -> (f64
         );
         now.abs() + pull.abs() * length
     };
-    let longest = TURN / (spin(a) + spin(b));
-    if length > longest {
-        (longest, true)
+    let fastest = spin(a) + spin(b);
+    if length * fastest > TURN {
+        (TURN / fastest, true)
     } else {
         (length, false)
     }
