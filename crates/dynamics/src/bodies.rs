@@ -240,45 +240,37 @@ impl Bodies {
     /// energy, logs it, and opens the next one with a new version.
     pub(crate) fn change(&mut self, index: u32, time: SimTime, change: impl FnOnce(&mut Motion)) {
         self.touch(index);
-        let piece = self.piece(&self.list[index as usize], time);
-        self.book.forces.add(piece.forces);
-        self.book.scheme.add(piece.scheme);
+        let state = &self.list[index as usize];
+        let flies_by_law = state.flight.is_some() || state.lag != Lag::default();
+        if let Some(piece) = self.piece(state, time) {
+            self.book.forces.add(piece.forces);
+            self.book.scheme.add(piece.scheme);
+        }
         let state = &mut self.list[index as usize];
         let old = state.motion;
         self.history
             .replaced(index, &old, state.flight.as_ref(), time);
         state.turned += state.turn_by(time);
-        let (velocity, spin) = (state.velocity_at(time), state.spin_at(time));
+        let after = flies_by_law.then(|| (state.velocity_at(time), state.spin_at(time)));
         state.motion = old.rebased(time);
-        if state.flight.is_some() {
-            state.motion.centre = state.centre_at(time);
-            state.motion.rotation = state.rotation_at(time);
-            state.motion.left_out = 0.0;
-            state.flight = None;
+        if let Some((velocity, spin)) = after {
+            state.close(time, velocity, spin);
         }
-        (state.motion.velocity, state.motion.spin) = (velocity, spin);
-        state.lag = Lag::default();
-        let before = self.kinetic_in_crowd(index);
-        change(&mut self.list[index as usize].motion);
-        let after = self.kinetic_in_crowd(index);
-        self.book.struck.add(after - before);
-        self.renew(index);
-    }
-
-    /// Kinetic energy at the start of the motion of a body that a crowd accounts for, in J.
-    fn kinetic_in_crowd(&self, index: u32) -> f64 {
-        let state = &self.list[index as usize];
         if state.in_crowd {
-            state.kinetic_energy(state.motion.start)
+            let before = state.kinetic_energy(time);
+            change(&mut state.motion);
+            let after = state.kinetic_energy(time);
+            self.book.struck.add(after - before);
         } else {
-            0.0
+            change(&mut state.motion);
         }
+        self.renew(index);
     }
 
     /// What forces and the scheme did along the present piece of a motion up to `time`.
     ///
-    /// Along a quadratic piece the kinetic energy changes by exactly `m a·Δx + I α Δθ`.
-    fn piece(&self, state: &BodyState, time: SimTime) -> Piece {
+    /// Along a quadratic piece the kinetic energy changes by exactly `m a·Δx + I α Δθ`. None where gravity is all.
+    fn piece(&self, state: &BodyState, time: SimTime) -> Option<Piece> {
         let motion = &state.motion;
         let free = state.gravity_scale * self.pull.gravity;
         // Crowds keep their own account.
@@ -289,7 +281,7 @@ impl Bodies {
                 && state.force == Vec2::ZERO
                 && !self.bends(state.id.index))
         {
-            return Piece::default();
+            return None;
         }
         let elapsed = time - motion.start;
         let turn = state.turn_by(time);
@@ -319,10 +311,10 @@ impl Bodies {
             potential += mass * state.gravity_scale * (field.potential(to) - field.potential(from));
         }
         let forces = state.force.dot(travel) + state.torque * turn - damping_loss(state, time);
-        Piece {
+        Some(Piece {
             forces,
             scheme: kinetic + potential - forces,
-        }
+        })
     }
 
     /// Kinetic and potential energy of one body, in J.
@@ -343,9 +335,10 @@ impl Bodies {
             let (k, p) = self.energy_of(index, time);
             kinetic.add(k);
             potential.add(p);
-            let piece = self.piece(self.get(index), time);
-            book.forces.add(piece.forces);
-            book.scheme.add(piece.scheme);
+            if let Some(piece) = self.piece(self.get(index), time) {
+                book.forces.add(piece.forces);
+                book.scheme.add(piece.scheme);
+            }
         }
         EnergyLedger {
             kinetic: kinetic.value(),
@@ -360,7 +353,7 @@ impl Bodies {
 }
 
 /// Work along a piece of a motion, in J.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 struct Piece {
     forces: f64,
     scheme: f64,

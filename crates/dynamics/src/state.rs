@@ -266,6 +266,18 @@ impl BodyState {
         motion
     }
 
+    /// Ends a piece of a flight in a motion that begins at `time`: from there on it is free of its law.
+    pub(crate) fn close(&mut self, time: SimTime, velocity: Vec2, spin: f64) {
+        if self.flight.is_some() {
+            self.motion.centre = self.centre_at(time);
+            self.motion.rotation = self.rotation_at(time);
+            self.motion.left_out = 0.0;
+            self.flight = None;
+        }
+        (self.motion.velocity, self.motion.spin) = (velocity, spin);
+        self.lag = Lag::default();
+    }
+
     /// Angle that the body turned by since its motion's start, in rad, whole turns included.
     pub(crate) fn turn_by(&self, time: SimTime) -> f64 {
         match &self.flight {

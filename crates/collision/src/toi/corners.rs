@@ -6,7 +6,7 @@
 
 #![allow(clippy::inline_always, reason = "the wide instructions end at a call")]
 
-use carom_geometry::EdgeBlock;
+use carom_geometry::{EdgeBlock, Shape};
 use carom_math::{Rot, Vec2, vec2};
 use fearless_simd::{Select, Simd, SimdBase, SimdFloat, f64x4};
 
@@ -41,23 +41,54 @@ impl<'a> Corners<'a> {
     /// The polygon or disc that a hull is; none of a piece, of many corners, of what is grown, and of what is neither.
     #[inline(always)]
     pub(super) fn of(hull: &Hull<'a>) -> Option<Self> {
-        let (first, last, before) = match hull.blocks {
-            [one] => (one, one, 0),
-            [one, two] => (one, two, 4),
-            [] if hull.is_disc() && hull.vertices[0] == Vec2::ZERO => (&POINT, &POINT, 0),
-            _ => return None,
-        };
         let grown = hull.radius != 0.0 && !hull.is_disc();
         if grown || hull.boundary.is_some() {
             return None;
         }
+        if hull.is_disc() {
+            return (hull.vertices[0] == Vec2::ZERO).then(|| Self::of_disc(hull.radius));
+        }
+        Self::of_polygon(hull.blocks, hull.vertices.len())
+    }
+
+    /// The same of a shape.
+    #[inline(always)]
+    pub(super) fn of_shape(shape: &'a Shape) -> Option<Self> {
+        match shape {
+            Shape::Convex(polygon) => Self::of_polygon(polygon.blocks(), polygon.vertices().len()),
+            Shape::Circle(disc) if disc.centre() == Vec2::ZERO => {
+                Some(Self::of_disc(disc.radius()))
+            }
+            _ => None,
+        }
+    }
+
+    #[inline(always)]
+    const fn of_polygon(blocks: &'a [EdgeBlock], count: usize) -> Option<Self> {
+        let (first, last, before) = match blocks {
+            [one] => (one, one, 0),
+            [one, two] => (one, two, 4),
+            _ => return None,
+        };
         Some(Self {
             first,
             last,
             before,
-            count: hull.vertices.len(),
-            radius: hull.radius,
+            count,
+            radius: 0.0,
         })
+    }
+
+    /// A disc about the origin.
+    #[inline(always)]
+    const fn of_disc(radius: f64) -> Self {
+        Self {
+            first: &POINT,
+            last: &POINT,
+            before: 0,
+            count: 1,
+            radius,
+        }
     }
 
     /// Whether it is a disc.

@@ -8,6 +8,7 @@
 #![allow(clippy::inline_always, reason = "the wide instructions end at a call")]
 
 use arrayvec::ArrayVec;
+use carom_geometry::Shape;
 use carom_math::{Rot, SimTime, Vec2, perp};
 use fearless_simd::{Level, Simd, dispatch};
 
@@ -74,11 +75,35 @@ impl From<Found> for TimeOfImpact {
 pub(super) fn first_contact(
     level: Level,
     hulls: (&Hull<'_>, &Hull<'_>),
-    (a, b): (&Motion, &Motion),
-    (start, horizon): (SimTime, f64),
+    motions: (&Motion, &Motion),
+    span: (SimTime, f64),
     last: Option<Axis>,
 ) -> Option<Found> {
     let corners = [Corners::of(hulls.0)?, Corners::of(hulls.1)?];
+    first_contact_of(level, corners, motions, span, last)
+}
+
+/// The same of shapes.
+#[inline]
+pub(super) fn first_contact_of_shapes(
+    level: Level,
+    shapes: (&Shape, &Shape),
+    motions: (&Motion, &Motion),
+    span: (SimTime, f64),
+    last: Option<Axis>,
+) -> Option<Found> {
+    let corners = [Corners::of_shape(shapes.0)?, Corners::of_shape(shapes.1)?];
+    first_contact_of(level, corners, motions, span, last)
+}
+
+#[inline]
+fn first_contact_of(
+    level: Level,
+    corners: [Corners<'_>; 2],
+    (a, b): (&Motion, &Motion),
+    span: (SimTime, f64),
+    last: Option<Axis>,
+) -> Option<Found> {
     let turning = |k: usize, motion: &Motion| !corners[k].is_disc() && motion.spin != 0.0;
     let turns = turning(0, a) || turning(1, b);
     let steady = a.acceleration == b.acceleration
@@ -87,7 +112,7 @@ pub(super) fn first_contact(
     if !(turns && steady) {
         return None;
     }
-    dispatch!(level, simd => contact_of(simd, corners, (a, b), (start, horizon), last))
+    dispatch!(level, simd => contact_of(simd, corners, (a, b), span, last))
 }
 
 #[inline(always)]

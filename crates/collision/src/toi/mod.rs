@@ -155,13 +155,18 @@ pub fn time_of_impact_from(
     motion_b: &Motion,
     horizon: f64,
 ) -> TimeOfImpact {
-    if is_single(a) && is_single(b) {
-        let hulls = (&part(a, 0), &part(b, 0));
-        let last = last.and_then(|last| Axis::of(last.feature));
-        return of_parts(hulls, (motion_a, motion_b), (start, horizon), last);
+    let struck = last.and_then(|last| Axis::of(last.feature));
+    let (motions, span) = ((motion_a, motion_b), (start, horizon));
+    match even::first_contact_of_shapes(Level::new(), (a, b), motions, span, struck) {
+        Some(found) => found.into(),
+        None if is_single(a) && is_single(b) => {
+            general((&part(a, 0), &part(b, 0)), motions, span, struck)
+        }
+        None => {
+            let motions = [motion_a.rebased(start), motion_b.rebased(start)];
+            first_of_parts(a, &motions[0], b, &motions[1], horizon)
+        }
     }
-    let motions = [motion_a.rebased(start), motion_b.rebased(start)];
-    first_of_parts(a, &motions[0], b, &motions[1], horizon)
 }
 
 /// [`time_of_impact`] of two convex parts, which count as part 0 of their shapes in
