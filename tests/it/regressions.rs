@@ -9,3 +9,4 @@ mod a_removed_body_strikes_nobody;
 mod an_impact_on_the_border_of_two_sub_steps_bounces;
 mod parts_that_land_together_do_not_turn;
 mod tips_that_meet_do_not_spin;
+mod what_glides_slowly_stops_at_a_wall;

@@ -251,7 +251,6 @@ impl Broad {
             touching: false,
             lasting: false,
             mode: None,
-            tips: false,
             held: false,
             buried: false,
             impacts: 0,

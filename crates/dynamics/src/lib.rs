@@ -45,6 +45,7 @@ mod flyers;
 mod force;
 mod groups;
 mod history;
+mod hops;
 mod id;
 pub mod impact;
 mod ledger;

@@ -112,6 +112,15 @@ fn rim_speed(body: &BodyState, time: SimTime) -> f64 {
     if spin > 0.0 { spin * body.reach } else { 0.0 }
 }
 
+/// Speed of an approach that rounding alone can make, as a part of [`pace`].
+pub(crate) const NOISE: f64 = 8.0 * f64::EPSILON;
+
+/// The speeds that an approach of two bodies is the difference of, in m/s: of their fastest points.
+pub(crate) fn pace(a: &BodyState, b: &BodyState, time: SimTime) -> f64 {
+    let of = |body: &BodyState| body.velocity_at(time).length() + rim_speed(body, time);
+    of(a) + of(b)
+}
+
 /// Normal velocity of a contact point: positive opens.
 pub(crate) fn opening_speed(
     a: &BodyState,

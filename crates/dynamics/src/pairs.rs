@@ -23,8 +23,6 @@ pub(crate) struct Pair {
     pub(crate) touching: bool,
     /// Some contact pushes: the pair is solved for, not struck.
     pub(crate) lasting: bool,
-    /// Its contacts belong to a group that turns: what becomes of them is that group's next change.
-    pub(crate) tips: bool,
     /// How its bodies last moved against each other in a contact in closed form.
     pub(crate) mode: Option<ContactMode>,
     /// A touch is held by the solver, however fast it closes: the pair lasted or was struck in the

@@ -10,9 +10,12 @@ use carom_math::{SimTime, Vec2};
 use crate::agenda::{Agenda, Entry};
 use crate::bodies::Bodies;
 use crate::flight::{first_touch_of_parts, motion_along};
-use crate::narrow::{Narrow, TOUCH, opening_speed, rest_speed};
+use crate::hops::hop;
+use crate::modes::CLOSED;
+use crate::narrow::{NOISE, Narrow, TOUCH, opening_speed, pace, rest_speed};
 use crate::pairs::{Pair, PairContact, PairPoint, Pairs};
 use crate::state::{BodyState, Collider};
+use crate::touching::stays;
 use crate::{BodyKind, StepReport};
 
 /// What the impacts of one pair may spend in one sub-step before the solver takes the rest: bodies that
@@ -25,6 +28,12 @@ pub(crate) const BUDGET: f64 = 32.0;
 pub(crate) fn price(pair: &Pair) -> f64 {
     price_of(pair.material.restitution)
 }
+
+/// Looks at an impact of bodies that fly by a law.
+const ROUNDS: usize = 4;
+
+/// A stretch of a law, in s, in which its parabola is right to the last digits.
+const INSTANT: f64 = 1e-6;
 
 /// [`price`] by restitution.
 pub(crate) fn price_of(restitution: f64) -> f64 {
@@ -72,13 +81,32 @@ pub(crate) fn predict(
     }
     report.pairs += 1;
     let mut first = TimeOfImpact::Clear;
-    let rest = pair.lasting.then(|| rest_speed(bodies, pair, h));
+    let group_rest = rest_speed(bodies, pair, h);
+    let rest = pair
+        .lasting
+        .then(|| group_rest.max(NOISE * pace(a, b, time)));
     let touch = TOUCH * a.reach.min(b.reach);
     if rest.is_some() {
         narrow.look(bodies, colliders, pair, time, h);
     }
-    // What becomes of the contacts of a group that turns is that group's next change.
-    if let Some(rest) = rest.filter(|_| !pair.tips) {
+    let closed = a.membership.is_closed() || b.membership.is_closed();
+    // Parts whose touch opens and closes again at once.
+    let mut hops: ArrayVec<(u32, u32), 4> = ArrayVec::new();
+    if pair.touching && closed {
+        if rest.is_none() {
+            narrow.look(bodies, colliders, pair, time, h);
+        }
+        for contact in &pair.contacts {
+            let now = (time, horizon, group_rest);
+            if let Some(back) = hop(bodies, colliders, pair, contact, now)
+                && hops.try_push(contact.parts).is_ok()
+            {
+                first = earlier(first, TimeOfImpact::Hit(back));
+            }
+        }
+    }
+    // What becomes of the contacts of a group in closed form is that group's next change.
+    if let Some(rest) = rest.filter(|_| !closed) {
         for contact in &pair.contacts {
             for point in &contact.points {
                 let rate = opening_speed(a, b, time, point.position, contact.normal);
@@ -108,13 +136,13 @@ pub(crate) fn predict(
     }
     for i in 0..part_count(shapes.0) {
         for j in 0..part_count(shapes.1) {
-            let held = |&(x, y): &(u32, u32)| x as usize == i && y as usize == j;
-            let touches = |contact: &PairContact| {
-                contact.points.iter().any(|point| point.separation <= touch)
+            let here = |&(x, y): &(u32, u32)| x as usize == i && y as usize == j;
+            // A touch that opens is none of a group's: it may come back before the group changes.
+            let holds = |contact: &PairContact| {
+                here(&contact.parts)
+                    && (!closed || stays(bodies, (a, b), contact, time, group_rest))
             };
-            let holds =
-                |contact: &PairContact| held(&contact.parts) && (!pair.tips || touches(contact));
-            if pair.lasting && pair.contacts.iter().any(holds) {
+            if pair.lasting && pair.contacts.iter().any(holds) || hops.iter().any(here) {
                 continue;
             }
             let parts = (part(shapes.0, i), part(shapes.1, j));
@@ -125,10 +153,21 @@ pub(crate) fn predict(
                 let next = time_of_impact_of_parts(one, &motion_a, two, &motion_b, horizon);
                 polished(next, (a, b), parts, time)
             };
-            // A contact that lasts holds what closes slowly on other parts, too.
+            // A contact that lasts holds what closes slowly on other parts, too. One in closed form knows of no touch to
+            // come; but of two pieces that share a corner it names one, and the other closes by rounding.
+            let slow = |impact: &Impact| match rest {
+                Some(_) if closed => {
+                    let at = time + impact.time;
+                    let least = CLOSED * (pace(a, b, at) + group_rest);
+                    let closes =
+                        |point: &Vec2| opening_speed(a, b, at, *point, impact.normal) < -least;
+                    !impact.points.iter().any(closes)
+                }
+                Some(rest) => impact.gap_rate >= -rest,
+                None => false,
+            };
             match &next {
-                TimeOfImpact::Hit(slow) | TimeOfImpact::Touching(slow)
-                    if rest.is_some_and(|rest| slow.gap_rate >= -rest) => {}
+                TimeOfImpact::Hit(found) | TimeOfImpact::Touching(found) if slow(found) => {}
                 _ => first = earlier(first, next),
             }
         }
@@ -153,37 +192,58 @@ pub(crate) fn predict(
     });
 }
 
-/// An impact that was found for the parabolas of two bodies, found once more for what they fly by near that instant.
+/// An impact that was found for the parabolas of two bodies, found again for what they fly by near that instant.
+///
+/// A parabola through both ends of s seconds leaves out as much as its cube, so that every round looks at a shorter
+/// stretch about the instant that the one before found.
 fn polished(
     found: TimeOfImpact,
     (a, b): (&BodyState, &BodyState),
     parts: (Hull<'_>, Hull<'_>),
     time: SimTime,
 ) -> TimeOfImpact {
-    let TimeOfImpact::Hit(impact) = &found else {
-        return found;
+    let left_out = |span: f64| {
+        let of = |state: &BodyState| {
+            let part = (span / state.lag.length).min(1.0);
+            state.motion.left_out * part * part * part
+        };
+        // Who is as far off however short the stretch has no law to look at.
+        of(a) + of(b)
     };
-    let left_out = a.motion.left_out + b.motion.left_out;
-    if left_out == 0.0 || impact.gap_rate >= 0.0 {
-        return found;
+    let mut left = a.motion.left_out + b.motion.left_out;
+    let mut best = found;
+    for round in 0..ROUNDS {
+        let TimeOfImpact::Hit(impact) = &best else {
+            return best;
+        };
+        if left == 0.0 || impact.gap_rate >= 0.0 {
+            return best;
+        }
+        let near = (4.0 * left / -impact.gap_rate).max(INSTANT);
+        let from = if impact.time > near {
+            impact.time - near
+        } else {
+            0.0
+        };
+        let span = impact.time - from + near;
+        let motions = [a, b].map(|state| motion_along(state, time + from, span));
+        match time_of_impact_of_parts(&parts.0, &motions[0], &parts.1, &motions[1], span) {
+            TimeOfImpact::Hit(found) => {
+                best = TimeOfImpact::Hit(Impact {
+                    time: from + found.time,
+                    ..found
+                });
+            }
+            // A graze that was none, or one that began before: the first parabola's word stands.
+            TimeOfImpact::Clear if round == 0 => return TimeOfImpact::Clear,
+            _ => return best,
+        }
+        if near <= INSTANT {
+            return best;
+        }
+        left = left_out(span);
     }
-    let near = (4.0 * left_out / -impact.gap_rate).max(1e-6);
-    let from = if impact.time > near {
-        impact.time - near
-    } else {
-        0.0
-    };
-    let span = impact.time - from + near;
-    let motions = [a, b].map(|state| motion_along(state, time + from, span));
-    match time_of_impact_of_parts(&parts.0, &motions[0], &parts.1, &motions[1], span) {
-        TimeOfImpact::Hit(near) => TimeOfImpact::Hit(Impact {
-            time: from + near.time,
-            ..near
-        }),
-        // A graze that was none, or one that began before: the parabola's word stands.
-        TimeOfImpact::Clear => TimeOfImpact::Clear,
-        TimeOfImpact::Touching(_) | TimeOfImpact::Unresolved { .. } => found,
-    }
+    best
 }
 
 /// What touches at a contact point: the corners that the contact is named after.

@@ -6,7 +6,7 @@ use crate::agenda::Entry;
 use crate::bodies::Bodies;
 use crate::event::EventKind;
 use crate::impact::{ImpactContact, resolve};
-use crate::narrow::{Narrow, opening_speed, rest_speed};
+use crate::narrow::{NOISE, Narrow, opening_speed, pace, rest_speed};
 use crate::pairs::Pairs;
 use crate::predict::{BUDGET, price};
 use crate::shock::Shock;
@@ -50,11 +50,12 @@ pub(crate) fn strike(
     }
     touch(bodies, pairs, entry, events);
     let rest = rest_speed(bodies, pairs.get(entry.pair), h);
+    let rounding = NOISE * pace(a, b, entry.time);
     let mut shock = Shock::new(entry.time, h);
     for &point in &entry.points {
         let speed = -opening_speed(a, b, entry.time, point, entry.normal);
-        // At exactly zero pull there is no rest: an approach is an approach.
-        if speed > rest && speed > 0.0 {
+        // At exactly zero pull there is no rest: an approach is an approach, unless rounding made it.
+        if speed > rest && speed > rounding {
             let material = pairs.get(entry.pair).material;
             let contact = ImpactContact {
                 point,
@@ -67,7 +68,11 @@ pub(crate) fn strike(
         }
     }
     if shock.strikes.is_empty() {
-        pairs.get_mut(entry.pair).lasting = true;
+        let pair = pairs.get_mut(entry.pair);
+        pair.lasting = true;
+        // A group that is judged anew each time comes to an end, too.
+        pair.spent += 1.0;
+        pair.given_up |= pair.spent > BUDGET;
         return Struck::Rests;
     }
     if gives_up(bodies, pairs, entry, &shock, events, report) {

@@ -162,8 +162,14 @@ impl World {
             Struck::Rests => {
                 self.predict(entry.pair, entry.time);
                 let (a, b) = self.pairs.get(entry.pair).bodies;
-                self.regroup(a, entry.time);
-                self.regroup(b, entry.time);
+                // Nobody's motion has changed, but a group has one touch more.
+                for index in [a, b] {
+                    if self.bodies.get(index).membership.is_closed() {
+                        self.rejudge(index, entry.time);
+                    } else {
+                        self.regroup(index, entry.time);
+                    }
+                }
             }
             Struck::Impact(changed) => {
                 let lost = price(self.pairs.get(entry.pair));

@@ -323,6 +323,43 @@ fn approach(ends: (&ModeBody, &ModeBody), point: Vec2, normal: Vec2, rest: f64) 
     }
 }
 
+/// Speed at which a point of two bodies opens, in m/s, where that is more than rounding: no group holds it.
+pub(crate) fn opens_at(
+    bodies: &Bodies,
+    (a, b): (&BodyState, &BodyState),
+    (point, normal): (Vec2, Vec2),
+    time: SimTime,
+    rest: f64,
+) -> Option<f64> {
+    let ends = (mode_body(bodies, a, time), mode_body(bodies, b, time));
+    let ends = (&ends.0, &ends.1);
+    match approach(ends, point, normal, rest) {
+        Approach::Leaves => Some(opening(ends, point, normal).0),
+        Approach::Stays | Approach::Closes(_) => None,
+    }
+}
+
+/// Whether a touch neither opens nor closes: a group in closed form may hold it.
+pub(crate) fn stays(
+    bodies: &Bodies,
+    (a, b): (&BodyState, &BodyState),
+    contact: &PairContact,
+    time: SimTime,
+    rest: f64,
+) -> bool {
+    let ends = (mode_body(bodies, a, time), mode_body(bodies, b, time));
+    let touch = TOUCH * a.reach.min(b.reach);
+    let mut stays = false;
+    for point in contact.points.iter().filter(|p| p.separation <= touch) {
+        match approach((&ends.0, &ends.1), point.position, contact.normal, rest) {
+            Approach::Stays => stays = true,
+            Approach::Closes(_) => return false,
+            Approach::Leaves => {}
+        }
+    }
+    stays
+}
+
 /// Speed at which a point opens, and the sum of the speeds that it is made of, in m/s.
 fn opening(ends: (&ModeBody, &ModeBody), point: Vec2, normal: Vec2) -> (f64, f64) {
     let of = |body: &ModeBody| {
@@ -371,7 +408,13 @@ pub(crate) fn end_room(a: Vec2, b: Vec2) -> f64 {
 }
 
 /// What of a hull lies along a contact: `outward` is the way out of it, `normal` the touch's own.
-fn feature(hull: &Hull<'_>, pose: Pose, outward: Vec2, normal: Vec2, origin: Vec2) -> Feature {
+pub(crate) fn feature(
+    hull: &Hull<'_>,
+    pose: Pose,
+    outward: Vec2,
+    normal: Vec2,
+    origin: Vec2,
+) -> Feature {
     if hull.normals.is_empty() {
         return if hull.vertices[0] == Vec2::ZERO {
             Feature::Round

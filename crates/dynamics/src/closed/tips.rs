@@ -115,9 +115,6 @@ impl World {
         for &(index, _) in &members {
             self.bodies.get_mut(index).membership = Membership::of(place);
         }
-        for &(pair, _) in &gathered.pairs {
-            self.pairs.get_mut(pair).tips = true;
-        }
         self.lay_pieces(place, time, self.clock.next() - time);
         self.tell_modes(&gathered.pairs, &touches, time);
         for (index, _) in members {
@@ -149,11 +146,6 @@ impl World {
         let Some(Tipping { tip, slots }) = &group.tipping else {
             return;
         };
-        for touch in &group.touches {
-            if self.pairs.find(touch.pair).is_some() {
-                self.pairs.get_mut(touch.pair).tips = false;
-            }
-        }
         let accelerations = tip.accelerations_after(time - tip.path.start);
         for (&(index, _), &slot) in group.members.iter().zip(slots) {
             // Who was given another motion has left the path already.

@@ -6,7 +6,7 @@ use carom_math::{SimTime, Vec2, cross_scalar, perp};
 
 /// What of a body touches: a corner, or the centre of a disc; and how it moves.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Feature {
+pub(crate) struct Touching {
     /// Where the corner or the centre is, in m, and its velocity and acceleration.
     at: Vec2,
     velocity: Vec2,
@@ -19,9 +19,9 @@ pub(super) struct Feature {
     centre_acceleration: Vec2,
 }
 
-impl Feature {
+impl Touching {
     /// What touches at `point`.
-    pub(super) fn of(motion: &Motion, solid: &Shape, point: Vec2, time: SimTime) -> Self {
+    pub(crate) fn of(motion: &Motion, solid: &Shape, point: Vec2, time: SimTime) -> Self {
         let centre = motion.centre_at(time);
         let at = match solid {
             // A disc rolls about its centre: its own spin does not move its rim.
@@ -56,7 +56,12 @@ impl Feature {
 /// g″ = n·(q″ − c″) + 2 ω t·(q′ − c′) + α t·(q − c) − ω² n·(q − c)
 /// ```
 /// Between corners and centres `d` apart `g″ = n·d″ + (t·d′)²/|d|`.
-pub(super) fn gap_acceleration(a: &Feature, b: &Feature, normal: Vec2, face: Option<Side>) -> f64 {
+pub(crate) fn gap_acceleration(
+    a: &Touching,
+    b: &Touching,
+    normal: Vec2,
+    face: Option<Side>,
+) -> f64 {
     let (own, other, n) = match face {
         Some(Side::A) => (a, b, normal),
         Some(Side::B) => (b, a, -normal),
@@ -111,8 +116,8 @@ mod tests {
         let at = SimTime::from_secs(2.0 * h);
         let normal = below.rotation_at(at) * Vec2::Y;
         let point = above.centre_at(at) - normal * 0.5;
-        let a = Feature::of(&below, &plate, point, at);
-        let b = Feature::of(&above, &disc, point, at);
+        let a = Touching::of(&below, &plate, point, at);
+        let b = Touching::of(&above, &disc, point, at);
         let bends = gap_acceleration(&a, &b, normal, Some(Side::A));
         assert!(
             (bends - difference).abs() < 1e-5,
@@ -127,7 +132,7 @@ mod tests {
         let disc = Shape::from(Circle::new(0.5).expect("a disc"));
         let a = motion(Vec2::ZERO, Vec2::ZERO, Vec2::ZERO, 3.0, 0.0);
         let b = motion(Vec2::X, vec2(0.0, 2.0), Vec2::ZERO, -4.0, 1.0);
-        let of = |motion| Feature::of(motion, &disc, vec2(0.5, 0.0), SimTime::ZERO);
+        let of = |motion| Touching::of(motion, &disc, vec2(0.5, 0.0), SimTime::ZERO);
         // |d| = √(1 + 4 t²), so |d|″ = 4 at the start.
         assert_eq!(gap_acceleration(&of(&a), &of(&b), Vec2::X, None), 4.0);
     }

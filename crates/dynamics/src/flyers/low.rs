@@ -3,7 +3,7 @@
 use carom_math::SimTime;
 
 use super::Foreseen;
-use super::gap::{Feature, gap_acceleration};
+use super::gap::{Touching, gap_acceleration};
 use super::strike::approach_speed;
 use crate::World;
 use crate::state::BodyState;
@@ -86,7 +86,7 @@ impl World {
                 let freely = self.bodies.freely(index, time);
                 (motion.acceleration, motion.angular_acceleration) = freely;
             }
-            Feature::of(
+            Touching::of(
                 &motion,
                 &self.colliders[at as usize].solid,
                 impact.points[0],

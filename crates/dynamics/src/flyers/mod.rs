@@ -37,6 +37,7 @@ use circle::Registered;
 pub(crate) use foresee::Cause;
 pub(crate) use foreseen::Foreseen;
 use frame::{Frame, Track};
+pub(crate) use gap::{Touching, gap_acceleration};
 pub(crate) use grid::{Cells, Grid, Seat};
 use queue::{Ahead, Queue};
 use streak::Streak;

@@ -79,12 +79,14 @@ pub(super) fn balance(faces: &Faces, tangents: &[Tangent]) -> Result<Balance, No
     };
     let z = complementary(&m, &q).ok_or(failed)?.z;
     let mut state = faces.free.clone();
+    let mut sizes: Vec<f64> = faces.free.iter().map(|x| x.abs()).collect();
     for (column, z) in columns.iter().zip(&z) {
-        for (x, y) in state.iter_mut().zip(column) {
+        for ((x, size), y) in state.iter_mut().zip(&mut sizes).zip(column) {
             *x += z * y;
+            *size += (z * y).abs();
         }
     }
-    read(faces, tangents, &unknowns, &z, state).ok_or(failed)
+    read(faces, tangents, &unknowns, &z, (state, &sizes)).ok_or(failed)
 }
 
 fn unknowns(faces: &Faces, tangents: &[Tangent]) -> Vec<Unknown> {
@@ -159,13 +161,14 @@ fn entry(faces: &Faces, row: Unknown, of: Unknown, column: &[f64]) -> f64 {
     }
 }
 
-/// Forces, and what holds; `None` if the conditions are not met after all.
+/// Forces, and what holds; `None` if the conditions are not met after all. `sizes` are those of what the accelerations
+/// are summed of: forces of other rows may turn a body to and fro, and leave a rounding where nothing else is.
 fn read(
     faces: &Faces,
     tangents: &[Tangent],
     unknowns: &[Unknown],
     z: &[f64],
-    state: Vec<f64>,
+    (state, sizes): (Vec<f64>, &[f64]),
 ) -> Option<Balance> {
     let count = faces.list.len();
     let mut found = Balance {
@@ -192,30 +195,24 @@ fn read(
             found.tangential[i] = -sign * limit;
         }
         for (point, row) in face.normals.iter().enumerate() {
-            let (rate, rounding) = (row.growth(&found.state), faces.rounding(row, &found.state));
+            let (rate, rounding) = (row.growth(&found.state), rounding(row, sizes));
             if rate < -rounding || (found.normal[i][point] > 0.0 && rate > rounding) {
                 return None;
             }
             found.closed[i][point] = rate <= rounding;
         }
         if tangents[i] == Tangent::Holds {
-            let rounding = faces.rounding(&face.tangent, &found.state);
+            let seen = faces.free.iter().zip(&found.state);
+            let seen: Vec<f64> = seen.map(|(a, b)| a.abs().max(b.abs())).collect();
+            let rounding = rounding(&face.tangent, &seen);
             found.sticks[i] = face.tangent.growth(&found.state).abs() <= rounding;
         }
     }
     Some(found)
 }
 
-impl Faces {
-    /// What rounding may leave of a row's rate, where free and found accelerations cancel.
-    fn rounding(&self, row: &Row, state: &[f64]) -> f64 {
-        let sizes: Vec<f64> = self
-            .free
-            .iter()
-            .zip(state)
-            .map(|(a, b)| a.abs().max(b.abs()))
-            .collect();
-        let lengths: Vec<f64> = row.unit.iter().map(|x| x.abs()).collect();
-        ROUNDING * (dot(&lengths, &sizes) + row.bend.abs())
-    }
+/// What rounding may leave of a row's rate, by the sizes of what it is summed of.
+fn rounding(row: &Row, sizes: &[f64]) -> f64 {
+    let lengths: Vec<f64> = row.unit.iter().map(|x| x.abs()).collect();
+    ROUNDING * (dot(&lengths, sizes) + row.bend.abs())
 }

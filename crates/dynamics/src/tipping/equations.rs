@@ -63,23 +63,11 @@ impl Equations {
 
     /// Forces that the modes need; `None` where there are none.
     pub(crate) fn forces(&self, places: &[Place]) -> Option<Forces> {
-        let unknowns = self.unknowns(places);
-        let size = unknowns.len();
-        let mut matrix = Vec::with_capacity(size * size);
-        for row in &unknowns {
-            matrix.extend(unknowns.iter().map(|other| self.answer(row, other)));
-        }
-        let largest = matrix.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-        let right: Vec<f64> = unknowns.iter().map(|row| -self.free_rate(row)).collect();
-        let found = if size == 0 {
-            Vec::new()
-        } else {
-            let factored = Factored::of(size, matrix)?;
-            if factored.least_pivot() <= DEPENDENT * largest {
-                return None;
-            }
-            factored.solve(&right)
-        };
+        let mut unknowns = self.unknowns(places);
+        let found = self.solved(&unknowns).or_else(|| {
+            self.drop_idle(&mut unknowns);
+            self.solved(&unknowns)
+        })?;
         let mut forces = Forces {
             accelerations: self
                 .bodies
@@ -112,6 +100,40 @@ impl Equations {
             }
         }
         Some(forces)
+    }
+
+    /// Sizes of the forces; `None` where rows depend on each other.
+    fn solved(&self, unknowns: &[Unknown]) -> Option<Vec<f64>> {
+        let size = unknowns.len();
+        if size == 0 {
+            return Some(Vec::new());
+        }
+        let mut matrix = Vec::with_capacity(size * size);
+        for row in unknowns {
+            matrix.extend(unknowns.iter().map(|other| self.answer(row, other)));
+        }
+        let largest = matrix.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        let factored = Factored::of(size, matrix)?;
+        if factored.least_pivot() <= DEPENDENT * largest {
+            return None;
+        }
+        let right: Vec<f64> = unknowns.iter().map(|row| -self.free_rate(row)).collect();
+        Some(factored.solve(&right))
+    }
+
+    /// Takes friction out that holds what others hold already: a disc in a corner that sticks to one wall sticks to the
+    /// other. Any share of the forces moves the bodies alike; this one is none.
+    fn drop_idle(&self, unknowns: &mut Vec<Unknown>) {
+        let (mut kept, holding): (Vec<Unknown>, Vec<Unknown>) = unknowns
+            .drain(..)
+            .partition(|unknown| unknown.point.is_some());
+        for unknown in holding {
+            kept.push(unknown);
+            if self.solved(&kept).is_none() {
+                kept.pop();
+            }
+        }
+        *unknowns = kept;
     }
 
     fn unknowns(&self, places: &[Place]) -> Vec<Unknown> {

@@ -1,0 +1,101 @@
+//! Touches that open so slowly that they close again before anybody could see them open.
+//!
+//! A blow on one contact may push its bodies apart at another one, by friction, at a speed u at which what presses them
+//! brings them back at once: after `2 u/a`, from a height of `u²/(2 a)`. Where that is less than what counts as touch a
+//! search for its end sees rounding, and whoever took the contact for open would let it sink in.
+
+use arrayvec::ArrayVec;
+use carom_collision::{AxisFeature, Impact, ImpactFeature, Side, part};
+use carom_math::SimTime;
+
+use crate::bodies::Bodies;
+use crate::flight::motion_along;
+use crate::flyers::{Touching, gap_acceleration};
+use crate::modes::Feature;
+use crate::narrow::TOUCH;
+use crate::pairs::{Pair, PairContact};
+use crate::state::{BodyState, Collider};
+use crate::touching::{feature, opens_at};
+
+/// Stretch of a law that its acceleration is read from, in s.
+const STRETCH: f64 = 1e-5;
+
+/// When a contact closes that opens now, if that is by `horizon` seconds from `time` and it does not come out of touch.
+pub(crate) fn hop(
+    bodies: &Bodies,
+    colliders: &[Collider],
+    pair: &Pair,
+    contact: &PairContact,
+    (time, horizon, rest): (SimTime, f64, f64),
+) -> Option<Impact> {
+    let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
+    let touch = TOUCH * a.reach.min(b.reach);
+    let mut first: Option<Impact> = None;
+    for point in &contact.points {
+        if point.separation > touch {
+            continue;
+        }
+        let Some(speed) = opens_at(bodies, (a, b), (point.position, contact.normal), time, rest)
+        else {
+            continue;
+        };
+        let press = press(colliders, pair, contact, point.position, time, (a, b));
+        // u t − a t²/2 from a gap g above 0: back after (u + √(u² + 2 a g))/a, from a height of u²/(2 a) + g.
+        let gap = point.separation.max(0.0);
+        if press <= 0.0 || 0.5 * speed * speed / press + gap > touch {
+            continue;
+        }
+        let back = (speed * speed + 2.0 * press * gap).sqrt();
+        let wait = (speed + back) / press;
+        if wait > horizon || first.as_ref().is_some_and(|first| first.time <= wait) {
+            continue;
+        }
+        let drift = 0.5 * (a.velocity_at(time) + b.velocity_at(time)) * wait;
+        let (of_a, of_b) = point.feature.vertices();
+        first = Some(Impact {
+            time: wait,
+            normal: contact.normal,
+            points: ArrayVec::from_iter([point.position + drift]),
+            features: ArrayVec::from_iter([ImpactFeature {
+                parts: contact.parts,
+                feature: AxisFeature::Vertices { a: of_a, b: of_b },
+            }]),
+            gap_rate: -back,
+        });
+    }
+    first
+}
+
+/// How fast two bodies are pressed together at a point, in m/s², by the laws that they move by.
+fn press(
+    colliders: &[Collider],
+    pair: &Pair,
+    contact: &PairContact,
+    point: carom_math::Vec2,
+    time: SimTime,
+    (a, b): (&BodyState, &BodyState),
+) -> f64 {
+    let solids = [pair.colliders.0, pair.colliders.1].map(|at| &*colliders[at as usize].solid);
+    let edge = |state: &BodyState, k: usize, at: u32, outward| {
+        let found = feature(
+            &part(solids[k], at as usize),
+            state.centre_pose(time),
+            outward,
+            contact.normal,
+            point,
+        );
+        matches!(found, Feature::Edge { .. })
+    };
+    let face = if edge(a, 0, contact.parts.0, contact.normal) {
+        Some(Side::A)
+    } else if edge(b, 1, contact.parts.1, -contact.normal) {
+        Some(Side::B)
+    } else {
+        None
+    };
+    let of = |state: &BodyState, k: usize| {
+        let motion = motion_along(state, time, STRETCH);
+        Touching::of(&motion, solids[k], point, time)
+    };
+    -gap_acceleration(&of(a, 0), &of(b, 1), contact.normal, face)
+}
