@@ -74,14 +74,24 @@ fn case_11_a_ball_that_bounces_on_a_joint_stays_over_it() {
         let id = world
             .insert(def, disc(0.5), surface(1.0, 0.5))
             .expect("valid");
+        let (mut bounces, mut last) = (0, None);
         run(&mut world, 60.0, |world| {
+            // On the joint both tiles are struck at once.
+            for event in world.events() {
+                if matches!(event.kind, EventKind::Impact { .. }) && last != Some(event.time) {
+                    (bounces, last) = (bounces + 1, Some(event.time));
+                }
+            }
             let body = world.body(id).expect("it is there");
             let aside = body.velocity().x.abs();
             assert!(
                 aside < 1e-12,
                 "{aside:e} m/s aside, {off:e} m off the joint"
             );
+            assert!((0.5 - 1e-12..1.5 + 1e-12).contains(&body.centre().y));
         });
+        // The first after √(2/g), the next 2 √(2/g) each.
+        assert_eq!(bounces, 66, "{off:e} m off the joint");
         let energy = world.energy();
         let potential = energy.mechanical() / world.body(id).expect("it is there").mass();
         assert!((potential / 9.81 - 1.5).abs() < 1e-12);
@@ -127,7 +137,20 @@ fn case_12_every_apex_is_the_drop_times_e_squared() {
         }
     }
     assert_eq!(bounces[10], 13, "0.45 s, and 0.9 s each");
-    for (k, (id, _)) in balls.iter().enumerate().take(9) {
+    for (k, (id, e)) in balls.iter().enumerate().take(10) {
+        // All bounces that are judged took place: e^(2k) is above 1e-12 for so many.
+        let judged = (0..)
+            .scan(1.0, |power, _| {
+                *power *= e * e;
+                Some(*power)
+            })
+            .take_while(|power| *power > 1e-12)
+            .count();
+        let seen = bounces[k];
+        assert!(
+            usize::try_from(seen).expect("a count") > judged,
+            "ball {k}: {seen}"
+        );
         let body = world.body(*id).expect("it is there");
         assert!(body.velocity().length() < 1e-12, "ball {k} rests");
         assert!((body.centre().y - 0.25).abs() < 1e-9);
@@ -273,6 +296,18 @@ fn case_15_a_box_on_a_narrow_support_rises_no_higher_than_it_fell() {
                 let spin = world.body(id).expect("it is there").angular_velocity();
                 assert!(spin.abs() < 1e-14, "{spin:e} rad/s");
             }
+            // Whatever it strikes next, tilted.
+            let mut before = energy;
+            run(&mut world, 10.0, |world| {
+                let now = world.energy().mechanical();
+                assert!(
+                    now <= before + 1e-13 * energy,
+                    "gained {:e}, {aside} m aside, µ = {friction}",
+                    now - before
+                );
+                before = now;
+            });
+            assert!(before <= energy * (1.0 + 1e-12));
         }
     }
 }
@@ -295,7 +330,8 @@ fn case_16_an_elastic_ball_in_a_box_keeps_its_speed() {
         let spin = if friction > 0.0 { 1.0 } else { 0.0 };
         let def = BodyDef::dynamic().moving(start).spinning(spin);
         let id = world.insert(def, disc(0.5), elastic).expect("valid");
-        let mut energy = world.energy().kinetic;
+        let whole = world.energy().kinetic;
+        let mut energy = whole;
         let mut struck = 0;
         run(&mut world, 60.0, |world| {
             struck += impacts(world);
@@ -308,5 +344,8 @@ fn case_16_an_elastic_ball_in_a_box_keeps_its_speed() {
             }
         });
         assert!(struck > 30, "{struck} impacts");
+        if friction > 0.0 {
+            assert!(energy < whole * (1.0 - 1e-3), "µ = {friction}: no loss");
+        }
     }
 }
