@@ -159,7 +159,7 @@ fn case_12_every_apex_is_the_drop_times_e_squared() {
 
 /// The same reports: energy in a full box.
 #[test]
-#[ignore = "fails: what lasts in touch is sub-stepped, and gains up to 3e-5 of the energy in a tick"]
+#[ignore = "fails: where impacts come fast the solver takes over, and gains up to 9e-5 of the energy in a tick"]
 fn case_12_a_full_box_of_lively_balls_never_gains_energy() {
     let mut world = world(9.81);
     let lively = surface(0.7, 0.2);
@@ -170,7 +170,7 @@ fn case_12_a_full_box_of_lively_balls_never_gains_energy() {
     let mut next = numbers(12);
     for k in 0..60_u32 {
         let at = vec2(
-            f64::from(k % 6) - 2.5 + 0.2 * next(),
+            f64::from(k % 6) - 2.5 + 0.18 * (next() - 0.5),
             0.6 + f64::from(k / 6),
         );
         world
