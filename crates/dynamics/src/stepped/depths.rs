@@ -2,7 +2,7 @@
 
 use crate::World;
 use crate::pairs::Pair;
-use crate::solver::{Often, RowId};
+use crate::solver::{HEAVY, Often, RowId};
 
 /// Sweeps without bias while bodies lie deep in each other.
 const SWEEPS: usize = 30;
@@ -10,13 +10,17 @@ const SWEEPS: usize = 30;
 /// The same where a heavy body bears on a light one, which passes on a thousandth of the momentum in each.
 const LOADED: usize = 120;
 
+/// A body so many times as heavy as the one that gives way to it is a load that some sweeps carry; beyond [`HEAVY`] it takes
+/// [`LOADED`].
+const BEARS: f64 = 16.0;
+
 /// What the looks of a tick found of bodies deep in each other.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Depths {
     /// Some were put there.
     buried: bool,
-    /// Heavy ones touch light ones.
-    loaded: bool,
+    /// The largest ratio of masses where a light one gives way to a heavy one.
+    ratio: f64,
     /// Bodies of those that were put there, and of those that bear a load.
     bodies: Vec<u32>,
 }
@@ -24,27 +28,32 @@ pub(super) struct Depths {
 impl Depths {
     /// A tick begins.
     pub(super) fn clear(&mut self) {
-        (self.buried, self.loaded) = (false, false);
+        (self.buried, self.ratio) = (false, 1.0);
         self.bodies.clear();
     }
 
-    /// Takes note of a pair, that was put deep into each other or bears a load.
-    pub(super) fn note(&mut self, pair: &Pair, loaded: bool) {
-        if pair.buried || loaded {
+    /// Takes note of a pair, that was put deep into each other, or of which one is so many times as heavy as the other, which
+    /// gives way.
+    pub(super) fn note(&mut self, pair: &Pair, ratio: f64) {
+        if pair.buried || ratio > BEARS {
             self.bodies.extend([pair.bodies.0, pair.bodies.1]);
         }
         self.buried |= pair.buried;
-        self.loaded |= loaded;
+        self.ratio = self.ratio.max(ratio);
     }
 
     /// How often rows are swept, with bias and without, where once would leave a part of the push in the velocities: what was
     /// put deep into each other is pushed by many at once, and a light body between a heavy one and the floor gives way to
     /// both in turn. Only of a load is the bias passed on as well: what lies in one place would be thrown apart by it.
-    const fn sweeps(&self) -> (usize, usize) {
-        match (self.loaded, self.buried) {
-            (true, _) => (LOADED, LOADED),
-            (false, true) => (1, SWEEPS),
-            (false, false) => (1, 1),
+    fn sweeps(&self) -> (usize, usize) {
+        if self.ratio > HEAVY {
+            (LOADED, LOADED)
+        } else if self.ratio > BEARS {
+            (SWEEPS, SWEEPS)
+        } else if self.buried {
+            (1, SWEEPS)
+        } else {
+            (1, 1)
         }
     }
 }

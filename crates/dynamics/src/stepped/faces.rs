@@ -8,7 +8,7 @@ use super::near::is_quick;
 use super::seats::{Seat, pull_of};
 use crate::narrow::{BURIED, carried};
 use crate::pairs::{Glance, Pair, PairContact};
-use crate::solver::{HEAVY, Line, Row, RowId};
+use crate::solver::{Line, Row, RowId};
 use crate::{BodyKind, Mode, World};
 
 /// Two bodies that moved less than this against each other since their contacts were found, as a
@@ -235,8 +235,12 @@ impl World {
                 closing_of([a, b], [line_a, line_b])
             };
             let gives = deepest.min(-closing * tick) < -GIVES * size;
-            let loaded = heavy > 0.0 && light > HEAVY * heavy && gives && !found.is_empty();
-            stepped.depths.note(pair, loaded);
+            let ratio = if heavy > 0.0 && gives && !found.is_empty() {
+                light / heavy
+            } else {
+                1.0
+            };
+            stepped.depths.note(pair, ratio);
         }
         pair.contacts.reserve_exact(found.len());
         for new in &found {
