@@ -1,5 +1,5 @@
 //! Two polygons that keep their velocities and spins, or a polygon and a disc: the search of [`super::search`] without its
-//! rare ways.
+//! rare ways. Two discs need none.
 //!
 //! It knows one vertex that comes down on the inside of an edge, a disc that meets an edge or a corner, and pairs that part
 //! where they have just struck. Everything else (corners that meet, flat landings, overlaps) it leaves to the general search.
@@ -17,7 +17,7 @@ use super::corners::Corners;
 use super::search::{NEAR, SLACK};
 use super::sight::{Even, Normal, Place, Sight};
 use super::turns::{LARGEST, turned};
-use super::{Impact, ImpactFeature, TimeOfImpact};
+use super::{Impact, ImpactFeature, TimeOfImpact, discs};
 use crate::lanes::{larger, smaller};
 use crate::{AxisFeature, Hull, Motion, Side};
 
@@ -104,6 +104,13 @@ fn first_contact_of(
     span: (SimTime, f64),
     last: Option<Axis>,
 ) -> Option<Found> {
+    if corners[0].is_disc() && corners[1].is_disc() {
+        let radii = [corners[0].radius, corners[1].radius];
+        let alike = a.acceleration == b.acceleration;
+        return alike
+            .then(|| discs::first_contact(radii, (a, b), span))
+            .flatten();
+    }
     let turning = |k: usize, motion: &Motion| !corners[k].is_disc() && motion.spin != 0.0;
     let turns = turning(0, a) || turning(1, b);
     let steady = a.acceleration == b.acceleration

@@ -134,6 +134,24 @@ proptest! {
     }
 
     #[test]
+    fn discs_meet_discs_as_anything_does(
+        radii in (0.1..1.0_f64, 0.1..1.0_f64), one in motion(), two in motion(), horizon in 0.05..1.0_f64,
+    ) {
+        let (a, b) = (Circle::new(radii.0).unwrap(), Circle::new(radii.1).unwrap());
+        // The one has been on its way for a while.
+        let two = two.rebased(two.start + 0.5 * horizon);
+        let (_, hit) = agree((&a, &b), (&one, &two), horizon, None);
+        let TimeOfImpact::Hit(hit) = hit else { return Ok(()) };
+        let at = one.start.max(two.start) + hit.time;
+        let (mut one, mut two) = (one.rebased(at), two.rebased(at));
+        let push = hit.normal * (-1.2 * hit.gap_rate);
+        one.velocity -= push;
+        two.velocity += push;
+        let (fast, next) = agree((&a, &b), (&one, &two), horizon, Axis::of(hit.features[0].feature));
+        prop_assert!(fast && next == TimeOfImpact::Clear);
+    }
+
+    #[test]
     fn turns_are_right_to_two_units_of_one(x in -1e5..1e5_f64, y in -9.0..9.0_f64, shrink in 0..40_u32) {
         let angles = [x / (1_u64 << shrink) as f64, y];
         let all: Vec<[f64; 4]> = levels()

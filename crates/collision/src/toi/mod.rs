@@ -8,6 +8,7 @@
 
 mod approach;
 mod corners;
+mod discs;
 mod even;
 #[cfg(test)]
 mod even_tests;
