@@ -106,10 +106,6 @@ impl World {
         group.glides = false;
         let h = self.clock.h;
         for touch in &group.touches {
-            // A pair that is no more is why the group ends.
-            if self.pairs.find(touch.pair).is_none() {
-                continue;
-            }
             let pair = self.pairs.get_mut(touch.pair);
             self.narrow
                 .look(&self.bodies, &self.colliders, pair, time, h);
