@@ -3,10 +3,10 @@
 use carom_geometry::Shape;
 use carom_math::{Pose, Vec2};
 
-use crate::manifold::{Touch, along_boundary, touch};
+use crate::manifold::{Gap, Touch, along_boundary, touch};
 use crate::parts::{is_single, near_parts};
 use crate::way_out::way_out;
-use crate::{Manifold, collide_within, part};
+use crate::{Manifold, part};
 
 /// The contact of one convex part of A with one of B.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,10 +42,32 @@ pub struct PartManifold {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn contacts(a: &Shape, b: &Shape, b_in_a: Pose, margin: f64, out: &mut Vec<PartManifold>) {
+    contacts_and_gap(a, b, b_in_a, margin, out);
+}
+
+/// [`contacts`], and how far the shapes are apart as far as that was seen: a strip between two convex shapes; of
+/// shapes of many parts, that nothing is nearer than the margin.
+///
+/// # Examples
+/// ```
+/// use carom_collision::contacts_and_gap;
+/// use carom_geometry::{Circle, ConvexPolygon};
+/// use carom_math::{Pose, vec2};
+/// let (wall, ball) = (ConvexPolygon::rectangle(2.0, 6.0)?.into(), Circle::new(0.5)?.into());   // m
+/// let gap = contacts_and_gap(&wall, &ball, Pose::at(vec2(4.0, 1.0)), 0.25, &mut Vec::new());
+/// assert_eq!((gap.separation, gap.normal), (2.5, vec2(1.0, 0.0)));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn contacts_and_gap(
+    a: &Shape,
+    b: &Shape,
+    b_in_a: Pose,
+    margin: f64,
+    out: &mut Vec<PartManifold>,
+) -> Gap {
     if is_single(a) && is_single(b) {
-        let (part_a, part_b) = (part(a, 0), part(b, 0));
-        let manifold = collide_within(&part_a, &part_b, b_in_a, margin);
-        if !manifold.points.is_empty() {
+        let (touch, gap) = touch(&part(a, 0), &part(b, 0), b_in_a, margin);
+        if let Touch::Contact(manifold) = touch {
             let (part_a, part_b) = (0, 0);
             out.push(PartManifold {
                 part_a,
@@ -53,20 +75,40 @@ pub fn contacts(a: &Shape, b: &Shape, b_in_a: Pose, margin: f64, out: &mut Vec<P
                 manifold,
             });
         }
-        return;
+        return gap;
     }
+    let first = out.len();
+    let hidden = part_by_part(a, b, b_in_a, margin, out);
+    let depths = out[first..].iter();
+    let depths = depths.filter_map(|contact| contact.manifold.deepest());
+    Gap {
+        separation: depths.fold(hidden, f64::min),
+        normal: Vec2::ZERO,
+    }
+}
+
+/// Gives the least separation of parts that overlap where no contact can be, or the margin.
+fn part_by_part(
+    a: &Shape,
+    b: &Shape,
+    b_in_a: Pose,
+    margin: f64,
+    out: &mut Vec<PartManifold>,
+) -> f64 {
     let first = out.len();
     let mut hidden = Vec::new();
     near_parts(a, b, b_in_a, Vec2::ZERO, margin, |i, j| {
-        match touch(&part(a, i), &part(b, j), b_in_a, margin) {
+        match touch(&part(a, i), &part(b, j), b_in_a, margin).0 {
             Touch::Apart => {}
             Touch::Contact(manifold) => push(out, first, i, j, manifold),
             Touch::Hidden { normal, separation } => hidden.push((i, j, normal, separation)),
         }
     });
     if hidden.is_empty() {
-        return;
+        return margin;
     }
+    let least = hidden.iter().map(|(.., separation)| *separation);
+    let least = least.fold(margin, f64::min);
     let met = out.len();
     for (i, j, normal, separation) in hidden {
         // What a neighbour has along the same normal, at least as deep, is this contact, too.
@@ -88,6 +130,7 @@ pub fn contacts(a: &Shape, b: &Shape, b_in_a: Pose, margin: f64, out: &mut Vec<P
         }
     }
     out[first..].sort_by_key(|contact| (contact.part_a, contact.part_b));
+    least
 }
 
 /// One minus the cosine up to which two normals are one.

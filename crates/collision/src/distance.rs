@@ -121,9 +121,8 @@ pub fn shape_distance(a: &Shape, b: &Shape, b_in_a: Pose) -> Distance {
     nearest_parts(a, b, b_in_a).unwrap_or_else(Distance::nowhere)
 }
 
-/// The shortest way between two polygons or segments, or `None` if they touch or overlap.
-pub(crate) fn apart(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose) -> Option<Distance> {
-    let axis = separating_axis(a, b, b_in_a);
+/// The shortest way between two polygons or segments with this separating axis, or `None` if they touch or overlap.
+pub(crate) fn apart(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose, axis: Axis) -> Option<Distance> {
     (axis.separation > 0.0).then(|| closest(a, b, b_in_a, axis))
 }
 

@@ -51,10 +51,10 @@ mod vertex_edge;
 mod way_out;
 
 pub use cast::{CastHit, cast};
-pub use contacts::{PartManifold, contacts};
+pub use contacts::{PartManifold, contacts, contacts_and_gap};
 pub use distance::{Distance, distance, shape_distance};
 pub use hull::{Convex, Hull, hulls, part, part_count};
-pub use manifold::{FeatureId, Manifold, ManifoldPoint, collide, collide_within};
+pub use manifold::{FeatureId, Gap, Manifold, ManifoldPoint, collide, collide_within};
 pub use motion::Motion;
 pub use overlap::overlap_area;
 pub use sat::{Axis, AxisFeature, Side, minimum_push, separating_axis};

@@ -5,8 +5,8 @@ use carom_math::{Pose, Vec2, perp};
 
 use crate::distance::apart;
 use crate::outline::{Pair, nearest_boundary};
-use crate::sat::{Face, widest_edge};
-use crate::{AxisFeature, Convex, Hull, Side, separating_axis};
+use crate::sat::{Face, wider_axis, widest_edge};
+use crate::{Axis, AxisFeature, Convex, Hull, Side, separating_axis};
 
 /// A's edge is preferred to B's unless B's separates by more than this fraction of A's edge.
 ///
@@ -114,9 +114,27 @@ pub fn collide(a: &impl Convex, b: &impl Convex, b_in_a: Pose) -> Manifold {
 /// half-planes have no contact: neither can move.
 #[must_use]
 pub fn collide_within(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose, margin: f64) -> Manifold {
-    match touch(a, b, b_in_a, margin) {
+    match touch(a, b, b_in_a, margin).0 {
         Touch::Contact(manifold) => manifold,
         Touch::Apart | Touch::Hidden { .. } => Manifold::default(),
+    }
+}
+
+/// A strip between two shapes: along its normal they are at least so far apart.
+///
+/// It goes on to say so while they move: a translation of B by d adds normal · d, and a turn takes away what it
+/// moves B's farthest point by.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gap {
+    /// In metres; below zero they may overlap by as much.
+    pub separation: f64,
+    /// Unit normal in A's frame, from A to B; zero if the shapes are that far apart, but no strip is known.
+    pub normal: Vec2,
+}
+
+impl Gap {
+    const fn new(separation: f64, normal: Vec2) -> Self {
+        Self { separation, normal }
     }
 }
 
@@ -133,12 +151,17 @@ pub(crate) enum Touch {
     },
 }
 
-pub(crate) fn touch(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose, margin: f64) -> Touch {
+pub(crate) fn touch(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose, margin: f64) -> (Touch, Gap) {
     if a.is_disc() || b.is_disc() {
-        return collide_round(a, b, b_in_a, margin);
+        let axis = separating_axis(a, b, b_in_a);
+        let gap = Gap::new(axis.separation, axis.normal);
+        if axis.separation > margin {
+            return (Touch::Apart, gap);
+        }
+        return (collide_round(a, b, b_in_a, axis), gap);
     }
     if a.is_half_plane() && b.is_half_plane() {
-        return Touch::Apart;
+        return (Touch::Apart, Gap::new(f64::INFINITY, Vec2::ZERO));
     }
     collide_polygons(&Pair::new(a, b, b_in_a), margin)
 }
@@ -161,11 +184,7 @@ pub(crate) fn along_boundary(
 }
 
 /// A disc against anything: one point on the way from its centre to the nearest feature.
-fn collide_round(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose, margin: f64) -> Touch {
-    let axis = separating_axis(a, b, b_in_a);
-    if axis.separation > margin {
-        return Touch::Apart;
-    }
+fn collide_round(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose, axis: Axis) -> Touch {
     let hidden = if axis.separation <= 0.0 {
         Touch::Hidden {
             normal: axis.normal,
@@ -218,15 +237,17 @@ fn collide_round(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose, margin: f64) -> Touch
 }
 
 /// Two polygons (or segments): the edge of least overlap, and the facing edge clipped to it.
-fn collide_polygons(pair: &Pair<'_>, margin: f64) -> Touch {
+fn collide_polygons(pair: &Pair<'_>, margin: f64) -> (Touch, Gap) {
     let [a, b] = &pair.hulls;
     let of_a = widest_edge(a, b, pair.poses[0]);
     if of_a.separation > margin {
-        return Touch::Apart;
+        let gap = Gap::new(of_a.separation, a.normals[of_a.edge]);
+        return (Touch::Apart, gap);
     }
     let of_b = widest_edge(b, a, pair.poses[1]);
     if of_b.separation > margin {
-        return Touch::Apart;
+        let normal = -pair.poses[0].vector(b.normals[of_b.edge]);
+        return (Touch::Apart, Gap::new(of_b.separation, normal));
     }
     let tie = || {
         let (from, to) = a.edge(of_a.edge);
@@ -240,6 +261,7 @@ fn collide_polygons(pair: &Pair<'_>, margin: f64) -> Touch {
     let overlap = best.1.separation <= 0.0;
     let touchable = !pair.has_cuts() || pair.allows(best.0, best.1);
     let faces = Faces::new(pair, best.0, best.1);
+    let gap = Gap::new(best.1.separation, faces.normal_in_a());
     if overlap && !touchable {
         let hidden = Touch::Hidden {
             normal: faces.normal_in_a(),
@@ -248,28 +270,33 @@ fn collide_polygons(pair: &Pair<'_>, margin: f64) -> Touch {
         if pair.hulls[best.0 as usize].is_boundary(best.1.edge) {
             // The outline goes on below that vertex: as a rule a neighbouring piece reaches deeper
             // along the same normal, and has the contact.
-            return hidden;
+            return (hidden, gap);
         }
-        return along_boundary(a, b, pair.poses[0], margin).map_or(hidden, Touch::Contact);
+        let found = along_boundary(a, b, pair.poses[0], margin);
+        return (found.map_or(hidden, Touch::Contact), gap);
     }
     if let Some(found) = faces.shared().and_then(|ends| faces.manifold(ends, margin)) {
-        return if touchable {
+        let touch = if touchable {
             Touch::Contact(found)
         } else {
             Touch::Apart
         };
+        return (touch, gap);
     }
     // The vertex is beyond the end of the edge: vertex on vertex, if they are apart at all. Closer
     // than rounding the way from vertex to vertex has no direction, but the edge still has.
-    match apart(a, b, pair.poses[0]).filter(|way| way.distance > tie()) {
+    let axis = wider_axis([a, b], pair.poses, [of_a, of_b]);
+    match apart(a, b, pair.poses[0], axis).filter(|way| way.distance > tie()) {
         Some(way) if way.distance <= margin && pair.allows_way(&way) => {
             let (i, j) = way.vertices(a, b, pair.poses[0]);
             let middle = 0.5 * (way.point_a + way.point_b);
             let feature = FeatureId::new(i, j);
-            Touch::Contact(Manifold::single(way.normal, middle, way.distance, feature))
+            let manifold = Manifold::single(way.normal, middle, way.distance, feature);
+            (Touch::Contact(manifold), Gap::new(way.distance, way.normal))
         }
-        None if touchable => Touch::Contact(faces.deepest()),
-        _ => Touch::Apart,
+        Some(way) => (Touch::Apart, Gap::new(way.distance, way.normal)),
+        None if touchable => (Touch::Contact(faces.deepest()), gap),
+        None => (Touch::Apart, gap),
     }
 }
 

@@ -107,16 +107,23 @@ pub fn separating_axis(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose) -> Axis {
         let axis = point_axis(b, b_in_a.inverse_point(a.vertices[0]), a.radius);
         return axis.of_swapped(b_in_a);
     }
-    let of_a = widest_edge(a, b, b_in_a);
-    let a_in_b = b_in_a.inverse();
-    let of_b = widest_edge(b, a, a_in_b);
+    let poses = [b_in_a, b_in_a.inverse()];
+    let widest = [widest_edge(a, b, poses[0]), widest_edge(b, a, poses[1])];
+    wider_axis([a, b], poses, widest)
+}
+
+/// [`separating_axis`] of two polygons or segments whose widest edges are known; `poses`: of the other hull
+/// in the frame of each.
+pub(crate) fn wider_axis([a, b]: [&Hull<'_>; 2], poses: [Pose; 2], widest: [Widest; 2]) -> Axis {
+    let [of_a, of_b] = widest;
     let axis = if of_b.separation > of_a.separation {
-        of_b.face(b, a, a_in_b).axis(b, Side::A).of_swapped(b_in_a)
+        let face = of_b.face(b, a, poses[1]);
+        face.axis(b, Side::A).of_swapped(poses[0])
     } else {
-        of_a.face(a, b, b_in_a).axis(a, Side::A)
+        of_a.face(a, b, poses[0]).axis(a, Side::A)
     };
     if a.normals.len() == 2 && b.normals.len() == 2 {
-        return along_segments(a, b, b_in_a, axis);
+        return along_segments(a, b, poses[0], axis);
     }
     axis
 }

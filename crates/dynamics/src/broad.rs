@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use carom_collision::{BoxTree, Motion, roundable};
+use carom_collision::{Motion, roundable};
 use carom_geometry::Aabb;
 use carom_math::{SimTime, Vec2};
 
@@ -10,6 +10,7 @@ use crate::bodies::Bodies;
 use crate::flyers::Flyers;
 use crate::pairs::{Pair, Pairs};
 use crate::state::Collider;
+use crate::trees::Trees;
 use crate::{BodyId, BodyKind, PairMaterial, PairSearch};
 
 /// Boxes are stretched along the motion over this many sub-steps, so that a body that keeps its
@@ -23,7 +24,7 @@ pub(crate) const PADDING: f64 = 0.05;
 #[derive(Clone, Debug)]
 pub(crate) struct Broad {
     pub(crate) search: PairSearch,
-    pub(crate) tree: BoxTree,
+    pub(crate) trees: Trees,
     /// When last a box came into the tree, or was changed there.
     pub(crate) changed: SimTime,
     pub(crate) overrides: BTreeMap<(BodyId, BodyId), PairMaterial>,
@@ -35,7 +36,7 @@ impl Broad {
     pub(crate) fn new(search: PairSearch) -> Self {
         Self {
             search,
-            tree: BoxTree::new(),
+            trees: Trees::default(),
             changed: SimTime::ZERO,
             overrides: BTreeMap::new(),
             near: Vec::new(),
@@ -74,19 +75,26 @@ impl Broad {
                 0.0
             };
             let fat = swept.union(ahead).grown(padding);
-            let collider = &mut colliders[at as usize];
-            collider.fat = fat;
-            // The tree is asked where a body is at instants in between, too.
-            let kept = fat.grown(roundable(fat));
-            self.changed = time;
-            match collider.node {
-                Some(node) => {
-                    self.tree.update(node, kept);
-                }
-                None => collider.node = Some(self.tree.insert(kept, at)),
-            }
+            self.put(colliders, at, fat, time, false);
             self.meet(bodies, colliders, pairs, at, flyers);
         }
+    }
+
+    /// Gives a collider a new box.
+    pub(crate) fn put(
+        &mut self,
+        colliders: &mut [Collider],
+        at: u32,
+        fat: Aabb,
+        time: SimTime,
+        on_course: bool,
+    ) {
+        let collider = &mut colliders[at as usize];
+        collider.fat = fat;
+        // The tree is asked where a body is at instants in between, too.
+        let kept = fat.grown(roundable(fat));
+        self.changed = time;
+        self.trees.put(&mut collider.node, kept, at, on_course);
     }
 
     /// Boxes of a flyer that is too large for the grid, over its motion up to its horizon.
@@ -100,21 +108,12 @@ impl Broad {
     ) {
         let body = bodies.get(index);
         for &at in &body.colliders {
-            let collider = &mut colliders[at as usize];
-            let fat = swept_box(collider, &body.motion, time, seconds);
-            collider.fat = fat;
-            let kept = fat.grown(roundable(fat));
-            self.changed = time;
-            match collider.node {
-                Some(node) => {
-                    self.tree.update(node, kept);
-                }
-                None => collider.node = Some(self.tree.insert(kept, at)),
-            }
+            let fat = swept_box(&colliders[at as usize], &body.motion, time, seconds);
+            self.put(colliders, at, fat, time, false);
         }
     }
 
-    /// Colliders in the tree whose boxes overlap `bounds`, in order.
+    /// Colliders in the trees whose boxes overlap `bounds`, in order.
     pub(crate) fn in_tree(&self, colliders: &[Collider], bounds: Aabb) -> Vec<u32> {
         let mut near = Vec::new();
         self.search_tree(colliders, bounds, &mut near);
@@ -131,7 +130,7 @@ impl Broad {
                 near.extend(all.filter(|(_, c)| c.node.is_some()).map(|(at, _)| at));
             }
             PairSearch::Indexed => {
-                self.tree.query(bounds, |at| {
+                self.trees.query(bounds, |at| {
                     if colliders[at as usize].fat.overlaps(bounds) {
                         near.push(at);
                     }
@@ -139,6 +138,15 @@ impl Broad {
                 near.sort_unstable();
             }
         }
+    }
+
+    /// [`Self::search_tree`] among those that are not on a course; in no order, and added to what was found before.
+    pub(crate) fn search_still(&self, colliders: &[Collider], bounds: Aabb, near: &mut Vec<u32>) {
+        self.trees.query_still(bounds, |at| {
+            if colliders[at as usize].fat.overlaps(bounds) {
+                near.push(at);
+            }
+        });
     }
 
     /// New pairs of a collider whose box is new.
@@ -165,7 +173,7 @@ impl Broad {
                 );
             }
             PairSearch::Indexed => {
-                self.tree.query(mine.fat, |other| near.push(other));
+                self.trees.query(mine.fat, |other| near.push(other));
                 if let Some(flyers) = flyers {
                     let mut flying = Vec::new();
                     flyers.overlapping(bodies, mine.fat, &mut flying);

@@ -400,7 +400,7 @@ impl World {
     fn forget_boxes(&mut self, index: u32) {
         for at in self.bodies.get(index).colliders.clone() {
             if let Some(node) = self.colliders[at as usize].node.take() {
-                self.broad.tree.remove(node);
+                self.broad.trees.remove(node);
             }
         }
     }

@@ -70,6 +70,7 @@ mod substep;
 mod threads;
 mod tipping;
 mod touching;
+mod trees;
 mod world;
 
 pub use body::Body;

@@ -48,8 +48,22 @@ pub(crate) struct Glance {
     pub(crate) apart: Vec2,
     /// Angles of both then, in rad.
     pub(crate) angles: (f64, f64),
-    /// How much farther than usual they may move before they are looked at again, in m.
-    pub(crate) slack: f64,
+    /// Unit normal then, from A to B, along which they were `gap` apart, in m; zero: no such direction is known,
+    /// but so far apart they were.
+    pub(crate) normal: Vec2,
+    pub(crate) gap: f64,
+    /// What was nearer than this then has a row, in m.
+    pub(crate) sought: f64,
+    /// It has rows.
+    pub(crate) rows: bool,
+    /// One of its bodies is so much heavier that one sweep does not carry it.
+    pub(crate) heavy: bool,
+    /// How many times as heavy the one of its bodies is that the other gives way to; 1 or less: neither does.
+    pub(crate) load: f64,
+    /// It was put deep into each other, and still is.
+    pub(crate) buried: bool,
+    /// Sub-steps before the next tick at which it is asked again; 0: not before that.
+    pub(crate) due: u32,
 }
 
 /// A contact of two convex parts at the last look.
@@ -104,7 +118,7 @@ impl Pairs {
     fn place_for(&mut self, pair: Pair) -> u32 {
         if let Some(place) = self.free.pop() {
             self.list[place as usize] = Some(pair);
-            self.glances[place as usize].holds = false;
+            self.glances[place as usize] = Glance::default();
             return place;
         }
         self.list.push(Some(pair));

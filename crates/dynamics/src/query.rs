@@ -152,7 +152,7 @@ impl Filtered<'_> {
         for at in self.flying_in(Aabb::from_points([origin, end])) {
             reach = reach.min(meet(at));
         }
-        self.world.broad.tree.ray(origin, direction, reach, meet);
+        self.world.broad.trees.ray(origin, direction, reach, meet);
         best.map(|(_, hit)| hit)
     }
 
@@ -203,7 +203,10 @@ impl Filtered<'_> {
         for at in self.flying_in(start.union(end)) {
             reach = reach.min(meet(at));
         }
-        self.world.broad.tree.sweep(start, translation, reach, meet);
+        self.world
+            .broad
+            .trees
+            .sweep(start, translation, reach, meet);
         best.map(|(_, hit)| hit)
     }
 
@@ -217,7 +220,7 @@ impl Filtered<'_> {
             }
         };
         self.flying_in(bounds).into_iter().for_each(&mut look);
-        self.world.broad.tree.query(bounds, look);
+        self.world.broad.trees.query(bounds, look);
         found.sort_unstable();
         found.dedup();
         found

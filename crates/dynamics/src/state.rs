@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use carom_collision::{Hull, Motion, NodeId, hulls};
+use carom_collision::{Hull, Motion, hulls};
 use carom_geometry::{Aabb, AreaProperties, MassProperties, Shape};
 use carom_math::{Pose, Rot, SimTime, StateHash, Vec2};
 
@@ -11,6 +11,7 @@ use crate::error::BodyError;
 use crate::flight::Flight;
 use crate::flyers::Course;
 use crate::impact::ImpactBody;
+use crate::trees::Leaf;
 use crate::{BodyDef, BodyId, BodyKind, Filter, Material};
 
 /// All that a world keeps of one body. Nothing else stores a pose.
@@ -111,7 +112,7 @@ pub(crate) struct Collider {
     pub(crate) filter: Filter,
     pub(crate) body: u32,
     /// Node in the tree of boxes.
-    pub(crate) node: Option<NodeId>,
+    pub(crate) node: Option<Leaf>,
     pub(crate) material: Material,
     /// Box that the pairs were searched with.
     pub(crate) fat: Aabb,

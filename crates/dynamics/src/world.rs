@@ -216,7 +216,7 @@ impl World {
         let colliders = core::mem::take(&mut self.bodies.get_mut(index).colliders);
         for at in colliders {
             if let Some(node) = self.colliders[at as usize].node.take() {
-                self.broad.tree.remove(node);
+                self.broad.trees.remove(node);
             }
             self.free_colliders.push(at);
         }

@@ -264,7 +264,7 @@ impl World {
         for slot in 0..self.bodies.get(index).colliders.len() {
             let at = self.bodies.get(index).colliders[slot];
             if let Some(node) = self.colliders[at as usize].node.take() {
-                self.broad.tree.remove(node);
+                self.broad.trees.remove(node);
             }
         }
     }

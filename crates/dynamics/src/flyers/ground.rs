@@ -91,7 +91,7 @@ impl World {
 
     /// From the first box in the tree on flyers look down for what is there.
     pub(crate) fn look_down_first(&mut self, time: SimTime) {
-        if self.flyers.grounded || self.broad.tree.is_empty() {
+        if self.flyers.grounded || self.broad.trees.is_empty() {
             return;
         }
         self.flyers.grounded = true;

@@ -178,11 +178,19 @@ impl Rig {
 
     /// Puts a new row of the same two bodies into the lane of an old one.
     pub(crate) fn rewrite(&mut self, id: RowId, row: &Row) {
-        let old = self.row(id);
-        debug_assert_eq!(old.bodies, row.bodies, "a lane is of two bodies");
-        self.warm(&old, -1.0);
-        self.warm(row, 1.0);
+        debug_assert_eq!(self.row(id).bodies, row.bodies, "a lane is of two bodies");
+        let (wide, lane) = self.lanes.at(id);
+        let (push, turn_a, turn_b) = wide.push(lane);
+        let new = push_of(row);
+        let change = (new.0 - push, new.1 - turn_a, new.2 - turn_b);
+        self.push(row.bodies, change);
         self.retell(id, row);
+    }
+
+    /// Impulses of a row: of both points, and of friction.
+    pub(crate) fn impulses(&self, id: RowId) -> ([f64; 2], f64) {
+        let (wide, lane) = self.lanes.at(id);
+        ([wide.j1[lane], wide.j2[lane]], wide.jt[lane])
     }
 
     /// Tells a row's gaps anew, from where its bodies' lines count now; its impulses stay.
@@ -211,15 +219,17 @@ impl Rig {
 
     /// Adds `sign` times a row's impulses to the warm start of its bodies.
     fn warm(&mut self, row: &Row, sign: f64) {
-        let impulse = sign * (row.n * (row.j[0] + row.j[1]) + perp(row.n) * row.jt);
-        let arm =
-            |arms: [f64; 2], t: f64| sign * (arms[0] * row.j[0] + arms[1] * row.j[1] + t * row.jt);
-        let (turn_a, turn_b) = (arm(row.a, row.at), arm(row.b, row.bt));
-        let (a, b) = (row.bodies.0 as usize, row.bodies.1 as usize);
-        let (line_a, line_b) = (self.lines[a], self.lines[b]);
+        let (push, turn_a, turn_b) = push_of(row);
+        self.push(row.bodies, (push * sign, turn_a * sign, turn_b * sign));
+    }
+
+    fn push(&mut self, (a, b): (u32, u32), (push, turn_a, turn_b): (Vec2, f64, f64)) {
+        let (a, b) = (a as usize, b as usize);
+        let (line_a, line_b) = (&self.lines[a], &self.lines[b]);
         let (mass_a, mass_b) = (line_a.inverse_mass(), line_b.inverse_mass());
-        self.start[a].add(impulse * mass_a, turn_a * line_a.inverse_inertia());
-        self.start[b].add(-impulse * mass_b, -turn_b * line_b.inverse_inertia());
+        let (inertia_a, inertia_b) = (line_a.inverse_inertia(), line_b.inverse_inertia());
+        self.start[a].add(push * mass_a, turn_a * inertia_a);
+        self.start[b].add(-push * mass_b, -turn_b * inertia_b);
     }
 
     /// Sets a velocity; what contacts do to the body stays.
@@ -391,4 +401,11 @@ impl Rig {
         let (line, start) = (&self.lines[slot as usize], &self.start[slot as usize]);
         (line.v() - start.v(), line.w() - start.w())
     }
+}
+
+/// What a row does to B: its impulse, and the turning ones about the centres of A and of B.
+fn push_of(row: &Row) -> (Vec2, f64, f64) {
+    let push = row.n * (row.j[0] + row.j[1]) + perp(row.n) * row.jt;
+    let turn = |arms: [f64; 2], t: f64| arms[0] * row.j[0] + arms[1] * row.j[1] + t * row.jt;
+    (push, turn(row.a, row.at), turn(row.b, row.bt))
 }

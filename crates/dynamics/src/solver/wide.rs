@@ -1,6 +1,6 @@
 //! What the sweeps read and write: body lines, and contact rows in blocks of eight.
 
-use carom_math::{Vec2, vec2};
+use carom_math::{Vec2, perp, vec2};
 
 use super::Row;
 
@@ -27,6 +27,10 @@ impl Line {
 
     pub(crate) const fn new(v: Vec2, w: f64, inverse_mass: f64, inverse_inertia: f64) -> Self {
         Self([v.x, v.y, w, inverse_mass, 0.0, 0.0, 0.0, inverse_inertia])
+    }
+
+    pub(crate) fn set_velocity(&mut self, v: Vec2, w: f64) {
+        self.0[..3].copy_from_slice(&[v.x, v.y, w]);
     }
 
     pub(crate) const fn v(&self) -> Vec2 {
@@ -164,6 +168,18 @@ impl Wide {
             jt: self.jt[lane],
             ground: a.inverse_mass() == 0.0 || b.inverse_mass() == 0.0,
         }
+    }
+
+    /// What the row of a lane does to B: its impulse, and the turning ones about the centres of A and of B.
+    pub(crate) fn push(&self, lane: usize) -> (Vec2, f64, f64) {
+        let (j1, j2, jt) = (self.j1[lane], self.j2[lane], self.jt[lane]);
+        let n = vec2(self.nx[lane], self.ny[lane]);
+        let turn = |arm: f64| arm * j1 + (arm + self.l[lane]) * j2;
+        (
+            n * (j1 + j2) + perp(n) * jt,
+            turn(self.a1[lane]) + self.at[lane] * jt,
+            turn(self.b1[lane]) + self.bt[lane] * jt,
+        )
     }
 
     /// Copies a lane of another block.

@@ -27,10 +27,10 @@ impl World {
             self.pool.moved.append(newcomers);
             self.box_drivers(time);
             self.pool.seats.zone();
+            self.pool.until_look = self.settings.substeps_per_tick();
             self.look_around(time);
             self.scout(time);
-            self.pool.until_look = self.settings.substeps_per_tick();
-        } else if !(self.pool.quick.is_empty() && self.pool.moved.is_empty()) {
+        } else if self.is_restless() {
             self.look_between(time);
         }
         // A look may wake sleepers, and those who join find others.

@@ -12,7 +12,7 @@ const LOADED: usize = 120;
 
 /// A body so many times as heavy as the one that gives way to it is a load that some sweeps carry; beyond [`HEAVY`] it takes
 /// [`LOADED`].
-const BEARS: f64 = 16.0;
+pub(super) const BEARS: f64 = 16.0;
 
 /// What the looks of a tick found of bodies deep in each other.
 #[derive(Clone, Debug, Default)]

@@ -1,106 +1,73 @@
 //! A look at a pair: its contacts, and their rows.
 
-use carom_collision::contacts;
-use carom_math::{Pose, SimTime, Vec2, perp};
+use carom_collision::{contacts, contacts_and_gap};
+use carom_math::{Pose, SimTime, Vec2};
 
 use super::Stepped;
-use super::near::is_quick;
-use super::seats::{Seat, pull_of};
+use super::depths::BEARS;
+use super::seats::{PART, pull_of};
+use super::watch::{Against, KEPT_APART, MARGIN, RESERVE, fall, lie_of};
 use crate::narrow::{BURIED, carried};
 use crate::pairs::{Glance, Pair, PairContact};
-use crate::solver::{Line, Row, RowId};
-use crate::{BodyKind, Mode, World};
-
-/// Two bodies that moved less than this against each other since their contacts were found, as a
-/// fraction of the smaller reach, are not looked at again: 20 mm for boxes of 1 m.
-const KEPT: f64 = 0.028;
-
-/// The same for two that do not push each other.
-const KEPT_APART: f64 = 0.014;
-
-/// Contacts are looked for this far beyond a tick's travel, as a fraction of the smaller reach.
-const MARGIN: f64 = 0.028;
-
-/// Normals are kept in the world: a pair that turned by more, in rad, is looked at again.
-const TURNED: f64 = 0.1;
+use crate::solver::{Row, RowId};
+use crate::{BodyKind, World};
 
 /// A light body gives way to a heavy one when they lie this deep in each other, or close by as much in a tick, as a
 /// fraction of the smaller reach: 2.8 mm for boxes of 1 m.
-const GIVES: f64 = 1.0 / 256.0;
+pub(super) const GIVES: f64 = 1.0 / 256.0;
 
 impl World {
-    /// Whether a pair need not be looked at: it moved so little since its contacts were found that they are
-    /// still its contacts.
-    pub(super) fn is_still(&self, place: u32) -> bool {
-        let glance = self.pairs.glance(place);
-        let seats = &self.pool.seats;
-        let slots = [glance.bodies.0, glance.bodies.1].map(|index| seats.slot(index));
-        let (true, [Some(a), Some(b)]) = (glance.holds, slots) else {
-            return false;
-        };
-        let slots = [a, b];
-        let [a, b] = slots.map(|slot| seats.get(slot));
-        let lines = slots.map(|slot| &seats.rig.lines[slot as usize]);
-        let size = a.reach.min(b.reach);
-        let (apart, angles) = lie_of([a, b], lines);
-        let went = stirred(glance, apart, angles, size, [a.rim > 0.0, b.rim > 0.0]);
-        if went <= KEPT_APART * size + glance.slack {
-            return true;
-        }
-        // Asked of the rows: what callers were told last depends on when they looked.
-        let contacts = &self.pairs.get(place).contacts;
-        let mut rows = contacts.iter().filter_map(|contact| contact.row);
-        went <= KEPT * size && rows.any(|id| seats.rig.pushes(id))
-    }
-
-    /// Finds the contacts of a pair anew, and gives them rows. Whoever wakes goes to `moved`.
-    pub(super) fn look_at(&mut self, place: u32, time: SimTime, moved: &mut Vec<u32>) {
+    /// Finds the contacts of a pair anew, and gives them rows, unless it is nothing to the solver. Whoever wakes goes
+    /// to `moved`. Whether the pair is so quick that it may want another look before the next tick; of others the
+    /// margin is wide enough.
+    pub(super) fn look_at(&mut self, place: u32, time: SimTime, moved: &mut Vec<u32>) -> bool {
         let pair = self.pairs.get(place);
         let bodies = pair.bodies;
         let active = [bodies.0, bodies.1].map(|i| self.bodies.get(i).is_active());
         if active == [false, false] || !self.moves_all() && !self.is_inside(place) {
-            return;
+            return false;
         }
         for index in [bodies.0, bodies.1] {
             if self.bodies.get(index).asleep {
                 if !self.meets_sleeper(place, time) {
-                    return;
+                    return false;
                 }
                 self.call_up(index, time, moved);
             }
         }
         let slots = [bodies.0, bodies.1].map(|i| self.sit(i, time));
-        let seats = &self.pool.seats;
-        let [a, b] = slots.map(|slot| seats.get(slot));
-        let lines = slots.map(|slot| &seats.rig.lines[slot as usize]);
-        let size = a.reach.min(b.reach);
-        let (apart, angles) = lie_of([a, b], lines);
+        let (against, reaches, (apart, angles)) = {
+            let seats = &self.pool.seats;
+            let both = slots.map(|slot| seats.get(slot));
+            let lines = slots.map(|slot| &seats.rig.lines[slot as usize]);
+            let pulls = slots.map(|slot| seats.rig.pull(slot));
+            let against = Against::new(both, lines, pulls);
+            (against, both.map(|seat| seat.reach), lie_of(both, lines))
+        };
+        let size = reaches[0].min(reaches[1]);
+        for slot in slots {
+            self.pool.seats.minds(slot, size);
+        }
+        let (tick, h, all) = (self.settings.tick, self.clock.h, self.moves_all());
+        let ahead = f64::from(self.pool.until_look) * h;
+        let quick = against.is_quick(tick, all);
+        let travel = if !quick {
+            against.speed() * ahead
+        } else if all && self.is_stopped(slots, &against) {
+            0.0
+        } else {
+            against.speed() * h
+        };
+        let margin = MARGIN * size + travel + fall(against.pull(), 2.0 * tick);
         let pair = self.pairs.get_mut(place);
         pair.fresh = false;
         let pair_was_touching = pair.touching;
-        let tick = self.settings.tick;
-        let closing = closing_of([a, b], lines);
-        let pull = seats.rig.pull(slots[0]).acceleration - seats.rig.pull(slots[1]).acceleration;
-        // Who is swift is stopped where it touches, and looked at there.
-        let h = self.clock.h;
-        let stepped = self.settings.mode == Mode::Stepped;
-        let stops = |slot: &u32| {
-            let line = &seats.rig.lines[*slot as usize];
-            seats.rig.is_swift(*slot, h) && is_quick(seats.get(*slot), line, tick, stepped)
-        };
-        let ahead = if stepped && slots.iter().any(stops) {
-            0.0
-        } else {
-            closing * tick
-        };
-        let margin = MARGIN * size + ahead + pull.length() * tick * tick;
-        let near = a.reach + b.reach + margin;
-        let found = &mut self.pool.found;
-        found.clear();
-        let centres_apart = apart.length();
-        let slack = if centres_apart <= near {
+        let circles = apart.length() - (reaches[0] + reaches[1]);
+        let (gap, normal, load) = if circles <= margin {
             let poses = slots.map(|slot| self.pool.seats.pose(slot));
-            contacts(
+            let found = &mut self.pool.found;
+            found.clear();
+            let gap = contacts_and_gap(
                 &self.colliders[pair.colliders.0 as usize].solid,
                 &self.colliders[pair.colliders.1 as usize].solid,
                 poses[1].seen_from(poses[0]),
@@ -110,25 +77,51 @@ impl World {
             self.report.pairs += 1;
             let colliders = pair.colliders;
             self.drop_grazes(colliders, slots, size);
-            self.face(place, slots, poses);
-            0.0
+            let load = self.face(place, slots, poses, against.speed());
+            (gap.separation, poses[0].vector(gap.normal), load)
         } else {
             self.pool.release(pair);
             pair.contacts.clear();
             pair.fresh = false;
-            // Circles that are apart stay so until half of what parts them is gone, at this pace.
-            0.5 * (centres_apart - near)
+            (circles, apart / apart.length(), 1.0)
         };
+        let pair = self.pairs.get(place);
+        let rows = !pair.contacts.is_empty();
+        let buried = all && rows && pair.buried;
+        let due = self.pairs.glance(place).due;
+        let masses = [bodies.0, bodies.1].map(|index| self.bodies.get(index).inverse_mass);
+        let heavy = all && mass_ratio(masses) > BEARS;
         *self.pairs.glance_mut(place) = Glance {
             holds: true,
             bodies,
             apart,
             angles,
-            slack,
+            normal,
+            gap,
+            sought: margin,
+            rows,
+            heavy,
+            load,
+            buried,
+            due,
         };
         if pair_was_touching {
             self.judge(place, time);
         }
+        quick
+    }
+
+    /// Whether somebody of a pair that moves so is stopped at its time of impact, if they meet: then rows need
+    /// not know of it before.
+    pub(super) fn is_stopped(&self, slots: [u32; 2], against: &Against) -> bool {
+        let (rig, h) = (&self.pool.seats.rig, self.clock.h);
+        slots.iter().any(|slot| rig.is_swift(*slot, h)) && self.outruns_rows(slots, against)
+    }
+
+    /// Whether bodies that move so may pass each other before a row knows of it.
+    pub(super) fn outruns_rows(&self, slots: [u32; 2], against: &Against) -> bool {
+        let inner = slots.map(|slot| self.pool.seats.get(slot).inner);
+        against.speed() * self.clock.h > PART * inner[0].min(inner[1])
     }
 
     /// Whether an active body is about to touch a sleeper of its pair: then that one wakes.
@@ -153,7 +146,7 @@ impl World {
         let closing = line.v().length() + rim;
         let resting = self.settings.sleep.map_or(0.0, |sleep| sleep.speed);
         let margin = if closing > resting {
-            closing * self.settings.tick + KEPT_APART * size
+            closing * self.settings.tick + (KEPT_APART + RESERVE) * size
         } else {
             0.0
         };
@@ -198,8 +191,10 @@ impl World {
         slot
     }
 
-    /// Gives the contacts that were found their rows: lanes go over by parts, impulses by feature.
-    fn face(&mut self, place: u32, slots: [u32; 2], poses: [Pose; 2]) {
+    /// Gives the contacts that were found their rows: lanes go over by parts, impulses by feature. How many
+    /// times as heavy the body is that one gives way to, or 1: of bodies that may approach at `closing` m/s.
+    fn face(&mut self, place: u32, slots: [u32; 2], poses: [Pose; 2], closing: f64) -> f64 {
+        let mut load = 1.0;
         let (all, tick) = (self.moves_all(), self.settings.tick);
         let pair = self.pairs.get_mut(place);
         let masses =
@@ -207,14 +202,15 @@ impl World {
         let stepped = &mut self.pool;
         for contact in &mut pair.contacts {
             if let Some(id) = contact.row {
-                let row = stepped.seats.rig.row(id);
-                for (point, j) in contact.points.iter_mut().zip(row.j) {
+                let (j, jt) = stepped.seats.rig.impulses(id);
+                for (point, j) in contact.points.iter_mut().zip(j) {
                     point.impulse = j;
                 }
-                contact.tangent_impulse = row.jt;
+                contact.tangent_impulse = jt;
             }
         }
-        let mut old = core::mem::take(&mut pair.contacts);
+        let mut old = core::mem::take(&mut stepped.before);
+        core::mem::swap(&mut old, &mut pair.contacts);
         let found = core::mem::take(&mut stepped.found);
         let size = {
             let of = |slot: u32| stepped.seats.get(slot).reach;
@@ -226,21 +222,12 @@ impl World {
             let depths = found.iter().filter_map(|new| new.manifold.deepest());
             let deepest = depths.fold(0.0, f64::min);
             let deep = deepest < -BURIED * size;
-            let [light, heavy] = [masses[0].max(masses[1]), masses[0].min(masses[1])];
             pair.buried = deep && (pair.buried || old.is_empty());
-            let closing = {
-                let seats = &stepped.seats;
-                let of = |slot: u32| (seats.get(slot), &seats.rig.lines[slot as usize]);
-                let ((a, line_a), (b, line_b)) = (of(slots[0]), of(slots[1]));
-                closing_of([a, b], [line_a, line_b])
-            };
             let gives = deepest.min(-closing * tick) < -GIVES * size;
-            let ratio = if heavy > 0.0 && gives && !found.is_empty() {
-                light / heavy
-            } else {
-                1.0
-            };
-            stepped.depths.note(pair, ratio);
+            if gives && !found.is_empty() {
+                load = mass_ratio(masses);
+            }
+            stepped.depths.note(pair, load);
         }
         pair.contacts.reserve_exact(found.len());
         for new in &found {
@@ -266,13 +253,21 @@ impl World {
         if !all && pair.material.tangent_speed != 0.0 && !pair.contacts.is_empty() {
             stepped.crowd.belts.push(place);
         }
-        for gone in old {
+        for gone in old.drain(..) {
             if let Some(id) = gone.row {
                 stepped.seats.rig.remove(id);
                 stepped.bounces.forget(id);
             }
         }
+        stepped.before = old;
+        load
     }
+}
+
+/// How many times as heavy the heavier of two bodies is; 1 beside what cannot be moved. From their inverse masses.
+fn mass_ratio(masses: [f64; 2]) -> f64 {
+    let [light, heavy] = [masses[0].max(masses[1]), masses[0].min(masses[1])];
+    if heavy > 0.0 { light / heavy } else { 1.0 }
 }
 
 impl Stepped {
@@ -308,41 +303,4 @@ fn row_of(contact: &PairContact, slots: [u32; 2], poses: [Pose; 2], pair: &Pair)
     let limit = row.mu * (row.j[0] + row.j[1]);
     row.jt = contact.tangent_impulse.clamp(-limit, limit);
     row
-}
-
-/// From the centre of A to that of B, in m, and the angles of both.
-fn lie_of([a, b]: [&Seat; 2], lines: [&Line; 2]) -> (Vec2, (f64, f64)) {
-    let centres = [
-        a.base.position + lines[0].d(),
-        b.base.position + lines[1].d(),
-    ];
-    let angles = (
-        a.base_angle + lines[0].turn(),
-        b.base_angle + lines[1].turn(),
-    );
-    (centres[1] - centres[0], angles)
-}
-
-/// Fastest that any two points of the bodies can approach, in m/s.
-fn closing_of([a, b]: [&Seat; 2], lines: [&Line; 2]) -> f64 {
-    let rim = |w: f64, reach: f64| if w == 0.0 { 0.0 } else { w.abs() * reach };
-    (lines[1].v() - lines[0].v()).length() + rim(lines[0].w(), a.rim) + rim(lines[1].w(), b.rim)
-}
-
-/// How far two bodies moved against each other where they meet, in m; infinite if their normals are stale.
-///
-/// A disc that turns about its centre stays where it is.
-fn stirred(built: &Glance, apart: Vec2, angles: (f64, f64), size: f64, turns: [bool; 2]) -> f64 {
-    let turn = |turns: bool, now: f64, built: f64| if turns { now - built } else { 0.0 };
-    let turns = (
-        turn(turns[0], angles.0, built.angles.0),
-        turn(turns[1], angles.1, built.angles.1),
-    );
-    if turns.0.abs() > TURNED || turns.1.abs() > TURNED {
-        return f64::INFINITY;
-    }
-    // B's centre as A sees it, and what the gap's linear form leaves out for a far centre.
-    let slid = (apart - built.apart - perp(built.apart) * turns.0).length();
-    let bent = 0.5 * built.apart.length() * turns.0 * turns.0;
-    slid + bent + size * (turns.1 - turns.0).abs()
 }

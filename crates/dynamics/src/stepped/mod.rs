@@ -10,6 +10,7 @@
 mod among;
 mod bounce;
 mod boxes;
+mod courses;
 mod crowd;
 mod depths;
 mod faces;
@@ -21,12 +22,15 @@ mod seats;
 mod swift;
 #[cfg(test)]
 mod tests;
+mod throng;
 mod touch;
+mod watch;
 mod write;
 
 use carom_collision::PartManifold;
 use carom_math::SimTime;
 
+use crate::pairs::PairContact;
 use crate::solver::RowId;
 use crate::{Mode, World};
 use bounce::Bounces;
@@ -36,6 +40,7 @@ use depths::Depths;
 use rush::Rush;
 use seats::Seats;
 use swift::Cores;
+use throng::Throng;
 
 /// Ticks between two works-out of the warm start from the impulses.
 const REFRESH: u32 = 64;
@@ -47,6 +52,13 @@ pub(crate) struct Stepped {
     pub(crate) bounces: Bounces,
     /// Scratch of a look.
     found: Vec<PartManifold>,
+    /// Shapes near a box: scratch.
+    near: Vec<u32>,
+    /// Bodies that got new boxes at this tick, and their slots: scratch.
+    reboxed: Vec<(u32, u32)>,
+    throng: Throng,
+    /// Contacts of the look before: scratch.
+    before: Vec<PairContact>,
     /// Pair of each row, by the row's name.
     pair_of: Vec<u32>,
     /// Rows that began or ceased to push: scratch.
@@ -61,8 +73,10 @@ pub(crate) struct Stepped {
     looks: u32,
     /// Bodies that moved since they were last looked at.
     moved: Vec<u32>,
-    /// Bodies that are looked at in every sub-step until the next tick.
-    quick: Vec<u32>,
+    /// Pairs that are asked before the next tick, and how many sub-steps before it; some were asked since.
+    watched: Vec<(u32, u32)>,
+    /// Somebody was struck since the last tick began.
+    stirred: bool,
     /// Cores of shapes, for those who move far in a sub-step.
     cores: Cores,
     depths: Depths,
@@ -104,9 +118,9 @@ impl World {
                     self.stopwatch.lap(|p| &mut p.sleep);
                 }
                 self.pool.seats.zone();
-                self.look_around(time);
                 self.pool.until_look = self.settings.substeps_per_tick();
-            } else if !(self.pool.quick.is_empty() && self.pool.moved.is_empty()) {
+                self.look_around(time);
+            } else if self.is_restless() {
                 self.look_between(time);
             }
             self.pool.until_look -= 1;
@@ -139,6 +153,7 @@ impl World {
             rig.met.clear();
         }
         rig.step(&self.law, &often, |rig| bounces.pay(rig, h));
+        self.pool.stirred |= !rig.met.is_empty();
         self.pool.since_rest += h;
         self.pool.since_idle += 1;
         self.stop_swift();

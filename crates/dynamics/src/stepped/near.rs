@@ -2,12 +2,11 @@
 
 use carom_math::{SimTime, Vec2};
 
-use super::seats::{FAR, Seat, pull_of, wandered};
+use super::seats::{pull_of, wandered};
 use super::{REFRESH, Stepped};
 use crate::broad::PADDING;
 use crate::pairs::Pair;
-use crate::solver::Line;
-use crate::{BodyKind, Mode, World};
+use crate::{BodyKind, World};
 
 impl World {
     /// Takes over what a caller changed since the last sub-step: who came, went, woke, was moved.
@@ -78,16 +77,24 @@ impl World {
         if self.pool.looks == 0 {
             self.pool.seats.rig.refresh();
         }
+        self.forget_watched();
+        self.pool.stirred = false;
+        let tick = self.settings.tick;
         let mut moved = core::mem::take(&mut self.pool.moved);
         for (slot, seat) in self.pool.seats.moving() {
             let line = &self.pool.seats.rig.lines[slot as usize];
-            if wandered(seat, line.d(), line.turn()) > seat.leash {
+            let ahead = speed_of(line.v(), line.w(), seat.rim) * tick;
+            // Courses end, and others count on them.
+            let asked = seat.is_timed() || ahead > SETS_OUT * seat.leash;
+            if asked || wandered(seat, line.d(), line.turn()) > seat.leash {
                 moved.push(seat.body);
             }
         }
         moved.sort_unstable();
         moved.dedup();
-        let (tick, all) = (self.settings.tick, self.moves_all());
+        let all = self.moves_all();
+        let left = self.pool.until_look;
+        let mut reboxed = core::mem::take(&mut self.pool.reboxed);
         for &index in &moved {
             let Some(slot) = self.pool.seats.slot(index) else {
                 continue;
@@ -101,6 +108,7 @@ impl World {
             }
             let boxed = !self.lacks_boxes(index);
             let seats = &mut self.pool.seats;
+            seats.send(slot, left);
             let line = seats.rig.lines[slot as usize];
             let seat = seats.get_mut(slot);
             seat.roamed += wandered(seat, line.d(), line.turn());
@@ -113,56 +121,71 @@ impl World {
             let ahead = speed_of(line.v(), line.w(), seat.rim) * tick;
             if ahead > 0.5 * padding {
                 // The boxes of a quick body are stretched along its way, and asked every time.
-                seat.roamed = f64::INFINITY;
-                self.rebox(index, slot, time, tick);
+                if self.rebox(index, slot, time, tick) {
+                    reboxed.push((index, slot));
+                }
             } else if !boxed || seat.roamed + ahead + seat.leash > padding {
                 // Those of a slow one hold what stays within their padding.
-                seat.roamed = 0.0;
-                self.sync(index, slot, time);
-                self.box_anew(index, slot, time);
+                self.rebox_slow(index, slot, time);
+                reboxed.push((index, slot));
             }
         }
+        self.meet_all(&reboxed, time);
+        reboxed.clear();
+        self.pool.reboxed = reboxed;
         self.stopwatch.lap(|p| &mut p.pairs);
         self.look_at_pairs(&mut moved, time, true);
         moved.clear();
         self.pool.moved = moved;
-        // Who is quick is looked at again in every sub-step of the tick.
-        let stepped = self.settings.mode == Mode::Stepped;
-        let seats = &self.pool.seats;
-        self.pool.quick.clear();
-        for (slot, seat) in seats.moving() {
-            let line = &seats.rig.lines[slot as usize];
-            if is_quick(seat, line, tick, stepped) {
-                self.pool.quick.push(seat.body);
-            }
-        }
         self.stopwatch.lap(|p| &mut p.contacts);
     }
 
-    /// The look between ticks: at the pairs of quick bodies that moved. Boxes hold for the whole tick.
+    /// The look between ticks: at the pairs of bodies that are not where they were bound for, and at those whose time
+    /// has come.
     pub(super) fn look_between(&mut self, time: SimTime) {
         let mut moved = core::mem::take(&mut self.pool.moved);
-        for k in 0..self.pool.quick.len() {
-            let index = self.pool.quick[k];
-            let seats = &mut self.pool.seats;
-            let Some(slot) = seats.slot(index) else {
-                continue;
-            };
-            let line = seats.rig.lines[slot as usize];
-            let seat = seats.get_mut(slot);
-            if wandered(seat, line.d(), line.turn()) > FAR * seat.leash {
-                seat.checked = (line.d(), line.turn());
-                moved.push(index);
-                let h = self.clock.h;
-                if self.pool.seats.get(slot).kind == BodyKind::Dynamic || self.moves_all() {
-                    self.rebox(index, slot, time, h);
+        let (left, h) = (self.pool.until_look, self.clock.h);
+        if self.pool.stirred {
+            let seats = &self.pool.seats;
+            for (slot, seat) in seats.moving() {
+                if seats.strays(slot, left, h) {
+                    moved.push(seat.body);
                 }
             }
         }
+        for &index in &moved {
+            let Some(slot) = self.pool.seats.slot(index) else {
+                continue;
+            };
+            let seats = &mut self.pool.seats;
+            seats.send(slot, left);
+            let line = seats.rig.lines[slot as usize];
+            let seat = seats.get_mut(slot);
+            seat.roamed += wandered(seat, line.d(), line.turn());
+            seat.checked = (line.d(), line.turn());
+            let boxed_here = seat.kind == BodyKind::Dynamic || self.moves_all();
+            if boxed_here && self.rebox(index, slot, time, f64::from(left) * h) {
+                self.seek_partners(index, slot, time, false);
+            }
+        }
         self.look_at_pairs(&mut moved, time, false);
+        for place in self.pairs_due() {
+            if self.pairs.find(place).is_some() {
+                self.attend(place, time, &mut moved);
+            }
+        }
+        if !moved.is_empty() {
+            // Who woke.
+            self.look_at_pairs(&mut moved, time, false);
+        }
         moved.clear();
         self.pool.moved = moved;
         self.stopwatch.lap(|p| &mut p.contacts);
+    }
+
+    /// Whether somebody is to be looked at between ticks.
+    pub(super) fn is_restless(&self) -> bool {
+        self.pool.stirred || !(self.pool.watched.is_empty() && self.pool.moved.is_empty())
     }
 
     /// Looks at all pairs of these bodies, and of those who wake meanwhile; `parts`: those whose boxes
@@ -177,13 +200,11 @@ impl World {
             while i < self.bodies.get(index).pairs.len() {
                 let place = self.bodies.get(index).pairs[i];
                 if self.pool.sees(place) {
-                    if parts && !self.keeps(place) {
+                    if parts && !self.moves_all() && !self.keeps(place) {
                         self.part(place, time);
                         continue;
                     }
-                    if !self.is_still(place) {
-                        self.look_at(place, time, moved);
-                    }
+                    self.attend(place, time, moved);
                 }
                 i += 1;
             }
@@ -196,19 +217,8 @@ fn speed_of(v: Vec2, w: f64, reach: f64) -> f64 {
     v.length() + if w == 0.0 { 0.0 } else { w.abs() * reach }
 }
 
-/// A body that goes so many leashes in a tick, a quarter of its reach, is quick: 11 m/s for boxes of 1 m.
-const QUICK: f64 = 36.0;
-
-/// So is one that turns by so much in a tick, in rad, 3.8 rad/s: gaps are linear in the turn, and off by
-/// ½ r θ², 1.4 mm for boxes of 1 m.
-const WHIRL: f64 = 0.063;
-
-/// Whether a body is to be looked at in every sub-step; by its turn in [`Mode::Stepped`] alone: jammed
-/// columns in a crowd of hybrid mode hummed at 0.6 m/s with it.
-pub(super) fn is_quick(seat: &Seat, line: &Line, tick: f64, stepped: bool) -> bool {
-    let turns = stepped && seat.rim > 0.0 && line.w().abs() * tick > WHIRL;
-    turns || speed_of(line.v(), line.w(), seat.rim) * tick > QUICK * seat.leash
-}
+/// Who goes so many leashes in a tick is asked about at its start, wherever it has been: 5 mm for boxes of 1 m.
+const SETS_OUT: f64 = 1.0;
 
 impl Stepped {
     /// Whether this look has not been at the pair yet.
@@ -226,11 +236,11 @@ impl Stepped {
             let Some(id) = contact.row.take() else {
                 continue;
             };
-            let row = self.seats.rig.row(id);
-            for (point, j) in contact.points.iter_mut().zip(row.j) {
+            let (j, jt) = self.seats.rig.impulses(id);
+            for (point, j) in contact.points.iter_mut().zip(j) {
                 point.impulse = j;
             }
-            contact.tangent_impulse = row.jt;
+            contact.tangent_impulse = jt;
             self.seats.rig.remove(id);
             self.bounces.forget(id);
             pair.fresh = true;

@@ -2,7 +2,8 @@
 
 use carom_math::{Pose, SimTime, Vec2};
 
-use super::boxes::Course;
+use super::courses::Course;
+use super::watch::{LEASH, STRAY};
 use crate::bodies::Bodies;
 use crate::solver::{Limit, Member, Pull, Rig, Row, RowId};
 use crate::state::BodyState;
@@ -21,13 +22,7 @@ const AWAY: f64 = 4.0;
 
 /// Who moves more than this part of its least half width in a sub-step is swift: 0.125 m for boxes
 /// of 1 m, 45 m/s at 1/360 s.
-const PART: f64 = 0.25;
-
-/// How far a body may move before it is looked at, as a fraction of its reach: 5 mm for boxes of 1 m.
-const LEASH: f64 = 0.007;
-
-/// Within a tick a quick body is looked at again after so many leashes.
-pub(super) const FAR: f64 = 4.0;
+pub(super) const PART: f64 = 0.25;
 
 /// The solver's bodies.
 #[derive(Clone, Debug, Default)]
@@ -51,20 +46,47 @@ pub(crate) struct Seat {
     pub(crate) reach: f64,
     /// The same for what a turn moves: 0 for a disc about its centre.
     pub(crate) rim: f64,
+    /// Least half width of its shapes, in m.
+    pub(crate) inner: f64,
     /// Where displacement and turn count from.
     pub(crate) base: Pose,
     /// Angle of the base with whole turns.
     pub(crate) base_angle: f64,
     /// Displacement and turn when it was last looked at.
     pub(crate) checked: (Vec2, f64),
+    /// How it moved when its pairs were last asked how long they will do.
+    pub(super) sent: Sent,
     /// Where its centre was when it was last asked whether it rests.
     pub(crate) rested: Vec2,
     /// How far it may move before it is looked at again, in m.
     pub(crate) leash: f64,
-    /// How far it went since its boxes were made, at most, in m.
+    /// Reach of the smallest of itself and those that it was near to, in m.
+    finest: f64,
+    /// How far it went since its boxes were made, at most, in m; infinite if they are those of a course.
     pub(crate) roamed: f64,
     /// What its boxes were stretched along.
     pub(super) course: Option<Course>,
+}
+
+/// Where a body was bound for.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sent {
+    /// Displacement and turn then.
+    from: (Vec2, f64),
+    velocity: Vec2,
+    spin: f64,
+    /// Sub-steps to the next tick then.
+    left: u32,
+}
+
+impl Sent {
+    /// Where it is.
+    const NOWHERE: Self = Self {
+        from: (Vec2::ZERO, 0.0),
+        velocity: Vec2::ZERO,
+        spin: 0.0,
+        left: 0,
+    };
 }
 
 impl Seat {
@@ -77,14 +99,24 @@ impl Seat {
         kind: BodyKind::Fixed,
         reach: 0.0,
         rim: 0.0,
+        inner: 0.0,
         base: Pose::IDENTITY,
         base_angle: 0.0,
         checked: (Vec2::ZERO, 0.0),
+        sent: Sent::NOWHERE,
         rested: Vec2::NAN,
         leash: f64::INFINITY,
+        finest: f64::INFINITY,
         roamed: 0.0,
         course: None,
     };
+}
+
+impl Seat {
+    /// Whether its boxes are those of a course.
+    pub(super) const fn is_timed(&self) -> bool {
+        self.course.is_some()
+    }
 }
 
 impl Seats {
@@ -155,11 +187,14 @@ impl Seats {
             } else {
                 0.0
             },
+            inner: state.inner,
             base: motion.pose_at(time),
             base_angle: state.turned + motion.turn(time - motion.start),
             checked: (Vec2::ZERO, 0.0),
+            sent: Sent::NOWHERE,
             rested: Vec2::NAN,
             leash: LEASH * state.reach,
+            finest: state.reach,
             roamed: f64::INFINITY,
             course: None,
         };
@@ -237,6 +272,54 @@ impl Seats {
         self.rig.set_displacement(slot, d, turn);
     }
 
+    /// Notes how a body moves, so many sub-steps before the next tick.
+    pub(super) fn send(&mut self, slot: u32, left: u32) {
+        let line = &self.rig.lines[slot as usize];
+        self.list[slot as usize].sent = Sent {
+            from: (line.d(), line.turn()),
+            velocity: line.v(),
+            spin: line.w(),
+            left,
+        };
+    }
+
+    /// A body is near one of this reach: what is little to it must be little to that one, too.
+    pub(super) fn minds(&mut self, slot: u32, size: f64) {
+        let seat = &mut self.list[slot as usize];
+        if size < seat.finest {
+            seat.finest = size;
+            seat.leash = LEASH * size;
+        }
+    }
+
+    /// Whether a body is not where it was bound for, or will not be after a sub-step.
+    pub(super) fn strays(&self, slot: u32, left: u32, h: f64) -> bool {
+        let (seat, line) = (&self.list[slot as usize], &self.rig.lines[slot as usize]);
+        let sent = &seat.sent;
+        let passed = f64::from(sent.left.saturating_sub(left)) * h;
+        let off = line.d() - sent.from.0 - sent.velocity * passed;
+        let drift = (line.v() - sent.velocity) * h;
+        let turned = line.turn() - sent.from.1 - sent.spin * passed;
+        let turned = turned
+            .abs()
+            .max((turned + (line.w() - sent.spin) * h).abs());
+        let far = STRAY * seat.finest
+            - if turned == 0.0 {
+                0.0
+            } else {
+                seat.rim * turned
+            };
+        let beyond = |off: Vec2, drift: Vec2| {
+            let most = off.length_squared().max((off + drift).length_squared());
+            most > far * far
+        };
+        // What pull adds or a floor holds back is in every margin.
+        let pull = self.rig.pull(slot).acceleration;
+        let fallen = pull * (0.5 * passed * passed);
+        far < 0.0
+            || beyond(off, drift) && beyond(off - fallen, drift - pull * ((passed + 0.5 * h) * h))
+    }
+
     pub(crate) fn centre(&self, slot: u32) -> Vec2 {
         self.list[slot as usize].base.position + self.rig.lines[slot as usize].d()
     }
@@ -266,6 +349,7 @@ impl Seats {
         seat.base = Pose::new(pose.position, pose.rotation.renormalized());
         seat.base_angle += turn;
         seat.checked = (Vec2::ZERO, 0.0);
+        seat.sent.from = (Vec2::ZERO, 0.0);
         self.rig.set_displacement(slot, Vec2::ZERO, 0.0);
         for (id, row) in rows {
             self.rig.retell(id, &row);

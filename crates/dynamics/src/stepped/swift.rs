@@ -18,6 +18,8 @@ use carom_collision::{Hull, Motion, TimeOfImpact, hulls, time_of_impact};
 use carom_geometry::{Circle, ConvexPolygon, Shape};
 use carom_math::{SimTime, Vec2};
 
+use super::watch::Against;
+use crate::solver::Pull;
 use crate::state::inner_of;
 use crate::{BodyKind, Mode, World};
 
@@ -60,9 +62,16 @@ impl World {
         let (start, end) = (self.clock.last(), self.clock.next());
         let mut ways = self.ways(start);
         let mut touches = BinaryHeap::new();
+        let mut way_of = vec![u32::MAX; self.pool.seats.places() as usize];
+        for (number, way) in (0u32..).zip(&ways) {
+            way_of[way.slot as usize] = number;
+        }
         for k in 0..ways.len() {
             for i in 0..self.bodies.get(ways[k].body).pairs.len() {
                 let place = self.bodies.get(ways[k].body).pairs[i];
+                if self.is_left_to_rows(&ways, k, place, &way_of) {
+                    continue;
+                }
                 self.search(&ways, k, (start, end), (place, true), &mut touches);
             }
         }
@@ -221,6 +230,35 @@ impl World {
             first = Some(wait);
         }
         first
+    }
+
+    /// Whether way `k` and the partner of a pair go so little against each other that their rows know of it,
+    /// however fast both are; `way_of`: number of a slot's way.
+    fn is_left_to_rows(&self, ways: &[Way], k: usize, place: u32, way_of: &[u32]) -> bool {
+        let glance = self.pairs.glance(place);
+        let (way, seats) = (&ways[k], &self.pool.seats);
+        let other = if glance.bodies.0 == way.body {
+            glance.bodies.1
+        } else {
+            glance.bodies.0
+        };
+        let Some(slot) = seats.slot(other).filter(|_| glance.holds) else {
+            return false;
+        };
+        let slots = [way.slot, slot];
+        let lines = slots.map(|slot| {
+            let mut line = seats.rig.lines[slot as usize];
+            if let Some(way) = ways.get(way_of[slot as usize] as usize) {
+                line.set_velocity(way.motion.velocity, way.motion.spin);
+            }
+            line
+        });
+        let against = Against::new(
+            slots.map(|slot| seats.get(slot)),
+            [&lines[0], &lines[1]],
+            [Pull::default(); 2],
+        );
+        !self.outruns_rows(slots, &against)
     }
 
     /// Whether a body that is not swift is too far for a way to meet it.
