@@ -10,3 +10,4 @@ mod an_impact_on_the_border_of_two_sub_steps_bounces;
 mod parts_that_land_together_do_not_turn;
 mod tips_that_meet_do_not_spin;
 mod what_glides_slowly_stops_at_a_wall;
+mod what_leaves_a_turning_group_is_not_called_exact;

@@ -60,6 +60,7 @@ impl World {
             self.end_forces();
         }
         self.events.end_step();
+        self.report_astray(self.clock.now);
         self.report.advanced = if stop_at_event {
             self.clock.now - start
         } else {

@@ -91,6 +91,8 @@ pub(crate) struct Closed {
     moving: Vec<(u32, u64)>,
     /// By place of a body: when judgements of it began that took place at one instant, and how many they were.
     stalls: Vec<(SimTime, u32)>,
+    /// Who left the path of a group that turned on its parabola: body, its acceleration, and when.
+    pub(super) astray: Vec<(u32, Vec2, SimTime)>,
     /// Nobody is let go of: the slow twin.
     #[cfg(test)]
     pub(super) stays: bool,

@@ -125,6 +125,7 @@ impl World {
 
     /// Pieces of motion for the coming sub-step of all groups that turn.
     pub(crate) fn follow_tips(&mut self, time: SimTime, h: f64) {
+        self.report_astray(time);
         for place in self.closed.tipping() {
             let stands = |group: &Group| {
                 let mut members = group.members.iter();
@@ -155,9 +156,24 @@ impl World {
                     motion.acceleration = acceleration;
                     motion.angular_acceleration = angular;
                 });
+                self.closed.astray.push((index, acceleration, time));
             }
             self.redirect(index, time);
         }
+    }
+
+    /// Reports those who left a path and still go on by its parabola, which pushes along the arms of that instant: a
+    /// group that takes them in, or their own flight, gives them another one.
+    pub(crate) fn report_astray(&mut self, now: SimTime) {
+        let (bodies, report) = (&self.bodies, &mut self.report);
+        self.closed.astray.retain(|&(index, acceleration, since)| {
+            let state = bodies.get(index);
+            let goes_on = state.motion.acceleration == acceleration
+                && !state.course.flies
+                && !state.membership.is_closed();
+            report.handed_over += u64::from(goes_on && since < now);
+            goes_on && since == now
+        });
     }
 
     /// Gives every member of a group that turns the parabola through both ends of its path's next piece.
