@@ -303,9 +303,9 @@ fn case_32_a_body_in_a_whirling_hollow_stays_inside() {
 fn case_36_a_dense_box_that_lands_on_a_light_one_comes_to_rest() {
     let cases = [
         (20.0, 1e-3, 1e-3),
-        (64.0, 0.02, 2.5e-3),
-        (100.0, 0.06, 5e-3),
-        (1000.0, 0.1, 0.05),
+        (64.0, 1e-3, 3e-3),
+        (100.0, 0.08, 7e-3),
+        (1000.0, 0.03, 0.05),
     ];
     for (ratio, most, deep) in cases {
         let mut world = stepped(restless(Settings::default()));

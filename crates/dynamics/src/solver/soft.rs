@@ -8,9 +8,6 @@
 use super::row::{Row, SolverBody};
 use crate::Softness;
 
-/// Damping ratio and compliance that rows which are rebuilt in every sub-step have at least.
-const SLOW: (f64, f64) = (10.0, 0.3);
-
 /// Constants of one sub-step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Law {
@@ -24,8 +21,6 @@ pub(crate) struct Law {
     pub(super) push_out: f64,
     /// (rate, γ) between moving bodies, and against the ground at twice the frequency.
     pub(super) soft: [(f64, f64); 2],
-    /// The same for rows that are rebuilt in every sub-step, which push out more slowly: impacts go on among their bodies.
-    slow: [(f64, f64); 2],
 }
 
 impl Law {
@@ -40,15 +35,13 @@ impl Law {
     /// so that at rest `gap = −κ load (1/m)/ω²`: softness, not lack of sweeps, is what a resting
     /// contact sinks in by.
     pub(crate) fn new(softness: &Softness, h: f64) -> Self {
+        let kappa = softness.compliance;
         let frequency = softness.frequency.min(0.125 / h);
-        let soft = |zeta: f64, kappa: f64| {
-            [frequency, 2.0 * frequency].map(|f| {
-                let omega = 2.0 * core::f64::consts::PI * f;
-                let c = 2.0 * zeta + h * omega;
-                (omega / c, kappa / (h * omega * c))
-            })
+        let soft = |f: f64| {
+            let omega = 2.0 * core::f64::consts::PI * f;
+            let c = 2.0 * softness.damping_ratio + h * omega;
+            (omega / c, kappa / (h * omega * c))
         };
-        let (zeta, kappa) = (softness.damping_ratio, softness.compliance);
         Self {
             h,
             inverse_h: h.recip(),
@@ -56,8 +49,7 @@ impl Law {
             milder: 1.0 + 0.6 * (softness.over_relaxation - 1.0),
             often: 1.0 + 1.4 * (softness.over_relaxation - 1.0),
             push_out: softness.push_out,
-            soft: soft(zeta, kappa),
-            slow: soft(zeta.max(SLOW.0), kappa.max(SLOW.1)),
+            soft: [soft(frequency), soft(2.0 * frequency)],
         }
     }
 }
@@ -66,7 +58,7 @@ impl Law {
 pub(crate) fn solve(law: &Law, bodies: &mut [SolverBody], rows: &mut [Row]) {
     for row in rows {
         let (mut a, mut b) = (bodies[row.bodies.0 as usize], bodies[row.bodies.1 as usize]);
-        let (rate, gamma) = law.slow[usize::from(row.ground)];
+        let (rate, gamma) = law.soft[usize::from(row.ground)];
         let v = row.normal_velocity(&a, &b);
         let bias = |gap: f64| gap.max(0.0) / law.h + (rate * gap.min(0.0)).max(-law.push_out);
         let soften = |gap: f64| if gap <= 0.0 { 1.0 + gamma } else { 1.0 };
