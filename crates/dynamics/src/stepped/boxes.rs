@@ -63,7 +63,7 @@ impl World {
         let (seat, line) = (seats.get(slot), &seats.rig.lines[slot as usize]);
         let pull = seats.rig.pull(slot);
         let holds = |course: &Course| course.holds(seat, line, &pull, time, seconds);
-        if seat.is_timed() && seat.course.as_ref().is_some_and(holds) && !self.lacks_boxes(index) {
+        if seat.course.as_ref().is_some_and(holds) && !self.lacks_boxes(index) {
             return false;
         }
         let (lasts, line_of) = (TICKS * self.settings.tick, *line);
@@ -93,8 +93,8 @@ impl World {
     /// New boxes, stretched along a body's course; `with`: what else is to be in each.
     fn box_anew(&mut self, index: u32, slot: u32, time: SimTime, with: &[Aabb]) {
         let seat = self.pool.seats.get(slot);
-        let timed = seat.is_timed();
-        let lasts = if timed || !with.is_empty() {
+        let on_course = seat.is_on_course();
+        let lasts = if on_course || !with.is_empty() {
             TICKS * self.settings.tick
         } else {
             0.0
@@ -106,9 +106,8 @@ impl World {
             let mut fat = way.around(&self.colliders[at as usize].solid);
             fat = with.get(k).map_or(fat, |more| fat.union(*more));
             let fat = fat.grown(padding);
-            let on_course = timed && self.pool.throng.takes(fat);
-            self.broad
-                .put(&mut self.colliders, at, fat, time, on_course);
+            let in_cells = on_course && self.pool.throng.takes(fat);
+            self.broad.put(&mut self.colliders, at, fat, time, in_cells);
         }
         self.look_down_first(time);
     }
@@ -129,7 +128,7 @@ impl World {
         let mut throng = core::mem::take(&mut self.pool.throng);
         let moving = self.pool.seats.moving();
         let shapes = moving
-            .filter(|(_, seat)| seat.is_timed())
+            .filter(|(_, seat)| seat.is_on_course())
             .flat_map(|(slot, seat)| {
                 let shapes = &self.bodies.get(seat.body).colliders;
                 shapes.iter().map(move |at| (slot, *at))

@@ -89,7 +89,7 @@ impl On {
                 off: 0.0,
             });
         }
-        let course = seat.course.filter(|_| seat.is_timed())?;
+        let course = seat.course?;
         let passed = time - course.from;
         let left = course.lasts - passed;
         (left > 0.0).then(|| Self {

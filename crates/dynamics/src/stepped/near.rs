@@ -85,7 +85,7 @@ impl World {
             let line = &self.pool.seats.rig.lines[slot as usize];
             let ahead = speed_of(line.v(), line.w(), seat.rim) * tick;
             // Courses end, and others count on them.
-            let asked = seat.is_timed() || ahead > SETS_OUT * seat.leash;
+            let asked = seat.is_on_course() || ahead > SETS_OUT * seat.leash;
             if asked || wandered(seat, line.d(), line.turn()) > seat.leash {
                 moved.push(seat.body);
             }

@@ -114,7 +114,7 @@ impl Seat {
 
 impl Seat {
     /// Whether its boxes are those of a course.
-    pub(super) const fn is_timed(&self) -> bool {
+    pub(super) const fn is_on_course(&self) -> bool {
         self.course.is_some()
     }
 }
