@@ -130,11 +130,8 @@ impl Broad {
                 near.extend(all.filter(|(_, c)| c.node.is_some()).map(|(at, _)| at));
             }
             PairSearch::Indexed => {
-                self.trees.query(bounds, |at| {
-                    if colliders[at as usize].fat.overlaps(bounds) {
-                        near.push(at);
-                    }
-                });
+                self.trees
+                    .query(bounds, overlapping(colliders, bounds, near));
                 near.sort_unstable();
             }
         }
@@ -142,11 +139,8 @@ impl Broad {
 
     /// [`Self::search_tree`] among those that are not on a course; in no order, and added to what was found before.
     pub(crate) fn search_still(&self, colliders: &[Collider], bounds: Aabb, near: &mut Vec<u32>) {
-        self.trees.query_still(bounds, |at| {
-            if colliders[at as usize].fat.overlaps(bounds) {
-                near.push(at);
-            }
-        });
+        self.trees
+            .query_still(bounds, overlapping(colliders, bounds, near));
     }
 
     /// New pairs of a collider whose box is new.
@@ -290,6 +284,19 @@ impl Broad {
             || colliders[pair.colliders.0 as usize]
                 .fat
                 .overlaps(colliders[pair.colliders.1 as usize].fat)
+    }
+}
+
+/// Takes those that a tree names whose own boxes overlap `bounds`: its boxes are rounded.
+fn overlapping<'a>(
+    colliders: &'a [Collider],
+    bounds: Aabb,
+    near: &'a mut Vec<u32>,
+) -> impl FnMut(u32) + 'a {
+    move |at| {
+        if colliders[at as usize].fat.overlaps(bounds) {
+            near.push(at);
+        }
     }
 }
 

@@ -397,7 +397,8 @@ impl World {
         }
     }
 
-    fn forget_boxes(&mut self, index: u32) {
+    /// Takes the boxes of a body out of the trees.
+    pub(crate) fn forget_boxes(&mut self, index: u32) {
         for at in self.bodies.get(index).colliders.clone() {
             if let Some(node) = self.colliders[at as usize].node.take() {
                 self.broad.trees.remove(node);

@@ -6,7 +6,7 @@
 
 use arrayvec::ArrayVec;
 use carom_collision::{AxisFeature, Impact, ImpactFeature, Side, part};
-use carom_math::SimTime;
+use carom_math::{SimTime, Vec2};
 
 use crate::bodies::Bodies;
 use crate::flight::motion_along;
@@ -71,7 +71,7 @@ fn press(
     colliders: &[Collider],
     pair: &Pair,
     contact: &PairContact,
-    point: carom_math::Vec2,
+    point: Vec2,
     time: SimTime,
     (a, b): (&BodyState, &BodyState),
 ) -> f64 {

@@ -22,18 +22,18 @@ use crate::{BodyKind, StepReport};
 /// rattle with e = 0 faster than a thirtieth of a sub-step are closer to rest than to flight.
 pub(crate) const BUDGET: f64 = 32.0;
 
+/// Looks at an impact of bodies that fly by a law.
+const ROUNDS: usize = 4;
+
+/// A stretch of a law, in s, in which its parabola is right to the last digits.
+const INSTANT: f64 = 1e-6;
+
 /// What an impact spends: the loss of relative speed, since k impacts leave `e^k` of it.
 ///
 /// At least 1/1024, so that a pair without any loss ends, too: after 32,768 impacts in a sub-step.
 pub(crate) fn price(pair: &Pair) -> f64 {
     price_of(pair.material.restitution)
 }
-
-/// Looks at an impact of bodies that fly by a law.
-const ROUNDS: usize = 4;
-
-/// A stretch of a law, in s, in which its parabola is right to the last digits.
-const INSTANT: f64 = 1e-6;
 
 /// [`price`] by restitution.
 pub(crate) fn price_of(restitution: f64) -> f64 {

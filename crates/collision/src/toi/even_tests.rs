@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use super::approach::{Approach, Axis};
 use super::even::Found;
 use super::turns::sines_and_cosines;
-use super::{TimeOfImpact, even, search};
+use super::{Impact, TimeOfImpact, even, search};
 use crate::{Convex, Motion};
 
 /// All widths that this machine has.
@@ -93,6 +93,16 @@ fn agree(
     (true, slow)
 }
 
+/// Both at an impact, and parting from there.
+fn bounced((one, two): (&Motion, &Motion), hit: &Impact) -> (Motion, Motion) {
+    let at = one.start.max(two.start) + hit.time;
+    let (mut one, mut two) = (one.rebased(at), two.rebased(at));
+    let push = hit.normal * (-1.2 * hit.gap_rate);
+    one.velocity -= push;
+    two.velocity += push;
+    (one, two)
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(4_000))]
 
@@ -105,11 +115,7 @@ proptest! {
         let (_, first) = agree((&a, &b), (&one, &two), horizon, None);
         // They bounce there and part, and may meet again.
         let TimeOfImpact::Hit(hit) = first else { return Ok(()) };
-        let at = one.start.max(two.start) + hit.time;
-        let (mut one, mut two) = (one.rebased(at), two.rebased(at));
-        let push = hit.normal * (-1.2 * hit.gap_rate);
-        one.velocity -= push;
-        two.velocity += push;
+        let (one, two) = bounced((&one, &two), &hit);
         agree((&a, &b), (&one, &two), horizon, Axis::of(hit.features[0].feature));
     }
 
@@ -125,11 +131,7 @@ proptest! {
         };
         let (_, hit) = look(&one, &two, None);
         let TimeOfImpact::Hit(hit) = hit else { return Ok(()) };
-        let at = one.start.max(two.start) + hit.time;
-        let (mut one, mut two) = (one.rebased(at), two.rebased(at));
-        let push = hit.normal * (-1.2 * hit.gap_rate);
-        one.velocity -= push;
-        two.velocity += push;
+        let (one, two) = bounced((&one, &two), &hit);
         look(&one, &two, Axis::of(hit.features[0].feature));
     }
 
@@ -142,11 +144,7 @@ proptest! {
         let two = two.rebased(two.start + 0.5 * horizon);
         let (_, hit) = agree((&a, &b), (&one, &two), horizon, None);
         let TimeOfImpact::Hit(hit) = hit else { return Ok(()) };
-        let at = one.start.max(two.start) + hit.time;
-        let (mut one, mut two) = (one.rebased(at), two.rebased(at));
-        let push = hit.normal * (-1.2 * hit.gap_rate);
-        one.velocity -= push;
-        two.velocity += push;
+        let (one, two) = bounced((&one, &two), &hit);
         let (fast, next) = agree((&a, &b), (&one, &two), horizon, Axis::of(hit.features[0].feature));
         prop_assert!(fast && next == TimeOfImpact::Clear);
     }

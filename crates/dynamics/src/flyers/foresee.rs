@@ -48,7 +48,7 @@ impl World {
             self.meet_flyers(index, time, cause, but);
             return self.predict_pairs(index, time);
         } else {
-            self.leave_tree(index);
+            self.forget_boxes(index);
             self.look_down(index, time, self.first_span(index, time));
         }
         self.meet_flyers(index, time, cause, but);
@@ -256,16 +256,6 @@ impl World {
             self.queue_near_shape(a, impact.colliders.1, time);
         } else {
             self.queue_near_shape(b, impact.colliders.0, time);
-        }
-    }
-
-    /// Takes the boxes of a body out of the tree.
-    fn leave_tree(&mut self, index: u32) {
-        for slot in 0..self.bodies.get(index).colliders.len() {
-            let at = self.bodies.get(index).colliders[slot];
-            if let Some(node) = self.colliders[at as usize].node.take() {
-                self.broad.trees.remove(node);
-            }
         }
     }
 

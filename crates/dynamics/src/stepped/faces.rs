@@ -5,8 +5,9 @@ use carom_math::{Pose, SimTime, Vec2};
 
 use super::Stepped;
 use super::depths::BEARS;
+use super::relative::{Against, fall, lie_of};
 use super::seats::{PART, pull_of};
-use super::watch::{Against, KEPT_APART, MARGIN, RESERVE, fall, lie_of};
+use super::watch::{KEPT_APART, MARGIN, RESERVE};
 use crate::narrow::{BURIED, carried};
 use crate::pairs::{Glance, Pair, PairContact};
 use crate::solver::{Row, RowId};

@@ -16,6 +16,8 @@ mod depths;
 mod faces;
 mod graze;
 mod near;
+mod partners;
+mod relative;
 mod rest;
 mod rush;
 mod seats;

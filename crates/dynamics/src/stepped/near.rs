@@ -85,8 +85,10 @@ impl World {
             let line = &self.pool.seats.rig.lines[slot as usize];
             let ahead = speed_of(line.v(), line.w(), seat.rim) * tick;
             // Courses end, and others count on them.
-            let asked = seat.is_on_course() || ahead > SETS_OUT * seat.leash;
-            if asked || wandered(seat, line.d(), line.turn()) > seat.leash {
+            if seat.is_on_course()
+                || ahead > seat.leash
+                || wandered(seat, line.d(), line.turn()) > seat.leash
+            {
                 moved.push(seat.body);
             }
         }
@@ -109,10 +111,7 @@ impl World {
             let boxed = !self.lacks_boxes(index);
             let seats = &mut self.pool.seats;
             seats.send(slot, left);
-            let line = seats.rig.lines[slot as usize];
-            let seat = seats.get_mut(slot);
-            seat.roamed += wandered(seat, line.d(), line.turn());
-            seat.checked = (line.d(), line.turn());
+            let (seat, line) = (seats.get(slot), &seats.rig.lines[slot as usize]);
             if seat.kind == BodyKind::Kinematic && !all {
                 // A flyer: its boxes are its own.
                 continue;
@@ -157,13 +156,9 @@ impl World {
             let Some(slot) = self.pool.seats.slot(index) else {
                 continue;
             };
-            let seats = &mut self.pool.seats;
-            seats.send(slot, left);
-            let line = seats.rig.lines[slot as usize];
-            let seat = seats.get_mut(slot);
-            seat.roamed += wandered(seat, line.d(), line.turn());
-            seat.checked = (line.d(), line.turn());
-            let boxed_here = seat.kind == BodyKind::Dynamic || self.moves_all();
+            self.pool.seats.send(slot, left);
+            let kind = self.pool.seats.get(slot).kind;
+            let boxed_here = kind == BodyKind::Dynamic || self.moves_all();
             if boxed_here && self.rebox(index, slot, time, f64::from(left) * h) {
                 self.seek_partners(index, slot, time, false);
             }
@@ -216,9 +211,6 @@ impl World {
 fn speed_of(v: Vec2, w: f64, reach: f64) -> f64 {
     v.length() + if w == 0.0 { 0.0 } else { w.abs() * reach }
 }
-
-/// Who goes so many leashes in a tick is asked about at its start, wherever it has been: 5 mm for boxes of 1 m.
-const SETS_OUT: f64 = 1.0;
 
 impl Stepped {
     /// Whether this look has not been at the pair yet.

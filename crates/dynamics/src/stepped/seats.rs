@@ -52,9 +52,7 @@ pub(crate) struct Seat {
     pub(crate) base: Pose,
     /// Angle of the base with whole turns.
     pub(crate) base_angle: f64,
-    /// Displacement and turn when it was last looked at.
-    pub(crate) checked: (Vec2, f64),
-    /// How it moved when its pairs were last asked how long they will do.
+    /// How it moved when it was last asked about.
     pub(super) sent: Sent,
     /// Where its centre was when it was last asked whether it rests.
     pub(crate) rested: Vec2,
@@ -102,7 +100,6 @@ impl Seat {
         inner: 0.0,
         base: Pose::IDENTITY,
         base_angle: 0.0,
-        checked: (Vec2::ZERO, 0.0),
         sent: Sent::NOWHERE,
         rested: Vec2::NAN,
         leash: f64::INFINITY,
@@ -190,7 +187,6 @@ impl Seats {
             inner: state.inner,
             base: motion.pose_at(time),
             base_angle: state.turned + motion.turn(time - motion.start),
-            checked: (Vec2::ZERO, 0.0),
             sent: Sent::NOWHERE,
             rested: Vec2::NAN,
             leash: LEASH * state.reach,
@@ -272,10 +268,14 @@ impl Seats {
         self.rig.set_displacement(slot, d, turn);
     }
 
-    /// Notes how a body moves, so many sub-steps before the next tick.
+    /// Notes how a body moves, so many sub-steps before the next tick, and how far it went since that was noted last.
     pub(super) fn send(&mut self, slot: u32, left: u32) {
-        let line = &self.rig.lines[slot as usize];
-        self.list[slot as usize].sent = Sent {
+        let (seat, line) = (
+            &mut self.list[slot as usize],
+            &self.rig.lines[slot as usize],
+        );
+        seat.roamed += wandered(seat, line.d(), line.turn());
+        seat.sent = Sent {
             from: (line.d(), line.turn()),
             velocity: line.v(),
             spin: line.w(),
@@ -348,7 +348,6 @@ impl Seats {
         let seat = &mut self.list[slot as usize];
         seat.base = Pose::new(pose.position, pose.rotation.renormalized());
         seat.base_angle += turn;
-        seat.checked = (Vec2::ZERO, 0.0);
         seat.sent.from = (Vec2::ZERO, 0.0);
         self.rig.set_displacement(slot, Vec2::ZERO, 0.0);
         for (id, row) in rows {
@@ -369,9 +368,9 @@ pub(crate) fn pull_of(bodies: &Bodies, state: &BodyState, centre: Vec2) -> Pull 
     }
 }
 
-/// How far a body went since it was last looked at, in m, at most.
+/// How far a body went since it was last asked about, in m, at most.
 pub(crate) fn wandered(seat: &Seat, d: Vec2, turn: f64) -> f64 {
-    let by = (turn - seat.checked.1).abs();
+    let by = (turn - seat.sent.from.1).abs();
     let turned = if by > 0.0 { by * seat.rim } else { 0.0 };
-    (d - seat.checked.0).length() + turned
+    (d - seat.sent.from.0).length() + turned
 }

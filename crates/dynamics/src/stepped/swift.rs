@@ -18,7 +18,7 @@ use carom_collision::{Hull, Motion, TimeOfImpact, hulls, time_of_impact};
 use carom_geometry::{Circle, ConvexPolygon, Shape};
 use carom_math::{SimTime, Vec2};
 
-use super::watch::Against;
+use super::relative::Against;
 use crate::solver::Pull;
 use crate::state::inner_of;
 use crate::{BodyKind, Mode, World};

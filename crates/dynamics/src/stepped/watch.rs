@@ -1,22 +1,10 @@
-//! When a pair is looked at again: not before its motion since the last look can matter.
-//!
-//! A look leaves a strip between the two bodies (or says by how much they overlap), and rows for all that is
-//! nearer than the look's margin. Both are followed in the frame of the larger body, F: with r from its centre to
-//! that of the smaller one, S, at the look, and φ, ψ what either turned since,
-//!
-//! ```text
-//! moved    r' − R(φ) r                         what S moved by, as F sees it
-//! swung    rim_S |ψ − φ|                       what its points moved by beside that, at most
-//! strip    gap + n·moved − swung               n turns with F
-//! others   margin − |moved| − swung            nearest that anything can be that has no row
-//! ```
-//! As long as the strip is wider than what both go in a sub-step nothing can happen; and rows stay those of the
-//! pair as long as `|moved| + swung` is small against its size and its normals keep their directions.
+//! When a pair is looked at again: not before its motion since the last look (`relative`) can matter.
 
-use carom_math::{SimTime, Vec2, perp};
+use carom_math::{SimTime, Vec2};
 
 use super::depths::BEARS;
 use super::faces::GIVES;
+use super::relative::{Against, QUICK, Since, WHIRL, fall, lie_of};
 use super::seats::Seat;
 use crate::World;
 use crate::pairs::Glance;
@@ -49,20 +37,6 @@ pub(super) const MARGIN: f64 = KEPT_APART + RESERVE;
 /// that rows come and go more often.
 const LET_GO: f64 = 0.028;
 
-/// Normals are kept in the world: a pair that turned by more, in rad, is looked at again.
-const TURNED: f64 = 0.1;
-
-/// A pair that moves against each other by so much of its smaller reach in a tick is asked in every sub-step
-/// while it has rows that act: 11 m/s for boxes of 1 m.
-const QUICK: f64 = 0.25;
-
-/// So is one of which a body turns by so much in a tick, in rad, 3.8 rad/s: gaps are linear in the turn, and off by
-/// ½ r θ², 1.4 mm for boxes of 1 m.
-const WHIRL: f64 = 0.063;
-
-/// Where the larger body turned by more since a look, in rad, nobody knows what is left of the strip.
-const LOST: f64 = 0.25;
-
 /// What a pair wants.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Wish {
@@ -75,172 +49,24 @@ pub(super) enum Wish {
     Look,
 }
 
-/// How two bodies move against each other: the smaller one as the larger one sees it.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Against {
-    /// Of the centre of the smaller one, in m/s.
-    v: Vec2,
-    /// Of its points about the centre, in m/s.
-    swing: f64,
-    /// In rad/s, the faster of both.
-    whirl: f64,
-    /// Difference of what pulls on both, in m/s².
-    pull: f64,
-    size: f64,
-}
-
-impl Against {
-    #[inline]
-    pub(super) fn new(seats: [&Seat; 2], lines: [&Line; 2], pulls: [Pull; 2]) -> Self {
-        let (f, s) = larger_first(seats);
-        let apart = seats[s].base.position + lines[s].d() - seats[f].base.position - lines[f].d();
-        let (w_f, w_s) = (spin(seats[f], lines[f]), spin(seats[s], lines[s]));
-        let carried = if w_f == 0.0 {
-            Vec2::ZERO
-        } else {
-            perp(apart) * w_f
-        };
-        let pull = pulls[1].acceleration - pulls[0].acceleration;
-        Self {
-            v: lines[s].v() - lines[f].v() - carried,
-            swing: swing(seats[s].rim, w_s - w_f),
-            whirl: w_f.abs().max(w_s.abs()),
-            pull: if pull == Vec2::ZERO {
-                0.0
-            } else {
-                pull.length()
-            },
-            size: seats[0].reach.min(seats[1].reach),
-        }
-    }
-
-    /// Fastest that two points of them can approach, in m/s.
-    pub(super) fn speed(&self) -> f64 {
-        self.v.length() + self.swing
-    }
-
-    pub(super) const fn pull(&self) -> f64 {
-        self.pull
-    }
-
-    /// Whether rows found at a tick would not serve until the next. By the turn in [`crate::Mode::Stepped`] alone:
-    /// jammed columns in a crowd of hybrid mode hummed at 0.6 m/s with it.
-    pub(super) fn is_quick(&self, tick: f64, stepped: bool) -> bool {
-        stepped && self.whirl * tick > WHIRL || self.speed() * tick > QUICK * self.size
-    }
-}
-
-/// How far a pull moves apart or together within some seconds, in m.
-pub(super) const fn fall(pull: f64, seconds: f64) -> f64 {
-    0.5 * pull * seconds * seconds
-}
-
-/// What a turn moves the rim by; a disc and what does not turn stay where they are.
-#[inline]
-fn swing(rim: f64, by: f64) -> f64 {
-    if by == 0.0 { 0.0 } else { rim * by.abs() }
-}
-
-/// A disc turns into itself.
-#[inline]
-fn spin(seat: &Seat, line: &Line) -> f64 {
-    if seat.rim > 0.0 { line.w() } else { 0.0 }
-}
-
-/// Which of two bodies is the frame, and which is followed in it.
-#[inline]
-fn larger_first([a, b]: [&Seat; 2]) -> (usize, usize) {
-    let second = usize::from(a.rim < b.rim);
-    (second, 1 - second)
-}
-
-/// What became of a pair since its last look.
-struct Since {
-    /// Of the smaller one's centre, in m.
-    moved: Vec2,
-    /// Of its points beside that, at most, in m.
-    swung: f64,
-    /// From the larger to the smaller; zero if the look left none.
-    normal: Vec2,
-    /// What the gaps of rows are off by for a larger one that turned, in m.
-    bent: f64,
-    /// Some normal is stale.
-    stale: bool,
-    /// The larger one turned too far for what is known of it to be followed.
-    lost: bool,
-}
-
-impl Since {
-    #[inline]
-    fn new(glance: &Glance, seats: [&Seat; 2], lines: [&Line; 2]) -> Self {
-        let (f, s) = larger_first(seats);
-        let (apart, angles) = lie_of(seats, lines);
-        let sign = if f == 0 { 1.0 } else { -1.0 };
-        let turns = [angles.0 - glance.angles.0, angles.1 - glance.angles.1];
-        let turn = |k: usize| if seats[k].rim > 0.0 { turns[k] } else { 0.0 };
-        let (by, own) = (turn(f), turn(s));
-        let (then, now) = (glance.apart * sign, apart * sign);
-        let n = glance.normal * sign;
-        let mut since = Self {
-            moved: now - then,
-            swung: swing(seats[s].rim, own - by),
-            normal: n,
-            bent: 0.0,
-            stale: by.abs() > TURNED || own.abs() > TURNED,
-            lost: by.abs() > LOST,
-        };
-        if by != 0.0 {
-            // R(φ) = 1 + φ ⟂ − φ²/2 up to |φ|³/6, of the way as of the normal.
-            let half = 0.5 * by * by;
-            since.moved += then * half - perp(then) * by;
-            since.normal = n * (1.0 - half) + perp(n) * by;
-            since.bent = half * then.length();
-            let third = by.abs() * (1.0 / 3.0);
-            since.swung += (since.bent + half * since.moved.length()) * third;
-        }
-        since
-    }
-
-    /// What the smaller one's points moved by, at most, in m.
-    #[inline]
-    fn went(&self) -> f64 {
-        self.moved.length() + self.swung
-    }
-
-    /// Strip between the bodies, in m.
-    #[inline]
-    fn strip(&self, gap: f64) -> f64 {
-        if self.normal == Vec2::ZERO {
-            gap - self.went()
-        } else {
-            gap + self.normal.dot(self.moved) - self.swung
-        }
-    }
-}
-
-/// From the centre of A to that of B, in m, and the angles of both.
-pub(super) fn lie_of([a, b]: [&Seat; 2], lines: [&Line; 2]) -> (Vec2, (f64, f64)) {
-    let centres = [
-        a.base.position + lines[0].d(),
-        b.base.position + lines[1].d(),
-    ];
-    let angles = (
-        a.base_angle + lines[0].turn(),
-        b.base_angle + lines[1].turn(),
-    );
-    (centres[1] - centres[0], angles)
+/// A pair that was looked at, and its bodies now.
+struct Asked<'a> {
+    glance: &'a Glance,
+    seats: [&'a Seat; 2],
+    lines: [&'a Line; 2],
+    pulls: [Pull; 2],
 }
 
 /// Whether a pair plainly needs nothing before the next tick: most of those that rest do not, and are told by sums of
 /// magnitudes, which are never less than what [`Since`] and [`Against`] make of the same motion.
 #[inline]
-fn hardly_moves(
-    glance: &Glance,
-    seats: [&Seat; 2],
-    lines: [&Line; 2],
-    pulls: [Pull; 2],
-    [ahead, tick]: [f64; 2],
-) -> bool {
+fn hardly_moves(asked: &Asked<'_>, ahead: f64, tick: f64) -> bool {
+    let &Asked {
+        glance,
+        seats,
+        lines,
+        pulls,
+    } = asked;
     let sum = |v: Vec2| v.x.abs() + v.y.abs();
     let size = seats[0].reach.min(seats[1].reach);
     let rims = [seats[0].rim, seats[1].rim];
@@ -339,22 +165,50 @@ impl World {
     /// What becomes of a pair until the next tick, as its bodies move now.
     #[inline]
     fn wish(&self, place: u32) -> Wish {
+        let Some(asked) = self.asked(place) else {
+            return Wish::Look;
+        };
+        if hardly_moves(&asked, self.ahead(), self.settings.tick) {
+            return Wish::Rest;
+        }
+        self.wish_at_length(place, &asked)
+    }
+
+    /// What is asked about a pair; `None`: nothing is known of it.
+    #[inline]
+    fn asked(&self, place: u32) -> Option<Asked<'_>> {
         let glance = self.pairs.glance(place);
         let seats = &self.pool.seats;
         let slots = [glance.bodies.0, glance.bodies.1].map(|index| seats.slot(index));
         let (true, [Some(a), Some(b)]) = (glance.holds, slots) else {
-            return Wish::Look;
+            return None;
         };
         let slots = [a, b];
-        let both = slots.map(|slot| seats.get(slot));
-        let lines = slots.map(|slot| &seats.rig.lines[slot as usize]);
-        let pulls = slots.map(|slot| seats.rig.pull(slot));
+        Some(Asked {
+            glance,
+            seats: slots.map(|slot| seats.get(slot)),
+            lines: slots.map(|slot| &seats.rig.lines[slot as usize]),
+            pulls: slots.map(|slot| seats.rig.pull(slot)),
+        })
+    }
+
+    /// Seconds to the next tick.
+    fn ahead(&self) -> f64 {
+        f64::from(self.pool.until_look) * self.clock.h
+    }
+
+    /// [`Self::wish`] of a pair that moves.
+    #[inline]
+    fn wish_at_length(&self, place: u32, asked: &Asked<'_>) -> Wish {
+        let &Asked {
+            glance,
+            seats: both,
+            lines,
+            pulls,
+        } = asked;
+        let rig = &self.pool.seats.rig;
         let (h, tick) = (self.clock.h, self.settings.tick);
-        let left = self.pool.until_look;
-        let ahead = f64::from(left) * h;
-        if hardly_moves(glance, both, lines, pulls, [ahead, tick]) {
-            return Wish::Rest;
-        }
+        let (left, ahead) = (self.pool.until_look, self.ahead());
         let since = Since::new(glance, both, lines);
         if since.lost {
             return Wish::Look;
@@ -405,7 +259,7 @@ impl World {
                     // Asked of the rows: what callers were told last depends on when they looked.
                     let contacts = &self.pairs.get(place).contacts;
                     let mut rows = contacts.iter().filter_map(|contact| contact.row);
-                    rows.any(|id| seats.rig.pushes(id))
+                    rows.any(|id| rig.pushes(id))
                 });
         // Nothing without a row is nearer than this.
         let bare = glance.sought - went;
@@ -463,5 +317,52 @@ impl World {
         for (_, place) in self.pool.watched.drain(..) {
             self.pairs.glance_mut(place).due = 0;
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{BodyDef, Material, Mode, Settings};
+    use carom_geometry::ConvexPolygon;
+    use carom_math::vec2;
+
+    /// Whoever hardly moves wants nothing at length either.
+    #[test]
+    fn the_short_answer_is_that_at_length() {
+        let settings = Settings {
+            mode: Mode::Stepped,
+            sleep: None,
+            ..Settings::default()
+        };
+        let mut world = World::new(settings).expect("valid settings");
+        let block = |x, y| ConvexPolygon::rectangle(x, y).expect("a rectangle");
+        let floor = BodyDef::fixed().at(vec2(0.0, -1.0));
+        let stone = Material::default();
+        world.insert(floor, block(60.0, 2.0), stone).expect("valid");
+        for k in 0..80 {
+            let (column, row) = (f64::from(k % 10), f64::from(k / 10));
+            let at = vec2(1.02 * column + 0.3 * (row % 2.0), 0.5 + 1.1 * row);
+            let def = BodyDef::dynamic().at(at).spinning(0.3 * (column - 5.0));
+            world.insert(def, block(1.0, 0.8), stone).expect("valid");
+        }
+        let (mut short, mut long) = (0, 0);
+        for _ in 0..600 {
+            world.step(world.settings.substep);
+            let bodies = (0..81).map(|index| world.bodies.get(index));
+            for &place in bodies.flat_map(|state| &state.pairs) {
+                let Some(asked) = world.asked(place) else {
+                    continue;
+                };
+                if hardly_moves(&asked, world.ahead(), world.settings.tick) {
+                    let wish = world.wish_at_length(place, &asked);
+                    assert!(matches!(wish, Wish::Rest | Wish::LetGo), "{wish:?}");
+                    short += 1;
+                } else {
+                    long += 1;
+                }
+            }
+        }
+        assert!(short > 1000 && long > 1000, "{short} and {long}");
     }
 }

@@ -1,0 +1,190 @@
+//! How two bodies of a pair move against each other, and what became of them since their last look.
+//!
+//! A look leaves a strip between the two bodies (or says by how much they overlap), and rows for all that is
+//! nearer than the look's margin. Both are followed in the frame of the larger body, F: with r from its centre to
+//! that of the smaller one, S, at the look, and φ, ψ what either turned since,
+//!
+//! ```text
+//! moved    r' − R(φ) r                         what S moved by, as F sees it
+//! swung    rim_S |ψ − φ|                       what its points moved by beside that, at most
+//! strip    gap + n·moved − swung               n turns with F
+//! others   margin − |moved| − swung            nearest that anything can be that has no row
+//! ```
+//! As long as the strip is wider than what both go in a sub-step nothing can happen; and rows stay those of the
+//! pair as long as `|moved| + swung` is small against its size and its normals keep their directions.
+
+use carom_math::{Vec2, perp};
+
+use super::seats::Seat;
+use crate::pairs::Glance;
+use crate::solver::{Line, Pull};
+
+/// Normals are kept in the world: a pair that turned by more, in rad, is looked at again.
+const TURNED: f64 = 0.1;
+
+/// A pair that moves against each other by so much of its smaller reach in a tick is asked in every sub-step
+/// while it has rows that act: 11 m/s for boxes of 1 m.
+pub(super) const QUICK: f64 = 0.25;
+
+/// So is one of which a body turns by so much in a tick, in rad, 3.8 rad/s: gaps are linear in the turn, and off by
+/// ½ r θ², 1.4 mm for boxes of 1 m.
+pub(super) const WHIRL: f64 = 0.063;
+
+/// Where the larger body turned by more since a look, in rad, nobody knows what is left of the strip.
+const LOST: f64 = 0.25;
+
+/// How two bodies move against each other: the smaller one as the larger one sees it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Against {
+    /// Of the centre of the smaller one, in m/s.
+    pub(super) v: Vec2,
+    /// Of its points about the centre, in m/s.
+    pub(super) swing: f64,
+    /// In rad/s, the faster of both.
+    whirl: f64,
+    /// Difference of what pulls on both, in m/s².
+    pub(super) pull: f64,
+    pub(super) size: f64,
+}
+
+impl Against {
+    #[inline]
+    pub(super) fn new(seats: [&Seat; 2], lines: [&Line; 2], pulls: [Pull; 2]) -> Self {
+        let (f, s) = larger_first(seats);
+        let apart = seats[s].base.position + lines[s].d() - seats[f].base.position - lines[f].d();
+        let (w_f, w_s) = (spin(seats[f], lines[f]), spin(seats[s], lines[s]));
+        let carried = if w_f == 0.0 {
+            Vec2::ZERO
+        } else {
+            perp(apart) * w_f
+        };
+        let pull = pulls[1].acceleration - pulls[0].acceleration;
+        Self {
+            v: lines[s].v() - lines[f].v() - carried,
+            swing: swing(seats[s].rim, w_s - w_f),
+            whirl: w_f.abs().max(w_s.abs()),
+            pull: if pull == Vec2::ZERO {
+                0.0
+            } else {
+                pull.length()
+            },
+            size: seats[0].reach.min(seats[1].reach),
+        }
+    }
+
+    /// Fastest that two points of them can approach, in m/s.
+    pub(super) fn speed(&self) -> f64 {
+        self.v.length() + self.swing
+    }
+
+    pub(super) const fn pull(&self) -> f64 {
+        self.pull
+    }
+
+    /// Whether rows found at a tick would not serve until the next. By the turn in [`crate::Mode::Stepped`] alone:
+    /// jammed columns in a crowd of hybrid mode hummed at 0.6 m/s with it.
+    pub(super) fn is_quick(&self, tick: f64, stepped: bool) -> bool {
+        stepped && self.whirl * tick > WHIRL || self.speed() * tick > QUICK * self.size
+    }
+}
+
+/// How far a pull moves apart or together within some seconds, in m.
+pub(super) const fn fall(pull: f64, seconds: f64) -> f64 {
+    0.5 * pull * seconds * seconds
+}
+
+/// What a turn moves the rim by; a disc and what does not turn stay where they are.
+#[inline]
+fn swing(rim: f64, by: f64) -> f64 {
+    if by == 0.0 { 0.0 } else { rim * by.abs() }
+}
+
+/// A disc turns into itself.
+#[inline]
+fn spin(seat: &Seat, line: &Line) -> f64 {
+    if seat.rim > 0.0 { line.w() } else { 0.0 }
+}
+
+/// Which of two bodies is the frame, and which is followed in it.
+#[inline]
+fn larger_first([a, b]: [&Seat; 2]) -> (usize, usize) {
+    let second = usize::from(a.rim < b.rim);
+    (second, 1 - second)
+}
+
+/// What became of a pair since its last look.
+pub(super) struct Since {
+    /// Of the smaller one's centre, in m.
+    moved: Vec2,
+    /// Of its points beside that, at most, in m.
+    swung: f64,
+    /// From the larger to the smaller; zero if the look left none.
+    pub(super) normal: Vec2,
+    /// What the gaps of rows are off by for a larger one that turned, in m.
+    pub(super) bent: f64,
+    /// Some normal is stale.
+    pub(super) stale: bool,
+    /// The larger one turned too far for what is known of it to be followed.
+    pub(super) lost: bool,
+}
+
+impl Since {
+    #[inline]
+    pub(super) fn new(glance: &Glance, seats: [&Seat; 2], lines: [&Line; 2]) -> Self {
+        let (f, s) = larger_first(seats);
+        let (apart, angles) = lie_of(seats, lines);
+        let sign = if f == 0 { 1.0 } else { -1.0 };
+        let turns = [angles.0 - glance.angles.0, angles.1 - glance.angles.1];
+        let turn = |k: usize| if seats[k].rim > 0.0 { turns[k] } else { 0.0 };
+        let (by, own) = (turn(f), turn(s));
+        let (then, now) = (glance.apart * sign, apart * sign);
+        let n = glance.normal * sign;
+        let mut since = Self {
+            moved: now - then,
+            swung: swing(seats[s].rim, own - by),
+            normal: n,
+            bent: 0.0,
+            stale: by.abs() > TURNED || own.abs() > TURNED,
+            lost: by.abs() > LOST,
+        };
+        if by != 0.0 {
+            // R(φ) = 1 + φ ⟂ − φ²/2 up to |φ|³/6, of the way as of the normal.
+            let half = 0.5 * by * by;
+            since.moved += then * half - perp(then) * by;
+            since.normal = n * (1.0 - half) + perp(n) * by;
+            since.bent = half * then.length();
+            let third = by.abs() * (1.0 / 3.0);
+            since.swung += (since.bent + half * since.moved.length()) * third;
+        }
+        since
+    }
+
+    /// What the smaller one's points moved by, at most, in m.
+    #[inline]
+    pub(super) fn went(&self) -> f64 {
+        self.moved.length() + self.swung
+    }
+
+    /// Strip between the bodies, in m.
+    #[inline]
+    pub(super) fn strip(&self, gap: f64) -> f64 {
+        if self.normal == Vec2::ZERO {
+            gap - self.went()
+        } else {
+            gap + self.normal.dot(self.moved) - self.swung
+        }
+    }
+}
+
+/// From the centre of A to that of B, in m, and the angles of both.
+pub(super) fn lie_of([a, b]: [&Seat; 2], lines: [&Line; 2]) -> (Vec2, (f64, f64)) {
+    let centres = [
+        a.base.position + lines[0].d(),
+        b.base.position + lines[1].d(),
+    ];
+    let angles = (
+        a.base_angle + lines[0].turn(),
+        b.base_angle + lines[1].turn(),
+    );
+    (centres[1] - centres[0], angles)
+}
