@@ -57,6 +57,35 @@ impl SimTime {
         Self::ZERO + upper + product + (error + upper_error)
     }
 
+    /// The instant `rest` seconds after `units` whole units of 2⁻⁶ s. A rest outside 0..2⁻⁶ s counts as the nearest in it.
+    ///
+    /// # Examples
+    /// ```
+    /// use carom_math::SimTime;
+    /// let late = SimTime::from_secs(10_000.01);
+    /// assert_eq!(SimTime::of_parts(late.units(), late.rest()), late);
+    /// assert_eq!(SimTime::of_parts(64, 0.0), SimTime::from_secs(1.0));
+    /// ```
+    #[must_use]
+    pub const fn of_parts(units: i64, rest: f64) -> Self {
+        // A rest that is no number is none.
+        let rest = if rest > 0.0 { rest } else { 0.0 };
+        let rest = if rest < UNIT { rest } else { UNIT.next_down() };
+        Self { units, rest }
+    }
+
+    /// Whole units of 2⁻⁶ s since the start.
+    #[must_use]
+    pub const fn units(self) -> i64 {
+        self.units
+    }
+
+    /// Seconds since the last whole unit: in 0..2⁻⁶ s.
+    #[must_use]
+    pub const fn rest(self) -> f64 {
+        self.rest
+    }
+
     /// Number of the interval of 2⁻⁶ s / 2^`shift` that the instant lies in, counted from the start;
     /// 0 before it. `shift` is at most 20.
     ///

@@ -1,11 +1,11 @@
 //! Entries of the days of a year, unordered.
 
-use arrayvec::ArrayVec;
+use carom_math::SimTime;
 
-use super::queue::Entry;
+use super::queue::{Entry, What};
 
-/// Entries of a block: with its link it fills four lines of a cache.
-const BLOCK: usize = 6;
+/// Entries of a block: with its link it fills two lines of a cache.
+const BLOCK: usize = 5;
 
 /// No block.
 const NONE: u32 = u32::MAX;
@@ -26,9 +26,45 @@ pub(super) struct Days {
 #[derive(Clone, Debug)]
 #[repr(align(64))]
 struct Block {
-    entries: ArrayVec<Entry, BLOCK>,
+    entries: [Waiting; BLOCK],
+    /// How many of them count.
+    len: u32,
     /// The next older of the same list.
     next: u32,
+}
+
+/// An entry of a known day: whole units of time are those before the day.
+#[derive(Clone, Copy, Debug)]
+struct Waiting {
+    rest: f64,
+    a: u32,
+    b: u32,
+    stamp: u32,
+    what: What,
+}
+
+impl From<Entry> for Waiting {
+    fn from(entry: Entry) -> Self {
+        Self {
+            rest: entry.time.rest(),
+            a: entry.a,
+            b: entry.b,
+            stamp: entry.stamp,
+            what: entry.what,
+        }
+    }
+}
+
+impl Waiting {
+    const fn after(self, units: i64) -> Entry {
+        Entry {
+            time: SimTime::of_parts(units, self.rest),
+            a: self.a,
+            b: self.b,
+            stamp: self.stamp,
+            what: self.what,
+        }
+    }
 }
 
 impl Days {
@@ -49,19 +85,23 @@ impl Days {
     pub(super) fn push(&mut self, day: usize, entry: Entry) {
         self.count += 1;
         let first = self.first[day];
-        if first == NONE || self.blocks[first as usize].entries.is_full() {
+        if first == NONE || self.blocks[first as usize].len as usize == BLOCK {
             self.first[day] = self.unused(first);
         }
-        self.blocks[self.first[day] as usize].entries.push(entry);
+        let block = &mut self.blocks[self.first[day] as usize];
+        block.entries[block.len as usize] = entry.into();
+        block.len += 1;
     }
 
-    /// Takes the entries of a day out.
-    pub(super) fn take(&mut self, day: usize, mut each: impl FnMut(Entry)) {
+    /// Takes the entries of a day out, before which there are `units` whole units of time.
+    pub(super) fn take(&mut self, day: usize, units: i64, mut each: impl FnMut(Entry)) {
         let mut at = core::mem::replace(&mut self.first[day], NONE);
         while at != NONE {
             let block = &mut self.blocks[at as usize];
-            self.count -= block.entries.len();
-            block.entries.drain(..).for_each(&mut each);
+            let len = core::mem::take(&mut block.len) as usize;
+            self.count -= len;
+            let entries = block.entries[..len].iter();
+            entries.for_each(|waiting| each(waiting.after(units)));
             let next = core::mem::replace(&mut block.next, self.free);
             self.free = at;
             at = next;
@@ -75,8 +115,11 @@ impl Days {
             let older = core::mem::replace(&mut block.next, next);
             return core::mem::replace(&mut self.free, older);
         }
-        let entries = ArrayVec::new();
-        self.blocks.push(Block { entries, next });
+        self.blocks.push(Block {
+            entries: [Entry::NONE.into(); BLOCK],
+            len: 0,
+            next,
+        });
         #[expect(
             clippy::cast_possible_truncation,
             reason = "fewer than 2^32 fit in memory"
@@ -90,12 +133,11 @@ impl Days {
 mod tests {
     use super::super::queue::Ahead;
     use super::*;
-    use carom_math::SimTime;
     use proptest::prelude::*;
 
     #[test]
-    fn a_block_is_four_lines() {
-        assert_eq!(size_of::<Block>(), 256);
+    fn a_block_is_two_lines() {
+        assert_eq!(size_of::<Block>(), 128);
     }
 
     proptest! {
@@ -109,12 +151,12 @@ mod tests {
             for (a, (day, takes)) in (0..).zip(steps) {
                 if takes && a % 3 == 0 {
                     let mut found = Vec::new();
-                    days.take(day, |entry| found.push(entry));
+                    days.take(day, 3, |entry| found.push(entry));
                     found.sort_unstable();
                     prop_assert_eq!(found, core::mem::take(&mut twin[day]));
                 } else {
-                    let (time, ahead) = (SimTime::ZERO, Ahead::Horizon);
-                    let entry = Entry { time, a, b: a, stamp: 0, ahead };
+                    let (time, what) = (SimTime::of_parts(3, 1e-3), Ahead::Horizon.into());
+                    let entry = Entry { time, a, b: a, stamp: 0, what };
                     days.push(day, entry);
                     twin[day].push(entry);
                 }

@@ -105,7 +105,7 @@ impl World {
             a: index,
             b: index,
             stamp: 0,
-            ahead,
+            what: ahead.into(),
         });
     }
 
@@ -227,7 +227,7 @@ impl World {
             a,
             b,
             stamp: self.stamp(a, b),
-            ahead: Ahead::Near,
+            what: Ahead::Near.into(),
         };
         self.flyers.queue.push(entry);
     }
@@ -242,7 +242,7 @@ impl World {
             a: index,
             b: at,
             stamp: self.stamp(index, self.colliders[at as usize].body),
-            ahead: Ahead::NearShape,
+            what: Ahead::NearShape.into(),
         };
         self.flyers.queue.push(entry);
     }
@@ -282,7 +282,7 @@ impl World {
         if self.flyers.drifts {
             self.retune(time);
         }
-        match entry.ahead {
+        match entry.ahead() {
             Ahead::Horizon | Ahead::Ground if self.piece_ends(index, time) => {
                 if self.ends_now(entry) {
                     self.foresee(index, time, Cause::Deflected, None);
@@ -332,16 +332,16 @@ impl World {
     /// Whether the search that an entry is for ends now; if it ends later, that is entered.
     fn ends_now(&mut self, entry: &Entry) -> bool {
         let course = &mut self.bodies.get_mut(entry.a).course;
-        let (end, entered) = course.end(entry.ahead);
+        let (end, entered) = course.end(entry.ahead());
         if *entered != entry.time {
             return false;
         }
         *entered = SimTime::NEVER;
-        if !course.flies || entry.ahead == Ahead::Horizon && course.cells.is_none() {
+        if !course.flies || entry.ahead() == Ahead::Horizon && course.cells.is_none() {
             return false;
         }
         if end > entry.time {
-            self.queue_end(entry.a, entry.ahead);
+            self.queue_end(entry.a, entry.ahead());
         }
         end == entry.time
     }

@@ -63,7 +63,7 @@ impl Flyers {
         let (impacts, free) = (&mut self.impacts, &mut self.free);
         self.queue.next(limit, |entry| {
             let stale = is_stale(entry, bodies, colliders);
-            if let (true, Ahead::Impact { slot }) = (stale, entry.ahead) {
+            if let (true, Ahead::Impact { slot }) = (stale, entry.ahead()) {
                 impacts[slot as usize] = None;
                 free.push(slot);
             }
@@ -106,7 +106,7 @@ impl Flyers {
     }
 
     pub(super) fn release(&mut self, entry: &Entry) -> Option<Foreseen> {
-        let Ahead::Impact { slot } = entry.ahead else {
+        let Ahead::Impact { slot } = entry.ahead() else {
             return None;
         };
         self.free.push(slot);
@@ -131,7 +131,7 @@ impl Flyers {
             a,
             b,
             stamp,
-            ahead,
+            what: ahead.into(),
         });
     }
 
@@ -144,7 +144,7 @@ impl Flyers {
             a,
             b,
             stamp: generations(ids),
-            ahead,
+            what: ahead.into(),
         });
     }
 }
@@ -152,7 +152,7 @@ impl Flyers {
 /// Whether an entry is for nothing: a motion has changed since it was made, or another one comes before it.
 pub(super) fn is_stale(entry: &Entry, bodies: &Bodies, colliders: &[Collider]) -> bool {
     let version = |index: u32| bodies.version(index);
-    let other = match entry.ahead {
+    let other = match entry.ahead() {
         Ahead::Collapse => {
             let ids = [entry.a, entry.b].map(|index| bodies.get(index).id);
             let alive = bodies.is_alive(entry.a) && bodies.is_alive(entry.b);

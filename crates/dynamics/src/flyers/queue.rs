@@ -24,7 +24,49 @@ pub(crate) enum Ahead {
     Impact { slot: u32 },
 }
 
-/// An entry of the queue.
+/// [`Ahead`] in four bytes, in the same order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct What(u32);
+
+impl What {
+    /// Bits of a slot: half a thousand million impacts ahead fill 50 GB.
+    const SLOT: u32 = (1 << 29) - 1;
+
+    const fn kind(kind: u32) -> Self {
+        Self(kind << Self::SLOT.count_ones())
+    }
+
+    pub(crate) const fn read(self) -> Ahead {
+        match self.0 >> Self::SLOT.count_ones() {
+            0 => Ahead::Horizon,
+            1 => Ahead::Ground,
+            2 => Ahead::Near,
+            3 => Ahead::NearShape,
+            4 => Ahead::Collapse,
+            _ => Ahead::Impact {
+                slot: self.0 & Self::SLOT,
+            },
+        }
+    }
+}
+
+impl From<Ahead> for What {
+    fn from(ahead: Ahead) -> Self {
+        match ahead {
+            Ahead::Horizon => Self::kind(0),
+            Ahead::Ground => Self::kind(1),
+            Ahead::Near => Self::kind(2),
+            Ahead::NearShape => Self::kind(3),
+            Ahead::Collapse => Self::kind(4),
+            Ahead::Impact { slot } => {
+                debug_assert!(slot <= Self::SLOT, "{slot} impacts are ahead");
+                Self(Self::kind(5).0 | slot & Self::SLOT)
+            }
+        }
+    }
+}
+
+/// An entry of the queue: half a line of a cache.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Entry {
     pub(crate) time: SimTime,
@@ -32,13 +74,28 @@ pub(crate) struct Entry {
     pub(crate) b: u32,
     /// Sum of the two bodies' versions: versions only grow, so that it is equal only if both are.
     pub(crate) stamp: u32,
-    pub(crate) ahead: Ahead,
+    pub(crate) what: What,
+}
+
+impl Entry {
+    /// What fills room for others.
+    pub(super) const NONE: Self = Self {
+        time: SimTime::ZERO,
+        a: 0,
+        b: 0,
+        stamp: 0,
+        what: What(0),
+    };
+
+    pub(crate) const fn ahead(&self) -> Ahead {
+        self.what.read()
+    }
 }
 
 impl Ord for Entry {
     /// Equal times are taken in order of bodies, never of insertion.
     fn cmp(&self, other: &Self) -> Ordering {
-        let key = |entry: &Self| (entry.time, entry.a, entry.b, entry.ahead, entry.stamp);
+        let key = |entry: &Self| (entry.time, entry.a, entry.b, entry.what, entry.stamp);
         key(self).cmp(&key(other))
     }
 }
@@ -156,7 +213,7 @@ impl Queue {
         let Self {
             days, due, come, ..
         } = self;
-        days.take(slot(self.today), |entry| {
+        days.take(slot(self.today), units_of(self.today, self.shift), |entry| {
             *come += 1;
             if !stale(&entry) {
                 due.push(Reverse(entry));
@@ -203,10 +260,13 @@ impl Queue {
 
     /// Sorts all that is not today's into the days of a year from `day` on, or from the first with an entry.
     fn begin_year(&mut self, day: u64, shift: u32) {
-        let (old, mut entries) = (self.shift, core::mem::take(&mut self.later));
+        let (old, mut later) = (self.shift, core::mem::take(&mut self.later));
         self.shift = shift;
-        for day in 0..YEAR {
-            self.days.take(slot(day), |entry| entries.push(entry));
+        // The days of the old year, which began after the last of the one before.
+        let begin = (self.last + 1).saturating_sub(YEAR);
+        for day in begin..begin + YEAR {
+            self.days
+                .take(slot(day), units_of(day, old), |entry| later.push(entry));
         }
         self.come = 0;
         let renamed = if shift >= old {
@@ -214,18 +274,25 @@ impl Queue {
         } else {
             day >> (old - shift)
         };
-        let first = entries.iter().map(|entry| entry.time.bin(shift)).min();
+        let first = later.iter().map(|entry| entry.time.bin(shift)).min();
         self.today = first.map_or(renamed, |first| first.min(renamed));
         self.last = self.today + (YEAR - 1);
-        for entry in entries {
+        later.retain(|entry| {
             let day = entry.time.bin(shift);
-            if day <= self.last {
-                self.days.push(slot(day), entry);
-            } else {
-                self.later.push(entry);
+            let waits = day > self.last;
+            if !waits {
+                self.days.push(slot(day), *entry);
             }
-        }
+            waits
+        });
+        later.shrink_to(2 * later.len());
+        self.later = later;
     }
+}
+
+/// Whole units of 2⁻⁶ s before a day that is the `2^shift`-th part of one.
+const fn units_of(day: u64, shift: u32) -> i64 {
+    (day >> shift).cast_signed()
 }
 
 const fn slot(day: u64) -> usize {
@@ -240,14 +307,24 @@ mod tests {
     const POWERS: [f64; 6] = [1.0, 1e1, 1e2, 1e3, 1e4, 1e6];
 
     fn entry(time: f64, a: u32) -> Entry {
-        let (time, ahead) = (SimTime::from_secs(time), Ahead::Horizon);
+        let (time, what) = (SimTime::from_secs(time), Ahead::Horizon.into());
         Entry {
             time,
             a,
             b: a,
             stamp: 0,
-            ahead,
+            what,
         }
+    }
+
+    #[test]
+    fn four_bytes_hold_whatever_is_ahead_and_its_order() {
+        let slots = [0, 1, What::SLOT].map(|slot| Ahead::Impact { slot });
+        let all = [Ahead::Horizon, Ahead::Ground, Ahead::Near, Ahead::NearShape];
+        let all = [&all[..], &[Ahead::Collapse], &slots].concat();
+        assert!(all.is_sorted() && all.iter().map(|a| What::from(*a)).is_sorted());
+        assert!(all.iter().all(|ahead| What::from(*ahead).read() == *ahead));
+        assert_eq!(size_of::<Entry>(), 32);
     }
 
     proptest! {

@@ -102,7 +102,7 @@ impl World {
     /// Lays all impacts aside that are due by `limit`, once all searches due by then are done.
     fn lay_aside(&mut self, limit: SimTime) {
         while let Some(entry) = self.flyers.pop_queued(&self.bodies, &self.colliders, limit) {
-            if matches!(entry.ahead, Ahead::Impact { .. }) {
+            if matches!(entry.ahead(), Ahead::Impact { .. }) {
                 self.flyers.aside.lay(entry);
             } else {
                 self.run_search(&entry);
