@@ -5,6 +5,7 @@ use std::sync::Arc;
 use carom_collision::Motion;
 use carom_math::{SimTime, Sum, Vec2};
 
+use crate::few::Few;
 use crate::flyers::Course;
 use crate::history::History;
 use crate::state::{BodyState, Lag};
@@ -152,7 +153,7 @@ impl Bodies {
         let state = &mut self.list[index as usize];
         state.kind = BodyKind::Fixed;
         state.course = Course::default();
-        state.colliders.clear();
+        state.colliders = Few::default();
         state.pairs.clear();
         self.alive[index as usize] = false;
         if state.id.generation < u32::MAX {
@@ -224,15 +225,15 @@ impl Bodies {
     /// Acceleration in m/s², and angular acceleration in rad/s², of a dynamic body that nothing holds.
     pub(crate) fn freely(&self, index: u32, time: SimTime) -> (Vec2, f64) {
         let state = self.get(index);
-        let (linear, angular) = state.damping;
+        let (linear, angular) = state.damping();
         let pull = if self.pull.fields.is_empty() {
             self.pull.gravity
         } else {
             self.pull.at(state.centre_at(time))
         };
-        let acceleration = state.gravity_scale * pull + state.force * state.inverse_mass
+        let acceleration = state.gravity_scale * pull + state.force() * state.inverse_mass
             - state.velocity_at(time) * linear;
-        let turning = state.torque * state.inverse_inertia - angular * state.spin_at(time);
+        let turning = state.torque() * state.inverse_inertia - angular * state.spin_at(time);
         (acceleration, turning)
     }
 
@@ -241,7 +242,7 @@ impl Bodies {
     pub(crate) fn change(&mut self, index: u32, time: SimTime, change: impl FnOnce(&mut Motion)) {
         self.touch(index);
         let state = &self.list[index as usize];
-        let flies_by_law = state.flight.is_some() || state.lag != Lag::default();
+        let flies_by_law = state.flight.is_some() || *state.lag() != Lag::default();
         if let Some(piece) = self.piece(state, time) {
             self.book.forces.add(piece.forces);
             self.book.scheme.add(piece.scheme);
@@ -278,7 +279,7 @@ impl Bodies {
             || state.in_crowd
             || (motion.acceleration == free
                 && motion.angular_acceleration == 0.0
-                && state.force == Vec2::ZERO
+                && state.force() == Vec2::ZERO
                 && !self.bends(state.id.index))
         {
             return None;
@@ -290,7 +291,7 @@ impl Bodies {
         } else {
             motion.travel(elapsed)
         };
-        let quadratic = state.flight.is_none() && state.lag == Lag::default();
+        let quadratic = state.flight.is_none() && *state.lag() == Lag::default();
         let mass = state.mass.mass;
         let straight = if quadratic {
             motion.acceleration.dot(travel)
@@ -310,7 +311,7 @@ impl Bodies {
             let (from, to) = (motion.centre, motion.centre + travel);
             potential += mass * state.gravity_scale * (field.potential(to) - field.potential(from));
         }
-        let forces = state.force.dot(travel) + state.torque * turn - damping_loss(state, time);
+        let forces = state.force().dot(travel) + state.torque() * turn - damping_loss(state, time);
         Some(Piece {
             forces,
             scheme: kinetic + potential - forces,
@@ -369,7 +370,7 @@ fn damping_loss(state: &BodyState, time: SimTime) -> f64 {
     if !state.is_damped() || state.flight.is_none() {
         return 0.0;
     }
-    let (start, (linear, angular)) = (state.motion.start, state.damping);
+    let (start, (linear, angular)) = (state.motion.start, state.damping());
     let half = 0.5 * (time - start);
     let power = |at: f64| {
         let at = start + half * (1.0 + at);

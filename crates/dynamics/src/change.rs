@@ -124,7 +124,7 @@ impl World {
     /// If the body is not there.
     pub fn set_filter(&mut self, id: BodyId, filter: Filter) -> Result<(), BodyError> {
         let index = self.bodies.find(id)?;
-        for at in self.bodies.get(index).colliders.clone() {
+        for &at in &self.bodies.get(index).colliders.clone() {
             self.colliders[at as usize].filter = filter;
         }
         self.meet_anew(index);
@@ -181,8 +181,9 @@ impl World {
         self.wake_around(index, now);
         let state = self.bodies.get_mut(index);
         let torque = force.about(state.centre_at(now));
-        state.pending.0 += force.linear;
-        state.pending.1 += torque;
+        let pending = &mut state.uncommon_mut().pending;
+        pending.0 += force.linear;
+        pending.1 += torque;
         if !self.forced.contains(&index) {
             self.forced.push(index);
         }
@@ -235,7 +236,9 @@ impl World {
         if self.settings.mode == Mode::Stepped {
             def.check_undamped()?;
         }
-        self.disturb(index, |state| state.damping = (linear, angular));
+        self.disturb(index, |state| {
+            state.uncommon_mut().damping = (linear, angular);
+        });
         Ok(())
     }
 
@@ -399,7 +402,7 @@ impl World {
 
     /// Takes the boxes of a body out of the trees.
     pub(crate) fn forget_boxes(&mut self, index: u32) {
-        for at in self.bodies.get(index).colliders.clone() {
+        for &at in &self.bodies.get(index).colliders.clone() {
             if let Some(node) = self.colliders[at as usize].node.take() {
                 self.broad.trees.remove(node);
             }
@@ -433,9 +436,11 @@ impl World {
         for &index in &self.forced {
             self.bodies.change(index, now, |_| {});
             let state = self.bodies.get_mut(index);
-            (state.force, state.torque) = core::mem::take(&mut state.pending);
-            state.motion.acceleration += state.force * state.inverse_mass;
-            state.motion.angular_acceleration += state.torque * state.inverse_inertia;
+            let acts = state.uncommon_mut();
+            let (force, torque) = core::mem::take(&mut acts.pending);
+            (acts.force, acts.torque) = (force, torque);
+            state.motion.acceleration += force * state.inverse_mass;
+            state.motion.angular_acceleration += torque * state.inverse_inertia;
         }
         for index in self.forced.clone() {
             self.deflected(index, now);
@@ -449,8 +454,9 @@ impl World {
         for &index in &forced {
             self.bodies.change(index, now, |_| {});
             let state = self.bodies.get_mut(index);
-            let (force, torque) = (state.force, state.torque);
-            (state.force, state.torque) = (Vec2::ZERO, 0.0);
+            let acts = state.uncommon_mut();
+            let (force, torque) = (acts.force, acts.torque);
+            (acts.force, acts.torque) = (Vec2::ZERO, 0.0);
             state.motion.acceleration -= force * state.inverse_mass;
             state.motion.angular_acceleration -= torque * state.inverse_inertia;
         }

@@ -46,11 +46,11 @@ const APART: f64 = 1.0 / 32.0;
 pub(crate) fn fly(bodies: &mut Bodies, index: u32, time: SimTime, h: f64) {
     let state = bodies.get(index);
     let free = if state.inverse_mass > 0.0 {
-        state.gravity_scale * bodies.pull.gravity + state.force * state.inverse_mass
+        state.gravity_scale * bodies.pull.gravity + state.force() * state.inverse_mass
     } else {
         Vec2::ZERO
     };
-    let turning = state.torque * state.inverse_inertia;
+    let turning = state.torque() * state.inverse_inertia;
     if !state.is_dynamic() || !bodies.bends(index) {
         let motion = &state.motion;
         let curves = state.flight.is_some();
@@ -62,7 +62,7 @@ pub(crate) fn fly(bodies: &mut Bodies, index: u32, time: SimTime, h: f64) {
         }
         let state = bodies.get_mut(index);
         state.member = false;
-        state.lag = Lag::default();
+        state.set_lag(Lag::default());
         return;
     }
     let known = bodies.get(index).flight.clone();
@@ -108,15 +108,15 @@ const SHORTEST: f64 = 1.0 / 1_048_576.0;
 fn law_of(bodies: &Bodies, index: u32, time: SimTime, h: f64, cover: f64) -> Flight {
     let (state, pull) = (bodies.get(index), &bodies.pull);
     let (x, v) = (state.centre_at(time), state.velocity_at(time));
-    let (linear, angular) = state.damping;
+    let (linear, angular) = state.damping();
     let turn = Turn {
         rotation: state.rotation_at(time),
         spin: state.spin_at(time),
-        pull: state.torque * state.inverse_inertia,
+        pull: state.torque() * state.inverse_inertia,
         damping: angular,
     };
     let scale = state.gravity_scale;
-    let push = state.force * state.inverse_mass;
+    let push = state.force() * state.inverse_mass;
     let uniform = scale * pull.gravity + push;
     if pull.fields.is_empty() {
         return Flight::damped(time, (x, v), uniform, linear, turn);
@@ -142,13 +142,13 @@ fn law_of(bodies: &Bodies, index: u32, time: SimTime, h: f64, cover: f64) -> Fli
 fn longest(bodies: &Bodies, index: u32, (x, v): (Vec2, Vec2), h: f64) -> f64 {
     let (state, pull) = (bodies.get(index), &bodies.pull);
     let scale = state.gravity_scale.abs();
-    let push = state.gravity_scale * pull.at(x) + state.force * state.inverse_mass;
-    let (speed, push) = (v.length(), (push - v * state.damping.0).length());
+    let push = state.gravity_scale * pull.at(x) + state.force() * state.inverse_mass;
+    let (speed, push) = (v.length(), (push - v * state.damping().0).length());
     let mut span = LONGEST;
     while span > h {
         let way = (speed + push * span) * span;
         let bent = scale * pull.gradient_bound(x, way) * span * span;
-        if bent <= BENT && state.damping.0 * span <= BENT {
+        if bent <= BENT && state.damping().0 * span <= BENT {
             return span;
         }
         span *= 0.5;
@@ -170,7 +170,7 @@ pub(crate) fn follow(
     let ((x_end, v_end), (_, spin_end)) = (flight.at(time + h), flight.turn_at(time + h));
     let acceleration = (x_end - x - v * h) * (2.0 / (h * h));
     let state = bodies.get(index);
-    let (linear, angular) = state.damping;
+    let (linear, angular) = state.damping();
     let angle = flight.angle_over(time, h);
     let angular_acceleration = (angle - spin * h) * (2.0 / (h * h));
     let lag = Lag {
@@ -196,7 +196,7 @@ pub(crate) fn follow(
     });
     let state = bodies.get_mut(index);
     state.member = false;
-    state.lag = lag;
+    state.set_lag(lag);
     state.flight = Some(flight);
 }
 
@@ -230,7 +230,7 @@ pub(crate) fn driven(
     if !state.is_damped() {
         return (v + pull * h, w + twist * h);
     }
-    let (linear, angular) = state.damping;
+    let (linear, angular) = state.damping();
     let along = |v: f64, a: f64| damped(v, a, linear, h).1;
     let velocity = Vec2::new(along(v.x, pull.x), along(v.y, pull.y));
     (velocity, damped(w, twist, angular, h).1)

@@ -160,8 +160,8 @@ impl Groups {
         if state.inverse_mass > 0.0 {
             let pull = state.gravity_scale * bodies.pull.at(state.motion.centre_at(time));
             let pulls = (
-                pull + state.force * state.inverse_mass,
-                state.torque * state.inverse_inertia,
+                pull + state.force() * state.inverse_mass,
+                state.torque() * state.inverse_inertia,
             );
             (v, w) = driven(state, (v, w), pulls, h);
         }

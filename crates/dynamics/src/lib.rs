@@ -38,6 +38,7 @@ mod contact;
 mod dense;
 mod error;
 mod event;
+mod few;
 mod field;
 mod filter;
 mod flight;

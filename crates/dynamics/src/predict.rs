@@ -204,7 +204,7 @@ fn polished(
 ) -> TimeOfImpact {
     let left_out = |span: f64| {
         let of = |state: &BodyState| {
-            let part = (span / state.lag.length).min(1.0);
+            let part = (span / state.lag().length).min(1.0);
             state.motion.left_out * part * part * part
         };
         // Who is as far off however short the stretch has no law to look at.

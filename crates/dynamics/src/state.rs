@@ -8,6 +8,7 @@ use carom_math::{Pose, Rot, SimTime, StateHash, Vec2};
 
 use crate::closed::Membership;
 use crate::error::BodyError;
+use crate::few::Few;
 use crate::flight::Flight;
 use crate::flyers::Course;
 use crate::impact::ImpactBody;
@@ -45,21 +46,14 @@ pub(crate) struct BodyState {
     pub(crate) flight: Option<Arc<Flight>>,
     /// Largest distance of a point of its shapes from the centre of mass, in m.
     pub(crate) reach: f64,
-    pub(crate) colliders: Vec<u32>,
+    pub(crate) colliders: Few,
     /// Angle at the motion's start with all whole turns, to about 1e-10 rad: it counts turns.
     pub(crate) turned: f64,
-    /// What the velocity has beyond the motion's along the present piece of a flight in a field.
-    pub(crate) lag: Lag,
+    /// What few bodies have; none is [`Uncommon::NONE`].
+    uncommon: Option<Box<Uncommon>>,
     pub(crate) mass: MassProperties,
     pub(crate) course: Course,
     pub(crate) gravity_scale: f64,
-    /// Of velocity and spin, in 1/s.
-    pub(crate) damping: (f64, f64),
-    /// Force and torque of the present step.
-    pub(crate) force: Vec2,
-    pub(crate) torque: f64,
-    /// Force and torque that the next step begins with.
-    pub(crate) pending: (Vec2, f64),
     pub(crate) tag: u64,
     /// The contact group in closed form that it belongs to.
     pub(crate) membership: Membership,
@@ -69,6 +63,30 @@ pub(crate) struct BodyState {
     pub(crate) inner: f64,
     /// Pairs of its colliders with others.
     pub(crate) pairs: Vec<u32>,
+}
+
+/// What few bodies have.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Uncommon {
+    /// Of velocity and spin, in 1/s.
+    pub(crate) damping: (f64, f64),
+    /// Force and torque of the present step.
+    pub(crate) force: Vec2,
+    pub(crate) torque: f64,
+    /// Force and torque that the next step begins with.
+    pub(crate) pending: (Vec2, f64),
+    /// What the velocity has beyond the motion's along the present piece of a flight in a field.
+    lag: Lag,
+}
+
+impl Uncommon {
+    const NONE: Self = Self {
+        damping: (0.0, 0.0),
+        force: Vec2::ZERO,
+        torque: 0.0,
+        pending: (Vec2::ZERO, 0.0),
+        lag: Lag::NONE,
+    };
 }
 
 /// The difference of the cubic through both ends of a piece, in place and velocity, and the
@@ -88,6 +106,12 @@ pub(crate) struct Lag {
 }
 
 impl Lag {
+    const NONE: Self = Self {
+        rate: Vec2::ZERO,
+        angular: 0.0,
+        length: 0.0,
+    };
+
     fn at(self, u: f64) -> Vec2 {
         if self.length == 0.0 {
             return Vec2::ZERO;
@@ -148,6 +172,7 @@ impl BodyState {
         } else {
             def.spin
         };
+        let damping = (def.linear_damping, def.angular_damping);
         let inverse = |x: f64| if moving && x > 0.0 { x.recip() } else { 0.0 };
         Ok(Self {
             id,
@@ -171,12 +196,13 @@ impl BodyState {
             locked_rotation: def.locked_rotation,
             gravity_scale: def.gravity_scale,
             tag: def.tag,
-            force: Vec2::ZERO,
-            torque: 0.0,
-            pending: (Vec2::ZERO, 0.0),
-            lag: Lag::default(),
+            uncommon: (damping != (0.0, 0.0)).then(|| {
+                Box::new(Uncommon {
+                    damping,
+                    ..Uncommon::NONE
+                })
+            }),
             flight: None,
-            damping: (def.linear_damping, def.angular_damping),
             member: false,
             in_crowd: false,
             has_line: false,
@@ -194,9 +220,45 @@ impl BodyState {
                 .iter()
                 .map(|(shape, _)| half_width(shape, mass.centroid))
                 .fold(f64::INFINITY, f64::min),
-            colliders: Vec::new(),
+            colliders: Few::default(),
             pairs: Vec::new(),
         })
+    }
+
+    /// Force of the present step, in N.
+    pub(crate) fn force(&self) -> Vec2 {
+        self.uncommon().force
+    }
+
+    /// Torque of the present step, in N·m.
+    pub(crate) fn torque(&self) -> f64 {
+        self.uncommon().torque
+    }
+
+    /// Of velocity and spin, in 1/s.
+    pub(crate) fn damping(&self) -> (f64, f64) {
+        self.uncommon().damping
+    }
+
+    fn uncommon(&self) -> &Uncommon {
+        self.uncommon.as_deref().unwrap_or(&Uncommon::NONE)
+    }
+
+    /// What few bodies have, to be changed.
+    pub(crate) fn uncommon_mut(&mut self) -> &mut Uncommon {
+        self.uncommon
+            .get_or_insert_with(|| Box::new(Uncommon::NONE))
+    }
+
+    /// What the velocity has beyond the motion's along the present piece of a flight in a field.
+    pub(crate) fn lag(&self) -> &Lag {
+        &self.uncommon().lag
+    }
+
+    pub(crate) fn set_lag(&mut self, lag: Lag) {
+        if self.uncommon.is_some() || lag != Lag::NONE {
+            self.uncommon_mut().lag = lag;
+        }
     }
 
     /// Changes what moves the body; a fixed one comes to rest.
@@ -212,7 +274,7 @@ impl BodyState {
         };
         self.motion.acceleration = Vec2::ZERO;
         self.motion.angular_acceleration = 0.0;
-        self.lag = Lag::default();
+        self.set_lag(Lag::default());
         self.flight = None;
         self.member = false;
         if kind == BodyKind::Fixed {
@@ -252,7 +314,7 @@ impl BodyState {
 
     /// Whether anything slows it down by itself.
     pub(crate) fn is_damped(&self) -> bool {
-        self.damping != (0.0, 0.0)
+        self.damping() != (0.0, 0.0)
     }
 
     /// The motion told from `time` on, by the law of its flight.
@@ -276,7 +338,7 @@ impl BodyState {
             self.flight = None;
         }
         (self.motion.velocity, self.motion.spin) = (velocity, spin);
-        self.lag = Lag::default();
+        self.set_lag(Lag::default());
     }
 
     /// Angle that the body turned by since its motion's start, in rad, whole turns included.
@@ -299,7 +361,7 @@ impl BodyState {
     pub(crate) fn velocity_at(&self, time: SimTime) -> Vec2 {
         match &self.flight {
             Some(flight) => flight.at(time).1,
-            None => self.motion.velocity_at(time) + self.lag.at(time - self.motion.start),
+            None => self.motion.velocity_at(time) + self.lag().at(time - self.motion.start),
         }
     }
 
@@ -315,7 +377,7 @@ impl BodyState {
     pub(crate) fn spin_at(&self, time: SimTime) -> f64 {
         match &self.flight {
             Some(flight) => flight.turn_at(time).1,
-            None => self.motion.spin_at(time) + self.lag.spin_at(time - self.motion.start),
+            None => self.motion.spin_at(time) + self.lag().spin_at(time - self.motion.start),
         }
     }
 
@@ -465,5 +527,15 @@ fn middle_of(shapes: &[(Shape, Material)]) -> MassProperties {
     MassProperties {
         centroid: bounds.centre(),
         ..MassProperties::ZERO
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_body_fills_nine_lines_of_a_cache() {
+        assert_eq!(size_of::<BodyState>(), 9 * 64);
     }
 }

@@ -240,7 +240,7 @@ impl World {
     /// Has all flyers near a body that rests look at it.
     pub(crate) fn show(&mut self, index: u32, time: SimTime) {
         let mut flying = Vec::new();
-        for at in self.bodies.get(index).colliders.clone() {
+        for &at in &self.bodies.get(index).colliders.clone() {
             let bounds = self.colliders[at as usize].fat;
             self.flyers.overlapping(&self.bodies, bounds, &mut flying);
             for &flyer in &flying {

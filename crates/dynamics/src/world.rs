@@ -214,7 +214,7 @@ impl World {
         self.discharge(index);
         self.take_line(index);
         let colliders = core::mem::take(&mut self.bodies.get_mut(index).colliders);
-        for at in colliders {
+        for &at in &colliders {
             if let Some(node) = self.colliders[at as usize].node.take() {
                 self.broad.trees.remove(node);
             }

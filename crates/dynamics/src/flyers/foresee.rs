@@ -7,7 +7,7 @@ use super::foreseen::is_stale;
 use super::frame::Track;
 use super::queue::{Ahead, Entry};
 use super::window::{self, Window};
-use super::{Foreseen, Seat, drift};
+use super::{Foreseen, Seat, Sides, drift};
 use crate::state::BodyState;
 use crate::{BodyKind, PairSearch, World};
 
@@ -63,7 +63,7 @@ impl World {
         let seen = self.flyers.frame.track(&track, time);
         let seconds = at_most(seen.seconds_for(way));
         state.course.horizon = (time + seconds).min(state.course.piece);
-        state.course.swept = swept(state, &seen, seconds);
+        state.course.swept = Sides::around(swept(state, &seen, seconds));
         if !self.flyers.enter(&mut self.bodies, &self.colliders, index) {
             return false;
         }
@@ -85,7 +85,7 @@ impl World {
         state.course.ground = (time + seconds).min(state.course.piece);
         state.course.span = seconds;
         state.course.horizon = state.course.ground;
-        state.course.reached = swept(state, &track, seconds);
+        state.course.reached = Sides::around(swept(state, &track, seconds));
         self.broad
             .follow(&self.bodies, &mut self.colliders, index, time, seconds);
         self.queue_end(index, Ahead::Ground);
@@ -150,7 +150,7 @@ impl World {
             None => {
                 let mut near = Vec::new();
                 self.flyers
-                    .overlapping(&self.bodies, course.reached, &mut near);
+                    .overlapping(&self.bodies, course.reached.bounds(), &mut near);
                 near
             }
         };

@@ -1,34 +1,56 @@
 //! A uniform grid of cells over the whole plane: which flyers sweep over which cells.
 
 use carom_geometry::Aabb;
-use carom_math::Vec2;
+use carom_math::{Vec2, vec2};
 
-/// A body and the box that it sweeps over, rounded outwards: 20 bytes, read one after the other.
+/// A box in four `f32`, rounded outwards: left, bottom, and right and top with the opposite sign.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Sides([f32; 4]);
+
+impl Sides {
+    /// The box of nothing.
+    pub(crate) const NOTHING: Self = Self([f32::INFINITY; 4]);
+
+    pub(crate) fn around(bounds: Aabb) -> Self {
+        let (min, max) = (bounds.min, bounds.max);
+        Self([min.x, min.y, -max.x, -max.y].map(below))
+    }
+
+    pub(crate) fn bounds(self) -> Aabb {
+        let [left, bottom, right, top] = self.0.map(f64::from);
+        Aabb::new(vec2(left, bottom), vec2(-right, -top))
+    }
+
+    pub(crate) fn is_finite(self) -> bool {
+        self.0.iter().all(|side| side.is_finite())
+    }
+
+    pub(crate) fn overlaps(self, bounds: Aabb) -> bool {
+        self.bounds().overlaps(bounds)
+    }
+}
+
+/// A body and the box that it sweeps over: 20 bytes, read one after the other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Seat {
     pub(crate) body: u32,
-    /// Left, bottom, and right and top with the opposite sign.
-    sides: [f32; 4],
+    sides: Sides,
 }
 
 impl Seat {
-    pub(crate) fn new(body: u32, bounds: Aabb) -> Self {
-        let (min, max) = (bounds.min, bounds.max);
-        Self {
-            body,
-            sides: [min.x, min.y, -max.x, -max.y].map(below),
-        }
+    pub(crate) const fn new(body: u32, sides: Sides) -> Self {
+        Self { body, sides }
     }
 
     /// What the sides of another box must not be above, if it overlaps this one.
     fn limits(&self) -> [f32; 4] {
-        let [left, bottom, right, top] = self.sides;
+        let [left, bottom, right, top] = self.sides.0;
         [-right, -top, -left, -bottom]
     }
 
     /// Four comparisons at once: most boxes are apart, and nobody can tell in which way.
     fn is_within(&self, limits: [f32; 4]) -> bool {
-        let apart = [0, 1, 2, 3].map(|side| u32::from(self.sides[side] > limits[side]));
+        let apart = [0, 1, 2, 3].map(|side| u32::from(self.sides.0[side] > limits[side]));
         apart[0] | apart[1] | apart[2] | apart[3] == 0
     }
 }
@@ -39,7 +61,9 @@ impl Seat {
     reason = "less by more than the cast may round up by"
 )]
 fn below(x: f64) -> f32 {
-    (x - x.abs() * f64::from(f32::EPSILON) - f64::from(f32::MIN_POSITIVE)) as f32
+    let low = x - x.abs() * f64::from(f32::EPSILON) - f64::from(f32::MIN_POSITIVE);
+    // Of the sides of nothing, which are infinite, that is no number.
+    if low.is_nan() { x as f32 } else { low as f32 }
 }
 
 /// A rectangle of cells, corners included.
@@ -201,10 +225,24 @@ fn floor(x: f64) -> i32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use carom_math::vec2;
     use proptest::prelude::*;
 
+    #[test]
+    fn nothing_is_the_box_of_nothing() {
+        assert_eq!(Sides::around(Aabb::EMPTY), Sides::NOTHING);
+        assert_eq!(Sides::NOTHING.bounds(), Aabb::EMPTY);
+    }
+
     proptest! {
+        #[test]
+        fn a_box_lies_within_its_sides(
+            corner in (-1e9..1e9_f64, -1.0..1.0_f64), size in (0.0..1e9_f64, 0.0..1e-9_f64),
+        ) {
+            let low = vec2(corner.0, corner.1);
+            let bounds = Aabb::new(low, low + vec2(size.0, size.1));
+            prop_assert!(Sides::around(bounds).bounds().contains(bounds));
+        }
+
         #[test]
         fn overlapping_boxes_find_each_other(
             boxes in proptest::collection::vec((-1e3..1e3_f64, -1e3..1e3_f64, 0.0..9.0_f64, 0.0..9.0_f64), 1..60),
@@ -222,14 +260,14 @@ mod tests {
                 .map(|b| Aabb::new(b.min + way, b.max + way))
                 .collect();
             for (i, bounds) in (0..).zip(&before) {
-                grid.insert(Seat::new(i, *bounds), grid.cells(*bounds));
+                grid.insert(Seat::new(i, Sides::around(*bounds)), grid.cells(*bounds));
             }
             for (i, (from, to)) in (0..).zip(before.iter().zip(&boxes)) {
-                grid.shift(Seat::new(i, *to), grid.cells(*from), grid.cells(*to));
+                grid.shift(Seat::new(i, Sides::around(*to)), grid.cells(*from), grid.cells(*to));
             }
             for (i, bounds) in (0_u32..).zip(&boxes) {
                 let mut near = Vec::new();
-                let seat = Seat::new(i, *bounds);
+                let seat = Seat::new(i, Sides::around(*bounds));
                 grid.gather(&seat, grid.cells(*bounds), &mut near);
                 for (j, other) in (0_u32..).zip(&boxes) {
                     prop_assert!(near.contains(&j) || !bounds.overlaps(*other), "{} misses {}", i, j);

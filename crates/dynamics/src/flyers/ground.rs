@@ -7,7 +7,7 @@ use super::circle::Circle;
 use super::foresee::{Cause, at_most, room_about, swept};
 use super::frame::Track;
 use super::queue::Ahead;
-use super::window;
+use super::{Sides, window};
 use crate::{BodyKind, World};
 
 /// Way, in cells, that a flyer looks down for first.
@@ -22,7 +22,7 @@ impl World {
         if !self.flyers.grounded {
             let state = self.bodies.get_mut(index);
             state.course.ground = SimTime::NEVER;
-            state.course.reached = Aabb::EMPTY;
+            state.course.reached = Sides::NOTHING;
             for &at in &state.colliders {
                 self.colliders[at as usize].fat = Aabb::EMPTY;
             }
@@ -38,10 +38,11 @@ impl World {
         state.course.span = span;
         state.course.ground = (time + span).min(state.course.piece);
         let span = state.course.ground - time;
-        state.course.reached = swept(state, &Track::of(&state.motion, time), span).grown(room);
+        let way = swept(state, &Track::of(&state.motion, time), span).grown(room);
+        state.course.reached = Sides::around(way);
         self.flyers.lift(&mut state.course, index);
         for &at in &state.colliders {
-            self.colliders[at as usize].fat = state.course.reached;
+            self.colliders[at as usize].fat = state.course.reached.bounds();
         }
         self.queue_end(index, Ahead::Ground);
     }
@@ -52,10 +53,10 @@ impl World {
         let (clears, changed) = (self.clears(), self.broad.changed);
         let state = self.bodies.get_mut(index);
         // Not at the same instant: what is found must not depend on the order in which bodies come.
-        if !clears || state.course.clear_at.is_none_or(|at| at <= changed) {
+        if !clears || state.course.clear_at == SimTime::NEVER || state.course.clear_at <= changed {
             return false;
         }
-        let clearing = state.course.reached;
+        let clearing = state.course.reached.bounds();
         let rim = state.reach * window::ROOM + room_about(state, clearing);
         let stays = Track::of(&state.motion, time).seconds_within(clearing.grown(-rim));
         if time + stays < state.course.horizon {
@@ -82,7 +83,7 @@ impl World {
                 continue;
             }
             let way = swept(state, &Track::of(&state.motion, time), at_most(left));
-            state.course.reached = way;
+            state.course.reached = Sides::around(way);
             for &at in &state.colliders {
                 self.colliders[at as usize].fat = way;
             }
@@ -114,11 +115,11 @@ impl World {
     pub(super) fn meet_shapes(&mut self, index: u32, time: SimTime, cause: Cause) {
         let mut near = core::mem::take(&mut self.flyers.shapes);
         let course = &mut self.bodies.get_mut(index).course;
-        let reached = course.reached;
+        let reached = course.reached.bounds();
         self.broad.search_tree(&self.colliders, reached, &mut near);
         let overlaps = |at: &u32| self.colliders[*at as usize].fat.overlaps(reached);
         course.alone = !near.iter().any(overlaps);
-        course.clear_at = course.alone.then_some(time);
+        course.clear_at = if course.alone { time } else { SimTime::NEVER };
         for &at in &near {
             let owner = self.colliders[at as usize].body;
             if owner == index {
@@ -233,7 +234,8 @@ mod tests {
             let course = &world.bodies.get(index).course;
             if course.flies {
                 flying += 1;
-                let width = course.reached.max.x - course.reached.min.x;
+                let bounds = course.reached.bounds();
+                let width = bounds.max.x - bounds.min.x;
                 assert!(width < 1.1, "a disc of 1 m falls in a box of {width} m");
             }
         }

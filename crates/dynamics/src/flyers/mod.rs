@@ -27,7 +27,6 @@ mod together;
 mod window;
 
 use carom_collision::{BoxTree, ImpactFeature, NodeId};
-use carom_geometry::Aabb;
 use carom_math::{SimTime, Vec2};
 
 use crate::bodies::Bodies;
@@ -38,7 +37,7 @@ pub(crate) use foresee::Cause;
 pub(crate) use foreseen::Foreseen;
 use frame::{Frame, Track};
 pub(crate) use gap::{Touching, gap_acceleration};
-pub(crate) use grid::{Cells, Grid, Seat};
+pub(crate) use grid::{Cells, Grid, Seat, Sides};
 use queue::{Ahead, Queue};
 use streak::Streak;
 
@@ -61,15 +60,15 @@ pub(crate) struct Course {
     /// Until when its motion stands for the law that it flies by; for ever where it is the law.
     pub(crate) piece: SimTime,
     /// Box of its bounding circle up to the horizon, in the frame that falls.
-    pub(crate) swept: Aabb,
+    pub(crate) swept: Sides,
     /// Box of its bounding circle up to the end of its look at what does not fly, in the world.
-    pub(crate) reached: Aabb,
+    pub(crate) reached: Sides,
     /// The earliest entries for the ends of both searches.
     pub(crate) entered: (SimTime, SimTime),
     /// How long it looked down for, in s.
     pub(crate) span: f64,
-    /// When it found nothing there.
-    pub(crate) clear_at: Option<SimTime>,
+    /// When it found nothing there; never, if there was something.
+    pub(crate) clear_at: SimTime,
     /// The tick in which it last struck, and what its impacts spent in it.
     pub(crate) tick: i64,
     pub(crate) spent: f64,
@@ -85,13 +84,13 @@ impl Default for Course {
             glides: false,
             piece: SimTime::NEVER,
             horizon: SimTime::ZERO,
-            swept: Aabb::EMPTY,
+            swept: Sides::NOTHING,
             cells: None,
             ground: SimTime::ZERO,
-            reached: Aabb::EMPTY,
+            reached: Sides::NOTHING,
             span: 0.0,
             alone: false,
-            clear_at: None,
+            clear_at: SimTime::NEVER,
             entered: (SimTime::NEVER, SimTime::NEVER),
             node: None,
             tick: 0,
@@ -213,7 +212,7 @@ impl Flyers {
     /// Puts a body into the grid, if it fits, or where it belongs there by now.
     fn enter(&mut self, bodies: &mut Bodies, colliders: &[Collider], index: u32) -> bool {
         let course = &mut bodies.get_mut(index).course;
-        let cells = self.grid.cells(course.swept);
+        let cells = self.grid.cells(course.swept.bounds());
         if !course.swept.is_finite() || cells.count() > MOST_CELLS {
             self.leave(bodies, index);
             return false;
@@ -280,7 +279,7 @@ impl Flyers {
         self.grid = Grid::new(side, flying.len());
         for index in flying {
             let course = &mut bodies.get_mut(index).course;
-            let cells = self.grid.cells(course.swept);
+            let cells = self.grid.cells(course.swept.bounds());
             self.grid.insert(Seat::new(index, course.swept), cells);
             course.cells = Some(cells);
         }

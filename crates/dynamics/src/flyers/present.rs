@@ -4,7 +4,7 @@ use carom_collision::{BoxTree, roundable};
 use carom_geometry::Aabb;
 use carom_math::SimTime;
 
-use super::{Cells, Course, Flyers, Seat};
+use super::{Cells, Course, Flyers, Seat, Sides};
 use crate::bodies::Bodies;
 
 impl Flyers {
@@ -69,7 +69,7 @@ impl Flyers {
         if cells.count() > self.grid.count() as u64 {
             near.extend(bodies.indices().filter(|body| here(*body)));
         } else {
-            let seat = Seat::new(u32::MAX, seen);
+            let seat = Seat::new(u32::MAX, Sides::around(seen));
             self.grid.gather(&seat, cells, &mut near);
             near.retain(|body| here(*body));
         }
@@ -84,7 +84,7 @@ impl Flyers {
         for index in bodies.indices().collect::<Vec<_>>() {
             let course = &mut bodies.get_mut(index).course;
             course.node = course.cells.map(|_| {
-                let bounds = course.reached;
+                let bounds = course.reached.bounds();
                 tree.insert(bounds.grown(roundable(bounds)), index)
             });
         }
@@ -107,7 +107,8 @@ impl Flyers {
             course.node = None;
             return;
         };
-        let bounds = course.reached.grown(roundable(course.reached));
+        let bounds = course.reached.bounds();
+        let bounds = bounds.grown(roundable(bounds));
         match course.node {
             Some(node) => {
                 tree.update(node, bounds);

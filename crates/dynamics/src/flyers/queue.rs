@@ -213,12 +213,16 @@ impl Queue {
         let Self {
             days, due, come, ..
         } = self;
-        days.take(slot(self.today), units_of(self.today, self.shift), |entry| {
-            *come += 1;
-            if !stale(&entry) {
-                due.push(Reverse(entry));
-            }
-        });
+        days.take(
+            slot(self.today),
+            units_of(self.today, self.shift),
+            |entry| {
+                *come += 1;
+                if !stale(&entry) {
+                    due.push(Reverse(entry));
+                }
+            },
+        );
     }
 
     /// A new year begins on the first day with an entry, or on `day` if that is earlier; its days are

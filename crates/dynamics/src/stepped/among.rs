@@ -55,7 +55,7 @@ impl World {
                 &self.pool.seats.rig.lines[slot as usize],
                 self.bodies.get(index),
             );
-            let work = state.force.dot(line.d() - d) + state.torque * (line.turn() - turn);
+            let work = state.force().dot(line.d() - d) + state.torque() * (line.turn() - turn);
             self.pool.crowd.forced.add(work);
         }
         self.pool.crowd.unwritten = true;

@@ -363,8 +363,8 @@ pub(crate) fn pull_of(bodies: &Bodies, state: &BodyState, centre: Vec2) -> Pull 
     }
     Pull {
         acceleration: state.gravity_scale * bodies.pull.at(centre)
-            + state.force * state.inverse_mass,
-        angular: state.torque * state.inverse_inertia,
+            + state.force() * state.inverse_mass,
+        angular: state.torque() * state.inverse_inertia,
     }
 }
 
