@@ -93,7 +93,7 @@ impl<'w> Body<'w> {
         let colliders = self.colliders;
         self.state.colliders.iter().map(move |&i| {
             let collider = &colliders[i as usize];
-            (&*collider.drawn, &collider.material)
+            (&*collider.drawn, &collider.surface.material)
         })
     }
 
@@ -101,7 +101,7 @@ impl<'w> Body<'w> {
     pub fn filters(&self) -> impl Iterator<Item = Filter> + use<'w> {
         let colliders = self.colliders;
         let shapes = self.state.colliders.iter();
-        shapes.map(move |&i| colliders[i as usize].filter)
+        shapes.map(move |&i| colliders[i as usize].surface.filter)
     }
 
     /// The motion from its last change on, about the centre of mass; in a field and with damping a parabola near it.

@@ -212,7 +212,7 @@ impl Broad {
         if a.kind != BodyKind::Dynamic && b.kind != BodyKind::Dynamic {
             return;
         }
-        let filter = |i: u32| colliders[i as usize].filter;
+        let filter = |i: u32| colliders[i as usize].surface.filter;
         if !filter(first).touches(filter(second)) {
             return;
         }
@@ -275,7 +275,7 @@ impl Broad {
     ) -> PairMaterial {
         let key = if a < b { (a, b) } else { (b, a) };
         let given = self.overrides.get(&key).copied();
-        given.unwrap_or_else(|| first.material.against(&second.material))
+        given.unwrap_or_else(|| first.surface.material.against(&second.surface.material))
     }
 
     /// Whether the boxes that a pair was found with still overlap.
@@ -303,7 +303,10 @@ fn overlapping<'a>(
 /// Whether a shape of a crowd is out of the tight box of one that is driven.
 pub(crate) fn misses(a: &Collider, b: &Collider) -> bool {
     let apart = |driven: &Collider, other: &Collider| {
-        driven.tight.is_some_and(|tight| !tight.overlaps(other.fat))
+        driven
+            .tight
+            .as_ref()
+            .is_some_and(|tight| !tight.overlaps(other.fat))
     };
     apart(a, b) || apart(b, a)
 }
@@ -345,6 +348,7 @@ pub(crate) fn swept_box(collider: &Collider, motion: &Motion, time: SimTime, h: 
 mod tests {
     use super::*;
     use crate::Material;
+    use crate::state::Surface;
     use carom_geometry::{ConvexPolygon, Shape};
     use std::sync::Arc;
 
@@ -357,8 +361,10 @@ mod tests {
             body: 0,
             drawn: Arc::clone(&plank),
             solid: Arc::clone(&plank),
-            material: Material::default(),
-            filter: crate::Filter::default(),
+            surface: Arc::new(Surface {
+                material: Material::default(),
+                filter: crate::Filter::default(),
+            }),
             node: None,
             fat: Aabb::EMPTY,
             tight: None,

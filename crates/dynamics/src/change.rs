@@ -125,7 +125,7 @@ impl World {
     pub fn set_filter(&mut self, id: BodyId, filter: Filter) -> Result<(), BodyError> {
         let index = self.bodies.find(id)?;
         for &at in &self.bodies.get(index).colliders.clone() {
-            self.colliders[at as usize].filter = filter;
+            self.colliders[at as usize].set_filter(filter);
         }
         self.meet_anew(index);
         Ok(())
@@ -150,7 +150,7 @@ impl World {
                 count: shapes.len(),
             });
         };
-        self.colliders[at as usize].filter = filter;
+        self.colliders[at as usize].set_filter(filter);
         self.meet_anew(index);
         Ok(())
     }
@@ -331,7 +331,7 @@ impl World {
             for other in self.broad.in_tree(&self.colliders, mine.solid.aabb(pose)) {
                 let theirs = &self.colliders[other as usize];
                 let partner = self.bodies.get(theirs.body);
-                if !partner.asleep || !mine.filter.touches(theirs.filter) {
+                if !partner.asleep || !mine.surface.filter.touches(theirs.surface.filter) {
                     continue;
                 }
                 // What fell asleep on it may have sunk in, or hover within the solver's margin.

@@ -240,7 +240,7 @@ impl Filtered<'_> {
 
     fn sees(&self, collider: &Collider) -> bool {
         self.filter
-            .is_none_or(|filter| filter.touches(collider.filter))
+            .is_none_or(|filter| filter.touches(collider.surface.filter))
     }
 
     /// A shape that the tree named, with its body and its place there.

@@ -133,17 +133,29 @@ impl Lag {
 pub(crate) struct Collider {
     /// About the body's centre of mass: what collides.
     pub(crate) solid: Arc<Shape>,
-    pub(crate) filter: Filter,
+    pub(crate) surface: Arc<Surface>,
     pub(crate) body: u32,
     /// Node in the tree of boxes.
     pub(crate) node: Option<Leaf>,
-    pub(crate) material: Material,
     /// Box that the pairs were searched with.
     pub(crate) fat: Aabb,
     /// As the caller drew it.
     pub(crate) drawn: Arc<Shape>,
     /// Box for the coming tick of a shape that is driven beside a crowd: a flyer's own reaches farther.
-    pub(crate) tight: Option<Aabb>,
+    pub(crate) tight: Option<Box<Aabb>>,
+}
+
+/// How a shape meets others, and whom. One for all that are alike, as far as that is seen at a glance.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Surface {
+    pub(crate) material: Material,
+    pub(crate) filter: Filter,
+}
+
+impl Collider {
+    pub(crate) fn set_filter(&mut self, filter: Filter) {
+        Arc::make_mut(&mut self.surface).filter = filter;
+    }
 }
 
 /// The same for equal definitions, whatever else is in the world.
@@ -216,10 +228,7 @@ impl BodyState {
                 .iter()
                 .map(|(shape, _)| shape.reach_about(mass.centroid))
                 .fold(0.0, f64::max),
-            inner: shapes
-                .iter()
-                .map(|(shape, _)| half_width(shape, mass.centroid))
-                .fold(f64::INFINITY, f64::min),
+            inner: f64::INFINITY,
             colliders: Few::default(),
             pairs: Vec::new(),
         })
@@ -259,6 +268,12 @@ impl BodyState {
         if self.uncommon.is_some() || lag != Lag::NONE {
             self.uncommon_mut().lag = lag;
         }
+    }
+
+    /// Gives the body one more shape, which is about its centre of mass.
+    pub(crate) fn add(&mut self, at: u32, solid: &Shape) {
+        self.colliders.push(at);
+        self.inner = self.inner.min(half_width(solid));
     }
 
     /// Changes what moves the body; a fixed one comes to rest.
@@ -424,11 +439,11 @@ impl BodyState {
     }
 }
 
-/// About half the width of the widest part of a shape, in m; at least a thousandth of its size.
-fn half_width(shape: &Shape, centroid: Vec2) -> f64 {
-    let inner = hulls(shape).map(|hull| inner_of(&hull));
+/// About half the width of the widest part of a shape about a centre of mass, in m; at least a thousandth of its size.
+fn half_width(solid: &Shape) -> f64 {
+    let inner = hulls(solid).map(|hull| inner_of(&hull));
     let widest = inner.fold(0.0, f64::max);
-    widest.max(1e-3 * shape.reach_about(centroid))
+    widest.max(1e-3 * solid.reach_about(Vec2::ZERO))
 }
 
 /// From the middle of a part's vertices to its nearest edge, in m: half its width, or less where it tapers.
@@ -533,6 +548,11 @@ fn middle_of(shapes: &[(Shape, Material)]) -> MassProperties {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_shape_fills_80_bytes() {
+        assert_eq!(size_of::<Collider>(), 80);
+    }
 
     #[test]
     fn a_body_fills_nine_lines_of_a_cache() {

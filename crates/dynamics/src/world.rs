@@ -16,13 +16,16 @@ use crate::narrow::Narrow;
 use crate::pairs::Pairs;
 use crate::profile::Stopwatch;
 use crate::solver::Law;
-use crate::state::{BodyState, Collider, drawn_at};
+use crate::state::{BodyState, Collider, Surface, drawn_at};
 use crate::stepped::Stepped;
 use crate::threads::Threads;
 use crate::{
-    Body, BodyDef, BodyError, BodyId, BodyKind, Contact, EnergyLedger, EventKind, Events, Filter,
-    Material, Mode, Momentum, Settings, SettingsError, StepProfile, StepReport,
+    Body, BodyDef, BodyError, BodyId, BodyKind, Contact, EnergyLedger, EventKind, Events, Material,
+    Mode, Momentum, Settings, SettingsError, StepProfile, StepReport,
 };
+
+/// So many of the shapes that came last are looked through for one that is alike.
+const LATEST: usize = 8;
 
 /// Rigid bodies and the time that passes for them.
 ///
@@ -180,7 +183,11 @@ impl World {
         let centroid = state.mass.centroid;
         self.bodies.insert(state);
         for (shape, material) in shapes {
-            self.add_collider(id.index, shape, (material, def.filter), centroid);
+            let surface = Surface {
+                material,
+                filter: def.filter,
+            };
+            self.add_collider(id.index, shape, surface, centroid);
         }
         let (kinetic, potential) = self.bodies.energy_of(id.index, now);
         self.bodies.book.external.add(kinetic + potential);
@@ -350,26 +357,18 @@ impl World {
         }
     }
 
-    fn add_collider(
-        &mut self,
-        body: u32,
-        shape: Shape,
-        (material, filter): (Material, Filter),
-        centroid: Vec2,
-    ) {
-        let drawn = Arc::new(shape);
-        // A shape drawn about its centre is its own solid.
-        let solid = if centroid == Vec2::ZERO {
-            Arc::clone(&drawn)
-        } else {
-            Arc::new(drawn.translated(-centroid))
+    fn add_collider(&mut self, body: u32, shape: Shape, surface: Surface, centroid: Vec2) {
+        let (drawn, solid) = self.shape_like(shape, centroid);
+        let alike = self.latest().find(|known| *known.surface == surface);
+        let surface = match alike {
+            Some(known) => Arc::clone(&known.surface),
+            None => Arc::new(surface),
         };
         let collider = Collider {
             body,
             drawn,
-            solid,
-            material,
-            filter,
+            solid: Arc::clone(&solid),
+            surface,
             node: None,
             fat: Aabb::EMPTY,
             tight: None,
@@ -386,7 +385,33 @@ impl World {
             let at = (self.colliders.len() - 1) as u32;
             at
         };
-        self.bodies.get_mut(body).colliders.push(at);
+        self.bodies.get_mut(body).add(at, &solid);
+    }
+
+    /// A shape as it is drawn, and about a centre of mass: those of another one that is alike, if one came shortly before.
+    fn shape_like(&self, shape: Shape, centroid: Vec2) -> (Arc<Shape>, Arc<Shape>) {
+        let mut latest = self.latest().filter(|known| *known.drawn == shape);
+        // The centre of mass of the other one may be elsewhere.
+        let alike = latest.find(|known| {
+            let moved = shape.vertices().iter().map(|v| *v + -centroid);
+            moved.eq(known.solid.vertices().iter().copied())
+        });
+        if let Some(known) = alike {
+            return (Arc::clone(&known.drawn), Arc::clone(&known.solid));
+        }
+        let drawn = Arc::new(shape);
+        // A shape drawn about its centre is its own solid.
+        let solid = if centroid == Vec2::ZERO {
+            Arc::clone(&drawn)
+        } else {
+            Arc::new(drawn.translated(-centroid))
+        };
+        (drawn, solid)
+    }
+
+    /// The shapes that came last: many bodies are alike.
+    fn latest(&self) -> impl Iterator<Item = &Collider> {
+        self.colliders.iter().rev().take(LATEST)
     }
 
     /// Takes a pair out and says so if it touched.

@@ -1,5 +1,7 @@
 //! Edges in blocks of four: what wide arithmetic takes.
 
+use std::sync::OnceLock;
+
 use carom_math::Vec2;
 
 /// Four edges of a convex polygon side by side, each number as an array of four.
@@ -31,8 +33,26 @@ pub struct EdgeBlock {
     pub normal_y: [f64; 4],
 }
 
+/// The blocks of a polygon, made when they are first asked for: shapes that are only drawn never have any.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Blocks(OnceLock<Box<[EdgeBlock]>>);
+
+impl Blocks {
+    #[inline]
+    pub(crate) fn of(&self, vertices: &[Vec2], normals: &[Vec2]) -> &[EdgeBlock] {
+        self.0.get_or_init(|| edge_blocks(vertices, normals))
+    }
+}
+
+/// They follow from corners and normals, so that whoever has them is no different.
+impl PartialEq for Blocks {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
 /// The edges in order, four at a time; `normals[i]` belongs to the edge that begins at `vertices[i]`.
-pub(crate) fn edge_blocks(vertices: &[Vec2], normals: &[Vec2]) -> Vec<EdgeBlock> {
+fn edge_blocks(vertices: &[Vec2], normals: &[Vec2]) -> Box<[EdgeBlock]> {
     let blocks = vertices.chunks(4).zip(normals.chunks(4));
     let block = |(vertices, normals): (&[Vec2], &[Vec2])| {
         let vertex = |lane: usize| vertices[lane.min(vertices.len() - 1)];

@@ -30,10 +30,10 @@ use crate::{AreaProperties, ConvexPiece, PartTree, Shape, ShapeError};
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Compound {
-    parts: Vec<Shape>,
-    vertices: Vec<Vec2>,
-    convex: Vec<ConvexPart>,
-    tree: Option<PartTree>,
+    parts: Box<[Shape]>,
+    vertices: Box<[Vec2]>,
+    convex: Box<[ConvexPart]>,
+    tree: Option<Box<PartTree>>,
 }
 
 impl Compound {
@@ -66,10 +66,10 @@ impl Compound {
         weld(&mut convex);
         let many = vertices.len() > TREE_ABOVE && convex.len() > 1;
         Self {
-            tree: many.then(|| PartTree::new(convex.iter().map(ConvexPart::aabb))),
-            parts,
-            vertices,
-            convex,
+            tree: many.then(|| Box::new(PartTree::new(convex.iter().map(ConvexPart::aabb)))),
+            parts: parts.into(),
+            vertices: vertices.into(),
+            convex: convex.into(),
         }
     }
 
@@ -87,8 +87,8 @@ impl Compound {
 
     /// The box tree over the convex parts, if there are several with more than 32 corners together.
     #[must_use]
-    pub const fn part_tree(&self) -> Option<&PartTree> {
-        self.tree.as_ref()
+    pub fn part_tree(&self) -> Option<&PartTree> {
+        self.tree.as_deref()
     }
 
     /// Corners of all parts, one part after the other, in m; of a circle its centre.
@@ -134,7 +134,7 @@ fn convex_parts(part: &Shape) -> Vec<ConvexPart> {
             let pieces = polygon.pieces().iter().cloned();
             pieces.map(ConvexPart::Piece).collect()
         }
-        Shape::Compound(compound) => compound.convex.clone(),
+        Shape::Compound(compound) => compound.convex.to_vec(),
         // No part of a compound is one.
         Shape::HalfPlane(_) => Vec::new(),
     }

@@ -1,8 +1,10 @@
 //! Convex polygons: what the separating axis theorem takes.
 
+use std::sync::Arc;
+
 use carom_math::{Vec2, orient2d, vec2};
 
-use crate::blocks::{EdgeBlock, edge_blocks};
+use crate::blocks::{Blocks, EdgeBlock};
 use crate::moments::polygon_moments;
 use crate::query::winds_around;
 use crate::ring::{Ring, corners};
@@ -21,9 +23,10 @@ use crate::{AreaProperties, PolygonError, hull};
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct ConvexPolygon {
-    vertices: Vec<Vec2>,
-    normals: Vec<Vec2>,
-    blocks: Vec<EdgeBlock>,
+    vertices: Box<[Vec2]>,
+    /// Shared with the same polygon elsewhere.
+    normals: Arc<[Vec2]>,
+    blocks: Blocks,
 }
 
 impl ConvexPolygon {
@@ -68,15 +71,10 @@ impl ConvexPolygon {
 
     /// Vertices that are known to be strictly convex and counter-clockwise.
     pub(crate) fn from_checked(vertices: Vec<Vec2>) -> Self {
-        let normals = outward_normals(&vertices);
-        Self::of_edges(vertices, normals)
-    }
-
-    fn of_edges(vertices: Vec<Vec2>, normals: Vec<Vec2>) -> Self {
         Self {
-            blocks: edge_blocks(&vertices, &normals),
-            vertices,
-            normals,
+            normals: outward_normals(&vertices).into(),
+            vertices: vertices.into(),
+            blocks: Blocks::default(),
         }
     }
 
@@ -95,13 +93,13 @@ impl ConvexPolygon {
     /// The edges in order, four at a time: corners and normals.
     #[must_use]
     pub fn blocks(&self) -> &[EdgeBlock] {
-        &self.blocks
+        self.blocks.of(&self.vertices, &self.normals)
     }
 
     /// Area and its moments.
     #[must_use]
     pub fn area_properties(&self) -> AreaProperties {
-        polygon_moments(&self.vertices, [self.vertices.as_slice()])
+        polygon_moments(&self.vertices, [&*self.vertices])
     }
 
     /// Whether `point` (in m) lies inside or on the outline; exact.
@@ -115,8 +113,11 @@ impl ConvexPolygon {
     /// Vertices are rounded to where they come to lie, and not checked again.
     #[must_use]
     pub fn translated(&self, offset: Vec2) -> Self {
-        let vertices = self.vertices.iter().map(|v| *v + offset).collect();
-        Self::of_edges(vertices, self.normals.clone())
+        Self {
+            vertices: self.vertices.iter().map(|v| *v + offset).collect(),
+            normals: Arc::clone(&self.normals),
+            blocks: Blocks::default(),
+        }
     }
 
     /// The same polygon moved so that its centroid is at the origin.

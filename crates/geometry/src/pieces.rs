@@ -3,9 +3,11 @@
 //! Pieces serve for distances and separating axes. Contact belongs to the outline alone, so that a
 //! piece knows which of its edges are cuts and in which directions its corners can be touched.
 
+use std::sync::Arc;
+
 use carom_math::{Vec2, cross, orient2d};
 
-use crate::blocks::{EdgeBlock, edge_blocks};
+use crate::blocks::{Blocks, EdgeBlock};
 use crate::convex::outward_normals;
 use crate::ears::triangulate;
 use crate::merge::{PieceEdge, merge};
@@ -30,21 +32,30 @@ use crate::{ConvexPolygon, Segment};
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct ConvexPiece {
-    vertices: Vec<Vec2>,
-    normals: Vec<Vec2>,
-    blocks: Vec<EdgeBlock>,
-    boundary: Vec<bool>,
-    cones: Vec<Cone>,
+    vertices: Box<[Vec2]>,
+    /// Shared with the same piece elsewhere.
+    rim: Arc<Rim>,
+    blocks: Blocks,
+}
+
+/// What a piece keeps where it is moved.
+#[derive(Clone, Debug, PartialEq)]
+struct Rim {
+    normals: Box<[Vec2]>,
+    boundary: Box<[bool]>,
+    cones: Box<[Cone]>,
 }
 
 impl ConvexPiece {
     fn new(vertices: Vec<Vec2>, normals: Vec<Vec2>, boundary: Vec<bool>, cones: Vec<Cone>) -> Self {
         Self {
-            blocks: edge_blocks(&vertices, &normals),
-            vertices,
-            normals,
-            boundary,
-            cones,
+            vertices: vertices.into(),
+            rim: Arc::new(Rim {
+                normals: normals.into(),
+                boundary: boundary.into(),
+                cones: cones.into(),
+            }),
+            blocks: Blocks::default(),
         }
     }
 
@@ -57,13 +68,13 @@ impl ConvexPiece {
     /// Outward unit normals; number `i` belongs to the edge from vertex `i` to the next.
     #[must_use]
     pub fn normals(&self) -> &[Vec2] {
-        &self.normals
+        &self.rim.normals
     }
 
     /// The edges in order, four at a time: corners and normals.
     #[must_use]
     pub fn blocks(&self) -> &[EdgeBlock] {
-        &self.blocks
+        self.blocks.of(&self.vertices, &self.rim.normals)
     }
 
     /// Whether edge `i` belongs to the outline; else it is a cut.
@@ -72,13 +83,13 @@ impl ConvexPiece {
     /// If there is no edge `i`.
     #[must_use]
     pub fn is_boundary(&self, edge: usize) -> bool {
-        self.boundary[edge]
+        self.rim.boundary[edge]
     }
 
     /// Outward normal cone of the *outline* at each corner.
     #[must_use]
     pub fn cones(&self) -> &[Cone] {
-        &self.cones
+        &self.rim.cones
     }
 
     /// A convex polygon as its own piece.
@@ -89,13 +100,12 @@ impl ConvexPiece {
             from: *from,
             to: *to,
         });
-        Self {
-            vertices: polygon.vertices().to_vec(),
-            normals: normals.to_vec(),
-            blocks: polygon.blocks().to_vec(),
-            boundary: vec![true; normals.len()],
-            cones: cones.collect(),
-        }
+        Self::new(
+            polygon.vertices().to_vec(),
+            normals.to_vec(),
+            vec![true; normals.len()],
+            cones.collect(),
+        )
     }
 
     /// A wall without thickness: two vertices, a normal for each side, half a turn at either end.
@@ -108,21 +118,20 @@ impl ConvexPiece {
     }
 
     pub(crate) fn hide_edge(&mut self, edge: usize) {
-        self.boundary[edge] = false;
+        Arc::make_mut(&mut self.rim).boundary[edge] = false;
     }
 
     pub(crate) fn set_cone(&mut self, corner: usize, cone: Cone) {
-        self.cones[corner] = cone;
+        Arc::make_mut(&mut self.rim).cones[corner] = cone;
     }
 
     /// The same piece moved by `offset`, in m.
     pub(crate) fn translated(&self, offset: Vec2) -> Self {
-        Self::new(
-            self.vertices.iter().map(|v| *v + offset).collect(),
-            self.normals.clone(),
-            self.boundary.clone(),
-            self.cones.clone(),
-        )
+        Self {
+            vertices: self.vertices.iter().map(|v| *v + offset).collect(),
+            rim: Arc::clone(&self.rim),
+            blocks: Blocks::default(),
+        }
     }
 }
 

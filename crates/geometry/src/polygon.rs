@@ -28,9 +28,9 @@ use crate::{Aabb, AreaProperties, ConvexPolygon, PolygonError};
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polygon {
-    vertices: Vec<Vec2>,
-    pieces: Vec<ConvexPiece>,
-    tree: Option<PartTree>,
+    vertices: Box<[Vec2]>,
+    pieces: Box<[ConvexPiece]>,
+    tree: Option<Box<PartTree>>,
 }
 
 impl Polygon {
@@ -56,9 +56,9 @@ impl Polygon {
         };
         let many = vertices.len() > TREE_ABOVE && pieces.len() > 1;
         Self {
-            tree: many.then(|| PartTree::new(boxes())),
-            vertices,
-            pieces,
+            tree: many.then(|| Box::new(PartTree::new(boxes()))),
+            vertices: vertices.into(),
+            pieces: pieces.into(),
         }
     }
 
@@ -84,8 +84,8 @@ impl Polygon {
 
     /// The box tree over the pieces, if there are more than 32 edges and several pieces.
     #[must_use]
-    pub const fn part_tree(&self) -> Option<&PartTree> {
-        self.tree.as_ref()
+    pub fn part_tree(&self) -> Option<&PartTree> {
+        self.tree.as_deref()
     }
 
     /// Area and its moments.

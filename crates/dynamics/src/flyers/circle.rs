@@ -77,7 +77,7 @@ impl Registered {
             reach: state.reach,
             falls: motion.acceleration == frame.acceleration() && state.flight.is_none(),
             plain: state.is_dynamic()
-                && matches!(&*state.colliders, [one] if colliders[*one as usize].filter == Filter::default()),
+                && matches!(&*state.colliders, [one] if colliders[*one as usize].surface.filter == Filter::default()),
         }
     }
 }

@@ -193,7 +193,7 @@ impl World {
 
     /// Whether the filters of two shapes let them touch.
     pub(super) fn may_touch(&self, shapes: (u32, u32)) -> bool {
-        let filter = |at: u32| self.colliders[at as usize].filter;
+        let filter = |at: u32| self.colliders[at as usize].surface.filter;
         filter(shapes.0).touches(filter(shapes.1))
     }
 

@@ -125,12 +125,13 @@ impl World {
                 let ahead = |ticks: f64| swept_box(collider, &state.motion, time, ticks * tick);
                 if collider
                     .tight
+                    .as_ref()
                     .is_some_and(|tight| tight.contains(ahead(1.0)))
                 {
                     continue;
                 }
                 let tight = ahead(2.0);
-                self.colliders[at as usize].tight = Some(tight);
+                self.colliders[at as usize].tight = Some(Box::new(tight));
                 for other in self.broad.in_tree(&self.colliders, tight) {
                     if self
                         .bodies
