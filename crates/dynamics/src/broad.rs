@@ -251,6 +251,7 @@ impl Broad {
             fresh: true,
             contacts: Vec::new(),
             touching: false,
+            turning_rest: 0.0,
             lasting: false,
             mode: None,
             held: false,

@@ -5,7 +5,7 @@ use carom_math::SimTime;
 use crate::StepReport;
 use crate::bodies::Bodies;
 use crate::flight::driven;
-use crate::narrow::{TOUCH, opening_speed, rest_speed};
+use crate::narrow::{TOUCH, opening_speed, rest_speed, rest_speed_between};
 use crate::pairs::{PairPoint, Pairs};
 use crate::solver::{Law, Row, SolverBody, relax, solve};
 
@@ -104,10 +104,12 @@ impl Groups {
                 }
                 self.buried |= pair.buried;
                 let touch = TOUCH * a.reach.min(b.reach);
-                let rest = if pair.given_up || pair.buried {
-                    f64::INFINITY
+                // What turning presses comes down within a sub-step: it rests where it touches, and not before.
+                let (rest, near) = if pair.given_up || pair.buried {
+                    (f64::INFINITY, f64::INFINITY)
                 } else {
-                    rest_speed(bodies, pair, h)
+                    let near = rest_speed_between(bodies, pair.bodies, h);
+                    (rest_speed(bodies, pair, h), near)
                 };
                 let (centre_a, centre_b) = (a.motion.centre_at(time), b.motion.centre_at(time));
                 for (index, contact) in pair.contacts.iter().enumerate() {
@@ -115,8 +117,13 @@ impl Groups {
                         |p: &PairPoint| opening_speed(a, b, time, p.position, contact.normal);
                     // What closes faster than rest will be struck at its instant, unless it touches
                     // and is held.
-                    let lasts =
-                        |p: &PairPoint| (pair.held && p.separation <= touch) || opening(p) >= -rest;
+                    let lasts = |p: &PairPoint| {
+                        if p.separation <= touch {
+                            pair.held || opening(p) >= -rest
+                        } else {
+                            opening(p) >= -near
+                        }
+                    };
                     if !contact.points.iter().any(lasts) {
                         continue;
                     }

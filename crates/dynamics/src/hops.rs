@@ -5,20 +5,14 @@
 //! search for its end sees rounding, and whoever took the contact for open would let it sink in.
 
 use arrayvec::ArrayVec;
-use carom_collision::{AxisFeature, Impact, ImpactFeature, Side, part};
-use carom_math::{SimTime, Vec2};
+use carom_collision::{AxisFeature, Impact, ImpactFeature};
+use carom_math::SimTime;
 
 use crate::bodies::Bodies;
-use crate::flight::motion_along;
-use crate::flyers::{Touching, gap_acceleration};
-use crate::modes::Feature;
 use crate::narrow::TOUCH;
 use crate::pairs::{Pair, PairContact};
-use crate::state::{BodyState, Collider};
-use crate::touching::{feature, opens_at};
-
-/// Stretch of a law that its acceleration is read from, in s.
-const STRETCH: f64 = 1e-5;
+use crate::state::Collider;
+use crate::touching::opens_at;
 
 /// When a contact closes that opens now, if that is by `horizon` seconds from `time` and it does not come out of touch.
 pub(crate) fn hop(
@@ -39,7 +33,15 @@ pub(crate) fn hop(
         else {
             continue;
         };
-        let press = press(colliders, pair, contact, point.position, time, (a, b));
+        let press = pair
+            .spot(
+                bodies,
+                colliders,
+                contact.parts,
+                point.position,
+                contact.normal,
+            )
+            .press(time);
         // u t − a t²/2 from a gap g above 0: back after (u + √(u² + 2 a g))/a, from a height of u²/(2 a) + g.
         let gap = point.separation.max(0.0);
         if press <= 0.0 || 0.5 * speed * speed / press + gap > touch {
@@ -64,38 +66,4 @@ pub(crate) fn hop(
         });
     }
     first
-}
-
-/// How fast two bodies are pressed together at a point, in m/s², by the laws that they move by.
-fn press(
-    colliders: &[Collider],
-    pair: &Pair,
-    contact: &PairContact,
-    point: Vec2,
-    time: SimTime,
-    (a, b): (&BodyState, &BodyState),
-) -> f64 {
-    let solids = [pair.colliders.0, pair.colliders.1].map(|at| &*colliders[at as usize].solid);
-    let edge = |state: &BodyState, k: usize, at: u32, outward| {
-        let found = feature(
-            &part(solids[k], at as usize),
-            state.centre_pose(time),
-            outward,
-            contact.normal,
-            point,
-        );
-        matches!(found, Feature::Edge { .. })
-    };
-    let face = if edge(a, 0, contact.parts.0, contact.normal) {
-        Some(Side::A)
-    } else if edge(b, 1, contact.parts.1, -contact.normal) {
-        Some(Side::B)
-    } else {
-        None
-    };
-    let of = |state: &BodyState, k: usize| {
-        let motion = motion_along(state, time, STRETCH);
-        Touching::of(&motion, solids[k], point, time)
-    };
-    -gap_acceleration(&of(a, 0), &of(b, 1), contact.normal, face)
 }

@@ -56,6 +56,7 @@ mod modes;
 mod narrow;
 mod pairs;
 mod predict;
+mod press;
 mod profile;
 mod query;
 mod report;

@@ -69,7 +69,41 @@ impl Narrow {
             .contacts
             .iter()
             .any(|contact| contact.points.iter().any(|p| p.separation <= TOUCH * size));
+        if pair.touching {
+            pair.turning_rest = turning_rest(bodies, colliders, pair, time, h);
+        }
     }
+}
+
+/// The largest [`Spot::turning_rest`] of all touches of a pair, in m/s.
+fn turning_rest(
+    bodies: &Bodies,
+    colliders: &[Collider],
+    pair: &Pair,
+    time: SimTime,
+    h: f64,
+) -> f64 {
+    let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
+    if pair.material.restitution >= 1.0 || a.motion.spin == 0.0 && b.motion.spin == 0.0 {
+        return 0.0;
+    }
+    let touch = TOUCH * a.reach.min(b.reach);
+    let mut fastest = 0.0;
+    for contact in &pair.contacts {
+        for point in contact.points.iter().filter(|p| p.separation <= touch) {
+            let speed = pair
+                .spot(
+                    bodies,
+                    colliders,
+                    contact.parts,
+                    point.position,
+                    contact.normal,
+                )
+                .turning_rest(time, h);
+            fastest = if speed > fastest { speed } else { fastest };
+        }
+    }
+    fastest
 }
 
 /// A new contact in the world, with the impulses of the old one of the same parts.
@@ -139,12 +173,12 @@ pub(crate) fn opening_speed(
 ///
 /// Two sub-steps' worth of what presses the pair together: a bounce that is over within a few
 /// sub-steps cannot be told from rest by a scheme that looks once a sub-step. Two flyers under one
-/// gravity press with nothing, so they always bounce.
+/// gravity press with nothing, so they always bounce but where turning presses them.
 pub(crate) fn rest_speed(bodies: &Bodies, pair: &Pair, h: f64) -> f64 {
-    rest_speed_between(bodies, pair.bodies, h)
+    rest_speed_between(bodies, pair.bodies, h) + pair.turning_rest
 }
 
-/// [`rest_speed`] of two bodies.
+/// [`rest_speed`] of two bodies, but for what turning adds.
 pub(crate) fn rest_speed_between(bodies: &Bodies, (a, b): (u32, u32), h: f64) -> f64 {
     let (a, b) = (bodies.get(a), bodies.get(b));
     let pull = |body: &BodyState| {

@@ -6,7 +6,9 @@ use carom_math::Vec2;
 
 use crate::agenda::Entry;
 use crate::bodies::Bodies;
+use crate::press::Spot;
 use crate::solver::RowId;
+use crate::state::Collider;
 use crate::{ContactMode, PairMaterial};
 
 /// Two colliders of different bodies whose boxes overlap; the lower body comes first.
@@ -21,6 +23,8 @@ pub(crate) struct Pair {
     pub(crate) contacts: Vec<PairContact>,
     /// Touched at the last look, or struck since.
     pub(crate) touching: bool,
+    /// What the turning of its bodies adds to its rest speed, in m/s, by the last look or forecast.
+    pub(crate) turning_rest: f64,
     /// Some contact pushes: the pair is solved for, not struck.
     pub(crate) lasting: bool,
     /// How its bodies last moved against each other in a contact in closed form.
@@ -36,6 +40,27 @@ pub(crate) struct Pair {
     pub(crate) spent: f64,
     /// The impacts of this sub-step outran the budget.
     pub(crate) given_up: bool,
+}
+
+impl Pair {
+    /// A place where convex parts of the pair touch, with the normal there from A to B.
+    pub(crate) fn spot<'a>(
+        &self,
+        bodies: &'a Bodies,
+        colliders: &'a [Collider],
+        parts: (u32, u32),
+        point: Vec2,
+        normal: Vec2,
+    ) -> Spot<'a> {
+        let solid = |at: u32| &*colliders[at as usize].solid;
+        Spot {
+            bodies: (bodies.get(self.bodies.0), bodies.get(self.bodies.1)),
+            solids: [solid(self.colliders.0), solid(self.colliders.1)],
+            parts,
+            point,
+            normal,
+        }
+    }
 }
 
 /// What a look asks of a pair that it need not look at: kept apart from all else, since most are asked in vain.

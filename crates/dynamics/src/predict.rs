@@ -12,7 +12,7 @@ use crate::bodies::Bodies;
 use crate::flight::{first_touch_of_parts, motion_along};
 use crate::hops::hop;
 use crate::modes::CLOSED;
-use crate::narrow::{NOISE, Narrow, TOUCH, opening_speed, pace, rest_speed};
+use crate::narrow::{NOISE, Narrow, TOUCH, opening_speed, pace, rest_speed, rest_speed_between};
 use crate::pairs::{Pair, PairContact, PairPoint, Pairs};
 use crate::state::{BodyState, Collider};
 use crate::touching::stays;
@@ -85,6 +85,7 @@ pub(crate) fn predict(
     let rest = pair
         .lasting
         .then(|| group_rest.max(NOISE * pace(a, b, time)));
+    let pulled = rest_speed_between(bodies, pair.bodies, h).max(NOISE * pace(a, b, time));
     let touch = TOUCH * a.reach.min(b.reach);
     if rest.is_some() {
         narrow.look(bodies, colliders, pair, time, h);
@@ -92,7 +93,7 @@ pub(crate) fn predict(
     let closed = a.membership.is_closed() || b.membership.is_closed();
     // Parts whose touch opens and closes again at once.
     let mut hops: ArrayVec<(u32, u32), 4> = ArrayVec::new();
-    if pair.touching && closed {
+    if pair.touching && (closed || pair.turning_rest > 0.0) {
         if rest.is_none() {
             narrow.look(bodies, colliders, pair, time, h);
         }
@@ -105,9 +106,32 @@ pub(crate) fn predict(
             }
         }
     }
+    // A touch that opens is none of a group's, nor of the solver's but where what pulls brings it back within a few
+    // sub-steps: it may come back before the group changes, or before the solver looks. Nor is it one that comes down.
+    let holds = |contact: &PairContact| {
+        if closed {
+            return stays(bodies, (a, b), contact, time, group_rest);
+        }
+        let rate = |p: &PairPoint| opening_speed(a, b, time, p.position, contact.normal);
+        let mut least = (f64::INFINITY, f64::INFINITY);
+        for point in &contact.points {
+            let rate = rate(point);
+            if point.separation <= touch {
+                least.0 = least.0.min(rate);
+            } else {
+                least.1 = least.1.min(rate);
+            }
+        }
+        let touches = least.0 < f64::INFINITY;
+        if touches {
+            least.0 <= pulled || least.1 < -pulled
+        } else {
+            least.1 >= -pulled
+        }
+    };
     // What becomes of the contacts of a group in closed form is that group's next change.
     if let Some(rest) = rest.filter(|_| !closed) {
-        for contact in &pair.contacts {
+        for contact in pair.contacts.iter().filter(|contact| holds(contact)) {
             for point in &contact.points {
                 let rate = opening_speed(a, b, time, point.position, contact.normal);
                 // The solver holds what closes slowly.
@@ -136,13 +160,9 @@ pub(crate) fn predict(
     }
     for i in 0..part_count(shapes.0) {
         for j in 0..part_count(shapes.1) {
-            let here = |&(x, y): &(u32, u32)| x as usize == i && y as usize == j;
-            // A touch that opens is none of a group's: it may come back before the group changes.
-            let holds = |contact: &PairContact| {
-                here(&contact.parts)
-                    && (!closed || stays(bodies, (a, b), contact, time, group_rest))
-            };
-            if pair.lasting && pair.contacts.iter().any(holds) || hops.iter().any(here) {
+            let is_here = |&(x, y): &(u32, u32)| x as usize == i && y as usize == j;
+            let held = |contact: &PairContact| is_here(&contact.parts) && holds(contact);
+            if pair.lasting && pair.contacts.iter().any(held) || hops.iter().any(is_here) {
                 continue;
             }
             let parts = (part(shapes.0, i), part(shapes.1, j));
@@ -163,7 +183,7 @@ pub(crate) fn predict(
                         |point: &Vec2| opening_speed(a, b, at, *point, impact.normal) < -least;
                     !impact.points.iter().any(closes)
                 }
-                Some(rest) => impact.gap_rate >= -rest,
+                Some(_) => impact.gap_rate >= -pulled,
                 None => false,
             };
             match &next {
@@ -182,8 +202,16 @@ pub(crate) fn predict(
         // Touching and pressed, but slowly: the next sub-step's solver takes it.
         TimeOfImpact::Touching(contact) => (0.0, contact),
     };
+    let at = time + wait;
+    pair.turning_rest = if pair.material.restitution < 1.0 {
+        let parts = impact.features[0].parts;
+        let spot = pair.spot(bodies, colliders, parts, impact.points[0], impact.normal);
+        spot.turning_rest(at, h)
+    } else {
+        0.0
+    };
     agenda.push(Entry {
-        time: time + wait,
+        time: at,
         key: pair.colliders,
         pair: place,
         versions: (bodies.version(pair.bodies.0), bodies.version(pair.bodies.1)),
@@ -220,6 +248,13 @@ fn polished(
             return best;
         }
         let near = (4.0 * left / -impact.gap_rate).max(INSTANT);
+        // A slow approach may be off by more than all of its way; even so twice its way is a shorter stretch.
+        let capped = near > impact.time;
+        let near = if capped {
+            impact.time.max(INSTANT)
+        } else {
+            near
+        };
         let from = if impact.time > near {
             impact.time - near
         } else {
@@ -235,7 +270,7 @@ fn polished(
                 });
             }
             // A graze that was none, or one that began before: the first parabola's word stands.
-            TimeOfImpact::Clear if round == 0 => return TimeOfImpact::Clear,
+            TimeOfImpact::Clear if round == 0 && !capped => return TimeOfImpact::Clear,
             _ => return best,
         }
         if near <= INSTANT {

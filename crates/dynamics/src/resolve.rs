@@ -6,7 +6,7 @@ use crate::agenda::Entry;
 use crate::bodies::Bodies;
 use crate::event::EventKind;
 use crate::impact::{ImpactContact, resolve};
-use crate::narrow::{NOISE, Narrow, opening_speed, pace, rest_speed};
+use crate::narrow::{NOISE, Narrow, opening_speed, pace, rest_speed, rest_speed_between};
 use crate::pairs::Pairs;
 use crate::predict::{BUDGET, price};
 use crate::shock::Shock;
@@ -25,6 +25,15 @@ pub(crate) enum Struck {
     Impact(Vec<u32>),
 }
 
+/// What becomes of an approach that turning brings back at once.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Slow {
+    /// It rests, for a group in closed form to take in.
+    Rests,
+    /// There is none: it is stopped, since it would sink in before the solver looks.
+    Stops,
+}
+
 /// Resolves one entry of the agenda.
 ///
 /// A single contact follows the impact law; one that runs into others is resolved with them.
@@ -40,6 +49,7 @@ pub(crate) fn strike(
     narrow: &mut Narrow,
     entry: &Entry,
     h: f64,
+    slow: Slow,
     events: &mut Events,
     report: &mut StepReport,
 ) -> Struck {
@@ -50,17 +60,24 @@ pub(crate) fn strike(
     }
     touch(bodies, pairs, entry, events);
     let rest = rest_speed(bodies, pairs.get(entry.pair), h);
+    let held = match slow {
+        Slow::Rests => rest,
+        Slow::Stops => rest_speed_between(bodies, ends, h),
+    };
     let rounding = NOISE * pace(a, b, entry.time);
+    let mut stays = false;
     let mut shock = Shock::new(entry.time, h);
     for &point in &entry.points {
         let speed = -opening_speed(a, b, entry.time, point, entry.normal);
         // At exactly zero pull there is no rest: an approach is an approach, unless rounding made it.
-        if speed > rest && speed > rounding {
+        if speed > held && speed > rounding {
             let material = pairs.get(entry.pair).material;
+            let stops = speed <= rest;
+            stays |= stops;
             let contact = ImpactContact {
                 point,
                 normal: entry.normal,
-                restitution: material.restitution,
+                restitution: if stops { 0.0 } else { material.restitution },
                 friction: material.friction,
             };
             let struck = (contact, material.tangent_speed);
@@ -78,6 +95,7 @@ pub(crate) fn strike(
     if gives_up(bodies, pairs, entry, &shock, events, report) {
         return Struck::Nothing;
     }
+    pairs.get_mut(entry.pair).lasting |= stays;
     let single = shock.strikes.len() == 1;
     if single {
         let before = shock.ends_of_single();

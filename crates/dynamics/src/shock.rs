@@ -13,7 +13,7 @@ use carom_math::{SimTime, Vec2, perp};
 use crate::Settings;
 use crate::bodies::Bodies;
 use crate::impact::{ImpactBody, ImpactContact, SharedContact, Sweeper, several};
-use crate::narrow::{Narrow, TOUCH, rest_speed};
+use crate::narrow::{Narrow, TOUCH, rest_speed, rest_speed_between};
 use crate::pairs::Pairs;
 use crate::state::Collider;
 
@@ -186,6 +186,8 @@ impl Shock {
             self.looked.push((place, rest));
             rest
         };
+        // What turning alone presses would sink in before the solver looks.
+        let held = rest_speed_between(bodies, pair.bodies, self.h);
         let size = bodies
             .get(pair.bodies.0)
             .reach
@@ -210,7 +212,7 @@ impl Shock {
                 let (a, b) = (&self.bodies[ends.0].after, &self.bodies[ends.1].after);
                 let closing = (a.velocity_of(point.position) - b.velocity_of(point.position))
                     .dot(contact.normal);
-                if closing > rest {
+                if closing > held {
                     let contact = ImpactContact {
                         point: point.position,
                         normal: contact.normal,

@@ -6,7 +6,7 @@ use crate::agenda::Entry;
 use crate::flight::fly;
 use crate::flyers::Cause;
 use crate::predict::{predict, price};
-use crate::resolve::{Struck, strike};
+use crate::resolve::{Slow, Struck, strike};
 use crate::sleep::{wake, wake_around};
 use crate::{Mode, Refusal, StepReport, World};
 
@@ -147,6 +147,20 @@ impl World {
         {
             return;
         }
+        let rests = self.strike_or_rest(entry, Slow::Rests);
+        let now = (self.bodies.version(a), self.bodies.version(b));
+        let closed = |index: u32| self.bodies.get(index).membership.is_closed();
+        let turns = self
+            .pairs
+            .of_entry(entry)
+            .is_some_and(|pair| pair.turning_rest > 0.0);
+        if rests && turns && now == entry.versions && !closed(a) && !closed(b) {
+            self.strike_or_rest(entry, Slow::Stops);
+        }
+    }
+
+    /// The same; what is too slow to bounce rests, if nothing else is asked of it. Whether it does.
+    fn strike_or_rest(&mut self, entry: &Entry, slow: Slow) -> bool {
         let struck = strike(
             &self.settings,
             &mut self.bodies,
@@ -155,12 +169,16 @@ impl World {
             &mut self.narrow,
             entry,
             self.clock.h,
+            slow,
             &mut self.events,
             &mut self.report,
         );
         match struck {
             Struck::Nothing => {}
             Struck::Rests => {
+                if slow == Slow::Stops {
+                    return true;
+                }
                 self.predict(entry.pair, entry.time);
                 let (a, b) = self.pairs.get(entry.pair).bodies;
                 // Nobody's motion has changed, but a group has one touch more.
@@ -171,13 +189,15 @@ impl World {
                         self.regroup(index, entry.time);
                     }
                 }
+                return true;
             }
             Struck::Impact(changed) => {
                 let lost = price(self.pairs.get(entry.pair));
                 self.spent += lost;
                 self.rush(&changed, lost, entry.time);
-                // Who rested is awake before anybody asks who touches whom.
+                // Who rested is awake before anybody asks who touches whom, and no judgement of before stands.
                 for &index in &changed {
+                    self.bodies.get_mut(index).membership.forget();
                     if self.bodies.get(index).asleep {
                         self.wake(index, entry.time);
                     }
@@ -187,6 +207,7 @@ impl World {
                 }
             }
         }
+        false
     }
 
     /// A body with a new motion in the middle of a sub-step: its pairs are predicted again, and so

@@ -6,8 +6,8 @@ use carom_math::{Pose, SimTime, Vec2, cross_scalar, perp};
 
 use crate::World;
 use crate::bodies::Bodies;
-use crate::modes::{CLOSED, Feature, ModeBody, ROWS, Touch};
-use crate::narrow::{TOUCH, rest_speed};
+use crate::modes::{CLOSED, Feature, ModeBody, ROWS, Touch, hold};
+use crate::narrow::{TOUCH, rest_speed, rest_speed_between};
 use crate::pairs::PairContact;
 use crate::state::BodyState;
 
@@ -43,6 +43,8 @@ pub(crate) struct Gathered {
     pub(crate) touches: Vec<Touch>,
     /// Pair and contact of each touch.
     pub(crate) pairs: Vec<(u32, usize)>,
+    /// Speed below which what opens there comes back at once, because turning presses, for each touch, in m/s.
+    presses: Vec<f64>,
     /// Groups in closed form that some member belongs to.
     pub(crate) groups: Vec<u32>,
     /// Fastest approach of a touch, in m/s; 0 if it is no more than rounding.
@@ -72,6 +74,7 @@ impl Gathered {
         for (body, &(velocity, spin)) in self.bodies.iter_mut().zip(velocities) {
             (body.velocity, body.spin) = (velocity, spin);
         }
+        self.end_series();
         let (bodies, rest) = (&self.bodies, self.rest);
         for touch in &mut self.touches {
             let ends = (&bodies[touch.bodies.0], &bodies[touch.bodies.1]);
@@ -98,6 +101,34 @@ impl Gathered {
     pub(crate) fn kinetic(&self, bodies: &Bodies, time: SimTime) -> f64 {
         let all = self.places.iter();
         all.map(|&index| bodies.energy_of(index, time).0).sum()
+    }
+
+    /// What a landing opens so little that turning brings it back at once stays closed.
+    fn end_series(&mut self) {
+        let (bodies, rest) = (&self.bodies, self.rest);
+        let opens = |touch: &Touch| {
+            let ends = (&bodies[touch.bodies.0], &bodies[touch.bodies.1]);
+            let rate = |point: &Vec2| match approach(ends, *point, touch.normal, rest) {
+                Approach::Leaves => opening(ends, *point, touch.normal).0,
+                _ => 0.0,
+            };
+            touch.points.iter().map(rate).fold(0.0, f64::max)
+        };
+        let rates: Vec<f64> = self.touches.iter().map(opens).collect();
+        let low = |(rate, press): (&f64, &f64)| *rate <= *press;
+        let mut all = rates.iter().zip(&self.presses);
+        if !all.any(|both| *both.0 > 0.0 && low(both)) {
+            return;
+        }
+        let both = self.touches.iter().zip(rates.iter().zip(&self.presses));
+        let kept: Vec<&Touch> = both
+            .filter(|(_, both)| low(*both))
+            .map(|(touch, _)| touch)
+            .collect();
+        let held = hold(&self.bodies, &kept);
+        for (body, (velocity, spin)) in self.bodies.iter_mut().zip(held) {
+            (body.velocity, body.spin) = (velocity, spin);
+        }
     }
 
     fn place_of(&mut self, bodies: &Bodies, index: u32, time: SimTime) -> usize {
@@ -227,6 +258,7 @@ impl World {
             return None;
         }
         let rest = rest_speed(&self.bodies, pair, h);
+        let pulled = rest_speed_between(&self.bodies, pair.bodies, h);
         let (mode_a, mode_b) = (
             mode_body(&self.bodies, a, time),
             mode_body(&self.bodies, b, time),
@@ -236,7 +268,7 @@ impl World {
         let hovers = |contact: &PairContact| {
             contact.points.iter().any(|point| {
                 let rate = opening(ends, point.position, contact.normal).0;
-                point.separation > gap && point.impulse > 0.0 && rate.abs() <= rest
+                point.separation > gap && point.impulse > 0.0 && rate.abs() <= pulled
             })
         };
         if pair.contacts.iter().any(hovers) {
@@ -298,6 +330,7 @@ impl World {
                 found.place_of(&self.bodies, pair.bodies.0, time),
                 found.place_of(&self.bodies, pair.bodies.1, time),
             );
+            let points_of = points.clone();
             found.touches.push(Touch {
                 bodies: ends,
                 normal: contact.normal,
@@ -306,6 +339,19 @@ impl World {
                 friction: pair.material.friction,
             });
             found.pairs.push((place, number));
+            let spot = |point| {
+                pair.spot(
+                    &self.bodies,
+                    &self.colliders,
+                    contact.parts,
+                    point,
+                    contact.normal,
+                )
+            };
+            let presses = points_of
+                .iter()
+                .map(|point| spot(*point).turning_rest(time, h));
+            found.presses.push(presses.fold(f64::INFINITY, f64::min));
         }
         Some(rows)
     }

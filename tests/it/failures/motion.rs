@@ -179,7 +179,12 @@ fn case_32_a_ball_in_a_spinning_hollow_is_left_alone_and_kept() {
             let out = out.inverse_point(see(&world, id).centre()).abs();
             assert!(out.max_element() < 1.5, "left at {out}, e = {e}");
         }
-        assert!(impacts > 10, "{impacts} impacts, e = {e}, µ = {friction}");
+        // With e = 0 it stays in the corner that it is pressed into.
+        let least = if e == 0.0 { 3 } else { 10 };
+        assert!(
+            impacts > least,
+            "{impacts} impacts, e = {e}, µ = {friction}"
+        );
         assert!(
             e < 1.0 || friction > 0.0 || (before / start - 1.0).abs() < 1e-13,
             "{before} J of {start}"

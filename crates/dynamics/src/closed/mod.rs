@@ -161,7 +161,7 @@ impl World {
         let stalls = |index: &&u32| self.closed.stalls(**index, time);
         let stalled = members.iter().filter(stalls).count() > 0;
         if stalled {
-            return;
+            return self.set_free(members, time);
         }
         for &index in members {
             if !self.bodies.get(index).membership.is_closed() {
@@ -209,7 +209,8 @@ impl World {
                 if self.bodies.get(index).asleep {
                     self.wake(index, time);
                 }
-                self.dissolve(place, time);
+                let members = self.dissolve(place, time);
+                self.set_free(&members, time);
             }
         }
     }
@@ -239,10 +240,10 @@ impl World {
                 let Some(until) = until else {
                     return self.wait_around(&seen, time);
                 };
-                for index in seen {
+                for &index in &seen {
                     self.bodies.get_mut(index).membership.wait_until(until);
                 }
-                return;
+                return self.set_free(&seen, time);
             }
         };
         let mut speed = speed;
@@ -305,6 +306,7 @@ impl World {
                 membership.wait(time, h);
             }
         }
+        self.set_free(members, time);
     }
 
     /// Gives all members their motions, and enters the next change.

@@ -65,6 +65,11 @@ impl Membership {
         self.not_before = time + h * (f64::from(self.waited) - 0.5);
     }
 
+    /// Something happened: what was judged before says nothing.
+    pub(crate) fn forget(&mut self) {
+        (self.not_before, self.waited) = (SimTime::ZERO, 0);
+    }
+
     /// A neighbour's judgement stands for all.
     pub(super) fn wait_until(&mut self, until: SimTime) {
         self.not_before = until;

@@ -4,15 +4,16 @@ use std::sync::Arc;
 
 use arrayvec::ArrayVec;
 use carom_collision::part;
-use carom_math::SimTime;
+use carom_math::{SimTime, Vec2};
 
 use super::joints::{Held, joint};
 use super::store::{Group, Kept, Membership};
 use crate::World;
-use crate::flight::{Flight, follow};
+use crate::flight::{Flight, fly, follow};
 use crate::modes::{BodyMove, NotMine, TouchMove};
+use crate::narrow::{TOUCH, rest_speed};
 use crate::tipping::{Contact, Joint, Place, Tip, tip};
-use crate::touching::Gathered;
+use crate::touching::{Gathered, opens_at};
 
 /// A corner this near to a point of contact is what touches there, as a part of the smaller reach.
 const NEAR: f64 = 1e-6;
@@ -149,17 +150,65 @@ impl World {
         };
         let accelerations = tip.accelerations_after(time - tip.path.start);
         for (&(index, _), &slot) in group.members.iter().zip(slots) {
-            // Who was given another motion has left the path already.
+            // Who was given another velocity has left the path already, and still has the parabola of its last piece.
             if self.bodies.get(index).flight.is_some() {
                 let (acceleration, angular) = accelerations[slot];
                 self.bodies.change(index, time, |motion| {
                     motion.acceleration = acceleration;
                     motion.angular_acceleration = angular;
                 });
-                self.closed.astray.push((index, acceleration, time));
             }
+            let acceleration = self.bodies.get(index).motion.acceleration;
+            self.closed.astray.push((index, acceleration, time));
             self.redirect(index, time);
         }
+    }
+
+    /// Those of `members` who left a path and whom nothing touches but what opens fly from here on.
+    pub(super) fn set_free(&mut self, members: &[u32], time: SimTime) {
+        let left = self.clock.next() - time;
+        for &index in members {
+            let state = self.bodies.get(index);
+            let strays = |&(who, acceleration, _): &(u32, Vec2, SimTime)| {
+                who == index && state.motion.acceleration == acceleration
+            };
+            if !self.closed.astray.iter().any(strays)
+                || state.course.flies
+                || state.membership.is_closed()
+                || left <= 0.0
+                || self.is_touched(index, time)
+            {
+                continue;
+            }
+            fly(&mut self.bodies, index, time, left);
+            self.redirect(index, time);
+        }
+    }
+
+    /// Whether a body touches something that it does not part from.
+    fn is_touched(&mut self, index: u32, time: SimTime) -> bool {
+        let h = self.clock.h;
+        self.bodies.get(index).pairs.clone().iter().any(|&place| {
+            let pair = self.pairs.get_mut(place);
+            if !pair.touching && !pair.lasting {
+                return false;
+            }
+            self.narrow
+                .look(&self.bodies, &self.colliders, pair, time, h);
+            let (a, b) = (
+                self.bodies.get(pair.bodies.0),
+                self.bodies.get(pair.bodies.1),
+            );
+            let touch = TOUCH * a.reach.min(b.reach);
+            let rest = rest_speed(&self.bodies, pair, h);
+            pair.contacts.iter().any(|contact| {
+                contact.points.iter().any(|point| {
+                    let at = (point.position, contact.normal);
+                    point.separation <= touch
+                        && opens_at(&self.bodies, (a, b), at, time, rest).is_none()
+                })
+            })
+        })
     }
 
     /// Reports those who left a path and still go on by its parabola, which pushes along the arms of that instant: a

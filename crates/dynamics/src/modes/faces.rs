@@ -204,6 +204,22 @@ fn scaled(bodies: &[ModeBody], of: impl Fn(&ModeBody) -> (Vec2, f64)) -> Vec<f64
     state
 }
 
+/// Velocities and spins with which no point of any touch opens or closes: the nearest, by energy.
+pub(super) fn held(bodies: &[ModeBody], touches: &[&Touch]) -> Vec<(Vec2, f64)> {
+    let rows = touches.iter().flat_map(|touch| {
+        let row = |&point| Row::new(bodies, touch.bodies, point, touch.normal).unit;
+        touch.points.iter().map(row)
+    });
+    let mut state = scaled(bodies, |body| (body.velocity, body.spin));
+    Stops::of(rows.collect()).apply(&mut state);
+    let unscaled = |(k, body): (usize, &ModeBody)| {
+        let (m, i) = (body.inverse_mass.sqrt(), body.inverse_inertia.sqrt());
+        let velocity = vec2(state[3 * k] * m, state[3 * k + 1] * m);
+        (velocity, state[3 * k + 2] * i)
+    };
+    bodies.iter().enumerate().map(unscaled).collect()
+}
+
 /// Rows that are held at 0.
 struct Stops(Basis);
 

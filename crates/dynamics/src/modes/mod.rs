@@ -265,6 +265,21 @@ pub(crate) fn land(bodies: &[ModeBody], touches: &[Touch]) -> Result<Vec<(Vec2, 
         .collect())
 }
 
+/// Velocities after infinitely many small impacts have come to their end at these touches: none of them opens or closes.
+///
+/// What a blow opens a little, where turning presses it together again, comes back, and what comes back opens another one:
+/// a disc in an obtuse corner goes from wall to wall, each time `cos` of the angle between them slower. All of it takes no
+/// more than [`crate::press`] lets it, and no more energy than these bounces had.
+pub(crate) fn hold(bodies: &[ModeBody], touches: &[&Touch]) -> Vec<(Vec2, f64)> {
+    if bodies.iter().any(faces::is_driven) {
+        return bodies
+            .iter()
+            .map(|body| (body.velocity, body.spin))
+            .collect();
+    }
+    faces::held(bodies, touches)
+}
+
 /// What friction does at each touch: it opposes the slip there is, or holds if it can.
 fn tangents(touches: &[Touch], slips: &[f64]) -> Vec<Tangent> {
     let of = |(touch, slip): (&Touch, &f64)| {

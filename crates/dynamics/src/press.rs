@@ -1,0 +1,96 @@
+//! How hard two bodies press where they touch: by what moves them, and by turning alone.
+
+use carom_collision::{Motion, Side, part};
+use carom_geometry::Shape;
+use carom_math::{SimTime, Vec2, cross_scalar, perp};
+
+use crate::flight::motion_along;
+use crate::flyers::{Touching, gap_acceleration};
+use crate::modes::Feature;
+use crate::state::BodyState;
+use crate::touching::feature;
+
+/// Stretch of a law that its acceleration is read from, in s.
+const STRETCH: f64 = 1e-5;
+
+/// What two bodies turn or slide by, in rad or sizes, while a bounce lasts that counts as over: half of it there and half
+/// of it back. It is then no higher than 2^-17 of its distance from what it turns about.
+const STEADY: f64 = 1.0 / 256.0;
+
+/// Where two convex parts of two bodies touch.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Spot<'a> {
+    pub(crate) bodies: (&'a BodyState, &'a BodyState),
+    pub(crate) solids: [&'a Shape; 2],
+    pub(crate) parts: (u32, u32),
+    pub(crate) point: Vec2,
+    /// From A to B.
+    pub(crate) normal: Vec2,
+}
+
+impl Spot<'_> {
+    /// How fast the two are pressed together, in m/s², by the laws that they move by.
+    pub(crate) fn press(&self, time: SimTime) -> f64 {
+        self.press_of(|state| motion_along(state, time, STRETCH), time)
+    }
+
+    /// Speed of an approach that turning brings back, were it given back, before its bodies have turned or slid by more
+    /// than [`STEADY`], and in less than four sub-steps of `h` seconds, in m/s; 0 where turning does not press.
+    pub(crate) fn turning_rest(&self, time: SimTime, h: f64) -> f64 {
+        let (a, b) = self.bodies;
+        let spins = (a.spin_at(time), b.spin_at(time));
+        let fastest = spins.0.abs().max(spins.1.abs());
+        if fastest == 0.0 {
+            return 0.0;
+        }
+        // Nothing but their velocities: what pulls them is for others to say.
+        let coasting = |state: &BodyState| Motion {
+            acceleration: Vec2::ZERO,
+            angular_acceleration: 0.0,
+            ..state.at(time)
+        };
+        let press = self.press_of(coasting, time);
+        let of = |state: &BodyState, spin: f64| {
+            state.velocity_at(time) + cross_scalar(spin, self.point - state.centre_at(time))
+        };
+        let slip = (of(b, spins.1) - of(a, spins.0)).dot(perp(self.normal));
+        let size = a.reach.min(b.reach);
+        let wait = STEADY / (fastest + slip.abs() / size);
+        let speed = press.max(0.0) * wait.min(2.0 * h);
+        // Until somebody holds it, it goes on closing.
+        speed.min(STEADY * size / h)
+    }
+
+    fn press_of(&self, motion: impl Fn(&BodyState) -> Motion, time: SimTime) -> f64 {
+        let face = if self.is_edge(0, time) {
+            Some(Side::A)
+        } else if self.is_edge(1, time) {
+            Some(Side::B)
+        } else {
+            None
+        };
+        let of = |state: &BodyState, solid: &Shape| {
+            Touching::of(&motion(state), solid, self.point, time)
+        };
+        let a = of(self.bodies.0, self.solids[0]);
+        let b = of(self.bodies.1, self.solids[1]);
+        -gap_acceleration(&a, &b, self.normal, face)
+    }
+
+    /// Whether an edge of one of the two lies along the contact.
+    fn is_edge(&self, k: usize, time: SimTime) -> bool {
+        let (state, at, outward) = match k {
+            0 => (self.bodies.0, self.parts.0, self.normal),
+            _ => (self.bodies.1, self.parts.1, -self.normal),
+        };
+        let hull = part(self.solids[k], at as usize);
+        let found = feature(
+            &hull,
+            state.centre_pose(time),
+            outward,
+            self.normal,
+            self.point,
+        );
+        matches!(found, Feature::Edge { .. })
+    }
+}
