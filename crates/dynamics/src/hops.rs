@@ -12,7 +12,7 @@ use crate::bodies::Bodies;
 use crate::narrow::TOUCH;
 use crate::pairs::{Pair, PairContact};
 use crate::state::Collider;
-use crate::touching::opens_at;
+use crate::touching::{Approach, approach_at};
 
 /// When a contact closes that opens now, if that is by `horizon` seconds from `time` and it does not come out of touch.
 pub(crate) fn hop(
@@ -29,8 +29,8 @@ pub(crate) fn hop(
         if point.separation > touch {
             continue;
         }
-        let Some(speed) = opens_at(bodies, (a, b), (point.position, contact.normal), time, rest)
-        else {
+        let at = (point.position, contact.normal);
+        let Approach::Leaves(speed) = approach_at(bodies, (a, b), at, time, rest) else {
             continue;
         };
         let press = pair

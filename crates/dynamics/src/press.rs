@@ -4,6 +4,7 @@ use carom_collision::{Motion, Side, part};
 use carom_geometry::Shape;
 use carom_math::{SimTime, Vec2, cross_scalar, perp};
 
+use crate::bodies::Bodies;
 use crate::flight::motion_along;
 use crate::flyers::{Touching, gap_acceleration};
 use crate::modes::Feature;
@@ -31,7 +32,21 @@ pub(crate) struct Spot<'a> {
 impl Spot<'_> {
     /// How fast the two are pressed together, in m/s², by the laws that they move by.
     pub(crate) fn press(&self, time: SimTime) -> f64 {
-        self.press_of(|state| motion_along(state, time, STRETCH), time)
+        let (a, b) = self.bodies;
+        self.press_of([a, b].map(|state| motion_along(state, time, STRETCH)), time)
+    }
+
+    /// The same if nothing touched them: by fields and forces alone. `ends`: who they are in `bodies`.
+    pub(crate) fn free_press(&self, bodies: &Bodies, ends: (u32, u32), time: SimTime) -> f64 {
+        let freely = |index: u32| {
+            let state = bodies.get(index);
+            let mut motion = state.at(time);
+            if state.is_dynamic() {
+                (motion.acceleration, motion.angular_acceleration) = bodies.freely(index, time);
+            }
+            motion
+        };
+        self.press_of([freely(ends.0), freely(ends.1)], time)
     }
 
     /// Speed of an approach that turning brings back, were it given back, before its bodies have turned or slid by more
@@ -49,7 +64,7 @@ impl Spot<'_> {
             angular_acceleration: 0.0,
             ..state.at(time)
         };
-        let press = self.press_of(coasting, time);
+        let press = self.press_of([a, b].map(coasting), time);
         let of = |state: &BodyState, spin: f64| {
             state.velocity_at(time) + cross_scalar(spin, self.point - state.centre_at(time))
         };
@@ -61,7 +76,7 @@ impl Spot<'_> {
         speed.min(STEADY * size / h)
     }
 
-    fn press_of(&self, motion: impl Fn(&BodyState) -> Motion, time: SimTime) -> f64 {
+    fn press_of(&self, motions: [Motion; 2], time: SimTime) -> f64 {
         let face = if self.is_edge(0, time) {
             Some(Side::A)
         } else if self.is_edge(1, time) {
@@ -69,11 +84,8 @@ impl Spot<'_> {
         } else {
             None
         };
-        let of = |state: &BodyState, solid: &Shape| {
-            Touching::of(&motion(state), solid, self.point, time)
-        };
-        let a = of(self.bodies.0, self.solids[0]);
-        let b = of(self.bodies.1, self.solids[1]);
+        let of = |k: usize| Touching::of(&motions[k], self.solids[k], self.point, time);
+        let (a, b) = (of(0), of(1));
         -gap_acceleration(&a, &b, self.normal, face)
     }
 

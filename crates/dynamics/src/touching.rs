@@ -80,7 +80,7 @@ impl Gathered {
             let ends = (&bodies[touch.bodies.0], &bodies[touch.bodies.1]);
             let normal = touch.normal;
             let leaves =
-                |point: &Vec2| matches!(approach(ends, *point, normal, rest), Approach::Leaves);
+                |point: &Vec2| matches!(approach(ends, *point, normal, rest), Approach::Leaves(_));
             let two = touch.points.len() == 2;
             touch.points.retain(|point| !leaves(point));
             if two && touch.points.len() == 1 {
@@ -109,7 +109,7 @@ impl Gathered {
         let opens = |touch: &Touch| {
             let ends = (&bodies[touch.bodies.0], &bodies[touch.bodies.1]);
             let rate = |point: &Vec2| match approach(ends, *point, touch.normal, rest) {
-                Approach::Leaves => opening(ends, *point, touch.normal).0,
+                Approach::Leaves(rate) => rate,
                 _ => 0.0,
             };
             touch.points.iter().map(rate).fold(0.0, f64::max)
@@ -294,7 +294,7 @@ impl World {
                 .filter(|point| point.separation <= gap)
             {
                 match approach(ends, point.position, contact.normal, rest) {
-                    Approach::Leaves => {}
+                    Approach::Leaves(_) => {}
                     Approach::Stays => points.push(point.position),
                     Approach::Closes(speed) => {
                         points.push(point.position);
@@ -361,7 +361,7 @@ fn approach(ends: (&ModeBody, &ModeBody), point: Vec2, normal: Vec2, rest: f64) 
     let (rate, size) = opening(ends, point, normal);
     let rounding = CLOSED * (size + rest);
     if rate > rounding {
-        Approach::Leaves
+        Approach::Leaves(rate)
     } else if rate < -rounding {
         Approach::Closes(-rate)
     } else {
@@ -369,20 +369,16 @@ fn approach(ends: (&ModeBody, &ModeBody), point: Vec2, normal: Vec2, rest: f64) 
     }
 }
 
-/// Speed at which a point of two bodies opens, in m/s, where that is more than rounding: no group holds it.
-pub(crate) fn opens_at(
+/// How a point of two bodies moves along the normal.
+pub(crate) fn approach_at(
     bodies: &Bodies,
     (a, b): (&BodyState, &BodyState),
     (point, normal): (Vec2, Vec2),
     time: SimTime,
     rest: f64,
-) -> Option<f64> {
+) -> Approach {
     let ends = (mode_body(bodies, a, time), mode_body(bodies, b, time));
-    let ends = (&ends.0, &ends.1);
-    match approach(ends, point, normal, rest) {
-        Approach::Leaves => Some(opening(ends, point, normal).0),
-        Approach::Stays | Approach::Closes(_) => None,
-    }
+    approach((&ends.0, &ends.1), point, normal, rest)
 }
 
 /// Whether a touch neither opens nor closes: a group in closed form may hold it.
@@ -400,7 +396,7 @@ pub(crate) fn stays(
         match approach((&ends.0, &ends.1), point.position, contact.normal, rest) {
             Approach::Stays => stays = true,
             Approach::Closes(_) => return false,
-            Approach::Leaves => {}
+            Approach::Leaves(_) => {}
         }
     }
     stays
@@ -419,8 +415,10 @@ fn opening(ends: (&ModeBody, &ModeBody), point: Vec2, normal: Vec2) -> (f64, f64
     ((v_b - v_a).dot(normal), size_a + size_b)
 }
 
-enum Approach {
-    Leaves,
+/// What a touch does, by more than rounding; at which speed, in m/s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Approach {
+    Leaves(f64),
     Stays,
     Closes(f64),
 }

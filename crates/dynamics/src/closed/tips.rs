@@ -13,7 +13,7 @@ use crate::flight::{Flight, fly, follow};
 use crate::modes::{BodyMove, NotMine, TouchMove};
 use crate::narrow::{TOUCH, rest_speed};
 use crate::tipping::{Contact, Joint, Place, Tip, tip};
-use crate::touching::{Gathered, opens_at};
+use crate::touching::{Approach, Gathered, approach_at};
 
 /// A corner this near to a point of contact is what touches there, as a part of the smaller reach.
 const NEAR: f64 = 1e-6;
@@ -185,7 +185,7 @@ impl World {
         }
     }
 
-    /// Whether a body touches something that it does not part from.
+    /// Whether a body touches something that it does not part from, nor would if nothing pushed it.
     fn is_touched(&mut self, index: u32, time: SimTime) -> bool {
         let h = self.clock.h;
         self.bodies.get(index).pairs.clone().iter().any(|&place| {
@@ -201,11 +201,20 @@ impl World {
             );
             let touch = TOUCH * a.reach.min(b.reach);
             let rest = rest_speed(&self.bodies, pair, h);
+            let bodies = &self.bodies;
             pair.contacts.iter().any(|contact| {
                 contact.points.iter().any(|point| {
                     let at = (point.position, contact.normal);
                     point.separation <= touch
-                        && opens_at(&self.bodies, (a, b), at, time, rest).is_none()
+                        && match approach_at(bodies, (a, b), at, time, rest) {
+                            Approach::Leaves(_) => false,
+                            Approach::Closes(_) => true,
+                            Approach::Stays => {
+                                let spot =
+                                    pair.spot(bodies, &self.colliders, contact.parts, at.0, at.1);
+                                spot.free_press(bodies, pair.bodies, time) > 0.0
+                            }
+                        }
                 })
             })
         })
