@@ -6,7 +6,7 @@ use carom_math::{Pose, Vec2};
 use crate::manifold::{Gap, Touch, along_boundary, touch};
 use crate::parts::{is_single, near_parts};
 use crate::way_out::way_out;
-use crate::{Manifold, part};
+use crate::{Hull, Manifold, part, separating_axis};
 
 /// The contact of one convex part of A with one of B.
 #[derive(Clone, Debug, PartialEq)]
@@ -101,7 +101,7 @@ fn part_by_part(
         match touch(&part(a, i), &part(b, j), b_in_a, margin).0 {
             Touch::Apart => {}
             Touch::Contact(manifold) => push(out, first, i, j, manifold),
-            Touch::Hidden { normal, separation } => hidden.push((i, j, normal, separation)),
+            Touch::Hidden { separation, .. } => hidden.push((i, j, separation)),
         }
     });
     if hidden.is_empty() {
@@ -110,14 +110,12 @@ fn part_by_part(
     let least = hidden.iter().map(|(.., separation)| *separation);
     let least = least.fold(margin, f64::min);
     let met = out.len();
-    for (i, j, normal, separation) in hidden {
-        // What a neighbour has along the same normal, at least as deep, is this contact, too.
-        let same = |known: &PartManifold| {
-            known.manifold.normal.dot(normal) > 1.0 - SAME
-                && known.manifold.deepest().is_some_and(|d| d <= separation)
-        };
-        if !out[first..met].iter().any(same)
-            && let Some(manifold) = along_boundary(&part(a, i), &part(b, j), b_in_a, margin)
+    for (i, j, _) in hidden {
+        let parts = (part(a, i), part(b, j));
+        if !out[first..met]
+            .iter()
+            .any(|known| ends(known, &parts, b_in_a))
+            && let Some(manifold) = along_boundary(&parts.0, &parts.1, b_in_a, margin)
         {
             push(out, first, i, j, manifold);
         }
@@ -133,8 +131,17 @@ fn part_by_part(
     least
 }
 
-/// One minus the cosine up to which two normals are one.
-const SAME: f64 = 1e-12;
+/// Whether the overlap of two parts is over, up to rounding, once that of a contact of the same shapes is.
+fn ends(known: &PartManifold, parts: &(Hull<'_>, Hull<'_>), b_in_a: Pose) -> bool {
+    /// Of the depth.
+    const ROUNDING: f64 = 1e-6;
+    let depth = known.manifold.deepest().map_or(0.0, |d| -d);
+    depth > 0.0 && {
+        let position = b_in_a.position + known.manifold.normal * depth;
+        let then = Pose { position, ..b_in_a };
+        separating_axis(&parts.0, &parts.1, then).separation >= -ROUNDING * depth
+    }
+}
 
 /// Adds a contact unless a neighbouring piece has the same one: two pieces share a corner.
 fn push(

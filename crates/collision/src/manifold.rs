@@ -116,6 +116,9 @@ pub fn collide(a: &impl Convex, b: &impl Convex, b_in_a: Pose) -> Manifold {
 pub fn collide_within(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose, margin: f64) -> Manifold {
     match touch(a, b, b_in_a, margin).0 {
         Touch::Contact(manifold) => manifold,
+        Touch::Hidden {
+            across_cut: true, ..
+        } => along_boundary(a, b, b_in_a, margin).unwrap_or_default(),
         Touch::Apart | Touch::Hidden { .. } => Manifold::default(),
     }
 }
@@ -145,9 +148,10 @@ pub(crate) enum Touch {
     /// They overlap, but not where the outlines can touch: at a corner in a seam, beyond which the
     /// outline goes on, or across cuts alone.
     Hidden {
-        /// Least overlap: normal in A's frame, and separation in metres.
-        normal: Vec2,
+        /// Of the least overlap, in metres.
         separation: f64,
+        /// That way leads through a cut.
+        across_cut: bool,
     },
 }
 
@@ -187,8 +191,8 @@ pub(crate) fn along_boundary(
 fn collide_round(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose, axis: Axis) -> Touch {
     let hidden = if axis.separation <= 0.0 {
         Touch::Hidden {
-            normal: axis.normal,
             separation: axis.separation,
+            across_cut: false,
         }
     } else {
         Touch::Apart
@@ -264,16 +268,10 @@ fn collide_polygons(pair: &Pair<'_>, margin: f64) -> (Touch, Gap) {
     let gap = Gap::new(best.1.separation, faces.normal_in_a());
     if overlap && !touchable {
         let hidden = Touch::Hidden {
-            normal: faces.normal_in_a(),
             separation: best.1.separation,
+            across_cut: !pair.hulls[best.0 as usize].is_boundary(best.1.edge),
         };
-        if pair.hulls[best.0 as usize].is_boundary(best.1.edge) {
-            // The outline goes on below that vertex: as a rule a neighbouring piece reaches deeper
-            // along the same normal, and has the contact.
-            return (hidden, gap);
-        }
-        let found = along_boundary(a, b, pair.poses[0], margin);
-        return (found.map_or(hidden, Touch::Contact), gap);
+        return (hidden, gap);
     }
     if let Some(found) = faces.shared().and_then(|ends| faces.manifold(ends, margin)) {
         let touch = if touchable {

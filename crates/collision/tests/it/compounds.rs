@@ -97,6 +97,27 @@ proptest! {
     }
 }
 
+/// A corner that comes down through the end of one slab, under the next: 0.1 mm across that end, 17 mm deep. It was pushed
+/// out along the triangle's own side, too.
+#[test]
+fn a_corner_beside_the_end_of_an_overlapping_slab_feels_a_flat_floor() {
+    let triangle: Shape = ConvexPolygon::regular(3, 0.5).expect("sides").into();
+    let slabs = compound([
+        (rectangle(2.5, 1.0), at(-4.75, -0.5)),
+        (rectangle(2.5, 1.0), at(-3.45, -0.5)),
+    ]);
+    let rotation = Rot::from_angle(-0.14);
+    let low = triangle.aabb(Pose::new(Vec2::ZERO, rotation)).min.y;
+    for i in 0..200 {
+        let x = -3.2 + 1e-4 * f64::from(i);
+        let pose = Pose::new(vec2(x, -low - 0.017), rotation);
+        for contact in all(&slabs, &triangle, pose, 0.0) {
+            let normal = contact.manifold.normal;
+            assert!((normal - Vec2::Y).length() < 1e-12, "{normal} at {x}");
+        }
+    }
+}
+
 #[test]
 fn the_corner_of_an_l_of_two_bars_is_felt_from_both_walls() {
     // A ball in the corner between a bar that lies and one that stands on it.

@@ -85,12 +85,63 @@ proptest! {
             for j in 0..count {
                 let (a, b) = (carom_collision::part(&star, i), carom_collision::part(&star, j));
                 let manifold = carom_collision::collide_within(&a, &b, pose, 0.01);
-                if !manifold.points.is_empty() {
+                // Left out if it is over once another part's overlap is.
+                let over = |c: &PartManifold| {
+                    let depth = c.manifold.deepest().map_or(0.0, |d| -d);
+                    let then = Pose::new(pose.position + c.manifold.normal * depth, pose.rotation);
+                    depth > 0.0 && carom_collision::separating_axis(&a, &b, then).separation >= -1e-6 * depth
+                };
+                let covered = fast.iter().any(over);
+                if !manifold.points.is_empty() && !covered {
                     let known = fast.iter().find(|c| (c.part_a as usize, c.part_b as usize) == (i, j));
-                    // Left out only if another part has the very same point.
+                    // Or if another part has the very same point.
                     let same = |c: &&PartManifold| c.manifold.points[0].point == manifold.points[0].point;
                     prop_assert!(known.is_some_and(|c| c.manifold == manifold) || fast.iter().any(|c| same(&c)));
                 }
+            }
+        }
+    }
+}
+
+/// The lower right corner of a U in one side of a star: the U's bottom, which the star's wall passes through, too, took
+/// part and left again as they turned by a hundredth, 211 mm deep, and rattled.
+#[test]
+fn a_corner_pressed_into_a_wall_is_pushed_out_of_it_only() {
+    let u = polygon(&[
+        (0.518, -0.457),
+        (0.518, 0.578),
+        (0.207, 0.578),
+        (0.207, -0.147),
+        (-0.207, -0.147),
+        (-0.207, 0.578),
+        (-0.518, 0.578),
+        (-0.518, -0.457),
+    ]);
+    let star = polygon(&[
+        (0.580, 0.000),
+        (0.211, 0.153),
+        (0.179, 0.551),
+        (-0.081, 0.248),
+        (-0.469, 0.341),
+        (-0.261, 0.000),
+        (-0.469, -0.341),
+        (-0.081, -0.248),
+        (0.179, -0.551),
+        (0.211, -0.153),
+    ]);
+    for turn in -20..=20 {
+        let turn = f64::from(turn) * 1e-3;
+        let rotation = Rot::from_angle(-1.7948 + turn);
+        let pose = Pose::new(vec2(0.683, -0.779), rotation);
+        for (one, other, in_one, sign) in
+            [(&u, &star, pose, 1.0), (&star, &u, pose.inverse(), -1.0)]
+        {
+            let found = all(one, other, in_one, 0.02);
+            assert!(!found.is_empty(), "{turn}");
+            for contact in found {
+                let n = contact.manifold.normal * sign;
+                let in_u = if sign > 0.0 { n } else { pose.vector(n) };
+                assert!(in_u.x > 0.99, "turned by {turn}: {contact:?}");
             }
         }
     }
