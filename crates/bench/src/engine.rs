@@ -92,13 +92,20 @@ pub enum Mode {
     Fast,
     /// Every moving body sub-stepped, with the preset `fast`.
     SteppedFast,
+    /// carom's defaults with the sub-steps of its preset `accurate`.
+    Accurate,
+    /// Every moving body sub-stepped, with the preset `accurate`.
+    SteppedAccurate,
 }
 
 impl Mode {
-    /// Whether it is another mode at fewer sub-steps.
+    /// Whether it is another mode at fewer or more sub-steps.
     #[must_use]
-    pub const fn is_fast(self) -> bool {
-        matches!(self, Self::Fast | Self::SteppedFast)
+    pub const fn is_preset(self) -> bool {
+        matches!(
+            self,
+            Self::Fast | Self::SteppedFast | Self::Accurate | Self::SteppedAccurate
+        )
     }
 }
 
@@ -112,6 +119,8 @@ impl fmt::Display for Mode {
             Self::Stepped => "stepped",
             Self::Fast => "fast",
             Self::SteppedFast => "stepped-fast",
+            Self::Accurate => "accurate",
+            Self::SteppedAccurate => "stepped-accurate",
         })
     }
 }

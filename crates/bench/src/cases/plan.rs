@@ -37,8 +37,8 @@ pub fn points(case: &Case, engine: EngineName, quick: bool) -> Vec<Point> {
         hz,
         substeps,
     };
-    // The curves go through every number of sub-steps: the preset with fewer is a point on them.
-    let modes = modes.iter().copied().filter(|mode| !mode.is_fast());
+    // The curves go through every number of sub-steps: presets are points on them.
+    let modes = modes.iter().copied().filter(|mode| !mode.is_preset());
     let beside = |mode: Mode| mode == Mode::Exact;
     let mut points: Vec<Point> = modes
         .clone()

@@ -37,10 +37,10 @@ pub(super) fn open(scene: &PlainScene, setup: &Setup) -> Result<Box<dyn Engine>,
 
 /// A tick is a step; the default keeps carom's own number of sub-steps in it.
 fn settings(scene: &PlainScene, setup: &Setup) -> Settings {
-    let default = if setup.mode.is_fast() {
-        Settings::fast()
-    } else {
-        Settings::default()
+    let default = match setup.mode {
+        Mode::Fast | Mode::SteppedFast => Settings::fast(),
+        Mode::Accurate | Mode::SteppedAccurate => Settings::accurate(),
+        _ => Settings::default(),
     };
     let tick = setup.hz.recip();
     let substeps = setup
@@ -52,7 +52,9 @@ fn settings(scene: &PlainScene, setup: &Setup) -> Settings {
         substep: tick / substeps,
         mode: match setup.mode {
             Mode::Exact => carom_dynamics::Mode::Exact,
-            Mode::Stepped | Mode::SteppedFast => carom_dynamics::Mode::Stepped,
+            Mode::Stepped | Mode::SteppedFast | Mode::SteppedAccurate => {
+                carom_dynamics::Mode::Stepped
+            }
             _ => carom_dynamics::Mode::Hybrid,
         },
         sleep: setup.sleeping.then(Sleep::default),

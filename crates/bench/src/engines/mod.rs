@@ -88,6 +88,8 @@ impl EngineName {
                 Mode::Stepped,
                 Mode::Fast,
                 Mode::SteppedFast,
+                Mode::Accurate,
+                Mode::SteppedAccurate,
             ],
             _ => &[Mode::Stock, Mode::Tuned],
         }

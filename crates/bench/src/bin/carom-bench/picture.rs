@@ -20,7 +20,11 @@ pub(crate) fn series(engine: EngineName, mode: Mode, points: Vec<Vec2>) -> Serie
         dash: match mode {
             Mode::Hybrid | Mode::Stock => None,
             Mode::Tuned | Mode::Stepped => Some(7.0),
-            Mode::Exact | Mode::Fast | Mode::SteppedFast => Some(2.5),
+            Mode::Exact
+            | Mode::Fast
+            | Mode::SteppedFast
+            | Mode::Accurate
+            | Mode::SteppedAccurate => Some(2.5),
         },
         ..series
     };

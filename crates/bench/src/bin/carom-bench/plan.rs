@@ -208,8 +208,8 @@ mod tests {
     #[test]
     fn engines_take_turns_scene_by_scene() {
         let jobs = plan(3, &[1]);
-        // First repetition: carom has 5 modes, a peer 2, each reads poses once.
-        let first = 2 * (6 + 3 + 3);
+        // First repetition: carom has 7 modes, a peer 2, each reads poses once.
+        let first = 2 * (8 + 3 + 3);
         let repeated: Vec<(&str, EngineName)> = jobs[first..]
             .iter()
             .map(|job| (job.scene.as_str(), job.engine))
