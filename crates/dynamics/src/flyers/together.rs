@@ -21,6 +21,9 @@ const INSTANT: f64 = 1e-12;
 /// Instants of impacts with a loss that are longer, in s, are the end of many.
 const SHORT: f64 = 1e-9;
 
+/// Longest instant of impacts without loss, in s: they may be as slow as roundings are.
+const LONGEST: f64 = 1e-4;
+
 /// Approaches with a loss that are slower, as a part of the speeds that they are the difference of, are the end of many.
 const FADING: f64 = 1e-6;
 
@@ -34,7 +37,12 @@ impl World {
     /// Resolves an impact with all others of the same instant that it hangs together with.
     pub(super) fn strike_with_others(&mut self, first: Due) {
         let time = first.0.time;
-        let limit = time + self.instant(&first.1, time);
+        let instant = self.instant(&first.1, time);
+        let loses = self.material_of(&first.1).restitution < 1.0;
+        if loses && instant > SHORT {
+            return self.strike_flyer(&first.1, time);
+        }
+        let limit = time + instant.min(LONGEST);
         self.lay_aside(limit);
         if self.flyers.aside.first().is_none() {
             return self.strike_flyer(&first.1, time);
