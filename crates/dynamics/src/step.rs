@@ -44,6 +44,10 @@ impl World {
         let end = start + dt;
         if dt > 0.0 {
             self.begin_forces();
+            // What the solver gave them lasts to the end of its sub-step, in whichever step that is.
+            if self.is_substepping() && self.clock.next() - start > 1e-9 * self.clock.h {
+                self.report.handed_over += self.handed_over;
+            }
         }
         // What the caller's changes brought about is told first.
         if !stop_at_event || self.events.is_empty() {

@@ -25,6 +25,7 @@ impl World {
         self.report.substeps += 1;
         self.look_at_fresh(time);
         self.follow_tips(time, h);
+        let before = self.report.handed_over;
         self.end_rush(time);
         self.guard(time);
         self.find_pairs(time, h);
@@ -76,6 +77,7 @@ impl World {
             self.predict(place, time);
             i += 1;
         }
+        self.handed_over = self.report.handed_over - before;
         self.stopwatch.lap(|p| &mut p.prediction);
     }
 

@@ -71,6 +71,8 @@ pub struct World {
     pub(crate) report: StepReport,
     /// What the impacts of the present sub-step spent of its budget.
     pub(crate) spent: f64,
+    /// Bodies that the solver moves until the present sub-step ends.
+    pub(crate) handed_over: u64,
     /// Bodies with a force that waits for a step or acts during this one.
     pub(crate) forced: Vec<u32>,
     pub(crate) stopwatch: Stopwatch,
@@ -112,6 +114,7 @@ impl World {
             events: Events::new(settings.events),
             report: StepReport::default(),
             spent: 0.0,
+            handed_over: 0,
             forced: Vec::new(),
             stopwatch: Stopwatch::default(),
             pool,
