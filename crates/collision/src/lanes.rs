@@ -101,7 +101,8 @@ pub(crate) fn highest_over(hull: &Hull<'_>, points: [Vec2; 2], but: Option<usize
 }
 
 /// How far a point is over the line of an edge, in m.
-fn over(block: &EdgeBlock, lane: usize, p: Vec2) -> f64 {
+#[inline(always)]
+pub(crate) fn over(block: &EdgeBlock, lane: usize, p: Vec2) -> f64 {
     block.normal_x[lane] * (p.x - block.x[lane]) + block.normal_y[lane] * (p.y - block.y[lane])
 }
 

@@ -34,6 +34,7 @@ mod cast;
 mod contacts;
 mod distance;
 mod features;
+mod four;
 mod hull;
 mod lanes;
 mod manifold;

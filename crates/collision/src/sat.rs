@@ -7,6 +7,7 @@
 use carom_math::{Pose, Vec2, perp};
 
 use crate::Hull;
+use crate::four;
 use crate::lanes::{self, heights};
 
 /// One of the two shapes of a pair.
@@ -177,7 +178,18 @@ impl Widest {
 }
 
 /// The edge of `own` that separates `other` most: the bits of [`widest_edge_by_edge`].
+#[inline]
 pub(crate) fn widest_edge(own: &Hull<'_>, other: &Hull<'_>, other_in_own: Pose) -> Widest {
+    if let (Some(mine), Some(theirs)) = (four::only(own), four::only(other)) {
+        let (rotation, position) = (other_in_own.rotation, other_in_own.position);
+        let (edge, height) = four::widest_edge(mine, theirs, rotation, position);
+        let separation = height - other.radius - own.radius;
+        return Widest { separation, edge };
+    }
+    widest_of_many(own, other, other_in_own)
+}
+
+fn widest_of_many(own: &Hull<'_>, other: &Hull<'_>, other_in_own: Pose) -> Widest {
     /// Above this many vertices of the other, edges are left out by a look at one of them.
     const WIDE: usize = 12;
     if own.blocks.is_empty() || other.is_half_plane() || other.vertices.len() > WIDE {
@@ -290,6 +302,9 @@ pub(crate) fn face(
 fn lowest(hull: &Hull<'_>, direction: Vec2, hint: Option<usize>) -> (usize, f64) {
     /// Above this many vertices a walk along the outline is cheaper than a look at all.
     const WALK_ABOVE: usize = 12;
+    if let Some(block) = four::only(hull) {
+        return four::lowest(block, direction);
+    }
     let height = |i: usize| direction.dot(hull.vertices[i]);
     match hint {
         Some(start) if hull.vertices.len() > WALK_ABOVE => {
