@@ -58,8 +58,7 @@ pub(crate) fn widest_edge(
 /// The corner with the smallest `direction · q`, the first of equals, and that.
 #[inline]
 pub(crate) fn lowest(block: &EdgeBlock, direction: Vec2) -> (usize, f64) {
-    let low =
-        [0, 1, 2, 3].map(|lane| direction.x * block.x[lane] + direction.y * block.y[lane]);
+    let low = [0, 1, 2, 3].map(|lane| direction.x * block.x[lane] + direction.y * block.y[lane]);
     let earlier = |i: (usize, f64), j: (usize, f64)| if j.1 < i.1 { j } else { i };
     earlier(
         earlier((0, low[0]), (1, low[1])),

@@ -103,6 +103,16 @@ pub(crate) struct PairContact {
     pub(crate) row: Option<RowId>,
 }
 
+impl PairContact {
+    /// Takes over the impulses of its row.
+    pub(crate) fn takes(&mut self, j: [f64; 2], jt: f64) {
+        for (point, j) in self.points.iter_mut().zip(j) {
+            point.impulse = j;
+        }
+        self.tangent_impulse = jt;
+    }
+}
+
 /// A point of a contact.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PairPoint {

@@ -91,6 +91,11 @@ impl Lanes {
         self.belts
     }
 
+    /// Whether surfaces of some row run along is asked of all rows that come.
+    pub(super) fn notes(&mut self, row: &Row) {
+        self.belts |= row.belt != 0.0;
+    }
+
     /// Zone and colour of a row, and its lane there, counted through all blocks.
     pub(super) fn place_of(&self, id: RowId) -> (usize, usize, usize) {
         let place = self.places[id.0 as usize];

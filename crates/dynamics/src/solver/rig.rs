@@ -187,6 +187,19 @@ impl Rig {
         self.retell(id, row);
     }
 
+    /// The same for a row that is made from the impulses of the old one.
+    pub(crate) fn replace(&mut self, id: RowId, row: impl FnOnce([f64; 2], f64) -> Row) {
+        let (wide, lane) = self.lanes.at_mut(id);
+        let (push, turn_a, turn_b) = wide.push(lane);
+        let row = row([wide.j1[lane], wide.j2[lane]], wide.jt[lane]);
+        let (a, b) = (row.bodies.0 as usize, row.bodies.1 as usize);
+        wide.put(lane, &row, &self.lines[a], &self.lines[b]);
+        self.lanes.notes(&row);
+        let new = push_of(&row);
+        let change = (new.0 - push, new.1 - turn_a, new.2 - turn_b);
+        self.push(row.bodies, change);
+    }
+
     /// Impulses of a row: of both points, and of friction.
     pub(crate) fn impulses(&self, id: RowId) -> ([f64; 2], f64) {
         let (wide, lane) = self.lanes.at(id);

@@ -29,10 +29,6 @@ impl Line {
         Self([v.x, v.y, w, inverse_mass, 0.0, 0.0, 0.0, inverse_inertia])
     }
 
-    pub(crate) fn set_velocity(&mut self, v: Vec2, w: f64) {
-        self.0[..3].copy_from_slice(&[v.x, v.y, w]);
-    }
-
     pub(crate) const fn v(&self) -> Vec2 {
         vec2(self.0[0], self.0[1])
     }

@@ -109,7 +109,7 @@ pub(super) struct Goer {
     /// The shape.
     pub(super) at: u32,
     pub(super) body: u32,
-    slot: u32,
+    pub(super) slot: u32,
     reach: f64,
     rim: f64,
     /// Its course begins now: it looks for partners, too.

@@ -1,15 +1,15 @@
 //! A look at a pair: its contacts, and their rows.
 
-use carom_collision::{contacts, contacts_and_gap};
-use carom_math::{Pose, SimTime, Vec2};
+use carom_collision::{PartManifold, contacts, contacts_and_gap};
+use carom_math::{Pose, SimTime};
 
 use super::Stepped;
 use super::depths::BEARS;
-use super::relative::{Against, fall, lie_of};
+use super::relative::{Against, fall};
 use super::seats::{PART, pull_of};
-use super::watch::{KEPT_APART, MARGIN, RESERVE};
+use super::watch::{KEPT_APART, MARGIN, Moving, RESERVE, farther};
 use crate::narrow::{BURIED, carried};
-use crate::pairs::{Glance, Pair, PairContact};
+use crate::pairs::{Glance, Pair, PairContact, PairPoint};
 use crate::solver::{Row, RowId};
 use crate::{BodyKind, World};
 
@@ -18,33 +18,26 @@ use crate::{BodyKind, World};
 pub(super) const GIVES: f64 = 1.0 / 256.0;
 
 impl World {
-    /// Finds the contacts of a pair anew, and gives them rows, unless it is nothing to the solver. Whoever wakes goes
-    /// to `moved`. Whether the pair is so quick that it may want another look before the next tick; of others the
-    /// margin is wide enough.
-    pub(super) fn look_at(&mut self, place: u32, time: SimTime, moved: &mut Vec<u32>) -> bool {
-        let pair = self.pairs.get(place);
-        let bodies = pair.bodies;
-        let active = [bodies.0, bodies.1].map(|i| self.bodies.get(i).is_active());
-        if active == [false, false] || !self.moves_all() && !self.is_inside(place) {
-            return false;
-        }
-        for index in [bodies.0, bodies.1] {
-            if self.bodies.get(index).asleep {
-                if !self.meets_sleeper(place, time) {
-                    return false;
-                }
-                self.call_up(index, time, moved);
-            }
-        }
-        let slots = [bodies.0, bodies.1].map(|i| self.sit(i, time));
-        let (against, reaches, (apart, angles)) = {
-            let seats = &self.pool.seats;
-            let both = slots.map(|slot| seats.get(slot));
-            let lines = slots.map(|slot| &seats.rig.lines[slot as usize]);
-            let pulls = slots.map(|slot| seats.rig.pull(slot));
-            let against = Against::new(both, lines, pulls);
-            (against, both.map(|seat| seat.reach), lie_of(both, lines))
-        };
+    /// Finds the contacts of a pair anew, and gives them rows, unless it is nothing to the solver; `moving`: both
+    /// are in it, and move so. Whoever wakes goes to `moved`. Gives how they move if they are so quick that they may
+    /// want another look before the next tick; of others the margin is wide enough.
+    pub(super) fn look_at(
+        &mut self,
+        place: u32,
+        time: SimTime,
+        moved: &mut Vec<u32>,
+        moving: Option<Moving>,
+    ) -> Option<Moving> {
+        let moving = moving.or_else(|| self.bring_in(place, time, moved))?;
+        let Moving { slots, against } = moving;
+        debug_assert!(
+            self.moves_all() || self.is_inside(place),
+            "a pair of the solver"
+        );
+        let both = slots.map(|slot| self.pool.seats.stand(slot));
+        let reaches = both.map(|stand| stand.reach);
+        let apart = both[1].centre - both[0].centre;
+        let angles = (both[0].angle, both[1].angle);
         let size = reaches[0].min(reaches[1]);
         for slot in slots {
             self.pool.seats.minds(slot, size);
@@ -53,7 +46,7 @@ impl World {
         let ahead = f64::from(self.pool.until_look) * h;
         let quick = against.is_quick(tick, all);
         let travel = if !quick {
-            against.speed() * ahead
+            against.speed() * ahead + farther(against.speed() * tick, size)
         } else if all && self.is_stopped(slots, &against) {
             0.0
         } else {
@@ -65,7 +58,8 @@ impl World {
         let pair_was_touching = pair.touching;
         let circles = apart.length() - (reaches[0] + reaches[1]);
         let (gap, normal, load) = if circles <= margin {
-            let poses = slots.map(|slot| self.pool.seats.pose(slot));
+            let seats = &mut self.pool.seats;
+            let poses = [seats.stand_pose(slots[0]), seats.stand_pose(slots[1])];
             let found = &mut self.pool.found;
             found.clear();
             let gap = contacts_and_gap(
@@ -78,7 +72,7 @@ impl World {
             self.report.pairs += 1;
             let colliders = pair.colliders;
             self.drop_grazes(colliders, slots, size);
-            let load = self.face(place, slots, poses, against.speed());
+            let load = self.face(place, slots, poses, against.speed(), size);
             (gap.separation, poses[0].vector(gap.normal), load)
         } else {
             self.pool.release(pair);
@@ -87,10 +81,11 @@ impl World {
             (circles, apart / apart.length(), 1.0)
         };
         let pair = self.pairs.get(place);
+        let bodies = pair.bodies;
         let rows = !pair.contacts.is_empty();
         let buried = all && rows && pair.buried;
         let due = self.pairs.glance(place).due;
-        let masses = [bodies.0, bodies.1].map(|index| self.bodies.get(index).inverse_mass);
+        let masses = self.pool.seats.masses(slots);
         let heavy = all && mass_ratio(masses) > BEARS;
         *self.pairs.glance_mut(place) = Glance {
             holds: true,
@@ -109,7 +104,29 @@ impl World {
         if pair_was_touching {
             self.judge(place, time);
         }
-        quick
+        quick.then_some(moving)
+    }
+
+    /// Gives the bodies of a pair seats, and wakes who is met; `None`: the pair is nothing to the solver.
+    fn bring_in(&mut self, place: u32, time: SimTime, moved: &mut Vec<u32>) -> Option<Moving> {
+        let bodies = self.pairs.get(place).bodies;
+        let active = [bodies.0, bodies.1].map(|i| self.bodies.get(i).is_active());
+        if active == [false, false] || !self.moves_all() && !self.is_inside(place) {
+            return None;
+        }
+        for index in [bodies.0, bodies.1] {
+            if self.bodies.get(index).asleep {
+                if !self.meets_sleeper(place, time) {
+                    return None;
+                }
+                self.call_up(index, time, moved);
+            }
+        }
+        let slots = [bodies.0, bodies.1].map(|i| self.sit(i, time));
+        let seats = &mut self.pool.seats;
+        seats.take_stand(slots);
+        let against = Against::new(slots.map(|slot| seats.stand(slot)));
+        Some(Moving { slots, against })
     }
 
     /// Whether somebody of a pair that moves so is stopped at its time of impact, if they meet: then rows need
@@ -194,73 +211,51 @@ impl World {
 
     /// Gives the contacts that were found their rows: lanes go over by parts, impulses by feature. How many
     /// times as heavy the body is that one gives way to, or 1: of bodies that may approach at `closing` m/s.
-    fn face(&mut self, place: u32, slots: [u32; 2], poses: [Pose; 2], closing: f64) -> f64 {
+    fn face(
+        &mut self,
+        place: u32,
+        slots: [u32; 2],
+        poses: [Pose; 2],
+        closing: f64,
+        size: f64,
+    ) -> f64 {
         let mut load = 1.0;
         let (all, tick) = (self.moves_all(), self.settings.tick);
         let pair = self.pairs.get_mut(place);
-        let masses =
-            [pair.bodies.0, pair.bodies.1].map(|index| self.bodies.get(index).inverse_mass);
         let stepped = &mut self.pool;
-        for contact in &mut pair.contacts {
-            if let Some(id) = contact.row {
-                let (j, jt) = stepped.seats.rig.impulses(id);
-                for (point, j) in contact.points.iter_mut().zip(j) {
-                    point.impulse = j;
-                }
-                contact.tangent_impulse = jt;
-            }
-        }
-        let mut old = core::mem::take(&mut stepped.before);
-        core::mem::swap(&mut old, &mut pair.contacts);
         let found = core::mem::take(&mut stepped.found);
-        let size = {
-            let of = |slot: u32| stepped.seats.get(slot).reach;
-            of(slots[0]).min(of(slots[1]))
-        };
         if all {
             // What was put there is deep at its first contact; what sinks in later is left to go on, but
             // for a load that one sweep does not carry.
             let depths = found.iter().filter_map(|new| new.manifold.deepest());
             let deepest = depths.fold(0.0, f64::min);
             let deep = deepest < -BURIED * size;
-            pair.buried = deep && (pair.buried || old.is_empty());
+            pair.buried = deep && (pair.buried || pair.contacts.is_empty());
             let gives = deepest.min(-closing * tick) < -GIVES * size;
             if gives && !found.is_empty() {
-                load = mass_ratio(masses);
+                load = mass_ratio(stepped.seats.masses(slots));
             }
             stepped.depths.note(pair, load);
         }
-        pair.contacts.reserve_exact(found.len());
-        for new in &found {
-            let mut contact = carried(new, poses[0], &old);
-            let row = row_of(&contact, slots, poses, pair);
-            if let Some(id) = contact.row {
-                for before in &mut old {
-                    if before.row == contact.row {
-                        before.row = None;
-                    }
-                }
-                stepped.seats.rig.rewrite(id, &row);
-            } else {
-                let id = stepped.seats.rig.insert(&row);
-                contact.row = Some(id);
-                stepped.bounces.note(id, pair.material.restitution);
-                stepped.owns(id, place);
-            }
-            pair.contacts.push(contact);
+        if let ([new], [before]) = (found.as_slice(), pair.contacts.as_mut_slice())
+            && before.parts == (new.part_a, new.part_b)
+            && let Some(id) = before.row
+        {
+            // Most looks find the parts in touch that were, and their row stays where it is.
+            let (friction, belt) = (pair.material.friction, pair.material.tangent_speed);
+            stepped.seats.rig.replace(id, |j, jt| {
+                before.takes(j, jt);
+                *before = carried(new, poses[0], core::slice::from_ref(before));
+                row_of(before, slots, poses, friction, belt)
+            });
+        } else {
+            stepped.face_anew(place, pair, &found, slots, poses);
         }
         stepped.found = found;
         // Stepped mode keeps no account of them.
         if !all && pair.material.tangent_speed != 0.0 && !pair.contacts.is_empty() {
             stepped.crowd.belts.push(place);
         }
-        for gone in old.drain(..) {
-            if let Some(id) = gone.row {
-                stepped.seats.rig.remove(id);
-                stepped.bounces.forget(id);
-            }
-        }
-        stepped.before = old;
         load
     }
 }
@@ -272,6 +267,52 @@ fn mass_ratio(masses: [f64; 2]) -> f64 {
 }
 
 impl Stepped {
+    /// Gives a pair the contacts that were found; rows go over by parts.
+    fn face_anew(
+        &mut self,
+        place: u32,
+        pair: &mut Pair,
+        found: &[PartManifold],
+        slots: [u32; 2],
+        poses: [Pose; 2],
+    ) {
+        let (friction, belt) = (pair.material.friction, pair.material.tangent_speed);
+        for contact in &mut pair.contacts {
+            if let Some(id) = contact.row {
+                let (j, jt) = self.seats.rig.impulses(id);
+                contact.takes(j, jt);
+            }
+        }
+        let mut old = core::mem::take(&mut self.before);
+        core::mem::swap(&mut old, &mut pair.contacts);
+        pair.contacts.reserve_exact(found.len());
+        for new in found {
+            let mut contact = carried(new, poses[0], &old);
+            let row = row_of(&contact, slots, poses, friction, belt);
+            if let Some(id) = contact.row {
+                for before in &mut old {
+                    if before.row == contact.row {
+                        before.row = None;
+                    }
+                }
+                self.seats.rig.rewrite(id, &row);
+            } else {
+                let id = self.seats.rig.insert(&row);
+                contact.row = Some(id);
+                self.bounces.note(id, pair.material.restitution);
+                self.owns(id, place);
+            }
+            pair.contacts.push(contact);
+        }
+        for gone in old.drain(..) {
+            if let Some(id) = gone.row {
+                self.seats.rig.remove(id);
+                self.bounces.forget(id);
+            }
+        }
+        self.before = old;
+    }
+
     fn owns(&mut self, id: RowId, place: u32) {
         let at = id.0 as usize;
         if self.pair_of.len() <= at {
@@ -282,22 +323,26 @@ impl Stepped {
 }
 
 /// The row of a contact.
-fn row_of(contact: &PairContact, slots: [u32; 2], poses: [Pose; 2], pair: &Pair) -> Row {
-    let arms = contact.points.iter().map(|p| {
+fn row_of(
+    contact: &PairContact,
+    slots: [u32; 2],
+    poses: [Pose; 2],
+    friction: f64,
+    belt: f64,
+) -> Row {
+    let points = &contact.points;
+    let arms_of = |p: &PairPoint| {
         (
             p.position - poses[0].position,
             p.position - poses[1].position,
         )
-    });
-    let arms: arrayvec::ArrayVec<(Vec2, Vec2), 2> = arms.collect();
-    let mut row = Row::new(
-        (slots[0], slots[1]),
-        contact.normal,
-        &arms,
-        pair.material.friction,
-    );
-    row.belt = pair.material.tangent_speed;
-    for (i, point) in contact.points.iter().enumerate() {
+    };
+    let (first, last) = (&points[0], &points[points.len() - 1]);
+    let arms = [arms_of(first), arms_of(last)];
+    let bodies = (slots[0], slots[1]);
+    let mut row = Row::new(bodies, contact.normal, &arms[..points.len()], friction);
+    row.belt = belt;
+    for (i, point) in points.iter().enumerate() {
         row.gap[i] = point.separation;
         row.j[i] = point.impulse;
     }

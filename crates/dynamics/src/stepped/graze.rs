@@ -36,28 +36,34 @@ impl World {
         slots: [u32; 2],
         size: f64,
     ) -> bool {
-        let solids = [colliders.0, colliders.1].map(|at| &self.colliders[at as usize].solid);
-        let parts = [
-            part(solids[0], contact.part_a as usize),
-            part(solids[1], contact.part_b as usize),
-        ];
-        if parts.iter().any(|part| part.normals.is_empty()) {
-            return false;
-        }
+        let part_of = |k: usize| {
+            let (at, number) = [(colliders.0, contact.part_a), (colliders.1, contact.part_b)][k];
+            part(&self.colliders[at as usize].solid, number as usize)
+        };
         let normal = contact.manifold.normal;
         match contact.manifold.points.as_slice() {
             [one] if one.separation > 0.0 => {
-                let [a, b] = slots.map(|slot| self.pool.seats.pose(slot).rotation);
-                let in_b = b.inverse() * (a * -normal);
+                let parts = [part_of(0), part_of(1)];
+                if parts.iter().any(|part| part.normals.is_empty()) {
+                    return false;
+                }
                 let along = |normals: &[Vec2], n: Vec2| {
                     normals
                         .iter()
                         .any(|edge| edge.dot(n) > 0.0 && carom_math::cross(*edge, n).abs() < ALONG)
                 };
-                !along(parts[0].normals, normal) && !along(parts[1].normals, in_b)
+                let in_b = || {
+                    let [a, b] = slots.map(|slot| self.pool.seats.pose(slot).rotation);
+                    b.inverse() * (a * -normal)
+                };
+                !along(parts[0].normals, normal) && !along(parts[1].normals, in_b())
             }
             [first, second] => {
                 let stretch = (second.point - first.point).length();
+                if stretch >= HAIR * size {
+                    return false;
+                }
+                let parts = [part_of(0), part_of(1)];
                 // A short edge that is all in touch is a face.
                 let edges = [
                     parts[0].edge(first.feature.vertices().0),
@@ -69,7 +75,7 @@ impl World {
                     .iter()
                     .map(|(from, to)| (*to - *from).length())
                     .fold(f64::INFINITY, f64::min);
-                stretch < HAIR * size && stretch < 0.5 * shortest
+                stretch < 0.5 * shortest
             }
             _ => false,
         }

@@ -21,6 +21,7 @@ mod relative;
 mod rest;
 mod rush;
 mod seats;
+mod stand;
 mod swift;
 #[cfg(test)]
 mod tests;
@@ -56,6 +57,8 @@ pub(crate) struct Stepped {
     found: Vec<PartManifold>,
     /// Shapes near a box: scratch.
     near: Vec<u32>,
+    /// Shapes of a body and those that they are paired with: scratch.
+    known: Vec<(u32, u32)>,
     /// Bodies that got new boxes at this tick, and their slots: scratch.
     reboxed: Vec<(u32, u32)>,
     throng: Throng,

@@ -187,6 +187,7 @@ impl World {
     /// parted are let go.
     pub(super) fn look_at_pairs(&mut self, moved: &mut Vec<u32>, time: SimTime, parts: bool) {
         self.pool.look = self.pool.look.wrapping_add(1);
+        self.pool.seats.stands.renew();
         let mut k = 0;
         while k < moved.len() {
             let index = moved[k];
@@ -229,10 +230,7 @@ impl Stepped {
                 continue;
             };
             let (j, jt) = self.seats.rig.impulses(id);
-            for (point, j) in contact.points.iter_mut().zip(j) {
-                point.impulse = j;
-            }
-            contact.tangent_impulse = jt;
+            contact.takes(j, jt);
             self.seats.rig.remove(id);
             self.bounces.forget(id);
             pair.fresh = true;

@@ -15,9 +15,8 @@
 
 use carom_math::{Vec2, perp};
 
-use super::seats::Seat;
+use super::stand::Stand;
 use crate::pairs::Glance;
-use crate::solver::{Line, Pull};
 
 /// Normals are kept in the world: a pair that turned by more, in rad, is looked at again.
 const TURNED: f64 = 0.1;
@@ -49,26 +48,25 @@ pub(super) struct Against {
 
 impl Against {
     #[inline]
-    pub(super) fn new(seats: [&Seat; 2], lines: [&Line; 2], pulls: [Pull; 2]) -> Self {
-        let (f, s) = larger_first(seats);
-        let apart = seats[s].base.position + lines[s].d() - seats[f].base.position - lines[f].d();
-        let (w_f, w_s) = (spin(seats[f], lines[f]), spin(seats[s], lines[s]));
-        let carried = if w_f == 0.0 {
+    pub(super) fn new(both: [&Stand; 2]) -> Self {
+        let (f, s) = larger_first(both);
+        let (f, s) = (both[f], both[s]);
+        let carried = if f.spin == 0.0 {
             Vec2::ZERO
         } else {
-            perp(apart) * w_f
+            perp(s.centre - f.centre) * f.spin
         };
-        let pull = pulls[1].acceleration - pulls[0].acceleration;
+        let pull = both[1].pull - both[0].pull;
         Self {
-            v: lines[s].v() - lines[f].v() - carried,
-            swing: swing(seats[s].rim, w_s - w_f),
-            whirl: w_f.abs().max(w_s.abs()),
+            v: s.v - f.v - carried,
+            swing: swing(s.rim, s.spin - f.spin),
+            whirl: f.spin.abs().max(s.spin.abs()),
             pull: if pull == Vec2::ZERO {
                 0.0
             } else {
                 pull.length()
             },
-            size: seats[0].reach.min(seats[1].reach),
+            size: both[0].reach.min(both[1].reach),
         }
     }
 
@@ -99,20 +97,15 @@ fn swing(rim: f64, by: f64) -> f64 {
     if by == 0.0 { 0.0 } else { rim * by.abs() }
 }
 
-/// A disc turns into itself.
-#[inline]
-fn spin(seat: &Seat, line: &Line) -> f64 {
-    if seat.rim > 0.0 { line.w() } else { 0.0 }
-}
-
 /// Which of two bodies is the frame, and which is followed in it.
 #[inline]
-fn larger_first([a, b]: [&Seat; 2]) -> (usize, usize) {
+fn larger_first([a, b]: [&Stand; 2]) -> (usize, usize) {
     let second = usize::from(a.rim < b.rim);
     (second, 1 - second)
 }
 
 /// What became of a pair since its last look.
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Since {
     /// Of the smaller one's centre, in m.
     moved: Vec2,
@@ -130,18 +123,21 @@ pub(super) struct Since {
 
 impl Since {
     #[inline]
-    pub(super) fn new(glance: &Glance, seats: [&Seat; 2], lines: [&Line; 2]) -> Self {
-        let (f, s) = larger_first(seats);
-        let (apart, angles) = lie_of(seats, lines);
+    pub(super) fn new(glance: &Glance, both: [&Stand; 2]) -> Self {
+        let (f, s) = larger_first(both);
+        let apart = both[1].centre - both[0].centre;
         let sign = if f == 0 { 1.0 } else { -1.0 };
-        let turns = [angles.0 - glance.angles.0, angles.1 - glance.angles.1];
-        let turn = |k: usize| if seats[k].rim > 0.0 { turns[k] } else { 0.0 };
+        let turns = [
+            both[0].angle - glance.angles.0,
+            both[1].angle - glance.angles.1,
+        ];
+        let turn = |k: usize| if both[k].rim > 0.0 { turns[k] } else { 0.0 };
         let (by, own) = (turn(f), turn(s));
         let (then, now) = (glance.apart * sign, apart * sign);
         let n = glance.normal * sign;
         let mut since = Self {
             moved: now - then,
-            swung: swing(seats[s].rim, own - by),
+            swung: swing(both[s].rim, own - by),
             normal: n,
             bent: 0.0,
             stale: by.abs() > TURNED || own.abs() > TURNED,
@@ -159,6 +155,20 @@ impl Since {
         since
     }
 
+    /// Of a pair that was looked at just now: nothing.
+    #[inline]
+    pub(super) fn a_look(glance: &Glance, both: [&Stand; 2]) -> Self {
+        let sign = if larger_first(both).0 == 0 { 1.0 } else { -1.0 };
+        Self {
+            moved: Vec2::ZERO,
+            swung: 0.0,
+            normal: glance.normal * sign,
+            bent: 0.0,
+            stale: false,
+            lost: false,
+        }
+    }
+
     /// What the smaller one's points moved by, at most, in m.
     #[inline]
     pub(super) fn went(&self) -> f64 {
@@ -174,17 +184,4 @@ impl Since {
             gap + self.normal.dot(self.moved) - self.swung
         }
     }
-}
-
-/// From the centre of A to that of B, in m, and the angles of both.
-pub(super) fn lie_of([a, b]: [&Seat; 2], lines: [&Line; 2]) -> (Vec2, (f64, f64)) {
-    let centres = [
-        a.base.position + lines[0].d(),
-        b.base.position + lines[1].d(),
-    ];
-    let angles = (
-        a.base_angle + lines[0].turn(),
-        b.base_angle + lines[1].turn(),
-    );
-    (centres[1] - centres[0], angles)
 }

@@ -3,6 +3,7 @@
 use carom_math::{Pose, SimTime, Vec2};
 
 use super::courses::Course;
+use super::stand::Stands;
 use super::watch::{LEASH, STRAY};
 use crate::bodies::Bodies;
 use crate::solver::{Limit, Member, Pull, Rig, Row, RowId};
@@ -29,7 +30,8 @@ pub(super) const PART: f64 = 0.25;
 pub(crate) struct Seats {
     pub(crate) rig: Rig,
     /// By slot; slot 0 is the solver's own.
-    list: Vec<Seat>,
+    pub(super) list: Vec<Seat>,
+    pub(super) stands: Stands,
     /// Slot of each body.
     slots: Vec<u32>,
     count: usize,
@@ -169,6 +171,7 @@ impl Seats {
             let travel = travel * travel;
             self.rig.set_limit(slot, Limit { travel, turn });
         }
+        self.stands.forget(slot);
         let (at, body) = (slot as usize, state.id.index as usize);
         if self.list.len() <= at {
             self.list.resize(at + 1, Seat::EMPTY);
@@ -318,6 +321,11 @@ impl Seats {
         let fallen = pull * (0.5 * passed * passed);
         far < 0.0
             || beyond(off, drift) && beyond(off - fallen, drift - pull * ((passed + 0.5 * h) * h))
+    }
+
+    /// Inverse masses of two bodies.
+    pub(super) fn masses(&self, slots: [u32; 2]) -> [f64; 2] {
+        slots.map(|slot| self.rig.lines[slot as usize].inverse_mass())
     }
 
     pub(crate) fn centre(&self, slot: u32) -> Vec2 {

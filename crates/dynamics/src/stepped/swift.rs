@@ -19,7 +19,6 @@ use carom_geometry::{Circle, ConvexPolygon, Shape};
 use carom_math::{SimTime, Vec2};
 
 use super::relative::Against;
-use crate::solver::Pull;
 use crate::state::inner_of;
 use crate::{BodyKind, Mode, World};
 
@@ -246,18 +245,14 @@ impl World {
             return false;
         };
         let slots = [way.slot, slot];
-        let lines = slots.map(|slot| {
-            let mut line = seats.rig.lines[slot as usize];
+        let both = slots.map(|slot| {
+            let mut stand = seats.stand_of(slot);
             if let Some(way) = ways.get(way_of[slot as usize] as usize) {
-                line.set_velocity(way.motion.velocity, way.motion.spin);
+                stand.goes(way.motion.velocity, way.motion.spin);
             }
-            line
+            stand
         });
-        let against = Against::new(
-            slots.map(|slot| seats.get(slot)),
-            [&lines[0], &lines[1]],
-            [Pull::default(); 2],
-        );
+        let against = Against::new([&both[0], &both[1]]);
         !self.outruns_rows(slots, &against)
     }
 

@@ -4,11 +4,10 @@ use carom_math::{SimTime, Vec2};
 
 use super::depths::BEARS;
 use super::faces::GIVES;
-use super::relative::{Against, QUICK, Since, WHIRL, fall, lie_of};
-use super::seats::Seat;
+use super::relative::{Against, QUICK, Since, WHIRL, fall};
+use super::stand::Stand;
 use crate::World;
 use crate::pairs::Glance;
-use crate::solver::{Line, Pull};
 
 /// How far a body may move before it is asked about, as a fraction of the smallest reach about it: 5 mm for boxes
 /// of 1 m.
@@ -33,6 +32,15 @@ const SPARE: f64 = 2.0 * STRAY;
 /// Contacts are sought so far beyond a tick's travel: they must do until the pair moved by what keeps it.
 pub(super) const MARGIN: f64 = KEPT_APART + RESERVE;
 
+/// Contacts of two that move against each other are sought farther by what they go in another tick, and by no more than this,
+/// as a fraction of the smaller reach: who keeps its contacts knows all that may come then.
+const FARTHER: f64 = 0.046;
+
+/// How much farther contacts are sought of a pair that goes `travel` in a tick, in m.
+pub(super) fn farther(travel: f64, size: f64) -> f64 {
+    travel.min(FARTHER * size)
+}
+
 /// Rows of a pair that are so much farther apart than they can come until the next tick are let go. Less only means
 /// that rows come and go more often.
 const LET_GO: f64 = 0.028;
@@ -49,33 +57,20 @@ pub(super) enum Wish {
     Look,
 }
 
-/// A pair that was looked at, and its bodies now.
-struct Asked<'a> {
-    glance: &'a Glance,
-    seats: [&'a Seat; 2],
-    lines: [&'a Line; 2],
-    pulls: [Pull; 2],
+/// How the bodies of a pair move against each other, and where they sit.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Moving {
+    pub(super) slots: [u32; 2],
+    pub(super) against: Against,
 }
 
 /// Whether a pair plainly needs nothing before the next tick: most of those that rest do not, and are told by sums of
 /// magnitudes, which are never less than what [`Since`] and [`Against`] make of the same motion.
 #[inline]
-fn hardly_moves(asked: &Asked<'_>, ahead: f64, tick: f64) -> bool {
-    let &Asked {
-        glance,
-        seats,
-        lines,
-        pulls,
-    } = asked;
+fn hardly_moves(glance: &Glance, both: [&Stand; 2], ahead: f64, tick: f64) -> bool {
     let sum = |v: Vec2| v.x.abs() + v.y.abs();
-    let size = seats[0].reach.min(seats[1].reach);
-    let rims = [seats[0].rim, seats[1].rim];
-    let (apart, angles) = lie_of(seats, lines);
-    let turns = [
-        (angles.0 - glance.angles.0).abs(),
-        (angles.1 - glance.angles.1).abs(),
-    ];
-    let spins = [lines[0].w().abs(), lines[1].w().abs()];
+    let size = both[0].reach.min(both[1].reach);
+    let rims = [both[0].rim, both[1].rim];
     // Either may be the frame, and the other's points lie around its centre.
     let about = |by: [f64; 2], r: f64| {
         let all = |k: usize| {
@@ -87,34 +82,40 @@ fn hardly_moves(asked: &Asked<'_>, ahead: f64, tick: f64) -> bool {
         };
         all(0) + all(1)
     };
+    let apart = both[1].centre - both[0].centre;
+    let turns = [
+        (both[0].angle - glance.angles.0).abs(),
+        (both[1].angle - glance.angles.1).abs(),
+    ];
     let moved = sum(apart - glance.apart) + about(turns, sum(glance.apart));
-    let speed = sum(lines[1].v() - lines[0].v()) + about(spins, sum(apart));
-    let fall = fall(
-        sum(pulls[1].acceleration - pulls[0].acceleration),
-        ahead + tick,
-    );
-    let (free, kept) = if glance.rows {
-        (glance.sought, moved <= KEPT_APART * size)
+    let free = if glance.rows {
+        if moved > KEPT_APART * size {
+            return false;
+        }
+        glance.sought
     } else {
-        (glance.sought.max(glance.gap), true)
+        glance.sought.max(glance.gap)
     };
+    let spins = [both[0].spin.abs(), both[1].spin.abs()];
+    let speed = sum(both[1].v - both[0].v) + about(spins, sum(apart));
+    let fall = fall(sum(both[1].pull - both[0].pull), ahead + tick);
     let slow = speed * tick <= QUICK * size && spins[0].max(spins[1]) * tick <= WHIRL;
-    kept && slow && free - moved > speed * ahead + fall + RESERVE * size
+    slow && free - moved > speed * ahead + fall + RESERVE * size
 }
 
 impl World {
     /// Looks at a pair if it must be, and notes when to ask it again before the next tick.
     pub(super) fn attend(&mut self, place: u32, time: SimTime, moved: &mut Vec<u32>) {
         let left = self.pool.until_look;
-        let mut wish = self.wish(place);
+        let (mut wish, moving) = self.wish(place);
         if wish == Wish::Rest && self.may_give(place) {
             wish = Wish::Look;
         }
         if wish == Wish::Look {
-            if !self.look_at(place, time, moved) {
+            let Some(quick) = self.look_at(place, time, moved, moving) else {
                 return;
-            }
-            wish = self.wish(place);
+            };
+            wish = self.wish_after(place, &quick);
         } else {
             let glance = self.pairs.glance(place);
             if glance.load > BEARS || glance.buried {
@@ -153,43 +154,44 @@ impl World {
         let (Some(a), Some(b)) = (seats.slot(glance.bodies.0), seats.slot(glance.bodies.1)) else {
             return false;
         };
-        let slots = [a, b];
-        let against = Against::new(
-            slots.map(|slot| seats.get(slot)),
-            slots.map(|slot| &seats.rig.lines[slot as usize]),
-            [Pull::default(); 2],
-        );
+        let against = Against::new([seats.stand(a), seats.stand(b)]);
         glance.load > BEARS || against.speed() * self.settings.tick > GIVES * against.size
     }
 
-    /// What becomes of a pair until the next tick, as its bodies move now.
+    /// What becomes of a pair until the next tick, as its bodies move now, and how they do if it was asked at length.
     #[inline]
-    fn wish(&self, place: u32) -> Wish {
-        let Some(asked) = self.asked(place) else {
-            return Wish::Look;
+    fn wish(&mut self, place: u32) -> (Wish, Option<Moving>) {
+        let Some(slots) = self.asked(place) else {
+            return (Wish::Look, None);
         };
-        if hardly_moves(&asked, self.ahead(), self.settings.tick) {
-            return Wish::Rest;
+        let both = slots.map(|slot| self.pool.seats.stand(slot));
+        let glance = self.pairs.glance(place);
+        if hardly_moves(glance, both, self.ahead(), self.settings.tick) {
+            return (Wish::Rest, None);
         }
-        self.wish_at_length(place, &asked)
+        let against = Against::new(both);
+        let wish = self.wish_at_length(place, &Since::new(glance, both), &against);
+        (wish, Some(Moving { slots, against }))
     }
 
-    /// What is asked about a pair; `None`: nothing is known of it.
+    /// The same of a pair that was looked at just now, and is too quick for [`hardly_moves`].
+    fn wish_after(&self, place: u32, quick: &Moving) -> Wish {
+        let both = quick.slots.map(|slot| self.pool.seats.stand(slot));
+        let since = Since::a_look(self.pairs.glance(place), both);
+        self.wish_at_length(place, &since, &quick.against)
+    }
+
+    /// Where the bodies of a pair sit, and their stands; `None`: nothing is known of it.
     #[inline]
-    fn asked(&self, place: u32) -> Option<Asked<'_>> {
+    fn asked(&mut self, place: u32) -> Option<[u32; 2]> {
         let glance = self.pairs.glance(place);
-        let seats = &self.pool.seats;
+        let seats = &mut self.pool.seats;
         let slots = [glance.bodies.0, glance.bodies.1].map(|index| seats.slot(index));
         let (true, [Some(a), Some(b)]) = (glance.holds, slots) else {
             return None;
         };
-        let slots = [a, b];
-        Some(Asked {
-            glance,
-            seats: slots.map(|slot| seats.get(slot)),
-            lines: slots.map(|slot| &seats.rig.lines[slot as usize]),
-            pulls: slots.map(|slot| seats.rig.pull(slot)),
-        })
+        seats.take_stand([a, b]);
+        Some([a, b])
     }
 
     /// Seconds to the next tick.
@@ -199,21 +201,14 @@ impl World {
 
     /// [`Self::wish`] of a pair that moves.
     #[inline]
-    fn wish_at_length(&self, place: u32, asked: &Asked<'_>) -> Wish {
-        let &Asked {
-            glance,
-            seats: both,
-            lines,
-            pulls,
-        } = asked;
+    fn wish_at_length(&self, place: u32, since: &Since, against: &Against) -> Wish {
+        let glance = self.pairs.glance(place);
         let rig = &self.pool.seats.rig;
         let (h, tick) = (self.clock.h, self.settings.tick);
         let (left, ahead) = (self.pool.until_look, self.ahead());
-        let since = Since::new(glance, both, lines);
         if since.lost {
             return Wish::Look;
         }
-        let against = Against::new(both, lines, pulls);
         let size = against.size;
         let closing = if since.normal == Vec2::ZERO {
             against.speed()
@@ -350,12 +345,17 @@ mod tests {
         for _ in 0..600 {
             world.step(world.settings.substep);
             let bodies = (0..81).map(|index| world.bodies.get(index));
-            for &place in bodies.flat_map(|state| &state.pairs) {
-                let Some(asked) = world.asked(place) else {
+            let places: Vec<u32> = bodies.flat_map(|state| &state.pairs).copied().collect();
+            world.pool.seats.stands.renew();
+            for place in places {
+                let Some(slots) = world.asked(place) else {
                     continue;
                 };
-                if hardly_moves(&asked, world.ahead(), world.settings.tick) {
-                    let wish = world.wish_at_length(place, &asked);
+                let both = slots.map(|slot| world.pool.seats.stand(slot));
+                let glance = world.pairs.glance(place);
+                if hardly_moves(glance, both, world.ahead(), world.settings.tick) {
+                    let (since, against) = (Since::new(glance, both), Against::new(both));
+                    let wish = world.wish_at_length(place, &since, &against);
                     assert!(matches!(wish, Wish::Rest | Wish::LetGo), "{wish:?}");
                     short += 1;
                 } else {
