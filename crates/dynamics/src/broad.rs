@@ -316,7 +316,10 @@ pub(crate) fn misses(a: &Collider, b: &Collider) -> bool {
 pub(crate) fn part(bodies: &mut Bodies, pairs: &mut Pairs, place: u32) -> Option<Pair> {
     let pair = pairs.remove(place)?;
     for index in [pair.bodies.0, pair.bodies.1] {
-        bodies.get_mut(index).pairs.retain(|p| *p != place);
+        let known = &mut bodies.get_mut(index).pairs;
+        if let Some(at) = known.iter().position(|p| *p == place) {
+            known.remove(at);
+        }
     }
     Some(pair)
 }

@@ -8,6 +8,9 @@ use crate::broad::misses;
 use crate::trees::Leaf;
 use crate::{PairSearch, World};
 
+/// Up to so many pairs of a body are held against all who are near; of more the other body knows better.
+const FEW: usize = 16;
+
 /// From so many new boxes on those on their courses are laid out side by side, and not searched in their tree.
 const MANY: usize = 32;
 
@@ -54,24 +57,36 @@ impl World {
     }
 
     /// Parts the pairs of a body that cannot meet as both go now, and finds new ones; `at_once`: all who are on their
-    /// courses lie in the throng.
+    /// courses lie in the throng, and seek their partners in order of bodies.
     pub(super) fn seek_partners(&mut self, index: u32, slot: u32, time: SimTime, at_once: bool) {
         if self.broad.search == PairSearch::Indexed {
-            self.part_off_course(index, slot, time);
-        }
-        for k in 0..self.bodies.get(index).colliders.len() {
-            let at = self.bodies.get(index).colliders[k];
-            if self.broad.search == PairSearch::Indexed {
-                self.meet_on_course(slot, at, time, at_once);
-            } else {
+            let mut known = core::mem::take(&mut self.pool.known);
+            known.clear();
+            self.part_off_course(index, slot, time, at_once, &mut known);
+            for k in 0..self.bodies.get(index).colliders.len() {
+                let at = self.bodies.get(index).colliders[k];
+                self.meet_on_course(slot, at, time, at_once, &known);
+            }
+            self.pool.known = known;
+        } else {
+            for k in 0..self.bodies.get(index).colliders.len() {
+                let at = self.bodies.get(index).colliders[k];
                 let (bodies, pairs) = (&mut self.bodies, &mut self.pairs);
                 self.broad.meet(bodies, &self.colliders, pairs, at, None);
             }
         }
     }
 
-    /// Lets the pairs of a body go whose shapes cannot meet while both keep their courses.
-    fn part_off_course(&mut self, index: u32, slot: u32, time: SimTime) {
+    /// Lets the pairs of a body go whose shapes cannot meet while both keep their courses; the others are `known`, its
+    /// own shape first.
+    fn part_off_course(
+        &mut self,
+        index: u32,
+        slot: u32,
+        time: SimTime,
+        at_once: bool,
+        known: &mut Vec<(u32, u32)>,
+    ) {
         let first = self.bodies.get(index).colliders.first();
         let own = first.and_then(|at| self.goer(slot, *at, time));
         let mut i = 0;
@@ -79,21 +94,15 @@ impl World {
             let place = self.bodies.get(index).pairs[i];
             let pair = self.pairs.get(place);
             let (a, b) = pair.colliders;
-            let (mine, other) = if pair.bodies.0 == index {
-                (a, b)
+            let (mine, other, partner) = if pair.bodies.0 == index {
+                (a, b, pair.bodies.1)
             } else {
-                (b, a)
+                (b, a, pair.bodies.0)
             };
-            let meet = || {
-                let own = own
-                    .filter(|own| own.at == mine)
-                    .or_else(|| self.goer(slot, mine, time));
-                let Some((own, other)) = own.zip(self.goer_of(other, time)) else {
-                    return true;
-                };
-                self.may_meet(&own, &other)
-            };
-            if self.broad.keeps(&self.colliders, pair) && meet() {
+            if self.broad.keeps(&self.colliders, pair)
+                && self.may_go_on((mine, other), (own.as_ref(), slot), partner, time, at_once)
+            {
+                known.push((mine, other));
                 i += 1;
             } else {
                 self.part(place, time);
@@ -101,23 +110,62 @@ impl World {
         }
     }
 
+    /// Whether the shapes of a pair may meet while both bodies keep their courses.
+    fn may_go_on(
+        &self,
+        (mine, other): (u32, u32),
+        (own, slot): (Option<&Goer>, u32),
+        partner: u32,
+        time: SimTime,
+        at_once: bool,
+    ) -> bool {
+        let of_mine;
+        let own = if own.is_some_and(|own| own.at == mine) {
+            own
+        } else {
+            of_mine = self.goer(slot, mine, time);
+            of_mine.as_ref()
+        };
+        let (Some(own), Some(partner_slot)) = (own, self.pool.seats.slot(partner)) else {
+            return true;
+        };
+        if at_once && let Some(other) = self.pool.throng.goer(partner_slot, other) {
+            // Of two who set out together the first one saw to it.
+            let seen = own.sets_out && other.sets_out && other.body < own.body;
+            return seen || self.may_meet(own, other);
+        }
+        let other = self.goer(partner_slot, other, time);
+        other.is_none_or(|other| self.may_meet(own, &other))
+    }
+
     /// New pairs of a shape whose box is new.
-    fn meet_on_course(&mut self, slot: u32, at: u32, time: SimTime, at_once: bool) {
+    fn meet_on_course(
+        &mut self,
+        slot: u32,
+        at: u32,
+        time: SimTime,
+        at_once: bool,
+        known: &[(u32, u32)],
+    ) {
         let mut near = core::mem::take(&mut self.pool.near);
         let fat = self.colliders[at as usize].fat;
         let mine = self.goer(slot, at, time);
+        let few = if known.len() > FEW { &[] } else { known };
+        let is_known = |other: u32| few.contains(&(at, other));
         let comes = |other: &Goer| mine.as_ref().is_none_or(|mine| self.may_meet(mine, other));
+        let may_come = |other: u32| {
+            !is_known(other) && self.goer_of(other, time).is_none_or(|other| comes(&other))
+        };
         if at_once {
             near.clear();
             self.broad.search_still(&self.colliders, fat, &mut near);
-            near.retain(|other| self.goer_of(*other, time).is_none_or(|other| comes(&other)));
+            near.retain(|other| may_come(*other));
             let owner = self.colliders[at as usize].body;
-            self.pool.throng.query(fat, |member| {
-                let other = &member.goer;
+            let sets_out = mine.is_some_and(|mine| mine.sets_out);
+            self.pool.throng.query(fat, |other| {
                 // Of two who set out together the first looks for the other.
-                let looks =
-                    mine.is_some_and(|mine| mine.sets_out) && other.sets_out && other.body < owner;
-                if other.body != owner && !looks && comes(other) {
+                let looks = sets_out && other.sets_out && other.body < owner;
+                if other.body != owner && !looks && !is_known(other.at) && comes(other) {
                     near.push(other.at);
                 }
             });
@@ -125,7 +173,7 @@ impl World {
             near.dedup();
         } else {
             self.broad.search_tree(&self.colliders, fat, &mut near);
-            near.retain(|other| self.goer_of(*other, time).is_none_or(|other| comes(&other)));
+            near.retain(|other| may_come(*other));
         }
         for &other in &near {
             let (bodies, pairs) = (&mut self.bodies, &mut self.pairs);

@@ -1,28 +1,34 @@
 //! Bodies on their courses, laid out for a search by many of them at once.
 //!
-//! Their boxes lie in square cells as wide as the largest of them, each in that of its lower left corner, and cells
-//! share as many places as there are boxes: what overlaps a box lies in the cells that it reaches into and those
-//! before them, or was put in the same place as one of these.
+//! Their boxes lie in square cells, each in that of its lower left corner, and cells share as many places as there are
+//! boxes: what overlaps a box lies in the cells that it reaches into and those before them, as far as the largest
+//! box goes, or was put in the same place as one of these. Boxes that are much larger than the mean have cells of their
+//! own: a few quick ones would make all cells large.
 
 use carom_geometry::Aabb;
 use carom_math::Vec2;
 
 use super::courses::Goer;
 
-/// Boxes of more than so many times the mean size have no cell: they would make all of them large.
+/// Boxes of more than so many times the mean size have no cell.
 const LARGE: f64 = 4.0;
 
-/// The cells.
+/// Boxes of more than so many times the mean size have wider cells.
+const WIDE: f64 = 1.5;
+
+/// Cells across the largest box that lies in them.
+const ACROSS: f64 = 2.0;
+
+/// All who are on their courses.
 #[derive(Clone, Debug)]
 pub(super) struct Throng {
     members: Vec<Member>,
-    /// Members by place.
-    order: Vec<u32>,
-    /// Where those of each place begin, and where the last ones end.
-    places: Vec<u32>,
-    side: f64,
+    /// Small boxes, and wide ones.
+    cells: [Cells; 2],
     /// Largest box that has a cell.
     limit: f64,
+    /// Member of each slot, of bodies with one shape; `u32::MAX`: none.
+    by_slot: Vec<u32>,
 }
 
 /// A shape of a body on its course.
@@ -36,10 +42,9 @@ impl Default for Throng {
     fn default() -> Self {
         Self {
             members: Vec::new(),
-            order: Vec::new(),
-            places: Vec::new(),
-            side: 1.0,
+            cells: [Cells::default(), Cells::default()],
             limit: f64::INFINITY,
+            by_slot: Vec::new(),
         }
     }
 }
@@ -52,38 +57,93 @@ impl Throng {
 
     /// Lays out all who are there; says whose boxes are too large from now on.
     pub(super) fn lay_out(&mut self, members: impl Iterator<Item = Member>) -> Vec<u32> {
-        self.places.clear();
         self.members.clear();
         self.members.extend(members);
-        if self.members.is_empty() {
-            self.limit = f64::INFINITY;
-            return Vec::new();
-        }
+        self.by_slot.clear();
         let sizes = self.members.iter().map(|member| size_of(member.fat));
         #[expect(clippy::cast_precision_loss, reason = "a count of shapes")]
         let mean = sizes.sum::<f64>() / self.members.len() as f64;
-        self.limit = LARGE * mean;
+        self.limit = if self.members.is_empty() {
+            f64::INFINITY
+        } else {
+            LARGE * mean
+        };
         let mut large = Vec::new();
-        let mut side = f64::MIN_POSITIVE;
         let limit = self.limit;
-        self.members.retain(|member| {
-            let size = size_of(member.fat);
-            let fits = size <= limit;
-            if fits {
-                side = side.max(size);
-            } else {
-                large.push(member.goer.at);
+        let is_large = |member: &Member| size_of(member.fat) > limit;
+        if self.members.iter().any(is_large) {
+            large.extend(
+                self.members
+                    .iter()
+                    .filter(|member| is_large(member))
+                    .map(|member| member.goer.at),
+            );
+            self.members.retain(|member| !is_large(member));
+        }
+        let wide = WIDE * mean;
+        for (cells, is_wide) in self.cells.iter_mut().zip([false, true]) {
+            let all = (0_u32..).zip(&self.members);
+            let boxes = all.map(|(k, member)| (member.fat, k));
+            cells.fill(boxes.filter(|(fat, _)| (size_of(*fat) > wide) == is_wide));
+        }
+        for (k, member) in (0_u32..).zip(&self.members) {
+            let slot = member.goer.slot as usize;
+            if self.by_slot.len() <= slot {
+                self.by_slot.resize(slot + 1, u32::MAX);
             }
-            fits
-        });
-        self.side = side;
+            self.by_slot[slot] = k;
+        }
+        large
+    }
+
+    /// A shape of the body at `slot`, if it was laid out; of several shapes of a body one is.
+    #[inline]
+    pub(super) fn goer(&self, slot: u32, at: u32) -> Option<&Goer> {
+        let member = self
+            .members
+            .get(*self.by_slot.get(slot as usize)? as usize)?;
+        Some(&member.goer).filter(|goer| goer.at == at)
+    }
+
+    /// Calls `found` with all whose boxes overlap `sought`, with some twice.
+    pub(super) fn query(&self, sought: Aabb, mut found: impl FnMut(&Goer)) {
+        for cells in &self.cells {
+            cells.query(sought, |k| found(&self.members[k as usize].goer));
+        }
+    }
+}
+
+/// Boxes of about one size.
+#[derive(Clone, Debug, Default)]
+struct Cells {
+    /// By place, and whose they are.
+    boxes: Vec<(Aabb, u32)>,
+    /// Where those of each place begin, and where the last ones end.
+    places: Vec<u32>,
+    side: f64,
+    /// Size of the largest box.
+    largest: f64,
+    /// Boxes as they came, and their places: scratch.
+    came: Vec<(Aabb, u32, u32)>,
+}
+
+impl Cells {
+    fn fill(&mut self, boxes: impl Iterator<Item = (Aabb, u32)>) {
+        self.came.clear();
+        self.came.extend(boxes.map(|(fat, k)| (fat, k, 0)));
+        let largest = self.came.iter().map(|(fat, ..)| size_of(*fat));
+        self.largest = largest.fold(f64::MIN_POSITIVE, f64::max);
+        self.side = (self.largest / ACROSS).max(f64::MIN_POSITIVE);
         // Sorted by counting.
-        let count = self.members.len();
+        let count = self.came.len();
+        self.places.clear();
         self.places.resize(count.next_power_of_two() + 1, 0);
-        self.order.clear();
-        self.order.resize(count, 0);
-        for k in 0..count {
-            let place = self.place_of(k);
+        for i in 0..count {
+            let place = self.place(self.cell(self.came[i].0.min));
+            #[expect(clippy::cast_possible_truncation, reason = "shapes are counted by u32")]
+            {
+                self.came[i].2 = place as u32;
+            }
             self.places[place] += 1;
         }
         let mut end = 0;
@@ -91,48 +151,40 @@ impl Throng {
             end += *place;
             *place = end;
         }
-        for k in 0..count {
-            let place = self.place_of(k);
-            self.places[place] -= 1;
-            #[expect(clippy::cast_possible_truncation, reason = "shapes are counted by u32")]
-            let member = k as u32;
-            self.order[self.places[place] as usize] = member;
+        self.boxes.clear();
+        self.boxes.resize(count, (Aabb::EMPTY, 0));
+        for &(fat, k, place) in &self.came {
+            let end = &mut self.places[place as usize];
+            *end -= 1;
+            self.boxes[*end as usize] = (fat, k);
         }
-        large
     }
 
-    fn place_of(&self, member: usize) -> usize {
-        self.place(self.cell(self.members[member].fat.min))
-    }
-
-    /// Calls `found` with all whose boxes overlap `sought`, with some twice.
-    pub(super) fn query(&self, sought: Aabb, mut found: impl FnMut(&Member)) {
-        if self.members.is_empty() {
+    fn query(&self, sought: Aabb, mut found: impl FnMut(u32)) {
+        if self.boxes.is_empty() {
             return;
         }
-        let back = Vec2::splat(self.side);
-        let low = below(sought.min, back);
+        let low = below(sought.min, Vec2::splat(self.largest));
         let span = (sought.max - low) / self.side + Vec2::splat(2.0);
+        let mut among = |boxes: &[(Aabb, u32)]| {
+            for (fat, k) in boxes {
+                if fat.overlaps(sought) {
+                    found(*k);
+                }
+            }
+        };
         #[expect(clippy::cast_precision_loss, reason = "a count of shapes")]
-        let all = self.members.len() as f64;
+        let all = self.boxes.len() as f64;
         // A box that reaches into most cells is held against everybody.
         if span.x * span.y >= all {
-            let there = self.members.iter();
-            return there
-                .filter(|member| member.fat.overlaps(sought))
-                .for_each(found);
+            return among(&self.boxes);
         }
         let (low, high) = (self.cell(low), self.cell(sought.max));
         for y in low.1..=high.1 {
             for x in low.0..=high.0 {
                 let place = self.place((x, y));
                 let (from, to) = (self.places[place], self.places[place + 1]);
-                for &k in &self.order[from as usize..to as usize] {
-                    let member = &self.members[k as usize];
-                    if member.fat.overlaps(sought) {
-                        found(member);
-                    }
-                }
+                among(&self.boxes[from as usize..to as usize]);
             }
         }
     }
@@ -200,7 +252,7 @@ mod tests {
 
     fn query(throng: &Throng, sought: Aabb) -> Vec<u32> {
         let mut found = Vec::new();
-        throng.query(sought, |member| found.push(member.goer.at));
+        throng.query(sought, |goer| found.push(goer.at));
         found.sort_unstable();
         found.dedup();
         found
