@@ -248,14 +248,16 @@ impl World {
             };
         }
         let strain = went + since.bent;
-        let kept = !since.stale
-            && (strain <= near
-                || strain <= KEPT * size && {
-                    // Asked of the rows: what callers were told last depends on when they looked.
-                    let contacts = &self.pairs.get(place).contacts;
-                    let mut rows = contacts.iter().filter_map(|contact| contact.row);
-                    rows.any(|id| rig.pushes(id))
-                });
+        // Who has no rows has none that grow stale.
+        let kept = !glance.rows
+            || !since.stale
+                && (strain <= near
+                    || strain <= KEPT * size && {
+                        // Asked of the rows: what callers were told last depends on when they looked.
+                        let contacts = &self.pairs.get(place).contacts;
+                        let mut rows = contacts.iter().filter_map(|contact| contact.row);
+                        rows.any(|id| rig.pushes(id))
+                    });
         // Nothing without a row is nearer than this.
         let bare = glance.sought - went;
         let bare = if glance.rows { bare } else { bare.max(strip) };
