@@ -204,7 +204,7 @@ fn read(
         if tangents[i] == Tangent::Holds {
             let seen = faces.free.iter().zip(&found.state);
             let seen: Vec<f64> = seen.map(|(a, b)| a.abs().max(b.abs())).collect();
-            let rounding = rounding(&face.tangent, &seen);
+            let rounding = rounding_of_arms(&face.tangent, &seen);
             found.sticks[i] = face.tangent.growth(&found.state).abs() <= rounding;
         }
     }
@@ -215,4 +215,15 @@ fn read(
 fn rounding(row: &Row, sizes: &[f64]) -> f64 {
     let lengths: Vec<f64> = row.unit.iter().map(|x| x.abs()).collect();
     ROUNDING * (dot(&lengths, sizes) + row.bend.abs())
+}
+
+/// The same where arms are rounded, too: a normal force a little off a disc's centre turns it, against a tangent along
+/// which nothing else pulls. A body's sizes count in any direction.
+fn rounding_of_arms(row: &Row, sizes: &[f64]) -> f64 {
+    let length = |body: &[f64]| dot(body, body).sqrt();
+    let bodies = row.unit.chunks_exact(3).zip(sizes.chunks_exact(3));
+    let total: f64 = bodies
+        .map(|(unit, sizes)| length(unit) * length(sizes))
+        .sum();
+    ROUNDING * (total + row.bend.abs())
 }

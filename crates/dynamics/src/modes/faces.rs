@@ -228,12 +228,16 @@ impl Stops {
         Self(Basis::independent(&rows, DEPENDENT))
     }
 
-    /// Takes out what the rows stop; a coordinate that nothing is left of is exactly 0.
+    /// Takes out what the rows stop; a coordinate that nothing is left of is exactly 0, and so is one with less than
+    /// the rounding of a rounding.
     fn apply(&self, state: &mut [f64]) {
         let (_, rest) = self.0.reduce(state);
+        let size = state.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        let none = f64::EPSILON * f64::EPSILON * size;
         for (k, (to, rest)) in state.iter_mut().zip(rest).enumerate() {
             if self.0.touches(k) {
-                *to = if self.0.determines(k) { 0.0 } else { rest };
+                let stopped = self.0.determines(k) || rest.abs() <= none;
+                *to = if stopped { 0.0 } else { rest };
             }
         }
     }

@@ -159,6 +159,20 @@ fn a_disc_rolls_or_slips_by_its_friction() {
 }
 
 #[test]
+fn a_disc_that_touches_a_rounding_beside_its_centre_rolls() {
+    // The normal force turned it at 1.7e-15 rad/s², and its roll was called a slide.
+    let mut body = disc(0.05, 0.5, pull(0.0));
+    (body.velocity, body.spin) = (vec2(0.2, 0.0), -4.0);
+    let found = judged(&(
+        vec![fixed(), body],
+        vec![round((0, 1), vec2(2.2e-19, 0.0), FLOOR, 5.0)],
+    ));
+    assert_eq!(found.touches[0].mode, ContactMode::Roll);
+    let turn = found.bodies[1].angular_acceleration;
+    assert!(turn.abs() < 1e-15, "it turns at {turn} rad/s²");
+}
+
+#[test]
 fn a_spinning_disc_comes_to_roll() {
     let mut body = disc(0.25, 0.5, pull(0.0));
     body.spin = -40.0;
