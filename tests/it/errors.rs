@@ -132,6 +132,10 @@ fn definitions_say_which_field_is_wrong() {
         "inertia is -2, not above 0"
     );
     assert_eq!(
+        with(BodyDef::dynamic().with_centre(vec2(f64::NAN, 0.0))),
+        "centre.x is NaN, not a finite number"
+    );
+    assert_eq!(
         with(BodyDef::dynamic().with_gravity_scale(f64::NAN)),
         "gravity_scale is NaN, not a finite number"
     );

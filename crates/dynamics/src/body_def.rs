@@ -53,6 +53,8 @@ pub struct BodyDef {
     pub mass: Option<f64>,
     /// Moment of inertia about the centre of mass, in kg·m²; `None` takes the shapes' (scaled to a given mass).
     pub inertia: Option<f64>,
+    /// Centre of mass in the shapes' own frame, in m; `None` takes the shapes' densities.
+    pub centre: Option<Vec2>,
     /// Whether the body never turns.
     pub locked_rotation: bool,
     /// Factor on gravity and fields for this body.
@@ -84,6 +86,7 @@ impl BodyDef {
             spin: 0.0,
             mass: None,
             inertia: None,
+            centre: None,
             locked_rotation: false,
             gravity_scale: 1.0,
             linear_damping: 0.0,
@@ -158,6 +161,32 @@ impl BodyDef {
         self
     }
 
+    /// Gives the centre of mass in the shapes' own frame, in m, instead of taking the shapes' densities. A moment of
+    /// inertia that follows from these is about it.
+    ///
+    /// # Examples
+    /// ```
+    /// use carom_dynamics::{BodyDef, Material, Settings, World};
+    /// use carom_geometry::ConvexPolygon;
+    /// use carom_math::vec2;
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// let mut world = World::new(Settings::default())?;
+    /// let weighted = BodyDef::dynamic().at(vec2(0.0, 5.0)).with_centre(vec2(0.5, 0.0));
+    /// let plank = ConvexPolygon::rectangle(2.0, 1.0)?;             // m
+    /// let id = world.insert(weighted, plank, Material { density: 3.0, ..Material::default() })?;
+    /// let body = world.body(id).ok_or("just inserted")?;
+    /// assert_eq!(body.centre(), vec2(0.5, 5.0));
+    /// assert_eq!(body.pose().position, vec2(0.0, 5.0));
+    /// assert!((body.inertia() - 4.0).abs() < 1e-14);               // kg·m², m (w² + h²) / 12 + m 0.5²
+    /// # Ok(())
+    /// # }
+    /// ```
+    #[must_use]
+    pub const fn with_centre(mut self, centre: Vec2) -> Self {
+        self.centre = Some(centre);
+        self
+    }
+
     /// The body never turns.
     #[must_use]
     pub const fn with_locked_rotation(mut self) -> Self {
@@ -229,6 +258,9 @@ impl BodyDef {
             if value < 0.0 {
                 return Err(BodyError::Negative { field, value });
             }
+        }
+        if let Some(centre) = self.centre {
+            check_vec2("centre.x", "centre.y", centre)?;
         }
         for (field, given) in [("mass", self.mass), ("inertia", self.inertia)] {
             if let Some(value) = given {

@@ -482,6 +482,7 @@ fn mass_of(def: &BodyDef, shapes: &[(Shape, Material)]) -> Result<MassProperties
         if mass.mass == 0.0 {
             mass = middle_of(shapes);
         }
+        mass.centroid = def.centre.unwrap_or(mass.centroid);
         return Ok(mass);
     }
     if mass.mass <= 0.0 && def.mass.is_none() {
@@ -508,6 +509,11 @@ fn mass_of(def: &BodyDef, shapes: &[(Shape, Material)]) -> Result<MassProperties
             0.0
         };
         mass.mass = given;
+    }
+    if let Some(centre) = def.centre {
+        // Steiner: about another point it is larger by m d².
+        mass.inertia += mass.mass * (centre - mass.centroid).length_squared();
+        mass.centroid = centre;
     }
     if let Some(given) = def.inertia {
         mass.inertia = given;

@@ -7,7 +7,10 @@ use super::book::{Outputs, number_at, pair, point_at};
 use super::stage::{Cast, Play, Player, Stage};
 
 /// How long a bounce is waited for, in s.
-const PATIENCE: f64 = 200.0;
+const PATIENCE: f64 = 1e6;
+
+/// Half-width of a floor that nothing runs along, in m.
+const WIDE: f64 = 1000.0;
 
 /// What a case gives.
 #[derive(Clone, Debug)]
@@ -67,8 +70,9 @@ impl Play for FlightCase {
     }
 }
 
-fn floor() -> Player {
-    Player::wall(vec2(-1000.0, -1.0), vec2(1000.0, 0.0))
+/// A level floor that reaches so far to both sides, in m.
+fn floor(half: f64) -> Player {
+    Player::wall(vec2(-half, -1.0), vec2(half, 0.0))
 }
 
 fn flight(inputs: &Value) -> Result<FlightCase, String> {
@@ -90,7 +94,7 @@ fn bounces(inputs: &Value) -> Result<FlightCase, String> {
     let gravity = vec2(0.0, -number_at(inputs, "gravity")?);
     let restitution = number_at(inputs, "restitution")?;
     Ok(FlightCase {
-        cast: Cast::of(gravity, restitution, 0.0, vec![ball, floor()]),
+        cast: Cast::of(gravity, restitution, 0.0, vec![ball, floor(WIDE)]),
         question: Question::Bounces {
             count: count_at(inputs)?,
             query: number_at(inputs, "query_time")?,
@@ -100,9 +104,12 @@ fn bounces(inputs: &Value) -> Result<FlightCase, String> {
 
 fn spin(inputs: &Value) -> Result<FlightCase, String> {
     let radius = number_at(inputs, "radius")?;
+    let velocity = point_at(inputs, "velocity")?;
+    // It falls 1 m.
+    let way = radius + 2.0 * (velocity.x / velocity.y).abs();
     let ball = Player {
         mass: Some(number_at(inputs, "mass")?),
-        velocity: point_at(inputs, "velocity")?,
+        velocity,
         spin: number_at(inputs, "angular_velocity")?,
         ..Player::disc(radius, vec2(0.0, radius + 1.0))
     };
@@ -111,7 +118,12 @@ fn spin(inputs: &Value) -> Result<FlightCase, String> {
         number_at(inputs, "friction")?,
     );
     Ok(FlightCase {
-        cast: Cast::of(Vec2::ZERO, restitution, friction, vec![ball, floor()]),
+        cast: Cast::of(
+            Vec2::ZERO,
+            restitution,
+            friction,
+            vec![ball, floor(way.max(WIDE))],
+        ),
         question: Question::Spin,
     })
 }
@@ -119,14 +131,20 @@ fn spin(inputs: &Value) -> Result<FlightCase, String> {
 /// In the frame of the incline: the floor is level and gravity is turned, downhill is +x.
 fn incline(inputs: &Value) -> Result<FlightCase, String> {
     const RADIUS: f64 = 0.125;
-    let height = number_at(inputs, "normal_distance")? + RADIUS;
-    let ball = Player::disc(RADIUS, vec2(0.0, height));
+    let fall = number_at(inputs, "normal_distance")?;
+    let ball = Player::disc(RADIUS, vec2(0.0, fall + RADIUS));
     let down = vec2(0.0, -number_at(inputs, "gravity")?);
-    let slope = Rot::from_degrees(number_at(inputs, "incline_deg")?);
+    let pull = Rot::from_degrees(number_at(inputs, "incline_deg")?) * down;
     let restitution = number_at(inputs, "restitution")?;
+    let count = count_at(inputs)?;
+    // A fall lasts t = √(2h/g), the bounces 2 e t, 2 e² t and so on.
+    let first = (2.0 * fall / -pull.y).sqrt();
+    let falls = (0..count).fold(0.0, |sum, _| restitution * (2.0 + sum));
+    let last = first * (1.0 + falls);
+    let way = 0.5 * pull.x * last * last;
     Ok(FlightCase {
-        cast: Cast::of(slope * down, restitution, 0.0, vec![ball, floor()]),
-        question: Question::Incline(count_at(inputs)?),
+        cast: Cast::of(pull, restitution, 0.0, vec![ball, floor(way + 16.0)]),
+        question: Question::Incline(count),
     })
 }
 

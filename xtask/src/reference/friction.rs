@@ -8,7 +8,7 @@ use super::book::{Outputs, number_at};
 use super::stage::{Cast, Play, Player, Stage};
 
 /// How long a change is waited for, in s.
-const PATIENCE: f64 = 200.0;
+const PATIENCE: f64 = 1e6;
 
 /// How long a block that may tip is watched, in s, and how far from its tipping angle, in degrees.
 const WATCH: f64 = 10.0;
@@ -70,7 +70,20 @@ impl FrictionCase {
         question: Question,
     ) -> Result<Self, String> {
         let friction = number_at(inputs, "friction")?;
-        players.insert(FLOOR, Player::wall(vec2(-1000.0, -1.0), vec2(1000.0, 0.0)));
+        // Long enough for the question.
+        let fastest = players.iter().map(|player| player.velocity.length());
+        let fastest = fastest.fold(0.0, f64::max);
+        let way = match question {
+            Question::Incline(time) => (fastest + gravity.length() * time) * time,
+            Question::Stop if friction > 0.0 => fastest * fastest / (friction * gravity.length()),
+            Question::Roll(query) => {
+                let rim = |player: &Player| player.spin.abs() * player.position.y;
+                (fastest + players.iter().map(rim).fold(0.0, f64::max)) * query
+            }
+            _ => 0.0,
+        };
+        let half = way.max(1000.0);
+        players.insert(FLOOR, Player::wall(vec2(-half, -1.0), vec2(half, 0.0)));
         Ok(Self {
             cast: Cast::of(gravity, 0.0, friction, players),
             question,
@@ -164,9 +177,10 @@ fn level(inputs: &Value) -> Result<Vec2, String> {
     Ok(vec2(0.0, -number_at(inputs, "gravity")?))
 }
 
-/// So flat that it never tips.
-fn flat_block() -> Player {
-    Player::block(vec2(-2.0, 0.0), vec2(2.0, 0.25))
+/// So flat that friction never tips it: µ times its height is at most its half-width.
+fn flat_block(inputs: &Value) -> Result<Player, String> {
+    let height = number_at(inputs, "friction")?.recip().min(0.25);
+    Ok(Player::block(vec2(-2.0, 0.0), vec2(2.0, height)))
 }
 
 fn disc(inputs: &Value) -> Result<Player, String> {
@@ -186,7 +200,7 @@ fn incline(inputs: &Value) -> Result<FrictionCase, String> {
     } else {
         Player {
             velocity: vec2(number_at(inputs, "initial_speed_down_slope")?, 0.0),
-            ..flat_block()
+            ..flat_block(inputs)?
         }
     };
     let question = Question::Incline(number_at(inputs, "time")?);
@@ -196,7 +210,7 @@ fn incline(inputs: &Value) -> Result<FrictionCase, String> {
 fn stop(inputs: &Value) -> Result<FrictionCase, String> {
     let block = Player {
         velocity: vec2(number_at(inputs, "speed")?, 0.0),
-        ..flat_block()
+        ..flat_block(inputs)?
     };
     FrictionCase::of(level(inputs)?, inputs, vec![block], Question::Stop)
 }
@@ -213,11 +227,12 @@ fn spin(inputs: &Value) -> Result<FrictionCase, String> {
 
 /// The floor is frictionless, the plank long enough.
 fn plank(inputs: &Value) -> Result<FrictionCase, String> {
+    let block = flat_block(inputs)?;
     let block = Player {
         mass: Some(number_at(inputs, "mass_block")?),
         velocity: vec2(number_at(inputs, "speed_block")?, 0.0),
-        position: vec2(0.0, 0.625),
-        ..flat_block()
+        position: vec2(0.0, 0.5) + block.position,
+        ..block
     };
     let plank = Player {
         mass: Some(number_at(inputs, "mass_plank")?),

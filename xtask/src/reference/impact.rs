@@ -79,11 +79,13 @@ impl ImpactCase {
     /// Asks the library.
     pub(super) fn answer(&self) -> Result<Outcomes, String> {
         let [a, b] = &self.bodies;
-        let normal = self.normal.unwrap_or(b.position - a.position).normalize();
+        let apart = b.position - a.position;
+        let normal = self.normal.unwrap_or(apart).normalize();
+        // From A's centre: far out a point between two circles would be rounded.
         let point = match (self.point, &a.shape, &b.shape) {
-            (Some(point), _, _) => point,
-            (None, Shape::Circle(radius), _) => a.position + normal * *radius,
-            (None, _, Shape::Circle(radius)) => b.position - normal * *radius,
+            (Some(point), _, _) => point - a.position,
+            (None, Shape::Circle(radius), _) => normal * *radius,
+            (None, _, Shape::Circle(radius)) => apart - normal * *radius,
             _ => return Err("neither a contact point nor a circle".to_owned()),
         };
         let contact = ImpactContact {
@@ -92,7 +94,7 @@ impl ImpactCase {
             restitution: self.restitution,
             friction: self.friction,
         };
-        let (a, b) = (a.built()?, b.built()?);
+        let (a, b) = (a.built(Vec2::ZERO)?, b.built(apart)?);
         Ok([newton, poisson, stronge].map(|law| law(&a, &b, &contact)))
     }
 
@@ -138,8 +140,8 @@ impl Body {
         })
     }
 
-    fn built(&self) -> Result<ImpactBody, String> {
-        let (at, velocity, spin) = (self.position, self.velocity, self.spin);
+    fn built(&self, at: Vec2) -> Result<ImpactBody, String> {
+        let (velocity, spin) = (self.velocity, self.spin);
         Ok(match self.density {
             None => ImpactBody::immovable(at, velocity, spin),
             Some(density) => ImpactBody::free(self.mass(density)?, at, velocity, spin),

@@ -7,7 +7,10 @@ use super::book::{Outputs, number_at, numbers_at};
 use super::stage::{Cast, Play, Player, Stage};
 
 /// How long another impact is waited for, in s.
-const PATIENCE: f64 = 200.0;
+const PATIENCE: f64 = 1e6;
+
+/// How long another impact is waited for after infinitely many, in s.
+const SETTLED: f64 = 1.0;
 
 /// What a case gives.
 #[derive(Clone, Debug)]
@@ -74,7 +77,8 @@ impl Play for LineCase {
 
     fn play(&self, stage: &mut Stage) -> Result<Outputs, String> {
         let mut last = 0.0;
-        while stage.accumulated.is_none() && stage.next_impact(PATIENCE)? {
+        // Some may come to rest against each other before they meet the others.
+        while stage.next_impact(stage.accumulated.map_or(PATIENCE, |end| end + SETTLED))? {
             if let Some(struck) = stage.impacts.last() {
                 last = struck.time;
             }
@@ -84,7 +88,7 @@ impl Play for LineCase {
         let mut outputs = Outputs::new();
         let mut put = |key: &str, value: Value| outputs.insert(key.to_owned(), value);
         if let Some(end) = stage.accumulated {
-            stage.until(end + 1.0)?;
+            stage.until(end + SETTLED)?;
             put("collisions", "infinite".into());
             put("collapse_time", end.into());
         } else {

@@ -13,6 +13,9 @@ use crate::random::SplitMix;
 /// More impacts than this and a case is given up.
 const MOST_IMPACTS: usize = 40_000_000;
 
+/// What a step is asked for at most, in s: a world takes 1e7 ticks of 1/60 s at once.
+const LONGEST: f64 = 1e5;
+
 /// A case that a world answers.
 pub(super) trait Play {
     /// Who plays.
@@ -40,6 +43,8 @@ pub(super) struct Player {
     pub(super) mass: Option<f64>,
     /// In kg·m²; `None`: by density.
     pub(super) inertia: Option<f64>,
+    /// In the body's frame, in m; `None`: by density.
+    pub(super) centre: Option<Vec2>,
     /// `None`: as everybody's.
     pub(super) friction: Option<f64>,
     /// In kg/m².
@@ -91,7 +96,7 @@ pub(super) struct Stage {
     pub(super) modes: Vec<Moved>,
     /// All impacts so far.
     pub(super) struck: usize,
-    /// When infinitely many impacts came to their end, in s.
+    /// When infinitely many impacts last came to their end, in s.
     pub(super) accumulated: Option<f64>,
 }
 
@@ -103,6 +108,7 @@ impl Player {
             fixed: false,
             mass: Some(1.0),
             inertia: None,
+            centre: None,
             friction: None,
             density: 1.0,
             position,
@@ -150,6 +156,7 @@ impl Player {
             position: symmetry.point(self.position),
             angle: symmetry.turning(self.angle),
             velocity: symmetry.vector(self.velocity),
+            centre: self.centre.map(|centre| symmetry.vector(centre)),
             spin: symmetry.turning(self.spin),
             ..self.clone()
         }
@@ -167,6 +174,7 @@ impl Player {
             .moving(self.velocity)
             .spinning(self.spin);
         let def = self.mass.map_or(def, |mass| def.with_mass(mass));
+        let def = self.centre.map_or(def, |centre| def.with_centre(centre));
         self.inertia
             .map_or(def, |inertia| def.with_inertia(inertia))
     }
@@ -283,7 +291,7 @@ impl Stage {
         }
         let step = match &mut self.cuts {
             Some(random) => left.min(random.unit() * 0.5),
-            None => left,
+            None => left.min(LONGEST),
         };
         let report = self.world.step_to_next_event(step);
         if let Some(refusal) = report.refused {
@@ -324,7 +332,7 @@ impl Stage {
                     });
                 }
                 EventKind::Collapse { .. } => {
-                    self.accumulated.get_or_insert(event.time.as_secs());
+                    self.accumulated = Some(event.time.as_secs());
                 }
                 _ => {}
             }

@@ -9,7 +9,7 @@ use super::outline::Outline;
 use super::stage::{Cast, Play, Player, Stage};
 
 /// How long the next impact is waited for, in s.
-const PATIENCE: f64 = 200.0;
+const PATIENCE: f64 = 1e6;
 
 /// What a case gives.
 #[derive(Clone, Debug)]
@@ -115,12 +115,15 @@ impl Play for SceneCase {
     }
 }
 
+/// The origin of the frame is the centre of mass, by definition: vertices are rounded to 12 digits, and the centroid of
+/// these lies 1e-13 m beside it.
 fn player(body: &Value) -> Result<Player, String> {
     Ok(Player {
         outline: Outline::read(&body["shape"])?,
         fixed: body["static"].as_bool().unwrap_or(false),
         mass: None,
         inertia: None,
+        centre: Some(Vec2::ZERO),
         friction: None,
         density: number_at(body, "density")?,
         position: point_at(body, "position")?,
