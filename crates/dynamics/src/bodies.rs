@@ -95,6 +95,13 @@ impl Bodies {
         }
     }
 
+    /// Makes room for so many more.
+    pub(crate) fn reserve(&mut self, more: usize) {
+        self.list.reserve_exact(more);
+        self.versions.reserve_exact(more);
+        self.alive.reserve_exact(more);
+    }
+
     /// The id that the next body gets.
     pub(crate) fn next_id(&self) -> Result<BodyId, BodyError> {
         const LIMIT: usize = u32::MAX as usize;

@@ -146,6 +146,14 @@ impl World {
         self.clock.now
     }
 
+    /// Makes room for `bodies` more bodies of one shape each. Whoever says how many will come saves memory: room that
+    /// grows with every body is up to twice as large as it need be, and leaves holes.
+    pub fn reserve(&mut self, bodies: usize) {
+        self.bodies.reserve(bodies);
+        self.colliders.reserve_exact(bodies);
+        self.flyers.reserve(bodies);
+    }
+
     /// Inserts a body of one shape.
     ///
     /// # Errors

@@ -7,6 +7,9 @@ use super::queue::{Entry, What};
 /// Entries of a block: with its link it fills two lines of a cache.
 const BLOCK: usize = 5;
 
+/// Blocks that room is made for at once: what grew by doubling would leave holes of half its size.
+const CHUNK: usize = 64;
+
 /// No block.
 const NONE: u32 = u32::MAX;
 
@@ -16,14 +19,16 @@ const NONE: u32 = u32::MAX;
 pub(super) struct Days {
     /// The newest block of every day.
     first: Vec<u32>,
-    blocks: Vec<Block>,
-    /// The newest of the unused blocks.
+    chunks: Vec<Box<[Block; CHUNK]>>,
+    /// Blocks that were ever used.
+    used: u32,
+    /// The newest of the unused ones among them.
     free: u32,
     /// Entries of all days.
     count: usize,
 }
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
 struct Block {
     entries: [Waiting; BLOCK],
@@ -31,6 +36,20 @@ struct Block {
     len: u32,
     /// The next older of the same list.
     next: u32,
+}
+
+impl Block {
+    const EMPTY: Self = Self {
+        entries: [Waiting {
+            rest: 0.0,
+            a: 0,
+            b: 0,
+            stamp: 0,
+            what: What::FIRST,
+        }; BLOCK],
+        len: 0,
+        next: NONE,
+    };
 }
 
 /// An entry of a known day: whole units of time are those before the day.
@@ -71,7 +90,8 @@ impl Days {
     pub(super) fn new(days: usize) -> Self {
         Self {
             first: vec![NONE; days],
-            blocks: Vec::new(),
+            chunks: Vec::new(),
+            used: 0,
             free: NONE,
             count: 0,
         }
@@ -85,47 +105,53 @@ impl Days {
     pub(super) fn push(&mut self, day: usize, entry: Entry) {
         self.count += 1;
         let first = self.first[day];
-        if first == NONE || self.blocks[first as usize].len as usize == BLOCK {
-            self.first[day] = self.unused(first);
+        if first != NONE {
+            let block = self.block(first);
+            if let Some(room) = block.entries.get_mut(block.len as usize) {
+                *room = entry.into();
+                block.len += 1;
+                return;
+            }
         }
-        let block = &mut self.blocks[self.first[day] as usize];
-        block.entries[block.len as usize] = entry.into();
-        block.len += 1;
+        let at = self.unused();
+        self.first[day] = at;
+        let block = self.block(at);
+        block.entries[0] = entry.into();
+        (block.len, block.next) = (1, first);
     }
 
     /// Takes the entries of a day out, before which there are `units` whole units of time.
     pub(super) fn take(&mut self, day: usize, units: i64, mut each: impl FnMut(Entry)) {
         let mut at = core::mem::replace(&mut self.first[day], NONE);
         while at != NONE {
-            let block = &mut self.blocks[at as usize];
+            let free = core::mem::replace(&mut self.free, at);
+            let block = self.block(at);
             let len = core::mem::take(&mut block.len) as usize;
-            self.count -= len;
             let entries = block.entries[..len].iter();
             entries.for_each(|waiting| each(waiting.after(units)));
-            let next = core::mem::replace(&mut block.next, self.free);
-            self.free = at;
+            let next = core::mem::replace(&mut block.next, free);
+            self.count -= len;
             at = next;
         }
     }
 
-    /// An empty block before `next`.
-    fn unused(&mut self, next: u32) -> u32 {
+    /// An empty block.
+    fn unused(&mut self) -> u32 {
         if self.free != NONE {
-            let block = &mut self.blocks[self.free as usize];
-            let older = core::mem::replace(&mut block.next, next);
-            return core::mem::replace(&mut self.free, older);
+            let at = self.free;
+            self.free = self.block(at).next;
+            return at;
         }
-        self.blocks.push(Block {
-            entries: [Entry::NONE.into(); BLOCK],
-            len: 0,
-            next,
-        });
-        #[expect(
-            clippy::cast_possible_truncation,
-            reason = "fewer than 2^32 fit in memory"
-        )]
-        let last = (self.blocks.len() - 1) as u32;
-        last
+        let at = self.used;
+        if at as usize == CHUNK * self.chunks.len() {
+            self.chunks.push(Box::new([Block::EMPTY; CHUNK]));
+        }
+        self.used += 1;
+        at
+    }
+
+    fn block(&mut self, at: u32) -> &mut Block {
+        &mut self.chunks[at as usize / CHUNK][at as usize % CHUNK]
     }
 }
 
@@ -164,7 +190,7 @@ mod tests {
                 prop_assert_eq!(days.count(), count);
                 most = most.max(twin.iter().map(|day| day.len().div_ceil(BLOCK)).sum());
             }
-            prop_assert_eq!(days.blocks.len(), most);
+            prop_assert_eq!(days.used as usize, most);
         }
     }
 }

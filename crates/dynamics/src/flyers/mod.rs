@@ -209,6 +209,13 @@ impl Flyers {
         }
     }
 
+    /// Makes room for so many more.
+    pub(crate) fn reserve(&mut self, more: usize) {
+        self.circles.reserve_exact(more);
+        self.horizons.reserve_exact(more);
+        self.seen.reserve_exact(more);
+    }
+
     /// Puts a body into the grid, if it fits, or where it belongs there by now.
     fn enter(&mut self, bodies: &mut Bodies, colliders: &[Collider], index: u32) -> bool {
         let course = &mut bodies.get_mut(index).course;

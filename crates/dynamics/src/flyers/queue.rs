@@ -29,6 +29,9 @@ pub(crate) enum Ahead {
 pub(crate) struct What(u32);
 
 impl What {
+    /// What fills room for others.
+    pub(super) const FIRST: Self = Self(0);
+
     /// Bits of a slot: half a thousand million impacts ahead fill 50 GB.
     const SLOT: u32 = (1 << 29) - 1;
 
@@ -78,15 +81,6 @@ pub(crate) struct Entry {
 }
 
 impl Entry {
-    /// What fills room for others.
-    pub(super) const NONE: Self = Self {
-        time: SimTime::ZERO,
-        a: 0,
-        b: 0,
-        stamp: 0,
-        what: What(0),
-    };
-
     pub(crate) const fn ahead(&self) -> Ahead {
         self.what.read()
     }

@@ -47,6 +47,7 @@ impl PlainScene {
     /// # Errors
     /// If a body names what the scene's tables do not have, or geometry or the world refuses it.
     pub fn insert_into(&self, world: &mut World) -> Result<Vec<BodyId>, PlainError> {
+        world.reserve(self.bodies.len());
         let bodies = self.bodies.iter().enumerate();
         bodies
             .map(|(index, body)| {
