@@ -5,6 +5,10 @@ use carom_math::SimTime;
 /// Limits that differ by less, in s, are one: ten times what small bounces lose.
 const AGREES: f64 = 1e-9;
 
+/// What is left of the longest interval of a streak with each impact that nothing presses: where several bodies come to
+/// rest against each other, short and long intervals take turns, and only whole rounds come ever faster.
+const FADES: f32 = 0.9;
+
 /// The last impacts of a body, while they come ever faster.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Streak {
@@ -13,8 +17,10 @@ pub(crate) struct Streak {
     gaps: [f64; 4],
     /// Speed of approach of the first, in m/s.
     top: f64,
-    /// Impacts so far.
-    count: u32,
+    /// Seconds of the longest interval, less what has faded: rounded, since it is only compared.
+    longest: f32,
+    /// Impacts so far, if they are few.
+    count: u8,
     /// Limit of the series as the first impact foretold it.
     foretold: SimTime,
     /// Its end has been reported.
@@ -27,6 +33,7 @@ impl Default for Streak {
             last: SimTime::ZERO,
             gaps: [f64::INFINITY; 4],
             top: 0.0,
+            longest: 0.0,
             count: 0,
             foretold: SimTime::ZERO,
             ended: false,
@@ -36,15 +43,17 @@ impl Default for Streak {
 
 impl Streak {
     /// Impacts of a streak before it is taken for one: two pairs of intervals.
-    const LEAST: u32 = 5;
+    const LEAST: u8 = 5;
 
     /// An impact at `time` with an approach of `speed` m/s, after which, were it all that ever acts,
     /// bounces would last for `left` seconds. A streak ends where an interval is twice as long as the
-    /// one before.
+    /// longest lately, or an impact stronger than the first.
     pub(crate) fn hit(&mut self, time: SimTime, speed: f64, left: f64) {
         let gap = time - self.last;
-        if self.count == 0 || gap > 2.0 * self.gaps[0] {
+        let late = self.count > 1 && gap > 2.0 * f64::from(self.longest);
+        if self.count == 0 || late || speed > self.top {
             self.top = speed;
+            self.longest = 0.0;
             self.count = 0;
             self.gaps = [f64::INFINITY; 4];
             self.foretold = time + left;
@@ -52,8 +61,14 @@ impl Streak {
         }
         if self.count > 0 {
             self.gaps = [gap, self.gaps[0], self.gaps[1], self.gaps[2]];
+            let lately = if left > 0.0 {
+                0.0
+            } else {
+                FADES * self.longest
+            };
+            self.longest = rounded(gap).max(lately);
         }
-        self.count += 1;
+        self.count = self.count.saturating_add(1);
         self.last = time;
     }
 
@@ -107,6 +122,11 @@ impl Streak {
     }
 }
 
+#[expect(clippy::cast_possible_truncation, reason = "it is only compared")]
+const fn rounded(x: f64) -> f32 {
+    x as f32
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -127,6 +147,20 @@ mod tests {
             );
             assert!(streak.has_faded(0.8, 1.01) && !streak.has_faded(0.8, 0.99));
         }
+    }
+
+    #[test]
+    fn rounds_of_short_and_long_intervals_are_one_streak() {
+        // Of four discs at e = 0.15: every fourth interval is long, and each round a quarter of the one before.
+        let (mut streak, mut time, mut round) = (Streak::default(), SimTime::ZERO, 1.0);
+        for _ in 0..8 {
+            for part in [0.02, 0.015, 0.08, 0.4] {
+                time += part * round;
+                streak.hit(time, round, 0.0);
+            }
+            round *= 0.25;
+        }
+        assert!(streak.is_one() && streak.has_faded(round, 1e-4));
     }
 
     #[test]
