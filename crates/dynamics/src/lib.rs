@@ -51,6 +51,7 @@ mod id;
 pub mod impact;
 mod ledger;
 mod lemke;
+mod mass;
 mod material;
 mod modes;
 mod narrow;
