@@ -290,9 +290,11 @@ impl Stage {
             return Ok(false);
         }
         let step = match &mut self.cuts {
-            Some(random) => left.min(random.unit() * 0.5),
-            None => left.min(LONGEST),
-        };
+            // The later, the farther apart: long waits have few cuts.
+            Some(random) => left.min(random.unit() * (0.5 + 0.5 * self.world.time().as_secs())),
+            None => left,
+        }
+        .min(LONGEST);
         let report = self.world.step_to_next_event(step);
         if let Some(refusal) = report.refused {
             return Err(refusal.to_string());
