@@ -9,9 +9,6 @@ use super::stage::{Cast, Play, Player, Stage};
 /// How long a bounce is waited for, in s.
 const PATIENCE: f64 = 1e6;
 
-/// Half-width of a floor that nothing runs along, in m.
-const WIDE: f64 = 1000.0;
-
 /// What a case gives.
 #[derive(Clone, Debug)]
 pub(super) struct FlightCase {
@@ -70,11 +67,6 @@ impl Play for FlightCase {
     }
 }
 
-/// A level floor that reaches so far to both sides, in m.
-fn floor(half: f64) -> Player {
-    Player::wall(vec2(-half, -1.0), vec2(half, 0.0))
-}
-
 fn flight(inputs: &Value) -> Result<FlightCase, String> {
     let body = Player {
         velocity: point_at(inputs, "velocity")?,
@@ -94,7 +86,7 @@ fn bounces(inputs: &Value) -> Result<FlightCase, String> {
     let gravity = vec2(0.0, -number_at(inputs, "gravity")?);
     let restitution = number_at(inputs, "restitution")?;
     Ok(FlightCase {
-        cast: Cast::of(gravity, restitution, 0.0, vec![ball, floor(WIDE)]),
+        cast: Cast::of(gravity, restitution, 0.0, vec![ball, Player::floor()]),
         question: Question::Bounces {
             count: count_at(inputs)?,
             query: number_at(inputs, "query_time")?,
@@ -104,12 +96,9 @@ fn bounces(inputs: &Value) -> Result<FlightCase, String> {
 
 fn spin(inputs: &Value) -> Result<FlightCase, String> {
     let radius = number_at(inputs, "radius")?;
-    let velocity = point_at(inputs, "velocity")?;
-    // It falls 1 m.
-    let way = radius + 2.0 * (velocity.x / velocity.y).abs();
     let ball = Player {
         mass: Some(number_at(inputs, "mass")?),
-        velocity,
+        velocity: point_at(inputs, "velocity")?,
         spin: number_at(inputs, "angular_velocity")?,
         ..Player::disc(radius, vec2(0.0, radius + 1.0))
     };
@@ -122,7 +111,7 @@ fn spin(inputs: &Value) -> Result<FlightCase, String> {
             Vec2::ZERO,
             restitution,
             friction,
-            vec![ball, floor(way.max(WIDE))],
+            vec![ball, Player::floor()],
         ),
         question: Question::Spin,
     })
@@ -137,13 +126,8 @@ fn incline(inputs: &Value) -> Result<FlightCase, String> {
     let pull = Rot::from_degrees(number_at(inputs, "incline_deg")?) * down;
     let restitution = number_at(inputs, "restitution")?;
     let count = count_at(inputs)?;
-    // A fall lasts t = √(2h/g), the bounces 2 e t, 2 e² t and so on.
-    let first = (2.0 * fall / -pull.y).sqrt();
-    let falls = (0..count).fold(0.0, |sum, _| restitution * (2.0 + sum));
-    let last = first * (1.0 + falls);
-    let way = 0.5 * pull.x * last * last;
     Ok(FlightCase {
-        cast: Cast::of(pull, restitution, 0.0, vec![ball, floor(way + 16.0)]),
+        cast: Cast::of(pull, restitution, 0.0, vec![ball, Player::floor()]),
         question: Question::Incline(count),
     })
 }

@@ -70,20 +70,7 @@ impl FrictionCase {
         question: Question,
     ) -> Result<Self, String> {
         let friction = number_at(inputs, "friction")?;
-        // Long enough for the question.
-        let fastest = players.iter().map(|player| player.velocity.length());
-        let fastest = fastest.fold(0.0, f64::max);
-        let way = match question {
-            Question::Incline(time) => (fastest + gravity.length() * time) * time,
-            Question::Stop if friction > 0.0 => fastest * fastest / (friction * gravity.length()),
-            Question::Roll(query) => {
-                let rim = |player: &Player| player.spin.abs() * player.position.y;
-                (fastest + players.iter().map(rim).fold(0.0, f64::max)) * query
-            }
-            _ => 0.0,
-        };
-        let half = way.max(1000.0);
-        players.insert(FLOOR, Player::wall(vec2(-half, -1.0), vec2(half, 0.0)));
+        players.insert(FLOOR, Player::floor());
         Ok(Self {
             cast: Cast::of(gravity, 0.0, friction, players),
             question,

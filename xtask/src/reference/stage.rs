@@ -137,6 +137,16 @@ impl Player {
         }
     }
 
+    /// All below y = 0.
+    pub(super) fn floor() -> Self {
+        Self {
+            outline: Outline::Behind(Vec2::Y),
+            fixed: true,
+            mass: None,
+            ..Self::disc(1.0, Vec2::ZERO)
+        }
+    }
+
     /// Four walls around a box, 1 m thick: left, right, floor, ceiling.
     pub(super) fn walls(low: Vec2, high: Vec2) -> [Self; 4] {
         let (a, b) = (low - Vec2::ONE, high + Vec2::ONE);
