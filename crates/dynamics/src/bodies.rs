@@ -249,7 +249,7 @@ impl Bodies {
     pub(crate) fn change(&mut self, index: u32, time: SimTime, change: impl FnOnce(&mut Motion)) {
         self.touch(index);
         let state = &self.list[index as usize];
-        let flies_by_law = state.flight.is_some() || *state.lag() != Lag::default();
+        let flies_by_law = state.flight.is_some() || *state.lag() != Lag::NONE;
         if let Some(piece) = self.piece(state, time) {
             self.book.forces.add(piece.forces);
             self.book.scheme.add(piece.scheme);
@@ -298,7 +298,7 @@ impl Bodies {
         } else {
             motion.travel(elapsed)
         };
-        let quadratic = state.flight.is_none() && *state.lag() == Lag::default();
+        let quadratic = state.flight.is_none() && *state.lag() == Lag::NONE;
         let mass = state.mass.mass;
         let straight = if quadratic {
             motion.acceleration.dot(travel)

@@ -15,13 +15,13 @@ impl Default for Few {
     }
 }
 
-impl Few {
-    pub(crate) fn push(&mut self, number: u32) {
-        *self = if self.is_empty() {
-            Self::One(number)
-        } else {
-            Self::Many([&**self, &[number]].concat().into())
-        };
+impl FromIterator<u32> for Few {
+    fn from_iter<I: IntoIterator<Item = u32>>(numbers: I) -> Self {
+        let mut numbers = numbers.into_iter().fuse();
+        match (numbers.next(), numbers.next()) {
+            (Some(number), None) => Self::One(number),
+            (first, second) => Self::Many(first.into_iter().chain(second).chain(numbers).collect()),
+        }
     }
 }
 
@@ -50,12 +50,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_pushed_is_there_in_order() {
+    fn what_is_collected_is_there_in_order() {
         assert_eq!(size_of::<Few>(), 16);
-        let mut few = Few::default();
         for count in 0..5 {
+            let few: Few = (0..count).collect();
             assert!(few.iter().copied().eq(0..count));
-            few.push(count);
         }
     }
 }

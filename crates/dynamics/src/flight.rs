@@ -62,7 +62,7 @@ pub(crate) fn fly(bodies: &mut Bodies, index: u32, time: SimTime, h: f64) {
         }
         let state = bodies.get_mut(index);
         state.member = false;
-        state.set_lag(Lag::default());
+        state.set_lag(Lag::NONE);
         return;
     }
     let known = bodies.get(index).flight.clone();

@@ -96,7 +96,7 @@ impl Uncommon {
 /// ```text
 /// v(u) = v₀ + A u + L u (3 u/h − 2)         L h: what the parabola's velocity lacks at the end
 /// ```
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Lag {
     /// L, in m/s².
     pub(crate) rate: Vec2,
@@ -107,7 +107,7 @@ pub(crate) struct Lag {
 }
 
 impl Lag {
-    const NONE: Self = Self {
+    pub(crate) const NONE: Self = Self {
         rate: Vec2::ZERO,
         angular: 0.0,
         length: 0.0,
@@ -271,10 +271,13 @@ impl BodyState {
         }
     }
 
-    /// Gives the body one more shape, which is about its centre of mass.
-    pub(crate) fn add(&mut self, at: u32, solid: &Shape) {
-        self.colliders.push(at);
-        self.inner = self.inner.min(half_width(solid));
+    /// Gives the body its shapes, which are about its centre of mass.
+    pub(crate) fn take_shapes(&mut self, own: Few, colliders: &[Collider]) {
+        let solids = own.iter().map(|&at| &colliders[at as usize].solid);
+        self.inner = solids
+            .map(|solid| half_width(solid))
+            .fold(f64::INFINITY, f64::min);
+        self.colliders = own;
     }
 
     /// Changes what moves the body; a fixed one comes to rest.
@@ -290,7 +293,7 @@ impl BodyState {
         };
         self.motion.acceleration = Vec2::ZERO;
         self.motion.angular_acceleration = 0.0;
-        self.set_lag(Lag::default());
+        self.set_lag(Lag::NONE);
         self.flight = None;
         self.member = false;
         if kind == BodyKind::Fixed {
@@ -354,7 +357,7 @@ impl BodyState {
             self.flight = None;
         }
         (self.motion.velocity, self.motion.spin) = (velocity, spin);
-        self.set_lag(Lag::default());
+        self.set_lag(Lag::NONE);
     }
 
     /// Angle that the body turned by since its motion's start, in rad, whole turns included.

@@ -193,13 +193,17 @@ impl World {
         state.asleep = sleeps;
         let centroid = state.mass.centroid;
         self.bodies.insert(state);
-        for (shape, material) in shapes {
+        let add = |(shape, material)| {
             let surface = Surface {
                 material,
                 filter: def.filter,
             };
-            self.add_collider(id.index, shape, surface, centroid);
-        }
+            self.add_collider(id.index, shape, surface, centroid)
+        };
+        let colliders = shapes.into_iter().map(add).collect();
+        self.bodies
+            .get_mut(id.index)
+            .take_shapes(colliders, &self.colliders);
         let (kinetic, potential) = self.bodies.energy_of(id.index, now);
         self.bodies.book.external.add(kinetic + potential);
         if sleeps {
@@ -231,13 +235,9 @@ impl World {
         self.flyers.vanish(&mut self.bodies, index);
         self.discharge(index);
         self.take_line(index);
-        let colliders = core::mem::take(&mut self.bodies.get_mut(index).colliders);
-        for &at in &colliders {
-            if let Some(node) = self.colliders[at as usize].node.take() {
-                self.broad.trees.remove(node);
-            }
-            self.free_colliders.push(at);
-        }
+        self.forget_boxes(index);
+        let colliders = &self.bodies.get(index).colliders;
+        self.free_colliders.extend(colliders);
         self.forced.retain(|i| *i != index);
         self.broad
             .overrides
@@ -368,7 +368,8 @@ impl World {
         }
     }
 
-    fn add_collider(&mut self, body: u32, shape: Shape, surface: Surface, centroid: Vec2) {
+    /// Puts a shape of a body among all shapes, and returns its place there.
+    fn add_collider(&mut self, body: u32, shape: Shape, surface: Surface, centroid: Vec2) -> u32 {
         let (drawn, solid) = self.shape_like(shape, centroid);
         let alike = self.latest().find(|known| *known.surface == surface);
         let surface = match alike {
@@ -378,13 +379,13 @@ impl World {
         let collider = Collider {
             body,
             drawn,
-            solid: Arc::clone(&solid),
+            solid,
             surface,
             node: None,
             fat: Aabb::EMPTY,
             tight: None,
         };
-        let at = if let Some(at) = self.free_colliders.pop() {
+        if let Some(at) = self.free_colliders.pop() {
             self.colliders[at as usize] = collider;
             at
         } else {
@@ -395,8 +396,7 @@ impl World {
             )]
             let at = (self.colliders.len() - 1) as u32;
             at
-        };
-        self.bodies.get_mut(body).add(at, &solid);
+        }
     }
 
     /// A shape as it is drawn, and about a centre of mass: those of another one that is alike, if one came shortly before.
