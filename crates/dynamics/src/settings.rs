@@ -78,7 +78,7 @@ impl Settings {
         }
     }
 
-    /// Sub-steps of 1/480 s: contacts sink in 9/16 as deep as by default, at 4/3 of the time.
+    /// Sub-steps of 1/480 s: contacts sink in 9/16 as deep as by default, at up to 4/3 of the time.
     #[must_use]
     pub fn accurate() -> Self {
         Self {
