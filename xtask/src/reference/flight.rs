@@ -120,15 +120,14 @@ fn spin(inputs: &Value) -> Result<FlightCase, String> {
 /// In the frame of the incline: the floor is level and gravity is turned, downhill is +x.
 fn incline(inputs: &Value) -> Result<FlightCase, String> {
     const RADIUS: f64 = 0.125;
-    let fall = number_at(inputs, "normal_distance")?;
-    let ball = Player::disc(RADIUS, vec2(0.0, fall + RADIUS));
+    let height = number_at(inputs, "normal_distance")? + RADIUS;
+    let ball = Player::disc(RADIUS, vec2(0.0, height));
     let down = vec2(0.0, -number_at(inputs, "gravity")?);
-    let pull = Rot::from_degrees(number_at(inputs, "incline_deg")?) * down;
+    let gravity = Rot::from_degrees(number_at(inputs, "incline_deg")?) * down;
     let restitution = number_at(inputs, "restitution")?;
-    let count = count_at(inputs)?;
     Ok(FlightCase {
-        cast: Cast::of(pull, restitution, 0.0, vec![ball, Player::floor()]),
-        question: Question::Incline(count),
+        cast: Cast::of(gravity, restitution, 0.0, vec![ball, Player::floor()]),
+        question: Question::Incline(count_at(inputs)?),
     })
 }
 
