@@ -5,7 +5,7 @@ use carom_math::SimTime;
 use crate::StepReport;
 use crate::bodies::Bodies;
 use crate::flight::driven;
-use crate::narrow::{TOUCH, opening_speed, rest_speed, rest_speed_between};
+use crate::narrow::{RestSpeed, TOUCH, opening_speed};
 use crate::pairs::{PairPoint, Pairs};
 use crate::solver::{Law, Row, SolverBody, relax, solve};
 
@@ -105,11 +105,10 @@ impl Groups {
                 self.buried |= pair.buried;
                 let touch = TOUCH * a.reach.min(b.reach);
                 // What turning presses comes down within a sub-step: it rests where it touches, and not before.
-                let (rest, near) = if pair.given_up || pair.buried {
-                    (f64::INFINITY, f64::INFINITY)
+                let rest = if pair.given_up || pair.buried {
+                    RestSpeed::ANY
                 } else {
-                    let near = rest_speed_between(bodies, pair.bodies, h);
-                    (rest_speed(bodies, pair, h), near)
+                    RestSpeed::of(bodies, pair, h)
                 };
                 let (centre_a, centre_b) = (a.motion.centre_at(time), b.motion.centre_at(time));
                 for (index, contact) in pair.contacts.iter().enumerate() {
@@ -119,9 +118,9 @@ impl Groups {
                     // and is held.
                     let lasts = |p: &PairPoint| {
                         if p.separation <= touch {
-                            pair.held || opening(p) >= -rest
+                            pair.held || opening(p) >= -rest.all
                         } else {
-                            opening(p) >= -near
+                            opening(p) >= -rest.pulled
                         }
                     };
                     if !contact.points.iter().any(lasts) {

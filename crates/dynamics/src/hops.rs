@@ -34,13 +34,7 @@ pub(crate) fn hop(
             continue;
         };
         let press = pair
-            .spot(
-                bodies,
-                colliders,
-                contact.parts,
-                point.position,
-                contact.normal,
-            )
+            .spot(bodies, colliders, contact, point.position)
             .press(time);
         // u t − a t²/2 from a gap g above 0: back after (u + √(u² + 2 a g))/a, from a height of u²/(2 a) + g.
         let gap = point.separation.max(0.0);

@@ -92,13 +92,7 @@ fn turning_rest(
     for contact in &pair.contacts {
         for point in contact.points.iter().filter(|p| p.separation <= touch) {
             let speed = pair
-                .spot(
-                    bodies,
-                    colliders,
-                    contact.parts,
-                    point.position,
-                    contact.normal,
-                )
+                .spot(bodies, colliders, contact, point.position)
                 .turning_rest(time, h);
             fastest = if speed > fastest { speed } else { fastest };
         }
@@ -175,10 +169,32 @@ pub(crate) fn opening_speed(
 /// sub-steps cannot be told from rest by a scheme that looks once a sub-step. Two flyers under one
 /// gravity press with nothing, so they always bounce but where turning presses them.
 pub(crate) fn rest_speed(bodies: &Bodies, pair: &Pair, h: f64) -> f64 {
-    rest_speed_between(bodies, pair.bodies, h) + pair.turning_rest
+    RestSpeed::of(bodies, pair, h).all
 }
 
-/// [`rest_speed`] of two bodies, but for what turning adds.
+/// [`rest_speed`], and what is left of it where only pull counts.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RestSpeed {
+    pub(crate) all: f64,
+    /// But for what turning adds: it would sink in before the solver looks.
+    pub(crate) pulled: f64,
+}
+
+impl RestSpeed {
+    /// Whatever approaches rests.
+    pub(crate) const ANY: Self = Self {
+        all: f64::INFINITY,
+        pulled: f64::INFINITY,
+    };
+
+    pub(crate) fn of(bodies: &Bodies, pair: &Pair, h: f64) -> Self {
+        let pulled = rest_speed_between(bodies, pair.bodies, h);
+        let all = pulled + pair.turning_rest;
+        Self { all, pulled }
+    }
+}
+
+/// [`RestSpeed::pulled`] of two bodies.
 pub(crate) fn rest_speed_between(bodies: &Bodies, (a, b): (u32, u32), h: f64) -> f64 {
     let (a, b) = (bodies.get(a), bodies.get(b));
     let pull = |body: &BodyState| {

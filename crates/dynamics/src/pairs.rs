@@ -43,8 +43,19 @@ pub(crate) struct Pair {
 }
 
 impl Pair {
-    /// A place where convex parts of the pair touch, with the normal there from A to B.
+    /// A point of one of its contacts.
     pub(crate) fn spot<'a>(
+        &self,
+        bodies: &'a Bodies,
+        colliders: &'a [Collider],
+        contact: &PairContact,
+        point: Vec2,
+    ) -> Spot<'a> {
+        self.spot_of(bodies, colliders, contact.parts, point, contact.normal)
+    }
+
+    /// A place where convex parts of the pair touch, with the normal there from A to B.
+    pub(crate) fn spot_of<'a>(
         &self,
         bodies: &'a Bodies,
         colliders: &'a [Collider],

@@ -12,7 +12,7 @@ use crate::bodies::Bodies;
 use crate::flight::{first_touch_of_parts, motion_along};
 use crate::hops::hop;
 use crate::modes::CLOSED;
-use crate::narrow::{NOISE, Narrow, TOUCH, opening_speed, pace, rest_speed, rest_speed_between};
+use crate::narrow::{NOISE, Narrow, RestSpeed, TOUCH, opening_speed, pace};
 use crate::pairs::{Pair, PairContact, PairPoint, Pairs};
 use crate::state::{BodyState, Collider};
 use crate::touching::stays;
@@ -81,11 +81,15 @@ pub(crate) fn predict(
     }
     report.pairs += 1;
     let mut first = TimeOfImpact::Clear;
-    let group_rest = rest_speed(bodies, pair, h);
-    let rest = pair
-        .lasting
-        .then(|| group_rest.max(NOISE * pace(a, b, time)));
-    let pulled = rest_speed_between(bodies, pair.bodies, h).max(NOISE * pace(a, b, time));
+    let RestSpeed {
+        all: group_rest,
+        pulled,
+    } = RestSpeed::of(bodies, pair, h);
+    let noise = NOISE * pace(a, b, time);
+    let (rest, pulled) = (
+        pair.lasting.then(|| group_rest.max(noise)),
+        pulled.max(noise),
+    );
     let touch = TOUCH * a.reach.min(b.reach);
     if rest.is_some() {
         narrow.look(bodies, colliders, pair, time, h);
@@ -106,27 +110,12 @@ pub(crate) fn predict(
             }
         }
     }
-    // A touch that opens is none of a group's, nor of the solver's but where what pulls brings it back within a few
-    // sub-steps: it may come back before the group changes, or before the solver looks. Nor is it one that comes down.
     let holds = |contact: &PairContact| {
         if closed {
-            return stays(bodies, (a, b), contact, time, group_rest);
-        }
-        let rate = |p: &PairPoint| opening_speed(a, b, time, p.position, contact.normal);
-        let mut least = (f64::INFINITY, f64::INFINITY);
-        for point in &contact.points {
-            let rate = rate(point);
-            if point.separation <= touch {
-                least.0 = least.0.min(rate);
-            } else {
-                least.1 = least.1.min(rate);
-            }
-        }
-        let touches = least.0 < f64::INFINITY;
-        if touches {
-            least.0 <= pulled || least.1 < -pulled
+            // A touch that opens is none of a group's: it may come back before the group changes.
+            stays(bodies, (a, b), contact, time, group_rest)
         } else {
-            least.1 >= -pulled
+            is_the_solvers((a, b), contact, time, touch, pulled)
         }
     };
     // What becomes of the contacts of a group in closed form is that group's next change.
@@ -205,7 +194,7 @@ pub(crate) fn predict(
     let at = time + wait;
     pair.turning_rest = if pair.material.restitution < 1.0 {
         let parts = impact.features[0].parts;
-        let spot = pair.spot(bodies, colliders, parts, impact.points[0], impact.normal);
+        let spot = pair.spot_of(bodies, colliders, parts, impact.points[0], impact.normal);
         spot.turning_rest(at, h)
     } else {
         0.0
@@ -218,6 +207,31 @@ pub(crate) fn predict(
         normal: impact.normal,
         points: impact.points,
     });
+}
+
+/// Whether the solver holds a contact: one that touches, unless it opens faster than what pulls brings it back within a
+/// few sub-steps, `pulled` m/s, or is one that comes down; of others those that close no faster.
+fn is_the_solvers(
+    (a, b): (&BodyState, &BodyState),
+    contact: &PairContact,
+    time: SimTime,
+    touch: f64,
+    pulled: f64,
+) -> bool {
+    let (mut touching, mut apart) = (f64::INFINITY, f64::INFINITY);
+    for point in &contact.points {
+        let rate = opening_speed(a, b, time, point.position, contact.normal);
+        if point.separation <= touch {
+            touching = touching.min(rate);
+        } else {
+            apart = apart.min(rate);
+        }
+    }
+    if touching < f64::INFINITY {
+        touching <= pulled || apart < -pulled
+    } else {
+        apart >= -pulled
+    }
 }
 
 /// An impact that was found for the parabolas of two bodies, found again for what they fly by near that instant.

@@ -6,7 +6,7 @@ use crate::agenda::Entry;
 use crate::bodies::Bodies;
 use crate::event::EventKind;
 use crate::impact::{ImpactContact, resolve};
-use crate::narrow::{NOISE, Narrow, opening_speed, pace, rest_speed, rest_speed_between};
+use crate::narrow::{NOISE, Narrow, RestSpeed, opening_speed, pace};
 use crate::pairs::Pairs;
 use crate::predict::{BUDGET, price};
 use crate::shock::Shock;
@@ -59,10 +59,10 @@ pub(crate) fn strike(
         return Struck::Nothing;
     }
     touch(bodies, pairs, entry, events);
-    let rest = rest_speed(bodies, pairs.get(entry.pair), h);
+    let RestSpeed { all: rest, pulled } = RestSpeed::of(bodies, pairs.get(entry.pair), h);
     let held = match slow {
         Slow::Rests => rest,
-        Slow::Stops => rest_speed_between(bodies, ends, h),
+        Slow::Stops => pulled,
     };
     let rounding = NOISE * pace(a, b, entry.time);
     let mut stays = false;

@@ -13,7 +13,7 @@ use carom_math::{SimTime, Vec2, perp};
 use crate::Settings;
 use crate::bodies::Bodies;
 use crate::impact::{ImpactBody, ImpactContact, SharedContact, Sweeper, several};
-use crate::narrow::{Narrow, TOUCH, rest_speed, rest_speed_between};
+use crate::narrow::{Narrow, RestSpeed, TOUCH};
 use crate::pairs::Pairs;
 use crate::state::Collider;
 
@@ -75,8 +75,8 @@ pub(crate) struct Shock {
     h: f64,
     pub(crate) strikes: Vec<Strike>,
     pub(crate) bodies: Vec<Shaken>,
-    /// Pairs whose contacts are those of this instant, with the speeds that count as rest there, in m/s.
-    looked: Vec<(u32, f64)>,
+    /// Pairs whose contacts are those of this instant, with the speeds that count as rest there.
+    looked: Vec<(u32, RestSpeed)>,
     /// Slowest rest speed of the pairs, in m/s.
     rest: f64,
 }
@@ -182,12 +182,10 @@ impl Shock {
             *rest
         } else {
             narrow.look(bodies, colliders, pair, self.time, self.h);
-            let rest = rest_speed(bodies, pair, self.h);
+            let rest = RestSpeed::of(bodies, pair, self.h);
             self.looked.push((place, rest));
             rest
         };
-        // What turning alone presses would sink in before the solver looks.
-        let held = rest_speed_between(bodies, pair.bodies, self.h);
         let size = bodies
             .get(pair.bodies.0)
             .reach
@@ -212,7 +210,7 @@ impl Shock {
                 let (a, b) = (&self.bodies[ends.0].after, &self.bodies[ends.1].after);
                 let closing = (a.velocity_of(point.position) - b.velocity_of(point.position))
                     .dot(contact.normal);
-                if closing > held {
+                if closing > rest.pulled {
                     let contact = ImpactContact {
                         point: point.position,
                         normal: contact.normal,
@@ -220,7 +218,7 @@ impl Shock {
                         friction: pair.material.friction,
                     };
                     let belt = pair.material.tangent_speed;
-                    self.add(bodies, place, pair.bodies, (contact, belt), rest);
+                    self.add(bodies, place, pair.bodies, (contact, belt), rest.all);
                 }
             }
         }

@@ -7,7 +7,7 @@ use carom_math::{Pose, SimTime, Vec2, cross_scalar, perp};
 use crate::World;
 use crate::bodies::Bodies;
 use crate::modes::{CLOSED, Feature, ModeBody, ROWS, Touch, hold};
-use crate::narrow::{TOUCH, rest_speed, rest_speed_between};
+use crate::narrow::{RestSpeed, TOUCH};
 use crate::pairs::PairContact;
 use crate::state::BodyState;
 
@@ -257,8 +257,7 @@ impl World {
         if points.any(|point| point.separation < -SUNK * size) {
             return None;
         }
-        let rest = rest_speed(&self.bodies, pair, h);
-        let pulled = rest_speed_between(&self.bodies, pair.bodies, h);
+        let RestSpeed { all: rest, pulled } = RestSpeed::of(&self.bodies, pair, h);
         let (mode_a, mode_b) = (
             mode_body(&self.bodies, a, time),
             mode_body(&self.bodies, b, time),
@@ -339,18 +338,11 @@ impl World {
                 friction: pair.material.friction,
             });
             found.pairs.push((place, number));
-            let spot = |point| {
-                pair.spot(
-                    &self.bodies,
-                    &self.colliders,
-                    contact.parts,
-                    point,
-                    contact.normal,
-                )
+            let press_at = |point: &Vec2| {
+                pair.spot(&self.bodies, &self.colliders, contact, *point)
+                    .turning_rest(time, h)
             };
-            let presses = points_of
-                .iter()
-                .map(|point| spot(*point).turning_rest(time, h));
+            let presses = points_of.iter().map(press_at);
             found.presses.push(presses.fold(f64::INFINITY, f64::min));
         }
         Some(rows)

@@ -9,6 +9,7 @@ use carom_math::{SimTime, Vec2};
 use super::joints::{Held, joint};
 use super::store::{Group, Kept, Membership};
 use crate::World;
+use crate::bodies::Bodies;
 use crate::flight::{Flight, fly, follow};
 use crate::modes::{BodyMove, NotMine, TouchMove};
 use crate::narrow::{TOUCH, rest_speed};
@@ -168,14 +169,9 @@ impl World {
     pub(super) fn set_free(&mut self, members: &[u32], time: SimTime) {
         let left = self.clock.next() - time;
         for &index in members {
-            let state = self.bodies.get(index);
-            let strays = |&(who, acceleration, _): &(u32, Vec2, SimTime)| {
-                who == index && state.motion.acceleration == acceleration
-            };
-            if !self.closed.astray.iter().any(strays)
-                || state.course.flies
-                || state.membership.is_closed()
-                || left <= 0.0
+            let mut astray = self.closed.astray.iter();
+            if left <= 0.0
+                || !astray.any(|it| it.0 == index && goes_on(&self.bodies, it))
                 || self.is_touched(index, time)
             {
                 continue;
@@ -210,8 +206,7 @@ impl World {
                             Approach::Leaves(_) => false,
                             Approach::Closes(_) => true,
                             Approach::Stays => {
-                                let spot =
-                                    pair.spot(bodies, &self.colliders, contact.parts, at.0, at.1);
+                                let spot = pair.spot(bodies, &self.colliders, contact, at.0);
                                 spot.free_press(bodies, pair.bodies, time) > 0.0
                             }
                         }
@@ -224,13 +219,10 @@ impl World {
     /// group that takes them in, or their own flight, gives them another one.
     pub(crate) fn report_astray(&mut self, now: SimTime) {
         let (bodies, report) = (&self.bodies, &mut self.report);
-        self.closed.astray.retain(|&(index, acceleration, since)| {
-            let state = bodies.get(index);
-            let goes_on = state.motion.acceleration == acceleration
-                && !state.course.flies
-                && !state.membership.is_closed();
-            report.handed_over += u64::from(goes_on && since < now);
-            goes_on && since == now
+        self.closed.astray.retain(|it| {
+            let (still, since) = (goes_on(bodies, it), it.2);
+            report.handed_over += u64::from(still && since < now);
+            still && since == now
         });
     }
 
@@ -322,6 +314,14 @@ impl World {
         })
         .collect()
     }
+}
+
+/// Whether who left the path of a group still goes on by the parabola of that instant.
+fn goes_on(bodies: &Bodies, &(index, acceleration, _): &(u32, Vec2, SimTime)) -> bool {
+    let state = bodies.get(index);
+    state.motion.acceleration == acceleration
+        && !state.course.flies
+        && !state.membership.is_closed()
 }
 
 fn moved(place: &Place) -> BodyMove {

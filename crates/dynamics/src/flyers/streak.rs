@@ -46,8 +46,8 @@ impl Streak {
     const LEAST: u8 = 5;
 
     /// An impact at `time` with an approach of `speed` m/s, after which, were it all that ever acts,
-    /// bounces would last for `left` seconds. A streak ends where an interval is twice as long as the
-    /// longest lately, or an impact stronger than the first.
+    /// bounces would last for `left` seconds. A streak ends where an impact is stronger than the
+    /// first, or an interval twice as long as the last one; where nothing presses (`left` is 0), as the longest lately.
     pub(crate) fn hit(&mut self, time: SimTime, speed: f64, left: f64) {
         let gap = time - self.last;
         let late = self.count > 1 && gap > 2.0 * f64::from(self.longest);

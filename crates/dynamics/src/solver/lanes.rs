@@ -108,7 +108,7 @@ impl Lanes {
 
     /// Puts a row of the same two bodies into the lane of an old one.
     pub(super) fn rewrite(&mut self, id: RowId, row: &Row, lines: &[Line]) {
-        self.belts |= row.belt != 0.0;
+        self.notes(row);
         let (a, b) = (row.bodies.0 as usize, row.bodies.1 as usize);
         let (wide, lane) = self.at_mut(id);
         wide.put(lane, row, &lines[a], &lines[b]);

@@ -179,12 +179,7 @@ impl Rig {
     /// Puts a new row of the same two bodies into the lane of an old one.
     pub(crate) fn rewrite(&mut self, id: RowId, row: &Row) {
         debug_assert_eq!(self.row(id).bodies, row.bodies, "a lane is of two bodies");
-        let (wide, lane) = self.lanes.at(id);
-        let (push, turn_a, turn_b) = wide.push(lane);
-        let new = push_of(row);
-        let change = (new.0 - push, new.1 - turn_a, new.2 - turn_b);
-        self.push(row.bodies, change);
-        self.retell(id, row);
+        self.replace(id, |_, _| *row);
     }
 
     /// The same for a row that is made from the impulses of the old one.

@@ -71,7 +71,7 @@ impl World {
             );
             self.report.pairs += 1;
             let colliders = pair.colliders;
-            self.drop_grazes(colliders, slots, size);
+            self.drop_grazes(colliders, slots, poses, size);
             let load = self.face(place, slots, poses, against.speed(), size);
             (gap.separation, poses[0].vector(gap.normal), load)
         } else {

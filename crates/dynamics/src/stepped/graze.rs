@@ -6,7 +6,7 @@
 //! hair of their length, become rows only if the bodies would meet but for a skin of their width.
 
 use carom_collision::{Motion, PartManifold, TimeOfImpact, part, time_of_impact_of_parts};
-use carom_math::{SimTime, Vec2};
+use carom_math::{Pose, SimTime, Vec2};
 
 use crate::World;
 
@@ -19,11 +19,17 @@ const ALONG: f64 = 1e-6;
 
 impl World {
     /// Drops the contacts of the present look along which two bodies pass each other.
-    pub(super) fn drop_grazes(&mut self, colliders: (u32, u32), slots: [u32; 2], size: f64) {
+    pub(super) fn drop_grazes(
+        &mut self,
+        colliders: (u32, u32),
+        slots: [u32; 2],
+        poses: [Pose; 2],
+        size: f64,
+    ) {
         let mut found = core::mem::take(&mut self.pool.found);
         found.retain(|contact| {
-            !self.is_hair(contact, colliders, slots, size)
-                || self.cores_meet(contact, colliders, slots)
+            !self.is_hair(contact, colliders, poses, size)
+                || self.cores_meet(contact, colliders, slots, poses)
         });
         self.pool.found = found;
     }
@@ -33,7 +39,7 @@ impl World {
         &self,
         contact: &PartManifold,
         colliders: (u32, u32),
-        slots: [u32; 2],
+        poses: [Pose; 2],
         size: f64,
     ) -> bool {
         let part_of = |k: usize| {
@@ -53,7 +59,7 @@ impl World {
                         .any(|edge| edge.dot(n) > 0.0 && carom_math::cross(*edge, n).abs() < ALONG)
                 };
                 let in_b = || {
-                    let [a, b] = slots.map(|slot| self.pool.seats.pose(slot).rotation);
+                    let [a, b] = poses.map(|pose| pose.rotation);
                     b.inverse() * (a * -normal)
                 };
                 !along(parts[0].normals, normal) && !along(parts[1].normals, in_b())
@@ -87,13 +93,14 @@ impl World {
         contact: &PartManifold,
         colliders: (u32, u32),
         slots: [u32; 2],
+        poses: [Pose; 2],
     ) -> bool {
         let solid = &self.colliders[colliders.0 as usize].solid;
         let cores = self.pool.cores.of(colliders.0, solid);
         let target = &self.colliders[colliders.1 as usize].solid;
-        let seats = &self.pool.seats;
-        let [a, b] = slots.map(|slot| {
-            let (pose, line) = (seats.pose(slot), &seats.rig.lines[slot as usize]);
+        let lines = &self.pool.seats.rig.lines;
+        let [a, b] = [0, 1].map(|k| {
+            let (pose, line) = (poses[k], &lines[slots[k] as usize]);
             Motion {
                 start: SimTime::ZERO,
                 velocity: line.v(),
