@@ -1,14 +1,23 @@
-//! What must stay in place stays in place: the numbers that every change of the solver is held to.
+//! What must stay in place stays in place, in hybrid mode and in stepped mode: the numbers that every change of the solver is
+//! held to.
 
 use carom_dynamics::{BodyDef, BodyKind, Settings, World};
 use carom_geometry::{Circle, ConvexPolygon};
 use carom_math::vec2;
-use carom_tests::scenes::built;
+use carom_tests::scenes::{built, built_stepped};
 use carom_tests::{elastic, overlaps, run};
 
 #[test]
 fn thesis_scene_keeps_everything_inside_and_apart_for_a_minute() {
-    let mut world = built("thesis");
+    keeps_everything_inside_and_apart(built("thesis"));
+}
+
+#[test]
+fn thesis_scene_in_stepped_mode_keeps_everything_inside_and_apart_for_a_minute() {
+    keeps_everything_inside_and_apart(built_stepped("thesis"));
+}
+
+fn keeps_everything_inside_and_apart(mut world: World) {
     let mut deepest = 0.0_f64;
     run(&mut world, 60.0, |world| {
         deepest = deepest.max(overlaps(world).0);
@@ -33,7 +42,15 @@ fn thesis_scene_keeps_everything_inside_and_apart_for_a_minute() {
 
 #[test]
 fn a_stack_of_ten_stands_for_half_a_minute() {
-    let mut world = built("stack");
+    stands_for_half_a_minute(built("stack"));
+}
+
+#[test]
+fn a_stack_of_ten_in_stepped_mode_stands_for_half_a_minute() {
+    stands_for_half_a_minute(built_stepped("stack"));
+}
+
+fn stands_for_half_a_minute(mut world: World) {
     let top = world
         .bodies()
         .max_by(|a, b| a.centre().y.total_cmp(&b.centre().y))
@@ -55,7 +72,15 @@ fn a_stack_of_ten_stands_for_half_a_minute() {
 
 #[test]
 fn a_pile_of_200_polygons_comes_to_rest_without_sinking() {
-    let mut world = built("pile");
+    comes_to_rest_without_sinking(built("pile"));
+}
+
+#[test]
+fn a_pile_of_200_polygons_in_stepped_mode_comes_to_rest_without_sinking() {
+    comes_to_rest_without_sinking(built_stepped("pile"));
+}
+
+fn comes_to_rest_without_sinking(mut world: World) {
     run(&mut world, 20.0, |_| {});
     let (_, mean) = overlaps(&world);
     assert!(

@@ -3,71 +3,8 @@
 use carom_dynamics::{BodyDef, BodyKind, EventKind, Material, Settings};
 use carom_geometry::HalfPlane;
 use carom_math::{Pose, Rot, Vec2, vec2};
-use carom_tests::scenes::{boxed, built_stepped, column, disc, floor, put, stepped};
-use carom_tests::{elastic, overlaps, run};
-
-#[test]
-fn thesis_scene_stays_inside_and_apart_for_a_minute() {
-    let mut world = built_stepped("thesis");
-    let mut deepest = 0.0_f64;
-    run(&mut world, 60.0, |world| {
-        deepest = deepest.max(overlaps(world).0);
-        let moving = world
-            .bodies()
-            .filter(|body| body.kind() == BodyKind::Dynamic);
-        for body in moving {
-            let c = body.centre();
-            assert!(
-                c.x.abs() < 8.0 && (0.0..12.0).contains(&c.y),
-                "{} at {c} after {} s",
-                body.id(),
-                world.time().as_secs()
-            );
-        }
-    });
-    assert!(deepest <= 5e-3, "deepest overlap {deepest:.2e} m");
-}
-
-#[test]
-fn a_stack_of_ten_stands_for_half_a_minute() {
-    let mut world = built_stepped("stack");
-    let top = world
-        .bodies()
-        .max_by(|a, b| a.centre().y.total_cmp(&b.centre().y))
-        .map(|body| (body.id(), body.centre()))
-        .expect("ten boxes");
-    let mut moved = 0.0_f64;
-    run(&mut world, 30.0, |world| {
-        let now = world.body(top.0).expect("it stays").centre();
-        moved = moved.max((now - top.1).length());
-    });
-    assert!(
-        moved <= 5e-3,
-        "the top moved {moved:.2e} m, expected at most 5e-3"
-    );
-}
-
-#[test]
-fn a_pile_of_200_polygons_comes_to_rest_without_sinking() {
-    let mut world = built_stepped("pile");
-    run(&mut world, 20.0, |_| {});
-    let (_, mean) = overlaps(&world);
-    assert!(
-        mean <= 5e-3,
-        "mean overlap {mean:.2e} m, expected at most 5e-3"
-    );
-    let moving = world
-        .bodies()
-        .filter(|body| body.kind() == BodyKind::Dynamic);
-    let scale: f64 = moving
-        .map(|body| body.mass() * 9.81 * body.aabb().extents().max_element())
-        .sum();
-    let kinetic = world.energy().kinetic;
-    assert!(
-        kinetic < 1e-4 * scale,
-        "kinetic {kinetic:.2e} J of {scale:.2e}, expected below 1e-4"
-    );
-}
+use carom_tests::scenes::{boxed, column, disc, floor, put, stepped};
+use carom_tests::{elastic, run};
 
 #[test]
 fn the_apex_of_an_elastic_ball_stays_within_a_thousandth() {
