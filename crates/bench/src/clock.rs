@@ -48,8 +48,19 @@ impl CpuClock {
 /// Largest resident memory of this process so far, in MiB; `None` where the system does not say.
 #[must_use]
 pub fn peak_memory() -> Option<f64> {
+    memory("VmHWM:")
+}
+
+/// Resident pages of files, in MiB: of the program itself and its libraries, as far as they have run; `None` where the
+/// system does not say.
+#[must_use]
+pub(crate) fn program_memory() -> Option<f64> {
+    memory("RssFile:")
+}
+
+fn memory(name: &str) -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
+    let line = status.lines().find(|line| line.starts_with(name))?;
     let kib: f64 = line.split_whitespace().nth(1)?.parse().ok()?;
     Some(kib / 1024.0)
 }

@@ -3,7 +3,7 @@
 use carom_scenes::{PlainKind, PlainScene, plain_scene, plain_scenes};
 use serde::{Deserialize, Serialize};
 
-use crate::clock::{CpuClock, peak_memory};
+use crate::clock::{CpuClock, peak_memory, program_memory};
 use crate::engine::{Counters, Engine, EngineError, Mode, Setup};
 use crate::engines::{EngineName, open};
 use crate::job::Reading;
@@ -88,6 +88,10 @@ pub struct SpeedReading {
     /// Largest resident memory before the scene was built, in MiB: the process's own.
     #[serde(default)]
     pub own_mib: Option<f64>,
+    /// What of the peak beyond that is the program itself, in MiB: pages of it that ran for the first time. It does not
+    /// grow with the scene.
+    #[serde(default)]
+    pub program_mib: Option<f64>,
     /// As the engine was set.
     pub settings: String,
 }
@@ -112,7 +116,7 @@ pub struct StageReading {
 /// # Errors
 /// If there is no such scene, the engine refuses it, or the time ran out before a step was measured.
 pub(crate) fn run(job: &SpeedJob) -> Result<SpeedReading, EngineError> {
-    let own_mib = peak_memory();
+    let (own_mib, own_program) = (peak_memory(), program_memory());
     let mut race = Race::start(job)?;
     let ms_first = race.warm_up();
     let before = race.snapshot();
@@ -122,6 +126,8 @@ pub(crate) fn run(job: &SpeedJob) -> Result<SpeedReading, EngineError> {
     let after = race.snapshot();
     // Before judging: the judge's memory is not the engine's.
     let peak_mib = peak_memory();
+    let program_mib = program_memory().zip(own_program);
+    let program_mib = program_mib.map(|(now, own)| now - own);
     let counters = race.engine.counters();
     let settings = race.engine.settings();
     let (warm_up_steps, measured_steps, cut) = (race.warmed, race.measured, race.cut);
@@ -152,6 +158,7 @@ pub(crate) fn run(job: &SpeedJob) -> Result<SpeedReading, EngineError> {
         counters,
         peak_mib,
         own_mib,
+        program_mib,
         settings,
     })
 }

@@ -46,6 +46,8 @@ pub(crate) struct SpeedRow {
     pub(crate) peak_mib: Option<f64>,
     /// Peak memory beyond the process's own, over the dynamic bodies.
     pub(crate) kib_per_body: Option<f64>,
+    /// The same without the pages of the program itself.
+    pub(crate) data_kib_per_body: Option<f64>,
     pub(crate) repetitions: u32,
     /// Whether time ran out before all steps were made.
     pub(crate) cut: bool,
@@ -126,16 +128,31 @@ fn row(job: &SpeedJob, readings: &[&Reading]) -> SpeedRow {
                 .filter_map(|reading| kib_per_body(reading))
                 .collect(),
         ),
+        data_kib_per_body: median(
+            good.iter()
+                .filter_map(|reading| data_kib_per_body(reading))
+                .collect(),
+        ),
         repetitions: u32::try_from(good.len()).unwrap_or(u32::MAX),
         cut: good.iter().any(|reading| reading.cut),
         failed,
     }
 }
 
-#[expect(clippy::cast_precision_loss, reason = "a count of bodies")]
 fn kib_per_body(reading: &SpeedReading) -> Option<f64> {
+    shared(reading.peak_mib? - reading.own_mib?, reading)
+}
+
+fn data_kib_per_body(reading: &SpeedReading) -> Option<f64> {
+    let data = reading.peak_mib? - reading.own_mib? - reading.program_mib?;
+    shared(data, reading)
+}
+
+/// So many MiB over the dynamic bodies, in KiB.
+#[expect(clippy::cast_precision_loss, reason = "a count of bodies")]
+fn shared(mib: f64, reading: &SpeedReading) -> Option<f64> {
     let bodies = Some(reading.bodies).filter(|count| *count > 0)?;
-    Some(1024.0 * (reading.peak_mib? - reading.own_mib?) / bodies as f64)
+    Some(1024.0 * mib / bodies as f64)
 }
 
 /// Time of the fastest peer in the same scene on as many threads that reads as much.
@@ -249,6 +266,7 @@ pub(crate) mod tests {
             },
             peak_mib: None,
             own_mib: None,
+            program_mib: None,
             settings: "s".to_owned(),
         })
     }
@@ -301,10 +319,12 @@ pub(crate) mod tests {
         let Reading::Speed(mut big) = reading(1.0) else {
             panic!("a reading");
         };
-        // 5 bodies in 10 MiB beyond the 2 MiB of the process.
+        // 5 bodies in 10 MiB beyond the 2 MiB of the process, 5 of them the program.
         (big.peak_mib, big.own_mib) = (Some(12.0), Some(2.0));
+        big.program_mib = Some(5.0);
         let rows = of(&[measured(EngineName::Rapier, 0, Reading::Speed(big))]);
         assert_eq!(rows[0].kib_per_body, Some(2048.0));
+        assert_eq!(rows[0].data_kib_per_body, Some(1024.0));
         assert_eq!(some()[0].kib_per_body, None);
     }
 

@@ -13,7 +13,7 @@ pub(crate) fn markdown(head: &Head, rows: &[SpeedRow]) -> String {
     text += "\nms: CPU time of a step on one thread, wall time on several: mean, median and 99th percentile over the measured steps, \
              median of the repetitions. Ratio: of the means, to the fastest peer with as many threads that reads as much. Energy: after the measured \
              steps over before them. Overlap (m), rms acceleration (m/s²) and drift (m): judged by the same code for all. \
-             MiB: peak memory of the process; KiB a body: beyond what it took before the scene, over the dynamic bodies. \
+             MiB: peak memory of the process; KiB a body: beyond what it took before the scene, over the dynamic bodies; of data: without pages of the program itself. \
              – was not measured; cut: time ran out before all steps were made.\n";
     for scene in row::scenes(rows) {
         let of_scene: Vec<&SpeedRow> = rows.iter().filter(|row| row.scene == scene).collect();
@@ -58,6 +58,7 @@ fn lines(text: &mut String, rows: &[&SpeedRow]) {
         "not finite",
         "MiB",
         "KiB a body",
+        "of data",
         "first step ms",
     ];
     let _ = write!(
@@ -102,6 +103,7 @@ fn lines(text: &mut String, rows: &[&SpeedRow]) {
             row.peak_mib
                 .map_or_else(|| "–".to_owned(), |mib| format!("{mib:.0}")),
             text::number(row.kib_per_body),
+            text::number(row.data_kib_per_body),
             text::number(row.ms_first),
         ];
         let _ = writeln!(text, "| {} |", cells.join(" | "));
