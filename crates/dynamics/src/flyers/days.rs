@@ -135,6 +135,14 @@ impl Days {
         }
     }
 
+    /// All days are empty: gives back the room that nobody used since this was last said, so that a pile that landed leaves
+    /// none behind.
+    pub(super) fn give_back(&mut self) {
+        debug_assert_eq!(self.count, 0, "every day was taken");
+        self.chunks.truncate((self.used as usize).div_ceil(CHUNK));
+        (self.used, self.free) = (0, NONE);
+    }
+
     /// An empty block.
     fn unused(&mut self) -> u32 {
         if self.free != NONE {
@@ -191,6 +199,24 @@ mod tests {
                 most = most.max(twin.iter().map(|day| day.len().div_ceil(BLOCK)).sum());
             }
             prop_assert_eq!(days.used as usize, most);
+
+            // Once all are empty there is room for as many as came since that was last so.
+            for day in 0..5 {
+                days.take(day, 3, |_| ());
+            }
+            days.give_back();
+            prop_assert_eq!(days.chunks.len(), most.div_ceil(CHUNK));
+            for a in 0..7 {
+                let (time, what) = (SimTime::of_parts(3, 1e-3), Ahead::Horizon.into());
+                days.push(2, Entry { time, a, b: a, stamp: 0, what });
+            }
+            let mut found = 0;
+            days.take(2, 3, |_| found += 1);
+            prop_assert_eq!(found, 7);
+            days.give_back();
+            prop_assert_eq!(days.chunks.len(), 1);
+            days.give_back();
+            prop_assert_eq!(days.chunks.len(), 0);
         }
     }
 }

@@ -266,6 +266,7 @@ impl Queue {
             self.days
                 .take(slot(day), units_of(day, old), |entry| later.push(entry));
         }
+        self.days.give_back();
         self.come = 0;
         let renamed = if shift >= old {
             day << (shift - old)

@@ -31,7 +31,7 @@ impl World {
         let pull = seats.rig.pull(slot);
         let keeps = |course: &Course| course.holds(seat, line, &pull, start + seconds, 0.0);
         // Whoever left its course may have left its boxes, or met whom it could not have met on it.
-        if !(seat.course.as_ref().is_none_or(keeps) && state.colliders.iter().all(holds)) {
+        if !(seat.course.as_deref().is_none_or(keeps) && state.colliders.iter().all(holds)) {
             // The way is not over: the boxes hold what is ahead of it, and what lies behind.
             let behind = state.colliders.iter();
             let behind = behind.map(|at| {
@@ -51,13 +51,13 @@ impl World {
         let (seat, line) = (seats.get(slot), &seats.rig.lines[slot as usize]);
         let pull = seats.rig.pull(slot);
         let holds = |course: &Course| course.holds(seat, line, &pull, time, seconds);
-        if seat.course.as_ref().is_some_and(holds) && !self.lacks_boxes(index) {
+        if seat.course.as_deref().is_some_and(holds) && !self.lacks_boxes(index) {
             return false;
         }
         let (lasts, line_of) = (TICKS * self.settings.tick, *line);
         let seat = self.pool.seats.get_mut(slot);
         seat.roamed = f64::INFINITY;
-        seat.course = Some(Course {
+        let course = Course {
             from: time,
             centre: seat.base.position + line_of.d(),
             velocity: line_of.v(),
@@ -66,7 +66,11 @@ impl World {
             spin: line_of.w(),
             // The last instant counts.
             lasts: lasts * (1.0 + 1e-9),
-        });
+        };
+        match &mut seat.course {
+            Some(known) => **known = course,
+            none => *none = Some(Box::new(course)),
+        }
         self.box_anew(index, slot, time, &[]);
         true
     }

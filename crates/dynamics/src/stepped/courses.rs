@@ -89,7 +89,7 @@ impl On {
                 off: 0.0,
             });
         }
-        let course = seat.course?;
+        let course = seat.course.as_deref()?;
         let passed = time - course.from;
         let left = course.lasts - passed;
         (left > 0.0).then(|| Self {
@@ -151,7 +151,10 @@ impl World {
             slot,
             reach: seat.reach,
             rim: seat.rim,
-            sets_out: seat.course.is_some_and(|course| course.from == time),
+            sets_out: seat
+                .course
+                .as_deref()
+                .is_some_and(|course| course.from == time),
             on: On::new(seat, time)?,
         })
     }

@@ -264,7 +264,10 @@ impl World {
 
     /// Flyers that may meet a member within a tick; the members' boxes hold them that long.
     pub(super) fn scout(&mut self, time: SimTime) {
+        // A blow that has many join leaves a long list behind.
+        let used = self.pairs.near.len();
         self.pairs.near.clear();
+        self.pairs.near.shrink_to(4 * used);
         let aloft = &mut self.pool.crowd.aloft;
         aloft.sort_unstable();
         aloft.dedup();

@@ -38,7 +38,7 @@ pub(crate) struct Seats {
 }
 
 /// A body's seat.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Seat {
     /// The body; `u32::MAX`: nobody.
     pub(crate) body: u32,
@@ -64,8 +64,8 @@ pub(crate) struct Seat {
     finest: f64,
     /// How far it went since its boxes were made, at most, in m; infinite if they are those of a course.
     pub(crate) roamed: f64,
-    /// What its boxes were stretched along.
-    pub(super) course: Option<Course>,
+    /// What its boxes were stretched along: of those who are quick, a few in most worlds.
+    pub(super) course: Option<Box<Course>>,
 }
 
 /// Where a body was bound for.
