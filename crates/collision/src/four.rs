@@ -36,7 +36,10 @@ fn heights(block: &EdgeBlock, facing: &EdgeBlock, turn: Rot, offset: Vec2) -> [f
             low[lane] = smaller(along, low[lane]);
         }
     }
-    [0, 1, 2, 3].map(|lane| low[lane] + over(block, lane, offset))
+    for (lane, low) in low.iter_mut().enumerate() {
+        *low += over(block, lane, offset);
+    }
+    low
 }
 
 /// Which edge is farthest from the corners of `facing`, the first of equals, and its height.
@@ -58,7 +61,10 @@ pub(crate) fn widest_edge(
 /// The corner with the smallest `direction · q`, the first of equals, and that.
 #[inline]
 pub(crate) fn lowest(block: &EdgeBlock, direction: Vec2) -> (usize, f64) {
-    let low = [0, 1, 2, 3].map(|lane| direction.x * block.x[lane] + direction.y * block.y[lane]);
+    let mut low = [0.0; 4];
+    for (lane, low) in low.iter_mut().enumerate() {
+        *low = direction.x * block.x[lane] + direction.y * block.y[lane];
+    }
     let earlier = |i: (usize, f64), j: (usize, f64)| if j.1 < i.1 { j } else { i };
     earlier(
         earlier((0, low[0]), (1, low[1])),

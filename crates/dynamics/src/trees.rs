@@ -19,6 +19,9 @@ pub(crate) enum Leaf {
 pub(crate) struct Trees {
     still: BoxTree,
     on_course: BoxTree,
+    /// New boxes of those on their courses that the tree does not know yet.
+    late: Vec<(NodeId, Aabb)>,
+    gathers: bool,
 }
 
 impl Trees {
@@ -26,11 +29,28 @@ impl Trees {
         self.still.is_empty() && self.on_course.is_empty()
     }
 
+    /// From now on boxes of those on their courses come to the tree all at once, by [`Self::settle`]; nobody asks it
+    /// before.
+    pub(crate) const fn gather(&mut self) {
+        self.gathers = true;
+    }
+
+    /// The tree knows all boxes again.
+    pub(crate) fn settle(&mut self) {
+        self.gathers = false;
+        if !self.late.is_empty() {
+            self.on_course.update_all(self.late.drain(..));
+        }
+    }
+
     /// Gives shape `at` a new box.
     pub(crate) fn put(&mut self, leaf: &mut Option<Leaf>, bounds: Aabb, at: u32, on_course: bool) {
         match *leaf {
             Some(Leaf::Still(node)) if !on_course => {
                 self.still.update(node, bounds);
+            }
+            Some(Leaf::OnCourse(node)) if on_course && self.gathers => {
+                self.late.push((node, bounds));
             }
             Some(Leaf::OnCourse(node)) if on_course => {
                 self.on_course.update(node, bounds);
@@ -57,6 +77,7 @@ impl Trees {
 
     /// Calls `found` with every shape whose box overlaps `bounds`.
     pub(crate) fn query(&self, bounds: Aabb, mut found: impl FnMut(u32)) {
+        debug_assert!(self.late.is_empty(), "boxes that the tree does not know");
         self.still.query(bounds, &mut found);
         self.on_course.query(bounds, found);
     }

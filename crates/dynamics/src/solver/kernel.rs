@@ -131,26 +131,46 @@ fn block<S: Simd, const RELAX: bool, const BELTS: bool, const OFTEN: bool>(
     let gap1 = f64x8::from_slice(simd, &wide.s1) + moved1;
     let gap2 = f64x8::from_slice(simd, &wide.s2) + moved2;
 
-    let k11 = f64x8::from_slice(simd, &wide.k11);
-    let k12 = f64x8::from_slice(simd, &wide.k12);
-    let k22 = f64x8::from_slice(simd, &wide.k22);
     let reach = f64x8::splat(simd, law.inverse_h);
     let mut met = 0;
-    let (u1, u2, s11, s22, omega);
-    if RELAX {
-        u1 = v1 + gap1.max(zero) * reach;
-        u2 = v2 + gap2.max(zero) * reach;
-        (s11, s22) = (k11, k22);
-        omega = f64x8::splat(simd, law.often);
-    } else {
+    let mut struck = zero.simd_lt(zero);
+    if !RELAX {
         let (fast, near) = (
             f64x8::splat(simd, -MET),
             f64x8::splat(simd, 0.5 * Row::OPEN),
         );
         let met1 = v1.simd_lt(fast) & gap1.simd_lt(near);
         let met2 = v2.simd_lt(fast) & gap2.simd_lt(near);
-        let struck = met1 | met2;
+        struck = met1 | met2;
         met = struck.to_bitmask();
+    }
+    // Where nothing pushes, and no gap closes in this sub-step, nothing will: u ≥ 0, and the impulses that solve for it are 0.
+    let (counts1, counts2) = if RELAX {
+        (gap1.max(zero), gap2.max(zero))
+    } else {
+        (gap1, gap2)
+    };
+    let closes = (v1 + counts1 * reach)
+        .min(v2 + counts2 * reach)
+        .simd_lt(zero);
+    let mut pushes = j1 + j2;
+    if RELAX {
+        pushes += f64x8::from_slice(simd, &wide.jt).abs();
+    }
+    if (closes | pushes.simd_gt(zero)).to_bitmask() == 0 {
+        return met;
+    }
+
+    let k11 = f64x8::from_slice(simd, &wide.k11);
+    let k12 = f64x8::from_slice(simd, &wide.k12);
+    let k22 = f64x8::from_slice(simd, &wide.k22);
+    let (u1, u2, s11, s22, omega);
+    if RELAX {
+        u1 = v1 + counts1 * reach;
+        u2 = v2 + counts2 * reach;
+        (s11, s22) = (k11, k22);
+        omega = f64x8::splat(simd, law.often);
+    } else {
         let (open1, open2) = (gap1.simd_gt(zero), gap2.simd_gt(zero));
         let ground = ma.min(mb).simd_eq(zero);
         let rate = ground.select(

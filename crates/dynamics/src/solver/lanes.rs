@@ -265,6 +265,20 @@ impl Lanes {
         }
     }
 
+    /// Rows that pushed when [`Self::turned`] was last asked lie side by side from now on. No sum depends on where a row of
+    /// a colour lies, but for that of heat.
+    pub(crate) fn part_idle(&mut self) {
+        for zone in &mut self.zones {
+            let places = &mut self.places;
+            zone.part_idle(|id, index| {
+                #[expect(clippy::cast_possible_truncation, reason = "fewer than 2^32 rows")]
+                {
+                    places[id.0 as usize].index = index as u32;
+                }
+            });
+        }
+    }
+
     /// Bodies of all rows that push.
     pub(crate) fn links(&self) -> impl Iterator<Item = (u32, u32)> + use<'_> {
         self.zones.iter().flat_map(|zone| {

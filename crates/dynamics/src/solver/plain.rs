@@ -9,11 +9,46 @@ use super::{Law, Row};
 pub(crate) fn sweep(pass: Pass, law: &Law, lines: &mut [Line], colours: &mut [Vec<Wide>]) -> f64 {
     let mut heat = [0.0; LANES];
     for wide in colours.iter_mut().flatten() {
+        if is_idle(pass, law, lines, wide) {
+            continue;
+        }
         for (lane, heat) in heat.iter_mut().enumerate() {
             row(pass, law, lines, wide, lane, heat);
         }
     }
     heat.iter().fold(0.0, |sum, heat| sum + heat)
+}
+
+/// Every row, of blocks in which nothing pushes, too: changes nothing there but signs of zeros.
+pub(crate) fn sweep_all(pass: Pass, law: &Law, lines: &mut [Line], colours: &mut [Vec<Wide>]) {
+    for wide in colours.iter_mut().flatten() {
+        for lane in 0..LANES {
+            row(pass, law, lines, wide, lane, &mut 0.0);
+        }
+    }
+}
+
+/// Whether no row of a block pushes, and none closes in this sub-step.
+pub(crate) fn is_idle(pass: Pass, law: &Law, lines: &[Line], wide: &Wide) -> bool {
+    let relax = !matches!(pass, Pass::Solve | Pass::SolveOften);
+    (0..LANES).all(|lane| {
+        let (a, b) = (wide.a[lane], wide.b[lane]);
+        let row = wide.row(lane, (a, b), lines);
+        let (a, b) = (&lines[a as usize], &lines[b as usize]);
+        let v1 = row.n.x * (b.v().x - a.v().x) + row.n.y * (b.v().y - a.v().y) + row.b[0] * b.w()
+            - row.a[0] * a.w();
+        let v2 = v1 + wide.l[lane] * (b.w() - a.w());
+        let moved1 =
+            row.n.x * (b.d().x - a.d().x) + row.n.y * (b.d().y - a.d().y) + row.b[0] * b.turn()
+                - row.a[0] * a.turn();
+        let moved2 = moved1 + wide.l[lane] * (b.turn() - a.turn());
+        let closes = |v: f64, gap: f64| {
+            let counts = if relax { positive(gap) } else { gap };
+            v + counts * law.inverse_h < 0.0
+        };
+        let pushes = row.j[0] + row.j[1] + if relax { row.jt.abs() } else { 0.0 } > 0.0;
+        !pushes && !closes(v1, wide.s1[lane] + moved1) && !closes(v2, wide.s2[lane] + moved2)
+    })
 }
 
 /// The second where both are equal, or zeros of either sign.

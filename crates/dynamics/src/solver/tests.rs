@@ -269,13 +269,34 @@ proptest! {
         }
     }
 
+    /// Blocks in which nothing pushes, and no gap closes, may be left out.
+    #[test]
+    fn idle_blocks_change_nothing(seed in any::<u64>(), open in 0.0..0.05_f64) {
+        let law = Law::new(&Softness::default(), 1.0 / 240.0);
+        let (mut rig, ..) = heap(seed, 12, 40);
+        for wide in rig.lanes.zones[0].colours.iter_mut().flatten().step_by(2) {
+            (wide.j1, wide.j2, wide.jt) = Default::default();
+            wide.s1.iter_mut().chain(&mut wide.s2).for_each(|gap| *gap = gap.abs() + open);
+        }
+        for pass in [Pass::Solve, Pass::SolveOften, Pass::Relax, Pass::RelaxBelts, Pass::RelaxOften] {
+            let [mut some, mut all] = [rig.clone(), rig.clone()];
+            plain::sweep(pass, &law, &mut some.lines, &mut some.lanes.zones[0].colours);
+            plain::sweep_all(pass, &law, &mut all.lines, &mut all.lanes.zones[0].colours);
+            prop_assert_eq!(&some.lines, &all.lines);
+            let blocks = some.lanes.zones[0].colours.iter().flatten();
+            for (x, y) in blocks.zip(all.lanes.zones[0].colours.iter().flatten()) {
+                prop_assert_eq!((x.j1, x.j2, x.jt), (y.j1, y.j2, y.jt));
+            }
+        }
+    }
+
     #[test]
     fn the_warm_start_is_kept_whatever_changes(seed in any::<u64>()) {
         let mut dice = Dice(seed);
         let law = Law::new(&Softness::default(), 1.0 / 240.0);
         let (mut rig, mut slots, mut ids) = heap(seed, 10, 20);
         for _ in 0..60 {
-            let op = dice.pick(8);
+            let op = dice.pick(9);
             match op {
                 0 => {
                     if let Some(row) = dice.row(&rig, &slots) {
@@ -315,6 +336,13 @@ proptest! {
                     if rig.lines[slot as usize].inverse_inertia() > 0.0 {
                         rig.set_mass(slot, m, i);
                     }
+                }
+                7 => {
+                    let before: Vec<[f64; 2]> = ids.iter().map(|id| rig.row(*id).j).collect();
+                    rig.lanes.turned(&mut Vec::new());
+                    rig.lanes.part_idle();
+                    let after: Vec<[f64; 2]> = ids.iter().map(|id| rig.row(*id).j).collect();
+                    prop_assert_eq!(before, after);
                 }
                 _ => rig.step(&law, &Often::default(), |_| ()),
             }

@@ -186,6 +186,15 @@ impl Wide {
         }
     }
 
+    /// Exchanges a lane of this block with one of another.
+    pub(crate) fn swap_lanes(&mut self, lane: usize, other: &mut Self, theirs: usize) {
+        core::mem::swap(&mut self.a[lane], &mut other.a[theirs]);
+        core::mem::swap(&mut self.b[lane], &mut other.b[theirs]);
+        for (x, y) in self.columns_mut().into_iter().zip(other.columns_mut()) {
+            core::mem::swap(&mut x[lane], &mut y[theirs]);
+        }
+    }
+
     fn columns(&self) -> [&[f64; LANES]; 18] {
         [
             &self.nx, &self.ny, &self.a1, &self.b1, &self.l, &self.k11, &self.k12, &self.k22,

@@ -136,4 +136,35 @@ impl Zone {
             }
         }
     }
+
+    /// Brings rows that pushed when they were last asked into the first blocks of their colours: blocks in which nothing
+    /// pushes are left alone. Calls `moved` with every row that lies elsewhere now, and its index in its colour.
+    pub(super) fn part_idle(&mut self, mut moved: impl FnMut(RowId, usize)) {
+        let all = self.colours.iter_mut().zip(&mut self.owners);
+        for ((blocks, owners), acts) in all.zip(&mut self.acts).take(COLOURS) {
+            let (mut first, mut last) = (0, blocks.len());
+            // Blocks before `first` are full of rows that push, and those from `last` on have none.
+            while first + 1 < last {
+                let full = acts[first] == u8::MAX;
+                if full {
+                    first += 1;
+                } else if acts[last - 1] == 0 {
+                    last -= 1;
+                } else {
+                    let (lane, theirs) = (
+                        acts[first].trailing_ones() as usize,
+                        acts[last - 1].trailing_zeros() as usize,
+                    );
+                    let (head, tail) = blocks.split_at_mut(last - 1);
+                    head[first].swap_lanes(lane, &mut tail[0], theirs);
+                    acts[first] |= 1 << lane;
+                    acts[last - 1] &= !(1 << theirs);
+                    let (one, two) = (first * LANES + lane, (last - 1) * LANES + theirs);
+                    owners.swap(one, two);
+                    moved(owners[one], one);
+                    moved(owners[two], two);
+                }
+            }
+        }
+    }
 }

@@ -117,17 +117,66 @@ pub(super) struct Goer {
     on: On,
 }
 
+/// What most who do not meet are told apart by: all of it lies side by side.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Mover {
+    centre: Vec2,
+    v: Vec2,
+    left: f64,
+    /// Its reach, how far off it may be, and what its pull adds, in m.
+    room: f64,
+    pub(super) sets_out: bool,
+}
+
+impl Mover {
+    /// Whether two cannot meet however they turn: what [`World::may_meet`] asks first, of sums of magnitudes.
+    #[inline]
+    pub(super) fn plainly_misses(&self, other: &Self) -> bool {
+        let (r, v) = (other.centre - self.centre, other.v - self.v);
+        let way = (v.x.abs() + v.y.abs()) * self.left.min(other.left);
+        let near = self.room + other.room + way;
+        r.length_squared() > near * near
+    }
+}
+
+impl Goer {
+    pub(super) fn mover(&self) -> Mover {
+        let On {
+            centre,
+            v,
+            a,
+            left,
+            off,
+            ..
+        } = self.on;
+        Mover {
+            centre,
+            v,
+            left,
+            room: self.reach + off + 0.5 * a.length() * left * left,
+            sets_out: self.sets_out,
+        }
+    }
+
+    /// Of two of whom one at least sets out: whether it is this one that looks for the other. Of two who set out
+    /// together it is the first.
+    #[inline]
+    pub(super) const fn looks_for(&self, other: &Self) -> bool {
+        self.sets_out && (!other.sets_out || self.body < other.body)
+    }
+}
+
 #[cfg(test)]
 impl Goer {
-    /// A shape of a body that stands.
-    pub(super) const fn standing(at: u32) -> Self {
+    /// A shape of a body that stands and sets out.
+    pub(super) const fn setting_out(at: u32) -> Self {
         Self {
             at,
             body: at,
             slot: 0,
             reach: 1.0,
             rim: 1.0,
-            sets_out: false,
+            sets_out: true,
             on: On {
                 centre: Vec2::ZERO,
                 v: Vec2::ZERO,
@@ -232,4 +281,42 @@ fn distance_to(shape: &Shape, point: impl Fn() -> Vec2) -> Option<f64> {
     let edges = hull.normals.iter().zip(hull.vertices);
     let heights = edges.map(|(normal, vertex)| normal.dot(point - *vertex));
     Some(heights.fold(f64::NEG_INFINITY, f64::max))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use carom_math::vec2;
+    use proptest::prelude::*;
+
+    fn goer() -> impl Strategy<Value = Goer> {
+        let vector = |most: f64| (-most..most, -most..most).prop_map(|(x, y)| vec2(x, y));
+        let motion = (vector(3.0), vector(20.0), vector(10.0));
+        (motion, 0.001..0.1_f64, 0.0..0.1_f64).prop_map(|((centre, v, a), left, off)| {
+            let on = On {
+                centre,
+                v,
+                w: 0.0,
+                a,
+                left,
+                off,
+            };
+            Goer {
+                on,
+                ..Goer::setting_out(0)
+            }
+        })
+    }
+
+    proptest! {
+        /// Whoever comes near on the way, however far off it is, does not plainly miss.
+        #[test]
+        fn who_plainly_misses_stays_away(one in goer(), two in goer(), part in 0.0..1.0_f64) {
+            let after = part * one.on.left.min(two.on.left);
+            let at = |on: &On| on.centre + (on.v + on.a * (0.5 * after)) * after;
+            let apart = (at(&two.on) - at(&one.on)).length();
+            let misses = one.mover().plainly_misses(&two.mover());
+            prop_assert!(!misses || apart > one.reach + two.reach + one.on.off + two.on.off);
+        }
+    }
 }

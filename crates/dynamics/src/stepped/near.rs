@@ -77,6 +77,7 @@ impl World {
         if self.pool.looks == 0 {
             self.pool.seats.rig.refresh();
         }
+        self.pool.seats.rig.lanes.part_idle();
         self.forget_watched();
         self.pool.stirred = false;
         let tick = self.settings.tick;
@@ -97,6 +98,7 @@ impl World {
         let all = self.moves_all();
         let left = self.pool.until_look;
         let mut reboxed = core::mem::take(&mut self.pool.reboxed);
+        self.broad.trees.gather();
         for &index in &moved {
             let Some(slot) = self.pool.seats.slot(index) else {
                 continue;
@@ -129,6 +131,7 @@ impl World {
                 reboxed.push((index, slot));
             }
         }
+        self.broad.trees.settle();
         self.meet_all(&reboxed, time);
         reboxed.clear();
         self.pool.reboxed = reboxed;

@@ -54,6 +54,9 @@ impl World {
             let fat = self.colliders[at as usize].fat;
             self.broad.put(&mut self.colliders, at, fat, time, false);
         }
+        let mut throng = core::mem::take(&mut self.pool.throng);
+        throng.seek(|mine, other| self.may_meet(mine, other));
+        self.pool.throng = throng;
     }
 
     /// Parts the pairs of a body that cannot meet as both go now, and finds new ones; `at_once`: all who are on their
@@ -129,10 +132,12 @@ impl World {
         let (Some(own), Some(partner_slot)) = (own, self.pool.seats.slot(partner)) else {
             return true;
         };
-        if at_once && let Some(other) = self.pool.throng.goer(partner_slot, other) {
+        if at_once
+            && let Some(partners) = self.pool.throng.partners(mine)
+            && let Some(theirs) = self.pool.throng.goer(other)
+        {
             // Of two who set out together the first one saw to it.
-            let seen = own.sets_out && other.sets_out && other.body < own.body;
-            return seen || self.may_meet(own, other);
+            return !own.looks_for(theirs) || partners.contains(&other);
         }
         let other = self.goer(partner_slot, other, time);
         other.is_none_or(|other| self.may_meet(own, &other))
@@ -160,17 +165,19 @@ impl World {
             near.clear();
             self.broad.search_still(&self.colliders, fat, &mut near);
             near.retain(|other| may_come(*other));
-            let owner = self.colliders[at as usize].body;
-            let sets_out = mine.is_some_and(|mine| mine.sets_out);
-            self.pool.throng.query(fat, |other| {
-                // Of two who set out together the first looks for the other.
-                let looks = sets_out && other.sets_out && other.body < owner;
-                if other.body != owner && !looks && !is_known(other.at) && comes(other) {
-                    near.push(other.at);
-                }
-            });
+            if let Some(partners) = self.pool.throng.partners(at) {
+                near.extend(partners.iter().filter(|other| !is_known(**other)));
+            } else {
+                let owner = self.colliders[at as usize].body;
+                let sets_out = mine.is_some_and(|mine| mine.sets_out);
+                self.pool.throng.query(fat, |other| {
+                    let looks = sets_out && other.sets_out && other.body < owner;
+                    if other.body != owner && !looks && !is_known(other.at) && comes(other) {
+                        near.push(other.at);
+                    }
+                });
+            }
             near.sort_unstable();
-            near.dedup();
         } else {
             self.broad.search_tree(&self.colliders, fat, &mut near);
             near.retain(|other| may_come(*other));

@@ -1,34 +1,36 @@
 //! Bodies on their courses, laid out for a search by many of them at once.
 //!
-//! Their boxes lie in square cells, each in that of its lower left corner, and cells share as many places as there are
-//! boxes: what overlaps a box lies in the cells that it reaches into and those before them, as far as the largest
-//! box goes, or was put in the same place as one of these. Boxes that are much larger than the mean have cells of their
-//! own: a few quick ones would make all cells large.
+//! Their boxes lie in bands, each in that of its lower side and in order of its left side. Two bands are swept from left to
+//! right together, so that of two boxes the one that begins first is held against all that begin before it ends: every two
+//! that overlap are found once. A box reaches from its own band into those up to its upper side.
 
 use carom_geometry::Aabb;
-use carom_math::Vec2;
 
-use super::courses::Goer;
+use super::courses::{Goer, Mover};
 
-/// Boxes of more than so many times the mean size have no cell.
+/// Boxes of more than so many times the mean size have no place.
 const LARGE: f64 = 4.0;
-
-/// Boxes of more than so many times the mean size have wider cells.
-const WIDE: f64 = 1.5;
-
-/// Cells across the largest box that lies in them.
-const ACROSS: f64 = 2.0;
 
 /// All who are on their courses.
 #[derive(Clone, Debug)]
 pub(super) struct Throng {
     members: Vec<Member>,
-    /// Small boxes, and wide ones.
-    cells: [Cells; 2],
-    /// Largest box that has a cell.
+    /// Largest box that has a place.
     limit: f64,
-    /// Member of each slot, of bodies with one shape; `u32::MAX`: none.
-    by_slot: Vec<u32>,
+    /// Member of each shape; `u32::MAX`: none.
+    by_shape: Vec<u32>,
+    /// Height of a band.
+    height: f64,
+    bands: Vec<Band>,
+    /// Boxes of members, band by band from left to right, how they move, and whose they are.
+    boxes: Vec<Aabb>,
+    movers: Vec<(Mover, u32)>,
+    /// Shapes that each member may meet, of those that it looks for, in order.
+    found: Vec<u32>,
+    /// Where those of each member begin, and where the last ones end.
+    places: Vec<u32>,
+    /// Members that may meet, whoever looks first: scratch.
+    meetings: Vec<(u32, u32)>,
 }
 
 /// A shape of a body on its course.
@@ -38,28 +40,46 @@ pub(super) struct Member {
     pub(super) goer: Goer,
 }
 
+/// Boxes whose lower sides lie at about one height.
+#[derive(Clone, Copy, Debug)]
+struct Band {
+    level: i64,
+    /// Highest that one of them reaches into.
+    top: i64,
+    from: usize,
+    to: usize,
+}
+
 impl Default for Throng {
     fn default() -> Self {
         Self {
             members: Vec::new(),
-            cells: [Cells::default(), Cells::default()],
             limit: f64::INFINITY,
-            by_slot: Vec::new(),
+            by_shape: Vec::new(),
+            height: 1.0,
+            bands: Vec::new(),
+            boxes: Vec::new(),
+            movers: Vec::new(),
+            found: Vec::new(),
+            places: Vec::new(),
+            meetings: Vec::new(),
         }
     }
 }
 
 impl Throng {
-    /// Whether a box has a cell.
+    /// Whether a box has a place.
     pub(super) fn takes(&self, bounds: Aabb) -> bool {
         size_of(bounds) <= self.limit
     }
 
     /// Lays out all who are there; says whose boxes are too large from now on.
     pub(super) fn lay_out(&mut self, members: impl Iterator<Item = Member>) -> Vec<u32> {
+        for member in &self.members {
+            self.by_shape[member.goer.at as usize] = u32::MAX;
+        }
         self.members.clear();
         self.members.extend(members);
-        self.by_slot.clear();
         let sizes = self.members.iter().map(|member| size_of(member.fat));
         #[expect(clippy::cast_precision_loss, reason = "a count of shapes")]
         let mean = sizes.sum::<f64>() / self.members.len() as f64;
@@ -68,151 +88,189 @@ impl Throng {
         } else {
             LARGE * mean
         };
+        self.height = mean.max(f64::MIN_POSITIVE);
         let mut large = Vec::new();
         let limit = self.limit;
-        let is_large = |member: &Member| size_of(member.fat) > limit;
-        if self.members.iter().any(is_large) {
-            large.extend(
-                self.members
-                    .iter()
-                    .filter(|member| is_large(member))
-                    .map(|member| member.goer.at),
-            );
-            self.members.retain(|member| !is_large(member));
-        }
-        let wide = WIDE * mean;
-        for (cells, is_wide) in self.cells.iter_mut().zip([false, true]) {
-            let all = (0_u32..).zip(&self.members);
-            let boxes = all.map(|(k, member)| (member.fat, k));
-            cells.fill(boxes.filter(|(fat, _)| (size_of(*fat) > wide) == is_wide));
-        }
-        for (k, member) in (0_u32..).zip(&self.members) {
-            let slot = member.goer.slot as usize;
-            if self.by_slot.len() <= slot {
-                self.by_slot.resize(slot + 1, u32::MAX);
+        self.members.retain(|member| {
+            let fits = size_of(member.fat) <= limit;
+            if !fits {
+                large.push(member.goer.at);
             }
-            self.by_slot[slot] = k;
+            fits
+        });
+        for (k, member) in (0_u32..).zip(&self.members) {
+            let at = member.goer.at as usize;
+            if self.by_shape.len() <= at {
+                self.by_shape.resize(at + 1, u32::MAX);
+            }
+            self.by_shape[at] = k;
         }
+        self.lay_bands();
+        self.found.clear();
+        self.places.clear();
+        self.places.resize(self.members.len() + 1, 0);
         large
     }
 
-    /// A shape of the body at `slot`, if it was laid out; of several shapes of a body one is.
-    #[inline]
-    pub(super) fn goer(&self, slot: u32, at: u32) -> Option<&Goer> {
-        let member = self
-            .members
-            .get(*self.by_slot.get(slot as usize)? as usize)?;
-        Some(&member.goer).filter(|goer| goer.at == at)
-    }
-
-    /// Calls `found` with all whose boxes overlap `sought`, with some twice.
-    pub(super) fn query(&self, sought: Aabb, mut found: impl FnMut(&Goer)) {
-        for cells in &self.cells {
-            cells.query(sought, |k| found(&self.members[k as usize].goer));
+    fn lay_bands(&mut self) {
+        let height = self.height;
+        let all = (0_u32..).zip(&self.members);
+        let mut order: Vec<(u128, u32)> = all
+            .map(|(k, member)| (key(member.fat, height), k))
+            .collect();
+        order.sort_unstable();
+        self.bands.clear();
+        self.boxes.clear();
+        self.movers.clear();
+        for (i, (_, k)) in order.into_iter().enumerate() {
+            let member = &self.members[k as usize];
+            let own = level(member.fat.min.y, height);
+            if self.bands.last().is_none_or(|band| band.level != own) {
+                self.bands.push(Band {
+                    level: own,
+                    top: own,
+                    from: i,
+                    to: i,
+                });
+            }
+            if let Some(band) = self.bands.last_mut() {
+                band.top = band.top.max(level(member.fat.max.y, height));
+                band.to = i + 1;
+            }
+            self.boxes.push(member.fat);
+            self.movers.push((member.goer.mover(), k));
         }
     }
-}
 
-/// Boxes of about one size.
-#[derive(Clone, Debug, Default)]
-struct Cells {
-    /// By place, and whose they are.
-    boxes: Vec<(Aabb, u32)>,
-    /// Where those of each place begin, and where the last ones end.
-    places: Vec<u32>,
-    side: f64,
-    /// Size of the largest box.
-    largest: f64,
-    /// Boxes as they came, and their places: scratch.
-    came: Vec<(Aabb, u32, u32)>,
-}
-
-impl Cells {
-    fn fill(&mut self, boxes: impl Iterator<Item = (Aabb, u32)>) {
-        self.came.clear();
-        self.came.extend(boxes.map(|(fat, k)| (fat, k, 0)));
-        let largest = self.came.iter().map(|(fat, ..)| size_of(*fat));
-        self.largest = largest.fold(f64::MIN_POSITIVE, f64::max);
-        self.side = (self.largest / ACROSS).max(f64::MIN_POSITIVE);
-        // Sorted by counting.
-        let count = self.came.len();
-        self.places.clear();
-        self.places.resize(count.next_power_of_two() + 1, 0);
-        for i in 0..count {
-            let place = self.place(self.cell(self.came[i].0.min));
-            #[expect(clippy::cast_possible_truncation, reason = "shapes are counted by u32")]
-            {
-                self.came[i].2 = place as u32;
+    /// Finds for all who set out whom they may meet, as `may_meet` has it. Of two who set out together the lower body
+    /// looks for the other.
+    pub(super) fn seek(&mut self, may_meet: impl Fn(&Goer, &Goer) -> bool) {
+        let mut meetings = core::mem::take(&mut self.meetings);
+        meetings.clear();
+        let (members, movers) = (&self.members, &self.movers);
+        self.sweep(|i, j| {
+            let ((one, k), (two, l)) = (&movers[i], &movers[j]);
+            if !(one.sets_out || two.sets_out) || one.plainly_misses(two) {
+                return;
             }
-            self.places[place] += 1;
+            let (mine, other) = (&members[*k as usize].goer, &members[*l as usize].goer);
+            if mine.body != other.body && may_meet(mine, other) {
+                let first = mine.looks_for(other);
+                meetings.push(if first { (*k, other.at) } else { (*l, mine.at) });
+            }
+        });
+        // Sorted by counting.
+        for (k, _) in &meetings {
+            self.places[*k as usize] += 1;
         }
         let mut end = 0;
         for place in &mut self.places {
             end += *place;
             *place = end;
         }
-        self.boxes.clear();
-        self.boxes.resize(count, (Aabb::EMPTY, 0));
-        for &(fat, k, place) in &self.came {
-            let end = &mut self.places[place as usize];
-            *end -= 1;
-            self.boxes[*end as usize] = (fat, k);
+        self.found.clear();
+        self.found.resize(meetings.len(), 0);
+        for &(k, other) in &meetings {
+            let place = &mut self.places[k as usize];
+            *place -= 1;
+            self.found[*place as usize] = other;
         }
+        for ends in self.places.windows(2) {
+            self.found[ends[0] as usize..ends[1] as usize].sort_unstable();
+        }
+        self.meetings = meetings;
     }
 
-    fn query(&self, sought: Aabb, mut found: impl FnMut(u32)) {
-        if self.boxes.is_empty() {
-            return;
-        }
-        let low = below(sought.min, Vec2::splat(self.largest));
-        let span = (sought.max - low) / self.side + Vec2::splat(2.0);
-        let mut among = |boxes: &[(Aabb, u32)]| {
-            for (fat, k) in boxes {
-                if fat.overlaps(sought) {
-                    found(*k);
+    /// Calls `found` with every two that overlap, as they lie from left to right in their bands.
+    fn sweep(&self, mut found: impl FnMut(usize, usize)) {
+        for (b, low) in self.bands.iter().enumerate() {
+            for i in low.from..low.to {
+                self.sweep_from(i, i + 1, low.to, &mut found);
+            }
+            let above = self.bands[b + 1..].iter();
+            for high in above.take_while(|high| high.level <= low.top) {
+                let (mut i, mut j) = (low.from, high.from);
+                while i < low.to && j < high.to {
+                    if self.boxes[i].min.x <= self.boxes[j].min.x {
+                        self.sweep_from(i, j, high.to, &mut found);
+                        i += 1;
+                    } else {
+                        self.sweep_from(j, i, low.to, &mut found);
+                        j += 1;
+                    }
                 }
             }
-        };
-        #[expect(clippy::cast_precision_loss, reason = "a count of shapes")]
-        let all = self.boxes.len() as f64;
-        // A box that reaches into most cells is held against everybody.
-        if span.x * span.y >= all {
-            return among(&self.boxes);
         }
-        let (low, high) = (self.cell(low), self.cell(sought.max));
-        for y in low.1..=high.1 {
-            for x in low.0..=high.0 {
-                let place = self.place((x, y));
-                let (from, to) = (self.places[place], self.places[place + 1]);
-                among(&self.boxes[from as usize..to as usize]);
+    }
+
+    /// One box against those from `from` on that begin before it ends.
+    #[inline]
+    fn sweep_from(&self, i: usize, from: usize, to: usize, found: &mut impl FnMut(usize, usize)) {
+        let mine = self.boxes[i];
+        for (j, other) in (from..to).zip(&self.boxes[from..to]) {
+            if other.min.x > mine.max.x {
+                break;
+            }
+            if other.min.y <= mine.max.y && mine.min.y <= other.max.y {
+                found(i, j);
             }
         }
     }
 
+    /// A shape that was laid out.
     #[inline]
-    fn cell(&self, corner: Vec2) -> (i64, i64) {
-        let cell = corner / self.side;
-        (floor(cell.x), floor(cell.y))
+    pub(super) fn goer(&self, at: u32) -> Option<&Goer> {
+        let k = *self.by_shape.get(at as usize)?;
+        self.members.get(k as usize).map(|member| &member.goer)
     }
 
-    #[expect(clippy::cast_sign_loss, reason = "a hash: any bits do")]
-    const fn place(&self, (x, y): (i64, i64)) -> usize {
-        let mixed = (x as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15)
-            ^ (y as u64).wrapping_mul(0xc2b2_ae3d_27d4_eb4f);
-        (mixed >> 32) as usize & (self.places.len() - 2)
+    /// Whom a shape may meet, of those that it looks for; `None`: it was not laid out.
+    pub(super) fn partners(&self, at: u32) -> Option<&[u32]> {
+        let k = *self.by_shape.get(at as usize)? as usize;
+        let (from, to) = (*self.places.get(k)?, *self.places.get(k + 1)?);
+        self.found.get(from as usize..to as usize)
+    }
+
+    /// Calls `found` with all whose boxes overlap `sought`.
+    pub(super) fn query(&self, sought: Aabb, mut found: impl FnMut(&Goer)) {
+        let (low, high) = (
+            level(sought.min.y, self.height),
+            level(sought.max.y, self.height),
+        );
+        let bands = self.bands.iter().take_while(|band| band.level <= high);
+        for band in bands.filter(|band| band.top >= low) {
+            let boxes = &self.boxes[band.from..band.to];
+            let movers = &self.movers[band.from..band.to];
+            let begun = boxes.partition_point(|fat| fat.min.x <= sought.max.x);
+            for (fat, (_, k)) in boxes[..begun].iter().zip(movers) {
+                if fat.overlaps(sought) {
+                    found(&self.members[*k as usize].goer);
+                }
+            }
+        }
     }
 }
 
-/// Largest integer that is not above `x`; of those of an `i64` the nearest.
+/// Which band a height lies in. What is not lower lies in no lower band, however heights are rounded.
 #[inline]
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_precision_loss,
-    reason = "beyond 2⁵³ all are integers"
+    reason = "beyond 2⁵³ all are integers, and beyond 2⁶³ all are in one band"
 )]
-fn floor(x: f64) -> i64 {
-    let near = x as i64;
-    near.saturating_sub(i64::from(near as f64 > x))
+fn level(y: f64, height: f64) -> i64 {
+    let y = y / height;
+    let near = y as i64;
+    near.saturating_sub(i64::from(near as f64 > y))
+}
+
+/// By band, and from left to right: a number that is as large as they are far on, for a sort without branches.
+fn key(fat: Aabb, height: f64) -> u128 {
+    let band = level(fat.min.y, height).cast_unsigned() ^ (1 << 63);
+    // No −0, which lies where 0 does. Of negative numbers all bits turn, of others the sign alone.
+    let bits = (fat.min.x + 0.0).to_bits();
+    let across = bits ^ ((bits.cast_signed() >> 63).cast_unsigned() | 1 << 63);
+    u128::from(band) << 64 | u128::from(across)
 }
 
 /// Width and height of a box, in m, whichever is more.
@@ -221,16 +279,10 @@ fn size_of(bounds: Aabb) -> f64 {
     size.x.max(size.y)
 }
 
-/// `p` − `by`, and not a rounding more.
-fn below(p: Vec2, by: Vec2) -> Vec2 {
-    let less = p - by;
-    less - (less.abs() + by) * (4.0 * f64::EPSILON)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use carom_math::vec2;
+    use carom_math::{Vec2, vec2};
     use proptest::prelude::*;
 
     fn boxes(count: usize) -> impl Strategy<Value = Vec<Aabb>> {
@@ -243,10 +295,11 @@ mod tests {
     fn lay_out(all: &[Aabb]) -> (Throng, Vec<u32>) {
         let members = all.iter().zip(0..).map(|(fat, at)| Member {
             fat: *fat,
-            goer: Goer::standing(at),
+            goer: Goer::setting_out(at),
         });
         let mut throng = Throng::default();
         let large = throng.lay_out(members);
+        throng.seek(|_, _| true);
         (throng, large)
     }
 
@@ -254,24 +307,27 @@ mod tests {
         let mut found = Vec::new();
         throng.query(sought, |goer| found.push(goer.at));
         found.sort_unstable();
-        found.dedup();
         found
     }
 
     proptest! {
-        /// What each against each finds is found, but for those whose boxes are too large.
+        /// What each against each finds is found once, but for those whose boxes are too large.
         #[test]
-        fn nobody_is_missed(all in boxes(100), shift in prop_oneof![Just(0.0), Just(1e6), Just(-1e12)]) {
+        fn nobody_is_missed(all in boxes(100), shift in prop_oneof![Just(0.0), Just(1e6), Just(-1e12), Just(1e300)]) {
             let shift = vec2(shift, shift);
             let all: Vec<Aabb> = all.into_iter().map(|b| Aabb::new(b.min + shift, b.max + shift)).collect();
             let (throng, large) = lay_out(&all);
-            for sought in &all {
+            for (own, sought) in (0_u32..).zip(&all) {
                 let expected: Vec<u32> = (0_u32..)
                     .zip(&all)
                     .filter(|(at, bounds)| bounds.overlaps(*sought) && !large.contains(at))
                     .map(|(at, _)| at)
                     .collect();
-                prop_assert_eq!(query(&throng, *sought), expected);
+                prop_assert_eq!(query(&throng, *sought), expected.clone());
+                // The lower one of two looks for the other.
+                let later: Vec<u32> = expected.into_iter().filter(|at| *at > own).collect();
+                let partners = throng.partners(own).map(<[u32]>::to_vec);
+                prop_assert_eq!(partners, (!large.contains(&own)).then_some(later));
             }
         }
     }
@@ -282,6 +338,7 @@ mod tests {
         let (throng, _) = lay_out(&[]);
         assert!(throng.takes(Aabb::new(Vec2::ZERO, Vec2::splat(1e9))));
         assert_eq!(query(&throng, Aabb::new(Vec2::ZERO, Vec2::ONE)), []);
+        assert_eq!(throng.partners(0), None);
     }
 
     #[test]

@@ -68,7 +68,6 @@ pub(super) struct Moving {
 /// magnitudes, which are never less than what [`Since`] and [`Against`] make of the same motion.
 #[inline]
 fn hardly_moves(glance: &Glance, both: [&Stand; 2], ahead: f64, tick: f64) -> bool {
-    let sum = |v: Vec2| v.x.abs() + v.y.abs();
     let size = both[0].reach.min(both[1].reach);
     let rims = [both[0].rim, both[1].rim];
     // Either may be the frame, and the other's points lie around its centre.
@@ -82,7 +81,15 @@ fn hardly_moves(glance: &Glance, both: [&Stand; 2], ahead: f64, tick: f64) -> bo
         };
         all(0) + all(1)
     };
+    let spins = [both[0].spin.abs(), both[1].spin.abs()];
+    if spins[0].max(spins[1]) * tick > WHIRL {
+        return false;
+    }
     let apart = both[1].centre - both[0].centre;
+    let speed = sum(both[1].v - both[0].v) + about(spins, sum(apart));
+    if speed * tick > QUICK * size {
+        return false;
+    }
     let turns = [
         (both[0].angle - glance.angles.0).abs(),
         (both[1].angle - glance.angles.1).abs(),
@@ -96,11 +103,14 @@ fn hardly_moves(glance: &Glance, both: [&Stand; 2], ahead: f64, tick: f64) -> bo
     } else {
         glance.sought.max(glance.gap)
     };
-    let spins = [both[0].spin.abs(), both[1].spin.abs()];
-    let speed = sum(both[1].v - both[0].v) + about(spins, sum(apart));
     let fall = fall(sum(both[1].pull - both[0].pull), ahead + tick);
-    let slow = speed * tick <= QUICK * size && spins[0].max(spins[1]) * tick <= WHIRL;
-    slow && free - moved > speed * ahead + fall + RESERVE * size
+    free - moved > speed * ahead + fall + RESERVE * size
+}
+
+/// A bound on the length of a vector, √2 of it at most.
+#[inline]
+fn sum(v: Vec2) -> f64 {
+    v.x.abs() + v.y.abs()
 }
 
 impl World {
@@ -166,7 +176,8 @@ impl World {
         };
         let both = slots.map(|slot| self.pool.seats.stand(slot));
         let glance = self.pairs.glance(place);
-        if hardly_moves(glance, both, self.ahead(), self.settings.tick) {
+        let (ahead, tick) = (self.ahead(), self.settings.tick);
+        if hardly_moves(glance, both, ahead, tick) {
             return (Wish::Rest, None);
         }
         let against = Against::new(both);
