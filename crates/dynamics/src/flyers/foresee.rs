@@ -43,7 +43,7 @@ impl World {
         self.flyers.resize(&mut self.bodies, time);
         // Who does not fall leaves the frame that falls ever faster.
         if self.bodies.get(index).course.glides || !self.look_round(index, time) {
-            self.follow(index, time);
+            self.follow(index, time, 0.0);
         } else if cause == Cause::Deflected && self.is_clear(index, time) {
             self.meet_flyers(index, time, cause, but);
             return self.predict_pairs(index, time);
@@ -71,17 +71,18 @@ impl World {
         true
     }
 
-    /// Boxes in the tree of a flyer that is too large for the grid.
-    pub(super) fn follow(&mut self, index: u32, time: SimTime) {
-        let way = TRAVEL * self.flyers.grid.side();
+    /// Boxes in the tree of a flyer that is too large for the grid, for `least` seconds or more.
+    pub(super) fn follow(&mut self, index: u32, time: SimTime, least: f64) {
+        let side = self.flyers.grid.side();
         let state = self.bodies.get_mut(index);
         let way = if state.course.glides {
             GLIDE * state.reach
         } else {
-            way
+            // As far as in a grid of its own kind.
+            TRAVEL * side.max(2.0 * state.reach)
         };
         let track = Track::of(&state.motion, time);
-        let seconds = at_most(track.seconds_for(way));
+        let seconds = at_most(track.seconds_for(way).max(least));
         state.course.ground = (time + seconds).min(state.course.piece);
         state.course.span = seconds;
         state.course.horizon = state.course.ground;

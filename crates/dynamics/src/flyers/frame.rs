@@ -7,10 +7,12 @@ use carom_collision::Motion;
 use carom_geometry::Aabb;
 use carom_math::{SimTime, Vec2};
 
-/// A frame of reference that moves by `velocity u + acceleration u²/2` from `since` on.
+/// A frame of reference whose origin moves by `velocity u + acceleration u²/2` from `since` on.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Frame {
     since: SimTime,
+    /// Where it is then, in m.
+    origin: Vec2,
     velocity: Vec2,
     acceleration: Vec2,
 }
@@ -85,15 +87,18 @@ impl Frame {
     pub(crate) const fn falling(acceleration: Vec2) -> Self {
         Self {
             since: SimTime::ZERO,
+            origin: Vec2::ZERO,
             velocity: Vec2::ZERO,
             acceleration,
         }
     }
 
-    /// The frame from `time` on, faster by `velocity`.
+    /// The frame from `time` on, faster by `velocity`. Its origin stays with it: seen from where all fell from, boxes of
+    /// what fell for a day would be rounded to kilometres.
     pub(crate) fn boosted(&self, time: SimTime, velocity: Vec2) -> Self {
         Self {
             since: time,
+            origin: self.origin_at(time),
             velocity: self.velocity + self.acceleration * (time - self.since) + velocity,
             acceleration: self.acceleration,
         }
@@ -101,8 +106,12 @@ impl Frame {
 
     /// Where a point of the world is in the frame at `time`.
     pub(crate) fn point(&self, point: Vec2, time: SimTime) -> Vec2 {
+        point - self.origin_at(time)
+    }
+
+    fn origin_at(&self, time: SimTime) -> Vec2 {
         let u = time - self.since;
-        point - (self.velocity + self.acceleration * (0.5 * u)) * u
+        self.origin + (self.velocity + self.acceleration * (0.5 * u)) * u
     }
 
     /// A body's track as the frame sees it.
@@ -168,7 +177,8 @@ mod tests {
                 (seen.velocity, seen.acceleration),
                 (vec2(2.5, 4.0), Vec2::ZERO)
             );
-            let path = vec2(4.0, 1.0) + vec2(2.5, 4.0) * (t - 1.0);
+            // The origin has fallen by 5 m when it gets faster.
+            let path = vec2(4.0, 6.0) + vec2(2.5, 4.0) * (t - 1.0);
             assert!((seen.centre - path).length() < 1e-11);
         }
     }

@@ -117,9 +117,15 @@ impl World {
         let course = &mut self.bodies.get_mut(index).course;
         let reached = course.reached.bounds();
         self.broad.search_tree(&self.colliders, reached, &mut near);
-        let overlaps = |at: &u32| self.colliders[*at as usize].fat.overlaps(reached);
-        course.alone = !near.iter().any(overlaps);
-        course.clear_at = if course.alone { time } else { SimTime::NEVER };
+        let overlaps = |at: &u32| {
+            let collider = &self.colliders[*at as usize];
+            collider.body != index && collider.fat.overlaps(reached)
+        };
+        let clear = !near.iter().any(overlaps);
+        // The box of a half-plane that leans is all of the plane: it is there however short a flyer looks.
+        let bounded = |at: &u32| self.colliders[*at as usize].solid.is_bounded();
+        course.alone = clear || !near.iter().any(|at| overlaps(at) && bounded(at));
+        course.clear_at = if clear { time } else { SimTime::NEVER };
         for &at in &near {
             let owner = self.colliders[at as usize].body;
             if owner == index {
@@ -189,13 +195,16 @@ impl World {
     /// What does not fly is looked for anew: twice as far ahead where there was nothing.
     pub(super) fn look_down_again(&mut self, index: u32, time: SimTime) {
         let course = &self.bodies.get(index).course;
+        let factor = if course.alone { 2.0 } else { 1.0 };
         if course.cells.is_none() {
-            self.follow(index, time);
+            // Those in the grid would have to look at all of its way.
+            let lone = course.alone && !course.glides && self.flyers.grid.count() == 0;
+            let least = if lone { factor * course.span } else { 0.0 };
+            self.follow(index, time, least);
             self.meet_flyers(index, time, Cause::Horizon, None);
             self.meet_shapes(index, time, Cause::Horizon);
             return;
         }
-        let factor = if course.alone { 2.0 } else { 1.0 };
         let span = factor * course.span;
         self.look_down(index, time, span);
         self.meet_shapes(index, time, Cause::Horizon);

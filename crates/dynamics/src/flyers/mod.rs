@@ -24,6 +24,7 @@ mod seek;
 mod streak;
 mod strike;
 mod together;
+mod turning;
 mod window;
 
 use carom_collision::{BoxTree, ImpactFeature, NodeId};
@@ -55,7 +56,7 @@ pub(crate) struct Course {
     pub(crate) flies: bool,
     /// Flies with others whom it touches, until their group changes.
     pub(crate) glides: bool,
-    /// Nothing was found where it looked down.
+    /// Nothing was found where it looked down, but for half-planes.
     pub(crate) alone: bool,
     /// Until when its motion stands for the law that it flies by; for ever where it is the law.
     pub(crate) piece: SimTime,

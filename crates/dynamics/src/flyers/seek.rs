@@ -10,11 +10,6 @@ use super::window::Window;
 use crate::World;
 use crate::flight::first_touch;
 use crate::narrow::{TOUCH, opening_speed, rest_speed_between};
-use crate::state::BodyState;
-
-/// Largest turn that one search for a time of impact goes through, in rad: bounds on a gap's second
-/// derivative are loose over more.
-const TURN: f64 = 8.0;
 
 /// How far a search goes beyond its end, as a fraction.
 const BEYOND: f64 = 1e-6;
@@ -52,8 +47,17 @@ impl World {
         } else {
             common_horizon(one, two) - time
         };
-        let (length, cut) = cut_by_turn(one, two, time, end);
         let ends = (one.colliders.len(), two.colliders.len());
+        let (length, cut) = self.cut_by_turn((a, b), time, end);
+        if cut {
+            let apart = self.apart_however_turned((a, b), time, end);
+            if apart > length {
+                if apart < end {
+                    self.queue_near(a, b, time + apart);
+                }
+                return;
+            }
+        }
         let mut met = false;
         for i in 0..ends.0 {
             for j in 0..ends.1 {
@@ -79,8 +83,17 @@ impl World {
     /// Time of impact of a flyer and a shape that rests, from now to the flyer's horizon.
     pub(super) fn seek_shape(&mut self, index: u32, at: u32, time: SimTime, cause: Cause) {
         let owner = self.colliders[at as usize].body;
-        let (body, other) = (self.bodies.get(index), self.bodies.get(owner));
-        let (length, cut) = cut_by_turn(body, other, time, body.course.ground - time);
+        let end = self.bodies.get(index).course.ground - time;
+        let (length, cut) = self.cut_by_turn((index, owner), time, end);
+        if cut {
+            let apart = self.apart_however_turned((index, owner), time, end);
+            if apart > length {
+                if apart < end {
+                    self.queue_near_shape(index, at, time + apart);
+                }
+                return;
+            }
+        }
         let mut met = false;
         for slot in 0..self.bodies.get(index).colliders.len() {
             let mine = self.bodies.get(index).colliders[slot];
@@ -219,23 +232,5 @@ impl World {
                 point.separation < -touch || rest > 0.0 && rate.abs() <= rest
             })
         })
-    }
-}
-
-/// A search of `length` seconds, or as much of it as two bodies turn by [`TURN`] in; whether that
-/// is less.
-fn cut_by_turn(a: &BodyState, b: &BodyState, time: SimTime, length: f64) -> (f64, bool) {
-    let spin = |state: &BodyState| {
-        let (now, pull) = (
-            state.motion.spin_at(time),
-            state.motion.angular_acceleration,
-        );
-        now.abs() + pull.abs() * length
-    };
-    let fastest = spin(a) + spin(b);
-    if length * fastest > TURN {
-        (TURN / fastest, true)
-    } else {
-        (length, false)
     }
 }
