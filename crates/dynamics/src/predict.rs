@@ -13,10 +13,10 @@ use crate::flight::{first_touch_of_parts, motion_along};
 use crate::hops::hop;
 use crate::modes::CLOSED;
 use crate::narrow::{NOISE, Narrow, RestSpeed, TOUCH, opening_speed, pace};
-use crate::pairs::{Pair, PairContact, PairPoint, Pairs};
+use crate::pairs::{PairContact, PairPoint, Pairs};
 use crate::state::{BodyState, Collider};
 use crate::touching::stays;
-use crate::{BodyKind, StepReport};
+use crate::{BodyKind, PairMaterial, StepReport};
 
 /// What the impacts of one pair may spend in one sub-step before the solver takes the rest: bodies that
 /// rattle with e = 0 faster than a thirtieth of a sub-step are closer to rest than to flight.
@@ -31,13 +31,8 @@ const INSTANT: f64 = 1e-6;
 /// What an impact spends: the loss of relative speed, since k impacts leave `e^k` of it.
 ///
 /// At least 1/1024, so that a pair without any loss ends, too: after 32,768 impacts in a sub-step.
-pub(crate) fn price(pair: &Pair) -> f64 {
-    price_of(pair.material.restitution)
-}
-
-/// [`price`] by restitution.
-pub(crate) fn price_of(restitution: f64) -> f64 {
-    (1.0 - restitution).max(1.0 / 1024.0)
+pub(crate) fn price(material: &PairMaterial) -> f64 {
+    (1.0 - material.restitution).max(1.0 / 1024.0)
 }
 
 /// Predicts the next impact of a pair between `time` and `end` and enters it into the agenda.

@@ -138,7 +138,7 @@ fn gives_up(
 ) -> bool {
     let pair = pairs.get_mut(entry.pair);
     pair.impacts += 1;
-    pair.spent += price(pair);
+    pair.spent += price(&pair.material);
     if pair.spent <= BUDGET {
         return false;
     }

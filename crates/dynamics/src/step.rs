@@ -196,7 +196,7 @@ impl World {
                 return true;
             }
             Struck::Impact(changed) => {
-                let lost = price(self.pairs.get(entry.pair));
+                let lost = price(&self.pairs.get(entry.pair).material);
                 self.spent += lost;
                 self.rush(&changed, lost, entry.time);
                 // Who rested is awake before anybody asks who touches whom, and no judgement of before stands.

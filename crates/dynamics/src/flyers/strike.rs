@@ -7,14 +7,21 @@ use super::streak::Streak;
 use super::{Cause, Foreseen};
 use crate::impact::{ImpactBody, ImpactContact, resolve};
 use crate::narrow::opening_speed;
-use crate::predict::price_of;
+use crate::predict::price;
 use crate::resolve::apply;
 use crate::shock::Shock;
 use crate::{EventKind, Mode, PairMaterial, World};
 
 /// What the impacts of one flyer may spend in a tick before the solver takes the rest, in losses of
-/// relative speed. Not counted in [`Mode::Exact`].
+/// relative speed.
 const BUDGET: f64 = 256.0;
+
+/// The same in [`Mode::Exact`]. A series that comes ever faster is down to rounding after 36, and a jam without end
+/// has used it up within a second.
+const EXACT_BUDGET: f64 = 4096.0;
+
+/// Least that an impact with a loss spends in [`Mode::Exact`]; one without spends nothing.
+const EXACT_PRICE: f64 = 1.0 / 64.0;
 
 /// Speeds of the ends of a flat landing that differ by less, as a fraction, are one: roundings of a spin.
 const ALIKE: f64 = 1e-12;
@@ -59,8 +66,8 @@ impl World {
         let keeps = smooth && !self.bodies.bends(a) && !self.bodies.bends(b);
         let press = if keeps { 0.0 } else { self.press(impact, time) };
         let e = material.restitution;
-        let lost = price_of(e);
-        if self.outruns(impact, time, lost) {
+        let lost = price(&material);
+        if self.outruns(impact, time, &material) {
             return;
         }
         // Bounces of one point on what presses it: 2 u⁺/a, and e times that, and so on.
@@ -332,10 +339,18 @@ impl World {
     }
 
     /// Counts an impact; whether one of the bodies has used up those of the present tick.
-    pub(super) fn outruns(&mut self, impact: &Foreseen, time: SimTime, price: f64) -> bool {
-        if self.settings.mode == Mode::Exact {
-            return false;
-        }
+    pub(super) fn outruns(
+        &mut self,
+        impact: &Foreseen,
+        time: SimTime,
+        material: &PairMaterial,
+    ) -> bool {
+        let keeps = material.restitution >= 1.0 && material.friction == 0.0;
+        let (price, budget) = match self.settings.mode {
+            Mode::Exact if keeps => return false,
+            Mode::Exact => (price(material).max(EXACT_PRICE), EXACT_BUDGET),
+            _ => (price(material), BUDGET),
+        };
         #[expect(
             clippy::cast_possible_truncation,
             reason = "the cast saturates; a tick more or less in a budget is no matter"
@@ -348,7 +363,7 @@ impl World {
                 (course.tick, course.spent) = (tick, 0.0);
             }
             course.spent += price;
-            spent |= course.spent > BUDGET;
+            spent |= course.spent > budget;
         }
         if spent {
             let (one, two) = (

@@ -10,7 +10,6 @@ use super::strike::{approach_speed, opening, pace};
 use crate::World;
 use crate::flyers::Cause;
 use crate::impact::{ImpactBody, ImpactContact};
-use crate::predict::price_of;
 use crate::shock::Shock;
 use crate::state::BodyState;
 
@@ -187,8 +186,8 @@ impl World {
     fn strike_all(&mut self, impacts: &[Foreseen], time: SimTime) {
         let mut outrun = false;
         for impact in impacts {
-            let e = self.material_of(impact).restitution;
-            outrun |= self.outruns(impact, time, price_of(e));
+            let material = self.material_of(impact);
+            outrun |= self.outruns(impact, time, &material);
         }
         if outrun {
             return;
