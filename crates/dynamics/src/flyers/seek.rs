@@ -50,7 +50,7 @@ impl World {
         let ends = (one.colliders.len(), two.colliders.len());
         let (length, cut) = self.cut_by_turn((a, b), time, end);
         if cut {
-            let apart = self.apart_however_turned((a, b), time, end);
+            let apart = self.apart_however_turned((a, b), time, end, length);
             if apart > length {
                 if apart < end {
                     self.queue_near(a, b, time + apart);
@@ -86,7 +86,7 @@ impl World {
         let end = self.bodies.get(index).course.ground - time;
         let (length, cut) = self.cut_by_turn((index, owner), time, end);
         if cut {
-            let apart = self.apart_however_turned((index, owner), time, end);
+            let apart = self.apart_however_turned((index, owner), time, end, length);
             if apart > length {
                 if apart < end {
                     self.queue_near_shape(index, at, time + apart);

@@ -16,6 +16,9 @@ use crate::flight::first_touch;
 /// Largest turn that one search for a time of impact goes through, in rad.
 const TURN: f64 = 8.0;
 
+/// Searches in fewer pieces than this are no dearer than one more for the circles.
+const PIECES: f64 = 8.0;
+
 /// Circles about bodies are this much larger, so that rounding is outside of them.
 const RIM: f64 = 1.0 + 1.0 / (1_u64 << 20) as f64;
 
@@ -51,13 +54,18 @@ impl World {
     }
 
     /// How long two bodies surely do not touch, at most `length` seconds, whatever those of them turn by that turn by more
-    /// than [`TURN`] in it: the circles about these have not met the other one by then.
+    /// than [`TURN`] in it: the circles about these have not met the other one by then. 0 where pieces of `piece` seconds
+    /// are few enough to be searched one by one.
     pub(super) fn apart_however_turned(
         &self,
         (a, b): (u32, u32),
         time: SimTime,
         length: f64,
+        piece: f64,
     ) -> f64 {
+        if length < PIECES * piece {
+            return 0.0;
+        }
         let (one, two) = (self.bodies.get(a), self.bodies.get(b));
         let (of_one, of_two) = (
             self.shapes_however_turned(a, time, length),
