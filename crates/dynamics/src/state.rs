@@ -431,6 +431,11 @@ impl BodyState {
         }
     }
 
+    /// Whether its outline stays where it is as it turns: a disc about its centre of mass.
+    pub(crate) fn turns_in_place(&self) -> bool {
+        self.inner >= self.reach
+    }
+
     /// The body as the impact laws see it.
     pub(crate) fn in_impact(&self, time: SimTime) -> ImpactBody {
         ImpactBody {

@@ -71,7 +71,13 @@ impl Trees {
     pub(crate) fn remove(&mut self, leaf: Leaf) {
         match leaf {
             Leaf::Still(node) => self.still.remove(node),
-            Leaf::OnCourse(node) => self.on_course.remove(node),
+            Leaf::OnCourse(node) => {
+                debug_assert!(
+                    self.late.iter().all(|(late, _)| *late != node),
+                    "a new box of a shape that is gone"
+                );
+                self.on_course.remove(node)
+            }
         };
     }
 

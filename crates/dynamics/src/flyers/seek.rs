@@ -48,15 +48,12 @@ impl World {
             common_horizon(one, two) - time
         };
         let ends = (one.colliders.len(), two.colliders.len());
-        let (length, cut) = self.cut_by_turn((a, b), time, end);
-        if cut {
-            let apart = self.apart_however_turned((a, b), time, end, length);
-            if apart > length {
-                if apart < end {
-                    self.queue_near(a, b, time + apart);
-                }
-                return;
+        let (apart, length) = self.first_piece((a, b), time, end);
+        if apart > 0.0 {
+            if apart < end {
+                self.queue_near(a, b, time + apart);
             }
+            return;
         }
         let mut met = false;
         for i in 0..ends.0 {
@@ -68,7 +65,7 @@ impl World {
                 met |= self.seek_shapes((a, b), shapes, time, length, cause);
             }
         }
-        if cut && !met {
+        if length < end && !met {
             self.queue_near(a, b, time + length);
         }
     }
@@ -84,15 +81,12 @@ impl World {
     pub(super) fn seek_shape(&mut self, index: u32, at: u32, time: SimTime, cause: Cause) {
         let owner = self.colliders[at as usize].body;
         let end = self.bodies.get(index).course.ground - time;
-        let (length, cut) = self.cut_by_turn((index, owner), time, end);
-        if cut {
-            let apart = self.apart_however_turned((index, owner), time, end, length);
-            if apart > length {
-                if apart < end {
-                    self.queue_near_shape(index, at, time + apart);
-                }
-                return;
+        let (apart, length) = self.first_piece((index, owner), time, end);
+        if apart > 0.0 {
+            if apart < end {
+                self.queue_near_shape(index, at, time + apart);
             }
+            return;
         }
         let mut met = false;
         for slot in 0..self.bodies.get(index).colliders.len() {
@@ -104,7 +98,7 @@ impl World {
             };
             met |= self.seek_shapes(ends, shapes, time, length, cause);
         }
-        if cut && !met {
+        if length < end && !met {
             self.queue_near_shape(index, at, time + length);
         }
     }

@@ -1,14 +1,14 @@
 //! Bodies that turn often while they are searched for: a circle about each of them does not turn.
 //!
 //! Bounds on a gap's second derivative are loose over more than a turn, so that a search goes through a part of it at a
-//! time. A body at 1e4 rad/s that flies for a day past a wall would be searched for 1e8 times; the circle about it meets
+//! time. That is cheap as long as the parts are few. A body at 1e4 rad/s that flies for a day past a wall would be searched for 1e8 times; the circle about it meets
 //! the wall, or does not, in one search.
 
 use std::sync::Arc;
 
 use carom_collision::{TimeOfImpact, shape_distance, time_of_impact_from};
 use carom_geometry::{Circle, Shape};
-use carom_math::{SimTime, Vec2};
+use carom_math::SimTime;
 
 use crate::World;
 use crate::flight::first_touch;
@@ -16,56 +16,48 @@ use crate::flight::first_touch;
 /// Largest turn that one search for a time of impact goes through, in rad.
 const TURN: f64 = 8.0;
 
-/// Searches in fewer pieces than this are no dearer than one more for the circles.
+/// A search in fewer pieces than this is no dearer than one more for the circles.
 const PIECES: f64 = 8.0;
 
 /// Circles about bodies are this much larger, so that rounding is outside of them.
 const RIM: f64 = 1.0 + 1.0 / (1_u64 << 20) as f64;
 
 impl World {
-    /// A search of `length` seconds for a pair, or as much of it as its bodies turn by [`TURN`] in; whether that is less.
-    pub(super) fn cut_by_turn(
-        &self,
-        (a, b): (u32, u32),
-        time: SimTime,
-        length: f64,
-    ) -> (f64, bool) {
+    /// What a search of `length` seconds for a pair begins with, in seconds from `time`: up to the first value nothing
+    /// touches; where that is 0, the search goes up to the second.
+    pub(super) fn first_piece(&self, pair: (u32, u32), time: SimTime, length: f64) -> (f64, f64) {
+        let piece = self.length_by_turn(pair, time, length);
+        if length / piece >= PIECES {
+            let apart = self.apart_however_turned(pair, time, length);
+            if apart > piece {
+                return (apart, piece);
+            }
+        }
+        (0.0, piece)
+    }
+
+    /// As much of `length` seconds as the bodies of a pair turn by at most [`TURN`] in.
+    fn length_by_turn(&self, (a, b): (u32, u32), time: SimTime, length: f64) -> f64 {
         let spin = |index: u32| {
             let motion = &self.bodies.get(index).motion;
             motion.spin_at(time).abs() + motion.angular_acceleration.abs() * length
         };
         if length * (spin(a) + spin(b)) <= TURN {
-            return (length, false);
+            return length;
         }
-        // A disc that turns about its centre stays where it is.
-        let spins = [a, b].map(|index| {
-            if self.is_centred(index) {
+        let seen = |index: u32| {
+            if self.bodies.get(index).turns_in_place() {
                 0.0
             } else {
                 spin(index)
             }
-        });
-        let fastest = spins[0] + spins[1];
-        if length * fastest > TURN {
-            (TURN / fastest, true)
-        } else {
-            (length, false)
-        }
+        };
+        length.min(TURN / (seen(a) + seen(b)))
     }
 
     /// How long two bodies surely do not touch, at most `length` seconds, whatever those of them turn by that turn by more
-    /// than [`TURN`] in it: the circles about these have not met the other one by then. 0 where pieces of `piece` seconds
-    /// are few enough to be searched one by one.
-    pub(super) fn apart_however_turned(
-        &self,
-        (a, b): (u32, u32),
-        time: SimTime,
-        length: f64,
-        piece: f64,
-    ) -> f64 {
-        if length < PIECES * piece {
-            return 0.0;
-        }
+    /// than [`TURN`] in it: the circles about these have not met the other one by then.
+    fn apart_however_turned(&self, (a, b): (u32, u32), time: SimTime, length: f64) -> f64 {
         let (one, two) = (self.bodies.get(a), self.bodies.get(b));
         let (of_one, of_two) = (
             self.shapes_however_turned(a, time, length),
@@ -117,11 +109,5 @@ impl World {
                 state.colliders.iter().map(solid).collect()
             }
         }
-    }
-
-    /// Whether a body is a disc about its centre of mass.
-    fn is_centred(&self, index: u32) -> bool {
-        let centred = |at: &u32| matches!(&*self.colliders[*at as usize].solid, Shape::Circle(disc) if disc.centre() == Vec2::ZERO);
-        self.bodies.get(index).colliders.iter().all(centred)
     }
 }

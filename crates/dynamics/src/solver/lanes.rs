@@ -127,7 +127,7 @@ impl Lanes {
     }
 
     fn place(&mut self, id: RowId, row: &Row, acts: bool, lines: &[Line]) {
-        self.belts |= row.belt != 0.0;
+        self.notes(row);
         let ends = [row.bodies.0, row.bodies.1];
         let moves = ends.map(|i| lines[i as usize].inverse_mass() > 0.0);
         let (zone, local) = self.home(ends, moves);

@@ -29,7 +29,7 @@ pub(crate) fn sweep_all(pass: Pass, law: &Law, lines: &mut [Line], colours: &mut
 }
 
 /// Whether no row of a block pushes, and none closes in this sub-step.
-pub(crate) fn is_idle(pass: Pass, law: &Law, lines: &[Line], wide: &Wide) -> bool {
+fn is_idle(pass: Pass, law: &Law, lines: &[Line], wide: &Wide) -> bool {
     let relax = !matches!(pass, Pass::Solve | Pass::SolveOften);
     (0..LANES).all(|lane| {
         let (a, b) = (wide.a[lane], wide.b[lane]);

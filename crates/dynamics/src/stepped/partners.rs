@@ -169,10 +169,10 @@ impl World {
                 near.extend(partners.iter().filter(|other| !is_known(**other)));
             } else {
                 let owner = self.colliders[at as usize].body;
-                let sets_out = mine.is_some_and(|mine| mine.sets_out);
+                let sets_out = mine.as_ref().filter(|mine| mine.sets_out);
                 self.pool.throng.query(fat, |other| {
-                    let looks = sets_out && other.sets_out && other.body < owner;
-                    if other.body != owner && !looks && !is_known(other.at) && comes(other) {
+                    let is_asked = sets_out.is_some_and(|mine| other.looks_for(mine));
+                    if other.body != owner && !is_asked && !is_known(other.at) && comes(other) {
                         near.push(other.at);
                     }
                 });

@@ -162,11 +162,10 @@ impl Seats {
         });
         if state.kind == BodyKind::Dynamic {
             let travel = PART * state.inner;
-            // A disc about its centre turns into itself.
-            let turn = if state.inner < state.reach {
-                travel / state.reach
-            } else {
+            let turn = if state.turns_in_place() {
                 f64::INFINITY
+            } else {
+                travel / state.reach
             };
             let travel = travel * travel;
             self.rig.set_limit(slot, Limit { travel, turn });
@@ -182,10 +181,10 @@ impl Seats {
             id: state.id,
             kind: state.kind,
             reach: state.reach,
-            rim: if state.inner < state.reach {
-                state.reach
-            } else {
+            rim: if state.turns_in_place() {
                 0.0
+            } else {
+                state.reach
             },
             inner: state.inner,
             base: motion.pose_at(time),
