@@ -1,7 +1,7 @@
 //! Boxes of bodies that are stepped: made where a body is, and kept as long as it keeps the course they were made for.
 
 use carom_geometry::{Aabb, Shape};
-use carom_math::{Pose, SimTime};
+use carom_math::{Pose, SimTime, Vec2};
 
 use super::courses::Course;
 use super::seats::Seats;
@@ -18,21 +18,28 @@ impl World {
         shapes.any(|at| self.colliders[*at as usize].node.is_none())
     }
 
-    /// New boxes for a body that went out of its old ones along its motion, `seconds` long.
-    pub(super) fn hold_way(&mut self, index: u32, slot: u32, start: SimTime, seconds: f64) {
-        let state = self.bodies.get(index);
-        let holds = |at: &u32| {
-            let collider = &self.colliders[*at as usize];
-            let swept = swept_box(collider, &state.motion, start, seconds);
-            collider.node.is_some() && collider.fat.contains(swept)
-        };
+    /// New boxes for a body that went out of its old ones in a sub-step, from displacement and turn `from` on.
+    pub(super) fn hold_way(
+        &mut self,
+        (index, slot): (u32, u32),
+        from: (Vec2, f64),
+        start: SimTime,
+        seconds: f64,
+    ) {
         let seats = &self.pool.seats;
         let (seat, line) = (seats.get(slot), &seats.rig.lines[slot as usize]);
-        let pull = seats.rig.pull(slot);
-        let keeps = |course: &Course| course.holds(seat, line, &pull, start + seconds, 0.0);
-        // Whoever left its course may have left its boxes, or met whom it could not have met on it.
-        if !(seat.course.as_deref().is_none_or(keeps) && state.colliders.iter().all(holds)) {
+        let holds = if let Some(course) = seat.course.as_deref() {
+            // It went straight on. Whoever left its course may have met whom it could not have met on it.
+            let ends = [(from, start), ((line.d(), line.turn()), start + seconds)];
+            ends.into_iter()
+                .all(|(at, time)| course.passes(seat, at, time))
+                && !self.lacks_boxes(index)
+        } else {
+            self.boxes_hold(index, start, seconds)
+        };
+        if !holds {
             // The way is not over: the boxes hold what is ahead of it, and what lies behind.
+            let state = self.bodies.get(index);
             let behind = state.colliders.iter();
             let behind = behind.map(|at| {
                 let collider = &self.colliders[*at as usize];
@@ -43,6 +50,16 @@ impl World {
             self.box_anew(index, slot, start, &behind);
             self.seek_partners(index, slot, start, false);
         }
+    }
+
+    /// Whether a body stays in its boxes along its motion, `seconds` long.
+    fn boxes_hold(&self, index: u32, start: SimTime, seconds: f64) -> bool {
+        let state = self.bodies.get(index);
+        state.colliders.iter().all(|at| {
+            let collider = &self.colliders[*at as usize];
+            let swept = swept_box(collider, &state.motion, start, seconds);
+            collider.node.is_some() && collider.fat.contains(swept)
+        })
     }
 
     /// New boxes for a body that leaves its course within `seconds`; whether it got some.

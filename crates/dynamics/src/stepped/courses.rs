@@ -45,15 +45,27 @@ impl Course {
         if passed + seconds > self.lasts {
             return false;
         }
-        let padding = PADDING * seat.reach;
-        let off = seat.base.position + line.d() - self.centre_after(passed);
-        let turned = seat.base_angle + line.turn() - (self.angle + self.spin * passed);
+        let (off, turned) = self.off_by(seat, (line.d(), line.turn()), passed);
         let drift = line.v() - self.velocity_after(passed);
         let then =
             off + (drift + (pull.acceleration - self.acceleration) * (0.5 * seconds)) * seconds;
         let turned_then = turned + (line.w() - self.spin) * seconds;
-        let far = |off: Vec2, turned: f64| off.length() + seat.rim * turned.abs();
-        far(off, turned) <= padding && far(then, turned_then) <= padding
+        is_near(seat, off, turned) && is_near(seat, then, turned_then)
+    }
+
+    /// Whether a body with a displacement and a turn at `time` is on its course then.
+    pub(super) fn passes(&self, seat: &Seat, at: (Vec2, f64), time: SimTime) -> bool {
+        let passed = time - self.from;
+        let (off, turned) = self.off_by(seat, at, passed);
+        passed <= self.lasts && is_near(seat, off, turned)
+    }
+
+    /// How far a displacement and a turn are off the course.
+    fn off_by(&self, seat: &Seat, (d, turn): (Vec2, f64), passed: f64) -> (Vec2, f64) {
+        (
+            seat.base.position + d - self.centre_after(passed),
+            seat.base_angle + turn - (self.angle + self.spin * passed),
+        )
     }
 
     fn centre_after(&self, passed: f64) -> Vec2 {
@@ -63,6 +75,11 @@ impl Course {
     fn velocity_after(&self, passed: f64) -> Vec2 {
         self.velocity + self.acceleration * passed
     }
+}
+
+/// Whether a body that is so far off its course is within its padding.
+fn is_near(seat: &Seat, off: Vec2, turned: f64) -> bool {
+    off.length() + seat.rim * turned.abs() <= PADDING * seat.reach
 }
 
 /// Where a body is on its course, and how long that lasts; one that stands is on its course for ever.

@@ -112,7 +112,7 @@ impl World {
             };
             let (body, angle) = (seat.body, seat.base_angle + before.turn);
             self.go_on_as(body, motion, angle);
-            self.hold_way(body, before.slot, start, h);
+            self.hold_way((body, before.slot), (before.d, before.turn), start, h);
             ways.push(Way {
                 body,
                 slot: before.slot,
