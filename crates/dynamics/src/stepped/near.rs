@@ -120,8 +120,9 @@ impl World {
             }
             let padding = PADDING * seat.reach;
             let ahead = speed_of(line.v(), line.w(), seat.rim) * tick;
-            if ahead > 0.5 * padding {
-                // The boxes of a quick body are stretched along its way, and asked every time.
+            if 2.0 * ahead + seat.leash > padding {
+                // The boxes of who would be out of its padding within two ticks are stretched along its way, and asked
+                // every time.
                 if self.rebox(index, slot, time, tick) {
                     reboxed.push((index, slot));
                 }
