@@ -291,6 +291,11 @@ impl BoxTree {
             self.free_leaf = id.leaf;
         }
         self.len -= 1;
+        if self.len == 0 {
+            // Whoever left it all at once, as from one tree to another, leaves no room behind.
+            self.pairs = Vec::new();
+            self.free_pair = NONE;
+        }
         Some(data)
     }
 

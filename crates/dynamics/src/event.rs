@@ -142,6 +142,8 @@ impl Events {
     /// Makes room for the events of a step. What happened since the last one, by what the caller
     /// changed, is delivered with it.
     pub(crate) fn begin_step(&mut self) {
+        // A step in which much happened leaves no room behind.
+        self.list.shrink_to(4 * self.delivered);
         self.list.drain(..self.delivered);
         self.delivered = 0;
         self.dropped = 0;
@@ -158,5 +160,28 @@ impl<'a> IntoIterator for &'a Events {
 
     fn into_iter(self) -> Self::IntoIter {
         self.iter()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_step_in_which_much_happened_leaves_no_room_behind() {
+        let mut events = Events::new(4096);
+        let id = BodyId {
+            index: 0,
+            generation: 0,
+        };
+        for count in [3000, 2, 0, 0] {
+            events.begin_step();
+            for _ in 0..count {
+                events.push(SimTime::ZERO, EventKind::Awake(id));
+            }
+            events.end_step();
+            assert_eq!(events.len(), count);
+        }
+        assert_eq!(events.list.capacity(), 0);
     }
 }

@@ -42,7 +42,7 @@ impl Narrow {
         let near = a.reach + b.reach + margin;
         self.found.clear();
         if apart.length_squared() > near * near {
-            pair.contacts.clear();
+            pair.contacts = Vec::new();
             pair.touching = false;
             pair.buried = false;
             return;

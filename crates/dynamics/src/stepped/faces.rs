@@ -76,7 +76,7 @@ impl World {
             (gap.separation, poses[0].vector(gap.normal), load)
         } else {
             self.pool.release(pair);
-            pair.contacts.clear();
+            pair.contacts = Vec::new();
             pair.fresh = false;
             (circles, apart / apart.length(), 1.0)
         };
@@ -284,7 +284,9 @@ impl Stepped {
             }
         }
         let mut old = core::mem::take(&mut self.before);
-        core::mem::swap(&mut old, &mut pair.contacts);
+        old.append(&mut pair.contacts);
+        // No more room than they fill: most pairs have one.
+        pair.contacts.shrink_to(found.len());
         pair.contacts.reserve_exact(found.len());
         for new in found {
             let mut contact = carried(new, poses[0], &old);

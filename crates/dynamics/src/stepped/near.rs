@@ -72,6 +72,7 @@ impl World {
     /// The look at the start of a tick: whoever moved gets new boxes, and its pairs are looked at.
     pub(super) fn look_around(&mut self, time: SimTime) {
         self.pool.depths.clear();
+        self.pool.cores.age();
         self.look_at_fresh(time);
         self.pool.looks = (self.pool.looks + 1) % REFRESH;
         if self.pool.looks == 0 {

@@ -27,6 +27,8 @@ impl World {
         let at_once = reboxed.len() >= MANY && self.broad.search == PairSearch::Indexed;
         if at_once {
             self.lay_out_throng(time);
+        } else {
+            self.pool.throng.clear();
         }
         for &(index, slot) in reboxed {
             self.seek_partners(index, slot, time, at_once);

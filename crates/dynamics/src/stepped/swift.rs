@@ -330,15 +330,26 @@ fn comes_within(a: &Motion, b: &Motion, near: f64, left: f64) -> bool {
     (apart + closing * nearest).length_squared() <= near * near
 }
 
-/// The cores of shapes whose bodies were swift once, by collider.
+/// The cores of shapes whose bodies were swift lately, by collider.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Cores(Vec<Option<Cored>>);
+pub(crate) struct Cores {
+    list: Vec<Option<Cored>>,
+    /// Asked for since those that nobody asked for were dropped.
+    asked: bool,
+    /// Ticks since then.
+    ticks: u32,
+}
 
 #[derive(Clone, Debug)]
 struct Cored {
     of: Arc<Shape>,
     parts: Arc<[Part]>,
+    asked: bool,
 }
+
+/// Ticks for which nobody asks for a core before it is dropped: what falls is swift in all of them, and what has landed
+/// leaves none behind.
+const KEPT: u32 = 16;
 
 /// A convex part of a shape.
 #[derive(Clone, Debug)]
@@ -357,21 +368,44 @@ impl Part {
 impl Cores {
     pub(super) fn of(&mut self, collider: u32, solid: &Arc<Shape>) -> Arc<[Part]> {
         let at = collider as usize;
-        if self.0.len() <= at {
-            self.0.resize(at + 1, None);
+        if self.list.len() <= at {
+            self.list.resize(at + 1, None);
         }
-        let known = self.0[at]
-            .as_ref()
-            .filter(|cored| Arc::ptr_eq(&cored.of, solid));
-        if let Some(cored) = known {
+        self.asked = true;
+        if let Some(cored) = &mut self.list[at]
+            && Arc::ptr_eq(&cored.of, solid)
+        {
+            cored.asked = true;
             return Arc::clone(&cored.parts);
         }
         let parts = parts_of(solid);
-        self.0[at] = Some(Cored {
+        self.list[at] = Some(Cored {
             of: Arc::clone(solid),
             parts: Arc::clone(&parts),
+            asked: true,
         });
         parts
+    }
+
+    /// A tick begins: drops cores that nobody asked for in the last ones.
+    pub(super) fn age(&mut self) {
+        self.ticks += 1;
+        if self.ticks < KEPT {
+            return;
+        }
+        self.ticks = 0;
+        if !core::mem::take(&mut self.asked) {
+            self.list = Vec::new();
+            return;
+        }
+        for known in &mut self.list {
+            let kept = known
+                .as_mut()
+                .map(|cored| core::mem::take(&mut cored.asked));
+            if kept == Some(false) {
+                *known = None;
+            }
+        }
     }
 }
 
@@ -406,4 +440,30 @@ fn shrunk_corner(hull: &Hull<'_>, i: usize, depth: f64) -> Vec2 {
     // p + w with w·m = w·n = −depth: w = −depth (m + n)/(1 + m·n).
     let way = (m + n) / (1.0 + m.dot(n)).max(0.5 * (m + n).length());
     hull.vertices[i] - way * depth
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cores_that_nobody_asks_for_are_dropped() {
+        let solid = ConvexPolygon::rectangle(1.0, 1.0).expect("a square");
+        let solid = Arc::new(Shape::from(solid));
+        let mut cores = Cores::default();
+        for tick in 0..10 * KEPT {
+            let first = cores.of(3, &solid);
+            assert!(Arc::ptr_eq(&first, &cores.of(3, &solid)), "tick {tick}");
+            if tick == 0 {
+                cores.of(5, &solid);
+            }
+            cores.age();
+        }
+        let kept = |cores: &Cores| cores.list.iter().flatten().count();
+        assert_eq!(kept(&cores), 1);
+        for _ in 0..2 * KEPT {
+            cores.age();
+        }
+        assert_eq!(cores.list.capacity(), 0);
+    }
 }

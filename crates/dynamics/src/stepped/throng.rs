@@ -112,6 +112,15 @@ impl Throng {
         large
     }
 
+    /// Forgets who was laid out, with the room that they took; what is too large stays so.
+    pub(super) fn clear(&mut self) {
+        *self = Self {
+            limit: self.limit,
+            height: self.height,
+            ..Self::default()
+        };
+    }
+
     fn lay_bands(&mut self) {
         let height = self.height;
         let all = (0_u32..).zip(&self.members);
@@ -339,6 +348,18 @@ mod tests {
         assert!(throng.takes(Aabb::new(Vec2::ZERO, Vec2::splat(1e9))));
         assert_eq!(query(&throng, Aabb::new(Vec2::ZERO, Vec2::ONE)), []);
         assert_eq!(throng.partners(0), None);
+    }
+
+    #[test]
+    fn who_is_too_large_stays_so_when_all_are_forgotten() {
+        let at = |x: f64, size: f64| Aabb::new(vec2(x, 0.0), vec2(x + size, size));
+        let all: Vec<Aabb> = (0..50).map(|i| at(2.0 * f64::from(i), 1.0)).collect();
+        let (mut throng, _) = lay_out(&all);
+        throng.clear();
+        assert!(throng.takes(at(0.0, 3.0)) && !throng.takes(at(0.0, 5.0)));
+        assert_eq!(throng.partners(0), None);
+        assert_eq!(query(&throng, at(0.0, 3.0)), []);
+        assert_eq!(throng.members.capacity(), 0);
     }
 
     #[test]

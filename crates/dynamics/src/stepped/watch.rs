@@ -292,7 +292,7 @@ impl World {
     fn let_go(&mut self, place: u32, time: SimTime) {
         let pair = self.pairs.get_mut(place);
         self.pool.release(pair);
-        pair.contacts.clear();
+        pair.contacts = Vec::new();
         pair.fresh = false;
         let touched = pair.touching;
         let glance = self.pairs.glance_mut(place);
