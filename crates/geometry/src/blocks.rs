@@ -21,7 +21,7 @@ use carom_math::Vec2;
 /// # Ok::<(), carom_geometry::PolygonError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[repr(align(32))]
+#[repr(align(16))]
 pub struct EdgeBlock {
     /// Corners at which the edges begin, in m.
     pub x: [f64; 4],

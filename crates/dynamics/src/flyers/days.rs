@@ -4,11 +4,12 @@ use carom_math::SimTime;
 
 use super::queue::{Entry, What};
 
-/// Entries of a block: with its link it fills two lines of a cache.
-const BLOCK: usize = 5;
+/// Entries of a block: with its link it fills a line of a cache. Most days have one or two: larger blocks would be empty for
+/// the most part.
+const BLOCK: usize = 2;
 
 /// Blocks that room is made for at once: what grew by doubling would leave holes of half its size.
-const CHUNK: usize = 64;
+const CHUNK: usize = 128;
 
 /// No block.
 const NONE: u32 = u32::MAX;
@@ -170,8 +171,8 @@ mod tests {
     use proptest::prelude::*;
 
     #[test]
-    fn a_block_is_two_lines() {
-        assert_eq!(size_of::<Block>(), 128);
+    fn a_block_is_a_line() {
+        assert_eq!(size_of::<Block>(), 64);
     }
 
     proptest! {
