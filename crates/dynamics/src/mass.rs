@@ -1,12 +1,18 @@
 //! What a body weighs: from its definition and its shapes.
 
 use carom_geometry::{Aabb, AreaProperties, MassProperties, Shape};
-use carom_math::Pose;
+use carom_math::{Pose, Vec2};
 
 use crate::error::BodyError;
 use crate::{BodyDef, BodyKind, Material};
 
+/// A centre of mass nearer to the origin of its shapes than this, as a fraction of how far they reach from there, is there: two
+/// roundings of what the farthest corner adds to it.
+const CENTRED: f64 = 2.0 * f64::EPSILON;
+
 /// Mass, centre of mass and inertia of a definition.
+///
+/// What is drawn about its centre of mass is found to be so: it is kept once, for drawing and for motion.
 pub(crate) fn mass_of(
     def: &BodyDef,
     shapes: &[(Shape, Material)],
@@ -21,6 +27,9 @@ pub(crate) fn mass_of(
     // A half-plane, on a fixed body, weighs nothing.
     for (area, material) in areas(shapes) {
         mass = mass + area.with_density(material.density);
+    }
+    if is_centred(mass.centroid, shapes) {
+        mass.centroid = Vec2::ZERO;
     }
     if def.kind != BodyKind::Dynamic {
         // Infinite: only where the centre is matters, and any density gives that.
@@ -72,6 +81,13 @@ pub(crate) fn mass_of(
     Ok(mass)
 }
 
+/// Whether a centre of mass differs from the origin by roundings alone.
+fn is_centred(centroid: Vec2, shapes: &[(Shape, Material)]) -> bool {
+    let bounded = shapes.iter().filter(|(shape, _)| shape.is_bounded());
+    let reaches = bounded.map(|(shape, _)| shape.reach_about(Vec2::ZERO));
+    centroid.length() <= CENTRED * reaches.fold(0.0, f64::max)
+}
+
 /// Areas of the shapes that have one.
 fn areas(shapes: &[(Shape, Material)]) -> impl Iterator<Item = (AreaProperties, &Material)> {
     shapes.iter().filter_map(|(shape, material)| {
@@ -93,5 +109,29 @@ fn middle_of(shapes: &[(Shape, Material)]) -> MassProperties {
     MassProperties {
         centroid: bounds.centre(),
         ..MassProperties::ZERO
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use carom_geometry::ConvexPolygon;
+    use carom_math::vec2;
+
+    #[test]
+    fn what_is_drawn_about_its_centre_of_mass_has_it_there() {
+        for sides in 3..40 {
+            let polygon = ConvexPolygon::regular(sides, 1.3)
+                .expect("a polygon")
+                .centred();
+            let centroid = |offset: Vec2| {
+                let shape = Shape::from(polygon.translated(offset));
+                let mass = mass_of(&BodyDef::dynamic(), &[(shape, Material::default())]);
+                mass.expect("it has a mass").centroid
+            };
+            assert_eq!(centroid(Vec2::ZERO), Vec2::ZERO, "{sides} sides");
+            let aside = vec2(1e-14, 0.0);
+            assert!((centroid(aside) - aside).length() < 1e-15, "{sides} sides");
+        }
     }
 }
