@@ -8,7 +8,8 @@ use carom_math::{SimTime, Sum, Vec2};
 use crate::few::Few;
 use crate::flyers::Course;
 use crate::history::History;
-use crate::state::{BodyState, Lag};
+use crate::state::BodyState;
+use crate::uncommon::Lag;
 use crate::{BodyError, BodyId, BodyKind, EnergyLedger, Field};
 
 /// Running sums of the energy ledger's columns, with twice the digits.
@@ -238,7 +239,7 @@ impl Bodies {
         } else {
             self.pull.at(state.centre_at(time))
         };
-        let acceleration = state.gravity_scale * pull + state.force() * state.inverse_mass
+        let acceleration = state.gravity_scale() * pull + state.force() * state.inverse_mass
             - state.velocity_at(time) * linear;
         let turning = state.torque() * state.inverse_inertia - angular * state.spin_at(time);
         (acceleration, turning)
@@ -280,7 +281,7 @@ impl Bodies {
     /// Along a quadratic piece the kinetic energy changes by exactly `m a·Δx + I α Δθ`. None where gravity is all.
     fn piece(&self, state: &BodyState, time: SimTime) -> Option<Piece> {
         let motion = &state.motion;
-        let free = state.gravity_scale * self.pull.gravity;
+        let free = state.gravity_scale() * self.pull.gravity;
         // Crowds keep their own account.
         if !state.is_dynamic()
             || state.in_crowd
@@ -316,7 +317,8 @@ impl Bodies {
         let mut potential = -mass * free.dot(travel);
         for field in &self.pull.fields {
             let (from, to) = (motion.centre, motion.centre + travel);
-            potential += mass * state.gravity_scale * (field.potential(to) - field.potential(from));
+            potential +=
+                mass * state.gravity_scale() * (field.potential(to) - field.potential(from));
         }
         let forces = state.force().dot(travel) + state.torque() * turn - damping_loss(state, time);
         Some(Piece {
@@ -332,7 +334,7 @@ impl Bodies {
             return (0.0, 0.0);
         }
         let centre = state.centre_at(time);
-        let potential = state.mass.mass * state.gravity_scale * self.pull.potential(centre);
+        let potential = state.mass.mass * state.gravity_scale() * self.pull.potential(centre);
         (state.kinetic_energy(time), potential)
     }
 

@@ -119,7 +119,7 @@ impl<'w> Body<'w> {
     /// Factor on gravity and fields.
     #[must_use]
     pub fn gravity_scale(&self) -> f64 {
-        self.state.gravity_scale
+        self.state.gravity_scale()
     }
 
     /// What the caller wanted to find again.

@@ -373,6 +373,7 @@ impl World {
             flies,
             ..Course::default()
         };
+        state.set_piece(SimTime::NEVER);
         if state.is_stepped() {
             self.enlist(index, now);
         }
@@ -424,9 +425,9 @@ impl World {
         if !motion.rotation.x_axis().is_finite() {
             motion.rotation = carom_math::Rot::IDENTITY;
         }
-        state.gravity_scale = 0.0;
+        state.float();
         state.flight = None;
-        state.course.piece = SimTime::NEVER;
+        state.set_piece(SimTime::NEVER);
         self.bodies.renew(index);
     }
 

@@ -16,7 +16,8 @@ use carom_collision::Motion;
 use carom_math::{SimTime, Vec2};
 
 use crate::bodies::Bodies;
-use crate::state::{BodyState, Lag};
+use crate::state::BodyState;
+use crate::uncommon::Lag;
 pub(crate) use contact::{first_touch, first_touch_of_parts};
 use damped::damped;
 pub(crate) use integrate::{NODES, ROUNDS, STANDS};
@@ -46,7 +47,7 @@ const APART: f64 = 1.0 / 32.0;
 pub(crate) fn fly(bodies: &mut Bodies, index: u32, time: SimTime, h: f64) {
     let state = bodies.get(index);
     let free = if state.inverse_mass > 0.0 {
-        state.gravity_scale * bodies.pull.gravity + state.force() * state.inverse_mass
+        state.gravity_scale() * bodies.pull.gravity + state.force() * state.inverse_mass
     } else {
         Vec2::ZERO
     };
@@ -115,7 +116,7 @@ fn law_of(bodies: &Bodies, index: u32, time: SimTime, h: f64, cover: f64) -> Fli
         pull: state.torque() * state.inverse_inertia,
         damping: angular,
     };
-    let scale = state.gravity_scale;
+    let scale = state.gravity_scale();
     let push = state.force() * state.inverse_mass;
     let uniform = scale * pull.gravity + push;
     if pull.fields.is_empty() {
@@ -141,8 +142,8 @@ fn law_of(bodies: &Bodies, index: u32, time: SimTime, h: f64, cover: f64) -> Fli
 /// How far a stretch of the integrator may go, by what the fields say of themselves, in s.
 fn longest(bodies: &Bodies, index: u32, (x, v): (Vec2, Vec2), h: f64) -> f64 {
     let (state, pull) = (bodies.get(index), &bodies.pull);
-    let scale = state.gravity_scale.abs();
-    let push = state.gravity_scale * pull.at(x) + state.force() * state.inverse_mass;
+    let scale = state.gravity_scale().abs();
+    let push = state.gravity_scale() * pull.at(x) + state.force() * state.inverse_mass;
     let (speed, push) = (v.length(), (push - v * state.damping().0).length());
     let mut span = LONGEST;
     while span > h {
@@ -181,7 +182,7 @@ pub(crate) fn follow(
     // Path and parabola share both ends and the first velocity, so they part by at most 2/81 h³ times the
     // largest third derivative: |∇f| |v| + c |a|. A turn parts by the same, times the reach.
     let reach = (v.length() + acceleration.length() * h) * h;
-    let gradient = state.gravity_scale.abs() * bodies.pull.gradient_bound(x, reach);
+    let gradient = state.gravity_scale().abs() * bodies.pull.gradient_bound(x, reach);
     let bend = gradient * reach / h + linear * (acceleration.length() + linear * v.length() * h);
     let twist = angular * (angular_acceleration.abs() + angular * spin.abs() * h) * state.reach;
     let left_out = 2.0 / 81.0 * (bend + twist + jerk) * h * h * h;

@@ -164,7 +164,7 @@ impl Groups {
         let state = bodies.get(index);
         let (mut v, mut w) = (state.velocity_at(time), state.spin_at(time));
         if state.inverse_mass > 0.0 {
-            let pull = state.gravity_scale * bodies.pull.at(state.motion.centre_at(time));
+            let pull = state.gravity_scale() * bodies.pull.at(state.motion.centre_at(time));
             let pulls = (
                 pull + state.force() * state.inverse_mass,
                 state.torque() * state.inverse_inertia,

@@ -74,6 +74,7 @@ mod threads;
 mod tipping;
 mod touching;
 mod trees;
+mod uncommon;
 mod world;
 
 pub use body::Body;

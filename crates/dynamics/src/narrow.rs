@@ -199,7 +199,7 @@ pub(crate) fn rest_speed_between(bodies: &Bodies, (a, b): (u32, u32), h: f64) ->
     let (a, b) = (bodies.get(a), bodies.get(b));
     let pull = |body: &BodyState| {
         if body.is_dynamic() {
-            body.gravity_scale * bodies.pull.at(body.motion.centre)
+            body.gravity_scale() * bodies.pull.at(body.motion.centre)
                 + body.force() * body.inverse_mass
         } else {
             Vec2::ZERO

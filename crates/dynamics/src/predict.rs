@@ -54,9 +54,7 @@ pub(crate) fn predict(
 ) {
     let pair = pairs.get_mut(place);
     let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
-    let end = end
-        .min(a.course.stands_until())
-        .min(b.course.stands_until());
+    let end = end.min(a.stands_until()).min(b.stands_until());
     let horizon = end - time;
     let by_law = |state: &BodyState| state.is_flying() && state.flight.is_some();
     let by_law = by_law(a) || by_law(b);

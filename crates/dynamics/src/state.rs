@@ -14,6 +14,7 @@ use crate::flyers::Course;
 use crate::impact::ImpactBody;
 use crate::mass::mass_of;
 use crate::trees::Leaf;
+use crate::uncommon::{Lag, Uncommon};
 use crate::{BodyDef, BodyId, BodyKind, Filter, Material};
 
 /// All that a world keeps of one body. Nothing else stores a pose.
@@ -54,78 +55,13 @@ pub(crate) struct BodyState {
     uncommon: Option<Box<Uncommon>>,
     pub(crate) mass: MassProperties,
     pub(crate) course: Course,
-    pub(crate) gravity_scale: f64,
     pub(crate) tag: u64,
     /// The contact group in closed form that it belongs to.
     pub(crate) membership: Membership,
     /// How long the body has been slow, in s.
     pub(crate) slow_for: f64,
-    /// Least half width of its shapes, in m: the narrowest thing that can hold it back.
-    pub(crate) inner: f64,
     /// Pairs of its colliders with others.
     pub(crate) pairs: Vec<u32>,
-}
-
-/// What few bodies have.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Uncommon {
-    /// Of velocity and spin, in 1/s.
-    pub(crate) damping: (f64, f64),
-    /// Force and torque of the present step.
-    pub(crate) force: Vec2,
-    pub(crate) torque: f64,
-    /// Force and torque that the next step begins with.
-    pub(crate) pending: (Vec2, f64),
-    /// What the velocity has beyond the motion's along the present piece of a flight in a field.
-    lag: Lag,
-}
-
-impl Uncommon {
-    const NONE: Self = Self {
-        damping: (0.0, 0.0),
-        force: Vec2::ZERO,
-        torque: 0.0,
-        pending: (Vec2::ZERO, 0.0),
-        lag: Lag::NONE,
-    };
-}
-
-/// The difference of the cubic through both ends of a piece, in place and velocity, and the
-/// parabola that serves for prediction and meets the end in place alone.
-///
-/// ```text
-/// v(u) = v₀ + A u + L u (3 u/h − 2)         L h: what the parabola's velocity lacks at the end
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Lag {
-    /// L, in m/s².
-    pub(crate) rate: Vec2,
-    /// The same for the spin, in rad/s².
-    pub(crate) angular: f64,
-    /// h, in s.
-    pub(crate) length: f64,
-}
-
-impl Lag {
-    pub(crate) const NONE: Self = Self {
-        rate: Vec2::ZERO,
-        angular: 0.0,
-        length: 0.0,
-    };
-
-    fn at(self, u: f64) -> Vec2 {
-        if self.length == 0.0 {
-            return Vec2::ZERO;
-        }
-        self.rate * (u * (3.0 * u / self.length - 2.0))
-    }
-
-    fn spin_at(self, u: f64) -> f64 {
-        if self.length == 0.0 {
-            return 0.0;
-        }
-        self.angular * (u * (3.0 * u / self.length - 2.0))
-    }
 }
 
 /// A shape of a body; what impacts ask comes first.
@@ -185,7 +121,8 @@ impl BodyState {
         } else {
             def.spin
         };
-        let damping = (def.linear_damping, def.angular_damping);
+        let (damping, gravity_scale) =
+            ((def.linear_damping, def.angular_damping), def.gravity_scale);
         let inverse = |x: f64| if moving && x > 0.0 { x.recip() } else { 0.0 };
         Ok(Self {
             id,
@@ -207,14 +144,16 @@ impl BodyState {
                 inverse(mass.inertia)
             },
             locked_rotation: def.locked_rotation,
-            gravity_scale: def.gravity_scale,
             tag: def.tag,
-            uncommon: (damping != (0.0, 0.0)).then(|| {
-                Box::new(Uncommon {
-                    damping,
-                    ..Uncommon::NONE
-                })
-            }),
+            uncommon: (damping != (0.0, 0.0) || gravity_scale.to_bits() != 1_f64.to_bits()).then(
+                || {
+                    Box::new(Uncommon {
+                        damping,
+                        gravity_scale,
+                        ..Uncommon::NONE
+                    })
+                },
+            ),
             flight: None,
             member: false,
             in_crowd: false,
@@ -229,7 +168,6 @@ impl BodyState {
                 .iter()
                 .map(|(shape, _)| shape.reach_about(mass.centroid))
                 .fold(0.0, f64::max),
-            inner: f64::INFINITY,
             colliders: Few::default(),
             pairs: Vec::new(),
         })
@@ -243,6 +181,36 @@ impl BodyState {
     /// Torque of the present step, in N·m.
     pub(crate) fn torque(&self) -> f64 {
         self.uncommon().torque
+    }
+
+    /// How gravity and fields act on it, as a factor.
+    pub(crate) fn gravity_scale(&self) -> f64 {
+        self.uncommon().gravity_scale
+    }
+
+    /// From now on neither gravity nor a field acts on it.
+    pub(crate) fn float(&mut self) {
+        self.uncommon_mut().gravity_scale = 0.0;
+    }
+
+    /// Until when the motion of a flyer stands for the law that it flies by; for ever where it is the law.
+    pub(crate) fn piece(&self) -> SimTime {
+        self.uncommon().piece
+    }
+
+    pub(crate) fn set_piece(&mut self, end: SimTime) {
+        if self.uncommon.is_some() || end != SimTime::NEVER {
+            self.uncommon_mut().piece = end;
+        }
+    }
+
+    /// Until when the motion stands, if nothing changes it.
+    pub(crate) fn stands_until(&self) -> SimTime {
+        if self.course.flies {
+            self.piece()
+        } else {
+            SimTime::NEVER
+        }
     }
 
     /// Of velocity and spin, in 1/s.
@@ -271,13 +239,15 @@ impl BodyState {
         }
     }
 
-    /// Gives the body its shapes, which are about its centre of mass.
-    pub(crate) fn take_shapes(&mut self, own: Few, colliders: &[Collider]) {
-        let solids = own.iter().map(|&at| &colliders[at as usize].solid);
-        self.inner = solids
+    /// Least half width of its shapes, in m: the narrowest thing that can hold it back.
+    pub(crate) fn inner(&self, colliders: &[Collider]) -> f64 {
+        let solids = self
+            .colliders
+            .iter()
+            .map(|&at| &colliders[at as usize].solid);
+        solids
             .map(|solid| half_width(solid))
-            .fold(f64::INFINITY, f64::min);
-        self.colliders = own;
+            .fold(f64::INFINITY, f64::min)
     }
 
     /// Changes what moves the body; a fixed one comes to rest.
@@ -432,8 +402,9 @@ impl BodyState {
     }
 
     /// Whether its outline stays where it is as it turns: a disc about its centre of mass.
-    pub(crate) fn turns_in_place(&self) -> bool {
-        self.inner >= self.reach
+    pub(crate) fn turns_in_place(&self, colliders: &[Collider]) -> bool {
+        let is_point = |at: &u32| colliders[*at as usize].solid.vertices().len() == 1;
+        self.colliders.iter().all(is_point) && self.inner(colliders) >= self.reach
     }
 
     /// The body as the impact laws see it.
@@ -483,7 +454,7 @@ mod tests {
     }
 
     #[test]
-    fn a_body_fills_nine_lines_of_a_cache() {
-        assert_eq!(size_of::<BodyState>(), 9 * 64);
+    fn a_body_fills_eight_lines_of_a_cache() {
+        assert_eq!(size_of::<BodyState>(), 8 * 64);
     }
 }

@@ -155,7 +155,7 @@ fn mode_body(bodies: &Bodies, state: &BodyState, time: SimTime) -> ModeBody {
         velocity: state.velocity_at(time),
         spin: state.spin_at(time),
         pull: if dynamic {
-            state.gravity_scale * bodies.pull.gravity + state.force() * state.inverse_mass
+            state.gravity_scale() * bodies.pull.gravity + state.force() * state.inverse_mass
         } else {
             Vec2::ZERO
         },

@@ -201,9 +201,7 @@ impl World {
             self.add_collider(id.index, shape, surface, centroid)
         };
         let colliders = shapes.into_iter().map(add).collect();
-        self.bodies
-            .get_mut(id.index)
-            .take_shapes(colliders, &self.colliders);
+        self.bodies.get_mut(id.index).colliders = colliders;
         let (kinetic, potential) = self.bodies.energy_of(id.index, now);
         self.bodies.book.external.add(kinetic + potential);
         if sleeps {

@@ -87,8 +87,9 @@ impl World {
                     self.part(pair, time);
                 }
             }
-            let course = &mut self.bodies.get_mut(index).course;
-            (course.flies, course.glides, course.piece) = (true, true, until);
+            let state = self.bodies.get_mut(index);
+            (state.course.flies, state.course.glides) = (true, true);
+            state.set_piece(until);
             self.note_flight(index);
         }
         self.renew_members(place);

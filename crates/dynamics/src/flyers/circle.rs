@@ -93,7 +93,7 @@ impl Flyers {
             falls: known.is_some_and(|known| known.falls),
             horizon: known
                 .filter(|known| known.plain)
-                .map(|_| state.course.horizon),
+                .map(|_| self.horizon(state)),
         }
     }
 
@@ -120,6 +120,16 @@ impl Flyers {
                 )
             }
             _ => own.meets(&Circle::of(bodies.get(body), time)),
+        }
+    }
+
+    /// Until when two flyers have looked for each other.
+    pub(super) fn common_horizon_of(&self, a: &BodyState, b: &BodyState) -> SimTime {
+        if a.course.cells.is_some() && b.course.cells.is_some() {
+            self.horizon(a).min(self.horizon(b))
+        } else {
+            // The larger one is in the tree, and met where the other looks down.
+            a.course.ground.min(b.course.ground)
         }
     }
 

@@ -62,9 +62,12 @@ impl World {
         let track = Track::of(&state.motion, time);
         let seen = self.flyers.frame.track(&track, time);
         let seconds = at_most(seen.seconds_for(way));
-        state.course.horizon = (time + seconds).min(state.course.piece);
+        let horizon = (time + seconds).min(state.piece());
         state.course.swept = Sides::around(swept(state, &seen, seconds));
-        if !self.flyers.enter(&mut self.bodies, &self.colliders, index) {
+        if !self
+            .flyers
+            .enter(&mut self.bodies, &self.colliders, index, horizon)
+        {
             return false;
         }
         self.queue_end(index, Ahead::Horizon);
@@ -83,9 +86,8 @@ impl World {
         };
         let track = Track::of(&state.motion, time);
         let seconds = at_most(track.seconds_for(way).max(least));
-        state.course.ground = (time + seconds).min(state.course.piece);
+        state.course.ground = (time + seconds).min(state.piece());
         state.course.span = seconds;
-        state.course.horizon = state.course.ground;
         state.course.reached = Sides::around(swept(state, &track, seconds));
         self.broad
             .follow(&self.bodies, &mut self.colliders, index, time, seconds);
@@ -96,7 +98,9 @@ impl World {
     /// Enters the end of a search, unless an earlier entry will come to it: a motion changes more often
     /// than its searches end.
     pub(super) fn queue_end(&mut self, index: u32, ahead: Ahead) {
-        let (end, entered) = self.bodies.get_mut(index).course.end(ahead);
+        let state = self.bodies.get_mut(index);
+        let end = self.flyers.end(state, ahead);
+        let entered = state.course.entered(ahead);
         if *entered <= end {
             return;
         }
@@ -209,7 +213,7 @@ impl World {
         }
         if window.from > 0.0 {
             let meet = time + window.from;
-            if meet <= common_horizon(a, b) {
+            if meet <= self.flyers.common_horizon_of(a, b) {
                 self.queue_near(index, other, meet);
             }
             return;
@@ -332,8 +336,10 @@ impl World {
 
     /// Whether the search that an entry is for ends now; if it ends later, that is entered.
     fn ends_now(&mut self, entry: &Entry) -> bool {
-        let course = &mut self.bodies.get_mut(entry.a).course;
-        let (end, entered) = course.end(entry.ahead());
+        let state = self.bodies.get_mut(entry.a);
+        let end = self.flyers.end(state, entry.ahead());
+        let course = &mut state.course;
+        let entered = course.entered(entry.ahead());
         if *entered != entry.time {
             return false;
         }
@@ -349,17 +355,6 @@ impl World {
 
     pub(super) fn both_fly(&self, a: u32, b: u32) -> bool {
         self.bodies.get(a).course.flies && self.bodies.get(b).course.flies
-    }
-}
-
-/// Until when two flyers have looked for each other.
-pub(super) fn common_horizon(a: &BodyState, b: &BodyState) -> SimTime {
-    let (a, b) = (&a.course, &b.course);
-    if a.cells.is_some() && b.cells.is_some() {
-        a.horizon.min(b.horizon)
-    } else {
-        // The larger one is in the tree, and met where the other looks down.
-        a.ground.min(b.ground)
     }
 }
 

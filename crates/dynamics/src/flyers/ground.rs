@@ -36,11 +36,11 @@ impl World {
         };
         let state = self.bodies.get_mut(index);
         state.course.span = span;
-        state.course.ground = (time + span).min(state.course.piece);
+        state.course.ground = (time + span).min(state.piece());
         let span = state.course.ground - time;
         let way = swept(state, &Track::of(&state.motion, time), span).grown(room);
         state.course.reached = Sides::around(way);
-        self.flyers.lift(&mut state.course, index);
+        self.flyers.lift(&state.course, index);
         for &at in &state.colliders {
             self.colliders[at as usize].fat = state.course.reached.bounds();
         }
@@ -59,12 +59,12 @@ impl World {
         let clearing = state.course.reached.bounds();
         let rim = state.reach * window::ROOM + room_about(state, clearing);
         let stays = Track::of(&state.motion, time).seconds_within(clearing.grown(-rim));
-        if time + stays < state.course.horizon {
+        if time + stays < self.flyers.horizon(state) {
             return false;
         }
         let span = at_most(stays);
         state.course.span = span;
-        state.course.ground = (time + span).min(state.course.piece);
+        state.course.ground = (time + span).min(state.piece());
         self.queue_end(index, Ahead::Ground);
         true
     }

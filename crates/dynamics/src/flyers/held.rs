@@ -86,10 +86,11 @@ impl World {
                 self.part(place, time);
             }
         }
-        let course = &mut self.bodies.get_mut(index).course;
-        course.flies = true;
+        let bends = self.bodies.bends(index);
+        let state = self.bodies.get_mut(index);
+        state.course.flies = true;
         // What a sub-step gave it is no piece of its own.
-        course.piece = time;
+        state.set_piece(if bends { time } else { SimTime::NEVER });
         self.bodies.renew(index);
         self.note_flight(index);
         self.foresee(index, time, Cause::Deflected, None);
@@ -127,7 +128,7 @@ impl World {
     pub(crate) fn begin_substeps(&mut self, time: SimTime) {
         self.clock.catch_up(time);
         self.narrow(time);
-        self.flyers.raise(&mut self.bodies);
+        self.flyers.raise(&self.bodies);
     }
 
     /// Takes a body from those that are sub-stepped.

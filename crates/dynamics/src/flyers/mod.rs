@@ -31,7 +31,7 @@ use carom_collision::{BoxTree, ImpactFeature, NodeId};
 use carom_math::{SimTime, Vec2};
 
 use crate::bodies::Bodies;
-use crate::state::Collider;
+use crate::state::{BodyState, Collider};
 use aside::Aside;
 use circle::Registered;
 pub(crate) use foresee::Cause;
@@ -46,8 +46,6 @@ use streak::Streak;
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub(crate) struct Course {
-    /// Until when other flyers have been looked for.
-    pub(crate) horizon: SimTime,
     /// Until when what does not fly has been looked for.
     pub(crate) ground: SimTime,
     /// Where it is in the grid; none for what is too large for it, and is in the tree of boxes.
@@ -58,8 +56,6 @@ pub(crate) struct Course {
     pub(crate) glides: bool,
     /// Nothing was found where it looked down, but for half-planes.
     pub(crate) alone: bool,
-    /// Until when its motion stands for the law that it flies by; for ever where it is the law.
-    pub(crate) piece: SimTime,
     /// Box of its bounding circle up to the horizon, in the frame that falls.
     pub(crate) swept: Sides,
     /// Box of its bounding circle up to the end of its look at what does not fly, in the world.
@@ -73,8 +69,6 @@ pub(crate) struct Course {
     /// The tick in which it last struck, and what its impacts spent in it.
     pub(crate) tick: i64,
     pub(crate) spent: f64,
-    /// Node of that box in the tree aloft.
-    pub(crate) node: Option<NodeId>,
     pub(crate) streak: Streak,
 }
 
@@ -83,8 +77,6 @@ impl Default for Course {
         Self {
             flies: false,
             glides: false,
-            piece: SimTime::NEVER,
-            horizon: SimTime::ZERO,
             swept: Sides::NOTHING,
             cells: None,
             ground: SimTime::ZERO,
@@ -93,7 +85,6 @@ impl Default for Course {
             alone: false,
             clear_at: SimTime::NEVER,
             entered: (SimTime::NEVER, SimTime::NEVER),
-            node: None,
             tick: 0,
             spent: 0.0,
             streak: Streak::default(),
@@ -102,35 +93,17 @@ impl Default for Course {
 }
 
 impl Course {
-    /// Until when all has been looked for that does not fly; all that flies, where nothing else is there.
-    fn end_of_search(&self) -> SimTime {
-        if self.ground == SimTime::NEVER {
-            self.horizon
-        } else {
-            self.ground
-        }
-    }
-
-    /// Until when the motion stands, if nothing changes it.
-    pub(crate) fn stands_until(&self) -> SimTime {
-        if self.flies {
-            self.piece
-        } else {
-            SimTime::NEVER
-        }
-    }
-
     /// It flies no more, and ends of its searches that are entered are stale: a pile that landed leaves nothing in the calendar.
     pub(crate) const fn land(&mut self) {
         (self.flies, self.glides) = (false, false);
         self.entered = (SimTime::NEVER, SimTime::NEVER);
     }
 
-    /// When a search ends, and the entry for that.
-    fn end(&mut self, ahead: Ahead) -> (SimTime, &mut SimTime) {
+    /// The earliest entry for the end of a search.
+    fn entered(&mut self, ahead: Ahead) -> &mut SimTime {
         match ahead {
-            Ahead::Ground => (self.ground, &mut self.entered.1),
-            _ => (self.horizon, &mut self.entered.0),
+            Ahead::Ground => &mut self.entered.1,
+            _ => &mut self.entered.0,
         }
     }
 }
@@ -156,9 +129,11 @@ pub(crate) struct Flyers {
     grounded: bool,
     /// Boxes of the grid's flyers in the world, while somebody needs to find them there.
     aloft: Option<BoxTree>,
+    /// Their nodes there, by body.
+    nodes: Vec<Option<NodeId>>,
     /// Circles of the grid's flyers, by body.
     circles: Vec<Registered>,
-    /// Until when they have looked round, by body.
+    /// Until when they have looked round for each other, by body.
     horizons: Vec<SimTime>,
     queue: Queue,
     aside: Aside,
@@ -191,6 +166,7 @@ impl Flyers {
             drifts: false,
             grounded: false,
             aloft: None,
+            nodes: Vec::new(),
             circles: Vec::new(),
             horizons: Vec::new(),
             queue: Queue::default(),
@@ -217,8 +193,40 @@ impl Flyers {
         self.seen.reserve_exact(more);
     }
 
+    /// Until when other flyers have been looked for; by those that are not in the grid, where they look for all.
+    fn horizon(&self, state: &BodyState) -> SimTime {
+        if state.course.cells.is_some() {
+            self.horizons[state.id.index as usize]
+        } else {
+            state.course.ground
+        }
+    }
+
+    /// Until when all has been looked for that does not fly; all that flies, where nothing else is there.
+    fn end_of_search(&self, state: &BodyState) -> SimTime {
+        if state.course.ground == SimTime::NEVER {
+            self.horizon(state)
+        } else {
+            state.course.ground
+        }
+    }
+
+    /// When a search ends.
+    fn end(&self, state: &BodyState, ahead: Ahead) -> SimTime {
+        match ahead {
+            Ahead::Ground => state.course.ground,
+            _ => self.horizon(state),
+        }
+    }
+
     /// Puts a body into the grid, if it fits, or where it belongs there by now.
-    fn enter(&mut self, bodies: &mut Bodies, colliders: &[Collider], index: u32) -> bool {
+    fn enter(
+        &mut self,
+        bodies: &mut Bodies,
+        colliders: &[Collider],
+        index: u32,
+        horizon: SimTime,
+    ) -> bool {
         let course = &mut bodies.get_mut(index).course;
         let cells = self.grid.cells(course.swept.bounds());
         if !course.swept.is_finite() || cells.count() > MOST_CELLS {
@@ -237,7 +245,7 @@ impl Flyers {
         }
         let state = bodies.get(index);
         self.circles[place] = Registered::of(state, colliders, &self.frame);
-        self.horizons[place] = state.course.horizon;
+        self.horizons[place] = horizon;
         true
     }
 

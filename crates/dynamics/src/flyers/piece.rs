@@ -15,18 +15,18 @@ impl World {
             return;
         }
         if !self.bodies.bends(index) {
-            self.bodies.get_mut(index).course.piece = SimTime::NEVER;
+            self.bodies.get_mut(index).set_piece(SimTime::NEVER);
             return;
         }
         let state = self.bodies.get(index);
         if state.flight.is_none() || self.piece_ends(index, time) {
             let end = begin_piece(&mut self.bodies, index, time, self.clock.h);
-            self.bodies.get_mut(index).course.piece = end;
+            self.bodies.get_mut(index).set_piece(end);
         }
     }
 
     /// Whether the motion of a flyer stands for its law until now, and no longer.
     pub(super) fn piece_ends(&self, index: u32, time: SimTime) -> bool {
-        self.bodies.get(index).course.piece <= time
+        self.bodies.get(index).piece() <= time
     }
 }

@@ -79,11 +79,12 @@ impl Flyers {
     }
 
     /// From now on bodies look for flyers by boxes in the world.
-    pub(crate) fn raise(&mut self, bodies: &mut Bodies) {
+    pub(crate) fn raise(&mut self, bodies: &Bodies) {
         let mut tree = BoxTree::new();
-        for index in bodies.indices().collect::<Vec<_>>() {
-            let course = &mut bodies.get_mut(index).course;
-            course.node = course.cells.map(|_| {
+        self.nodes = vec![None; bodies.places()];
+        for index in bodies.indices() {
+            let course = &bodies.get(index).course;
+            self.nodes[index as usize] = course.cells.map(|_| {
                 let bounds = course.reached.bounds();
                 tree.insert(bounds.grown(roundable(bounds)), index)
             });
@@ -99,28 +100,32 @@ impl Flyers {
     /// Nobody looks for flyers any more.
     pub(crate) fn lower(&mut self) {
         self.aloft = None;
+        self.nodes = Vec::new();
     }
 
     /// Keeps the box in the world of a flyer in the grid.
-    pub(super) fn lift(&mut self, course: &mut Course, index: u32) {
+    pub(super) fn lift(&mut self, course: &Course, index: u32) {
         let Some(tree) = &mut self.aloft else {
-            course.node = None;
             return;
         };
         let bounds = course.reached.bounds();
         let bounds = bounds.grown(roundable(bounds));
-        match course.node {
+        let at = index as usize;
+        if self.nodes.len() <= at {
+            self.nodes.resize(at + 1, None);
+        }
+        match self.nodes[at] {
             Some(node) => {
                 tree.update(node, bounds);
             }
-            None => course.node = Some(tree.insert(bounds, index)),
+            None => self.nodes[at] = Some(tree.insert(bounds, index)),
         }
     }
 
     /// Takes a body out of the grid, and its box out of the tree aloft.
     pub(crate) fn vanish(&mut self, bodies: &mut Bodies, index: u32) {
         self.leave(bodies, index);
-        let node = bodies.get_mut(index).course.node.take();
+        let node = self.nodes.get_mut(index as usize).and_then(Option::take);
         if let (Some(tree), Some(node)) = (&mut self.aloft, node) {
             tree.remove(node);
         }

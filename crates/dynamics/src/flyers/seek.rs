@@ -5,7 +5,7 @@ use carom_math::SimTime;
 
 use super::Foreseen;
 use super::circle::Circle;
-use super::foresee::{Cause, common_horizon};
+use super::foresee::Cause;
 use super::window::Window;
 use crate::World;
 use crate::flight::first_touch;
@@ -45,7 +45,7 @@ impl World {
         let end = if window.to.is_finite() {
             window.to
         } else {
-            common_horizon(one, two) - time
+            self.flyers.common_horizon_of(one, two) - time
         };
         let ends = (one.colliders.len(), two.colliders.len());
         let (apart, length) = self.first_piece((a, b), time, end);

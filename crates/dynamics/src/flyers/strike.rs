@@ -249,7 +249,11 @@ impl World {
         // Another look when the approach may have gone deeper than impacts leave.
         let (one, two) = (self.bodies.get(a), self.bodies.get(b));
         let slack = SLACK * one.reach.min(two.reach);
-        let left = (one.course.end_of_search().max(two.course.end_of_search()) - time).max(1e-9);
+        let left = self
+            .flyers
+            .end_of_search(one)
+            .max(self.flyers.end_of_search(two));
+        let left = (left - time).max(1e-9);
         let wait = if speed > 0.0 { slack / speed } else { left };
         self.look_again(impact, time + wait.clamp(1e-9 * left, left));
     }

@@ -46,7 +46,7 @@ impl World {
             return length;
         }
         let seen = |index: u32| {
-            if self.bodies.get(index).turns_in_place() {
+            if self.bodies.get(index).turns_in_place(&self.colliders) {
                 0.0
             } else {
                 spin(index)

@@ -168,7 +168,7 @@ impl World {
         state.idle = 0;
         let state = self.bodies.get(index);
         let pull = pull_of(&self.bodies, state, state.motion.centre_at(time));
-        let slot = self.pool.seats.admit(state, pull, time);
+        let slot = self.pool.seats.admit(state, &self.colliders, pull, time);
         self.pool.crowd.newcomers.push(index);
         for &at in &self.bodies.get(index).colliders {
             self.colliders[at as usize].fat = Aabb::EMPTY;

@@ -199,7 +199,7 @@ impl World {
         }
         let state = self.bodies.get(index);
         let pull = pull_of(&self.bodies, state, state.motion.centre_at(time));
-        let slot = self.pool.seats.admit(state, pull, time);
+        let slot = self.pool.seats.admit(state, &self.colliders, pull, time);
         if !self.moves_all() {
             if state.kind == BodyKind::Kinematic {
                 self.pool.crowd.drivers.push(index);

@@ -34,7 +34,7 @@ impl World {
                 }
                 None if belongs => {
                     let pull = pull_of(&self.bodies, state, state.motion.centre_at(time));
-                    self.pool.seats.admit(state, pull, time);
+                    self.pool.seats.admit(state, &self.colliders, pull, time);
                 }
                 // What stands or sleeps has boxes, and those who move find it.
                 None if self.bodies.is_alive(index) => {

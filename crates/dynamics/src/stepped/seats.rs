@@ -7,7 +7,7 @@ use super::stand::Stands;
 use super::watch::{LEASH, STRAY};
 use crate::bodies::Bodies;
 use crate::solver::{Limit, Member, Pull, Rig, Row, RowId};
-use crate::state::BodyState;
+use crate::state::{BodyState, Collider};
 use crate::{BodyId, BodyKind};
 
 /// No seat.
@@ -151,8 +151,16 @@ impl Seats {
         all.filter(|(_, seat)| seat.kind != BodyKind::Fixed)
     }
 
-    /// Gives a body a seat, where it is at `time`.
-    pub(crate) fn admit(&mut self, state: &BodyState, pull: Pull, time: SimTime) -> u32 {
+    /// Gives a body with these shapes among all a seat, where it is at `time`.
+    pub(crate) fn admit(
+        &mut self,
+        state: &BodyState,
+        colliders: &[Collider],
+        pull: Pull,
+        time: SimTime,
+    ) -> u32 {
+        let inner = state.inner(colliders);
+        let in_place = state.turns_in_place(colliders);
         let slot = self.rig.admit(&Member {
             velocity: state.velocity_at(time),
             spin: state.motion.spin_at(time),
@@ -161,8 +169,8 @@ impl Seats {
             pull,
         });
         if state.kind == BodyKind::Dynamic {
-            let travel = PART * state.inner;
-            let turn = if state.turns_in_place() {
+            let travel = PART * inner;
+            let turn = if in_place {
                 f64::INFINITY
             } else {
                 travel / state.reach
@@ -181,12 +189,8 @@ impl Seats {
             id: state.id,
             kind: state.kind,
             reach: state.reach,
-            rim: if state.turns_in_place() {
-                0.0
-            } else {
-                state.reach
-            },
-            inner: state.inner,
+            rim: if in_place { 0.0 } else { state.reach },
+            inner,
             base: motion.pose_at(time),
             base_angle: state.turned + motion.turn(time - motion.start),
             sent: Sent::NOWHERE,
@@ -369,7 +373,7 @@ pub(crate) fn pull_of(bodies: &Bodies, state: &BodyState, centre: Vec2) -> Pull 
         return Pull::default();
     }
     Pull {
-        acceleration: state.gravity_scale * bodies.pull.at(centre)
+        acceleration: state.gravity_scale() * bodies.pull.at(centre)
             + state.force() * state.inverse_mass,
         angular: state.torque() * state.inverse_inertia,
     }
