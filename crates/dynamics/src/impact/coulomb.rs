@@ -313,16 +313,17 @@ fn polished(
         };
         let mut impulses = best.as_ref().map_or(&near, |(_, held)| held).clone();
         system.spread(&[], &mut impulses);
+        let mut last = f64::INFINITY;
         for _ in 0..REFINEMENTS {
             let speeds = rows.speeds(&impulses);
             let left = system.left(&speeds);
-            let least = best.as_ref().map_or(f64::INFINITY, |(least, _)| *least);
-            if left < least {
+            if best.as_ref().is_none_or(|(least, _)| left < *least) {
                 best = Some((left, impulses.clone()));
             }
-            if left <= f64::EPSILON * fastest || left > 0.5 * least {
+            if left <= f64::EPSILON * fastest || left > 0.5 * last {
                 break;
             }
+            last = left;
             system.refine(&mut impulses, &speeds);
         }
         if best
@@ -356,9 +357,11 @@ fn fastest(rows: &Rows<'_>) -> f64 {
 /// Whether speeds meet the conditions; impulses are within their bounds already.
 fn answers(rows: &Rows<'_>, impulses: &[f64], fastest: f64) -> bool {
     let speeds = rows.speeds(impulses);
+    let rounding = rows.rounding(impulses);
     (0..rows.len()).all(|r| {
         let (j, u) = (impulses[r], speeds[r]);
-        let none = u.abs() * rows.scales[r] <= ANSWERED * fastest;
+        let zero = (ANSWERED * fastest).max(rounding[r]);
+        let none = u.abs() * rows.scales[r] <= zero;
         none || match rows.rows[r].bound {
             Bound::Push => u > 0.0 && j == 0.0,
             Bound::Friction(..) | Bound::Limit(_) => {

@@ -202,7 +202,7 @@ const OPENS: f64 = 4.0 * f64::EPSILON;
 ///
 /// Such contacts are stopped once more, and open as slowly as numbers can tell.
 pub(super) fn opened(mut found: SharedOutcome, contacts: &[SharedContact]) -> SharedOutcome {
-    if found.exhausted || is_large(contacts) {
+    if is_large(contacts) {
         return found;
     }
     let mut closing = vec![false; contacts.len()];

@@ -244,6 +244,36 @@ fn nearly_every_heap_has_its_common_stop_found() {
 }
 
 #[test]
+fn a_light_body_on_the_floor_stops_one_of_up_to_1e12_times_its_mass() {
+    // From 1e7 on what rounding left of the light body's speed was taken for no answer.
+    for ratio in [
+        1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12,
+    ] {
+        let floor = ImpactBody::immovable(Vec2::ZERO, Vec2::ZERO, 0.0);
+        let light = body(1.0, 12.0, vec2(0.0, 0.3), vec2(0.3, 0.0), 0.0);
+        let heavy = body(
+            ratio.recip(),
+            20.0 / ratio,
+            vec2(-0.2, 1.0),
+            vec2(2.7, -3.0),
+            -4.2,
+        );
+        let mut contacts = [
+            corner(-0.4, 0.5, 0.0),
+            corner(0.4, 0.5, 0.0),
+            corner(-0.1, 0.5, 0.0),
+        ];
+        (contacts[2].a, contacts[2].b) = (1, 2);
+        contacts[2].contact.point.y = 0.6;
+        let bodies = [floor, light, heavy];
+        let after = several(ImpactLaw::Stronge, Several::Blend, &bodies, &contacts);
+        assert!(!after.exhausted, "ratio {ratio:e}");
+        let least = least_opening(&after, &contacts);
+        assert!(least > -1e-14, "ratio {ratio:e}: closes by {least:e} m/s");
+    }
+}
+
+#[test]
 fn a_light_body_that_sticks_between_a_heavy_one_and_the_ground_brings_no_energy() {
     let bodies = [
         ImpactBody::immovable(Vec2::ZERO, Vec2::ZERO, 0.0),

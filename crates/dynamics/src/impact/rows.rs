@@ -170,6 +170,27 @@ impl<'a> Rows<'a> {
         after
     }
 
+    /// What the rounding of scaled impulses is worth along each row, in m/s: large ones through a light body leave the
+    /// difference of what they do to it.
+    pub(super) fn rounding(&self, impulses: &[f64]) -> Vec<f64> {
+        let mut taken = vec![0.0; self.bodies.len()];
+        for (row, impulse) in self.rows.iter().zip(self.unscaled(impulses)) {
+            taken[row.a] += impulse.abs();
+            taken[row.b] += impulse.abs();
+        }
+        let worth = |body: usize, point: Vec2| {
+            let arm = (point - self.bodies[body].centre).length_squared();
+            let body = &self.bodies[body];
+            body.inverse_mass + arm * body.inverse_inertia
+        };
+        let of = |row: &Row| {
+            let a = taken[row.a] * worth(row.a, row.point);
+            let b = taken[row.b] * worth(row.b, row.point);
+            4.0 * f64::EPSILON * (a + b)
+        };
+        self.rows.iter().map(of).collect()
+    }
+
     /// Impulses in N·s.
     pub(super) fn unscaled<'b>(&'b self, impulses: &'b [f64]) -> impl Iterator<Item = f64> + 'b {
         impulses.iter().zip(&self.scales).map(
