@@ -9,10 +9,11 @@ use carom_collision::part_count;
 use carom_geometry::Aabb;
 use carom_math::SimTime;
 
-use crate::World;
+use super::store::Kept;
 use crate::flyers::Cause;
 use crate::narrow::Narrow;
 use crate::pairs::Pair;
+use crate::{ContactMode, World};
 
 /// Sub-steps to its next change that a group has at least: what ends sooner stays.
 const WORTH: f64 = 2.0;
@@ -38,11 +39,16 @@ impl World {
         }
     }
 
-    /// Whether nothing touches a group but itself, and nothing of what touches in it can touch elsewhere.
+    /// Whether nothing touches a group but itself, and nothing of what touches in it opens, or can touch elsewhere.
     fn may_glide(&self, place: u32) -> bool {
         let Some(group) = self.closed.get(place) else {
             return false;
         };
+        // What opens may close again, and the group does not know when.
+        let opens = |touch: &Kept| touch.moved.mode == ContactMode::Open;
+        if group.touches.iter().any(opens) {
+            return false;
+        }
         let held = |pair: u32| group.touches.iter().any(|touch| touch.pair == pair);
         let one_part = |collider: u32| part_count(&self.colliders[collider as usize].solid) == 1;
         group.members.iter().all(|&(index, version)| {
