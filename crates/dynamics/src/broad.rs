@@ -259,6 +259,7 @@ impl Broad {
             impacts: 0,
             spent: 0.0,
             given_up: false,
+            at_once: false,
         });
         if fringe {
             pairs.fringe.push(place);

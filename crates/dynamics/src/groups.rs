@@ -5,9 +5,10 @@ use carom_math::SimTime;
 use crate::StepReport;
 use crate::bodies::Bodies;
 use crate::flight::driven;
+use crate::heavy::{Place, set_apart, solve_heavy};
 use crate::narrow::{RestSpeed, TOUCH, opening_speed};
 use crate::pairs::{PairPoint, Pairs};
-use crate::solver::{Law, Row, SolverBody, relax, solve};
+use crate::solver::{Law, Row, SolverBody, sweep};
 
 /// Scratch of the sub-step's solve, kept between sub-steps.
 #[derive(Clone, Debug, Default)]
@@ -28,6 +29,21 @@ pub(crate) struct Groups {
 struct Source {
     pair: u32,
     contact: usize,
+    /// Solved for at once, not by sweeps.
+    at_once: bool,
+}
+
+impl Source {
+    /// Where its row pushes.
+    fn place(self, bodies: &Bodies, pairs: &Pairs, time: SimTime) -> Place {
+        let pair = pairs.get(self.pair);
+        let centre = |index: u32| bodies.get(index).motion.centre_at(time);
+        let points = &pair.contacts[self.contact].points;
+        Place {
+            points: points.iter().map(|point| point.position).collect(),
+            centres: (centre(pair.bodies.0), centre(pair.bodies.1)),
+        }
+    }
 }
 
 const NOT_HERE: u32 = u32::MAX;
@@ -52,23 +68,23 @@ impl Groups {
             return;
         }
         report.rows += self.rows.len() as u64;
-        for row in &self.rows {
-            let (i, j) = (row.bodies.0 as usize, row.bodies.1 as usize);
-            let (mut a, mut b) = (self.bodies[i], self.bodies[j]);
-            row.push(&mut a, &mut b, row.j, row.jt);
-            self.bodies[i] = a;
-            self.bodies[j] = b;
-        }
-        solve(law, &mut self.bodies, &mut self.rows);
-        for body in &mut self.bodies {
-            body.d = body.v * h;
-            body.turn = body.w * h;
-        }
+        let heavy = set_apart(&self.bodies, &mut self.rows, &mut self.sources);
+        let swept = heavy.first().map_or(self.rows.len(), |group| group.start);
         // What was put deep into each other is pushed by many at once: one sweep would leave a
         // part of the push in the velocities.
         let sweeps = if self.buried { BURIED_SWEEPS } else { 1 };
-        for _ in 0..sweeps {
-            relax(law, &mut self.bodies, &mut self.rows);
+        sweep(law, &mut self.bodies, &mut self.rows[..swept], sweeps);
+        for group in heavy {
+            let places = self.sources[group.clone()].iter();
+            let places: Vec<Place> = places.map(|at| at.place(bodies, pairs, time)).collect();
+            let rows = &mut self.rows[group.clone()];
+            if solve_heavy(law, &mut self.bodies, rows, &places) {
+                for source in &mut self.sources[group] {
+                    source.at_once = true;
+                }
+            } else {
+                sweep(law, &mut self.bodies, rows, BURIED_SWEEPS);
+            }
         }
         self.scatter(bodies, pairs, time, h, report);
     }
@@ -140,7 +156,8 @@ impl Groups {
                     for (k, point) in contact.points.iter().enumerate() {
                         if lasts(point) {
                             row.gap[k] = point.separation;
-                            row.j[k] = point.impulse;
+                            // What stopped a heavy body is too much to begin with once that has gone.
+                            row.j[k] = if pair.at_once { 0.0 } else { point.impulse };
                         }
                     }
                     let limit = row.mu * (row.j[0] + row.j[1]);
@@ -150,6 +167,7 @@ impl Groups {
                     self.sources.push(Source {
                         pair: place,
                         contact: index,
+                        at_once: false,
                     });
                 }
             }
@@ -224,6 +242,7 @@ impl Groups {
         }
         for (row, source) in self.rows.iter().zip(&self.sources) {
             let pair = pairs.get_mut(source.pair);
+            pair.at_once = source.at_once;
             let contact = &mut pair.contacts[source.contact];
             for (point, j) in contact.points.iter_mut().zip(row.j) {
                 point.impulse = j;

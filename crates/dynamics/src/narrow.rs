@@ -38,30 +38,14 @@ impl Narrow {
         let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
         let apart = b.centre_at(time) - a.centre_at(time);
         let size = a.reach.min(b.reach);
-        let margin = MARGIN * size + h * closing_bound(a, b, time);
-        let near = a.reach + b.reach + margin;
-        self.found.clear();
+        let near = a.reach + b.reach + margin(a, b, time, h);
         if apart.length_squared() > near * near {
             pair.contacts = Vec::new();
             pair.touching = false;
             pair.buried = false;
             return;
         }
-        // Rotations cost more than all that is asked before.
-        let (pose_a, pose_b) = (a.centre_pose(time), b.centre_pose(time));
-        contacts(
-            &colliders[pair.colliders.0 as usize].solid,
-            &colliders[pair.colliders.1 as usize].solid,
-            pose_b.seen_from(pose_a),
-            margin,
-            &mut self.found,
-        );
-        let old = core::mem::take(&mut pair.contacts);
-        pair.contacts = self
-            .found
-            .iter()
-            .map(|new| carried(new, pose_a, &old))
-            .collect();
+        pair.contacts = self.contacts(bodies, colliders, pair, time, h);
         let points = pair.contacts.iter().flat_map(|contact| &contact.points);
         let deepest = points.map(|p| p.separation).fold(0.0, f64::min);
         pair.buried = deepest < -BURIED * size;
@@ -73,6 +57,36 @@ impl Narrow {
             pair.turning_rest = turning_rest(bodies, colliders, pair, time, h);
         }
     }
+
+    /// The contacts of a pair at `time`, of all that may touch within `h` seconds; impulses go over by feature.
+    pub(crate) fn contacts(
+        &mut self,
+        bodies: &Bodies,
+        colliders: &[Collider],
+        pair: &Pair,
+        time: SimTime,
+        h: f64,
+    ) -> Vec<PairContact> {
+        let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
+        // Rotations cost more than all that a look asks before.
+        let (pose_a, pose_b) = (a.centre_pose(time), b.centre_pose(time));
+        self.found.clear();
+        contacts(
+            &colliders[pair.colliders.0 as usize].solid,
+            &colliders[pair.colliders.1 as usize].solid,
+            pose_b.seen_from(pose_a),
+            margin(a, b, time, h),
+            &mut self.found,
+        );
+        let found = self.found.iter();
+        let carried = found.map(|new| carried(new, pose_a, &pair.contacts));
+        carried.collect()
+    }
+}
+
+/// How far from touch contacts are looked for, for `h` seconds, in m.
+fn margin(a: &BodyState, b: &BodyState, time: SimTime, h: f64) -> f64 {
+    MARGIN * a.reach.min(b.reach) + h * closing_bound(a, b, time)
 }
 
 /// The largest [`Spot::turning_rest`] of all touches of a pair, in m/s.

@@ -34,6 +34,8 @@ pub(crate) struct Pair {
     pub(crate) held: bool,
     /// So deep in each other that no strike makes sense: the solver pushes them apart.
     pub(crate) buried: bool,
+    /// Its impulses come from [`crate::heavy`], not from sweeps.
+    pub(crate) at_once: bool,
     /// Impacts in this sub-step.
     pub(crate) impacts: u32,
     /// What they spent of the pair's budget in this sub-step.

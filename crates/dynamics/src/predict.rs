@@ -14,6 +14,7 @@ use crate::hops::hop;
 use crate::modes::CLOSED;
 use crate::narrow::{NOISE, Narrow, RestSpeed, TOUCH, opening_speed, pace};
 use crate::pairs::{PairContact, PairPoint, Pairs};
+use crate::sink::sinks_in;
 use crate::state::{BodyState, Collider};
 use crate::touching::stays;
 use crate::{BodyKind, PairMaterial, StepReport};
@@ -138,6 +139,12 @@ pub(crate) fn predict(
                     first = earlier(first, TimeOfImpact::Hit(strikes));
                 }
             }
+        }
+    }
+    if pair.lasting && !closed {
+        let now = (time, horizon, pulled);
+        if let Some(sunk) = sinks_in(bodies, colliders, narrow, pair, now) {
+            first = earlier(first, TimeOfImpact::Hit(sunk));
         }
     }
     for i in 0..part_count(shapes.0) {

@@ -4,6 +4,7 @@ mod body;
 mod coulomb;
 #[cfg(test)]
 mod heaps;
+mod held;
 mod law;
 mod pivots;
 pub(crate) mod project;
@@ -21,6 +22,7 @@ mod sweeps;
 mod tests;
 
 pub use body::{ImpactBody, ImpactContact, Outcome};
+pub(crate) use held::held;
 pub use law::{ImpactLaw, jam, newton, poisson, resolve, stronge};
 pub use several::{
     Several, SharedContact, SharedOutcome, blend, generalised_reflections, newton_lcp, several,

@@ -247,7 +247,7 @@ fn nearly_every_heap_has_its_common_stop_found() {
 fn a_light_body_on_the_floor_stops_one_of_up_to_1e12_times_its_mass() {
     // From 1e7 on what rounding left of the light body's speed was taken for no answer.
     for ratio in [
-        1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12,
+        1.0_f64, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12,
     ] {
         let floor = ImpactBody::immovable(Vec2::ZERO, Vec2::ZERO, 0.0);
         let light = body(1.0, 12.0, vec2(0.0, 0.3), vec2(0.3, 0.0), 0.0);

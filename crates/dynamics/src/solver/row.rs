@@ -123,6 +123,11 @@ impl Row {
         b.w += (self.b[0] * j[0] + self.b[1] * j[1] + self.bt * jt) * b.inverse_inertia;
     }
 
+    /// How many points may act.
+    pub(crate) fn points(&self) -> usize {
+        self.gap.iter().filter(|gap| **gap < Self::OPEN).count()
+    }
+
     /// Whether it pushes at all.
     pub(crate) fn acts(&self) -> bool {
         self.j[0] + self.j[1] > 0.0

@@ -24,6 +24,22 @@ pub(crate) struct Law {
 }
 
 impl Law {
+    /// Length of a sub-step, in s.
+    pub(crate) const fn h(&self) -> f64 {
+        self.h
+    }
+
+    /// Fastest push-out of an overlap, in m/s.
+    pub(crate) const fn push_out(&self) -> f64 {
+        self.push_out
+    }
+
+    /// What a contact may close by, in m/s: up to its gap, or, below 0, what is to push its overlap out.
+    pub(crate) fn bias(&self, gap: f64, ground: bool) -> f64 {
+        let rate = self.soft[usize::from(ground)].0;
+        gap.max(0.0) / self.h + (rate * gap.min(0.0)).max(-self.push_out)
+    }
+
     /// 1/h.
     pub(crate) const fn inverse_h(&self) -> f64 {
         self.inverse_h
@@ -54,13 +70,33 @@ impl Law {
     }
 }
 
+/// A sub-step of all rows from the impulses that they carry: velocities, and displacements of the bodies that these join.
+pub(crate) fn sweep(law: &Law, bodies: &mut [SolverBody], rows: &mut [Row], relaxes: usize) {
+    for row in &*rows {
+        let (i, j) = (row.bodies.0 as usize, row.bodies.1 as usize);
+        let (mut a, mut b) = (bodies[i], bodies[j]);
+        row.push(&mut a, &mut b, row.j, row.jt);
+        (bodies[i], bodies[j]) = (a, b);
+    }
+    solve(law, bodies, rows);
+    for row in &*rows {
+        for index in [row.bodies.0, row.bodies.1] {
+            let body = &mut bodies[index as usize];
+            (body.d, body.turn) = (body.v * law.h, body.w * law.h);
+        }
+    }
+    for _ in 0..relaxes {
+        relax(law, bodies, rows);
+    }
+}
+
 /// One sweep with bias over all rows, from the impulses that they carry.
-pub(crate) fn solve(law: &Law, bodies: &mut [SolverBody], rows: &mut [Row]) {
+pub(super) fn solve(law: &Law, bodies: &mut [SolverBody], rows: &mut [Row]) {
     for row in rows {
         let (mut a, mut b) = (bodies[row.bodies.0 as usize], bodies[row.bodies.1 as usize]);
-        let (rate, gamma) = law.soft[usize::from(row.ground)];
+        let gamma = law.soft[usize::from(row.ground)].1;
         let v = row.normal_velocity(&a, &b);
-        let bias = |gap: f64| gap.max(0.0) / law.h + (rate * gap.min(0.0)).max(-law.push_out);
+        let bias = |gap: f64| law.bias(gap, row.ground);
         let soften = |gap: f64| if gap <= 0.0 { 1.0 + gamma } else { 1.0 };
         let u = [v[0] + bias(row.gap[0]), v[1] + bias(row.gap[1])];
         let softened = [soften(row.gap[0]), soften(row.gap[1])];
@@ -70,7 +106,7 @@ pub(crate) fn solve(law: &Law, bodies: &mut [SolverBody], rows: &mut [Row]) {
 }
 
 /// One sweep without bias over all rows, then friction.
-pub(crate) fn relax(law: &Law, bodies: &mut [SolverBody], rows: &mut [Row]) {
+pub(super) fn relax(law: &Law, bodies: &mut [SolverBody], rows: &mut [Row]) {
     for row in rows {
         let (mut a, mut b) = (bodies[row.bodies.0 as usize], bodies[row.bodies.1 as usize]);
         let gap = row.moved_gap(&a, &b);

@@ -1,0 +1,129 @@
+//! Held pairs that turn out of what the solver planned for them.
+//!
+//! The solver holds a contact along the normal and about the arms that it has when a sub-step begins. A body that turns by
+//! half a radian until the sub-step ends stands on another corner then, and what was struck on its way has another motion
+//! than was planned. So a pair that is held is followed through its sub-step, and struck where it sinks in.
+
+use arrayvec::ArrayVec;
+use carom_collision::{AxisFeature, Impact, ImpactFeature};
+use carom_geometry::Shape;
+use carom_math::{SimTime, Vec2};
+
+use crate::bodies::Bodies;
+use crate::narrow::{Narrow, opening_speed};
+use crate::pairs::{Pair, PairContact};
+use crate::state::{BodyState, Collider};
+
+/// How far a held pair may sink in within a sub-step, as a part of the smaller reach: the linear plan is off by as much
+/// where a body turns by 1/11 rad, which is 32 rad/s at 1/360 s.
+const DEPTH: f64 = 1.0 / 256.0;
+
+/// The same for what is as deep already.
+const MORE: f64 = DEPTH / 4.0;
+
+/// Looks at a pair in a sub-step.
+const LOOKS: u32 = 64;
+
+/// The first instant within `horizon` seconds from `time` at which a pair is deeper in than now by more than [`DEPTH`], and
+/// sinks in faster than `rest`, in m/s. Its contacts are those of `time`.
+pub(crate) fn sinks_in(
+    bodies: &Bodies,
+    colliders: &[Collider],
+    narrow: &mut Narrow,
+    pair: &Pair,
+    (time, horizon, rest): (SimTime, f64, f64),
+) -> Option<Impact> {
+    let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
+    let (one, two) = pair.colliders;
+    let solids = [one, two].map(|at| &*colliders[at as usize].solid);
+    let size = a.reach.min(b.reach);
+    let deep = pair.contacts.iter().map(depth).fold(DEPTH * size, f64::max);
+    let allowed = deep + MORE * size;
+    let mut wait = 0.0;
+    let mut seen = None;
+    for _ in 0..LOOKS {
+        let contacts: &[PairContact] = seen.as_deref().unwrap_or(&pair.contacts);
+        let left = horizon - wait;
+        let room = |contact: &PairContact| {
+            let speed = fastest([a, b], solids, contact.normal, time + wait, left);
+            (allowed - depth(contact)) / speed
+        };
+        // A speed of 0 has all the room there is, and so has who touches nowhere.
+        let room = contacts.iter().map(room).fold(f64::INFINITY, f64::min);
+        let least = horizon / f64::from(LOOKS);
+        wait += if room > least { room } else { least };
+        if wait >= horizon {
+            return None;
+        }
+        let at = time + wait;
+        let found = narrow.contacts(bodies, colliders, pair, at, horizon - wait);
+        let sunk = |contact: &&PairContact| {
+            let closes = |point| opening_speed(a, b, at, point, contact.normal) < -rest;
+            depth(contact) >= allowed && contact.points.iter().any(|p| closes(p.position))
+        };
+        if let Some(contact) = found.iter().find(sunk) {
+            return Some(strikes(contact, wait, |p| {
+                opening_speed(a, b, at, p, contact.normal)
+            }));
+        }
+        seen = Some(found);
+    }
+    None
+}
+
+/// How deep a contact is, in m; below 0 it is a gap.
+fn depth(contact: &PairContact) -> f64 {
+    let points = contact.points.iter().map(|point| -point.separation);
+    points.fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// Fastest that two shapes may come closer along a normal within `left` seconds from `time`, in m/s.
+fn fastest(
+    bodies: [&BodyState; 2],
+    solids: [&Shape; 2],
+    normal: Vec2,
+    time: SimTime,
+    left: f64,
+) -> f64 {
+    let [a, b] = bodies.map(|state| state.at(time));
+    let along = (a.velocity - b.velocity).dot(normal).max(0.0);
+    let pull = (a.acceleration - b.acceleration).length();
+    let rim = |k: usize| {
+        let motion = [&a, &b][k];
+        let spin = motion.spin.abs() + motion.angular_acceleration.abs() * left;
+        // A half-plane has no end, and does not turn; a disc that does looks the same.
+        if spin > 0.0 && !is_round(solids[k]) {
+            spin * bodies[k].reach
+        } else {
+            0.0
+        }
+    };
+    along + pull * left + rim(0) + rim(1)
+}
+
+/// A disc about its centre of mass.
+fn is_round(solid: &Shape) -> bool {
+    matches!(solid, Shape::Circle(disc) if disc.centre() == Vec2::ZERO)
+}
+
+/// The impact of a contact, at all of its points that overlap.
+fn strikes(contact: &PairContact, time: f64, rate: impl Fn(Vec2) -> f64) -> Impact {
+    let inside = contact.points.iter().filter(|p| p.separation <= 0.0);
+    let mut impact = Impact {
+        time,
+        normal: contact.normal,
+        points: ArrayVec::new(),
+        features: ArrayVec::new(),
+        gap_rate: 0.0,
+    };
+    for point in inside {
+        let (a, b) = point.feature.vertices();
+        impact.points.push(point.position);
+        impact.features.push(ImpactFeature {
+            parts: contact.parts,
+            feature: AxisFeature::Vertices { a, b },
+        });
+        impact.gap_rate = impact.gap_rate.min(rate(point.position));
+    }
+    impact
+}

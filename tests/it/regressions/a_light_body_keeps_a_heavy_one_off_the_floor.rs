@@ -1,0 +1,98 @@
+//! A body of up to 1e9 times its weight lands on a plate that lies on the floor. One sweep a sub-step let the plate stop it
+//! by its own weight only, so that the heavy one sank into the plate, and pushed it out through the floor, by 1.3 of its
+//! size; and from mass ratios of 1e7 on the impact itself found no impulses that stop both where there is friction.
+
+use carom_dynamics::{BodyDef, Mode, Settings, World};
+use carom_geometry::{ConvexPolygon, HalfPlane, Shape};
+use carom_math::{Vec2, vec2};
+use carom_tests::scenes::{block, disc, put, surface};
+
+fn walled(mode: Mode, friction: f64) -> World {
+    let mut world = World::new(Settings {
+        gravity: vec2(0.0, -10.0),
+        mode,
+        ..Settings::default()
+    })
+    .expect("valid settings");
+    for outward in [Vec2::X, Vec2::Y, -Vec2::X, -Vec2::Y] {
+        let wall = HalfPlane::new(-outward, outward).expect("a wall");
+        put(&mut world, BodyDef::fixed(), wall, surface(0.0, friction));
+    }
+    world
+}
+
+/// How far the deepest corner is outside the walls, in m.
+fn outside(world: &World) -> f64 {
+    let mut deepest = 0.0;
+    for body in world.bodies() {
+        let pose = body.pose();
+        for (shape, _) in body.shapes().filter(|(shape, _)| shape.is_bounded()) {
+            let rim = match shape {
+                Shape::Circle(disc) => disc.radius(),
+                _ => 0.0,
+            };
+            for vertex in shape.vertices() {
+                let at = pose.point(*vertex).abs();
+                deepest = f64::max(deepest, at.x.max(at.y) + rim - 1.0);
+            }
+        }
+    }
+    deepest
+}
+
+#[test]
+fn a_light_body_keeps_a_heavy_one_off_the_floor() {
+    for mode in [Mode::Exact, Mode::Hybrid] {
+        for friction in [0.0, 0.5] {
+            for mass in [1e2, 1e4, 1e6, 1e9] {
+                for (angle, spin) in [(2.2, -3.0), (-2.8, 2.0), (0.3, 0.0)] {
+                    let mut world = walled(mode, friction);
+                    let material = surface(0.0, friction);
+                    let plate = BodyDef::dynamic().at(vec2(0.0, -0.94)).with_mass(1.0);
+                    put(&mut world, plate, block(0.5, 0.1), material);
+                    let falls = BodyDef::dynamic().at(vec2(0.1, 0.2)).turned(angle);
+                    let falls = falls.moving(vec2(0.0, -2.0)).spinning(spin).with_mass(mass);
+                    let pentagon = ConvexPolygon::regular(5, 0.5).expect("a pentagon");
+                    put(&mut world, falls, pentagon, material);
+                    for _ in 0..240 {
+                        world.step(1.0 / 120.0);
+                        let deep = outside(&world);
+                        let what = (mode, friction, mass, angle, world.time());
+                        assert!(deep < 5e-3, "{deep} m outside: {what:?}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn what_spins_beside_a_heavy_disc_stays_within_its_walls() {
+    // The solver held the pair as it was when the sub-step began; a third of a radian later another corner was in the wall.
+    for (angle, velocity, spin) in [
+        (-0.1, vec2(-4.0, 0.0), 28.0),
+        (-0.9, vec2(4.0, 2.0), -114.0),
+        (-0.1, vec2(4.0, 1.0), 173.0),
+        (1.2, Vec2::ZERO, -143.0),
+    ] {
+        let mut world = walled(Mode::Exact, 0.0);
+        let material = surface(0.0, 0.0);
+        let spins = BodyDef::dynamic().at(vec2(-0.2, -0.1)).turned(angle);
+        let spins = spins.moving(velocity).spinning(spin).with_mass(1.0);
+        let triangle = ConvexPolygon::regular(3, 0.5).expect("a triangle");
+        put(&mut world, spins, triangle, material);
+        let heavy = BodyDef::dynamic()
+            .at(vec2(0.8, 0.8))
+            .moving(vec2(-3.0, -2.0));
+        put(&mut world, heavy.with_mass(1000.0), disc(0.15), material);
+        for _ in 0..480 {
+            world.step(1.0 / 240.0);
+            let deep = outside(&world);
+            assert!(
+                deep < 5e-3,
+                "{deep} m outside: {spin} rad/s, {:?}",
+                world.time()
+            );
+        }
+    }
+}
