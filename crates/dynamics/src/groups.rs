@@ -157,7 +157,12 @@ impl Groups {
                         if lasts(point) {
                             row.gap[k] = point.separation;
                             // What stopped a heavy body is too much to begin with once that has gone.
-                            row.j[k] = if pair.at_once { 0.0 } else { point.impulse };
+                            // What a closed form says of no force may be below 0 by rounding.
+                            row.j[k] = if pair.at_once {
+                                0.0
+                            } else {
+                                point.impulse.max(0.0)
+                            };
                         }
                     }
                     let limit = row.mu * (row.j[0] + row.j[1]);
