@@ -6,7 +6,6 @@
 
 use arrayvec::ArrayVec;
 use carom_collision::{AxisFeature, Impact, ImpactFeature};
-use carom_geometry::Shape;
 use carom_math::{SimTime, Vec2};
 
 use crate::bodies::Bodies;
@@ -34,8 +33,6 @@ pub(crate) fn sinks_in(
     (time, horizon, rest): (SimTime, f64, f64),
 ) -> Option<Impact> {
     let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
-    let (one, two) = pair.colliders;
-    let solids = [one, two].map(|at| &*colliders[at as usize].solid);
     let size = a.reach.min(b.reach);
     let deep = pair.contacts.iter().map(depth).fold(DEPTH * size, f64::max);
     let allowed = deep + MORE * size;
@@ -45,7 +42,7 @@ pub(crate) fn sinks_in(
         let contacts: &[PairContact] = seen.as_deref().unwrap_or(&pair.contacts);
         let left = horizon - wait;
         let room = |contact: &PairContact| {
-            let speed = fastest([a, b], solids, contact.normal, time + wait, left);
+            let speed = fastest([a, b], colliders, contact.normal, time + wait, left);
             (allowed - depth(contact)) / speed
         };
         // A speed of 0 has all the room there is, and so has who touches nowhere.
@@ -80,7 +77,7 @@ fn depth(contact: &PairContact) -> f64 {
 /// Fastest that two shapes may come closer along a normal within `left` seconds from `time`, in m/s.
 fn fastest(
     bodies: [&BodyState; 2],
-    solids: [&Shape; 2],
+    colliders: &[Collider],
     normal: Vec2,
     time: SimTime,
     left: f64,
@@ -91,19 +88,14 @@ fn fastest(
     let rim = |k: usize| {
         let motion = [&a, &b][k];
         let spin = motion.spin.abs() + motion.angular_acceleration.abs() * left;
-        // A half-plane has no end, and does not turn; a disc that does looks the same.
-        if spin > 0.0 && !is_round(solids[k]) {
+        // A half-plane has no end, and does not turn.
+        if spin > 0.0 && !bodies[k].turns_in_place(colliders) {
             spin * bodies[k].reach
         } else {
             0.0
         }
     };
     along + pull * left + rim(0) + rim(1)
-}
-
-/// A disc about its centre of mass.
-fn is_round(solid: &Shape) -> bool {
-    matches!(solid, Shape::Circle(disc) if disc.centre() == Vec2::ZERO)
 }
 
 /// The impact of a contact, at all of its points that overlap.

@@ -38,9 +38,12 @@ impl Trees {
     /// The tree knows all boxes again.
     pub(crate) fn settle(&mut self) {
         self.gathers = false;
-        if !self.late.is_empty() {
+        let used = self.late.len();
+        if used > 0 {
             self.on_course.update_all(self.late.drain(..));
         }
+        // A pile that has come to rest leaves no room of its fall behind.
+        self.late.shrink_to(4 * used);
     }
 
     /// Gives shape `at` a new box.
