@@ -10,6 +10,7 @@
 mod among;
 mod bounce;
 mod boxes;
+mod cores;
 mod courses;
 mod crowd;
 mod depths;
@@ -37,12 +38,12 @@ use crate::pairs::PairContact;
 use crate::solver::RowId;
 use crate::{Mode, World};
 use bounce::Bounces;
+use cores::Cores;
 use crowd::Crowd;
 pub(crate) use crowd::{FEW, MANY};
 use depths::Depths;
 use rush::Rush;
 use seats::Seats;
-use swift::Cores;
 use throng::Throng;
 
 /// Ticks between two works-out of the warm start from the impulses.

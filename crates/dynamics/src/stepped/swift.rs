@@ -12,19 +12,12 @@
 
 use core::cmp::Reverse;
 use std::collections::BinaryHeap;
-use std::sync::Arc;
 
-use carom_collision::{Hull, Motion, TimeOfImpact, hulls, time_of_impact};
-use carom_geometry::{Circle, ConvexPolygon, Shape};
+use carom_collision::{Motion, TimeOfImpact, time_of_impact};
 use carom_math::{SimTime, Vec2};
 
 use super::relative::Against;
-use crate::state::inner_of;
 use crate::{BodyKind, Mode, World};
-
-/// The core of a convex part lies so deep inside, as a fraction of its least half width: 2.5 mm for a box
-/// of 1 m, more than contacts of a pile sink in by.
-const CORE: f64 = 0.005;
 
 /// Who is stopped stops short of the surface by this part of its reach: what overlaps is held softly,
 /// and what is met at 100 m/s would sink in.
@@ -328,142 +321,4 @@ fn comes_within(a: &Motion, b: &Motion, near: f64, left: f64) -> bool {
     };
     let near = near * (1.0 + 1e-9);
     (apart + closing * nearest).length_squared() <= near * near
-}
-
-/// The cores of shapes whose bodies were swift lately, by collider.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Cores {
-    list: Vec<Option<Cored>>,
-    /// Asked for since those that nobody asked for were dropped.
-    asked: bool,
-    /// Ticks since then.
-    ticks: u32,
-}
-
-#[derive(Clone, Debug)]
-struct Cored {
-    of: Arc<Shape>,
-    parts: Arc<[Part]>,
-    asked: bool,
-}
-
-/// Ticks for which nobody asks for a core before it is dropped: what falls is swift in all of them, and what has landed
-/// leaves none behind.
-const KEPT: u32 = 16;
-
-/// A convex part of a shape.
-#[derive(Clone, Debug)]
-pub(super) struct Part {
-    core: Shape,
-    /// `None`: the shape itself.
-    whole: Option<Shape>,
-}
-
-impl Part {
-    pub(super) const fn core(&self) -> &Shape {
-        &self.core
-    }
-}
-
-impl Cores {
-    pub(super) fn of(&mut self, collider: u32, solid: &Arc<Shape>) -> Arc<[Part]> {
-        let at = collider as usize;
-        if self.list.len() <= at {
-            self.list.resize(at + 1, None);
-        }
-        self.asked = true;
-        if let Some(cored) = &mut self.list[at]
-            && Arc::ptr_eq(&cored.of, solid)
-        {
-            cored.asked = true;
-            return Arc::clone(&cored.parts);
-        }
-        let parts = parts_of(solid);
-        self.list[at] = Some(Cored {
-            of: Arc::clone(solid),
-            parts: Arc::clone(&parts),
-            asked: true,
-        });
-        parts
-    }
-
-    /// A tick begins: drops cores that nobody asked for in the last ones.
-    pub(super) fn age(&mut self) {
-        self.ticks += 1;
-        if self.ticks < KEPT {
-            return;
-        }
-        self.ticks = 0;
-        if !core::mem::take(&mut self.asked) {
-            self.list = Vec::new();
-            return;
-        }
-        for known in &mut self.list {
-            let kept = known
-                .as_mut()
-                .map(|cored| core::mem::take(&mut cored.asked));
-            if kept == Some(false) {
-                *known = None;
-            }
-        }
-    }
-}
-
-fn parts_of(solid: &Shape) -> Arc<[Part]> {
-    let single = hulls(solid).len() == 1;
-    let parts = hulls(solid).map(|hull| {
-        let inner = inner_of(&hull);
-        let within = |depth: f64| {
-            if hull.normals.is_empty() {
-                let smaller = Circle::at(hull.vertices[0], hull.radius - depth);
-                return smaller.ok().map(Shape::from);
-            }
-            let corners = (0..hull.vertices.len()).map(|i| shrunk_corner(&hull, i, depth));
-            let polygon = ConvexPolygon::new(corners.collect::<Vec<_>>());
-            polygon.ok().map(Shape::from)
-        };
-        let whole = if single { None } else { within(0.0) };
-        // What cannot be shrunk, a segment, is all core.
-        let plain = || whole.clone().unwrap_or_else(|| solid.clone());
-        Part {
-            core: within(CORE * inner).unwrap_or_else(plain),
-            whole,
-        }
-    });
-    parts.collect()
-}
-
-/// A corner after both of its edges moved inwards by `depth`; a sharp tip by twice that at most.
-fn shrunk_corner(hull: &Hull<'_>, i: usize, depth: f64) -> Vec2 {
-    let before = if i == 0 { hull.normals.len() } else { i } - 1;
-    let (m, n) = (hull.normals[before], hull.normals[i]);
-    // p + w with w·m = w·n = −depth: w = −depth (m + n)/(1 + m·n).
-    let way = (m + n) / (1.0 + m.dot(n)).max(0.5 * (m + n).length());
-    hull.vertices[i] - way * depth
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn cores_that_nobody_asks_for_are_dropped() {
-        let solid = ConvexPolygon::rectangle(1.0, 1.0).expect("a square");
-        let solid = Arc::new(Shape::from(solid));
-        let mut cores = Cores::default();
-        for tick in 0..10 * KEPT {
-            let first = cores.of(3, &solid);
-            assert!(Arc::ptr_eq(&first, &cores.of(3, &solid)), "tick {tick}");
-            if tick == 0 {
-                cores.of(5, &solid);
-            }
-            cores.age();
-        }
-        let kept = |cores: &Cores| cores.list.iter().flatten().count();
-        assert_eq!(kept(&cores), 1);
-        for _ in 0..2 * KEPT {
-            cores.age();
-        }
-        assert_eq!(cores.list.capacity(), 0);
-    }
 }
