@@ -12,10 +12,11 @@ use crate::impact::{ImpactBody, ImpactContact, SharedContact, held};
 use crate::sleep::Tree;
 use crate::solver::{Law, Row, SolverBody};
 
-/// How many times as heavy as another one a body is that sweeps do not carry.
-const HEAVY: f64 = 16.0;
+/// A body so many times as heavy as the one that gives way to it is a load that one sweep does not carry.
+pub(crate) const BEARS: f64 = 16.0;
 
-/// Points of a group that are solved for at once; what has more is swept.
+/// Points of a group that are solved for at once; what has more is swept. A common stop takes the cube of its rows, of
+/// which a point with friction has two.
 const POINTS: usize = 48;
 
 /// Where a row pushes: its points, and the centres of mass of both bodies, in m.
@@ -23,6 +24,12 @@ const POINTS: usize = 48;
 pub(crate) struct Place {
     pub(crate) points: arrayvec::ArrayVec<Vec2, 2>,
     pub(crate) centres: (Vec2, Vec2),
+}
+
+/// How many times as heavy the heavier of two bodies is; 1 beside what cannot be moved. From their inverse masses.
+pub(crate) fn mass_ratio(masses: [f64; 2]) -> f64 {
+    let [light, heavy] = [masses[0].max(masses[1]), masses[0].min(masses[1])];
+    if heavy > 0.0 { light / heavy } else { 1.0 }
 }
 
 /// Puts the rows of heavy groups, with where they came from, behind all others; where each group lies then.
@@ -34,11 +41,7 @@ pub(crate) fn set_apart<S: Copy>(
     let moves = |place: u32| bodies[place as usize].inverse_mass > 0.0;
     let is_heavy = |row: &Row| {
         let (i, j) = row.bodies;
-        let (a, b) = (
-            bodies[i as usize].inverse_mass,
-            bodies[j as usize].inverse_mass,
-        );
-        a > 0.0 && b > 0.0 && (a > HEAVY * b || b > HEAVY * a)
+        mass_ratio([i, j].map(|place| bodies[place as usize].inverse_mass)) > BEARS
     };
     if !rows.iter().any(is_heavy) {
         return Vec::new();
@@ -54,13 +57,13 @@ pub(crate) fn set_apart<S: Copy>(
         groups.root(if moves(i) { i } else { j })
     };
     let roots: Vec<u32> = rows.iter().map(&mut of).collect();
+    let mut points = vec![0; bodies.len()];
+    for (row, root) in rows.iter().zip(&roots) {
+        points[*root as usize] += row.points();
+    }
     let mut heavy: Vec<u32> = Vec::new();
     for (row, root) in rows.iter().zip(&roots) {
-        let points = || {
-            let own = rows.iter().zip(&roots).filter(|(_, of)| *of == root);
-            own.map(|(row, _)| row.points()).sum::<usize>()
-        };
-        if is_heavy(row) && !heavy.contains(root) && points() <= POINTS {
+        if is_heavy(row) && !heavy.contains(root) && points[*root as usize] <= POINTS {
             heavy.push(*root);
         }
     }

@@ -296,7 +296,7 @@ fn polished(
 }
 
 /// What touches at a contact point: the corners that the contact is named after.
-fn strikes_with(parts: (u32, u32), point: &PairPoint) -> ImpactFeature {
+pub(crate) fn strikes_with(parts: (u32, u32), point: &PairPoint) -> ImpactFeature {
     let (a, b) = point.feature.vertices();
     ImpactFeature {
         parts,

@@ -1,8 +1,8 @@
 //! Bodies that turn often while they are searched for: a circle about each of them does not turn.
 //!
 //! Bounds on a gap's second derivative are loose over more than a turn, so that a search goes through a part of it at a
-//! time. That is cheap as long as the parts are few. A body at 1e4 rad/s that flies for a day past a wall would be searched for 1e8 times; the circle about it meets
-//! the wall, or does not, in one search.
+//! time. That is cheap as long as the parts are few. A body at 1e4 rad/s that flies for a day past a wall would be
+//! searched for 1e8 times; the circle about it meets the wall, or does not, in one search.
 
 use std::sync::Arc;
 

@@ -51,6 +51,11 @@ impl ImpactBody {
         self.velocity + cross_scalar(self.spin, point - self.centre)
     }
 
+    /// Most speed that an impulse of 1 N·s at `point` gives that point, in m/s.
+    pub(super) fn yields_at(&self, point: Vec2) -> f64 {
+        self.inverse_mass + (point - self.centre).length_squared() * self.inverse_inertia
+    }
+
     /// ½ m v² + ½ I ω² in J; 0 for a body of infinite mass.
     #[must_use]
     pub fn kinetic_energy(&self) -> f64 {

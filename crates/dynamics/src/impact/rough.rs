@@ -269,10 +269,7 @@ fn noise(
         taken[shared.a] += n + t.abs();
         taken[shared.b] += n + t.abs();
     }
-    let worth = |body: usize, point: Vec2| {
-        let arm = (point - bodies[body].centre).length_squared();
-        taken[body] * (bodies[body].inverse_mass + arm * bodies[body].inverse_inertia)
-    };
+    let worth = |body: usize, point: Vec2| taken[body] * bodies[body].yields_at(point);
     let each = contacts.iter().map(|shared| {
         let point = shared.contact.point;
         let most = worth(shared.a, point).max(worth(shared.b, point));

@@ -178,16 +178,9 @@ impl<'a> Rows<'a> {
             taken[row.a] += impulse.abs();
             taken[row.b] += impulse.abs();
         }
-        let worth = |body: usize, point: Vec2| {
-            let arm = (point - self.bodies[body].centre).length_squared();
-            let body = &self.bodies[body];
-            body.inverse_mass + arm * body.inverse_inertia
-        };
-        let of = |row: &Row| {
-            let a = taken[row.a] * worth(row.a, row.point);
-            let b = taken[row.b] * worth(row.b, row.point);
-            4.0 * f64::EPSILON * (a + b)
-        };
+        let worth = |body: usize, point: Vec2| taken[body] * self.bodies[body].yields_at(point);
+        let of =
+            |row: &Row| 4.0 * f64::EPSILON * (worth(row.a, row.point) + worth(row.b, row.point));
         self.rows.iter().map(of).collect()
     }
 

@@ -1,18 +1,15 @@
 //! Bodies that lie deep in each other, and light ones under heavy ones: the rows about them are swept many times in a sub-step.
 
 use crate::World;
+use crate::heavy::BEARS;
 use crate::pairs::Pair;
 use crate::solver::{HEAVY, Often, RowId};
 
-/// Sweeps without bias while bodies lie deep in each other.
+/// Sweeps without bias while bodies lie deep in each other, and under a load of [`BEARS`].
 const SWEEPS: usize = 30;
 
-/// The same where a heavy body bears on a light one, which passes on a thousandth of the momentum in each.
+/// The same beyond a load of [`HEAVY`]: a heavy body bears on a light one, which passes on a thousandth of the momentum in each.
 const LOADED: usize = 120;
-
-/// A body so many times as heavy as the one that gives way to it is a load that some sweeps carry; beyond [`HEAVY`] it takes
-/// [`LOADED`].
-pub(super) const BEARS: f64 = 16.0;
 
 /// What the looks of a tick found of bodies deep in each other.
 #[derive(Clone, Debug, Default)]

@@ -4,10 +4,10 @@ use carom_collision::{PartManifold, contacts, contacts_and_gap};
 use carom_math::{Pose, SimTime};
 
 use super::Stepped;
-use super::depths::BEARS;
 use super::relative::{Against, fall};
 use super::seats::{PART, pull_of};
 use super::watch::{KEPT_APART, MARGIN, Moving, RESERVE, farther};
+use crate::heavy::{BEARS, mass_ratio};
 use crate::narrow::{BURIED, carried};
 use crate::pairs::{Glance, Pair, PairContact, PairPoint};
 use crate::solver::{Row, RowId};
@@ -258,12 +258,6 @@ impl World {
         }
         load
     }
-}
-
-/// How many times as heavy the heavier of two bodies is; 1 beside what cannot be moved. From their inverse masses.
-fn mass_ratio(masses: [f64; 2]) -> f64 {
-    let [light, heavy] = [masses[0].max(masses[1]), masses[0].min(masses[1])];
-    if heavy > 0.0 { light / heavy } else { 1.0 }
 }
 
 impl Stepped {

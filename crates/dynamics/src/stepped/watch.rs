@@ -2,11 +2,11 @@
 
 use carom_math::{SimTime, Vec2};
 
-use super::depths::BEARS;
 use super::faces::GIVES;
 use super::relative::{Against, QUICK, Since, WHIRL, fall};
 use super::stand::Stand;
 use crate::World;
+use crate::heavy::BEARS;
 use crate::pairs::Glance;
 
 /// How far a body may move before it is asked about, as a fraction of the smallest reach about it: 5 mm for boxes
