@@ -106,14 +106,6 @@ impl Lanes {
         )
     }
 
-    /// Puts a row of the same two bodies into the lane of an old one.
-    pub(super) fn rewrite(&mut self, id: RowId, row: &Row, lines: &[Line]) {
-        self.notes(row);
-        let (a, b) = (row.bodies.0 as usize, row.bodies.1 as usize);
-        let (wide, lane) = self.at_mut(id);
-        wide.put(lane, row, &lines[a], &lines[b]);
-    }
-
     /// Gives a row a lane.
     pub(super) fn insert(&mut self, row: &Row, lines: &[Line]) -> RowId {
         let id = self.free.pop().unwrap_or_else(|| {
@@ -218,6 +210,11 @@ impl Lanes {
         let wide = &zone.colours[place.colour as usize][block];
         let line = |i: u32| self.master[(i + zone.first) as usize];
         (line(wide.a[lane]), line(wide.b[lane]))
+    }
+
+    /// Lines of a row's bodies: one cache line is read, and of a whole row twenty.
+    pub(super) fn bodies_of(&self, id: RowId) -> (u32, u32) {
+        self.bodies(self.places[id.0 as usize])
     }
 
     /// A row as it is now, with its gaps where the bodies are.

@@ -178,7 +178,7 @@ impl Rig {
 
     /// Puts a new row of the same two bodies into the lane of an old one.
     pub(crate) fn rewrite(&mut self, id: RowId, row: &Row) {
-        debug_assert_eq!(self.row(id).bodies, row.bodies, "a lane is of two bodies");
+        debug_assert_eq!(self.bodies(id), row.bodies, "a lane is of two bodies");
         self.replace(id, |_, _| *row);
     }
 
@@ -201,9 +201,15 @@ impl Rig {
         ([wide.j1[lane], wide.j2[lane]], wide.jt[lane])
     }
 
-    /// Tells a row's gaps anew, from where its bodies' lines count now; its impulses stay.
-    pub(crate) fn retell(&mut self, id: RowId, row: &Row) {
-        self.lanes.rewrite(id, row, &self.lines);
+    /// A body's line counts from where it is from now on; `rows`: all of its own.
+    pub(crate) fn rebase(&mut self, slot: u32, rows: impl Iterator<Item = RowId>) {
+        let line = self.lines[slot as usize];
+        for id in rows {
+            let of_b = self.bodies(id).1 == slot;
+            let (wide, lane) = self.lanes.at_mut(id);
+            wide.rebase(lane, of_b, &line);
+        }
+        self.set_displacement(slot, Vec2::ZERO, 0.0);
     }
 
     /// Takes a row out.
@@ -223,6 +229,19 @@ impl Rig {
     /// A row as it is now, with its gaps where the bodies are.
     pub(crate) fn row(&self, id: RowId) -> Row {
         self.lanes.row(id, &self.lines)
+    }
+
+    /// Slots of the bodies of a row.
+    pub(crate) fn bodies(&self, id: RowId) -> (u32, u32) {
+        self.lanes.bodies_of(id)
+    }
+
+    /// Whether one of the two cannot be moved.
+    fn is_ground(&self, id: RowId) -> bool {
+        let (a, b) = self.bodies(id);
+        [a, b]
+            .into_iter()
+            .any(|slot| self.lines[slot as usize].inverse_mass() == 0.0)
     }
 
     /// Adds `sign` times a row's impulses to the warm start of its bodies.
@@ -268,7 +287,7 @@ impl Rig {
         let ids: Vec<RowId> = self.lanes.ids().collect();
         for id in ids {
             let row = self.row(id);
-            self.retell(id, &row);
+            self.rewrite(id, &row);
         }
     }
 
@@ -326,7 +345,7 @@ impl Rig {
         let mut met = core::mem::take(&mut self.met);
         met.retain(|id| self.lanes.holds(*id));
         for id in met.drain(..) {
-            let (a, b) = self.row(id).bodies;
+            let (a, b) = self.bodies(id);
             let alone = |slot: u32| {
                 self.lines[slot as usize].inverse_mass() == 0.0 || self.lanes.degree(slot) == 1
             };
@@ -337,7 +356,7 @@ impl Rig {
         }
         self.met = met;
         let mut bounced = core::mem::take(&mut self.bounced);
-        bounced.retain(|id| self.lanes.holds(*id) && self.row(*id).ground);
+        bounced.retain(|id| self.lanes.holds(*id) && self.is_ground(*id));
         for id in &bounced {
             self.warm(&self.row(*id), -1.0);
         }

@@ -139,6 +139,19 @@ impl Wide {
         self.belt[lane] = row.belt;
     }
 
+    /// B, or else A, counts from where its line says from now on: the gaps stay.
+    pub(crate) fn rebase(&mut self, lane: usize, of_b: bool, line: &Line) {
+        let n = vec2(self.nx[lane], self.ny[lane]);
+        let (arm, sign) = if of_b {
+            (self.b1[lane], 1.0)
+        } else {
+            (self.a1[lane], -1.0)
+        };
+        let moved = n.dot(line.d());
+        self.s1[lane] += sign * (moved + arm * line.turn());
+        self.s2[lane] += sign * (moved + (arm + self.l[lane]) * line.turn());
+    }
+
     /// The row of a lane, with its gaps as the bodies are now.
     pub(crate) fn row(&self, lane: usize, bodies: (u32, u32), lines: &[Line]) -> Row {
         let (a, b) = (&lines[bodies.0 as usize], &lines[bodies.1 as usize]);
@@ -224,5 +237,42 @@ impl Wide {
             &mut self.jt,
             &mut self.belt,
         ]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Told from where a body is, gaps are what they were, and go on as they went.
+    #[test]
+    fn gaps_stay_where_a_line_counts_from_elsewhere() {
+        let n = vec2(0.6, -0.8);
+        let arms = [
+            (vec2(0.3, -0.5), vec2(-0.2, 0.4)),
+            (vec2(0.7, -0.2), vec2(0.2, 0.7)),
+        ];
+        let mut row = Row::new((0, 1), n, &arms, 0.5);
+        row.gap = [0.01, -0.02];
+        let mut lines = [1.0, 0.5].map(|m| Line::new(Vec2::ZERO, 0.0, m, 3.0 * m));
+        let mut wide = Wide::EMPTY;
+        wide.put(3, &row, &lines[0], &lines[1]);
+        for (line, by) in lines.iter_mut().zip([0.3, -0.2]) {
+            line.0[4..7].copy_from_slice(&[by, 0.5 - by, 0.7 * by]);
+        }
+        for of_b in [false, true] {
+            let before = wide.row(3, (0, 1), &lines).gap;
+            assert!((before[0] - 0.01).abs() > 0.1, "{before:?}");
+            let line = &mut lines[usize::from(of_b)];
+            wide.rebase(3, of_b, line);
+            line.0[4..7].fill(0.0);
+            let after = wide.row(3, (0, 1), &lines).gap;
+            for (before, after) in before.into_iter().zip(after) {
+                assert!((after - before).abs() < 1e-15, "{before} and {after}");
+            }
+            if !of_b {
+                lines[0].0[4..7].copy_from_slice(&[0.1, 0.4, -0.3]);
+            }
+        }
     }
 }

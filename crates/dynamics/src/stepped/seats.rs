@@ -6,7 +6,7 @@ use super::courses::Course;
 use super::stand::Stands;
 use super::watch::{LEASH, STRAY};
 use crate::bodies::Bodies;
-use crate::solver::{Limit, Member, Pull, Rig, Row, RowId};
+use crate::solver::{Limit, Member, Pull, Rig, RowId};
 use crate::state::{BodyState, Collider};
 use crate::{BodyId, BodyKind};
 
@@ -351,19 +351,15 @@ impl Seats {
             || line.d().length_squared() > (AWAY * seat.reach) * (AWAY * seat.reach)
     }
 
-    /// Moves the base up to where the body is; the gaps of its rows are told anew.
+    /// Moves the base up to where the body is; the gaps of its rows stay.
     pub(crate) fn rebase(&mut self, slot: u32, rows: impl Iterator<Item = RowId>) {
-        let rows: Vec<(RowId, Row)> = rows.map(|id| (id, self.rig.row(id))).collect();
         let pose = self.pose(slot);
         let turn = self.rig.lines[slot as usize].turn();
         let seat = &mut self.list[slot as usize];
         seat.base = Pose::new(pose.position, pose.rotation.renormalized());
         seat.base_angle += turn;
         seat.sent.from = (Vec2::ZERO, 0.0);
-        self.rig.set_displacement(slot, Vec2::ZERO, 0.0);
-        for (id, row) in rows {
-            self.rig.retell(id, &row);
-        }
+        self.rig.rebase(slot, rows);
     }
 }
 

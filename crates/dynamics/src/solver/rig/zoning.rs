@@ -92,7 +92,7 @@ impl Rig {
         }
         let mut met: Vec<Vec<u32>> = vec![Vec::new(); zones.len() + 1];
         for id in self.lanes.ids() {
-            let (a, b) = self.row(id).bodies;
+            let (a, b) = self.bodies(id);
             for (one, other) in [(a, b), (b, a)] {
                 if self.lines[one as usize].inverse_mass() == 0.0 {
                     met[zone_of[other as usize] as usize].push(one);
@@ -156,7 +156,7 @@ impl Rig {
 
     fn neighbours(&self) -> Neighbours {
         let moves = |i: u32| self.lines[i as usize].inverse_mass() > 0.0;
-        let pairs = self.lanes.ids().map(|id| self.row(id).bodies);
+        let pairs = self.lanes.ids().map(|id| self.bodies(id));
         let pairs: Vec<(u32, u32)> = pairs.filter(|(a, b)| moves(*a) && moves(*b)).collect();
         let mut first = vec![0usize; self.lines.len() + 1];
         for (a, b) in &pairs {
