@@ -88,12 +88,19 @@ pub(crate) fn strike(
         let pair = pairs.get_mut(entry.pair);
         pair.lasting = true;
         // A group that is judged anew each time comes to an end, too.
+        let limit = if pair.spent > BUDGET {
+            2.0 * BUDGET
+        } else {
+            BUDGET
+        };
         pair.spent += 1.0;
-        pair.given_up |= pair.spent > BUDGET;
+        pair.given_up |= pair.spent > limit;
         return Struck::Rests;
     }
-    if gives_up(bodies, pairs, entry, &shock, events, report) {
-        return Struck::Nothing;
+    match spend(bodies, pairs, entry, &shock, events, report) {
+        Budget::Left => {}
+        Budget::Outrun => shock.collapse(),
+        Budget::Gone => return Struck::Nothing,
     }
     pairs.get_mut(entry.pair).lasting |= stays;
     let single = shock.strikes.len() == 1;
@@ -114,6 +121,7 @@ pub(crate) fn strike(
     if !single || shock.spread(bodies, colliders, pairs, narrow) {
         shock.solve(settings, bodies, colliders, pairs, narrow);
     }
+    shock.hold(pairs);
     Struck::Impact(apply(bodies, entry.time, &shock, events, report))
 }
 
@@ -127,22 +135,40 @@ fn touch(bodies: &Bodies, pairs: &mut Pairs, entry: &Entry, events: &mut Events)
     }
 }
 
-/// Counts the impact; whether the pair has used up those of this sub-step.
-fn gives_up(
+/// What is left of a pair's budget after an impact.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Budget {
+    Left,
+    /// The impacts come ever faster: this one is their limit.
+    Outrun,
+    /// Not even limits bring the pair to rest: the next sub-step's solver takes it.
+    Gone,
+}
+
+/// Counts the impact among those of this sub-step.
+fn spend(
     bodies: &Bodies,
     pairs: &mut Pairs,
     entry: &Entry,
     shock: &Shock,
     events: &mut Events,
     report: &mut StepReport,
-) -> bool {
+) -> Budget {
     let pair = pairs.get_mut(entry.pair);
     pair.impacts += 1;
+    if pair.spent > BUDGET {
+        pair.spent += 1.0;
+        pair.given_up = pair.spent > 2.0 * BUDGET;
+        return if pair.given_up {
+            Budget::Gone
+        } else {
+            Budget::Outrun
+        };
+    }
     pair.spent += price(&pair.material);
     if pair.spent <= BUDGET {
-        return false;
+        return Budget::Left;
     }
-    pair.given_up = true;
     report.collapsed += 1;
     let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
     let reduced = match (a.inverse_mass, b.inverse_mass) {
@@ -158,7 +184,7 @@ fn gives_up(
             energy: 0.5 * reduced * speed * speed,
         },
     );
-    true
+    Budget::Outrun
 }
 
 /// New motions for all that were shaken, events for all that pushed, losses to the ledger.

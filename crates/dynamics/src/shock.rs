@@ -79,6 +79,8 @@ pub(crate) struct Shock {
     looked: Vec<(u32, RestSpeed)>,
     /// Slowest rest speed of the pairs, in m/s.
     rest: f64,
+    /// The limit of impacts that came ever faster: nothing is given back.
+    collapses: bool,
 }
 
 impl Shock {
@@ -90,6 +92,25 @@ impl Shock {
             bodies: Vec::new(),
             looked: Vec::new(),
             rest: f64::INFINITY,
+            collapses: false,
+        }
+    }
+
+    /// Takes it for the limit of impacts that come ever faster, one after the other through the same bodies: each leaves a part
+    /// of the approach, all of them none. So the limit is a common stop of all that was struck on the way and touches.
+    pub(crate) fn collapse(&mut self) {
+        self.collapses = true;
+        for strike in &mut self.strikes {
+            (strike.contact.restitution, strike.target) = (0.0, 0.0);
+        }
+    }
+
+    /// What a collapse stopped lasts.
+    pub(crate) fn hold(&self, pairs: &mut Pairs) {
+        if self.collapses {
+            for strike in &self.strikes {
+                pairs.get_mut(strike.pair).lasting |= strike.normal_impulse > 0.0;
+            }
         }
     }
 
@@ -172,8 +193,10 @@ impl Shock {
         place: u32,
     ) {
         let pair = pairs.get_mut(place);
-        // What bounces on its own will be struck in its turn; what lasts is part of this.
-        let lasts = pair.lasting || pair.touching && pair.material.restitution == 0.0;
+        // What bounces on its own will be struck in its turn; what lasts is part of this, and what collapses with it.
+        let lasts = pair.lasting
+            || pair.touching && pair.material.restitution == 0.0
+            || self.collapses && pair.impacts > 0;
         if pair.buried || !lasts {
             return;
         }
@@ -214,7 +237,11 @@ impl Shock {
                     let contact = ImpactContact {
                         point: point.position,
                         normal: contact.normal,
-                        restitution: pair.material.restitution,
+                        restitution: if self.collapses {
+                            0.0
+                        } else {
+                            pair.material.restitution
+                        },
                         friction: pair.material.friction,
                     };
                     let belt = pair.material.tangent_speed;
