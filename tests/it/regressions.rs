@@ -16,6 +16,7 @@ mod an_impact_on_the_border_of_two_sub_steps_bounces;
 mod nothing_falls_through_the_wall_of_a_turning_drum;
 mod parts_that_land_together_do_not_turn;
 mod tips_that_meet_do_not_spin;
+mod what_bore_a_heavy_body_is_not_pushed_when_it_has_gone;
 mod what_glides_slowly_stops_at_a_wall;
 mod what_leaves_a_turning_group_is_not_called_exact;
 mod what_opens_under_a_ceiling_comes_back_to_it;

@@ -34,7 +34,7 @@ pub(crate) struct Pair {
     pub(crate) held: bool,
     /// So deep in each other that no strike makes sense: the solver pushes them apart.
     pub(crate) buried: bool,
-    /// Its impulses come from [`crate::heavy`], not from sweeps.
+    /// Its impulses come from [`crate::heavy`], or from such a group in closed form, not from sweeps.
     pub(crate) at_once: bool,
     /// Impacts in this sub-step.
     pub(crate) impacts: u32,

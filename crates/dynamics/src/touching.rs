@@ -6,6 +6,7 @@ use carom_math::{Pose, SimTime, Vec2, cross_scalar, perp};
 
 use crate::World;
 use crate::bodies::Bodies;
+use crate::heavy::{BEARS, mass_ratio};
 use crate::modes::{CLOSED, Feature, ModeBody, ROWS, Touch, hold};
 use crate::narrow::{RestSpeed, TOUCH};
 use crate::pairs::PairContact;
@@ -60,6 +61,15 @@ impl Gathered {
         all.filter(|(_, body)| body.inverse_mass > 0.0)
             .map(|(index, _)| *index)
             .collect()
+    }
+
+    /// Whether one of them bears another that one sweep of the solver does not carry.
+    pub(crate) fn is_heavy(&self) -> bool {
+        let ratio = |touch: &Touch| {
+            let (a, b) = touch.bodies;
+            mass_ratio([a, b].map(|place| self.bodies[place].inverse_mass))
+        };
+        self.touches.iter().any(|touch| ratio(touch) > BEARS)
     }
 
     fn refused(&self) -> Refused {

@@ -369,6 +369,7 @@ impl World {
     }
 
     fn kept(&self, gathered: &Gathered, moves: &GroupMove) -> Vec<Kept> {
+        let heavy = gathered.is_heavy();
         let sources = gathered
             .pairs
             .iter()
@@ -400,6 +401,7 @@ impl World {
                     moved: *moved,
                     slip_rate: rate(b) - rate(a),
                     driven: drive(a, force) + drive(b, -force),
+                    heavy,
                 }
             })
             .collect()

@@ -91,12 +91,14 @@ impl World {
                 fastest = if fast > fastest { fast } else { fastest };
             }
         }
+        let heavy = gathered.is_heavy();
         let kept = |(&(pair, contact), moved): (&(u32, usize), &TouchMove)| Kept {
             pair,
             contact,
             moved: *moved,
             slip_rate: 0.0,
             driven: 0.0,
+            heavy,
         };
         let change = time + tip.after;
         let group = Group {

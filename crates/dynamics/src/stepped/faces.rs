@@ -277,6 +277,12 @@ impl Stepped {
                 contact.takes(j, jt);
             }
         }
+        if core::mem::take(&mut pair.at_once) {
+            // What bore a heavy body is too much to begin with once that has gone.
+            for contact in &mut pair.contacts {
+                contact.takes([0.0; 2], 0.0);
+            }
+        }
         let mut old = core::mem::take(&mut self.before);
         old.append(&mut pair.contacts);
         // No more room than they fill: most pairs have one.
