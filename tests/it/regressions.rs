@@ -10,6 +10,7 @@ mod a_long_flight_costs_no_more_than_what_it_meets;
 mod a_place_used_again_inherits_nothing;
 mod a_removed_body_strikes_nobody;
 mod a_ring_that_spins_adds_nothing_to_what_it_carries;
+mod a_sleeper_that_is_neared_does_not_fall;
 mod a_step_within_a_sub_step_of_the_solver_is_not_exact;
 mod an_impact_as_slow_as_a_rounding_takes_no_time;
 mod an_impact_on_the_border_of_two_sub_steps_bounces;

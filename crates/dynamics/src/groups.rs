@@ -115,6 +115,9 @@ impl Groups {
                     || b.is_flying()
                     || a.in_crowd
                     || b.in_crowd
+                    // Who touches a sleeper has woken it; across a gap it is met, and woken, by an impact.
+                    || a.asleep
+                    || b.asleep
                 {
                     continue;
                 }
