@@ -7,7 +7,7 @@ use crate::bodies::Bodies;
 use crate::event::EventKind;
 use crate::impact::{ImpactContact, resolve};
 use crate::narrow::{NOISE, Narrow, RestSpeed, opening_speed, pace};
-use crate::pairs::Pairs;
+use crate::pairs::{Pair, Pairs};
 use crate::predict::{BUDGET, price};
 use crate::shock::Shock;
 use crate::state::Collider;
@@ -88,13 +88,7 @@ pub(crate) fn strike(
         let pair = pairs.get_mut(entry.pair);
         pair.lasting = true;
         // A group that is judged anew each time comes to an end, too.
-        let limit = if pair.spent > BUDGET {
-            2.0 * BUDGET
-        } else {
-            BUDGET
-        };
-        pair.spent += 1.0;
-        pair.given_up |= pair.spent > limit;
+        pair.given_up |= outruns(pair, 1.0);
         return Struck::Rests;
     }
     match spend(bodies, pairs, entry, &shock, events, report) {
@@ -145,6 +139,18 @@ enum Budget {
     Gone,
 }
 
+/// Takes `losses` from a pair's budget; whether there is less. Once it is outrun it gets another one, of a loss for each limit
+/// and rest.
+fn outruns(pair: &mut Pair, losses: f64) -> bool {
+    let (losses, limit) = if pair.spent > BUDGET {
+        (1.0, 2.0 * BUDGET)
+    } else {
+        (losses, BUDGET)
+    };
+    pair.spent += losses;
+    pair.spent > limit
+}
+
 /// Counts the impact among those of this sub-step.
 fn spend(
     bodies: &Bodies,
@@ -156,18 +162,17 @@ fn spend(
 ) -> Budget {
     let pair = pairs.get_mut(entry.pair);
     pair.impacts += 1;
-    if pair.spent > BUDGET {
-        pair.spent += 1.0;
-        pair.given_up = pair.spent > 2.0 * BUDGET;
-        return if pair.given_up {
-            Budget::Gone
-        } else {
-            Budget::Outrun
-        };
-    }
-    pair.spent += price(&pair.material);
-    if pair.spent <= BUDGET {
-        return Budget::Left;
+    let collapsed = pair.spent > BUDGET;
+    let losses = price(&pair.material);
+    let outrun = outruns(pair, losses);
+    match (collapsed, outrun) {
+        (false, false) => return Budget::Left,
+        (true, false) => return Budget::Outrun,
+        (true, true) => {
+            pair.given_up = true;
+            return Budget::Gone;
+        }
+        (false, true) => {}
     }
     report.collapsed += 1;
     let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
