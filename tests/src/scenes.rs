@@ -1,7 +1,7 @@
 //! Small worlds that many tests begin with.
 
 use carom_dynamics::{BodyDef, BodyId, Material, Mode, Settings, World};
-use carom_geometry::{Circle, ConvexPolygon, Polygon, Shape};
+use carom_geometry::{Circle, ConvexPolygon, HalfPlane, Polygon, Shape};
 use carom_math::{Vec2, vec2};
 
 /// A built-in scene, as it is.
@@ -65,6 +65,45 @@ pub fn column(world: &mut World, count: u32, material: Material) -> Vec<BodyId> 
 /// If the world refuses it.
 pub fn put(world: &mut World, def: BodyDef, shape: impl Into<Shape>, material: Material) -> BodyId {
     world.insert(def, shape, material).expect("a valid body")
+}
+
+/// A world in which everything falls at 10 m/s², within half-planes: a box of half sides `half` (m) about the origin.
+///
+/// # Panics
+/// If `half` is not finite.
+#[must_use]
+pub fn walled(mode: Mode, half: Vec2, material: Material) -> World {
+    let mut world = World::new(Settings {
+        gravity: vec2(0.0, -10.0),
+        mode,
+        ..Settings::default()
+    })
+    .expect("valid settings");
+    for outward in [Vec2::Y, -Vec2::Y, Vec2::X, -Vec2::X] {
+        let wall = HalfPlane::new(-outward * half, outward).expect("a wall");
+        put(&mut world, BodyDef::fixed(), wall, material);
+    }
+    world
+}
+
+/// How far the deepest corner or rim of what is bounded is outside the walls of [`walled`], in m; 0 if nothing is.
+#[must_use]
+pub fn outside(world: &World, half: Vec2) -> f64 {
+    let mut deepest = 0.0;
+    for body in world.bodies() {
+        let pose = body.pose();
+        for (shape, _) in body.shapes().filter(|(shape, _)| shape.is_bounded()) {
+            let rim = match shape {
+                Shape::Circle(disc) => disc.radius(),
+                _ => 0.0,
+            };
+            for vertex in shape.vertices() {
+                let over = pose.point(*vertex).abs() - half;
+                deepest = f64::max(deepest, over.max_element() + rim);
+            }
+        }
+    }
+    deepest
 }
 
 /// A surface by its restitution and friction.

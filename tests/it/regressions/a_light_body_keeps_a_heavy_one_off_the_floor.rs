@@ -4,47 +4,16 @@
 //! some restitution the plate rattles between both, ever faster: when the budget of these impacts was spent the two were
 //! left alone until the next sub-step, and the plate was driven out by 0.7 of its size.
 
-use carom_dynamics::{BodyDef, Material, Mode, Settings, World};
-use carom_geometry::{ConvexPolygon, HalfPlane, Shape};
+use carom_dynamics::{BodyDef, Material, Mode, World};
+use carom_geometry::ConvexPolygon;
 use carom_math::{Vec2, vec2};
-use carom_tests::scenes::{block, disc, put, surface};
+use carom_tests::scenes::{block, disc, outside, put, surface, walled};
 
-fn walled(mode: Mode, material: Material) -> World {
-    let mut world = World::new(Settings {
-        gravity: vec2(0.0, -10.0),
-        mode,
-        ..Settings::default()
-    })
-    .expect("valid settings");
-    for outward in [Vec2::X, Vec2::Y, -Vec2::X, -Vec2::Y] {
-        let wall = HalfPlane::new(-outward, outward).expect("a wall");
-        put(&mut world, BodyDef::fixed(), wall, material);
-    }
-    world
-}
-
-/// How far the deepest corner is outside the walls, in m.
-fn outside(world: &World) -> f64 {
-    let mut deepest = 0.0;
-    for body in world.bodies() {
-        let pose = body.pose();
-        for (shape, _) in body.shapes().filter(|(shape, _)| shape.is_bounded()) {
-            let rim = match shape {
-                Shape::Circle(disc) => disc.radius(),
-                _ => 0.0,
-            };
-            for vertex in shape.vertices() {
-                let at = pose.point(*vertex).abs();
-                deepest = f64::max(deepest, at.x.max(at.y) + rim - 1.0);
-            }
-        }
-    }
-    deepest
-}
+const HALF: Vec2 = Vec2::ONE;
 
 /// A pentagon of `mass` kg falls on a plate of 1 kg.
 fn falls_on_a_plate(mode: Mode, material: Material, mass: f64, turned: (f64, f64)) -> World {
-    let mut world = walled(mode, material);
+    let mut world = walled(mode, HALF, material);
     let plate = BodyDef::dynamic().at(vec2(0.0, -0.94)).with_mass(1.0);
     put(&mut world, plate, block(0.5, 0.1), material);
     let falls = BodyDef::dynamic().at(vec2(0.1, 0.2)).turned(turned.0);
@@ -66,7 +35,7 @@ fn a_light_body_keeps_a_heavy_one_off_the_floor() {
                     let mut world = falls_on_a_plate(mode, surface(0.0, friction), mass, turned);
                     for _ in 0..240 {
                         world.step(1.0 / 120.0);
-                        let deep = outside(&world);
+                        let deep = outside(&world, HALF);
                         let what = (mode, friction, mass, turned, world.time());
                         assert!(deep < 5e-3, "{deep} m outside: {what:?}");
                     }
@@ -90,7 +59,7 @@ fn a_light_body_that_bounces_keeps_a_heavy_one_off_the_floor() {
                     let scale = before;
                     for _ in 0..80 {
                         collapsed += world.step(1.0 / 120.0).collapsed;
-                        let deep = outside(&world);
+                        let deep = outside(&world, HALF);
                         let what = (mode, e, friction, mass, turned, world.time());
                         assert!(deep < 5e-3, "{deep} m outside: {what:?}");
                         let now = energy(&world);
@@ -115,7 +84,7 @@ fn what_spins_beside_a_heavy_disc_stays_within_its_walls() {
         (-0.1, vec2(4.0, 1.0), 173.0),
         (1.2, Vec2::ZERO, -143.0),
     ] {
-        let mut world = walled(Mode::Exact, surface(0.0, 0.0));
+        let mut world = walled(Mode::Exact, HALF, surface(0.0, 0.0));
         let material = surface(0.0, 0.0);
         let spins = BodyDef::dynamic().at(vec2(-0.2, -0.1)).turned(angle);
         let spins = spins.moving(velocity).spinning(spin).with_mass(1.0);
@@ -127,7 +96,7 @@ fn what_spins_beside_a_heavy_disc_stays_within_its_walls() {
         put(&mut world, heavy.with_mass(1000.0), disc(0.15), material);
         for _ in 0..480 {
             world.step(1.0 / 240.0);
-            let deep = outside(&world);
+            let deep = outside(&world, HALF);
             assert!(
                 deep < 5e-3,
                 "{deep} m outside: {spin} rad/s, {:?}",

@@ -1,10 +1,9 @@
 //! A disc of 1000 kg dozes in a corner, and a thin box comes near it slower than rest. The solver held the two across their
 //! gap, and gave the disc a motion with gravity, but nobody had woken it: it fell through the floor, and on for ever.
 
-use carom_dynamics::{BodyDef, Settings, World};
-use carom_geometry::HalfPlane;
+use carom_dynamics::{BodyDef, Mode};
 use carom_math::{Vec2, vec2};
-use carom_tests::scenes::{block, disc, put, surface};
+use carom_tests::scenes::{block, disc, put, surface, walled};
 
 #[test]
 fn a_sleeper_that_is_neared_does_not_fall() {
@@ -13,17 +12,8 @@ fn a_sleeper_that_is_neared_does_not_fall() {
         (-2.3, vec2(-1.0, -3.0), -197.0),
         (-2.8, vec2(0.0, -4.0), 97.0),
     ] {
-        let gravity = vec2(0.0, -10.0);
-        let settings = Settings {
-            gravity,
-            ..Settings::default()
-        };
-        let mut world = World::new(settings).expect("valid settings");
         let material = surface(0.0, 0.0);
-        for outward in [Vec2::Y, -Vec2::Y, Vec2::X, -Vec2::X] {
-            let wall = HalfPlane::new(-outward, outward).expect("a wall");
-            put(&mut world, BodyDef::fixed(), wall, material);
-        }
+        let mut world = walled(Mode::Hybrid, Vec2::ONE, material);
         let spins = BodyDef::dynamic().at(vec2(-0.2, -0.1)).turned(angle);
         let spins = spins.moving(velocity).spinning(spin).with_mass(1.0);
         put(&mut world, spins, block(0.8, 0.2), material);

@@ -2,10 +2,10 @@
 //! sub-step; when the group came to its end and the disc had no row, the solver began with these impulses all the same, and
 //! threw the box out of its walls by 38 of its sizes.
 
-use carom_dynamics::{BodyDef, Material, Settings, World};
-use carom_geometry::{ConvexPolygon, HalfPlane, Polygon, Shape};
+use carom_dynamics::{BodyDef, Mode};
+use carom_geometry::{ConvexPolygon, Polygon, Shape};
 use carom_math::{Vec2, vec2};
-use carom_tests::scenes::{block, disc, put, surface};
+use carom_tests::scenes::{block, disc, outside, put, surface, walled};
 
 const HALF: Vec2 = vec2(2.9158362195131833, 3.673084749159281);
 
@@ -28,42 +28,10 @@ fn angle(width: f64, height: f64, thick: f64) -> Shape {
     Polygon::new(corners.to_vec()).expect("an L").into()
 }
 
-/// How far a body's deepest corner is outside, in m.
-fn outside(world: &World) -> f64 {
-    let mut deepest = f64::NEG_INFINITY;
-    for body in world.bodies() {
-        for (shape, _) in body.shapes().filter(|(shape, _)| shape.is_bounded()) {
-            let rim = match shape {
-                Shape::Circle(disc) => disc.radius(),
-                _ => 0.0,
-            };
-            for vertex in shape.vertices() {
-                let over = body.pose().point(*vertex).abs() - HALF;
-                deepest = deepest.max(over.max_element() + rim);
-            }
-        }
-    }
-    deepest
-}
-
 #[test]
 fn what_bore_a_heavy_body_is_not_pushed_when_it_has_gone() {
-    let material: Material = surface(0.3, 0.5);
-    let gravity = vec2(0.0, -10.0);
-    let settings = Settings {
-        gravity,
-        ..Settings::default()
-    };
-    let mut world = World::new(settings).expect("valid settings");
-    for (at, outward) in [
-        (vec2(0.0, -HALF.y), Vec2::Y),
-        (vec2(0.0, HALF.y), -Vec2::Y),
-        (vec2(-HALF.x, 0.0), Vec2::X),
-        (vec2(HALF.x, 0.0), -Vec2::X),
-    ] {
-        let wall = HalfPlane::new(at, outward).expect("a wall");
-        put(&mut world, BodyDef::fixed(), wall, material);
-    }
+    let material = surface(0.3, 0.5);
+    let mut world = walled(Mode::Hybrid, HALF, material);
     // Found by chance: shape, origin, angle, velocity, spin, mass.
     let bodies: [(Shape, Vec2, f64, Vec2, f64, f64); 12] = [
         (
@@ -174,7 +142,7 @@ fn what_bore_a_heavy_body_is_not_pushed_when_it_has_gone() {
     }
     for _ in 0..130 {
         world.step(1.0 / 60.0);
-        let deep = outside(&world);
+        let deep = outside(&world, HALF);
         assert!(deep < 5e-3, "{deep} m outside, {:?}", world.time());
     }
 }

@@ -219,9 +219,8 @@ impl Lanes {
 
     /// A row as it is now, with its gaps where the bodies are.
     pub(super) fn row(&self, id: RowId, lines: &[Line]) -> Row {
-        let bodies = self.bodies(self.places[id.0 as usize]);
         let (wide, lane) = self.at(id);
-        wide.row(lane, bodies, lines)
+        wide.row(lane, self.bodies_of(id), lines)
     }
 
     /// The block and lane of a row.
