@@ -1,8 +1,8 @@
 //! Small worlds that many tests begin with.
 
 use carom_dynamics::{BodyDef, BodyId, Material, Mode, Settings, World};
-use carom_geometry::{Circle, ConvexPolygon, HalfPlane, Polygon, Shape};
-use carom_math::{Vec2, vec2};
+use carom_geometry::{Circle, Compound, ConvexPolygon, HalfPlane, Polygon, Shape};
+use carom_math::{Pose, Vec2, trig, vec2};
 
 /// A built-in scene, as it is.
 ///
@@ -155,4 +155,23 @@ pub fn hollow() -> Polygon {
         (-2.0, 2.0),
     ];
     Polygon::new(corners.map(|(x, y)| vec2(x, y)).to_vec()).expect("a C")
+}
+
+/// A ring of eight pieces about its centre, 0.5 m thick; its corners are at 2 m within.
+///
+/// # Panics
+/// Never.
+#[must_use]
+pub fn octagon() -> Shape {
+    let corner = |k: u32, radius: f64| {
+        let (sin, cos) = trig::sin_cos(core::f64::consts::TAU * f64::from(k % 8) / 8.0);
+        vec2(cos, sin) * radius
+    };
+    let piece = |k: u32| {
+        let corners = [(k, 2.0), (k, 2.5), (k + 1, 2.5), (k + 1, 2.0)];
+        let corners = corners.map(|(k, radius)| corner(k, radius)).to_vec();
+        let piece = ConvexPolygon::new(corners).expect("a piece of a ring");
+        (Shape::from(piece), Pose::IDENTITY)
+    };
+    Compound::new((0..8).map(piece)).expect("a ring").into()
 }

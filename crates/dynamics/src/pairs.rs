@@ -45,6 +45,12 @@ pub(crate) struct Pair {
 }
 
 impl Pair {
+    /// Whether its shapes were more than `touch` m deep in each other at the last look.
+    pub(crate) fn overlaps(&self, touch: f64) -> bool {
+        let mut points = self.contacts.iter().flat_map(|contact| &contact.points);
+        points.any(|point| point.separation < -touch)
+    }
+
     /// A point of one of its contacts.
     pub(crate) fn spot<'a>(
         &self,

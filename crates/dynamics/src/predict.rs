@@ -85,14 +85,16 @@ pub(crate) fn predict(
         pulled.max(noise),
     );
     let touch = TOUCH * a.reach.min(b.reach);
-    if rest.is_some() {
+    // A search that begins within both shapes may end at a cut between pieces.
+    let sunken = pair.touching && pair.overlaps(touch);
+    if rest.is_some() || sunken {
         narrow.look(bodies, colliders, pair, time, h);
     }
     let closed = a.membership.is_closed() || b.membership.is_closed();
     // Parts whose touch opens and closes again at once.
     let mut hops: ArrayVec<(u32, u32), 4> = ArrayVec::new();
     if pair.touching && (closed || pair.turning_rest > 0.0) {
-        if rest.is_none() {
+        if rest.is_none() && !sunken {
             narrow.look(bodies, colliders, pair, time, h);
         }
         for contact in &pair.contacts {
@@ -141,7 +143,7 @@ pub(crate) fn predict(
             }
         }
     }
-    if pair.lasting && !closed {
+    if (pair.lasting || sunken) && !closed {
         let now = (time, horizon, pulled);
         if let Some(sunk) = sinks_in(bodies, colliders, narrow, pair, now) {
             first = earlier(first, TimeOfImpact::Hit(sunk));

@@ -4,24 +4,9 @@
 //! struck out of its corner went on by the parabola of the path that it had left.
 
 use carom_dynamics::{BodyDef, Mode, Settings, World};
-use carom_geometry::{Compound, ConvexPolygon, Shape};
-use carom_math::{Pose, Vec2, trig, vec2};
-use carom_tests::scenes::{disc, hollow, put, surface};
-
-/// A ring of eight pieces, 0.5 m thick.
-fn octagon() -> Shape {
-    let corner = |k: u32, radius: f64| {
-        let (sin, cos) = trig::sin_cos(core::f64::consts::TAU * f64::from(k % 8) / 8.0);
-        vec2(cos, sin) * radius
-    };
-    let piece = |k: u32| {
-        let corners = [(k, 2.0), (k, 2.5), (k + 1, 2.5), (k + 1, 2.0)];
-        let corners = corners.map(|(k, radius)| corner(k, radius)).to_vec();
-        let piece = ConvexPolygon::new(corners).expect("a piece of a ring");
-        (Shape::from(piece), Pose::IDENTITY)
-    };
-    Compound::new((0..8).map(piece)).expect("a ring").into()
-}
+use carom_geometry::Shape;
+use carom_math::{Vec2, vec2};
+use carom_tests::scenes::{disc, hollow, octagon, put, surface};
 
 #[test]
 fn a_ring_that_spins_adds_nothing_to_what_it_carries() {
