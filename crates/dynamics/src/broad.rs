@@ -231,10 +231,7 @@ impl Broad {
         } else {
             &b.pairs
         };
-        if known
-            .iter()
-            .any(|&p| pairs.get(p).colliders == (first, second))
-        {
+        if known.iter().any(|&p| pairs.shapes(p) == (first, second)) {
             return;
         }
         let material = self.material(
@@ -280,12 +277,10 @@ impl Broad {
         given.unwrap_or_else(|| first.surface.material.against(&second.surface.material))
     }
 
-    /// Whether the boxes that a pair was found with still overlap.
-    pub(crate) fn keeps(&self, colliders: &[Collider], pair: &Pair) -> bool {
-        self.search == PairSearch::AllPairs
-            || colliders[pair.colliders.0 as usize]
-                .fat
-                .overlaps(colliders[pair.colliders.1 as usize].fat)
+    /// Whether the boxes that a pair of shapes was found with still overlap.
+    pub(crate) fn keeps(&self, colliders: &[Collider], (one, two): (u32, u32)) -> bool {
+        let [one, two] = [one, two].map(|at| colliders[at as usize].fat);
+        self.search == PairSearch::AllPairs || one.overlaps(two)
     }
 }
 

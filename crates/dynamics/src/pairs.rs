@@ -83,10 +83,11 @@ impl Pair {
 }
 
 /// What a look asks of a pair that it need not look at: kept apart from all else, since most are asked in vain.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Glance {
-    /// Everything here is as the last look of stepping left it, and both bodies have their lines.
+    /// Everything here but for the bodies is as the last look of stepping left it, and both have their lines.
     pub(crate) holds: bool,
+    /// Those of the pair; `u32::MAX`: there is none.
     pub(crate) bodies: (u32, u32),
     /// From the centre of A to that of B when their contacts were found, in m.
     pub(crate) apart: Vec2,
@@ -108,6 +109,34 @@ pub(crate) struct Glance {
     pub(crate) buried: bool,
     /// Sub-steps before the next tick at which it is asked again; 0: not before that.
     pub(crate) due: u32,
+}
+
+impl Glance {
+    /// There is no pair.
+    pub(crate) const NONE: Self = Self::of((u32::MAX, u32::MAX));
+
+    /// A pair that was not looked at.
+    pub(crate) const fn of(bodies: (u32, u32)) -> Self {
+        Self {
+            holds: false,
+            bodies,
+            apart: Vec2::ZERO,
+            angles: (0.0, 0.0),
+            normal: Vec2::ZERO,
+            gap: 0.0,
+            sought: 0.0,
+            rows: false,
+            heavy: false,
+            load: 0.0,
+            buried: false,
+            due: 0,
+        }
+    }
+
+    /// Whether there is a pair.
+    pub(crate) const fn is_there(&self) -> bool {
+        self.bodies.0 != u32::MAX
+    }
 }
 
 /// A contact of two convex parts at the last look.
@@ -146,8 +175,9 @@ pub(crate) struct PairPoint {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Pairs {
     list: Vec<Option<Pair>>,
-    /// By place.
+    /// By place, as their shapes.
     glances: Vec<Glance>,
+    shapes: Vec<(u32, u32)>,
     free: Vec<u32>,
     /// Places of pairs with a body that is sub-stepped, and none of a crowd, in order of colliders: rows and
     /// searches go through pairs in this order.
@@ -170,13 +200,16 @@ impl Pairs {
     }
 
     fn place_for(&mut self, pair: Pair) -> u32 {
+        let (glance, shapes) = (Glance::of(pair.bodies), pair.colliders);
         if let Some(place) = self.free.pop() {
             self.list[place as usize] = Some(pair);
-            self.glances[place as usize] = Glance::default();
+            self.glances[place as usize] = glance;
+            self.shapes[place as usize] = shapes;
             return place;
         }
         self.list.push(Some(pair));
-        self.glances.push(Glance::default());
+        self.glances.push(glance);
+        self.shapes.push(shapes);
         #[expect(
             clippy::cast_possible_truncation,
             reason = "four billion pairs fill 500 GB long before"
@@ -189,6 +222,7 @@ impl Pairs {
         self.dirty = true;
         let pair = self.list[place as usize].take();
         if pair.is_some() {
+            self.glances[place as usize] = Glance::NONE;
             self.free.push(place);
         }
         pair
@@ -223,6 +257,16 @@ impl Pairs {
 
     pub(crate) fn glance(&self, place: u32) -> &Glance {
         &self.glances[place as usize]
+    }
+
+    /// By place.
+    pub(crate) fn glances(&self) -> &[Glance] {
+        &self.glances
+    }
+
+    /// What a pair is of, without the rest of it.
+    pub(crate) fn shapes(&self, place: u32) -> (u32, u32) {
+        self.shapes[place as usize]
     }
 
     pub(crate) fn glance_mut(&mut self, place: u32) -> &mut Glance {

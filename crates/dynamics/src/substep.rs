@@ -119,7 +119,7 @@ impl World {
         let mut i = 0;
         while let Some(place) = self.pairs.place(i) {
             i += 1;
-            if !self.broad.keeps(&self.colliders, self.pairs.get(place)) {
+            if !self.broad.keeps(&self.colliders, self.pairs.shapes(place)) {
                 gone.push(place);
             }
         }

@@ -47,7 +47,7 @@ impl World {
 
     /// Forgets the pairs of a body that its boxes have left: a flyer's reach farther than those of a sub-step.
     fn part_far(&mut self, index: u32, time: SimTime) {
-        let keeps = |place: &u32| self.broad.keeps(&self.colliders, self.pairs.get(*place));
+        let keeps = |place: &u32| self.broad.keeps(&self.colliders, self.pairs.shapes(*place));
         let pairs = self.bodies.get(index).pairs.iter();
         let far: Vec<u32> = pairs.filter(|place| !keeps(place)).copied().collect();
         for place in far {

@@ -48,7 +48,7 @@ impl World {
             let behind: Vec<Aabb> = behind.collect();
             self.pool.seats.get_mut(slot).course = None;
             self.box_anew(index, slot, start, &behind);
-            self.seek_partners(index, slot, start, false);
+            self.seek_partners(index, slot, start);
         }
     }
 

@@ -319,7 +319,7 @@ impl World {
                     continue;
                 };
                 let flies = self.bodies.get(outsider).course.flies;
-                if flies || !self.broad.keeps(&self.colliders, self.pairs.get(place)) {
+                if flies || !self.broad.keeps(&self.colliders, self.pairs.shapes(place)) {
                     self.part(place, time);
                     if flies {
                         self.pairs.near.push(shapes);

@@ -20,8 +20,10 @@ mod near;
 mod partners;
 mod relative;
 mod rest;
+mod round;
 mod rush;
 mod seats;
+mod sent;
 mod stand;
 mod swift;
 #[cfg(test)]
@@ -42,6 +44,7 @@ use cores::Cores;
 use crowd::Crowd;
 pub(crate) use crowd::{FEW, MANY};
 use depths::Depths;
+use round::Round;
 use rush::Rush;
 use seats::Seats;
 use throng::Throng;
@@ -58,8 +61,6 @@ pub(crate) struct Stepped {
     found: Vec<PartManifold>,
     /// Shapes near a box: scratch.
     near: Vec<u32>,
-    /// Shapes of a body and those that they are paired with: scratch.
-    known: Vec<(u32, u32)>,
     /// Bodies that got new boxes at this tick, and their slots: scratch.
     reboxed: Vec<(u32, u32)>,
     throng: Throng,
@@ -86,9 +87,8 @@ pub(crate) struct Stepped {
     /// Cores of shapes, for those who move far in a sub-step.
     cores: Cores,
     depths: Depths,
-    /// Pairs that this look has been through, by place: number of the look.
-    seen: Vec<u32>,
-    look: u32,
+    /// Pairs that a look goes through: scratch.
+    round: Round,
     pub(crate) crowd: Crowd,
     pub(crate) rush: Rush,
 }

@@ -1,12 +1,16 @@
 //! Who may meet whom: changes from outside, and the look around at the start of a tick.
 
-use carom_math::{SimTime, Vec2};
+use arrayvec::ArrayVec;
+use carom_math::SimTime;
 
-use super::seats::{pull_of, wandered};
+use super::seats::pull_of;
 use super::{REFRESH, Stepped};
 use crate::broad::PADDING;
 use crate::pairs::Pair;
 use crate::{BodyKind, World};
+
+/// So many pairs are asked one after the other, before those of them that want it are looked at.
+pub(super) const AT_ONCE: usize = 32;
 
 impl World {
     /// Takes over what a caller changed since the last sub-step: who came, went, woke, was moved.
@@ -83,15 +87,15 @@ impl World {
         self.pool.stirred = false;
         let tick = self.settings.tick;
         let mut moved = core::mem::take(&mut self.pool.moved);
-        for (slot, seat) in self.pool.seats.moving() {
-            let line = &self.pool.seats.rig.lines[slot as usize];
-            let ahead = speed_of(line.v(), line.w(), seat.rim) * tick;
-            // Courses end, and others count on them.
-            if seat.is_on_course()
-                || ahead > seat.leash
-                || wandered(seat, line.d(), line.turn()) > seat.leash
+        let seats = &self.pool.seats;
+        for (slot, sent, line) in seats.bound() {
+            let leash = sent.leash();
+            if sent.speed(line) * tick > leash
+                || sent.wandered(line) > leash
+                // Courses end, and others count on them.
+                || seats.get(slot).is_on_course()
             {
-                moved.push(seat.body);
+                moved.push(sent.body);
             }
         }
         moved.sort_unstable();
@@ -120,14 +124,15 @@ impl World {
                 continue;
             }
             let padding = PADDING * seat.reach;
-            let ahead = speed_of(line.v(), line.w(), seat.rim) * tick;
-            if 2.0 * ahead + seat.leash > padding {
+            let sent = seats.sent(slot);
+            let (ahead, leash) = (sent.speed(line) * tick, sent.leash());
+            if 2.0 * ahead + leash > padding {
                 // The boxes of who would be out of its padding within two ticks are stretched along its way, and asked
                 // every time.
                 if self.rebox(index, slot, time, tick) {
                     reboxed.push((index, slot));
                 }
-            } else if !boxed || seat.roamed + ahead + seat.leash > padding {
+            } else if !boxed || seat.roamed + ahead + leash > padding {
                 // Those of a slow one hold what stays within their padding.
                 self.rebox_slow(index, slot, time);
                 reboxed.push((index, slot));
@@ -150,12 +155,7 @@ impl World {
         let mut moved = core::mem::take(&mut self.pool.moved);
         let (left, h) = (self.pool.until_look, self.clock.h);
         if self.pool.stirred {
-            let seats = &self.pool.seats;
-            for (slot, seat) in seats.moving() {
-                if seats.strays(slot, left, h) {
-                    moved.push(seat.body);
-                }
-            }
+            self.pool.seats.strays(left, h, &mut moved);
         }
         for &index in &moved {
             let Some(slot) = self.pool.seats.slot(index) else {
@@ -165,7 +165,7 @@ impl World {
             let kind = self.pool.seats.get(slot).kind;
             let boxed_here = kind == BodyKind::Dynamic || self.moves_all();
             if boxed_here && self.rebox(index, slot, time, f64::from(left) * h) {
-                self.seek_partners(index, slot, time, false);
+                self.seek_partners(index, slot, time);
             }
         }
         self.look_at_pairs(&mut moved, time, false);
@@ -191,43 +191,27 @@ impl World {
     /// Looks at all pairs of these bodies, and of those who wake meanwhile; `parts`: those whose boxes
     /// parted are let go.
     pub(super) fn look_at_pairs(&mut self, moved: &mut Vec<u32>, time: SimTime, parts: bool) {
-        self.pool.look = self.pool.look.wrapping_add(1);
         self.pool.seats.stands.renew();
+        let parts = parts && !self.moves_all();
+        let mut round = core::mem::take(&mut self.pool.round);
+        round.begin();
         let mut k = 0;
         while k < moved.len() {
-            let index = moved[k];
-            k += 1;
-            let mut i = 0;
-            while i < self.bodies.get(index).pairs.len() {
-                let place = self.bodies.get(index).pairs[i];
-                if self.pool.sees(place) {
-                    if parts && !self.moves_all() && !self.keeps(place) {
-                        self.part(place, time);
-                        continue;
-                    }
-                    self.attend(place, time, moved);
+            self.note_pairs(&mut round, moved[k..].iter().copied());
+            k = moved.len();
+            loop {
+                let places: ArrayVec<u32, AT_ONCE> = round.by_ref().take(AT_ONCE).collect();
+                if places.is_empty() {
+                    break;
                 }
-                i += 1;
+                self.attend_all(&places, time, moved, parts);
             }
         }
+        self.pool.round = round;
     }
-}
-
-/// Fastest that a point of a body moves, in m/s.
-fn speed_of(v: Vec2, w: f64, reach: f64) -> f64 {
-    v.length() + if w == 0.0 { 0.0 } else { w.abs() * reach }
 }
 
 impl Stepped {
-    /// Whether this look has not been at the pair yet.
-    fn sees(&mut self, place: u32) -> bool {
-        let place = place as usize;
-        if self.seen.len() <= place {
-            self.seen.resize(place + 1, self.look.wrapping_sub(1));
-        }
-        core::mem::replace(&mut self.seen[place], self.look) != self.look
-    }
-
     /// Takes a pair's rows out of the solver; their impulses stay with the pair.
     pub(crate) fn release(&mut self, pair: &mut Pair) {
         for contact in &mut pair.contacts {

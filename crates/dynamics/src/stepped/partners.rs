@@ -3,6 +3,7 @@
 use carom_math::SimTime;
 
 use super::courses::Goer;
+use super::round::Round;
 use super::throng::Member;
 use crate::broad::misses;
 use crate::trees::Leaf;
@@ -17,21 +18,27 @@ const MANY: usize = 32;
 impl World {
     /// Whether the boxes that a pair was found with still overlap.
     pub(super) fn keeps(&self, place: u32) -> bool {
-        let pair = self.pairs.get(place);
-        let ends = [pair.colliders.0, pair.colliders.1].map(|at| &self.colliders[at as usize]);
-        self.broad.keeps(&self.colliders, pair) && !misses(ends[0], ends[1])
+        let (one, two) = self.pairs.shapes(place);
+        self.broad.keeps(&self.colliders, (one, two))
+            && !misses(&self.colliders[one as usize], &self.colliders[two as usize])
     }
 
     /// Partners of all who got new boxes at `time`.
     pub(super) fn meet_all(&mut self, reboxed: &[(u32, u32)], time: SimTime) {
-        let at_once = reboxed.len() >= MANY && self.broad.search == PairSearch::Indexed;
-        if at_once {
-            self.lay_out_throng(time);
-        } else {
+        if reboxed.len() < MANY || self.broad.search != PairSearch::Indexed {
             self.pool.throng.clear();
+            for &(index, slot) in reboxed {
+                self.seek_partners(index, slot, time);
+            }
+            return;
         }
+        self.lay_out_throng(time);
+        self.part_off_courses(reboxed, time);
         for &(index, slot) in reboxed {
-            self.seek_partners(index, slot, time, at_once);
+            for k in 0..self.bodies.get(index).colliders.len() {
+                let at = self.bodies.get(index).colliders[k];
+                self.meet_in_throng(slot, at, time);
+            }
         }
     }
 
@@ -61,129 +68,130 @@ impl World {
         self.pool.throng = throng;
     }
 
-    /// Parts the pairs of a body that cannot meet as both go now, and finds new ones; `at_once`: all who are on their
-    /// courses lie in the throng, and seek their partners in order of bodies.
-    pub(super) fn seek_partners(&mut self, index: u32, slot: u32, time: SimTime, at_once: bool) {
-        if self.broad.search == PairSearch::Indexed {
-            let mut known = core::mem::take(&mut self.pool.known);
-            known.clear();
-            self.part_off_course(index, slot, time, at_once, &mut known);
-            for k in 0..self.bodies.get(index).colliders.len() {
-                let at = self.bodies.get(index).colliders[k];
-                self.meet_on_course(slot, at, time, at_once, &known);
-            }
-            self.pool.known = known;
+    /// Lets the pairs of all who got new boxes go whose shapes cannot meet while both keep their courses; the throng
+    /// knows the others.
+    fn part_off_courses(&mut self, reboxed: &[(u32, u32)], time: SimTime) {
+        let mut round = core::mem::take(&mut self.pool.round);
+        let mut throng = core::mem::take(&mut self.pool.throng);
+        let mut gone = core::mem::take(&mut self.pool.near);
+        round.begin();
+        self.note_pairs(&mut round, reboxed.iter().map(|(index, _)| *index));
+        gone.clear();
+        gone.extend(round.by_ref().filter(|&place| {
+            let recognised = throng.recognises(self.pairs.shapes(place));
+            !recognised.unwrap_or_else(|| self.may_go_on(place, time))
+        }));
+        for &place in &gone {
+            self.part(place, time);
+        }
+        self.pool.near = gone;
+        self.pool.throng = throng;
+        self.pool.round = round;
+    }
+
+    /// The round goes through all pairs of these bodies.
+    pub(super) fn note_pairs(
+        &self,
+        round: &mut Round,
+        bodies: impl ExactSizeIterator<Item = u32> + Clone,
+    ) {
+        let glances = self.pairs.glances();
+        if round.takes_all(bodies.len(), glances.len()) {
+            round.note_all(bodies, glances);
         } else {
-            for k in 0..self.bodies.get(index).colliders.len() {
-                let at = self.bodies.get(index).colliders[k];
+            for place in bodies.flat_map(|index| &self.bodies.get(index).pairs) {
+                round.note(*place);
+            }
+        }
+    }
+
+    /// Parts the pairs of a body that cannot meet as both go now, and finds new ones.
+    pub(super) fn seek_partners(&mut self, index: u32, slot: u32, time: SimTime) {
+        if self.broad.search == PairSearch::Indexed {
+            let mut i = 0;
+            while let Some(&place) = self.bodies.get(index).pairs.get(i) {
+                if self.may_go_on(place, time) {
+                    i += 1;
+                } else {
+                    self.part(place, time);
+                }
+            }
+        }
+        for k in 0..self.bodies.get(index).colliders.len() {
+            let at = self.bodies.get(index).colliders[k];
+            if self.broad.search == PairSearch::Indexed {
+                self.meet_on_course(slot, at, time);
+            } else {
                 let (bodies, pairs) = (&mut self.bodies, &mut self.pairs);
                 self.broad.meet(bodies, &self.colliders, pairs, at, None);
             }
         }
     }
 
-    /// Lets the pairs of a body go whose shapes cannot meet while both keep their courses; the others are `known`, its
-    /// own shape first.
-    fn part_off_course(
-        &mut self,
-        index: u32,
-        slot: u32,
-        time: SimTime,
-        at_once: bool,
-        known: &mut Vec<(u32, u32)>,
-    ) {
-        let first = self.bodies.get(index).colliders.first();
-        let own = first.and_then(|at| self.goer(slot, *at, time));
-        let mut i = 0;
-        while i < self.bodies.get(index).pairs.len() {
-            let place = self.bodies.get(index).pairs[i];
-            let pair = self.pairs.get(place);
-            let (a, b) = pair.colliders;
-            let (mine, other, partner) = if pair.bodies.0 == index {
-                (a, b, pair.bodies.1)
-            } else {
-                (b, a, pair.bodies.0)
-            };
-            if self.broad.keeps(&self.colliders, pair)
-                && self.may_go_on((mine, other), (own.as_ref(), slot), partner, time, at_once)
-            {
-                known.push((mine, other));
-                i += 1;
-            } else {
-                self.part(place, time);
-            }
-        }
-    }
-
     /// Whether the shapes of a pair may meet while both bodies keep their courses.
-    fn may_go_on(
-        &self,
-        (mine, other): (u32, u32),
-        (own, slot): (Option<&Goer>, u32),
-        partner: u32,
-        time: SimTime,
-        at_once: bool,
-    ) -> bool {
-        let of_mine;
-        let own = if own.is_some_and(|own| own.at == mine) {
-            own
-        } else {
-            of_mine = self.goer(slot, mine, time);
-            of_mine.as_ref()
-        };
-        let (Some(own), Some(partner_slot)) = (own, self.pool.seats.slot(partner)) else {
-            return true;
-        };
-        if at_once
-            && let Some(partners) = self.pool.throng.partners(mine)
-            && let Some(theirs) = self.pool.throng.goer(other)
-        {
-            // Of two who set out together the first one saw to it.
-            return !own.looks_for(theirs) || partners.contains(&other);
+    fn may_go_on(&self, place: u32, time: SimTime) -> bool {
+        let (one, two) = self.pairs.shapes(place);
+        if !self.broad.keeps(&self.colliders, (one, two)) {
+            return false;
         }
-        let other = self.goer(partner_slot, other, time);
-        other.is_none_or(|other| self.may_meet(own, &other))
+        let [one, two] = [one, two].map(|at| self.goer_of(at, time));
+        one.zip(two)
+            .is_none_or(|(one, two)| self.may_meet(&one, &two))
     }
 
     /// New pairs of a shape whose box is new.
-    fn meet_on_course(
-        &mut self,
-        slot: u32,
-        at: u32,
-        time: SimTime,
-        at_once: bool,
-        known: &[(u32, u32)],
-    ) {
+    fn meet_on_course(&mut self, slot: u32, at: u32, time: SimTime) {
         let mut near = core::mem::take(&mut self.pool.near);
         let fat = self.colliders[at as usize].fat;
         let mine = self.goer(slot, at, time);
-        let few = if known.len() > FEW { &[] } else { known };
-        let is_known = |other: u32| few.contains(&(at, other));
-        let comes = |other: &Goer| mine.as_ref().is_none_or(|mine| self.may_meet(mine, other));
-        let may_come = |other: u32| {
-            !is_known(other) && self.goer_of(other, time).is_none_or(|other| comes(&other))
-        };
-        if at_once {
-            near.clear();
-            self.broad.search_still(&self.colliders, fat, &mut near);
-            near.retain(|other| may_come(*other));
-            if let Some(partners) = self.pool.throng.partners(at) {
-                near.extend(partners.iter().filter(|other| !is_known(**other)));
-            } else {
-                let owner = self.colliders[at as usize].body;
-                let sets_out = mine.as_ref().filter(|mine| mine.sets_out);
-                self.pool.throng.query(fat, |other| {
-                    let is_asked = sets_out.is_some_and(|mine| other.looks_for(mine));
-                    if other.body != owner && !is_asked && !is_known(other.at) && comes(other) {
-                        near.push(other.at);
-                    }
-                });
-            }
-            near.sort_unstable();
+        self.broad.search_tree(&self.colliders, fat, &mut near);
+        near.retain(|other| self.comes(at, mine.as_ref(), *other, time));
+        self.pair_up_with(at, near);
+    }
+
+    /// The same where all who are on their courses lie in the throng, and those of them who set out know their partners.
+    fn meet_in_throng(&mut self, slot: u32, at: u32, time: SimTime) {
+        let mut near = core::mem::take(&mut self.pool.near);
+        let collider = &self.colliders[at as usize];
+        let (fat, owner) = (collider.fat, collider.body);
+        let mine = self.goer(slot, at, time);
+        near.clear();
+        self.broad.search_still(&self.colliders, fat, &mut near);
+        near.retain(|other| self.comes(at, mine.as_ref(), *other, time));
+        if let Some(strangers) = self.pool.throng.strangers(at) {
+            near.extend(strangers);
         } else {
-            self.broad.search_tree(&self.colliders, fat, &mut near);
-            near.retain(|other| may_come(*other));
+            let sets_out = mine.as_ref().filter(|mine| mine.sets_out);
+            self.pool.throng.query(fat, |other| {
+                let is_asked = sets_out.is_some_and(|mine| other.looks_for(mine));
+                let is_new = other.body != owner && !is_asked && !self.is_pair(at, other.at);
+                if is_new && mine.as_ref().is_none_or(|mine| self.may_meet(mine, other)) {
+                    near.push(other.at);
+                }
+            });
         }
+        near.sort_unstable();
+        self.pair_up_with(at, near);
+    }
+
+    /// Whether a shape that is near may meet this one, and is no pair with it yet.
+    fn comes(&self, at: u32, mine: Option<&Goer>, other: u32, time: SimTime) -> bool {
+        let both = || mine.zip(self.goer_of(other, time));
+        !self.is_pair(at, other) && both().is_none_or(|(mine, other)| self.may_meet(mine, &other))
+    }
+
+    /// Whether two shapes are known to be a pair already; of a body that has many the other one is asked later.
+    fn is_pair(&self, at: u32, other: u32) -> bool {
+        let known = &self.bodies.get(self.colliders[at as usize].body).pairs;
+        let (low, high) = (at.min(other), at.max(other));
+        known.len() <= FEW
+            && known.iter().any(|place| {
+                let (a, b) = self.pairs.shapes(*place);
+                (a.min(b), a.max(b)) == (low, high)
+            })
+    }
+
+    fn pair_up_with(&mut self, at: u32, near: Vec<u32>) {
         for &other in &near {
             let (bodies, pairs) = (&mut self.bodies, &mut self.pairs);
             self.broad

@@ -3,15 +3,15 @@
 use carom_math::{Pose, SimTime, Vec2};
 
 use super::courses::Course;
+use super::sent::Sent;
 use super::stand::Stands;
-use super::watch::{LEASH, STRAY};
 use crate::bodies::Bodies;
 use crate::solver::{Limit, Member, Pull, Rig, RowId};
 use crate::state::{BodyState, Collider};
 use crate::{BodyId, BodyKind};
 
 /// No seat.
-const NONE: u32 = u32::MAX;
+pub(super) const NONE: u32 = u32::MAX;
 
 /// Beyond this turn against the base, in rad, the base moves up: the series of
 /// a slight turn is short because angles are small.
@@ -31,6 +31,8 @@ pub(crate) struct Seats {
     pub(crate) rig: Rig,
     /// By slot; slot 0 is the solver's own.
     pub(super) list: Vec<Seat>,
+    /// By slot, too: what all are asked within a tick.
+    pub(super) sent: Vec<Sent>,
     pub(super) stands: Stands,
     /// Slot of each body.
     slots: Vec<u32>,
@@ -54,39 +56,12 @@ pub(crate) struct Seat {
     pub(crate) base: Pose,
     /// Angle of the base with whole turns.
     pub(crate) base_angle: f64,
-    /// How it moved when it was last asked about.
-    pub(super) sent: Sent,
     /// Where its centre was when it was last asked whether it rests.
     pub(crate) rested: Vec2,
-    /// How far it may move before it is looked at again, in m.
-    pub(crate) leash: f64,
-    /// Reach of the smallest of itself and those that it was near to, in m.
-    finest: f64,
     /// How far it went since its boxes were made, at most, in m; infinite if they are those of a course.
     pub(crate) roamed: f64,
     /// What its boxes were stretched along: of those who are quick, a few in most worlds.
     pub(super) course: Option<Box<Course>>,
-}
-
-/// Where a body was bound for.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Sent {
-    /// Displacement and turn then.
-    from: (Vec2, f64),
-    velocity: Vec2,
-    spin: f64,
-    /// Sub-steps to the next tick then.
-    left: u32,
-}
-
-impl Sent {
-    /// Where it is.
-    const NOWHERE: Self = Self {
-        from: (Vec2::ZERO, 0.0),
-        velocity: Vec2::ZERO,
-        spin: 0.0,
-        left: 0,
-    };
 }
 
 impl Seat {
@@ -102,10 +77,7 @@ impl Seat {
         inner: 0.0,
         base: Pose::IDENTITY,
         base_angle: 0.0,
-        sent: Sent::NOWHERE,
         rested: Vec2::NAN,
-        leash: f64::INFINITY,
-        finest: f64::INFINITY,
         roamed: 0.0,
         course: None,
     };
@@ -182,21 +154,23 @@ impl Seats {
         let (at, body) = (slot as usize, state.id.index as usize);
         if self.list.len() <= at {
             self.list.resize(at + 1, Seat::EMPTY);
+            self.sent.resize(at + 1, Sent::NOBODY);
         }
         let motion = &state.motion;
+        let rim = if in_place { 0.0 } else { state.reach };
+        let moves = state.kind != BodyKind::Fixed;
+        let body_sent = if moves { state.id.index } else { NONE };
+        self.sent[at] = Sent::new(body_sent, rim, state.reach);
         self.list[at] = Seat {
             body: state.id.index,
             id: state.id,
             kind: state.kind,
             reach: state.reach,
-            rim: if in_place { 0.0 } else { state.reach },
+            rim,
             inner,
             base: motion.pose_at(time),
             base_angle: state.turned + motion.turn(time - motion.start),
-            sent: Sent::NOWHERE,
             rested: Vec2::NAN,
-            leash: LEASH * state.reach,
-            finest: state.reach,
             roamed: f64::INFINITY,
             course: None,
         };
@@ -204,9 +178,7 @@ impl Seats {
             self.slots.resize(body + 1, NONE);
         }
         self.slots[body] = slot;
-        if state.kind != BodyKind::Fixed {
-            self.count += 1;
-        }
+        self.count += usize::from(moves);
         slot
     }
 
@@ -220,6 +192,7 @@ impl Seats {
             self.slots[seat.body as usize] = NONE;
         }
         *seat = Seat::EMPTY;
+        self.sent[slot as usize] = Sent::NOBODY;
         self.rig.dismiss(slot);
     }
 
@@ -240,13 +213,16 @@ impl Seats {
     fn resettle(&mut self) {
         let new = self.rig.compact();
         let old = core::mem::take(&mut self.list);
+        let sent = core::mem::take(&mut self.sent);
         self.list.resize(self.rig.lines.len(), Seat::EMPTY);
-        for (seat, slot) in old.into_iter().zip(new) {
+        self.sent.resize(self.rig.lines.len(), Sent::NOBODY);
+        for ((seat, sent), slot) in old.into_iter().zip(sent).zip(new) {
             if slot != NONE {
                 if seat.body != NONE {
                     self.slots[seat.body as usize] = slot;
                 }
                 self.list[slot as usize] = seat;
+                self.sent[slot as usize] = sent;
             }
         }
     }
@@ -272,58 +248,6 @@ impl Seats {
         seat.base_angle = state.turned + state.motion.turn(time - state.motion.start) - turn;
         seat.course = None;
         self.rig.set_displacement(slot, d, turn);
-    }
-
-    /// Notes how a body moves, so many sub-steps before the next tick, and how far it went since that was noted last.
-    pub(super) fn send(&mut self, slot: u32, left: u32) {
-        let (seat, line) = (
-            &mut self.list[slot as usize],
-            &self.rig.lines[slot as usize],
-        );
-        seat.roamed += wandered(seat, line.d(), line.turn());
-        seat.sent = Sent {
-            from: (line.d(), line.turn()),
-            velocity: line.v(),
-            spin: line.w(),
-            left,
-        };
-    }
-
-    /// A body is near one of this reach: what is little to it must be little to that one, too.
-    pub(super) fn minds(&mut self, slot: u32, size: f64) {
-        let seat = &mut self.list[slot as usize];
-        if size < seat.finest {
-            seat.finest = size;
-            seat.leash = LEASH * size;
-        }
-    }
-
-    /// Whether a body is not where it was bound for, or will not be after a sub-step.
-    pub(super) fn strays(&self, slot: u32, left: u32, h: f64) -> bool {
-        let (seat, line) = (&self.list[slot as usize], &self.rig.lines[slot as usize]);
-        let sent = &seat.sent;
-        let passed = f64::from(sent.left.saturating_sub(left)) * h;
-        let off = line.d() - sent.from.0 - sent.velocity * passed;
-        let drift = (line.v() - sent.velocity) * h;
-        let turned = line.turn() - sent.from.1 - sent.spin * passed;
-        let turned = turned
-            .abs()
-            .max((turned + (line.w() - sent.spin) * h).abs());
-        let far = STRAY * seat.finest
-            - if turned == 0.0 {
-                0.0
-            } else {
-                seat.rim * turned
-            };
-        let beyond = |off: Vec2, drift: Vec2| {
-            let most = off.length_squared().max((off + drift).length_squared());
-            most > far * far
-        };
-        // What pull adds or a floor holds back is in every margin.
-        let pull = self.rig.pull(slot).acceleration;
-        let fallen = pull * (0.5 * passed * passed);
-        far < 0.0
-            || beyond(off, drift) && beyond(off - fallen, drift - pull * ((passed + 0.5 * h) * h))
     }
 
     /// Inverse masses of two bodies.
@@ -358,7 +282,7 @@ impl Seats {
         let seat = &mut self.list[slot as usize];
         seat.base = Pose::new(pose.position, pose.rotation.renormalized());
         seat.base_angle += turn;
-        seat.sent.from = (Vec2::ZERO, 0.0);
+        self.sent[slot as usize].rebase();
         self.rig.rebase(slot, rows);
     }
 }
@@ -373,11 +297,4 @@ pub(crate) fn pull_of(bodies: &Bodies, state: &BodyState, centre: Vec2) -> Pull 
             + state.force() * state.inverse_mass,
         angular: state.torque() * state.inverse_inertia,
     }
-}
-
-/// How far a body went since it was last asked about, in m, at most.
-pub(crate) fn wandered(seat: &Seat, d: Vec2, turn: f64) -> f64 {
-    let by = (turn - seat.sent.from.1).abs();
-    let turned = if by > 0.0 { by * seat.rim } else { 0.0 };
-    (d - seat.sent.from.0).length() + turned
 }

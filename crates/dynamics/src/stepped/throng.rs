@@ -29,6 +29,8 @@ pub(super) struct Throng {
     found: Vec<u32>,
     /// Where those of each member begin, and where the last ones end.
     places: Vec<u32>,
+    /// Which of those found are pairs already.
+    known: Vec<bool>,
     /// Members that may meet, whoever looks first: scratch.
     meetings: Vec<(u32, u32)>,
 }
@@ -62,6 +64,7 @@ impl Default for Throng {
             movers: Vec::new(),
             found: Vec::new(),
             places: Vec::new(),
+            known: Vec::new(),
             meetings: Vec::new(),
         }
     }
@@ -187,6 +190,8 @@ impl Throng {
         for ends in self.places.windows(2) {
             self.found[ends[0] as usize..ends[1] as usize].sort_unstable();
         }
+        self.known.clear();
+        self.known.resize(self.found.len(), false);
         self.meetings = meetings;
     }
 
@@ -226,18 +231,36 @@ impl Throng {
         }
     }
 
-    /// A shape that was laid out.
-    #[inline]
-    pub(super) fn goer(&self, at: u32) -> Option<&Goer> {
-        let k = *self.by_shape.get(at as usize)?;
-        self.members.get(k as usize).map(|member| &member.goer)
+    /// Whether two shapes of a pair may go on to meet, and notes that they are one; `None`: not both were laid out.
+    pub(super) fn recognises(&mut self, (one, two): (u32, u32)) -> Option<bool> {
+        let member = |at: u32| self.by_shape.get(at as usize).copied();
+        let (k, l) = (member(one)?, member(two)?);
+        let (one, two) = (self.members.get(k as usize)?, self.members.get(l as usize)?);
+        let (mine, other) = (&one.goer, &two.goer);
+        // Of two who set out together the first one saw to it.
+        let (k, other) = if mine.looks_for(other) {
+            (k as usize, other)
+        } else if other.looks_for(mine) {
+            (l as usize, mine)
+        } else {
+            return Some(true);
+        };
+        let from = self.places[k] as usize;
+        let found = &self.found[from..self.places[k + 1] as usize];
+        let at = found.iter().position(|at| *at == other.at);
+        if let Some(at) = at {
+            self.known[from + at] = true;
+        }
+        Some(at.is_some())
     }
 
-    /// Whom a shape may meet, of those that it looks for; `None`: it was not laid out.
-    pub(super) fn partners(&self, at: u32) -> Option<&[u32]> {
+    /// Whom a shape may meet, of those that it looks for and that are no pairs with it yet; `None`: it was not laid out.
+    pub(super) fn strangers(&self, at: u32) -> Option<impl Iterator<Item = u32>> {
         let k = *self.by_shape.get(at as usize)? as usize;
         let (from, to) = (*self.places.get(k)?, *self.places.get(k + 1)?);
-        self.found.get(from as usize..to as usize)
+        let all = from as usize..to as usize;
+        let found = self.found.get(all.clone())?.iter().zip(&self.known[all]);
+        Some(found.filter(|(_, known)| !**known).map(|(other, _)| *other))
     }
 
     /// Calls `found` with all whose boxes overlap `sought`.
@@ -335,7 +358,7 @@ mod tests {
                 prop_assert_eq!(query(&throng, *sought), expected.clone());
                 // The lower one of two looks for the other.
                 let later: Vec<u32> = expected.into_iter().filter(|at| *at > own).collect();
-                let partners = throng.partners(own).map(<[u32]>::to_vec);
+                let partners = throng.strangers(own).map(Iterator::collect);
                 prop_assert_eq!(partners, (!large.contains(&own)).then_some(later));
             }
         }
@@ -347,7 +370,7 @@ mod tests {
         let (throng, _) = lay_out(&[]);
         assert!(throng.takes(Aabb::new(Vec2::ZERO, Vec2::splat(1e9))));
         assert_eq!(query(&throng, Aabb::new(Vec2::ZERO, Vec2::ONE)), []);
-        assert_eq!(throng.partners(0), None);
+        assert_eq!(throng.strangers(0).map(Iterator::count), None);
     }
 
     #[test]
@@ -357,7 +380,7 @@ mod tests {
         let (mut throng, _) = lay_out(&all);
         throng.clear();
         assert!(throng.takes(at(0.0, 3.0)) && !throng.takes(at(0.0, 5.0)));
-        assert_eq!(throng.partners(0), None);
+        assert_eq!(throng.strangers(0).map(Iterator::count), None);
         assert_eq!(query(&throng, at(0.0, 3.0)), []);
         assert_eq!(throng.members.capacity(), 0);
     }

@@ -1,8 +1,10 @@
 //! When a pair is looked at again: not before its motion since the last look (`relative`) can matter.
 
+use arrayvec::ArrayVec;
 use carom_math::{SimTime, Vec2};
 
 use super::faces::GIVES;
+use super::near::AT_ONCE;
 use super::relative::{Against, QUICK, Since, WHIRL, fall};
 use super::stand::Stand;
 use crate::World;
@@ -114,10 +116,47 @@ fn sum(v: Vec2) -> f64 {
 }
 
 impl World {
+    /// Attends to pairs, some of which may be gone; `parts`: those whose boxes parted are let go.
+    pub(super) fn attend_all(
+        &mut self,
+        places: &[u32],
+        time: SimTime,
+        moved: &mut Vec<u32>,
+        parts: bool,
+    ) {
+        // What one is asked does not wait for what another answers, so that memory is read side by side.
+        let asked: ArrayVec<_, AT_ONCE> = places.iter().map(|place| self.asked(*place)).collect();
+        let wishes: ArrayVec<_, AT_ONCE> = (places.iter().zip(asked))
+            .map(|(place, slots)| self.wish(*place, slots))
+            .collect();
+        for (&place, (wish, moving)) in places.iter().zip(wishes) {
+            // Whoever wakes joins a crowd, and leaves pairs behind.
+            if !self.pairs.glance(place).is_there() {
+                continue;
+            }
+            if parts && !self.keeps(place) {
+                self.part(place, time);
+            } else {
+                self.heed(place, (wish, moving), time, moved);
+            }
+        }
+    }
+
     /// Looks at a pair if it must be, and notes when to ask it again before the next tick.
     pub(super) fn attend(&mut self, place: u32, time: SimTime, moved: &mut Vec<u32>) {
+        let slots = self.asked(place);
+        let wish = self.wish(place, slots);
+        self.heed(place, wish, time, moved);
+    }
+
+    fn heed(
+        &mut self,
+        place: u32,
+        (mut wish, moving): (Wish, Option<Moving>),
+        time: SimTime,
+        moved: &mut Vec<u32>,
+    ) {
         let left = self.pool.until_look;
-        let (mut wish, moving) = self.wish(place);
         if wish == Wish::Rest && self.may_give(place) {
             wish = Wish::Look;
         }
@@ -170,8 +209,8 @@ impl World {
 
     /// What becomes of a pair until the next tick, as its bodies move now, and how they do if it was asked at length.
     #[inline]
-    fn wish(&mut self, place: u32) -> (Wish, Option<Moving>) {
-        let Some(slots) = self.asked(place) else {
+    fn wish(&self, place: u32, slots: Option<[u32; 2]>) -> (Wish, Option<Moving>) {
+        let Some(slots) = slots else {
             return (Wish::Look, None);
         };
         let both = slots.map(|slot| self.pool.seats.stand(slot));
