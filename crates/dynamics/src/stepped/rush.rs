@@ -2,12 +2,14 @@
 
 use carom_math::SimTime;
 
+use crate::heavy::{BEARS, mass_ratio};
 use crate::{Mode, World};
 
 /// So many bodies that strike each other stay with their exact impacts, however many these are.
 const HANDFUL: f64 = 6.0;
 
-/// More than so many are a crowd beyond [`LOSSES`], fewer beyond [`RATTLE`].
+/// More than so many are a crowd beyond [`LOSSES`], fewer beyond [`RATTLE`], unless one is a load for another that no sweep carries:
+/// sub-steps pair by pair solve for such groups at once.
 const MANY: f64 = 16.0;
 
 /// Losses of relative speed a body and tick: with no restitution as many impacts, with e = 0.9 ten times as many.
@@ -36,6 +38,8 @@ struct Node {
     /// Of a root: bodies of the tree, and what they lost.
     size: u32,
     spent: f64,
+    /// Of a root: one was struck with another of less than a [`BEARS`]th of its mass.
+    heavy: bool,
 }
 
 /// No tree.
@@ -43,6 +47,7 @@ const NONE: Node = Node {
     parent: u32::MAX,
     size: 0,
     spent: 0.0,
+    heavy: false,
 };
 
 impl Rush {
@@ -71,7 +76,7 @@ impl Rush {
             self.nodes[index as usize] = Node {
                 parent: index,
                 size: 1,
-                spent: 0.0,
+                ..NONE
             };
         }
         let mut at = index;
@@ -94,6 +99,7 @@ impl Rush {
         let node = &mut self.nodes[low as usize];
         node.size += lost.size;
         node.spent += lost.spent;
+        node.heavy |= lost.heavy;
         low
     }
 }
@@ -115,6 +121,13 @@ impl World {
         if self.pool.rush.tick != tick {
             self.end_rush(time);
         }
+        let masses = bodies
+            .iter()
+            .map(|index| self.bodies.get(*index).inverse_mass);
+        let (lightest, heaviest) = masses.fold((0.0, f64::INFINITY), |(most, least), mass| {
+            (mass.max(most), mass.min(least))
+        });
+        let heavy = mass_ratio([lightest, heaviest]) > BEARS;
         let rush = &mut self.pool.rush;
         rush.turn_to(tick);
         let mut root = rush.root(first);
@@ -123,10 +136,11 @@ impl World {
         }
         let node = &mut rush.nodes[root as usize];
         node.spent += lost;
-        let (size, spent) = (node.size, node.spent);
-        let size = f64::from(size);
+        node.heavy |= heavy;
+        let (size, spent) = (f64::from(node.size), node.spent);
         let losses = if size > MANY { LOSSES } else { RATTLE };
-        if size <= HANDFUL || spent <= losses * size {
+        let stays = size <= HANDFUL || size <= MANY && node.heavy;
+        if stays || spent <= losses * size {
             return;
         }
         let was = self.is_substepping();
