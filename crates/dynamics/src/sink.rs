@@ -29,6 +29,9 @@ const MORE: f64 = DEPTH / 4.0;
 /// Looks at a pair in a sub-step.
 const LOOKS: u32 = 64;
 
+/// Halves of a step before what is deeper by more than [`MORE`] is struck where it is: 2000 m/s at 1/360 s are 87 mm a look.
+const HALVES: u32 = 12;
+
 /// The first instant within `horizon` seconds from `time` at which a pair is deeper in than [`DEPTH`], and than now, by [`MORE`],
 /// and sinks in faster than `rest`, in m/s. Its contacts are those of `time`.
 pub(crate) fn sinks_in(
@@ -54,19 +57,38 @@ pub(crate) fn sinks_in(
         // A speed of 0 has all the room there is, and so has who touches nowhere.
         let room = contacts.iter().map(room).fold(f64::INFINITY, f64::min);
         let least = horizon / f64::from(LOOKS);
+        let before = wait;
         wait += if room > least { room } else { least };
         if wait >= horizon {
             return None;
         }
-        let at = time + wait;
-        let found = narrow.contacts(bodies, colliders, pair, at, horizon - wait);
-        let sunk = |contact: &&PairContact| {
-            let closes = |point| opening_speed(a, b, at, point, contact.normal) < -rest;
-            depth(contact) >= allowed && contact.points.iter().any(|p| closes(p.position))
+        let mut look = |wait: f64| {
+            let found = narrow.contacts(bodies, colliders, pair, time + wait, horizon - wait);
+            let sunk = |contact: &PairContact| {
+                let closes =
+                    |point| opening_speed(a, b, time + wait, point, contact.normal) < -rest;
+                depth(contact) >= allowed && contact.points.iter().any(|p| closes(p.position))
+            };
+            let sunk = found.iter().position(sunk);
+            (found, sunk)
         };
-        if let Some(contact) = found.iter().find(sunk) {
+        let (mut found, mut sunk) = look(wait);
+        // The least step of what is fast may be a long way.
+        let (mut low, too_deep) = (before, allowed + MORE * size);
+        for _ in 0..HALVES {
+            if sunk.is_none_or(|k| depth(&found[k]) <= too_deep) {
+                break;
+            }
+            let middle = 0.5 * (low + wait);
+            match look(middle) {
+                (earlier, Some(k)) => (wait, found, sunk) = (middle, earlier, Some(k)),
+                _ => low = middle,
+            }
+        }
+        if let Some(k) = sunk {
+            let contact = &found[k];
             return Some(strikes(contact, wait, |p| {
-                opening_speed(a, b, at, p, contact.normal)
+                opening_speed(a, b, time + wait, p, contact.normal)
             }));
         }
         seen = Some(found);
