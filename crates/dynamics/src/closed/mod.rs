@@ -158,7 +158,8 @@ impl World {
 
     fn judge_all(&mut self, members: &[u32], time: SimTime, speed: f64) {
         // Every call counts for some body that had not been judged too often: they come to an end.
-        let stalls = |index: &&u32| self.closed.stalls(**index, time);
+        let h = self.clock.h;
+        let stalls = |index: &&u32| self.closed.stalls(**index, time, h);
         let stalled = members.iter().filter(stalls).count() > 0;
         if stalled {
             return self.set_free(members, time);

@@ -19,6 +19,10 @@ const INSTANT: f64 = 1e-12;
 /// Judgements that a body's motion makes necessary at one instant: more, and rounding moves it to and fro.
 const STALLED: u32 = 16;
 
+/// Judgements of a body in the time of a sub-step: as many as exact mode's losses of a body in a tick. A group that turned on two
+/// corners of a light body under a heavy one changed every 8 ps.
+const OFTEN: u32 = 4096;
+
 /// Sub-steps that a body waits after a judgement that failed: doubled each time, up to this.
 const LONGEST_WAIT: u32 = 256;
 
@@ -94,8 +98,9 @@ pub(crate) struct Closed {
     still: Vec<(u32, u64)>,
     /// Groups that move, and that the sub-steps still look after, with their stamps.
     moving: Vec<(u32, u64)>,
-    /// By place of a body: when judgements of it began that took place at one instant, and how many they were.
-    stalls: Vec<(SimTime, u32)>,
+    /// By place of a body: when judgements of it began that took place at one instant, and how many they were; the same of those
+    /// in the time of a sub-step.
+    stalls: Vec<[(SimTime, u32); 2]>,
     /// Who left the path of a group that turned on its parabola: body, its acceleration, and when.
     pub(super) astray: Vec<(u32, Vec2, SimTime)>,
     /// Nobody is let go of: the slow twin.
@@ -297,19 +302,23 @@ impl Closed {
         })
     }
 
-    /// Counts a judgement of a body; whether they go round in circles here.
-    pub(super) fn stalls(&mut self, index: u32, time: SimTime) -> bool {
+    /// Counts a judgement of a body; whether they go round in circles here, or come to no end in a sub-step of `h` seconds.
+    pub(super) fn stalls(&mut self, index: u32, time: SimTime, h: f64) -> bool {
         let at = index as usize;
         if at >= self.stalls.len() {
-            self.stalls.resize(at + 1, (SimTime::ZERO, 0));
+            self.stalls.resize(at + 1, [(SimTime::ZERO, 0); 2]);
         }
-        let (since, count) = &mut self.stalls[at];
-        if time - *since < INSTANT {
-            *count += 1;
-        } else {
-            (*since, *count) = (time, 0);
+        let mut stalls = false;
+        let limits = [(INSTANT, STALLED), (h, OFTEN)];
+        for ((since, count), (span, most)) in self.stalls[at].iter_mut().zip(limits) {
+            if time - *since < span {
+                *count += 1;
+            } else {
+                (*since, *count) = (time, 0);
+            }
+            stalls |= *count > most;
         }
-        *count > STALLED
+        stalls
     }
 }
 
@@ -324,13 +333,32 @@ mod tests {
         let mut time = SimTime::ZERO + 0.25;
         let judged = (0..1000).take_while(|_| {
             time += 4.6e-17;
-            !closed.stalls(3, time)
+            !closed.stalls(3, time, 1e-3)
         });
         assert!(judged.count() <= 17);
-        assert!(!closed.stalls(2, time), "another body is another matter");
         assert!(
-            !closed.stalls(3, time + 1e-9),
+            !closed.stalls(2, time, 1e-3),
+            "another body is another matter"
+        );
+        assert!(
+            !closed.stalls(3, time + 1e-9, 1e-3),
             "the next instant is another"
+        );
+    }
+
+    #[test]
+    fn judgements_without_end_leave_a_group_to_the_next_sub_step() {
+        // Changes 8 ps apart took 27 s of a sub-step.
+        let (mut closed, h) = (Closed::default(), 1.0 / 360.0);
+        let mut time = SimTime::ZERO + 0.25;
+        let judged = (0..100_000).take_while(|_| {
+            time += 8e-12;
+            !closed.stalls(3, time, h)
+        });
+        assert!(judged.count() <= 4097);
+        assert!(
+            !closed.stalls(3, time + h, h),
+            "the next sub-step is another"
         );
     }
 }
