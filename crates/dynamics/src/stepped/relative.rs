@@ -175,6 +175,12 @@ impl Since {
         self.moved.length() + self.swung
     }
 
+    /// What turns alone moved its points by, and gaps are off by for them, at most, in m.
+    #[inline]
+    pub(super) fn twisted(&self) -> f64 {
+        self.swung + self.bent
+    }
+
     /// Strip between the bodies, in m.
     #[inline]
     pub(super) fn strip(&self, gap: f64) -> f64 {

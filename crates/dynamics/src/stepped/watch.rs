@@ -288,7 +288,6 @@ impl World {
             let steps = (room / (rate * h)).min(f64::from(left)) as u32;
             steps
         };
-        let near = KEPT_APART * size;
         let free = lasts(strip - SPARE * size, closing);
         if quick && free > 0 {
             return if free < left {
@@ -297,28 +296,33 @@ impl World {
                 Wish::Rest
             };
         }
-        let strain = went + since.bent;
-        // Who has no rows has none that grow stale.
-        let kept = !glance.rows
-            || !since.stale
-                && (strain <= near
-                    || strain <= KEPT * size && {
-                        // Asked of the rows: what callers were told last depends on when they looked.
-                        let contacts = &self.pairs.get(place).contacts;
-                        let mut rows = contacts.iter().filter_map(|contact| contact.row);
-                        rows.any(|id| rig.pushes(id))
-                    });
+        // Whether its rows are what a look would make of them. Who has none has none that grow stale.
+        let fresh = || {
+            let strain = went + since.bent;
+            !glance.rows
+                || !since.stale
+                    && (strain <= KEPT_APART * size
+                        || strain <= KEPT * size && {
+                            // Asked of the rows: what callers were told last depends on when they looked.
+                            let contacts = &self.pairs.get(place).contacts;
+                            let mut rows = contacts.iter().filter_map(|contact| contact.row);
+                            rows.any(|id| rig.pushes(id))
+                        })
+        };
         // Nothing without a row is nearer than this.
         let bare = glance.sought - went;
         let bare = if glance.rows { bare } else { bare.max(strip) };
         if quick {
-            return if kept && lasts(bare - SPARE * size, speed) > 0 {
+            return if lasts(bare - SPARE * size, speed) > 0 && fresh() {
                 Wish::Wait(1)
             } else {
                 Wish::Look
             };
         }
-        if kept && bare > speed * ahead + fall + RESERVE * size {
+        // Who cannot meet unless somebody is struck has rows for that case alone.
+        let spared =
+            || !since.stale && strip > closing * ahead + fall && since.twisted() <= KEPT * size;
+        if bare > speed * ahead + fall + RESERVE * size && (spared() || fresh()) {
             Wish::Rest
         } else if free > 0 && free < left {
             Wish::Wait(free)
