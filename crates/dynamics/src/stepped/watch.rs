@@ -131,9 +131,14 @@ impl World {
             .collect();
         for (&place, (wish, moving)) in places.iter().zip(wishes) {
             // Whoever wakes joins a crowd, and leaves pairs behind.
-            if !self.pairs.glance(place).is_there() {
+            let glance = self.pairs.glance(place);
+            if !glance.is_there() {
                 continue;
             }
+            debug_assert!(
+                glance.holds || wish == Wish::Look && moving.is_none(),
+                "who was asked kept its line while others were looked at"
+            );
             if parts && !self.keeps(place) {
                 self.part(place, time);
             } else {
