@@ -175,7 +175,7 @@ pub(crate) struct PairPoint {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Pairs {
     list: Vec<Option<Pair>>,
-    /// By place, as their shapes.
+    /// By place; so are the shapes of pairs, to be read without the rest.
     glances: Vec<Glance>,
     shapes: Vec<(u32, u32)>,
     free: Vec<u32>,

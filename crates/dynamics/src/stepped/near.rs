@@ -1,6 +1,5 @@
 //! Who may meet whom: changes from outside, and the look around at the start of a tick.
 
-use arrayvec::ArrayVec;
 use carom_math::SimTime;
 
 use super::seats::pull_of;
@@ -8,9 +7,6 @@ use super::{REFRESH, Stepped};
 use crate::broad::PADDING;
 use crate::pairs::Pair;
 use crate::{BodyKind, World};
-
-/// So many pairs are asked one after the other, before those of them that want it are looked at.
-pub(super) const AT_ONCE: usize = 32;
 
 impl World {
     /// Takes over what a caller changed since the last sub-step: who came, went, woke, was moved.
@@ -169,11 +165,8 @@ impl World {
             }
         }
         self.look_at_pairs(&mut moved, time, false);
-        for place in self.pairs_due() {
-            if self.pairs.find(place).is_some() {
-                self.attend(place, time, &mut moved);
-            }
-        }
+        let mut due = self.pairs_due().into_iter();
+        self.attend(&mut due, time, &mut moved, false);
         if !moved.is_empty() {
             // Who woke.
             self.look_at_pairs(&mut moved, time, false);
@@ -199,13 +192,7 @@ impl World {
         while k < moved.len() {
             self.note_pairs(&mut round, moved[k..].iter().copied());
             k = moved.len();
-            loop {
-                let places: ArrayVec<u32, AT_ONCE> = round.by_ref().take(AT_ONCE).collect();
-                if places.is_empty() {
-                    break;
-                }
-                self.attend_all(&places, time, moved, parts);
-            }
+            self.attend(&mut round, time, moved, parts);
         }
         self.pool.round = round;
     }

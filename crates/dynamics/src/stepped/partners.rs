@@ -3,7 +3,6 @@
 use carom_math::SimTime;
 
 use super::courses::Goer;
-use super::round::Round;
 use super::throng::Member;
 use crate::broad::misses;
 use crate::trees::Leaf;
@@ -89,22 +88,6 @@ impl World {
         self.pool.round = round;
     }
 
-    /// The round goes through all pairs of these bodies.
-    pub(super) fn note_pairs(
-        &self,
-        round: &mut Round,
-        bodies: impl ExactSizeIterator<Item = u32> + Clone,
-    ) {
-        let glances = self.pairs.glances();
-        if round.takes_all(bodies.len(), glances.len()) {
-            round.note_all(bodies, glances);
-        } else {
-            for place in bodies.flat_map(|index| &self.bodies.get(index).pairs) {
-                round.note(*place);
-            }
-        }
-    }
-
     /// Parts the pairs of a body that cannot meet as both go now, and finds new ones.
     pub(super) fn seek_partners(&mut self, index: u32, slot: u32, time: SimTime) {
         if self.broad.search == PairSearch::Indexed {
@@ -176,8 +159,9 @@ impl World {
 
     /// Whether a shape that is near may meet this one, and is no pair with it yet.
     fn comes(&self, at: u32, mine: Option<&Goer>, other: u32, time: SimTime) -> bool {
-        let both = || mine.zip(self.goer_of(other, time));
-        !self.is_pair(at, other) && both().is_none_or(|(mine, other)| self.may_meet(mine, &other))
+        !self.is_pair(at, other)
+            && (mine.zip(self.goer_of(other, time)))
+                .is_none_or(|(mine, other)| self.may_meet(mine, &other))
     }
 
     /// Whether two shapes are known to be a pair already; of a body that has many the other one is asked later.

@@ -93,7 +93,7 @@ pub(super) const fn fall(pull: f64, seconds: f64) -> f64 {
 
 /// What a turn moves the rim by; a disc and what does not turn stay where they are.
 #[inline]
-fn swing(rim: f64, by: f64) -> f64 {
+pub(super) fn swing(rim: f64, by: f64) -> f64 {
     if by == 0.0 { 0.0 } else { rim * by.abs() }
 }
 

@@ -3,10 +3,11 @@
 //! What is asked of a pair lies by place, so a round from the first to the last reads it from front to back, as the
 //! caches like it; body by body the same is read criss-cross.
 
+use crate::World;
 use crate::pairs::Glance;
 
 /// A round goes through all places, and not through the lists of those who moved, if there are at most so many places for each
-/// of them.
+/// of them: in a pile that moves as a whole there are three or four.
 const ALL: usize = 8;
 
 /// Pairs that a round goes through, each once.
@@ -23,11 +24,11 @@ pub(super) struct Round {
 
 /// A bit for each body that is marked.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Marks(Vec<u64>);
+struct Marks(Vec<u64>);
 
 impl Marks {
     /// Marks these bodies, and nobody else.
-    pub(super) fn mark(&mut self, bodies: impl Iterator<Item = u32> + Clone) {
+    fn mark(&mut self, bodies: impl Iterator<Item = u32> + Clone) {
         let last = bodies.clone().max().map_or(0, |last| bit_of(last).0);
         self.0.clear();
         self.0.resize(last + 1, 0);
@@ -39,12 +40,30 @@ impl Marks {
 
     /// 1 if one of two is marked, and 0 if not.
     #[inline]
-    pub(super) fn either(&self, (a, b): (u32, u32)) -> u64 {
+    fn either(&self, (a, b): (u32, u32)) -> u64 {
         let one = |body: u32| {
             let word = self.0.get(bit_of(body).0);
             word.map_or(0, |word| word >> (body % 64))
         };
         (one(a) | one(b)) & 1
+    }
+}
+
+impl World {
+    /// The round goes through all pairs of these bodies.
+    pub(super) fn note_pairs(
+        &self,
+        round: &mut Round,
+        bodies: impl ExactSizeIterator<Item = u32> + Clone,
+    ) {
+        let glances = self.pairs.glances();
+        if round.takes_all(bodies.len(), glances.len()) {
+            round.note_all(bodies, glances);
+        } else {
+            for place in bodies.flat_map(|index| &self.bodies.get(index).pairs) {
+                round.note(*place);
+            }
+        }
     }
 }
 
@@ -57,7 +76,7 @@ impl Round {
     }
 
     /// The round goes through this pair, too, unless it has already.
-    pub(super) fn note(&mut self, place: u32) {
+    fn note(&mut self, place: u32) {
         let (word, bit) = bit_of(place);
         if self.noted.len() <= word {
             self.noted.resize(word + 1, 0);
@@ -69,16 +88,12 @@ impl Round {
     }
 
     /// Whether a round that has just begun goes through so many places in less time than through the lists of so many bodies.
-    pub(super) const fn takes_all(&self, moved: usize, places: usize) -> bool {
+    const fn takes_all(&self, moved: usize, places: usize) -> bool {
         self.noted.is_empty() && places <= ALL * moved
     }
 
     /// The round goes through all pairs of these bodies: the same as [`Self::note`] of each of them, without their lists.
-    pub(super) fn note_all(
-        &mut self,
-        moved: impl Iterator<Item = u32> + Clone,
-        glances: &[Glance],
-    ) {
+    fn note_all(&mut self, moved: impl Iterator<Item = u32> + Clone, glances: &[Glance]) {
         self.moved.mark(moved);
         self.left.extend(glances.chunks(64).map(|glances| {
             let bits = glances.iter().zip(0..);

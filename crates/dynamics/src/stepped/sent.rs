@@ -4,6 +4,7 @@
 
 use carom_math::Vec2;
 
+use super::relative::swing;
 use super::seats::{NONE, Seats};
 use super::watch::{LEASH, STRAY};
 use crate::solver::Line;
@@ -19,7 +20,7 @@ pub(super) struct Sent {
     from: (Vec2, f64),
     velocity: Vec2,
     spin: f64,
-    /// Largest distance from the centre of what a turn moves, in m.
+    /// As its seat has it.
     rim: f64,
     /// Reach of the smallest of itself and those that it was near to, in m.
     finest: f64,
@@ -80,15 +81,6 @@ impl Sent {
                 let fallen = pull * (0.5 * passed * passed);
                 beyond(off - fallen, drift - pull * ((passed + 0.5 * h) * h))
             }
-    }
-}
-
-/// What a turn moves the rim by; a disc stays where it is, and so does what does not turn.
-fn swing(rim: f64, turn: f64) -> f64 {
-    if turn == 0.0 || rim == 0.0 {
-        0.0
-    } else {
-        rim * turn.abs()
     }
 }
 

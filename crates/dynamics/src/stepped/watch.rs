@@ -4,7 +4,6 @@ use arrayvec::ArrayVec;
 use carom_math::{SimTime, Vec2};
 
 use super::faces::GIVES;
-use super::near::AT_ONCE;
 use super::relative::{Against, QUICK, Since, WHIRL, fall};
 use super::stand::Stand;
 use crate::World;
@@ -46,6 +45,9 @@ pub(super) fn farther(travel: f64, size: f64) -> f64 {
 /// Rows of a pair that are so much farther apart than they can come until the next tick are let go. Less only means
 /// that rows come and go more often.
 const LET_GO: f64 = 0.028;
+
+/// So many pairs are asked one after the other, before those of them that want it are looked at: what they answer takes 4 KB.
+const AT_ONCE: usize = 32;
 
 /// What a pair wants.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -117,43 +119,44 @@ fn sum(v: Vec2) -> f64 {
 
 impl World {
     /// Attends to pairs, some of which may be gone; `parts`: those whose boxes parted are let go.
-    pub(super) fn attend_all(
+    pub(super) fn attend(
         &mut self,
-        places: &[u32],
+        pairs: &mut impl Iterator<Item = u32>,
         time: SimTime,
         moved: &mut Vec<u32>,
         parts: bool,
     ) {
-        // What one is asked does not wait for what another answers, so that memory is read side by side.
-        let asked: ArrayVec<_, AT_ONCE> = places.iter().map(|place| self.asked(*place)).collect();
-        let wishes: ArrayVec<_, AT_ONCE> = (places.iter().zip(asked))
-            .map(|(place, slots)| self.wish(*place, slots))
-            .collect();
-        for (&place, (wish, moving)) in places.iter().zip(wishes) {
-            // Whoever wakes joins a crowd, and leaves pairs behind.
-            let glance = self.pairs.glance(place);
-            if !glance.is_there() {
-                continue;
+        loop {
+            let places: ArrayVec<u32, AT_ONCE> = pairs.take(AT_ONCE).collect();
+            if places.is_empty() {
+                return;
             }
-            debug_assert!(
-                glance.holds || wish == Wish::Look && moving.is_none(),
-                "who was asked kept its line while others were looked at"
-            );
-            if parts && !self.keeps(place) {
-                self.part(place, time);
-            } else {
-                self.heed(place, (wish, moving), time, moved);
+            // What one is asked does not wait for what another answers, so that memory is read side by side.
+            let asked: ArrayVec<_, AT_ONCE> =
+                places.iter().map(|place| self.asked(*place)).collect();
+            let wishes: ArrayVec<_, AT_ONCE> = (places.iter().zip(asked))
+                .map(|(place, slots)| self.wish(*place, slots))
+                .collect();
+            for (place, (wish, moving)) in places.into_iter().zip(wishes) {
+                // Whoever wakes joins a crowd, and leaves pairs behind.
+                let glance = self.pairs.glance(place);
+                if !glance.is_there() {
+                    continue;
+                }
+                debug_assert!(
+                    glance.holds || wish == Wish::Look && moving.is_none(),
+                    "who was asked kept its line while others were looked at"
+                );
+                if parts && !self.keeps(place) {
+                    self.part(place, time);
+                } else {
+                    self.heed(place, (wish, moving), time, moved);
+                }
             }
         }
     }
 
     /// Looks at a pair if it must be, and notes when to ask it again before the next tick.
-    pub(super) fn attend(&mut self, place: u32, time: SimTime, moved: &mut Vec<u32>) {
-        let slots = self.asked(place);
-        let wish = self.wish(place, slots);
-        self.heed(place, wish, time, moved);
-    }
-
     fn heed(
         &mut self,
         place: u32,
