@@ -4,6 +4,7 @@ mod a_driver_that_is_let_go_falls_on_the_floor;
 mod a_few_heavy_bodies_are_no_crowd;
 mod a_flat_leg_of_an_h_is_not_pushed_sideways;
 mod a_gap_that_rounds_to_the_tolerance_closes;
+mod a_half_plane_is_no_disc;
 mod a_hundred_bodies_at_one_place_end;
 mod a_jam_ends_in_exact_mode;
 mod a_light_body_keeps_a_heavy_one_off_the_floor;

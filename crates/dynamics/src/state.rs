@@ -403,8 +403,8 @@ impl BodyState {
 
     /// Whether its outline stays where it is as it turns: a disc about its centre of mass.
     pub(crate) fn turns_in_place(&self, colliders: &[Collider]) -> bool {
-        let is_point = |at: &u32| colliders[*at as usize].solid.vertices().len() == 1;
-        self.colliders.iter().all(is_point) && self.inner(colliders) >= self.reach
+        let is_disc = |at: &u32| matches!(*colliders[*at as usize].solid, Shape::Circle(_));
+        self.colliders.iter().all(is_disc) && self.inner(colliders) >= self.reach
     }
 
     /// The body as the impact laws see it.
