@@ -248,6 +248,7 @@ impl Broad {
             fresh: true,
             contacts: Vec::new(),
             touching: false,
+            told: false,
             turning_rest: 0.0,
             lasting: false,
             mode: None,

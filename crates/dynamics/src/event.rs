@@ -3,6 +3,8 @@
 use carom_math::{SimTime, Vec2};
 
 use crate::BodyId;
+use crate::bodies::Bodies;
+use crate::pairs::Pair;
 
 /// Something that happened to one or two bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -137,6 +139,21 @@ impl Events {
         } else {
             self.dropped += 1;
         }
+    }
+
+    /// Tells that a pair began or ceased to touch, if that is new: so begins and ends of a pair come in turns.
+    pub(crate) fn tell_touch(&mut self, bodies: &Bodies, pair: &mut Pair, time: SimTime) {
+        if pair.touching == pair.told {
+            return;
+        }
+        pair.told = pair.touching;
+        let (a, b) = (bodies.get(pair.bodies.0).id, bodies.get(pair.bodies.1).id);
+        let kind = if pair.touching {
+            EventKind::Begin { a, b }
+        } else {
+            EventKind::End { a, b }
+        };
+        self.push(time, kind);
     }
 
     /// Makes room for the events of a step. What happened since the last one, by what the caller

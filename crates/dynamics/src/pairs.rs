@@ -23,6 +23,8 @@ pub(crate) struct Pair {
     pub(crate) contacts: Vec<PairContact>,
     /// Touched at the last look, or struck since.
     pub(crate) touching: bool,
+    /// The caller was told that it touches: looks of all kinds say what touches, begins and ends come in turns.
+    pub(crate) told: bool,
     /// What the turning of its bodies adds to its rest speed, in m/s, by the last look or forecast.
     pub(crate) turning_rest: f64,
     /// Some contact pushes: the pair is solved for, not struck.

@@ -122,11 +122,8 @@ pub(crate) fn strike(
 /// A touch that begins here is an event.
 fn touch(bodies: &Bodies, pairs: &mut Pairs, entry: &Entry, events: &mut Events) {
     let pair = pairs.get_mut(entry.pair);
-    if !pair.touching {
-        pair.touching = true;
-        let (a, b) = (bodies.get(pair.bodies.0).id, bodies.get(pair.bodies.1).id);
-        events.push(entry.time, EventKind::Begin { a, b });
-    }
+    pair.touching = true;
+    events.tell_touch(bodies, pair, entry.time);
 }
 
 /// What is left of a pair's budget after an impact.

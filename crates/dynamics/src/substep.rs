@@ -8,7 +8,7 @@ use crate::pairs::PairContact;
 use crate::predict::BUDGET;
 use crate::sleep::settle;
 use crate::stepped::{FEW, MANY};
-use crate::{EventKind, Mode, World};
+use crate::{Mode, World};
 
 /// Sub-steps with nothing near after which a body flies: fewer, and what rattles changes sides all the time.
 const IDLE: u8 = 4;
@@ -212,23 +212,17 @@ impl World {
             (pair.impacts, pair.spent) = (0, 0.0);
             if active == (false, false) && !pair.fresh {
                 pair.given_up = false;
+                self.events.tell_touch(&self.bodies, pair, time);
                 continue;
             }
             pair.fresh = false;
-            let touched = pair.touching;
             self.narrow
                 .look(&self.bodies, &self.colliders, pair, time, h);
             let touching = pair.touching;
             for point in pair.contacts.iter().flat_map(|contact| &contact.points) {
                 self.report.deepest_overlap = self.report.deepest_overlap.max(-point.separation);
             }
-            let (id_a, id_b) = (self.bodies.get(a).id, self.bodies.get(b).id);
-            if touching && !touched {
-                self.events
-                    .push(time, EventKind::Begin { a: id_a, b: id_b });
-            } else if touched && !touching {
-                self.events.push(time, EventKind::End { a: id_a, b: id_b });
-            }
+            self.events.tell_touch(&self.bodies, pair, time);
             if touching && active != (false, false) {
                 for index in [a, b] {
                     if self.bodies.get(index).asleep {

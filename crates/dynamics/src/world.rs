@@ -20,8 +20,8 @@ use crate::state::{BodyState, Collider, Surface, drawn_at};
 use crate::stepped::Stepped;
 use crate::threads::Threads;
 use crate::{
-    Body, BodyDef, BodyError, BodyId, BodyKind, Contact, EnergyLedger, EventKind, Events, Material,
-    Mode, Momentum, Settings, SettingsError, StepProfile, StepReport,
+    Body, BodyDef, BodyError, BodyId, BodyKind, Contact, EnergyLedger, Events, Material, Mode,
+    Momentum, Settings, SettingsError, StepProfile, StepReport,
 };
 
 /// So many of the shapes that came last are looked through for one that is alike.
@@ -259,7 +259,7 @@ impl World {
     /// All pairs that touch, as of the last sub-step, in order of their shapes; of what moves without sub-steps, as of now.
     pub fn contacts(&self) -> impl Iterator<Item = Contact> + use<'_> {
         let places = self.pairs.in_order().into_iter();
-        let touching = places.filter(|place| self.pairs.get(*place).touching);
+        let touching = places.filter(|place| self.pairs.get(*place).told);
         touching.flat_map(|place| {
             let now = self.gliding_now(place);
             let pair = now.as_ref().unwrap_or_else(|| self.pairs.get(place));
@@ -431,12 +431,7 @@ impl World {
         };
         self.loosen(place, pair.bodies, time);
         self.pool.release(&mut pair);
-        if pair.touching {
-            let (a, b) = (
-                self.bodies.get(pair.bodies.0).id,
-                self.bodies.get(pair.bodies.1).id,
-            );
-            self.events.push(time, EventKind::End { a, b });
-        }
+        pair.touching = false;
+        self.events.tell_touch(&self.bodies, &mut pair, time);
     }
 }

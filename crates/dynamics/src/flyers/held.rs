@@ -3,7 +3,7 @@
 use carom_math::SimTime;
 
 use super::{Cause, Foreseen};
-use crate::{BodyKind, EventKind, World};
+use crate::{BodyKind, World};
 
 impl World {
     /// What is pressed together and does not bounce stays in contact from now on.
@@ -21,8 +21,7 @@ impl World {
         if let Some(place) = found {
             let pair = self.pairs.get_mut(place);
             (pair.lasting, pair.touching) = (true, true);
-            let (a, b) = (self.bodies.get(a).id, self.bodies.get(b).id);
-            self.events.push(time, EventKind::Begin { a, b });
+            self.events.tell_touch(&self.bodies, pair, time);
             self.predict(place, time);
             self.regroup(impact.bodies.0, time);
             self.regroup(impact.bodies.1, time);

@@ -134,7 +134,7 @@ impl World {
             self.report.substeps += 1;
             self.substep();
             if stop_at_event {
-                self.tell_touches(self.clock.next());
+                self.tell_touches(self.clock.next().min(end));
                 if !self.events.is_empty() {
                     self.write_motions();
                     return self.clock.next().min(end);
@@ -142,7 +142,7 @@ impl World {
             }
         }
         if !first {
-            self.tell_touches(self.clock.next());
+            self.tell_touches(self.clock.next().min(end));
             self.write_motions();
             self.stopwatch.lap(|p| &mut p.flight);
         }

@@ -7,7 +7,7 @@ use carom_math::{SimTime, perp};
 use super::Stepped;
 use crate::bodies::Bodies;
 use crate::pairs::Pair;
-use crate::{Contact, ContactPoint, EventKind, World};
+use crate::{Contact, ContactPoint, World};
 
 impl World {
     /// Begins and ends of touch since this was last called.
@@ -32,18 +32,8 @@ impl World {
         let pair = self.pairs.get_mut(place);
         let rows = pair.contacts.iter().filter_map(|contact| contact.row);
         let touching = rows.into_iter().any(|id| lanes.acted(id));
-        if touching == pair.touching {
-            return;
-        }
         pair.touching = touching;
-        let a = self.bodies.get(pair.bodies.0).id;
-        let b = self.bodies.get(pair.bodies.1).id;
-        let kind = if touching {
-            EventKind::Begin { a, b }
-        } else {
-            EventKind::End { a, b }
-        };
-        self.events.push(time, kind);
+        self.events.tell_touch(&self.bodies, pair, time);
     }
 }
 

@@ -345,7 +345,7 @@ impl World {
         self.pool.release(pair);
         pair.contacts = Vec::new();
         pair.fresh = false;
-        let touched = pair.touching;
+        let touched = pair.told;
         let glance = self.pairs.glance_mut(place);
         (glance.rows, glance.sought) = (false, f64::NEG_INFINITY);
         (glance.load, glance.buried) = (1.0, false);
