@@ -1,5 +1,6 @@
 //! What went wrong once, each with its story.
 
+mod a_changed_flyer_keeps_its_law;
 mod a_driver_that_is_let_go_falls_on_the_floor;
 mod a_few_heavy_bodies_are_no_crowd;
 mod a_flat_leg_of_an_h_is_not_pushed_sideways;

@@ -373,6 +373,8 @@ impl World {
             flies,
             ..Course::default()
         };
+        // A law goes on from piece to piece: without a piece there is none.
+        state.flight = None;
         state.set_piece(SimTime::NEVER);
         if state.is_stepped() {
             self.enlist(index, now);
