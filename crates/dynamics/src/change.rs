@@ -460,10 +460,14 @@ impl World {
             let acts = state.uncommon_mut();
             let (force, torque) = (acts.force, acts.torque);
             (acts.force, acts.torque) = (Vec2::ZERO, 0.0);
-            state.motion.acceleration -= force * state.inverse_mass;
-            state.motion.angular_acceleration -= torque * state.inverse_inertia;
+            // Who fell asleep under its force is accelerated by nothing, and wakes without it.
+            if !state.asleep {
+                state.motion.acceleration -= force * state.inverse_mass;
+                state.motion.angular_acceleration -= torque * state.inverse_inertia;
+            }
         }
         for index in forced {
+            self.wake_around(index, now);
             self.deflected(index, now);
         }
     }
