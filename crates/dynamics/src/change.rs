@@ -254,10 +254,12 @@ impl World {
 
     fn change_fields(&mut self, change: impl FnOnce(&mut Vec<Arc<dyn Field>>)) {
         let now = self.clock.now;
-        let before = self.bodies.ledger(now).potential;
         for index in self.bodies.indices().collect::<Vec<_>>() {
+            // A crowd books what its members had when they left, in the fields that they felt.
+            self.quit(index, now);
             self.bodies.change(index, now, |_| {});
         }
+        let before = self.bodies.ledger(now).potential;
         change(&mut self.bodies.pull.fields);
         let after = self.bodies.ledger(now).potential;
         self.bodies.book.external.add(after - before);
