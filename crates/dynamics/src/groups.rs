@@ -3,7 +3,7 @@
 use carom_math::SimTime;
 
 use crate::StepReport;
-use crate::bodies::Bodies;
+use crate::bodies::{Bodies, Booked};
 use crate::flight::driven;
 use crate::heavy::{Place, set_apart, solve_heavy};
 use crate::narrow::{RestSpeed, TOUCH, opening_speed};
@@ -223,6 +223,7 @@ impl Groups {
         h: f64,
         report: &mut StepReport,
     ) {
+        bodies.booked.clear();
         for (&index, member) in self.members.iter().zip(&mut self.bodies) {
             if member.inverse_mass == 0.0 || !member.acted {
                 continue;
@@ -277,6 +278,17 @@ impl Groups {
             let driven = row.driven_work(a, b) + row.jt * row.belt;
             bodies.book.external.add(driven);
             bodies.book.scheme.add(-driven);
+            let ends = [(a, row.bodies.0), (b, row.bodies.1)];
+            if let [Some(member), None] | [None, Some(member)] =
+                ends.map(|(body, member)| (body.inverse_mass > 0.0).then_some(member))
+            {
+                bodies.booked.push(Booked {
+                    index: self.members[member as usize],
+                    until: time + h,
+                    driven: driven / h,
+                    heat: heat / h,
+                });
+            }
         }
     }
 
