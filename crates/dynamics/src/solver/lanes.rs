@@ -224,7 +224,7 @@ impl Lanes {
     }
 
     /// The block and lane of a row.
-    pub(super) fn at(&self, id: RowId) -> (&Wide, usize) {
+    pub(crate) fn at(&self, id: RowId) -> (&Wide, usize) {
         let place = self.places[id.0 as usize];
         let (block, lane) = place.block();
         let zone = &self.zones[place.zone as usize];

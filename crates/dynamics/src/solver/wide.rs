@@ -191,6 +191,11 @@ impl Wide {
         )
     }
 
+    /// The sum of all numbers of a lane, for whoever wants them to be read.
+    pub(crate) fn sum_of(&self, lane: usize) -> f64 {
+        self.columns().into_iter().map(|column| column[lane]).sum()
+    }
+
     /// Copies a lane of another block.
     pub(crate) fn copy_lane(&mut self, to: usize, other: &Self, from: usize) {
         (self.a[to], self.b[to]) = (other.a[from], other.b[from]);

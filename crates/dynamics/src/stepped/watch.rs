@@ -1,5 +1,7 @@
 //! When a pair is looked at again: not before its motion since the last look (`relative`) can matter.
 
+use core::hint::black_box;
+
 use arrayvec::ArrayVec;
 use carom_math::{SimTime, Vec2};
 
@@ -9,6 +11,7 @@ use super::stand::Stand;
 use crate::World;
 use crate::heavy::BEARS;
 use crate::pairs::Glance;
+use crate::solver::RowId;
 
 /// How far a body may move before it is asked about, as a fraction of the smallest reach about it: 5 mm for boxes
 /// of 1 m.
@@ -137,6 +140,9 @@ impl World {
             let wishes: ArrayVec<_, AT_ONCE> = (places.iter().zip(asked))
                 .map(|(place, slots)| self.wish(*place, slots))
                 .collect();
+            let looks = places.iter().zip(&wishes);
+            let looks = looks.filter(|(_, (wish, moving))| *wish == Wish::Look && moving.is_some());
+            self.read_ahead(looks.map(|(place, _)| *place));
             for (place, (wish, moving)) in places.into_iter().zip(wishes) {
                 // Whoever wakes joins a crowd, and leaves pairs behind.
                 let glance = self.pairs.glance(place);
@@ -154,6 +160,17 @@ impl World {
                 }
             }
         }
+    }
+
+    /// Reads the rows of pairs that are looked at next, all at once: each look would wait for its own.
+    fn read_ahead(&self, places: impl Iterator<Item = u32>) {
+        let rows = places.filter_map(|place| self.pairs.get(place).contacts.first()?.row);
+        let rows: ArrayVec<RowId, AT_ONCE> = rows.collect();
+        let rig = &self.pool.seats.rig;
+        // Where they lie first: what leads there is waited for side by side, too.
+        let lanes: ArrayVec<_, AT_ONCE> = rows.into_iter().map(|id| rig.lanes.at(id)).collect();
+        let sums = lanes.into_iter().map(|(wide, lane)| wide.sum_of(lane));
+        black_box(sums.sum::<f64>());
     }
 
     /// Looks at a pair if it must be, and notes when to ask it again before the next tick.
