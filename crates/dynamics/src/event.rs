@@ -51,14 +51,15 @@ pub enum EventKind {
         /// Normal speed of approach, in m/s, positive.
         speed: f64,
     },
-    /// Two bodies began to touch and stay in touch: an impact alone is no begin.
+    /// Two bodies began to touch and stay in touch: an impact alone is no begin. Where they have several shapes each two of these
+    /// begin and end by themselves.
     Begin {
         /// One body.
         a: BodyId,
         /// The other.
         b: BodyId,
     },
-    /// Two bodies no longer touch.
+    /// Two bodies, or two of their shapes, no longer touch.
     End {
         /// One body.
         a: BodyId,
