@@ -6,7 +6,10 @@
 //! law for all of them at once, as one complementarity problem in velocities:
 //! `v_n⁺ ≥ −e v_n⁻` and `j_n ≥ 0`, of which one holds with equality at every contact, and Coulomb's
 //! cone for friction. Struck contacts have their approach to give back; contacts that lasted have
-//! none and only must not close. Solved by projected Gauss–Seidel over accumulated impulses, in bounded time.
+//! none and only must not close. Solved by projected Gauss–Seidel over accumulated impulses, in bounded time, and what it
+//! would gain by friction is not given back (`loss`).
+
+mod loss;
 
 use carom_math::{SimTime, Vec2, perp};
 
@@ -324,6 +327,7 @@ impl Shock {
                 break;
             }
         }
+        self.gain_nothing(settled);
     }
 
     /// Bodies and contacts that the sweeps do not know yet.
@@ -378,31 +382,6 @@ impl Shock {
             self.bodies[strike.ends.0].index,
             self.bodies[strike.ends.1].index,
         )
-    }
-
-    /// Energy lost, and energy put in by driven bodies, in J: impulse × mean velocities, contact by
-    /// contact. All impulses act together, so the mean is that of before and after all of them.
-    pub(crate) fn works(&self) -> (f64, f64) {
-        let (mut loss, mut driven) = (0.0, 0.0);
-        for strike in &self.strikes {
-            let contact = &strike.contact;
-            let impulse = contact.normal * strike.normal_impulse
-                + perp(contact.normal) * strike.tangential_impulse;
-            let mean = |end: usize| {
-                let shaken = &self.bodies[end];
-                0.5 * (shaken.before.velocity_of(contact.point)
-                    + shaken.after.velocity_of(contact.point))
-            };
-            let (a, b) = (mean(strike.ends.0), mean(strike.ends.1));
-            loss -= impulse.dot(b - a);
-            if self.bodies[strike.ends.0].before.inverse_mass == 0.0 {
-                driven += impulse.dot(a);
-            }
-            if self.bodies[strike.ends.1].before.inverse_mass == 0.0 {
-                driven -= impulse.dot(b);
-            }
-        }
-        (loss, driven)
     }
 
     /// Place of a body; of one that nothing moves with its surface's speed `run`, a new one.

@@ -157,26 +157,36 @@ fn case_12_every_apex_is_the_drop_times_e_squared() {
     }
 }
 
-/// The same reports: energy in a full box.
-#[test]
-#[ignore = "fails: where impacts come fast the solver takes over, and gains up to 9e-5 of the energy in a tick"]
-fn case_12_a_full_box_of_lively_balls_never_gains_energy() {
-    let mut world = world(9.81);
+/// Sixty balls with e = 0.7 that fall in a narrow box.
+fn full_box(mode: Mode, seed: u64) -> World {
+    let mut world = with(Settings {
+        gravity: vec2(0.0, -9.81),
+        sleep: None,
+        mode,
+        ..Settings::default()
+    });
     let lively = surface(0.7, 0.2);
     fix(&mut world, vec2(0.0, -0.5), block(8.0, 1.0), lively);
     for x in [-3.5, 3.5] {
         fix(&mut world, vec2(x, 6.0), block(1.0, 14.0), lively);
     }
-    let mut next = numbers(12);
+    let mut next = numbers(seed);
     for k in 0..60_u32 {
         let at = vec2(
             f64::from(k % 6) - 2.5 + 0.18 * (next() - 0.5),
             0.6 + f64::from(k / 6),
         );
-        world
-            .insert(BodyDef::dynamic().at(at), disc(0.3 + 0.1 * next()), lively)
-            .expect("valid");
+        let ball = disc(0.3 + 0.1 * next());
+        put(&mut world, BodyDef::dynamic().at(at), ball, lively);
     }
+    world
+}
+
+/// The same reports: energy in a full box.
+#[test]
+#[ignore = "fails: where impacts come fast the solver takes over, and gains up to 1.2e-5 of the energy in a tick"]
+fn case_12_a_full_box_of_lively_balls_never_gains_energy() {
+    let mut world = full_box(Mode::Hybrid, 12);
     let start = world.energy().mechanical();
     let mut before = start;
     run(&mut world, 20.0, |world| {
@@ -190,6 +200,28 @@ fn case_12_a_full_box_of_lively_balls_never_gains_energy() {
         before = now;
     });
     assert!(before < 0.5 * start);
+}
+
+/// The same reports: an impact that runs through a pile with friction gave back up to
+/// 7e-6 of the energy more than it took in a tick.
+#[test]
+fn case_12_impacts_in_a_full_box_gain_nothing() {
+    for seed in [10, 12] {
+        let mut world = full_box(Mode::Exact, seed);
+        let start = world.energy().mechanical();
+        let mut before = 0.0;
+        run(&mut world, 2.0, |world| {
+            let now = world.energy().impacts;
+            assert!(
+                now >= before - 1e-12 * start,
+                "{:e} of the energy given back at {:?}, seed {seed}",
+                (before - now) / start,
+                world.time()
+            );
+            before = now;
+        });
+        assert!(before > 0.2 * start);
+    }
 }
 
 /// dimforge/rapier#97, piqnt/planck.js#223, jrouwe/JoltPhysics#1286, avianphysics/avian#594: bounces that fade.
