@@ -286,14 +286,12 @@ impl Bodies {
 
     /// Contacts that were booked for the whole sub-step push a body no longer: it has another motion from `time` on.
     fn take_back(&mut self, index: u32, time: SimTime) {
-        let of = |booked: &Booked| booked.index == index;
-        for booked in self.booked.iter().filter(|booked| of(booked)) {
+        for booked in self.booked.extract_if(.., |booked| booked.index == index) {
             let left = (booked.until - time).max(0.0);
             self.book.external.add(-booked.driven * left);
             self.book.friction.add(-booked.heat * left);
             self.book.scheme.add((booked.driven - booked.heat) * left);
         }
-        self.booked.retain(|booked| !of(booked));
     }
 
     /// What forces and the scheme did along the present piece of a motion up to `time`.

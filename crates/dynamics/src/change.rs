@@ -469,7 +469,9 @@ impl World {
             }
         }
         for index in forced {
-            self.wake_around(index, now);
+            if self.bodies.get(index).asleep {
+                self.wake_around(index, now);
+            }
             self.deflected(index, now);
         }
     }

@@ -63,7 +63,7 @@ fn a_changed_flyer_keeps_its_law() {
         for world in [&mut untouched, &mut filtered, &mut driven] {
             world.step(0.25);
         }
-        let time = f64::from(step) * 0.25;
+        let time = f64::from(step + 1) * 0.25;
         agree(
             &format!("a new filter, {time} s"),
             &filtered,

@@ -1,7 +1,7 @@
 //! A field ends the crowds of hybrid mode. Its potential was booked while the members still counted as the crowd's, which
 //! then told it a second time: the ledger was off by all of it.
 
-use carom_dynamics::{BodyDef, Mode, RadialField};
+use carom_dynamics::{BodyDef, Mode, RadialField, World};
 use carom_math::vec2;
 use carom_tests::scenes::{disc, put, surface, walled};
 
@@ -15,7 +15,7 @@ fn a_field_beside_a_crowd_keeps_the_books() {
         put(&mut world, BodyDef::dynamic().at(at), disc(0.3), material);
     }
     world.step(1.0);
-    let change = |name: &str, world: &carom_dynamics::World| {
+    let balances = |name: &str, world: &World| {
         let book = world.energy();
         let off = book.residual().abs() / book.external.abs();
         assert!(
@@ -23,12 +23,12 @@ fn a_field_beside_a_crowd_keeps_the_books() {
             "{name}: off by {off:e} of what came in, {book:?}"
         );
     };
-    change("before", &world);
+    balances("before", &world);
     let field = RadialField::new(vec2(0.0, -6.0), 30.0, 1.0).expect("a planet");
     world.add_field(field);
-    change("with a field", &world);
+    balances("with a field", &world);
     world.step(0.1);
-    change("a moment later", &world);
+    balances("a moment later", &world);
     world.clear_fields();
-    change("without", &world);
+    balances("without", &world);
 }

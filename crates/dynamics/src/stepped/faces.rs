@@ -55,7 +55,7 @@ impl World {
         let margin = MARGIN * size + travel + fall(against.pull(), 2.0 * tick);
         let pair = self.pairs.get_mut(place);
         pair.fresh = false;
-        let pair_was_touching = pair.touching;
+        let may_have_touched = pair.touching || pair.told;
         let circles = apart.length() - (reaches[0] + reaches[1]);
         let (gap, normal, load) = if circles <= margin {
             let seats = &mut self.pool.seats;
@@ -101,7 +101,7 @@ impl World {
             buried,
             due,
         };
-        if pair_was_touching {
+        if may_have_touched {
             self.judge(place, time);
         }
         quick.then_some(moving)
