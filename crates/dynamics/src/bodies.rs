@@ -322,13 +322,16 @@ impl Bodies {
         let straight = if quadratic {
             motion.acceleration.dot(travel)
         } else {
-            let (from, to) = (motion.velocity, state.velocity_at(time));
+            let (from, to) = (
+                motion.velocity + state.lag().at(0.0),
+                state.velocity_at(time),
+            );
             (to - from).dot(0.5 * (to + from))
         };
         let turning = if quadratic {
             motion.angular_acceleration * turn
         } else {
-            let (from, to) = (motion.spin, state.spin_at(time));
+            let (from, to) = (motion.spin + state.lag().spin_at(0.0), state.spin_at(time));
             (to - from) * (0.5 * (to + from))
         };
         let kinetic = mass * straight + state.turning_inertia() * turning;

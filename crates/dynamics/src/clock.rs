@@ -40,6 +40,11 @@ impl Clock {
         end - self.next() > 1e-9 * self.h
     }
 
+    /// Whether the present sub-step goes on after `time`.
+    pub(crate) fn is_within(&self, time: SimTime) -> bool {
+        self.next() - time > 1e-9 * self.h
+    }
+
     /// Moves on to the first instant of the grid at or after `time`.
     pub(crate) fn catch_up(&mut self, time: SimTime) {
         #[expect(

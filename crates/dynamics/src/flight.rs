@@ -178,6 +178,7 @@ pub(crate) fn follow(
         rate: (v_end - (v + acceleration * h)) / h,
         angular: (spin_end - (spin + angular_acceleration * h)) / h,
         length: h,
+        ..Lag::NONE
     };
     // Path and parabola share both ends and the first velocity, so they part by at most 2/81 h³ times the
     // largest third derivative: |∇f| |v| + c |a|. A turn parts by the same, times the reach.

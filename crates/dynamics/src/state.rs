@@ -228,7 +228,7 @@ impl BodyState {
             .get_or_insert_with(|| Box::new(Uncommon::NONE))
     }
 
-    /// What the velocity has beyond the motion's along the present piece of a flight in a field.
+    /// What the velocity has beyond the motion's along its present piece.
     pub(crate) fn lag(&self) -> &Lag {
         &self.uncommon().lag
     }

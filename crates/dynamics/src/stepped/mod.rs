@@ -34,7 +34,7 @@ mod watch;
 mod write;
 
 use carom_collision::PartManifold;
-use carom_math::SimTime;
+use carom_math::{SimTime, Vec2};
 
 use crate::pairs::PairContact;
 use crate::solver::RowId;
@@ -87,6 +87,8 @@ pub(crate) struct Stepped {
     /// Cores of shapes, for those who move far in a sub-step.
     cores: Cores,
     depths: Depths,
+    /// Displacement and turn of each line before the last sub-step, where that is asked for.
+    places: Vec<(Vec2, f64)>,
     /// Pairs that a look goes through: scratch.
     round: Round,
     pub(crate) crowd: Crowd,
@@ -132,6 +134,8 @@ impl World {
             self.pool.until_look -= 1;
             self.clock.begin();
             self.report.substeps += 1;
+            // Who looks at its end alone asks nothing of the way.
+            self.note_places(self.settings.history > 0 || self.clock.is_within(end));
             self.substep();
             if stop_at_event {
                 self.tell_touches(self.clock.next().min(end));
@@ -145,6 +149,8 @@ impl World {
             self.tell_touches(self.clock.next().min(end));
             self.write_motions();
             self.stopwatch.lap(|p| &mut p.flight);
+        } else if !self.clock.is_within(end) {
+            self.end_way();
         }
         end
     }

@@ -135,7 +135,7 @@ impl Seats {
         let in_place = state.turns_in_place(colliders);
         let slot = self.rig.admit(&Member {
             velocity: state.velocity_at(time),
-            spin: state.motion.spin_at(time),
+            spin: state.spin_at(time),
             inverse_mass: state.inverse_mass,
             inverse_inertia: state.inverse_inertia,
             pull,
@@ -239,7 +239,7 @@ impl Seats {
 
     /// Takes over what a caller changed: velocity and place at `time`.
     pub(crate) fn follow(&mut self, slot: u32, state: &BodyState, time: SimTime) {
-        let (v, w) = (state.velocity_at(time), state.motion.spin_at(time));
+        let (v, w) = (state.velocity_at(time), state.spin_at(time));
         self.rig.set_velocity(slot, v, w);
         let pose = state.motion.pose_at(time);
         let seat = &mut self.list[slot as usize];
