@@ -28,8 +28,9 @@ pub(crate) struct Broad {
     /// When last a box came into the tree, or was changed there.
     pub(crate) changed: SimTime,
     pub(crate) overrides: BTreeMap<(BodyId, BodyId), PairMaterial>,
-    /// What the last search found: kept for its memory.
+    /// What the last search found, shapes and flyers: kept for its memory.
     near: Vec<u32>,
+    flying: Vec<u32>,
 }
 
 impl Broad {
@@ -40,6 +41,7 @@ impl Broad {
             changed: SimTime::ZERO,
             overrides: BTreeMap::new(),
             near: Vec::new(),
+            flying: Vec::new(),
         }
     }
 
@@ -169,9 +171,9 @@ impl Broad {
             PairSearch::Indexed => {
                 self.trees.query(mine.fat, |other| near.push(other));
                 if let Some(flyers) = flyers {
-                    let mut flying = Vec::new();
-                    flyers.overlapping(bodies, mine.fat, &mut flying);
-                    near.extend(flying.iter().flat_map(|body| &bodies.get(*body).colliders));
+                    flyers.overlapping(bodies, mine.fat, &mut self.flying);
+                    let shapes = |body: &u32| &bodies.get(*body).colliders;
+                    near.extend(self.flying.iter().flat_map(shapes));
                 }
             }
         }

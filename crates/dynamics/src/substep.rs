@@ -7,7 +7,7 @@ use crate::narrow::{TOUCH, opening_speed, rest_speed};
 use crate::pairs::PairContact;
 use crate::predict::BUDGET;
 use crate::sleep::settle;
-use crate::stepped::{FEW, MANY};
+use crate::stepped::{FEW, MANY, Seen};
 use crate::{Mode, World};
 
 /// Sub-steps with nothing near after which a body flies: fewer, and what rattles changes sides all the time.
@@ -136,11 +136,16 @@ impl World {
     fn gather_landings(&mut self, time: SimTime, h: f64) {
         let mut asked = self.pairs.ordered().to_vec();
         let mut landed = Vec::new();
+        let mut seen = Seen::default();
         loop {
             let landings = asked.iter();
-            let lands: Vec<u32> = landings
+            let mut lands: Vec<u32> = landings
                 .filter_map(|place| self.landing(*place, time, h))
                 .collect();
+            if landed.len() + lands.len() > FEW {
+                self.gather_heaps(&mut lands, &mut seen, time, h);
+                landed.retain(|index| !self.bodies.get(*index).in_crowd);
+            }
             if lands.is_empty() && landed.is_empty() {
                 break;
             }

@@ -57,6 +57,8 @@ struct ActiveSet<'a> {
     rows: &'a [Vec<f64>],
     bounds: &'a [f64],
     members: Vec<usize>,
+    /// Made of the members, in their order.
+    basis: Basis,
     multipliers: Vec<f64>,
     start: &'a [f64],
     point: Vec<f64>,
@@ -76,6 +78,7 @@ impl<'a> ActiveSet<'a> {
             rows,
             bounds,
             members: Vec::new(),
+            basis: Basis::new(),
             multipliers: Vec::new(),
             start,
             point: start.to_vec(),
@@ -83,22 +86,31 @@ impl<'a> ActiveSet<'a> {
         }
     }
 
-    fn basis(&self) -> Basis {
-        let mut basis = Basis::new();
-        for &member in &self.members {
-            let row = &self.rows[member];
-            let (column, mut own) = basis.reduce(row);
-            // What is left of a row that depends on others is the more its rounding, whose part along
-            // what is kept would be a momentum out of nothing.
-            if dot(&own, &own) < NEARLY * NEARLY * dot(row, row) {
-                for direction in self.kept {
-                    let along = dot(&own, direction);
-                    add_scaled(&mut own, direction, -along);
-                }
+    /// One more member, with its parts along the others and its own.
+    fn add(&mut self, row: usize, multiplier: f64, column: Vec<f64>, mut own: Vec<f64>) {
+        let whole = &self.rows[row];
+        // What is left of a row that depends on others is the more its rounding, whose part along
+        // what is kept would be a momentum out of nothing.
+        if dot(&own, &own) < NEARLY * NEARLY * dot(whole, whole) {
+            for direction in self.kept {
+                let along = dot(&own, direction);
+                add_scaled(&mut own, direction, -along);
             }
-            basis.add(column, own);
         }
-        basis
+        self.basis.add(column, own);
+        self.members.push(row);
+        self.multipliers.push(multiplier);
+    }
+
+    /// Takes a member out; those that came after it are reduced anew, as if it had never been.
+    fn remove(&mut self, place: usize) {
+        let later = self.members.split_off(place);
+        let multipliers = self.multipliers.split_off(place);
+        self.basis.truncate(place);
+        for (row, multiplier) in later.into_iter().zip(multipliers).skip(1) {
+            let (column, own) = self.basis.reduce(&self.rows[row]);
+            self.add(row, multiplier, column, own);
+        }
     }
 
     fn slack(&self, row: usize) -> f64 {
@@ -123,8 +135,8 @@ impl<'a> ActiveSet<'a> {
     fn enter(&mut self, row: usize) {
         let mut multiplier = 0.0;
         loop {
-            let basis = self.basis();
-            let (shares, own) = basis.split(&self.rows[row]);
+            let (column, own) = self.basis.reduce(&self.rows[row]);
+            let shares = self.basis.shares(&column);
             let (length, whole) = (dot(&own, &own), dot(&self.rows[row], &self.rows[row]));
             // A share that is rounding alone would let a row that is one of the members go a way without end.
             let least = DEPENDENT * whole.sqrt();
@@ -148,13 +160,9 @@ impl<'a> ActiveSet<'a> {
             }
             multiplier += way;
             match leaving {
-                Some((place, _)) => {
-                    self.members.remove(place);
-                    self.multipliers.remove(place);
-                }
+                Some((place, _)) => self.remove(place),
                 None => {
-                    self.members.push(row);
-                    self.multipliers.push(multiplier);
+                    self.add(row, multiplier, column, own);
                     self.hopeless.clear();
                     return;
                 }
@@ -182,7 +190,7 @@ impl<'a> ActiveSet<'a> {
     /// With the members as Q R, `w = Q R⁻ᵀ b + (1 − Q Qᵀ) w₀`: what the members determine comes from the
     /// bounds alone, and is exactly 0 where these are.
     fn polished(self) -> Nearest {
-        let basis = self.basis();
+        let basis = &self.basis;
         let wanted: Vec<f64> = self.members.iter().map(|&row| self.bounds[row]).collect();
         let lacking = self.members.iter().zip(&wanted);
         let mut shares: Vec<f64> = lacking
@@ -272,11 +280,17 @@ impl Basis {
         (parts, rest)
     }
 
-    /// A row as a sum of members, and what no sum of them reaches.
-    fn split(&self, row: &[f64]) -> (Vec<f64>, Vec<f64>) {
-        let (mut shares, rest) = self.reduce(row);
+    /// The same parts as a sum of rows.
+    fn shares(&self, column: &[f64]) -> Vec<f64> {
+        let mut shares = column.to_vec();
         self.solve_upper(&mut shares);
-        (shares, rest)
+        shares
+    }
+
+    /// Only the first rows.
+    fn truncate(&mut self, count: usize) {
+        self.directions.truncate(count);
+        self.columns.truncate(count);
     }
 
     /// Whether nothing of coordinate k lies outside the directions.

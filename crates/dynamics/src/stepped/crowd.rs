@@ -55,7 +55,7 @@ impl World {
     }
 
     /// Whether this world may have crowds at all.
-    const fn may_crowd(&self) -> bool {
+    pub(super) const fn may_crowd(&self) -> bool {
         matches!(self.settings.mode, Mode::Hybrid) && self.bodies.pull.fields.is_empty()
     }
 

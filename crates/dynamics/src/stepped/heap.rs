@@ -1,0 +1,293 @@
+//! Heaps that land at once: what rests on each other joins the crowd together, without being sub-stepped first.
+//!
+//! Body by body each would be made ready for sub-steps, paired, looked at and judged, layer upon layer, only to be
+//! handed to the wide solver, which pairs it and looks at it once more.
+
+use carom_collision::{PartManifold, contacts};
+use carom_math::{Pose, SimTime, Vec2, cross_scalar};
+
+use super::{FEW, MANY};
+use crate::modes::ROWS;
+use crate::narrow::{BURIED, TOUCH, rest_speed_between};
+use crate::state::BodyState;
+use crate::{PairSearch, World};
+
+/// What the search for heaps knows of the bodies of a world.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Seen {
+    of: Vec<Step>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Step {
+    Unseen,
+    /// It belongs to a heap.
+    Found,
+    /// And all that it touches is known.
+    Asked,
+}
+
+/// What hangs together by touch, and does not move against each other.
+struct Heap {
+    bodies: Vec<u32>,
+    /// Points of contact: at least as many rows.
+    points: usize,
+    /// Nobody in it has a method of his own.
+    fits: bool,
+}
+
+impl Heap {
+    /// Whether the wide solver takes it before closed forms are tried, or after these were tried in vain.
+    fn is_for_crowd(&self) -> bool {
+        let count = self.bodies.len();
+        self.fits && (count > MANY || count > FEW && self.points > ROWS)
+    }
+}
+
+/// Two shapes at rest on each other.
+struct Rest {
+    points: usize,
+    buried: bool,
+}
+
+impl World {
+    /// At the start of a sub-step: those of `lands`, bodies that begin to rest, whose heap is for the wide solver join
+    /// with all of it; the others stay.
+    pub(crate) fn gather_heaps(
+        &mut self,
+        lands: &mut Vec<u32>,
+        seen: &mut Seen,
+        time: SimTime,
+        h: f64,
+    ) {
+        if !self.may_crowd() || self.broad.search != PairSearch::Indexed {
+            return;
+        }
+        seen.of.resize(self.bodies.places(), Step::Unseen);
+        let mut joining = Vec::new();
+        for &index in &*lands {
+            if seen.of[index as usize] == Step::Unseen {
+                let heap = self.heap_around(index, seen, time, h);
+                if heap.is_for_crowd() {
+                    joining.extend(heap.bodies);
+                }
+            }
+        }
+        if joining.is_empty() {
+            return;
+        }
+        joining.sort_unstable();
+        let joins = |index: &u32| joining.binary_search(index).is_ok();
+        lands.retain(|index| !joins(index));
+        self.stepped.retain(|index| !joins(index));
+        // Nobody flies any more when the first one joins: pairs are found once, as those of members.
+        for &index in &joining {
+            let course = &mut self.bodies.get_mut(index).course;
+            if course.flies {
+                course.land();
+                self.flyers.vanish(&mut self.bodies, index);
+            }
+        }
+        for index in joining {
+            self.join(index, time);
+        }
+    }
+
+    /// All that hangs together by touch with a body that begins to rest.
+    fn heap_around(&self, first: u32, seen: &mut Seen, time: SimTime, h: f64) -> Heap {
+        let mut heap = Heap {
+            bodies: vec![first],
+            points: 0,
+            fits: true,
+        };
+        seen.of[first as usize] = Step::Found;
+        let mut scratch = Scratch::default();
+        let mut next = 0;
+        while let Some(&index) = heap.bodies.get(next) {
+            next += 1;
+            seen.of[index as usize] = Step::Asked;
+            let state = self.bodies.get(index);
+            heap.fits &=
+                !(state.is_damped() || state.membership.is_closed() || state.course.glides);
+            let here = Here::of(state, time);
+            for &mine in &state.colliders {
+                self.near_at(mine, &here, &mut scratch);
+                for &other in &scratch.near {
+                    let owner = self.colliders[other as usize].body;
+                    if seen.of[owner as usize] == Step::Asked {
+                        continue;
+                    }
+                    let shapes = (mine, other);
+                    let Some(rest) = self.rest_between(shapes, &here, time, h, &mut scratch.found)
+                    else {
+                        continue;
+                    };
+                    heap.points += rest.points;
+                    heap.fits &= !rest.buried;
+                    let state = self.bodies.get(owner);
+                    let belongs = state.is_dynamic() && !state.asleep && !state.in_crowd;
+                    if belongs && seen.of[owner as usize] == Step::Unseen {
+                        seen.of[owner as usize] = Step::Found;
+                        heap.bodies.push(owner);
+                    }
+                }
+            }
+        }
+        heap
+    }
+
+    /// Shapes that may touch one where it is, flyers' too.
+    fn near_at(&self, mine: u32, here: &Here, scratch: &mut Scratch) {
+        let collider = &self.colliders[mine as usize];
+        let bounds = collider.solid.aabb(here.pose).grown(here.touch);
+        self.broad
+            .search_tree(&self.colliders, bounds, &mut scratch.near);
+        self.flyers
+            .overlapping(&self.bodies, bounds, &mut scratch.flying);
+        let shapes = |body: &u32| &self.bodies.get(*body).colliders;
+        scratch.near.extend(scratch.flying.iter().flat_map(shapes));
+    }
+
+    /// How a shape of a body that is here rests on another one, if they touch and do not approach faster than what rests.
+    fn rest_between(
+        &self,
+        (mine, other): (u32, u32),
+        here: &Here,
+        time: SimTime,
+        h: f64,
+        found: &mut Vec<PartManifold>,
+    ) -> Option<Rest> {
+        let [mine, other] = [mine, other].map(|at| &self.colliders[at as usize]);
+        let (a, b) = (self.bodies.get(mine.body), self.bodies.get(other.body));
+        let apart = b.centre_at(time) - here.pose.position;
+        let size = a.reach.min(b.reach);
+        let touch = TOUCH * size;
+        let near = a.reach + b.reach + touch;
+        if mine.body == other.body
+            || apart.length_squared() > near * near
+            || !mine.surface.filter.touches(other.surface.filter)
+        {
+            return None;
+        }
+        let there = Here::of(b, time);
+        let b_in_a = there.pose.seen_from(here.pose);
+        found.clear();
+        contacts(&mine.solid, &other.solid, b_in_a, touch, found);
+        let slowest = -rest_speed_between(&self.bodies, (mine.body, other.body), h);
+        let mut rest = Rest {
+            points: 0,
+            buried: false,
+        };
+        for contact in &*found {
+            let normal = here.pose.vector(contact.manifold.normal);
+            for point in &contact.manifold.points {
+                let at = here.pose.point(point.point);
+                let rate = (there.velocity_of(at) - here.velocity_of(at)).dot(normal);
+                if point.separation <= touch && rate >= slowest {
+                    rest.points += 1;
+                    rest.buried |= point.separation < -BURIED * size;
+                }
+            }
+        }
+        (rest.points > 0).then_some(rest)
+    }
+}
+
+/// A body at an instant.
+struct Here {
+    pose: Pose,
+    velocity: Vec2,
+    spin: f64,
+    /// What touches it is nearer than this, in m.
+    touch: f64,
+}
+
+impl Here {
+    fn of(state: &BodyState, time: SimTime) -> Self {
+        Self {
+            pose: state.centre_pose(time),
+            velocity: state.velocity_at(time),
+            spin: state.spin_at(time),
+            touch: TOUCH * state.reach,
+        }
+    }
+
+    /// Velocity of its point at `point`, in m/s.
+    fn velocity_of(&self, point: Vec2) -> Vec2 {
+        self.velocity + cross_scalar(self.spin, point - self.pose.position)
+    }
+}
+
+/// What a search for the next one in a heap leaves behind.
+#[derive(Default)]
+struct Scratch {
+    near: Vec<u32>,
+    flying: Vec<u32>,
+    found: Vec<PartManifold>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{BodyDef, BodyId, Material, Settings};
+    use carom_geometry::ConvexPolygon;
+    use carom_math::vec2;
+
+    /// Pyramids on a floor, too small for the wide solver, for it after closed forms and for it at once; of each one is at rest, in
+    /// one a body is damped, in one it was put deep into the floor, on one the top moves, and onto one it falls.
+    fn stacks(pair_search: PairSearch) -> World {
+        let settings = Settings {
+            pair_search,
+            ..Settings::default()
+        };
+        let mut world = World::new(settings).expect("valid settings");
+        let stone = Material::default();
+        let block = |x, y| ConvexPolygon::rectangle(x, y).expect("a rectangle");
+        let floor = BodyDef::fixed().at(vec2(0.0, -1.0));
+        world
+            .insert(floor, block(4e3, 2.0), stone)
+            .expect("a floor");
+        let mut left = -1e3;
+        for (k, rows) in [3, 5, 6, 11].into_iter().enumerate() {
+            for variant in 0..5 {
+                for row in 0..rows {
+                    for column in 0..rows - row {
+                        let (x, y) = (f64::from(column) + 0.5 * f64::from(row), f64::from(row));
+                        let mut def = BodyDef::dynamic().at(vec2(left + x, y + 0.5));
+                        let (first, top) = ((row, column) == (1, 0), row + 1 == rows);
+                        match variant {
+                            1 if first => def = def.damped(0.1, 0.0),
+                            2 if first => def = def.at(vec2(left + x, y + 0.4)),
+                            3 if top => def = def.moving(vec2(0.1, 0.0)),
+                            4 if top => def = def.moving(vec2(0.0, -3.0)),
+                            _ => {}
+                        }
+                        let height = if k % 2 == 0 || !top { 1.0 } else { 2.0 };
+                        def.position.y += 0.5 * (height - 1.0);
+                        world.insert(def, block(1.0, height), stone).expect("valid");
+                    }
+                }
+                left += f64::from(rows) + 3.0;
+            }
+        }
+        world
+    }
+
+    /// Who belongs to a crowd.
+    fn members(world: &World) -> Vec<BodyId> {
+        let members = world.bodies.iter().filter(|state| state.in_crowd);
+        members.map(|state| state.id).collect()
+    }
+
+    #[test]
+    fn a_heap_joins_at_once_as_it_does_layer_by_layer() {
+        let mut worlds = [PairSearch::Indexed, PairSearch::AllPairs].map(stacks);
+        let [at_once, by_layers] = &mut worlds;
+        for world in [&mut *at_once, by_layers] {
+            world.step(world.settings.substep);
+        }
+        let (at_once, by_layers) = (members(at_once), members(by_layers));
+        assert_eq!(at_once, by_layers);
+        assert!(at_once.len() > 200, "{}", at_once.len());
+    }
+}
