@@ -434,6 +434,7 @@ impl World {
         if still.is_empty() {
             return;
         }
+        let mut lying = Vec::new();
         for place in still {
             let Some(group) = self.closed.get_mut(place) else {
                 continue;
@@ -442,15 +443,18 @@ impl World {
             for touch in &group.touches {
                 touch.carry(&self.bodies, self.pairs.get_mut(touch.pair), self.clock.h);
             }
-            let members = group.members.clone();
-            for &(index, _) in &members {
+            for &(index, _) in &group.members {
                 let state = self.bodies.get_mut(index);
                 (state.asleep, state.dozes) = (true, true);
-            }
-            for (index, _) in members {
-                self.lie_down(index, time);
+                lying.push(index);
             }
         }
+        lying.sort_unstable();
+        self.discharge_all(&lying);
+        for index in lying {
+            self.lie_down(index, time);
+        }
+        self.lower_flyers();
         self.pairs.sort(&self.bodies, &self.stepped);
     }
 

@@ -135,9 +135,21 @@ impl World {
         if let Ok(at) = self.stepped.binary_search(&index) {
             self.stepped.remove(at);
             self.pairs.reorder();
-            if !self.is_substepping() {
-                self.flyers.lower();
-            }
+            self.lower_flyers();
+        }
+    }
+
+    /// Takes bodies from those that are sub-stepped, which are given in order; [`Self::lower_flyers`] is for the caller.
+    pub(crate) fn discharge_all(&mut self, gone: &[u32]) {
+        self.stepped
+            .retain(|index| gone.binary_search(index).is_err());
+        self.pairs.reorder();
+    }
+
+    /// If nobody is sub-stepped any more, nobody looks for flyers by boxes in the world.
+    pub(crate) fn lower_flyers(&mut self) {
+        if !self.is_substepping() {
+            self.flyers.lower();
         }
     }
 }

@@ -27,13 +27,8 @@ pub(crate) struct Nearest {
 /// The point nearest to `start` that meets all bounds.
 ///
 /// A bound counts as met within `tolerance`. If the polyhedron is empty, which no impact makes it,
-/// the rows that can be met are met.
-pub(crate) fn nearest(rows: &[Vec<f64>], start: &[f64], bounds: &[f64], tolerance: f64) -> Nearest {
-    nearest_beside(&[], rows, start, bounds, tolerance)
-}
-
-/// The same where no row has a part along the orthonormal directions `kept`: nor has the way.
-pub(crate) fn nearest_beside(
+/// the rows that can be met are met. No row has a part along the orthonormal directions `kept`: nor has the way.
+pub(crate) fn nearest(
     kept: &[Vec<f64>],
     rows: &[Vec<f64>],
     start: &[f64],
@@ -41,14 +36,22 @@ pub(crate) fn nearest_beside(
     tolerance: f64,
 ) -> Nearest {
     let mut set = ActiveSet::new(kept, rows, start, bounds);
-    // A row enters and leaves a few times at most; the bound is for rounding alone.
-    for _ in 0..(20 + 10 * rows.len()) {
-        match set.most_violated(tolerance) {
-            Some(row) => set.enter(row),
-            None => break,
-        }
+    set.settle(tolerance);
+    let multipliers = set.shares();
+    Nearest {
+        point: set.polished(),
+        multipliers,
     }
-    set.polished()
+}
+
+/// Multipliers with which the rows balance `load` as far as they can, and the largest coordinate of what is left of it.
+pub(crate) fn balance(rows: &[Vec<f64>], load: &[f64], tolerance: f64) -> (Vec<f64>, f64) {
+    let bounds = vec![0.0; rows.len()];
+    let mut set = ActiveSet::new(&[], rows, load, &bounds);
+    set.settle(tolerance);
+    let (_, left) = set.basis.reduce(load);
+    let largest = left.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    (set.shares(), largest)
 }
 
 /// The rows that hold with equality, their multipliers and the point that they lead to.
@@ -83,6 +86,17 @@ impl<'a> ActiveSet<'a> {
             start,
             point: start.to_vec(),
             hopeless: Vec::new(),
+        }
+    }
+
+    /// Takes rows in until all bounds are met that can be.
+    fn settle(&mut self, tolerance: f64) {
+        // A row enters and leaves a few times at most; the bound is for rounding alone.
+        for _ in 0..(20 + 10 * self.rows.len()) {
+            match self.most_violated(tolerance) {
+                Some(row) => self.enter(row),
+                None => break,
+            }
         }
     }
 
@@ -185,38 +199,38 @@ impl<'a> ActiveSet<'a> {
         first
     }
 
-    /// The members solved for once more: no rounding of the way is left.
-    ///
-    /// With the members as Q R, `w = Q R⁻ᵀ b + (1 − Q Qᵀ) w₀`: what the members determine comes from the
-    /// bounds alone, and is exactly 0 where these are.
-    fn polished(self) -> Nearest {
-        let basis = &self.basis;
-        let wanted: Vec<f64> = self.members.iter().map(|&row| self.bounds[row]).collect();
-        let lacking = self.members.iter().zip(&wanted);
-        let mut shares: Vec<f64> = lacking
-            .map(|(&row, bound)| bound - dot(&self.rows[row], self.start))
-            .collect();
-        basis.solve_lower(&mut shares);
-        basis.solve_upper(&mut shares);
+    /// The members solved for once more, with no rounding of the way left: λ of every row, ≥ 0.
+    fn shares(&self) -> Vec<f64> {
+        let lacks = |row: &usize| self.bounds[*row] - dot(&self.rows[*row], self.start);
+        let mut shares: Vec<f64> = self.members.iter().map(lacks).collect();
+        self.basis.solve_lower(&mut shares);
+        self.basis.solve_upper(&mut shares);
         let mut multipliers = vec![0.0; self.rows.len()];
         for (&row, share) in self.members.iter().zip(shares) {
             multipliers[row] = if share > 0.0 { share } else { 0.0 };
         }
+        multipliers
+    }
 
-        let mut along = wanted;
-        basis.solve_lower(&mut along);
-        let (_, mut point) = basis.reduce(self.start);
+    /// The point that they lead to.
+    ///
+    /// With the members as Q R, `w = Q R⁻ᵀ b + (1 − Q Qᵀ) w₀`: what the members determine comes from the
+    /// bounds alone, and is exactly 0 where these are.
+    fn polished(self) -> Vec<f64> {
+        let mut along: Vec<f64> = self.members.iter().map(|&row| self.bounds[row]).collect();
+        self.basis.solve_lower(&mut along);
+        let (_, mut point) = self.basis.reduce(self.start);
         for (k, value) in point.iter_mut().enumerate() {
             if self.members.iter().all(|&row| self.rows[row][k] == 0.0) {
                 *value = self.start[k];
-            } else if basis.determines(k) {
+            } else if self.basis.determines(k) {
                 *value = 0.0;
             }
         }
-        for (direction, part) in basis.directions.iter().zip(along) {
+        for (direction, part) in self.basis.directions.iter().zip(along) {
             add_scaled(&mut point, direction, part);
         }
-        Nearest { point, multipliers }
+        point
     }
 }
 
@@ -337,7 +351,7 @@ mod tests {
     fn rows_that_depend_on_each_other_lead_to_one_point() {
         // Three supports under one plank: w = (1, 0) is unique, the forces are not.
         let rows = [vec![1.0, -1.0], vec![1.0, 0.0], vec![1.0, 1.0]];
-        let found = nearest(&rows, &[0.0, 0.0], &[1.0, 1.0, 1.0], 1e-15).point;
+        let found = nearest(&[], &rows, &[0.0, 0.0], &[1.0, 1.0, 1.0], 1e-15).point;
         assert!(
             (found[0] - 1.0).abs() < 1e-15 && found[1].abs() < 1e-15,
             "{found:?}"
@@ -346,7 +360,7 @@ mod tests {
 
     #[test]
     fn what_is_met_already_stays_bit_for_bit() {
-        let found = nearest(&[vec![1.0, 0.0]], &[0.1, 0.7], &[-1.0], 0.0);
+        let found = nearest(&[], &[vec![1.0, 0.0]], &[0.1, 0.7], &[-1.0], 0.0);
         assert_eq!(
             (found.point, found.multipliers),
             (vec![0.1, 0.7], vec![0.0])
@@ -358,7 +372,7 @@ mod tests {
         // Two supports of a plank at thirds: its fall and its turn are stopped, its slide goes on.
         let third = 1.0 / 3.0;
         let rows = [vec![0.0, third, -0.7], vec![0.0, third, 0.3]];
-        let found = nearest(&rows, &[0.1, -3.0, 0.2], &[0.0, 0.0], 1e-15).point;
+        let found = nearest(&[], &rows, &[0.1, -3.0, 0.2], &[0.0, 0.0], 1e-15).point;
         assert_eq!(found, [0.1, 0.0, 0.0]);
     }
 
@@ -371,7 +385,7 @@ mod tests {
         ) {
             // Bounds that some point meets, so that the polyhedron is not empty.
             let bounds: Vec<f64> = rows.iter().map(|row| dot(row, &reach)).collect();
-            let found = nearest(&rows, &start, &bounds, 1e-14);
+            let found = nearest(&[], &rows, &start, &bounds, 1e-14);
             let mut led = start.clone();
             for ((row, bound), multiplier) in rows.iter().zip(&bounds).zip(&found.multipliers) {
                 let slack = dot(row, &found.point) - bound;
@@ -382,6 +396,18 @@ mod tests {
             }
             let off = led.iter().zip(&found.point).map(|(a, b)| (a - b).abs());
             prop_assert!(off.fold(0.0, f64::max) < 1e-9);
+        }
+
+        #[test]
+        fn what_balances_leaves_the_nearest_point_of_the_cone_that_no_row_pushes_into(
+            rows in prop::collection::vec(prop::collection::vec(-1.0..1.0_f64, 6), 1..12),
+            load in prop::collection::vec(-1.0..1.0_f64, 6),
+        ) {
+            let found = nearest(&[], &rows, &load, &vec![0.0; rows.len()], 1e-14);
+            let (multipliers, left) = balance(&rows, &load, 1e-14);
+            let largest = found.point.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+            prop_assert_eq!(multipliers, found.multipliers);
+            prop_assert!((left - largest).abs() < 1e-13, "{left:e} for {largest:e}");
         }
     }
 }

@@ -10,7 +10,7 @@ use carom_math::{Vec2, cross, vec2};
 
 use super::body::{ImpactBody, ImpactContact, Response};
 use super::law::{ImpactLaw, resolve};
-use super::project::{Basis, nearest_beside};
+use super::project::{Basis, nearest};
 use super::rough::{is_large, is_rough, newton_rough, opened, opening, reflections};
 
 /// Reflections before the rest is stopped: a wedge of angle θ takes π/θ of them, a row of a hundred
@@ -415,7 +415,7 @@ impl Scaled {
     /// The bodies, moved as little as lets every contact open with at least its wanted speed.
     fn reach(&self, bodies: &[ImpactBody], wanted: &[f64], tolerance: f64) -> SharedOutcome {
         let bounds: Vec<f64> = wanted.iter().zip(&self.given).map(|(w, g)| w - g).collect();
-        let found = nearest_beside(
+        let found = nearest(
             &self.momenta(bodies),
             &self.rows,
             &self.velocities,

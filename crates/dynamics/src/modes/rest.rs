@@ -3,7 +3,7 @@
 use super::faces::{Faces, dot};
 use super::{BodyMove, GroupMove, ModeBody, STILL, Touch, TouchMove};
 use crate::ContactMode;
-use crate::impact::project::nearest;
+use crate::impact::project::balance;
 
 /// Unbalanced acceleration below which a group is held, as a part of the largest.
 const HELD: f64 = 1e-12;
@@ -50,13 +50,12 @@ pub(super) fn rest(
         }
     }
     let size = faces.free.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-    let bounds = vec![0.0; edges.len()];
-    let found = nearest(&edges, &faces.free, &bounds, 1e-15 * size);
-    if found.point.iter().any(|x| x.abs() > HELD * size) {
+    let (multipliers, left) = balance(&edges, &faces.free, 1e-15 * size);
+    if left > HELD * size {
         return None;
     }
     let mut forces = vec![([0.0; 2], 0.0); touches.len()];
-    for ((i, k, sign, length), multiplier) in owners.into_iter().zip(found.multipliers) {
+    for ((i, k, sign, length), multiplier) in owners.into_iter().zip(multipliers) {
         let force = multiplier / length;
         forces[i].0[k] += force;
         forces[i].1 += sign * touches[i].friction * force;

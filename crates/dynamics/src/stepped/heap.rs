@@ -77,9 +77,8 @@ impl World {
             return;
         }
         joining.sort_unstable();
-        let joins = |index: &u32| joining.binary_search(index).is_ok();
-        lands.retain(|index| !joins(index));
-        self.stepped.retain(|index| !joins(index));
+        lands.retain(|index| joining.binary_search(index).is_err());
+        self.discharge_all(&joining);
         // Nobody flies any more when the first one joins: pairs are found once, as those of members.
         for &index in &joining {
             let course = &mut self.bodies.get_mut(index).course;

@@ -177,8 +177,6 @@ impl World {
                 self.join(index, time);
             }
         }
-        if !self.is_substepping() {
-            self.flyers.lower();
-        }
+        self.lower_flyers();
     }
 }
