@@ -219,7 +219,9 @@ impl World {
     pub(crate) fn deflected(&mut self, index: u32, time: SimTime) {
         if self.settings.mode == Mode::Stepped {
             // The next sub-step takes it from here; questions find it by its boxes until then.
-            return self.refit(index, time, 0.25 * self.settings.tick);
+            let left = self.clock.next() - time;
+            self.refit(index, time, left.max(0.25 * self.settings.tick));
+            return self.note_midway(index, time);
         }
         self.hand_back_of(index, time);
         self.redirect(index, time);

@@ -15,7 +15,7 @@ fn thrown(shape: Shape, speed: f64, restitution: f64, history: usize) -> (World,
         history,
         ..Settings::default()
     });
-    let material = surface(0.3, restitution);
+    let material = surface(restitution, 0.3);
     let wall = BodyDef::fixed().at(vec2(0.5, 0.0));
     put(&mut world, wall, block(1.0, 20.0), material);
     let def = BodyDef::dynamic()

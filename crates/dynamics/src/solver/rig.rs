@@ -76,8 +76,12 @@ impl Limit {
 
     /// Whether a body goes beyond it within `h`.
     pub(super) fn is_exceeded(self, line: &Line, h: f64) -> bool {
-        let v = line.v();
-        v.length_squared() * h * h > self.travel || line.w().abs() * h > self.turn
+        self.is_exceeded_at(line.v(), line.w(), h)
+    }
+
+    /// The same at a velocity in m/s and a spin in rad/s.
+    pub(crate) fn is_exceeded_at(self, v: Vec2, w: f64, h: f64) -> bool {
+        v.length_squared() * h * h > self.travel || w.abs() * h > self.turn
     }
 }
 
@@ -158,6 +162,10 @@ impl Rig {
 
     pub(crate) fn set_limit(&mut self, slot: u32, limit: Limit) {
         self.limits[slot as usize] = limit;
+    }
+
+    pub(crate) fn limit(&self, slot: u32) -> Limit {
+        self.limits[slot as usize]
     }
 
     /// Whether a body moves farther than its limit in a sub-step of `h`, as fast as it is now.

@@ -17,6 +17,7 @@ mod depths;
 mod faces;
 mod graze;
 mod heap;
+mod midway;
 mod near;
 mod partners;
 mod relative;
@@ -89,6 +90,8 @@ pub(crate) struct Stepped {
     /// Cores of shapes, for those who move far in a sub-step.
     cores: Cores,
     depths: Depths,
+    /// Bodies that were changed within the present sub-step since time went on last.
+    midway: Vec<u32>,
     /// Displacement and turn of each line before the last sub-step, where that is asked for.
     places: Vec<(Vec2, f64)>,
     /// Pairs that a look goes through: scratch.
@@ -111,6 +114,7 @@ impl Stepped {
 impl World {
     /// Sub-steps up to `end`.
     pub(crate) fn advance_stepped(&mut self, end: SimTime, stop_at_event: bool) -> SimTime {
+        self.stop_midway();
         let mut first = true;
         while self.clock.is_due(end) {
             let time = self.clock.next();

@@ -133,6 +133,7 @@ impl Seats {
     ) -> u32 {
         let inner = state.inner(colliders);
         let in_place = state.turns_in_place(colliders);
+        let limit = limit_of(state, inner, in_place);
         let slot = self.rig.admit(&Member {
             velocity: state.velocity_at(time),
             spin: state.spin_at(time),
@@ -140,16 +141,7 @@ impl Seats {
             inverse_inertia: state.inverse_inertia,
             pull,
         });
-        if state.kind == BodyKind::Dynamic {
-            let travel = PART * inner;
-            let turn = if in_place {
-                f64::INFINITY
-            } else {
-                travel / state.reach
-            };
-            let travel = travel * travel;
-            self.rig.set_limit(slot, Limit { travel, turn });
-        }
+        self.rig.set_limit(slot, limit);
         self.stands.forget(slot);
         let (at, body) = (slot as usize, state.id.index as usize);
         if self.list.len() <= at {
@@ -237,6 +229,19 @@ impl Seats {
         seat.id == state.id && seat.kind == state.kind && same
     }
 
+    /// How far a body may move in a sub-step before it is swift, whether it has a seat yet or not.
+    pub(super) fn limit_of(&self, state: &BodyState, colliders: &[Collider]) -> Limit {
+        let slot = self.slot(state.id.index);
+        match slot.filter(|slot| self.fits(*slot, state)) {
+            Some(slot) => self.rig.limit(slot),
+            None => limit_of(
+                state,
+                state.inner(colliders),
+                state.turns_in_place(colliders),
+            ),
+        }
+    }
+
     /// Takes over what a caller changed: velocity and place at `time`.
     pub(crate) fn follow(&mut self, slot: u32, state: &BodyState, time: SimTime) {
         let (v, w) = (state.velocity_at(time), state.spin_at(time));
@@ -285,6 +290,21 @@ impl Seats {
         self.sent[slot as usize].rebase();
         self.rig.rebase(slot, rows);
     }
+}
+
+/// How far a body may move in a sub-step before it is swift: any way where it is not dynamic.
+fn limit_of(state: &BodyState, inner: f64, in_place: bool) -> Limit {
+    if state.kind != BodyKind::Dynamic {
+        return Limit::NONE;
+    }
+    let travel = PART * inner;
+    let turn = if in_place {
+        f64::INFINITY
+    } else {
+        travel / state.reach
+    };
+    let travel = travel * travel;
+    Limit { travel, turn }
 }
 
 /// What pulls on a body at a place.

@@ -36,12 +36,12 @@ struct Way {
 
 /// A first touch of a swift body. In order of (time, pair); `b` only where that one is swift, too.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-struct Touch {
-    time: SimTime,
-    colliders: (u32, u32),
-    place: u32,
-    a: usize,
-    b: Option<usize>,
+pub(super) struct Touch {
+    pub(super) time: SimTime,
+    pub(super) colliders: (u32, u32),
+    pub(super) place: u32,
+    pub(super) a: usize,
+    pub(super) b: Option<usize>,
 }
 
 impl World {
@@ -149,7 +149,8 @@ impl World {
             || self.way_of(other, (from, left)),
             |other| ways[other].motion.rebased(from),
         );
-        let wait = self.first_touch(&way, mine, (other, theirs), &motion, (from, left));
+        let own = (way.body, way.motion.rebased(from));
+        let wait = self.first_touch(own, mine, (other, theirs), &motion, left);
         if let Some(wait) = wait {
             touches.push(Reverse(Touch {
                 time: from + wait,
@@ -182,18 +183,17 @@ impl World {
         }
     }
 
-    /// Seconds after `from` at which the core of a shape would touch another, or before that the
-    /// shape itself; `None` within `left` seconds.
-    fn first_touch(
+    /// After how many seconds the core of a body's shape would touch another, or before that the shape itself, as both
+    /// move from one instant on; `None` within `left` seconds.
+    pub(super) fn first_touch(
         &mut self,
-        way: &Way,
+        (body, own): (u32, Motion),
         mine: u32,
         (other, theirs): (u32, u32),
         motion: &Motion,
-        (from, left): (SimTime, f64),
+        left: f64,
     ) -> Option<f64> {
-        let own = way.motion.rebased(from);
-        let size = self.bodies.get(way.body).reach;
+        let size = self.bodies.get(body).reach;
         let near = size + self.bodies.get(other).reach;
         if !comes_within(&own, motion, near, left) {
             return None;
@@ -319,6 +319,7 @@ fn comes_within(a: &Motion, b: &Motion, near: f64, left: f64) -> bool {
     } else {
         0.0
     };
-    let near = near * (1.0 + 1e-9);
+    let bent = 0.5 * (b.acceleration - a.acceleration).length() * left * left;
+    let near = near * (1.0 + 1e-9) + bent;
     (apart + closing * nearest).length_squared() <= near * near
 }
