@@ -16,6 +16,7 @@ mod a_place_used_again_inherits_nothing;
 mod a_removed_body_strikes_nobody;
 mod a_ring_that_spins_adds_nothing_to_what_it_carries;
 mod a_sleeper_feels_no_force_that_has_ended;
+mod a_sleeper_in_the_air_falls_when_it_wakes;
 mod a_sleeper_that_is_neared_does_not_fall;
 mod a_step_within_a_sub_step_of_the_solver_is_not_exact;
 mod an_impact_as_slow_as_a_rounding_takes_no_time;

@@ -363,6 +363,7 @@ impl World {
                 self.predict(self.bodies.get(index).pairs[slot], time);
             }
         }
+        self.drop_unheld(woken, time);
     }
 
     /// Makes the pairs of a body's boxes in the tree with what is near them, flyers too.

@@ -227,7 +227,10 @@ impl World {
         let (kinetic, potential) = self.bodies.energy_of(index, now);
         self.bodies.book.external.add(-(kinetic + potential));
         self.wake_around(index, now);
+        let mut around = Vec::new();
         for place in self.bodies.get(index).pairs.clone() {
+            let (a, b) = self.pairs.get(place).bodies;
+            around.push(if a == index { b } else { a });
             self.part(place, now);
         }
         self.flyers.vanish(&mut self.bodies, index);
@@ -241,6 +244,7 @@ impl World {
             .overrides
             .retain(|(a, b), _| *a != id && *b != id);
         self.bodies.remove(index);
+        self.drop_unheld(&around, now);
         Ok(())
     }
 

@@ -3,7 +3,8 @@
 use carom_math::SimTime;
 
 use super::{Cause, Foreseen};
-use crate::{BodyKind, World};
+use crate::flight::fly;
+use crate::{BodyKind, Mode, World};
 
 impl World {
     /// What is pressed together and does not bounce stays in contact from now on.
@@ -93,6 +94,47 @@ impl World {
         self.bodies.renew(index);
         self.note_flight(index);
         self.foresee(index, time, Cause::Deflected, None);
+    }
+
+    /// Those of bodies that woke, or whose hold was taken away, that nothing holds fly at once: until the next sub-step begins
+    /// they would hang in the air.
+    pub(crate) fn drop_unheld(&mut self, bodies: &[u32], time: SimTime) {
+        for &index in bodies {
+            if !self.hangs(index, time) {
+                continue;
+            }
+            if !self.bodies.bends(index) {
+                fly(&mut self.bodies, index, time, self.clock.h);
+            }
+            self.take_off(index, time);
+        }
+    }
+
+    /// Whether a body is sub-stepped with nothing near that does not fly.
+    fn hangs(&mut self, index: u32, time: SimTime) -> bool {
+        let state = self.bodies.get(index);
+        let stepped = self.settings.mode == Mode::Stepped;
+        if stepped || !state.is_held() || state.membership.is_closed() {
+            return false;
+        }
+        for k in 0..self.bodies.get(index).pairs.len() {
+            let place = self.bodies.get(index).pairs[k];
+            let pair = self.pairs.get_mut(place);
+            let (a, b) = pair.bodies;
+            let other = if a == index { b } else { a };
+            if self.bodies.get(other).is_flying() {
+                // What strikes it strikes a flyer.
+                continue;
+            }
+            if pair.fresh {
+                self.narrow
+                    .look(&self.bodies, &self.colliders, pair, time, self.clock.h);
+            }
+            if !pair.contacts.is_empty() {
+                return false;
+            }
+        }
+        true
     }
 
     /// Whether an impact is one on members of groups, which land then: they are struck with all that holds them.

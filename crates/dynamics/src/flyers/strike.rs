@@ -48,7 +48,9 @@ impl World {
                     // It waits at the surface of those who woke for the next sub-step.
                     self.join(if index == a { b } else { a }, time);
                 }
-                return;
+                if !self.bodies.get(index).course.flies {
+                    return;
+                }
             }
             let state = self.bodies.get(index);
             if !state.course.flies && state.is_active() {
