@@ -63,6 +63,7 @@ mod profile;
 mod query;
 mod report;
 mod resolve;
+mod room;
 mod settings;
 mod shock;
 mod sink;
