@@ -16,14 +16,22 @@ fn struck_pyramid(settings: Settings) -> World {
 }
 
 fn pyramid(settings: Settings) -> World {
+    pyramids(settings, 1, 78)
+}
+
+/// So many pyramids side by side, of so many rows.
+fn pyramids(settings: Settings, count: u32, rows: u32) -> World {
     let mut world = World::new(settings).expect("valid");
     let floor = BodyDef::fixed().at(vec2(0.0, -1.0));
-    put(&mut world, floor, block(200.0, 2.0), Material::default());
-    for row in 0..78_u32 {
-        for k in 0..78 - row {
-            let x = f64::from(k) + 0.5 * f64::from(row) - 39.0;
-            let at = vec2(x, 0.5 + f64::from(row));
-            boxed(&mut world, at, Material::default());
+    put(&mut world, floor, block(4000.0, 2.0), Material::default());
+    for number in 0..count {
+        let left = 1.25 * f64::from(rows * number) - 0.5 * f64::from(rows);
+        for row in 0..rows {
+            for k in 0..rows - row {
+                let x = left + f64::from(k) + 0.5 * f64::from(row);
+                let at = vec2(x, 0.5 + f64::from(row));
+                boxed(&mut world, at, Material::default());
+            }
         }
     }
     world
@@ -85,6 +93,32 @@ fn zones_carry_a_pile_as_one_sweep_does() {
         assert!(
             zoned.0 < 1.2 * whole.0 && zoned.1 < 1.05 * whole.1,
             "{mode:?}: overlaps {zoned:?} m with zones, {whole:?} m without"
+        );
+    }
+}
+
+#[test]
+fn many_piles_lie_in_zones_as_one_does_alone() {
+    for mode in [Mode::Stepped, Mode::Hybrid] {
+        let settings = |threads| Settings {
+            zones: false,
+            ..settings(mode, threads)
+        };
+        let ends = [1, 2].map(|threads| {
+            let mut world = pyramids(settings(threads), 62, 10);
+            world.step(0.5);
+            (world.state_hash(), overlaps(&world))
+        });
+        assert!(
+            ends[0].0 == ends[1].0,
+            "two threads give other bits than one"
+        );
+        let mut alone = pyramids(settings(1), 1, 10);
+        alone.step(0.5);
+        let (many, alone) = (ends[0].1, overlaps(&alone));
+        assert!(
+            many.0 < 1.2 * alone.0 && many.1 < 1.05 * alone.1,
+            "{mode:?}: overlaps {many:?} m in zones, {alone:?} m alone"
         );
     }
 }

@@ -91,7 +91,7 @@ impl World {
         let threads = Threads::new(settings.threads)?;
         let h = settings.h();
         let mut pool = Stepped::new(settings.tick);
-        pool.seats.rig.zones |= settings.zones;
+        pool.seats.rig.cuts |= settings.zones;
         Ok(Self {
             law: Law::new(&settings.contact, h),
             clock: Clock::new(h),

@@ -42,8 +42,8 @@ pub(crate) struct Rig {
     pub(crate) met: Vec<RowId>,
     /// Rows that bounced in the last sub-step.
     bounced: Vec<RowId>,
-    /// Whether large piles are cut into zones.
-    pub(crate) zones: bool,
+    /// Whether groups that hang together are cut where they are too large for one zone.
+    pub(crate) cuts: bool,
     /// Rows over all lines when the zones were made.
     cut: usize,
     free: Vec<u32>,
@@ -118,7 +118,7 @@ impl Default for Rig {
             swift: Vec::new(),
             met: Vec::new(),
             bounced: Vec::new(),
-            zones: cfg!(test),
+            cuts: cfg!(test),
             cut: 0,
             free: Vec::new(),
             heat: 0.0,

@@ -31,7 +31,7 @@ impl Rig {
     /// Whether zones would leave fewer rows to be swept one after the other.
     pub(crate) fn wants_zones(&self) -> bool {
         let (rows, loose) = (self.lanes.len(), self.lanes.loose());
-        self.zones && rows >= LARGE && loose > rows / 8 && loose > 2 * self.cut
+        rows >= LARGE && loose > rows / 8 && loose > 2 * self.cut
     }
 
     /// Moves the bodies together; gives the new slot of each old one, `u32::MAX` for holes.
@@ -74,7 +74,7 @@ impl Rig {
             old: Vec::with_capacity(self.lines.len()),
             zones: vec![Zone::new(0, 0, Vec::new())],
         };
-        let zones = if !self.zones || self.lanes.len() < LARGE {
+        let zones = if self.lanes.len() < LARGE {
             Vec::new()
         } else {
             self.divide()
@@ -118,7 +118,7 @@ impl Rig {
         plan
     }
 
-    /// Members of each zone, as their lines lie.
+    /// Members of each zone, as their lines lie; none, where groups are to stay whole and one has most of the rows.
     fn divide(&self) -> Vec<Vec<u32>> {
         let near = self.neighbours();
         let rows = self.lanes.len();
@@ -135,14 +135,25 @@ impl Rig {
             // From one end of the group to the other: a front that goes through it is short.
             let end = near.walk(slot, slot + 1, &mut marks);
             let end = end.last().copied().unwrap_or(slot);
+            let before = size;
             for slot in near.walk(end, NONE, &mut marks) {
                 // A row belongs to two.
                 size += 2 * self.lanes.degree(slot) as usize - near.of(slot).len();
                 zone.push(slot);
-                if size >= 2 * most {
+                if self.cuts && size >= 2 * most {
                     zones.push(core::mem::take(&mut zone));
                     size = 0;
                 }
+            }
+            if self.cuts {
+                continue;
+            }
+            if size - before > rows {
+                return Vec::new();
+            }
+            if size >= 2 * most {
+                zones.push(core::mem::take(&mut zone));
+                size = 0;
             }
         }
         if !zone.is_empty() {
@@ -218,5 +229,79 @@ impl Plan {
     fn add(&mut self, slot: u32) {
         self.new[slot as usize] = self.next();
         self.old.push(Some(slot));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::solver::rig::{Member, Pull};
+    use crate::solver::{Law, Often, Row};
+    use crate::{Settings, Softness};
+    use carom_math::{Vec2, vec2};
+
+    /// Columns of unit boxes on one ground, so many high.
+    fn columns(heights: &[u32]) -> Rig {
+        let mut rig = Rig {
+            cuts: Settings::default().zones,
+            ..Rig::default()
+        };
+        let mut member = Member {
+            velocity: Vec2::ZERO,
+            spin: 0.0,
+            inverse_mass: 0.0,
+            inverse_inertia: 0.0,
+            pull: Pull::default(),
+        };
+        let ground = rig.admit(&member);
+        (member.inverse_mass, member.inverse_inertia) = (1.0, 6.0);
+        member.pull.acceleration = vec2(0.0, -10.0);
+        for height in heights {
+            let mut below = (ground, 0.0);
+            for _ in 0..*height {
+                let slot = rig.admit(&member);
+                let arms = [-0.5, 0.5].map(|x| (vec2(x, below.1), vec2(x, -0.5)));
+                let mut row = Row::new((below.0, slot), vec2(0.0, 1.0), &arms, 0.6);
+                row.gap = [0.0; 2];
+                rig.insert(&row);
+                below = (slot, 0.5);
+            }
+        }
+        rig
+    }
+
+    #[test]
+    fn groups_lie_whole_in_zones_unless_one_has_most_of_the_rows() {
+        let mut many = columns(&[3, 7, 2, 9, 1, 4, 6, 5, 8, 3]);
+        assert!(many.wants_zones());
+        many.compact();
+        many.lanes.check(&many.lines);
+        assert!(many.lanes.zones.len() > 4 && many.lanes.loose() == 0);
+        let mut one = columns(&[3, 30, 5]);
+        one.compact();
+        assert_eq!(one.lanes.zones.len(), 1);
+        assert!(!one.wants_zones(), "it is not tried at every tick");
+    }
+
+    #[test]
+    fn in_a_zone_a_group_comes_to_rest_as_it_does_alone() {
+        let law = Law::new(&Softness::default(), 1.0 / 360.0);
+        let sunk = |heights: &[u32]| {
+            let mut rig = columns(heights);
+            rig.compact();
+            for _ in 0..3600 {
+                rig.step(&law, &Often::default(), |_| ());
+            }
+            let moving = rig.lines.iter().filter(|line| line.inverse_mass() > 0.0);
+            let mut sunk: Vec<f64> = moving.map(|line| line.d().y).collect();
+            sunk.sort_by(f64::total_cmp);
+            sunk
+        };
+        let heights = [9, 4, 7, 8];
+        let mut alone: Vec<f64> = heights.iter().flat_map(|n| sunk(&[*n])).collect();
+        alone.sort_by(f64::total_cmp);
+        for (y, alone) in sunk(&heights).into_iter().zip(alone) {
+            assert!((y - alone).abs() < 1e-9, "sunk by {y} m, alone by {alone}");
+        }
     }
 }
