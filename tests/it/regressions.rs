@@ -22,6 +22,7 @@ mod a_step_within_a_sub_step_of_the_solver_is_not_exact;
 mod an_impact_as_slow_as_a_rounding_takes_no_time;
 mod an_impact_on_the_border_of_two_sub_steps_bounces;
 mod begins_and_ends_of_touch_take_turns;
+mod no_event_lies_before_its_step;
 mod nothing_falls_through_the_wall_of_a_turning_drum;
 mod nothing_leaves_a_spinning_ring_through_its_seams;
 mod parts_that_land_together_do_not_turn;

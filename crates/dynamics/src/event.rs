@@ -97,6 +97,8 @@ pub struct Events {
     list: Vec<Event>,
     capacity: usize,
     dropped: usize,
+    /// When the step began: nothing happens before.
+    since: SimTime,
     /// How many of them some step has delivered.
     delivered: usize,
 }
@@ -107,6 +109,7 @@ impl Events {
             list: Vec::new(),
             capacity,
             dropped: 0,
+            since: SimTime::ZERO,
             delivered: 0,
         }
     }
@@ -134,7 +137,9 @@ impl Events {
         self.dropped
     }
 
+    /// Tells what happened at `time`; the grid of sub-steps is met where sums of a caller's `dt` round past it, too.
     pub(crate) fn push(&mut self, time: SimTime, kind: EventKind) {
+        let time = time.max(self.since);
         if self.list.len() < self.capacity {
             self.list.push(Event { time, kind });
         } else {
@@ -159,7 +164,8 @@ impl Events {
 
     /// Makes room for the events of a step. What happened since the last one, by what the caller
     /// changed, is delivered with it.
-    pub(crate) fn begin_step(&mut self) {
+    pub(crate) fn begin_step(&mut self, now: SimTime) {
+        self.since = now;
         // A step in which much happened leaves no room behind.
         self.list.shrink_to(4 * self.delivered);
         self.list.drain(..self.delivered);
@@ -193,7 +199,7 @@ mod tests {
             generation: 0,
         };
         for count in [3000, 2, 0, 0] {
-            events.begin_step();
+            events.begin_step(SimTime::ZERO);
             for _ in 0..count {
                 events.push(SimTime::ZERO, EventKind::Awake(id));
             }

@@ -33,7 +33,7 @@ impl World {
             refused: self.refusal(dt),
             ..StepReport::default()
         };
-        self.events.begin_step();
+        self.events.begin_step(self.clock.now);
         self.spent = 0.0;
         self.stopwatch.start();
         if self.report.refused.is_some() {
@@ -51,13 +51,15 @@ impl World {
         }
         // What the caller's changes brought about is told first.
         if !stop_at_event || self.events.is_empty() {
-            self.clock.now = if self.settings.mode == Mode::Stepped {
+            let reached = if self.settings.mode == Mode::Stepped {
                 self.advance_stepped(end, stop_at_event)
             } else {
                 let time = self.advance(end, stop_at_event);
                 self.write_crowds();
                 time
             };
+            // The sub-step that began with the event may begin before the step, where sums of `dt` round past it.
+            self.clock.now = reached.max(start);
         }
         self.stopwatch.lap(|p| &mut p.impacts);
         if dt > 0.0 {

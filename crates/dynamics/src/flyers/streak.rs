@@ -97,10 +97,11 @@ impl Streak {
     /// The limit of the series after the last impact, which foretells `left` more seconds.
     ///
     /// What an impact foretells is right to (rounding of a gap) / (speed of the impact): best at the first.
-    /// Where first and last agree it was one point that bounced, else the limit follows from the intervals.
+    /// Where first and last agree it was one point that bounced, else the limit follows from the intervals. No series ends
+    /// before its last impact.
     pub(crate) fn limit(&self, left: f64) -> SimTime {
         if (self.last + left - self.foretold).abs() <= AGREES {
-            self.foretold
+            self.foretold.max(self.last)
         } else {
             self.last + self.rest()
         }
@@ -130,6 +131,20 @@ const fn rounded(x: f64) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn no_series_ends_before_its_last_impact() {
+        let (start, e) = (SimTime::from_secs(3.0), 0.5);
+        // The first impact foretells an end that lies 2 ps before that of the intervals.
+        let (mut streak, mut time, mut gap) = (Streak::default(), start, 1.0);
+        let mut speed = 5.0;
+        for _ in 0..50 {
+            streak.hit(time, speed, 2.0 - 2e-12);
+            assert!(streak.limit(gap / (1.0 - e)) >= time, "at {speed} m/s");
+            (time, gap, speed) = (time + gap, e * gap, e * speed);
+        }
+        assert_eq!(streak.limit(0.0), streak.last);
+    }
 
     #[test]
     fn a_geometric_series_ends_at_its_limit() {
