@@ -44,10 +44,16 @@ impl World {
         let index = self.bodies.find(id)?;
         check_vec2("velocity.x", "velocity.y", velocity)?;
         check_finite("spin", spin)?;
+        let (pull, twist) = self.bodies.freely(index, self.clock.now);
         self.disturb(index, |state| {
+            let motion = &mut state.motion;
+            if state.in_crowd && (motion.acceleration - pull).length() > 2.0 * pull.length() {
+                // The rest of a blow of this sub-step is not for the velocity that it has now.
+                (motion.acceleration, motion.angular_acceleration) = (pull, twist);
+            }
             if state.kind != BodyKind::Fixed {
-                state.motion.velocity = velocity;
-                state.motion.spin = if state.locked_rotation { 0.0 } else { spin };
+                motion.velocity = velocity;
+                motion.spin = if state.locked_rotation { 0.0 } else { spin };
             }
         });
         Ok(())
