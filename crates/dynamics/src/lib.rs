@@ -63,7 +63,6 @@ mod profile;
 mod query;
 mod report;
 mod resolve;
-mod room;
 mod settings;
 mod shock;
 mod sink;

@@ -9,7 +9,7 @@ use crate::bodies::Bodies;
 use crate::press::Spot;
 use crate::solver::RowId;
 use crate::state::Collider;
-use crate::{ContactMode, PairMaterial, room};
+use crate::{ContactMode, PairMaterial};
 
 /// Two colliders of different bodies whose boxes overlap; the lower body comes first.
 #[derive(Clone, Debug)]
@@ -209,9 +209,9 @@ impl Pairs {
             self.shapes[place as usize] = shapes;
             return place;
         }
-        room::push(&mut self.list, Some(pair));
-        room::push(&mut self.glances, glance);
-        room::push(&mut self.shapes, shapes);
+        self.list.push(Some(pair));
+        self.glances.push(glance);
+        self.shapes.push(shapes);
         #[expect(
             clippy::cast_possible_truncation,
             reason = "four billion pairs fill 500 GB long before"

@@ -305,10 +305,6 @@ impl BoxTree {
                 reason = "there are fewer pairs than leaves"
             )]
             let place = self.pairs.len() as u32;
-            if self.pairs.len() == self.pairs.capacity() {
-                // Not to its double, of which half may lie empty for ever.
-                self.pairs.reserve_exact(self.pairs.len() / 4 + 8);
-            }
             self.pairs.push(Pair::EMPTY);
             return place;
         }

@@ -3,7 +3,6 @@
 use super::Row;
 use super::wide::{LANES, Line, Wide};
 use super::zone::Zone;
-use crate::room;
 
 /// Colours of a mask; rows of a body with more contacts than that get a block each.
 pub(super) const COLOURS: usize = 64;
@@ -112,7 +111,7 @@ impl Lanes {
         let id = self.free.pop().unwrap_or_else(|| {
             #[expect(clippy::cast_possible_truncation, reason = "120 bytes each")]
             let id = RowId(self.places.len() as u32);
-            room::push(&mut self.places, Place::default());
+            self.places.push(Place::default());
             id
         });
         self.place(id, row, row.acts(), lines);

@@ -21,7 +21,6 @@ use super::coast::Quad;
 use super::lanes::{Lanes, RowId};
 use super::wide::Line;
 use super::{Row, SolverBody};
-use crate::room;
 pub(crate) use local::Often;
 
 /// The bodies of a solver, their rows, and the warm start.
@@ -132,10 +131,10 @@ impl Rig {
         let slot = self.free.pop().unwrap_or_else(|| {
             #[expect(clippy::cast_possible_truncation, reason = "no more than bodies")]
             let slot = self.lines.len() as u32;
-            room::push(&mut self.lines, Line::EMPTY);
-            room::push(&mut self.start, Quad::default());
-            room::push(&mut self.pull, Quad::default());
-            room::push(&mut self.limits, Limit::NONE);
+            self.lines.push(Line::EMPTY);
+            self.start.push(Quad::default());
+            self.pull.push(Quad::default());
+            self.limits.push(Limit::NONE);
             slot
         });
         let i = slot as usize;

@@ -7,7 +7,6 @@ use super::kernel::Met;
 use super::lanes::{COLOURS, RowId};
 use super::rig::Swift;
 use super::wide::{LANES, Wide};
-use crate::room;
 
 /// Rows that only know the lines of a stretch.
 #[derive(Clone, Debug)]
@@ -55,17 +54,17 @@ impl Zone {
         let (blocks, owners) = (&mut self.colours[colour], &mut self.owners[colour]);
         let bits = &mut self.acts[colour];
         let index = if colour == COLOURS {
-            room::push(bits, 0);
-            room::push(blocks, Wide::EMPTY);
+            bits.push(0);
+            blocks.push(Wide::EMPTY);
             (blocks.len() - 1) * LANES
         } else {
             if owners.len().is_multiple_of(LANES) {
-                room::push(bits, 0);
-                room::push(blocks, Wide::EMPTY);
+                bits.push(0);
+                blocks.push(Wide::EMPTY);
             }
             owners.len()
         };
-        room::push(owners, id);
+        owners.push(id);
         if acts {
             bits[index / LANES] |= 1 << (index % LANES);
         }

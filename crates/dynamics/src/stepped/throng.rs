@@ -7,7 +7,6 @@
 use carom_geometry::Aabb;
 
 use super::courses::{Goer, Mover};
-use crate::room;
 
 /// Boxes of more than so many times the mean size have no place.
 const LARGE: f64 = 4.0;
@@ -83,9 +82,7 @@ impl Throng {
             self.by_shape[member.goer.at as usize] = u32::MAX;
         }
         self.members.clear();
-        for member in members {
-            room::push(&mut self.members, member);
-        }
+        self.members.extend(members);
         let sizes = self.members.iter().map(|member| size_of(member.fat));
         #[expect(clippy::cast_precision_loss, reason = "a count of shapes")]
         let mean = sizes.sum::<f64>() / self.members.len() as f64;
@@ -152,8 +149,8 @@ impl Throng {
                 band.top = band.top.max(level(member.fat.max.y, height));
                 band.to = i + 1;
             }
-            room::push(&mut self.boxes, member.fat);
-            room::push(&mut self.movers, (member.goer.mover(), k));
+            self.boxes.push(member.fat);
+            self.movers.push((member.goer.mover(), k));
         }
     }
 
