@@ -53,6 +53,22 @@ impl Pair {
         points.any(|point| point.separation < -touch)
     }
 
+    /// The one of its bodies that is not this one.
+    pub(crate) fn other(&self, body: u32) -> u32 {
+        let (a, b) = self.bodies;
+        if a == body { b } else { a }
+    }
+
+    /// The shape that this body has in it, and that of the other.
+    pub(crate) fn shapes_from(&self, body: u32) -> (u32, u32) {
+        let (first, second) = self.colliders;
+        if self.bodies.0 == body {
+            (first, second)
+        } else {
+            (second, first)
+        }
+    }
+
     /// A point of one of its contacts.
     pub(crate) fn spot<'a>(
         &self,
@@ -284,8 +300,7 @@ impl Pairs {
         found.clear();
         for &index in stepped {
             for &place in &bodies.get(index).pairs {
-                let (a, b) = self.get(place).bodies;
-                let other = if a == index { b } else { a };
+                let other = self.get(place).other(index);
                 let state = bodies.get(other);
                 // A pair of two of them is listed by the lower one.
                 let twice = state.is_held() && other < index;

@@ -118,12 +118,7 @@ fn neighbours<'a>(
 ) -> impl Iterator<Item = u32> + use<'a> {
     bodies.get(index).pairs.iter().filter_map(move |&place| {
         let pair = pairs.get(place);
-        let other = if pair.bodies.0 == index {
-            pair.bodies.1
-        } else {
-            pair.bodies.0
-        };
-        pair.touching.then_some(other)
+        pair.touching.then(|| pair.other(index))
     })
 }
 

@@ -252,8 +252,7 @@ impl World {
         self.discharge(index);
         for place in self.bodies.get(index).pairs.clone() {
             let pair = self.pairs.get_mut(place);
-            let (a, b) = pair.bodies;
-            let other = if a == index { b } else { a };
+            let other = pair.other(index);
             let state = self.bodies.get(other);
             if state.course.flies {
                 self.part(place, time);

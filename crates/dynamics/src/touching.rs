@@ -229,14 +229,8 @@ impl World {
     /// Until when somebody who touches the body waits after a judgement that failed.
     fn neighbour_waits(&self, index: u32, pairs: &[u32], time: SimTime) -> Option<SimTime> {
         let near = pairs.iter().map(|place| self.pairs.get(*place));
-        near.filter(|pair| pair.touching).find_map(|pair| {
-            let other = if pair.bodies.0 == index {
-                pair.bodies.1
-            } else {
-                pair.bodies.0
-            };
-            self.bodies.get(other).membership.waits(time)
-        })
+        near.filter(|pair| pair.touching)
+            .find_map(|pair| self.bodies.get(pair.other(index)).membership.waits(time))
     }
 
     /// Adds the touches of a pair; returns how many rows they have.

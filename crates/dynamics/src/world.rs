@@ -229,8 +229,7 @@ impl World {
         self.wake_around(index, now);
         let mut around = Vec::new();
         for place in self.bodies.get(index).pairs.clone() {
-            let (a, b) = self.pairs.get(place).bodies;
-            around.push(if a == index { b } else { a });
+            around.push(self.pairs.get(place).other(index));
             self.part(place, now);
         }
         self.flyers.vanish(&mut self.bodies, index);

@@ -86,8 +86,7 @@ impl World {
         for &index in &members {
             self.discharge(index);
             for pair in self.bodies.get(index).pairs.clone() {
-                let (a, b) = self.pairs.get(pair).bodies;
-                let other = if a == index { b } else { a };
+                let other = self.pairs.get(pair).other(index);
                 // Who is stepped goes on to meet it by pairs.
                 if !touches.contains(&pair) && !self.bodies.get(other).is_held() {
                     self.part(pair, time);
@@ -169,8 +168,8 @@ impl World {
     pub(crate) fn hand_back_around(&mut self, index: u32, time: SimTime) {
         self.hand_back_of(index, time);
         for slot in 0..self.bodies.get(index).pairs.len() {
-            let (a, b) = self.pairs.get(self.bodies.get(index).pairs[slot]).bodies;
-            self.hand_back_of(if a == index { b } else { a }, time);
+            let pair = self.pairs.get(self.bodies.get(index).pairs[slot]);
+            self.hand_back_of(pair.other(index), time);
         }
     }
 

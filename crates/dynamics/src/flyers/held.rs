@@ -80,8 +80,7 @@ impl World {
         self.leave_group(index, time);
         self.discharge(index);
         for place in self.bodies.get(index).pairs.clone() {
-            let (a, b) = self.pairs.get(place).bodies;
-            let other = if a == index { b } else { a };
+            let other = self.pairs.get(place).other(index);
             if !self.bodies.get(other).is_held() {
                 self.part(place, time);
             }
@@ -120,9 +119,7 @@ impl World {
         for k in 0..self.bodies.get(index).pairs.len() {
             let place = self.bodies.get(index).pairs[k];
             let pair = self.pairs.get_mut(place);
-            let (a, b) = pair.bodies;
-            let other = if a == index { b } else { a };
-            if self.bodies.get(other).is_flying() {
+            if self.bodies.get(pair.other(index)).is_flying() {
                 // What strikes it strikes a flyer.
                 continue;
             }

@@ -44,7 +44,7 @@ pub(crate) struct Rig {
     /// Whether groups that hang together are cut where they are too large for one zone.
     pub(crate) cuts: bool,
     /// Rows over all lines when the zones were made.
-    cut: usize,
+    crossing: usize,
     free: Vec<u32>,
     /// What friction turned into heat, in J.
     pub(crate) heat: f64,
@@ -118,7 +118,7 @@ impl Default for Rig {
             met: Vec::new(),
             bounced: Vec::new(),
             cuts: cfg!(test),
-            cut: 0,
+            crossing: 0,
             free: Vec::new(),
             heat: 0.0,
         }

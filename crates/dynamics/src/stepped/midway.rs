@@ -62,7 +62,7 @@ impl World {
             let mine = is_new(ways[k].body);
             for i in 0..self.bodies.get(ways[k].body).pairs.len() {
                 let place = self.bodies.get(ways[k].body).pairs[i];
-                let other = self.partner(place, ways[k].body);
+                let other = self.pairs.get(place).other(ways[k].body);
                 let asked = ways[..k]
                     .binary_search_by_key(&other, |way| way.body)
                     .is_ok();
@@ -93,7 +93,7 @@ impl World {
             for body in stopped.collect::<Vec<_>>() {
                 for i in 0..self.bodies.get(body).pairs.len() {
                     let place = self.bodies.get(body).pairs[i];
-                    let other = self.partner(place, body);
+                    let other = self.pairs.get(place).other(body);
                     if let Ok(k) = ways.binary_search_by_key(&other, |way| way.body)
                         && ways[k].stops.is_none()
                     {
@@ -107,12 +107,6 @@ impl World {
                 self.go_evenly(way.body, time, (now, end));
             }
         }
-    }
-
-    /// The other body of a pair.
-    fn partner(&self, place: u32, body: u32) -> u32 {
-        let (a, b) = self.pairs.get(place).bodies;
-        if a == body { b } else { a }
     }
 
     /// The ways of all who are swift, in order of bodies: of those who were changed just now, of those who were before
@@ -156,12 +150,8 @@ impl World {
     ) {
         let way = &ways[k];
         let pair = self.pairs.get(place);
-        let colliders = pair.colliders;
-        let (other, mine, theirs) = if pair.bodies.0 == way.body {
-            (pair.bodies.1, colliders.0, colliders.1)
-        } else {
-            (pair.bodies.0, colliders.1, colliders.0)
-        };
+        let (other, colliders) = (pair.other(way.body), pair.colliders);
+        let (mine, theirs) = pair.shapes_from(way.body);
         let partner = ways.binary_search_by_key(&other, |way| way.body).ok();
         let motion = partner.map_or_else(|| &self.bodies.get(other).motion, |k| &ways[k].motion);
         let motion = motion.rebased(from);

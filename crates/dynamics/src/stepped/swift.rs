@@ -131,12 +131,8 @@ impl World {
     ) {
         let way = ways[k];
         let pair = self.pairs.get(place);
-        let (other, mine, theirs) = if pair.bodies.0 == way.body {
-            (pair.bodies.1, pair.colliders.0, pair.colliders.1)
-        } else {
-            (pair.bodies.0, pair.colliders.1, pair.colliders.0)
-        };
-        let colliders = pair.colliders;
+        let (other, colliders) = (pair.other(way.body), pair.colliders);
+        let (mine, theirs) = pair.shapes_from(way.body);
         let partner = ways.binary_search_by_key(&other, |way| way.body).ok();
         if both && partner.is_some_and(|other| other < k) {
             return;
@@ -173,8 +169,7 @@ impl World {
         let body = ways[stopped].body;
         for i in 0..self.bodies.get(body).pairs.len() {
             let place = self.bodies.get(body).pairs[i];
-            let (a, b) = self.pairs.get(place).bodies;
-            let other = if a == body { b } else { a };
+            let other = self.pairs.get(place).other(body);
             if let Ok(k) = ways.binary_search_by_key(&other, |way| way.body)
                 && !ways[k].stopped
             {

@@ -31,7 +31,7 @@ impl Rig {
     /// Whether zones would leave fewer rows to be swept one after the other.
     pub(crate) fn wants_zones(&self) -> bool {
         let (rows, loose) = (self.lanes.len(), self.lanes.loose());
-        rows >= LARGE && loose > rows / 8 && loose > 2 * self.cut
+        rows >= LARGE && loose > rows / 8 && loose > 2 * self.crossing
     }
 
     /// Moves the bodies together; gives the new slot of each old one, `u32::MAX` for holes.
@@ -53,7 +53,7 @@ impl Rig {
                 .settle(&self.lines, &plan.new, plan.zones, &lines);
         }
         self.lines = lines;
-        self.cut = self.lanes.loose();
+        self.crossing = self.lanes.loose();
         plan.new
     }
 
