@@ -316,8 +316,14 @@ impl<S: Simd> Even<'_, S> {
                 (vertex, n, AxisFeature::Vertices { a, b })
             }
         };
-        // A last Newton step, by less than what moves anything.
-        let tau = self.from + (place.tau - sight.gap / sight.rate);
+        // A last Newton step, by less than what moves anything; but what touched to begin with, overlapped by rounding and
+        // comes back as slowly was no less deep before the search begins.
+        let newton = self.from + (place.tau - sight.gap / sight.rate);
+        let tau = if newton > 0.0 {
+            newton
+        } else {
+            self.from + place.tau
+        };
         let centre = self.centre + (self.velocity + self.acceleration * (0.5 * tau)) * tau;
         let (point, normal) = if sight.owner == 0 {
             (centre + point, away)

@@ -194,3 +194,37 @@ fn the_general_search_is_rarely_asked() {
     }
     assert!(asked <= 20 && hits > 1800, "{asked} of {hits}");
 }
+
+/// A disc on a face that turns: it opens at 1 µm/s and comes back as slowly 0.2 µs later, deeper than now by rounding. The last
+/// Newton step led to before the search began.
+#[test]
+fn what_comes_back_slowly_is_not_met_before_the_search_begins() {
+    let (square, disc) = (
+        ConvexPolygon::square(2.0).unwrap(),
+        Circle::new(0.5).unwrap(),
+    );
+    let one = Motion {
+        spin: 10.0,
+        ..Motion::resting(Vec2::ZERO)
+    };
+    let mut met = 0;
+    for sunk in [1e-14, 1e-13, 3e-13, 4.5e-13] {
+        for opening in [1e-7, 1e-6, 1e-5] {
+            let two = Motion {
+                velocity: vec2(opening, -1.0),
+                ..Motion::resting(vec2(1.5 - sunk, 0.0))
+            };
+            let face = Axis::Edge { owner: 0, edge: 1 };
+            let hulls = (&square.hull(), &disc.hull());
+            let span = (one.start, 1.0);
+            for level in levels() {
+                let found = even::first_contact(level, hulls, (&one, &two), span, Some(face));
+                if let Some(Found::Hit { time, .. }) = found {
+                    assert!(time > 0.0, "{time:e} s, sunk by {sunk:e} m");
+                    met += 1;
+                }
+            }
+        }
+    }
+    assert!(met > 0, "no case of it");
+}
