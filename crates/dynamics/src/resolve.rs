@@ -158,9 +158,12 @@ fn spend(
     report: &mut StepReport,
 ) -> Budget {
     let pair = pairs.get_mut(entry.pair);
+    let ends = [pair.bodies.0, pair.bodies.1].map(|index| bodies.get(index));
+    // Struck on both sides at once it goes to and fro, and time does not pass: no bounces, whatever they give back.
+    let again = pair.impacts > 0 && ends.iter().any(|body| body.motion.start == entry.time);
+    let losses = if again { 1.0 } else { price(&pair.material) };
     pair.impacts += 1;
     let collapsed = pair.spent > BUDGET;
-    let losses = price(&pair.material);
     let outrun = outruns(pair, losses);
     match (collapsed, outrun) {
         (false, false) => return Budget::Left,
@@ -172,7 +175,7 @@ fn spend(
         (false, true) => {}
     }
     report.collapsed += 1;
-    let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
+    let [a, b] = ends;
     let reduced = match (a.inverse_mass, b.inverse_mass) {
         (x, y) if x + y > 0.0 => (x + y).recip(),
         _ => 0.0,
