@@ -20,6 +20,7 @@ mod a_sleeper_in_the_air_falls_when_it_wakes;
 mod a_sleeper_that_is_neared_does_not_fall;
 mod a_step_within_a_sub_step_of_the_solver_is_not_exact;
 mod a_velocity_that_is_set_is_not_thrown_on;
+mod an_impact_approaches;
 mod an_impact_as_slow_as_a_rounding_takes_no_time;
 mod an_impact_on_the_border_of_two_sub_steps_bounces;
 mod begins_and_ends_of_touch_take_turns;

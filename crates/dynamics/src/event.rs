@@ -48,7 +48,7 @@ pub enum EventKind {
         normal_impulse: f64,
         /// Impulse on B along the normal turned by +90 degrees, in N·s.
         tangential_impulse: f64,
-        /// Normal speed of approach, in m/s, positive.
+        /// Normal speed of approach, in m/s; 0 of a touch that rested or opened, and only passes on another's blow.
         speed: f64,
     },
     /// Two bodies began to touch and stay in touch: an impact alone is no begin. Where they have several shapes each two of these

@@ -212,7 +212,7 @@ pub(crate) fn apply(
                 normal: impact.contact.normal,
                 normal_impulse: impact.normal_impulse,
                 tangential_impulse: impact.tangential_impulse,
-                speed: impact.speed,
+                speed: impact.speed.max(0.0),
             },
         );
     }

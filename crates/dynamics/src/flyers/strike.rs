@@ -295,7 +295,7 @@ impl World {
                 normal: contact.normal,
                 normal_impulse: outcome.normal_impulse,
                 tangential_impulse: outcome.tangential_impulse,
-                speed,
+                speed: speed.max(0.0),
             },
         );
         self.bodies.book.impacts.add(outcome.loss);
