@@ -33,13 +33,12 @@ impl World {
             refused: self.refusal(dt),
             ..StepReport::default()
         };
+        if self.report.refused.is_some() {
+            return self.report;
+        }
         self.events.begin_step(self.clock.now);
         self.spent = 0.0;
         self.stopwatch.start();
-        if self.report.refused.is_some() {
-            self.events.end_step();
-            return self.report;
-        }
         let start = self.clock.now;
         let end = start + dt;
         if dt > 0.0 {
