@@ -5,6 +5,7 @@
 mod asleep;
 mod belts;
 mod break_shot;
+mod calls;
 mod conservation;
 mod crowds;
 mod determinism;
