@@ -19,6 +19,7 @@ mod a_ring_that_spins_adds_nothing_to_what_it_carries;
 mod a_sleeper_feels_no_force_that_has_ended;
 mod a_sleeper_in_the_air_falls_when_it_wakes;
 mod a_sleeper_that_is_neared_does_not_fall;
+mod a_slider_stays_on_its_floor_when_a_force_ends;
 mod a_step_within_a_sub_step_of_the_solver_is_not_exact;
 mod a_velocity_that_is_set_is_not_thrown_on;
 mod an_impact_approaches;

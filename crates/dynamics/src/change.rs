@@ -444,7 +444,9 @@ impl World {
     /// Forces of the step that begins.
     pub(crate) fn begin_forces(&mut self) {
         let now = self.clock.now;
-        for &index in &self.forced {
+        for index in self.forced.clone() {
+            // Who glides is given back first, since that takes the motion for one that its group knows.
+            self.hand_back_of(index, now);
             self.bodies.change(index, now, |_| {});
             let state = self.bodies.get_mut(index);
             let acts = state.uncommon_mut();
@@ -463,6 +465,7 @@ impl World {
         let now = self.clock.now;
         let forced = core::mem::take(&mut self.forced);
         for &index in &forced {
+            self.hand_back_of(index, now);
             self.bodies.change(index, now, |_| {});
             let state = self.bodies.get_mut(index);
             let acts = state.uncommon_mut();
