@@ -8,7 +8,7 @@ use carom_math::{SimTime, Vec2};
 
 use crate::bodies::Bodies;
 use crate::flyers::Flyers;
-use crate::pairs::{Pair, Pairs};
+use crate::pairs::{Near, Pair, Pairs};
 use crate::state::Collider;
 use crate::trees::Trees;
 use crate::{BodyId, BodyKind, PairMaterial, PairSearch};
@@ -220,7 +220,10 @@ impl Broad {
         }
         if a.in_crowd && b.is_flying() || b.in_crowd && a.is_flying() {
             // Watched for a tick.
-            pairs.near.push((first, second));
+            pairs.near.push(Near {
+                colliders: (first, second),
+                bodies: ends,
+            });
             return;
         }
         if (a.in_crowd || b.in_crowd)

@@ -11,6 +11,7 @@ use carom_math::{Pose, SimTime, Vec2};
 use crate::error::{check_finite, check_vec2};
 use crate::flight::fly;
 use crate::flyers::Course;
+use crate::pairs::Rows;
 use crate::state::BodyState;
 use crate::{
     BodyDef, BodyError, BodyId, BodyKind, Field, Filter, Force, Impulse, Mode, PairMaterial, World,
@@ -219,7 +220,8 @@ impl World {
                 pair.material = material;
                 // Rows keep what they were made with.
                 self.pool.release(pair);
-                self.pairs.glance_mut(place).holds = false;
+                let glance = self.pairs.glance_mut(place);
+                (glance.holds, glance.rows) = (false, Rows::None);
             }
         }
         for index in ends {

@@ -53,6 +53,13 @@ impl Pair {
         points.any(|point| point.separation < -touch)
     }
 
+    pub(crate) const fn near(&self) -> Near {
+        Near {
+            colliders: self.colliders,
+            bodies: self.bodies,
+        }
+    }
+
     /// The one of its bodies that is not this one.
     pub(crate) fn other(&self, body: u32) -> u32 {
         let (a, b) = self.bodies;
@@ -117,8 +124,7 @@ pub(crate) struct Glance {
     pub(crate) gap: f64,
     /// What was nearer than this then has a row, in m.
     pub(crate) sought: f64,
-    /// It has rows.
-    pub(crate) rows: bool,
+    pub(crate) rows: Rows,
     /// One of its bodies is so much heavier that one sweep does not carry it.
     pub(crate) heavy: bool,
     /// How many times as heavy the one of its bodies is that the other gives way to; 1 or less: neither does.
@@ -143,7 +149,7 @@ impl Glance {
             normal: Vec2::ZERO,
             gap: 0.0,
             sought: 0.0,
-            rows: false,
+            rows: Rows::None,
             heavy: false,
             load: 0.0,
             buried: false,
@@ -154,6 +160,29 @@ impl Glance {
     /// Whether there is a pair.
     pub(crate) const fn is_there(&self) -> bool {
         self.bodies.0 != u32::MAX
+    }
+}
+
+/// The rows of a pair: most have one, and need not be asked for it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Rows {
+    None,
+    One(RowId),
+    /// Its contacts know them.
+    Many,
+}
+
+impl Rows {
+    pub(crate) fn of(contacts: &[PairContact]) -> Self {
+        match contacts {
+            [one] => one.row.map_or(Self::None, Self::One),
+            many if many.iter().any(|contact| contact.row.is_some()) => Self::Many,
+            _ => Self::None,
+        }
+    }
+
+    pub(crate) const fn is_none(self) -> bool {
+        matches!(self, Self::None)
     }
 }
 
@@ -189,6 +218,13 @@ pub(crate) struct PairPoint {
     pub(crate) impulse: f64,
 }
 
+/// Two shapes that are no pair, and may meet.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Near {
+    pub(crate) colliders: (u32, u32),
+    pub(crate) bodies: (u32, u32),
+}
+
 /// The pairs of a world.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Pairs {
@@ -205,8 +241,8 @@ pub(crate) struct Pairs {
     pub(crate) fresh: Vec<u32>,
     /// Places of all pairs of a member of a crowd and a dynamic body that is none, and of some that were.
     pub(crate) fringe: Vec<u32>,
-    /// Colliders of members of crowds and of flyers that may meet them within a tick.
-    pub(crate) near: Vec<(u32, u32)>,
+    /// Members of crowds and flyers that may meet them within a tick.
+    pub(crate) near: Vec<Near>,
 }
 
 impl Pairs {
@@ -275,6 +311,23 @@ impl Pairs {
 
     pub(crate) fn glance(&self, place: u32) -> &Glance {
         &self.glances[place as usize]
+    }
+
+    /// The rows of a pair.
+    #[inline]
+    pub(crate) fn rows_of(&self, place: u32) -> impl Iterator<Item = RowId> + use<'_> {
+        debug_assert_eq!(
+            self.glance(place).rows,
+            Rows::of(&self.get(place).contacts),
+            "rows come and go with the pair's note of them"
+        );
+        let (one, contacts) = match self.glance(place).rows {
+            Rows::None => (None, [].as_slice()),
+            Rows::One(id) => (Some(id), [].as_slice()),
+            Rows::Many => (None, self.get(place).contacts.as_slice()),
+        };
+        let many = contacts.iter().filter_map(|contact| contact.row);
+        one.into_iter().chain(many)
     }
 
     /// By place.

@@ -158,8 +158,7 @@ impl World {
                 continue;
             }
             for place in &self.bodies.get(index).pairs {
-                let contacts = &self.pairs.get(*place).contacts;
-                for id in contacts.iter().filter_map(|contact| contact.row) {
+                for id in self.pairs.rows_of(*place) {
                     let work = rig.driven_work(id);
                     self.pool.crowd.driven.add(work);
                 }

@@ -28,7 +28,7 @@ impl World {
     ) {
         let seats = &self.pool.seats;
         let (seat, line) = (seats.get(slot), &seats.rig.lines[slot as usize]);
-        let holds = if let Some(course) = seat.course.as_deref() {
+        let holds = if let Some(course) = seats.courses.of(slot) {
             // It went straight on. Whoever left its course may have met whom it could not have met on it.
             let ends = [(from, start), ((line.d(), line.turn()), start + seconds)];
             ends.into_iter()
@@ -46,7 +46,7 @@ impl World {
                 swept_box(collider, &state.motion, start, seconds)
             });
             let behind: Vec<Aabb> = behind.collect();
-            self.pool.seats.get_mut(slot).course = None;
+            self.pool.seats.courses.end(slot);
             self.box_anew(index, slot, start, &behind);
             self.seek_partners(index, slot, start);
         }
@@ -68,7 +68,7 @@ impl World {
         let (seat, line) = (seats.get(slot), &seats.rig.lines[slot as usize]);
         let pull = seats.rig.pull(slot);
         let holds = |course: &Course| course.holds(seat, line, &pull, time, seconds);
-        if seat.course.as_deref().is_some_and(holds) && !self.lacks_boxes(index) {
+        if seats.courses.of(slot).is_some_and(holds) && !self.lacks_boxes(index) {
             return false;
         }
         let (lasts, line_of) = (TICKS * self.settings.tick, *line);
@@ -84,25 +84,23 @@ impl World {
             // The last instant counts.
             lasts: lasts * (1.0 + 1e-9),
         };
-        match &mut seat.course {
-            Some(known) => **known = course,
-            none => *none = Some(Box::new(course)),
-        }
+        self.pool.seats.courses.begin(slot, course);
         self.box_anew(index, slot, time, &[]);
         true
     }
 
     /// New boxes for a body that stays within its padding for a while.
     pub(super) fn rebox_slow(&mut self, index: u32, slot: u32, time: SimTime) {
-        let seat = self.pool.seats.get_mut(slot);
-        (seat.roamed, seat.course) = (0.0, None);
+        let seats = &mut self.pool.seats;
+        seats.get_mut(slot).roamed = 0.0;
+        seats.courses.end(slot);
         self.box_anew(index, slot, time, &[]);
     }
 
     /// New boxes, stretched along a body's course; `with`: what else is to be in each.
     fn box_anew(&mut self, index: u32, slot: u32, time: SimTime, with: &[Aabb]) {
         let seat = self.pool.seats.get(slot);
-        let on_course = seat.is_on_course();
+        let on_course = self.pool.seats.is_on_course(slot);
         let lasts = if on_course || !with.is_empty() {
             TICKS * self.settings.tick
         } else {

@@ -9,7 +9,7 @@ use carom_collision::{part, part_count};
 use carom_geometry::Shape;
 use carom_math::{SimTime, Vec2, perp};
 
-use super::seats::Seat;
+use super::seats::{NONE, Seat};
 use crate::broad::PADDING;
 use crate::solver::{Line, Pull};
 use crate::{BodyKind, World};
@@ -31,6 +31,17 @@ pub(super) struct Course {
 }
 
 impl Course {
+    /// Nobody goes along it.
+    const NONE: Self = Self {
+        from: SimTime::ZERO,
+        centre: Vec2::ZERO,
+        velocity: Vec2::ZERO,
+        acceleration: Vec2::ZERO,
+        angle: 0.0,
+        spin: 0.0,
+        lasts: 0.0,
+    };
+
     /// Whether a body at `time` keeps to its course for `seconds`: it is no farther off, now and then, than its
     /// boxes are padded.
     pub(super) fn holds(
@@ -82,6 +93,51 @@ fn is_near(seat: &Seat, off: Vec2, turned: f64) -> bool {
     off.length() + seat.rim * turned.abs() <= PADDING * seat.reach
 }
 
+/// Courses by slot, side by side. While nobody is quick there is no list.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Courses {
+    list: Vec<Course>,
+    /// How many go along one.
+    count: usize,
+}
+
+impl Courses {
+    /// What the boxes of the body at `slot` were stretched along; `None`: they were not.
+    #[inline]
+    pub(super) fn of(&self, slot: u32) -> Option<&Course> {
+        let course = self.list.get(slot as usize);
+        course.filter(|course| course.lasts > 0.0)
+    }
+
+    pub(super) fn begin(&mut self, slot: u32, course: Course) {
+        let at = slot as usize;
+        if self.list.len() <= at {
+            self.list.resize(at + 1, Course::NONE);
+        }
+        self.count += usize::from(self.of(slot).is_none());
+        self.list[at] = course;
+    }
+
+    pub(super) fn end(&mut self, slot: u32) {
+        if self.of(slot).is_some() {
+            self.list[slot as usize] = Course::NONE;
+            self.count -= 1;
+            if self.count == 0 {
+                self.list = Vec::new();
+            }
+        }
+    }
+
+    /// Bodies moved to new slots; `u32::MAX`: there was nobody.
+    pub(super) fn renumber(&mut self, new: &[u32]) {
+        for (course, slot) in core::mem::take(self).list.into_iter().zip(new) {
+            if *slot != NONE && course.lasts > 0.0 {
+                self.begin(*slot, course);
+            }
+        }
+    }
+}
+
 /// Where a body is on its course, and how long that lasts; one that stands is on its course for ever.
 #[derive(Clone, Copy, Debug)]
 struct On {
@@ -95,7 +151,7 @@ struct On {
 }
 
 impl On {
-    fn new(seat: &Seat, time: SimTime) -> Option<Self> {
+    fn new(seat: &Seat, course: Option<&Course>, time: SimTime) -> Option<Self> {
         if seat.kind == BodyKind::Fixed {
             return Some(Self {
                 centre: seat.base.position,
@@ -106,7 +162,7 @@ impl On {
                 off: 0.0,
             });
         }
-        let course = seat.course.as_deref()?;
+        let course = course?;
         let passed = time - course.from;
         let left = course.lasts - passed;
         (left > 0.0).then(|| Self {
@@ -211,17 +267,15 @@ impl World {
     #[inline]
     pub(super) fn goer(&self, slot: u32, at: u32, time: SimTime) -> Option<Goer> {
         let seat = self.pool.seats.get(slot);
+        let course = self.pool.seats.courses.of(slot);
         Some(Goer {
             at,
             body: seat.body,
             slot,
             reach: seat.reach,
             rim: seat.rim,
-            sets_out: seat
-                .course
-                .as_deref()
-                .is_some_and(|course| course.from == time),
-            on: On::new(seat, time)?,
+            sets_out: course.is_some_and(|course| course.from == time),
+            on: On::new(seat, course, time)?,
         })
     }
 

@@ -8,6 +8,7 @@ use carom_geometry::Aabb;
 use carom_math::{SimTime, Sum};
 
 use super::seats::pull_of;
+use crate::pairs::Near;
 use crate::sleep::Tree;
 use crate::state::BodyState;
 use crate::{BodyKind, EnergyLedger, Mode, World};
@@ -314,19 +315,19 @@ impl World {
                 let Some(pair) = self.pairs.find(place) else {
                     continue;
                 };
-                let shapes = pair.colliders;
-                let Some((_, outsider)) = self.ends(shapes) else {
+                let near = pair.near();
+                let Some((_, outsider)) = self.ends(near.bodies) else {
                     continue;
                 };
                 let flies = self.bodies.get(outsider).course.flies;
                 if flies || !self.broad.keeps(&self.colliders, self.pairs.shapes(place)) {
                     self.part(place, time);
                     if flies {
-                        self.pairs.near.push(shapes);
+                        self.pairs.near.push(near);
                     }
                     continue;
                 }
-                self.knock(shapes, time, h);
+                self.knock(near, time, h);
                 checked.push(place);
             }
             if self.pool.crowd.members == before {
@@ -340,23 +341,26 @@ impl World {
     fn admit_near(&mut self, time: SimTime, left: f64) {
         let mut k = 0;
         while k < self.pairs.near.len() {
-            let shapes = self.pairs.near[k];
+            let near = self.pairs.near[k];
             k += 1;
-            self.knock(shapes, time, left);
+            self.knock(near, time, left);
         }
     }
 
-    /// Member and dynamic body awake that is none, of two shapes, if that is what they belong to.
-    fn ends(&self, (first, second): (u32, u32)) -> Option<(u32, u32)> {
-        let [a, b] = [first, second].map(|at| self.colliders[at as usize].body);
-        let (inside, outsider) = match (self.bodies.get(a).in_crowd, self.bodies.get(b).in_crowd) {
-            (true, false) => (a, b),
-            (false, true) => (b, a),
+    /// Slot of the one that is a member, and the other one, if that is a dynamic body awake that is none.
+    ///
+    /// Most are asked in vain, and by their slots: those of all bodies are in few cache lines.
+    fn ends(&self, (a, b): (u32, u32)) -> Option<(u32, u32)> {
+        let seats = &self.pool.seats;
+        let (slot, outsider) = match (seats.slot(a), seats.slot(b)) {
+            (Some(slot), None) => (slot, b),
+            (None, Some(slot)) => (slot, a),
             _ => return None,
         };
+        let is_member = seats.get(slot).kind == BodyKind::Dynamic;
         let state = self.bodies.get(outsider);
         let alive = self.bodies.is_alive(outsider);
-        (alive && state.is_dynamic() && !state.asleep).then_some((inside, outsider))
+        (is_member && alive && state.is_dynamic() && !state.asleep).then_some((slot, outsider))
     }
 
     /// Whether a member belongs to a pair.
@@ -367,7 +371,7 @@ impl World {
 
     /// Whether a pair is for the wide solver to look at: of a member, and of nobody else's.
     pub(super) fn is_inside(&self, place: u32) -> bool {
-        self.is_crowds(place) && self.ends(self.pairs.get(place).colliders).is_none()
+        self.is_crowds(place) && self.ends(self.pairs.get(place).bodies).is_none()
     }
 
     /// Whether one solver moves everybody.
@@ -386,27 +390,28 @@ impl World {
 
     /// A pair of a member and somebody with a new motion, in the middle of a sub-step.
     pub(crate) fn knock_between(&mut self, place: u32, time: SimTime) {
-        self.knock(
-            self.pairs.get(place).colliders,
-            time,
-            self.clock.next() - time,
-        );
+        let near = self.pairs.get(place).near();
+        self.knock(near, time, self.clock.next() - time);
     }
 
     /// A flyer with a new motion, and a shape of a member.
     pub(crate) fn knock_at(&mut self, index: u32, at: u32, time: SimTime) {
         for slot in 0..self.bodies.get(index).colliders.len() {
             let mine = self.bodies.get(index).colliders[slot];
-            self.knock((mine, at), time, self.clock.next() - time);
+            let near = Near {
+                colliders: (mine, at),
+                bodies: (index, self.colliders[at as usize].body),
+            };
+            self.knock(near, time, self.clock.next() - time);
         }
     }
 
     /// Has the one of two shapes that is no member's join if it would meet the other within `left` seconds.
-    fn knock(&mut self, shapes: (u32, u32), time: SimTime, left: f64) {
-        let Some((inside, outsider)) = self.ends(shapes) else {
+    fn knock(&mut self, near: Near, time: SimTime, left: f64) {
+        let Some((slot, outsider)) = self.ends(near.bodies) else {
             return;
         };
-        if left > 0.0 && self.nears(shapes, inside, outsider, time, left) {
+        if left > 0.0 && self.nears(near.colliders, slot, outsider, time, left) {
             if self.bodies.get(outsider).is_damped() {
                 // Its own law goes on, in sub-steps pair by pair.
                 self.land(outsider, time);
@@ -416,19 +421,17 @@ impl World {
         }
     }
 
+    /// Whether the shape of a body may meet that of a member within `left` seconds.
     fn nears(
         &self,
         (first, second): (u32, u32),
-        inside: u32,
+        slot: u32,
         outsider: u32,
         time: SimTime,
         left: f64,
     ) -> bool {
-        let Some(slot) = self.pool.seats.slot(inside) else {
-            return false;
-        };
         let state = self.bodies.get(outsider);
-        let other = self.bodies.get(inside);
+        let other = self.pool.seats.get(slot);
         let line = self.pool.seats.rig.lines[slot as usize];
         let rim = |w: f64, reach: f64| if w == 0.0 { 0.0 } else { w.abs() * reach };
         let motion = &state.motion;
@@ -440,11 +443,11 @@ impl World {
             MARGIN * state.reach.min(other.reach) + (closing + pull.length() * left) * left;
         let margin = margin + motion.left_out;
         let near = state.reach + other.reach + margin;
-        let (centre, theirs) = (motion.centre_at(time), self.pool.seats.pose(slot));
-        if (centre - theirs.position).length_squared() > near * near {
+        let apart = motion.centre_at(time) - self.pool.seats.centre(slot);
+        if apart.length_squared() > near * near {
             return false;
         }
-        let mine = motion.pose_at(time);
+        let (mine, theirs) = (motion.pose_at(time), self.pool.seats.pose(slot));
         let (pose_a, pose_b) = if self.colliders[first as usize].body == outsider {
             (mine, theirs)
         } else {

@@ -3,7 +3,7 @@
 use crate::World;
 use crate::heavy::BEARS;
 use crate::pairs::Pair;
-use crate::solver::{HEAVY, Often, RowId};
+use crate::solver::{HEAVY, Often};
 
 /// Sweeps without bias while bodies lie deep in each other, and under a load of [`BEARS`].
 const SWEEPS: usize = 30;
@@ -69,10 +69,10 @@ impl World {
         let places = bodies
             .iter()
             .flat_map(|index| &self.bodies.get(*index).pairs);
-        let contacts = places.flat_map(|place| &self.pairs.get(*place).contacts);
-        let rows: Vec<RowId> = contacts.filter_map(|contact| contact.row).collect();
         Often {
-            rows,
+            rows: places
+                .flat_map(|place| self.pairs.rows_of(*place))
+                .collect(),
             solve: solve - 1,
             relax: relax - 1,
         }

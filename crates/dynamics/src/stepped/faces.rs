@@ -9,7 +9,7 @@ use super::seats::{PART, pull_of};
 use super::watch::{KEPT_APART, MARGIN, Moving, RESERVE, farther};
 use crate::heavy::{BEARS, mass_ratio};
 use crate::narrow::{BURIED, carried};
-use crate::pairs::{Glance, Pair, PairContact, PairPoint};
+use crate::pairs::{Glance, Pair, PairContact, PairPoint, Rows};
 use crate::solver::{Row, RowId};
 use crate::{BodyKind, World};
 
@@ -82,8 +82,8 @@ impl World {
         };
         let pair = self.pairs.get(place);
         let bodies = pair.bodies;
-        let rows = !pair.contacts.is_empty();
-        let buried = all && rows && pair.buried;
+        let rows = Rows::of(&pair.contacts);
+        let buried = all && !rows.is_none() && pair.buried;
         let due = self.pairs.glance(place).due;
         let masses = self.pool.seats.masses(slots);
         let heavy = all && mass_ratio(masses) > BEARS;

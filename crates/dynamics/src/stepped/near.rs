@@ -5,7 +5,7 @@ use carom_math::SimTime;
 use super::seats::pull_of;
 use super::{REFRESH, Stepped};
 use crate::broad::PADDING;
-use crate::pairs::Pair;
+use crate::pairs::{Pair, Rows};
 use crate::{BodyKind, World};
 
 impl World {
@@ -58,7 +58,8 @@ impl World {
     pub(crate) fn leave(&mut self, index: u32, slot: u32) {
         for k in 0..self.bodies.get(index).pairs.len() {
             let place = self.bodies.get(index).pairs[k];
-            self.pairs.glance_mut(place).holds = false;
+            let glance = self.pairs.glance_mut(place);
+            (glance.holds, glance.rows) = (false, Rows::None);
             self.pool.release(self.pairs.get_mut(place));
         }
         self.pool.seats.dismiss(slot);
@@ -89,7 +90,7 @@ impl World {
             if sent.speed(line) * tick > leash
                 || sent.wandered(line) > leash
                 // Courses end, and others count on them.
-                || seats.get(slot).is_on_course()
+                || seats.is_on_course(slot)
             {
                 moved.push(sent.body);
             }
@@ -105,11 +106,9 @@ impl World {
                 continue;
             };
             if self.pool.seats.strayed(slot) {
-                let pairs = &self.pairs;
                 let places = self.bodies.get(index).pairs.iter();
-                let contacts = places.flat_map(|place| &pairs.get(*place).contacts);
-                let rows: Vec<_> = contacts.filter_map(|contact| contact.row).collect();
-                self.pool.seats.rebase(slot, rows.into_iter());
+                let rows = places.flat_map(|place| self.pairs.rows_of(*place));
+                self.pool.seats.rebase(slot, rows);
             }
             let boxed = !self.lacks_boxes(index);
             let seats = &mut self.pool.seats;

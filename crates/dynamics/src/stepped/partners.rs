@@ -46,7 +46,7 @@ impl World {
         let mut throng = core::mem::take(&mut self.pool.throng);
         let moving = self.pool.seats.moving();
         let shapes = moving
-            .filter(|(_, seat)| seat.is_on_course())
+            .filter(|(slot, _)| self.pool.seats.is_on_course(*slot))
             .flat_map(|(slot, seat)| {
                 let shapes = &self.bodies.get(seat.body).colliders;
                 shapes.iter().map(move |at| (slot, *at))
@@ -159,9 +159,8 @@ impl World {
 
     /// Whether a shape that is near may meet this one, and is no pair with it yet.
     fn comes(&self, at: u32, mine: Option<&Goer>, other: u32, time: SimTime) -> bool {
-        !self.is_pair(at, other)
-            && (mine.zip(self.goer_of(other, time)))
-                .is_none_or(|(mine, other)| self.may_meet(mine, &other))
+        let met = mine.zip(self.goer_of(other, time));
+        met.is_none_or(|(mine, other)| self.may_meet(mine, &other)) && !self.is_pair(at, other)
     }
 
     /// Whether two shapes are known to be a pair already; of a body that has many the other one is asked later.

@@ -2,7 +2,7 @@
 
 use carom_math::{Pose, SimTime, Vec2};
 
-use super::courses::Course;
+use super::courses::Courses;
 use super::sent::Sent;
 use super::stand::Stands;
 use crate::bodies::Bodies;
@@ -34,6 +34,8 @@ pub(crate) struct Seats {
     /// By slot, too: what all are asked within a tick.
     pub(super) sent: Vec<Sent>,
     pub(super) stands: Stands,
+    /// What boxes were stretched along.
+    pub(super) courses: Courses,
     /// Slot of each body.
     slots: Vec<u32>,
     count: usize,
@@ -60,8 +62,6 @@ pub(crate) struct Seat {
     pub(crate) rested: Vec2,
     /// How far it went since its boxes were made, at most, in m; infinite if they are those of a course.
     pub(crate) roamed: f64,
-    /// What its boxes were stretched along: of those who are quick, a few in most worlds.
-    pub(super) course: Option<Box<Course>>,
 }
 
 impl Seat {
@@ -79,15 +79,7 @@ impl Seat {
         base_angle: 0.0,
         rested: Vec2::NAN,
         roamed: 0.0,
-        course: None,
     };
-}
-
-impl Seat {
-    /// Whether its boxes are those of a course.
-    pub(super) const fn is_on_course(&self) -> bool {
-        self.course.is_some()
-    }
 }
 
 impl Seats {
@@ -100,6 +92,11 @@ impl Seats {
     pub(crate) fn slot(&self, body: u32) -> Option<u32> {
         let slot = self.slots.get(body as usize).copied();
         slot.filter(|slot| *slot != NONE)
+    }
+
+    /// Whether the boxes of a body are those of a course.
+    pub(super) fn is_on_course(&self, slot: u32) -> bool {
+        self.courses.of(slot).is_some()
     }
 
     /// How many slots there are, taken or not.
@@ -164,8 +161,8 @@ impl Seats {
             base_angle: state.turned + motion.turn(time - motion.start),
             rested: Vec2::NAN,
             roamed: f64::INFINITY,
-            course: None,
         };
+        self.courses.end(slot);
         if self.slots.len() <= body {
             self.slots.resize(body + 1, NONE);
         }
@@ -184,6 +181,7 @@ impl Seats {
             self.slots[seat.body as usize] = NONE;
         }
         *seat = Seat::EMPTY;
+        self.courses.end(slot);
         self.sent[slot as usize] = Sent::NOBODY;
         self.rig.dismiss(slot);
     }
@@ -204,6 +202,7 @@ impl Seats {
 
     fn resettle(&mut self) {
         let new = self.rig.compact();
+        self.courses.renumber(&new);
         let old = core::mem::take(&mut self.list);
         let sent = core::mem::take(&mut self.sent);
         self.list.resize(self.rig.lines.len(), Seat::EMPTY);
@@ -251,7 +250,7 @@ impl Seats {
         let d = pose.position - seat.base.position;
         let turn = (pose.rotation * seat.base.rotation.inverse()).angle();
         seat.base_angle = state.turned + state.motion.turn(time - state.motion.start) - turn;
-        seat.course = None;
+        self.courses.end(slot);
         self.rig.set_displacement(slot, d, turn);
     }
 

@@ -42,6 +42,15 @@ impl Sent {
         }
     }
 
+    pub(super) const fn finest(&self) -> f64 {
+        self.finest
+    }
+
+    /// It is near one of this reach.
+    pub(super) const fn minds(&mut self, size: f64) {
+        self.finest = self.finest.min(size);
+    }
+
     /// How far it may move before it is looked at again, in m.
     pub(super) const fn leash(&self) -> f64 {
         LEASH * self.finest
@@ -97,12 +106,6 @@ impl Seats {
             spin: line.w(),
             ..*sent
         };
-    }
-
-    /// A body is near one of this reach: what is little to it must be little to that one, too.
-    pub(super) fn minds(&mut self, slot: u32, size: f64) {
-        let sent = &mut self.sent[slot as usize];
-        sent.finest = sent.finest.min(size);
     }
 
     /// How a body moved when it was last asked about.

@@ -5,8 +5,9 @@ use carom_math::{Pose, Rot, Vec2};
 use super::seats::{Seat, Seats};
 use crate::solver::{Line, Pull};
 
-/// A body at the instant at which its pairs are asked.
+/// A body at the instant at which its pairs are asked: two cache lines, which most are read from out of order.
 #[derive(Clone, Copy, Debug)]
+#[repr(align(128))]
 pub(super) struct Stand {
     pub(super) centre: Vec2,
     /// In rad, with whole turns.
@@ -20,6 +21,8 @@ pub(super) struct Stand {
     /// Farthest point of its shapes, and farthest that a turn moves, in m.
     pub(super) reach: f64,
     pub(super) rim: f64,
+    /// Reach of the smallest that it was near to, as [`super::sent`] has it, in m.
+    finest: f64,
     /// Worked out for the first look.
     rotation: Option<Rot>,
     /// The asking that it is of; 0: none.
@@ -35,12 +38,13 @@ impl Stand {
         pull: Vec2::ZERO,
         reach: 0.0,
         rim: 0.0,
+        finest: 0.0,
         rotation: None,
         of: 0,
     };
 
     #[inline]
-    fn new(seat: &Seat, line: &Line, pull: Pull, of: u32) -> Self {
+    fn new(seat: &Seat, line: &Line, pull: Pull, finest: f64) -> Self {
         Self {
             centre: seat.base.position + line.d(),
             angle: seat.base_angle + line.turn(),
@@ -49,8 +53,9 @@ impl Stand {
             pull: pull.acceleration,
             reach: seat.reach,
             rim: seat.rim,
+            finest,
             rotation: None,
-            of,
+            of: 0,
         }
     }
 }
@@ -95,7 +100,7 @@ impl Seats {
             self.get(slot),
             &self.rig.lines[slot as usize],
             self.rig.pull(slot),
-            0,
+            self.sent(slot).finest(),
         )
     }
 
@@ -123,6 +128,16 @@ impl Seats {
             self.stands.list.resize(self.rig.lines.len(), Stand::NONE);
         }
         self.stands.list[at] = stand;
+    }
+
+    /// A body is near one of this reach: what is little to it must be little to that one, too.
+    #[inline]
+    pub(super) fn minds(&mut self, slot: u32, size: f64) {
+        let stand = &mut self.stands.list[slot as usize];
+        if size < stand.finest {
+            stand.finest = size;
+            self.sent[slot as usize].minds(size);
+        }
     }
 
     /// A body as it stood when [`Self::take_stand`] was last asked.

@@ -17,7 +17,7 @@ impl World {
         // Rows lie where chance put them; events come in order of pairs.
         let pairs = changed.iter().map(|id| self.pool.pair_of[id.0 as usize]);
         let mut places: Vec<u32> = pairs.collect();
-        places.sort_unstable_by_key(|place| self.pairs.get(*place).colliders);
+        places.sort_unstable_by_key(|place| self.pairs.shapes(*place));
         places.dedup();
         for place in places {
             self.judge(place, time);

@@ -10,8 +10,7 @@ use super::relative::{Against, QUICK, Since, WHIRL, fall};
 use super::stand::Stand;
 use crate::World;
 use crate::heavy::BEARS;
-use crate::pairs::Glance;
-use crate::solver::RowId;
+use crate::pairs::{Glance, Rows};
 
 /// How far a body may move before it is asked about, as a fraction of the smallest reach about it: 5 mm for boxes
 /// of 1 m.
@@ -102,13 +101,13 @@ fn hardly_moves(glance: &Glance, both: [&Stand; 2], ahead: f64, tick: f64) -> bo
         (both[1].angle - glance.angles.1).abs(),
     ];
     let moved = sum(apart - glance.apart) + about(turns, sum(glance.apart));
-    let free = if glance.rows {
+    let free = if glance.rows.is_none() {
+        glance.sought.max(glance.gap)
+    } else {
         if moved > KEPT_APART * size {
             return false;
         }
         glance.sought
-    } else {
-        glance.sought.max(glance.gap)
     };
     let fall = fall(sum(both[1].pull - both[0].pull), ahead + tick);
     free - moved > speed * ahead + fall + RESERVE * size
@@ -164,12 +163,17 @@ impl World {
 
     /// Reads the rows of pairs that are looked at next, all at once: each look would wait for its own.
     fn read_ahead(&self, places: impl Iterator<Item = u32>) {
-        let rows = places.filter_map(|place| self.pairs.get(place).contacts.first()?.row);
-        let rows: ArrayVec<RowId, AT_ONCE> = rows.collect();
         let rig = &self.pool.seats.rig;
-        // Where they lie first: what leads there is waited for side by side, too.
-        let lanes: ArrayVec<_, AT_ONCE> = rows.into_iter().map(|id| rig.lanes.at(id)).collect();
-        let sums = lanes.into_iter().map(|(wide, lane)| wide.sum_of(lane));
+        let known = places.filter_map(|place| {
+            let id = self.pairs.rows_of(place).next()?;
+            let contact = self.pairs.get(place).contacts.first()?;
+            // Where they lie first: what leads there is waited for side by side, too.
+            Some((contact, rig.lanes.at(id)))
+        });
+        let known: ArrayVec<_, AT_ONCE> = known.collect();
+        let sums = known
+            .into_iter()
+            .map(|(contact, (wide, lane))| contact.tangent_impulse + wide.sum_of(lane));
         black_box(sums.sum::<f64>());
     }
 
@@ -216,7 +220,8 @@ impl World {
     /// rows are swept often while that is so, and only a look tells. Asked at ticks.
     fn may_give(&self, place: u32) -> bool {
         let glance = self.pairs.glance(place);
-        if !(glance.rows && (glance.heavy || glance.buried))
+        if glance.rows.is_none()
+            || !(glance.heavy || glance.buried)
             || self.pool.until_look < self.settings.substeps_per_tick()
         {
             return false;
@@ -294,7 +299,7 @@ impl World {
         let strip = since.strip(glance.gap);
         let room = strip - closing * ahead - fall - RESERVE * size;
         if room > 0.0 {
-            return if glance.rows && room > LET_GO * size {
+            return if !glance.rows.is_none() && room > LET_GO * size {
                 Wish::LetGo
             } else {
                 Wish::Rest
@@ -324,19 +329,20 @@ impl World {
         // Whether its rows are what a look would make of them. Who has none has none that grow stale.
         let fresh = || {
             let strain = went + since.bent;
-            !glance.rows
+            glance.rows.is_none()
                 || !since.stale
                     && (strain <= KEPT_APART * size
-                        || strain <= KEPT * size && {
-                            // Asked of the rows: what callers were told last depends on when they looked.
-                            let contacts = &self.pairs.get(place).contacts;
-                            let mut rows = contacts.iter().filter_map(|contact| contact.row);
-                            rows.any(|id| rig.pushes(id))
-                        })
+                        // Asked of the rows: what callers were told last depends on when they looked.
+                        || strain <= KEPT * size
+                            && self.pairs.rows_of(place).any(|id| rig.pushes(id)))
         };
         // Nothing without a row is nearer than this.
         let bare = glance.sought - went;
-        let bare = if glance.rows { bare } else { bare.max(strip) };
+        let bare = if glance.rows.is_none() {
+            bare.max(strip)
+        } else {
+            bare
+        };
         if quick {
             return if lasts(bare - SPARE * size, speed) > 0 && fresh() {
                 Wish::Wait(1)
@@ -364,7 +370,7 @@ impl World {
         pair.fresh = false;
         let touched = pair.told;
         let glance = self.pairs.glance_mut(place);
-        (glance.rows, glance.sought) = (false, f64::NEG_INFINITY);
+        (glance.rows, glance.sought) = (Rows::None, f64::NEG_INFINITY);
         (glance.load, glance.buried) = (1.0, false);
         if touched {
             self.judge(place, time);
