@@ -5,6 +5,7 @@ mod a_changed_flyer_keeps_its_law;
 mod a_driver_that_is_let_go_falls_on_the_floor;
 mod a_few_heavy_bodies_are_no_crowd;
 mod a_field_beside_a_crowd_keeps_the_books;
+mod a_field_finds_who_is_held;
 mod a_flat_leg_of_an_h_is_not_pushed_sideways;
 mod a_gap_that_rounds_to_the_tolerance_closes;
 mod a_half_plane_is_no_disc;

@@ -265,6 +265,9 @@ impl World {
         for index in self.bodies.indices().collect::<Vec<_>>() {
             // A crowd books what its members had when they left, in the fields that they felt.
             self.quit(index, now);
+            // Nor does a closed form hold in other fields than it was found in.
+            let group = self.bodies.get(index).membership.group;
+            self.dissolve(group, now);
             self.bodies.change(index, now, |_| {});
         }
         let before = self.bodies.ledger(now).potential;
