@@ -37,4 +37,5 @@ mod what_glides_slowly_stops_at_a_wall;
 mod what_leaves_a_turning_group_is_not_called_exact;
 mod what_opens_under_a_ceiling_comes_back_to_it;
 mod who_is_clamped_is_not_struck_for_ever;
+mod who_is_crushed_is_struck_for_a_while;
 mod who_is_stopped_comes_from_where_it_was;

@@ -10,7 +10,7 @@ use crate::narrow::opening_speed;
 use crate::predict::price;
 use crate::resolve::apply;
 use crate::shock::Shock;
-use crate::{EventKind, Mode, PairMaterial, World};
+use crate::{BodyKind, EventKind, Mode, PairMaterial, World};
 
 /// What the impacts of one flyer may spend in a tick before the solver takes the rest, in losses of
 /// relative speed.
@@ -20,7 +20,7 @@ const BUDGET: f64 = 256.0;
 /// has used it up within a second.
 const EXACT_BUDGET: f64 = 4096.0;
 
-/// Least that an impact with a loss spends in [`Mode::Exact`]; one without spends nothing.
+/// Least that an impact with a loss spends in [`Mode::Exact`]; one without, on what is not driven, spends nothing.
 const EXACT_PRICE: f64 = 1.0 / 64.0;
 
 /// Speeds of the ends of a flat landing that differ by less, as a fraction, are one: roundings of a spin.
@@ -344,6 +344,14 @@ impl World {
         self.flyers.struck = None;
     }
 
+    fn is_driven(&self, (a, b): (u32, u32), time: SimTime) -> bool {
+        [a, b].into_iter().any(|index| {
+            let state = self.bodies.get(index);
+            state.kind == BodyKind::Kinematic
+                && (state.velocity_at(time) != Vec2::ZERO || state.spin_at(time) != 0.0)
+        })
+    }
+
     /// Counts an impact; whether one of the bodies has used up those of the present tick.
     pub(super) fn outruns(
         &mut self,
@@ -351,7 +359,10 @@ impl World {
         time: SimTime,
         material: &PairMaterial,
     ) -> bool {
-        let keeps = material.restitution >= 1.0 && material.friction == 0.0;
+        // Between what is driven and a wall impacts come ever faster though nothing is lost, and without end.
+        let keeps = material.restitution >= 1.0
+            && material.friction == 0.0
+            && !self.is_driven(impact.bodies, time);
         let (price, budget) = match self.settings.mode {
             Mode::Exact if keeps => return false,
             Mode::Exact => (price(material).max(EXACT_PRICE), EXACT_BUDGET),
