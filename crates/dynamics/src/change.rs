@@ -11,7 +11,6 @@ use carom_math::{Pose, SimTime, Vec2};
 use crate::error::{check_finite, check_vec2};
 use crate::flight::fly;
 use crate::flyers::Course;
-use crate::pairs::Rows;
 use crate::state::BodyState;
 use crate::{
     BodyDef, BodyError, BodyId, BodyKind, Field, Filter, Force, Impulse, Mode, PairMaterial, World,
@@ -220,8 +219,7 @@ impl World {
                 pair.material = material;
                 // Rows keep what they were made with.
                 self.pool.release(pair);
-                let glance = self.pairs.glance_mut(place);
-                (glance.holds, glance.rows) = (false, Rows::None);
+                self.pairs.glance_mut(place).forget();
             }
         }
         for index in ends {
@@ -449,7 +447,8 @@ impl World {
     /// Forces of the step that begins.
     pub(crate) fn begin_forces(&mut self) {
         let now = self.clock.now;
-        for index in self.forced.clone() {
+        let forced = self.forced.clone();
+        for &index in &forced {
             // Who glides is given back first, since that takes the motion for one that its group knows.
             self.hand_back_of(index, now);
             self.bodies.change(index, now, |_| {});
@@ -460,7 +459,7 @@ impl World {
             state.motion.acceleration += force * state.inverse_mass;
             state.motion.angular_acceleration += torque * state.inverse_inertia;
         }
-        for index in self.forced.clone() {
+        for index in forced {
             self.deflected(index, now);
         }
     }

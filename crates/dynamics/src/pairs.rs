@@ -157,6 +157,15 @@ impl Glance {
         }
     }
 
+    /// Its rows are taken, and the last look is worth nothing.
+    pub(crate) const fn forget(&mut self) {
+        (self.holds, self.rows) = (false, Rows::None);
+    }
+
+    pub(crate) const fn has_rows(&self) -> bool {
+        !matches!(self.rows, Rows::None)
+    }
+
     /// Whether there is a pair.
     pub(crate) const fn is_there(&self) -> bool {
         self.bodies.0 != u32::MAX
@@ -179,10 +188,6 @@ impl Rows {
             many if many.iter().any(|contact| contact.row.is_some()) => Self::Many,
             _ => Self::None,
         }
-    }
-
-    pub(crate) const fn is_none(self) -> bool {
-        matches!(self, Self::None)
     }
 }
 

@@ -153,12 +153,8 @@ impl Player {
         match call {
             Call::Remove(_) => world.remove(id),
             Call::Teleport(_, place) => {
-                if tidy && let Some(body) = world.body(id) {
-                    let shapes: Vec<Shape> =
-                        body.shapes().map(|(shape, _)| shape.clone()).collect();
-                    if !is_free(world, &shapes, place.pose(), Some(id)) {
-                        return Ok(());
-                    }
+                if tidy && overlaps_another(world, id, Some(place.pose())) {
+                    return Ok(());
                 }
                 world.teleport(id, place.pose())
             }
@@ -169,14 +165,14 @@ impl Player {
             },
             Call::SetKind(..) => world.set_kind(id, kind),
             Call::SetFilter(_, filter) => {
-                if tidy && overlaps_another(world, id) {
+                if tidy && overlaps_another(world, id, None) {
                     return Ok(());
                 }
                 world.set_filter(id, *filter)
             }
             Call::SetShapeFilter(_, shape, filter) => match world.body(id) {
                 Some(body) if *shape >= body.shapes().count() => Ok(()),
-                Some(_) if tidy && overlaps_another(world, id) => Ok(()),
+                Some(_) if tidy && overlaps_another(world, id, None) => Ok(()),
                 _ => world.set_shape_filter(id, *shape, *filter),
             },
             Call::SetPairSurface(_, other, _) => match self.ids[other % self.ids.len()] {
@@ -184,11 +180,7 @@ impl Player {
                 other => world.set_pair_material(id, other, surface),
             },
             Call::SetDamping(_, damping) => {
-                let damping = if world.settings().mode == Mode::Stepped {
-                    0.0
-                } else {
-                    *damping
-                };
+                let damping = taken(world, *damping);
                 world.set_damping(id, damping, damping)
             }
             Call::Apply(_, arm, push) => {
@@ -211,11 +203,7 @@ impl Player {
             return Ok(());
         }
         let still = piece.asleep;
-        let damping = if self.world.settings().mode == Mode::Stepped {
-            0.0
-        } else {
-            piece.damping
-        };
+        let damping = taken(&self.world, piece.damping);
         let def = BodyDef {
             kind,
             position: piece.place.at,
@@ -281,31 +269,26 @@ impl Player {
                     .set_shape_filter(id, 7, carom_dynamics::Filter::default())
                     .is_err()
             }
-            Restitution => {
-                let lively = Material {
-                    restitution: 1.5,
-                    ..Material::default()
-                };
-                self.world
-                    .insert(BodyDef::dynamic(), disc(0.5), lively)
-                    .is_err()
-            }
+            Restitution => self.refuses(Material {
+                restitution: 1.5,
+                ..Material::default()
+            }),
             NoShape => self
                 .world
                 .insert_compound(BodyDef::dynamic(), Vec::new())
                 .is_err(),
-            NoMass => {
-                let weightless = Material {
-                    density: 0.0,
-                    ..Material::default()
-                };
-                self.world
-                    .insert(BodyDef::dynamic(), disc(0.5), weightless)
-                    .is_err()
-            }
+            NoMass => self.refuses(Material {
+                density: 0.0,
+                ..Material::default()
+            }),
             Backwards => self.world.step(-0.1).refused.is_some(),
             Never => self.world.step_to_next_event(f64::NAN).refused.is_some(),
         })
+    }
+
+    fn refuses(&mut self, material: Material) -> bool {
+        let def = BodyDef::dynamic();
+        self.world.insert(def, disc(0.5), material).is_err()
     }
 }
 
@@ -384,13 +367,22 @@ fn is_free(world: &World, shapes: &[Shape], pose: Pose, but: Option<BodyId>) -> 
         })
 }
 
-/// Whether a body overlaps or touches another one that is not a wall.
-fn overlaps_another(world: &World, id: BodyId) -> bool {
+/// Whether a body overlaps or touches another one, where it is or would if it were at a pose.
+fn overlaps_another(world: &World, id: BodyId, there: Option<Pose>) -> bool {
     let Some(body) = world.body(id) else {
         return false;
     };
     let shapes: Vec<Shape> = body.shapes().map(|(shape, _)| shape.clone()).collect();
-    !is_free(world, &shapes, body.pose(), Some(id))
+    !is_free(world, &shapes, there.unwrap_or(body.pose()), Some(id))
+}
+
+/// Damping as the world takes it: stepped mode has none.
+fn taken(world: &World, damping: f64) -> f64 {
+    if world.settings().mode == Mode::Stepped {
+        0.0
+    } else {
+        damping
+    }
 }
 
 /// The shape of a form, as one.

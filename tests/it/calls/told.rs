@@ -82,7 +82,7 @@ impl Told {
     }
 
     fn shapes(&self, id: BodyId) -> usize {
-        // Who came and went between two steps has one shape at least.
+        // Who came and went between two steps has two shapes at most.
         self.shapes.get(&id).copied().unwrap_or(2)
     }
 

@@ -83,7 +83,7 @@ impl World {
         let pair = self.pairs.get(place);
         let bodies = pair.bodies;
         let rows = Rows::of(&pair.contacts);
-        let buried = all && !rows.is_none() && pair.buried;
+        let buried = all && rows != Rows::None && pair.buried;
         let due = self.pairs.glance(place).due;
         let masses = self.pool.seats.masses(slots);
         let heavy = all && mass_ratio(masses) > BEARS;

@@ -5,7 +5,7 @@ use carom_math::SimTime;
 use super::seats::pull_of;
 use super::{REFRESH, Stepped};
 use crate::broad::PADDING;
-use crate::pairs::{Pair, Rows};
+use crate::pairs::Pair;
 use crate::{BodyKind, World};
 
 impl World {
@@ -58,8 +58,7 @@ impl World {
     pub(crate) fn leave(&mut self, index: u32, slot: u32) {
         for k in 0..self.bodies.get(index).pairs.len() {
             let place = self.bodies.get(index).pairs[k];
-            let glance = self.pairs.glance_mut(place);
-            (glance.holds, glance.rows) = (false, Rows::None);
+            self.pairs.glance_mut(place).forget();
             self.pool.release(self.pairs.get_mut(place));
         }
         self.pool.seats.dismiss(slot);

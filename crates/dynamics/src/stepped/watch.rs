@@ -101,13 +101,13 @@ fn hardly_moves(glance: &Glance, both: [&Stand; 2], ahead: f64, tick: f64) -> bo
         (both[1].angle - glance.angles.1).abs(),
     ];
     let moved = sum(apart - glance.apart) + about(turns, sum(glance.apart));
-    let free = if glance.rows.is_none() {
-        glance.sought.max(glance.gap)
-    } else {
+    let free = if glance.has_rows() {
         if moved > KEPT_APART * size {
             return false;
         }
         glance.sought
+    } else {
+        glance.sought.max(glance.gap)
     };
     let fall = fall(sum(both[1].pull - both[0].pull), ahead + tick);
     free - moved > speed * ahead + fall + RESERVE * size
@@ -220,8 +220,7 @@ impl World {
     /// rows are swept often while that is so, and only a look tells. Asked at ticks.
     fn may_give(&self, place: u32) -> bool {
         let glance = self.pairs.glance(place);
-        if glance.rows.is_none()
-            || !(glance.heavy || glance.buried)
+        if !(glance.has_rows() && (glance.heavy || glance.buried))
             || self.pool.until_look < self.settings.substeps_per_tick()
         {
             return false;
@@ -299,7 +298,7 @@ impl World {
         let strip = since.strip(glance.gap);
         let room = strip - closing * ahead - fall - RESERVE * size;
         if room > 0.0 {
-            return if !glance.rows.is_none() && room > LET_GO * size {
+            return if glance.has_rows() && room > LET_GO * size {
                 Wish::LetGo
             } else {
                 Wish::Rest
@@ -329,7 +328,7 @@ impl World {
         // Whether its rows are what a look would make of them. Who has none has none that grow stale.
         let fresh = || {
             let strain = went + since.bent;
-            glance.rows.is_none()
+            !glance.has_rows()
                 || !since.stale
                     && (strain <= KEPT_APART * size
                         // Asked of the rows: what callers were told last depends on when they looked.
@@ -338,10 +337,10 @@ impl World {
         };
         // Nothing without a row is nearer than this.
         let bare = glance.sought - went;
-        let bare = if glance.rows.is_none() {
-            bare.max(strip)
-        } else {
+        let bare = if glance.has_rows() {
             bare
+        } else {
+            bare.max(strip)
         };
         if quick {
             return if lasts(bare - SPARE * size, speed) > 0 && fresh() {
