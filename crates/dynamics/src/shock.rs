@@ -27,7 +27,7 @@ const SWEEPS: u32 = 300;
 const STRIKES: usize = 64;
 
 /// Contacts with friction that are solved for to rounding; a pile takes more, and has them swept.
-const FEW: usize = 8;
+const FEW: usize = 16;
 
 /// Change of velocity in a sweep, as a fraction of the struck speed, at which it has converged.
 const CONVERGED: f64 = 1e-12;

@@ -184,7 +184,7 @@ fn full_box(mode: Mode, seed: u64) -> World {
 
 /// The same reports: energy in a full box.
 #[test]
-#[ignore = "fails: where impacts come fast the solver takes over, and gains up to 8e-6 of the energy in a tick"]
+#[ignore = "fails: where impacts come fast the solver takes over, and gains up to 2e-6 of the energy in a tick"]
 fn case_12_a_full_box_of_lively_balls_never_gains_energy() {
     let mut world = full_box(Mode::Hybrid, 12);
     let start = world.energy().mechanical();

@@ -51,6 +51,15 @@ impl ImpactBody {
         self.velocity + cross_scalar(self.spin, point - self.centre)
     }
 
+    /// The same body with nothing that moves it.
+    pub(super) fn at_rest(&self) -> Self {
+        Self {
+            velocity: Vec2::ZERO,
+            spin: 0.0,
+            ..*self
+        }
+    }
+
     /// Most speed that an impulse of 1 N·s at `point` gives that point, in m/s.
     pub(super) fn yields_at(&self, point: Vec2) -> f64 {
         self.inverse_mass + (point - self.centre).length_squared() * self.inverse_inertia

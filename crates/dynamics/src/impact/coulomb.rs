@@ -49,7 +49,7 @@ pub(super) enum Part {
 /// The impulses along all rows, in N·s, and the bodies after them.
 ///
 /// Whether the conditions hold to rounding comes last: false where none can.
-pub(super) fn stop(rows: &Rows<'_>) -> (Vec<f64>, bool) {
+pub(super) fn stop(rows: &Rows) -> (Vec<f64>, bool) {
     let start = rows.speeds(&vec![0.0; rows.len()]);
     let size = start.iter().fold(0.0, |most: f64, u| most.max(u.abs()));
     if size == 0.0 {
@@ -67,7 +67,12 @@ pub(super) fn stop(rows: &Rows<'_>) -> (Vec<f64>, bool) {
             let near = swept(rows);
             let parts = holding(rows, &near);
             let found = polished(rows, &near, &parts, None);
-            found.or_else(|| settled(near.clone(), parts)).ok_or(near)
+            let found = found.or_else(|| settled(near.clone(), parts));
+            match found {
+                Some(found) => Ok(found),
+                None if answers(rows, &near, fastest(rows)) => Ok(near),
+                None => Err(near),
+            }
         },
         Ok,
     );
@@ -82,7 +87,7 @@ pub(super) fn stop(rows: &Rows<'_>) -> (Vec<f64>, bool) {
 
 /// Guesses from given impulses on, until a guess stands.
 fn settled(
-    rows: &Rows<'_>,
+    rows: &Rows,
     start: &[f64],
     mut impulses: Vec<f64>,
     mut parts: Vec<Part>,
@@ -104,7 +109,7 @@ fn settled(
 }
 
 /// Scaled speeds after scaled impulses, to the rounding of K.
-fn along(rows: &Rows<'_>, start: &[f64], impulses: &[f64]) -> Vec<f64> {
+fn along(rows: &Rows, start: &[f64], impulses: &[f64]) -> Vec<f64> {
     let change = |(r, start): (usize, &f64)| {
         let row = &rows.k[r * rows.len()..];
         start + row.iter().zip(impulses).map(|(k, j)| k * j).sum::<f64>()
@@ -113,7 +118,7 @@ fn along(rows: &Rows<'_>, start: &[f64], impulses: &[f64]) -> Vec<f64> {
 }
 
 /// The guess that impulses stand for.
-fn holding(rows: &Rows<'_>, impulses: &[f64]) -> Vec<Part> {
+fn holding(rows: &Rows, impulses: &[f64]) -> Vec<Part> {
     let part = |(r, j): (usize, &f64)| {
         let limit = rows.limit(r, impulses);
         match rows.rows[r].bound {
@@ -129,7 +134,7 @@ fn holding(rows: &Rows<'_>, impulses: &[f64]) -> Vec<Part> {
 }
 
 /// The part of impulses, at most 1, up to which energy `j·u₀ + ½ jᵀ K j` only falls.
-fn dissipating(rows: &Rows<'_>, start: &[f64], impulses: &[f64]) -> f64 {
+fn dissipating(rows: &Rows, start: &[f64], impulses: &[f64]) -> f64 {
     let after = along(rows, start, impulses);
     let power = |speeds: &[f64]| -> f64 { impulses.iter().zip(speeds).map(|(j, u)| j * u).sum() };
     let (before, after) = (power(start), power(&after));
@@ -144,13 +149,7 @@ fn dissipating(rows: &Rows<'_>, start: &[f64], impulses: &[f64]) -> f64 {
 }
 
 /// Who holds, from `j − u`: within its bounds it is an impulse that held, beyond them a speed that is left.
-fn guess(
-    rows: &Rows<'_>,
-    impulses: &[f64],
-    speeds: &[f64],
-    before: &[Part],
-    none: f64,
-) -> Vec<Part> {
+fn guess(rows: &Rows, impulses: &[f64], speeds: &[f64], before: &[Part], none: f64) -> Vec<Part> {
     let mut parts = vec![Part::Off; rows.len()];
     for r in 0..rows.len() {
         if rows.scales[r] == 0.0 {
@@ -190,14 +189,14 @@ fn guess(
 
 /// The equations of a guess: `u_r = 0` wherever a row holds.
 struct System<'a> {
-    rows: &'a Rows<'a>,
+    rows: &'a Rows,
     parts: Vec<Part>,
     held: Vec<usize>,
     factored: Factored,
 }
 
 impl<'a> System<'a> {
-    fn new(rows: &'a Rows<'a>, parts: &[Part], compliance: f64) -> Option<Self> {
+    fn new(rows: &'a Rows, parts: &[Part], compliance: f64) -> Option<Self> {
         let size = rows.len();
         let held: Vec<usize> = (0..size).filter(|&r| parts[r] == Part::Hold).collect();
         let mut place = vec![usize::MAX; size];
@@ -293,7 +292,7 @@ fn sign(part: Part) -> Option<f64> {
 ///
 /// Each time by the least impulses that do it, so loads that rows share stay shared as they are.
 fn polished(
-    rows: &Rows<'_>,
+    rows: &Rows,
     near: &[f64],
     parts: &[Part],
     mut known: Option<System<'_>>,
@@ -348,14 +347,14 @@ fn polished(
 }
 
 /// Largest speed along a row before, in m/s.
-fn fastest(rows: &Rows<'_>) -> f64 {
+fn fastest(rows: &Rows) -> f64 {
     let speeds = rows.speeds(&vec![0.0; rows.len()]);
     let all = speeds.iter().zip(&rows.scales);
     all.fold(0.0, |most: f64, (u, scale)| most.max((u * scale).abs()))
 }
 
 /// Whether speeds meet the conditions; impulses are within their bounds already.
-fn answers(rows: &Rows<'_>, impulses: &[f64], fastest: f64) -> bool {
+fn answers(rows: &Rows, impulses: &[f64], fastest: f64) -> bool {
     let speeds = rows.speeds(impulses);
     let rounding = rows.rounding(impulses);
     (0..rows.len()).all(|r| {

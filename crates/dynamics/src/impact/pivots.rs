@@ -14,7 +14,7 @@ use crate::lemke::{Solution, complementary};
 
 /// Scaled impulses of a solution and who holds in it, for scaled speeds before; `None` if the pivots
 /// do not end at one.
-pub(super) fn pivoted(rows: &Rows<'_>, start: &[f64]) -> Option<(Vec<f64>, Vec<Part>)> {
+pub(super) fn pivoted(rows: &Rows, start: &[f64]) -> Option<(Vec<f64>, Vec<Part>)> {
     let layout = Layout::of(rows);
     let found = complementary(&layout.matrix(rows), &layout.constants(rows, start))?;
     Some((layout.impulses(rows, &found), layout.parts(rows, &found)))
@@ -27,7 +27,7 @@ struct Layout {
 }
 
 impl Layout {
-    fn of(rows: &Rows<'_>) -> Self {
+    fn of(rows: &Rows) -> Self {
         let mut size = 0;
         let first = rows.rows.iter().map(|row| {
             let place = size;
@@ -38,11 +38,11 @@ impl Layout {
         Self { first, size }
     }
 
-    fn is_push(rows: &Rows<'_>, r: usize) -> bool {
+    fn is_push(rows: &Rows, r: usize) -> bool {
         rows.rows[r].bound == Bound::Push
     }
 
-    fn matrix(&self, rows: &Rows<'_>) -> Vec<f64> {
+    fn matrix(&self, rows: &Rows) -> Vec<f64> {
         let n = self.size;
         let mut matrix = vec![0.0; n * n];
         for (r, &i) in self.first.iter().enumerate() {
@@ -68,7 +68,7 @@ impl Layout {
         matrix
     }
 
-    fn constants(&self, rows: &Rows<'_>, start: &[f64]) -> Vec<f64> {
+    fn constants(&self, rows: &Rows, start: &[f64]) -> Vec<f64> {
         let mut constants = vec![0.0; self.size];
         for (r, &i) in self.first.iter().enumerate() {
             constants[i] = start[r];
@@ -82,7 +82,7 @@ impl Layout {
         constants
     }
 
-    fn impulses(&self, rows: &Rows<'_>, found: &Solution) -> Vec<f64> {
+    fn impulses(&self, rows: &Rows, found: &Solution) -> Vec<f64> {
         let impulse = |(r, &i): (usize, &usize)| {
             if Self::is_push(rows, r) {
                 found.z[i]
@@ -93,7 +93,7 @@ impl Layout {
         self.first.iter().enumerate().map(impulse).collect()
     }
 
-    fn parts(&self, rows: &Rows<'_>, found: &Solution) -> Vec<Part> {
+    fn parts(&self, rows: &Rows, found: &Solution) -> Vec<Part> {
         let part = |(r, &i): (usize, &usize)| {
             if rows.scales[r] == 0.0 {
                 return Part::Off;

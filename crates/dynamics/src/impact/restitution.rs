@@ -108,15 +108,7 @@ impl Path<'_> {
 
     /// What slips is held back by its limit; what sticks is held, if the limit allows it.
     fn piece(&self) -> Piece {
-        let mut rates: Vec<ImpactBody> = self
-            .bodies
-            .iter()
-            .map(|body| ImpactBody {
-                velocity: Vec2::ZERO,
-                spin: 0.0,
-                ..*body
-            })
-            .collect();
+        let mut rates: Vec<ImpactBody> = self.bodies.iter().map(ImpactBody::at_rest).collect();
         let mut impulses: Impulses = self.presses.iter().map(|press| (*press, 0.0)).collect();
         let mut slips = vec![true; self.contacts.len()];
         let (mut rows, mut places) = (Vec::new(), Vec::new());

@@ -164,7 +164,7 @@ fn reflected(
 }
 
 /// Normal and tangential impulse of each contact.
-fn by_contact(rows: &Rows<'_>, impulses: &[f64]) -> Impulses {
+fn by_contact(rows: &Rows, impulses: &[f64]) -> Impulses {
     let mut all = Impulses::new();
     for (row, impulse) in rows.rows.iter().zip(impulses) {
         match (row.bound, all.last_mut()) {

@@ -221,24 +221,43 @@ fn a_rough_stack_that_is_struck_stops_as_one() {
     assert!(slip.fold(0.0, f64::max) < 1e-13);
 }
 
-/// Of random heaps, of up to eleven contacts with friction up to 1000: those without an answer.
-fn without_answer(decades: f64, count: usize) -> usize {
+/// Of 2000 random heaps, of up to eleven contacts with friction up to 1000: those without an answer. `flies`: where nothing
+/// is fixed, and all fly together while they hardly approach.
+fn without_answer(decades: f64, flies: bool) -> usize {
     let mut runner = TestRunner::deterministic();
     let strategy = heap(decades, 12);
     let fails = |_: &usize| {
-        let (bodies, contacts) = strategy.new_tree(&mut runner).unwrap().current();
+        let (mut bodies, contacts) = strategy.new_tree(&mut runner).unwrap().current();
+        if flies {
+            if bodies[0].inverse_mass == 0.0 {
+                (bodies[0].inverse_mass, bodies[0].inverse_inertia) = (1e-3, 1e-4);
+            }
+            for body in &mut bodies {
+                body.velocity = body.velocity * 1e-9 + vec2(30.0, -20.0);
+                body.spin *= 1e-9;
+            }
+        }
         let rows = Rows::new(&bodies, contact_rows(&bodies, &contacts));
         let (_, sure) = stop(&rows);
         !sure
     };
-    (0..count).filter(fails).count()
+    (0..2000).filter(fails).count()
 }
 
 #[test]
 fn nearly_every_heap_has_its_common_stop_found() {
     // The rest is swept, never gains energy, and says that it is not sure.
     for (decades, most) in [(0.5, 8), (3.0, 20), (6.0, 160)] {
-        let fails = without_answer(decades, 2000);
+        let fails = without_answer(decades, false);
+        assert!(fails <= most, "{fails} of 2000, masses of 10^±{decades} kg");
+    }
+}
+
+/// The rounding of velocities that all had in common hid what they approached by: 80 of 100 such heaps had no answer.
+#[test]
+fn a_heap_that_flies_has_its_common_stop_found_as_one_that_does_not() {
+    for (decades, most) in [(0.5, 60), (3.0, 100), (6.0, 160)] {
+        let fails = without_answer(decades, true);
         assert!(fails <= most, "{fails} of 2000, masses of 10^±{decades} kg");
     }
 }

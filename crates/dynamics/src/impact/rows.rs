@@ -60,6 +60,14 @@ impl Row {
         (b.velocity_of(self.point) - a.velocity_of(self.point)).dot(self.direction)
     }
 
+    /// What the rounding of both velocities may hide of it, in m/s.
+    fn hidden(&self, bodies: &[ImpactBody]) -> f64 {
+        let fastest = |body: &ImpactBody| {
+            body.velocity.length() + body.spin.abs() * (self.point - body.centre).length()
+        };
+        2.0 * f64::EPSILON * (fastest(&bodies[self.a]) + fastest(&bodies[self.b]))
+    }
+
     /// Applies ±`impulse`, in N·s.
     pub(super) fn push(&self, bodies: &mut [ImpactBody], impulse: f64) {
         let along = self.direction * impulse;
@@ -92,20 +100,25 @@ impl Row {
 }
 
 /// Rows of all contacts with the matrix K, scaled so that its diagonal is 1.
-pub(super) struct Rows<'a> {
-    pub(super) bodies: &'a [ImpactBody],
+///
+/// What bodies move with in common is left out: impulses are answered for to the rounding of what they change, however fast
+/// all of it goes.
+pub(super) struct Rows {
+    /// The bodies before any impulse, with no velocity.
+    pub(super) still: Vec<ImpactBody>,
+    /// Speeds before along the rows less those that count as none, in m/s, and what their rounding may hide.
+    before: Vec<f64>,
+    hidden: Vec<f64>,
     pub(super) rows: Vec<Row>,
     /// K row by row, each entry divided by both rows' scales.
     pub(super) k: Vec<f64>,
     /// √`K_rr`; an impulse times it is the scaled impulse, a speed by it the scaled speed.
     pub(super) scales: Vec<f64>,
-    /// Speeds that count as none, in m/s: what contacts are to open with.
-    asked: Vec<f64>,
 }
 
-impl<'a> Rows<'a> {
+impl Rows {
     /// Rows that nothing can move have a scale of 0, and get no impulse.
-    pub(super) fn new(bodies: &'a [ImpactBody], rows: Vec<Row>) -> Self {
+    pub(super) fn new(bodies: &[ImpactBody], rows: Vec<Row>) -> Self {
         let mut all = Self::loose(bodies, rows);
         let size = all.len();
         all.k = vec![0.0; size * size];
@@ -123,20 +136,23 @@ impl<'a> Rows<'a> {
     }
 
     /// Without the matrix: enough for sweeps, whatever their number.
-    pub(super) fn loose(bodies: &'a [ImpactBody], rows: Vec<Row>) -> Self {
+    pub(super) fn loose(bodies: &[ImpactBody], rows: Vec<Row>) -> Self {
         let own = rows.iter().map(|row| row.response(row, bodies).sqrt());
         Self {
             scales: own.collect(),
-            asked: vec![0.0; rows.len()],
+            before: rows.iter().map(|row| row.speed(bodies)).collect(),
+            hidden: rows.iter().map(|row| row.hidden(bodies)).collect(),
             k: Vec::new(),
-            bodies,
+            still: bodies.iter().map(ImpactBody::at_rest).collect(),
             rows,
         }
     }
 
-    /// Speeds are counted from these on, in m/s.
+    /// Speeds are counted from these on, in m/s: what contacts are to open with.
     pub(super) fn ask(&mut self, speeds: &[f64]) {
-        self.asked = speeds.to_vec();
+        for (before, asked) in self.before.iter_mut().zip(speeds) {
+            *before -= asked;
+        }
     }
 
     pub(super) fn len(&self) -> usize {
@@ -150,18 +166,18 @@ impl<'a> Rows<'a> {
         (0..self.len()).map(|r| self.speed(r, &after)).collect()
     }
 
-    /// Scaled speed along a row.
-    pub(super) fn speed(&self, r: usize, bodies: &[ImpactBody]) -> f64 {
+    /// Scaled speed along a row where impulses gave bodies these velocities.
+    pub(super) fn speed(&self, r: usize, given: &[ImpactBody]) -> f64 {
         if self.scales[r] > 0.0 {
-            (self.rows[r].speed(bodies) - self.asked[r]) / self.scales[r]
+            (self.before[r] + self.rows[r].speed(given)) / self.scales[r]
         } else {
             0.0
         }
     }
 
-    /// The bodies after scaled impulses.
-    pub(super) fn pushed(&self, impulses: &[f64]) -> Vec<ImpactBody> {
-        let mut after = self.bodies.to_vec();
+    /// The bodies with what scaled impulses give them.
+    fn pushed(&self, impulses: &[f64]) -> Vec<ImpactBody> {
+        let mut after = self.still.clone();
         for (k, impulse) in self.unscaled(impulses).enumerate() {
             if impulse != 0.0 {
                 self.rows[k].push(&mut after, impulse);
@@ -170,18 +186,19 @@ impl<'a> Rows<'a> {
         after
     }
 
-    /// What the rounding of scaled impulses is worth along each row, in m/s: large ones through a light body leave the
-    /// difference of what they do to it.
+    /// What the rounding of scaled impulses and of the velocities before is worth along each row, in m/s: large impulses
+    /// through a light body leave the difference of what they do to it.
     pub(super) fn rounding(&self, impulses: &[f64]) -> Vec<f64> {
-        let mut taken = vec![0.0; self.bodies.len()];
+        let mut taken = vec![0.0; self.still.len()];
         for (row, impulse) in self.rows.iter().zip(self.unscaled(impulses)) {
             taken[row.a] += impulse.abs();
             taken[row.b] += impulse.abs();
         }
-        let worth = |body: usize, point: Vec2| taken[body] * self.bodies[body].yields_at(point);
-        let of =
-            |row: &Row| 4.0 * f64::EPSILON * (worth(row.a, row.point) + worth(row.b, row.point));
-        self.rows.iter().map(of).collect()
+        let worth = |body: usize, point: Vec2| taken[body] * self.still[body].yields_at(point);
+        let of = |(row, hidden): (&Row, &f64)| {
+            4.0 * f64::EPSILON * (worth(row.a, row.point) + worth(row.b, row.point)) + hidden
+        };
+        self.rows.iter().zip(&self.hidden).map(of).collect()
     }
 
     /// Impulses in N·s.

@@ -12,9 +12,9 @@ const SWEEPS: usize = 300;
 const CONVERGED: f64 = 1e-12;
 
 /// Scaled impulses that come as near to the conditions as the sweeps do.
-pub(super) fn swept(rows: &Rows<'_>) -> Vec<f64> {
+pub(super) fn swept(rows: &Rows) -> Vec<f64> {
     let mut impulses = vec![0.0; rows.len()];
-    let mut bodies = rows.bodies.to_vec();
+    let mut bodies = rows.still.clone();
     let start = (0..rows.len()).map(|r| rows.speed(r, &bodies).abs());
     let size = start.fold(0.0, f64::max);
     for _ in 0..SWEEPS {
