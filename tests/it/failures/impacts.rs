@@ -182,20 +182,25 @@ fn full_box(mode: Mode, seed: u64) -> World {
     world
 }
 
-/// The same reports: energy in a full box.
+/// The same reports: energy in full boxes.
 #[test]
-#[ignore = "fails: where impacts come fast the solver takes over, and gains up to 2e-6 of the energy in a tick"]
+#[ignore = "fails: where impacts come fast the solver takes over, and gains up to 5e-5 of the energy in a tick"]
 fn case_12_a_full_box_of_lively_balls_never_gains_energy() {
-    let mut world = full_box(Mode::Hybrid, 12);
-    let start = world.energy().mechanical();
-    let (mut before, mut worst) = (start, 0.0_f64);
-    run(&mut world, 20.0, |world| {
-        let now = world.energy().mechanical();
-        worst = worst.max((now - before) / start);
-        before = now;
-    });
-    assert!(before < 0.6 * start);
-    assert!(worst < 1e-9, "{worst:e} of the energy gained in a tick");
+    let mut gains = Vec::new();
+    for seed in 1..=14 {
+        let mut world = full_box(Mode::Hybrid, seed);
+        let start = world.energy().mechanical();
+        let (mut before, mut worst) = (start, 0.0_f64);
+        run(&mut world, 20.0, |world| {
+            let now = world.energy().mechanical();
+            worst = worst.max((now - before) / start);
+            before = now;
+        });
+        assert!(before < 0.6 * start, "seed {seed}");
+        gains.push(worst);
+    }
+    let worst = gains.iter().copied().fold(0.0, f64::max);
+    assert!(worst < 1e-9, "{gains:?} of the energy gained in a tick");
 }
 
 /// The same reports: an impact that runs through a pile with friction gave back
