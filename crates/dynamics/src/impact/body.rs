@@ -51,7 +51,7 @@ impl ImpactBody {
         self.velocity + cross_scalar(self.spin, point - self.centre)
     }
 
-    /// The same body with nothing that moves it.
+    /// The same body where it is, without its motion.
     pub(super) fn at_rest(&self) -> Self {
         Self {
             velocity: Vec2::ZERO,

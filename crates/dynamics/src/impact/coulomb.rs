@@ -68,11 +68,9 @@ pub(super) fn stop(rows: &Rows) -> (Vec<f64>, bool) {
             let parts = holding(rows, &near);
             let found = polished(rows, &near, &parts, None);
             let found = found.or_else(|| settled(near.clone(), parts));
-            match found {
-                Some(found) => Ok(found),
-                None if answers(rows, &near, fastest(rows)) => Ok(near),
-                None => Err(near),
-            }
+            // What cannot be polished may be an answer to rounding as it is.
+            let as_it_is = || answers(rows, &near, fastest(rows)).then(|| near.clone());
+            found.or_else(as_it_is).ok_or(near)
         },
         Ok,
     );
