@@ -1,5 +1,6 @@
 //! The store of bodies, and the one door through which a motion changes.
 
+use core::hint::black_box;
 use std::sync::Arc;
 
 use carom_collision::Motion;
@@ -136,6 +137,15 @@ impl Bodies {
         }
     }
 
+    /// Reads the motions of bodies that are written next, all at once: each would wait for its own memory.
+    pub(crate) fn read_ahead(&self, bodies: impl Iterator<Item = u32>) {
+        let known = bodies.map(|index| {
+            let state = self.get(index);
+            state.motion.centre.x + state.motion.left_out + state.turned
+        });
+        black_box(known.sum::<f64>());
+    }
+
     pub(crate) fn is_alive(&self, index: u32) -> bool {
         self.alive[index as usize]
     }
@@ -219,6 +229,15 @@ impl Bodies {
     /// [`Self::version`] of every place.
     pub(crate) fn versions(&self) -> &[u32] {
         &self.versions
+    }
+
+    /// The motion of a body from `motion.start` on, turned by `angle` in all; the log keeps what it did till then.
+    pub(crate) fn go_on_as(&mut self, index: u32, motion: &Motion, angle: f64) {
+        let state = &mut self.list[index as usize];
+        self.history
+            .replaced(index, &state.motion, None, motion.start);
+        (state.motion, state.turned) = (*motion, angle);
+        state.set_lag(Lag::NONE);
     }
 
     /// What was predicted with a body's motion is stale from now on.

@@ -104,7 +104,7 @@ impl World {
                 ..Motion::resting(seat.base.position + before.d)
             };
             let (body, angle) = (seat.body, seat.base_angle + before.turn);
-            self.go_on_as(body, motion, angle);
+            self.bodies.go_on_as(body, &motion, angle);
             self.hold_way((body, before.slot), (before.d, before.turn), start, h);
             ways.push(Way {
                 body,

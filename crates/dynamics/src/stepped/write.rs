@@ -1,5 +1,6 @@
 //! Motions for everybody else: written where somebody asks, and once at the end of a step.
 
+use arrayvec::ArrayVec;
 use carom_collision::Motion;
 use carom_math::{SimTime, Vec2};
 
@@ -8,6 +9,9 @@ use crate::{BodyKind, World};
 
 /// Places that differ by less, as a part of the reach and the way, are one but for rounding.
 const SAME: f64 = 1e-12;
+
+/// So many bodies are read one after the other, before their motions are written.
+const AT_ONCE: usize = 32;
 
 impl World {
     /// Writes where a body is at `time`, for boxes.
@@ -28,18 +32,7 @@ impl World {
             angular_acceleration: pull.angular,
             left_out: 0.0,
         };
-        self.go_on_as(index, motion, angle);
-    }
-
-    /// The motion of a body from `motion.start` on, turned by `angle` in all; the log keeps what it did till then.
-    pub(super) fn go_on_as(&mut self, index: u32, motion: Motion, angle: f64) {
-        let old = self.bodies.get(index).motion;
-        self.bodies
-            .history
-            .replaced(index, &old, None, motion.start);
-        let state = self.bodies.get_mut(index);
-        (state.motion, state.turned) = (motion, angle);
-        state.set_lag(Lag::NONE);
+        self.bodies.go_on_as(index, &motion, angle);
     }
 
     /// Books what forces did since the motions of the bodies they act on were last told.
@@ -59,11 +52,24 @@ impl World {
 
     /// Motions of the last sub-step for all who move.
     pub(super) fn write_motions(&mut self) {
-        let start = self.clock.last();
-        for slot in 0..self.pool.seats.places() {
-            let kind = self.pool.seats.get(slot).kind;
+        let (start, all) = (self.clock.last(), self.moves_all());
+        let mut slots = 0..self.pool.seats.places();
+        loop {
+            let seats = &self.pool.seats;
             // Kinematic bodies fly beside a crowd.
-            if kind == BodyKind::Dynamic || kind == BodyKind::Kinematic && self.moves_all() {
+            let is_written = |slot: &u32| match seats.get(*slot).kind {
+                BodyKind::Dynamic => true,
+                BodyKind::Kinematic => all,
+                BodyKind::Fixed => false,
+            };
+            let batch: ArrayVec<u32, AT_ONCE> =
+                slots.by_ref().filter(is_written).take(AT_ONCE).collect();
+            if batch.is_empty() {
+                return;
+            }
+            self.bodies
+                .read_ahead(batch.iter().map(|slot| seats.get(*slot).body));
+            for slot in batch {
                 self.write_motion(slot, start);
             }
         }
@@ -129,7 +135,7 @@ impl World {
                 return self.write_even_motion(slot, from, (v, w), start);
             }
         }
-        self.go_on_as(index, motion, angle);
+        self.bodies.go_on_as(index, &motion, angle);
         self.bodies.renew(index);
     }
     /// The same of a body whose velocity changed from `before` within the sub-step: evenly from displacement and turn
@@ -154,7 +160,7 @@ impl World {
             ..Motion::resting(seat.base.position + from.0)
         };
         let (index, angle) = (seat.body, seat.base_angle + from.1);
-        self.go_on_as(index, motion, angle);
+        self.bodies.go_on_as(index, &motion, angle);
         self.bodies.get_mut(index).set_lag(lag);
         self.bodies.renew(index);
     }
