@@ -9,7 +9,7 @@
 use fearless_simd::{Level, Select, Simd, SimdBase, SimdMask, dispatch, f64x8};
 
 use super::transpose::{columns, rows};
-use super::wide::{LANES, Line, Wide};
+use super::wide::{LANES, Line, REGULAR, Wide};
 use super::{Law, Row};
 
 /// What closes faster than this is met, not at rest, in m/s: what pushes then is no guess for what will.
@@ -161,9 +161,13 @@ fn block<S: Simd, const RELAX: bool, const BELTS: bool, const OFTEN: bool>(
         return met;
     }
 
-    let k11 = f64x8::from_slice(simd, &wide.k11);
-    let k12 = f64x8::from_slice(simd, &wide.k12);
-    let k22 = f64x8::from_slice(simd, &wide.k22);
+    // The matrix of the points, which takes less time than to read it: see `Wide`.
+    let m = ma + mb;
+    let turns = ia * a1 + ib * b1;
+    let k11 = m + (ia * a1 * a1 + ib * b1 * b1);
+    let k12 = k11 + turns * l;
+    let k22 = k12 + (turns + (ia + ib) * l) * l;
+    let k12 = k12 * f64x8::splat(simd, REGULAR);
     let (u1, u2, s11, s22, omega);
     if RELAX {
         u1 = v1 + counts1 * reach;
@@ -249,7 +253,8 @@ fn block<S: Simd, const RELAX: bool, const BELTS: bool, const OFTEN: bool>(
         let at = f64x8::from_slice(simd, &wide.at);
         let bt = f64x8::from_slice(simd, &wide.bt);
         let jt = f64x8::from_slice(simd, &wide.jt);
-        let k = f64x8::from_slice(simd, &wide.kt);
+        let (eases_a, eases_b) = (ia * at, ib * bt);
+        let k = m + (eases_a * at + eases_b * bt);
         let inverse = one / k;
         let mut vt = nx * (bvy - avy) - ny * (bvx - avx) + (bt * bw - at * aw);
         if BELTS {
@@ -265,8 +270,8 @@ fn block<S: Simd, const RELAX: bool, const BELTS: bool, const OFTEN: bool>(
         avy -= py * ma;
         bvx += px * mb;
         bvy += py * mb;
-        aw -= at * dt * ia;
-        bw += bt * dt * ib;
+        aw -= eases_a * dt;
+        bw += eases_b * dt;
         // Slip at the end of the sub-step, and half of what friction changed it by: the mean, as
         // far as the row knows. What sticks makes no heat.
         let slip = vt + k * dt;

@@ -2,7 +2,7 @@
 //! operations, so that the bits are the same.
 
 use super::kernel::{HEAVY, MET, Pass};
-use super::wide::{LANES, Line, Wide};
+use super::wide::{LANES, Line, REGULAR, Wide};
 use super::{Law, Row};
 
 /// What [`super::kernel::sweep`] does.
@@ -81,7 +81,12 @@ fn row(pass: Pass, law: &Law, lines: &mut [Line], wide: &mut Wide, lane: usize, 
     let moved1 = nx * (bdx - adx) + ny * (bdy - ady) + b1 * bturn - a1 * aturn;
     let moved2 = moved1 + l * (bturn - aturn);
     let (gap1, gap2) = (wide.s1[lane] + moved1, wide.s2[lane] + moved2);
-    let (k11, k12, k22) = (wide.k11[lane], wide.k12[lane], wide.k22[lane]);
+    let m = ma + mb;
+    let turns = i_a * a1 + i_b * b1;
+    let k11 = m + (i_a * a1 * a1 + i_b * b1 * b1);
+    let k12 = k11 + turns * l;
+    let k22 = k12 + (turns + (i_a + i_b) * l) * l;
+    let k12 = k12 * REGULAR;
     let (u1, u2, s11, s22, omega);
     if relax {
         u1 = v1 + positive(gap1) * law.inverse_h;
@@ -164,7 +169,8 @@ fn row(pass: Pass, law: &Law, lines: &mut [Line], wide: &mut Wide, lane: usize, 
         } else {
             0.0
         };
-        let k = wide.kt[lane];
+        let (eases_a, eases_b) = (i_a * at, i_b * bt);
+        let k = m + (eases_a * at + eases_b * bt);
         let vt = nx * (bvy - avy) - ny * (bvx - avx) + (bt * bw - at * aw) - belt;
         let limit = wide.mu[lane] * (new1 + new2);
         let wanted = smaller(limit, jt - vt * (1.0 / k));
@@ -176,8 +182,8 @@ fn row(pass: Pass, law: &Law, lines: &mut [Line], wide: &mut Wide, lane: usize, 
         avy -= py * ma;
         bvx += px * mb;
         bvy += py * mb;
-        aw -= at * dt * i_a;
-        bw += bt * dt * i_b;
+        aw -= eases_a * dt;
+        bw += eases_b * dt;
         let slip = vt + k * dt;
         let most = slip.abs();
         let half = larger(-most, smaller(most, 0.5 * k * new));

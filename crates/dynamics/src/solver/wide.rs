@@ -7,8 +7,9 @@ use super::Row;
 /// Rows in a block, and lanes of a wide register.
 pub(crate) const LANES: usize = 8;
 
-/// How much of the product of its diagonal a regular matrix of two points has at least as its determinant.
-const SINGULAR: f64 = 1e-12;
+/// What is left of k₁₂: where nobody can turn both points are one, and may share the load as they like. As its
+/// determinant the matrix has 2e-12 of the product of its diagonal then.
+pub(super) const REGULAR: f64 = 1.0 - 1e-12;
 
 /// A body in the solver, in one cache line:
 ///
@@ -54,14 +55,17 @@ impl Line {
     }
 }
 
-/// Eight rows of one colour: no two of them move the same body. 152 bytes a row, of which a solving sweep reads 104.
+/// Eight rows of one colour: no two of them move the same body. 120 bytes a row, of which a solving sweep reads 80.
 ///
 /// The letters are those of [`Row`]. Both points lie on one face, l apart: a₂ = a₁ + l, b₂ = b₁ + l. `s` is a gap told so
-/// that it holds however the bodies move on; `k` is the unsoftened matrix of the points, and what friction feels:
+/// that it holds however the bodies move on. The unsoftened matrix of the points is worked out where it is needed, and so
+/// is what friction feels: large piles wait for memory.
 ///
 /// ```text
 /// gap_i = s_i + n·(d_B − d_A) + b_i θ_B − a_i θ_A
 /// k_ij  = m_A⁻¹ + m_B⁻¹ + I_A⁻¹ a_i a_j + I_B⁻¹ b_i b_j,   k_t alike with a_t and b_t
+/// k_12  = k_11 + (I_A⁻¹ a_1 + I_B⁻¹ b_1) l
+/// k_22  = k_12 + (I_A⁻¹ a_1 + I_B⁻¹ b_1 + (I_A⁻¹ + I_B⁻¹) l) l
 /// ```
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
@@ -73,9 +77,6 @@ pub(crate) struct Wide {
     pub(crate) a1: [f64; LANES],
     pub(crate) b1: [f64; LANES],
     pub(crate) l: [f64; LANES],
-    pub(crate) k11: [f64; LANES],
-    pub(crate) k12: [f64; LANES],
-    pub(crate) k22: [f64; LANES],
     pub(crate) s1: [f64; LANES],
     pub(crate) s2: [f64; LANES],
     pub(crate) j1: [f64; LANES],
@@ -83,7 +84,6 @@ pub(crate) struct Wide {
     /// From here on: friction, for relaxing sweeps.
     pub(crate) at: [f64; LANES],
     pub(crate) bt: [f64; LANES],
-    pub(crate) kt: [f64; LANES],
     pub(crate) mu: [f64; LANES],
     pub(crate) jt: [f64; LANES],
     /// Read only where some surface runs along.
@@ -100,12 +100,8 @@ impl Wide {
         a1: [0.0; LANES],
         b1: [0.0; LANES],
         l: [1.0; LANES],
-        k11: [2.0; LANES],
-        k12: [2.0; LANES],
-        k22: [4.0; LANES],
         at: [0.0; LANES],
         bt: [0.0; LANES],
-        kt: [2.0; LANES],
         mu: [0.0; LANES],
         s1: [Row::OPEN; LANES],
         s2: [Row::OPEN; LANES],
@@ -120,15 +116,6 @@ impl Wide {
         (self.nx[lane], self.ny[lane]) = (row.n.x, row.n.y);
         (self.a1[lane], self.b1[lane]) = (row.a[0], row.b[0]);
         self.l[lane] = row.a[1] - row.a[0];
-        let m = a.inverse_mass() + b.inverse_mass();
-        let (ia, ib) = (a.inverse_inertia(), b.inverse_inertia());
-        let k = |i: usize, j: usize| m + ia * row.a[i] * row.a[j] + ib * row.b[i] * row.b[j];
-        let (k11, k12, k22) = (k(0, 0), k(0, 1), k(1, 1));
-        // Where nobody can turn both points are one, and may share the load as they like.
-        let singular = k11 * k22 - k12 * k12 <= SINGULAR * k11 * k22;
-        let regular = if singular { 1.0 + SINGULAR } else { 1.0 };
-        (self.k11[lane], self.k12[lane], self.k22[lane]) = (k11 * regular, k12, k22 * regular);
-        self.kt[lane] = m + ia * row.at * row.at + ib * row.bt * row.bt;
         (self.at[lane], self.bt[lane]) = (row.at, row.bt);
         self.mu[lane] = row.mu;
         let moved = row.n.dot(b.d() - a.d());
@@ -213,31 +200,26 @@ impl Wide {
         }
     }
 
-    fn columns(&self) -> [&[f64; LANES]; 18] {
+    fn columns(&self) -> [&[f64; LANES]; 14] {
         [
-            &self.nx, &self.ny, &self.a1, &self.b1, &self.l, &self.k11, &self.k12, &self.k22,
-            &self.s1, &self.s2, &self.j1, &self.j2, &self.at, &self.bt, &self.kt, &self.mu,
-            &self.jt, &self.belt,
+            &self.nx, &self.ny, &self.a1, &self.b1, &self.l, &self.s1, &self.s2, &self.j1,
+            &self.j2, &self.at, &self.bt, &self.mu, &self.jt, &self.belt,
         ]
     }
 
-    fn columns_mut(&mut self) -> [&mut [f64; LANES]; 18] {
+    fn columns_mut(&mut self) -> [&mut [f64; LANES]; 14] {
         [
             &mut self.nx,
             &mut self.ny,
             &mut self.a1,
             &mut self.b1,
             &mut self.l,
-            &mut self.k11,
-            &mut self.k12,
-            &mut self.k22,
             &mut self.s1,
             &mut self.s2,
             &mut self.j1,
             &mut self.j2,
             &mut self.at,
             &mut self.bt,
-            &mut self.kt,
             &mut self.mu,
             &mut self.jt,
             &mut self.belt,
