@@ -183,6 +183,10 @@ impl World {
     /// parted are let go.
     pub(super) fn look_at_pairs(&mut self, moved: &mut Vec<u32>, time: SimTime, parts: bool) {
         self.pool.seats.stands.renew();
+        // Where most are asked about they are read as they lie, and not in the order in which pairs name them.
+        if 2 * moved.len() > self.pool.seats.len() {
+            self.pool.seats.take_all_stands();
+        }
         let parts = parts && !self.moves_all();
         let mut round = core::mem::take(&mut self.pool.round);
         round.begin();

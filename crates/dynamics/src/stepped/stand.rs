@@ -120,6 +120,13 @@ impl Seats {
         }
     }
 
+    /// Stands of all, one after the other as they lie.
+    pub(super) fn take_all_stands(&mut self) {
+        for slot in 0..self.places() {
+            self.take_stand_anew(slot);
+        }
+    }
+
     fn take_stand_anew(&mut self, slot: u32) {
         let mut stand = self.stand_of(slot);
         stand.of = self.stands.of;

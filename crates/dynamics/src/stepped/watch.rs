@@ -134,9 +134,12 @@ impl World {
                 return;
             }
             // What one is asked does not wait for what another answers, so that memory is read side by side.
-            let asked: ArrayVec<_, AT_ONCE> =
-                places.iter().map(|place| self.asked(*place)).collect();
-            let wishes: ArrayVec<_, AT_ONCE> = (places.iter().zip(asked))
+            let known: ArrayVec<_, AT_ONCE> =
+                places.iter().map(|place| self.slots_of(*place)).collect();
+            for slots in known.iter().flatten() {
+                self.pool.seats.take_stand(*slots);
+            }
+            let wishes: ArrayVec<_, AT_ONCE> = (places.iter().zip(known))
                 .map(|(place, slots)| self.wish(*place, slots))
                 .collect();
             let looks = places.iter().zip(&wishes);
@@ -260,16 +263,15 @@ impl World {
         self.wish_at_length(place, &since, &quick.against)
     }
 
-    /// Where the bodies of a pair sit, and their stands; `None`: nothing is known of it.
+    /// Where the bodies of a pair sit; `None`: nothing is known of it.
     #[inline]
-    fn asked(&mut self, place: u32) -> Option<[u32; 2]> {
+    fn slots_of(&self, place: u32) -> Option<[u32; 2]> {
         let glance = self.pairs.glance(place);
-        let seats = &mut self.pool.seats;
+        let seats = &self.pool.seats;
         let slots = [glance.bodies.0, glance.bodies.1].map(|index| seats.slot(index));
         let (true, [Some(a), Some(b)]) = (glance.holds, slots) else {
             return None;
         };
-        seats.take_stand([a, b]);
         Some([a, b])
     }
 
@@ -434,9 +436,10 @@ mod tests {
             let places: Vec<u32> = bodies.flat_map(|state| &state.pairs).copied().collect();
             world.pool.seats.stands.renew();
             for place in places {
-                let Some(slots) = world.asked(place) else {
+                let Some(slots) = world.slots_of(place) else {
                     continue;
                 };
+                world.pool.seats.take_stand(slots);
                 let both = slots.map(|slot| world.pool.seats.stand(slot));
                 let glance = world.pairs.glance(place);
                 if hardly_moves(glance, both, world.ahead(), world.settings.tick) {
