@@ -22,6 +22,8 @@ use super::lanes::{Lanes, RowId};
 use super::wide::Line;
 use super::{Row, SolverBody};
 pub(crate) use local::Often;
+#[cfg(test)]
+pub(crate) use substep::NOBODY;
 
 /// The bodies of a solver, their rows, and the warm start.
 #[derive(Clone, Debug)]
@@ -45,6 +47,8 @@ pub(crate) struct Rig {
     pub(crate) cuts: bool,
     /// Rows over all lines when the zones were made.
     crossing: usize,
+    /// Zones are swept from the last to the first.
+    back: bool,
     free: Vec<u32>,
     /// What friction turned into heat, in J.
     pub(crate) heat: f64,
@@ -119,6 +123,7 @@ impl Default for Rig {
             bounced: Vec::new(),
             cuts: cfg!(test),
             crossing: 0,
+            back: false,
             free: Vec::new(),
             heat: 0.0,
         }

@@ -5,7 +5,7 @@ use fearless_simd::Level;
 use proptest::prelude::*;
 
 use super::kernel::{Pass, sweep};
-use super::rig::{Member, Pull};
+use super::rig::{Member, NOBODY, Pull};
 use super::{Law, Often, Rig, Row, plain};
 use crate::Softness;
 
@@ -50,7 +50,7 @@ fn a_column_comes_to_rest_and_carries_its_weight() {
     let law = Law::new(&Softness::default(), 1.0 / 360.0);
     let (mut rig, slots, rows) = column(10);
     for _ in 0..3600 {
-        rig.step(&law, &Often::default(), |_| ());
+        rig.step(&law, &Often::default(), NOBODY);
     }
     rig.lanes.check(&rig.lines);
     for (i, (slot, id)) in slots[1..].iter().zip(&rows).enumerate() {
@@ -83,7 +83,7 @@ fn free_flight_is_the_parabola() {
         },
     });
     for _ in 0..240 {
-        rig.step(&law, &Often::default(), |_| ());
+        rig.step(&law, &Often::default(), NOBODY);
     }
     let line = rig.lines[slot as usize];
     assert!(
@@ -344,7 +344,7 @@ proptest! {
                     let after: Vec<[f64; 2]> = ids.iter().map(|id| rig.row(*id).j).collect();
                     prop_assert_eq!(before, after);
                 }
-                _ => rig.step(&law, &Often::default(), |_| ()),
+                _ => rig.step(&law, &Often::default(), NOBODY),
             }
             rig.lanes.check(&rig.lines);
             prop_assert!(warmth_error(&rig, &slots) < 1e-10, "after {op}: {:e}", warmth_error(&rig, &slots));
@@ -369,7 +369,7 @@ proptest! {
         // The impulses that the rows came with are not part of the velocities yet.
         let before = momentum(&rig, &slots);
         for _ in 0..20 {
-            rig.step(&law, &Often::default(), |_| ());
+            rig.step(&law, &Often::default(), NOBODY);
             for id in &ids {
                 let row = rig.row(*id);
                 prop_assert!(row.j[0] >= 0.0 && row.j[1] >= 0.0);
@@ -393,7 +393,7 @@ fn a_rocking_face_is_stopped_at_the_corner_that_comes_down() {
     row.gap = [0.06, 0.0];
     rig.rewrite(rows[0], &row);
     rig.set_velocity(slots[1], vec2(0.0, -0.5), -1.0);
-    rig.step(&law, &Often::default(), |_| ());
+    rig.step(&law, &Often::default(), NOBODY);
     let [_, opening, _] = rig.seen(&rig.row(rows[0]));
     // Pushed out softly: it may open a little, by no more than the push-out of its travel. It closes by no more
     // than rounding.
@@ -427,7 +427,7 @@ fn a_body_of_a_hundred_contacts_finds_room() {
         })
         .collect();
     rig.lanes.check(&rig.lines);
-    rig.step(&law, &Often::default(), |_| ());
+    rig.step(&law, &Often::default(), NOBODY);
     for id in ids.into_iter().step_by(3) {
         rig.remove(id);
         rig.lanes.check(&rig.lines);
@@ -451,7 +451,7 @@ fn the_number_of_threads_changes_no_bit() {
             solve: 1,
             relax: 1,
         };
-        let mut run = || (0..50).for_each(|_| rig.step(&law, &often, |_| ()));
+        let mut run = || (0..50).for_each(|_| rig.step(&law, &often, NOBODY));
         match threads {
             0 => run(),
             _ => pool.expect("threads").install(run),

@@ -99,6 +99,11 @@ impl Bounces {
         }
     }
 
+    /// Whether somebody is met, or hidden, in this sub-step.
+    pub(crate) const fn owe(&self) -> bool {
+        !(self.armed.is_empty() && self.hidden.is_empty())
+    }
+
     /// After a sub-step: the opening speeds that are owed.
     pub(crate) fn pay(&mut self, rig: &mut Rig, h: f64) {
         for (id, gaps) in self.hidden.drain(..) {

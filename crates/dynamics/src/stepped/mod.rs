@@ -39,7 +39,7 @@ use carom_collision::PartManifold;
 use carom_math::{SimTime, Vec2};
 
 use crate::pairs::PairContact;
-use crate::solver::RowId;
+use crate::solver::{Rig, RowId};
 use crate::{Mode, World};
 use bounce::Bounces;
 use cores::Cores;
@@ -170,7 +170,8 @@ impl World {
             // Rows of a crowd keep their impulses from step to step, those that have just met too.
             rig.met.clear();
         }
-        rig.step(&self.law, &often, |rig| bounces.pay(rig, h));
+        let pay = bounces.owe().then_some(|rig: &mut Rig| bounces.pay(rig, h));
+        rig.step(&self.law, &often, pay);
         self.pool.stirred |= !rig.met.is_empty();
         self.pool.since_rest += h;
         self.pool.since_idle += 1;

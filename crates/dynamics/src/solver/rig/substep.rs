@@ -1,10 +1,10 @@
 //! A sub-step: zone by zone, and over all lines what crosses from one to another.
 //!
 //! ```text
-//! in zones        warm, solve ─┐           ┌─ displace, relax ─┐
-//! over all lines               └─ solve ───┘                   └─ relax
+//! in zones        warm, solve ─┐           ┌─ displace, relax ─┐         ┌─ second order
+//! over all lines               └─ solve ───┘                   └─ relax ─┘
 //! ```
-//! What a zone does depends on nothing but itself, so neither threads nor their number change a bit.
+//! Where no row crosses from zone to zone and nobody bounces, all of it is one piece, zone by zone. What a zone does depends on nothing but itself, so neither threads nor their number change a bit.
 
 use fearless_simd::Level;
 
@@ -13,6 +13,10 @@ use crate::solver::Law;
 use crate::solver::coast::{self, Bodies};
 use crate::solver::kernel::{Pass, sweep};
 use crate::solver::zone::Zone;
+
+/// Nobody bounces.
+#[cfg(test)]
+pub(crate) const NOBODY: Option<fn(&mut Rig)> = None;
 
 /// Some bodies in one stretch, and the rows among them.
 struct Work<'a> {
@@ -59,7 +63,12 @@ impl Rig {
     /// One sub-step. Displacements grow by it; rows are read where they are.
     ///
     /// `bounce` may change velocities before displacements are made of second order.
-    pub(crate) fn step(&mut self, law: &Law, often: &Often, bounce: impl FnOnce(&mut Self)) {
+    pub(crate) fn step(
+        &mut self,
+        law: &Law,
+        often: &Often,
+        bounce: Option<impl FnOnce(&mut Self)>,
+    ) {
         let (level, h) = (self.level, law.h);
         let pass = if self.lanes.has_belts() {
             Pass::RelaxBelts
@@ -70,12 +79,16 @@ impl Rig {
         self.follow();
         // Where no row crosses from zone to zone nothing has to wait for anything.
         let alone = self.lanes.loose() == 0 && often.rows.is_empty();
+        let in_one = alone && bounce.is_none();
         self.in_zones(|work| {
             coast::pull_and_warm(level, &mut work.bodies, h);
             work.solve(level, law);
             if alone {
                 work.displace(level, law);
                 work.relax(level, law, pass);
+            }
+            if in_one {
+                coast::second_order(level, &mut work.bodies, h);
             }
         });
         self.outside(|bodies, _, _| coast::pull_and_warm(level, bodies, h));
@@ -89,8 +102,12 @@ impl Rig {
             self.over_all(|work| work.relax(level, law, pass));
         }
         self.collect();
-        bounce(self);
-        self.in_zones(|work| coast::second_order(level, &mut work.bodies, h));
+        if let Some(bounce) = bounce {
+            bounce(self);
+        }
+        if !in_one {
+            self.in_zones(|work| coast::second_order(level, &mut work.bodies, h));
+        }
         self.outside(|bodies, _, _| coast::second_order(level, bodies, h));
     }
 
@@ -130,6 +147,11 @@ impl Rig {
             let (bodies, others) = rest.split_at(zone.count as usize);
             rest = others;
             works.push(Work { bodies, zone });
+        }
+        // Zones that were swept last are in the cache yet.
+        self.back = !self.back;
+        if self.back {
+            works.reverse();
         }
         each(&mut works, f);
     }
