@@ -41,6 +41,7 @@ impl World {
         self.stopwatch.start();
         let start = self.clock.now;
         let end = start + dt;
+        self.unseen_until = if stop_at_event { start } else { end };
         if dt > 0.0 {
             self.begin_forces();
             // What the solver gave them lasts to the end of its sub-step, in whichever step that is.

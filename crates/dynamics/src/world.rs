@@ -69,6 +69,8 @@ pub struct World {
     pub(crate) stepped: Vec<u32>,
     pub(crate) events: Events,
     pub(crate) report: StepReport,
+    /// Nobody asks for anything before this instant.
+    pub(crate) unseen_until: SimTime,
     /// What the impacts of the present sub-step spent of its budget.
     pub(crate) spent: f64,
     /// Bodies that the solver moves until the present sub-step ends.
@@ -113,6 +115,7 @@ impl World {
             stepped: Vec::new(),
             events: Events::new(settings.events),
             report: StepReport::default(),
+            unseen_until: SimTime::ZERO,
             spent: 0.0,
             handed_over: 0,
             forced: Vec::new(),

@@ -40,6 +40,11 @@ impl Flyers {
         self.queue.len()
     }
 
+    /// Whether nothing is ahead of anybody.
+    pub(crate) fn is_idle(&self) -> bool {
+        self.queue.len() == 0 && self.aside.first().is_none()
+    }
+
     /// When the next entry is due, if that is by `limit`.
     pub(crate) fn next(
         &mut self,

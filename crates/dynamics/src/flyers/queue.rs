@@ -197,7 +197,6 @@ impl Queue {
     }
 
     /// How many entries there are, stale or not.
-    #[cfg(test)]
     pub(crate) fn len(&self) -> usize {
         self.due.len() + self.days.count() + self.later.len()
     }

@@ -9,6 +9,7 @@
 //! ```
 //! Everything that changes a row, a velocity or a mass keeps it.
 
+mod ahead;
 mod local;
 mod restitution;
 mod substep;
@@ -21,6 +22,7 @@ use super::coast::Quad;
 use super::lanes::{Lanes, RowId};
 use super::wide::Line;
 use super::{Row, SolverBody};
+pub(crate) use ahead::Ahead;
 pub(crate) use local::Often;
 #[cfg(test)]
 pub(crate) use substep::NOBODY;

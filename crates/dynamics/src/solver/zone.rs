@@ -5,7 +5,7 @@
 
 use super::kernel::Met;
 use super::lanes::{COLOURS, RowId};
-use super::rig::Swift;
+use super::rig::{Ahead, Swift};
 use super::wide::{LANES, Wide};
 
 /// Rows that only know the lines of a stretch.
@@ -26,6 +26,8 @@ pub(crate) struct Zone {
     pub(super) met: Vec<Met>,
     pub(super) swift: Vec<Swift>,
     pub(super) heat: f64,
+    /// What it was before several sub-steps that were made at once.
+    pub(super) ahead: Ahead,
 }
 
 impl Zone {
@@ -40,6 +42,7 @@ impl Zone {
             met: Vec::new(),
             swift: Vec::new(),
             heat: 0.0,
+            ahead: Ahead::default(),
         }
     }
 
@@ -107,6 +110,11 @@ impl Zone {
         };
         let there = colour != COLOURS || lane == 0;
         self.owners[colour].get(index).copied().filter(|_| there)
+    }
+
+    /// Whether somebody was met, or went far.
+    pub(super) fn has_news(&self) -> bool {
+        !(self.met.is_empty() && self.swift.is_empty())
     }
 
     /// Rows that were met in the last solving sweep.

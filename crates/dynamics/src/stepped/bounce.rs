@@ -99,6 +99,11 @@ impl Bounces {
         }
     }
 
+    /// Whether no row bounces, whatever it meets.
+    pub(crate) const fn is_idle(&self) -> bool {
+        self.rows.len() == self.gone
+    }
+
     /// Whether somebody is met, or hidden, in this sub-step.
     pub(crate) const fn owe(&self) -> bool {
         !(self.armed.is_empty() && self.hidden.is_empty())

@@ -7,6 +7,7 @@
 //! During a step bodies live in the solver's lines, and pairs in its rows. Motions are written once,
 //! at the end; a look does nothing for a pair that kept its relative pose.
 
+mod ahead;
 mod among;
 mod bounce;
 mod boxes;
@@ -41,6 +42,7 @@ use carom_math::{SimTime, Vec2};
 use crate::pairs::PairContact;
 use crate::solver::{Rig, RowId};
 use crate::{Mode, World};
+use ahead::Hurry;
 use bounce::Bounces;
 use cores::Cores;
 use crowd::Crowd;
@@ -87,6 +89,7 @@ pub(crate) struct Stepped {
     watched: Vec<(u32, u32)>,
     /// Somebody was struck since the last tick began.
     stirred: bool,
+    hurry: Hurry,
     /// Cores of shapes, for those who move far in a sub-step.
     cores: Cores,
     depths: Depths,
@@ -162,6 +165,18 @@ impl World {
     }
 
     fn substep(&mut self) {
+        if !self.is_ahead() {
+            self.make_substep();
+        }
+        self.pool.since_rest += self.clock.h;
+        self.pool.since_idle += 1;
+        let rig = &self.pool.seats.rig;
+        self.report.rows += rig.lanes.len() as u64;
+        self.report.handed_over += self.pool.seats.len() as u64;
+        self.stopwatch.lap(|p| &mut p.solver);
+    }
+
+    fn make_substep(&mut self) {
         let often = self.rows_in_need();
         let (rig, bounces) = (&mut self.pool.seats.rig, &mut self.pool.bounces);
         let h = self.clock.h;
@@ -173,12 +188,6 @@ impl World {
         let pay = bounces.owe().then_some(|rig: &mut Rig| bounces.pay(rig, h));
         rig.step(&self.law, &often, pay);
         self.pool.stirred |= !rig.met.is_empty();
-        self.pool.since_rest += h;
-        self.pool.since_idle += 1;
         self.stop_swift();
-        let rig = &self.pool.seats.rig;
-        self.report.rows += rig.lanes.len() as u64;
-        self.report.handed_over += self.pool.seats.len() as u64;
-        self.stopwatch.lap(|p| &mut p.solver);
     }
 }

@@ -19,25 +19,25 @@ use crate::solver::zone::Zone;
 pub(crate) const NOBODY: Option<fn(&mut Rig)> = None;
 
 /// Some bodies in one stretch, and the rows among them.
-struct Work<'a> {
-    bodies: Bodies<'a>,
-    zone: &'a mut Zone,
+pub(super) struct Work<'a> {
+    pub(super) bodies: Bodies<'a>,
+    pub(super) zone: &'a mut Zone,
 }
 
 impl Work<'_> {
-    fn solve(&mut self, level: Level, law: &Law) {
+    pub(super) fn solve(&mut self, level: Level, law: &Law) {
         let Zone { colours, met, .. } = &mut *self.zone;
         met.clear();
         sweep(level, Pass::Solve, law, self.bodies.lines, colours, met);
     }
 
-    fn displace(&mut self, level: Level, law: &Law) {
+    pub(super) fn displace(&mut self, level: Level, law: &Law) {
         let Zone { swift, first, .. } = &mut *self.zone;
         swift.clear();
         coast::displace(level, &mut self.bodies, law.h, *first, swift);
     }
 
-    fn relax(&mut self, level: Level, law: &Law, pass: Pass) {
+    pub(super) fn relax(&mut self, level: Level, law: &Law, pass: Pass) {
         let Zone { colours, met, .. } = &mut *self.zone;
         self.zone.heat += sweep(level, pass, law, self.bodies.lines, colours, met);
     }
@@ -69,12 +69,7 @@ impl Rig {
         often: &Often,
         bounce: Option<impl FnOnce(&mut Self)>,
     ) {
-        let (level, h) = (self.level, law.h);
-        let pass = if self.lanes.has_belts() {
-            Pass::RelaxBelts
-        } else {
-            Pass::Relax
-        };
+        let (level, h, pass) = (self.level, law.h, self.relaxing());
         self.forget_impacts();
         self.follow();
         // Where no row crosses from zone to zone nothing has to wait for anything.
@@ -111,8 +106,17 @@ impl Rig {
         self.outside(|bodies, _, _| coast::second_order(level, bodies, h));
     }
 
+    /// How rows relax.
+    pub(super) const fn relaxing(&self) -> Pass {
+        if self.lanes.has_belts() {
+            Pass::RelaxBelts
+        } else {
+            Pass::Relax
+        }
+    }
+
     /// Doubles are where their masters are.
-    fn follow(&mut self) {
+    pub(super) fn follow(&mut self) {
         for zone in &self.lanes.zones {
             for &(master, double) in &zone.doubles {
                 let (from, to) = (master as usize, double as usize);
@@ -136,7 +140,7 @@ impl Rig {
     }
 
     /// For every zone, with the bodies in it.
-    fn in_zones(&mut self, f: impl Fn(&mut Work<'_>) + Send + Sync) {
+    pub(super) fn in_zones(&mut self, f: impl Fn(&mut Work<'_>) + Send + Sync) {
         let (first, last) = self.lanes.zoned();
         let (bodies, _) =
             bodies_of(&mut self.lines, &mut self.start, &self.pull, &self.limits).split_at(last);

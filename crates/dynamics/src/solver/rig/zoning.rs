@@ -302,6 +302,36 @@ mod tests {
     }
 
     #[test]
+    fn sub_steps_made_at_once_have_the_bits_of_one_after_the_other() {
+        let law = Law::new(&Softness::default(), 1.0 / 360.0);
+        let mut ahead = columns(&[3, 7, 2, 9, 1, 4, 6, 5, 8, 3]);
+        ahead.compact();
+        assert!(ahead.may_go_ahead());
+        let mut slow = ahead.clone();
+        for _ in 0..20 {
+            assert!(ahead.step_ahead(&law, 6), "nothing comes up");
+            (0..6).for_each(|_| slow.step(&law, &Often::default(), NOBODY));
+        }
+        assert!(ahead.lines.iter().any(|line| line.d().y < -1e-6));
+        assert_eq!(ahead.lines, slow.lines);
+        assert_eq!(ahead.heat.to_bits(), slow.heat.to_bits());
+
+        // Who falls is met with a speed: that is for one sub-step after the other, and all zones are as they were.
+        let last = ahead.lines.len() - 1;
+        #[expect(clippy::cast_possible_truncation, reason = "few")]
+        for rig in [&mut ahead, &mut slow] {
+            rig.set_velocity(last as u32, vec2(0.0, -1.0), 0.0);
+        }
+        assert!(ahead.may_go_ahead() && !ahead.step_ahead(&law, 6));
+        for _ in 0..6 {
+            ahead.step(&law, &Often::default(), NOBODY);
+            slow.step(&law, &Often::default(), NOBODY);
+        }
+        assert_eq!(ahead.lines, slow.lines);
+        assert_eq!(ahead.heat.to_bits(), slow.heat.to_bits());
+    }
+
+    #[test]
     fn in_a_zone_a_group_comes_to_rest_as_it_does_alone() {
         let law = Law::new(&Softness::default(), 1.0 / 360.0);
         let sunk = |heights: &[u32]| {

@@ -1,0 +1,70 @@
+//! Sub-steps up to the next look, all at once: where nobody looks in between, and nothing can come up.
+
+use crate::World;
+
+/// After so many ticks at most it is tried again.
+const LONGEST: u32 = 63;
+
+/// How many sub-steps are made already, and when that is tried again.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Hurry {
+    /// Sub-steps after the present one that are made.
+    made: u32,
+    /// Ticks until it is tried again, and how many these were: more each time that something came up.
+    wait: u32,
+    waited: u32,
+}
+
+impl World {
+    /// Whether the present sub-step has been made, or is made with all that follow up to the next look.
+    pub(super) fn is_ahead(&mut self) -> bool {
+        if self.pool.hurry.made > 0 {
+            debug_assert!(!self.is_restless(), "nothing came up");
+            self.pool.hurry.made -= 1;
+            return true;
+        }
+        let more = self.pool.until_look;
+        let at_a_tick = more + 1 == self.settings.substeps_per_tick();
+        if !(at_a_tick && more > 0 && self.may_go_ahead()) {
+            return false;
+        }
+        let hurry = &mut self.pool.hurry;
+        if hurry.wait > 0 {
+            hurry.wait -= 1;
+            return false;
+        }
+        let went = self.pool.seats.rig.step_ahead(&self.law, more + 1);
+        if went {
+            (hurry.made, hurry.waited) = (more, 0);
+        } else {
+            hurry.waited = (2 * hurry.waited + 1).min(LONGEST);
+            hurry.wait = hurry.waited;
+        }
+        went
+    }
+
+    /// Whether nothing but the solver moves anybody until the next look, and nobody asks where they are.
+    fn may_go_ahead(&self) -> bool {
+        let pool = &self.pool;
+        let h = self.clock.h;
+        let end = self.clock.next() + f64::from(pool.until_look) * h;
+        let alone = self.moves_all()
+            || self.stepped.is_empty()
+                && !self.closed.changes()
+                && self.flyers.is_idle()
+                && !pool.rush.is_due()
+                && self.pairs.near.is_empty()
+                && self.pairs.fringe.is_empty()
+                && pool.crowd.newcomers.is_empty()
+                && pool.crowd.drivers.is_empty()
+                && pool.crowd.belts.is_empty();
+        pool.seats.rig.may_go_ahead()
+            && alone
+            && end - self.unseen_until <= 1e-9 * h
+            && self.settings.history == 0
+            && self.forced.is_empty()
+            && !self.is_restless()
+            && pool.bounces.is_idle()
+            && self.rows_in_need().rows.is_empty()
+    }
+}
