@@ -161,7 +161,7 @@ fn block<S: Simd, const RELAX: bool, const BELTS: bool, const OFTEN: bool>(
         return met;
     }
 
-    // The matrix of the points, which takes less time than to read it: see `Wide`.
+    // The matrix of the points, which a large pile would wait for longer: see `Wide`.
     let m = ma + mb;
     let turns = ia * a1 + ib * b1;
     let k11 = m + (ia * a1 * a1 + ib * b1 * b1);

@@ -16,8 +16,8 @@ pub(super) struct Hurry {
 }
 
 impl World {
-    /// Whether the present sub-step has been made, or is made with all that follow up to the next look.
-    pub(super) fn is_ahead(&mut self) -> bool {
+    /// Makes the present sub-step with all that follow up to the next look, where that can be; whether it is made, now or before.
+    pub(super) fn go_ahead(&mut self) -> bool {
         if self.pool.hurry.made > 0 {
             debug_assert!(!self.is_restless(), "nothing came up");
             self.pool.hurry.made -= 1;

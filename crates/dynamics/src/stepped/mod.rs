@@ -165,7 +165,7 @@ impl World {
     }
 
     fn substep(&mut self) {
-        if !self.is_ahead() {
+        if !self.go_ahead() {
             self.make_substep();
         }
         self.pool.since_rest += self.clock.h;
