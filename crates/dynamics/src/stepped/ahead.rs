@@ -2,7 +2,7 @@
 
 use crate::World;
 
-/// After so many ticks at most it is tried again.
+/// After so many ticks at most it is tried again: in vain it costs a tick's sub-steps at most, and so a 64th of the time.
 const LONGEST: u32 = 63;
 
 /// How many sub-steps are made already, and when that is tried again.

@@ -10,8 +10,9 @@ use crate::{BodyKind, World};
 /// Places that differ by less, as a part of the reach and the way, are one but for rounding.
 const SAME: f64 = 1e-12;
 
-/// So many bodies are read one after the other, before their motions are written.
-const AT_ONCE: usize = 32;
+/// So many bodies are read one after the other, before their motions are written. With 4 a settled pile takes 6 to 8 % more time,
+/// with 128 no less (AMD EPYC, 2026-11-23).
+const AT_ONCE: usize = 64;
 
 impl World {
     /// Writes where a body is at `time`, for boxes.
