@@ -21,6 +21,7 @@ mod lasting;
 mod laws;
 mod observing;
 mod regressions;
+mod round;
 mod skipping;
 mod stability;
 mod stepped;

@@ -263,6 +263,7 @@ impl Broad {
             spent: 0.0,
             given_up: false,
             at_once: false,
+            round: false,
         });
         if fringe {
             pairs.fringe.push(place);

@@ -3,12 +3,15 @@
 use carom_math::SimTime;
 
 use crate::StepReport;
+use crate::apart::{Method, set_apart};
 use crate::bodies::{Bodies, Booked};
 use crate::flight::driven;
-use crate::heavy::{Place, set_apart, solve_heavy};
+use crate::heavy::{Place, solve_heavy};
 use crate::narrow::{RestSpeed, TOUCH, opening_speed};
 use crate::pairs::{PairPoint, Pairs};
+use crate::round::{Start, hold, is_round};
 use crate::solver::{Law, Row, SolverBody, sweep};
+use crate::state::Collider;
 
 /// Scratch of the sub-step's solve, kept between sub-steps.
 #[derive(Clone, Debug, Default)]
@@ -17,6 +20,8 @@ pub(crate) struct Groups {
     /// Where each row came from: place of the pair, contact within it, and which points act.
     sources: Vec<Source>,
     bodies: Vec<SolverBody>,
+    /// How each of them begins its way through the sub-step.
+    starts: Vec<Start>,
     /// Bodies of the solver, in its order.
     members: Vec<u32>,
     /// Some pair of this sub-step is buried.
@@ -29,8 +34,10 @@ pub(crate) struct Groups {
 struct Source {
     pair: u32,
     contact: usize,
-    /// Solved for at once, not by sweeps.
-    at_once: bool,
+    /// How it is solved for; before groups are known, how it may be.
+    method: Method,
+    /// Gap below which they touch, in m.
+    touch: f64,
 }
 
 impl Source {
@@ -52,49 +59,70 @@ const NOT_HERE: u32 = u32::MAX;
 const BURIED_SWEEPS: usize = 30;
 
 impl Groups {
-    /// Solves all contacts that last from `time` on for one sub-step of `h`, and gives every body
+    /// Solves all contacts that last from `time` on for one sub-step, and gives every body
     /// that is pushed its motion. Bodies that nothing pushes are left to flight.
     pub(crate) fn step(
         &mut self,
         law: &Law,
         bodies: &mut Bodies,
+        colliders: &[Collider],
         pairs: &mut Pairs,
         time: SimTime,
-        h: f64,
         report: &mut StepReport,
     ) {
-        self.gather(bodies, pairs, time, h);
+        let h = law.h();
+        self.gather(bodies, colliders, pairs, time, h);
         if self.rows.is_empty() {
             return;
         }
         report.rows += self.rows.len() as u64;
-        let heavy = set_apart(&self.bodies, &mut self.rows, &mut self.sources);
-        let swept = heavy.first().map_or(self.rows.len(), |group| group.start);
-        // What was put deep into each other is pushed by many at once: one sweep would leave a
-        // part of the push in the velocities.
-        let sweeps = if self.buried { BURIED_SWEEPS } else { 1 };
-        sweep(law, &mut self.bodies, &mut self.rows[..swept], sweeps);
-        for group in heavy {
-            let places = self.sources[group.clone()].iter();
-            let places: Vec<Place> = places.map(|at| at.place(bodies, pairs, time)).collect();
-            let rows = &mut self.rows[group.clone()];
-            if solve_heavy(law, &mut self.bodies, rows, &places) {
-                for source in &mut self.sources[group] {
-                    source.at_once = true;
+        let groups = set_apart(&self.bodies, &mut self.rows, &mut self.sources, |source| {
+            source.method == Method::Round
+        });
+        for (mut method, group) in groups {
+            let (rows, sources) = (&mut self.rows[group.clone()], &mut self.sources[group]);
+            match method {
+                Method::Swept => {
+                    // What was put deep into each other is pushed by many at once: one sweep would leave a
+                    // part of the push in the velocities.
+                    let sweeps = if self.buried { BURIED_SWEEPS } else { 1 };
+                    sweep(law, &mut self.bodies, rows, sweeps);
                 }
-            } else {
-                sweep(law, &mut self.bodies, rows, BURIED_SWEEPS);
+                Method::Round => {
+                    let touch = sources.iter().map(|at| at.touch);
+                    let touch = touch.fold(f64::INFINITY, f64::min);
+                    hold(law, &mut self.bodies, &mut self.starts, rows, touch);
+                }
+                Method::AtOnce => {
+                    let places = sources.iter().map(|at| at.place(bodies, pairs, time));
+                    let places: Vec<Place> = places.collect();
+                    if !solve_heavy(law, &mut self.bodies, rows, &places) {
+                        method = Method::Swept;
+                        sweep(law, &mut self.bodies, rows, BURIED_SWEEPS);
+                    }
+                }
+            }
+            for source in sources {
+                source.method = method;
             }
         }
         self.scatter(bodies, pairs, time, h, report);
     }
 
     /// Rows of all contacts that do not bounce, and the bodies they join.
-    fn gather(&mut self, bodies: &Bodies, pairs: &Pairs, time: SimTime, h: f64) {
+    fn gather(
+        &mut self,
+        bodies: &Bodies,
+        colliders: &[Collider],
+        pairs: &Pairs,
+        time: SimTime,
+        h: f64,
+    ) {
         self.rows.clear();
         self.sources.clear();
         self.buried = false;
         self.bodies.clear();
+        self.starts.clear();
         self.members.clear();
         self.places.clear();
         self.places.resize(bodies.places(), NOT_HERE);
@@ -123,6 +151,11 @@ impl Groups {
                 }
                 self.buried |= pair.buried;
                 let touch = TOUCH * a.reach.min(b.reach);
+                let method = if is_round(bodies, colliders, pair) {
+                    Method::Round
+                } else {
+                    Method::Swept
+                };
                 // What turning presses comes down within a sub-step: it rests where it touches, and not before.
                 let rest = if pair.given_up || pair.buried {
                     RestSpeed::ANY
@@ -175,7 +208,8 @@ impl Groups {
                     self.sources.push(Source {
                         pair: place,
                         contact: index,
-                        at_once: false,
+                        method,
+                        touch,
                     });
                 }
             }
@@ -189,6 +223,7 @@ impl Groups {
         }
         let state = bodies.get(index);
         let (mut v, mut w) = (state.velocity_at(time), state.spin_at(time));
+        self.starts.push((v, w));
         if state.inverse_mass > 0.0 {
             let pull = state.gravity_scale() * bodies.pull.at(state.motion.centre_at(time));
             let pulls = (
@@ -224,7 +259,8 @@ impl Groups {
         report: &mut StepReport,
     ) {
         bodies.booked.clear();
-        for (&index, member) in self.members.iter().zip(&mut self.bodies) {
+        let members = self.members.iter().zip(&mut self.bodies);
+        for ((&index, member), start) in members.zip(&self.starts) {
             if member.inverse_mass == 0.0 || !member.acted {
                 continue;
             }
@@ -232,12 +268,13 @@ impl Groups {
             // What was pushed out is a displacement, not a motion: it moves the body at once, by
             // the difference of the pushed and the relaxed velocity, and strikes nobody. The rest
             // is the trapezoid from the velocity before to the relaxed one, so that sliding is of
-            // second order and the velocity has no jumps.
+            // second order and the velocity has no jumps; but for some that are held without springs.
             let (pushed, turned) = (member.d - member.v * h, member.turn - member.w * h);
-            let (_, before) = bodies.energy_of(index, time);
+            let before = bodies.energy_of(index, time);
             bodies.change(index, time, |motion| {
                 motion.centre += pushed;
                 motion.rotation = motion.rotation.turned(turned);
+                (motion.velocity, motion.spin) = *start;
                 motion.acceleration = (member.v - motion.velocity) / h;
                 motion.angular_acceleration = (member.w - motion.spin) / h;
             });
@@ -246,12 +283,14 @@ impl Groups {
             state.member = true;
             member.d = state.motion.travel(h);
             member.turn = state.motion.turn(h);
-            let (_, after) = bodies.energy_of(index, time);
-            bodies.book.scheme.add(after - before);
+            let after = bodies.energy_of(index, time);
+            bodies.book.scheme.add(after.0 - before.0);
+            bodies.book.scheme.add(after.1 - before.1);
         }
         for (row, source) in self.rows.iter().zip(&self.sources) {
             let pair = pairs.get_mut(source.pair);
-            pair.at_once = source.at_once;
+            pair.at_once = source.method == Method::AtOnce;
+            pair.round = source.method == Method::Round;
             let contact = &mut pair.contacts[source.contact];
             for (point, j) in contact.points.iter_mut().zip(row.j) {
                 point.impulse = j;

@@ -4,20 +4,13 @@
 //! it takes r sweeps, and long before the light one is in it and has been pushed through the floor. So these groups get
 //! what sweeps without end would lead to: velocities that close no contact, and a displacement that pushes overlaps out.
 
-use core::ops::Range;
-
 use carom_math::Vec2;
 
 use crate::impact::{ImpactBody, ImpactContact, SharedContact, held};
-use crate::sleep::Tree;
 use crate::solver::{Law, Row, SolverBody};
 
 /// A body so many times as heavy as the one that gives way to it is a load that one sweep does not carry.
 pub(crate) const BEARS: f64 = 16.0;
-
-/// Points of a group that are solved for at once; what has more is swept. A common stop takes the cube of its rows, of
-/// which a point with friction has two.
-const POINTS: usize = 48;
 
 /// Where a row pushes: its points, and the centres of mass of both bodies, in m.
 #[derive(Clone, Debug)]
@@ -30,59 +23,6 @@ pub(crate) struct Place {
 pub(crate) fn mass_ratio(masses: [f64; 2]) -> f64 {
     let [light, heavy] = [masses[0].max(masses[1]), masses[0].min(masses[1])];
     if heavy > 0.0 { light / heavy } else { 1.0 }
-}
-
-/// Puts the rows of heavy groups, with where they came from, behind all others; where each group lies then.
-pub(crate) fn set_apart<S: Copy>(
-    bodies: &[SolverBody],
-    rows: &mut Vec<Row>,
-    sources: &mut Vec<S>,
-) -> Vec<Range<usize>> {
-    let moves = |place: u32| bodies[place as usize].inverse_mass > 0.0;
-    let is_heavy = |row: &Row| {
-        let (i, j) = row.bodies;
-        mass_ratio([i, j].map(|place| bodies[place as usize].inverse_mass)) > BEARS
-    };
-    if !rows.iter().any(is_heavy) {
-        return Vec::new();
-    }
-    let mut groups = Tree::new(bodies.len());
-    for row in rows.iter() {
-        if moves(row.bodies.0) && moves(row.bodies.1) {
-            groups.join(row.bodies.0, row.bodies.1);
-        }
-    }
-    let mut of = |row: &Row| {
-        let (i, j) = row.bodies;
-        groups.root(if moves(i) { i } else { j })
-    };
-    let roots: Vec<u32> = rows.iter().map(&mut of).collect();
-    let mut points = vec![0; bodies.len()];
-    for (row, root) in rows.iter().zip(&roots) {
-        points[*root as usize] += row.points();
-    }
-    let mut heavy: Vec<u32> = Vec::new();
-    for (row, root) in rows.iter().zip(&roots) {
-        if is_heavy(row) && !heavy.contains(root) && points[*root as usize] <= POINTS {
-            heavy.push(*root);
-        }
-    }
-    // Number 0 are all others; who has the same number stays in its order.
-    let number = |root: &u32| {
-        heavy
-            .iter()
-            .position(|own| own == root)
-            .map_or(0, |k| k + 1)
-    };
-    let mut all: Vec<(usize, Row, S)> = (0..rows.len())
-        .map(|k| (number(&roots[k]), rows[k], sources[k]))
-        .collect();
-    all.sort_by_key(|(group, ..)| *group);
-    *rows = all.iter().map(|(_, row, _)| *row).collect();
-    *sources = all.iter().map(|(.., source)| *source).collect();
-    let starts = (1..=heavy.len() + 1).map(|group| all.partition_point(|one| one.0 < group));
-    let starts: Vec<usize> = starts.collect();
-    starts.windows(2).map(|ends| ends[0]..ends[1]).collect()
 }
 
 /// Velocities and displacements of the bodies of a heavy group, and the impulses of its rows; whether there are such:

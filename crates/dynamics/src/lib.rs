@@ -27,6 +27,7 @@
 #![cfg_attr(test, allow(clippy::float_cmp, reason = "tests compare exact results"))]
 
 mod agenda;
+mod apart;
 mod bodies;
 mod body;
 mod body_def;
@@ -63,6 +64,7 @@ mod profile;
 mod query;
 mod report;
 mod resolve;
+mod round;
 mod settings;
 mod shock;
 mod sink;

@@ -38,6 +38,8 @@ pub(crate) struct Pair {
     pub(crate) buried: bool,
     /// Its impulses come from [`crate::heavy`], or from such a group in closed form, not from sweeps.
     pub(crate) at_once: bool,
+    /// It was held without springs in the last sub-step in which it lasted: see [`crate::round`].
+    pub(crate) round: bool,
     /// Impacts in this sub-step.
     pub(crate) impacts: u32,
     /// What they spent of the pair's budget in this sub-step.

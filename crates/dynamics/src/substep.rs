@@ -41,9 +41,9 @@ impl World {
         self.groups.step(
             &self.law,
             &mut self.bodies,
+            &self.colliders,
             &mut self.pairs,
             time,
-            h,
             &mut self.report,
         );
         self.pairs_are_new();

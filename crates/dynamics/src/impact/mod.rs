@@ -27,4 +27,4 @@ pub use law::{ImpactLaw, jam, newton, poisson, resolve, stronge};
 pub use several::{
     Several, SharedContact, SharedOutcome, blend, generalised_reflections, newton_lcp, several,
 };
-pub(crate) use sweeps::Sweeper;
+pub(crate) use sweeps::{Moving, Sweeper, Swept};

@@ -45,38 +45,51 @@ pub(super) fn swept(rows: &Rows) -> Vec<f64> {
 /// 1.3, 19.7 s at 1.6 (2026-11-21).
 const OVER_RELAXATION: f64 = 1.3;
 
-/// Newton's law with Coulomb's friction by sweeps over contacts, whose number may grow on the way.
+/// Coulomb's friction and contacts that are to open, or may close, at given speeds, by sweeps; their number may grow on the way.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Sweeper {
-    bodies: Vec<Moving>,
-    contacts: Vec<Swept>,
+    pub(crate) bodies: Vec<Moving>,
+    pub(crate) contacts: Vec<Swept>,
 }
 
 /// A body's velocity.
 #[derive(Clone, Copy, Debug)]
-struct Moving {
-    velocity: Vec2,
-    spin: f64,
-    inverse_mass: f64,
-    inverse_inertia: f64,
+pub(crate) struct Moving {
+    pub(crate) velocity: Vec2,
+    pub(crate) spin: f64,
+    pub(crate) inverse_mass: f64,
+    pub(crate) inverse_inertia: f64,
 }
 
 /// A contact with the arms of its normal and its tangent about both centres.
 #[derive(Clone, Copy, Debug)]
-struct Swept {
-    a: usize,
-    b: usize,
-    normal: Vec2,
-    arms_n: (f64, f64),
-    arms_t: (f64, f64),
+pub(crate) struct Swept {
+    pub(crate) a: usize,
+    pub(crate) b: usize,
+    pub(crate) normal: Vec2,
+    pub(crate) arms_n: (f64, f64),
+    pub(crate) arms_t: (f64, f64),
     /// Effective masses along the normal and the tangent, in kg; 0 if nothing yields.
-    m_n: f64,
-    m_t: f64,
-    friction: f64,
-    /// Opening speed to reach, in m/s, ≥ 0.
-    target: f64,
-    j_n: f64,
-    j_t: f64,
+    pub(crate) m_n: f64,
+    pub(crate) m_t: f64,
+    pub(crate) friction: f64,
+    /// Opening speed to reach, in m/s.
+    pub(crate) target: f64,
+    /// Slip at which both surfaces run along with each other, in m/s.
+    pub(crate) belt: f64,
+    pub(crate) j_n: f64,
+    pub(crate) j_t: f64,
+}
+
+impl Swept {
+    /// Opening speed and slip of the surfaces of two bodies that move like this, in m/s.
+    pub(crate) fn seen(&self, a: (Vec2, f64), b: (Vec2, f64)) -> (f64, f64) {
+        let along = |direction: Vec2, arms: (f64, f64)| {
+            (b.0 - a.0).dot(direction) + b.1 * arms.1 - a.1 * arms.0
+        };
+        let slip = along(perp(self.normal), self.arms_t);
+        (along(self.normal, self.arms_n), slip - self.belt)
+    }
 }
 
 impl Sweeper {
@@ -114,6 +127,7 @@ impl Sweeper {
             m_t: inverse(response.k_tt),
             friction: contact.friction,
             target,
+            belt: 0.0,
             j_n,
             j_t,
         });
@@ -148,7 +162,8 @@ impl Sweeper {
             a.push(n, an, -more_n);
             b.push(n, bn, more_n);
             let (at, bt) = contact.arms_t;
-            let u_t = (b.velocity - a.velocity).dot(t) + b.spin * bt - a.spin * at;
+            let slip = (b.velocity - a.velocity).dot(t) + b.spin * bt - a.spin * at;
+            let u_t = slip - contact.belt;
             let limit = contact.friction * j_n;
             let j_t = (contact.j_t - OVER_RELAXATION * u_t * contact.m_t).clamp(-limit, limit);
             let more_t = j_t - contact.j_t;

@@ -26,5 +26,5 @@ pub(crate) use kernel::HEAVY;
 pub(crate) use lanes::RowId;
 pub(crate) use rig::{Limit, Member, Often, Pull, Rig};
 pub(crate) use row::{Row, SolverBody};
-pub(crate) use soft::{Law, sweep};
+pub(crate) use soft::{Law, sweep, warm_start};
 pub(crate) use wide::Line;

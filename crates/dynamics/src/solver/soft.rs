@@ -72,12 +72,7 @@ impl Law {
 
 /// A sub-step of all rows from the impulses that they carry: velocities, and displacements of the bodies that these join.
 pub(crate) fn sweep(law: &Law, bodies: &mut [SolverBody], rows: &mut [Row], relaxes: usize) {
-    for row in &*rows {
-        let (i, j) = (row.bodies.0 as usize, row.bodies.1 as usize);
-        let (mut a, mut b) = (bodies[i], bodies[j]);
-        row.push(&mut a, &mut b, row.j, row.jt);
-        (bodies[i], bodies[j]) = (a, b);
-    }
+    warm_start(bodies, rows);
     solve(law, bodies, rows);
     for row in &*rows {
         for index in [row.bodies.0, row.bodies.1] {
@@ -87,6 +82,16 @@ pub(crate) fn sweep(law: &Law, bodies: &mut [SolverBody], rows: &mut [Row], rela
     }
     for _ in 0..relaxes {
         relax(law, bodies, rows);
+    }
+}
+
+/// Velocities that the impulses of rows make.
+pub(crate) fn warm_start(bodies: &mut [SolverBody], rows: &[Row]) {
+    for row in rows {
+        let (i, j) = (row.bodies.0 as usize, row.bodies.1 as usize);
+        let (mut a, mut b) = (bodies[i], bodies[j]);
+        row.push(&mut a, &mut b, row.j, row.jt);
+        (bodies[i], bodies[j]) = (a, b);
     }
 }
 
