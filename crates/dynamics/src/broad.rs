@@ -259,6 +259,7 @@ impl Broad {
             mode: None,
             held: false,
             buried: false,
+            sunk: false,
             impacts: 0,
             spent: 0.0,
             given_up: false,

@@ -19,6 +19,10 @@ pub(crate) const TOUCH: f64 = 1e-9;
 /// Impacts leave none, and the lowest contact of a stack of ten such boxes 0.8 mm.
 pub(crate) const BURIED: f64 = 1.0 / 16.0;
 
+/// Overlap beyond which springs push a pair apart until it is, as a fraction of the smaller reach: it comes of what is put or pressed
+/// into each other, and nothing but springs takes it back.
+const SUNK: f64 = 1.0 / 128.0;
+
 /// Scratch of the narrow phase, kept between pairs.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Narrow {
@@ -42,13 +46,14 @@ impl Narrow {
         if apart.length_squared() > near * near {
             pair.contacts = Vec::new();
             pair.touching = false;
-            pair.buried = false;
+            (pair.buried, pair.sunk) = (false, false);
             return;
         }
         pair.contacts = self.contacts(bodies, colliders, pair, time, h);
         let points = pair.contacts.iter().flat_map(|contact| &contact.points);
         let deepest = points.map(|p| p.separation).fold(0.0, f64::min);
         pair.buried = deepest < -BURIED * size;
+        pair.sunk = deepest < -size * if pair.sunk { TOUCH } else { SUNK };
         pair.touching = pair
             .contacts
             .iter()

@@ -36,6 +36,8 @@ pub(crate) struct Pair {
     pub(crate) held: bool,
     /// So deep in each other that no strike makes sense: the solver pushes them apart.
     pub(crate) buried: bool,
+    /// It was deep in each other, and still overlaps: it may not be held without springs.
+    pub(crate) sunk: bool,
     /// Its impulses come from [`crate::heavy`], or from such a group in closed form, not from sweeps.
     pub(crate) at_once: bool,
     /// It was held without springs in the last sub-step in which it lasted: see [`crate::round`].

@@ -23,10 +23,6 @@ use crate::pairs::Pair;
 use crate::solver::{Law, Row, SolverBody, warm_start};
 use crate::state::{BodyState, Collider};
 
-/// Overlap beyond which a pair is pushed apart by springs instead, as a fraction of the smaller reach: it comes of what is put or
-/// pressed into each other, and nothing here takes it back.
-const SUNK: f64 = 1.0 / 128.0;
-
 /// Sweeps before what is left stays.
 const SWEEPS: usize = 1024;
 
@@ -40,16 +36,12 @@ const CONVERGED: f64 = 1e-14;
 /// Velocity and spin of a body as it begins its way through a sub-step.
 pub(crate) type Start = (Vec2, f64);
 
-/// Whether a pair is one of two discs, or of a disc and what does not turn, and hardly overlaps.
+/// Whether a pair is one of two discs, or of a disc and what does not turn, and nothing pushes it apart.
 pub(crate) fn is_round(bodies: &Bodies, colliders: &[Collider], pair: &Pair) -> bool {
     let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
     let is_disc = |body: &BodyState| body.turns_in_place(colliders);
     let stands = |body: &BodyState| !body.is_dynamic() && body.motion.spin == 0.0;
-    let points = pair.contacts.iter().flat_map(|contact| &contact.points);
-    let deepest = points.map(|p| p.separation).fold(0.0, f64::min);
-    deepest >= -SUNK * a.reach.min(b.reach)
-        && (is_disc(a) || stands(a))
-        && (is_disc(b) || stands(b))
+    !pair.sunk && (is_disc(a) || stands(a)) && (is_disc(b) || stands(b))
 }
 
 /// Velocities of the bodies of a group after which no row closes by more than its gap, from the impulses that the rows carry;

@@ -29,5 +29,5 @@ fn a_hundred_bodies_at_one_place_end() {
     let pushed = 0.5 * 3.0 * 3.0 * world.bodies().map(|body| body.mass()).sum::<f64>();
     let kinetic = world.energy().kinetic;
     assert!(kinetic <= pushed, "{kinetic} J, more than all at 3 m/s");
-    assert!(overlaps(&world).0 < 1e-3, "{:?}", overlaps(&world));
+    assert!(overlaps(&world).0 < 1e-9, "{:?}", overlaps(&world));
 }
