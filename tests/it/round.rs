@@ -1,14 +1,14 @@
 //! Groups of discs that sub-steps hold: without springs.
 
 use carom_dynamics::{BodyDef, Material, Mode, Settings, World};
-use carom_math::{Vec2, vec2};
+use carom_math::vec2;
 use carom_tests::gas::numbers;
 use carom_tests::scenes::{block, disc, put, surface};
 use carom_tests::{overlaps, run};
 
-fn world(gravity: f64) -> World {
+fn world() -> World {
     let settings = Settings {
-        gravity: vec2(0.0, -gravity),
+        gravity: vec2(0.0, -9.81),
         mode: Mode::Exact,
         sleep: None,
         ..Settings::default()
@@ -52,12 +52,13 @@ fn heap(world: &mut World, seed: u64) {
 }
 
 /// No sub-step gains in itself; but an impact in the midst of one, and a group that goes over to closed form there, cut short
-/// what was planned. With springs 879 of these 7,200 ticks gained more than 1e-9 of the energy, by up to 3e-5; now one does, by 6e-9.
+/// what was planned. With springs 879 of these 7,200 ticks gained more than 1e-9 of the energy, by up to 3e-5; now one does, by 6e-9,
+/// and it was 2 to 5, by up to 8e-6, with sweeps that ended elsewhere.
 #[test]
 fn heaps_of_discs_hardly_ever_gain_energy() {
     let (mut gained, mut worst) = (0, 0.0_f64);
     for seed in 1..=24 {
-        let mut world = world(9.81);
+        let mut world = world();
         heap(&mut world, seed);
         let start = world.energy().mechanical();
         let mut before = start;
@@ -81,7 +82,7 @@ fn heaps_of_discs_hardly_ever_gain_energy() {
 /// A belt that starts a disc: force × speed of the belt is what the disc gets, and the heat. The scheme adds nothing.
 #[test]
 fn a_belt_gives_a_disc_what_it_has_but_the_heat() {
-    let mut world = world(9.81);
+    let mut world = world();
     let belt = Material {
         tangent_speed: 2.0,
         ..surface(0.0, 0.3)
@@ -106,6 +107,6 @@ fn a_belt_gives_a_disc_what_it_has_but_the_heat() {
         energy.scheme
     );
     assert!(energy.residual().abs() < 1e-12 * given.abs());
-    let velocity: Vec2 = world.body(ball).expect("it is there").velocity();
+    let velocity = world.body(ball).expect("it is there").velocity();
     assert!(velocity.y.abs() < 1e-12);
 }

@@ -27,7 +27,7 @@ use crate::state::{BodyState, Collider};
 const SWEEPS: usize = 1024;
 
 /// Once a group gains nothing it is let go after so many rows or sweeps, whichever is more, or twice as many, and so on: few are
-/// solved for to rounding.
+/// solved for to rounding. Sixty heaps of ten balls take 2.7 s with 1024 rows, 1.8 with 256, and 1.7 with 128 and 4 sweeps (2026-11-23).
 const ENOUGH: (usize, usize) = (256, 16);
 
 /// Speed that a contact has still to take away, as a part of the fastest, at which nothing changes any more.
@@ -71,7 +71,7 @@ pub(crate) fn hold(
         }
     }
     let comes_down = |contact: &Swept| {
-        let (opening, _) = contact.seen(before[contact.a], before[contact.b]);
+        let opening = contact.opening(before[contact.a], before[contact.b]);
         contact.j_n > 0.0 && law.h() * (opening - contact.target) < -deep
     };
     let part = if sweeper.contacts.iter().any(comes_down) {
@@ -149,12 +149,12 @@ struct Work {
 impl Work {
     fn of(sweeper: &Sweeper, before: &[Start]) -> Self {
         let (mut by_old, mut by_new) = (0.0, 0.0);
-        let after = |k: usize| (sweeper.bodies[k].velocity, sweeper.bodies[k].spin);
         for contact in &sweeper.contacts {
             let (a, b) = (contact.a, contact.b);
             let by = |(opening, slip)| contact.j_n * opening + contact.j_t * slip;
-            by_old += by(contact.seen(before[a], before[b]));
-            by_new += by(contact.seen(after(a), after(b)));
+            let seen = |a, b| (contact.opening(a, b), contact.slip(a, b));
+            by_old += by(seen(before[a], before[b]));
+            by_new += by(seen(sweeper.velocity(a), sweeper.velocity(b)));
         }
         let change = |(body, (v, w)): (&Moving, &Start)| {
             let of = |square: f64, inverse: f64| if inverse > 0.0 { square / inverse } else { 0.0 };

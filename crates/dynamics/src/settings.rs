@@ -134,7 +134,7 @@ pub enum PairSearch {
     None,
 }
 
-/// The soft law of lasting contacts: a damped spring that is solved implicitly.
+/// The soft law of lasting contacts: a damped spring that is solved implicitly. Groups of discs outside of crowds have none.
 ///
 /// At rest a contact sinks in by `compliance · load / (m ω²)` with ω = 2π `frequency` and m the
 /// pair's reduced mass; a fixed partner doubles the frequency.

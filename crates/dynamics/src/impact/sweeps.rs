@@ -82,13 +82,17 @@ pub(crate) struct Swept {
 }
 
 impl Swept {
-    /// Opening speed and slip of the surfaces of two bodies that move like this, in m/s.
-    pub(crate) fn seen(&self, a: (Vec2, f64), b: (Vec2, f64)) -> (f64, f64) {
-        let along = |direction: Vec2, arms: (f64, f64)| {
-            (b.0 - a.0).dot(direction) + b.1 * arms.1 - a.1 * arms.0
-        };
-        let slip = along(perp(self.normal), self.arms_t);
-        (along(self.normal, self.arms_n), slip - self.belt)
+    /// Opening speed of two bodies that move like this, in m/s.
+    pub(crate) fn opening(&self, a: (Vec2, f64), b: (Vec2, f64)) -> f64 {
+        let (arm_a, arm_b) = self.arms_n;
+        (b.0 - a.0).dot(self.normal) + b.1 * arm_b - a.1 * arm_a
+    }
+
+    /// Slip of the surfaces of two bodies that move like this, in m/s.
+    pub(crate) fn slip(&self, a: (Vec2, f64), b: (Vec2, f64)) -> f64 {
+        let (arm_a, arm_b) = self.arms_t;
+        let of_bodies = (b.0 - a.0).dot(perp(self.normal)) + b.1 * arm_b - a.1 * arm_a;
+        of_bodies - self.belt
     }
 }
 
@@ -139,7 +143,7 @@ impl Sweeper {
 
     /// Velocity of the k-th body, in m/s, and its spin in rad/s.
     pub(crate) fn velocity(&self, k: usize) -> (Vec2, f64) {
-        (self.bodies[k].velocity, self.bodies[k].spin)
+        self.bodies[k].moves()
     }
 
     /// Impulses of the k-th contact along its normal and its tangent, in N·s.
@@ -155,15 +159,14 @@ impl Sweeper {
             let (mut a, mut b) = (bodies[contact.a], bodies[contact.b]);
             let (n, t) = (contact.normal, perp(contact.normal));
             let (an, bn) = contact.arms_n;
-            let u_n = (b.velocity - a.velocity).dot(n) + b.spin * bn - a.spin * an;
+            let u_n = contact.opening(a.moves(), b.moves());
             let j_n =
                 (contact.j_n + OVER_RELAXATION * (contact.target - u_n) * contact.m_n).max(0.0);
             let more_n = j_n - contact.j_n;
             a.push(n, an, -more_n);
             b.push(n, bn, more_n);
             let (at, bt) = contact.arms_t;
-            let slip = (b.velocity - a.velocity).dot(t) + b.spin * bt - a.spin * at;
-            let u_t = slip - contact.belt;
+            let u_t = contact.slip(a.moves(), b.moves());
             let limit = contact.friction * j_n;
             let j_t = (contact.j_t - OVER_RELAXATION * u_t * contact.m_t).clamp(-limit, limit);
             let more_t = j_t - contact.j_t;
@@ -184,6 +187,10 @@ impl Sweeper {
 }
 
 impl Moving {
+    const fn moves(&self) -> (Vec2, f64) {
+        (self.velocity, self.spin)
+    }
+
     fn push(&mut self, direction: Vec2, arm: f64, impulse: f64) {
         self.velocity += direction * (impulse * self.inverse_mass);
         self.spin += arm * impulse * self.inverse_inertia;
