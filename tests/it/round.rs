@@ -51,9 +51,8 @@ fn heap(world: &mut World, seed: u64) {
     }
 }
 
-/// No sub-step gains in itself; but an impact in the midst of one, and a group that goes over to closed form there, cut short
-/// what was planned. With springs 879 of these 7,200 ticks gained more than 1e-9 of the energy, by up to 3e-5; now one does, by 6e-9,
-/// and it was 2 to 5, by up to 8e-6, with sweeps that ended elsewhere.
+/// Not where springs push apart what was put into each other: one of these 7,200 ticks gains more than 1e-9 of the energy, 2e-8.
+/// With springs everywhere it was 879 ticks, by up to 3e-5.
 #[test]
 fn heaps_of_discs_hardly_ever_gain_energy() {
     let (mut gained, mut worst) = (0, 0.0_f64);
@@ -74,7 +73,7 @@ fn heaps_of_discs_hardly_ever_gain_energy() {
         assert!(deepest < 2e-3, "seed {seed}: {deepest} m deep");
     }
     assert!(
-        gained <= 8 && worst < 1e-5,
+        gained <= 2 && worst < 1e-6,
         "{gained} ticks by up to {worst:e} of the energy"
     );
 }

@@ -298,14 +298,14 @@ impl Bodies {
         }
         let now = (state.motion.acceleration, state.motion.angular_acceleration);
         if !self.booked.is_empty() && now != pushed {
-            self.take_back(index, time);
+            self.take_back(|other| other == index, time);
         }
         self.renew(index);
     }
 
-    /// Contacts that were booked for the whole sub-step push a body no longer: it has another motion from `time` on.
-    fn take_back(&mut self, index: u32, time: SimTime) {
-        for booked in self.booked.extract_if(.., |booked| booked.index == index) {
+    /// Contacts that were booked for the whole sub-step push some bodies no longer: they have other motions from `time` on.
+    pub(crate) fn take_back(&mut self, is_one: impl Fn(u32) -> bool, time: SimTime) {
+        for booked in self.booked.extract_if(.., |booked| is_one(booked.index)) {
             let left = (booked.until - time).max(0.0);
             self.book.external.add(-booked.driven * left);
             self.book.friction.add(-booked.heat * left);

@@ -35,8 +35,7 @@ pub(crate) fn settle(
         let pushed = groups.pushed(index);
         let state = bodies.get_mut(index);
         let end = time + h;
-        let speed =
-            state.motion.velocity_at(end).length() + state.motion.spin_at(end).abs() * state.reach;
+        let speed = state.velocity_at(end).length() + state.spin_at(end).abs() * state.reach;
         // Only what something holds can be at rest: the top of a throw is not.
         state.slow_for = if pushed && speed <= sleep.speed {
             state.slow_for + h

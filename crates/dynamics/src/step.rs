@@ -208,12 +208,29 @@ impl World {
                         self.wake(index, entry.time);
                     }
                 }
+                self.go_on(&changed, entry.time);
                 for index in changed {
                     self.deflected(index, entry.time);
                 }
             }
         }
         false
+    }
+
+    /// Those who are held together with bodies that an impact `changed` go other ways from there, too.
+    fn go_on(&mut self, changed: &[u32], time: SimTime) {
+        let moved = self.groups.go_on(
+            &mut self.bodies,
+            &mut self.pairs,
+            changed,
+            time,
+            &mut self.report,
+        );
+        for index in moved {
+            if !changed.contains(&index) {
+                self.redirect(index, time);
+            }
+        }
     }
 
     /// A body with a new motion in the middle of a sub-step: its pairs are predicted again, and so

@@ -69,6 +69,7 @@ impl World {
             }
         }
         self.release(time);
+        self.groups.stamp(&self.bodies);
         self.stopwatch.lap(|p| &mut p.sleep);
         self.step_crowds(time, h);
         self.pairs.sort(&self.bodies, &self.stepped);

@@ -196,36 +196,53 @@ fn worst_gain(mode: Mode, seed: u64, seconds: f64) -> f64 {
     worst
 }
 
-/// The same reports: energy in full boxes.
+/// The same reports: energy in full boxes. With springs every one of them gained, up to 6e-5 in a tick.
 #[test]
-#[ignore = "fails: an impact that cuts a sub-step short gains 1.4e-7 of the energy in one of 14 boxes; crowds gain up to 6e-5"]
 fn case_12_a_full_box_of_lively_balls_never_gains_energy() {
-    for mode in [Mode::Exact, Mode::Hybrid] {
-        let gains = (1..=14).map(|seed| worst_gain(mode, seed, 20.0));
-        let gains: Vec<f64> = gains.collect();
-        let worst = gains.iter().copied().fold(0.0, f64::max);
-        assert!(
-            worst < 1e-9,
-            "{mode:?}: {gains:?} of the energy gained in a tick"
-        );
+    no_full_box_gains(Mode::Exact);
+}
+
+/// The same where such a box is a crowd.
+#[test]
+#[ignore = "fails: crowds have springs, and gain up to 6e-5 of the energy in a tick"]
+fn case_12_a_full_box_never_gains_energy_as_a_crowd() {
+    no_full_box_gains(Mode::Hybrid);
+}
+
+fn no_full_box_gains(mode: Mode) {
+    let gains = (1..=14).map(|seed| worst_gain(mode, seed, 20.0));
+    let gains: Vec<f64> = gains.collect();
+    let worst = gains.iter().copied().fold(0.0, f64::max);
+    assert!(worst < 1e-9, "{gains:?} of the energy gained in a tick");
+}
+
+/// Nor at any instant between, where impacts cut sub-steps short: what these lend is paid back by then.
+#[test]
+fn case_12_a_full_box_has_at_no_instant_more_than_a_tick_ago() {
+    for seed in 1..=3 {
+        let mut world = full_box(Mode::Exact, seed);
+        let start = world.energy().mechanical();
+        let mut impacts = 0;
+        for tick in 1..=180_u32 {
+            let before = world.energy().mechanical();
+            let end = f64::from(tick) / 60.0;
+            while world.time().as_secs() < end {
+                let left = end - world.time().as_secs();
+                impacts += world.step_to_next_event(left.min(1.0 / 1440.0)).impacts;
+                let gained = world.energy().mechanical() - before;
+                assert!(
+                    gained < 1e-12 * start,
+                    "{:e} of the energy at {:?}, seed {seed}",
+                    gained / start,
+                    world.time()
+                );
+            }
+        }
+        assert!(impacts > 5000, "{impacts}");
     }
 }
 
-/// What holds of it in exact mode: all but one of these boxes keep or lose. With springs every one gained up to 6e-5 in a tick.
-#[test]
-fn case_12_hardly_any_full_box_gains_energy() {
-    let gains: Vec<f64> = (1..=14)
-        .map(|seed| worst_gain(Mode::Exact, seed, 8.0))
-        .collect();
-    let gaining = gains.iter().filter(|gain| **gain > 1e-12).count();
-    let worst = gains.iter().copied().fold(0.0, f64::max);
-    assert!(
-        gaining <= 1 && worst < 1e-6,
-        "{gains:?} of the energy gained in a tick"
-    );
-}
-
-/// The same in hybrid mode, where such a box is a crowd and has springs: not monotone, but little.
+/// What holds of it in hybrid mode: not monotone, but little.
 #[test]
 fn case_12_a_full_box_gains_little_as_a_crowd() {
     let gains: Vec<f64> = (1..=6)

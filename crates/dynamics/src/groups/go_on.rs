@@ -1,0 +1,131 @@
+//! Groups of discs after an impact in the midst of a sub-step: they are held anew for what is left of it.
+//!
+//! At no instant of their ways have they more energy than they began with, all together (see [`crate::round`]); but they might
+//! where one of them moves otherwise and the rest goes on as before. So all of the group go on from the velocities that they have
+//! at that instant, with the rows of the sub-step's beginning.
+
+use carom_math::SimTime;
+
+use super::gather::pulled;
+use super::{Groups, NOT_HERE};
+use crate::StepReport;
+use crate::bodies::Bodies;
+use crate::flight::fly;
+use crate::pairs::Pairs;
+use crate::round::{Way, hold};
+use crate::solver::Row;
+
+impl Groups {
+    /// Holds the groups of bodies whose motions an impact has `changed`, once each; who goes another way since.
+    pub(crate) fn go_on(
+        &mut self,
+        bodies: &mut Bodies,
+        pairs: &mut Pairs,
+        changed: &[u32],
+        time: SimTime,
+        report: &mut StepReport,
+    ) -> Vec<u32> {
+        let h = self.until - time;
+        let mut moved = Vec::new();
+        if h <= 0.0 {
+            return moved;
+        }
+        for number in self.rounds_of(changed) {
+            self.leave_out_strays(bodies, number, changed);
+            self.begin_anew(bodies, number, time, h);
+            let round = &mut self.rounds[number as usize];
+            round.span = h;
+            let (rows, touch) = (round.rows.clone(), round.touch);
+            hold(
+                h,
+                &mut self.bodies,
+                &mut self.ways,
+                &mut self.rows[rows.clone()],
+                touch,
+            );
+            report.rows += rows.len() as u64;
+            let members = self.rounds[number as usize].members.clone();
+            let known: Vec<u32> = members
+                .iter()
+                .map(|at| self.members[*at as usize])
+                .collect();
+            bodies.take_back(|index| known.contains(&index), time);
+            for (place, index) in members.into_iter().zip(known) {
+                let place = place as usize;
+                if self.bodies[place].acted {
+                    self.send(bodies, place, time, h);
+                } else {
+                    fly(bodies, index, time, h);
+                }
+                self.versions[place] = bodies.version(index);
+                moved.push(index);
+            }
+            for k in rows {
+                self.book(bodies, pairs, k, time, h);
+            }
+        }
+        moved
+    }
+
+    /// Groups of discs that these bodies are in, in their order.
+    fn rounds_of(&self, indices: &[u32]) -> Vec<u32> {
+        let place = |index: &u32| self.places.get(*index as usize).copied();
+        let round = |place: u32| self.round_of.get(place as usize).copied();
+        let rounds = indices.iter().filter_map(place).filter_map(round);
+        let mut rounds: Vec<u32> = rounds.filter(|round| *round != NOT_HERE).collect();
+        rounds.sort_unstable();
+        rounds.dedup();
+        rounds
+    }
+
+    /// Takes those out of a group whose motions something else than this impact has changed: closed forms, or a caller.
+    fn leave_out_strays(&mut self, bodies: &Bodies, number: u32, changed: &[u32]) {
+        let round = &mut self.rounds[number as usize];
+        round.members.retain(|&place| {
+            let index = self.members[place as usize];
+            let raised = u32::from(changed.contains(&index));
+            let known = self.versions[place as usize].wrapping_add(raised);
+            let stays = bodies.version(index) == known;
+            if !stays {
+                self.round_of[place as usize] = NOT_HERE;
+            }
+            stays
+        });
+        let bodies = &self.bodies;
+        let is_in = |place: u32| {
+            bodies[place as usize].inverse_mass == 0.0 || self.round_of[place as usize] == number
+        };
+        for k in round.rows.clone() {
+            let (a, b) = self.rows[k].bodies;
+            self.sources[k].gone |= !is_in(a) || !is_in(b);
+        }
+    }
+
+    /// The members as they move at `time`, pulled for `h` seconds, and the rows as they are to be held from then on.
+    fn begin_anew(&mut self, bodies: &Bodies, number: u32, time: SimTime, h: f64) {
+        let round = &self.rounds[number as usize];
+        for &place in &round.members {
+            let place = place as usize;
+            let index = self.members[place];
+            let state = bodies.get(index);
+            let start = (state.velocity_at(time), state.spin_at(time));
+            self.ways[place] = Way { start, even: None };
+            let body = &mut self.bodies[place];
+            (body.v, body.w) = pulled(bodies, index, time, start, h);
+            body.acted = false;
+        }
+        let part = h / round.span;
+        for k in round.rows.clone() {
+            let (row, source) = (&mut self.rows[k], &self.sources[k]);
+            let [a, b] = [row.bodies.0, row.bodies.1].map(|place| self.ways[place as usize].start);
+            // What closes faster than rest will be struck at its instant.
+            if source.gone || row.seen(a, b)[0] < -source.rest {
+                (row.gap[0], row.j[0], row.jt) = (Row::OPEN, 0.0, 0.0);
+            } else {
+                row.gap[0] = source.closes * h;
+                row.j[0] *= part;
+                row.jt *= part;
+            }
+        }
+    }
+}

@@ -1,0 +1,202 @@
+//! Contact groups: what pushes what, lasting, in one sub-step.
+
+mod gather;
+mod go_on;
+mod motions;
+
+use core::ops::Range;
+
+use carom_math::SimTime;
+
+use crate::StepReport;
+use crate::apart::{Method, set_apart};
+use crate::bodies::Bodies;
+use crate::heavy::{Place, solve_heavy};
+use crate::pairs::Pairs;
+use crate::round::{Way, hold};
+use crate::solver::{Law, Row, SolverBody, sweep};
+use crate::state::Collider;
+
+/// Contact groups of a sub-step, and the scratch of its solve.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Groups {
+    /// Length of the sub-step, in s, and when it ends.
+    h: f64,
+    until: SimTime,
+    rows: Vec<Row>,
+    /// Where each row came from.
+    sources: Vec<Source>,
+    bodies: Vec<SolverBody>,
+    /// How each of them goes through the sub-step.
+    ways: Vec<Way>,
+    /// Bodies of the solver, in its order.
+    members: Vec<u32>,
+    /// Version of the motion that each has.
+    versions: Vec<u32>,
+    rounds: Vec<Round>,
+    /// Number of its group in `rounds` for each body of the solver, or [`NOT_HERE`].
+    round_of: Vec<u32>,
+    /// Some pair of this sub-step is buried.
+    buried: bool,
+    /// Place in the solver of each body, or [`NOT_HERE`].
+    places: Vec<u32>,
+}
+
+/// Where a row came from.
+#[derive(Clone, Copy, Debug)]
+struct Source {
+    pair: u32,
+    /// Contact within it.
+    contact: usize,
+    /// How it is solved for; before groups are known, how it may be.
+    method: Method,
+    /// Gap below which they touch, in m.
+    touch: f64,
+    /// Speed of approach beyond which it bounces, in m/s.
+    rest: f64,
+    /// What it may close by until the sub-step ends, in m/s.
+    closes: f64,
+    /// One of the two has left the group.
+    gone: bool,
+}
+
+/// A group of discs.
+#[derive(Clone, Debug)]
+struct Round {
+    rows: Range<usize>,
+    /// Bodies of the solver that move, in order.
+    members: Vec<u32>,
+    /// What it is held for, in s.
+    span: f64,
+    /// Gap below which all of it touches, in m.
+    touch: f64,
+}
+
+impl Source {
+    /// Where its row pushes.
+    fn place(self, bodies: &Bodies, pairs: &Pairs, time: SimTime) -> Place {
+        let pair = pairs.get(self.pair);
+        let centre = |index: u32| bodies.get(index).motion.centre_at(time);
+        let points = &pair.contacts[self.contact].points;
+        Place {
+            points: points.iter().map(|point| point.position).collect(),
+            centres: (centre(pair.bodies.0), centre(pair.bodies.1)),
+        }
+    }
+}
+
+const NOT_HERE: u32 = u32::MAX;
+
+/// Sweeps without bias while a pair is buried.
+const BURIED_SWEEPS: usize = 30;
+
+impl Groups {
+    /// Solves all contacts that last from `time` on for one sub-step, and gives every body
+    /// that is pushed its motion. Bodies that nothing pushes are left to flight.
+    pub(crate) fn step(
+        &mut self,
+        law: &Law,
+        bodies: &mut Bodies,
+        colliders: &[Collider],
+        pairs: &mut Pairs,
+        time: SimTime,
+        report: &mut StepReport,
+    ) {
+        let h = law.h();
+        (self.h, self.until) = (h, time + h);
+        self.gather(bodies, colliders, pairs, time, h);
+        if self.rows.is_empty() {
+            return;
+        }
+        report.rows += self.rows.len() as u64;
+        self.round_of.resize(self.bodies.len(), NOT_HERE);
+        let groups = set_apart(&self.bodies, &mut self.rows, &mut self.sources, |source| {
+            source.method == Method::Round
+        });
+        for (mut method, group) in groups {
+            let (rows, sources) = (
+                &mut self.rows[group.clone()],
+                &mut self.sources[group.clone()],
+            );
+            match method {
+                Method::Swept => {
+                    // What was put deep into each other is pushed by many at once: one sweep would leave a
+                    // part of the push in the velocities.
+                    let sweeps = if self.buried { BURIED_SWEEPS } else { 1 };
+                    sweep(law, &mut self.bodies, rows, sweeps);
+                }
+                Method::Round => {
+                    let touch = sources.iter().map(|at| at.touch);
+                    let touch = touch.fold(f64::INFINITY, f64::min);
+                    hold(h, &mut self.bodies, &mut self.ways, rows, touch);
+                    self.note_round(group.clone(), touch, h);
+                }
+                Method::AtOnce => {
+                    let places = sources.iter().map(|at| at.place(bodies, pairs, time));
+                    let places: Vec<Place> = places.collect();
+                    if !solve_heavy(law, &mut self.bodies, rows, &places) {
+                        method = Method::Swept;
+                        sweep(law, &mut self.bodies, rows, BURIED_SWEEPS);
+                    }
+                }
+            }
+            for source in &mut self.sources[group] {
+                source.method = method;
+            }
+        }
+        bodies.booked.clear();
+        for place in 0..self.members.len() {
+            let member = &self.bodies[place];
+            if member.inverse_mass > 0.0 && member.acted {
+                report.handed_over += 1;
+                self.send(bodies, place, time, h);
+            }
+        }
+        for k in 0..self.rows.len() {
+            self.book(bodies, pairs, k, time, h);
+        }
+    }
+
+    /// Keeps a group that an impact may cut short.
+    fn note_round(&mut self, rows: Range<usize>, touch: f64, span: f64) {
+        let ends = self.rows[rows.clone()]
+            .iter()
+            .flat_map(|row| [row.bodies.0, row.bodies.1]);
+        let moves = |place: &u32| self.bodies[*place as usize].inverse_mass > 0.0;
+        let mut members: Vec<u32> = ends.filter(moves).collect();
+        members.sort_unstable();
+        members.dedup();
+        #[expect(clippy::cast_possible_truncation, reason = "fewer than there are rows")]
+        let number = self.rounds.len() as u32;
+        for place in &members {
+            self.round_of[*place as usize] = number;
+        }
+        self.rounds.push(Round {
+            rows,
+            members,
+            span,
+            touch,
+        });
+    }
+
+    /// Whatever its bodies do now, flights and sleep too, is what this sub-step gave them.
+    pub(crate) fn stamp(&mut self, bodies: &Bodies) {
+        self.versions.clear();
+        let versions = self.members.iter().map(|index| bodies.version(*index));
+        self.versions.extend(versions);
+    }
+
+    /// Whether the solver pushed body `index` in this sub-step.
+    pub(crate) fn pushed(&self, index: u32) -> bool {
+        let place = self.places.get(index as usize).copied().unwrap_or(NOT_HERE);
+        place != NOT_HERE && self.bodies[place as usize].acted
+    }
+
+    /// Pairs of dynamic bodies that push each other, for the groups that sleep together.
+    pub(crate) fn links(&self) -> impl Iterator<Item = (u32, u32)> + use<'_> {
+        self.rows.iter().filter(|row| row.acts()).map(|row| {
+            let body = |place: u32| self.members[place as usize];
+            (body(row.bodies.0), body(row.bodies.1))
+        })
+    }
+}
