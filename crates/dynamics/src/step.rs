@@ -37,7 +37,6 @@ impl World {
             return self.report;
         }
         self.events.begin_step(self.clock.now);
-        self.spent = 0.0;
         self.stopwatch.start();
         let start = self.clock.now;
         let end = start + dt;

@@ -101,11 +101,21 @@ pub(crate) struct Closed {
     /// By place of a body: when judgements of it began that took place at one instant, and how many they were; the same of those
     /// in the time of a sub-step.
     stalls: Vec<[(SimTime, u32); 2]>,
-    /// Who left the path of a group that turned on its parabola: body, its acceleration, and when.
-    pub(super) astray: Vec<(u32, Vec2, SimTime)>,
+    /// Who left the path of a group that turned in this sub-step, on its parabola.
+    pub(super) astray: Vec<Astray>,
     /// Nobody is let go of: the slow twin.
     #[cfg(test)]
     pub(super) stays: bool,
+}
+
+/// A body that left a path on the parabola that this had.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Astray {
+    pub(super) index: u32,
+    pub(super) acceleration: Vec2,
+    pub(super) left: SimTime,
+    /// Until when reports have told of it.
+    pub(super) told: SimTime,
 }
 
 #[derive(Clone, Debug)]

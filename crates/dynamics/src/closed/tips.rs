@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use arrayvec::ArrayVec;
 use carom_collision::part;
-use carom_math::{SimTime, Vec2};
+use carom_math::SimTime;
 
 use super::joints::{Held, joint};
-use super::store::{Group, Kept, Membership};
+use super::store::{Astray, Group, Kept, Membership};
 use crate::World;
 use crate::bodies::Bodies;
 use crate::flight::{Flight, fly, follow};
@@ -130,6 +130,7 @@ impl World {
     /// Pieces of motion for the coming sub-step of all groups that turn.
     pub(crate) fn follow_tips(&mut self, time: SimTime, h: f64) {
         self.report_astray(time);
+        self.closed.astray.retain(|it| it.left == time);
         for place in self.closed.tipping() {
             let stands = |group: &Group| {
                 let mut members = group.members.iter();
@@ -162,7 +163,12 @@ impl World {
                 });
             }
             let acceleration = self.bodies.get(index).motion.acceleration;
-            self.closed.astray.push((index, acceleration, time));
+            self.closed.astray.push(Astray {
+                index,
+                acceleration,
+                left: time,
+                told: time,
+            });
             self.redirect(index, time);
         }
     }
@@ -173,7 +179,7 @@ impl World {
         for &index in members {
             let mut astray = self.closed.astray.iter();
             if left <= 0.0
-                || !astray.any(|it| it.0 == index && goes_on(&self.bodies, it))
+                || !astray.any(|it| it.index == index && goes_on(&self.bodies, it))
                 || self.is_touched(index, time)
             {
                 continue;
@@ -221,11 +227,10 @@ impl World {
     /// group that takes them in, or their own flight, gives them another one.
     pub(crate) fn report_astray(&mut self, now: SimTime) {
         let (bodies, report) = (&self.bodies, &mut self.report);
-        self.closed.astray.retain(|it| {
-            let (still, since) = (goes_on(bodies, it), it.2);
-            report.handed_over += u64::from(still && since < now);
-            still && since == now
-        });
+        for astray in &mut self.closed.astray {
+            report.handed_over += u64::from(astray.told < now && goes_on(bodies, astray));
+            astray.told = now;
+        }
     }
 
     /// Gives every member of a group that turns the parabola through both ends of its path's next piece.
@@ -319,10 +324,10 @@ impl World {
 }
 
 /// Whether who left the path of a group still goes on by the parabola of that instant.
-fn goes_on(bodies: &Bodies, &(index, acceleration, _): &(u32, Vec2, SimTime)) -> bool {
-    let state = bodies.get(index);
-    state.motion.acceleration == acceleration
-        && !state.course.flies
+fn goes_on(bodies: &Bodies, astray: &Astray) -> bool {
+    let state = bodies.get(astray.index);
+    state.motion.acceleration == astray.acceleration
+        && state.is_stepped()
         && !state.membership.is_closed()
 }
 
