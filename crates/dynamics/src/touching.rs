@@ -244,6 +244,7 @@ impl World {
         let h = self.clock.h;
         let mut touching = self.pairs.get(place).touching;
         if looks == Looks::Old {
+            self.write_members_of(place);
             let pair = self.pairs.get_mut(place);
             self.narrow
                 .look(&self.bodies, &self.colliders, pair, time, h);

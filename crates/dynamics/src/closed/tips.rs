@@ -173,12 +173,13 @@ impl World {
         }
     }
 
-    /// Those of `members` who left a path and whom nothing touches but what opens fly from here on.
+    /// Those of `members` who left a path and whom nothing touches but what opens fly from here on, but for those who met a crowd.
     pub(super) fn set_free(&mut self, members: &[u32], time: SimTime) {
         let left = self.clock.next() - time;
         for &index in members {
             let mut astray = self.closed.astray.iter();
             if left <= 0.0
+                || self.bodies.get(index).in_crowd
                 || !astray.any(|it| it.index == index && goes_on(&self.bodies, it))
                 || self.is_touched(index, time)
             {
@@ -193,6 +194,7 @@ impl World {
     fn is_touched(&mut self, index: u32, time: SimTime) -> bool {
         let h = self.clock.h;
         self.bodies.get(index).pairs.clone().iter().any(|&place| {
+            self.write_members_of(place);
             let pair = self.pairs.get_mut(place);
             if !pair.touching && !pair.lasting {
                 return false;

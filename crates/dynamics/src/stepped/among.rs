@@ -67,7 +67,27 @@ impl World {
     /// Motions of all members, where somebody may ask for them.
     pub(crate) fn write_crowds(&mut self) {
         if core::mem::take(&mut self.pool.crowd.unwritten) {
-            self.write_motions();
+            // Who joins in the midst of a sub-step has another motion from then on, whether a step ends before or after it.
+            let mut newcomers = self.pool.crowd.newcomers.clone();
+            newcomers.sort_unstable();
+            self.write_motions(&newcomers);
+        }
+    }
+
+    /// The motions of a pair's members, for who looks at it in the midst of a sub-step.
+    pub(crate) fn write_members_of(&mut self, place: u32) {
+        if !self.pool.crowd.unwritten {
+            return;
+        }
+        let (a, b) = self.pairs.get(place).bodies;
+        for index in [a, b] {
+            let is_new = self.pool.crowd.newcomers.contains(&index);
+            if let Some(slot) = self.pool.seats.slot(index)
+                && self.bodies.get(index).in_crowd
+                && !is_new
+            {
+                self.write_motion(slot, self.clock.last());
+            }
         }
     }
 

@@ -124,7 +124,7 @@ impl World {
             if first {
                 self.take_changes(time);
             } else if self.settings.history > 0 {
-                self.write_motions();
+                self.write_motions(&[]);
             }
             self.book_forces(time, first);
             first = false;
@@ -149,14 +149,14 @@ impl World {
             if stop_at_event {
                 self.tell_touches(self.clock.next().min(end));
                 if !self.events.is_empty() {
-                    self.write_motions();
+                    self.write_motions(&[]);
                     return self.clock.next().min(end);
                 }
             }
         }
         if !first {
             self.tell_touches(self.clock.next().min(end));
-            self.write_motions();
+            self.write_motions(&[]);
             self.stopwatch.lap(|p| &mut p.flight);
         } else if !self.clock.is_within(end) {
             self.end_way();

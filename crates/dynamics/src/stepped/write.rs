@@ -51,17 +51,20 @@ impl World {
         self.bodies.touched.clear();
     }
 
-    /// Motions of the last sub-step for all who move.
-    pub(super) fn write_motions(&mut self) {
+    /// Motions of the last sub-step for all who move, but for those who joined within it: `newcomers`, in order.
+    pub(super) fn write_motions(&mut self, newcomers: &[u32]) {
         let (start, all) = (self.clock.last(), self.moves_all());
         let mut slots = 0..self.pool.seats.places();
         loop {
             let seats = &self.pool.seats;
             // Kinematic bodies fly beside a crowd.
-            let is_written = |slot: &u32| match seats.get(*slot).kind {
-                BodyKind::Dynamic => true,
-                BodyKind::Kinematic => all,
-                BodyKind::Fixed => false,
+            let is_written = |slot: &u32| {
+                let seat = seats.get(*slot);
+                match seat.kind {
+                    BodyKind::Dynamic => newcomers.binary_search(&seat.body).is_err(),
+                    BodyKind::Kinematic => all,
+                    BodyKind::Fixed => false,
+                }
             };
             let batch: ArrayVec<u32, AT_ONCE> =
                 slots.by_ref().filter(is_written).take(AT_ONCE).collect();
@@ -110,7 +113,7 @@ impl World {
     ///
     /// That is where it came from, too, unless a contact stopped it or pushed it out within the sub-step. Such a body goes
     /// evenly from place to place: a path between two that are free, and no faster than it was.
-    fn write_motion(&mut self, slot: u32, start: SimTime) {
+    pub(super) fn write_motion(&mut self, slot: u32, start: SimTime) {
         let h = self.clock.h;
         let seats = &self.pool.seats;
         let (seat, line) = (seats.get(slot), &seats.rig.lines[slot as usize]);
