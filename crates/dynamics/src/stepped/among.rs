@@ -44,6 +44,8 @@ impl World {
         self.stopwatch.lap(|p| &mut p.contacts);
         self.pool.until_look -= 1;
         let before: Vec<(u32, Vec2, f64)> = self.forced_lines().collect();
+        // Lines move the members from here on: who fell asleep and woke at this look has one that is newer than its motion.
+        self.bodies.touched.clear();
         self.substep();
         self.book_drivers();
         self.book_belts();
