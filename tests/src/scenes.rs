@@ -4,6 +4,8 @@ use carom_dynamics::{BodyDef, BodyId, Material, Mode, Settings, World};
 use carom_geometry::{Circle, Compound, ConvexPolygon, HalfPlane, Polygon, Shape};
 use carom_math::{Pose, Vec2, trig, vec2};
 
+use crate::gas::numbers;
+
 /// A built-in scene, as it is.
 ///
 /// # Panics
@@ -174,4 +176,73 @@ pub fn octagon() -> Shape {
         (Shape::from(piece), Pose::IDENTITY)
     };
     Compound::new((0..8).map(piece)).expect("a ring").into()
+}
+
+/// Two dozen bodies of many masses, frictions and restitutions that fall between walls on a floor with bumps; `shape` draws
+/// theirs from numbers in 0..1.
+///
+/// # Panics
+/// Never.
+pub fn heap(world: &mut World, seed: u64, shape: fn(&mut dyn FnMut() -> f64) -> Shape) {
+    let mut next = numbers(seed);
+    let rough = surface(0.5 * next(), next());
+    for (at, size) in [
+        (vec2(0.0, -0.5), vec2(8.0, 1.0)),
+        (vec2(-3.5, 4.0), vec2(1.0, 10.0)),
+        (vec2(3.5, 4.0), vec2(1.0, 10.0)),
+    ] {
+        let def = BodyDef::fixed().at(at);
+        put(world, def, block(size.x, size.y), rough);
+    }
+    for k in 0..4 {
+        let def = BodyDef::fixed().at(vec2(1.6 * f64::from(k) - 2.4, 0.4 * next()));
+        put(world, def, disc(0.3 + 0.3 * next()), rough);
+    }
+    for k in 0..24_u32 {
+        let at = vec2(
+            1.2 * f64::from(k % 5) - 2.4 + 0.2 * next(),
+            1.8 + 1.1 * f64::from(k / 5),
+        );
+        let def = BodyDef::dynamic()
+            .at(at)
+            .moving(vec2(2.0 * next() - 1.0, -2.0 * next()))
+            .spinning(6.0 * next() - 3.0);
+        let material = surface(0.9 * next(), 1.2 * next());
+        put(world, def, shape(&mut next), material);
+    }
+}
+
+/// A disc of 0.25 to 0.5 m.
+///
+/// # Panics
+/// Never.
+pub fn any_disc(next: &mut dyn FnMut() -> f64) -> Shape {
+    disc(0.25 + 0.25 * next()).into()
+}
+
+/// A disc, a block, an arrow or a kite, as wide as that.
+///
+/// # Panics
+/// Never.
+pub fn any_shape(next: &mut dyn FnMut() -> f64) -> Shape {
+    let corners =
+        |list: &[(f64, f64)]| -> Vec<Vec2> { list.iter().map(|(x, y)| vec2(*x, *y)).collect() };
+    let kind = 4.0 * next();
+    if kind < 1.0 {
+        any_disc(next)
+    } else if kind < 2.0 {
+        block(0.4 + 0.5 * next(), 0.3 + 0.6 * next()).into()
+    } else if kind < 3.0 {
+        let arrow = [
+            (0.35, -0.3),
+            (0.35, 0.3),
+            (0.0, 0.05),
+            (-0.35, 0.3),
+            (-0.35, -0.3),
+        ];
+        Polygon::new(corners(&arrow)).expect("an arrow").into()
+    } else {
+        let kite = [(0.4, 0.0), (0.1, 0.35), (-0.4, 0.2), (-0.2, -0.4)];
+        ConvexPolygon::new(corners(&kite)).expect("a kite").into()
+    }
 }

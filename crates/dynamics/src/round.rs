@@ -78,10 +78,7 @@ pub(crate) fn hold(
     rows: &mut [Row],
     deep: f64,
 ) {
-    let ends = rows.iter().flat_map(|row| [row.bodies.0, row.bodies.1]);
-    let mut members: Vec<u32> = ends.collect();
-    members.sort_unstable();
-    members.dedup();
+    let members = members_of(rows);
     let mut before: Vec<Speed> = members.iter().map(|at| ways[*at as usize].start).collect();
     let speeds = members.iter().map(|at| bodies[*at as usize].v.length());
     let fastest = speeds.fold(0.0, f64::max);
@@ -120,6 +117,15 @@ pub(crate) fn hold(
         *way = Way { start, even };
         (body.d, body.turn) = (body.v * h, body.w * h);
     }
+}
+
+/// Bodies of the solver that rows join, in order.
+pub(crate) fn members_of(rows: &[Row]) -> Vec<u32> {
+    let ends = rows.iter().flat_map(|row| [row.bodies.0, row.bodies.1]);
+    let mut members: Vec<u32> = ends.collect();
+    members.sort_unstable();
+    members.dedup();
+    members
 }
 
 /// What velocities become at once where somebody comes down, by more than `slow` m/s beyond what its gap allows: nothing

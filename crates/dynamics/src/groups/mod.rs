@@ -13,7 +13,7 @@ use crate::apart::{Method, set_apart};
 use crate::bodies::Bodies;
 use crate::heavy::{Place, solve_heavy};
 use crate::pairs::Pairs;
-use crate::round::{Way, hold};
+use crate::round::{Way, hold, members_of};
 use crate::solver::{Law, Row, SolverBody, sweep};
 use crate::state::Collider;
 
@@ -159,13 +159,8 @@ impl Groups {
 
     /// Keeps a group that an impact may cut short.
     fn note_round(&mut self, rows: Range<usize>, touch: f64, span: f64) {
-        let ends = self.rows[rows.clone()]
-            .iter()
-            .flat_map(|row| [row.bodies.0, row.bodies.1]);
-        let moves = |place: &u32| self.bodies[*place as usize].inverse_mass > 0.0;
-        let mut members: Vec<u32> = ends.filter(moves).collect();
-        members.sort_unstable();
-        members.dedup();
+        let mut members = members_of(&self.rows[rows.clone()]);
+        members.retain(|place| self.bodies[*place as usize].inverse_mass > 0.0);
         #[expect(clippy::cast_possible_truncation, reason = "fewer than there are rows")]
         let number = self.rounds.len() as u32;
         for place in &members {
