@@ -256,6 +256,13 @@ fn settings_say_which_field_is_wrong() {
         "settings.gravity.y is NaN, not a finite number"
     );
     assert_eq!(
+        with(Settings {
+            gravity: vec2(-1e13, 0.0),
+            ..fine
+        }),
+        "settings.gravity.x is -10000000000000, outside -1000000000000..1000000000000"
+    );
+    assert_eq!(
         with(Settings { tick: 0.0, ..fine }),
         "settings.tick is 0, not above 0"
     );

@@ -147,7 +147,7 @@ pub enum SettingsError {
     },
 }
 
-/// Largest coordinate, speed or spin that a world accepts, in its unit.
+/// Largest coordinate, speed, spin or component of gravity that a world accepts, in its unit.
 ///
 /// Above it squares of differences lose the last metre: 1e12² · 2⁻⁵² is 2e8.
 pub const WORLD_LIMIT: f64 = 1e12;

@@ -2,13 +2,13 @@
 
 use carom_math::{Vec2, vec2};
 
-use crate::error::SettingsError;
+use crate::error::{SettingsError, WORLD_LIMIT};
 use crate::impact::{ImpactLaw, Several};
 
 /// All that a world can be told before it starts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// Uniform acceleration of every dynamic body, in m/s².
+    /// Uniform acceleration of every dynamic body, in m/s²; each component up to [`crate::WORLD_LIMIT`].
     pub gravity: Vec2,
     /// Longest stretch between two looks at the whole world, in s.
     pub tick: f64,
@@ -186,8 +186,8 @@ impl Default for Sleep {
 
 impl Settings {
     pub(crate) fn check(&self) -> Result<(), SettingsError> {
-        finite("gravity.x", self.gravity.x)?;
-        finite("gravity.y", self.gravity.y)?;
+        range("gravity.x", self.gravity.x, -WORLD_LIMIT, WORLD_LIMIT)?;
+        range("gravity.y", self.gravity.y, -WORLD_LIMIT, WORLD_LIMIT)?;
         range("tick", self.tick, 1e-9, 1e6)?;
         range("substep", self.substep, 1e-9, 1e6)?;
         // A tick of more sub-steps than this is a typing error, not a wish.

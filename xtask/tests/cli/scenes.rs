@@ -125,3 +125,27 @@ fn a_mark_and_dos_lines_are_welcome() {
         ran.out
     );
 }
+
+/// A larger one passes the limits on place and speed within a second, and its energies overflow.
+#[test]
+fn gravity_of_more_than_1e12_is_refused() {
+    let text = |gravity: &str| format!("version = 1\ngravity = [{gravity}]\n");
+    refused(
+        text("0, 1e308"),
+        &[
+            "bad.toml:2:15: gravity[1]: settings.gravity.y is ",
+            "outside",
+        ],
+    );
+    refused(
+        text("-1e13, 0"),
+        &["bad.toml:2:12: gravity[0]: settings.gravity.x is -10000000000000, outside"],
+    );
+    let folder = tempfile::tempdir().unwrap();
+    let run = |set: &str| {
+        let args = ["simulate", "thesis", "--seconds", "0", "--set", set];
+        xtask_in(folder.path(), &args)
+    };
+    run("fconst=[0, 1e13]").refused(&["--set fconst=[0, 1e13]: parameters.fconst[1]: "]);
+    run("gravity=[0, -1e12]").done();
+}

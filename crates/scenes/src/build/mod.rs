@@ -252,6 +252,15 @@ fn pairs(
     Ok(())
 }
 
+/// Where the file has its gravity.
+fn gravity_field(file: &SceneFile) -> FieldPath {
+    if file.parameters.fconst.is_some() {
+        FieldPath::root("parameters").key("fconst")
+    } else {
+        FieldPath::root("gravity")
+    }
+}
+
 fn new_world(document: &Document, file: &SceneFile) -> Result<World, SceneError> {
     let mut world = World::new(settings::settings(file)).map_err(|error| {
         let (SettingsError::NotFinite { field, .. }
@@ -265,6 +274,8 @@ fn new_world(document: &Document, file: &SceneFile) -> Result<World, SceneError>
         };
         let path = match *field {
             "tick" if file.parameters.delta.is_some() => FieldPath::root("parameters").key("delta"),
+            "gravity.x" => gravity_field(file).index(0),
+            "gravity.y" => gravity_field(file).index(1),
             "tick / substep" => FieldPath::root("settings").key("substep"),
             field => field
                 .split('.')
