@@ -2,6 +2,8 @@
 
 use std::process::ExitCode;
 
+use crate::out::tell;
+
 /// How a command ended that was not stopped by an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum End {
@@ -14,8 +16,11 @@ pub enum End {
 }
 
 impl End {
-    /// 0, 1, or 128 and the number of the signal: 130 for Ctrl-C, 143 for termination.
+    /// 0, 1, or 128 and the number of the signal: 130 for Ctrl-C, 143 for termination. 2 if a line to stdout was lost.
     pub fn code(self) -> ExitCode {
+        if let Some(error) = crate::out::lost() {
+            return Failure::new(format!("cannot write to stdout: {error}")).report();
+        }
         match self {
             Self::Done => ExitCode::SUCCESS,
             Self::Short => ExitCode::from(1),
@@ -47,7 +52,7 @@ impl Failure {
 
     /// Prints `error: …` to stderr and gives exit code 2.
     pub fn report(&self) -> ExitCode {
-        eprintln!("error: {}", self.line());
+        tell!("error: {}", self.line());
         ExitCode::from(2)
     }
 }

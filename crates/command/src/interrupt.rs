@@ -3,6 +3,7 @@
 use std::sync::atomic::{AtomicU8, Ordering};
 
 use crate::exit::Failure;
+use crate::out::tell;
 
 /// Exit code of who ends by Ctrl-C (SIGINT, 2).
 const CTRL_C: u8 = 128 + 2;
@@ -12,7 +13,7 @@ static ASKED: AtomicU8 = AtomicU8::new(0);
 
 /// Listens for Ctrl-C and termination from now on; the second one ends the program at once.
 ///
-/// `doing` says what happens first: "finishing the frame".
+/// `doing` says what happens first, in the words of the command: "finishing the frame".
 ///
 /// # Errors
 /// If the system lets nobody listen.
@@ -21,7 +22,7 @@ pub fn watch(doing: &'static str) -> Result<(), Failure> {
         if ASKED.swap(code, Ordering::SeqCst) != 0 {
             std::process::exit(code.into());
         }
-        eprintln!("\ninterrupted: {doing} (once more: stop at once)");
+        tell!("\ninterrupted: {doing} (once more: stop at once)");
     })
 }
 

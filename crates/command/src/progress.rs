@@ -6,6 +6,7 @@ use std::io::{IsTerminal, stderr};
 use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 
 use crate::clock::Clock;
+use crate::out::tell;
 
 /// Seconds between two plain lines.
 const PAUSE: f64 = 5.0;
@@ -54,7 +55,7 @@ impl Progress {
                 let now = clock.seconds();
                 if now - *last >= PAUSE {
                     *last = now;
-                    eprintln!(
+                    tell!(
                         "{}: {}",
                         self.what,
                         rate_line(self.done, self.total, self.unit, now)

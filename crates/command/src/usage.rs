@@ -1,10 +1,12 @@
 //! What clap found in the arguments, as the exit codes want it.
 
+use std::io::{self, Write as _};
 use std::process::ExitCode;
 
 use clap::error::ErrorKind;
 
-use crate::exit::Failure;
+use crate::exit::{End, Failure};
+use crate::out;
 
 /// Help goes to stdout; a wrong value gets one line, other wrong usage clap's own hints.
 #[must_use]
@@ -17,9 +19,12 @@ pub fn usage(error: &clap::Error) -> ExitCode {
             Failure::new(first.strip_prefix("error: ").unwrap_or(first)).report()
         }
         _ => {
-            // A closed pipe while printing help is no error.
-            let _ = error.print();
-            ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2))
+            let printed = error.print();
+            if error.use_stderr() {
+                return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
+            }
+            out::keep(printed.and_then(|()| io::stdout().flush()));
+            End::Done.code()
         }
     }
 }

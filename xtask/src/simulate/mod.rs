@@ -10,7 +10,7 @@ use crate::exit::{End, Failure, Outcome, fail};
 use crate::files;
 use crate::flags::SimulateArgs;
 use crate::interrupt;
-use crate::out::say;
+use crate::out::{say, tell};
 use crate::progress::Progress;
 use crate::scene;
 use crate::summary::{Summary, Watch};
@@ -35,7 +35,7 @@ pub(crate) fn run(args: &SimulateArgs) -> Outcome {
     let scene = scene::open(&args.scene, &args.set, args.mode)?;
     let mut built = scene.build()?;
     args.json.as_deref().map_or(Ok(()), files::prepare)?;
-    interrupt::watch("finishing the frame")?;
+    interrupt::watch("finishing the sample")?;
     let mut table = Table::open(args.out.as_deref(), &built)?;
     let run = sample(&mut built.world, seconds, every, &mut table)?;
     table.finish()?;
@@ -117,7 +117,7 @@ fn report(args: &SimulateArgs, summary: &Summary, run: &Run) {
             lines.iter().for_each(|line| say!("{line}"));
             say!("trajectories {}", path.display());
         }
-        None => lines.iter().for_each(|line| eprintln!("{line}")),
+        None => lines.iter().for_each(|line| tell!("{line}")),
     }
 }
 

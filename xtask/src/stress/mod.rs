@@ -143,7 +143,7 @@ const CASES: [Case; 16] = [
 
 pub(crate) fn run(args: &StressArgs) -> Outcome {
     let chosen = choose(args.case.as_deref())?;
-    interrupt::watch("finishing the frame")?;
+    interrupt::watch("finishing the case")?;
     say!(
         "{:>3}  {:<12} {:<11} {:<52} wanted",
         "no",
