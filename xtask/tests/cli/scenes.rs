@@ -149,3 +149,11 @@ fn gravity_of_more_than_1e12_is_refused() {
     run("fconst=[0, 1e13]").refused(&["--set fconst=[0, 1e13]: parameters.fconst[1]: "]);
     run("gravity=[0, -1e12]").done();
 }
+
+#[test]
+fn a_body_with_shape_and_shapes_is_refused() {
+    refused(
+        body("shape = { circle = 1 }\nshapes = [{ circle = 2 }]"),
+        &["bad.toml:5:10: body.shapes: both shape and shapes are given"],
+    );
+}

@@ -175,6 +175,10 @@ fn written_body(
             .unwrap_or_else(|| format!("body/{index}")),
         field.clone(),
     );
+    if table.shape.is_some() && !table.shapes.is_empty() {
+        let reason = "both shape and shapes are given: put all shapes into the list".to_owned();
+        return Err(planner.refuse(&field.key("shapes"), reason));
+    }
     let single = table.shape.iter().map(|shape| (shape, field.key("shape")));
     let several = table.shapes.iter().enumerate();
     let several = several.map(|(k, shape)| (shape, field.key("shapes").index(k)));
