@@ -1,13 +1,16 @@
 //! `inertia`: area, centroid, moments, principal axes, mass and inertia of a polygon.
 
-use std::fs;
-
 use carom_geometry::{AreaProperties, MassProperties, Polygon};
 use carom_math::{Vec2, vec2};
+use carom_render::read_file;
 
 use crate::exit::{End, Failure, Outcome, fail};
 use crate::flags::InertiaArgs;
 use crate::out::say;
+
+/// Largest list of vertices that is read, in bytes: as many as a polygon may have, in 16 bytes each; with full digits a
+/// third of that. Less would refuse what a polygon takes, more is memory for a wrong file.
+const MAX_BYTES: u64 = 1 << 28;
 
 pub(crate) fn run(args: &InertiaArgs) -> Outcome {
     let points = match (&args.vertices, &args.file) {
@@ -16,7 +19,8 @@ pub(crate) fn run(args: &InertiaArgs) -> Outcome {
             let named = |error: &dyn std::fmt::Display| {
                 Failure::new(format!("{}: {error}", path.display()))
             };
-            let text = fs::read_to_string(path).map_err(|error| named(&error))?;
+            let bytes = read_file(path, MAX_BYTES).map_err(|error| named(&error))?;
+            let text = String::from_utf8(bytes).map_err(|error| named(&error))?;
             parse_lines(&text).map_err(|failure| named(&failure.line()))?
         }
         (None, None) => fail!("neither vertices nor --file"),

@@ -4,7 +4,7 @@ use std::fs;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use carom_render::{Checksum, Existing, Manifest, OutputFolder, Sequence};
+use carom_render::{Checksum, Existing, Manifest, OutputFolder, Sequence, read_file};
 
 use crate::exit::{End, Failure, Outcome, fail};
 use crate::flags::MergeArgs;
@@ -150,7 +150,7 @@ fn check(slice: &Slice) -> Result<(), Failure> {
             );
         };
         let path = slice.folder.join(&name);
-        if Checksum::of_file(&path)? != *sum {
+        if !sum.is_of(&path)? {
             return Err(changed(&path));
         }
     }
@@ -160,9 +160,12 @@ fn check(slice: &Slice) -> Result<(), Failure> {
 /// The bytes of a frame, if they are still what was checked.
 fn read(slice: &Slice, name: &str) -> Result<Vec<u8>, Failure> {
     let path = slice.folder.join(name);
-    let bytes = fs::read(&path)
+    let Some(Some(sum)) = slice.manifest.files.get(name) else {
+        return Err(changed(&path));
+    };
+    let bytes = read_file(&path, sum.length)
         .map_err(|error| Failure::new(format!("cannot read {}: {error}", path.display())))?;
-    if slice.manifest.files.get(name) == Some(&Some(Checksum::of(&bytes))) {
+    if Checksum::of(&bytes) == *sum {
         Ok(bytes)
     } else {
         Err(changed(&path))

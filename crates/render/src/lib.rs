@@ -65,6 +65,7 @@ mod golden_overlay_tests;
 #[cfg(test)]
 mod golden_tests;
 mod huffman;
+mod input;
 mod label;
 mod layout;
 mod look;
@@ -106,6 +107,7 @@ pub use error::RenderError;
 pub use face::{Face, MAX_FACE_SIDE};
 pub use folder::{Existing, OutputFolder};
 pub use frame::Frame;
+pub use input::{ReadError, open_file, read_file};
 pub use label::Label;
 pub use look::{FIXED_COLOUR, KINEMATIC_COLOUR, Look};
 pub use manifest::{Checksum, MANIFEST, Manifest};

@@ -12,14 +12,17 @@
 use core::fmt::Write as _;
 use std::collections::BTreeMap;
 use std::ffi::OsStr;
-use std::fs::{self, File};
-use std::io::{self, Read};
+use std::io::{self, Read as _};
 use std::path::Path;
 
-use crate::RenderError;
+use crate::{ReadError, RenderError, open_file, read_file};
 
 /// Name of the manifest inside an output folder.
 pub const MANIFEST: &str = "manifest.txt";
+
+/// Largest manifest that is read, in bytes: a film of a million frames, the longest, has lines of 40 bytes, two each
+/// until it is closed. With less it could not be resumed; more is memory for what is no manifest.
+const MAX_BYTES: u64 = 1 << 27;
 
 /// First line of a manifest; the number is that of the format.
 const HEADING: &str = "carom output 2";
@@ -54,8 +57,20 @@ impl Checksum {
         Self::read(path).map_err(RenderError::io("read", path))
     }
 
+    /// Whether a file is the one that has this checksum; one of another length is not read.
+    ///
+    /// # Errors
+    /// [`RenderError::Io`] with the path: it is not there, cannot be read, or is no plain file.
+    pub fn is_of(&self, path: impl AsRef<Path>) -> Result<bool, RenderError> {
+        let path = path.as_ref();
+        let (_, length) = open_file(path)
+            .map_err(io::Error::from)
+            .map_err(RenderError::io("read", path))?;
+        Ok(length == self.length && Self::of_file(path)? == *self)
+    }
+
     fn read(path: &Path) -> io::Result<Self> {
-        let mut file = File::open(path)?;
+        let (mut file, _) = open_file(path)?;
         let mut hasher = crc32fast::Hasher::new();
         let (mut piece, mut length) = (vec![0; 1 << 16], 0);
         loop {
@@ -105,9 +120,13 @@ impl Manifest {
     /// [`RenderError::Foreign`] if the file of that name is no manifest, [`RenderError::Io`] if it cannot be read.
     pub fn read(folder: impl AsRef<Path>) -> Result<Option<Self>, RenderError> {
         let place = folder.as_ref().join(MANIFEST);
-        let bytes = match fs::read(&place) {
-            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
-            read => read.map_err(RenderError::io("read", &place))?,
+        let bytes = match read_file(&place, MAX_BYTES) {
+            Err(ReadError::Io(error)) if error.kind() == io::ErrorKind::NotFound => {
+                return Ok(None);
+            }
+            read => read
+                .map_err(io::Error::from)
+                .map_err(RenderError::io("read", &place))?,
         };
         let text = String::from_utf8(bytes).unwrap_or_else(|_| "binary".to_owned());
         Self::parse(&text)

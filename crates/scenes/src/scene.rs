@@ -1,8 +1,9 @@
 //! A scene: the text of a file and what was set over it.
 
-use std::fs;
-use std::io::{self, ErrorKind, Read as _};
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
+
+use carom_render::{ReadError, read_file};
 
 use crate::Built;
 use crate::document::{Document, MAX_BYTES};
@@ -96,30 +97,13 @@ fn read_text(path: &Path) -> Result<String, Problem> {
 
 /// A whole file of at most [`MAX_BYTES`].
 pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>, Problem> {
-    let problem = |error: io::Error| match error.kind() {
-        ErrorKind::NotFound | ErrorKind::NotADirectory => Problem::Missing,
-        ErrorKind::IsADirectory => Problem::Folder,
-        _ => Problem::Io(error),
-    };
-    let about = fs::metadata(path).map_err(problem)?;
-    if about.is_dir() {
-        return Err(Problem::Folder);
-    }
-    let too_large = |bytes| Problem::TooLarge {
-        bytes,
-        limit: MAX_BYTES,
-    };
-    if about.len() > MAX_BYTES {
-        return Err(too_large(about.len()));
-    }
-    // A pipe or a file that grows says nothing true about its size: read no more than the limit.
-    let mut bytes = Vec::new();
-    let file = fs::File::open(path).map_err(problem)?;
-    file.take(MAX_BYTES + 1)
-        .read_to_end(&mut bytes)
-        .map_err(problem)?;
-    if bytes.len() as u64 > MAX_BYTES {
-        return Err(too_large(bytes.len() as u64));
-    }
-    Ok(bytes)
+    read_file(path, MAX_BYTES).map_err(|error| match error {
+        ReadError::Io(error) => match error.kind() {
+            ErrorKind::NotFound | ErrorKind::NotADirectory => Problem::Missing,
+            ErrorKind::IsADirectory => Problem::Folder,
+            _ => Problem::Io(error),
+        },
+        ReadError::TooLarge { bytes, limit } => Problem::TooLarge { bytes, limit },
+        other => Problem::Io(other.into()),
+    })
 }

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use carom_math::{Vec2, vec2};
+use carom_render::read_file;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
@@ -76,11 +77,14 @@ pub(super) fn read_folder(folder: &Path) -> Result<Vec<Book>, Failure> {
     paths.iter().map(|path| read(path)).collect()
 }
 
+/// Largest reference file that is read, in bytes: over a hundred times the largest there is. More is memory for a wrong file.
+const MAX_BYTES: u64 = 1 << 26;
+
 fn read(path: &Path) -> Result<Book, Failure> {
     let wrong =
         |error: &dyn std::fmt::Display| Failure::new(format!("{}: {error}", path.display()));
-    let text = fs::read_to_string(path).map_err(|error| wrong(&error))?;
-    let mut book: Book = serde_json::from_str(&text).map_err(|error| wrong(&error))?;
+    let bytes = read_file(path, MAX_BYTES).map_err(|error| wrong(&error))?;
+    let mut book: Book = serde_json::from_slice(&bytes).map_err(|error| wrong(&error))?;
     if book.category.is_empty() {
         let stem = path.file_stem().unwrap_or_default();
         book.category = stem.to_string_lossy().into_owned();

@@ -1,5 +1,6 @@
 //! The command line as a user meets it: what is printed, what is written, and the exit code.
 
+mod endless;
 mod full;
 mod inertia;
 mod kill;
