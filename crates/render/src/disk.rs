@@ -8,10 +8,10 @@ use std::path::Path;
 #[derive(Debug)]
 pub(crate) struct DiskFile(File);
 
-/// Makes a file, emptied if it was there.
+/// Makes a file that is not there yet: no other one is emptied, and no link is followed.
 pub(crate) fn create(path: &Path) -> io::Result<DiskFile> {
     fault::next()?;
-    File::create(path).map(DiskFile)
+    File::create_new(path).map(DiskFile)
 }
 
 /// Opens a file to append to; made if it is missing.

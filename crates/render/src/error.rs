@@ -148,6 +148,13 @@ pub enum RenderError {
         path: PathBuf,
     },
 
+    /// A file that we wrote was changed since.
+    #[error("{} is not as carom wrote it: move it away or choose another folder", path.display())]
+    Edited {
+        /// The file.
+        path: PathBuf,
+    },
+
     /// The folder belongs to a run with other parameters.
     #[error("{} holds another run ('{found}', not '{wanted}'): it cannot be resumed", folder.display())]
     OtherRun {

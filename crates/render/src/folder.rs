@@ -3,23 +3,25 @@
 //! A name is written into the manifest before its file appears, so whatever stands under a final name is listed, even
 //! after a crash, and its checksum after it, so that what is whole is known. Only listed files are ever replaced or removed.
 
+use std::collections::BTreeMap;
 use std::fs;
-use std::io::Write;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use crate::RenderError;
 use crate::disk::{self, DiskFile};
 use crate::manifest::{Checksum, MANIFEST, Manifest, is_plain, line};
-use crate::output::{temporary_name, write_file};
+use crate::output::{final_name, temporary_name, write_file};
+use crate::{ReadError, RenderError, open_file};
 
 /// What to do with the outputs that a folder holds already.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Existing {
-    /// Refuse the folder.
+    /// Refuse the folder if one of the files that its manifest lists is there.
     #[default]
     Refuse,
-    /// Remove what the manifest lists, and start anew. Files of others are never touched.
+    /// Remove what the manifest lists, and start anew. Files of others are never touched, and one that was changed since
+    /// it was written is not removed: the folder is refused.
     Replace,
     /// Keep what the manifest lists and go on, if it was the same run. A file whose bytes are not those of its checksum
     /// counts as missing.
@@ -55,7 +57,7 @@ impl OutputFolder {
     ///
     /// # Errors
     /// [`RenderError::NotAFolder`], [`RenderError::Occupied`] (with [`Existing::Refuse`]), [`RenderError::Foreign`] (a
-    /// manifest or a numbered frame that is not ours), [`RenderError::OtherRun`] (with [`Existing::Resume`]),
+    /// manifest or a numbered frame that is not ours), [`RenderError::Edited`] (with [`Existing::Replace`]), [`RenderError::OtherRun`] (with [`Existing::Resume`]),
     /// [`RenderError::InUse`], [`RenderError::Io`] (read-only, no room).
     pub fn open(
         path: impl AsRef<Path>,
@@ -99,14 +101,24 @@ impl OutputFolder {
         let mut files = checked(path, existing, &about)?.files;
         if existing == Existing::Resume {
             for (name, sum) in &mut files {
-                sum.take_if(|sum| Checksum::of_file(path.join(name)).ok() != Some(*sum));
+                let place = path.join(name);
+                // What may never end is not looked into; it is not ours, and stays.
+                if let Err(ReadError::NotAFile) = open_file(&place) {
+                    return Err(RenderError::Foreign { path: place });
+                }
+                sum.take_if(|sum| !sum.is_of(&place).unwrap_or(false));
             }
         } else {
+            // All are looked at before the first one goes.
+            for (name, sum) in &files {
+                refuse_edited(&path.join(name), *sum)?;
+            }
             for name in files.keys() {
                 remove_ours(&path.join(name))?;
-                // What a run that was killed left of it.
-                remove_ours(&temporary_name(&path.join(name)))?;
             }
+        }
+        remove_leftovers(path, &files)?;
+        if existing != Existing::Resume {
             files.clear();
         }
         let mut state = self.state();
@@ -236,18 +248,22 @@ pub(crate) fn is_frame(name: &str) -> bool {
 /// The manifest that is there, if the folder may be used as `existing` says.
 fn checked(path: &Path, existing: Existing, about: &str) -> Result<Manifest, RenderError> {
     let manifest = Manifest::read(path)?.unwrap_or_default();
-    // A run that failed before its first output is nothing to lose.
-    if let Some(name) = manifest.files.keys().next() {
-        if existing == Existing::Refuse {
-            return Err(occupied(path, name));
+    // A run that failed before its first output is nothing to lose, and so is a listed file that never got its name.
+    let there = |name: &&String| is_there(&path.join(name));
+    match existing {
+        Existing::Refuse => {
+            if let Some(name) = manifest.files.keys().find(there) {
+                return Err(occupied(path, name));
+            }
         }
-        if existing == Existing::Resume && manifest.about != about {
+        Existing::Resume if !manifest.files.is_empty() && manifest.about != about => {
             return Err(RenderError::OtherRun {
                 folder: path.to_path_buf(),
                 found: manifest.about,
                 wanted: about.to_owned(),
             });
         }
+        Existing::Resume | Existing::Replace => {}
     }
     refuse_foreign_frames(path, &manifest, existing)?;
     Ok(manifest)
@@ -277,6 +293,45 @@ fn refuse_foreign_frames(
             path: folder.join(name),
         }),
     }
+}
+
+/// Whether a file, or a link that may lead nowhere, has this name.
+fn is_there(place: &Path) -> bool {
+    place.symlink_metadata().is_ok()
+}
+
+/// A file that its checksum does not fit holds somebody's work, unless it is empty: that may be of a system that broke down.
+fn refuse_edited(place: &Path, sum: Option<Checksum>) -> Result<(), RenderError> {
+    let Some(sum) = sum.filter(|_| is_there(place)) else {
+        return Ok(());
+    };
+    let path = place.to_path_buf();
+    match open_file(place) {
+        Ok((_, 0)) => Ok(()),
+        Ok(_) if sum.is_of(place)? => Ok(()),
+        Ok(_) => Err(RenderError::Edited { path }),
+        Err(ReadError::NotAFile) => Err(RenderError::Foreign { path }),
+        // A link that leads nowhere.
+        Err(ReadError::Io(error)) if error.kind() == io::ErrorKind::NotFound => Ok(()),
+        Err(error) => Err(RenderError::io("read", place)(error.into())),
+    }
+}
+
+/// What runs that were killed left of listed files and of the manifest, under their temporary names.
+fn remove_leftovers(
+    folder: &Path,
+    files: &BTreeMap<String, Option<Checksum>>,
+) -> Result<(), RenderError> {
+    for entry in fs::read_dir(folder).map_err(RenderError::io("read", folder))? {
+        let entry = entry.map_err(RenderError::io("read", folder))?;
+        let hidden = entry.file_name().into_string().unwrap_or_default();
+        let ours =
+            final_name(&hidden).is_some_and(|name| name == MANIFEST || files.contains_key(name));
+        if ours && entry.file_type().is_ok_and(|kind| kind.is_file()) {
+            remove_ours(&entry.path())?;
+        }
+    }
+    Ok(())
 }
 
 fn remove_ours(place: &Path) -> Result<(), RenderError> {

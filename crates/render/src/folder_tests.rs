@@ -30,10 +30,58 @@ fn a_run_that_wrote_nothing_is_no_obstacle() {
     drop(OutputFolder::open(root.path(), Existing::Refuse, "run 1").unwrap());
     let folder = OutputFolder::open(root.path(), Existing::Refuse, "run 2").unwrap();
     folder.save("a.png", b"a").unwrap();
-    fs::write(root.path().join(".a.png.part"), "torn").unwrap();
     drop(folder);
     let _again = OutputFolder::open(root.path(), Existing::Replace, "run 3").unwrap();
-    assert!(!root.path().join(".a.png.part").exists());
+    assert!(!root.path().join("a.png").exists());
+}
+
+#[test]
+fn a_film_that_was_killed_on_the_way_is_no_obstacle() {
+    let root = tempfile::tempdir().unwrap();
+    let names = || {
+        let mut names: Vec<_> = contents(root.path())
+            .into_iter()
+            .map(|file| file.0)
+            .collect();
+        names.sort();
+        names
+    };
+    for existing in [Existing::Refuse, Existing::Replace, Existing::Resume] {
+        let folder = OutputFolder::open(root.path(), Existing::Refuse, "run").unwrap();
+        let place = folder.claim("film.png").unwrap();
+        drop(folder);
+        // What the claimed film and the manifest are until they are whole.
+        for place in [&place, &root.path().join(MANIFEST)] {
+            fs::write(temporary_name(place), "torn").unwrap();
+        }
+        // And what somebody else hides here.
+        let theirs = temporary_name(&root.path().join("notes.txt"));
+        fs::write(&theirs, "mine").unwrap();
+        drop(OutputFolder::open(root.path(), existing, "run").unwrap());
+        fs::remove_file(&theirs).unwrap();
+        assert_eq!(names(), [MANIFEST], "{existing:?}");
+    }
+}
+
+#[test]
+fn what_was_edited_is_not_removed() {
+    let root = tempfile::tempdir().unwrap();
+    run(root.path(), Existing::Refuse).unwrap();
+    let whole = contents(root.path());
+    let edited = root.path().join(NAMES[2]);
+    for text in ["drawn over", &NAMES[0].repeat(100)] {
+        fs::write(&edited, text).unwrap();
+        let error = OutputFolder::open(root.path(), Existing::Replace, "run").unwrap_err();
+        assert!(matches!(error, RenderError::Edited { .. }), "{error}");
+        assert!(error.to_string().contains(NAMES[2]), "{error}");
+        assert_eq!(fs::read_to_string(&edited).unwrap(), text);
+        assert_eq!(contents(root.path()).len(), whole.len(), "nothing is gone");
+    }
+    // Nothing is lost with an empty file, or with one that is not there.
+    fs::write(&edited, "").unwrap();
+    fs::remove_file(root.path().join(NAMES[1])).unwrap();
+    run(root.path(), Existing::Replace).unwrap();
+    assert_eq!(contents(root.path()), whole);
 }
 
 #[test]

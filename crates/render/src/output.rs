@@ -1,6 +1,7 @@
 //! Files that appear whole or not at all.
 
 use std::ffi::OsString;
+use std::hash::{BuildHasher as _, Hasher as _, RandomState};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
@@ -8,6 +9,9 @@ use crate::RenderError;
 use crate::disk::{self, DiskFile};
 
 /// A file under a temporary name beside its place: [`Draft::finish`] gives it its name, dropping it removes it.
+///
+/// The temporary name is drawn at random and belongs to no other file: of two drafts of one place each is whole, and the
+/// one that is finished last stays.
 ///
 /// # Examples
 /// ```
@@ -29,12 +33,29 @@ pub struct Draft {
     writer: Option<BufWriter<DiskFile>>,
 }
 
-/// The name that a file has until it is whole: hidden, in the same folder.
+/// A name that a file may have until it is whole: hidden, in the same folder, `.NAME.0123456789abcdef.part`.
+///
+/// One that can be told beforehand may be a file of somebody else, or a link that leads to one.
 pub(crate) fn temporary_name(place: &Path) -> PathBuf {
+    // The standard library's only source of chance; no output depends on it.
+    let chance = RandomState::new().build_hasher().finish();
     let mut hidden = OsString::from(".");
     hidden.push(place.file_name().unwrap_or_default());
-    hidden.push(".part");
+    hidden.push(format!(".{chance:016x}{PART}"));
     place.with_file_name(hidden)
+}
+
+/// How temporary names end.
+const PART: &str = ".part";
+
+/// The name that a file with this temporary name was to have.
+pub(crate) fn final_name(temporary: &str) -> Option<&str> {
+    let (name, chance) = temporary
+        .strip_prefix('.')?
+        .strip_suffix(PART)?
+        .rsplit_once('.')?;
+    let ours = chance.len() == 16 && chance.bytes().all(|b| b"0123456789abcdef".contains(&b));
+    ours.then_some(name)
 }
 
 impl Draft {
@@ -148,12 +169,78 @@ mod tests {
         write_file(&place, b"old").unwrap();
         let mut draft = Draft::create(&place).unwrap();
         draft.append(b"half of the n").unwrap();
-        assert_eq!(names(folder.path()), [".a.txt.part", "a.txt"]);
+        let [hidden, whole] = &names(folder.path())[..] else {
+            panic!("{:?}", names(folder.path()));
+        };
+        assert_eq!(
+            (final_name(hidden), whole.as_str()),
+            (Some("a.txt"), "a.txt")
+        );
         drop(draft);
         assert_eq!(names(folder.path()), ["a.txt"]);
         assert_eq!(fs::read(&place).unwrap(), b"old");
         write_file(&place, b"new").unwrap();
         assert_eq!(fs::read(&place).unwrap(), b"new");
+    }
+
+    #[test]
+    fn two_drafts_of_one_place_do_not_mix() {
+        let folder = tempfile::tempdir().unwrap();
+        let place = folder.path().join("a.txt");
+        let mut drafts = [(); 2].map(|()| Draft::create(&place).unwrap());
+        for _ in 0..3 {
+            for (draft, text) in drafts.iter_mut().zip([&b"first "[..], b"second "]) {
+                draft.append(text).unwrap();
+                draft.flush().unwrap();
+            }
+        }
+        let [first, second] = drafts;
+        first.finish().unwrap();
+        assert_eq!(fs::read(&place).unwrap(), b"first first first ");
+        second.finish().unwrap();
+        assert_eq!(fs::read(&place).unwrap(), b"second second second ");
+        assert_eq!(names(folder.path()), ["a.txt"]);
+    }
+
+    #[test]
+    fn hidden_files_of_others_are_not_written_into() {
+        let folder = tempfile::tempdir().unwrap();
+        let place = folder.path().join("a.txt");
+        let theirs = folder.path().join(".a.txt.part");
+        fs::write(&theirs, b"theirs").unwrap();
+        write_file(&place, b"ours").unwrap();
+        assert_eq!(fs::read(&theirs).unwrap(), b"theirs");
+        // A name that is taken all the same is refused, and so is a link of that name.
+        let taken = temporary_name(&place);
+        fs::write(&taken, b"theirs").unwrap();
+        assert!(disk::create(&taken).is_err());
+        assert_eq!(fs::read(&taken).unwrap(), b"theirs");
+        #[cfg(unix)]
+        {
+            let link = temporary_name(&place);
+            std::os::unix::fs::symlink(&theirs, &link).unwrap();
+            assert!(disk::create(&link).is_err());
+            assert_eq!(fs::read(&theirs).unwrap(), b"theirs");
+        }
+    }
+
+    #[test]
+    fn a_temporary_name_tells_the_final_one() {
+        let place = Path::new("out/frame_00000.png");
+        let (a, b) = (temporary_name(place), temporary_name(place));
+        assert!(a != b);
+        for name in [a, b] {
+            let name = name.file_name().unwrap().to_str().unwrap();
+            assert_eq!(final_name(name), Some("frame_00000.png"));
+        }
+        for other in [
+            ".a.part",
+            "a.0123456789abcdef.part",
+            ".a.0123456789abcdeF.part",
+            ".a.123.part",
+        ] {
+            assert_eq!(final_name(other), None, "{other}");
+        }
     }
 
     #[test]

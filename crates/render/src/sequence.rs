@@ -122,9 +122,10 @@ mod tests {
         for index in [0, 1, 4] {
             frames.save(index, &picture()).unwrap();
         }
-        drop(frames);
         // Killed in the middle of frame 2: listed, but only its temporary file is there.
-        let torn = root.path().join(".frame_00002.png.part");
+        let place = frames.folder().claim(&Sequence::name(2)).unwrap();
+        let torn = crate::output::temporary_name(&place);
+        drop(frames);
         fs::write(&torn, "half").unwrap();
 
         let error = Sequence::create(root.path(), Existing::Resume, "another run").unwrap_err();

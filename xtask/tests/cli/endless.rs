@@ -82,6 +82,23 @@ fn vertices_of_a_pipe_or_a_device_are_refused() {
 }
 
 #[test]
+fn a_frame_or_a_manifest_that_is_a_pipe_is_refused() {
+    let root = tempfile::tempdir().unwrap();
+    let with = |more: &[&str]| soon(root.path(), &[&SMALL, more].concat());
+    with(&["--out", "out"]).done();
+    let frame = root.path().join("out/frame_00001.png");
+    pipe(&frame);
+    for flag in ["--resume", "--force"] {
+        with(&["--out", "out", flag]).refused(&["out/frame_00001.png", "was not written by carom"]);
+    }
+    assert!(frame.exists());
+    pipe(&root.path().join("out/manifest.txt"));
+    for flag in ["--resume", "--force"] {
+        with(&["--out", "out", flag]).refused(&["out/manifest.txt", "not a file"]);
+    }
+}
+
+#[test]
 fn slices_with_a_frame_that_never_ends_are_refused() {
     let root = tempfile::tempdir().unwrap();
     for (out, slice) in [("a", "1/2"), ("b", "2/2")] {
