@@ -13,6 +13,7 @@ mod a_hundred_bodies_at_one_place_end;
 mod a_jam_ends_in_exact_mode;
 mod a_light_body_keeps_a_heavy_one_off_the_floor;
 mod a_long_flight_costs_no_more_than_what_it_meets;
+mod a_nudged_stack_has_its_contact_modes_solved_a_few_times;
 mod a_place_used_again_inherits_nothing;
 mod a_refused_step_takes_no_events;
 mod a_removed_body_strikes_nobody;

@@ -23,6 +23,8 @@ pub struct StepReport {
     pub pairs: u64,
     /// Contact rows that were solved for.
     pub rows: u64,
+    /// Contact islands whose modes were solved for: a closed form until the next change of mode, if there is one.
+    pub modes_solved: u64,
     /// Bodies that were stopped because a number was no longer finite.
     pub stopped: u64,
     /// Deepest overlap seen at the start of a sub-step, in m, ≥ 0.
@@ -54,6 +56,7 @@ impl AddAssign for StepReport {
         self.unresolved += later.unresolved;
         self.pairs += later.pairs;
         self.rows += later.rows;
+        self.modes_solved += later.modes_solved;
         self.stopped += later.stopped;
         if later.deepest_overlap > self.deepest_overlap {
             self.deepest_overlap = later.deepest_overlap;

@@ -186,13 +186,10 @@ impl World {
                 }
                 self.predict(entry.pair, entry.time);
                 let (a, b) = self.pairs.get(entry.pair).bodies;
-                // Nobody's motion has changed, but a group has one touch more.
-                for index in [a, b] {
-                    if self.bodies.get(index).membership.is_closed() {
-                        self.rejudge(index, entry.time);
-                    } else {
-                        self.regroup(index, entry.time);
-                    }
+                // No motion has changed, but an island has one contact more: its modes are solved for once.
+                self.gain_contact(a, entry.time);
+                if !self.share_group(a, b) {
+                    self.gain_contact(b, entry.time);
                 }
                 return true;
             }

@@ -148,6 +148,21 @@ impl World {
         }
     }
 
+    /// A body that goes on as before has one contact more: the modes of its island are solved for anew.
+    pub(crate) fn gain_contact(&mut self, index: u32, time: SimTime) {
+        if self.bodies.get(index).membership.is_closed() {
+            self.rejudge(index, time);
+        } else {
+            self.regroup(index, time);
+        }
+    }
+
+    /// Whether two bodies belong to one analytic island.
+    pub(crate) fn share_group(&self, a: u32, b: u32) -> bool {
+        let [one, other] = [a, b].map(|index| self.bodies.get(index).membership);
+        one.is_closed() && one.group == other.group
+    }
+
     /// Whether something may hold a body that just changed its motion: what bounces off does not.
     fn may_last(&self, index: u32) -> bool {
         let pairs = self.bodies.get(index).pairs.iter();
@@ -158,8 +173,9 @@ impl World {
 
     fn judge_all(&mut self, members: &[u32], time: SimTime, speed: f64) {
         // Every call counts for some body that had not been judged too often: they come to an end.
-        let h = self.clock.h;
-        let stalls = |index: &&u32| self.closed.stalls(**index, time, h);
+        let limits = (self.clock.h, self.settings.mode);
+        let bodies = u32::try_from(members.len()).unwrap_or(u32::MAX);
+        let stalls = |index: &&u32| self.closed.stalls(**index, bodies, time, limits);
         let stalled = members.iter().filter(stalls).count() > 0;
         if stalled {
             return self.set_free(members, time);
@@ -218,6 +234,7 @@ impl World {
 
     /// Judges all that touches a body, and whoever touches that, and so on.
     fn judge_around(&mut self, index: u32, time: SimTime, speed: f64, looks: Looks) {
+        self.report.modes_solved += 1;
         let mut found = self.gather_touching(index, time, looks);
         while let Err(Refused { seen, .. }) = &found {
             let leaves = |index: &u32| {

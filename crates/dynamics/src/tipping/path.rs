@@ -21,6 +21,8 @@ pub(crate) struct Path {
     velocity: Vec<f64>,
     /// b₀ … b₇ of each coordinate.
     terms: Vec<[f64; 8]>,
+    /// The same integrated once and twice: bₙ/(n + 1), and bₙ/((n + 1)(n + 2)). A path is evaluated far more often than made.
+    integrals: Vec<[[f64; 2]; 8]>,
 }
 
 impl Path {
@@ -43,6 +45,7 @@ impl Path {
             place: flat(|place| [place.centre.x, place.centre.y, 0.0]),
             velocity: flat(|place| [place.velocity.x, place.velocity.y, place.spin]),
             terms: Vec::new(),
+            integrals: Vec::new(),
         };
         // In 1/7 of a radian by what turns fastest the polynomials are as right as is asked for, or nearly.
         let mut rate = 0.0_f64;
@@ -78,6 +81,7 @@ impl Path {
     ) -> bool {
         let begins = |first: &f64| [*first, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
         self.terms = first.iter().map(begins).collect();
+        self.integrals = self.terms.iter().map(integrated).collect();
         let sizes = first.iter().enumerate().map(|(k, x)| (x * scale(k)).abs());
         let size = sizes.fold(f64::MIN_POSITIVE, f64::max);
         let mut before = f64::INFINITY;
@@ -98,6 +102,7 @@ impl Path {
                     change = change.max((new - old).abs() * scale(k));
                 }
                 *terms = new;
+                self.integrals[k] = integrated(terms);
             }
             if !change.is_finite() {
                 return false;
@@ -162,16 +167,24 @@ impl Path {
     fn coordinate(&self, k: usize, t: f64) -> (f64, f64) {
         let tau = t / self.length;
         let (mut v, mut x) = (0.0, 0.0);
-        for (power, term) in (0_u32..8).zip(self.terms[k]).rev() {
-            let n = f64::from(power);
-            v = v * tau + term / (n + 1.0);
-            x = x * tau + term / ((n + 1.0) * (n + 2.0));
+        for [once, twice] in self.integrals[k].iter().rev() {
+            v = v * tau + once;
+            x = x * tau + twice;
         }
         (
             self.place[k] + (self.velocity[k] + x * t) * t,
             self.velocity[k] + v * t,
         )
     }
+}
+
+/// Coefficients of the first and the second integral of a polynomial.
+fn integrated(terms: &[f64; 8]) -> [[f64; 2]; 8] {
+    let mut n = 0.0;
+    terms.map(|term| {
+        n += 1.0;
+        [term / n, term / (n * (n + 1.0))]
+    })
 }
 
 /// Coefficients of the polynomial through values at the nodes: Newton's divided differences, multiplied out.
