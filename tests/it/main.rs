@@ -32,4 +32,5 @@ mod stepped_slopes;
 mod stepped_swift;
 mod tipping;
 mod twins;
+mod work;
 mod zones;

@@ -99,8 +99,8 @@ pub struct Events {
     dropped: usize,
     /// When the step began: nothing happens before.
     since: SimTime,
-    /// How many of them some step has delivered.
-    delivered: usize,
+    /// How many of them some step has delivered, kept and dropped.
+    delivered: (usize, usize),
 }
 
 impl Events {
@@ -110,7 +110,7 @@ impl Events {
             capacity,
             dropped: 0,
             since: SimTime::ZERO,
-            delivered: 0,
+            delivered: (0, 0),
         }
     }
 
@@ -135,6 +135,11 @@ impl Events {
     #[must_use]
     pub const fn dropped(&self) -> usize {
         self.dropped
+    }
+
+    /// Whether something happened that no step has delivered, whether there was room for it or not.
+    pub(crate) fn are_due(&self) -> bool {
+        self.list.len() + self.dropped > self.delivered.0 + self.delivered.1
     }
 
     /// Tells what happened at `time`; the grid of sub-steps is met where sums of a caller's `dt` round past it, too.
@@ -167,14 +172,14 @@ impl Events {
     pub(crate) fn begin_step(&mut self, now: SimTime) {
         self.since = now;
         // A step in which much happened leaves no room behind.
-        self.list.shrink_to(4 * self.delivered);
-        self.list.drain(..self.delivered);
-        self.delivered = 0;
-        self.dropped = 0;
+        let (kept, dropped) = core::mem::take(&mut self.delivered);
+        self.list.shrink_to(4 * kept);
+        self.list.drain(..kept);
+        self.dropped -= dropped;
     }
 
     pub(crate) fn end_step(&mut self) {
-        self.delivered = self.list.len();
+        self.delivered = (self.list.len(), self.dropped);
     }
 }
 

@@ -7,7 +7,8 @@ use thiserror::Error;
 /// What a step did.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StepReport {
-    /// Seconds that passed.
+    /// Seconds that passed: less than asked for where a step to the next event found one, or its work was
+    /// [used up](crate::Settings::work).
     pub advanced: f64,
     /// Sub-steps that began.
     pub substeps: u64,

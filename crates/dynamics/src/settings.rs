@@ -32,6 +32,11 @@ pub struct Settings {
     pub contact: Softness,
     /// When groups at rest fall asleep; `None`: never.
     pub sleep: Option<Sleep>,
+    /// Most work in a tick, for each thousand bodies or fewer: events (impacts, ends of searches and of pieces of a law,
+    /// changes of contact mode, sub-steps) and pairs looked at by shape. A [step](crate::World::step) that needs more stops early
+    /// between two events, and says so; the next one goes on. A dense gas takes some 20 a body, two bodies that strike
+    /// each other a million times between a wall and a heavy one more than any number.
+    pub work: u64,
     /// How many replaced motions are kept for [`crate::World::pose_at`]; 0 keeps none.
     pub history: usize,
     /// How many events of a step are kept; the buffer says what it left out.
@@ -58,6 +63,7 @@ impl Default for Settings {
             field_error: 1e-12,
             contact: Softness::default(),
             sleep: Some(Sleep::default()),
+            work: 100_000,
             history: 0,
             events: 4096,
             zones: false,
@@ -193,6 +199,12 @@ impl Settings {
         // A tick of more sub-steps than this is a typing error, not a wish.
         range("tick / substep", self.tick / self.substep, 0.0, 1e6)?;
         range("field_error", self.field_error, 1e-15, 1e3)?;
+        if self.work == 0 {
+            return Err(SettingsError::NotPositive {
+                field: "work",
+                value: 0.0,
+            });
+        }
         #[expect(clippy::cast_precision_loss, reason = "any such number is refused")]
         range("threads", self.threads as f64, 1.0, 1024.0)?;
         let contact = &self.contact;

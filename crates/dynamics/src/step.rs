@@ -13,12 +13,28 @@ use crate::{Mode, Refusal, StepReport, World};
 /// More ticks than this in one step are refused.
 const TICKS: f64 = 1e7;
 
+/// So many bodies share [`Settings::work`](crate::Settings::work).
+const SHARERS: f64 = 1000.0;
+
+/// The work of a call: what is done, and when it stops.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Work {
+    /// Events so far; pairs are counted by the report.
+    done: u64,
+    most: f64,
+    used_up: bool,
+}
+
 impl World {
     /// Asks where everything is `dt` seconds later.
     ///
     /// `dt` only observes: sub-steps lie on a grid of their own, so a second in one step or in a
     /// hundred gives the same motions. 0 delivers events only. There is no error path: a negative,
     /// NaN, infinite or too long `dt` (over 1e7 ticks) moves nothing, and the report says so.
+    ///
+    /// Work is bounded by [`Settings::work`](crate::Settings::work): where it is used up the step stops between two events with
+    /// [`StepReport::advanced`] below `dt`, and a step of the rest goes on with the bits of one long step. Forces end where
+    /// a step stops.
     pub fn step(&mut self, dt: f64) -> StepReport {
         self.threads.clone().run(|| self.run(dt, false))
     }
@@ -37,6 +53,11 @@ impl World {
             return self.report;
         }
         self.events.begin_step(self.clock.now);
+        self.work = Work {
+            done: 0,
+            most: self.work_of(dt),
+            used_up: false,
+        };
         self.stopwatch.start();
         let start = self.clock.now;
         let end = start + dt;
@@ -49,7 +70,7 @@ impl World {
             }
         }
         // What the caller's changes brought about is told first.
-        if !stop_at_event || self.events.is_empty() {
+        if !stop_at_event || !self.events.are_due() {
             let reached = if self.settings.mode == Mode::Stepped {
                 self.advance_stepped(end, stop_at_event)
             } else {
@@ -66,12 +87,29 @@ impl World {
         }
         self.events.end_step();
         self.report_astray(self.clock.now);
-        self.report.advanced = if stop_at_event {
+        self.report.advanced = if stop_at_event || self.work.used_up {
             self.clock.now - start
         } else {
             dt
         };
         self.report
+    }
+
+    /// Events and pairs that a step of `dt` seconds may take: of each tick, and of each thousand bodies.
+    fn work_of(&self, dt: f64) -> f64 {
+        let ticks = (dt / self.settings.tick).max(1.0);
+        let shares = (self.bodies.places() as f64 / SHARERS).max(1.0);
+        self.settings.work as f64 * ticks * shares
+    }
+
+    /// Counts an event; whether the step stops after it, since its work is used up.
+    ///
+    /// Sub-steps that are made ahead cannot be looked into.
+    pub(crate) fn uses_up(&mut self) -> bool {
+        self.work.done += 1;
+        self.work.used_up =
+            (self.work.done + self.report.pairs) as f64 >= self.work.most && !self.is_ahead();
+        self.work.used_up
     }
 
     fn refusal(&self, dt: f64) -> Option<Refusal> {
@@ -108,14 +146,14 @@ impl World {
                 && before(change, impact)
             {
                 self.change_group();
-                if stop_at_event && !self.events.is_empty() {
+                if self.uses_up() || stop_at_event && self.events.are_due() {
                     return time;
                 }
             } else if let Some(time) = flight
                 && before(flight, impact)
             {
                 self.run_flyers();
-                if stop_at_event && !self.events.is_empty() {
+                if self.uses_up() || stop_at_event && self.events.are_due() {
                     return time;
                 }
             } else if let Some(entry) = self.agenda.next_until(grid) {
@@ -124,13 +162,13 @@ impl World {
                     continue;
                 }
                 self.strike_entry(&entry);
-                if stop_at_event && !self.events.is_empty() {
+                if self.uses_up() || stop_at_event && self.events.are_due() {
                     return entry.time;
                 }
             } else if self.is_substepping() && self.clock.is_due(end) {
                 let time = self.clock.next();
                 self.begin_substep();
-                if stop_at_event && !self.events.is_empty() {
+                if self.uses_up() || stop_at_event && self.events.are_due() {
                     return time;
                 }
             } else {

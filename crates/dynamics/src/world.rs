@@ -17,6 +17,7 @@ use crate::pairs::Pairs;
 use crate::profile::Stopwatch;
 use crate::solver::Law;
 use crate::state::{BodyState, Collider, Surface, drawn_at};
+use crate::step::Work;
 use crate::stepped::Stepped;
 use crate::threads::Threads;
 use crate::{
@@ -69,6 +70,7 @@ pub struct World {
     pub(crate) stepped: Vec<u32>,
     pub(crate) events: Events,
     pub(crate) report: StepReport,
+    pub(crate) work: Work,
     /// Nobody asks for anything before this instant.
     pub(crate) unseen_until: SimTime,
     /// What the impacts of the present sub-step spent of its budget.
@@ -115,6 +117,7 @@ impl World {
             stepped: Vec::new(),
             events: Events::new(settings.events),
             report: StepReport::default(),
+            work: Work::default(),
             unseen_until: SimTime::ZERO,
             spent: 0.0,
             handed_over: 0,

@@ -43,6 +43,11 @@ impl World {
         went
     }
 
+    /// Whether sub-steps are made that lie ahead of the present one.
+    pub(crate) fn is_ahead(&self) -> bool {
+        self.pool.hurry.made > 0
+    }
+
     /// Whether nothing but the solver moves anybody until the next look, and nobody asks where they are.
     fn may_go_ahead(&self) -> bool {
         let pool = &self.pool;

@@ -148,10 +148,11 @@ impl World {
             self.substep();
             if stop_at_event {
                 self.tell_touches(self.clock.next().min(end));
-                if !self.events.is_empty() {
-                    self.write_motions(&[]);
-                    return self.clock.next().min(end);
-                }
+            }
+            if self.clock.is_due(end) && self.uses_up() || stop_at_event && self.events.are_due() {
+                self.tell_touches(self.clock.next().min(end));
+                self.write_motions(&[]);
+                return self.clock.next().min(end);
             }
         }
         if !first {

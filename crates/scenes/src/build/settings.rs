@@ -63,5 +63,6 @@ pub(crate) fn settings(file: &SceneFile) -> Settings {
         events: table.events.unwrap_or(default.events),
         zones: default.zones,
         threads: default.threads,
+        work: default.work,
     }
 }
