@@ -6,6 +6,7 @@ use carom_render::read_file;
 
 use crate::exit::{End, Failure, Outcome, fail};
 use crate::flags::InertiaArgs;
+use crate::number::number;
 use crate::out::say;
 
 /// Largest list of vertices that is read, in bytes: as many as a polygon may have, in 16 bytes each; with full digits a
@@ -29,7 +30,7 @@ pub(crate) fn run(args: &InertiaArgs) -> Outcome {
         if let Some(value) = value
             && !(value > 0.0 && value.is_finite())
         {
-            fail!("{name} is {value}, not a finite number above 0");
+            fail!("{name} is {}, not a finite number above 0", number(value));
         }
     }
     let area = Polygon::new(points)?.area_properties();
@@ -44,18 +45,19 @@ pub(crate) fn run(args: &InertiaArgs) -> Outcome {
 fn print(area: &AreaProperties, mass: &MassProperties) {
     let (largest, smallest, axis) = area.principal_axes();
     let turn = axis.angle().to_degrees();
-    say!("area        {} m²", area.area);
-    say!("centroid    ({}, {}) m", area.centroid.x, area.centroid.y);
-    say!(
-        "moments     ixx {}, iyy {}, ixy {} m⁴ about the centroid",
-        area.ixx,
-        area.iyy,
-        area.ixy
-    );
-    say!("polar       {} m⁴ about the centroid", area.polar);
+    say!("area        {} m²", number(area.area));
+    let (x, y) = (number(area.centroid.x), number(area.centroid.y));
+    say!("centroid    ({x}, {y}) m");
+    let [xx, yy, xy] = [area.ixx, area.iyy, area.ixy].map(number);
+    say!("moments     ixx {xx}, iyy {yy}, ixy {xy} m⁴ about the centroid");
+    say!("polar       {} m⁴ about the centroid", number(area.polar));
+    let (largest, smallest) = (number(largest), number(smallest));
     say!("principal   {largest} m⁴ about the axis at {turn}°, {smallest} m⁴ across it");
-    say!("mass        {} kg", mass.mass);
-    say!("inertia     {} kg m² about the centroid", mass.inertia);
+    say!("mass        {} kg", number(mass.mass));
+    say!(
+        "inertia     {} kg m² about the centroid",
+        number(mass.inertia)
+    );
 }
 
 /// "x,y x,y x,y".

@@ -24,7 +24,7 @@ mod values;
 
 use std::process::ExitCode;
 
-pub(crate) use carom_command::{clock, exit, files, interrupt, out, progress};
+pub(crate) use carom_command::{clock, exit, files, interrupt, number, out, progress};
 
 use clap::Parser as _;
 

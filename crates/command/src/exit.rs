@@ -2,6 +2,7 @@
 
 use std::process::ExitCode;
 
+use crate::number::with_short_numbers;
 use crate::out::tell;
 
 /// How a command ended that was not stopped by an error.
@@ -44,10 +45,10 @@ impl Failure {
         Self(message.into())
     }
 
-    /// The message on a line of its own, whatever an error below wrote.
+    /// The message on a line of its own, whatever an error below wrote, and without numbers of hundreds of digits.
     pub fn line(&self) -> String {
         let parts: Vec<&str> = self.0.split_whitespace().collect();
-        parts.join(" ")
+        with_short_numbers(&parts.join(" "))
     }
 
     /// Prints `error: …` to stderr and gives exit code 2.

@@ -7,6 +7,7 @@ pub mod clock;
 pub mod exit;
 pub mod files;
 pub mod interrupt;
+pub mod number;
 pub mod out;
 pub mod progress;
 mod usage;

@@ -157,3 +157,24 @@ fn a_body_with_shape_and_shapes_is_refused() {
         &["bad.toml:5:10: body.shapes: both shape and shapes are given"],
     );
 }
+
+#[test]
+fn huge_numbers_do_not_fill_lines() {
+    for text in [
+        "version = 1\n[settings]\ntick = 1e308\n",
+        "version = 1\n[settings]\nsubstep = -1e-300\n",
+        "version = 1\n\ngravity = [1e308, 0]\n",
+        "version = 1\n[walls]\ninner = { min = [-1e308, 0], max = [1e307, 1] }\n",
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("bad.toml"), text).unwrap();
+        let ran = xtask_in(folder.path(), &["render", "bad.toml"]);
+        let said = ran.refused(&["bad.toml:3:", "e"]).err;
+        assert!(said.len() < 250, "{said}");
+    }
+    let ran = xtask(&["inertia", "0,0 2,0 2,1 0,1", "--mass", "1e300"]).done();
+    assert!(ran.out.contains("mass        1e300 kg"), "{}", ran.out);
+    xtask(&["inertia", "0,0 1,0 0,1", "--mass", "-1e300"]).refused(&["mass is -1e300, not"]);
+    let ran = xtask(&["simulate", "thesis", "--seconds", "1e300", "--every", "1"]);
+    ran.refused(&["--seconds 1e300 every 1 s"]);
+}
