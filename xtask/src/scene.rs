@@ -1,9 +1,11 @@
 //! Scenes by name or by file, with `--set` and `--mode` laid over them.
 
+use carom_dynamics::World;
 use carom_scenes::Scene;
 
 use crate::exit::{Failure, fail};
 use crate::flags::ModeFlag;
+use crate::number::number;
 use crate::values::KeyValue;
 
 /// Opens a scene file, or a built-in scene by its name.
@@ -24,6 +26,21 @@ pub(crate) fn open(name: &str, set: &[KeyValue], mode: Option<ModeFlag>) -> Resu
         scene.set("settings.mode", name)?;
     }
     Ok(scene)
+}
+
+/// Most ticks of a step that a world takes; one of more is refused when it is made, far from the scene file.
+const MOST_TICKS: f64 = 1e7;
+
+/// Refuses steps that hold too many ticks of the scene, before the first one.
+pub(crate) fn check_step(scene: &Scene, world: &World, seconds: f64) -> Result<(), Failure> {
+    let tick = world.settings().tick;
+    if seconds <= MOST_TICKS * tick {
+        return Ok(());
+    }
+    let (tick, seconds) = (number(tick), number(seconds));
+    let reason =
+        format!("{tick} s is too short: steps of {seconds} s hold more than {MOST_TICKS:e} of it");
+    Err(scene.tick_error(reason).into())
 }
 
 /// 64 bits that differ where two scenes differ, in the file or in what was laid over it.

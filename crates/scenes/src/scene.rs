@@ -9,6 +9,7 @@ use crate::Built;
 use crate::document::{Document, MAX_BYTES};
 use crate::error::{Problem, SceneError};
 use crate::model::SceneFile;
+use crate::path::FieldPath;
 
 /// A scene that was read: all its fields are known and of the right type.
 #[derive(Clone, Debug)]
@@ -70,6 +71,17 @@ impl Scene {
     /// fit: with the place in the file.
     pub fn build(&self) -> Result<Built, SceneError> {
         crate::build::build(self)
+    }
+
+    /// An error about the longest stretch between two looks at the world, with its place in the file.
+    #[must_use]
+    pub fn tick_error(&self, reason: impl Into<String>) -> SceneError {
+        let field = if self.file.parameters.delta.is_some() {
+            FieldPath::root("parameters").key("delta")
+        } else {
+            FieldPath::root("settings").key("tick")
+        };
+        self.document.error(&field, Problem::Refused(reason.into()))
     }
 
     /// The scene's name: the file's `name`, else what it was read from.

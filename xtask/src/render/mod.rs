@@ -34,6 +34,7 @@ pub(crate) fn run(args: &RenderArgs) -> Outcome {
     }
     look::dress(&mut built, &args.overlay, args.style);
     let plan = plan(args, &built)?;
+    scene::check_step(&scene, &built.world, plan.rate.interval())?;
     let shard = args.shard.unwrap_or(Shard::WHOLE);
     if to_stdout {
         return stream(&mut built, &plan, scene.name());

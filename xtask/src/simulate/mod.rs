@@ -34,6 +34,7 @@ pub(crate) fn run(args: &SimulateArgs) -> Outcome {
     }
     let scene = scene::open(&args.scene, &args.set, args.mode)?;
     let mut built = scene.build()?;
+    scene::check_step(&scene, &built.world, every.min(seconds))?;
     args.json.as_deref().map_or(Ok(()), files::prepare)?;
     interrupt::watch("finishing the sample")?;
     let mut table = Table::open(args.out.as_deref(), &built)?;

@@ -178,3 +178,31 @@ fn huge_numbers_do_not_fill_lines() {
     let ran = xtask(&["simulate", "thesis", "--seconds", "1e300", "--every", "1"]);
     ran.refused(&["--seconds 1e300 every 1 s"]);
 }
+
+#[test]
+fn a_step_of_too_many_ticks_names_the_tick_in_the_file() {
+    let text = |lines: &str| format!("version = 1\n{lines}\n");
+    refused(
+        text("[settings]\ntick = 1e-9\nsubstep = 1e-9"),
+        &[
+            "bad.toml:3:8: settings.tick: ",
+            "0.000000001 s is too short",
+        ],
+    );
+    let folder = tempfile::tempdir().unwrap();
+    let run = |more: &[&str]| xtask_in(folder.path(), &[&["simulate", "thesis"], more].concat());
+    run(&[
+        "--seconds",
+        "1",
+        "--set",
+        "delta=1e-9",
+        "--set",
+        "settings.substep=1e-9",
+    ])
+    .refused(&["--set delta=1e-9: parameters.delta: ", "is too short"]);
+    let ran = run(&["--seconds", "1e200", "--every", "1e199"]);
+    ran.refused(&[
+        "thesis: settings.tick: ",
+        "steps of 1e199 s hold more than 1e7 of it",
+    ]);
+}
