@@ -4,7 +4,7 @@ use core::fmt::Write;
 
 use carom_math::{Rot, Vec2};
 
-use crate::clip::is_near;
+use crate::clip::{FAR, Window, is_near};
 use crate::op::{arrow_outline, box_ring};
 use crate::skia::{INNER, OUTER, SHIFT, usable_width};
 use crate::style::shade;
@@ -17,6 +17,7 @@ pub(crate) fn write(size: Size, ops: &[Op], style: &Style) -> String {
         text: String::new(),
         style,
         defined: 0,
+        faces: Vec::new(),
     };
     svg.line(format_args!(
         r#"<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" viewBox="0 0 {width} {height}">"#
@@ -29,18 +30,28 @@ pub(crate) fn write(size: Size, ops: &[Op], style: &Style) -> String {
         svg.op(op);
     }
     svg.line(format_args!("</svg>"));
-    svg.text
+    if svg.defined == 0 {
+        return svg.text;
+    }
+    // Names hold in the whole page that a drawing is put into: those of another drawing must differ.
+    let own = format!("g{:08x}-", crc32fast::hash(svg.text.as_bytes()));
+    svg.text.replace(NAME, &own)
 }
+
+/// What names begin with until the rest is written; in no other text, which has no control characters.
+const NAME: char = '\u{1}';
 
 struct Svg<'a> {
     text: String,
     style: &'a Style,
-    /// Gradients and clips so far, for their names.
+    /// Gradients, clips and faces so far, for their names.
     defined: usize,
+    /// The faces that were written, with their numbers.
+    faces: Vec<(&'a Face, usize)>,
 }
 
-impl Svg<'_> {
-    fn op(&mut self, op: &Op) {
+impl<'a> Svg<'a> {
+    fn op(&mut self, op: &'a Op) {
         match op {
             Op::Polygon { points, paint } => {
                 let outline = self.style.outline_for(*paint);
@@ -133,6 +144,7 @@ impl Svg<'_> {
                 dash,
             } => {
                 let corners = box_ring(*min, *max);
+                let inside = inside.as_ref().filter(|_| max.cmpgt(*min).all());
                 if let (Some(ink), Some(path)) = (inside, path(&corners[..4], true)) {
                     let inside = fill(self.style.colour(*ink));
                     self.line(format_args!(r#"<path d="{path}" {inside}/>"#));
@@ -147,10 +159,19 @@ impl Svg<'_> {
 
     fn polyline(&mut self, points: &[Vec2], width: f64, dash: Option<f64>, ink: Ink) {
         let closed = points.len() > 3 && points.first() == points.last();
-        let points = if closed { &points[1..] } else { points };
-        let Some(path) = path(points, closed) else {
+        let mut path = String::new();
+        // Without a point that is not finite the rest of the line is drawn.
+        let all = Window::between(Vec2::splat(-FAR), Vec2::splat(FAR));
+        all.polyline(points, &mut Vec::new(), |part| {
+            if closed && part.len() == points.len() {
+                extend(&mut path, &part[1..], true);
+            } else {
+                extend(&mut path, part, false);
+            }
+        });
+        if path.is_empty() {
             return;
-        };
+        }
         let stroke = stroke(self.style.colour(ink), width);
         let dash = match dash {
             Some(dash) if dash > 0.0 && dash.is_finite() => {
@@ -194,7 +215,7 @@ impl Svg<'_> {
         self.defined += 1;
         let name = self.defined;
         self.line(format_args!(
-            r#"<radialGradient id="g{name}" gradientUnits="userSpaceOnUse" cx="{:.2}" cy="{:.2}" r="{:.2}"><stop offset="{:.4}" {}/><stop offset="1" {}/></radialGradient>"#,
+            r#"<radialGradient id="{NAME}{name}" gradientUnits="userSpaceOnUse" cx="{:.2}" cy="{:.2}" r="{:.2}"><stop offset="{:.4}" {}/><stop offset="1" {}/></radialGradient>"#,
             focus.x,
             focus.y,
             OUTER * radius,
@@ -202,32 +223,25 @@ impl Svg<'_> {
             stop(colour),
             stop(shade(colour)),
         ));
-        format!(r#"fill="url(#g{name})""#)
+        format!(r#"fill="url(#{NAME}{name})""#)
     }
 
-    fn face(&mut self, centre: Vec2, radius: f64, turn: Rot, face: &Face) {
+    fn face(&mut self, centre: Vec2, radius: f64, turn: Rot, face: &'a Face) {
         let Some(circle) = circle(centre, radius) else {
             return;
         };
-        let (size, rgba) = face.straight();
-        let packed = base64(&png::encode(
-            size,
-            &rgba,
-            ::png::ColorType::Rgba,
-            Packing::Small,
-        ));
-        let scale = 2.0 * radius / f64::from(size.width().min(size.height()));
+        let picture = self.picture(face);
+        let (width, height) = (f64::from(face.width()), f64::from(face.height()));
+        let scale = 2.0 * radius / width.min(height);
         let (x, y) = (turn.x_axis() * scale, turn.y_axis() * scale);
-        let origin = centre - 0.5 * (x * f64::from(size.width()) + y * f64::from(size.height()));
+        let origin = centre - 0.5 * (x * width + y * height);
         self.defined += 1;
         let name = self.defined;
         self.line(format_args!(
-            r#"<clipPath id="g{name}"><circle {circle}/></clipPath>"#
+            r#"<clipPath id="{NAME}{name}"><circle {circle}/></clipPath>"#
         ));
         self.line(format_args!(
-            r#"<g clip-path="url(#g{name})"><image width="{}" height="{}" transform="matrix({:.6} {:.6} {:.6} {:.6} {:.2} {:.2})" href="data:image/png;base64,{packed}"/></g>"#,
-            size.width(),
-            size.height(),
+            r##"<g clip-path="url(#{NAME}{name})"><use href="#{NAME}{picture}" transform="matrix({:.6} {:.6} {:.6} {:.6} {:.2} {:.2})"/></g>"##,
             x.x,
             x.y,
             y.x,
@@ -235,6 +249,29 @@ impl Svg<'_> {
             origin.x,
             origin.y,
         ));
+    }
+
+    /// The number of a face's picture, which is written once, however many discs wear it.
+    fn picture(&mut self, face: &'a Face) -> usize {
+        if let Some(&(_, number)) = self.faces.iter().find(|(known, _)| *known == face) {
+            return number;
+        }
+        let (size, rgba) = face.straight();
+        let packed = base64(&png::encode(
+            size,
+            &rgba,
+            ::png::ColorType::Rgba,
+            Packing::Small,
+        ));
+        self.defined += 1;
+        let number = self.defined;
+        self.faces.push((face, number));
+        self.line(format_args!(
+            r#"<defs><image id="{NAME}{number}" width="{}" height="{}" href="data:image/png;base64,{packed}"/></defs>"#,
+            size.width(),
+            size.height(),
+        ));
+        number
     }
 
     fn line(&mut self, line: core::fmt::Arguments<'_>) {
@@ -263,7 +300,7 @@ fn extend(path: &mut String, points: &[Vec2], closed: bool) {
 }
 
 fn circle(centre: Vec2, radius: f64) -> Option<String> {
-    let sound = is_near(centre) && radius > 0.0 && radius <= crate::clip::FAR;
+    let sound = is_near(centre) && radius > 0.0 && radius <= FAR;
     sound.then(|| {
         format!(
             r#"cx="{:.2}" cy="{:.2}" r="{radius:.2}""#,
@@ -335,34 +372,5 @@ fn base64(bytes: &[u8]) -> String {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn base64_as_in_its_document() {
-        for (plain, packed) in [
-            ("", ""),
-            ("f", "Zg=="),
-            ("fo", "Zm8="),
-            ("foo", "Zm9v"),
-            ("foobar", "Zm9vYmFy"),
-        ] {
-            assert_eq!(base64(plain.as_bytes()), packed);
-        }
-    }
-
-    #[test]
-    fn markup_in_a_label_is_text() {
-        let at = Vec2::new(10.0, 10.0);
-        let label = Label::new(at, "a < \"b\" & c\u{7}", 10.0, Ink::Text);
-        let svg = write(
-            Size::new(100, 20).unwrap(),
-            &[label.into()],
-            &Style::light(),
-        );
-        assert!(
-            svg.contains(r#"aria-label="a &lt; &quot;b&quot; &amp; c ""#),
-            "{svg}"
-        );
-    }
-}
+#[path = "svg_tests.rs"]
+mod tests;
