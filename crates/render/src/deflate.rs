@@ -209,6 +209,11 @@ impl Bits<'_> {
     /// Lets whole bytes go; at most 7 bits stay.
     #[inline]
     fn flush(&mut self) {
+        debug_assert!(
+            self.at + 8 <= self.out.len(),
+            "the block outgrows its room of {} bytes",
+            self.out.len()
+        );
         if let Some(place) = self.out[self.at..].first_chunk_mut() {
             *place = self.bits.to_le_bytes();
         }
@@ -355,6 +360,22 @@ fn tell_lengths(lengths: impl Iterator<Item = u8>, told: &mut Vec<Told>) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    #[cfg(debug_assertions)]
+    #[should_panic(expected = "outgrows its room of 9 bytes")]
+    fn a_block_without_room_is_no_silent_damage() {
+        let mut bits = Bits {
+            out: &mut [0; 9],
+            at: 0,
+            bits: 0,
+            count: 0,
+        };
+        for _ in 0..3 {
+            bits.add(0xAB, 8);
+            bits.flush();
+        }
+    }
 
     #[test]
     fn lengths_have_the_symbols_of_the_table() {

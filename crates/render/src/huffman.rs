@@ -110,6 +110,7 @@ fn shorten(numbers: &mut [u32; 64], most: u8) {
     while sum > 1 << most {
         // One of the longest joins one that is shorter, below a node in that one's place.
         let Some(shorter) = (1..most).rev().find(|&length| numbers[length] > 0) else {
+            debug_assert!(false, "more symbols than there are codes of {most} bits");
             return;
         };
         numbers[most] -= 1;
@@ -143,6 +144,15 @@ fn number(codes: &mut [Code]) {
 mod tests {
     use super::*;
     use proptest::prelude::*;
+
+    #[test]
+    #[cfg(debug_assertions)]
+    #[should_panic(expected = "more symbols than there are codes of 2 bits")]
+    fn more_symbols_than_codes_are_no_silent_damage() {
+        let mut numbers = [0; 64];
+        numbers[3] = 5;
+        shorten(&mut numbers, 2);
+    }
 
     /// Bits that all symbols take together.
     fn total(counts: &[u32], codes: &[Code]) -> u64 {
