@@ -14,7 +14,10 @@ pub enum Chroma {
     Full,
 }
 
-/// A stream of frames in YUV4MPEG2: Rec. 601 in studio range (luma 16..=235), by whole numbers only.
+/// A stream of frames in YUV4MPEG2, in studio range (luma 16..=235), by whole numbers only.
+///
+/// The format has no tag for the weights of colours. Players tell them by the size, and so does the film: Rec. 709 from
+/// 1280 pixels a row or more than 576 rows on, Rec. 601 below.
 ///
 /// # Examples
 /// ```
@@ -31,6 +34,7 @@ pub struct Film<W: Write> {
     out: W,
     size: Size,
     chroma: Chroma,
+    weights: &'static Weights,
     frames: u64,
     /// One frame, used again and again.
     planes: Vec<u8>,
@@ -61,6 +65,7 @@ impl<W: Write> Film<W> {
             out,
             size,
             chroma,
+            weights: Weights::of(size),
             frames: 0,
             planes: Vec::new(),
         })
@@ -79,8 +84,14 @@ impl<W: Write> Film<W> {
             });
         }
         self.planes.clear();
-        self.planes.extend(picture.rgba().chunks_exact(4).map(luma));
-        for weights in [BLUE_DIFFERENCE, RED_DIFFERENCE] {
+        let Weights {
+            luma: parts,
+            blue,
+            red,
+        } = *self.weights;
+        let pixels = picture.rgba().chunks_exact(4);
+        self.planes.extend(pixels.map(|pixel| luma(parts, pixel)));
+        for weights in [blue, red] {
             match self.chroma {
                 Chroma::Full => {
                     let plane = picture.rgba().chunks_exact(4);
@@ -115,16 +126,46 @@ impl<W: Write> Film<W> {
     }
 }
 
-/// Rec. 601 in 1/256: 16 + 219 (0.299 R + 0.587 G + 0.114 B) / 255, rounded.
-fn luma(pixel: &[u8]) -> u8 {
-    let [red, green, blue] = [pixel[0], pixel[1], pixel[2]].map(u32::from);
-    let scaled = 66 * red + 129 * green + 25 * blue + 128;
-    u8::try_from(16 + (scaled >> 8)).unwrap_or(235)
+/// Weights of red, green and blue in 1/256, of studio range. Those of luma add up to 220, for white to be 235; those of
+/// a difference to 0, so that grey has no colour.
+#[derive(Debug)]
+struct Weights {
+    luma: [u32; 3],
+    blue: [i32; 3],
+    red: [i32; 3],
 }
 
-/// Weights of red, green and blue in 1/256; they add up to 0, so that grey has no colour.
-const BLUE_DIFFERENCE: [i32; 3] = [-38, -74, 112];
-const RED_DIFFERENCE: [i32; 3] = [112, -94, -18];
+/// Luma 16 + 219 (0.299 R + 0.587 G + 0.114 B) / 255.
+const REC_601: Weights = Weights {
+    luma: [66, 129, 25],
+    blue: [-38, -74, 112],
+    red: [112, -94, -18],
+};
+
+/// Luma 16 + 219 (0.2126 R + 0.7152 G + 0.0722 B) / 255.
+const REC_709: Weights = Weights {
+    luma: [47, 157, 16],
+    blue: [-26, -86, 112],
+    red: [112, -102, -10],
+};
+
+impl Weights {
+    /// What players take a film of this size for: 576 rows are the most of a standard definition.
+    const fn of(size: Size) -> &'static Self {
+        if size.width() >= 1280 || size.height() > 576 {
+            &REC_709
+        } else {
+            &REC_601
+        }
+    }
+}
+
+/// Rounded to the nearest.
+fn luma(weights: [u32; 3], pixel: &[u8]) -> u8 {
+    let [red, green, blue] = [pixel[0], pixel[1], pixel[2]].map(u32::from);
+    let scaled = weights[0] * red + weights[1] * green + weights[2] * blue + 128;
+    u8::try_from(16 + (scaled >> 8)).unwrap_or(235)
+}
 
 /// Colour difference of `count` pixels whose channels add up to `sum`: 128 is none.
 fn difference(weights: [i32; 3], sum: [i32; 3], count: i32) -> u8 {
@@ -182,23 +223,34 @@ mod tests {
 
     #[test]
     fn known_colours() {
-        // Rec. 601, studio range: black, white, pure red, green and blue.
+        // Studio range: black, white, pure red, green and blue.
         let known = [
-            (0x000000, [16, 128, 128]),
-            (0xFFFFFF, [235, 128, 128]),
-            (0xFF0000, [82, 90, 240]),
-            (0x00FF00, [144, 54, 34]),
-            (0x0000FF, [41, 240, 110]),
+            (0x000000, [16, 128, 128], [16, 128, 128]),
+            (0xFFFFFF, [235, 128, 128], [235, 128, 128]),
+            (0xFF0000, [82, 90, 240], [63, 102, 240]),
+            (0x00FF00, [144, 54, 34], [173, 42, 26]),
+            (0x0000FF, [41, 240, 110], [32, 240, 118]),
         ];
-        for (rgb, yuv) in known {
-            let bytes = one_frame(1, 1, Colour::hex(rgb), Chroma::Full);
-            let found = &bytes[bytes.len() - 3..];
-            let apart = found
-                .iter()
-                .zip(yuv)
-                .map(|(&a, b)| i32::from(a).abs_diff(b))
-                .max();
-            assert!(apart <= Some(1), "{rgb:06x}: {found:?}, expected {yuv:?}");
+        for (rgb, small, large) in known {
+            for ((width, height), yuv) in [
+                ((1, 1), small),
+                ((1279, 1), small),
+                ((1, 576), small),
+                ((1280, 1), large),
+                ((1, 577), large),
+            ] {
+                let bytes = one_frame(width, height, Colour::hex(rgb), Chroma::Full);
+                let pixels = (width * height) as usize;
+                let planes = &bytes[bytes.len() - 3 * pixels..];
+                for (plane, right) in planes.chunks(pixels).zip(yuv) {
+                    let apart = i32::from(plane[0]).abs_diff(right);
+                    assert!(
+                        apart <= 1 && plane.iter().all(|&b| b == plane[0]),
+                        "{rgb:06x} in {width} x {height}: {}, expected {right}",
+                        plane[0]
+                    );
+                }
+            }
         }
     }
 
