@@ -9,6 +9,8 @@ mod populate;
 mod settings;
 mod shape;
 
+use std::collections::BTreeMap;
+
 use carom_dynamics::{
     BodyDef, BodyError, BodyId, BodyKind, Filter, Impulse, PairMaterial, RadialField,
     SettingsError, World,
@@ -222,12 +224,17 @@ fn pairs(
     world: &mut World,
     names: &[(String, BodyId)],
 ) -> Result<(), SceneError> {
+    let mut ids = BTreeMap::new();
+    if !file.pair.is_empty() {
+        for (name, id) in names {
+            ids.entry(name.as_str()).or_insert(*id);
+        }
+    }
     for (index, table) in file.pair.iter().enumerate() {
         let field = FieldPath::root("pair").index(index);
         let id = |k: usize| {
             let name = &table.bodies[k];
-            let found = names.iter().find(|(known, _)| known == name);
-            found.map(|(_, id)| *id).ok_or_else(|| {
+            ids.get(name.as_str()).copied().ok_or_else(|| {
                 let known = names.iter().map(|(known, _)| known.as_str());
                 let problem = Problem::Unknown {
                     what: "body",

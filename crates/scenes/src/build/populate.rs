@@ -2,6 +2,7 @@
 
 use core::f64::consts::TAU;
 
+use carom_collision::BoxTree;
 use carom_geometry::{Aabb, Circle, ConvexPolygon, Polygon, Shape};
 use carom_math::{Pose, Rot, Vec2, vec2};
 
@@ -27,7 +28,11 @@ pub(crate) fn populate(
     check(planner, index, table, &field)?;
     let material = planner.surface(&table.material, &table.filter, &field)?;
     let mut random = Random::new(planner.file.seed, index as u64);
-    let mut free = FreeSpace::new(planner, table);
+    let standing = planner.bodies.iter().flat_map(|body| {
+        let shapes = body.shapes.iter();
+        shapes.map(|(shape, _)| (shape, body.pose()))
+    });
+    let mut free = FreeSpace::new(table, standing);
     for k in 0..table.count {
         let radius = random.between(table.radius.least, table.radius.most);
         let shape = random_shape(&mut random, table, radius).map_err(|reason| {
@@ -184,11 +189,22 @@ struct FreeSpace {
     /// Centre and radius of each circle, in the cell of its centre.
     cells: Vec<Vec<(Vec2, f64)>>,
     widest: f64,
-    obstacles: Vec<(Aabb, Shape, Pose)>,
+    obstacles: Vec<Obstacle>,
+    /// Their boxes, by their places in the list.
+    boxes: BoxTree,
+    /// How many obstacles were held against a circle.
+    looks: u64,
+}
+
+/// A part of a body that stood there before.
+struct Obstacle {
+    bounds: Aabb,
+    shape: Shape,
+    pose: Pose,
 }
 
 impl FreeSpace {
-    fn new(planner: &Planner<'_>, table: &PopulationTable) -> Self {
+    fn new<'s>(table: &PopulationTable, standing: impl Iterator<Item = (&'s Shape, Pose)>) -> Self {
         let room = table.region.max - table.region.min;
         let widest = table.radius.most;
         // About a body a cell and no more cells than bodies: a wide region must not cost memory.
@@ -202,13 +218,16 @@ impl FreeSpace {
         let cells_along = |length: f64| whole((length / cell).ceil()).clamp(1, 1 << 20);
         let (columns, rows) = (cells_along(room.x), cells_along(room.y));
         let region = Aabb::new(table.region.min, table.region.max);
-        let obstacles = planner
-            .bodies
-            .iter()
-            .flat_map(|body| body.shapes.iter().map(|(shape, _)| (shape, body.pose())))
-            .map(|(shape, pose)| (shape.aabb(pose), shape.clone(), pose))
-            .filter(|(bounds, ..)| bounds.overlaps(region))
+        let obstacles: Vec<Obstacle> = standing
+            .map(|(shape, pose)| Obstacle {
+                bounds: shape.aabb(pose),
+                shape: shape.clone(),
+                pose,
+            })
+            .filter(|obstacle| obstacle.bounds.overlaps(region))
             .collect();
+        let boxes = (0..).zip(&obstacles);
+        let boxes = boxes.map(|(k, obstacle)| (obstacle.bounds, k)).collect();
         Self {
             origin: table.region.min,
             cell,
@@ -217,6 +236,8 @@ impl FreeSpace {
             cells: vec![Vec::new(); columns * rows],
             widest,
             obstacles,
+            boxes,
+            looks: 0,
         }
     }
 
@@ -235,7 +256,7 @@ impl FreeSpace {
         None
     }
 
-    fn is_free(&self, place: Vec2, radius: f64) -> bool {
+    fn is_free(&mut self, place: Vec2, radius: f64) -> bool {
         // A circle that overlaps this one has its centre in one of the cells within reach.
         let reach = Vec2::splat(radius + self.widest);
         let (first_column, first_row) = self.cell_of(place - reach);
@@ -252,10 +273,22 @@ impl FreeSpace {
             }
         }
         let around = Aabb::new(place, place).grown(radius);
-        self.obstacles
-            .iter()
-            .filter(|(bounds, ..)| bounds.overlaps(around))
-            .all(|(_, shape, pose)| shape.signed_distance(pose.inverse_point(place)) > radius)
+        let mut free = true;
+        self.boxes.query(around, |k| {
+            if !free {
+                return;
+            }
+            self.looks += 1;
+            let Obstacle {
+                bounds,
+                shape,
+                pose,
+            } = &self.obstacles[k as usize];
+            // The boxes of the tree are a little wider.
+            free = !bounds.overlaps(around)
+                || shape.signed_distance(pose.inverse_point(place)) > radius;
+        });
+        free
     }
 
     fn cell_of(&self, place: Vec2) -> (usize, usize) {
@@ -273,4 +306,49 @@ impl FreeSpace {
 )]
 fn whole(value: f64) -> usize {
     value as usize
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Scene;
+
+    /// A region of 20 m with 10,000 small discs and a half-plane in it.
+    fn crowded() -> (PopulationTable, Vec<(Shape, Pose)>) {
+        let text = "version = 1\n[[population]]\nname = 'p'\ncount = 100\nregion = [-10, -10, 10, 10]\nradius = 0.1\n";
+        let scene = Scene::from_toml(text, "p").unwrap();
+        let disc = Shape::from(Circle::new(0.03).unwrap());
+        let rows = (0..100_i32).flat_map(|i| (0..100_i32).map(move |j| vec2(i.into(), j.into())));
+        let mut standing: Vec<_> = rows
+            .map(|cell| (disc.clone(), Pose::at(0.2 * cell - Vec2::splat(9.9))))
+            .collect();
+        let below = carom_geometry::HalfPlane::new(vec2(0.0, -8.0), Vec2::Y).unwrap();
+        standing.push((below.into(), Pose::IDENTITY));
+        (scene.file.population[0].clone(), standing)
+    }
+
+    #[test]
+    fn a_place_is_held_against_what_is_near_alone_and_judged_as_by_all() {
+        let (table, standing) = crowded();
+        let each = || standing.iter().map(|(shape, pose)| (shape, *pose));
+        let mut free = FreeSpace::new(&table, each());
+        let mut random = Random::new(1, 0);
+        let (mut tries, mut places) = (0, 0);
+        while places < 500 {
+            let place = vec2(random.between(-9.9, 9.9), random.between(-9.9, 9.9));
+            let radius = random.between(0.001, 0.1);
+            let found = free.is_free(place, radius);
+            let right = each()
+                .all(|(shape, pose)| shape.signed_distance(pose.inverse_point(place)) > radius);
+            assert_eq!(found, right, "{place}, radius {radius}");
+            places += u32::from(found);
+            tries += 1;
+        }
+        // Nine cells of 0.2 m about a circle of 0.1 m, and the half-plane.
+        assert!(
+            free.looks <= 10 * tries,
+            "{} looks in {tries} tries",
+            free.looks
+        );
+    }
 }
