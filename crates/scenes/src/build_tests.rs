@@ -366,3 +366,46 @@ fn a_setting_over_the_file_is_as_good_as_in_the_file() {
         built(&file(40)).world.state_hash()
     );
 }
+
+#[test]
+fn the_bar_shows_the_restitution_of_the_liveliest_surface_wherever_it_stands() {
+    let bar = |text: &str| {
+        let built = built(&format!("version = 1\n{text}"));
+        built.overlays.restitution.expect("every overlay is there")
+    };
+    let lively = "material = { restitution = 0.8 }\n";
+    let ball = "[[body]]\nname = 'a'\nshape = { circle = 1 }\n";
+    for (what, text) in [
+        ("a body", format!("{ball}{lively}")),
+        (
+            "a part of a body",
+            "[[body]]\nname = 'a'\nshapes = [{ circle = 1 }, { circle = 1, material = { restitution = 0.8 } }]\n"
+                .to_owned(),
+        ),
+        (
+            "a grid",
+            format!(
+                "[[grid]]\nname = 'g'\ncolumns = 2\nrows = 2\ncorner = [0, 0]\nspacing = [3, 3]\nshape = {{ circle = 1 }}\n{lively}"
+            ),
+        ),
+        (
+            "a stack",
+            format!("[[stack]]\nname = 's'\ncount = 2\nsize = [1, 1]\nbase = [0, 0]\n{lively}"),
+        ),
+        (
+            "a pyramid",
+            format!("[[pyramid]]\nname = 'p'\nrows = 2\nsize = [1, 1]\nbase = [0, 0]\n{lively}"),
+        ),
+        (
+            "a pair",
+            format!(
+                "{ball}[[body]]\nname = 'b'\nposition = [5, 0]\nshape = {{ circle = 1 }}\n\
+                 [[pair]]\nbodies = ['a', 'b']\nfriction = 0.5\nrestitution = 0.8\n"
+            ),
+        ),
+    ] {
+        assert_eq!(bar(&text), 0.8, "{what}");
+        assert_eq!(bar(&format!("{text}[parameters]\nrestitution = 0.25\n")), 0.25, "{what}");
+    }
+    assert_eq!(bar(ball), 0.0);
+}

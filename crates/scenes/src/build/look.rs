@@ -10,7 +10,7 @@ use carom_render::{Camera, Colour, Face, FieldMark, FrameRate, Look, Overlay, St
 use super::plan::Planned;
 use crate::document::Document;
 use crate::error::{Problem, SceneError};
-use crate::model::{CameraTable, MaterialChoice, SceneFile, ThemeName};
+use crate::model::{CameraTable, SceneFile, ThemeName};
 use crate::path::FieldPath;
 use crate::scene::read_bytes;
 use crate::{Built, Scene};
@@ -32,7 +32,8 @@ pub(super) fn dress(
         document.error(&FieldPath::root("fps"), Problem::Refused(error.to_string()))
     })?;
     let camera = camera(document, file, &world)?;
-    let mut look = look(scene, file)?;
+    let all = everything(file, bodies);
+    let mut look = look(scene, file, all.clone())?;
     for (body, &(_, id)) in bodies.iter().zip(&names) {
         if let Some(text) = &body.colour {
             look.set_colour(id, colour(document, &body.field.key("colour"), text)?);
@@ -44,7 +45,7 @@ pub(super) fn dress(
     Ok(Built {
         world,
         look,
-        overlays: everything(file),
+        overlays: all,
         camera,
         duration: file.duration,
         rate,
@@ -53,7 +54,7 @@ pub(super) fn dress(
     })
 }
 
-fn look(scene: &Scene, file: &SceneFile) -> Result<Look, SceneError> {
+fn look(scene: &Scene, file: &SceneFile, all: Overlay) -> Result<Look, SceneError> {
     let table = &file.look;
     let common = match &table.face {
         Some(name) => Some(face(scene, &face_field(file), name)?),
@@ -64,14 +65,14 @@ fn look(scene: &Scene, file: &SceneFile) -> Result<Look, SceneError> {
         shaded: table.shaded,
         spokes: table.spokes.unwrap_or(default.spokes),
         face: common,
-        overlay: wanted(file, everything(file)),
+        overlay: wanted(file, all),
         style: style(&scene.document, file)?,
         ..default
     })
 }
 
 /// Every overlay, as this scene would show it.
-fn everything(file: &SceneFile) -> Overlay {
+fn everything(file: &SceneFile, bodies: &[Planned]) -> Overlay {
     let scale = file.look.velocity_scale.unwrap_or(VELOCITY_SCALE);
     Overlay {
         centroids: true,
@@ -87,7 +88,7 @@ fn everything(file: &SceneFile) -> Overlay {
         gravity: true,
         time: true,
         counters: true,
-        restitution: Some(restitution(file)),
+        restitution: Some(restitution(file, bodies)),
         field: field_mark(file),
         field_lines: Some(fields(file)),
         caption: file.look.caption.clone(),
@@ -121,22 +122,13 @@ fn fields(file: &SceneFile) -> Vec<RadialField> {
         .collect()
 }
 
-/// The bar's value: the parameter, else the largest coefficient of the file.
-fn restitution(file: &SceneFile) -> f64 {
-    let choices = file
-        .body
-        .iter()
-        .map(|body| &body.material)
-        .chain(
-            file.population
-                .iter()
-                .map(|population| &population.material),
-        )
-        .chain(file.walls.iter().map(|walls| &walls.material));
-    let coefficients = choices.filter_map(|choice| match choice {
-        MaterialChoice::Inline(table) => table.restitution,
-        MaterialChoice::Named(name) => file.materials.get(name).and_then(|table| table.restitution),
-    });
+/// The bar's value: the parameter, else the largest coefficient of a surface or of a pair.
+fn restitution(file: &SceneFile, bodies: &[Planned]) -> f64 {
+    let surfaces = bodies.iter().flat_map(|body| &body.shapes);
+    let pairs = file.pair.iter().map(|pair| pair.restitution);
+    let coefficients = surfaces
+        .map(|(_, surface)| surface.material.restitution)
+        .chain(pairs);
     let largest = coefficients.fold(0.0, f64::max);
     file.parameters.restitution.unwrap_or(largest)
 }
