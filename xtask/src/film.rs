@@ -14,6 +14,7 @@ use crate::exit::{Failure, fail};
 use crate::interrupt;
 use crate::parallel;
 use crate::progress::Progress;
+use crate::reach::{Reached, reach};
 use crate::summary::Watch;
 
 /// Which frames to draw, and how.
@@ -110,7 +111,10 @@ pub(crate) fn shoot<T: Send>(
                 break;
             }
             if index > 0 {
-                advance(built, plan.rate, index, &mut footage)?;
+                footage.interrupted = !advance(built, plan.rate, index, &mut footage)?;
+                if footage.interrupted {
+                    break;
+                }
             }
             trace.watch(&built.world);
             let energy = built.world.energy();
@@ -147,21 +151,24 @@ pub(crate) fn shoot<T: Send>(
     Ok(footage)
 }
 
-/// Steps to the instant of a frame.
+/// Steps to the instant of a frame; `false` if Ctrl-C ended that on the way.
 fn advance(
     built: &mut Built,
     rate: FrameRate,
     index: u64,
     footage: &mut Footage,
-) -> Result<(), Failure> {
+) -> Result<bool, Failure> {
     let target = SimTime::multiple(index, rate.interval());
     let clock = Clock::start();
-    let report = built.world.step(target - built.world.time());
+    let watch = &mut footage.watch;
+    let reached = reach(&mut built.world, target, |world, report| {
+        watch.saw(world, report);
+    });
     footage.physics.add(clock.seconds());
-    footage.watch.saw(&built.world, report);
-    match report.refused {
-        Some(why) => fail!("the step to frame {index} was refused: {why}"),
-        None => Ok(()),
+    match reached {
+        Reached::There => Ok(true),
+        Reached::Interrupted => Ok(false),
+        Reached::Refused(why) => fail!("the step to frame {index} was refused: {why}"),
     }
 }
 

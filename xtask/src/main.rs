@@ -12,6 +12,7 @@ mod list;
 mod merge;
 mod parallel;
 mod random;
+mod reach;
 mod reference;
 mod relay;
 mod render;

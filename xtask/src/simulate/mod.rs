@@ -12,6 +12,7 @@ use crate::flags::SimulateArgs;
 use crate::interrupt;
 use crate::out::{say, tell};
 use crate::progress::Progress;
+use crate::reach::{Reached, reach};
 use crate::scene;
 use crate::summary::{Summary, Watch};
 
@@ -81,12 +82,20 @@ fn sample(world: &mut World, seconds: f64, every: f64, table: &mut Table) -> Res
             SimTime::multiple(k, every)
         };
         let clock = Clock::start();
-        let report = world.step(target - world.time());
+        let watch = &mut run.watch;
+        let reached = reach(world, target, |world, report| watch.saw(world, report));
         run.physics += clock.seconds();
-        run.watch.saw(world, report);
-        if let Some(why) = report.refused {
-            progress.finish();
-            fail!("the step to {} s was refused: {why}", target.as_secs());
+        match reached {
+            Reached::There => {}
+            // No sample: it is no instant that was asked for.
+            Reached::Interrupted => {
+                run.interrupted = true;
+                break;
+            }
+            Reached::Refused(why) => {
+                progress.finish();
+                fail!("the step to {} s was refused: {why}", target.as_secs());
+            }
         }
         reader_left = !table.write(world)?;
         progress.advance();
