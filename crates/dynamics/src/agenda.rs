@@ -7,7 +7,7 @@ use arrayvec::ArrayVec;
 use carom_math::{SimTime, Vec2};
 
 /// An impact that takes place unless one of the two motions changes before.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub(crate) struct Entry {
     pub(crate) time: SimTime,
     /// Colliders of the pair: equal times are taken in this order, never in order of insertion.
@@ -20,6 +20,12 @@ pub(crate) struct Entry {
     pub(crate) normal: Vec2,
     /// One point, or both ends of a common stretch, in m.
     pub(crate) points: ArrayVec<Vec2, 2>,
+}
+
+impl PartialEq for Entry {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
 }
 
 impl Eq for Entry {}

@@ -164,10 +164,15 @@ impl World {
     /// Applies an impulse at once: `v += J/m`, `ω += (r × J)/I`. No effect on infinite masses.
     ///
     /// # Errors
-    /// If the body is not there or a number is not finite.
+    /// If the body is not there, a number is not finite, or the body would be faster than [`WORLD_LIMIT`](crate::WORLD_LIMIT).
     pub fn apply(&mut self, id: BodyId, impulse: Impulse) -> Result<(), BodyError> {
         let index = self.bodies.find(id)?;
         impulse.check()?;
+        let (now, state) = (self.clock.now, self.bodies.get(index));
+        let angular = impulse.about(state.centre_at(now));
+        let velocity = state.velocity_at(now) + impulse.linear * state.inverse_mass;
+        check_vec2("velocity.x", "velocity.y", velocity)?;
+        check_finite("spin", state.spin_at(now) + angular * state.inverse_inertia)?;
         self.disturb(index, |state| {
             let angular = impulse.about(state.motion.centre);
             state.motion.velocity += impulse.linear * state.inverse_mass;
@@ -179,17 +184,26 @@ impl World {
     /// Adds a force that acts during the next step (of any length above 0) and is gone after it.
     ///
     /// # Errors
-    /// If the body is not there or a number is not finite.
+    /// If the body is not there, a number is not finite, or all its forces would accelerate the body by more than
+    /// [`WORLD_LIMIT`](crate::WORLD_LIMIT), in m/s² and rad/s².
     pub fn apply_force(&mut self, id: BodyId, force: Force) -> Result<(), BodyError> {
         let index = self.bodies.find(id)?;
         force.check()?;
         let now = self.clock.now;
+        let state = self.bodies.get(index);
+        let (linear, torque) = state.pending();
+        let all = (
+            linear + force.linear,
+            torque + force.about(state.centre_at(now)),
+        );
+        check_vec2(
+            "acceleration.x",
+            "acceleration.y",
+            all.0 * state.inverse_mass,
+        )?;
+        check_finite("angular acceleration", all.1 * state.inverse_inertia)?;
         self.wake_around(index, now);
-        let state = self.bodies.get_mut(index);
-        let torque = force.about(state.centre_at(now));
-        let pending = &mut state.uncommon_mut().pending;
-        pending.0 += force.linear;
-        pending.1 += torque;
+        self.bodies.get_mut(index).uncommon_mut().pending = all;
         if !self.forced.contains(&index) {
             self.forced.push(index);
         }
@@ -475,8 +489,16 @@ impl World {
             let acts = state.uncommon_mut();
             let (force, torque) = (acts.force, acts.torque);
             (acts.force, acts.torque) = (Vec2::ZERO, 0.0);
-            // Who fell asleep under its force is accelerated by nothing, and wakes without it.
-            if !state.asleep {
+            // A body that fell asleep under its force is accelerated by nothing, and wakes without it.
+            if state.asleep {
+                continue;
+            }
+            if state.is_flying() {
+                // (g + F/m) − F/m is g in a third of all cases: a rounding that is left would bend the parabola for good.
+                let (acceleration, turning) = self.bodies.freely(index, now);
+                let motion = &mut self.bodies.get_mut(index).motion;
+                (motion.acceleration, motion.angular_acceleration) = (acceleration, turning);
+            } else {
                 state.motion.acceleration -= force * state.inverse_mass;
                 state.motion.angular_acceleration -= torque * state.inverse_inertia;
             }

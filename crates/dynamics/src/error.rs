@@ -73,7 +73,7 @@ pub enum BodyError {
         /// Which of the body's shapes.
         shape: usize,
     },
-    /// The id belongs to a body that was removed, or to another world.
+    /// The id belongs to a body that was removed, or to another world that had more bodies (see [`BodyId`]).
     #[error("{0} is not in this world")]
     Stale(BodyId),
     /// Only a kinematic body goes where it is told.

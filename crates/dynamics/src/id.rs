@@ -4,7 +4,9 @@ use core::fmt;
 
 /// A body of a world: small, copyable, never dangling.
 ///
-/// The generation tells a removed body from the one that took its place.
+/// The generation tells a removed body from the one that took its place. Two worlds that were built alike, and a world and its
+/// clone, have equal ids for equal bodies, so that their events can be compared: an id of another world is not told from
+/// one of this world's own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct BodyId {
     pub(crate) index: u32,

@@ -173,6 +173,11 @@ impl BodyState {
         })
     }
 
+    /// Force (N) and torque (N·m) that wait for the next step.
+    pub(crate) fn pending(&self) -> (Vec2, f64) {
+        self.uncommon().pending
+    }
+
     /// Force of the present step, in N.
     pub(crate) fn force(&self) -> Vec2 {
         self.uncommon().force
