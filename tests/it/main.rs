@@ -22,6 +22,7 @@ mod laws;
 mod observing;
 mod regressions;
 mod round;
+mod scripts;
 mod skipping;
 mod stability;
 mod stepped;

@@ -1,10 +1,13 @@
 //! Shared helpers of the integration tests.
 
-use carom_collision::{hulls, separating_axis};
-use carom_dynamics::{Body, BodyKind, Material, World};
+use carom_dynamics::{BodyKind, Material, World};
 
 pub mod gas;
+pub mod judges;
 pub mod scenes;
+pub mod scripts;
+
+use judges::depth;
 
 /// Steps `world` at 60 Hz until `seconds` more have passed and calls `look` after every step.
 ///
@@ -31,7 +34,7 @@ pub fn elastic() -> Material {
 
 /// Deepest and mean overlap of all pairs of bodies (of which one moves), in m, ≥ 0.
 ///
-/// Judged from shapes and poses alone, pair by pair: it shares nothing with the world's own search.
+/// Judged from shapes and poses alone, pair by pair: it shares nothing with the world's own search or with the library's collision code ([`judges`]).
 #[must_use]
 pub fn overlaps(world: &World) -> (f64, f64) {
     let bodies: Vec<_> = world.bodies().collect();
@@ -51,22 +54,6 @@ pub fn overlaps(world: &World) -> (f64, f64) {
         }
     }
     (deepest, if count > 0.0 { sum / count } else { 0.0 })
-}
-
-/// Depth of the deepest overlap of two bodies' convex parts, in m, ≥ 0.
-fn depth(a: &Body<'_>, b: &Body<'_>) -> f64 {
-    let b_in_a = b.pose().seen_from(a.pose());
-    let mut depth = 0.0_f64;
-    for (shape_a, _) in a.shapes() {
-        for (shape_b, _) in b.shapes() {
-            for part_a in hulls(shape_a) {
-                for part_b in hulls(shape_b) {
-                    depth = depth.max(-separating_axis(&part_a, &part_b, b_in_a).separation);
-                }
-            }
-        }
-    }
-    depth
 }
 
 /// The example of the project's README, held by a test.
