@@ -45,6 +45,9 @@ impl<'a> Hull<'a> {
     }
 
     /// Whether edge `i` belongs to the outline of its shape, and is no cut through it.
+    ///
+    /// # Panics
+    /// If this is a piece and has no edge `i`.
     #[must_use]
     pub fn is_boundary(&self, edge: usize) -> bool {
         self.boundary.is_none_or(|piece| piece.is_boundary(edge))
@@ -55,6 +58,9 @@ impl<'a> Hull<'a> {
     /// `direction` points away from the shape, in its frame. A whole convex shape always can; a
     /// piece of a concave one where the direction lies between the normals of the outline there,
     /// or is the normal of one of its edges that ends there.
+    ///
+    /// # Panics
+    /// If this is a piece and has no vertex `i`.
     #[must_use]
     pub fn allows(&self, vertex: usize, direction: Vec2) -> bool {
         self.boundary.is_none_or(|piece| {
@@ -69,6 +75,9 @@ impl<'a> Hull<'a> {
     }
 
     /// Both ends of edge `i`.
+    ///
+    /// # Panics
+    /// If there is no vertex `i`.
     #[must_use]
     pub fn edge(&self, i: usize) -> (Vec2, Vec2) {
         (self.vertices[i], self.vertices[self.next(i)])

@@ -2,23 +2,27 @@
 //!
 //! B moved by t overlaps A if some part of it overlaps some part of A: if t lies in the union of the
 //! convex sets { t : k·t < d for all axes k of the two parts }. The shortest way out is the nearest
-//! point to 0 outside that union. It leaves every set through one of its sides, so that it is the
-//! nearest point that satisfies a list of conditions k·t ≥ d, one for every set that is in the way.
+//! point to 0 outside that union. It leaves every set through one of its sides, or past a corner that
+//! a disc makes round, so that it is the nearest point that satisfies a list of conditions, k·t ≥ d or
+//! |t − c| ≥ r between two edges, one for every set that is in the way.
 //! A search by length tries the lists: the first t that lies in no set is the answer.
+
+mod exit;
 
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap};
 
 use arrayvec::ArrayVec;
 use carom_geometry::Shape;
-use carom_math::{Pose, Rot, Vec2, cross, vec2};
+use carom_math::{Pose, Vec2};
 
 use crate::cast::touch_point;
 use crate::manifold::{Faces, FeatureId, Manifold};
 use crate::outline::Pair;
-use crate::parts::near_parts;
-use crate::sat::{Face, face};
-use crate::{Hull, Side, distance, part, separating_axis};
+use crate::parts::{is_single, near_parts};
+use crate::sat::Face;
+use crate::{Side, distance, minimum_push, part, separating_axis};
+use exit::{Exit, exits};
 
 /// Lists of conditions that are tried before the search is given up and B leaves the box of A.
 ///
@@ -29,9 +33,8 @@ const TRIES: usize = 1024;
 /// if they do not overlap, or if one is a half-plane and so is the other.
 ///
 /// Of convex shapes this is [`crate::minimum_push`]. Concave shapes and compounds leave as a whole,
-/// and not through their own parts. With a disc in a corner of other parts it can be a little longer
-/// than the shortest; and the search is bounded: in a thicket of very many parts B may be led out of
-/// the box around A, which is longer than need be.
+/// and not through their own parts. The search is bounded: in a thicket of very many parts B may be
+/// led out of the box around A, which is longer than need be.
 ///
 /// # Examples
 /// ```
@@ -49,76 +52,11 @@ const TRIES: usize = 1024;
 /// ```
 #[must_use]
 pub fn shape_push(a: &Shape, b: &Shape, b_in_a: Pose) -> Option<Vec2> {
+    if is_single(a) && is_single(b) {
+        let push = minimum_push(&part(a, 0), &part(b, 0), b_in_a);
+        return push.filter(|push| *push != Vec2::ZERO);
+    }
     way_out(a, b, b_in_a).map(|out| out.way)
-}
-
-/// A side of the set of translations for which two parts overlap.
-#[derive(Clone, Copy)]
-struct Exit {
-    /// Unit normal in A's frame, from A to B.
-    normal: Vec2,
-    /// How far B has to go along the normal.
-    depth: f64,
-    /// The edge, where there is one.
-    face: Option<(Side, Face)>,
-}
-
-impl Exit {
-    /// Equal for equal conditions. Equal points can stand for others that lead elsewhere.
-    fn bits(&self) -> [u64; 3] {
-        [self.normal.x, self.normal.y, self.depth].map(f64::to_bits)
-    }
-}
-
-/// The translations for which two parts overlap.
-struct Set {
-    exits: Vec<Exit>,
-}
-
-impl Set {
-    fn new(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose) -> Self {
-        let mut exits = Vec::new();
-        let poses = [b_in_a, b_in_a.inverse()];
-        for owner in [Side::A, Side::B] {
-            let (own, other) = match owner {
-                Side::A => (a, b),
-                Side::B => (b, a),
-            };
-            for edge in 0..own.normals.len() {
-                let face = face(own, edge, other, poses[owner as usize], None);
-                let normal = match owner {
-                    Side::A => own.normals[edge],
-                    Side::B => -b_in_a.vector(own.normals[edge]),
-                };
-                exits.push(Exit {
-                    normal,
-                    depth: -face.separation,
-                    face: Some((owner, face)),
-                });
-            }
-        }
-        if exits.is_empty() {
-            exits = around(a, b, b_in_a);
-        }
-        exits.retain(|exit| exit.depth.is_finite());
-        Self { exits }
-    }
-}
-
-/// Two discs: sides around the disc of translations, the first one straight ahead.
-fn around(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose) -> Vec<Exit> {
-    const SIDES: i32 = 16;
-    let apart = b_in_a.point(b.vertices[0]) - a.vertices[0];
-    let ahead = apart.try_normalize().unwrap_or(Vec2::X);
-    let turned = |i| Rot::from_degrees(360.0 / f64::from(SIDES) * f64::from(i)) * ahead;
-    (0..SIDES)
-        .map(turned)
-        .map(|normal| Exit {
-            normal,
-            depth: a.radius + b.radius - normal.dot(apart),
-            face: None,
-        })
-        .collect()
 }
 
 /// The way out of an overlap.
@@ -128,6 +66,16 @@ pub(crate) struct WayOut<'a> {
     way: Vec2,
     /// Whether it is the nearest, and not the way out of the box.
     found: bool,
+}
+
+/// What B leans on once it has gone the way.
+struct Held {
+    parts: (usize, usize),
+    /// Unit normal in A's frame, from A to B, and how deep B is along it now, in metres.
+    normal: Vec2,
+    depth: f64,
+    /// The edge; none at a round corner.
+    edge: Option<(Side, Face)>,
 }
 
 /// Two shapes and what counts as touching, in metres.
@@ -172,10 +120,11 @@ pub(crate) fn way_out<'a>(a: &'a Shape, b: &'a Shape, b_in_a: Pose) -> Option<Wa
     })
 }
 
-/// Conditions and the nearest point that satisfies them: it holds to all of them, one or two.
+/// Conditions and the nearest point that satisfies them: it holds to one or two of them. What is
+/// beyond a corner is not convex, so that a third one may have led to the farther of two points.
 #[derive(Clone)]
 struct Try {
-    conditions: ArrayVec<Exit, 2>,
+    conditions: ArrayVec<Exit, 3>,
     way: Vec2,
 }
 
@@ -214,7 +163,7 @@ impl Overlap<'_> {
                 return Some(next.way);
             };
             let (a, b) = (part(self.a, parts.0), part(self.b, parts.1));
-            for exit in Set::new(&a, &b, self.b_in_a).exits {
+            for exit in exits(&a, &b, self.b_in_a) {
                 // What does not hold the point back is left out: the point that is looked for
                 // satisfies the rest, too, so that it is not farther than the answer.
                 if let Some(found) = nearest_point(&next.conditions, exit, self.touch)
@@ -222,8 +171,12 @@ impl Overlap<'_> {
                 {
                     // Lengths are not negative, so that their bits are in order.
                     let length = found.way.length_squared().to_bits();
-                    let mut conditions: ArrayVec<_, 2> =
+                    let mut conditions: ArrayVec<_, 4> =
                         found.conditions.iter().map(Exit::bits).collect();
+                    if found.conditions.iter().any(Exit::is_corner) {
+                        // Two curves can meet twice.
+                        conditions.push([found.way.x.to_bits(), found.way.y.to_bits(), 0]);
+                    }
                     conditions.sort_unstable();
                     if seen.insert(conditions) {
                         open.push(Reverse((length, tries.len())));
@@ -238,7 +191,7 @@ impl Overlap<'_> {
 
 impl WayOut<'_> {
     /// The sides of sets that the way ends on, where the outlines touch then.
-    fn sides(&self) -> Vec<(usize, usize, Exit)> {
+    fn sides(&self) -> Vec<Held> {
         let Overlap {
             a,
             b,
@@ -250,20 +203,29 @@ impl WayOut<'_> {
         let mut sides = Vec::new();
         near_parts(a, b, gone, Vec2::ZERO, slack, |i, j| {
             let (part_a, part_b) = (part(a, i), part(b, j));
-            let set = Set::new(&part_a, &part_b, b_in_a);
-            let height = |exit: &Exit| exit.normal.dot(self.way) - exit.depth;
-            if set.exits.iter().any(|exit| height(exit) > slack) {
+            let exits = exits(&part_a, &part_b, b_in_a);
+            if exits.iter().any(|exit| exit.height(self.way) > slack) {
                 return;
             }
             let pair = Pair::new(&part_a, &part_b, gone);
-            // A side that B is beyond already does not hold it now.
-            let held = set.exits.iter().filter(|exit| exit.depth > 0.0);
-            let tight = held.filter(|exit| height(exit).abs() <= slack);
-            let open = tight.filter(|exit| {
-                let allows = |(owner, face)| pair.allows(owner, face);
-                exit.face.is_none_or(allows)
-            });
-            sides.extend(open.map(|exit| (i, j, *exit)));
+            // What B is beyond already does not hold it now.
+            for exit in exits.iter().filter(|exit| exit.height(Vec2::ZERO) < 0.0) {
+                let Some((normal, depth)) = exit.tight(self.way, slack) else {
+                    continue;
+                };
+                let edge = match *exit {
+                    Exit::Side { edge, .. } => Some(edge),
+                    Exit::Corner { .. } => None,
+                };
+                if edge.is_none_or(|(owner, face)| pair.allows(owner, face)) {
+                    sides.push(Held {
+                        parts: (i, j),
+                        normal,
+                        depth,
+                        edge,
+                    });
+                }
+            }
         });
         sides
     }
@@ -277,24 +239,25 @@ impl WayOut<'_> {
             return self.along_the_way().into_iter().collect();
         }
         let gone = self.overlap.moved(self.way);
-        let contact = |(i, j, exit): (usize, usize, Exit)| {
+        let contact = |held: Held| {
+            let (i, j) = held.parts;
             let (part_a, part_b) = (part(a, i), part(b, j));
-            let mut manifold = match exit.face {
+            let mut manifold = match held.edge {
                 Some((owner, face)) if !part_a.is_disc() && !part_b.is_disc() => {
                     let pair = Pair::new(&part_a, &part_b, gone);
                     let separation = 0.0;
                     let faces = Faces::new(&pair, owner, Face { separation, ..face });
                     let shared = faces.shared();
-                    let found = shared.and_then(|ends| faces.manifold(ends, exit.depth));
+                    let found = shared.and_then(|ends| faces.manifold(ends, held.depth));
                     found.unwrap_or_else(|| faces.deepest())
                 }
                 _ => {
-                    let surface = touch_point(&part_a, &part_b, gone, exit.normal);
-                    Manifold::single(exit.normal, surface, 0.0, FeatureId(0))
+                    let surface = touch_point(&part_a, &part_b, gone, held.normal);
+                    Manifold::single(held.normal, surface, 0.0, FeatureId(0))
                 }
             };
             for point in &mut manifold.points {
-                point.separation -= exit.depth;
+                point.separation -= held.depth;
                 point.point -= self.way * 0.5;
             }
             (i, j, manifold)
@@ -302,8 +265,7 @@ impl WayOut<'_> {
         sides.into_iter().map(contact).collect()
     }
 
-    /// One contact in the middle of what overlaps most, along the way: where that leads out of the box,
-    /// or ends beside the round corner of a disc's set.
+    /// One contact in the middle of what overlaps most, along the way: where that leads out of the box.
     fn along_the_way(&self) -> Option<(usize, usize, Manifold)> {
         let Overlap { a, b, b_in_a, .. } = self.overlap;
         let (i, j) = self.overlap.blocking(Vec2::ZERO)?;
@@ -314,35 +276,43 @@ impl WayOut<'_> {
     }
 }
 
-/// The point nearest to 0 with k·t ≥ d for one or two conditions and another one, which it does not
+/// The point nearest to 0 that satisfies a list of conditions and another one, which it does not
 /// satisfy yet; `None` if there is none.
 fn nearest_point(conditions: &[Exit], new: Exit, touch: f64) -> Option<Try> {
     let satisfies = |t: Vec2| {
         let mut all = conditions.iter().chain([&new]);
-        all.all(|exit| exit.normal.dot(t) >= exit.depth - touch)
+        all.all(|exit| exit.height(t) >= -touch)
     };
-    let alone = new.normal * new.depth;
-    if new.depth > 0.0 && satisfies(alone) {
-        return Some(Try {
-            conditions: ArrayVec::from_iter([new]),
-            way: alone,
-        });
-    }
     let mut best: Option<Try> = None;
-    for old in conditions {
-        let sine = cross(old.normal, new.normal);
-        if sine == 0.0 {
-            continue;
-        }
-        // p·t = d, q·t = e: t = (d q⊥ − e p⊥) / (p × q), turned backwards.
-        let way = vec2(
-            old.depth * new.normal.y - new.depth * old.normal.y,
-            new.depth * old.normal.x - old.depth * new.normal.x,
-        ) / sine;
+    let offer = |best: &mut Option<Try>, way: Vec2, held: &[Exit]| {
         let shorter = |known: &Try| way.length_squared() < known.way.length_squared();
         if best.as_ref().is_none_or(shorter) && satisfies(way) {
-            let conditions = ArrayVec::from([*old, new]);
-            best = Some(Try { conditions, way });
+            let conditions = held.iter().copied().collect();
+            *best = Some(Try { conditions, way });
+        }
+    };
+    if new.height(Vec2::ZERO) < 0.0 {
+        for way in new.nearest() {
+            offer(&mut best, way, &[new]);
+        }
+        if best.is_some() && !new.is_corner() {
+            // What is beyond a line is convex: nothing that meets it is nearer.
+            return best;
+        }
+    }
+    for old in conditions {
+        for way in old.meetings(&new) {
+            offer(&mut best, way, &[*old, new]);
+        }
+    }
+    // Of two lines the one point does not satisfy the new condition; curves can meet in others.
+    if conditions.iter().any(Exit::is_corner) {
+        for (i, old) in conditions.iter().enumerate() {
+            for other in &conditions[..i] {
+                for way in old.meetings(other) {
+                    offer(&mut best, way, &[*other, *old, new]);
+                }
+            }
         }
     }
     best

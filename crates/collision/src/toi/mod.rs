@@ -38,9 +38,12 @@ const FLUSH: f64 = 1e-9;
 pub enum TimeOfImpact {
     /// They touch for the first time, approaching.
     Hit(Impact),
-    /// They stay apart up to the horizon.
+    /// Up to the horizon they do not come nearer to each other while they touch: they stay apart, or what
+    /// touches or overlaps at the start rests, slides or parts. How deep shapes overlap,
+    /// [`crate::shape_push`] tells.
     Clear,
-    /// They touch at the start already and do not separate.
+    /// They touch or overlap at the start already and approach there: their gap shrinks, and does so at
+    /// once. What rests is [`Clear`](Self::Clear).
     Touching(Impact),
     /// The search ran out of its budget; until `safe_until` nothing happens.
     Unresolved {

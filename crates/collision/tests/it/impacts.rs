@@ -257,3 +257,26 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn shapes_that_touch_or_overlap_and_do_not_approach_are_clear_and_those_that_approach_touch() {
+    let disc = Shape::from(Circle::new(1.0).expect("a disc"));
+    let square = Shape::from(ConvexPolygon::square(2.0).expect("a square"));
+    for shape in [disc, square] {
+        for apart in [1.9, 2.0] {
+            let at = |speed: f64| {
+                let moving = Motion {
+                    velocity: vec2(speed, 0.0),
+                    ..Motion::resting(vec2(apart, 0.0))
+                };
+                time_of_impact(&shape, &Motion::resting(Vec2::ZERO), &shape, &moving, 2.0)
+            };
+            assert_eq!(at(0.0), TimeOfImpact::Clear, "at rest, {apart} m");
+            assert_eq!(at(1.0), TimeOfImpact::Clear, "parting, {apart} m");
+            let TimeOfImpact::Touching(impact) = at(-1.0) else {
+                panic!("{:?} at {apart} m", at(-1.0));
+            };
+            assert!((impact.gap_rate + 1.0).abs() < 1e-14);
+        }
+    }
+}

@@ -197,3 +197,89 @@ fn a_disc_beside_a_corner_needs_no_push() {
     let way = carom_collision::shape_distance(&l, &ball, Pose::at(vec2(-0.5, -0.5) + push));
     assert!(way.distance < 0.25 && push.length() <= 0.5 + 1e-12);
 }
+
+/// How far a disc about a point is from a polygon's outline, in metres; below 0 it overlaps the inside.
+fn gap_of_disc(outline: &[Vec2], centre: Vec2, radius: f64) -> f64 {
+    let mut inside = false;
+    for (i, p) in outline.iter().enumerate() {
+        let q = outline[(i + 1) % outline.len()];
+        if (p.y > centre.y) != (q.y > centre.y) {
+            let x = p.x + (q.x - p.x) * (centre.y - p.y) / (q.y - p.y);
+            inside ^= x > centre.x;
+        }
+    }
+    let distance = from_outline(outline, centre);
+    if inside {
+        -distance - radius
+    } else {
+        distance - radius
+    }
+}
+
+/// Whether the push ends the overlap that `gap` tells of, nothing shorter does in 360 directions, and the
+/// other shape has the same way to go.
+fn is_shortest(a: &Shape, b: &Shape, pose: Pose, gap: impl Fn(Vec2) -> f64) {
+    /// Rounding of places of some metres, metres.
+    const ROUNDING: f64 = 1e-11;
+    let Some(push) = shape_push(a, b, pose) else {
+        assert!(gap(Vec2::ZERO) > -ROUNDING, "no push of an overlap");
+        return;
+    };
+    assert!(gap(push) > -ROUNDING, "{push} leaves {} m", gap(push));
+    for i in 0..360 {
+        let way = Rot::from_degrees(f64::from(i)).x_axis();
+        for share in [0.03, 0.1, 0.3, 0.5, 0.7, 0.9, 0.99] {
+            let shorter = way * (push.length() * share);
+            assert!(gap(shorter) < ROUNDING, "{push} is longer than {shorter}");
+        }
+    }
+    let back = shape_push(b, a, pose.inverse()).expect("they overlap");
+    let length = (back.length() - push.length()).abs();
+    assert!(length < 1e-9, "{push} m, swapped {back} m");
+}
+
+proptest! {
+    #[test]
+    fn a_disc_leaves_a_polygon_by_the_shortest_way(shape in body(), radius in 0.05..1.5_f64, x in -2.0..2.0_f64, y in -2.0..2.0_f64, turn in -4.0..4.0_f64) {
+        let outline = match &shape {
+            Shape::Convex(polygon) => polygon.vertices().to_vec(),
+            Shape::Polygon(polygon) => polygon.vertices().to_vec(),
+            _ => unreachable!("a polygon"),
+        };
+        let disc: Shape = Circle::new(radius).expect("a disc").into();
+        let pose = Pose::new(vec2(x, y), Rot::from_angle(turn));
+        is_shortest(&shape, &disc, pose, |t| gap_of_disc(&outline, pose.position + t, radius));
+    }
+
+    #[test]
+    fn a_disc_leaves_a_handful_of_discs_by_the_shortest_way(
+        discs in proptest::collection::vec((-1.0..1.0_f64, -1.0..1.0_f64, 0.2..1.0_f64), 2..5), radius in 0.05..1.0_f64, x in -1.0..1.0_f64, y in -1.0..1.0_f64,
+    ) {
+        let parts = discs.iter().map(|(x, y, r)| (Circle::new(*r).expect("a disc").into(), Pose::at(vec2(*x, *y))));
+        let Ok(handful) = Compound::new(parts) else { return Ok(()) };
+        let disc: Shape = Circle::new(radius).expect("a disc").into();
+        let pose = Pose::at(vec2(x, y));
+        is_shortest(&handful.into(), &disc, pose, |t| {
+            let gaps = discs.iter().map(|(x, y, r)| (pose.position + t - vec2(*x, *y)).length() - r - radius);
+            gaps.fold(f64::INFINITY, f64::min)
+        });
+    }
+}
+
+#[test]
+fn a_disc_over_the_corner_of_a_square_leaves_past_the_corner() {
+    let square: Shape = ConvexPolygon::square(2.0).expect("a square").into();
+    let disc: Shape = Circle::new(1.0).expect("a disc").into();
+    for turn in [0.0, 0.5, 1.0] {
+        let pose = Pose::new(vec2(1.7, 1.7), Rot::from_angle(turn));
+        let expected = 1.0 - vec2(0.7, 0.7).length();
+        let pushes = [
+            shape_push(&square, &disc, pose),
+            shape_push(&disc, &square, pose.inverse()),
+        ];
+        for push in pushes {
+            let length = push.expect("they overlap").length();
+            assert!((length - expected).abs() < 1e-14, "{length} m");
+        }
+    }
+}
