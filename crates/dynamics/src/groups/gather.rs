@@ -2,7 +2,7 @@
 
 use carom_math::SimTime;
 
-use super::{Groups, NOT_HERE, Source};
+use super::{Groups, NOT_HERE, Source, key_of};
 use crate::apart::Method;
 use crate::bodies::Bodies;
 use crate::flight::driven;
@@ -113,6 +113,7 @@ impl Groups {
                     self.rows.push(row);
                     self.sources.push(Source {
                         pair: place,
+                        key: key_of(bodies, pair),
                         contact: index,
                         method,
                         touch,

@@ -31,7 +31,7 @@ impl Groups {
             return moved;
         }
         for number in self.rounds_of(changed) {
-            self.leave_out_strays(bodies, number, changed);
+            self.leave_out_strays(bodies, pairs, number, changed);
             self.begin_anew(bodies, number, time, h);
             let round = &mut self.rounds[number as usize];
             round.span = h;
@@ -61,7 +61,9 @@ impl Groups {
                 moved.push(index);
             }
             for k in rows {
-                self.book(bodies, pairs, k, time, h);
+                if self.sources[k].stays(bodies, pairs) {
+                    self.book(bodies, pairs, k, time, h);
+                }
             }
         }
         moved
@@ -79,7 +81,9 @@ impl Groups {
     }
 
     /// Takes those out of a group whose motions something else than this impact has changed: closed forms, or a caller.
-    fn leave_out_strays(&mut self, bodies: &Bodies, number: u32, changed: &[u32]) {
+    ///
+    /// A body that was taken out, the ground too, holds nothing any more.
+    fn leave_out_strays(&mut self, bodies: &Bodies, pairs: &Pairs, number: u32, changed: &[u32]) {
         let round = &mut self.rounds[number as usize];
         round.members.retain(|&place| {
             let index = self.members[place as usize];
@@ -91,13 +95,13 @@ impl Groups {
             }
             stays
         });
-        let bodies = &self.bodies;
+        let known = &self.bodies;
         let is_in = |place: u32| {
-            bodies[place as usize].inverse_mass == 0.0 || self.round_of[place as usize] == number
+            known[place as usize].inverse_mass == 0.0 || self.round_of[place as usize] == number
         };
         for k in round.rows.clone() {
             let (a, b) = self.rows[k].bodies;
-            self.sources[k].gone |= !is_in(a) || !is_in(b);
+            self.sources[k].gone |= !is_in(a) || !is_in(b) || !self.sources[k].stays(bodies, pairs);
         }
     }
 
@@ -127,5 +131,92 @@ impl Groups {
                 row.jt *= part;
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use carom_geometry::{Circle, HalfPlane};
+    use carom_math::{Vec2, vec2};
+
+    use crate::{BodyDef, Material, Settings, World};
+
+    /// A heap of discs that rolls apart on a floor, in the midst of a sub-step that holds all of it, and a disc in it.
+    fn heap_in_a_substep() -> (World, u32) {
+        let mut world = World::new(Settings {
+            gravity: vec2(0.0, -10.0),
+            sleep: None,
+            ..Settings::default()
+        })
+        .expect("settings");
+        let material = Material {
+            restitution: 0.0,
+            friction: 0.3,
+            ..Material::default()
+        };
+        let floor = HalfPlane::new(Vec2::ZERO, Vec2::Y).expect("a floor");
+        world
+            .insert(BodyDef::fixed(), floor, material)
+            .expect("valid");
+        for row in 0..3 {
+            for k in 0..5 - row {
+                let x = 0.5 * f64::from(k) + 0.25 * f64::from(row);
+                let y = 0.25 + 0.433 * f64::from(row);
+                let disc = Circle::new(0.25).expect("a disc");
+                world
+                    .insert(BodyDef::dynamic().at(vec2(x, y)), disc, material)
+                    .expect("valid");
+            }
+        }
+        for _ in 0..2000 {
+            world.step(world.clock.h / 3.0);
+            let left = world.clock.next() - world.clock.now;
+            let rounds = &world.groups.rounds;
+            if left > 0.1 * world.clock.h
+                && let Some(round) = rounds.iter().find(|round| round.members.len() > 4)
+            {
+                let member = world.groups.members[round.members[2] as usize];
+                return (world, member);
+            }
+        }
+        panic!("no sub-step holds the heap");
+    }
+
+    /// What an impact does to the group of a body.
+    fn strike(world: &mut World, index: u32) {
+        let time = world.clock.now;
+        world.bodies.change(index, time, |_| {});
+        let World {
+            groups,
+            bodies,
+            pairs,
+            report,
+            ..
+        } = world;
+        groups.go_on(bodies, pairs, &[index], time, report);
+    }
+
+    #[test]
+    fn a_heap_is_struck_after_a_disc_was_taken_out_of_it_within_a_sub_step() {
+        let (mut world, index) = heap_in_a_substep();
+        let round = world.groups.round_of[world.groups.places[index as usize] as usize];
+        let members = world.groups.rounds[round as usize].members.clone();
+        let taken = world.groups.members[members[1] as usize];
+        let id = world.bodies.get(taken).id;
+        world.remove(id).expect("it is there");
+        strike(&mut world, index);
+        world.step(0.5);
+        assert!(world.bodies().all(|body| body.centre().is_finite()));
+    }
+
+    #[test]
+    fn a_floor_that_was_taken_out_within_a_sub_step_holds_no_heap() {
+        let (mut world, index) = heap_in_a_substep();
+        let floor = world.bodies().next().expect("it is there").id();
+        world.remove(floor).expect("it is there");
+        strike(&mut world, index);
+        world.step(0.5);
+        let falls = world.bodies().all(|body| body.velocity().y < -1.0);
+        assert!(falls, "something holds a disc");
     }
 }

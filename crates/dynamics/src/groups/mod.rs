@@ -8,14 +8,14 @@ use core::ops::Range;
 
 use carom_math::SimTime;
 
-use crate::StepReport;
 use crate::apart::{Method, set_apart};
 use crate::bodies::Bodies;
 use crate::heavy::{Place, solve_heavy};
-use crate::pairs::Pairs;
+use crate::pairs::{Pair, Pairs};
 use crate::round::{Way, hold, members_of};
 use crate::solver::{Law, Row, SolverBody, sweep};
 use crate::state::Collider;
+use crate::{BodyId, StepReport};
 
 /// Contact groups of a sub-step, and the scratch of its solve.
 #[derive(Clone, Debug, Default)]
@@ -46,6 +46,8 @@ pub(crate) struct Groups {
 #[derive(Clone, Copy, Debug)]
 struct Source {
     pair: u32,
+    /// Its shapes and their bodies: its place may be another pair's by the time that an impact cuts the sub-step short.
+    key: Key,
     /// Contact within it.
     contact: usize,
     /// How it is solved for; before groups are known, how it may be.
@@ -58,6 +60,14 @@ struct Source {
     closes: f64,
     /// One of the two has left the group.
     gone: bool,
+}
+
+/// Shapes and bodies of a pair.
+type Key = ((u32, u32), [BodyId; 2]);
+
+fn key_of(bodies: &Bodies, pair: &Pair) -> Key {
+    let ids = [pair.bodies.0, pair.bodies.1].map(|index| bodies.get(index).id);
+    (pair.colliders, ids)
 }
 
 /// A group of discs.
@@ -73,6 +83,12 @@ struct Round {
 }
 
 impl Source {
+    /// Whether its pair is there yet: a caller may take a body out in the midst of a sub-step.
+    fn stays(&self, bodies: &Bodies, pairs: &Pairs) -> bool {
+        let pair = pairs.find(self.pair);
+        pair.is_some_and(|pair| key_of(bodies, pair) == self.key)
+    }
+
     /// Where its row pushes.
     fn place(self, bodies: &Bodies, pairs: &Pairs, time: SimTime) -> Place {
         let pair = pairs.get(self.pair);
