@@ -158,7 +158,7 @@ impl World {
                 }
             } else if let Some(entry) = self.agenda.next_until(grid) {
                 if self.spent > self.impact_budget() {
-                    self.give_up();
+                    self.give_up(entry);
                     continue;
                 }
                 self.strike_entry(&entry);

@@ -2,6 +2,7 @@
 
 use carom_math::SimTime;
 
+use crate::agenda::Entry;
 use crate::flight::fly;
 use crate::narrow::{TOUCH, opening_speed, rest_speed};
 use crate::pairs::PairContact;
@@ -88,15 +89,17 @@ impl World {
         256.0 + BUDGET * self.bodies.places() as f64
     }
 
-    /// Leaves all impacts that are due in this sub-step to the next one's solver, and says so.
-    pub(crate) fn give_up(&mut self) {
-        while let Some(entry) = self.agenda.next_until(self.clock.next()) {
+    /// Leaves an impact, and all others that are due in this sub-step, to the next one's solver, and says so.
+    pub(crate) fn give_up(&mut self, entry: Entry) {
+        let mut due = Some(entry);
+        while let Some(entry) = due {
             if let Some(pair) = self.pairs.of_entry(&entry)
                 && !pair.given_up
             {
                 pair.given_up = true;
                 self.report.collapsed += 1;
             }
+            due = self.agenda.next_until(self.clock.next());
         }
     }
 
@@ -280,5 +283,58 @@ impl World {
                 self.take_off(index, time);
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use carom_geometry::{Circle, HalfPlane};
+    use carom_math::{Vec2, vec2};
+
+    use crate::{BodyDef, Material, Settings, World};
+
+    #[test]
+    fn the_impact_at_which_a_budget_ends_is_left_to_the_solver_and_counted() {
+        let mut world = World::new(Settings {
+            gravity: vec2(0.0, -10.0),
+            sleep: None,
+            ..Settings::default()
+        })
+        .expect("settings");
+        let floor = HalfPlane::new(Vec2::ZERO, Vec2::Y).expect("a floor");
+        let material = Material::default();
+        world
+            .insert(BodyDef::fixed(), floor, material)
+            .expect("valid");
+        for k in 0..20 {
+            let x = 0.55 * f64::from(k % 5) + 0.1 * f64::from(k / 5);
+            let def = BodyDef::dynamic().at(vec2(x, 0.25 + 0.6 * f64::from(k / 5)));
+            let disc = Circle::new(0.25).expect("a disc");
+            world.insert(def, disc, material).expect("valid");
+        }
+        for _ in 0..3000 {
+            world.step(world.clock.h / 3.0);
+            let (now, end) = (world.clock.now, world.clock.next());
+            // An impact of this sub-step, well before it ends.
+            let last = now + 0.9 * (end - now);
+            let Some(entry) = world.agenda.next_until(last) else {
+                continue;
+            };
+            if world
+                .pairs
+                .of_entry(&entry)
+                .is_none_or(|pair| pair.given_up)
+            {
+                continue;
+            }
+            let place = entry.pair;
+            world.agenda.push(entry);
+            world.spent = world.impact_budget() + 1.0;
+            let report = world.step(0.95 * (end - now));
+            assert!(world.pairs.get(place).given_up, "it got lost");
+            assert!(report.collapsed > 0, "{report:?}");
+            return;
+        }
+        panic!("nothing strikes within a sub-step");
     }
 }
