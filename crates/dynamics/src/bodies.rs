@@ -74,6 +74,8 @@ pub(crate) struct Bodies {
     pub(crate) booked: Vec<Booked>,
     pub(crate) book: EnergyBook,
     pub(crate) pull: Pull,
+    /// Flights since the last report that leave out more than [`Pull::error`], as short as their stretches are.
+    pub(crate) inaccurate: u64,
     /// Bodies that came, went, woke or were changed since the last sub-step; only where somebody
     /// reads the list.
     pub(crate) touched: Vec<u32>,
@@ -95,6 +97,7 @@ impl Bodies {
                 fields: Vec::new(),
                 error,
             },
+            inaccurate: 0,
             touched: Vec::new(),
             notes_touched,
         }

@@ -69,7 +69,7 @@ pub(crate) fn fly(bodies: &mut Bodies, index: u32, time: SimTime, h: f64) {
     let known = bodies.get(index).flight.clone();
     let flight = match known {
         Some(flight) if flight.holds(time, h) => flight,
-        _ => Arc::new(law_of(bodies, index, time, h, h)),
+        _ => Arc::new(new_law(bodies, index, time, h, h)),
     };
     follow(bodies, index, flight, time, h, 0.0);
 }
@@ -85,7 +85,7 @@ pub(crate) fn begin_piece(bodies: &mut Bodies, index: u32, time: SimTime, h: f64
     let shortest = SHORTEST * h;
     let flight = match known {
         Some(flight) if flight.is_free() && flight.lasts(time, h) > shortest => flight,
-        _ => Arc::new(law_of(bodies, index, time, h, 0.0)),
+        _ => Arc::new(new_law(bodies, index, time, h, 0.0)),
     };
     let touching = flight.osculating(time, reach);
     let mut span = flight.lasts(time, LONGEST);
@@ -104,6 +104,13 @@ pub(crate) fn begin_piece(bodies: &mut Bodies, index: u32, time: SimTime, h: f64
 
 /// Shortest piece of a flight, and shortest stretch of the integrator, as a part of a sub-step.
 const SHORTEST: f64 = 1.0 / 1_048_576.0;
+
+/// [`law_of`] a body, counted where it is not as near as the world asks for.
+fn new_law(bodies: &mut Bodies, index: u32, time: SimTime, h: f64, cover: f64) -> Flight {
+    let flight = law_of(bodies, index, time, h, cover);
+    bodies.inaccurate += u64::from(flight.misses());
+    flight
+}
 
 /// The law that a body flies by from `time` on, for `cover` seconds or more; `h` is what counts as short.
 fn law_of(bodies: &Bodies, index: u32, time: SimTime, h: f64, cover: f64) -> Flight {

@@ -26,6 +26,8 @@ pub struct StepReport {
     pub rows: u64,
     /// Contact islands whose modes were solved for: a closed form until the next change of mode, if there is one.
     pub modes_solved: u64,
+    /// Flights in fields that leave out more than [`Settings::field_error`](crate::Settings::field_error) in their shortest pieces.
+    pub inaccurate: u64,
     /// Bodies that were stopped because a number was no longer finite.
     pub stopped: u64,
     /// Deepest overlap seen at the start of a sub-step, in m, ≥ 0.
@@ -35,12 +37,13 @@ pub struct StepReport {
 }
 
 impl StepReport {
-    /// Whether every motion came from a closed form: nothing was sub-stepped, cut off or stopped.
+    /// Whether every motion came from a closed form: nothing was sub-stepped, cut off or stopped, and each is as near as was asked for.
     #[must_use]
     pub const fn is_exact(&self) -> bool {
         self.handed_over == 0
             && self.collapsed == 0
             && self.unresolved == 0
+            && self.inaccurate == 0
             && self.stopped == 0
             && self.refused.is_none()
     }
@@ -58,6 +61,7 @@ impl AddAssign for StepReport {
         self.pairs += later.pairs;
         self.rows += later.rows;
         self.modes_solved += later.modes_solved;
+        self.inaccurate += later.inaccurate;
         self.stopped += later.stopped;
         if later.deepest_overlap > self.deepest_overlap {
             self.deepest_overlap = later.deepest_overlap;

@@ -87,6 +87,7 @@ impl World {
         }
         self.events.end_step();
         self.report_astray(self.clock.now);
+        self.report.inaccurate += core::mem::take(&mut self.bodies.inaccurate);
         self.report.advanced = if stop_at_event || self.work.used_up {
             self.clock.now - start
         } else {

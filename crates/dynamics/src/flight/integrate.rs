@@ -41,6 +41,8 @@ pub(crate) type Rim = (Vec2, f64);
 pub(crate) struct Stretch {
     /// Length in s.
     pub(crate) length: f64,
+    /// It leaves out more than was asked for, and is no shorter: the shortest of all.
+    pub(crate) misses: bool,
     place: Vec2,
     velocity: Vec2,
     /// b₀ … b₇, in m/s².
@@ -88,7 +90,10 @@ impl Stretch {
         } else {
             shortest
         };
-        Self::collocate(f, place, velocity, first, length).0
+        let (mut stretch, stands) = Self::collocate(f, place, velocity, first, length);
+        // What is no number is not within any error.
+        stretch.misses = !(stands && stretch.left_out() <= error * length);
+        stretch
     }
 
     fn collocate(
@@ -100,6 +105,7 @@ impl Stretch {
     ) -> (Self, bool) {
         let mut stretch = Self {
             length,
+            misses: false,
             place,
             velocity,
             terms: [Vec2::ZERO; 8],

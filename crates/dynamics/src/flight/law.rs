@@ -156,6 +156,11 @@ impl Flight {
         if known < longest { known } else { longest }
     }
 
+    /// Whether some of it leaves out more than the world's error for fields.
+    pub(crate) fn misses(&self) -> bool {
+        matches!(&self.path, Path::Stretches(all) if all.iter().any(|stretch| stretch.misses))
+    }
+
     /// Whether nothing holds the body.
     pub(crate) const fn is_free(&self) -> bool {
         !matches!(self.path, Path::Held { .. })

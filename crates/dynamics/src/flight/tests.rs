@@ -151,3 +151,22 @@ fn damping_must_not_be_negative_and_stepped_worlds_know_none() {
         })
     ));
 }
+
+#[test]
+fn a_flight_that_is_not_as_near_as_asked_for_is_not_exact() {
+    // A billion turns in the core's rim, and a push of 1e24 m/s²: no piece is short enough.
+    for (strength, core, x) in [(1e6, 1e-9, 1e-3), (-1e12, 1e-6, 1e-6)] {
+        let mut world = World::new(Settings {
+            gravity: vec2(0.0, -10.0),
+            ..Settings::default()
+        })
+        .expect("settings");
+        let field = RadialField::new(Vec2::ZERO, strength, core).expect("a field");
+        world.add_field(field);
+        let disc = Circle::new(0.5).expect("a disc");
+        let def = BodyDef::dynamic().at(vec2(x, 0.0));
+        world.insert(def, disc, Material::default()).expect("valid");
+        let report = world.step(0.1);
+        assert!(report.inaccurate > 0 && !report.is_exact(), "{report:?}");
+    }
+}
