@@ -27,9 +27,10 @@ impl StateHash {
         self.write(value.y);
     }
 
-    /// Writes an instant.
+    /// Writes an instant, with all its digits.
     pub fn write_time(&mut self, time: SimTime) {
-        self.write(time - SimTime::ZERO);
+        self.write_u64(time.units().cast_unsigned());
+        self.write(time.rest());
     }
 
     /// Writes a whole number.
@@ -49,6 +50,17 @@ impl StateHash {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn instants_that_differ_by_less_than_an_ulp_of_their_seconds_are_two_states() {
+        let late = SimTime::from_secs(10_000.0);
+        let [a, b] = [late, late + 1e-15].map(|time| {
+            let mut hash = StateHash::default();
+            hash.write_time(time);
+            hash.finish()
+        });
+        assert_ne!(a, b);
+    }
 
     #[test]
     fn signed_zeros_are_one_state() {

@@ -38,7 +38,7 @@ impl SimTime {
         rest: 0.0,
     };
 
-    /// The instant `secs` seconds after the start.
+    /// The instant `secs` seconds after the start; +∞ and what is no number are [`SimTime::NEVER`].
     #[must_use]
     pub fn from_secs(secs: f64) -> Self {
         Self::ZERO + secs
@@ -70,6 +70,9 @@ impl SimTime {
     pub const fn of_parts(units: i64, rest: f64) -> Self {
         // A rest that is no number is none.
         let rest = if rest > 0.0 { rest } else { 0.0 };
+        if units == i64::MAX {
+            return Self::NEVER;
+        }
         let rest = if rest < UNIT { rest } else { UNIT.next_down() };
         Self { units, rest }
     }
@@ -137,25 +140,46 @@ fn floor(x: f64) -> f64 {
 impl Add<f64> for SimTime {
     type Output = Self;
 
-    /// The instant `secs` later (earlier if negative), right to one rounding of the rest.
+    /// The instant `secs` later (earlier if negative), right to one rounding of the rest. What is too late
+    /// to be told, +∞ and what is no number lead to [`SimTime::NEVER`], and nothing leads from there; −∞ is
+    /// the earliest instant.
+    ///
+    /// # Examples
+    /// ```
+    /// use carom_math::SimTime;
+    /// assert_eq!(SimTime::NEVER + -1.0, SimTime::NEVER);
+    /// assert_eq!(SimTime::ZERO + f64::INFINITY, SimTime::NEVER);
+    /// assert_eq!(SimTime::ZERO + f64::NAN, SimTime::NEVER);
+    /// ```
     #[expect(
         clippy::cast_possible_truncation,
-        reason = "the cast saturates, which is as late as NEVER"
+        reason = "below 2^63 but where it saturates at the earliest instant"
     )]
     fn add(self, secs: f64) -> Self {
+        /// 2⁶³ units.
+        const TOO_LATE: f64 = 144_115_188_075_855_872.0;
+        if self.units == i64::MAX || secs.is_nan() || secs >= TOO_LATE {
+            return Self::NEVER;
+        }
+        if secs <= -TOO_LATE {
+            let (units, rest) = (i64::MIN, 0.0);
+            return Self { units, rest };
+        }
         let whole = floor(secs * UNITS_PER_SECOND);
         // Exact: both terms are multiples of the last bit of `secs`, and the result is smaller.
         let part = secs - whole * UNIT;
         let units = self.units.saturating_add(whole as i64);
+        if units == i64::MAX {
+            return Self::NEVER;
+        }
         // The rest may reach past the unit; its rounding error would be lost at the border.
         let (rest, error) = two_sum(self.rest, part);
         if rest >= UNIT {
             let over = (rest - UNIT) + error;
             if over >= 0.0 {
-                return Self {
-                    units: units.saturating_add(1),
-                    rest: over,
-                };
+                let units = units + 1;
+                let rest = if units == i64::MAX { 0.0 } else { over };
+                return Self { units, rest };
             }
         }
         let rest = if rest < UNIT { rest } else { UNIT.next_down() };
@@ -211,6 +235,32 @@ mod tests {
         // 1/60 is not a double; its error times the count is all that is left.
         assert!((day - SimTime::from_secs(86400.0)).abs() < 2e-12);
         assert_eq!(SimTime::multiple(ticks, 0.25).as_secs(), 0.25 * 5_184_000.0);
+    }
+
+    #[test]
+    fn nothing_is_later_than_never_and_nothing_leads_from_there() {
+        let never = SimTime::NEVER;
+        for secs in [f64::NAN, f64::INFINITY, f64::MAX, 1.5e17] {
+            assert_eq!(SimTime::from_secs(secs), never, "{secs} s");
+            assert_eq!(SimTime::from_secs(1.0) + secs, never, "{secs} s");
+        }
+        for secs in [
+            0.0,
+            0.01,
+            -0.01,
+            1.0,
+            -1.0,
+            1e300,
+            -1e300,
+            f64::NEG_INFINITY,
+            f64::NAN,
+        ] {
+            assert_eq!(never + secs, never, "{secs} s");
+        }
+        assert_eq!(SimTime::of_parts(i64::MAX, 0.01), never);
+        assert_eq!(SimTime::of_parts(i64::MAX - 1, 0.015) + 0.015, never);
+        assert!(SimTime::from_secs(1e17) < never);
+        assert!(SimTime::from_secs(f64::NEG_INFINITY) <= SimTime::from_secs(-1e300));
     }
 
     proptest! {
