@@ -375,6 +375,10 @@ impl World {
         let tick = (time.as_secs() / self.settings.tick) as i64;
         let mut spent = false;
         for index in [impact.bodies.0, impact.bodies.1] {
+            // A floor is not charged for all that lands on it.
+            if self.bodies.get(index).inverse_mass == 0.0 {
+                continue;
+            }
             let course = &mut self.bodies.get_mut(index).course;
             if course.tick != tick {
                 (course.tick, course.spent) = (tick, 0.0);
