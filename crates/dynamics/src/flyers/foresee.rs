@@ -218,8 +218,8 @@ impl World {
             }
             return;
         }
-        // Followed to the end of its window when it began, where that is known.
-        if cause == Cause::Horizon && window.to.is_finite() {
+        // Followed to the end of its window when it began, where that is known and circles found it.
+        if cause == Cause::Horizon && window.to.is_finite() && both_in_grid(a, b) {
             return;
         }
         self.seek(index, other, time, window, cause);
@@ -356,6 +356,13 @@ impl World {
     pub(super) fn both_fly(&self, a: u32, b: u32) -> bool {
         self.bodies.get(a).course.flies && self.bodies.get(b).course.flies
     }
+}
+
+/// Whether two flyers found each other by the ways of their circles, so that one of them was told of their window
+/// before it began. What is in the tree is found by boxes of shapes, which the circle of something long and thin leaves
+/// far behind: its window may have been open for long, and is followed from one look to the next.
+pub(super) const fn both_in_grid(a: &BodyState, b: &BodyState) -> bool {
+    a.course.cells.is_some() && b.course.cells.is_some()
 }
 
 pub(super) fn at_most(seconds: f64) -> f64 {

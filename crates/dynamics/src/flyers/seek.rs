@@ -5,7 +5,7 @@ use carom_math::SimTime;
 
 use super::Foreseen;
 use super::circle::Circle;
-use super::foresee::Cause;
+use super::foresee::{Cause, both_in_grid};
 use super::window::Window;
 use crate::World;
 use crate::flight::first_touch;
@@ -34,7 +34,7 @@ impl World {
     }
 
     /// Time of impact of two flyers from now on, to the end of their window or, where that is not
-    /// known, to the nearer horizon.
+    /// known or one of them is in the tree, to the nearer horizon.
     pub(super) fn seek(&mut self, a: u32, b: u32, time: SimTime, window: Window, cause: Cause) {
         let (a, b) = if self.goes_first(a, b) {
             (a, b)
@@ -42,10 +42,12 @@ impl World {
             (b, a)
         };
         let (one, two) = (self.bodies.get(a), self.bodies.get(b));
-        let end = if window.to.is_finite() {
+        let end = if window.to.is_finite() && both_in_grid(one, two) {
             window.to
         } else {
-            self.flyers.common_horizon_of(one, two) - time
+            window
+                .to
+                .min(self.flyers.common_horizon_of(one, two) - time)
         };
         let ends = (one.colliders.len(), two.colliders.len());
         let (apart, length) = self.first_piece((a, b), time, end);
