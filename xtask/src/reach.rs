@@ -99,7 +99,13 @@ mod tests {
             Reached::There
         );
         assert_eq!(steps.get(), 1);
-        assert_eq!(few.state_hash(), many.state_hash());
+        // What is left to the target is one number, so the instants differ by less than that has digits; nothing else does.
+        assert!((few.time() - many.time()).abs() < 1e-16);
+        let motions = [&few, &many].map(|world| {
+            let bodies = world.bodies();
+            bodies.map(|body| *body.motion()).collect::<Vec<_>>()
+        });
+        assert_eq!(motions[0], motions[1]);
     }
 
     #[test]
