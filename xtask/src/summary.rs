@@ -89,6 +89,7 @@ impl Watch {
             .into(),
             handed_over: report.handed_over,
             unresolved: report.unresolved,
+            inaccurate: report.inaccurate,
             collapsed: report.collapsed,
             stopped: report.stopped,
             refused: report.refused.map(|why| why.to_string()),
@@ -120,6 +121,7 @@ pub(crate) struct Summary {
     pub(crate) momentum_drift: Momenta,
     pub(crate) handed_over: u64,
     pub(crate) unresolved: u64,
+    pub(crate) inaccurate: u64,
     pub(crate) collapsed: u64,
     pub(crate) stopped: u64,
     pub(crate) refused: Option<String>,
@@ -246,9 +248,10 @@ impl Summary {
     fn exactness(&self) -> String {
         let mark = if self.exact { "exact" } else { "NOT EXACT" };
         format!(
-            "{mark:<12} handed over {}, unresolved {}, collapsed {}, stopped {}, refused {}",
+            "{mark:<12} handed over {}, unresolved {}, inaccurate {}, collapsed {}, stopped {}, refused {}",
             self.handed_over,
             self.unresolved,
+            self.inaccurate,
             self.collapsed,
             self.stopped,
             u8::from(self.refused.is_some())

@@ -131,3 +131,19 @@ fn every_built_in_scene_is_listed_and_runs() {
         xtask(&["simulate", name, "--seconds", "0.05"]).done();
     }
 }
+
+#[test]
+fn a_flight_past_the_core_of_a_strong_field_is_called_inaccurate() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = "version = 1\n[[field]]\nkind = \"radial\"\ncentre = [0, 0]\nstrength = 1e6\ncore = 1e-9\n\
+                 [[body]]\nposition = [0.001, 0]\nshape = { circle = 0.5 }\n";
+    std::fs::write(folder.path().join("strong.toml"), scene).unwrap();
+    let ran = xtask_in(
+        folder.path(),
+        &["simulate", "strong.toml", "--seconds", "0.2"],
+    )
+    .done();
+    let told = ran.err.lines().find(|line| line.starts_with("NOT EXACT"));
+    let counts = told.is_some_and(|line| !line.contains("inaccurate 0"));
+    assert!(counts, "{}", ran.err);
+}
