@@ -28,7 +28,7 @@ pub enum Fault {
     Momentum(String),
 }
 
-/// All overlaps of bodies of which one moves: who, and how deep in m.
+/// All overlaps of bodies of which one moves: the pairs, and how deep in m.
 #[must_use]
 pub fn overlapping(world: &World) -> Vec<(BodyId, BodyId, f64)> {
     let bodies: Vec<_> = world.bodies().map(|body| (parts(&body), body)).collect();
@@ -53,7 +53,7 @@ fn meets(a: &Body<'_>, b: &Body<'_>) -> bool {
         .any(|of_a| b.filters().any(|of_b| of_a.touches(of_b)))
 }
 
-/// Whether everybody is where a step with this report may leave it; `before` are the overlaps at its start.
+/// Whether all bodies are where a step with this report may leave them; `before` are the overlaps at its start.
 ///
 /// # Errors
 /// The first body that is not.

@@ -31,7 +31,7 @@ pub fn aside(text: Arguments<'_>) {
     let _unseen = writeln!(io::stderr().lock(), "{text}");
 }
 
-/// Remembers why something could not be written to stdout; a closed pipe is nobody's fault.
+/// Remembers why something could not be written to stdout; a closed pipe is no error.
 pub fn keep(written: io::Result<()>) {
     if let Err(error) = written
         && !is_closed_pipe(&error)

@@ -34,8 +34,7 @@ pub struct Settings {
     pub sleep: Option<Sleep>,
     /// Most work in a tick, for each thousand bodies or fewer: events (impacts, ends of searches and of pieces of a law,
     /// changes of contact mode, sub-steps) and pairs looked at by shape. A [step](crate::World::step) that needs more stops early
-    /// between two events, and says so; the next one goes on. A dense gas takes some 20 a body, two bodies that strike
-    /// each other a million times between a wall and a heavy one more than any number.
+    /// between two events, and says so; the next one goes on.
     pub work: u64,
     /// How many replaced motions are kept for [`crate::World::pose_at`]; 0 keeps none.
     pub history: usize,

@@ -300,7 +300,7 @@ fn is_there(place: &Path) -> bool {
     place.symlink_metadata().is_ok()
 }
 
-/// A file that its checksum does not fit holds somebody's work, unless it is empty: that may be of a system that broke down.
+/// A file that its checksum does not fit was edited, unless it is empty: that may be of a system that broke down.
 fn refuse_edited(place: &Path, sum: Option<Checksum>) -> Result<(), RenderError> {
     let Some(sum) = sum.filter(|_| is_there(place)) else {
         return Ok(());

@@ -54,7 +54,7 @@ fn a_film_that_was_killed_on_the_way_is_no_obstacle() {
         for place in [&place, &root.path().join(MANIFEST)] {
             fs::write(temporary_name(place), "torn").unwrap();
         }
-        // And what somebody else hides here.
+        // And hidden files of other programs.
         let theirs = temporary_name(&root.path().join("notes.txt"));
         fs::write(&theirs, "mine").unwrap();
         drop(OutputFolder::open(root.path(), existing, "run").unwrap());

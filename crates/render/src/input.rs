@@ -1,6 +1,6 @@
 //! Files that are read: plain ones alone, and of each no more than its reader has room for.
 //!
-//! To open a pipe waits until somebody writes into it, and a device may never end: what a path leads to is asked first.
+//! To open a pipe waits for a writer, and a device may never end: what a path leads to is asked first.
 
 use std::fs::{self, File};
 use std::io::{self, Read as _};

@@ -35,7 +35,7 @@ pub struct Draft {
 
 /// A name that a file may have until it is whole: hidden, in the same folder, `.NAME.0123456789abcdef.part`.
 ///
-/// One that can be told beforehand may be a file of somebody else, or a link that leads to one.
+/// One that can be told beforehand may be a user's file, or a link that leads to one.
 pub(crate) fn temporary_name(place: &Path) -> PathBuf {
     // The standard library's only source of chance; no output depends on it.
     let chance = RandomState::new().build_hasher().finish();

@@ -36,7 +36,7 @@ fn soon(folder: &Path, args: &[&str]) -> Ran {
     }
 }
 
-/// Puts a pipe that nobody writes into in the place of a file.
+/// Puts a pipe without a writer in the place of a file.
 fn pipe(place: &Path) {
     if place.exists() {
         fs::remove_file(place).unwrap();
