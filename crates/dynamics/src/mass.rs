@@ -8,7 +8,7 @@ use crate::{BodyDef, BodyKind, Material};
 
 /// A centre of mass nearer to the origin of its shapes than this, as a fraction of how far they reach from there, is there: two
 /// roundings of what the farthest corner adds to it.
-const CENTRED: f64 = 2.0 * f64::EPSILON;
+pub(crate) const CENTRED: f64 = 2.0 * f64::EPSILON;
 
 /// Mass, centre of mass and inertia of a definition.
 ///

@@ -6,6 +6,7 @@ use super::Foreseen;
 use super::gap::{Touching, gap_acceleration};
 use super::strike::approach_speed;
 use crate::World;
+use crate::mass::CENTRED;
 use crate::state::BodyState;
 
 /// Height of a bounce below which it is timed by its speeds, as a fraction of the smaller reach, where
@@ -19,14 +20,18 @@ impl World {
     /// A bounce so low that the search for its end would see rounding: it lasts 2 u⁺/a.
     ///
     /// The gap is `u t − a t²/2` but for what the normal turns by: nothing where neither turns or the
-    /// one that does is a disc, else less than the spin times the bounce, which is why that must be lower.
+    /// one that does is a disc about its centre of mass, else less than the spin times the bounce, which is why that must be lower.
     pub(super) fn hop(&mut self, impact: &Foreseen, time: SimTime) {
         let (a, b) = impact.bodies;
         let after = [a, b].map(|index| self.bodies.get(index).in_impact(time));
         let (rise, press) = (-approach_speed(impact, &after), self.press(impact, time));
         let (one, two) = (self.bodies.get(a), self.bodies.get(b));
-        let round = |at: u32| self.colliders[at as usize].solid.vertices().len() == 1;
-        let steady = |state: &BodyState, at: u32| state.motion.spin == 0.0 || round(at);
+        let steady = |state: &BodyState, at: u32| {
+            let vertices = self.colliders[at as usize].solid.vertices();
+            let round =
+                matches!(vertices, [centre] if centre.length() <= CENTRED * state.reach);
+            state.motion.spin == 0.0 || round
+        };
         let turns = !(steady(one, impact.colliders.0) && steady(two, impact.colliders.1));
         let bends = self.bodies.bends(a) || self.bodies.bends(b);
         let low = if turns || bends { LOW } else { FLAT };

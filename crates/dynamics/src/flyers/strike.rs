@@ -62,7 +62,7 @@ impl World {
         let speed = approach_speed(impact, &before);
         if speed <= NOISE * self.scale(impact, &before) {
             let press = self.press(impact, time);
-            return self.touches(impact, time, speed, press);
+            return self.touches(impact, time, speed, -press);
         }
         let smooth = material.restitution >= 1.0 && material.friction == 0.0;
         let keeps = smooth && !self.bodies.bends(a) && !self.bodies.bends(b);
@@ -234,10 +234,10 @@ impl World {
         )
     }
 
-    /// They touch, and approach by rounding alone: what is pressed together lasts; what is not has
-    /// come to the end of ever faster impacts, or grazes.
-    fn touches(&mut self, impact: &Foreseen, time: SimTime, speed: f64, press: f64) {
-        if press > 0.0 {
+    /// They touch, and approach by rounding alone: what is pressed together lasts; what opens with
+    /// an acceleration of `pull` m/s² has come to the end of ever faster impacts, or grazes.
+    fn touches(&mut self, impact: &Foreseen, time: SimTime, speed: f64, pull: f64) {
+        if pull < 0.0 {
             return self.begins_to_last(impact, time);
         }
         let (a, b) = impact.bodies;
@@ -248,7 +248,8 @@ impl World {
         if ends {
             self.report_collapse(impact.bodies, 0.5 * speed * speed, time);
         }
-        // Another look when the approach may have gone deeper than impacts leave.
+        // Another look when the approach may have gone deeper than impacts leave, or when the touch is
+        // open: other parts of the two may meet then, which no search sees while these touch.
         let (one, two) = (self.bodies.get(a), self.bodies.get(b));
         let slack = SLACK * one.reach.min(two.reach);
         let left = self
@@ -256,7 +257,8 @@ impl World {
             .end_of_search(one)
             .max(self.flyers.end_of_search(two));
         let left = (left - time).max(1e-9);
-        let wait = if speed > 0.0 { slack / speed } else { left };
+        let deeper = if speed > 0.0 { slack / speed } else { left };
+        let wait = deeper.min(time_to_open(slack, -speed, pull).unwrap_or(left));
         self.look_again(impact, time + wait.clamp(1e-9 * left, left));
     }
 
@@ -411,6 +413,18 @@ pub(super) fn pace(body: &ImpactBody, reach: f64) -> f64 {
 /// Normal velocity of a point of contact: positive opens.
 pub(super) fn opening(bodies: &[ImpactBody; 2], point: Vec2, normal: Vec2) -> f64 {
     (bodies[1].velocity_of(point) - bodies[0].velocity_of(point)).dot(normal)
+}
+
+/// First instant at which a touch that opens at `speed` m/s and `pull` ≥ 0 m/s² has a gap of `slack` m,
+/// in s from now: the greater root of `½ pull t² + speed t = slack`, each sign of `speed` without
+/// cancellation. `None` if it does not open.
+fn time_to_open(slack: f64, speed: f64, pull: f64) -> Option<f64> {
+    let root = (speed * speed + 2.0 * pull * slack).sqrt();
+    if speed > 0.0 {
+        Some(2.0 * slack / (speed + root))
+    } else {
+        (pull > 0.0).then(|| (root - speed) / pull)
+    }
 }
 
 /// Fastest approach of the points of an impact, in m/s.
