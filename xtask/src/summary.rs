@@ -90,6 +90,7 @@ impl Watch {
             handed_over: report.handed_over,
             unresolved: report.unresolved,
             inaccurate: report.inaccurate,
+            sunken: report.sunken,
             collapsed: report.collapsed,
             stopped: report.stopped,
             refused: report.refused.map(|why| why.to_string()),
@@ -122,6 +123,7 @@ pub(crate) struct Summary {
     pub(crate) handed_over: u64,
     pub(crate) unresolved: u64,
     pub(crate) inaccurate: u64,
+    pub(crate) sunken: u64,
     pub(crate) collapsed: u64,
     pub(crate) stopped: u64,
     pub(crate) refused: Option<String>,
@@ -248,10 +250,11 @@ impl Summary {
     fn exactness(&self) -> String {
         let mark = if self.exact { "exact" } else { "NOT EXACT" };
         format!(
-            "{mark:<12} handed over {}, unresolved {}, inaccurate {}, collapsed {}, stopped {}, refused {}",
+            "{mark:<12} handed over {}, unresolved {}, inaccurate {}, sunken {}, collapsed {}, stopped {}, refused {}",
             self.handed_over,
             self.unresolved,
             self.inaccurate,
+            self.sunken,
             self.collapsed,
             self.stopped,
             u8::from(self.refused.is_some())

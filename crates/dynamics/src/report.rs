@@ -28,6 +28,9 @@ pub struct StepReport {
     pub modes_solved: u64,
     /// Flights in fields that leave out more than [`Settings::field_error`](crate::Settings::field_error) in their shortest pieces.
     pub inaccurate: u64,
+    /// Pairs found deeper in each other at the start of a sub-step than a touch is, 1e-9 of the smaller body's reach: an impact came
+    /// late, a contact gave way, or they were put so.
+    pub sunken: u64,
     /// Bodies that were stopped because a number was no longer finite.
     pub stopped: u64,
     /// Deepest overlap seen at the start of a sub-step, in m, ≥ 0.
@@ -37,13 +40,15 @@ pub struct StepReport {
 }
 
 impl StepReport {
-    /// Whether every motion came from a closed form: nothing was sub-stepped, cut off or stopped, and each is as near as was asked for.
+    /// Whether every motion came from a closed form: nothing was sub-stepped, cut off or stopped, each is as near as was
+    /// asked for, and none lets bodies sink into each other.
     #[must_use]
     pub const fn is_exact(&self) -> bool {
         self.handed_over == 0
             && self.collapsed == 0
             && self.unresolved == 0
             && self.inaccurate == 0
+            && self.sunken == 0
             && self.stopped == 0
             && self.refused.is_none()
     }
@@ -62,6 +67,7 @@ impl AddAssign for StepReport {
         self.rows += later.rows;
         self.modes_solved += later.modes_solved;
         self.inaccurate += later.inaccurate;
+        self.sunken += later.sunken;
         self.stopped += later.stopped;
         if later.deepest_overlap > self.deepest_overlap {
             self.deepest_overlap = later.deepest_overlap;

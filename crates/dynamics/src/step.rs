@@ -311,11 +311,11 @@ impl World {
             fly(&mut self.bodies, index, time, left);
         }
         self.refit(index, time, left);
-        let stepped = self.bodies.get(index).is_stepped();
-        if !stepped {
+        // What rests from now on may lie in the way of what is sub-stepped, too.
+        if !self.bodies.get(index).is_stepped() {
             self.show(index, time);
         }
-        stepped
+        true
     }
 
     /// Has all flyers near a body that rests look at it.

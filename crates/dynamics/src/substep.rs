@@ -191,11 +191,17 @@ impl World {
         }
         let rest = rest_speed(&self.bodies, self.pairs.get(place), h);
         let touch = TOUCH * one.reach.min(two.reach);
+        // What was struck within a sub-step and touches again at its end has come back: turning presses it.
+        let back = self.pairs.get(place).impacts > 0;
         let holds = |contact: &PairContact| {
             contact.points.iter().any(|point| {
                 let rate = opening_speed(one, two, time, point.position, contact.normal);
                 let reach = touch + if rate < 0.0 { -rate * h } else { 0.0 };
-                rate >= -rest && point.separation <= reach
+                if rate >= -rest {
+                    point.separation <= reach
+                } else {
+                    back && point.separation <= touch
+                }
             })
         };
         let contacts = &self.pairs.get(place).contacts;
@@ -228,6 +234,9 @@ impl World {
             self.narrow
                 .look(&self.bodies, &self.colliders, pair, time, h);
             let touching = pair.touching;
+            let reach = |index: u32| self.bodies.get(index).reach;
+            let sunken = pair.overlaps(TOUCH * reach(a).min(reach(b)));
+            self.report.sunken += u64::from(sunken);
             for point in pair.contacts.iter().flat_map(|contact| &contact.points) {
                 self.report.deepest_overlap = self.report.deepest_overlap.max(-point.separation);
             }

@@ -41,7 +41,10 @@ fn a_touch_that_opens_hides_no_other() {
         let id = put(&mut world, body, disc_and_pentagon(), material);
         world.step(2.0);
         let lowest = world.body(id).expect("it stays").aabb().min.y;
-        assert!(lowest > -FAR - 1e-3, "{mode:?}: it reaches down to {lowest}");
+        assert!(
+            lowest > -FAR - 1e-3,
+            "{mode:?}: it reaches down to {lowest}"
+        );
     }
 }
 

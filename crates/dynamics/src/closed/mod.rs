@@ -4,6 +4,7 @@
 //! at the instant of its own next change. Between these nobody touches it: its motions are right for
 //! as long as its mode lasts. What does not qualify is left to the sub-steps.
 
+mod dissolve;
 mod glide;
 mod jam;
 mod joints;
@@ -178,57 +179,17 @@ impl World {
         let stalls = |index: &&u32| self.closed.stalls(**index, bodies, time, limits);
         let stalled = members.iter().filter(stalls).count() > 0;
         if stalled {
-            return self.set_free(members, time);
-        }
-        for &index in members {
-            if !self.bodies.get(index).membership.is_closed() {
-                self.judge_around(index, time, speed, Looks::Old);
-            }
-        }
-    }
-
-    /// Takes a group apart; its members keep their motions until somebody gives them others.
-    pub(crate) fn dissolve(&mut self, place: u32, time: SimTime) -> Vec<u32> {
-        self.hand_back(place, time);
-        let Some(group) = self.closed.remove(place) else {
-            return Vec::new();
-        };
-        let (heat, driven) = group.works(time - group.since);
-        self.bodies.book.friction.add(heat);
-        self.bodies.book.external.add(driven);
-        self.bodies.book.scheme.add(heat - driven);
-        let members: Vec<u32> = group.members.iter().map(|(index, _)| *index).collect();
-        for &index in &members {
-            self.bodies.get_mut(index).membership = Membership::default();
-        }
-        self.leave_path(&group, time);
-        members
-    }
-
-    /// A body flies from here on; those of its group are judged without it.
-    pub(crate) fn leave_group(&mut self, index: u32, time: SimTime) {
-        let place = self.bodies.get(index).membership.group;
-        if let Some(group) = self.closed.get(place) {
-            let speed = group.speed;
-            let mut members = self.dissolve(place, time);
-            members.retain(|member| *member != index);
-            self.judge_all(&members, time, speed);
-        }
-    }
-
-    /// A pair is no more: a group that it held together is taken apart.
-    pub(crate) fn loosen(&mut self, pair: u32, bodies: (u32, u32), time: SimTime) {
-        for index in [bodies.0, bodies.1] {
-            let place = self.bodies.get(index).membership.group;
-            let group = self.closed.get(place);
-            let holds = |group: &Group| group.touches.iter().any(|touch| touch.pair == pair);
-            if group.is_some_and(holds) {
-                if self.bodies.get(index).asleep {
-                    self.wake(index, time);
+            self.set_free(members, time);
+        } else {
+            for &index in members {
+                if !self.bodies.get(index).membership.is_closed() {
+                    self.judge_around(index, time, speed, Looks::Old);
                 }
-                let members = self.dissolve(place, time);
-                self.set_free(&members, time);
             }
+        }
+        let feels = |index: &u32| self.feels_island(*index);
+        if !members.iter().all(feels) {
+            self.drop_forces(members, time);
         }
     }
 

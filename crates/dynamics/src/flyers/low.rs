@@ -28,8 +28,7 @@ impl World {
         let (one, two) = (self.bodies.get(a), self.bodies.get(b));
         let steady = |state: &BodyState, at: u32| {
             let vertices = self.colliders[at as usize].solid.vertices();
-            let round =
-                matches!(vertices, [centre] if centre.length() <= CENTRED * state.reach);
+            let round = matches!(vertices, [centre] if centre.length() <= CENTRED * state.reach);
             state.motion.spin == 0.0 || round
         };
         let turns = !(steady(one, impact.colliders.0) && steady(two, impact.colliders.1));
