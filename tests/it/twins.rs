@@ -1,5 +1,6 @@
 //! Slow twins that share nothing but vectors with what they check.
 
+mod flights;
 mod impacts;
 mod naive;
 mod pairs;

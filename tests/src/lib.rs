@@ -2,6 +2,8 @@
 
 use carom_dynamics::{BodyKind, Material, World};
 
+mod draw;
+pub mod flights;
 pub mod gas;
 pub mod judges;
 pub mod scenes;

@@ -4,8 +4,6 @@
 //! cargo run --release -p carom-tests --example calls -- --mode exact --first 1 --count 20000 --limit 2
 //! ```
 
-mod draw;
-
 use core::sync::atomic::{AtomicBool, Ordering};
 
 use carom_dynamics::{
@@ -14,8 +12,8 @@ use carom_dynamics::{
 use carom_geometry::HalfPlane;
 use carom_math::{SimTime, Vec2, vec2};
 
+use crate::draw::{self, Dice};
 use crate::judges::{self, Closed, Fault, Moment};
-use draw::Dice;
 
 /// How a script ended.
 #[derive(Clone, Debug, PartialEq)]

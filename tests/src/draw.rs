@@ -5,10 +5,10 @@ use carom_math::{Pose, Vec2, trig, vec2};
 
 /// `SplitMix64`.
 #[derive(Clone, Debug)]
-pub(super) struct Dice(u64);
+pub(crate) struct Dice(u64);
 
 impl Dice {
-    pub(super) const fn new(seed: u64) -> Self {
+    pub(crate) const fn new(seed: u64) -> Self {
         Self(seed.wrapping_mul(0xA076_1D64_78BD_642F))
     }
 
@@ -24,31 +24,31 @@ impl Dice {
         f64::from((self.next() >> 32) as u32) / 4_294_967_296.0
     }
 
-    pub(super) fn below(&mut self, count: usize) -> usize {
+    pub(crate) fn below(&mut self, count: usize) -> usize {
         usize::try_from(self.next() % count as u64).expect("below a usize")
     }
 
-    pub(super) fn chance(&mut self, part: f64) -> bool {
+    pub(crate) fn chance(&mut self, part: f64) -> bool {
         self.part() < part
     }
 
-    pub(super) fn between(&mut self, low: f64, high: f64) -> f64 {
+    pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.part()
     }
 
     /// Evenly over orders of magnitude.
-    pub(super) fn log(&mut self, low: f64, high: f64) -> f64 {
+    pub(crate) fn log(&mut self, low: f64, high: f64) -> f64 {
         trig::exp(self.between(trig::ln(low), trig::ln(high)))
     }
 
     /// Within a square about 0.
-    pub(super) fn inside(&mut self, half: f64) -> Vec2 {
+    pub(crate) fn inside(&mut self, half: f64) -> Vec2 {
         vec2(self.between(-half, half), self.between(-half, half))
     }
 }
 
 /// A block behind a line at `half`, as long as the box and a unit more at either end, and two units thick.
-pub(super) fn wall(outward: Vec2, half: f64, unit: f64) -> Shape {
+pub(crate) fn wall(outward: Vec2, half: f64, unit: f64) -> Shape {
     let along = vec2(outward.x.abs(), outward.y.abs());
     let sides = 2.0 * (half + 2.0 * unit) * (Vec2::ONE - along) + 2.0 * unit * along;
     let block = ConvexPolygon::rectangle(sides.x, sides.y).expect("a block");
@@ -56,7 +56,7 @@ pub(super) fn wall(outward: Vec2, half: f64, unit: f64) -> Shape {
 }
 
 /// Any shape that moves, within `reach` of the origin.
-pub(super) fn shape(dice: &mut Dice, reach: f64) -> Shape {
+pub(crate) fn shape(dice: &mut Dice, reach: f64) -> Shape {
     let rectangle =
         |width: f64, height: f64| ConvexPolygon::rectangle(width, height).expect("a rectangle");
     match dice.below(7) {
