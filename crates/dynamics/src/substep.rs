@@ -183,9 +183,14 @@ impl World {
             (false, true) if one.is_stepped() => b,
             _ => return None,
         };
-        let pair = self.pairs.get_mut(place);
-        self.narrow
-            .look(&self.bodies, &self.colliders, pair, time, h);
+        let pair = self.narrow.look_at(
+            &self.bodies,
+            &self.colliders,
+            &mut self.pairs,
+            place,
+            time,
+            h,
+        );
         if pair.buried {
             return Some(flyer);
         }
@@ -225,8 +230,14 @@ impl World {
                 continue;
             }
             pair.fresh = false;
-            self.narrow
-                .look(&self.bodies, &self.colliders, pair, time, h);
+            let pair = self.narrow.look_at(
+                &self.bodies,
+                &self.colliders,
+                &mut self.pairs,
+                place,
+                time,
+                h,
+            );
             let touching = pair.touching;
             for point in pair.contacts.iter().flat_map(|contact| &contact.points) {
                 self.report.deepest_overlap = self.report.deepest_overlap.max(-point.separation);
