@@ -28,6 +28,7 @@ mod a_sleeper_that_is_neared_does_not_fall;
 mod a_slider_stays_on_its_floor_when_a_force_ends;
 mod a_step_within_a_sub_step_of_the_solver_is_not_exact;
 mod a_velocity_that_is_set_is_not_thrown_on;
+mod a_wedged_body_is_not_shot_out;
 mod an_impact_approaches;
 mod an_impact_as_slow_as_a_rounding_takes_no_time;
 mod an_impact_on_the_border_of_two_sub_steps_bounces;
