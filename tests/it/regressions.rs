@@ -1,6 +1,7 @@
 //! What went wrong once, each with its story.
 
 mod a_blow_within_a_sub_step_does_not_tunnel;
+mod a_box_slides_over_the_seams_of_flush_tiles;
 mod a_changed_flyer_keeps_its_law;
 mod a_driver_that_is_let_go_falls_on_the_floor;
 mod a_few_heavy_bodies_are_no_crowd;
@@ -29,6 +30,7 @@ mod a_step_in_which_bodies_sink_is_not_exact;
 mod a_step_within_a_sub_step_of_the_solver_is_not_exact;
 mod a_touch_that_opens_hides_no_other;
 mod a_velocity_that_is_set_is_not_thrown_on;
+mod a_wedged_body_is_not_shot_out;
 mod an_impact_approaches;
 mod an_impact_as_slow_as_a_rounding_takes_no_time;
 mod an_impact_on_the_border_of_two_sub_steps_bounces;

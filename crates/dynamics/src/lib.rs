@@ -45,6 +45,7 @@ mod filter;
 mod flight;
 mod flyers;
 mod force;
+mod ghost;
 mod groups;
 mod heavy;
 mod history;

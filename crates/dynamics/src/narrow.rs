@@ -41,7 +41,6 @@ impl Narrow {
     ) {
         let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
         let apart = b.centre_at(time) - a.centre_at(time);
-        let size = a.reach.min(b.reach);
         let near = a.reach + b.reach + margin(a, b, time, h);
         if apart.length_squared() > near * near {
             pair.contacts = Vec::new();
@@ -50,17 +49,7 @@ impl Narrow {
             return;
         }
         pair.contacts = self.contacts(bodies, colliders, pair, time, h);
-        let points = pair.contacts.iter().flat_map(|contact| &contact.points);
-        let deepest = points.map(|p| p.separation).fold(0.0, f64::min);
-        pair.buried = deepest < -BURIED * size;
-        pair.sunk = deepest < -size * if pair.sunk { TOUCH } else { SUNK };
-        pair.touching = pair
-            .contacts
-            .iter()
-            .any(|contact| contact.points.iter().any(|p| p.separation <= TOUCH * size));
-        if pair.touching {
-            pair.turning_rest = turning_rest(bodies, colliders, pair, time, h);
-        }
+        note_touch(bodies, colliders, pair, time, h);
     }
 
     /// The contacts of a pair at `time`, of all that may touch within `h` seconds; impulses go over by feature.
@@ -86,6 +75,29 @@ impl Narrow {
         let found = self.found.iter();
         let carried = found.map(|new| carried(new, pose_a, &pair.contacts));
         carried.collect()
+    }
+}
+
+/// What the contacts of a pair say of it: whether it touches, and how deep it overlaps.
+pub(crate) fn note_touch(
+    bodies: &Bodies,
+    colliders: &[Collider],
+    pair: &mut Pair,
+    time: SimTime,
+    h: f64,
+) {
+    let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
+    let size = a.reach.min(b.reach);
+    let points = pair.contacts.iter().flat_map(|contact| &contact.points);
+    let deepest = points.map(|p| p.separation).fold(0.0, f64::min);
+    pair.buried = deepest < -BURIED * size;
+    pair.sunk = deepest < -size * if pair.sunk { TOUCH } else { SUNK };
+    pair.touching = pair
+        .contacts
+        .iter()
+        .any(|contact| contact.points.iter().any(|p| p.separation <= TOUCH * size));
+    if pair.touching {
+        pair.turning_rest = turning_rest(bodies, colliders, pair, time, h);
     }
 }
 

@@ -10,6 +10,7 @@ use carom_math::{SimTime, Vec2};
 use crate::agenda::{Agenda, Entry};
 use crate::bodies::Bodies;
 use crate::flight::{first_touch_of_parts, motion_along};
+use crate::ghost::Meeting;
 use crate::hops::hop;
 use crate::modes::CLOSED;
 use crate::narrow::{NOISE, Narrow, RestSpeed, TOUCH, opening_speed, pace};
@@ -53,7 +54,7 @@ pub(crate) fn predict(
     end: SimTime,
     h: f64,
 ) {
-    let pair = pairs.get_mut(place);
+    let mut pair = pairs.get(place);
     let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
     let end = end.min(a.stands_until()).min(b.stands_until());
     let horizon = end - time;
@@ -88,14 +89,16 @@ pub(crate) fn predict(
     // A search that begins within both shapes may end at a cut between pieces.
     let sunken = pair.touching && pair.overlaps(touch);
     if rest.is_some() || sunken {
-        narrow.look(bodies, colliders, pair, time, h);
+        narrow.look_at(bodies, colliders, pairs, place, time, h);
+        pair = pairs.get(place);
     }
     let closed = a.membership.is_closed() || b.membership.is_closed();
     // Parts whose touch opens and closes again at once.
     let mut hops: ArrayVec<(u32, u32), 4> = ArrayVec::new();
     if pair.touching && (closed || pair.turning_rest > 0.0) {
         if rest.is_none() && !sunken {
-            narrow.look(bodies, colliders, pair, time, h);
+            narrow.look_at(bodies, colliders, pairs, place, time, h);
+            pair = pairs.get(place);
         }
         for contact in &pair.contacts {
             let now = (time, horizon, group_rest);
@@ -177,8 +180,15 @@ pub(crate) fn predict(
                 Some(_) => impact.gap_rate >= -pulled,
                 None => false,
             };
+            let ghost = |impact: &Impact| {
+                let at = time + impact.time;
+                let [i, j] = [i, j].map(|k| u32::try_from(k).unwrap_or(u32::MAX));
+                Meeting::of(bodies, pair.bodies, pair.colliders, (i, j), impact.normal)
+                    .is_some_and(|meeting| meeting.is_ghost(bodies, colliders, pairs, at))
+            };
             match &next {
                 TimeOfImpact::Hit(found) | TimeOfImpact::Touching(found) if slow(found) => {}
+                TimeOfImpact::Hit(found) | TimeOfImpact::Touching(found) if ghost(found) => {}
                 _ => first = earlier(first, next),
             }
         }
@@ -194,13 +204,15 @@ pub(crate) fn predict(
         TimeOfImpact::Touching(contact) => (0.0, contact),
     };
     let at = time + wait;
-    pair.turning_rest = if pair.material.restitution < 1.0 {
+    let turning_rest = if pair.material.restitution < 1.0 {
         let parts = impact.features[0].parts;
         let spot = pair.spot_of(bodies, colliders, parts, impact.points[0], impact.normal);
         spot.turning_rest(at, h)
     } else {
         0.0
     };
+    let pair = pairs.get_mut(place);
+    pair.turning_rest = turning_rest;
     agenda.push(Entry {
         time: at,
         key: pair.colliders,

@@ -201,7 +201,7 @@ impl Shock {
         narrow: &mut Narrow,
         place: u32,
     ) {
-        let pair = pairs.get_mut(place);
+        let mut pair = pairs.get(place);
         // What bounces on its own will be struck in its turn; what lasts is part of this, and what collapses with it.
         let lasts = pair.lasting
             || pair.touching && pair.material.restitution == 0.0
@@ -213,7 +213,7 @@ impl Shock {
         let rest = if let Some((_, rest)) = looked {
             *rest
         } else {
-            narrow.look(bodies, colliders, pair, self.time, self.h);
+            pair = narrow.look_at(bodies, colliders, pairs, place, self.time, self.h);
             let rest = RestSpeed::of(bodies, pair, self.h);
             self.looked.push((place, rest));
             rest

@@ -183,9 +183,14 @@ impl World {
             (false, true) if one.is_stepped() => b,
             _ => return None,
         };
-        let pair = self.pairs.get_mut(place);
-        self.narrow
-            .look(&self.bodies, &self.colliders, pair, time, h);
+        let pair = self.narrow.look_at(
+            &self.bodies,
+            &self.colliders,
+            &mut self.pairs,
+            place,
+            time,
+            h,
+        );
         if pair.buried {
             return Some(flyer);
         }
@@ -231,8 +236,14 @@ impl World {
                 continue;
             }
             pair.fresh = false;
-            self.narrow
-                .look(&self.bodies, &self.colliders, pair, time, h);
+            let pair = self.narrow.look_at(
+                &self.bodies,
+                &self.colliders,
+                &mut self.pairs,
+                place,
+                time,
+                h,
+            );
             let touching = pair.touching;
             let reach = |index: u32| self.bodies.get(index).reach;
             let sunken = pair.overlaps(TOUCH * reach(a).min(reach(b)));

@@ -245,9 +245,14 @@ impl World {
         let mut touching = self.pairs.get(place).touching;
         if looks == Looks::Old {
             self.write_members_of(place);
-            let pair = self.pairs.get_mut(place);
-            self.narrow
-                .look(&self.bodies, &self.colliders, pair, time, h);
+            let pair = self.narrow.look_at(
+                &self.bodies,
+                &self.colliders,
+                &mut self.pairs,
+                place,
+                time,
+                h,
+            );
             // Who begins and ends to touch is for the sub-steps to say.
             core::mem::swap(&mut touching, &mut pair.touching);
         }

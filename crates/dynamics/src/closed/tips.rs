@@ -195,12 +195,18 @@ impl World {
         let h = self.clock.h;
         self.bodies.get(index).pairs.clone().iter().any(|&place| {
             self.write_members_of(place);
-            let pair = self.pairs.get_mut(place);
+            let pair = self.pairs.get(place);
             if !pair.touching && !pair.lasting {
                 return false;
             }
-            self.narrow
-                .look(&self.bodies, &self.colliders, pair, time, h);
+            let pair = self.narrow.look_at(
+                &self.bodies,
+                &self.colliders,
+                &mut self.pairs,
+                place,
+                time,
+                h,
+            );
             let (a, b) = (
                 self.bodies.get(pair.bodies.0),
                 self.bodies.get(pair.bodies.1),

@@ -9,6 +9,7 @@ use super::foresee::{Cause, both_in_grid};
 use super::window::Window;
 use crate::World;
 use crate::flight::first_touch;
+use crate::ghost::Meeting;
 use crate::narrow::{TOUCH, opening_speed, rest_speed_between};
 
 /// How far a search goes beyond its end, as a fraction.
@@ -163,7 +164,7 @@ impl World {
                 return true;
             }
         }
-        let Some(impact) = impact else {
+        let Some(impact) = impact.filter(|found| !self.passes((a, b), shapes, found, time)) else {
             return false;
         };
         let foreseen = Foreseen {
@@ -180,6 +181,19 @@ impl World {
         };
         self.flyers.push_impact(time + wait, stamp, foreseen);
         true
+    }
+
+    /// Whether one of two bodies glides over the side of the other that the impact is on: what bears it is flush with that.
+    fn passes(&self, ends: (u32, u32), shapes: (u32, u32), impact: &Impact, time: SimTime) -> bool {
+        let glides = |index: u32| self.bodies.get(index).course.glides;
+        if !glides(ends.0) && !glides(ends.1) {
+            return false;
+        }
+        let parts = impact.features[0].parts;
+        Meeting::of(&self.bodies, ends, shapes, parts, impact.normal).is_some_and(|meeting| {
+            let at = time + impact.time;
+            meeting.is_ghost(&self.bodies, &self.colliders, &self.pairs, at)
+        })
     }
 
     /// Whether the gap that an impact with a loss waits for is no more than rounding made of none.

@@ -1,0 +1,193 @@
+//! Ghost contacts: with the sides of flush fixed pieces, which a body that lies on their faces cannot touch.
+//!
+//! A body penetrates its floor by a rounding, or by the compliance of its contacts, and the side of the next tile is in its
+//! way by as much: they overlap along the floor's normal, and meet across the seam. But the plane of the face that bears
+//! the body has the body in front of it and the tile behind it: it separates them, so its normal is the only one that the
+//! two can touch with. (Box2D's rule needs a chain, Jolt's the vertices that two triangles of one body share: neither
+//! serves tiles.)
+//!
+//! A piece that stands out of the plane by more than [`TOUCH`] is no ghost: steps of a micrometre, inner corners and ramps
+//! stay. So do the ends of a floor: a body that tips over them is behind the plane.
+
+use carom_collision::{Hull, contacts, part};
+use carom_math::{Pose, SimTime, Vec2, cross};
+
+use crate::bodies::Bodies;
+use crate::narrow::{Narrow, TOUCH, note_touch};
+use crate::pairs::{Pair, Pairs};
+use crate::state::{BodyState, Collider};
+
+/// Sine of the angle up to which two normals are one.
+const ALONG: f64 = 1e-6;
+
+/// Where a body meets a convex piece of what stands.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Meeting {
+    /// The body, and the collider and the part that it meets the piece with.
+    body: u32,
+    own: (u32, u32),
+    /// Collider and part of the piece.
+    piece: (u32, u32),
+    /// Unit normal, out of the piece.
+    out: Vec2,
+}
+
+impl Meeting {
+    /// A contact or an impact of two bodies, of which one stands; `normal`: from the first to the second.
+    pub(crate) fn of(
+        bodies: &Bodies,
+        ends: (u32, u32),
+        colliders: (u32, u32),
+        parts: (u32, u32),
+        normal: Vec2,
+    ) -> Option<Self> {
+        let (a, b) = (bodies.get(ends.0), bodies.get(ends.1));
+        let (first, second) = ((colliders.0, parts.0), (colliders.1, parts.1));
+        if stands(a) && b.is_dynamic() {
+            let (body, own, piece, out) = (ends.1, second, first, normal);
+            Some(Self {
+                body,
+                own,
+                piece,
+                out,
+            })
+        } else if stands(b) && a.is_dynamic() {
+            let (body, own, piece, out) = (ends.0, first, second, -normal);
+            Some(Self {
+                body,
+                own,
+                piece,
+                out,
+            })
+        } else {
+            None
+        }
+    }
+
+    /// Whether a face of another piece, which the body touches at `time`, parts the two along another normal.
+    pub(crate) fn is_ghost(
+        &self,
+        bodies: &Bodies,
+        colliders: &[Collider],
+        pairs: &Pairs,
+        time: SimTime,
+    ) -> bool {
+        let body = bodies.get(self.body);
+        let hull = |(collider, number): (u32, u32)| {
+            part(&colliders[collider as usize].solid, number as usize)
+        };
+        let pose_of = |collider: u32| {
+            let owner = colliders[collider as usize].body;
+            bodies.get(owner).centre_pose(time)
+        };
+        let owner = bodies.get(colliders[self.piece.0 as usize].body);
+        let touch = TOUCH * body.reach.min(owner.reach);
+        let bears = |pair: &Pair| {
+            stands(bodies.get(pair.other(self.body))) && !self.is_along_all(pair, bodies)
+        };
+        let mut found = Vec::new();
+        let mut pairs = body.pairs.iter().map(|place| pairs.get(*place));
+        pairs.any(|pair| {
+            if !bears(pair) {
+                return false;
+            }
+            let (mine, base) = pair.shapes_from(self.body);
+            let (pose, base_pose) = (pose_of(mine), pose_of(base));
+            let solid = |collider: u32| &*colliders[collider as usize].solid;
+            found.clear();
+            let seen = pose.seen_from(base_pose);
+            contacts(solid(base), solid(mine), seen, touch, &mut found);
+            found.iter().any(|contact| {
+                let normal = base_pose.vector(contact.manifold.normal);
+                let at = (base, contact.part_a);
+                let Some(level) = level_of_face(&hull(at), base_pose, normal) else {
+                    return false;
+                };
+                let depth = contact.manifold.deepest().map_or(0.0, |gap| -gap).max(0.0);
+                let piece_pose = pose_of(self.piece.0);
+                at != self.piece
+                    && !self.is_along(normal)
+                    && top(&hull(self.piece), piece_pose, normal) <= level + touch
+                    && -top(&hull(self.own), pose, -normal) >= level - depth - touch
+            })
+        })
+    }
+
+    /// Whether all contacts that were last found for a pair have the meeting's own normal: no face of it is another one's.
+    fn is_along_all(&self, pair: &Pair, bodies: &Bodies) -> bool {
+        let sign = if stands(bodies.get(pair.bodies.0)) {
+            1.0
+        } else {
+            -1.0
+        };
+        let mut contacts = pair.contacts.iter();
+        !pair.contacts.is_empty() && contacts.all(|contact| self.is_along(contact.normal * sign))
+    }
+
+    fn is_along(&self, normal: Vec2) -> bool {
+        normal.dot(self.out) > 0.0 && cross(normal, self.out).abs() <= ALONG
+    }
+}
+
+impl Narrow {
+    /// [`Self::look`], and what it found but for ghosts.
+    pub(crate) fn look_at<'a>(
+        &mut self,
+        bodies: &Bodies,
+        colliders: &[Collider],
+        pairs: &'a mut Pairs,
+        place: u32,
+        time: SimTime,
+        h: f64,
+    ) -> &'a mut Pair {
+        self.look(bodies, colliders, pairs.get_mut(place), time, h);
+        let pair = pairs.get(place);
+        let is_ghost = |k: usize| {
+            let contact = &pair.contacts[k];
+            let (ends, shapes) = (pair.bodies, pair.colliders);
+            Meeting::of(bodies, ends, shapes, contact.parts, contact.normal)
+                .is_some_and(|meeting| meeting.is_ghost(bodies, colliders, pairs, time))
+        };
+        let ghosts: Vec<usize> = (0..pair.contacts.len()).filter(|k| is_ghost(*k)).collect();
+        let pair = pairs.get_mut(place);
+        if ghosts.is_empty() {
+            return pair;
+        }
+        for k in ghosts.into_iter().rev() {
+            pair.contacts.remove(k);
+        }
+        note_touch(bodies, colliders, pair, time, h);
+        pair
+    }
+}
+
+/// Whether a body does not move, nor will before the caller moves it.
+fn stands(body: &BodyState) -> bool {
+    let motion = &body.motion;
+    body.inverse_mass == 0.0
+        && motion.velocity == Vec2::ZERO
+        && motion.acceleration == Vec2::ZERO
+        && motion.spin == 0.0
+        && motion.angular_acceleration == 0.0
+}
+
+/// How far out along `normal` the face of a hull lies that it belongs to, in m, if it is one's.
+fn level_of_face(hull: &Hull<'_>, pose: Pose, normal: Vec2) -> Option<f64> {
+    let local = pose.inverse_vector(normal);
+    let along = |edge: &usize| {
+        let own = hull.normals[*edge];
+        own.dot(local) > 0.0 && cross(own, local).abs() <= ALONG
+    };
+    let edge = (0..hull.normals.len()).find(along)?;
+    hull.is_boundary(edge)
+        .then(|| pose.point(hull.vertices[edge]).dot(normal))
+}
+
+/// How far a hull reaches along a direction in the world, in m.
+fn top(hull: &Hull<'_>, pose: Pose, direction: Vec2) -> f64 {
+    if hull.is_half_plane() {
+        return f64::INFINITY;
+    }
+    let local = pose.inverse_vector(direction);
+    hull.support(local).1 + hull.radius + pose.position.dot(direction)
+}
