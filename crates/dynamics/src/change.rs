@@ -439,6 +439,10 @@ impl World {
 
     /// Stops a body whose numbers are no longer finite where it was last known.
     pub(crate) fn stop(&mut self, index: u32, time: SimTime) {
+        // Its last box is all that tells where it was.
+        let colliders = self.bodies.get(index).colliders.iter();
+        let mut boxes = colliders.map(|at| self.colliders[*at as usize].fat.centre());
+        let last = boxes.find(|centre| centre.is_finite());
         let state = self.bodies.get_mut(index);
         let motion = &mut state.motion;
         motion.start = time;
@@ -447,7 +451,7 @@ impl World {
         motion.spin = 0.0;
         motion.angular_acceleration = 0.0;
         if !motion.centre.is_finite() {
-            motion.centre = Vec2::ZERO;
+            motion.centre = last.unwrap_or(Vec2::ZERO);
         }
         if !motion.rotation.x_axis().is_finite() {
             motion.rotation = carom_math::Rot::IDENTITY;

@@ -103,6 +103,8 @@ impl World {
     }
 
     /// The first body that `shape` at `pose` meets on its way along `translation` (in m), not turning.
+    ///
+    /// `None` if there is none, or a number is not finite.
     #[must_use]
     pub fn cast_shape(&self, shape: &Shape, pose: Pose, translation: Vec2) -> Option<ShapeHit> {
         self.unfiltered().cast_shape(shape, pose, translation)
@@ -173,8 +175,13 @@ impl Filtered<'_> {
     }
 
     /// The first body that `shape` at `pose` meets on its way along `translation` (in m), not turning.
+    ///
+    /// `None` if there is none, or a number is not finite.
     #[must_use]
     pub fn cast_shape(&self, shape: &Shape, pose: Pose, translation: Vec2) -> Option<ShapeHit> {
+        if !translation.is_finite() || !pose.position.is_finite() {
+            return None;
+        }
         let start = shape.aabb(pose);
         let start = start.grown(roundable(start));
         let mut best: Option<((f64, Place), ShapeHit)> = None;

@@ -32,9 +32,9 @@ pub struct Settings {
     pub contact: Softness,
     /// When groups at rest fall asleep; `None`: never.
     pub sleep: Option<Sleep>,
-    /// Most work in a tick, for each thousand bodies or fewer: events (impacts, ends of searches and of pieces of a law,
-    /// changes of contact mode, sub-steps) and pairs looked at by shape. A [step](crate::World::step) that needs more stops early
-    /// between two events, and says so; the next one goes on.
+    /// Most work in a tick, for each thousand bodies or fewer: events (impacts, ends of searches, changes of contact mode,
+    /// sub-steps; a piece of a law counts as 16) and pairs looked at by shape. A [step](crate::World::step) that needs more stops
+    /// early between two events, and says so; the next one goes on.
     pub work: u64,
     /// How many replaced motions are kept for [`crate::World::pose_at`]; 0 keeps none.
     pub history: usize,

@@ -22,6 +22,7 @@ impl World {
         if state.flight.is_none() || self.piece_ends(index, time) {
             let end = begin_piece(&mut self.bodies, index, time, self.clock.h);
             self.bodies.get_mut(index).set_piece(end);
+            self.work.piece();
         }
     }
 

@@ -21,7 +21,12 @@ impl Flyers {
         if self.seen.len() < bodies {
             self.seen.resize(bodies, self.mark);
         }
-        self.mark = self.mark.wrapping_add(1);
+        if self.mark == u32::MAX {
+            // Marks start anew: none of before may be taken for one to come.
+            self.seen.fill(0);
+            self.mark = 0;
+        }
+        self.mark += 1;
         self.mark
     }
 

@@ -266,7 +266,9 @@ impl World {
     /// mass, in J/kg.
     pub(super) fn report_collapse(&mut self, (a, b): (u32, u32), energy: f64, time: SimTime) {
         let (one, two) = (self.bodies.get(a), self.bodies.get(b));
-        let energy = energy / (one.inverse_mass + two.inverse_mass);
+        let inverse = one.inverse_mass + two.inverse_mass;
+        // Between bodies that nothing moves there is no energy to lose.
+        let energy = if inverse > 0.0 { energy / inverse } else { 0.0 };
         let kind = EventKind::Collapse {
             a: one.id,
             b: two.id,
