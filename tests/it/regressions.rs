@@ -1,6 +1,7 @@
 //! What went wrong once, each with its story.
 
 mod a_blow_within_a_sub_step_does_not_tunnel;
+mod a_body_taken_out_of_a_sleeping_pile_keeps_the_ledger;
 mod a_box_slides_over_the_seams_of_flush_tiles;
 mod a_changed_flyer_keeps_its_law;
 mod a_driver_that_is_let_go_falls_on_the_floor;

@@ -228,11 +228,13 @@ impl World {
     pub fn remove(&mut self, id: BodyId) -> Result<(), BodyError> {
         let index = self.bodies.find(id)?;
         let now = self.clock.now;
+        // A pile that wakes joins the wide solver, and the body with it: it leaves once all are awake.
+        self.wake_around(index, now);
         self.quit(index, now);
         self.bodies.change(index, now, |_| {});
+        self.bodies.take_back(|other| other == index, now);
         let (kinetic, potential) = self.bodies.energy_of(index, now);
         self.bodies.book.external.add(-(kinetic + potential));
-        self.wake_around(index, now);
         let mut around = Vec::new();
         for place in self.bodies.get(index).pairs.clone() {
             around.push(self.pairs.get(place).other(index));
