@@ -79,6 +79,8 @@ mod tipping;
 mod touching;
 mod trees;
 mod uncommon;
+#[cfg(feature = "serde")]
+mod wire;
 mod world;
 
 pub use body::Body;
