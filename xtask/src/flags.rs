@@ -3,19 +3,12 @@
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
-
-use crate::values::{KeyValue, Seconds, Shard, parse_rate, parse_size};
+use carom_cli::EXIT_CODES;
+use clap::{Args, Parser, Subcommand};
 
 /// Rigid bodies in the plane: scenes to pictures, films, tables and charts.
 #[derive(Debug, Parser)]
-#[command(
-    name = "cargo xtask",
-    bin_name = "cargo xtask",
-    version,
-    after_help = "Exit codes: 0 done, 1 a check fell short, 2 bad usage or input, 130 interrupted, 143 terminated.\n\
-                  Start here: cargo xtask demo"
-)]
+#[command(after_help = format!("{EXIT_CODES}\nStart here: {{carom}} demo"))]
 pub(crate) struct Cli {
     #[command(subcommand)]
     pub(crate) command: Command,
@@ -26,16 +19,9 @@ pub(crate) struct Cli {
 pub(crate) enum Command {
     /// Run the thesis's scene and the flying balls: frames, film, contact sheet, energy chart
     Demo(DemoArgs),
-    /// Draw a scene: numbered PNG frames, an APNG or a Y4M film
-    Render(RenderArgs),
-    /// Join the slices that `render --shard` drew into one folder, after checking their manifests
-    Merge(MergeArgs),
-    /// Compute a scene without pictures: trajectories as CSV
-    Simulate(SimulateArgs),
-    /// Area, centroid, moments and principal axes of a polygon
-    Inertia(InertiaArgs),
-    /// The built-in scenes, a line each
-    List,
+    /// What the program `carom` does
+    #[command(flatten)]
+    Carom(carom_cli::Command),
     /// Answer a folder of reference cases and judge the answers
     Reference(ReferenceArgs),
     /// Run time against error, as table, CSV and chart
@@ -59,145 +45,6 @@ pub(crate) struct DemoArgs {
     /// Folder for the pictures; what an earlier demo wrote there is replaced, nothing else
     #[arg(long, value_name = "DIR", default_value = "out/demo")]
     pub(crate) out: PathBuf,
-}
-
-#[derive(Args, Debug)]
-#[command(after_help = "Examples:\n  \
-    cargo xtask render thesis --seconds 10 --out out/thesis\n  \
-    cargo xtask render flying-balls --set n=50 --format apng --size 640x480\n  \
-    cargo xtask render my-scene.toml --fps 30 --resume\n  \
-    cargo xtask render pile --format y4m --out - | ffmpeg -i - pile.mp4\n  \
-    cargo xtask render pile --shard 2/4      # on four machines; then: cargo xtask merge DIR... --out DIR\n\n\
-    Overlays: velocities, centroids, contacts, impulses, flashes, boxes, groups, asleep, overlaps, trails, field,\n  \
-    field-lines, restitution, gravity, time, counters, caption; all; none (what the scene asks for goes too).\n\
-    Frame k shows the instant k / fps. The bytes of a frame do not depend on --threads.")]
-pub(crate) struct RenderArgs {
-    /// Scene file (TOML) or the name of a built-in scene (`cargo xtask list`)
-    pub(crate) scene: String,
-    /// Folder for the frames; made if it is missing; - for a Y4M film to stdout [default: out/ and the name of the scene]
-    #[arg(long, value_name = "DIR")]
-    pub(crate) out: Option<PathBuf>,
-    /// Simulated seconds to draw [default: the scene's duration]
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
-    pub(crate) seconds: Option<Seconds>,
-    /// Frames per simulated second, 1 to 1000 [default: the scene's]
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = parse_rate)]
-    pub(crate) fps: Option<u32>,
-    /// Size of a frame in pixels [default: the scene's camera]
-    #[arg(long, value_name = "WxH", value_parser = parse_size)]
-    pub(crate) size: Option<(u32, u32)>,
-    /// What to write
-    #[arg(long, value_enum, default_value_t = Format::Png)]
-    pub(crate) format: Format,
-    /// How hard pictures are packed
-    #[arg(long, value_enum, default_value_t = PackingFlag::Fast)]
-    pub(crate) packing: PackingFlag,
-    /// What is drawn over the bodies, beside what the scene asks for; several with commas
-    #[arg(
-        long,
-        value_enum,
-        value_name = "NAME,...",
-        value_delimiter = ',',
-        hide_possible_values = true
-    )]
-    pub(crate) overlay: Vec<OverlayFlag>,
-    /// Ink and ground [default: the scene's]
-    #[arg(long, value_enum)]
-    pub(crate) style: Option<StyleFlag>,
-    /// How bodies are moved [default: the scene's]
-    #[arg(long, value_enum)]
-    pub(crate) mode: Option<ModeFlag>,
-    /// Replaces a value of the scene: n=50, gravity=[0,-1], settings.substep=0.002, body.ball.mass=3; may be repeated
-    #[arg(long, value_name = "KEY=VALUE")]
-    pub(crate) set: Vec<KeyValue>,
-    /// Threads that draw and encode [default: one a core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub(crate) threads: Option<u16>,
-    /// Keep the frames of an earlier run with the same scene and flags, draw the missing ones; a film is drawn anew
-    #[arg(long, conflicts_with = "force")]
-    pub(crate) resume: bool,
-    /// Replace the frames that an earlier run wrote into the folder
-    #[arg(long)]
-    pub(crate) force: bool,
-    /// Draw the I-th of N slices of the frames (I from 1), for `merge`
-    #[arg(long, value_name = "I/N")]
-    pub(crate) shard: Option<Shard>,
-}
-
-#[derive(Args, Debug)]
-#[command(after_help = "Example:\n  \
-    cargo xtask render thesis --shard 1/2 --out a\n  \
-    cargo xtask render thesis --shard 2/2 --out b\n  \
-    cargo xtask merge a b --out thesis\n\n\
-    The slices are read only. What comes out is what one run would have written, bit for bit.")]
-pub(crate) struct MergeArgs {
-    /// The folders of all slices, in any order
-    #[arg(required = true, value_name = "DIR")]
-    pub(crate) dirs: Vec<PathBuf>,
-    /// Folder for all frames
-    #[arg(long, value_name = "DIR", default_value = "out/merged")]
-    pub(crate) out: PathBuf,
-    /// Replace the frames that an earlier run wrote into the folder
-    #[arg(long)]
-    pub(crate) force: bool,
-}
-
-#[derive(Args, Debug)]
-#[command(after_help = "Examples:\n  \
-    cargo xtask simulate thesis --seconds 10 > thesis.csv\n  \
-    cargo xtask simulate flying-balls --seconds 60 --every 0.1 --out balls.csv --json balls.json\n\n\
-    Columns: time (s), body (its name), x, y (m, centre of mass), angle (rad, unwrapped), vx, vy (m/s), omega (rad/s).\n\
-    Every number has as many digits as it takes to read the same double back.")]
-pub(crate) struct SimulateArgs {
-    /// Scene file (TOML) or the name of a built-in scene (`cargo xtask list`)
-    pub(crate) scene: String,
-    /// Simulated seconds
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
-    pub(crate) seconds: Seconds,
-    /// Seconds between two samples [default: 1/60]
-    #[arg(long, value_name = "DT", allow_negative_numbers = true)]
-    pub(crate) every: Option<Seconds>,
-    /// How bodies are moved [default: the scene's]
-    #[arg(long, value_enum)]
-    pub(crate) mode: Option<ModeFlag>,
-    /// File for the trajectories, replaced if it exists [default: stdout]
-    #[arg(long, value_name = "FILE.csv")]
-    pub(crate) out: Option<PathBuf>,
-    /// File for the summary
-    #[arg(long, value_name = "FILE")]
-    pub(crate) json: Option<PathBuf>,
-    /// Replaces a value of the scene: n=50, gravity=[0,-1], settings.substep=0.002, body.ball.mass=3; may be repeated
-    #[arg(long, value_name = "KEY=VALUE")]
-    pub(crate) set: Vec<KeyValue>,
-}
-
-#[derive(Args, Debug)]
-#[command(after_help = "Examples:\n  \
-    cargo xtask inertia \"0,0 2,0 2,1 0,1\" --density 3\n  \
-    cargo xtask inertia --file outline.txt --mass 12\n\n\
-    A file holds a vertex x,y (or x y) a line; `#` begins a comment.")]
-pub(crate) struct InertiaArgs {
-    /// The vertices in order, either way round, in m: "x,y x,y x,y"
-    #[arg(
-        required_unless_present = "file",
-        conflicts_with = "file",
-        allow_hyphen_values = true
-    )]
-    pub(crate) vertices: Option<String>,
-    /// Mass per area, in kg/m²; 1 if neither this nor a mass is given
-    #[arg(
-        long,
-        value_name = "D",
-        conflicts_with = "mass",
-        allow_negative_numbers = true
-    )]
-    pub(crate) density: Option<f64>,
-    /// Mass of the whole polygon, in kg
-    #[arg(long, value_name = "M", allow_negative_numbers = true)]
-    pub(crate) mass: Option<f64>,
-    /// Reads the vertices from a file
-    #[arg(long, value_name = "F")]
-    pub(crate) file: Option<PathBuf>,
 }
 
 #[derive(Args, Debug)]
@@ -237,93 +84,4 @@ pub(crate) struct StressArgs {
     /// Only the case of this number or name
     #[arg(long, value_name = "NAME")]
     pub(crate) case: Option<String>,
-}
-
-/// What `render` writes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Format {
-    /// A numbered PNG file a frame
-    Png,
-    /// A numbered SVG file a frame
-    Svg,
-    /// One animated PNG, which browsers play
-    Apng,
-    /// One uncompressed film, which ffmpeg reads
-    Y4m,
-    /// Twelve frames on one picture
-    Sheet,
-}
-
-/// What is drawn over, beneath and beside the bodies.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum OverlayFlag {
-    /// Nothing of what the scene asks for
-    None,
-    /// All of the following
-    All,
-    /// An arrow along each velocity
-    Velocities,
-    /// A dot at each centre of mass
-    Centroids,
-    /// Contact points with their normals
-    Contacts,
-    /// An arrow along each impulse
-    Impulses,
-    /// A burst at each impact
-    Flashes,
-    /// Bounding boxes
-    Boxes,
-    /// Bodies that touch each other in one colour
-    Groups,
-    /// Sleepers paler
-    Asleep,
-    /// Where bodies lie in each other, and how deep
-    Overlaps,
-    /// Paths of the last seconds
-    Trails,
-    /// The circle of a field
-    Field,
-    /// Lines along gravity and fields
-    FieldLines,
-    /// The bar of restitution
-    Restitution,
-    /// The arrow of gravity
-    Gravity,
-    /// The simulated time
-    Time,
-    /// Bodies, contacts, impacts, energy
-    Counters,
-    /// The scene's caption
-    Caption,
-}
-
-/// Ink and ground.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum StyleFlag {
-    /// Dark ink on white
-    Light,
-    /// Light ink on a night ground
-    Dark,
-    /// Black ink on white, pale bodies
-    Print,
-}
-
-/// How hard pictures are packed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum PackingFlag {
-    /// Twenty times faster, for a third more bytes
-    Fast,
-    /// As small as is reasonable
-    Small,
-}
-
-/// How a world moves its bodies.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum ModeFlag {
-    /// Each group of bodies the cheapest method that is right for it
-    Hybrid,
-    /// Closed forms; what they cannot finish marks the run as not exact
-    Exact,
-    /// Every moving body is sub-stepped
-    Stepped,
 }

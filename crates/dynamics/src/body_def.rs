@@ -7,6 +7,11 @@ use crate::error::{BodyError, check_finite, check_mass, check_vec2};
 
 /// What moves a body.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case")
+)]
 pub enum BodyKind {
     /// Forces, fields and impacts.
     #[default]
@@ -38,6 +43,11 @@ pub enum BodyKind {
 /// # }
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(remote = "Self", default, deny_unknown_fields)
+)]
 pub struct BodyDef {
     /// What moves the body.
     pub kind: BodyKind,

@@ -8,6 +8,7 @@ use crate::pairs::Pair;
 
 /// Where two bodies touch: one normal, up to two points.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Contact {
     /// The body that the normal points away from.
     pub a: BodyId,
@@ -23,6 +24,7 @@ pub struct Contact {
 
 /// One point of a contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ContactPoint {
     /// Midway between the two surfaces, in m.
     pub position: Vec2,

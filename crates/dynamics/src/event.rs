@@ -8,6 +8,7 @@ use crate::pairs::Pair;
 
 /// Something that happened to one or two bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Event {
     /// When.
     pub time: SimTime,
@@ -17,6 +18,7 @@ pub struct Event {
 
 /// How two bodies in lasting contact move against each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum ContactMode {
     /// They part.
     Open,

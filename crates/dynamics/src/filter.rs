@@ -18,6 +18,11 @@
 /// assert!(!wheel.touches(wheel) && wheel.touches(wall));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct Filter {
     /// What the shape is: a bit for each category, usually one.
     pub categories: u64,

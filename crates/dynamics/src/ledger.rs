@@ -11,6 +11,7 @@
 /// In [`crate::Mode::Stepped`] `scheme` is what the other columns do not explain, and the balance
 /// checks nothing; in [`crate::Mode::Hybrid`] that is so for the part of it that large groups in touch have.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct EnergyLedger {
     /// ½ m v² + ½ I ω² of all dynamic bodies now.
     pub kinetic: f64,

@@ -80,6 +80,8 @@ mod tipping;
 mod touching;
 mod trees;
 mod uncommon;
+#[cfg(feature = "serde")]
+mod wire;
 mod world;
 
 pub use body::Body;

@@ -32,6 +32,11 @@ use crate::error::{BodyError, check_finite};
 /// # }
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(remote = "Self", default, deny_unknown_fields)
+)]
 pub struct Material {
     /// Mass per area, in kg/m². Above 0 for a moving body whose mass is not given.
     pub density: f64,
@@ -93,6 +98,11 @@ impl Material {
 
 /// How two surfaces meet.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(remote = "Self", default, deny_unknown_fields)
+)]
 pub struct PairMaterial {
     /// Coefficient of Coulomb friction of the pair, ≥ 0.
     pub friction: f64,

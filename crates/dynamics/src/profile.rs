@@ -2,6 +2,7 @@
 
 /// Seconds that the last step spent in each of its stages.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct StepProfile {
     /// Boxes over motions, and the pairs that they give.
     pub pairs: f64,

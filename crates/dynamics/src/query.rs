@@ -12,6 +12,7 @@ use crate::{BodyId, Filter, World};
 
 /// What a ray met first.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct RayHit {
     /// The body.
     pub body: BodyId,
@@ -27,6 +28,7 @@ pub struct RayHit {
 
 /// What a moved shape met first.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ShapeHit {
     /// The body.
     pub body: BodyId,

@@ -6,6 +6,7 @@ use thiserror::Error;
 
 /// What a step did.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct StepReport {
     /// Seconds that passed: less than asked for where a step to the next event found one, or its work was
     /// [used up](crate::Settings::work).

@@ -7,6 +7,11 @@ use crate::impact::{ImpactLaw, Several};
 
 /// All that a world can be told before it starts.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(remote = "Self", default, deny_unknown_fields)
+)]
 pub struct Settings {
     /// Uniform acceleration of every dynamic body, in m/s²; each component up to [`crate::WORLD_LIMIT`].
     pub gravity: Vec2,
@@ -113,6 +118,12 @@ impl Settings {
 /// In hybrid and exact mode impacts are found at their exact instants; the report of a run in
 /// [`Mode::Exact`] says how many groups had to be sub-stepped.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case")
+)]
+#[non_exhaustive]
 pub enum Mode {
     /// Each group the cheapest method that is right for it. Large groups in touch, and many bodies whose impacts come
     /// fast, are moved by the solver of [`Mode::Stepped`]; what strikes them joins them.
@@ -129,6 +140,12 @@ pub enum Mode {
 
 /// How pairs that may meet are found.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case")
+)]
+#[non_exhaustive]
 pub enum PairSearch {
     /// A tree of boxes.
     #[default]
@@ -144,6 +161,11 @@ pub enum PairSearch {
 /// At rest a contact sinks in by `compliance · load / (m ω²)` with ω = 2π `frequency` and m the
 /// pair's reduced mass; a fixed partner doubles the frequency.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct Softness {
     /// Natural frequency of push-out, in Hz; held below 1/8 of the sub-step rate.
     pub frequency: f64,
@@ -173,6 +195,11 @@ impl Default for Softness {
 
 /// When groups at rest fall asleep.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct Sleep {
     /// Speed of the fastest point of a body below which it counts as at rest, in m/s.
     pub speed: f64,

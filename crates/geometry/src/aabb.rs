@@ -14,6 +14,11 @@ use carom_math::Vec2;
 /// assert_eq!(a.union(b).extents(), vec2(3.0, 4.0));            // m
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct Aabb {
     /// Lower left corner, in m.
     pub min: Vec2,

@@ -15,6 +15,11 @@ use crate::{MassProperties, PolygonError, ring};
 /// ixx = ∫ y² dA,  iyy = ∫ x² dA,  ixy = ∫ x y dA    about the centroid
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct AreaProperties {
     /// Area, in m².
     pub area: f64,

@@ -15,6 +15,11 @@ use crate::{AreaProperties, ShapeError};
 /// # Ok::<(), carom_geometry::ShapeError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "crate::wire::CircleData", into = "crate::wire::CircleData")
+)]
 pub struct Circle {
     centre: [Vec2; 1],
     radius: f64,

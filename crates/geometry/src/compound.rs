@@ -29,6 +29,11 @@ use crate::{AreaProperties, ConvexPiece, PartTree, Shape, ShapeError};
 /// # Ok::<(), carom_geometry::ShapeError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "Vec<Shape>", into = "Vec<Shape>")
+)]
 pub struct Compound {
     parts: Box<[Shape]>,
     vertices: Box<[Vec2]>,

@@ -22,6 +22,11 @@ use crate::{AreaProperties, PolygonError, hull};
 /// # Ok::<(), carom_geometry::PolygonError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "Vec<Vec2>", into = "Vec<Vec2>")
+)]
 pub struct ConvexPolygon {
     vertices: Box<[Vec2]>,
     /// Shared with the same polygon elsewhere.

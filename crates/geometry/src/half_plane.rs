@@ -19,12 +19,29 @@ use crate::{Aabb, ShapeError};
 /// # Ok::<(), carom_geometry::ShapeError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(
+        try_from = "crate::wire::HalfPlaneData",
+        into = "crate::wire::HalfPlaneData"
+    )
+)]
 pub struct HalfPlane {
     point: [Vec2; 1],
     normal: [Vec2; 1],
 }
 
 impl HalfPlane {
+    /// The same with a normal that is of unit length already.
+    #[cfg(feature = "serde")]
+    pub(crate) const fn with_unit(self, normal: Vec2) -> Self {
+        Self {
+            normal: [normal],
+            ..self
+        }
+    }
+
     /// All that lies behind the line through `point` (in m) across `outward`, of any length above 0.
     ///
     /// # Errors

@@ -50,6 +50,8 @@ mod segment;
 mod shape;
 mod simple;
 mod wide;
+#[cfg(feature = "serde")]
+mod wire;
 
 pub use aabb::Aabb;
 pub use area::{AreaProperties, ring_properties};

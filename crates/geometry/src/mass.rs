@@ -24,6 +24,11 @@ use crate::AreaProperties;
 /// # }
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct MassProperties {
     /// Mass, in kg.
     pub mass: f64,

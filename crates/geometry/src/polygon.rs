@@ -27,6 +27,11 @@ use crate::{Aabb, AreaProperties, ConvexPolygon, PolygonError};
 /// # Ok::<(), carom_geometry::PolygonError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "Vec<Vec2>", into = "Vec<Vec2>")
+)]
 pub struct Polygon {
     vertices: Box<[Vec2]>,
     pieces: Box<[ConvexPiece]>,

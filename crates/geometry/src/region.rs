@@ -25,12 +25,23 @@ use crate::{Aabb, AreaProperties, Outline, Polygon, PolygonError, RayHit, Region
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "Vec<Vec<Vec2>>", into = "Vec<Vec<Vec2>>")
+)]
 pub struct Region {
     /// The outer ring counter-clockwise, then the holes clockwise.
     rings: Vec<Vec<Vec2>>,
 }
 
 impl Region {
+    /// The outer ring, then the holes.
+    #[cfg(feature = "serde")]
+    pub(crate) fn into_rings(self) -> Vec<Vec<Vec2>> {
+        self.rings
+    }
+
     /// The inside of the ring `outer` without those of the rings `holes`, in m, each in either order
     /// of turn.
     ///

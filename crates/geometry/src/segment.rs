@@ -17,6 +17,14 @@ use crate::convex::outward_normal;
 /// # Ok::<(), carom_geometry::ShapeError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(
+        try_from = "crate::wire::SegmentData",
+        into = "crate::wire::SegmentData"
+    )
+)]
 pub struct Segment {
     vertices: [Vec2; 2],
     normals: [Vec2; 2],

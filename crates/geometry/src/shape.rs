@@ -8,6 +8,12 @@ use crate::{
 
 /// A shape of any kind, in its own frame, in m.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case")
+)]
+#[non_exhaustive]
 pub enum Shape {
     /// A disc.
     Circle(Circle),
@@ -25,6 +31,7 @@ pub enum Shape {
 
 /// What to draw of a shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Outline<'a> {
     /// A circle.
     Circle {

@@ -23,6 +23,8 @@ mod rot;
 mod sum;
 mod time;
 pub mod trig;
+#[cfg(feature = "serde")]
+mod wire;
 
 pub use cross::{cross, cross_scalar, perp};
 pub use glam;

@@ -14,6 +14,11 @@ use crate::{Rot, Vec2};
 /// assert_eq!(b.seen_from(a).position, vec2(3.0, 0.0));        // B's origin in A's frame
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct Pose {
     /// Origin of the frame, in metres.
     pub position: Vec2,

@@ -19,6 +19,11 @@ const TINY: f64 = 1.0 / 65536.0;
 /// assert_eq!((quarter * quarter).angle(), core::f64::consts::PI);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "crate::wire::CosSin", into = "crate::wire::CosSin")
+)]
 pub struct Rot {
     cos: f64,
     sin: f64,

@@ -283,6 +283,8 @@ impl<'a> Sketch<'a> {
                     self.shape(body, part, paint);
                 }
             }
+            // There is no other at this version.
+            _ => {}
         }
     }
 

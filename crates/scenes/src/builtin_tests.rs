@@ -63,9 +63,7 @@ fn depth(a: &Body<'_>, b: &Body<'_>) -> f64 {
         let (points, radius) = match shape_a.outline() {
             Outline::Circle { centre, radius } => (vec![centre], radius),
             Outline::Open(points) | Outline::Closed(points) => (points.to_vec(), 0.0),
-            Outline::Rings(_) | Outline::HalfPlane { .. } | Outline::Parts(_) => {
-                (shape_a.vertices().to_vec(), 0.0)
-            }
+            _ => (shape_a.vertices().to_vec(), 0.0),
         };
         for point in points {
             let local = b.pose().inverse_point(a.pose().point(point));

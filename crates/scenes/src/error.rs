@@ -16,6 +16,7 @@ pub struct SceneError {
 
 /// Where in a scene something is wrong.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Place {
     /// The file as a whole.
     File,

@@ -157,6 +157,7 @@ fn word(mode: Option<ContactMode>, sliding: &'static str) -> Option<&'static str
         ContactMode::Roll => "roll",
         ContactMode::Slide => sliding,
         ContactMode::Open => "open",
+        _ => return None,
     })
 }
 

@@ -1,98 +1,24 @@
-//! The command line as a user meets it: what is printed, what is written, and the exit code.
+//! `cargo xtask` as a user meets it. What it shares with the program `carom` is tested there.
 
-mod endless;
-mod full;
-mod inertia;
-mod kill;
+mod demo;
 mod laboratory;
-mod merge;
-mod names;
-mod output;
+// One list of what is expected of a run.
+#[path = "../../../crates/cli/tests/cli/ran.rs"]
+mod ran;
 mod reference;
-mod scenes;
-#[cfg(unix)]
-mod signals;
-mod simulate;
 mod stress;
 mod usage;
 
 use std::path::Path;
-use std::process::{Command, Output};
 
-/// What a run printed and how it ended.
-struct Ran {
-    code: Option<i32>,
-    out: String,
-    err: String,
-}
+use ran::{Ran, names};
 
 /// Runs `cargo xtask` with these arguments in `folder`.
 fn xtask_in(folder: &Path, args: &[&str]) -> Ran {
-    let output: Output = Command::new(env!("CARGO_BIN_EXE_xtask"))
-        .args(args)
-        .current_dir(folder)
-        .env("NO_COLOR", "1")
-        .output()
-        .expect("the binary was built");
-    let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("UTF-8");
-    Ran {
-        code: output.status.code(),
-        out: text(output.stdout),
-        err: text(output.stderr),
-    }
+    ran::run(env!("CARGO_BIN_EXE_xtask"), folder, args)
 }
 
 /// Runs `cargo xtask` in the folder of the package.
 fn xtask(args: &[&str]) -> Ran {
     xtask_in(Path::new(env!("CARGO_MANIFEST_DIR")), args)
-}
-
-impl Ran {
-    /// Exit code 0.
-    #[track_caller]
-    fn done(self) -> Self {
-        assert_eq!(
-            self.code,
-            Some(0),
-            "stdout:\n{}\nstderr:\n{}",
-            self.out,
-            self.err
-        );
-        self
-    }
-
-    /// Exit code 2, nothing on stdout, and one line on stderr that contains all of `parts`.
-    #[track_caller]
-    fn refused(self, parts: &[&str]) -> Self {
-        assert_eq!(
-            self.code,
-            Some(2),
-            "stdout:\n{}\nstderr:\n{}",
-            self.out,
-            self.err
-        );
-        assert_eq!(self.err.lines().count(), 1, "{}", self.err);
-        assert!(self.err.starts_with("error: "), "{}", self.err);
-        for part in parts {
-            assert!(self.err.contains(part), "no '{part}' in: {}", self.err);
-        }
-        assert_eq!(self.out, "");
-        self
-    }
-}
-
-/// The names in a folder, sorted.
-fn names(folder: &Path) -> Vec<String> {
-    let entries = std::fs::read_dir(folder).expect("a folder");
-    let mut names: Vec<String> = entries
-        .map(|entry| {
-            entry
-                .expect("an entry")
-                .file_name()
-                .into_string()
-                .expect("UTF-8")
-        })
-        .collect();
-    names.sort();
-    names
 }

@@ -8,6 +8,12 @@ use super::routh::{EndRule, follow, jams};
 /// All agree without friction and for discs. With friction and a lever arm only [`Self::Stronge`]
 /// and [`Self::Poisson`] never gain energy.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case")
+)]
+#[non_exhaustive]
 pub enum ImpactLaw {
     /// Energetic restitution along the Routh path: work given back = e² × work taken in.
     #[default]

@@ -51,6 +51,12 @@ pub struct SharedOutcome {
 /// contact acts alone. With more than 64 rows (a contact has one, with friction two) all are
 /// Newton's law by sweeps, in bounded time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case")
+)]
+#[non_exhaustive]
 pub enum Several {
     /// (1 − e) of a common stop and e of reflections: see [`blend`]. Symmetric, never gains energy,
     /// knows Newton's cradle at e = 1 and a dead stop at e = 0.

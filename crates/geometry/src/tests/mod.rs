@@ -11,3 +11,5 @@ mod region_laws;
 mod ring_errors;
 mod seed_errors;
 mod strategies;
+#[cfg(feature = "serde")]
+mod wire;

@@ -135,8 +135,8 @@ impl Overlaid<'_> {
                     pose.vector(half_plane.normal()),
                 ));
             }
-            // A wall has no inside.
-            Shape::Segment(_) => {}
+            // A segment has no inside.
+            _ => {}
         }
     }
 

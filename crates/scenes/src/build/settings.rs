@@ -61,8 +61,8 @@ pub(crate) fn settings(file: &SceneFile) -> Settings {
         },
         history: table.history.unwrap_or(default.history),
         events: table.events.unwrap_or(default.events),
-        zones: default.zones,
-        threads: default.threads,
+        zones: table.zones.unwrap_or(default.zones),
+        threads: table.threads.unwrap_or(default.threads),
         work: default.work,
     }
 }

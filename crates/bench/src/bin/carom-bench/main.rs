@@ -23,14 +23,14 @@ use std::process::ExitCode;
 
 use clap::Parser as _;
 
-pub(crate) use carom_command::{clock, exit, files, interrupt, out, progress};
+pub(crate) use carom_cli::{clock, exit, files, interrupt, out, progress};
 
 use flags::{Cli, Command};
 
 fn main() -> ExitCode {
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
-        Err(error) => return carom_command::usage(&error),
+        Err(error) => return carom_cli::usage(&error),
     };
     let outcome = match &cli.command {
         Command::Accuracy(args) => accuracy::run(args),
