@@ -23,6 +23,7 @@ mod observing;
 mod regressions;
 mod round;
 mod scripts;
+mod setters;
 mod skipping;
 mod stability;
 mod stepped;

@@ -57,7 +57,7 @@ pub use distance::{Distance, distance, shape_distance};
 pub use hull::{Convex, Hull, hulls, part, part_count};
 pub use manifold::{FeatureId, Gap, Manifold, ManifoldPoint, collide, collide_within};
 pub use motion::Motion;
-pub use overlap::overlap_area;
+pub use overlap::{intersection, overlap_area};
 pub use sat::{Axis, AxisFeature, Side, minimum_push, separating_axis};
 pub use shape_tree::{ShapeTree, roundable};
 pub use toi::{

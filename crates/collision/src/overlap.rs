@@ -1,10 +1,10 @@
 //! How much area two shapes share, by clipping convex parts.
 
-use carom_geometry::Shape;
+use carom_geometry::{ConvexPolygon, Shape};
 use carom_math::{Pose, Sum, Vec2, cross, trig};
 
 use crate::parts::near_parts;
-use crate::{Hull, part, separating_axis};
+use crate::{Convex, Hull, part, separating_axis};
 
 /// The area that two shapes share, in m².
 ///
@@ -60,10 +60,41 @@ fn shared(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose) -> f64 {
     }
 }
 
+/// Corners of what two convex polygons have in common, counter-clockwise in A's frame, in m; empty if that has no area.
+///
+/// # Examples
+/// ```
+/// use carom_collision::intersection;
+/// use carom_geometry::ConvexPolygon;
+/// use carom_math::{Pose, vec2};
+/// let square = ConvexPolygon::square(2.0)?;
+/// let common = intersection(&square, &square, Pose::at(vec2(1.5, 0.0)));
+/// assert_eq!(common.len(), 4);
+/// assert!(common.iter().all(|corner| corner.x >= 0.5 && corner.x <= 1.0));    // m
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[must_use]
+pub fn intersection(a: &ConvexPolygon, b: &ConvexPolygon, b_in_a: Pose) -> Vec<Vec2> {
+    common_ring(b.vertices(), &a.hull(), b_in_a)
+}
+
 /// Area of a convex ring behind all edges of a hull, in whose frame the ring is at `pose`.
+fn clipped(ring: &[Vec2], hull: &Hull<'_>, pose: Pose) -> f64 {
+    let points = common_ring(ring, hull, pose);
+    let Some(&first) = points.first() else {
+        return 0.0;
+    };
+    let corners = points.windows(2);
+    let twice: Sum = corners
+        .map(|pair| cross(pair[0] - first, pair[1] - first))
+        .collect();
+    (0.5 * twice.value()).max(0.0)
+}
+
+/// A convex ring behind all edges of a hull, in whose frame the ring is at `pose`; empty if less than a triangle is left.
 ///
 /// Source: I. Sutherland, G. Hodgman, *Reentrant polygon clipping*, 1974; for convex rings.
-fn clipped(ring: &[Vec2], hull: &Hull<'_>, pose: Pose) -> f64 {
+fn common_ring(ring: &[Vec2], hull: &Hull<'_>, pose: Pose) -> Vec<Vec2> {
     let mut points: Vec<Vec2> = ring.iter().map(|v| pose.point(*v)).collect();
     let mut rest = Vec::with_capacity(points.len() + hull.normals.len());
     for (normal, corner) in hull.normals.iter().zip(hull.vertices) {
@@ -81,15 +112,10 @@ fn clipped(ring: &[Vec2], hull: &Hull<'_>, pose: Pose) -> f64 {
         core::mem::swap(&mut points, &mut rest);
         rest.clear();
         if points.len() < 3 {
-            return 0.0;
+            return Vec::new();
         }
     }
-    let first = points[0];
-    let corners = points.windows(2);
-    let twice: Sum = corners
-        .map(|pair| cross(pair[0] - first, pair[1] - first))
-        .collect();
-    (0.5 * twice.value()).max(0.0)
+    points
 }
 
 /// Area that a disc shares with a polygon or a half-plane, in the frame of that.

@@ -1,6 +1,6 @@
 //! Which pairs may meet: boxes around motions, kept in a tree.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use carom_collision::{Motion, roundable};
 use carom_geometry::Aabb;
@@ -28,6 +28,8 @@ pub(crate) struct Broad {
     /// When last a box came into the tree, or was changed there.
     pub(crate) changed: SimTime,
     pub(crate) overrides: BTreeMap<(BodyId, BodyId), PairMaterial>,
+    /// Pairs of bodies, in order, that do not collide whatever their filters say.
+    pub(crate) excluded: BTreeSet<(BodyId, BodyId)>,
     /// What the last search found, shapes and flyers: kept for its memory.
     near: Vec<u32>,
     flying: Vec<u32>,
@@ -40,6 +42,7 @@ impl Broad {
             trees: Trees::default(),
             changed: SimTime::ZERO,
             overrides: BTreeMap::new(),
+            excluded: BTreeSet::new(),
             near: Vec::new(),
             flying: Vec::new(),
         }
@@ -214,8 +217,11 @@ impl Broad {
         if a.kind != BodyKind::Dynamic && b.kind != BodyKind::Dynamic {
             return;
         }
-        let filter = |i: u32| colliders[i as usize].surface.filter;
-        if !filter(first).touches(filter(second)) {
+        if !self.may_touch(
+            bodies,
+            &colliders[first as usize],
+            &colliders[second as usize],
+        ) {
             return;
         }
         if a.in_crowd && b.is_flying() || b.in_crowd && a.is_flying() {
@@ -271,6 +277,17 @@ impl Broad {
         }
         bodies.get_mut(ends.0).pairs.push(place);
         bodies.get_mut(ends.1).pairs.push(place);
+    }
+
+    /// Whether filters and the caller let two shapes touch.
+    pub(crate) fn may_touch(&self, bodies: &Bodies, one: &Collider, other: &Collider) -> bool {
+        let id = |of: &Collider| bodies.get(of.body).id;
+        let excluded = || {
+            let (a, b) = (id(one), id(other));
+            self.excluded.contains(&(a.min(b), a.max(b)))
+        };
+        one.surface.filter.touches(other.surface.filter)
+            && (self.excluded.is_empty() || !excluded())
     }
 
     pub(crate) fn material(

@@ -8,13 +8,12 @@ use std::sync::Arc;
 use carom_collision::contacts;
 use carom_math::{Pose, SimTime, Vec2};
 
+use crate::bodies::Pull;
 use crate::error::{check_finite, check_vec2};
 use crate::flight::fly;
-use crate::flyers::Course;
+use crate::flyers::{Course, Flyers};
 use crate::state::BodyState;
-use crate::{
-    BodyDef, BodyError, BodyId, BodyKind, Field, Filter, Force, Impulse, Mode, PairMaterial, World,
-};
+use crate::{BodyDef, BodyError, BodyId, BodyKind, Field, Filter, Force, Impulse, Mode, World};
 
 impl World {
     /// Places a body's frame anew; its velocity stays.
@@ -111,16 +110,7 @@ impl World {
                 }
             }
         }
-        self.quit(index, self.clock.now);
-        if let Some(slot) = self.pool.seats.slot(index) {
-            // The line of a body of the old kind: what is solved for next gets a new one.
-            self.leave(index, slot);
-        }
-        self.part_all(index);
-        self.alter(index, |state| state.set_kind(kind));
-        // Pairs are made by kind: boxes that are new find them anew.
-        self.forget_boxes(index);
-        self.arrive(index);
+        self.remake(index, |state| state.set_kind(kind));
         Ok(())
     }
 
@@ -133,7 +123,7 @@ impl World {
         for &at in &self.bodies.get(index).colliders.clone() {
             self.colliders[at as usize].set_filter(filter);
         }
-        self.meet_anew(index);
+        self.remake(index, |_| {});
         Ok(())
     }
 
@@ -147,17 +137,9 @@ impl World {
         shape: usize,
         filter: Filter,
     ) -> Result<(), BodyError> {
-        let index = self.bodies.find(id)?;
-        let shapes = &self.bodies.get(index).colliders;
-        let Some(&at) = shapes.get(shape) else {
-            return Err(BodyError::NoSuchShape {
-                body: id,
-                shape,
-                count: shapes.len(),
-            });
-        };
+        let at = self.collider_of(id, shape)?;
         self.colliders[at as usize].set_filter(filter);
-        self.meet_anew(index);
+        self.remake(id.index, |_| {});
         Ok(())
     }
 
@@ -210,40 +192,6 @@ impl World {
         Ok(())
     }
 
-    /// Gives two bodies a friction and restitution of their own, instead of the mixed ones.
-    ///
-    /// # Errors
-    /// If a body is not there, both are one, or a number is out of its range.
-    pub fn set_pair_material(
-        &mut self,
-        a: BodyId,
-        b: BodyId,
-        material: PairMaterial,
-    ) -> Result<(), BodyError> {
-        material.check()?;
-        let ends = [self.bodies.find(a)?, self.bodies.find(b)?];
-        if a == b {
-            return Err(BodyError::SameBody(a));
-        }
-        let key = if a < b { (a, b) } else { (b, a) };
-        self.broad.overrides.insert(key, material);
-        for place in self.bodies.get(ends[0]).pairs.clone() {
-            let pair = self.pairs.get_mut(place);
-            if pair.bodies == (key.0.index, key.1.index) {
-                pair.material = material;
-                // Rows keep what they were made with.
-                self.pool.release(pair);
-                self.pairs.glance_mut(place).forget();
-            }
-        }
-        for index in ends {
-            if self.bodies.get(index).is_dynamic() {
-                self.disturb(index, |_| {});
-            }
-        }
-        Ok(())
-    }
-
     /// Changes what velocity and spin of a body lose by themselves, in 1/s, as by
     /// [`BodyDef::damped`](crate::BodyDef::damped).
     ///
@@ -273,6 +221,11 @@ impl World {
     }
 
     fn change_fields(&mut self, change: impl FnOnce(&mut Vec<Arc<dyn Field>>)) {
+        self.change_pull(|pull| change(&mut pull.fields));
+    }
+
+    /// Changes what pulls at all bodies; what it adds to their potential energy is brought in from outside.
+    pub(crate) fn change_pull(&mut self, change: impl FnOnce(&mut Pull)) {
         let now = self.clock.now;
         for index in self.bodies.indices().collect::<Vec<_>>() {
             // A crowd books what its members had when they left, in the fields that they felt.
@@ -283,24 +236,26 @@ impl World {
             self.bodies.change(index, now, |_| {});
         }
         let before = self.bodies.ledger(now).potential;
-        change(&mut self.bodies.pull.fields);
+        let gravity = self.bodies.pull.gravity;
+        change(&mut self.bodies.pull);
         let after = self.bodies.ledger(now).potential;
         self.bodies.book.external.add(after - before);
+        if self.bodies.pull.gravity != gravity {
+            // Bodies in flight look for each other in a frame that falls with them.
+            for index in self.bodies.indices().collect::<Vec<_>>() {
+                self.flyers.vanish(&mut self.bodies, index);
+            }
+            self.flyers = Flyers::under(self.bodies.pull.gravity);
+        }
         for index in self.bodies.indices().collect::<Vec<_>>() {
             self.arrive(index);
+            if self.bodies.get(index).asleep {
+                self.wake(index, now);
+            }
         }
     }
 
-    /// Lets go of all pairs of a body, and has it looked for anew.
-    fn meet_anew(&mut self, index: u32) {
-        self.part_all(index);
-        self.alter(index, |_| {});
-        self.forget_boxes(index);
-        self.arrive(index);
-        self.unsettle_on(index, self.clock.now);
-    }
-
-    fn part_all(&mut self, index: u32) {
+    pub(crate) fn part_all(&mut self, index: u32) {
         self.wake_around(index, self.clock.now);
         for place in self.bodies.get(index).pairs.clone() {
             self.part(place, self.clock.now);
@@ -309,13 +264,13 @@ impl World {
 
     /// A caller's change of a body: its energy counts as brought in from outside, sleepers that
     /// touch it wake, and what was predicted for it is predicted anew.
-    fn disturb(&mut self, index: u32, change: impl FnOnce(&mut BodyState)) {
+    pub(crate) fn disturb(&mut self, index: u32, change: impl FnOnce(&mut BodyState)) {
         self.alter(index, change);
         self.unsettle_on(index, self.clock.now);
     }
 
     /// [`Self::disturb`], but for what rests on the body: it is not yet where its pairs are made.
-    fn alter(&mut self, index: u32, change: impl FnOnce(&mut BodyState)) {
+    pub(crate) fn alter(&mut self, index: u32, change: impl FnOnce(&mut BodyState)) {
         let now = self.clock.now;
         self.wake_around(index, now);
         let before = self.bodies.energy_of(index, now);
@@ -356,7 +311,7 @@ impl World {
             for other in self.broad.in_tree(&self.colliders, mine.solid.aabb(pose)) {
                 let theirs = &self.colliders[other as usize];
                 let partner = self.bodies.get(theirs.body);
-                if !partner.asleep || !mine.surface.filter.touches(theirs.surface.filter) {
+                if !partner.asleep || !self.broad.may_touch(&self.bodies, mine, theirs) {
                     continue;
                 }
                 // What fell asleep on it may have sunk in, or hover within the solver's margin.

@@ -60,6 +60,8 @@ pub enum EventKind {
         a: BodyId,
         /// The other.
         b: BodyId,
+        /// Which shapes of A and of B, in the order of insertion.
+        shapes: (usize, usize),
     },
     /// Two bodies, or two of their shapes, no longer touch.
     End {
@@ -67,6 +69,8 @@ pub enum EventKind {
         a: BodyId,
         /// The other.
         b: BodyId,
+        /// Which shapes of A and of B, in the order of insertion.
+        shapes: (usize, usize),
     },
     /// A contact in closed form began to move in this way.
     Mode {
@@ -160,11 +164,16 @@ impl Events {
             return;
         }
         pair.told = pair.touching;
-        let (a, b) = (bodies.get(pair.bodies.0).id, bodies.get(pair.bodies.1).id);
+        let (one, other) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
+        let (a, b) = (one.id, other.id);
+        let shapes = (
+            one.shape_of(pair.colliders.0),
+            other.shape_of(pair.colliders.1),
+        );
         let kind = if pair.touching {
-            EventKind::Begin { a, b }
+            EventKind::Begin { a, b, shapes }
         } else {
-            EventKind::End { a, b }
+            EventKind::End { a, b, shapes }
         };
         self.push(time, kind);
     }

@@ -3,7 +3,7 @@
 //! The tree of boxes and the grid of flyers name those that may answer, the shapes themselves answer. Of equal answers
 //! the first body's first shape counts, whatever the order in which the tree named them.
 
-use carom_collision::{cast, roundable};
+use carom_collision::{cast, roundable, shape_distance};
 use carom_geometry::{Aabb, Shape};
 use carom_math::{Pose, Vec2};
 
@@ -40,6 +40,19 @@ pub struct ShapeHit {
     pub point: Vec2,
     /// Unit normal from the moved shape to the one it meets.
     pub normal: Vec2,
+}
+
+/// The shape that is nearest to a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Nearest {
+    /// The body.
+    pub body: BodyId,
+    /// Which of its shapes, in the order of insertion.
+    pub shape: usize,
+    /// How far the point is from it, in m; 0 inside.
+    pub distance: f64,
+    /// The nearest point of the shape, in m: the point itself inside.
+    pub point: Vec2,
 }
 
 /// The questions of a [`World`], answered by the shapes that a filter touches alone.
@@ -92,10 +105,31 @@ impl World {
         self.unfiltered().cast_ray(origin, direction, max)
     }
 
+    /// All shapes on a ray from `origin` along `direction` (any length above 0), up to `max` m, the nearest first: where the ray
+    /// meets each first.
+    ///
+    /// Empty if there is none, or if the ray has no direction or is not finite.
+    #[must_use]
+    pub fn cast_ray_all(&self, origin: Vec2, direction: Vec2, max: f64) -> Vec<RayHit> {
+        self.unfiltered().cast_ray_all(origin, direction, max)
+    }
+
     /// Bodies with a shape that contains `point` (in m), in order.
     #[must_use]
     pub fn bodies_at(&self, point: Vec2) -> Vec<BodyId> {
         self.unfiltered().bodies_at(point)
+    }
+
+    /// Bodies with a shape that `shape` at `pose` overlaps or touches, in order.
+    #[must_use]
+    pub fn bodies_overlapping(&self, shape: &Shape, pose: Pose) -> Vec<BodyId> {
+        self.unfiltered().bodies_overlapping(shape, pose)
+    }
+
+    /// The shape that is nearest to `point` (in m), at most `max` m away; one that contains the point is 0 m away.
+    #[must_use]
+    pub fn nearest(&self, point: Vec2, max: f64) -> Option<Nearest> {
+        self.unfiltered().nearest(point, max)
     }
 
     /// Bodies with a shape whose box overlaps `bounds`, in order.
@@ -125,39 +159,99 @@ impl Filtered<'_> {
         }
         let mut best: Option<((f64, Place), RayHit)> = None;
         let mut meet = |at| {
-            let (body, shape, collider) = self.shape_at(at);
-            let pose = body.centre_pose(self.world.clock.now);
             let reach = best.map_or(max, |(_, hit)| hit.distance);
-            let local = (pose.inverse_point(origin), pose.inverse_vector(direction));
-            if self.sees(collider)
-                && let Some(hit) = collider.solid.cast_ray(local.0, local.1, reach)
-            {
-                let order = (hit.distance, (body.id.index, shape));
+            if let Some(hit) = self.ray_hit(at, origin, direction, reach) {
+                let order = (hit.distance, (hit.body.index, hit.shape));
                 if best.is_none_or(|(known, _)| order < known) {
-                    let hit = RayHit {
-                        body: body.id,
-                        shape,
-                        distance: hit.distance,
-                        point: pose.point(hit.point),
-                        normal: pose.vector(hit.normal),
-                    };
                     best = Some((order, hit));
                 }
             }
             best.map_or(f64::INFINITY, |(_, hit)| hit.distance)
         };
-        // Along an axis 0 · ∞ is no number.
-        let end = Vec2::select(
-            direction.cmpeq(Vec2::ZERO),
-            origin,
-            origin + direction * max,
-        );
         let mut reach = max;
-        for at in self.flying_in(Aabb::from_points([origin, end])) {
+        for at in self.flying_in(ray_box(origin, direction, max)) {
             reach = reach.min(meet(at));
         }
         self.world.broad.trees.ray(origin, direction, reach, meet);
         best.map(|(_, hit)| hit)
+    }
+
+    /// All shapes on a ray from `origin` along `direction` (any length above 0), up to `max` m, the nearest first: where the ray
+    /// meets each first.
+    ///
+    /// Empty if there is none, or if the ray has no direction or is not finite.
+    #[must_use]
+    pub fn cast_ray_all(&self, origin: Vec2, direction: Vec2, max: f64) -> Vec<RayHit> {
+        let mut hits = Vec::new();
+        let Some(direction) = direction.try_normalize() else {
+            return hits;
+        };
+        if !origin.is_finite() || max.is_nan() {
+            return hits;
+        }
+        let mut meet = |at| {
+            hits.extend(self.ray_hit(at, origin, direction, max));
+            f64::INFINITY
+        };
+        for at in self.flying_in(ray_box(origin, direction, max)) {
+            meet(at);
+        }
+        self.world.broad.trees.ray(origin, direction, max, meet);
+        hits.sort_by(|a, b| {
+            let key = |hit: &RayHit| (hit.body.index, hit.shape);
+            a.distance.total_cmp(&b.distance).then(key(a).cmp(&key(b)))
+        });
+        hits
+    }
+
+    /// Bodies with a shape that `shape` at `pose` overlaps or touches, in order.
+    #[must_use]
+    pub fn bodies_overlapping(&self, shape: &Shape, pose: Pose) -> Vec<BodyId> {
+        if !pose.position.is_finite() {
+            return Vec::new();
+        }
+        let bounds = shape.aabb(pose);
+        self.bodies_with(bounds.grown(roundable(bounds)), |target, collider| {
+            let seen = target.seen_from(pose);
+            shape_distance(shape, &collider.solid, seen).distance <= 0.0
+        })
+    }
+
+    /// The shape that is nearest to `point` (in m), at most `max` m away; one that contains the point is 0 m away.
+    #[must_use]
+    pub fn nearest(&self, point: Vec2, max: f64) -> Option<Nearest> {
+        if !point.is_finite() || max.is_nan() || max < 0.0 {
+            return None;
+        }
+        let mut best: Option<((f64, Place), Nearest)> = None;
+        let mut look = |at| {
+            let (body, shape, collider) = self.shape_at(at);
+            if !self.sees(collider) {
+                return;
+            }
+            let pose = body.centre_pose(self.world.clock.now);
+            let local = pose.inverse_point(point);
+            let (distance, on) = if collider.solid.contains(local) {
+                (0.0, local)
+            } else {
+                let on = collider.solid.closest_point(local);
+                ((on - local).length(), on)
+            };
+            let order = (distance, (body.id.index, shape));
+            if distance <= max && best.is_none_or(|(known, _)| order < known) {
+                let found = Nearest {
+                    body: body.id,
+                    shape,
+                    distance,
+                    point: pose.point(on),
+                };
+                best = Some((order, found));
+            }
+        };
+        let bounds = Aabb::new(point, point).grown(max);
+        self.flying_in(bounds).into_iter().for_each(&mut look);
+        self.world.broad.trees.query(bounds, look);
+        best.map(|(_, found)| found)
     }
 
     /// Bodies with a shape that contains `point` (in m), in order.
@@ -235,6 +329,24 @@ impl Filtered<'_> {
         found
     }
 
+    /// Where a ray along a unit vector meets a shape first, up to `max` m.
+    fn ray_hit(&self, at: u32, origin: Vec2, direction: Vec2, max: f64) -> Option<RayHit> {
+        let (body, shape, collider) = self.shape_at(at);
+        if !self.sees(collider) {
+            return None;
+        }
+        let pose = body.centre_pose(self.world.clock.now);
+        let local = (pose.inverse_point(origin), pose.inverse_vector(direction));
+        let hit = collider.solid.cast_ray(local.0, local.1, max)?;
+        Some(RayHit {
+            body: body.id,
+            shape,
+            distance: hit.distance,
+            point: pose.point(hit.point),
+            normal: pose.vector(hit.normal),
+        })
+    }
+
     /// Shapes of flyers in the grid that may be in `bounds`.
     fn flying_in(&self, bounds: Aabb) -> Vec<u32> {
         let bodies = self
@@ -256,9 +368,19 @@ impl Filtered<'_> {
     fn shape_at(&self, at: u32) -> (&BodyState, usize, &Collider) {
         let collider = &self.world.colliders[at as usize];
         let body = self.world.bodies.get(collider.body);
-        let place = body.colliders.iter().take_while(|i| **i != at).count();
-        (body, place, collider)
+        (body, body.shape_of(at), collider)
     }
+}
+
+/// Box around a ray of `max` m along a unit vector.
+fn ray_box(origin: Vec2, direction: Vec2, max: f64) -> Aabb {
+    // Along an axis 0 · ∞ is no number.
+    let end = Vec2::select(
+        direction.cmpeq(Vec2::ZERO),
+        origin,
+        origin + direction * max,
+    );
+    Aabb::from_points([origin, end])
 }
 
 /// A body and which of its shapes.

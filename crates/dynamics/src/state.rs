@@ -90,6 +90,10 @@ pub(crate) struct Surface {
 }
 
 impl Collider {
+    pub(crate) fn set_material(&mut self, material: Material) {
+        Arc::make_mut(&mut self.surface).material = material;
+    }
+
     pub(crate) fn set_filter(&mut self, filter: Filter) {
         Arc::make_mut(&mut self.surface).filter = filter;
     }
@@ -171,6 +175,14 @@ impl BodyState {
             colliders: Few::default(),
             pairs: Vec::new(),
         })
+    }
+
+    /// Which of the body's shapes a collider is, in the order of insertion.
+    pub(crate) fn shape_of(&self, collider: u32) -> usize {
+        self.colliders
+            .iter()
+            .take_while(|at| **at != collider)
+            .count()
     }
 
     /// Force (N) and torque (N·m) that wait for the next step.

@@ -244,12 +244,12 @@ impl World {
         self.discharge(index);
         self.take_line(index);
         self.forget_boxes(index);
-        let colliders = &self.bodies.get(index).colliders;
-        self.free_colliders.extend(colliders);
+        self.free_shapes(index);
         self.forced.retain(|i| *i != index);
         self.broad
             .overrides
             .retain(|(a, b), _| *a != id && *b != id);
+        self.broad.excluded.retain(|(a, b)| *a != id && *b != id);
         self.bodies.remove(index);
         self.drop_unheld(&around, now);
         Ok(())
@@ -271,11 +271,27 @@ impl World {
     pub fn contacts(&self) -> impl Iterator<Item = Contact> + use<'_> {
         let places = self.pairs.in_order().into_iter();
         let touching = places.filter(|place| self.pairs.get(*place).told);
-        touching.flat_map(|place| {
-            let now = self.gliding_now(place);
-            let pair = now.as_ref().unwrap_or_else(|| self.pairs.get(place));
-            self.pool.contacts_of(&self.bodies, pair)
-        })
+        touching.flat_map(|place| self.contacts_at(place))
+    }
+
+    /// What a body touches: [`Self::contacts`] of one body, in order of the shapes; empty if it is not there.
+    pub fn contacts_of(&self, id: BodyId) -> impl Iterator<Item = Contact> + use<'_> {
+        let pairs = self
+            .bodies
+            .find(id)
+            .map(|index| &self.bodies.get(index).pairs);
+        let mut touching: Vec<u32> = pairs.into_iter().flatten().copied().collect();
+        touching.retain(|place| self.pairs.get(*place).told);
+        touching.sort_unstable_by_key(|place| self.pairs.shapes(*place));
+        touching
+            .into_iter()
+            .flat_map(|place| self.contacts_at(place))
+    }
+
+    fn contacts_at(&self, place: u32) -> Vec<Contact> {
+        let now = self.gliding_now(place);
+        let pair = now.as_ref().unwrap_or_else(|| self.pairs.get(place));
+        self.pool.contacts_of(&self.bodies, pair)
     }
 
     /// Frame of a body's shapes at `time`; `None` if it was not there or the log does not reach.
@@ -305,6 +321,15 @@ impl World {
     pub fn bounds(&self) -> Aabb {
         self.bodies()
             .fold(Aabb::EMPTY, |all, body| all.union(body.aabb()))
+    }
+
+    /// Box around all bodies without a half-plane, in m: what a camera can show. Empty if there are none.
+    #[must_use]
+    pub fn finite_bounds(&self) -> Aabb {
+        self.bodies()
+            .map(|body| body.aabb())
+            .filter(|bounds| bounds.is_finite())
+            .fold(Aabb::EMPTY, Aabb::union)
     }
 
     /// Where the energy is and where it went.
@@ -377,8 +402,20 @@ impl World {
         }
     }
 
+    /// Gives the places of a body's shapes to those that come next.
+    pub(crate) fn free_shapes(&mut self, index: u32) {
+        let colliders = &self.bodies.get(index).colliders;
+        self.free_colliders.extend(colliders);
+    }
+
     /// Puts a shape of a body among all shapes, and returns its place there.
-    fn add_collider(&mut self, body: u32, shape: Shape, surface: Surface, centroid: Vec2) -> u32 {
+    pub(crate) fn add_collider(
+        &mut self,
+        body: u32,
+        shape: Shape,
+        surface: Surface,
+        centroid: Vec2,
+    ) -> u32 {
         let (drawn, solid) = self.shape_like(shape, centroid);
         let alike = self.latest().find(|known| *known.surface == surface);
         let surface = match alike {

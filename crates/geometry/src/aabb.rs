@@ -103,6 +103,68 @@ impl Aabb {
         self.max - self.min
     }
 
+    /// Whether it is a box: neither side is negative, and no corner is NaN (those of [`Self::EMPTY`] are the wrong way round).
+    #[must_use]
+    pub fn is_valid(self) -> bool {
+        self.min.x <= self.max.x && self.min.y <= self.max.y
+    }
+
+    /// Length of the rim, in m.
+    #[must_use]
+    pub fn perimeter(self) -> f64 {
+        let sides = self.extents();
+        2.0 * (sides.x + sides.y)
+    }
+
+    /// The box with both sides times `factor`, about its centre.
+    #[must_use]
+    pub fn scaled(self, factor: f64) -> Self {
+        let (centre, half) = (self.centre(), self.extents() * (0.5 * factor));
+        Self::new(centre - half, centre + half)
+    }
+
+    /// The part of the segment from `a` to `b` that lies in the box, as fractions of its length; `None` if it misses.
+    ///
+    /// Source: Y.-D. Liang, B. Barsky, *A new concept and method for line clipping*, 1984.
+    ///
+    /// # Examples
+    /// ```
+    /// use carom_geometry::Aabb;
+    /// use carom_math::vec2;
+    /// let unit = Aabb::new(vec2(0.0, 0.0), vec2(1.0, 1.0));
+    /// assert_eq!(unit.clip_segment(vec2(-1.0, 0.5), vec2(3.0, 0.5)), Some((0.25, 0.5)));
+    /// assert_eq!(unit.clip_segment(vec2(-1.0, 2.0), vec2(3.0, 2.0)), None);
+    /// ```
+    #[must_use]
+    pub fn clip_segment(self, a: Vec2, b: Vec2) -> Option<(f64, f64)> {
+        let (mut from, mut to) = (0.0_f64, 1.0_f64);
+        let axes = [
+            (a.x, b.x - a.x, self.min.x, self.max.x),
+            (a.y, b.y - a.y, self.min.y, self.max.y),
+        ];
+        for (start, way, low, high) in axes {
+            if way == 0.0 {
+                if start < low || start > high {
+                    return None;
+                }
+                continue;
+            }
+            let (one, other) = ((low - start) / way, (high - start) / way);
+            let (enters, leaves) = if one < other {
+                (one, other)
+            } else {
+                (other, one)
+            };
+            if enters > from {
+                from = enters;
+            }
+            if leaves < to {
+                to = leaves;
+            }
+        }
+        (from <= to).then_some((from, to))
+    }
+
     /// Whether all corners are finite (those of [`Self::EMPTY`] are not).
     #[must_use]
     pub fn is_finite(self) -> bool {

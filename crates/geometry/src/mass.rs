@@ -1,7 +1,7 @@
 //! Mass, centre of mass and moment of inertia.
 
 use core::iter::Sum;
-use core::ops::Add;
+use core::ops::{Add, Sub};
 
 use carom_math::{Pose, Vec2};
 
@@ -87,6 +87,43 @@ impl Add for MassProperties {
             centroid: self.centroid + between * share,
             // Steiner about the common centre: reduced mass × distance².
             inertia: self.inertia + other.inertia + self.mass * share * between.length_squared(),
+        }
+    }
+}
+
+/// What is left of a body when a part of it is cut out; [`MassProperties::ZERO`] if nothing is.
+///
+/// # Examples
+/// ```
+/// use carom_geometry::ConvexPolygon;
+/// # fn main() -> Result<(), carom_geometry::ShapeError> {
+/// // A square of 2 m with a square hole of 1 m, 1 kg/m².
+/// let whole = ConvexPolygon::square(2.0)?.area_properties().with_density(1.0);
+/// let hole = ConvexPolygon::square(1.0)?.area_properties().with_density(1.0);
+/// let frame = whole - hole;
+/// assert_eq!(frame.mass, 3.0);                                       // kg
+/// assert!((frame.inertia - (16.0 - 1.0) / 6.0).abs() < 1e-15);       // kg·m², a⁴/6 of each
+/// # Ok(())
+/// # }
+/// ```
+impl Sub for MassProperties {
+    type Output = Self;
+
+    fn sub(self, part: Self) -> Self {
+        let mass = self.mass - part.mass;
+        if mass == 0.0 {
+            return Self::ZERO;
+        }
+        // The whole's centre parts those of the rest and of the part in the ratio of their masses.
+        let between = self.centroid - part.centroid;
+        let away = between * (part.mass / mass);
+        Self {
+            mass,
+            centroid: self.centroid + away,
+            inertia: self.inertia
+                - part.inertia
+                - mass * away.length_squared()
+                - part.mass * between.length_squared(),
         }
     }
 }

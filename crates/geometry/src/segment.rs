@@ -60,6 +60,25 @@ impl Segment {
         self.vertices[1]
     }
 
+    /// Where along the segment its point nearest to `point` lies: 0 at a, 1 at b.
+    ///
+    /// # Examples
+    /// ```
+    /// use carom_geometry::Segment;
+    /// use carom_math::vec2;
+    /// let segment = Segment::new(vec2(0.0, 0.0), vec2(4.0, 0.0))?;
+    /// assert_eq!(segment.fraction(vec2(1.0, 7.0)), 0.25);
+    /// assert_eq!(segment.fraction(vec2(9.0, 0.0)), 1.0);
+    /// # Ok::<(), carom_geometry::ShapeError>(())
+    /// ```
+    #[must_use]
+    pub fn fraction(&self, point: Vec2) -> f64 {
+        let [a, b] = self.vertices;
+        // Halved, so that the square of the longest one does not overflow.
+        let (way, to) = ((b - a) * 0.5, (point - a) * 0.5);
+        (to.dot(way) / way.length_squared()).clamp(0.0, 1.0)
+    }
+
     /// Both ends, in m.
     #[must_use]
     pub const fn vertices(&self) -> &[Vec2; 2] {

@@ -45,6 +45,21 @@ impl Pose {
         Self::new(position, Rot::IDENTITY)
     }
 
+    /// The principal angle that the frame is turned by, in radians, in (−π, π].
+    #[must_use]
+    pub fn angle(self) -> f64 {
+        self.rotation.angle()
+    }
+
+    /// The frame a part of the way to `other`: straight, and by the shorter turn. 0 is this one, 1 the other.
+    #[must_use]
+    pub fn blend(self, other: Self, part: f64) -> Self {
+        Self {
+            position: self.position + (other.position - self.position) * part,
+            rotation: self.rotation.blend(other.rotation, part),
+        }
+    }
+
     /// A point of this frame, seen from the parent.
     #[must_use]
     pub fn point(self, local: Vec2) -> Vec2 {

@@ -132,6 +132,19 @@ impl Rot {
         quarter + rest * (180.0 / core::f64::consts::PI)
     }
 
+    /// The rotation a part of the way to `other`, by the shorter turn: 0 is this one, 1 the other; any `part` is allowed.
+    ///
+    /// # Examples
+    /// ```
+    /// use carom_math::Rot;
+    /// let half = Rot::from_degrees(170.0).blend(Rot::from_degrees(-150.0), 0.5);
+    /// assert!((half.degrees() + 170.0).abs() < 1e-12);
+    /// ```
+    #[must_use]
+    pub fn blend(self, other: Self, part: f64) -> Self {
+        self.turned(part * (self.inverse() * other).angle())
+    }
+
     /// The opposite rotation.
     #[must_use]
     pub const fn inverse(self) -> Self {

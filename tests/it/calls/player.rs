@@ -9,7 +9,7 @@ use carom_geometry::{HalfPlane, Shape};
 use carom_math::{Pose, Rot, Vec2, vec2};
 use carom_tests::scenes::{block, disc};
 
-use super::vocabulary::{Call, Form, HALF, Nonsense, Piece, Place, Start, Surface};
+use super::vocabulary::{Alteration, Call, Form, HALF, Nonsense, Piece, Place, Start, Surface};
 
 /// What of the calls is meant as it is said.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -120,6 +120,7 @@ impl Player {
                 self.world.clear_fields();
                 return Ok(());
             }
+            Call::SetGravity(gravity) => return self.world.set_gravity(*gravity),
             Call::Step(parts, _) => {
                 self.pushed &= *parts == 0;
                 self.world.step(seconds(*parts));
@@ -179,6 +180,7 @@ impl Player {
                 other if other == id && world.body(id).is_some() => Ok(()),
                 other => world.set_pair_material(id, other, surface),
             },
+            Call::Alter(_, what) => self.alter(id, what),
             Call::SetDamping(_, damping) => {
                 let damping = taken(world, *damping);
                 world.set_damping(id, damping, damping)
@@ -193,6 +195,35 @@ impl Player {
                 world.apply_force(id, Force::at(point, *push * mass))
             }
             _ => Ok(()),
+        }
+    }
+
+    fn alter(&mut self, id: BodyId, what: &Alteration) -> Result<(), BodyError> {
+        let tidy = self.room == Room::Tidy;
+        let surface = |surface: Surface| self.loses(surface).of(1.0);
+        let (known, other) = (self.world.body(id), |k: usize| self.ids[k % self.ids.len()]);
+        match *what {
+            Alteration::Mass(factor) => {
+                let Some(body) = known else {
+                    return self.world.set_mass(id, 1.0, 1.0);
+                };
+                let [mass, inertia] = [body.mass(), body.inertia()]
+                    .map(|x| if x.is_finite() { x * factor } else { factor });
+                self.world.set_mass(id, mass, inertia)
+            }
+            Alteration::GravityScale(scale) => self.world.set_gravity_scale(id, scale),
+            Alteration::LockedRotation(locked) => self.world.set_locked_rotation(id, locked),
+            Alteration::Surface(new) => {
+                let material = surface(new);
+                self.world.set_material(id, 0, material)
+            }
+            // What passed through another one would lie in it afterwards.
+            Alteration::Collides(..) if tidy && known.is_some() => Ok(()),
+            Alteration::Collides(k, collides) => match other(k) {
+                other if other == id && known.is_some() => Ok(()),
+                other => self.world.set_pair_collides(id, other, collides),
+            },
+            Alteration::Awake => self.world.wake_up(id),
         }
     }
 
@@ -315,7 +346,8 @@ impl Call {
             | Self::SetPairSurface(id, _, _)
             | Self::SetDamping(id, _)
             | Self::Apply(id, _, _)
-            | Self::Push(id, _, _) => Some(*id),
+            | Self::Push(id, _, _)
+            | Self::Alter(id, _) => Some(*id),
             _ => None,
         }
     }

@@ -39,7 +39,7 @@ impl Told {
             last = Some(event);
             match event.kind {
                 EventKind::Begin { .. } | EventKind::End { .. } if self.missed => {}
-                EventKind::Begin { a, b } => {
+                EventKind::Begin { a, b, .. } => {
                     let most = self.shapes(a) * self.shapes(b);
                     let count = self.touch.entry((a.min(b), a.max(b))).or_default();
                     *count += 1;
@@ -47,7 +47,7 @@ impl Told {
                         return Err(format!("begins once more than shapes can touch: {event:?}"));
                     }
                 }
-                EventKind::End { a, b } => {
+                EventKind::End { a, b, .. } => {
                     let count = self.touch.entry((a.min(b), a.max(b))).or_default();
                     if *count == 0 {
                         return Err(format!("ends before it began: {event:?}"));

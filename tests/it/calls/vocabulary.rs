@@ -109,14 +109,30 @@ pub(crate) enum Call {
     Apply(usize, Vec2, Vec2),
     /// The same by how many m/s² of its mass.
     Push(usize, Vec2, Vec2),
+    /// What else a body was inserted with.
+    Alter(usize, Alteration),
     AddField(Vec2, f64),
     ClearFields,
+    SetGravity(Vec2),
     /// In parts of 2⁻¹⁶ s, so that sums of steps are exact; and where to cut it in two.
     Step(u32, Option<u32>),
     StepToNextEvent(f64),
     /// From where to where a ray, a box and a shape are asked for.
     Ask(Vec2, Vec2, Form),
     Refused(Nonsense),
+}
+
+/// What is changed of a body beside where and how it moves.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Alteration {
+    /// By this factor.
+    Mass(f64),
+    GravityScale(f64),
+    LockedRotation(bool),
+    Surface(Surface),
+    /// With which other body.
+    Collides(usize, bool),
+    Awake,
 }
 
 /// What is refused.
@@ -273,6 +289,17 @@ fn nonsense() -> impl Strategy<Value = Nonsense> {
     ]
 }
 
+fn alteration() -> impl Strategy<Value = Alteration> {
+    prop_oneof![
+        (0.1..10.0_f64).prop_map(Alteration::Mass),
+        prop_oneof![Just(0.0), Just(1.0), -1.0..2.0_f64].prop_map(Alteration::GravityScale),
+        any::<bool>().prop_map(Alteration::LockedRotation),
+        surface().prop_map(Alteration::Surface),
+        (0..32_usize, any::<bool>()).prop_map(|(other, on)| Alteration::Collides(other, on)),
+        Just(Alteration::Awake),
+    ]
+}
+
 fn call() -> impl Strategy<Value = Call> {
     let of = || 0..32_usize;
     prop_oneof![
@@ -291,7 +318,9 @@ fn call() -> impl Strategy<Value = Call> {
         1 => (of(), pair(0.3), pair(4.0)).prop_map(|(id, arm, push)| Call::Apply(id, arm, push)),
         1 => (of(), pair(0.3), pair(20.0)).prop_map(|(id, arm, push)| Call::Push(id, arm, push)),
         1 => (pair(5.0), -30.0..30.0_f64).prop_map(|(at, strength)| Call::AddField(at, strength)),
+        2 => (of(), alteration()).prop_map(|(id, what)| Call::Alter(id, what)),
         1 => Just(Call::ClearFields),
+        1 => prop_oneof![Just(Vec2::ZERO), pair(10.0)].prop_map(Call::SetGravity),
         3 => (pair(6.0), pair(6.0), form()).prop_map(|(from, to, form)| Call::Ask(from, to, form)),
         1 => nonsense().prop_map(Call::Refused),
     ]

@@ -17,8 +17,8 @@ impl Told {
         assert_eq!(world.events().dropped(), 0);
         for event in world.events() {
             let turn = match event.kind {
-                EventKind::Begin { a, b } => self.0.insert((a.min(b), a.max(b))),
-                EventKind::End { a, b } => self.0.remove(&(a.min(b), a.max(b))),
+                EventKind::Begin { a, b, .. } => self.0.insert((a.min(b), a.max(b))),
+                EventKind::End { a, b, .. } => self.0.remove(&(a.min(b), a.max(b))),
                 _ => continue,
             };
             assert!(turn, "out of turn: {event:?}");

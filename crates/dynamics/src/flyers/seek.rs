@@ -214,10 +214,10 @@ impl World {
             && self.material_of(impact).restitution < 1.0
     }
 
-    /// Whether the filters of two shapes let them touch.
+    /// Whether filters and the caller let two shapes touch.
     pub(super) fn may_touch(&self, shapes: (u32, u32)) -> bool {
-        let filter = |at: u32| self.colliders[at as usize].surface.filter;
-        filter(shapes.0).touches(filter(shapes.1))
+        let [one, other] = [shapes.0, shapes.1].map(|at| &self.colliders[at as usize]);
+        self.broad.may_touch(&self.bodies, one, other)
     }
 
     /// Whether two shapes that the caller put where they are overlap by more than rounding, or rest on

@@ -164,7 +164,7 @@ impl World {
         let near = a.reach + b.reach + touch;
         if mine.body == other.body
             || apart.length_squared() > near * near
-            || !mine.surface.filter.touches(other.surface.filter)
+            || !self.broad.may_touch(&self.bodies, mine, other)
         {
             return None;
         }

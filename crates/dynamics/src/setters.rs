@@ -1,0 +1,194 @@
+//! What a caller changes of a body that is there, beside where and how it moves: all that it was inserted with.
+//!
+//! Each change goes one way: the body leaves what holds it and all its pairs, is altered, and arrives as if it were new.
+
+use carom_geometry::Shape;
+use carom_math::Vec2;
+
+use crate::error::{check_finite, check_vec2};
+use crate::mass::mass_of;
+use crate::state::{BodyState, Surface};
+use crate::{BodyDef, BodyError, BodyId, BodyKind, Material, World};
+
+impl World {
+    /// Changes the surface of one shape: friction, restitution, speed of its belt. Shapes count from 0 in the order of insertion.
+    ///
+    /// The body's mass stays, whatever the density: see [`Self::set_mass`].
+    ///
+    /// # Errors
+    /// If the body or the shape is not there, or a number is out of its range.
+    pub fn set_material(
+        &mut self,
+        id: BodyId,
+        shape: usize,
+        material: Material,
+    ) -> Result<(), BodyError> {
+        material.check()?;
+        let at = self.collider_of(id, shape)?;
+        self.colliders[at as usize].set_material(material);
+        self.remake(id.index, |_| {});
+        Ok(())
+    }
+
+    /// Changes a body's mass (kg) and moment of inertia about its centre of mass (kg·m²); that centre and the velocities stay.
+    ///
+    /// # Errors
+    /// If the body is not there, or a number is not finite, not above 0 or too large.
+    pub fn set_mass(&mut self, id: BodyId, mass: f64, inertia: f64) -> Result<(), BodyError> {
+        let index = self.bodies.find(id)?;
+        BodyDef::dynamic()
+            .with_mass(mass)
+            .with_inertia(inertia)
+            .check()?;
+        self.remake(index, |state| {
+            (state.mass.mass, state.mass.inertia) = (mass, inertia);
+            state.set_kind(state.kind);
+        });
+        Ok(())
+    }
+
+    /// Changes how gravity and fields act on a body, as a factor.
+    ///
+    /// # Errors
+    /// If the body is not there or the number is not finite.
+    pub fn set_gravity_scale(&mut self, id: BodyId, scale: f64) -> Result<(), BodyError> {
+        let index = self.bodies.find(id)?;
+        check_finite("gravity_scale", scale)?;
+        self.remake(index, |state| state.uncommon_mut().gravity_scale = scale);
+        Ok(())
+    }
+
+    /// Locks or frees a body's rotation; one that is locked stops turning.
+    ///
+    /// # Errors
+    /// If the body is not there, or a dynamic one without a moment of inertia would turn.
+    pub fn set_locked_rotation(&mut self, id: BodyId, locked: bool) -> Result<(), BodyError> {
+        let index = self.bodies.find(id)?;
+        let state = self.bodies.get(index);
+        if !locked && state.kind == BodyKind::Dynamic && state.mass.inertia <= 0.0 {
+            return Err(BodyError::NotPositive {
+                field: "inertia",
+                value: state.mass.inertia,
+            });
+        }
+        self.remake(index, |state| {
+            state.locked_rotation = locked;
+            if locked {
+                state.motion.spin = 0.0;
+            }
+            state.set_kind(state.kind);
+        });
+        Ok(())
+    }
+
+    /// Changes a body's tag, which is the caller's own.
+    ///
+    /// # Errors
+    /// If the body is not there.
+    pub fn set_tag(&mut self, id: BodyId, tag: u64) -> Result<(), BodyError> {
+        let index = self.bodies.find(id)?;
+        self.bodies.get_mut(index).tag = tag;
+        Ok(())
+    }
+
+    /// Gives a body other shapes. Its frame stays where it is and its motion as a rigid body stays; mass, centre of mass and
+    /// moment of inertia are those of the new shapes, whatever [`BodyDef`] said of the old ones. All of them get the filter of
+    /// the first old one.
+    ///
+    /// # Errors
+    /// As [`World::insert_compound`], and if the body is not there. The body keeps its shapes then.
+    pub fn set_shapes(
+        &mut self,
+        id: BodyId,
+        shapes: Vec<(Shape, Material)>,
+    ) -> Result<(), BodyError> {
+        let index = self.bodies.find(id)?;
+        if shapes.is_empty() {
+            return Err(BodyError::NoShape);
+        }
+        for (_, material) in &shapes {
+            material.check()?;
+        }
+        let state = self.bodies.get(index);
+        let mut def = BodyDef::new(state.kind);
+        def.locked_rotation = state.locked_rotation;
+        let mass = mass_of(&def, &shapes)?;
+        let reaches = shapes.iter();
+        let reaches = reaches.map(|(shape, _)| shape.reach_about(mass.centroid));
+        let reach = reaches.fold(0.0, f64::max);
+        let filter = self.colliders[state.colliders[0] as usize].surface.filter;
+        self.leave_all(index);
+        self.alter(index, |state| {
+            let moved = state.motion.rotation * (mass.centroid - state.mass.centroid);
+            state.motion.centre += moved;
+            state.motion.velocity += state.motion.spin * carom_math::perp(moved);
+            (state.mass, state.reach) = (mass, reach);
+            state.set_kind(state.kind);
+        });
+        self.forget_boxes(index);
+        self.free_shapes(index);
+        let add = |(shape, material)| {
+            let surface = Surface { material, filter };
+            self.add_collider(index, shape, surface, mass.centroid)
+        };
+        let colliders = shapes.into_iter().map(add).collect();
+        self.bodies.get_mut(index).colliders = colliders;
+        self.arrive(index);
+        self.unsettle_on(index, self.clock.now);
+        Ok(())
+    }
+
+    /// Changes the gravity of the whole world, in m/s². Whatever sleeps wakes.
+    ///
+    /// # Errors
+    /// If a component is not finite or beyond [`WORLD_LIMIT`](crate::WORLD_LIMIT).
+    pub fn set_gravity(&mut self, gravity: Vec2) -> Result<(), BodyError> {
+        check_vec2("gravity.x", "gravity.y", gravity)?;
+        self.settings.gravity = gravity;
+        self.change_pull(|pull| pull.gravity = gravity);
+        Ok(())
+    }
+
+    /// Wakes a body and all that sleeps in touch with it; one that rests falls asleep again in its time.
+    ///
+    /// # Errors
+    /// If the body is not there.
+    pub fn wake_up(&mut self, id: BodyId) -> Result<(), BodyError> {
+        let index = self.bodies.find(id)?;
+        if self.bodies.get(index).asleep {
+            self.wake_around(index, self.clock.now);
+        }
+        Ok(())
+    }
+
+    /// Takes a body out of all that holds it, alters it, and lets it arrive as if it were new.
+    pub(crate) fn remake(&mut self, index: u32, change: impl FnOnce(&mut BodyState)) {
+        self.leave_all(index);
+        self.alter(index, change);
+        // Pairs are made by kind and surface: boxes that are new find them anew.
+        self.forget_boxes(index);
+        self.arrive(index);
+        self.unsettle_on(index, self.clock.now);
+    }
+
+    /// Takes a body out of its crowd, its row and all its pairs.
+    fn leave_all(&mut self, index: u32) {
+        self.quit(index, self.clock.now);
+        if let Some(slot) = self.pool.seats.slot(index) {
+            // What is solved for next gets a new line.
+            self.leave(index, slot);
+        }
+        self.part_all(index);
+    }
+
+    /// Place of a body's shape among all shapes.
+    pub(crate) fn collider_of(&self, id: BodyId, shape: usize) -> Result<u32, BodyError> {
+        let index = self.bodies.find(id)?;
+        let shapes = &self.bodies.get(index).colliders;
+        shapes.get(shape).copied().ok_or(BodyError::NoSuchShape {
+            body: id,
+            shape,
+            count: shapes.len(),
+        })
+    }
+}
