@@ -295,7 +295,8 @@ fn blend_by(law: ImpactLaw, bodies: &[ImpactBody], contacts: &[SharedContact]) -
 fn mixed(law: ImpactLaw, bodies: &[ImpactBody], contacts: &[SharedContact]) -> SharedOutcome {
     let stuck = newton_lcp(bodies, &with_restitution(contacts, 0.0));
     let e = mean_restitution(contacts, &stuck.normal_impulses);
-    if e <= 0.0 {
+    // What nothing stops gives nothing back; every reflection would ask for that stop again.
+    if e <= 0.0 || stuck.exhausted {
         return stuck;
     }
     let thrown = if is_rough(contacts) {
