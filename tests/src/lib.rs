@@ -62,3 +62,8 @@ pub fn overlaps(world: &World) -> (f64, f64) {
 #[cfg(doctest)]
 #[doc = include_str!("../../README.md")]
 struct ReadmeDocTests;
+
+/// The programs of the project's guide.
+#[cfg(doctest)]
+#[doc = include_str!("../../docs/guide.md")]
+struct GuideDocTests;
