@@ -51,6 +51,7 @@ mod tree;
 mod vertex_edge;
 mod way_out;
 
+pub use carom_geometry as geometry;
 pub use cast::{CastHit, cast};
 pub use contacts::{PartManifold, contacts, contacts_and_gap};
 pub use distance::{Distance, distance, shape_distance};

@@ -101,6 +101,8 @@ pub use apng::Animation;
 pub use axis::{Axis, Scale};
 pub use buffer::Ground;
 pub use camera::Camera;
+pub use carom_dynamics as dynamics;
+pub use carom_math as math;
 pub use chart::{Chart, Marker, Series};
 pub use colour::{BODY_COLOURS, Colour};
 pub use error::RenderError;

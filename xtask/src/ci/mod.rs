@@ -2,6 +2,7 @@
 
 mod native;
 mod outside;
+mod packages;
 mod pictures;
 
 use std::path::Path;
@@ -22,7 +23,7 @@ const SEED: &str = "PROPTEST_RNG_SEED";
 pub(crate) fn run() -> Outcome {
     let root = laboratory::workspace();
     let all = Clock::start();
-    let steps: [(&str, Check); 8] = [
+    let steps: [(&str, Check); 11] = [
         ("format: cargo fmt --check", |root| {
             cargo(root, &["fmt", "--all", "--check"])
         }),
@@ -49,8 +50,14 @@ pub(crate) fn run() -> Outcome {
             Ok(cargo(root, &[&lints[..1], &package, &lints[1..]].concat())?
                 && cargo(root, &[&["test"][..], &package].concat())?)
         }),
+        ("features: lints and tests with all of them", features),
         ("demo: cargo xtask demo --quick", demo),
-        ("outside crate: carom-geometry alone", outside::check),
+        ("examples: cargo run --example", packages::examples),
+        (
+            "outside crates: geometry, collision, render, carom alone",
+            outside::check,
+        ),
+        ("packages: cargo package", packages::pack),
     ];
     for (number, (name, step)) in steps.iter().enumerate() {
         say!("== {} of {}: {name}", number + 1, steps.len());
@@ -68,6 +75,17 @@ pub(crate) fn run() -> Outcome {
         all.seconds()
     );
     Ok(End::Done)
+}
+
+/// What is off by default: threads, other libraries' vectors, reading and writing.
+fn features(root: &Path) -> Result<bool, Failure> {
+    let all = "--all-features";
+    let lints = ["clippy", "--all-targets", all, "--", "-D", "warnings"];
+    let mut tests = vec!["test", all];
+    for package in ["carom-math", "carom-geometry", "carom-dynamics", "carom"] {
+        tests.extend(["--package", package]);
+    }
+    Ok(cargo(root, &lints)? && cargo(root, &tests)?)
 }
 
 /// The demo of the README, quick and into a temporary folder, and a look at what it wrote.

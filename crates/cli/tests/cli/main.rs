@@ -1,5 +1,7 @@
 //! The program `carom` as a user meets it: what is printed, what is written, and the exit code.
 
+#[cfg(unix)]
+mod bounded;
 mod check;
 mod endless;
 mod full;

@@ -1,10 +1,12 @@
 //! Walls, stacks, pyramids and grids.
 
+use std::sync::Arc;
+
 use carom_dynamics::BodyKind;
 use carom_geometry::{ConvexPolygon, Shape};
 use carom_math::{Vec2, vec2};
 
-use super::plan::{MAX_BODIES, Planned, Planner};
+use super::plan::{MAX_BODIES, Planned, Planner, count};
 use super::shape::shape;
 use crate::error::SceneError;
 use crate::model::{
@@ -43,7 +45,7 @@ pub(crate) fn walls(planner: &mut Planner<'_>, table: &WallsTable) -> Result<(),
         let mut wall = Planned::new(format!("wall/{name}"), field.clone());
         wall.kind = BodyKind::Fixed;
         wall.position = place;
-        wall.shapes = vec![(shape, material.clone())];
+        wall.shapes = vec![(Arc::new(shape), material.clone())];
         wall.colour.clone_from(&table.colour);
         planner.add(wall)?;
     }
@@ -80,7 +82,7 @@ pub(crate) fn stack(
         filter: &table.filter,
         colour: table.colour.as_deref(),
     };
-    batch.add(planner, &shape, places)
+    batch.add(planner, shape, table.count, places)
 }
 
 /// Rows of boxes, from `rows` boxes at the bottom to one.
@@ -90,17 +92,12 @@ pub(crate) fn pyramid(
     table: &PyramidTable,
 ) -> Result<(), SceneError> {
     let field = FieldPath::root("pyramid").index(index);
-    let count = table
+    let twice = table
         .rows
         .checked_add(1)
         .and_then(|next| table.rows.checked_mul(next));
-    limit(
-        planner,
-        &field,
-        "rows",
-        table.rows,
-        count.map(|twice| twice / 2),
-    )?;
+    let boxes = twice.map(|twice| twice / 2);
+    limit(planner, &field, "rows", table.rows, boxes)?;
     let size = table.size.0;
     let shape = box_shape(planner, &field.key("size"), size)?;
     let pitch = size + table.gap.map_or(Vec2::ZERO, |gap| gap.0);
@@ -119,7 +116,7 @@ pub(crate) fn pyramid(
         filter: &table.filter,
         colour: table.colour.as_deref(),
     };
-    batch.add(planner, &shape, places)
+    batch.add(planner, shape, boxes.unwrap_or(u64::MAX), places)
 }
 
 /// One shape in columns and rows, row by row from below.
@@ -149,22 +146,25 @@ pub(crate) fn grid(
         filter: &table.filter,
         colour: table.colour.as_deref(),
     };
-    batch.add(planner, &made, places)
+    batch.add(planner, made, table.columns * table.rows, places)
 }
 
 impl Batch<'_> {
     fn add(
         &self,
         planner: &mut Planner<'_>,
-        shape: &Shape,
+        shape: Shape,
+        number: u64,
         places: impl Iterator<Item = Vec2>,
     ) -> Result<(), SceneError> {
+        planner.room_for(&self.field, number.saturating_mul(count(&shape)))?;
+        let shape = Arc::new(shape);
         let material = planner.surface(self.material, self.filter, &self.field)?;
         for (k, place) in places.enumerate() {
             let mut body = Planned::new(format!("{}/{k}", self.name), self.field.clone());
             body.kind = self.kind.into();
             body.position = place;
-            body.shapes = vec![(shape.clone(), material.clone())];
+            body.shapes = vec![(Arc::clone(&shape), material.clone())];
             body.colour = self.colour.map(str::to_owned);
             planner.add(body)?;
         }

@@ -1,6 +1,7 @@
 //! Colours, faces, overlays and the camera.
 
-use std::path::Path;
+use std::collections::BTreeMap;
+use std::path::{Component, Path};
 
 use carom_dynamics::{BodyId, RadialField, World};
 use carom_geometry::Aabb;
@@ -33,13 +34,14 @@ pub(super) fn dress(
     })?;
     let camera = camera(document, file, &world)?;
     let all = everything(file, bodies);
-    let mut look = look(scene, file, all.clone())?;
+    let mut faces = Faces::new(scene);
+    let mut look = look(&mut faces, file, all.clone())?;
     for (body, &(_, id)) in bodies.iter().zip(&names) {
         if let Some(text) = &body.colour {
             look.set_colour(id, colour(document, &body.field.key("colour"), text)?);
         }
         if let Some(name) = &body.face {
-            look.set_face(id, face(scene, &body.field.key("face"), name)?);
+            look.set_face(id, faces.find(&body.field.key("face"), name)?);
         }
     }
     Ok(Built {
@@ -54,10 +56,10 @@ pub(super) fn dress(
     })
 }
 
-fn look(scene: &Scene, file: &SceneFile, all: Overlay) -> Result<Look, SceneError> {
+fn look(faces: &mut Faces<'_>, file: &SceneFile, all: Overlay) -> Result<Look, SceneError> {
     let table = &file.look;
     let common = match &table.face {
-        Some(name) => Some(face(scene, &face_field(file), name)?),
+        Some(name) => Some(faces.find(&face_field(file), name)?),
         None => None,
     };
     let default = Look::seeded(table.palette.unwrap_or(file.seed));
@@ -66,7 +68,7 @@ fn look(scene: &Scene, file: &SceneFile, all: Overlay) -> Result<Look, SceneErro
         spokes: table.spokes.unwrap_or(default.spokes),
         face: common,
         overlay: wanted(file, all),
-        style: style(&scene.document, file)?,
+        style: style(&faces.scene.document, file)?,
         ..default
     })
 }
@@ -152,18 +154,67 @@ fn face_field(file: &SceneFile) -> FieldPath {
     FieldPath::root(table).key("face")
 }
 
-/// `builtin`, or a PNG beside the scene file.
-fn face(scene: &Scene, field: &FieldPath, name: &str) -> Result<Face, SceneError> {
-    if name == "builtin" {
-        return Ok(Face::smile());
+/// Most pixels of all faces of a scene together, each file counted once: one of the largest, or a hundred of 400 x 400.
+/// A pixel takes 16 bytes and more.
+const MAX_FACES: u64 = 1 << 24;
+
+/// The faces of a scene, each read once for all that wear it.
+struct Faces<'a> {
+    scene: &'a Scene,
+    known: BTreeMap<String, Face>,
+    pixels: u64,
+}
+
+impl<'a> Faces<'a> {
+    const fn new(scene: &'a Scene) -> Self {
+        Self {
+            scene,
+            known: BTreeMap::new(),
+            pixels: 0,
+        }
     }
-    let refuse = |reason: String| {
-        let problem = Problem::Refused(format!("cannot read {name}: {reason}"));
-        scene.document.error(field, problem)
-    };
-    let path = scene.folder.as_deref().unwrap_or(Path::new("")).join(name);
-    let bytes = read_bytes(&path).map_err(|problem| refuse(problem.to_string()))?;
-    Face::from_png(&bytes).map_err(|error| refuse(error.to_string()))
+
+    /// `builtin`, or a PNG in the scene file's folder.
+    fn find(&mut self, field: &FieldPath, name: &str) -> Result<Face, SceneError> {
+        if let Some(face) = self.known.get(name) {
+            return Ok(face.clone());
+        }
+        let face = if name == "builtin" {
+            Face::smile()
+        } else {
+            self.read(name).map_err(|reason| {
+                let problem = Problem::Refused(format!("cannot read {name}: {reason}"));
+                self.scene.document.error(field, problem)
+            })?
+        };
+        self.known.insert(name.to_owned(), face.clone());
+        Ok(face)
+    }
+
+    fn read(&mut self, name: &str) -> Result<Face, String> {
+        let path = Path::new(name);
+        // A scene may come from anywhere: it reads what lies beside it, and nothing else.
+        let mut parts = path.components();
+        if !parts.all(|part| matches!(part, Component::Normal(_) | Component::CurDir)) {
+            return Err("not in the folder of the scene file".to_owned());
+        }
+        let path = self
+            .scene
+            .folder
+            .as_deref()
+            .unwrap_or(Path::new(""))
+            .join(path);
+        let bytes = read_bytes(&path).map_err(|problem| problem.to_string())?;
+        let face = Face::from_png(&bytes).map_err(|error| error.to_string())?;
+        self.pixels += u64::from(face.width()) * u64::from(face.height());
+        if self.pixels > MAX_FACES {
+            return Err(format!(
+                "the faces of the scene have {} pixels with this one, over the limit of {MAX_FACES}",
+                self.pixels
+            ));
+        }
+        Ok(face)
+    }
 }
 
 fn style(document: &Document, file: &SceneFile) -> Result<Style, SceneError> {

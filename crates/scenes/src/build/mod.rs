@@ -10,12 +10,13 @@ mod settings;
 mod shape;
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use carom_dynamics::{
     BodyDef, BodyError, BodyId, BodyKind, Filter, Impulse, PairMaterial, RadialField,
     SettingsError, World,
 };
-use carom_geometry::Circle;
+use carom_geometry::{Circle, Shape};
 
 use crate::document::Document;
 use crate::error::{Problem, SceneError, nearest};
@@ -111,6 +112,7 @@ fn plan(
         document,
         file,
         bodies: Vec::new(),
+        vertices: 0,
     };
     if let Some(plain) = plain {
         plain::bodies(&mut planner, plain)?;
@@ -155,7 +157,7 @@ fn core_of_field(
     let mut body = Planned::new(format!("core/{index}"), field);
     body.kind = BodyKind::Fixed;
     body.position = table.centre.0;
-    body.shapes = vec![(disc.into(), material)];
+    body.shapes = vec![(Arc::new(disc.into()), material)];
     body.colour.clone_from(&table.colour);
     planner.add(body)
 }
@@ -193,8 +195,10 @@ fn written_body(
             Some(own) => material::filter(document, own, &place.key("filter"))?,
             None => material.filter,
         };
-        body.shapes
-            .push((shape::shape(document, shape_table, &place)?, surface));
+        body.shapes.push((
+            Arc::new(shape::shape(document, shape_table, &place)?),
+            surface,
+        ));
     }
     if body.shapes.is_empty() {
         let problem = Problem::MissingField("a body needs a shape".to_owned());
@@ -331,7 +335,7 @@ fn insert(document: &Document, world: &mut World, body: &Planned) -> Result<Body
     };
     let shapes = body.shapes.iter();
     let shapes = shapes
-        .map(|(shape, surface)| (shape.clone(), surface.material))
+        .map(|(shape, surface)| (Shape::clone(shape), surface.material))
         .collect();
     let refused = |error: BodyError| {
         let problem = Problem::Refused(format!("{error} (body \"{}\")", body.name));

@@ -1,5 +1,7 @@
 //! `[plain]`: the bodies of a plain scene, and what the file leaves to it.
 
+use std::sync::Arc;
+
 use super::material::Resolved;
 use super::plan::{Planned, Planner};
 use crate::document::Document;
@@ -75,7 +77,7 @@ pub(super) fn bodies(planner: &mut Planner<'_>, scene: &PlainScene) -> Result<()
         };
         planned.shapes = solids
             .into_iter()
-            .map(|(shape, material)| (shape, surface(material)))
+            .map(|(shape, material)| (Arc::new(shape), surface(material)))
             .collect();
         planner.add(planned)?;
     }

@@ -1,7 +1,9 @@
 //! The bodies of a scene before a world exists: what generators make and what is written out look the same here.
 
+use std::sync::Arc;
+
 use carom_dynamics::BodyKind;
-use carom_geometry::Shape;
+use carom_geometry::{Outline, Shape};
 use carom_math::{Pose, Rot, Vec2};
 
 use super::material::{Resolved, filter, resolve};
@@ -12,6 +14,10 @@ use crate::path::FieldPath;
 
 /// Most bodies of a scene.
 pub(crate) const MAX_BODIES: u64 = 1_000_000;
+
+/// Most vertices of all bodies of a scene together, a circle as one: a million boxes, or one outline of four million
+/// corners, which are half a gigabyte. A shape that bodies share counts for each of them, since each is moved and drawn.
+pub(crate) const MAX_VERTICES: u64 = 1 << 22;
 
 /// One body.
 #[derive(Clone, Debug)]
@@ -26,7 +32,7 @@ pub(crate) struct Planned {
     pub(crate) angle: f64,
     pub(crate) velocity: Vec2,
     pub(crate) spin: f64,
-    pub(crate) shapes: Vec<(Shape, Resolved)>,
+    pub(crate) shapes: Vec<(Arc<Shape>, Resolved)>,
     pub(crate) mass: Option<f64>,
     pub(crate) inertia: Option<f64>,
     pub(crate) locked_rotation: bool,
@@ -75,6 +81,8 @@ pub(crate) struct Planner<'a> {
     pub(crate) document: &'a Document,
     pub(crate) file: &'a SceneFile,
     pub(crate) bodies: Vec<Planned>,
+    /// Vertices of these, by which the scene is bounded.
+    pub(crate) vertices: u64,
 }
 
 impl Planner<'_> {
@@ -108,11 +116,36 @@ impl Planner<'_> {
             let reason = format!("a scene holds at most {MAX_BODIES} bodies");
             return Err(self.refuse(&body.field, reason));
         }
+        let shapes = body.shapes.iter();
+        let vertices: u64 = shapes.map(|(shape, _)| count(shape)).sum();
+        self.room_for(&body.field, vertices)?;
+        self.vertices += vertices;
         self.bodies.push(body);
         Ok(())
     }
 
+    /// Refuses more vertices than the scene has room for; asked for a whole batch before the first one is made.
+    pub(crate) fn room_for(&self, field: &FieldPath, vertices: u64) -> Result<(), SceneError> {
+        let all = self.vertices.saturating_add(vertices);
+        if all <= MAX_VERTICES {
+            return Ok(());
+        }
+        let reason =
+            format!("the scene has {all} vertices with this, over the limit of {MAX_VERTICES}");
+        Err(self.refuse(field, reason))
+    }
+
     pub(crate) fn refuse(&self, field: &FieldPath, reason: String) -> SceneError {
         self.document.error(field, Problem::Refused(reason))
+    }
+}
+
+/// Vertices of a shape, all parts together; a circle and a half-plane are one.
+pub(crate) fn count(shape: &Shape) -> u64 {
+    match shape.outline() {
+        Outline::Open(points) | Outline::Closed(points) => points.len() as u64,
+        Outline::Rings(rings) => rings.iter().map(|ring| ring.len() as u64).sum(),
+        Outline::Parts(parts) => parts.iter().map(count).sum(),
+        _ => 1,
     }
 }

@@ -2,6 +2,8 @@
 
 use core::f64::consts::TAU;
 
+use std::sync::Arc;
+
 use carom_collision::BoxTree;
 use carom_geometry::{Aabb, Circle, ConvexPolygon, Polygon, Shape};
 use carom_math::{Pose, Rot, Vec2, vec2};
@@ -62,7 +64,7 @@ pub(crate) fn populate(
         body.angle = angle;
         body.velocity = heading * vec2(speed, 0.0);
         body.spin = spin;
-        body.shapes = vec![(shape, material.clone())];
+        body.shapes = vec![(Arc::new(shape), material.clone())];
         body.colour.clone_from(&table.colour);
         planner.add(body)?;
     }
@@ -199,12 +201,15 @@ struct FreeSpace {
 /// A part of a body that stood there before.
 struct Obstacle {
     bounds: Aabb,
-    shape: Shape,
+    shape: Arc<Shape>,
     pose: Pose,
 }
 
 impl FreeSpace {
-    fn new<'s>(table: &PopulationTable, standing: impl Iterator<Item = (&'s Shape, Pose)>) -> Self {
+    fn new<'s>(
+        table: &PopulationTable,
+        standing: impl Iterator<Item = (&'s Arc<Shape>, Pose)>,
+    ) -> Self {
         let room = table.region.max - table.region.min;
         let widest = table.radius.most;
         // About a body a cell and no more cells than bodies: a wide region must not cost memory.
@@ -221,7 +226,7 @@ impl FreeSpace {
         let obstacles: Vec<Obstacle> = standing
             .map(|(shape, pose)| Obstacle {
                 bounds: shape.aabb(pose),
-                shape: shape.clone(),
+                shape: Arc::clone(shape),
                 pose,
             })
             .filter(|obstacle| obstacle.bounds.overlaps(region))
@@ -314,16 +319,16 @@ mod tests {
     use crate::Scene;
 
     /// A region of 20 m with 10,000 small discs and a half-plane in it.
-    fn crowded() -> (PopulationTable, Vec<(Shape, Pose)>) {
+    fn crowded() -> (PopulationTable, Vec<(Arc<Shape>, Pose)>) {
         let text = "version = 1\n[[population]]\nname = 'p'\ncount = 100\nregion = [-10, -10, 10, 10]\nradius = 0.1\n";
         let scene = Scene::from_toml(text, "p").unwrap();
-        let disc = Shape::from(Circle::new(0.03).unwrap());
+        let disc = Arc::new(Shape::from(Circle::new(0.03).unwrap()));
         let rows = (0..100_i32).flat_map(|i| (0..100_i32).map(move |j| vec2(i.into(), j.into())));
         let mut standing: Vec<_> = rows
-            .map(|cell| (disc.clone(), Pose::at(0.2 * cell - Vec2::splat(9.9))))
+            .map(|cell| (Arc::clone(&disc), Pose::at(0.2 * cell - Vec2::splat(9.9))))
             .collect();
         let below = carom_geometry::HalfPlane::new(vec2(0.0, -8.0), Vec2::Y).unwrap();
-        standing.push((below.into(), Pose::IDENTITY));
+        standing.push((Arc::new(below.into()), Pose::IDENTITY));
         (scene.file.population[0].clone(), standing)
     }
 
