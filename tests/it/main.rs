@@ -20,6 +20,7 @@ mod impacts;
 mod lasting;
 mod laws;
 mod observing;
+mod readme;
 mod regressions;
 mod round;
 mod scripts;

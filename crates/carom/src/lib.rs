@@ -94,8 +94,9 @@ pub use carom_collision::{Motion, ShapeTree};
 pub use carom_dynamics::{
     Body, BodyDef, BodyError, BodyId, BodyKind, Contact, ContactMode, ContactPoint, EnergyLedger,
     Event, EventKind, Events, Field, Filter, Filtered, Force, ImpactLaw, Impulse, Material, Mode,
-    Momentum, Nearest, NewtonianCentre, PairMaterial, PairSearch, RadialField, RayHit, Refusal, Settings,
-    SettingsError, Several, ShapeHit, Sleep, Softness, StepProfile, StepReport, WORLD_LIMIT, World,
+    Momentum, Nearest, NewtonianCentre, PairMaterial, PairSearch, RadialField, RayHit, Refusal,
+    Settings, SettingsError, Several, ShapeHit, Sleep, Softness, StepProfile, StepReport,
+    WORLD_LIMIT, World,
 };
 pub use carom_geometry::{
     Aabb, AreaProperties, Circle, Compound, ConvexPolygon, HalfPlane, MassProperties, Outline,

@@ -1,0 +1,189 @@
+//! The README's tables are those of the committed measurements. `UPDATE=1 cargo test -p carom-tests --test it readme` writes them anew.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+/// Rows of the accuracy table: case, metric, what a reader calls it.
+const ACCURACY: [(&str, &str, &str); 7] = [
+    ("01_projectile", "pos_error_m", "a throw, after 1 s, m"),
+    (
+        "04_two_discs",
+        "oblique_vel_err_rel_rms",
+        "two discs, oblique, velocity",
+    ),
+    (
+        "08_friction",
+        "slide_dist_2s",
+        "a block slides for 2 s, distance",
+    ),
+    (
+        "09_rolling",
+        "roll_dist_2s",
+        "a disc rolls for 2 s, distance",
+    ),
+    (
+        "12_polygon_gas",
+        "energy_dev_worst",
+        "elastic polygons for a minute, energy",
+    ),
+    (
+        "13_stack",
+        "deepest_m",
+        "a stack of twenty, deepest overlap, m",
+    ),
+    (
+        "14_heavy_load",
+        "r1000_deepest_m",
+        "boxes under a thousandfold load, deepest, m",
+    ),
+];
+
+/// Rows of the speed table: scene, what a reader calls it.
+const SPEED: [(&str, &str); 7] = [
+    ("a_large_pyramid", "a pyramid of boxes"),
+    ("b_many_pyramids", "many small pyramids"),
+    ("f_polygon_pile", "polygons piled up"),
+    ("c_smash", "a wall of boxes, struck"),
+    ("d_tumbler", "boxes in a drum"),
+    ("e_flying_polygons", "an elastic gas, dense"),
+    ("h_mostly_sleeping", "sleepers and a few balls"),
+];
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// Rows of a table of measurements, each by the names of its columns.
+struct Table {
+    names: Vec<String>,
+    rows: Vec<Vec<String>>,
+}
+
+impl Table {
+    fn read(path: &str) -> Self {
+        let text = std::fs::read_to_string(root().join(path)).expect("committed measurements");
+        let mut lines = text.lines().filter(|line| !line.starts_with('#'));
+        let cells = |line: &str| line.split(',').map(str::to_owned).collect::<Vec<_>>();
+        let names = cells(lines.next().expect("a head"));
+        Self {
+            names,
+            rows: lines.map(cells).collect(),
+        }
+    }
+
+    /// The number in a column of the one row with these cells.
+    fn number(&self, column: &str, keys: &[(&str, &str)]) -> f64 {
+        let at = |name: &str| {
+            self.names
+                .iter()
+                .position(|known| known == name)
+                .expect("a column")
+        };
+        let fits = |row: &&Vec<String>| keys.iter().all(|(name, value)| row[at(name)] == *value);
+        let row = self.rows.iter().find(fits);
+        let row = row.unwrap_or_else(|| panic!("no row with {keys:?}"));
+        row[at(column)].parse().expect("a number")
+    }
+}
+
+/// Two digits, as short as they can be written.
+fn short(value: f64) -> String {
+    if value == 0.0 {
+        "0".to_owned()
+    } else if !(1e-2..1e3).contains(&value) {
+        format!("{value:.0e}")
+    } else if value >= 10.0 {
+        format!("{value:.0}")
+    } else if value >= 1.0 {
+        format!("{value:.1}")
+    } else {
+        format!("{value:.2}")
+    }
+}
+
+fn accuracy() -> String {
+    let table = Table::read("crates/bench/results/accuracy/accuracy.csv");
+    let mut text = "| what, and its error | Box2D v3 | Rapier | **carom** | `Mode::Stepped` |\n|---|---:|---:|---:|---:|\n".to_owned();
+    for (case, metric, name) in ACCURACY {
+        let of = |engine, mode| {
+            let keys = [
+                ("case", case),
+                ("metric", metric),
+                ("engine", engine),
+                ("mode", mode),
+                ("hz", "60"),
+                ("substeps", ""),
+            ];
+            short(table.number("error", &keys))
+        };
+        let [box2d, rapier] = [("box2d-sse2", "stock"), ("rapier", "stock")].map(|(e, m)| of(e, m));
+        let [own, stepped] = ["hybrid", "stepped"].map(|mode| of("carom", mode));
+        let _ = writeln!(
+            text,
+            "| {name} | {box2d} | {rapier} | **{own}** | {stepped} |"
+        );
+    }
+    text
+}
+
+fn speed() -> String {
+    let table = Table::read("crates/bench/results/speed/speed.csv");
+    let mut text =
+        "| scene | stepping | all poses read | `Mode::Stepped` |\n|---|---:|---:|---:|\n"
+            .to_owned();
+    for (scene, name) in SPEED {
+        let of = |engine, mode, reads| {
+            let keys = [
+                ("scene", scene),
+                ("engine", engine),
+                ("mode", mode),
+                ("threads", "1"),
+                ("reads_poses", reads),
+            ];
+            table.number("ms_mean", &keys)
+        };
+        let ratio =
+            |mode, reads| short(of("carom", mode, reads) / of("box2d-avx2", "stock", reads));
+        let _ = writeln!(
+            text,
+            "| {name} | **{}** | {} | {} |",
+            ratio("hybrid", "false"),
+            ratio("hybrid", "true"),
+            ratio("stepped", "false"),
+        );
+    }
+    text
+}
+
+#[test]
+fn the_tables_are_those_of_the_measurements() {
+    let path = root().join("README.md");
+    let readme = std::fs::read_to_string(&path)
+        .expect("a README")
+        .replace("\r\n", "\n");
+    let mut written = readme.clone();
+    for (mark, table) in [("<!-- accuracy", accuracy()), ("<!-- speed", speed())] {
+        let from = written.find(mark).expect("the table's mark");
+        let from = from + written[from..].find('\n').expect("a line") + 1;
+        let to = from
+            + written[from..]
+                .find("<!-- end -->")
+                .expect("the table's end");
+        written.replace_range(from..to, &format!("\n{table}\n"));
+    }
+    if std::env::var_os("UPDATE").is_some() {
+        std::fs::write(&path, &written).expect("it can be written");
+    } else {
+        assert!(
+            readme == written,
+            "README.md is not what the measurements say: UPDATE=1 cargo test -p carom-tests --test it readme"
+        );
+    }
+}
+
+#[test]
+fn it_can_be_read_in_two_minutes() {
+    let readme = std::fs::read_to_string(root().join("README.md")).expect("a README");
+    let words = readme.split_whitespace().count();
+    assert!(words <= 900, "{words} words");
+}
