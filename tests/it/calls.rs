@@ -31,6 +31,7 @@ fn laws_hold(mode: Mode, room: Room, start: &Start, calls: &[Call]) -> Result<()
     let mut copy = player.clone();
     let mut traces = Vec::new();
     let mut scale = 0.0;
+    balance(&player.world, &mut scale).map_err(TestCaseError::fail)?;
     for (k, call) in calls.iter().enumerate() {
         if k == calls.len() / 2 {
             copy = player.clone();
