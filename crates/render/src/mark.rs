@@ -4,7 +4,7 @@ use carom_dynamics::BodyId;
 use carom_math::{Vec2, vec2};
 
 use crate::clip::is_near;
-use crate::op::arrow_outline;
+use crate::op::{arrow_outline, box_ring};
 use crate::raster::{greater, lesser};
 use crate::skia::{MAX_STROKE, usable_width};
 use crate::{Op, Size, Style, font};
@@ -200,7 +200,7 @@ pub(crate) fn extent(op: &Op, style: &Style) -> Option<(Vec2, Vec2)> {
         } => grown(hull(&arrow_outline(*from, *to, *width)?)?, 0.0),
         Op::Box {
             min, max, width, ..
-        } => grown((min.min(*max), max.max(*min)), half(*width)),
+        } => grown(line(&box_ring(*min, *max))?, half(*width)),
         Op::Label(label) => {
             if !(label.height > 0.0 && label.height <= MAX_STROKE) {
                 return None;

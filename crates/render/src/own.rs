@@ -270,7 +270,13 @@ impl Hand<'_, '_> {
                     self.stick(a + along * first, a + along * last, 0.5 * usable, colour);
                 }
             }
-            [first, .., last] if dash.is_none() && first == last && is_convex(&points[1..]) => {
+            // Of a ring with a corner that is nowhere the other sides are drawn, as of any line.
+            [first, .., last]
+                if dash.is_none()
+                    && first == last
+                    && points.iter().all(|&p| crate::clip::is_near(p))
+                    && is_convex(&points[1..]) =>
+            {
                 self.outline(&points[1..], usable, colour);
             }
             _ => self.general(|pen| pen.polyline(points, width, dash, colour)),

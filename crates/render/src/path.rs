@@ -5,16 +5,21 @@ use tiny_skia::PathBuilder;
 
 use crate::camera::narrow;
 
-/// Shortest dash, in pixels.
+/// Shortest dash, in pixels: whatever is shorter, or no number, is one of it.
 const SHORTEST_DASH: f64 = 1.0;
 
-/// Hands over the dashes of a line: `dash` drawn, `dash` left out, from its start.
-fn dashes(points: &[Vec2], dash: f64, mut each: impl FnMut(&[Vec2])) {
-    let dash = if dash > SHORTEST_DASH {
+/// A dash as it is drawn, in pixels.
+pub(crate) const fn usable_dash(dash: f64) -> f64 {
+    if dash > SHORTEST_DASH {
         dash
     } else {
         SHORTEST_DASH
-    };
+    }
+}
+
+/// Hands over the dashes of a line: `dash` drawn, `dash` left out, from its start.
+fn dashes(points: &[Vec2], dash: f64, mut each: impl FnMut(&[Vec2])) {
+    let dash = usable_dash(dash);
     let (mut drawn, mut left) = (true, dash);
     let mut piece: Vec<Vec2> = points.first().copied().into_iter().collect();
     for pair in points.windows(2) {

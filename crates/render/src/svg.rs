@@ -6,6 +6,7 @@ use carom_math::{Rot, Vec2};
 
 use crate::clip::{FAR, Window, is_near};
 use crate::op::{arrow_outline, box_ring};
+use crate::path::usable_dash;
 use crate::skia::{INNER, OUTER, SHIFT, usable_width};
 use crate::style::shade;
 use crate::{Colour, Face, Ink, Label, Op, Packing, Size, Style, font, png};
@@ -174,10 +175,9 @@ impl<'a> Svg<'a> {
         }
         let stroke = stroke(self.style.colour(ink), width);
         let dash = match dash {
-            Some(dash) if dash > 0.0 && dash.is_finite() => {
-                format!(r#" stroke-dasharray="{dash:.2}""#)
-            }
-            Some(_) => return,
+            // A dash without an end is the whole line, cut off straight as dashes are.
+            Some(dash) if dash == f64::INFINITY => String::new(),
+            Some(dash) => format!(r#" stroke-dasharray="{:.2}""#, usable_dash(dash)),
             None => r#" stroke-linecap="round""#.to_owned(),
         };
         self.line(format_args!(
