@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand, ValueEnum};
 
+use crate::sweep::{Axis, Column};
 use crate::values::{KeyValue, Seconds, Shard, parse_rate, parse_size};
 
 // `{carom}` stands for the program that was called: see `crate::named`.
@@ -13,10 +14,12 @@ use crate::values::{KeyValue, Seconds, Shard, parse_rate, parse_size};
 pub enum Command {
     /// Draw a scene: numbered PNG frames, an APNG or a Y4M film
     Render(RenderArgs),
-    /// Join the slices that `render --shard` drew into one folder, after checking their manifests
+    /// Join the slices of `render --shard` into one folder, or those of `sweep --shard` into one table, after checking them
     Merge(MergeArgs),
     /// Compute a scene without pictures: trajectories as CSV
     Simulate(SimulateArgs),
+    /// Compute all combinations of settings of a scene on all cores: a row a run, as CSV
+    Sweep(SweepArgs),
     /// Area, centroid, moments and principal axes of a polygon
     Inertia(InertiaArgs),
     /// The built-in scenes, a line each
@@ -97,15 +100,64 @@ pub struct RenderArgs {
     {carom} merge a b --out thesis\n\n\
     The slices are read only. What comes out is what one run would have written, bit for bit.")]
 pub struct MergeArgs {
-    /// The folders of all slices, in any order
-    #[arg(required = true, value_name = "DIR")]
+    /// The folders (or tables of a sweep) of all slices, in any order
+    #[arg(required = true, value_name = "DIR|FILE.csv")]
     pub dirs: Vec<PathBuf>,
-    /// Folder for all frames
-    #[arg(long, value_name = "DIR", default_value = "out/merged")]
-    pub out: PathBuf,
+    /// Folder for all frames, or file for all rows [default: out/merged, out/merged.csv]
+    #[arg(long, value_name = "DIR|FILE.csv")]
+    pub out: Option<PathBuf>,
     /// Replace the frames that an earlier run wrote into the folder
     #[arg(long)]
     pub force: bool,
+}
+
+/// A scene to be computed many times.
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:\n  \
+    {carom} sweep throw.toml --set body.ball.mass=1:10:100 --report energy,impacts,body.ball.x --out sweep.csv\n  \
+    {carom} sweep throw.toml --set gravity=\"[0,-9.81]\",\"[0,-1.62]\" --seeds 1000 --report energy > sweep.csv\n  \
+    {carom} sweep throw.toml --seeds 10000 --report impacts --shard 3/64 --out part3.csv   # then: {carom} merge part*.csv --out all.csv\n\n\
+    Columns: run (from 0), runs, what is set, seed, what is reported at the end of each run: energy, kinetic, potential (J),\n  \
+    impacts, overlap (m), exact, hash, body.NAME. and x, y (m), angle (rad), vx, vy (m/s), omega (rad/s).\n\
+    The bytes do not depend on --jobs. Rows are in FILE.csv.part until all are there.")]
+pub struct SweepArgs {
+    /// Scene file (TOML) or the name of a built-in scene (`{carom} list`)
+    pub scene: String,
+    /// Values of a key of the scene: from:to:count, or a list with commas; may be repeated: all combinations are run
+    #[arg(long, value_name = "KEY=VALUES")]
+    pub set: Vec<Axis>,
+    /// Runs of each combination, with the seeds 0, 1, …
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    pub seeds: Option<u64>,
+    /// Simulated seconds of a run [default: the scene's duration]
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    pub seconds: Option<Seconds>,
+    /// What is reported of each run; several with commas
+    #[arg(
+        long,
+        value_name = "NAME,...",
+        value_delimiter = ',',
+        default_value = "energy,impacts,exact"
+    )]
+    pub report: Vec<Column>,
+    /// How bodies are moved [default: the scene's]
+    #[arg(long, value_enum)]
+    pub mode: Option<ModeFlag>,
+    /// File for the table, replaced if it exists [default: stdout]
+    #[arg(long, value_name = "FILE.csv")]
+    pub out: Option<PathBuf>,
+    /// Runs at a time [default: one a core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub jobs: Option<u16>,
+    /// Go on with the rows that an interrupted sweep left in FILE.csv.part
+    #[arg(long, requires = "out", conflicts_with = "force")]
+    pub resume: bool,
+    /// Begin anew, whatever an interrupted sweep left
+    #[arg(long)]
+    pub force: bool,
+    /// Do the I-th of N slices of the runs (I from 1), for `merge`
+    #[arg(long, value_name = "I/N")]
+    pub shard: Option<Shard>,
 }
 
 /// A scene to be computed.

@@ -41,12 +41,14 @@ pub mod render;
 pub mod scene;
 mod simulate;
 pub mod summary;
+mod sweep;
 mod usage;
 pub mod values;
 
 pub use flags::{
     CheckArgs, Command, Format, InertiaArgs, MergeArgs, ModeFlag, OverlayFlag, PackingFlag,
-    RenderArgs, SimulateArgs, StyleFlag,
+    RenderArgs, SimulateArgs, StyleFlag, SweepArgs,
 };
 pub use program::{EXIT_CODES, VERSION, named, run};
+pub use sweep::{Axis, Column};
 pub use usage::usage;

@@ -7,11 +7,13 @@ use std::path::{Path, PathBuf};
 use carom_render::{Checksum, Existing, Manifest, OutputFolder, Sequence, read_file};
 
 use crate::exit::{End, Failure, Outcome, fail};
+use crate::files;
 use crate::flags::MergeArgs;
 use crate::interrupt;
 use crate::out::say;
 use crate::progress::Progress;
 use crate::render::Job;
+use crate::sweep::join;
 use crate::values::Shard;
 
 /// A folder with one slice.
@@ -23,6 +25,13 @@ struct Slice {
 }
 
 pub(crate) fn run(args: &MergeArgs) -> Outcome {
+    let is_table = |path: &PathBuf| path.extension().is_some_and(|end| end == "csv");
+    if args.dirs.iter().all(is_table) {
+        let out = args.out.as_deref().unwrap_or(Path::new("out/merged.csv"));
+        files::prepare(out)?;
+        return join::run(&args.dirs, out);
+    }
+    let place = args.out.as_deref().unwrap_or(Path::new("out/merged"));
     let slices = ordered(
         args.dirs
             .iter()
@@ -35,8 +44,8 @@ pub(crate) fn run(args: &MergeArgs) -> Outcome {
     };
     for slice in &slices {
         check(slice)?;
-        if same_place(&slice.folder, &args.out) {
-            fail!("--out {} is one of the slices", args.out.display());
+        if same_place(&slice.folder, place) {
+            fail!("--out {} is one of the slices", place.display());
         }
     }
     let existing = if args.force {
@@ -44,7 +53,7 @@ pub(crate) fn run(args: &MergeArgs) -> Outcome {
     } else {
         Existing::Refuse
     };
-    let out = OutputFolder::open(&args.out, existing, &job.to_string())?;
+    let out = OutputFolder::open(place, existing, &job.to_string())?;
     say!(
         "{} frames of {} slices into {}",
         job.frames,

@@ -6,7 +6,7 @@ use clap::Parser;
 
 use crate::exit::Outcome;
 use crate::flags::Command;
-use crate::{check, inertia, list, merge, render, simulate, usage};
+use crate::{check, inertia, list, merge, render, simulate, sweep, usage};
 
 /// What help texts have in the place of the program's name.
 const NAME: &str = "{carom}";
@@ -31,6 +31,7 @@ impl Command {
             Self::Render(args) => render::run(args),
             Self::Merge(args) => merge::run(args),
             Self::Simulate(args) => simulate::run(args),
+            Self::Sweep(args) => sweep::run(args),
             Self::Inertia(args) => inertia::run(args),
             Self::List => list::run(),
             Self::Check(args) => check::run(args),

@@ -57,8 +57,18 @@ impl Scene {
     /// # Errors
     /// As for a file, with the setting in place of line and column; the scene is as it was.
     pub fn set(&mut self, key: &str, value: &str) -> Result<(), SceneError> {
+        self.set_all(&[(key, value)])
+    }
+
+    /// Lays several settings over the file, as [`Self::set`] does one after the other, and reads it once.
+    ///
+    /// # Errors
+    /// As for [`Self::set`]; the scene is as it was.
+    pub fn set_all(&mut self, settings: &[(&str, &str)]) -> Result<(), SceneError> {
         let mut document = self.document.clone();
-        document.lay_over(key, value);
+        for (key, value) in settings {
+            document.lay_over(key, value);
+        }
         self.file = document.read()?;
         self.document = document;
         Ok(())

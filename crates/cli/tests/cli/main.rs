@@ -15,6 +15,7 @@ mod scenes;
 #[cfg(unix)]
 mod signals;
 mod simulate;
+mod sweep;
 mod usage;
 
 use std::path::Path;

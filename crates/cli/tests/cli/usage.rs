@@ -8,7 +8,9 @@ use crate::{carom, carom_in, names};
 #[test]
 fn help_names_every_command_and_the_program_that_was_called() {
     let ran = carom(&["--help"]).done();
-    for command in ["render", "merge", "simulate", "inertia", "list", "check"] {
+    for command in [
+        "render", "merge", "simulate", "sweep", "inertia", "list", "check",
+    ] {
         assert!(
             ran.out.contains(&format!("\n  {command} ")),
             "{command}:\n{}",

@@ -1,0 +1,96 @@
+//! `sweep`: all combinations, the same bytes however they are cut, and a table that an interrupted run goes on with.
+
+use std::fs;
+use std::path::Path;
+
+use crate::{carom_in, names};
+
+const THROW: &str = "version = 1\nduration = 0.5\ngravity = [0, -10]\n\
+    [[body]]\nname = 'ball'\nshape = { circle = 0.1 }\nvelocity = [1, 5]\n";
+
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("throw.toml"), THROW).unwrap();
+    folder
+}
+
+/// A sweep of 24 runs with these further arguments.
+fn sweep(folder: &Path, more: &[&str]) -> crate::ran::Ran {
+    let common = [
+        "sweep",
+        "throw.toml",
+        "--set",
+        "body.ball.mass=1:4:4",
+        "--set",
+        "gravity=[0,-10],[0,0]",
+        "--seeds",
+        "3",
+        "--report",
+        "body.ball.y,energy,exact",
+    ];
+    carom_in(folder, &[&common[..], more].concat())
+}
+
+#[test]
+fn a_row_has_what_was_set_and_what_came_of_it() {
+    let folder = folder();
+    let ran = sweep(folder.path(), &[]).done();
+    let rows: Vec<&str> = ran.out.lines().collect();
+    assert_eq!(rows.len(), 25);
+    assert_eq!(
+        rows[0],
+        "run,runs,body.ball.mass,gravity,seed,body.ball.y,energy,exact"
+    );
+    // 5 · 0.5 − 10 · 0.5²/2 m, and ½ m v² with v² = 26 of the throw.
+    assert_eq!(rows[1], "0,24,1,\"[0,-10]\",0,1.25,13,true");
+    assert_eq!(rows[5], "4,24,1,\"[0,0]\",1,2.5,13,true");
+    assert!(rows[24].starts_with("23,24,4,\"[0,0]\",2,2.5,52,"));
+}
+
+#[test]
+fn jobs_shards_and_interruptions_change_no_byte() {
+    let folder = folder();
+    let place = |name: &str| folder.path().join(name);
+    sweep(folder.path(), &["--out", "one.csv", "--jobs", "1"]).done();
+    let whole = fs::read(place("one.csv")).unwrap();
+    sweep(folder.path(), &["--out", "many.csv", "--jobs", "5"]).done();
+    assert_eq!(fs::read(place("many.csv")).unwrap(), whole);
+    for slice in ["1/3", "2/3", "3/3"] {
+        let name = format!("slice{}.csv", &slice[..1]);
+        sweep(folder.path(), &["--out", &name, "--shard", slice]).done();
+    }
+    let merge = ["merge", "slice3.csv", "slice1.csv", "slice2.csv", "--out"];
+    carom_in(folder.path(), &[&merge[..], &["all.csv"]].concat()).done();
+    assert_eq!(fs::read(place("all.csv")).unwrap(), whole);
+    // A kill leaves whole rows and perhaps a part of one.
+    for kept in [100, 333, whole.len()] {
+        fs::write(place("cut.csv.part"), &whole[..kept]).unwrap();
+        sweep(folder.path(), &["--out", "cut.csv"]).refused(&["cut.csv.part", "--resume"]);
+        sweep(folder.path(), &["--out", "cut.csv", "--resume"]).done();
+        assert_eq!(fs::read(place("cut.csv")).unwrap(), whole);
+    }
+    let left = ["all.csv", "cut.csv", "many.csv", "one.csv"];
+    let slices = ["slice1.csv", "slice2.csv", "slice3.csv", "throw.toml"];
+    assert_eq!(names(folder.path()), [left, slices].concat());
+}
+
+#[test]
+fn what_is_wrong_gets_one_line() {
+    let folder = folder();
+    let refused = |args: &[&str], parts: &[&str]| {
+        carom_in(folder.path(), &[&["sweep", "throw.toml"], args].concat()).refused(parts);
+    };
+    refused(&["--report", "energie"], &["energie", "body.NAME."]);
+    refused(&["--report", "body.bal.x"], &["bal"]);
+    refused(&["--set", "body.ball.mass=0:1:3"], &["body.ball.mass=0"]);
+    refused(&["--set", "n=1:2:x"], &["\"x\""]);
+    refused(&["--set", "a=1:2:900000", "--seeds", "900000"], &["runs"]);
+    refused(
+        &["--seeds", "2", "--shard", "3/3", "--seconds", "-1"],
+        &["below 0"],
+    );
+    fs::write(folder.path().join("other.csv"), "a,b\n1,2\n").unwrap();
+    let merge = ["merge", "other.csv", "--out", "x.csv"];
+    carom_in(folder.path(), &merge).refused(&["other.csv", "no table"]);
+    assert_eq!(names(folder.path()), ["other.csv", "throw.toml"]);
+}
