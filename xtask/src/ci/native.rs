@@ -8,7 +8,8 @@ use crate::exit::Failure;
 use crate::laboratory::cargo_in;
 
 /// What has no part in a pixel or a byte is built fast: worlds at time 0, and what the tests stand on.
-const ASIDE: [&str; 6] = [
+const ASIDE: [&str; 7] = [
+    "carom-impact",
     "carom-dynamics",
     "proptest",
     "rand",

@@ -11,7 +11,7 @@
 
 use super::NotMine;
 use super::faces::{Face, Faces, Row, dot};
-use crate::lemke::complementary;
+use crate::impact::lemke::complementary;
 
 /// Accelerations below this part of what they are the difference of are none.
 const ROUNDING: f64 = 1e-11;

@@ -20,13 +20,15 @@ const UNCOVERED: f64 = 1e-12;
 
 /// A solution: every z, and which of them the basis solves for.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Solution {
-    pub(crate) z: Vec<f64>,
-    pub(crate) basic: Vec<bool>,
+pub struct Solution {
+    /// z, in the order of the rows.
+    pub z: Vec<f64>,
+    /// Whether the basis has z of a row, and not its w.
+    pub basic: Vec<bool>,
 }
 
 /// A solution for a matrix given row by row; `None` if the method ends on a ray.
-pub(crate) fn complementary(m: &[f64], q: &[f64]) -> Option<Solution> {
+pub fn complementary(m: &[f64], q: &[f64]) -> Option<Solution> {
     let n = q.len();
     let size = q.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
     if q.iter().all(|&x| x >= -TIE * size) {

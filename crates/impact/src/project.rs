@@ -45,7 +45,7 @@ pub(crate) fn nearest(
 }
 
 /// Multipliers with which the rows balance `load` as far as they can, and the largest coordinate of what is left of it.
-pub(crate) fn balance(rows: &[Vec<f64>], load: &[f64], tolerance: f64) -> (Vec<f64>, f64) {
+pub fn balance(rows: &[Vec<f64>], load: &[f64], tolerance: f64) -> (Vec<f64>, f64) {
     let bounds = vec![0.0; rows.len()];
     let mut set = ActiveSet::new(&[], rows, load, &bounds);
     set.settle(tolerance);
@@ -235,7 +235,8 @@ impl<'a> ActiveSet<'a> {
 }
 
 /// Rows as Q R: orthonormal directions, and how each row is made of them.
-pub(crate) struct Basis {
+#[derive(Clone, Debug)]
+pub struct Basis {
     directions: Vec<Vec<f64>>,
     /// Column k: the row k in the directions up to its own.
     columns: Vec<Vec<f64>>,
@@ -259,7 +260,7 @@ impl Basis {
     }
 
     /// Of rows that may depend on each other those that add a direction, in their order.
-    pub(crate) fn independent(rows: &[Vec<f64>], dependent: f64) -> Self {
+    pub fn independent(rows: &[Vec<f64>], dependent: f64) -> Self {
         let mut basis = Self::new();
         for row in rows {
             let (column, own) = basis.reduce(row);
@@ -271,17 +272,17 @@ impl Basis {
     }
 
     /// Orthonormal directions that span the rows.
-    pub(crate) fn into_directions(self) -> Vec<Vec<f64>> {
+    pub fn into_directions(self) -> Vec<Vec<f64>> {
         self.directions
     }
 
     /// Whether some direction has a part along coordinate k.
-    pub(crate) fn touches(&self, k: usize) -> bool {
+    pub fn touches(&self, k: usize) -> bool {
         self.directions.iter().any(|direction| direction[k] != 0.0)
     }
 
     /// Parts along the directions, and the rest; orthogonalised twice, which is enough (Kahan, Parlett).
-    pub(crate) fn reduce(&self, row: &[f64]) -> (Vec<f64>, Vec<f64>) {
+    pub fn reduce(&self, row: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let mut rest = row.to_vec();
         let mut parts = vec![0.0; self.directions.len()];
         for _ in 0..2 {
@@ -308,7 +309,7 @@ impl Basis {
     }
 
     /// Whether nothing of coordinate k lies outside the directions.
-    pub(crate) fn determines(&self, k: usize) -> bool {
+    pub fn determines(&self, k: usize) -> bool {
         let size = self.directions.first().map_or(0, Vec::len);
         let axis: Vec<f64> = (0..size).map(|i| if i == k { 1.0 } else { 0.0 }).collect();
         let (_, rest) = self.reduce(&axis);

@@ -44,7 +44,7 @@ pub fn resolve(law: ImpactLaw, a: &ImpactBody, b: &ImpactBody, contact: &ImpactC
 ///
 /// # Examples
 /// ```
-/// use carom_dynamics::impact::{newton, ImpactBody, ImpactContact};
+/// use carom_impact::{newton, ImpactBody, ImpactContact};
 /// use carom_geometry::Circle;
 /// use carom_math::{Vec2, vec2};
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -71,7 +71,7 @@ pub fn newton(a: &ImpactBody, b: &ImpactBody, contact: &ImpactContact) -> Outcom
 /// # Examples
 /// A slender rod that hits a rough floor slips, sticks or slips back; no energy is gained.
 /// ```
-/// use carom_dynamics::impact::{poisson, ImpactBody, ImpactContact};
+/// use carom_impact::{poisson, ImpactBody, ImpactContact};
 /// use carom_geometry::ConvexPolygon;
 /// use carom_math::{Vec2, vec2};
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -96,7 +96,7 @@ pub fn poisson(a: &ImpactBody, b: &ImpactBody, contact: &ImpactContact) -> Outco
 ///
 /// # Examples
 /// ```
-/// use carom_dynamics::impact::{stronge, ImpactBody, ImpactContact};
+/// use carom_impact::{stronge, ImpactBody, ImpactContact};
 /// use carom_geometry::Circle;
 /// use carom_math::{Vec2, vec2};
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -124,7 +124,7 @@ pub fn stronge(a: &ImpactBody, b: &ImpactBody, contact: &ImpactContact) -> Outco
 ///
 /// # Examples
 /// ```
-/// use carom_dynamics::impact::{ImpactBody, ImpactContact, jam};
+/// use carom_impact::{ImpactBody, ImpactContact, jam};
 /// use carom_math::{Rot, Vec2, vec2};
 /// let floor = ImpactBody::immovable(Vec2::ZERO, Vec2::ZERO, 0.0);
 /// // A slender rod of 2 m and 1 kg slides to the right on its lower end, leaning forward over it.

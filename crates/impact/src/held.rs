@@ -7,22 +7,18 @@ use super::several::SharedContact;
 
 /// What holds contacts.
 #[derive(Clone, Debug)]
-pub(crate) struct Held {
+pub struct Held {
     /// The bodies after it, in their order.
-    pub(crate) bodies: Vec<ImpactBody>,
+    pub bodies: Vec<ImpactBody>,
     /// Impulses on B along the normal and along the normal turned by +90 degrees, for each contact, in N·s.
-    pub(crate) impulses: Vec<(f64, f64)>,
+    pub impulses: Vec<(f64, f64)>,
     /// Whether all of it holds: bodies may be squeezed so that nothing meets all conditions.
-    pub(crate) sure: bool,
+    pub sure: bool,
 }
 
 /// The least impulses after which every contact opens by what is `asked` of it at least, and slips by what is asked of it
 /// if friction can do it; both in m/s.
-pub(crate) fn held(
-    bodies: &[ImpactBody],
-    contacts: &[SharedContact],
-    asked: &[(f64, f64)],
-) -> Held {
+pub fn held(bodies: &[ImpactBody], contacts: &[SharedContact], asked: &[(f64, f64)]) -> Held {
     let mut rows = Rows::new(bodies, contact_rows(bodies, contacts));
     let mut of = asked.iter();
     let mut slip = 0.0;

@@ -47,49 +47,64 @@ const OVER_RELAXATION: f64 = 1.3;
 
 /// Coulomb's friction and contacts that are to open, or may close, at given speeds, by sweeps; their number may grow on the way.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Sweeper {
-    pub(crate) bodies: Vec<Moving>,
-    pub(crate) contacts: Vec<Swept>,
+pub struct Sweeper {
+    /// In the order in which they came.
+    pub bodies: Vec<Moving>,
+    /// In the order in which they came.
+    pub contacts: Vec<Swept>,
 }
 
 /// A body's velocity.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Moving {
-    pub(crate) velocity: Vec2,
-    pub(crate) spin: f64,
-    pub(crate) inverse_mass: f64,
-    pub(crate) inverse_inertia: f64,
+pub struct Moving {
+    /// Of the centre of mass, in m/s.
+    pub velocity: Vec2,
+    /// In rad/s.
+    pub spin: f64,
+    /// In 1/kg; 0 of what does not yield.
+    pub inverse_mass: f64,
+    /// In 1/(kg·m²).
+    pub inverse_inertia: f64,
 }
 
 /// A contact with the arms of its normal and its tangent about both centres.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Swept {
-    pub(crate) a: usize,
-    pub(crate) b: usize,
-    pub(crate) normal: Vec2,
-    pub(crate) arms_n: (f64, f64),
-    pub(crate) arms_t: (f64, f64),
-    /// Effective masses along the normal and the tangent, in kg; 0 if nothing yields.
-    pub(crate) m_n: f64,
-    pub(crate) m_t: f64,
-    pub(crate) friction: f64,
+pub struct Swept {
+    /// Number of the body that the normal points away from.
+    pub a: usize,
+    /// Number of the body that it points to.
+    pub b: usize,
+    /// Unit normal from A to B.
+    pub normal: Vec2,
+    /// r × n of A and of B, in m.
+    pub arms_n: (f64, f64),
+    /// r × t of A and of B, in m; t is the normal turned by +90 degrees.
+    pub arms_t: (f64, f64),
+    /// Effective mass along the normal, in kg; 0 if nothing yields.
+    pub m_n: f64,
+    /// Effective mass along the tangent, in kg.
+    pub m_t: f64,
+    /// Coulomb's coefficient.
+    pub friction: f64,
     /// Opening speed to reach, in m/s.
-    pub(crate) target: f64,
+    pub target: f64,
     /// Slip at which both surfaces run along with each other, in m/s.
-    pub(crate) belt: f64,
-    pub(crate) j_n: f64,
-    pub(crate) j_t: f64,
+    pub belt: f64,
+    /// Impulse along the normal, in N·s.
+    pub j_n: f64,
+    /// Impulse along the tangent, in N·s.
+    pub j_t: f64,
 }
 
 impl Swept {
     /// Opening speed of two bodies that move like this, in m/s.
-    pub(crate) fn opening(&self, a: (Vec2, f64), b: (Vec2, f64)) -> f64 {
+    pub fn opening(&self, a: (Vec2, f64), b: (Vec2, f64)) -> f64 {
         let (arm_a, arm_b) = self.arms_n;
         (b.0 - a.0).dot(self.normal) + b.1 * arm_b - a.1 * arm_a
     }
 
     /// Slip of the surfaces of two bodies that move like this, in m/s.
-    pub(crate) fn slip(&self, a: (Vec2, f64), b: (Vec2, f64)) -> f64 {
+    pub fn slip(&self, a: (Vec2, f64), b: (Vec2, f64)) -> f64 {
         let (arm_a, arm_b) = self.arms_t;
         let of_bodies = (b.0 - a.0).dot(perp(self.normal)) + b.1 * arm_b - a.1 * arm_a;
         of_bodies - self.belt
@@ -98,7 +113,7 @@ impl Swept {
 
 impl Sweeper {
     /// Bodies are named by the order in which they came.
-    pub(crate) fn add_body(&mut self, body: &ImpactBody) {
+    pub fn add_body(&mut self, body: &ImpactBody) {
         self.bodies.push(Moving {
             velocity: body.velocity,
             spin: body.spin,
@@ -109,7 +124,7 @@ impl Sweeper {
 
     /// A contact of two bodies, given at the instant of the impact, that is to open with `target` m/s,
     /// and the impulses that have been given along its normal and its tangent.
-    pub(crate) fn add_contact(
+    pub fn add_contact(
         &mut self,
         (a, b): (usize, usize),
         (body_a, body_b): (&ImpactBody, &ImpactBody),
@@ -137,22 +152,23 @@ impl Sweeper {
         });
     }
 
-    pub(crate) fn len(&self) -> (usize, usize) {
+    /// How many bodies and contacts there are.
+    pub fn len(&self) -> (usize, usize) {
         (self.bodies.len(), self.contacts.len())
     }
 
     /// Velocity of the k-th body, in m/s, and its spin in rad/s.
-    pub(crate) fn velocity(&self, k: usize) -> (Vec2, f64) {
+    pub fn velocity(&self, k: usize) -> (Vec2, f64) {
         self.bodies[k].moves()
     }
 
     /// Impulses of the k-th contact along its normal and its tangent, in N·s.
-    pub(crate) fn impulses(&self, k: usize) -> (f64, f64) {
+    pub fn impulses(&self, k: usize) -> (f64, f64) {
         (self.contacts[k].j_n, self.contacts[k].j_t)
     }
 
     /// Every contact's turn; the largest speed that one had still to take away, in m/s.
-    pub(crate) fn sweep(&mut self) -> f64 {
+    pub fn sweep(&mut self) -> f64 {
         let Self { bodies, contacts } = self;
         let mut most = 0.0_f64;
         for contact in contacts {

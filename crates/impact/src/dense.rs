@@ -1,7 +1,8 @@
 //! A dense system of a few equations.
 
 /// A square matrix as L U, its rows exchanged so that the largest of a column comes first.
-pub(crate) struct Factored {
+#[derive(Clone, Debug)]
+pub struct Factored {
     size: usize,
     /// Row by row: L below the diagonal, U on and above it.
     entries: Vec<f64>,
@@ -11,7 +12,7 @@ pub(crate) struct Factored {
 
 impl Factored {
     /// Of a square matrix given row by row; `None` if a pivot is 0 or not finite.
-    pub(crate) fn of(size: usize, mut entries: Vec<f64>) -> Option<Self> {
+    pub fn of(size: usize, mut entries: Vec<f64>) -> Option<Self> {
         let mut order: Vec<usize> = (0..size).collect();
         for k in 0..size {
             let mut best = k;
@@ -51,13 +52,13 @@ impl Factored {
     }
 
     /// The smallest pivot by size; infinite where there is none.
-    pub(crate) fn least_pivot(&self) -> f64 {
+    pub fn least_pivot(&self) -> f64 {
         let diagonal = self.entries.iter().step_by(self.size + 1);
         diagonal.fold(f64::INFINITY, |least, pivot| least.min(pivot.abs()))
     }
 
     /// The x with A x = `right`.
-    pub(crate) fn solve(&self, right: &[f64]) -> Vec<f64> {
+    pub fn solve(&self, right: &[f64]) -> Vec<f64> {
         let mut x: Vec<f64> = self.order.iter().map(|&row| right[row]).collect();
         for k in 0..self.size {
             let row = &self.entries[k * self.size..];

@@ -78,7 +78,7 @@ pub enum Several {
 /// A box lands flat on a rough floor, without restitution, while it slides: it neither turns nor
 /// rises, and friction takes µ (m v) from its slide.
 /// ```
-/// use carom_dynamics::impact::{ImpactBody, ImpactContact, ImpactLaw, Several, SharedContact, several};
+/// use carom_impact::{ImpactBody, ImpactContact, ImpactLaw, Several, SharedContact, several};
 /// use carom_math::{Vec2, vec2};
 /// let floor = ImpactBody::immovable(Vec2::ZERO, Vec2::ZERO, 0.0);
 /// let landing = ImpactBody {
@@ -263,7 +263,7 @@ pub(super) fn with_restitution(contacts: &[SharedContact], restitution: f64) -> 
 /// Of three touching discs the first moves at 1 m/s: with e = ½ half of the answer is the common
 /// velocity of ⅓ m/s, half is the cradle's.
 /// ```
-/// use carom_dynamics::impact::{ImpactBody, ImpactContact, SharedContact, blend};
+/// use carom_impact::{ImpactBody, ImpactContact, SharedContact, blend};
 /// use carom_math::{Vec2, vec2};
 /// let disc = |x: f64, v: f64| ImpactBody {
 ///     inverse_mass: 1.0, inverse_inertia: 8.0, centre: vec2(x, 0.0), velocity: vec2(v, 0.0), spin: 0.0,
