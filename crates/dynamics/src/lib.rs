@@ -61,6 +61,7 @@ mod predict;
 mod press;
 mod profile;
 mod query;
+mod regime;
 mod report;
 mod resolve;
 mod round;

@@ -169,6 +169,7 @@ impl World {
         self.forget_boxes(index);
         self.arrive(index);
         self.unsettle_on(index, self.clock.now);
+        self.check_regime(index);
     }
 
     /// Takes a body out of its crowd, its row and all its pairs.

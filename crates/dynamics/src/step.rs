@@ -95,6 +95,7 @@ impl World {
         if dt > 0.0 {
             self.end_forces();
         }
+        self.check_regimes();
         self.events.end_step();
         self.report_astray(self.clock.now);
         self.report.inaccurate += core::mem::take(&mut self.bodies.inaccurate);

@@ -218,6 +218,7 @@ impl World {
             self.arrive(id.index);
             self.unsettle_on(id.index, now);
         }
+        self.check_regime(id.index);
         Ok(id)
     }
 

@@ -82,7 +82,13 @@ fn features(root: &Path) -> Result<bool, Failure> {
     let all = "--all-features";
     let lints = ["clippy", "--all-targets", all, "--", "-D", "warnings"];
     let mut tests = vec!["test", all];
-    for package in ["carom-math", "carom-geometry", "carom-impact", "carom-dynamics", "carom"] {
+    for package in [
+        "carom-math",
+        "carom-geometry",
+        "carom-impact",
+        "carom-dynamics",
+        "carom",
+    ] {
         tests.extend(["--package", package]);
     }
     Ok(cargo(root, &lints)? && cargo(root, &tests)?)
