@@ -1,4 +1,4 @@
-//! When, where and how two shapes in the plane touch.
+//! Answers whether two shapes in the plane touch, where, how deep, and when.
 //!
 //! Two shapes and the pose of B in A's frame go in; what comes out is in A's frame, too. A normal is
 //! a unit vector from A to B, a separation below zero is an overlap, lengths are in metres.
@@ -7,8 +7,8 @@
 //! Shape ─► Hull (vertices, normals, radius) ─► separating axis ─► manifold, distance, cast, time of impact
 //! ```
 //!
-//! A circle, a segment, a convex polygon is one [`Hull`]; a concave polygon is several, which know
-//! their cuts: a cut separates, but it is never touched. [`vertex_edge_contacts`] works on whole
+//! A circle, a segment or a convex polygon is one [`Hull`]; a concave polygon is several, whose
+//! cuts are marked: a cut separates, but it is never touched. [`vertex_edge_contacts`] works on whole
 //! outlines and shares nothing with the hulls.
 //!
 //! # Examples

@@ -292,7 +292,7 @@ impl BoxTree {
         }
         self.len -= 1;
         if self.len == 0 {
-            // Whoever left it all at once, as from one tree to another, leaves no room behind.
+            // Free the memory when the last leaf is removed.
             self.pairs = Vec::new();
             self.free_pair = NONE;
         }

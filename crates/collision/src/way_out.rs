@@ -24,17 +24,17 @@ use crate::sat::Face;
 use crate::{Side, distance, minimum_push, part, separating_axis};
 use exit::{Exit, exits};
 
-/// Lists of conditions that are tried before the search is given up and B leaves the box of A.
+/// Lists of conditions that are tried before the search is given up and B is pushed out of A's bounding box.
 ///
 /// Two L-shapes need some ten, stars of 40 points in each other some hundred.
 const TRIES: usize = 1024;
 
 /// The shortest translation of B, in metres in A's frame, that ends the overlap of two shapes; `None`
-/// if they do not overlap, or if one is a half-plane and so is the other.
+/// if they do not overlap, or if both are half-planes.
 ///
-/// Of convex shapes this is [`crate::minimum_push`]. Concave shapes and compounds leave as a whole,
-/// and not through their own parts. The search is bounded: in a thicket of very many parts B may be
-/// led out of the box around A, which is longer than need be.
+/// Of convex shapes this is [`crate::minimum_push`]. Concave shapes and compounds are separated as
+/// wholes, not part by part. The search is bounded: between shapes of very many parts it may be
+/// exhausted, and B is then pushed out of A's bounding box, which is longer than the minimum.
 ///
 /// # Examples
 /// ```
@@ -102,7 +102,7 @@ pub(crate) fn way_out<'a>(a: &'a Shape, b: &'a Shape, b_in_a: Pose) -> Option<Wa
         touch,
     };
     overlap.blocking(Vec2::ZERO)?;
-    // Whoever leaves the box along an axis is out.
+    // Past the bounding box along an axis nothing overlaps.
     let leave = [
         Vec2::X * (box_a.max.x - box_b.min.x),
         Vec2::X * (box_a.min.x - box_b.max.x),

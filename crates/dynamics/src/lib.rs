@@ -1,9 +1,9 @@
-//! Rigid bodies in the plane: how they fly, strike, rest and sleep, and where their energy goes.
+//! Answers where rigid bodies in the plane are at a later instant, and where their energy went.
 //!
-//! A body's state is a [`Motion`]: a closed form in time. Free flight is computed by it and never
-//! stepped; impacts happen at their instants, by one of the laws in [`impact`]; contacts that last
-//! are solved for in sub-steps. [`World::step`] asks where everything is `dt` later: `dt` only
-//! observes.
+//! A body's state is a [`Motion`]: a closed form in time. Free flight is evaluated from it and never
+//! stepped; impacts happen at their instants, by one of the laws in [`impact`]; lasting contacts
+//! move in closed form while their contact modes allow it, else they are solved for in sub-steps.
+//! [`World::step`] asks where everything is `dt` later: `dt` only observes.
 //!
 //! # Examples
 //! An elastic ball is back where it was dropped.

@@ -1,11 +1,11 @@
-//! Shapes in the plane and their exact mass properties.
+//! Answers which area, centroid and moment of inertia a polygon has.
 //!
-//! Circles, segments, convex polygons and any simple polygon, concave ones too; convex hulls,
-//! convex pieces without new vertices; area, centroid and moments to the last digits, for slivers
-//! and far from the origin. Constructors check once, by exact predicates: what exists is valid,
-//! and an error names the vertex.
+//! Shapes are circles, segments, half-planes, convex polygons, any simple polygon, polygons with
+//! holes, and compounds. Mass properties are right to 2e-13, for slivers and far from the origin
+//! too; convex pieces have no new vertices. Constructors check once, by exact predicates: a shape
+//! that exists is valid, and an error names the vertex.
 //!
-//! Metres, radians, counter-clockwise. A shape knows no motion and no partner.
+//! Metres, radians, counter-clockwise. A shape has no motion, and the crate knows no pairs of shapes.
 //!
 //! # Examples
 //! ```

@@ -1,5 +1,6 @@
-//! The ground floor of carom: vectors, rotations, poses, time, exact predicates and careful sums.
+//! Answers where a point of one frame lies in another, and on which side of a line it lies.
 //!
+//! Vectors, rotations, poses, instants, exact predicates and compensated sums.
 //! Everything is `f64`, SI and radians; x points right, y up, and counter-clockwise is positive.
 //! The same input gives the same bits on every platform: trigonometry goes through [`trig`],
 //! nothing fuses a multiplication with an addition.
@@ -8,9 +9,9 @@
 //! ```
 //! use carom_math::{Pose, Rot, vec2};
 //!
-//! // A quarter turn about (1, 0) takes the frame's own x axis to the world's y axis.
-//! let pose = Pose::new(vec2(1.0, 0.0), Rot::from_degrees(90.0));
-//! assert!((pose.point(vec2(2.0, 0.0)) - vec2(1.0, 2.0)).length() < 1e-15);
+//! let crane = Pose::new(vec2(1.0, 0.0), Rot::from_degrees(90.0)); // at (1, 0) m, a quarter turn to the left
+//! let hook = crane.point(vec2(2.0, 0.0)); // 2 m out on the crane's arm
+//! assert!((hook - vec2(1.0, 2.0)).length() < 1e-15); // m
 //! ```
 
 #![cfg_attr(test, allow(clippy::float_cmp, reason = "tests compare exact results"))]

@@ -1,6 +1,6 @@
-//! Pictures of rigid bodies without a screen: PNG, APNG, SVG, film and charts.
+//! Answers what a world of rigid bodies looks like, as PNG, animated PNG, SVG, film or chart, without a screen.
 //!
-//! Three stages, each of use alone. A [`Camera`] says what is seen and a [`Look`] what bodies wear;
+//! Three stages, each of use alone. A [`Camera`] maps metres to pixels and a [`Look`] is the appearance of bodies;
 //! [`Frame::capture`] turns a world into a plain list of marks, which can as well be built by hand; a [`Style`]
 //! paints the list to a [`Picture`], which goes to a file. No window, no font file, no clock: the same
 //! frame gives the same bytes.
@@ -10,8 +10,8 @@
 //! Chart ────────────────► Frame ─ Style ─► SVG
 //! ```
 //!
-//! A frame may hold any numbers. What is not finite is left out and what lies far outside is cut away before the
-//! rasteriser sees it; canvas sizes are checked before memory is taken; files appear whole or not at all.
+//! A frame may hold any numbers. Points that are not finite are left out, and marks are clipped near the canvas before
+//! rasterisation; canvas sizes are checked before memory is taken; files appear whole or not at all.
 //!
 //! # Examples
 //! ```

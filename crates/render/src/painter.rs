@@ -8,10 +8,11 @@ use crate::{Colour, Frame, Picture, PixelBox, Size, Style};
 /// Rows of pixels in a band, the unit in which [`Changes`] tells an encoder what to write again.
 pub const BAND: u32 = 16;
 
-/// Who turns marks into pixels.
+/// Which rasteriser turns marks into pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Engine {
-    /// The crate's own scan converter, exact in coverage; what it has no business with goes to tiny-skia.
+    /// The crate's own exact-area rasteriser; text, dashes, lines with corners and self-intersecting outlines go to
+    /// tiny-skia.
     #[default]
     Own,
     /// tiny-skia for every mark: an independent picture to compare with.

@@ -10,8 +10,8 @@ use crate::{Camera, Look};
 
 /// Which marks at the beginning of a list were there before.
 ///
-/// Marks are only ever added at the end and taken away from there. Two states of one list, of which the later is known by
-/// the same token, have as many first marks in common as the later one never went below.
+/// Marks are only ever added at the end and taken away from there. Two versions of a list with the same token share the
+/// prefix that was never truncated in between.
 #[derive(Clone, Debug)]
 pub(crate) struct Standing {
     /// Of one list since one instant; who holds it keeps it from being taken for another's.

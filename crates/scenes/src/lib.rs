@@ -1,9 +1,9 @@
-//! Scene files, and the built-in scenes that tests, benches and pictures share.
+//! Answers which world a scene file describes, and holds the built-in scenes that tests, benchmarks and pictures share.
 //!
 //! A scene file is TOML: settings, gravity or a field, bodies written out or made by generators (walls, stacks, pyramids,
-//! grids, random populations), a camera and a look. [`Scene::load`] reads one, [`find`] gives a built-in one;
-//! [`Scene::set`] lays settings over it, and [`Scene::build`] makes the world and all that its pictures need. What is
-//! wrong with a file is a [`SceneError`]: one line with file, line, column and field. The crate's README is the
+//! grids, random populations), a camera and the appearance of bodies. [`Scene::load`] reads one, [`find`] returns a built-in one;
+//! [`Scene::set`] overrides values of it, and [`Scene::build`] makes the world and all that its pictures need. An error in
+//! a file is a [`SceneError`]: one line with file, line, column and field. The crate's README is the
 //! reference of the format.
 //!
 //! Same file and seed, same bits, on every machine.

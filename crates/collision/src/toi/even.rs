@@ -1,8 +1,8 @@
-//! Two polygons that keep their velocities and spins, or a polygon and a disc: the search of [`super::search`] without its
-//! rare ways. Two discs need none.
+//! Fast path of the time of impact for constant relative velocity and constant spins: vertex–edge and disc contacts only.
 //!
-//! It knows one vertex that comes down on the inside of an edge, a disc that meets an edge or a corner, and pairs that part
-//! where they have just struck. Everything else (corners that meet, flat landings, overlaps) it leaves to the general search.
+//! It finds a vertex that meets the inside of an edge, a disc that meets an edge or a corner, and pairs that separate after
+//! the impact just resolved. It returns `None` for anything else (vertex–vertex, flat landings, overlaps), which
+//! [`super::search`] then answers. Disc–disc is solved in closed form.
 //! Dispatched once a search; everything is inlined there, so that four corners are one instruction.
 
 #![allow(clippy::inline_always, reason = "the wide instructions end at a call")]

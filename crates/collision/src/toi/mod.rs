@@ -147,8 +147,9 @@ pub fn time_of_impact(
     first_of_parts(a, motion_a, b, motion_b, horizon)
 }
 
-/// [`time_of_impact`] from `start` on, which neither motion begins after: [`Impact::time`] is in seconds after that. `last` is
-/// where the two have just struck each other and part, if they have: as right, and sooner.
+/// [`time_of_impact`] from `start` on: [`Impact::time`] is in seconds after `start`, and neither motion begins later than that.
+///
+/// `last`: a feature of the impact just resolved, if any. A hint: it changes the speed, not the answer.
 #[must_use]
 pub fn time_of_impact_from(
     start: SimTime,

@@ -24,7 +24,7 @@ impl<T: Copy, const ROOM: usize> Stack<T, ROOM> {
         }
     }
 
-    /// Takes an item, or leaves it: without a branch, for nobody can foretell which.
+    /// Conditional push without a branch: the outcome is unpredictable.
     ///
     /// There must be room: see [`Self::make_room`].
     #[inline]

@@ -69,8 +69,8 @@ proptest! {
                     prop_assert!((normal - Vec2::Y).length() < 1e-12, "{name}: {normal} under {body:?} at {pose:?}");
                     deepest = deepest.min(contact.manifold.deepest().expect("a point"));
                 }
-                // A corner that reaches under the neighbour of the tile it came through is felt at the
-                // seam, where it is a little less deep.
+                // If a vertex penetrates past the seam between two tiles, the reported depth is that at
+                // the seam: slightly too small.
                 let right = (-depth - 1e-12..=-0.75 * depth).contains(&deepest);
                 prop_assert!(right, "{name}: {deepest:e} of {depth:e}");
 

@@ -261,7 +261,15 @@ impl World {
             speed
         };
         match judge(&gathered.bodies, &gathered.touches, speed) {
-            Ok(moves) => self.close(&gathered, &moves, time, speed),
+            Ok(moves) => {
+                // What flies, and touches what belongs to an island, is the island's from now on.
+                for &index in &gathered.places {
+                    if self.bodies.get(index).is_flying() {
+                        self.land_first(index, time);
+                    }
+                }
+                self.close(&gathered, &moves, time, speed);
+            }
             Err(why) => {
                 let known = match why {
                     NotMine::Turns | NotMine::Curved => self.tip_over(&gathered, time, speed),

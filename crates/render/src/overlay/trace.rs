@@ -10,7 +10,7 @@ use crate::{Colour, Ink, Op, Overlay};
 
 /// How long an impact is seen, in s.
 const GLOW: f64 = 0.2;
-/// Radius of a burst on its first day, in pixels of the overlay: of the faintest and of the strongest impact.
+/// Radius of a flash at age 0, in pixels of the overlay: of the weakest and of the strongest impact.
 const BURST: (f64, f64) = (4.0, 22.0);
 /// Speed of approach that makes half the strongest burst, in pixels of the overlay a second.
 const HALF_BURST: f64 = 300.0;

@@ -68,7 +68,7 @@ pub(crate) struct Cells {
 }
 
 impl Cells {
-    /// Rows `top..bottom` of a shape `columns` wide. All sums are zero: whoever reads them takes them away.
+    /// Rows `top..bottom` of a shape `columns` wide. Cells are zero on entry; reading a row resets it.
     pub(crate) fn start(&mut self, columns: usize, top: usize, bottom: usize) {
         self.stride = columns + 2;
         self.short = self.stride <= SHORT;
