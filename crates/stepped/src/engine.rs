@@ -1,0 +1,163 @@
+//! The engine and its tick.
+
+use carom_geometry::Aabb;
+use carom_math::Vec2;
+
+use crate::bodies::Bodies;
+use crate::broad::{Broad, Pairs};
+use crate::pieces::Pieces;
+use crate::rows::{Graph, Law, Pass, correct, displace, sweep, warm_start};
+use crate::update::{create, update};
+use crate::{EngineError, Relaxation, Settings};
+
+/// Bodies in contact, moved one sub-step after the other.
+///
+/// Its state is a pure function of the sequence of calls: equal calls, equal bits.
+#[derive(Clone, Debug)]
+pub struct Engine {
+    pub(crate) settings: Settings,
+    pub(crate) law: Law,
+    pub(crate) bodies: Bodies,
+    pub(crate) pieces: Pieces,
+    pub(crate) broad: Broad,
+    pub(crate) known: Pairs,
+    pub(crate) graph: Graph,
+    /// Contacts that parted in this tick.
+    parted: Vec<u32>,
+}
+
+impl Engine {
+    /// An engine without bodies.
+    ///
+    /// # Errors
+    /// [`EngineError::Value`] if a number of the settings is out of its range.
+    pub fn new(settings: Settings) -> Result<Self, EngineError> {
+        settings.check()?;
+        Ok(Self {
+            settings,
+            law: Law::new(&settings),
+            bodies: Bodies::new(),
+            pieces: Pieces::default(),
+            broad: Broad::new(),
+            known: Pairs::new(),
+            graph: Graph::new(),
+            parted: Vec::new(),
+        })
+    }
+
+    /// Moves all bodies by one tick of [`Settings::tick`].
+    pub fn tick(&mut self) {
+        self.find_contacts();
+        self.substeps();
+    }
+
+    /// Which pieces touch, or may within the tick, and where.
+    pub(crate) fn find_contacts(&mut self) {
+        self.rebase();
+        self.broad.find(&self.bodies, &self.pieces);
+        self.update_contacts();
+    }
+
+    pub(crate) fn substeps(&mut self) {
+        for k in 0..self.settings.substeps {
+            self.substep(k + 1 == self.settings.substeps);
+        }
+    }
+
+    /// Makes where bodies are their base poses, if that is far from these, and their boxes anew.
+    fn rebase(&mut self) {
+        self.bodies.rebase(self.settings.tick);
+        for line in 2..self.bodies.lines.len() {
+            if self.bodies.moved[line] {
+                self.pose_pieces(line);
+            }
+        }
+    }
+
+    /// Poses the pieces of the body of a line, and makes their boxes.
+    fn pose_pieces(&mut self, line: usize) {
+        let Self {
+            bodies,
+            pieces,
+            settings,
+            ..
+        } = self;
+        let record = &bodies.records[bodies.slot_of[line] as usize];
+        let (body, limit) = (&bodies.lines[line], bodies.limits[line]);
+        let pose = bodies.base[line];
+        for number in record.first_piece..record.first_piece + record.pieces {
+            let tight = pieces.pose(number, pose);
+            let piece = &pieces.list[number as usize];
+            // Half of a pair's margin, and what the body may go unseen.
+            let slack = 0.5 * settings.margin * piece.extent + 2.0 * limit.tolerance;
+            let turn = body.w().abs() * settings.tick * piece.reach;
+            let around = Aabb::new(pose.position, pose.position).grown(piece.reach);
+            let box_ = intersection(tight.grown(turn), around.union(tight));
+            let goes = body.v() * settings.tick;
+            let falls = bodies.pull[line].v() * (settings.tick * settings.tick);
+            let swept = stretched(stretched(box_, goes), falls);
+            pieces.boxes[number as usize] = swept.grown(slack);
+        }
+    }
+
+    /// Contacts of moved bodies anew, then those that came, then without those that went.
+    fn update_contacts(&mut self) {
+        let Self {
+            settings,
+            bodies,
+            pieces,
+            broad,
+            known,
+            graph,
+            parted,
+            ..
+        } = self;
+        parted.clear();
+        update(graph, bodies, pieces, settings, parted);
+        create(graph, bodies, pieces, settings, known, &broad.found);
+        for &id in &*parted {
+            known.remove(graph.contacts[id as usize].pieces);
+            graph.remove(bodies, id);
+        }
+        bodies.moved.fill(false);
+    }
+
+    /// One sub-step of the soft law.
+    fn substep(&mut self, last: bool) {
+        let Self {
+            law, bodies, graph, ..
+        } = self;
+        let Bodies {
+            lines, start, pull, ..
+        } = bodies;
+        let every = self.settings.relaxation == Relaxation::EverySubstep;
+        warm_start(lines, start, pull, law.h);
+        let solve = Pass {
+            bias: true,
+            friction: !every,
+        };
+        sweep(solve, law, lines, &mut graph.colours);
+        displace(lines, law.h);
+        if every || last {
+            let relax = Pass {
+                bias: false,
+                friction: true,
+            };
+            sweep(relax, law, lines, &mut graph.colours);
+        }
+        correct(lines, start, pull, law.h);
+    }
+}
+
+/// What both boxes hold.
+fn intersection(a: Aabb, b: Aabb) -> Aabb {
+    Aabb::new(a.min.max(b.min), a.max.min(b.max))
+}
+
+/// A box, and where it comes to by going `way`.
+fn stretched(bounds: Aabb, way: Vec2) -> Aabb {
+    Aabb::new(
+        bounds.min + way.min(Vec2::ZERO),
+        bounds.max + way.max(Vec2::ZERO),
+    )
+}

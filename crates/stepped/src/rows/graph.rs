@@ -1,0 +1,353 @@
+//! The constraint graph: contacts, the colour and lane of each, and the list of each body's contacts.
+
+use super::block::{Block, Cold, LANES};
+use crate::bodies::{Bodies, BodyKind};
+use crate::narrow::Manifold;
+
+/// Colours of a mask. Contacts that find none of them free take the overflow colour, a block each, one after the other.
+pub(crate) const COLOURS: usize = 64;
+
+/// Contacts with what cannot be moved take the highest free colour below this one, so that the ground acts last. Piles of
+/// boxes need 6 to 10 colours.
+const GROUND: u64 = 12;
+
+/// No contact.
+const END: u32 = u32::MAX;
+
+/// Where a contact is, and its place in the lists of its two bodies.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Contact {
+    /// Slots of A and B: A was inserted first.
+    pub(crate) bodies: [u32; 2],
+    pub(crate) pieces: [u32; 2],
+    pub(crate) colour: u32,
+    /// Lane, counted through all blocks of the colour.
+    pub(crate) index: u32,
+    /// Contact × 2 + side of the neighbours in the lists of A and of B.
+    next: [u32; 2],
+    previous: [u32; 2],
+}
+
+/// The blocks of one colour; a block and its cold part have the same number.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Colour {
+    pub(crate) blocks: Vec<Block>,
+    pub(crate) cold: Vec<Cold>,
+    /// Lanes in use; all but the last block are full.
+    len: usize,
+}
+
+/// All contacts. Adding and removing moves one lane at most.
+#[derive(Clone, Debug)]
+pub(crate) struct Graph {
+    pub(crate) contacts: Vec<Contact>,
+    free: Vec<u32>,
+    /// The last one is the overflow colour.
+    pub(crate) colours: Vec<Colour>,
+}
+
+impl Contact {
+    /// Block and lane.
+    pub(crate) const fn place(&self) -> (usize, usize) {
+        (self.index as usize / LANES, self.index as usize % LANES)
+    }
+}
+
+impl Graph {
+    pub(crate) fn new() -> Self {
+        Self {
+            contacts: Vec::new(),
+            free: Vec::new(),
+            colours: vec![Colour::default(); COLOURS + 1],
+        }
+    }
+
+    /// Contacts there are.
+    pub(crate) fn len(&self) -> usize {
+        self.contacts.len() - self.free.len()
+    }
+
+    /// Gives a contact of two bodies a number and a lane, without impulses.
+    pub(crate) fn insert(
+        &mut self,
+        bodies: &mut Bodies,
+        ends: [u32; 2],
+        pieces: [u32; 2],
+        manifold: &Manifold,
+        friction: f64,
+    ) -> u32 {
+        #[expect(clippy::cast_possible_truncation, reason = "dozens of bytes each")]
+        let id = self.free.pop().unwrap_or(self.contacts.len() as u32);
+        let mut contact = Contact {
+            bodies: ends,
+            pieces,
+            colour: 0,
+            index: 0,
+            next: [END; 2],
+            previous: [END; 2],
+        };
+        for side in [0, 1] {
+            let head = &mut bodies.records[ends[side] as usize].contacts;
+            contact.next[side] = *head;
+            if *head != END {
+                let (other, its) = (*head >> 1, *head & 1);
+                self.contacts[other as usize].previous[its as usize] = entry(id, side);
+            }
+            *head = entry(id, side);
+        }
+        if id as usize == self.contacts.len() {
+            self.contacts.push(contact);
+        } else {
+            self.contacts[id as usize] = contact;
+        }
+        self.colour(bodies, id, manifold, friction);
+        id
+    }
+
+    /// Takes the colour that suits a new contact, and a lane there.
+    fn colour(&mut self, bodies: &mut Bodies, id: u32, manifold: &Manifold, friction: f64) {
+        let contact = &mut self.contacts[id as usize];
+        let ends = contact.bodies;
+        let dynamic = ends.map(|slot| bodies.is_dynamic(slot));
+        let mut taken = 0;
+        for side in [0, 1] {
+            if dynamic[side] {
+                taken |= bodies.records[ends[side] as usize].colours;
+            }
+        }
+        let colour = colour_for(taken, dynamic == [true, true]);
+        for side in [0, 1] {
+            if dynamic[side] && colour < COLOURS {
+                bodies.records[ends[side] as usize].colours |= 1 << colour;
+            }
+        }
+        let index = self.colours[colour].push(colour == COLOURS, id, contact.pieces);
+        #[expect(clippy::cast_possible_truncation, reason = "fewer than 2^32 contacts")]
+        {
+            (contact.colour, contact.index) = (colour as u32, index as u32);
+        }
+        let (k, lane) = contact.place();
+        let block = &mut self.colours[colour].blocks[k];
+        block.a[lane] = bodies.records[ends[0] as usize].line;
+        block.b[lane] = bodies.records[ends[1] as usize].line;
+        block.mu[lane] = friction;
+        block.put(lane, manifold);
+        self.colours[colour].cold[k].features[lane] = manifold.features;
+    }
+
+    /// Takes a contact out, and its impulses out of the warm start of its bodies.
+    pub(crate) fn remove(&mut self, bodies: &mut Bodies, id: u32) {
+        let contact = self.contacts[id as usize];
+        let (colour, (k, lane)) = (contact.colour as usize, contact.place());
+        let block = &self.colours[colour].blocks[k];
+        let (a, b) = (block.a[lane] as usize, block.b[lane] as usize);
+        let [push_a, push_b] = block.push(lane, &bodies.lines[a], &bodies.lines[b]);
+        bodies.start[a].add(&push_a);
+        bodies.start[b].add(&push_b);
+        self.unlink(bodies, id);
+        for (slot, line) in contact.bodies.into_iter().zip([a, b]) {
+            let record = &mut bodies.records[slot as usize];
+            if record.kind == BodyKind::Dynamic {
+                record.colours &= !(1u64.checked_shl(contact.colour).unwrap_or(0));
+                if record.contacts == END {
+                    // Nothing acts on it: free flight has no leftovers of rounding.
+                    let (v, w) = (bodies.lines[line].v(), bodies.lines[line].w());
+                    bodies.start[line].0[..3].copy_from_slice(&[v.x, v.y, w]);
+                }
+            }
+        }
+        self.vacate(colour, k, lane);
+        self.free.push(id);
+    }
+
+    /// Empties a lane; the last one of the colour moves there.
+    fn vacate(&mut self, colour: usize, k: usize, lane: usize) {
+        if colour == COLOURS {
+            // Here order matters to the bits: it stays.
+            self.colours[colour].blocks.remove(k);
+            self.colours[colour].cold.remove(k);
+            for cold in &self.colours[colour].cold[k..] {
+                #[expect(clippy::cast_possible_truncation, reason = "eight lanes")]
+                let lanes = LANES as u32;
+                self.contacts[cold.contact[0] as usize].index -= lanes;
+            }
+        } else if let Some(moved) = self.colours[colour].pull(k, lane) {
+            #[expect(clippy::cast_possible_truncation, reason = "fewer than 2^32 contacts")]
+            let index = (k * LANES + lane) as u32;
+            self.contacts[moved as usize].index = index;
+        }
+    }
+
+    /// Takes a contact out of the lists of its bodies.
+    fn unlink(&mut self, bodies: &mut Bodies, id: u32) {
+        let contact = self.contacts[id as usize];
+        for side in [0, 1] {
+            let (next, previous) = (contact.next[side], contact.previous[side]);
+            if previous == END {
+                bodies.records[contact.bodies[side] as usize].contacts = next;
+            } else {
+                self.contacts[(previous >> 1) as usize].next[(previous & 1) as usize] = next;
+            }
+            if next != END {
+                self.contacts[(next >> 1) as usize].previous[(next & 1) as usize] = previous;
+            }
+        }
+    }
+
+    /// Numbers of a body's contacts, the newest first, each with the side on which the body is.
+    pub(crate) fn of_body(&self, bodies: &Bodies, slot: u32) -> impl Iterator<Item = (u32, usize)> {
+        let mut at = bodies.records[slot as usize].contacts;
+        core::iter::from_fn(move || {
+            if at == END {
+                return None;
+            }
+            let (id, side) = (at >> 1, (at & 1) as usize);
+            at = self.contacts[id as usize].next[side];
+            Some((id, side))
+        })
+    }
+
+    /// The block and lane of a contact.
+    pub(crate) fn lane(&self, id: u32) -> (&Block, &Cold, usize) {
+        let contact = &self.contacts[id as usize];
+        let (k, lane) = contact.place();
+        let colour = &self.colours[contact.colour as usize];
+        (&colour.blocks[k], &colour.cold[k], lane)
+    }
+
+    /// Tells the rows of a body that it has another line.
+    pub(crate) fn renumber(&mut self, bodies: &Bodies, slot: u32) {
+        let line = bodies.records[slot as usize].line;
+        let mut at = bodies.records[slot as usize].contacts;
+        while at != END {
+            let (id, side) = ((at >> 1) as usize, (at & 1) as usize);
+            let contact = self.contacts[id];
+            let (k, lane) = contact.place();
+            let block = &mut self.colours[contact.colour as usize].blocks[k];
+            if side == 0 {
+                block.a[lane] = line;
+            } else {
+                block.b[lane] = line;
+            }
+            at = contact.next[side];
+        }
+    }
+
+    /// Numbers of all contacts, colour by colour.
+    pub(crate) fn ids(&self) -> impl Iterator<Item = u32> {
+        let cold = self.colours.iter().flat_map(|colour| &colour.cold);
+        cold.flat_map(|cold| {
+            let lanes = (0..LANES).filter(|lane| cold.used >> lane & 1 == 1);
+            lanes.map(|lane| cold.contact[lane])
+        })
+    }
+}
+
+impl Colour {
+    /// Gives the next lane to a contact, or a block of its own.
+    fn push(&mut self, alone: bool, id: u32, pieces: [u32; 2]) -> usize {
+        let index = if alone {
+            self.blocks.len() * LANES
+        } else {
+            self.len
+        };
+        let (k, lane) = (index / LANES, index % LANES);
+        if k == self.blocks.len() {
+            self.blocks.push(Block::EMPTY);
+            self.cold.push(Cold::EMPTY);
+        }
+        let cold = &mut self.cold[k];
+        cold.used |= 1 << lane;
+        (cold.contact[lane], cold.pieces[lane]) = (id, pieces);
+        self.len = index + 1;
+        index
+    }
+
+    /// Fills a hole with the last lane; which contact moved.
+    fn pull(&mut self, k: usize, lane: usize) -> Option<u32> {
+        self.len -= 1;
+        let (last, from) = (self.len / LANES, self.len % LANES);
+        let moves = (last, from) != (k, lane);
+        if moves {
+            let (block, cold) = (self.blocks[last], self.cold[last]);
+            self.blocks[k].copy_lane(lane, &block, from);
+            self.cold[k].copy_lane(lane, &cold, from);
+        }
+        self.blocks[last].copy_lane(from, &Block::EMPTY, 0);
+        self.cold[last].copy_lane(from, &Cold::EMPTY, 0);
+        self.cold[last].used &= !(1 << from);
+        if from == 0 {
+            self.blocks.pop();
+            self.cold.pop();
+        }
+        moves.then(|| self.cold[k].contact[lane])
+    }
+}
+
+/// The lowest free colour; against what cannot be moved the highest free one below [`GROUND`].
+fn colour_for(taken: u64, both: bool) -> usize {
+    let free = !taken;
+    let low = free & ((1 << GROUND) - 1);
+    if free == 0 {
+        COLOURS
+    } else if !both && low != 0 {
+        63 - low.leading_zeros() as usize
+    } else {
+        free.trailing_zeros() as usize
+    }
+}
+
+const fn entry(id: u32, side: usize) -> u32 {
+    id << 1 | (side == 1) as u32
+}
+
+#[cfg(test)]
+impl Graph {
+    /// No body twice in a block, colours and places as the lanes are, warm starts the sum of impulses.
+    pub(crate) fn check(&self, bodies: &Bodies) {
+        let mut masks = vec![0u64; bodies.records.len()];
+        let mut sums = vec![crate::rows::Quad::default(); bodies.lines.len()];
+        let mut count = 0;
+        for (c, colour) in self.colours.iter().enumerate() {
+            for (k, (block, cold)) in colour.blocks.iter().zip(&colour.cold).enumerate() {
+                let mut seen = Vec::new();
+                for lane in 0..LANES {
+                    if cold.used >> lane & 1 == 0 {
+                        assert_eq!((block.a[lane], block.b[lane]), (0, 0));
+                        continue;
+                    }
+                    count += 1;
+                    let contact = &self.contacts[cold.contact[lane] as usize];
+                    assert_eq!((contact.colour as usize, contact.place()), (c, (k, lane)));
+                    assert_eq!(contact.pieces, cold.pieces[lane]);
+                    let lines = [block.a[lane], block.b[lane]];
+                    let [a, b] = lines.map(|line| &bodies.lines[line as usize]);
+                    let pushes = block.push(lane, a, b);
+                    for side in [0, 1] {
+                        let slot = contact.bodies[side];
+                        assert_eq!(bodies.records[slot as usize].line, lines[side]);
+                        sums[lines[side] as usize].add(&pushes[side]);
+                        if bodies.is_dynamic(slot) {
+                            assert!(!seen.contains(&slot), "body {slot} twice in a block");
+                            seen.push(slot);
+                            masks[slot as usize] |= 1u64.checked_shl(contact.colour).unwrap_or(0);
+                        }
+                    }
+                }
+            }
+        }
+        assert_eq!(count, self.len());
+        for (slot, record) in bodies.records.iter().enumerate() {
+            assert!(!record.live || record.colours == masks[slot]);
+        }
+        for (line, sum) in sums.iter().enumerate() {
+            let (v, start) = (&bodies.lines[line], &bodies.start[line]);
+            let off = (v.v() - start.v() - sum.v()).length() + (v.w() - start.w() - sum.w()).abs();
+            let scale = 1.0 + v.v().length() + v.w().abs() + sum.v().length();
+            assert!(
+                off <= 1e-10 * scale,
+                "warm start of line {line} is off by {off}"
+            );
+        }
+    }
+}

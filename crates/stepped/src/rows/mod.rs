@@ -1,0 +1,16 @@
+//! What is solved: contacts in blocks of eight, bodies in lines.
+
+mod block;
+mod graph;
+mod integrate;
+mod kernel;
+mod law;
+mod line;
+mod plain;
+
+pub(crate) use block::{Block, Cold, LANES, OPEN};
+pub(crate) use graph::Graph;
+pub(crate) use integrate::{correct, displace, warm_start};
+pub(crate) use kernel::{Pass, sweep};
+pub(crate) use law::Law;
+pub(crate) use line::{Line, Quad};
