@@ -1,6 +1,6 @@
 //! Steps scenes of boxes and prints time and error: ms a tick (thread CPU time), overlap, hum.
 //!
-//! `cargo run --release -p carom-stepped --example pyramid -- [a|b|pile|thousand] [fast|default|accurate]`
+//! `cargo run --release -p carom-stepped --example pyramid -- [all|a|b|pile|thousand] [fast|default|accurate] [four]`
 
 use carom_geometry::{ConvexPolygon, Segment};
 use carom_math::{Vec2, vec2};
@@ -13,6 +13,7 @@ fn main() -> Outcome<()> {
     let mut arguments = std::env::args().skip(1);
     let scene = arguments.next().unwrap_or_else(|| "all".into());
     let preset = arguments.next().unwrap_or_else(|| "default".into());
+    let four = arguments.next().is_some();
     let settings = match preset.as_str() {
         "fast" => Settings::fast(),
         "accurate" => Settings::accurate(),
@@ -43,7 +44,11 @@ fn main() -> Outcome<()> {
     ];
     for (name, build, skipped, ticks) in scenes {
         if scene == "all" || scene == name {
-            measure(name, build(settings)?, skipped, ticks)?;
+            let mut engine = build(settings)?;
+            if four {
+                engine.hold_to_four_lanes();
+            }
+            measure(name, engine, skipped, ticks)?;
         }
     }
     Ok(())

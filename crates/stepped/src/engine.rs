@@ -2,6 +2,7 @@
 
 use carom_geometry::Aabb;
 use carom_math::Vec2;
+use fearless_simd::Level;
 
 use crate::bodies::Bodies;
 use crate::broad::{Broad, Pairs};
@@ -17,6 +18,8 @@ use crate::{EngineError, Relaxation, Settings};
 pub struct Engine {
     pub(crate) settings: Settings,
     pub(crate) law: Law,
+    /// Instructions that the processor has: they change no bit.
+    pub(crate) level: Level,
     pub(crate) bodies: Bodies,
     pub(crate) pieces: Pieces,
     pub(crate) broad: Broad,
@@ -36,6 +39,7 @@ impl Engine {
         Ok(Self {
             settings,
             law: Law::new(&settings),
+            level: Level::new(),
             bodies: Bodies::new(),
             pieces: Pieces::default(),
             broad: Broad::new(),
@@ -43,6 +47,14 @@ impl Engine {
             graph: Graph::new(),
             parted: Vec::new(),
         })
+    }
+
+    /// Uses registers of at most four lanes from now on, for measurements: the bits stay.
+    pub fn hold_to_four_lanes(&mut self) {
+        #[cfg(target_arch = "x86_64")]
+        if let Some(avx2) = self.level.as_avx2() {
+            self.level = Level::Avx2(avx2);
+        }
     }
 
     /// Moves all bodies by one tick of [`Settings::tick`].
@@ -125,25 +137,26 @@ impl Engine {
     /// One sub-step of the soft law.
     fn substep(&mut self, last: bool) {
         let Self {
-            law, bodies, graph, ..
+            level,
+            law,
+            bodies,
+            graph,
+            ..
         } = self;
         let Bodies {
             lines, start, pull, ..
         } = bodies;
         let every = self.settings.relaxation == Relaxation::EverySubstep;
         warm_start(lines, start, pull, law.h);
-        let solve = Pass {
-            bias: true,
-            friction: !every,
+        let solve = if every {
+            Pass::Solve
+        } else {
+            Pass::SolveWithFriction
         };
-        sweep(solve, law, lines, &mut graph.colours);
+        sweep(*level, solve, law, lines, &mut graph.colours);
         displace(lines, law.h);
         if every || last {
-            let relax = Pass {
-                bias: false,
-                friction: true,
-            };
-            sweep(relax, law, lines, &mut graph.colours);
+            sweep(*level, Pass::Relax, law, lines, &mut graph.colours);
         }
         correct(lines, start, pull, law.h);
     }

@@ -6,7 +6,11 @@ mod integrate;
 mod kernel;
 mod law;
 mod line;
+#[cfg(test)]
 mod plain;
+#[cfg(test)]
+mod tests;
+mod transpose;
 
 pub(crate) use block::{Block, Cold, LANES, OPEN};
 pub(crate) use graph::Graph;

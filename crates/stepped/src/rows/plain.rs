@@ -33,6 +33,7 @@ fn positive(x: f64) -> f64 {
 
 /// Bodies that no lane of the block shares may be written at once.
 fn row(pass: Pass, law: &Law, lines: &mut [Line], block: &mut Block, lane: usize) {
+    let (bias, friction) = (pass != Pass::Relax, pass != Pass::Solve);
     let (ia, ib) = (block.a[lane] as usize, block.b[lane] as usize);
     let Line([mut avx, mut avy, mut aw, ma, adx, ady, aturn, i_a]) = lines[ia];
     let Line([mut bvx, mut bvy, mut bw, mb, bdx, bdy, bturn, i_b]) = lines[ib];
@@ -52,17 +53,17 @@ fn row(pass: Pass, law: &Law, lines: &mut [Line], block: &mut Block, lane: usize
     let k22 = k12 + (turns + (i_a + i_b) * l) * l;
     let k12 = k12 * REGULAR;
     let (u1, u2, s11, s22, softened);
-    if pass.bias {
+    if bias {
         let (rate, soft) = law.soft[usize::from(smaller(ma, mb) == 0.0)];
         softened = soft;
         (s11, s22) = (k11 * softened, k22 * softened);
-        let bias = |gap: f64| {
+        let push = |gap: f64| {
             let factor = if gap > 0.0 { law.inverse_h } else { rate };
             larger(gap * factor, -law.push_out)
         };
         let stiff = |gap: f64, j: f64| if gap > 0.0 { j } else { 0.0 };
-        u1 = v1 + bias(gap1) - (s11 - k11) * stiff(gap1, j1);
-        u2 = v2 + bias(gap2) - (s22 - k22) * stiff(gap2, j2);
+        u1 = v1 + push(gap1) - (s11 - k11) * stiff(gap1, j1);
+        u2 = v2 + push(gap2) - (s22 - k22) * stiff(gap2, j2);
     } else {
         softened = 1.0;
         u1 = v1 + positive(gap1) * law.inverse_h;
@@ -88,11 +89,11 @@ fn row(pass: Pass, law: &Law, lines: &mut [Line], block: &mut Block, lane: usize
         (0.0, y2)
     };
 
-    let (new1, new2) = if pass.bias {
+    let (new1, new2) = if bias {
         // An impulse that more than doubles stops a blow, and has no error to damp: over-relaxed it would throw the
         // struck body off faster than the one that strikes.
         let j = j1 + j2;
-        let rests = j > 0.0 && x1 + x2 <= j + j;
+        let rests = j > 0.0 && j + j >= x1 + x2;
         let omega = if rests { law.over_relaxation } else { softened };
         (
             positive(j1 + omega * (x1 - j1)),
@@ -113,7 +114,7 @@ fn row(pass: Pass, law: &Law, lines: &mut [Line], block: &mut Block, lane: usize
     aw -= (a1 * sum + bend) * i_a;
     bw += (b1 * sum + bend) * i_b;
 
-    if pass.friction {
+    if friction {
         let (at, bt, jt) = (block.at[lane], block.bt[lane], block.jt[lane]);
         let (eases_a, eases_b) = (i_a * at, i_b * bt);
         let k = m + (eases_a * at + eases_b * bt);
