@@ -133,6 +133,18 @@ pub(crate) struct Record {
     pub(crate) gravity_scale: f64,
     /// Distance of its farthest point from the centre of mass, in m.
     pub(crate) reach: f64,
+    /// The island that it sleeps in, or [`Bodies::NONE`].
+    pub(crate) island: u32,
+}
+
+/// A body without its line: what waking puts back.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Sleeper {
+    pub(crate) slot: u32,
+    line: Line,
+    start: Quad,
+    base: Pose,
+    limit: Limit,
 }
 
 /// How far a body may go from its base pose before its contacts are computed anew.
@@ -142,6 +154,8 @@ pub(crate) struct Limit {
     pub(crate) reach: f64,
     /// In m.
     pub(crate) tolerance: f64,
+    /// Of its smallest piece, in m.
+    pub(crate) extent: f64,
 }
 
 /// All bodies. The lists by line hold awake bodies only.
@@ -162,6 +176,8 @@ pub(crate) struct Bodies {
     pub(crate) slot_of: Vec<u32>,
     /// Whether they were rebased in this tick.
     pub(crate) moved: Vec<bool>,
+    /// For how long they have been at rest, in s.
+    pub(crate) rest: Vec<f64>,
 }
 
 impl Bodies {
@@ -169,12 +185,13 @@ impl Bodies {
     const EMPTY: u32 = 0;
     /// The line of all fixed bodies.
     pub(crate) const GROUND: u32 = 1;
-    const NONE: u32 = u32::MAX;
+    pub(crate) const NONE: u32 = u32::MAX;
 
     pub(crate) fn new() -> Self {
         let unlimited = Limit {
             reach: 0.0,
             tolerance: f64::INFINITY,
+            extent: f64::INFINITY,
         };
         Self {
             records: Vec::new(),
@@ -187,6 +204,7 @@ impl Bodies {
             limits: vec![unlimited; 2],
             slot_of: vec![Self::NONE; 2],
             moved: vec![false; 2],
+            rest: vec![0.0; 2],
         }
     }
 
@@ -241,9 +259,48 @@ impl Bodies {
         self.limits.push(Limit {
             reach: record.reach,
             tolerance: 0.0,
+            extent: 0.0,
         });
         self.slot_of.push(slot);
         self.moved.push(true);
+        self.rest.push(0.0);
+    }
+
+    /// Takes the line of a body out, to be put back as it is but for a velocity of 0; which body moved to its place.
+    pub(crate) fn lay(&mut self, slot: u32) -> (Sleeper, Option<u32>) {
+        let at = self.records[slot as usize].line as usize;
+        self.records[slot as usize].pose = self.pose_of(slot);
+        let (mut line, mut start) = (self.lines[at], self.start[at]);
+        // What contacts do in a sub-step stays.
+        start.add(&Quad::new(-line.v(), -line.w()));
+        line.set_velocity(Vec2::ZERO, 0.0);
+        let sleeper = Sleeper {
+            slot,
+            line,
+            start,
+            base: self.base[at],
+            limit: self.limits[at],
+        };
+        (sleeper, self.take_line(slot))
+    }
+
+    /// Gives a body its line again.
+    pub(crate) fn raise(&mut self, sleeper: &Sleeper, settings: &Settings) {
+        self.give_line(sleeper.slot, Vec2::ZERO, 0.0, settings);
+        let at = self.lines.len() - 1;
+        self.lines[at] = sleeper.line;
+        self.start[at] = sleeper.start;
+        self.base[at] = sleeper.base;
+        self.limits[at] = sleeper.limit;
+        self.moved[at] = false;
+    }
+
+    /// The line of a body; that of fixed ones if it sleeps.
+    pub(crate) fn line_of(&self, slot: u32) -> usize {
+        match self.records[slot as usize].line {
+            Self::NONE => Self::GROUND as usize,
+            line => line as usize,
+        }
     }
 
     /// Takes a line out; the last one moves there. Gives the slot of the body that moved.
@@ -257,6 +314,7 @@ impl Bodies {
         self.limits.swap_remove(at);
         self.slot_of.swap_remove(at);
         self.moved.swap_remove(at);
+        self.rest.swap_remove(at);
         self.records[slot as usize].line = Self::NONE;
         let moved = *self.slot_of.get(at)?;
         self.records[moved as usize].line = line;
@@ -354,6 +412,7 @@ impl Record {
         inertia: f64::INFINITY,
         gravity_scale: 0.0,
         reach: 0.0,
+        island: Bodies::NONE,
     };
 }
 

@@ -8,7 +8,8 @@ use crate::bodies::Bodies;
 use crate::broad::{Broad, Pairs};
 use crate::pieces::Pieces;
 use crate::rows::{Graph, Law, Pass, correct, displace, sweep, warm_start};
-use crate::update::{create, update};
+use crate::sleep::Islands;
+use crate::update::{create, met_asleep, update};
 use crate::{EngineError, Relaxation, Settings};
 
 /// Bodies in contact, moved one sub-step after the other.
@@ -27,6 +28,7 @@ pub struct Engine {
     pub(crate) graph: Graph,
     /// Contacts that parted in this tick.
     parted: Vec<u32>,
+    pub(crate) islands: Islands,
 }
 
 impl Engine {
@@ -46,6 +48,7 @@ impl Engine {
             known: Pairs::new(),
             graph: Graph::new(),
             parted: Vec::new(),
+            islands: Islands::default(),
         })
     }
 
@@ -61,6 +64,7 @@ impl Engine {
     pub fn tick(&mut self) {
         self.find_contacts();
         self.substeps();
+        self.settle();
     }
 
     /// Which pieces touch, or may within the tick, and where.
@@ -119,13 +123,24 @@ impl Engine {
             bodies,
             pieces,
             broad,
-            known,
             graph,
             parted,
             ..
         } = self;
         parted.clear();
         update(graph, bodies, pieces, settings, parted);
+        let met = met_asleep(bodies, pieces, settings, &broad.found);
+        self.wake_all(&met);
+        let Self {
+            settings,
+            bodies,
+            pieces,
+            broad,
+            known,
+            graph,
+            parted,
+            ..
+        } = self;
         create(graph, bodies, pieces, settings, known, &broad.found);
         for &id in &*parted {
             known.remove(graph.contacts[id as usize].pieces);
@@ -153,10 +168,10 @@ impl Engine {
         } else {
             Pass::SolveWithFriction
         };
-        sweep(*level, solve, law, lines, &mut graph.colours);
+        sweep(*level, solve, law, lines, graph.awake());
         displace(lines, law.h);
         if every || last {
-            sweep(*level, Pass::Relax, law, lines, &mut graph.colours);
+            sweep(*level, Pass::Relax, law, lines, graph.awake());
         }
         correct(lines, start, pull, law.h);
     }

@@ -46,6 +46,7 @@ impl Engine {
             let limit = &mut self.bodies.limits[record.line as usize];
             limit.reach = reach;
             limit.tolerance = self.settings.tolerance * extent;
+            limit.extent = extent;
         }
         Ok(id)
     }
@@ -69,6 +70,7 @@ impl Engine {
     /// # Errors
     /// [`EngineError::Stale`] if it is not in this engine.
     pub fn remove(&mut self, id: BodyId) -> Result<(), EngineError> {
+        self.wake(id)?;
         let record = *self.bodies.get(id)?;
         self.drop_contacts(id.slot);
         for number in record.first_piece..record.first_piece + record.pieces {
@@ -106,10 +108,12 @@ impl Engine {
         velocity: Vec2,
         spin: f64,
     ) -> Result<(), EngineError> {
-        let record = *self.bodies.get(id)?;
+        self.bodies.get(id)?;
         finite("velocity.x", velocity.x)?;
         finite("velocity.y", velocity.y)?;
         finite("spin", spin)?;
+        self.wake_around(id.slot);
+        let record = *self.bodies.get(id)?;
         if record.kind != BodyKind::Fixed {
             let at = record.line as usize;
             let (line, start) = (&mut self.bodies.lines[at], &mut self.bodies.start[at]);
@@ -127,9 +131,11 @@ impl Engine {
     /// # Errors
     /// [`EngineError::Stale`] if the body is not in this engine, [`EngineError::Value`] if a number is not finite.
     pub fn set_pose(&mut self, id: BodyId, pose: Pose) -> Result<(), EngineError> {
-        let record = *self.bodies.get(id)?;
+        self.bodies.get(id)?;
         finite("pose.position.x", pose.position.x)?;
         finite("pose.position.y", pose.position.y)?;
+        self.wake_around(id.slot);
+        let record = *self.bodies.get(id)?;
         self.drop_contacts(id.slot);
         if record.kind == BodyKind::Fixed {
             self.bodies.records[id.slot as usize].pose = pose;

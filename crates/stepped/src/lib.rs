@@ -35,6 +35,7 @@ mod pieces;
 mod read;
 mod rows;
 mod settings;
+mod sleep;
 #[cfg(test)]
 mod tests;
 mod update;

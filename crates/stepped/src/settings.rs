@@ -10,7 +10,8 @@ use crate::error::{check, finite, not_negative, positive};
 pub enum Relaxation {
     /// After each sub-step; friction acts there alone. Calm, and a sweep dearer.
     EverySubstep,
-    /// After the last sub-step of a tick; friction acts in all sweeps. A fifth sooner; heaps of polygons creep.
+    /// After the last sub-step of a tick; friction acts in all sweeps. A tenth to a fifth sooner, but calm only in small
+    /// piles: a pyramid of 100 rows hums at 4 m/s².
     AtTick,
 }
 
@@ -107,11 +108,16 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// Less time, more overlap: one relaxation a tick.
+    /// Less time, more overlap: four sub-steps of a softer law.
     #[must_use]
     pub fn fast() -> Self {
+        let softness = Softness {
+            compliance: 1.0,
+            ..Softness::default()
+        };
         Self {
-            relaxation: Relaxation::AtTick,
+            substeps: 4,
+            softness,
             ..Self::default()
         }
     }

@@ -43,7 +43,7 @@ pub(crate) fn update(
     settings: &Settings,
     parted: &mut Vec<u32>,
 ) {
-    for colour in &mut graph.colours {
+    for colour in graph.awake() {
         for (block, cold) in colour.blocks.iter_mut().zip(&mut colour.cold) {
             let moved = |line: &u32| bodies.moved[*line as usize];
             if !block.a.iter().chain(&block.b).any(moved) {
@@ -67,6 +67,37 @@ pub(crate) fn update(
     }
 }
 
+/// Islands asleep that some candidate reaches before the next tick: its gap may come below 0 until then.
+pub(crate) fn met_asleep(
+    bodies: &Bodies,
+    pieces: &Pieces,
+    settings: &Settings,
+    candidates: &[[u32; 2]],
+) -> Vec<u32> {
+    let scene = Scene {
+        bodies,
+        pieces,
+        settings,
+    };
+    let mut islands = Vec::new();
+    for &pair in candidates {
+        let slots = pair.map(|piece| pieces.list[piece as usize].body);
+        let [a, b] = slots.map(|slot| bodies.records[slot as usize].island);
+        let island = a.min(b);
+        if island == Bodies::NONE || islands.contains(&island) {
+            continue;
+        }
+        // A body that creeps is seen once a tolerance.
+        let line = bodies.line_of(slots[usize::from(a != Bodies::NONE)]);
+        let seen = bodies.limits[line].tolerance;
+        let near = |found: &Manifold| found.gap() < scene.closes(pair, found) + seen;
+        if scene.contact(pair, 1.0).is_some_and(|found| near(&found)) {
+            islands.push(island);
+        }
+    }
+    islands
+}
+
 /// Makes contacts of those candidates that are near enough, in the order in which their bodies were inserted.
 pub(crate) fn create(
     graph: &mut Graph,
@@ -83,7 +114,11 @@ pub(crate) fn create(
     };
     let mut fresh = Vec::new();
     for &pair in candidates {
-        if known.get(pair).is_some() {
+        let asleep = pair.map(|piece| {
+            let slot = pieces.list[piece as usize].body;
+            bodies.records[slot as usize].line == Bodies::NONE
+        });
+        if asleep[0] || asleep[1] || known.get(pair).is_some() {
             continue;
         }
         let order = pair.map(|piece| {
@@ -113,7 +148,7 @@ pub(crate) fn create(
 /// What is little to a body must be little to the smallest piece that it has a contact with.
 fn narrow_tolerances(bodies: &mut Bodies, settings: &Settings, ends: [u32; 2], extent: f64) {
     for slot in ends {
-        let line = bodies.records[slot as usize].line as usize;
+        let line = bodies.line_of(slot);
         let limit = &mut bodies.limits[line];
         limit.tolerance = limit.tolerance.min(settings.tolerance * extent);
     }
@@ -140,7 +175,7 @@ impl Scene<'_> {
     fn meeting(&self, pair: [u32; 2]) -> Meeting {
         let [a, b] = pair.map(|piece| &self.pieces.list[piece as usize]);
         let [(v_a, w_a, tolerance_a), (v_b, w_b, tolerance_b)] = [a, b].map(|piece| {
-            let line = self.bodies.records[piece.body as usize].line as usize;
+            let line = self.bodies.line_of(piece.body);
             let body = &self.bodies.lines[line];
             let tolerance = self.bodies.limits[line].tolerance;
             let turns = if body.w() == 0.0 {
@@ -172,7 +207,7 @@ impl Scene<'_> {
     fn closes(&self, pair: [u32; 2], found: &Manifold) -> f64 {
         let lines = pair.map(|piece| {
             let slot = self.pieces.list[piece as usize].body;
-            self.bodies.records[slot as usize].line as usize
+            self.bodies.line_of(slot)
         });
         let [a, b] = lines.map(|line| &self.bodies.lines[line]);
         let pull: Vec2 = self.bodies.pull[lines[1]].v() - self.bodies.pull[lines[0]].v();

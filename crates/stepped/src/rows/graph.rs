@@ -7,6 +7,9 @@ use crate::narrow::Manifold;
 /// Colours of a mask. Contacts that find none of them free take the overflow colour, a block each, one after the other.
 pub(crate) const COLOURS: usize = 64;
 
+/// Where contacts of sleeping islands lie, with all their fields: no pass reads it.
+pub(crate) const ASLEEP: usize = COLOURS + 1;
+
 /// Contacts with what cannot be moved take the highest free colour below this one, so that the ground acts last. Piles of
 /// boxes need 6 to 10 colours.
 const GROUND: u64 = 12;
@@ -21,6 +24,8 @@ pub(crate) struct Contact {
     pub(crate) bodies: [u32; 2],
     pub(crate) pieces: [u32; 2],
     pub(crate) colour: u32,
+    /// The colour that it had awake.
+    home: u32,
     /// Lane, counted through all blocks of the colour.
     pub(crate) index: u32,
     /// Contact × 2 + side of the neighbours in the lists of A and of B.
@@ -42,11 +47,15 @@ pub(crate) struct Colour {
 pub(crate) struct Graph {
     pub(crate) contacts: Vec<Contact>,
     free: Vec<u32>,
-    /// The last one is the overflow colour.
-    pub(crate) colours: Vec<Colour>,
+    /// Behind those of masks the overflow colour, and behind it what sleeps.
+    colours: Vec<Colour>,
 }
 
 impl Contact {
+    pub(crate) const fn sleeps(&self) -> bool {
+        self.colour as usize == ASLEEP
+    }
+
     /// Block and lane.
     pub(crate) const fn place(&self) -> (usize, usize) {
         (self.index as usize / LANES, self.index as usize % LANES)
@@ -58,13 +67,18 @@ impl Graph {
         Self {
             contacts: Vec::new(),
             free: Vec::new(),
-            colours: vec![Colour::default(); COLOURS + 1],
+            colours: vec![Colour::default(); COLOURS + 2],
         }
     }
 
     /// Contacts there are.
     pub(crate) fn len(&self) -> usize {
         self.contacts.len() - self.free.len()
+    }
+
+    /// The colours of what is awake, in the order in which they are swept.
+    pub(crate) fn awake(&mut self) -> &mut [Colour] {
+        &mut self.colours[..ASLEEP]
     }
 
     /// Gives a contact of two bodies a number and a lane, without impulses.
@@ -82,6 +96,7 @@ impl Graph {
             bodies: ends,
             pieces,
             colour: 0,
+            home: 0,
             index: 0,
             next: [END; 2],
             previous: [END; 2],
@@ -160,6 +175,46 @@ impl Graph {
         self.free.push(id);
     }
 
+    /// Moves a contact between the colours and what sleeps; its bodies have their lines if it wakes.
+    pub(crate) fn shift(&mut self, bodies: &mut Bodies, id: u32, sleeps: bool) {
+        let contact = self.contacts[id as usize];
+        let (from, (k, lane)) = (contact.colour as usize, contact.place());
+        let (block, cold) = (self.colours[from].blocks[k], self.colours[from].cold[k]);
+        self.vacate(from, k, lane);
+        let (to, lines) = if sleeps {
+            (ASLEEP, [0; 2])
+        } else {
+            let lines = contact
+                .bodies
+                .map(|slot| bodies.records[slot as usize].line);
+            (contact.home as usize, lines)
+        };
+        let bit = if sleeps { contact.colour } else { contact.home };
+        for slot in contact.bodies {
+            let record = &mut bodies.records[slot as usize];
+            if record.kind == BodyKind::Dynamic {
+                let bit = 1u64.checked_shl(bit).unwrap_or(0);
+                record.colours = if sleeps {
+                    record.colours & !bit
+                } else {
+                    record.colours | bit
+                };
+            }
+        }
+        let index = self.colours[to].push(to == COLOURS, id, contact.pieces);
+        let (other, place) = (&mut self.colours[to], (index / LANES, index % LANES));
+        other.blocks[place.0].copy_lane(place.1, &block, lane);
+        other.cold[place.0].copy_lane(place.1, &cold, lane);
+        let block = &mut other.blocks[place.0];
+        (block.a[place.1], block.b[place.1]) = (lines[0], lines[1]);
+        let contact = &mut self.contacts[id as usize];
+        #[expect(clippy::cast_possible_truncation, reason = "fewer than 2^32 contacts")]
+        {
+            contact.home = if sleeps { contact.colour } else { contact.home };
+            (contact.colour, contact.index) = (to as u32, index as u32);
+        }
+    }
+
     /// Empties a lane; the last one of the colour moves there.
     fn vacate(&mut self, colour: usize, k: usize, lane: usize) {
         if colour == COLOURS {
@@ -224,11 +279,12 @@ impl Graph {
             let contact = self.contacts[id];
             let (k, lane) = contact.place();
             let block = &mut self.colours[contact.colour as usize].blocks[k];
-            if side == 0 {
-                block.a[lane] = line;
+            let end = if side == 0 {
+                &mut block.a
             } else {
-                block.b[lane] = line;
-            }
+                &mut block.b
+            };
+            end[lane] = if contact.sleeps() { 0 } else { line };
             at = contact.next[side];
         }
     }
@@ -321,6 +377,10 @@ impl Graph {
                     assert_eq!((contact.colour as usize, contact.place()), (c, (k, lane)));
                     assert_eq!(contact.pieces, cold.pieces[lane]);
                     let lines = [block.a[lane], block.b[lane]];
+                    if c == ASLEEP {
+                        assert_eq!(lines, [0, 0]);
+                        continue;
+                    }
                     let [a, b] = lines.map(|line| &bodies.lines[line as usize]);
                     let pushes = block.push(lane, a, b);
                     for side in [0, 1] {

@@ -47,9 +47,9 @@ fn all_widths_have_the_bits_of_the_plain_sweep() {
                     pass,
                     &law,
                     &mut wide.bodies.lines,
-                    &mut wide.graph.colours,
+                    wide.graph.awake(),
                 );
-                plain::sweep(pass, &law, &mut slow.bodies.lines, &mut slow.graph.colours);
+                plain::sweep(pass, &law, &mut slow.bodies.lines, slow.graph.awake());
                 for (x, y) in wide.bodies.lines.iter().zip(&slow.bodies.lines) {
                     // Adding 0 makes −0 a 0: a block that is left early writes nothing back.
                     let bits = |line: &super::Line| line.0.map(|x| (x + 0.0).to_bits());

@@ -2,6 +2,7 @@
 
 mod geometry;
 mod laws;
+mod sleeping;
 mod twin;
 
 use carom_geometry::{Circle, ConvexPolygon, HalfPlane, Shape};
