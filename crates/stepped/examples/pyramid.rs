@@ -1,10 +1,10 @@
 //! Steps scenes of boxes and prints time and error: ms a tick (thread CPU time), overlap, hum.
 //!
-//! `cargo run --release -p carom-stepped --example pyramid -- [all|a|b|pile|thousand] [fast|default|accurate] [four]`
+//! `cargo run --release -p carom-stepped --example pyramid -- [all|a|e|b|pile|thousand] [fast|default|accurate] [four]`
 
 use carom_geometry::{ConvexPolygon, Segment};
 use carom_math::{Vec2, vec2};
-use carom_stepped::{BodyId, BodyInput, Engine, PieceInput, Settings};
+use carom_stepped::{BodyId, BodyInput, Engine, Material, PieceInput, Settings};
 use rustix::time::{ClockId, clock_gettime};
 
 type Outcome<T> = Result<T, Box<dyn std::error::Error>>;
@@ -36,8 +36,9 @@ fn main() -> Outcome<()> {
         "hum m/s²",
         "v m/s"
     );
-    let scenes: [(&str, Build, u32, u32); 4] = [
+    let scenes: [(&str, Build, u32, u32); 5] = [
         ("a", large_pyramid, 50, 300),
+        ("e", bouncing_pyramid, 50, 300),
         ("b", many_pyramids, 30, 120),
         ("pile", falling_pile, 0, 240),
         ("thousand", thousand_boxes, 0, 240),
@@ -61,7 +62,16 @@ fn large_pyramid(settings: Settings) -> Outcome<Engine> {
     let mut engine = Engine::new(settings)?;
     let ground = PieceInput::new(ConvexPolygon::rectangle(200.0, 2.0)?);
     engine.insert(BodyInput::fixed().at(vec2(0.0, -1.0)), &[ground])?;
-    pyramid(&mut engine, 100, vec2(-49.5, 0.0))?;
+    pyramid(&mut engine, 100, vec2(-49.5, 0.0), 0.0)?;
+    Ok(engine)
+}
+
+/// The same with a restitution of 0.3.
+fn bouncing_pyramid(settings: Settings) -> Outcome<Engine> {
+    let mut engine = Engine::new(settings)?;
+    let ground = PieceInput::new(ConvexPolygon::rectangle(200.0, 2.0)?);
+    engine.insert(BodyInput::fixed().at(vec2(0.0, -1.0)), &[ground])?;
+    pyramid(&mut engine, 100, vec2(-49.5, 0.0), 0.3)?;
     Ok(engine)
 }
 
@@ -73,14 +83,18 @@ fn many_pyramids(settings: Settings) -> Outcome<Engine> {
         let ground = Segment::new(vec2(-110.0, y), vec2(110.0, y))?;
         engine.insert(BodyInput::fixed(), &[PieceInput::new(ground)])?;
         for i in 0..20 {
-            pyramid(&mut engine, 10, vec2(-109.0 + 11.0 * f64::from(i), y))?;
+            pyramid(&mut engine, 10, vec2(-109.0 + 11.0 * f64::from(i), y), 0.0)?;
         }
     }
     Ok(engine)
 }
 
-fn pyramid(engine: &mut Engine, rows: u32, corner: Vec2) -> Outcome<()> {
-    let square = [PieceInput::new(ConvexPolygon::square(1.0)?)];
+fn pyramid(engine: &mut Engine, rows: u32, corner: Vec2, restitution: f64) -> Outcome<()> {
+    let surface = Material {
+        restitution,
+        ..Material::default()
+    };
+    let square = [PieceInput::new(ConvexPolygon::square(1.0)?).with_material(surface)];
     for row in 0..rows {
         for k in 0..rows - row {
             let x = corner.x + f64::from(k) + 0.5 * f64::from(row);

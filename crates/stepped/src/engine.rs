@@ -7,7 +7,9 @@ use fearless_simd::Level;
 use crate::bodies::Bodies;
 use crate::broad::{Broad, Pairs};
 use crate::pieces::Pieces;
-use crate::rows::{Graph, Law, Pass, correct, displace, sweep, warm_start};
+use crate::rows::{
+    Arrival, Graph, Law, Pass, arrivals, bounce, correct, displace, sweep, warm_start,
+};
 use crate::sleep::Islands;
 use crate::update::{create, met_asleep, update};
 use crate::{EngineError, Relaxation, Settings};
@@ -29,6 +31,8 @@ pub struct Engine {
     /// Contacts that parted in this tick.
     parted: Vec<u32>,
     pub(crate) islands: Islands,
+    /// Points that bounce in this sub-step.
+    arrived: Vec<Arrival>,
 }
 
 impl Engine {
@@ -49,6 +53,7 @@ impl Engine {
             graph: Graph::new(),
             parted: Vec::new(),
             islands: Islands::default(),
+            arrived: Vec::new(),
         })
     }
 
@@ -156,6 +161,7 @@ impl Engine {
             law,
             bodies,
             graph,
+            arrived,
             ..
         } = self;
         let Bodies {
@@ -163,6 +169,8 @@ impl Engine {
         } = bodies;
         let every = self.settings.relaxation == Relaxation::EverySubstep;
         warm_start(lines, start, pull, law.h);
+        arrivals(*level, law, bodies, graph, arrived);
+        let lines = &mut bodies.lines;
         let solve = if every {
             Pass::Solve
         } else {
@@ -173,6 +181,10 @@ impl Engine {
         if every || last {
             sweep(*level, Pass::Relax, law, lines, graph.awake());
         }
+        bounce(bodies, graph, arrived);
+        let Bodies {
+            lines, start, pull, ..
+        } = bodies;
         correct(lines, start, pull, law.h);
     }
 }

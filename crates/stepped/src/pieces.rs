@@ -21,6 +21,16 @@ pub struct Material {
     pub restitution: f64,
 }
 
+impl Material {
+    /// What two surfaces are to each other.
+    pub(crate) fn with(self, other: Self) -> Self {
+        Self {
+            friction: (self.friction * other.friction).sqrt(),
+            restitution: self.restitution.max(other.restitution),
+        }
+    }
+}
+
 impl Default for Material {
     fn default() -> Self {
         Self {

@@ -138,8 +138,8 @@ pub(crate) fn create(
     for (_, pair, manifold) in fresh {
         let [a, b] = pair.map(|piece| &pieces.list[piece as usize]);
         let ends = [a.body, b.body];
-        let friction = (a.material.friction * b.material.friction).sqrt();
-        let id = graph.insert(bodies, ends, pair, &manifold, friction);
+        let surface = a.material.with(b.material);
+        let id = graph.insert(bodies, ends, pair, &manifold, surface);
         known.insert(pair, id);
         narrow_tolerances(bodies, settings, ends, a.extent.min(b.extent));
     }

@@ -49,6 +49,8 @@ pub(crate) struct Cold {
     pub(crate) contact: [u32; LANES],
     pub(crate) pieces: [[u32; 2]; LANES],
     pub(crate) features: [[u32; 2]; LANES],
+    /// Coefficients of restitution.
+    pub(crate) restitution: [f64; LANES],
     /// A bit for each lane that holds a contact.
     pub(crate) used: u8,
 }
@@ -108,6 +110,26 @@ impl Block {
         ]
     }
 
+    pub(crate) const fn points(&self, lane: usize) -> usize {
+        if self.s2[lane] < OPEN { 2 } else { 1 }
+    }
+
+    /// Normal velocities of both points, in m/s.
+    pub(crate) fn opening(&self, lane: usize, a: &Line, b: &Line) -> [f64; 2] {
+        self.along(lane, (a.v(), a.w()), (b.v(), b.w()))
+    }
+
+    /// What a push of both bodies opens a point by.
+    pub(crate) fn response(&self, lane: usize, point: usize, a: &Quad, b: &Quad) -> f64 {
+        self.along(lane, (a.v(), a.w()), (b.v(), b.w()))[point]
+    }
+
+    fn along(&self, lane: usize, a: (Vec2, f64), b: (Vec2, f64)) -> [f64; 2] {
+        let n = Vec2::new(self.nx[lane], self.ny[lane]);
+        let first = n.dot(b.0 - a.0) + self.b1[lane] * b.1 - self.a1[lane] * a.1;
+        [first, first + self.l[lane] * (b.1 - a.1)]
+    }
+
     /// Both gaps with the bodies where their lines say, in m.
     pub(crate) fn gaps(&self, lane: usize, a: &Line, b: &Line) -> [f64; 2] {
         let n = Vec2::new(self.nx[lane], self.ny[lane]);
@@ -156,6 +178,7 @@ impl Cold {
         contact: [u32::MAX; LANES],
         pieces: [[u32::MAX; 2]; LANES],
         features: [[0; 2]; LANES],
+        restitution: [0.0; LANES],
         used: 0,
     };
 
@@ -163,5 +186,6 @@ impl Cold {
         self.contact[to] = other.contact[from];
         self.pieces[to] = other.pieces[from];
         self.features[to] = other.features[from];
+        self.restitution[to] = other.restitution[from];
     }
 }

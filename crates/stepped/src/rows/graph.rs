@@ -1,6 +1,7 @@
 //! The constraint graph: contacts, the colour and lane of each, and the list of each body's contacts.
 
 use super::block::{Block, Cold, LANES};
+use crate::Material;
 use crate::bodies::{Bodies, BodyKind};
 use crate::narrow::Manifold;
 
@@ -38,6 +39,9 @@ pub(crate) struct Contact {
 pub(crate) struct Colour {
     pub(crate) blocks: Vec<Block>,
     pub(crate) cold: Vec<Cold>,
+    /// How many contacts of each block have restitution, and all of them.
+    pub(crate) bounces: Vec<u8>,
+    pub(crate) bouncing: usize,
     /// Lanes in use; all but the last block are full.
     len: usize,
 }
@@ -48,7 +52,7 @@ pub(crate) struct Graph {
     pub(crate) contacts: Vec<Contact>,
     free: Vec<u32>,
     /// Behind those of masks the overflow colour, and behind it what sleeps.
-    colours: Vec<Colour>,
+    pub(super) colours: Vec<Colour>,
 }
 
 impl Contact {
@@ -88,7 +92,7 @@ impl Graph {
         ends: [u32; 2],
         pieces: [u32; 2],
         manifold: &Manifold,
-        friction: f64,
+        surface: Material,
     ) -> u32 {
         #[expect(clippy::cast_possible_truncation, reason = "dozens of bytes each")]
         let id = self.free.pop().unwrap_or(self.contacts.len() as u32);
@@ -115,12 +119,12 @@ impl Graph {
         } else {
             self.contacts[id as usize] = contact;
         }
-        self.colour(bodies, id, manifold, friction);
+        self.colour(bodies, id, manifold, surface);
         id
     }
 
     /// Takes the colour that suits a new contact, and a lane there.
-    fn colour(&mut self, bodies: &mut Bodies, id: u32, manifold: &Manifold, friction: f64) {
+    fn colour(&mut self, bodies: &mut Bodies, id: u32, manifold: &Manifold, surface: Material) {
         let contact = &mut self.contacts[id as usize];
         let ends = contact.bodies;
         let dynamic = ends.map(|slot| bodies.is_dynamic(slot));
@@ -145,9 +149,12 @@ impl Graph {
         let block = &mut self.colours[colour].blocks[k];
         block.a[lane] = bodies.records[ends[0] as usize].line;
         block.b[lane] = bodies.records[ends[1] as usize].line;
-        block.mu[lane] = friction;
+        block.mu[lane] = surface.friction;
         block.put(lane, manifold);
-        self.colours[colour].cold[k].features[lane] = manifold.features;
+        let colour = &mut self.colours[colour];
+        colour.cold[k].features[lane] = manifold.features;
+        colour.cold[k].restitution[lane] = surface.restitution;
+        colour.count(k, lane);
     }
 
     /// Takes a contact out, and its impulses out of the warm start of its bodies.
@@ -156,9 +163,7 @@ impl Graph {
         let (colour, (k, lane)) = (contact.colour as usize, contact.place());
         let block = &self.colours[colour].blocks[k];
         let (a, b) = (block.a[lane] as usize, block.b[lane] as usize);
-        let [push_a, push_b] = block.push(lane, &bodies.lines[a], &bodies.lines[b]);
-        bodies.start[a].add(&push_a);
-        bodies.start[b].add(&push_b);
+        self.clear_warm_start(bodies, id);
         self.unlink(bodies, id);
         for (slot, line) in contact.bodies.into_iter().zip([a, b]) {
             let record = &mut bodies.records[slot as usize];
@@ -205,6 +210,7 @@ impl Graph {
         let (other, place) = (&mut self.colours[to], (index / LANES, index % LANES));
         other.blocks[place.0].copy_lane(place.1, &block, lane);
         other.cold[place.0].copy_lane(place.1, &cold, lane);
+        other.count(place.0, place.1);
         let block = &mut other.blocks[place.0];
         (block.a[place.1], block.b[place.1]) = (lines[0], lines[1]);
         let contact = &mut self.contacts[id as usize];
@@ -219,8 +225,10 @@ impl Graph {
     fn vacate(&mut self, colour: usize, k: usize, lane: usize) {
         if colour == COLOURS {
             // Here order matters to the bits: it stays.
+            self.colours[colour].discount(k, lane);
             self.colours[colour].blocks.remove(k);
             self.colours[colour].cold.remove(k);
+            self.colours[colour].bounces.remove(k);
             for cold in &self.colours[colour].cold[k..] {
                 #[expect(clippy::cast_possible_truncation, reason = "eight lanes")]
                 let lanes = LANES as u32;
@@ -231,6 +239,18 @@ impl Graph {
             let index = (k * LANES + lane) as u32;
             self.contacts[moved as usize].index = index;
         }
+    }
+
+    /// Lets a contact start the next sub-step without impulses; velocities stay.
+    pub(crate) fn clear_warm_start(&mut self, bodies: &mut Bodies, id: u32) {
+        let contact = &self.contacts[id as usize];
+        let (k, lane) = contact.place();
+        let block = &mut self.colours[contact.colour as usize].blocks[k];
+        let (a, b) = (block.a[lane] as usize, block.b[lane] as usize);
+        let [push_a, push_b] = block.push(lane, &bodies.lines[a], &bodies.lines[b]);
+        bodies.start[a].add(&push_a);
+        bodies.start[b].add(&push_b);
+        block.set_impulses(lane, [0.0; 3]);
     }
 
     /// Takes a contact out of the lists of its bodies.
@@ -311,6 +331,7 @@ impl Colour {
         if k == self.blocks.len() {
             self.blocks.push(Block::EMPTY);
             self.cold.push(Cold::EMPTY);
+            self.bounces.push(0);
         }
         let cold = &mut self.cold[k];
         cold.used |= 1 << lane;
@@ -319,15 +340,32 @@ impl Colour {
         index
     }
 
+    /// A lane came that may have restitution.
+    fn count(&mut self, k: usize, lane: usize) {
+        let bounces = self.cold[k].restitution[lane] > 0.0;
+        self.bounces[k] += u8::from(bounces);
+        self.bouncing += usize::from(bounces);
+    }
+
+    /// A lane that may have restitution goes.
+    fn discount(&mut self, k: usize, lane: usize) {
+        let bounces = self.cold[k].restitution[lane] > 0.0;
+        self.bounces[k] -= u8::from(bounces);
+        self.bouncing -= usize::from(bounces);
+    }
+
     /// Fills a hole with the last lane; which contact moved.
     fn pull(&mut self, k: usize, lane: usize) -> Option<u32> {
         self.len -= 1;
+        self.discount(k, lane);
         let (last, from) = (self.len / LANES, self.len % LANES);
         let moves = (last, from) != (k, lane);
         if moves {
             let (block, cold) = (self.blocks[last], self.cold[last]);
+            self.discount(last, from);
             self.blocks[k].copy_lane(lane, &block, from);
             self.cold[k].copy_lane(lane, &cold, from);
+            self.count(k, lane);
         }
         self.blocks[last].copy_lane(from, &Block::EMPTY, 0);
         self.cold[last].copy_lane(from, &Cold::EMPTY, 0);
@@ -335,6 +373,7 @@ impl Colour {
         if from == 0 {
             self.blocks.pop();
             self.cold.pop();
+            self.bounces.pop();
         }
         moves.then(|| self.cold[k].contact[lane])
     }
@@ -355,59 +394,4 @@ fn colour_for(taken: u64, both: bool) -> usize {
 
 const fn entry(id: u32, side: usize) -> u32 {
     id << 1 | (side == 1) as u32
-}
-
-#[cfg(test)]
-impl Graph {
-    /// No body twice in a block, colours and places as the lanes are, warm starts the sum of impulses.
-    pub(crate) fn check(&self, bodies: &Bodies) {
-        let mut masks = vec![0u64; bodies.records.len()];
-        let mut sums = vec![crate::rows::Quad::default(); bodies.lines.len()];
-        let mut count = 0;
-        for (c, colour) in self.colours.iter().enumerate() {
-            for (k, (block, cold)) in colour.blocks.iter().zip(&colour.cold).enumerate() {
-                let mut seen = Vec::new();
-                for lane in 0..LANES {
-                    if cold.used >> lane & 1 == 0 {
-                        assert_eq!((block.a[lane], block.b[lane]), (0, 0));
-                        continue;
-                    }
-                    count += 1;
-                    let contact = &self.contacts[cold.contact[lane] as usize];
-                    assert_eq!((contact.colour as usize, contact.place()), (c, (k, lane)));
-                    assert_eq!(contact.pieces, cold.pieces[lane]);
-                    let lines = [block.a[lane], block.b[lane]];
-                    if c == ASLEEP {
-                        assert_eq!(lines, [0, 0]);
-                        continue;
-                    }
-                    let [a, b] = lines.map(|line| &bodies.lines[line as usize]);
-                    let pushes = block.push(lane, a, b);
-                    for side in [0, 1] {
-                        let slot = contact.bodies[side];
-                        assert_eq!(bodies.records[slot as usize].line, lines[side]);
-                        sums[lines[side] as usize].add(&pushes[side]);
-                        if bodies.is_dynamic(slot) {
-                            assert!(!seen.contains(&slot), "body {slot} twice in a block");
-                            seen.push(slot);
-                            masks[slot as usize] |= 1u64.checked_shl(contact.colour).unwrap_or(0);
-                        }
-                    }
-                }
-            }
-        }
-        assert_eq!(count, self.len());
-        for (slot, record) in bodies.records.iter().enumerate() {
-            assert!(!record.live || record.colours == masks[slot]);
-        }
-        for (line, sum) in sums.iter().enumerate() {
-            let (v, start) = (&bodies.lines[line], &bodies.start[line]);
-            let off = (v.v() - start.v() - sum.v()).length() + (v.w() - start.w() - sum.w()).abs();
-            let scale = 1.0 + v.v().length() + v.w().abs() + sum.v().length();
-            assert!(
-                off <= 1e-10 * scale,
-                "warm start of line {line} is off by {off}"
-            );
-        }
-    }
 }

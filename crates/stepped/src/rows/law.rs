@@ -14,6 +14,8 @@ pub(crate) struct Law {
     pub(crate) h: f64,
     pub(crate) inverse_h: f64,
     pub(crate) over_relaxation: f64,
+    /// In m/s².
+    pub(crate) gravity: f64,
     /// Fastest push-out of an overlap, in m/s.
     pub(crate) push_out: f64,
     /// (rate, 1 + γ) between moving bodies, and against what cannot be moved, at twice the frequency.
@@ -35,6 +37,7 @@ impl Law {
             h,
             inverse_h: h.recip(),
             over_relaxation: softness.over_relaxation,
+            gravity: settings.gravity.length(),
             push_out: softness.push_out,
             soft: [soft(frequency), soft(2.0 * frequency)],
         }

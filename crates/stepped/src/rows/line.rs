@@ -51,6 +51,13 @@ impl Line {
         (self.0[0], self.0[1], self.0[2]) = (v.x, v.y, w);
     }
 
+    /// Adds to its velocity.
+    pub(crate) fn add(&mut self, push: &Quad) {
+        for (v, push) in self.0[..3].iter_mut().zip(push.0) {
+            *v += push;
+        }
+    }
+
     /// It counts from where it is now.
     pub(crate) const fn clear_displacement(&mut self) {
         (self.0[4], self.0[5], self.0[6]) = (0.0, 0.0, 0.0);
@@ -71,7 +78,6 @@ impl Quad {
         vec2(self.0[0], self.0[1])
     }
 
-    #[cfg(test)]
     pub(crate) const fn w(&self) -> f64 {
         self.0[2]
     }

@@ -1,6 +1,8 @@
 //! What is solved: contacts in blocks of eight, bodies in lines.
 
 mod block;
+#[cfg(test)]
+mod check;
 mod graph;
 mod integrate;
 mod kernel;
@@ -8,6 +10,7 @@ mod law;
 mod line;
 #[cfg(test)]
 mod plain;
+mod restitution;
 #[cfg(test)]
 mod tests;
 mod transpose;
@@ -18,3 +21,4 @@ pub(crate) use integrate::{correct, displace, warm_start};
 pub(crate) use kernel::{Pass, sweep};
 pub(crate) use law::Law;
 pub(crate) use line::{Line, Quad};
+pub(crate) use restitution::{Arrival, arrivals, bounce};

@@ -1,5 +1,6 @@
 //! Laws that hold whatever is simulated.
 
+mod bouncing;
 mod geometry;
 mod laws;
 mod sleeping;
