@@ -54,6 +54,10 @@ pub(crate) fn arrivals(
         let colour = &graph.awake()[c];
         let (block, cold) = (&colour.blocks[k], &colour.cold[k]);
         for lane in (0..LANES).filter(|lane| cold.restitution[*lane] > 0.0) {
+            // What bears a load is at rest, however it shakes: a bounce would take away what holds the pile above it.
+            if block.j1[lane] + block.j2[lane] > 0.0 {
+                continue;
+            }
             let [v, gaps, pull] = motion(bodies, block, lane);
             for point in 0..block.points(lane) {
                 let (v, gap, a) = (v[point], gaps[point], pull[0]);
@@ -61,7 +65,8 @@ pub(crate) fn arrivals(
                 let before = v - a * law.h;
                 let square = before * before - 2.0 * a.min(0.0) * gap.max(0.0);
                 let speed = if before < 0.0 { square.sqrt() } else { 0.0 };
-                if gap + 2.0 * v * law.h < 0.0 && speed > least {
+                let met = gap > 0.0 && gap + 2.0 * v * law.h < 0.0;
+                if met && speed > least {
                     found.push(Arrival {
                         contact: cold.contact[lane],
                         point,
