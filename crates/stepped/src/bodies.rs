@@ -178,6 +178,8 @@ pub(crate) struct Bodies {
     pub(crate) moved: Vec<bool>,
     /// For how long they have been at rest, in s.
     pub(crate) rest: Vec<f64>,
+    /// Velocities that their boxes were made for.
+    pub(crate) foreseen: Vec<Quad>,
 }
 
 impl Bodies {
@@ -205,6 +207,7 @@ impl Bodies {
             slot_of: vec![Self::NONE; 2],
             moved: vec![false; 2],
             rest: vec![0.0; 2],
+            foreseen: vec![Quad::default(); 2],
         }
     }
 
@@ -264,6 +267,7 @@ impl Bodies {
         self.slot_of.push(slot);
         self.moved.push(true);
         self.rest.push(0.0);
+        self.foreseen.push(Quad::new(v, w));
     }
 
     /// Takes the line of a body out, to be put back as it is but for a velocity of 0; which body moved to its place.
@@ -315,6 +319,7 @@ impl Bodies {
         self.slot_of.swap_remove(at);
         self.moved.swap_remove(at);
         self.rest.swap_remove(at);
+        self.foreseen.swap_remove(at);
         self.records[slot as usize].line = Self::NONE;
         let moved = *self.slot_of.get(at)?;
         self.records[moved as usize].line = line;
@@ -381,18 +386,42 @@ impl Bodies {
     /// Marks whatever left its base pose by its tolerance, or may until the next tick, and makes its base pose where it is.
     pub(crate) fn rebase(&mut self, tick: f64) {
         for at in 2..self.lines.len() {
-            let (line, limit) = (&mut self.lines[at], &self.limits[at]);
+            let (line, limit) = (self.lines[at], self.limits[at]);
             let far = |v: Vec2, w: f64| v.x.abs().max(v.y.abs()) + w.abs() * limit.reach;
             let went = far(line.d(), line.turn());
             let goes = far(line.v(), line.w()) * tick;
             self.moved[at] |= went > limit.tolerance || goes > limit.tolerance;
+            self.foreseen[at] = Quad::new(line.v(), line.w());
             if self.moved[at] {
-                let base = &mut self.base[at];
-                base.position += line.d();
-                base.rotation = base.rotation.turned_slightly(line.turn());
-                line.clear_displacement();
+                self.rebase_one(at);
             }
         }
+    }
+
+    /// The base pose of the body of a line is where it is, from now on.
+    fn rebase_one(&mut self, at: usize) {
+        let (line, base) = (&mut self.lines[at], &mut self.base[at]);
+        base.position += line.d();
+        base.rotation = base.rotation.turned_slightly(line.turn());
+        line.clear_displacement();
+    }
+
+    /// Rebases those whose velocity changed so much that they may be a margin off what was foreseen `rest` seconds later.
+    pub(crate) fn rebase_strays(&mut self, settings: &Settings, rest: f64) -> bool {
+        let mut strays = false;
+        for at in 2..self.lines.len() {
+            let (line, limit, then) = (&self.lines[at], &self.limits[at], &self.foreseen[at]);
+            let v = line.v() - then.v();
+            let change = v.x.abs().max(v.y.abs()) + (line.w() - then.w()).abs() * limit.reach;
+            // What gravity adds within a tick is foreseen.
+            let change = change - self.pull[at].v().length() * settings.tick;
+            if change * rest > settings.margin * limit.extent {
+                (self.moved[at], strays) = (true, true);
+                self.foreseen[at] = Quad::new(line.v(), line.w());
+                self.rebase_one(at);
+            }
+        }
+        strays
     }
 }
 

@@ -80,14 +80,31 @@ impl Engine {
     }
 
     pub(crate) fn substeps(&mut self) {
-        for k in 0..self.settings.substeps {
-            self.substep(k + 1 == self.settings.substeps);
+        for k in 1..=self.settings.substeps {
+            self.substep(k == self.settings.substeps);
+            if k < self.settings.substeps {
+                self.follow_strays(f64::from(self.settings.substeps - k) * self.law.h);
+            }
+        }
+    }
+
+    /// Finds the contacts of bodies that go otherwise than was foreseen at the tick, for the `rest` of it in s.
+    fn follow_strays(&mut self, rest: f64) {
+        if self.bodies.rebase_strays(&self.settings, rest) {
+            self.pose_moved();
+            self.broad.find(&self.bodies, &self.pieces);
+            self.update_contacts();
         }
     }
 
     /// Makes where bodies are their base poses, if that is far from these, and their boxes anew.
     fn rebase(&mut self) {
         self.bodies.rebase(self.settings.tick);
+        self.pose_moved();
+    }
+
+    /// Poses the pieces of bodies that were rebased.
+    fn pose_moved(&mut self) {
         for line in 2..self.bodies.lines.len() {
             if self.bodies.moved[line] {
                 self.pose_pieces(line);

@@ -25,6 +25,8 @@ struct Meeting {
     margin: f64,
     /// The most that they may close by until the next tick, in m.
     closing: f64,
+    /// The most that they moved by against each other since their base poses, in m.
+    moved: f64,
 }
 
 /// What the narrow phase reads.
@@ -162,7 +164,7 @@ impl Scene<'_> {
         let [a, b] = pair.map(|piece| &self.pieces.list[piece as usize]);
         let [turned_a, turned_b] = pair.map(|piece| &self.pieces.turned[piece as usize]);
         let [pose_a, pose_b] = [a.body, b.body].map(|slot| self.bodies.base_of(slot));
-        let limit = margin + meeting.closing;
+        let limit = margin + meeting.closing + meeting.moved;
         let found = if turned_a.corners > 0 && turned_b.corners > 0 {
             let d = pose_b.position - pose_a.position;
             collide(turned_a, turned_b, d, limit, HYSTERESIS * meeting.margin)
@@ -174,36 +176,38 @@ impl Scene<'_> {
 
     fn meeting(&self, pair: [u32; 2]) -> Meeting {
         let [a, b] = pair.map(|piece| &self.pieces.list[piece as usize]);
-        let [(v_a, w_a, tolerance_a), (v_b, w_b, tolerance_b)] = [a, b].map(|piece| {
-            let line = self.bodies.line_of(piece.body);
-            let body = &self.bodies.lines[line];
-            let tolerance = self.bodies.limits[line].tolerance;
-            let turns = if body.w() == 0.0 {
+        let [line_a, line_b] = [a, b].map(|piece| self.bodies.line_of(piece.body));
+        let (body_a, body_b) = (&self.bodies.lines[line_a], &self.bodies.lines[line_b]);
+        // Half-planes reach without end, and do not turn.
+        let times = |angle: f64, reach: f64| {
+            if angle == 0.0 {
                 0.0
             } else {
-                body.w().abs() * piece.reach
-            };
-            (
-                body.v(),
-                turns,
-                if tolerance < f64::INFINITY {
-                    tolerance
-                } else {
-                    0.0
-                },
-            )
-        });
+                angle.abs() * reach
+            }
+        };
+        let turning = times(body_a.w(), a.reach) + times(body_b.w(), b.reach);
+        let turned = times(body_a.turn(), a.reach) + times(body_b.turn(), b.reach);
+        let tolerance = |line: usize| {
+            let tolerance = self.bodies.limits[line].tolerance;
+            if tolerance < f64::INFINITY {
+                tolerance
+            } else {
+                0.0
+            }
+        };
         let margin = self.settings.margin * a.extent.min(b.extent);
         let tick = self.settings.tick;
         let pull = self.settings.gravity.length() * tick;
         Meeting {
             // A body at rest may be a tolerance off its base pose, and go as far again.
-            margin: margin.max(2.0 * (tolerance_a + tolerance_b)),
-            closing: ((v_b - v_a).length() + w_a + w_b + pull) * tick,
+            margin: margin.max(2.0 * (tolerance(line_a) + tolerance(line_b))),
+            closing: ((body_b.v() - body_a.v()).length() + turning + pull) * tick,
+            moved: (body_b.d() - body_a.d()).length() + turned,
         }
     }
 
-    /// How far the nearer point closes until the next tick, in m, if velocities stay but for gravity.
+    /// How far the nearer point closes from the base poses until the next tick, in m, if velocities stay but for gravity.
     fn closes(&self, pair: [u32; 2], found: &Manifold) -> f64 {
         let lines = pair.map(|piece| {
             let slot = self.pieces.list[piece as usize].body;
@@ -216,7 +220,10 @@ impl Scene<'_> {
         let second = first + found.length * (b.w() - a.w());
         let least = if second < first { second } else { first };
         let least = least + n.dot(pull).min(0.0) * self.settings.tick;
-        (-least).max(0.0) * self.settings.tick
+        let went = n.dot(b.d() - a.d()) + found.arm_b * b.turn() - found.arm_a * a.turn();
+        let second = went + found.length * (b.turn() - a.turn());
+        let went = if second < went { second } else { went };
+        (-least).max(0.0) * self.settings.tick - went
     }
 }
 

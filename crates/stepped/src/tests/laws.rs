@@ -318,3 +318,29 @@ fn bad_values_are_refused_by_name() {
     let refused = engine.insert(BodyInput::dynamic(1.0, 1.0), &[PieceInput::new(plane)]);
     assert_eq!(refused.unwrap_err(), EngineError::Unbounded { piece: 0 });
 }
+
+/// A column of boxes that falls as one, a gap wider than any margin between them: the lowest stops in the midst of a tick.
+#[test]
+fn what_stops_within_a_tick_is_not_run_over() {
+    let mut engine = Engine::new(Settings::default()).unwrap();
+    floor(&mut engine);
+    let mut ids = Vec::new();
+    for k in 0..6 {
+        let body = BodyInput::dynamic(1.0, 1.0 / 6.0).at(vec2(0.0, 0.7 + 1.1 * f64::from(k)));
+        ids.push(
+            engine
+                .insert(body.moving(vec2(0.0, -20.0), 0.0), &[unit_box()])
+                .unwrap(),
+        );
+    }
+    let mut deepest = 0.0f64;
+    for _ in 0..60 {
+        engine.tick();
+        engine.graph.check(&engine.bodies);
+        for pair in ids.windows(2) {
+            let [low, high] = [pair[0], pair[1]].map(|id| engine.pose(id).unwrap().position.y);
+            deepest = deepest.max(1.0 - (high - low));
+        }
+    }
+    assert!(deepest < 0.05, "{deepest} m");
+}
