@@ -1,6 +1,6 @@
 //! Steps scenes of boxes and prints time and error: ms a tick (thread CPU time), overlap, hum.
 //!
-//! `cargo run --release -p carom-stepped --example pyramid -- [all|a|e|b|pile|thousand] [fast|default|accurate] [four]`
+//! `cargo run --release -p carom-stepped --example pyramid -- [all|a|e|b|c|d|pile|thousand] [fast|default|accurate] [four]`
 
 use carom_geometry::{ConvexPolygon, Segment};
 use carom_math::{Vec2, vec2};
@@ -36,10 +36,12 @@ fn main() -> Outcome<()> {
         "hum m/s²",
         "v m/s"
     );
-    let scenes: [(&str, Build, u32, u32); 5] = [
+    let scenes: [(&str, Build, u32, u32); 7] = [
         ("a", large_pyramid, 50, 300),
         ("e", bouncing_pyramid, 50, 300),
         ("b", many_pyramids, 30, 120),
+        ("c", smash, 75, 225),
+        ("d", tumbler, 200, 300),
         ("pile", falling_pile, 0, 240),
         ("thousand", thousand_boxes, 0, 240),
     ];
@@ -103,6 +105,58 @@ fn pyramid(engine: &mut Engine, rows: u32, corner: Vec2, restitution: f64) -> Ou
         }
     }
     Ok(())
+}
+
+/// A heavy box of 8 m is shot into 9,600 boxes of 0.4 m, without gravity.
+fn smash(settings: Settings) -> Outcome<Engine> {
+    let mut engine = Engine::new(Settings {
+        gravity: Vec2::ZERO,
+        ..settings
+    })?;
+    let heavy = ConvexPolygon::square(8.0)?;
+    let mass = 8.0 * 64.0;
+    let bullet = BodyInput::dynamic(mass, mass * 64.0 / 6.0).at(vec2(-20.0, 0.0));
+    engine.insert(
+        bullet.moving(vec2(40.0, 0.0), 0.0),
+        &[PieceInput::new(heavy)],
+    )?;
+    let square = ConvexPolygon::square(0.4)?;
+    for column in 0..120 {
+        for row in 0..80 {
+            let at = vec2(30.0 + 0.4 * f64::from(column), 0.4 * f64::from(row - 40));
+            drop(&mut engine, &square, at)?;
+        }
+    }
+    Ok(engine)
+}
+
+/// 2,025 boxes of 0.25 m in a drum of 20 m that turns by 25° a second.
+fn tumbler(settings: Settings) -> Outcome<Engine> {
+    let mut engine = Engine::new(settings)?;
+    let spin = 25.0 * core::f64::consts::PI / 180.0;
+    let drum = BodyInput::kinematic()
+        .at(vec2(0.0, 10.0))
+        .moving(Vec2::ZERO, spin);
+    let mut walls = Vec::new();
+    for (x, y, w, h) in [
+        (10.0, 0.0, 1.0, 20.0),
+        (-10.0, 0.0, 1.0, 20.0),
+        (0.0, 10.0, 20.0, 1.0),
+        (0.0, -10.0, 20.0, 1.0),
+    ] {
+        walls.push(PieceInput::new(
+            ConvexPolygon::rectangle(w, h)?.translated(vec2(x, y)),
+        ));
+    }
+    engine.insert(drum, &walls)?;
+    let square = ConvexPolygon::square(0.25)?;
+    for row in 0..45 {
+        for column in 0..45 {
+            let at = vec2(-9.0 + 0.4 * f64::from(column), 1.0 + 0.4 * f64::from(row));
+            drop(&mut engine, &square, at)?;
+        }
+    }
+    Ok(engine)
 }
 
 /// 2,000 boxes, triangles and hexagons that fall into a bin.

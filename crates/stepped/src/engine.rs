@@ -6,7 +6,7 @@ use fearless_simd::Level;
 
 use crate::bodies::Bodies;
 use crate::broad::{Broad, Pairs};
-use crate::pieces::Pieces;
+use crate::pieces::{Disc, Pieces};
 use crate::rows::{
     Arrival, Graph, Law, Pass, arrivals, bounce, correct, displace, sweep, warm_start,
 };
@@ -75,7 +75,8 @@ impl Engine {
     /// Which pieces touch, or may within the tick, and where.
     pub(crate) fn find_contacts(&mut self) {
         self.rebase();
-        self.broad.find(&self.bodies, &self.pieces);
+        self.broad
+            .find(&self.bodies, &self.pieces, self.settings.tick);
         self.update_contacts();
     }
 
@@ -92,7 +93,8 @@ impl Engine {
     fn follow_strays(&mut self, rest: f64) {
         if self.bodies.rebase_strays(&self.settings, rest) {
             self.pose_moved();
-            self.broad.find(&self.bodies, &self.pieces);
+            self.broad
+                .find_few(&self.bodies, &self.pieces, self.settings.tick);
             self.update_contacts();
         }
     }
@@ -135,6 +137,11 @@ impl Engine {
             let falls = bodies.pull[line].v() * (settings.tick * settings.tick);
             let swept = stretched(stretched(box_, goes), falls);
             pieces.boxes[number as usize] = swept.grown(slack);
+            pieces.discs[number as usize] = Disc {
+                centre: pose.position,
+                velocity: body.v(),
+                radius: piece.reach + slack + falls.length(),
+            };
         }
     }
 
@@ -151,8 +158,10 @@ impl Engine {
         } = self;
         parted.clear();
         update(graph, bodies, pieces, settings, parted);
-        let met = met_asleep(bodies, pieces, settings, &broad.found);
-        self.wake_all(&met);
+        if self.islands.any_asleep() {
+            let met = met_asleep(bodies, pieces, settings, &broad.found);
+            self.wake_all(&met);
+        }
         let Self {
             settings,
             bodies,

@@ -3,7 +3,7 @@
 use carom_math::{Pose, Vec2};
 
 use crate::error::finite;
-use crate::pieces::Piece;
+use crate::pieces::{Disc, Piece};
 use crate::{BodyId, BodyInput, BodyKind, Engine, EngineError, PieceInput};
 
 impl Engine {
@@ -62,6 +62,7 @@ impl Engine {
             tight
         };
         self.pieces.boxes[number as usize] = bounds;
+        self.pieces.discs[number as usize] = Disc::ENDLESS;
         self.broad.stand(number, bounds);
     }
 

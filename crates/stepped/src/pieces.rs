@@ -200,6 +200,32 @@ pub(crate) struct Piece {
     pub(crate) reach: f64,
 }
 
+/// A circle around what a piece may reach within the tick but for its velocity: bodies that go side by side do not meet,
+/// though their swept boxes overlap.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Disc {
+    pub(crate) centre: Vec2,
+    /// In m/s.
+    pub(crate) velocity: Vec2,
+    pub(crate) radius: f64,
+}
+
+impl Disc {
+    /// Of what has no circle.
+    pub(crate) const ENDLESS: Self = Self {
+        centre: Vec2::ZERO,
+        velocity: Vec2::ZERO,
+        radius: f64::INFINITY,
+    };
+
+    /// Whether two may meet within `time` seconds.
+    pub(crate) fn may_meet(&self, other: &Self, time: f64) -> bool {
+        let speed = other.velocity - self.velocity;
+        let reach = self.radius + other.radius + (speed.x.abs() + speed.y.abs()) * time;
+        (other.centre - self.centre).length_squared() <= reach * reach
+    }
+}
+
 /// All pieces; those of a body have consecutive numbers.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Pieces {
@@ -208,6 +234,8 @@ pub(crate) struct Pieces {
     pub(crate) turned: Vec<Outline>,
     /// Boxes around what a piece may reach within the tick, each with half a margin.
     pub(crate) boxes: Vec<Aabb>,
+    /// Circles around movers, and their velocities.
+    pub(crate) discs: Vec<Disc>,
     /// First and count of numbers in use no more.
     free: Vec<(u32, u32)>,
 }
@@ -224,6 +252,7 @@ impl Pieces {
                 self.list.push(piece);
                 self.turned.push(Outline::NONE);
                 self.boxes.push(Aabb::EMPTY);
+                self.discs.push(Disc::ENDLESS);
             } else {
                 self.list[number] = piece;
             }

@@ -21,6 +21,12 @@ pub(crate) struct Islands {
     ticks: u64,
 }
 
+impl Islands {
+    pub(crate) const fn any_asleep(&self) -> bool {
+        self.asleep.len() > self.free.len()
+    }
+}
+
 impl Engine {
     /// Counts how long bodies rest, and puts islands to sleep.
     pub(crate) fn settle(&mut self) {
