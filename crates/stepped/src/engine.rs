@@ -6,6 +6,7 @@ use fearless_simd::Level;
 
 use crate::bodies::Bodies;
 use crate::broad::{Broad, Pairs};
+use crate::ghost::hide;
 use crate::pieces::{Disc, Pieces};
 use crate::rows::{
     Arrival, Graph, Law, Pass, arrivals, bounce, correct, displace, sweep, warm_start,
@@ -177,6 +178,7 @@ impl Engine {
             known.remove(graph.contacts[id as usize].pieces);
             graph.remove(bodies, id);
         }
+        hide(graph, bodies, pieces);
         bodies.moved.fill(false);
     }
 

@@ -27,6 +27,7 @@ mod bodies;
 mod broad;
 mod engine;
 mod error;
+mod ghost;
 mod insert;
 #[cfg(test)]
 mod naive;

@@ -54,23 +54,25 @@ impl Manifold {
     }
 }
 
-/// Two outlines, both turned, with the centre of mass of B at `d` from that of A; `None` if they are farther apart than
-/// `limit`.
+/// Two outlines, both turned, with the centre of mass of B at `d` from that of A; `None` if they stay farther apart than
+/// `limit` while B goes `way` against A.
 ///
 /// A's face is preferred unless B's separates by `hysteresis` more. All in m.
 pub(crate) fn collide(
     a: &Outline,
     b: &Outline,
     d: Vec2,
+    way: Vec2,
     limit: f64,
     hysteresis: f64,
 ) -> Option<Manifold> {
     let radii = a.radius + b.radius;
-    let (sa, ia) = best_face(a, b, d, limit + radii)?;
-    let (sb, ib) = best_face(b, a, -d, limit + radii)?;
+    let (sa, ia) = best_face(a, b, d, way, limit + radii)?;
+    let (sb, ib) = best_face(b, a, -d, -way, limit + radii)?;
     if a.corners == 1 && b.corners == 1 {
         let ends = [a.corner(0), b.corner(0)];
-        return corners(a, b, d, ends, 0).filter(|found| found.gap() <= limit);
+        let goes = way.length();
+        return corners(a, b, d, ends, 0).filter(|found| found.gap() <= limit + goes);
     }
     let found = if sb > sa + hysteresis {
         face(b, a, -d, ib, true)
@@ -80,8 +82,9 @@ pub(crate) fn collide(
     Some(found)
 }
 
-/// The edge of `a` that separates best, and how far the nearest corner of `b` is in front of it; `None` beyond `limit`.
-fn best_face(a: &Outline, b: &Outline, d: Vec2, limit: f64) -> Option<(f64, usize)> {
+/// The edge of `a` that separates best, and how far the nearest corner of `b` is in front of it; `None` if that stays
+/// beyond `limit` on the way.
+fn best_face(a: &Outline, b: &Outline, d: Vec2, way: Vec2, limit: f64) -> Option<(f64, usize)> {
     let mut best = (f64::NEG_INFINITY, 0);
     if a.corners == 1 {
         return Some(best);
@@ -94,7 +97,8 @@ fn best_face(a: &Outline, b: &Outline, d: Vec2, limit: f64) -> Option<(f64, usiz
             least = if along < least { along } else { least };
         }
         let separation = least + n.dot(d) - a.off[i];
-        if separation > limit {
+        let nears = n.dot(way);
+        if separation + if nears < 0.0 { nears } else { 0.0 } > limit {
             return None;
         }
         if separation > best.0 {

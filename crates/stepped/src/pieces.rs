@@ -192,7 +192,7 @@ pub(crate) struct Piece {
     part: usize,
     /// What the shape is grown by, in m.
     pub(crate) rounding: f64,
-    outline: Option<Outline>,
+    outline: Option<Box<Outline>>,
     pub(crate) material: Material,
     /// Twice the distance from its middle to its nearest side, in m; of something without a width an eighth of its length.
     pub(crate) extent: f64,
@@ -291,7 +291,7 @@ impl Piece {
                     ordinal,
                     part: i,
                     rounding,
-                    outline: Outline::of(&hull, rounding),
+                    outline: Outline::of(&hull, rounding).map(Box::new),
                     material,
                     extent: if half_plane {
                         f64::INFINITY

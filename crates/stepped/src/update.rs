@@ -23,7 +23,8 @@ const SAME_NORMAL: f64 = 0.9;
 struct Meeting {
     /// Gaps below it make a contact, in m.
     margin: f64,
-    /// The most that they may close by until the next tick, in m.
+    /// How far B goes against A until the next tick, in m, and what they may close by besides.
+    way: Vec2,
     closing: f64,
     /// The most that they moved by against each other since their base poses, in m.
     moved: f64,
@@ -167,9 +168,10 @@ impl Scene<'_> {
         let limit = margin + meeting.closing + meeting.moved;
         let found = if turned_a.corners > 0 && turned_b.corners > 0 {
             let d = pose_b.position - pose_a.position;
-            collide(turned_a, turned_b, d, limit, HYSTERESIS * meeting.margin)
+            let hysteresis = HYSTERESIS * meeting.margin;
+            collide(turned_a, turned_b, d, meeting.way, limit, hysteresis)
         } else {
-            collide_any((a, pose_a), (b, pose_b), limit)
+            collide_any((a, pose_a), (b, pose_b), limit + meeting.way.length())
         }?;
         (found.gap() < margin + self.closes(pair, &found)).then_some(found)
     }
@@ -202,7 +204,8 @@ impl Scene<'_> {
         Meeting {
             // A body at rest may be a tolerance off its base pose, and go as far again.
             margin: margin.max(2.0 * (tolerance(line_a) + tolerance(line_b))),
-            closing: ((body_b.v() - body_a.v()).length() + turning + pull) * tick,
+            way: (body_b.v() - body_a.v()) * tick,
+            closing: (turning + pull) * tick,
             moved: (body_b.d() - body_a.d()).length() + turned,
         }
     }

@@ -9,7 +9,7 @@
 use fearless_simd::{Level, Select, Simd, dispatch, f64x4, f64x8};
 
 use super::block::{Block, LANES};
-use super::graph::Colour;
+use super::colour::Colour;
 use super::law::Law;
 use super::line::Line;
 use super::transpose::{Wide, any};

@@ -3,6 +3,7 @@
 mod block;
 #[cfg(test)]
 mod check;
+mod colour;
 mod graph;
 mod integrate;
 mod kernel;

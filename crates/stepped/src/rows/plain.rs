@@ -1,7 +1,7 @@
 //! The soft law, lane by lane: the scalar twin of the wide kernel, bit for bit.
 
 use super::block::{Block, LANES};
-use super::graph::Colour;
+use super::colour::Colour;
 use super::kernel::{Pass, REGULAR};
 use super::law::Law;
 use super::line::Line;

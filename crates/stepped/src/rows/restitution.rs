@@ -10,7 +10,8 @@
 use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x4};
 
 use super::block::{Block, LANES};
-use super::graph::{Colour, Graph};
+use super::colour::Colour;
+use super::graph::Graph;
 use super::law::Law;
 use super::line::{Line, Quad};
 use super::transpose::{Wide, any};

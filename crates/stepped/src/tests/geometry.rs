@@ -32,7 +32,8 @@ fn outlines_that_touch_agree_with_hulls() {
             pieces.turned[0]
         });
         let d = pose_b.position - pose_a.position;
-        let ours = collide(&turned_a, &turned_b, d, 0.0, 0.0).filter(|ours| ours.gap() <= 0.0);
+        let ours =
+            collide(&turned_a, &turned_b, d, Vec2::ZERO, 0.0, 0.0).filter(|ours| ours.gap() <= 0.0);
         let theirs = collide_any((&a, pose_a), (&b, pose_b), 0.0);
         // Cores apart, roundings in touch: there the hulls' normal is that of the nearest points.
         let cores = a.rounding + b.rounding == 0.0;

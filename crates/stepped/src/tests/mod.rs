@@ -2,7 +2,9 @@
 
 mod bouncing;
 mod geometry;
+mod ghosts;
 mod laws;
+mod scales;
 mod sleeping;
 mod twin;
 
