@@ -78,24 +78,27 @@ fn seen(graph: &Graph, bodies: &Bodies, id: u32, side: usize) -> Seen {
 
 fn is_ghost(bodies: &Bodies, pieces: &Pieces, rows: &[Seen], k: usize) -> bool {
     let row = &rows[k];
-    let Some((p, p_at)) = outline(bodies, pieces, row.piece) else {
-        return false;
-    };
     rows.iter().any(|other| {
-        let lean = row.normal - other.normal * row.normal.dot(other.normal);
-        let turned = lean.length();
-        if other.piece == row.piece || turned < LEANS || row.normal.dot(other.normal) < -LEANS {
+        let along = row.normal.dot(other.normal);
+        // Cheap tests first: most pairs of rows are two sides of a heap.
+        if other.piece == row.piece || along * along > 1.0 - LEANS * LEANS || along < -LEANS {
             return false;
         }
         let extent = |piece: u32| pieces.list[piece as usize].extent;
         let flush = FLUSH * extent(row.piece).min(extent(other.piece));
         let height = |point: Vec2| other.normal.dot(point - other.points[0]);
-        let behind = |point: &Vec2| height(*point) <= flush;
-        // All of P lies behind the plane of the other row, and so do the points.
+        if row.points.iter().any(|point| height(*point) > flush) {
+            return false;
+        }
+        let Some((p, p_at)) = outline(bodies, pieces, row.piece) else {
+            return false;
+        };
+        // All of P lies behind the plane of the other row, and where its side goes on beyond the points another piece is.
+        let lean = row.normal - other.normal * along;
+        let lean = lean * (10.0 * flush / lean.length());
         (0..p.corners).all(|i| height(p_at + p.corner(i)) + p.radius <= flush)
-            && row.points.iter().all(behind)
             && row.points.iter().all(|point| {
-                let beyond = *point + lean * (10.0 * flush / turned);
+                let beyond = *point + lean;
                 rows.iter().any(|third| {
                     third.piece != row.piece
                         && outline(bodies, pieces, third.piece)
