@@ -163,15 +163,19 @@ fn bits(engine: &Engine, ids: &[BodyId]) -> Vec<[u64; 7]> {
 
 #[test]
 fn equal_calls_give_equal_bits() {
-    let run = || {
+    let run = |four: bool| {
         let (mut engine, ids) = cloud(Settings::default(), 5, 70, 4.0);
         floor(&mut engine);
+        if four {
+            engine.hold_to_four_lanes();
+        }
         for _ in 0..100 {
             engine.tick();
         }
         bits(&engine, &ids)
     };
-    assert_eq!(run(), run());
+    assert_eq!(run(false), run(false));
+    assert_eq!(run(false), run(true));
 }
 
 /// Two heaps a kilometre apart in one engine have the bits of each alone, inserted in turn or one after the other.
