@@ -1,0 +1,165 @@
+//! Broad phase: which pieces may touch within the tick.
+
+mod pairs;
+mod sweep;
+
+use carom_collision::{BoxTree, NodeId};
+use carom_geometry::Aabb;
+
+use crate::bodies::{Bodies, BodyKind};
+use crate::pieces::Pieces;
+pub(crate) use pairs::Pairs;
+use sweep::Sweep;
+
+/// Movers in a sweep, what stands in a tree, half-planes in a list.
+#[derive(Clone, Debug)]
+pub(crate) struct Broad {
+    sweep: Sweep,
+    standing: BoxTree,
+    /// Node of each piece that stands.
+    nodes: Vec<Option<NodeId>>,
+    endless: Vec<u32>,
+    /// What moves and what stands is no more what it was when the sweep was sorted.
+    stale: bool,
+    /// Pieces that stand since the last tick: movers that rest have not met them.
+    arrived: Vec<u32>,
+    /// Pairs of pieces whose boxes overlap, one of which moved.
+    pub(crate) found: Vec<[u32; 2]>,
+}
+
+impl Broad {
+    pub(crate) fn new() -> Self {
+        Self {
+            sweep: Sweep::default(),
+            standing: BoxTree::new(),
+            nodes: Vec::new(),
+            endless: Vec::new(),
+            stale: true,
+            arrived: Vec::new(),
+            found: Vec::new(),
+        }
+    }
+
+    /// Makes a piece one of those that stand, in `bounds`.
+    pub(crate) fn stand(&mut self, piece: u32, bounds: Aabb) {
+        if bounds.is_finite() {
+            let k = piece as usize;
+            if self.nodes.len() <= k {
+                self.nodes.resize(k + 1, None);
+            }
+            self.nodes[k] = Some(self.standing.insert(bounds, piece));
+        } else {
+            self.endless.push(piece);
+        }
+        self.arrived.push(piece);
+        self.stale = true;
+    }
+
+    /// It stands no more, or never did.
+    pub(crate) fn leave(&mut self, piece: u32) {
+        if let Some(node) = self.nodes.get_mut(piece as usize).and_then(Option::take) {
+            self.standing.remove(node);
+        }
+        self.endless.retain(|other| *other != piece);
+        self.arrived.retain(|other| *other != piece);
+        self.stale = true;
+    }
+
+    /// Finds the pairs of which one piece moved or arrived.
+    pub(crate) fn find(&mut self, bodies: &Bodies, pieces: &Pieces, tick: f64) {
+        self.found.clear();
+        let awake = 2..bodies.lines.len();
+        if self.arrived.is_empty() && !bodies.moved[2..].contains(&true) {
+            return;
+        }
+        let of_line = |line: usize| {
+            let record = &bodies.records[bodies.slot_of[line] as usize];
+            record.first_piece..record.first_piece + record.pieces
+        };
+        self.sweep
+            .sort(awake.clone().flat_map(of_line), &pieces.boxes);
+        let line = |piece: u32| {
+            let slot = pieces.list[piece as usize].body;
+            bodies.records[slot as usize].line as usize
+        };
+        let moved = |piece: u32| bodies.moved[line(piece)];
+        let found = &mut self.found;
+        self.sweep
+            .pairs(&pieces.boxes, moved, |a, b| found.push([a, b]));
+        for at in awake.filter(|at| bodies.moved[*at]) {
+            for piece in of_line(at) {
+                let bounds = pieces.boxes[piece as usize];
+                self.standing
+                    .query(bounds, |other| found.push([piece, other]));
+                found.extend(self.endless.iter().map(|other| [piece, *other]));
+            }
+        }
+        for &piece in &self.arrived {
+            let bounds = pieces.boxes[piece as usize];
+            self.sweep.all_in(&pieces.boxes, bounds, |other| {
+                if !moved(other) {
+                    found.push([other, piece]);
+                }
+            });
+        }
+        self.arrived.clear();
+        self.stale = false;
+        self.found
+            .retain(|pair| may_touch(bodies, pieces, *pair, tick));
+    }
+
+    /// Finds the pairs of the few that moved since [`Self::find`] in the same tick.
+    pub(crate) fn find_few(&mut self, bodies: &Bodies, pieces: &Pieces, tick: f64) {
+        if self.stale {
+            self.find(bodies, pieces, tick);
+            return;
+        }
+        self.found.clear();
+        let found = &mut self.found;
+        let mut few = Vec::new();
+        for line in (2..bodies.lines.len()).filter(|line| bodies.moved[*line]) {
+            let record = &bodies.records[bodies.slot_of[line] as usize];
+            few.extend(record.first_piece..record.first_piece + record.pieces);
+        }
+        // The sweep knows where the others' boxes are, and of these where they were: so these are compared as well.
+        for &piece in &few {
+            let bounds = pieces.boxes[piece as usize];
+            self.sweep
+                .all_in(&pieces.boxes, bounds, |other| found.push([piece, other]));
+            self.standing
+                .query(bounds, |other| found.push([piece, other]));
+            found.extend(self.endless.iter().map(|other| [piece, *other]));
+        }
+        let left = |piece: &u32| pieces.boxes[*piece as usize].min.x;
+        few.sort_unstable_by(|a, b| left(a).total_cmp(&left(b)).then(a.cmp(b)));
+        for (k, piece) in few.iter().enumerate() {
+            let bounds = pieces.boxes[*piece as usize];
+            for other in few[k + 1..]
+                .iter()
+                .take_while(|other| left(other) <= bounds.max.x)
+            {
+                if pieces.boxes[*other as usize].overlaps(bounds) {
+                    found.push([*piece, *other]);
+                }
+            }
+        }
+        // A pair may have been found from both sides, and by both ways.
+        for pair in &mut *found {
+            pair.sort_unstable();
+        }
+        found.sort_unstable();
+        found.dedup();
+        found.retain(|pair| may_touch(bodies, pieces, *pair, tick));
+    }
+}
+
+/// Pieces of two bodies of which contacts move at least one, and that may meet within the tick.
+fn may_touch(bodies: &Bodies, pieces: &Pieces, pair: [u32; 2], tick: f64) -> bool {
+    let [a, b] = pair.map(|piece| &pieces.discs[piece as usize]);
+    if !a.may_meet(b, tick) {
+        return false;
+    }
+    let [a, b] = pair.map(|piece| pieces.list[piece as usize].body);
+    let dynamic = |slot: u32| bodies.records[slot as usize].kind == BodyKind::Dynamic;
+    a != b && (dynamic(a) || dynamic(b))
+}

@@ -1,0 +1,64 @@
+//! What can be wrong with what enters.
+
+use thiserror::Error;
+
+use crate::BodyId;
+
+/// Why a value was refused; the engine is as it was.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum EngineError {
+    /// A number is out of its range.
+    #[error("{field} is {value}: it must be {allowed}")]
+    Value {
+        /// The field, as in `BodyInput::mass`.
+        field: &'static str,
+        /// What it was.
+        value: f64,
+        /// What is allowed.
+        allowed: &'static str,
+    },
+    /// A body that moves has a piece without end.
+    #[error("piece {piece} is a half-plane: only a fixed body can have one")]
+    Unbounded {
+        /// Index of the piece.
+        piece: usize,
+    },
+    /// The body was removed, or is of another engine.
+    #[error("{0:?} is not in this engine")]
+    Stale(BodyId),
+}
+
+/// Refuses what is not a finite number.
+pub(crate) fn finite(field: &'static str, value: f64) -> Result<(), EngineError> {
+    check(field, value, value.is_finite(), "finite")
+}
+
+/// Refuses what is not a finite number above zero.
+pub(crate) fn positive(field: &'static str, value: f64) -> Result<(), EngineError> {
+    let good = value.is_finite() && value > 0.0;
+    check(field, value, good, "finite and above 0")
+}
+
+/// Refuses what is not a finite number, or below zero.
+pub(crate) fn not_negative(field: &'static str, value: f64) -> Result<(), EngineError> {
+    let good = value.is_finite() && value >= 0.0;
+    check(field, value, good, "finite and not below 0")
+}
+
+/// Refuses what is not `good`.
+pub(crate) fn check(
+    field: &'static str,
+    value: f64,
+    good: bool,
+    allowed: &'static str,
+) -> Result<(), EngineError> {
+    if good {
+        Ok(())
+    } else {
+        Err(EngineError::Value {
+            field,
+            value,
+            allowed,
+        })
+    }
+}

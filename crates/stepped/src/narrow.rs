@@ -1,0 +1,305 @@
+//! One pair of pieces to its manifold: what a row stores, and nothing else.
+//!
+//! All lengths are relative to the two centres of mass, so that nothing is lost far from the origin. A wide kernel for
+//! eight pairs gives the same numbers.
+
+use carom_collision::collide_within;
+use carom_math::{Pose, Vec2, cross, perp};
+
+use crate::pieces::{Outline, Piece};
+
+/// Where two pieces meet, in the letters of [`crate::rows::Block`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Manifold {
+    /// Unit normal from A to B.
+    pub(crate) normal: Vec2,
+    /// `r_A × n` and `r_B × n` of point 1, the one farther along the normal turned by +90°.
+    pub(crate) arm_a: f64,
+    pub(crate) arm_b: f64,
+    /// From point 2 to point 1: both arms of point 2 are larger by it.
+    pub(crate) length: f64,
+    /// 1 or 2.
+    pub(crate) points: u8,
+    /// `r_A · n` and `r_B · n`, midway between the surfaces.
+    pub(crate) tangent_a: f64,
+    pub(crate) tangent_b: f64,
+    /// Gaps at the poses given, in m; below zero the pieces overlap.
+    pub(crate) gaps: [f64; 2],
+    /// What touches: corner of A × 2¹⁶ + corner of B.
+    pub(crate) features: [u32; 2],
+}
+
+impl Manifold {
+    /// The lesser gap.
+    pub(crate) const fn gap(&self) -> f64 {
+        if self.points == 2 && self.gaps[1] < self.gaps[0] {
+            self.gaps[1]
+        } else {
+            self.gaps[0]
+        }
+    }
+
+    fn single(normal: Vec2, arms: [Vec2; 2], gap: f64, feature: u32) -> Self {
+        Self {
+            normal,
+            arm_a: cross(arms[0], normal),
+            arm_b: cross(arms[1], normal),
+            length: 0.0,
+            points: 1,
+            tangent_a: arms[0].dot(normal),
+            tangent_b: arms[1].dot(normal),
+            gaps: [gap; 2],
+            features: [feature; 2],
+        }
+    }
+}
+
+/// Two outlines, both turned, with the centre of mass of B at `d` from that of A; `None` if they stay farther apart than
+/// `limit` while B goes `way` against A.
+///
+/// A's face is preferred unless B's separates by `hysteresis` more. All in m.
+pub(crate) fn collide(
+    a: &Outline,
+    b: &Outline,
+    d: Vec2,
+    way: Vec2,
+    limit: f64,
+    hysteresis: f64,
+) -> Option<Manifold> {
+    let radii = a.radius + b.radius;
+    let (sa, ia) = best_face(a, b, d, way, limit + radii)?;
+    let (sb, ib) = best_face(b, a, -d, -way, limit + radii)?;
+    if a.corners == 1 && b.corners == 1 {
+        let ends = [a.corner(0), b.corner(0)];
+        let goes = way.length();
+        return corners(a, b, d, ends, 0).filter(|found| found.gap() <= limit + goes);
+    }
+    let found = if sb > sa + hysteresis {
+        face(b, a, -d, ib, true)
+    } else {
+        face(a, b, d, ia, false)
+    };
+    Some(found)
+}
+
+/// The edge of `a` that separates best, and how far the nearest corner of `b` is in front of it; `None` if that stays
+/// beyond `limit` on the way.
+fn best_face(a: &Outline, b: &Outline, d: Vec2, way: Vec2, limit: f64) -> Option<(f64, usize)> {
+    let mut best = (f64::NEG_INFINITY, 0);
+    if a.corners == 1 {
+        return Some(best);
+    }
+    for i in 0..a.corners {
+        let n = a.normal(i);
+        let mut least = n.dot(b.corner(0));
+        for k in 1..b.corners {
+            let along = n.dot(b.corner(k));
+            least = if along < least { along } else { least };
+        }
+        let separation = least + n.dot(d) - a.off[i];
+        let nears = n.dot(way);
+        if separation + if nears < 0.0 { nears } else { 0.0 } > limit {
+            return None;
+        }
+        if separation > best.0 {
+            best = (separation, i);
+        }
+    }
+    Some(best)
+}
+
+/// Clips the edge of `other` that faces edge `i` of `owner` to it; `d` goes from the owner's centre to the other's.
+fn face(owner: &Outline, other: &Outline, d: Vec2, i: usize, flipped: bool) -> Manifold {
+    let n = owner.normal(i);
+    let t = perp(n);
+    let i_next = owner.next(i);
+    let (face_low, face_high) = (t.dot(owner.corner(i)), t.dot(owner.corner(i_next)));
+    let (j, j_next) = facing(other, n);
+    // Edges run against each other, so the end of the other's edge is the lower one.
+    let (low, high) = (other.corner(j_next) + d, other.corner(j) + d);
+    let (x_low, x_high) = (t.dot(low), t.dot(high));
+    let (z_low, z_high) = (n.dot(low) - owner.off[i], n.dot(high) - owner.off[i]);
+    let radii = owner.radius + other.radius;
+    let feature = |mine: usize, theirs: usize| {
+        if flipped {
+            id(theirs, mine)
+        } else {
+            id(mine, theirs)
+        }
+    };
+    let start = if x_low > face_low { x_low } else { face_low };
+    let end = if x_high < face_high {
+        x_high
+    } else {
+        face_high
+    };
+    let flat = owner.corners > 2 && other.corners > 2 && z_low.min(z_high) <= 0.0;
+    // Beyond one end of the face: corner on corner.
+    let meet = |mine: usize, theirs: usize| {
+        let id = feature(mine, theirs);
+        let (mine, theirs) = (owner.corner(mine), other.corner(theirs));
+        if flipped {
+            corners(other, owner, -d, [theirs, mine], id)
+        } else {
+            corners(owner, other, d, [mine, theirs], id)
+        }
+    };
+    if start > end && !flat {
+        let found = if x_low > face_high {
+            meet(i_next, j_next)
+        } else {
+            meet(i, j)
+        };
+        if let Some(found) = found {
+            return found;
+        }
+    }
+    let run = x_high - x_low;
+    let slope = if run > 0.0 {
+        (z_high - z_low) / run
+    } else {
+        0.0
+    };
+    let (start, end) = if start > end {
+        (end, end)
+    } else {
+        (start, end)
+    };
+    let gap = |x: f64| z_low + (x - x_low) * slope - radii;
+    let (gap_low, gap_high) = (gap(start), gap(end));
+    let (low_id, high_id) = (feature(i, j_next), feature(i_next, j));
+    // Points closer than rounding of their places are one.
+    let single = end - start <= 1e-9 * (face_high - face_low);
+    let nearest = if single || gap_low < gap_high {
+        gap_low
+    } else {
+        gap_high
+    };
+    // The nearer corner of the other's edge overhangs, and rounded corners meet before the faces do.
+    if radii > 0.0 && nearest + radii > 0.0 {
+        let overhang = if z_low <= z_high {
+            (x_low < face_low).then(|| meet(i, j_next))
+        } else {
+            (x_high > face_high).then(|| meet(i_next, j))
+        };
+        if let Some(Some(found)) = overhang
+            && found.gap() < nearest
+        {
+            return found;
+        }
+    }
+    let height = owner.off[i] + owner.radius + 0.5 * nearest;
+    let mine = |x: f64| -x;
+    let theirs = |x: f64| t.dot(d) - x;
+    let beyond = height - n.dot(d);
+    let points = if single { 1 } else { 2 };
+    if flipped {
+        // The owner is B: the normal from A to B is −n, and the lower end is farther along it turned by +90°.
+        Manifold {
+            normal: -n,
+            arm_a: -theirs(start),
+            arm_b: -mine(start),
+            length: end - start,
+            points,
+            tangent_a: -beyond,
+            tangent_b: -height,
+            gaps: [gap_low, gap_high],
+            features: [low_id, high_id],
+        }
+    } else {
+        Manifold {
+            normal: n,
+            arm_a: mine(end),
+            arm_b: theirs(end),
+            length: end - start,
+            points,
+            tangent_a: height,
+            tangent_b: beyond,
+            gaps: [gap_high, gap_low],
+            features: [high_id, low_id],
+        }
+    }
+}
+
+/// The edge whose normal is most opposed to `n`, by its two corners; of a disc its one.
+fn facing(outline: &Outline, n: Vec2) -> (usize, usize) {
+    if outline.corners == 1 {
+        return (0, 0);
+    }
+    let mut best = (f64::INFINITY, 0);
+    for i in 0..outline.corners {
+        let along = n.dot(outline.normal(i));
+        if along < best.0 {
+            best = (along, i);
+        }
+    }
+    (best.1, outline.next(best.1))
+}
+
+/// Two corners, or centres of discs; where they coincide there is no normal.
+fn corners(
+    a: &Outline,
+    b: &Outline,
+    d: Vec2,
+    [of_a, of_b]: [Vec2; 2],
+    feature: u32,
+) -> Option<Manifold> {
+    let way = of_b + d - of_a;
+    let distance = way.length();
+    let normal = if distance > 0.0 {
+        way / distance
+    } else if a.corners == 1 && b.corners == 1 {
+        // Discs in one place part upwards.
+        Vec2::Y
+    } else {
+        return None;
+    };
+    let gap = distance - a.radius - b.radius;
+    let arm = of_a + normal * (a.radius + 0.5 * gap);
+    Some(Manifold::single(normal, [arm, arm - d], gap, feature))
+}
+
+fn id(a: usize, b: usize) -> u32 {
+    #[expect(clippy::cast_possible_truncation, reason = "at most eight corners")]
+    let id = (a << 16 | b) as u32;
+    id
+}
+
+/// The same for pieces of any kind, by `carom-collision`: half-planes, more corners, pieces with cuts.
+pub(crate) fn collide_any(a: (&Piece, Pose), b: (&Piece, Pose), limit: f64) -> Option<Manifold> {
+    let ((a, pose_a), (b, pose_b)) = (a, b);
+    let radii = a.rounding + b.rounding;
+    let b_in_a = pose_b.seen_from(pose_a);
+    let found = collide_within(&a.hull(), &b.hull(), b_in_a, limit + radii);
+    let d = pose_b.position - pose_a.position;
+    let n = pose_a.vector(found.normal);
+    let arm = |k: usize| pose_a.vector(found.points[k].point);
+    let gap = |k: usize| found.points[k].separation - radii;
+    let feature = |k: usize| found.points[k].feature.0;
+    match found.points.len() {
+        0 => None,
+        1 => Some(Manifold::single(
+            n,
+            [arm(0), arm(0) - d],
+            gap(0),
+            feature(0),
+        )),
+        _ => {
+            let along = |k: usize| perp(n).dot(arm(k));
+            let (first, second) = if along(0) >= along(1) { (0, 1) } else { (1, 0) };
+            let nearest = if gap(1) < gap(0) { 1 } else { 0 };
+            let height = arm(nearest).dot(n);
+            Some(Manifold {
+                normal: n,
+                arm_a: cross(arm(first), n),
+                arm_b: cross(arm(first) - d, n),
+                length: along(first) - along(second),
+                points: 2,
+                tangent_a: height,
+                tangent_b: height - d.dot(n),
+                gaps: [gap(first), gap(second)],
+                features: [feature(first), feature(second)],
+            })
+        }
+    }
+}

@@ -1,0 +1,191 @@
+//! Eight contacts of one colour.
+
+use carom_math::{Vec2, perp};
+
+use super::line::{Line, Quad};
+use crate::narrow::Manifold;
+
+/// Contacts in a block.
+pub(crate) const LANES: usize = 8;
+
+/// Gap of a point that is not there, in m: no body closes it within a sub-step.
+pub(crate) const OPEN: f64 = 1e30;
+
+/// Eight contacts of one colour, 112 bytes each: no two of them move the same body.
+///
+/// ```text
+/// a_i = r_A × n, b_i = r_B × n of point i;   a_t = r_A · n, b_t = r_B · n of the face
+/// v_i = n·(v_B − v_A) + b_i ω_B − a_i ω_A     normal velocity of point i, positive opens
+/// v_t = t·(v_B − v_A) + b_t ω_B − a_t ω_A     slip along t, the normal turned by +90°
+/// gap_i = s_i + n·(d_B − d_A) + b_i θ_B − a_i θ_A
+/// ```
+/// Both points lie on one face, l apart, and point 1 is the farther one along t: a₂ = a₁ + l, b₂ = b₁ + l.
+/// In the plane the friction forces of both points act along one line: one row with limit µ (j₁ + j₂) is the same mechanics.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+pub(crate) struct Block {
+    /// Lines of the bodies.
+    pub(crate) a: [u32; LANES],
+    pub(crate) b: [u32; LANES],
+    pub(crate) nx: [f64; LANES],
+    pub(crate) ny: [f64; LANES],
+    pub(crate) a1: [f64; LANES],
+    pub(crate) b1: [f64; LANES],
+    pub(crate) l: [f64; LANES],
+    pub(crate) s1: [f64; LANES],
+    pub(crate) s2: [f64; LANES],
+    pub(crate) j1: [f64; LANES],
+    pub(crate) j2: [f64; LANES],
+    pub(crate) at: [f64; LANES],
+    pub(crate) bt: [f64; LANES],
+    pub(crate) mu: [f64; LANES],
+    pub(crate) jt: [f64; LANES],
+}
+
+/// What only the tick reads of eight contacts.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Cold {
+    /// Numbers of the contacts.
+    pub(crate) contact: [u32; LANES],
+    pub(crate) pieces: [[u32; 2]; LANES],
+    pub(crate) features: [[u32; 2]; LANES],
+    /// Coefficients of restitution.
+    pub(crate) restitution: [f64; LANES],
+    /// A bit for each lane that holds a contact.
+    pub(crate) used: u8,
+}
+
+impl Block {
+    /// No rows: gaps that never close, between line 0 and itself.
+    pub(crate) const EMPTY: Self = Self {
+        a: [0; LANES],
+        b: [0; LANES],
+        nx: [1.0; LANES],
+        ny: [0.0; LANES],
+        a1: [0.0; LANES],
+        b1: [0.0; LANES],
+        l: [1.0; LANES],
+        s1: [OPEN; LANES],
+        s2: [OPEN; LANES],
+        j1: [0.0; LANES],
+        j2: [0.0; LANES],
+        at: [0.0; LANES],
+        bt: [0.0; LANES],
+        mu: [0.0; LANES],
+        jt: [0.0; LANES],
+    };
+
+    /// Writes where a contact is; impulses and friction stay.
+    pub(crate) fn put(&mut self, lane: usize, manifold: &Manifold) {
+        (self.nx[lane], self.ny[lane]) = (manifold.normal.x, manifold.normal.y);
+        (self.a1[lane], self.b1[lane]) = (manifold.arm_a, manifold.arm_b);
+        (self.at[lane], self.bt[lane]) = (manifold.tangent_a, manifold.tangent_b);
+        self.s1[lane] = manifold.gaps[0];
+        // The second point of a single one never acts; its length only keeps the 2 × 2 matrix regular.
+        let two = manifold.points == 2;
+        self.l[lane] = if two { manifold.length } else { 1.0 };
+        self.s2[lane] = if two { manifold.gaps[1] } else { OPEN };
+    }
+
+    pub(crate) const fn impulses(&self, lane: usize) -> [f64; 3] {
+        [self.j1[lane], self.j2[lane], self.jt[lane]]
+    }
+
+    pub(crate) const fn set_impulses(&mut self, lane: usize, j: [f64; 3]) {
+        [self.j1[lane], self.j2[lane], self.jt[lane]] = j;
+    }
+
+    /// M⁻¹ Jᵀ j of a lane: what its impulses add to the velocities of A and of B.
+    pub(crate) fn push(&self, lane: usize, a: &Line, b: &Line) -> [Quad; 2] {
+        let [j1, j2, jt] = self.impulses(lane);
+        let n = Vec2::new(self.nx[lane], self.ny[lane]);
+        let sum = j1 + j2;
+        let impulse = n * sum + perp(n) * jt;
+        let bend = self.l[lane] * j2;
+        let turn_a = self.a1[lane] * sum + bend + self.at[lane] * jt;
+        let turn_b = self.b1[lane] * sum + bend + self.bt[lane] * jt;
+        [
+            Quad::new(impulse * -a.inverse_mass(), -turn_a * a.inverse_inertia()),
+            Quad::new(impulse * b.inverse_mass(), turn_b * b.inverse_inertia()),
+        ]
+    }
+
+    pub(crate) const fn points(&self, lane: usize) -> usize {
+        if self.s2[lane] < OPEN { 2 } else { 1 }
+    }
+
+    /// Normal velocities of both points, in m/s.
+    pub(crate) fn opening(&self, lane: usize, a: &Line, b: &Line) -> [f64; 2] {
+        self.along(lane, (a.v(), a.w()), (b.v(), b.w()))
+    }
+
+    /// What a push of both bodies opens a point by.
+    pub(crate) fn response(&self, lane: usize, point: usize, a: &Quad, b: &Quad) -> f64 {
+        self.along(lane, (a.v(), a.w()), (b.v(), b.w()))[point]
+    }
+
+    fn along(&self, lane: usize, a: (Vec2, f64), b: (Vec2, f64)) -> [f64; 2] {
+        let n = Vec2::new(self.nx[lane], self.ny[lane]);
+        let first = n.dot(b.0 - a.0) + self.b1[lane] * b.1 - self.a1[lane] * a.1;
+        [first, first + self.l[lane] * (b.1 - a.1)]
+    }
+
+    /// Both gaps with the bodies where their lines say, in m.
+    pub(crate) fn gaps(&self, lane: usize, a: &Line, b: &Line) -> [f64; 2] {
+        let n = Vec2::new(self.nx[lane], self.ny[lane]);
+        let (ta, tb) = (a.turn(), b.turn());
+        let first = n.dot(b.d() - a.d()) + self.b1[lane] * tb - self.a1[lane] * ta;
+        let second = first + self.l[lane] * (tb - ta);
+        [self.s1[lane] + first, self.s2[lane] + second]
+    }
+
+    /// Copies a lane of another block.
+    pub(crate) fn copy_lane(&mut self, to: usize, other: &Self, from: usize) {
+        (self.a[to], self.b[to]) = (other.a[from], other.b[from]);
+        for (mine, theirs) in self.columns_mut().into_iter().zip(other.columns()) {
+            mine[to] = theirs[from];
+        }
+    }
+
+    const fn columns(&self) -> [&[f64; LANES]; 13] {
+        [
+            &self.nx, &self.ny, &self.a1, &self.b1, &self.l, &self.s1, &self.s2, &self.j1,
+            &self.j2, &self.at, &self.bt, &self.mu, &self.jt,
+        ]
+    }
+
+    const fn columns_mut(&mut self) -> [&mut [f64; LANES]; 13] {
+        [
+            &mut self.nx,
+            &mut self.ny,
+            &mut self.a1,
+            &mut self.b1,
+            &mut self.l,
+            &mut self.s1,
+            &mut self.s2,
+            &mut self.j1,
+            &mut self.j2,
+            &mut self.at,
+            &mut self.bt,
+            &mut self.mu,
+            &mut self.jt,
+        ]
+    }
+}
+
+impl Cold {
+    pub(crate) const EMPTY: Self = Self {
+        contact: [u32::MAX; LANES],
+        pieces: [[u32::MAX; 2]; LANES],
+        features: [[0; 2]; LANES],
+        restitution: [0.0; LANES],
+        used: 0,
+    };
+
+    pub(crate) const fn copy_lane(&mut self, to: usize, other: &Self, from: usize) {
+        self.contact[to] = other.contact[from];
+        self.pieces[to] = other.pieces[from];
+        self.features[to] = other.features[from];
+        self.restitution[to] = other.restitution[from];
+    }
+}

@@ -1,0 +1,61 @@
+//! What must hold of the graph between all calls.
+
+use super::block::LANES;
+use super::graph::{ASLEEP, Graph};
+use crate::bodies::Bodies;
+
+impl Graph {
+    /// No body twice in a block, colours and places as the lanes are, warm starts the sum of impulses.
+    pub(crate) fn check(&self, bodies: &Bodies) {
+        let mut masks = vec![0u64; bodies.records.len()];
+        let mut sums = vec![super::Quad::default(); bodies.lines.len()];
+        let mut count = 0;
+        for (c, colour) in self.colours.iter().enumerate() {
+            for (k, (block, cold)) in colour.blocks.iter().zip(&colour.cold).enumerate() {
+                let mut seen = Vec::new();
+                let bounces = (0..LANES).filter(|lane| cold.restitution[*lane] > 0.0);
+                assert_eq!(usize::from(colour.bounces[k]), bounces.count());
+                for lane in 0..LANES {
+                    if cold.used >> lane & 1 == 0 {
+                        assert_eq!((block.a[lane], block.b[lane]), (0, 0));
+                        continue;
+                    }
+                    count += 1;
+                    let contact = &self.contacts[cold.contact[lane] as usize];
+                    assert_eq!((contact.colour as usize, contact.place()), (c, (k, lane)));
+                    assert_eq!(contact.pieces, cold.pieces[lane]);
+                    let lines = [block.a[lane], block.b[lane]];
+                    if c == ASLEEP {
+                        assert_eq!(lines, [0, 0]);
+                        continue;
+                    }
+                    let [a, b] = lines.map(|line| &bodies.lines[line as usize]);
+                    let pushes = block.push(lane, a, b);
+                    for side in [0, 1] {
+                        let slot = contact.bodies[side];
+                        assert_eq!(bodies.records[slot as usize].line, lines[side]);
+                        sums[lines[side] as usize].add(&pushes[side]);
+                        if bodies.is_dynamic(slot) {
+                            assert!(!seen.contains(&slot), "body {slot} twice in a block");
+                            seen.push(slot);
+                            masks[slot as usize] |= 1u64.checked_shl(contact.colour).unwrap_or(0);
+                        }
+                    }
+                }
+            }
+        }
+        assert_eq!(count, self.len());
+        for (slot, record) in bodies.records.iter().enumerate() {
+            assert!(!record.live || record.colours == masks[slot]);
+        }
+        for (line, sum) in sums.iter().enumerate() {
+            let (v, start) = (&bodies.lines[line], &bodies.start[line]);
+            let off = (v.v() - start.v() - sum.v()).length() + (v.w() - start.w() - sum.w()).abs();
+            let scale = 1.0 + v.v().length() + v.w().abs() + sum.v().length();
+            assert!(
+                off <= 1e-10 * scale,
+                "warm start of line {line} is off by {off}"
+            );
+        }
+    }
+}

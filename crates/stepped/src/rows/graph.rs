@@ -1,0 +1,335 @@
+//! The constraint graph: contacts, the colour and lane of each, and the list of each body's contacts.
+
+use super::block::{Block, Cold, LANES, OPEN};
+use super::colour::Colour;
+use crate::Material;
+use crate::bodies::{Bodies, BodyKind};
+use crate::narrow::Manifold;
+
+/// Colours of a mask. Contacts that find none of them free take the overflow colour, a block each, one after the other.
+pub(crate) const COLOURS: usize = 64;
+
+/// Where contacts of sleeping islands lie, with all their fields: no pass reads it.
+pub(crate) const ASLEEP: usize = COLOURS + 1;
+
+/// Contacts with what cannot be moved take the highest free colour below this one, so that the ground acts last. Piles of
+/// boxes need 6 to 10 colours.
+const GROUND: u64 = 12;
+
+/// No contact.
+const END: u32 = u32::MAX;
+
+/// Where a contact is, and its place in the lists of its two bodies.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Contact {
+    /// Slots of A and B: A was inserted first.
+    pub(crate) bodies: [u32; 2],
+    pub(crate) pieces: [u32; 2],
+    pub(crate) colour: u32,
+    /// The colour that it had awake.
+    home: u32,
+    /// Lane, counted through all blocks of the colour.
+    pub(crate) index: u32,
+    /// Contact × 2 + side of the neighbours in the lists of A and of B.
+    next: [u32; 2],
+    previous: [u32; 2],
+}
+
+/// All contacts. Adding and removing moves one lane at most.
+#[derive(Clone, Debug)]
+pub(crate) struct Graph {
+    pub(crate) contacts: Vec<Contact>,
+    free: Vec<u32>,
+    /// Behind those of masks the overflow colour, and behind it what sleeps.
+    pub(super) colours: Vec<Colour>,
+}
+
+impl Contact {
+    pub(crate) const fn sleeps(&self) -> bool {
+        self.colour as usize == ASLEEP
+    }
+
+    /// Block and lane.
+    pub(crate) const fn place(&self) -> (usize, usize) {
+        (self.index as usize / LANES, self.index as usize % LANES)
+    }
+}
+
+impl Graph {
+    pub(crate) fn new() -> Self {
+        Self {
+            contacts: Vec::new(),
+            free: Vec::new(),
+            colours: vec![Colour::default(); COLOURS + 2],
+        }
+    }
+
+    /// Contacts there are.
+    pub(crate) fn len(&self) -> usize {
+        self.contacts.len() - self.free.len()
+    }
+
+    /// The colours of what is awake, in the order in which they are swept.
+    pub(crate) fn awake(&mut self) -> &mut [Colour] {
+        &mut self.colours[..ASLEEP]
+    }
+
+    /// Gives a contact of two bodies a number and a lane, without impulses.
+    pub(crate) fn insert(
+        &mut self,
+        bodies: &mut Bodies,
+        ends: [u32; 2],
+        pieces: [u32; 2],
+        manifold: &Manifold,
+        surface: Material,
+    ) -> u32 {
+        #[expect(clippy::cast_possible_truncation, reason = "dozens of bytes each")]
+        let id = self.free.pop().unwrap_or(self.contacts.len() as u32);
+        let mut contact = Contact {
+            bodies: ends,
+            pieces,
+            colour: 0,
+            home: 0,
+            index: 0,
+            next: [END; 2],
+            previous: [END; 2],
+        };
+        for side in [0, 1] {
+            let head = &mut bodies.records[ends[side] as usize].contacts;
+            contact.next[side] = *head;
+            if *head != END {
+                let (other, its) = (*head >> 1, *head & 1);
+                self.contacts[other as usize].previous[its as usize] = entry(id, side);
+            }
+            *head = entry(id, side);
+        }
+        if id as usize == self.contacts.len() {
+            self.contacts.push(contact);
+        } else {
+            self.contacts[id as usize] = contact;
+        }
+        self.colour(bodies, id, manifold, surface);
+        id
+    }
+
+    /// Takes the colour that suits a new contact, and a lane there.
+    fn colour(&mut self, bodies: &mut Bodies, id: u32, manifold: &Manifold, surface: Material) {
+        let contact = &mut self.contacts[id as usize];
+        let ends = contact.bodies;
+        let dynamic = ends.map(|slot| bodies.is_dynamic(slot));
+        let mut taken = 0;
+        for side in [0, 1] {
+            if dynamic[side] {
+                taken |= bodies.records[ends[side] as usize].colours;
+            }
+        }
+        let colour = colour_for(taken, dynamic == [true, true]);
+        for side in [0, 1] {
+            if dynamic[side] && colour < COLOURS {
+                bodies.records[ends[side] as usize].colours |= 1 << colour;
+            }
+        }
+        let index = self.colours[colour].push(colour == COLOURS, id, contact.pieces);
+        #[expect(clippy::cast_possible_truncation, reason = "fewer than 2^32 contacts")]
+        {
+            (contact.colour, contact.index) = (colour as u32, index as u32);
+        }
+        let (k, lane) = contact.place();
+        let block = &mut self.colours[colour].blocks[k];
+        block.a[lane] = bodies.records[ends[0] as usize].line;
+        block.b[lane] = bodies.records[ends[1] as usize].line;
+        block.mu[lane] = surface.friction;
+        block.put(lane, manifold);
+        let colour = &mut self.colours[colour];
+        colour.cold[k].features[lane] = manifold.features;
+        colour.cold[k].restitution[lane] = surface.restitution;
+        colour.count(k, lane);
+    }
+
+    /// Takes a contact out, and its impulses out of the warm start of its bodies.
+    pub(crate) fn remove(&mut self, bodies: &mut Bodies, id: u32) {
+        let contact = self.contacts[id as usize];
+        let (colour, (k, lane)) = (contact.colour as usize, contact.place());
+        let block = &self.colours[colour].blocks[k];
+        let (a, b) = (block.a[lane] as usize, block.b[lane] as usize);
+        self.clear_warm_start(bodies, id);
+        self.unlink(bodies, id);
+        for (slot, line) in contact.bodies.into_iter().zip([a, b]) {
+            let record = &mut bodies.records[slot as usize];
+            if record.kind == BodyKind::Dynamic {
+                record.colours &= !(1u64.checked_shl(contact.colour).unwrap_or(0));
+                if record.contacts == END {
+                    // Nothing acts on it: free flight has no leftovers of rounding.
+                    let (v, w) = (bodies.lines[line].v(), bodies.lines[line].w());
+                    bodies.start[line].0[..3].copy_from_slice(&[v.x, v.y, w]);
+                }
+            }
+        }
+        self.vacate(colour, k, lane);
+        self.free.push(id);
+    }
+
+    /// Moves a contact between the colours and what sleeps; its bodies have their lines if it wakes.
+    pub(crate) fn shift(&mut self, bodies: &mut Bodies, id: u32, sleeps: bool) {
+        let contact = self.contacts[id as usize];
+        let (from, (k, lane)) = (contact.colour as usize, contact.place());
+        let (block, cold) = (self.colours[from].blocks[k], self.colours[from].cold[k]);
+        self.vacate(from, k, lane);
+        let (to, lines) = if sleeps {
+            (ASLEEP, [0; 2])
+        } else {
+            let lines = contact
+                .bodies
+                .map(|slot| bodies.records[slot as usize].line);
+            (contact.home as usize, lines)
+        };
+        let bit = if sleeps { contact.colour } else { contact.home };
+        for slot in contact.bodies {
+            let record = &mut bodies.records[slot as usize];
+            if record.kind == BodyKind::Dynamic {
+                let bit = 1u64.checked_shl(bit).unwrap_or(0);
+                record.colours = if sleeps {
+                    record.colours & !bit
+                } else {
+                    record.colours | bit
+                };
+            }
+        }
+        let index = self.colours[to].push(to == COLOURS, id, contact.pieces);
+        let (other, place) = (&mut self.colours[to], (index / LANES, index % LANES));
+        other.blocks[place.0].copy_lane(place.1, &block, lane);
+        other.cold[place.0].copy_lane(place.1, &cold, lane);
+        other.count(place.0, place.1);
+        let block = &mut other.blocks[place.0];
+        (block.a[place.1], block.b[place.1]) = (lines[0], lines[1]);
+        let contact = &mut self.contacts[id as usize];
+        #[expect(clippy::cast_possible_truncation, reason = "fewer than 2^32 contacts")]
+        {
+            contact.home = if sleeps { contact.colour } else { contact.home };
+            (contact.colour, contact.index) = (to as u32, index as u32);
+        }
+    }
+
+    /// Empties a lane; the last one of the colour moves there.
+    fn vacate(&mut self, colour: usize, k: usize, lane: usize) {
+        if colour == COLOURS {
+            // Here order matters to the bits: it stays.
+            self.colours[colour].discount(k, lane);
+            self.colours[colour].blocks.remove(k);
+            self.colours[colour].cold.remove(k);
+            self.colours[colour].bounces.remove(k);
+            for cold in &self.colours[colour].cold[k..] {
+                #[expect(clippy::cast_possible_truncation, reason = "eight lanes")]
+                let lanes = LANES as u32;
+                self.contacts[cold.contact[0] as usize].index -= lanes;
+            }
+        } else if let Some(moved) = self.colours[colour].pull(k, lane) {
+            #[expect(clippy::cast_possible_truncation, reason = "fewer than 2^32 contacts")]
+            let index = (k * LANES + lane) as u32;
+            self.contacts[moved as usize].index = index;
+        }
+    }
+
+    /// Lets a contact start the next sub-step without impulses; velocities stay.
+    pub(crate) fn clear_warm_start(&mut self, bodies: &mut Bodies, id: u32) {
+        let contact = &self.contacts[id as usize];
+        let (k, lane) = contact.place();
+        let block = &mut self.colours[contact.colour as usize].blocks[k];
+        let (a, b) = (block.a[lane] as usize, block.b[lane] as usize);
+        let [push_a, push_b] = block.push(lane, &bodies.lines[a], &bodies.lines[b]);
+        bodies.start[a].add(&push_a);
+        bodies.start[b].add(&push_b);
+        block.set_impulses(lane, [0.0; 3]);
+    }
+
+    /// Lets a contact do nothing until it is computed anew.
+    pub(crate) fn hide(&mut self, bodies: &mut Bodies, id: u32) {
+        self.clear_warm_start(bodies, id);
+        let contact = &self.contacts[id as usize];
+        let (k, lane) = contact.place();
+        let block = &mut self.colours[contact.colour as usize].blocks[k];
+        (block.s1[lane], block.s2[lane]) = (OPEN, OPEN);
+    }
+
+    /// Takes a contact out of the lists of its bodies.
+    fn unlink(&mut self, bodies: &mut Bodies, id: u32) {
+        let contact = self.contacts[id as usize];
+        for side in [0, 1] {
+            let (next, previous) = (contact.next[side], contact.previous[side]);
+            if previous == END {
+                bodies.records[contact.bodies[side] as usize].contacts = next;
+            } else {
+                self.contacts[(previous >> 1) as usize].next[(previous & 1) as usize] = next;
+            }
+            if next != END {
+                self.contacts[(next >> 1) as usize].previous[(next & 1) as usize] = previous;
+            }
+        }
+    }
+
+    /// Numbers of a body's contacts, the newest first, each with the side on which the body is.
+    pub(crate) fn of_body(&self, bodies: &Bodies, slot: u32) -> impl Iterator<Item = (u32, usize)> {
+        let mut at = bodies.records[slot as usize].contacts;
+        core::iter::from_fn(move || {
+            if at == END {
+                return None;
+            }
+            let (id, side) = (at >> 1, (at & 1) as usize);
+            at = self.contacts[id as usize].next[side];
+            Some((id, side))
+        })
+    }
+
+    /// The block and lane of a contact.
+    pub(crate) fn lane(&self, id: u32) -> (&Block, &Cold, usize) {
+        let contact = &self.contacts[id as usize];
+        let (k, lane) = contact.place();
+        let colour = &self.colours[contact.colour as usize];
+        (&colour.blocks[k], &colour.cold[k], lane)
+    }
+
+    /// Tells the rows of a body that it has another line.
+    pub(crate) fn renumber(&mut self, bodies: &Bodies, slot: u32) {
+        let line = bodies.records[slot as usize].line;
+        let mut at = bodies.records[slot as usize].contacts;
+        while at != END {
+            let (id, side) = ((at >> 1) as usize, (at & 1) as usize);
+            let contact = self.contacts[id];
+            let (k, lane) = contact.place();
+            let block = &mut self.colours[contact.colour as usize].blocks[k];
+            let end = if side == 0 {
+                &mut block.a
+            } else {
+                &mut block.b
+            };
+            end[lane] = if contact.sleeps() { 0 } else { line };
+            at = contact.next[side];
+        }
+    }
+
+    /// Numbers of all contacts, colour by colour.
+    pub(crate) fn ids(&self) -> impl Iterator<Item = u32> {
+        let cold = self.colours.iter().flat_map(|colour| &colour.cold);
+        cold.flat_map(|cold| {
+            let lanes = (0..LANES).filter(|lane| cold.used >> lane & 1 == 1);
+            lanes.map(|lane| cold.contact[lane])
+        })
+    }
+}
+
+/// The lowest free colour; against what cannot be moved the highest free one below [`GROUND`].
+fn colour_for(taken: u64, both: bool) -> usize {
+    let free = !taken;
+    let low = free & ((1 << GROUND) - 1);
+    if free == 0 {
+        COLOURS
+    } else if !both && low != 0 {
+        63 - low.leading_zeros() as usize
+    } else {
+        free.trailing_zeros() as usize
+    }
+}
+
+const fn entry(id: u32, side: usize) -> u32 {
+    id << 1 | (side == 1) as u32
+}

@@ -1,0 +1,235 @@
+//! The soft law over blocks, a register at a time. [`super::plain`] says the same lane by lane.
+//!
+//! Dispatched once a pass; everything below is inlined into the dispatched function, and no closure sees a register: both
+//! would lose the wide instructions. No fused multiply-add, so that every width gives the same bits; min and max give their
+//! second number where both are equal, or zeros of either sign.
+
+#![allow(clippy::inline_always, reason = "the wide instructions end at a call")]
+
+use fearless_simd::{Level, Select, Simd, dispatch, f64x4, f64x8};
+
+use super::block::{Block, LANES};
+use super::colour::Colour;
+use super::law::Law;
+use super::line::Line;
+use super::transpose::{Wide, any};
+
+/// What is left of k₁₂: where no body can turn both points are one, and may share the load as they like. As its
+/// determinant the matrix has 2e-12 of the product of its diagonal then.
+pub(super) const REGULAR: f64 = 1.0 - 1e-12;
+
+/// What a sweep does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Pass {
+    /// Overlaps are pushed out, softly; gaps may close.
+    Solve,
+    /// The same, then friction.
+    SolveWithFriction,
+    /// Normals without bias, then friction.
+    Relax,
+}
+
+/// One pass over all rows, colour by colour.
+pub(crate) fn sweep(
+    level: Level,
+    pass: Pass,
+    law: &Law,
+    lines: &mut [Line],
+    colours: &mut [Colour],
+) {
+    if eight_lanes(level) {
+        dispatch!(level, simd => all::<_, f64x8<_>>(simd, pass, law, lines, colours));
+    } else {
+        // Eight lanes would be two registers each, more than there are.
+        dispatch!(level, simd => all::<_, f64x4<_>>(simd, pass, law, lines, colours));
+    }
+}
+
+/// Whether the processor has registers of eight lanes.
+fn eight_lanes(level: Level) -> bool {
+    #[cfg(target_arch = "x86_64")]
+    let has = level.as_avx512().is_some();
+    #[cfg(not(target_arch = "x86_64"))]
+    let has = {
+        let _ = level;
+        false
+    };
+    has
+}
+
+#[inline(always)]
+fn all<S: Simd, V: Wide<S>>(
+    simd: S,
+    pass: Pass,
+    law: &Law,
+    lines: &mut [Line],
+    colours: &mut [Colour],
+) {
+    match pass {
+        Pass::Solve => blocks::<S, V, true, false>(simd, law, lines, colours),
+        Pass::SolveWithFriction => blocks::<S, V, true, true>(simd, law, lines, colours),
+        Pass::Relax => blocks::<S, V, false, true>(simd, law, lines, colours),
+    }
+}
+
+#[inline(always)]
+fn blocks<S: Simd, V: Wide<S>, const BIAS: bool, const FRICTION: bool>(
+    simd: S,
+    law: &Law,
+    lines: &mut [Line],
+    colours: &mut [Colour],
+) {
+    for colour in colours {
+        for block in &mut colour.blocks {
+            let mut at = 0;
+            while at < LANES {
+                part::<S, V, BIAS, FRICTION>(simd, law, lines, block, at);
+                at += V::LANES;
+            }
+        }
+    }
+}
+
+/// The lanes of a block from `at` on that fill a register.
+#[inline(always)]
+fn part<S: Simd, V: Wide<S>, const BIAS: bool, const FRICTION: bool>(
+    simd: S,
+    law: &Law,
+    lines: &mut [Line],
+    block: &mut Block,
+    at: usize,
+) {
+    let end = at + V::LANES;
+    let zero = V::splat(simd, 0.0);
+    let one = V::splat(simd, 1.0);
+    let [mut avx, mut avy, mut aw, ma] = V::columns(simd, lines, &block.a[at..end], 0);
+    let [adx, ady, aturn, ia] = V::columns(simd, lines, &block.a[at..end], 4);
+    let [mut bvx, mut bvy, mut bw, mb] = V::columns(simd, lines, &block.b[at..end], 0);
+    let [bdx, bdy, bturn, ib] = V::columns(simd, lines, &block.b[at..end], 4);
+    let nx = V::from_slice(simd, &block.nx[at..end]);
+    let ny = V::from_slice(simd, &block.ny[at..end]);
+    let a1 = V::from_slice(simd, &block.a1[at..end]);
+    let b1 = V::from_slice(simd, &block.b1[at..end]);
+    let l = V::from_slice(simd, &block.l[at..end]);
+    let j1 = V::from_slice(simd, &block.j1[at..end]);
+    let j2 = V::from_slice(simd, &block.j2[at..end]);
+
+    let v1 = nx * (bvx - avx) + ny * (bvy - avy) + b1 * bw - a1 * aw;
+    let v2 = v1 + l * (bw - aw);
+    let moved1 = nx * (bdx - adx) + ny * (bdy - ady) + b1 * bturn - a1 * aturn;
+    let moved2 = moved1 + l * (bturn - aturn);
+    let gap1 = V::from_slice(simd, &block.s1[at..end]) + moved1;
+    let gap2 = V::from_slice(simd, &block.s2[at..end]) + moved2;
+
+    let reach = V::splat(simd, law.inverse_h);
+    // Where nothing pushes, and no gap closes in this sub-step, nothing will: the impulses that solve for it are 0.
+    let (counts1, counts2) = if BIAS {
+        (gap1, gap2)
+    } else {
+        (gap1.max(zero), gap2.max(zero))
+    };
+    let closes = (v1 + counts1 * reach)
+        .min(v2 + counts2 * reach)
+        .simd_lt(zero);
+    let mut pushes = j1 + j2;
+    if FRICTION {
+        pushes += V::from_slice(simd, &block.jt[at..end]).abs();
+    }
+    if !any(closes | pushes.simd_gt(zero)) {
+        return;
+    }
+
+    // The matrix of the points: computed where it is needed, since a large pile would wait for it longer.
+    let m = ma + mb;
+    let turns = ia * a1 + ib * b1;
+    let k11 = m + (ia * a1 * a1 + ib * b1 * b1);
+    let k12 = k11 + turns * l;
+    let k22 = k12 + (turns + (ia + ib) * l) * l;
+    let k12 = k12 * V::splat(simd, REGULAR);
+    let (u1, u2, s11, s22, softened);
+    if BIAS {
+        let (open1, open2) = (gap1.simd_gt(zero), gap2.simd_gt(zero));
+        let ground = ma.min(mb).simd_eq(zero);
+        let rate = ground.select(V::splat(simd, law.soft[1].0), V::splat(simd, law.soft[0].0));
+        softened = ground.select(V::splat(simd, law.soft[1].1), V::splat(simd, law.soft[0].1));
+        let fastest = V::splat(simd, -law.push_out);
+        (s11, s22) = (k11 * softened, k22 * softened);
+        // Softened whether open or not, so that no division waits for a gap; but what an open point pushes
+        // already counts as on a stiff one, and its first impulse is taken as much larger as that is softer.
+        let (stiff1, stiff2) = (open1.select(j1, zero), open2.select(j2, zero));
+        u1 = v1 + (gap1 * open1.select(reach, rate)).max(fastest) - (s11 - k11) * stiff1;
+        u2 = v2 + (gap2 * open2.select(reach, rate)).max(fastest) - (s22 - k22) * stiff2;
+    } else {
+        softened = one;
+        u1 = v1 + counts1 * reach;
+        u2 = v2 + counts2 * reach;
+        (s11, s22) = (k11, k22);
+    }
+
+    // The case of the 2 × 2 complementarity problem that holds.
+    let product = s11 * s22;
+    let det = product - k12 * k12;
+    let q = one / (product * det);
+    let inverse = q * product;
+    let alone = q * det;
+    let r1 = k11 * j1 + k12 * j2 - u1;
+    let r2 = k12 * j1 + k22 * j2 - u2;
+    let y1 = (r1 * (alone * s22)).max(zero);
+    let y2 = (r2 * (alone * s11)).max(zero);
+    let x1 = (s22 * r1 - k12 * r2) * inverse;
+    let x2 = (s11 * r2 - k12 * r1) * inverse;
+    let both = x1.min(x2).simd_ge(zero);
+    // The first alone, if that keeps the second from closing; else the second, if it closes.
+    let first = (k12 * y1).simd_ge(r2);
+    let x1 = both.select(x1, first.select(y1, zero));
+    let x2 = both.select(x2, first.select(zero, y2));
+
+    let (new1, new2) = if BIAS {
+        // An impulse that more than doubles stops a blow, and has no error to damp: over-relaxed it would throw the
+        // struck body off faster than the one that strikes.
+        let j = j1 + j2;
+        let rests = j.simd_gt(zero) & (j + j).simd_ge(x1 + x2);
+        let omega = rests.select(V::splat(simd, law.over_relaxation), softened);
+        (
+            (j1 + omega * (x1 - j1)).max(zero),
+            (j2 + omega * (x2 - j2)).max(zero),
+        )
+    } else {
+        (x1, x2)
+    };
+    new1.store_slice(&mut block.j1[at..end]);
+    new2.store_slice(&mut block.j2[at..end]);
+    let d2 = new2 - j2;
+    let sum = new1 - j1 + d2;
+    let (px, py) = (nx * sum, ny * sum);
+    let bend = l * d2;
+    avx -= px * ma;
+    avy -= py * ma;
+    bvx += px * mb;
+    bvy += py * mb;
+    aw -= (a1 * sum + bend) * ia;
+    bw += (b1 * sum + bend) * ib;
+
+    if FRICTION {
+        let at_ = V::from_slice(simd, &block.at[at..end]);
+        let bt = V::from_slice(simd, &block.bt[at..end]);
+        let jt = V::from_slice(simd, &block.jt[at..end]);
+        let (eases_a, eases_b) = (ia * at_, ib * bt);
+        let k = m + (eases_a * at_ + eases_b * bt);
+        let vt = nx * (bvy - avy) - ny * (bvx - avx) + (bt * bw - at_ * aw);
+        let limit = V::from_slice(simd, &block.mu[at..end]) * (new1 + new2);
+        let wanted = limit.min(jt - vt * (one / k));
+        let new = (-limit).max(wanted);
+        let dt = new - jt;
+        new.store_slice(&mut block.jt[at..end]);
+        let (px, py) = (-ny * dt, nx * dt);
+        avx -= px * ma;
+        avy -= py * ma;
+        bvx += px * mb;
+        bvy += py * mb;
+        aw -= eases_a * dt;
+        bw += eases_b * dt;
+    }
+    V::write(lines, &block.a[at..end], [avx, avy, aw, ma]);
+    V::write(lines, &block.b[at..end], [bvx, bvy, bw, mb]);
+}

@@ -1,0 +1,162 @@
+//! Restitution: what arrives with a speed leaves with a part of it.
+//!
+//! Relaxing stops a body short of its surface in the sub-step before it is met. A point that it acts on, and that closes
+//! faster than what counts as rest, then opens: with the speed that it had there on its way back from the surface, which
+//! it left at e times its arrival speed. That impulse is no part of the warm start, and what stopped
+//! the body is taken out of it: it is no guess for the next sub-step.
+
+#![allow(clippy::inline_always, reason = "the wide instructions end at a call")]
+
+use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x4};
+
+use super::block::{Block, LANES};
+use super::colour::Colour;
+use super::graph::Graph;
+use super::law::Law;
+use super::line::{Line, Quad};
+use super::transpose::{Wide, any};
+use crate::bodies::Bodies;
+
+/// Pull over so many sub-steps is rest. Less: piles with restitution hum; more: low bounces end early.
+const REST: f64 = 2.0;
+
+/// Sweeps over all points that bounce in one sub-step: those of one face need about three.
+const SWEEPS: usize = 8;
+
+/// A point that is met.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Arrival {
+    contact: u32,
+    point: usize,
+    /// Speed with which the surface is left, in m/s.
+    leaves: f64,
+    /// Acceleration that opens the point, in m/s².
+    pull: f64,
+    impulse: f64,
+}
+
+/// Finds what is met within this sub-step or the next, once the warm start acts.
+pub(crate) fn arrivals(
+    level: Level,
+    law: &Law,
+    bodies: &Bodies,
+    graph: &mut Graph,
+    found: &mut Vec<Arrival>,
+) {
+    found.clear();
+    let least = REST * law.h * law.gravity;
+    let mut blocks = Vec::new();
+    for (colour, c) in graph.awake().iter().zip(0..) {
+        if colour.bouncing > 0 {
+            dispatch!(level, simd => closing(simd, least, &bodies.lines, colour, c, &mut blocks));
+        }
+    }
+    for (c, k) in blocks {
+        let colour = &graph.awake()[c];
+        let (block, cold) = (&colour.blocks[k], &colour.cold[k]);
+        for lane in (0..LANES).filter(|lane| cold.restitution[*lane] > 0.0) {
+            // What bears a load is at rest, however it shakes: a bounce would take away what holds the pile above it.
+            if block.j1[lane] + block.j2[lane] > 0.0 {
+                continue;
+            }
+            let [v, gaps, pull] = motion(bodies, block, lane);
+            for point in 0..block.points(lane) {
+                let (v, gap, a) = (v[point], gaps[point], pull[0]);
+                // Speed before this sub-step's pull, and what the pull adds to it on the way to the surface.
+                let before = v - a * law.h;
+                let square = before * before - 2.0 * a.min(0.0) * gap.max(0.0);
+                let speed = if before < 0.0 { square.sqrt() } else { 0.0 };
+                let met = gap > 0.0 && gap + 2.0 * v * law.h < 0.0;
+                if met && speed > least {
+                    found.push(Arrival {
+                        contact: cold.contact[lane],
+                        point,
+                        leaves: cold.restitution[lane] * speed,
+                        pull: a,
+                        impulse: 0.0,
+                    });
+                }
+            }
+        }
+    }
+}
+
+/// Blocks in which a contact with restitution closes faster than `least`.
+#[inline(always)]
+fn closing<S: Simd>(
+    simd: S,
+    least: f64,
+    lines: &[Line],
+    colour: &Colour,
+    c: usize,
+    found: &mut Vec<(usize, usize)>,
+) {
+    for (k, (block, bounces)) in colour.blocks.iter().zip(&colour.bounces).enumerate() {
+        if *bounces == 0 {
+            continue;
+        }
+        let mut closes = false;
+        for at in [0, 4] {
+            let end = at + 4;
+            let [avx, avy, aw, _] = f64x4::columns(simd, lines, &block.a[at..end], 0);
+            let [bvx, bvy, bw, _] = f64x4::columns(simd, lines, &block.b[at..end], 0);
+            let nx = f64x4::from_slice(simd, &block.nx[at..end]);
+            let ny = f64x4::from_slice(simd, &block.ny[at..end]);
+            let a1 = f64x4::from_slice(simd, &block.a1[at..end]);
+            let b1 = f64x4::from_slice(simd, &block.b1[at..end]);
+            let l = f64x4::from_slice(simd, &block.l[at..end]);
+            let v1 = nx * (bvx - avx) + ny * (bvy - avy) + b1 * bw - a1 * aw;
+            let v2 = v1 + l * (bw - aw);
+            closes |= any(v1.min(v2).simd_lt(-least));
+        }
+        if closes {
+            found.push((c, k));
+        }
+    }
+}
+
+/// Normal velocity and gap of both points, and the acceleration along the normal.
+fn motion(bodies: &Bodies, block: &Block, lane: usize) -> [[f64; 2]; 3] {
+    let (a, b) = (block.a[lane] as usize, block.b[lane] as usize);
+    let n = carom_math::vec2(block.nx[lane], block.ny[lane]);
+    let pull = n.dot(bodies.pull[b].v() - bodies.pull[a].v());
+    let (a, b) = (&bodies.lines[a], &bodies.lines[b]);
+    [block.opening(lane, a, b), block.gaps(lane, a, b), [pull; 2]]
+}
+
+/// Lets what arrived leave again; v and start change alike, and the rows start cold.
+pub(crate) fn bounce(bodies: &mut Bodies, graph: &mut Graph, arrived: &mut [Arrival]) {
+    for arrival in &mut *arrived {
+        graph.clear_warm_start(bodies, arrival.contact);
+        let (block, _, lane) = graph.lane(arrival.contact);
+        let [a, b] = [block.a[lane], block.b[lane]].map(|line| &bodies.lines[line as usize]);
+        let height = block.gaps(lane, a, b)[arrival.point].max(0.0);
+        let square = arrival.leaves * arrival.leaves + 2.0 * arrival.pull.min(0.0) * height;
+        arrival.leaves = square.max(0.0).sqrt();
+    }
+    for _ in 0..SWEEPS {
+        for arrival in &mut *arrived {
+            let (block, _, lane) = graph.lane(arrival.contact);
+            let (a, b) = (block.a[lane] as usize, block.b[lane] as usize);
+            let v = block.opening(lane, &bodies.lines[a], &bodies.lines[b])[arrival.point];
+            let mut only = *block;
+            only.set_impulses(lane, [0.0; 3]);
+            let unit = if arrival.point == 0 {
+                [1.0, 0.0, 0.0]
+            } else {
+                [0.0, 1.0, 0.0]
+            };
+            only.set_impulses(lane, unit);
+            let [push_a, push_b] = only.push(lane, &bodies.lines[a], &bodies.lines[b]);
+            let k = only.response(lane, arrival.point, &push_a, &push_b);
+            let impulse = (arrival.impulse + (arrival.leaves - v) / k).max(0.0);
+            let change = impulse - arrival.impulse;
+            arrival.impulse = impulse;
+            for (line, push) in [(a, push_a), (b, push_b)] {
+                let push = Quad(push.0.map(|x| x * change));
+                bodies.start[line].add(&push);
+                bodies.lines[line].add(&push);
+            }
+        }
+    }
+}

@@ -1,0 +1,165 @@
+//! What a caller can set for all bodies.
+
+use carom_math::{Vec2, vec2};
+
+use crate::EngineError;
+use crate::error::{check, finite, not_negative, positive};
+
+/// How often rows are relaxed: swept without the bias that pushes overlaps out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Relaxation {
+    /// After each sub-step; friction acts there alone. Calm, and a sweep dearer.
+    EverySubstep,
+    /// After the last sub-step of a tick; friction acts in all sweeps. A tenth to a fifth sooner, but calm only in small
+    /// piles: a pyramid of 100 rows hums at 4 m/s².
+    AtTick,
+}
+
+/// The soft law of contacts.
+///
+/// A contact at rest sinks in by `compliance × load / (m ω²)` with ω = 2π `frequency`: overlap at rest is
+/// softness, not lack of sweeps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Softness {
+    /// Part of the compliance of a spring of that frequency. 0.3 at four sub-steps hums for ever; 1 is Box2D's overlap.
+    pub compliance: f64,
+    /// Frequency in Hz, at most an eighth of the sub-step's rate; twice that against what cannot be moved.
+    ///
+    /// Above 30 Hz a pyramid hums for ever (45 Hz: 0.8 m/s²).
+    pub frequency: f64,
+    /// Damping ratio. 5, 2, 1 make the pyramid hum 1.3, 3, 6 times as much.
+    pub damping_ratio: f64,
+    /// ω of sweeps with bias, over rows that already push. 1.0 hums; 1.7 hums with one relaxation a tick.
+    pub over_relaxation: f64,
+    /// Fastest push-out of an overlap, in m/s.
+    pub push_out: f64,
+}
+
+/// When islands fall asleep.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sleep {
+    /// A body rests while no point of it is faster, in its own extents per second.
+    ///
+    /// Above 0.2 slowly tipping bodies stop in the air; below 0.005 humming piles stay awake.
+    pub speed: f64,
+    /// How long all bodies of an island must rest, in s.
+    pub after: f64,
+}
+
+/// What holds for all bodies; checked by [`crate::Engine::new`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Acceleration of all dynamic bodies, in m/s².
+    pub gravity: Vec2,
+    /// Length of a tick, in s: contacts are updated once a tick.
+    pub tick: f64,
+    /// Sub-steps in a tick.
+    pub substeps: u32,
+    /// The soft law of contacts.
+    pub softness: Softness,
+    /// How often rows are relaxed.
+    pub relaxation: Relaxation,
+    /// Contacts are kept while the gap is smaller, as a part of the smaller piece's extent.
+    ///
+    /// Half of it: a tenth sooner in a drum, up to twice the deepest overlap; twice: a tenth dearer.
+    pub margin: f64,
+    /// A body is rebased, and its contacts computed anew, once it moved so far, as a part of its extent.
+    ///
+    /// Four tolerances must stay below the margin. Less: settled heaps are computed anew for nothing; more: stale normals.
+    pub tolerance: f64,
+    /// When islands fall asleep; never if `None`.
+    pub sleep: Option<Sleep>,
+}
+
+impl Default for Softness {
+    fn default() -> Self {
+        Self {
+            compliance: 0.5,
+            frequency: 30.0,
+            damping_ratio: 10.0,
+            over_relaxation: 1.5,
+            push_out: 3.0,
+        }
+    }
+}
+
+impl Default for Sleep {
+    fn default() -> Self {
+        Self {
+            speed: 0.05,
+            after: 0.5,
+        }
+    }
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            gravity: vec2(0.0, -9.81),
+            tick: 1.0 / 60.0,
+            substeps: 5,
+            softness: Softness::default(),
+            relaxation: Relaxation::EverySubstep,
+            margin: 0.06,
+            tolerance: 0.005,
+            sleep: Some(Sleep::default()),
+        }
+    }
+}
+
+impl Settings {
+    /// Less time, more overlap: four sub-steps of a softer law.
+    #[must_use]
+    pub fn fast() -> Self {
+        let softness = Softness {
+            compliance: 1.0,
+            ..Softness::default()
+        };
+        Self {
+            substeps: 4,
+            softness,
+            ..Self::default()
+        }
+    }
+
+    /// Less overlap, more time: six sub-steps of a stiffer law.
+    #[must_use]
+    pub fn accurate() -> Self {
+        let softness = Softness {
+            compliance: 0.3,
+            ..Softness::default()
+        };
+        Self {
+            substeps: 6,
+            softness,
+            ..Self::default()
+        }
+    }
+
+    pub(crate) fn check(&self) -> Result<(), EngineError> {
+        finite("Settings::gravity.x", self.gravity.x)?;
+        finite("Settings::gravity.y", self.gravity.y)?;
+        positive("Settings::tick", self.tick)?;
+        let count = f64::from(self.substeps);
+        let good = (1..=1000).contains(&self.substeps);
+        check("Settings::substeps", count, good, "from 1 to 1000")?;
+        let soft = &self.softness;
+        positive("Softness::compliance", soft.compliance)?;
+        positive("Softness::frequency", soft.frequency)?;
+        positive("Softness::damping_ratio", soft.damping_ratio)?;
+        let good = (1.0..2.0).contains(&soft.over_relaxation);
+        let field = "Softness::over_relaxation";
+        check(field, soft.over_relaxation, good, "at least 1 and below 2")?;
+        positive("Softness::push_out", soft.push_out)?;
+        let good = self.margin > 0.0 && self.margin <= 1.0;
+        check("Settings::margin", self.margin, good, "above 0, at most 1")?;
+        let good = self.tolerance > 0.0 && self.tolerance <= 0.25 * self.margin;
+        let allowed = "above 0, at most a quarter of the margin";
+        check("Settings::tolerance", self.tolerance, good, allowed)?;
+        if let Some(sleep) = self.sleep {
+            positive("Sleep::speed", sleep.speed)?;
+            not_negative("Sleep::after", sleep.after)?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,229 @@
+//! Islands, and their sleep.
+//!
+//! An island is what hangs together by contacts that push or overlap, through dynamic bodies. Islands are found when some
+//! body has rested long enough, from its contacts alone. One that sleeps has no lines, and its contacts lie apart with
+//! all their fields; waking puts both back as they were.
+
+use carom_math::Vec2;
+
+use crate::bodies::{Bodies, Sleeper};
+use crate::{BodyId, BodyKind, Engine, EngineError};
+
+/// Ticks between two searches for islands at rest. Fewer: an island that rests but for one body is walked for nothing;
+/// more: islands fall asleep later by as much.
+const SEARCH: u64 = 8;
+
+/// Islands asleep.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Islands {
+    asleep: Vec<Option<Vec<Sleeper>>>,
+    free: Vec<u32>,
+    ticks: u64,
+}
+
+impl Islands {
+    pub(crate) const fn any_asleep(&self) -> bool {
+        self.asleep.len() > self.free.len()
+    }
+}
+
+impl Engine {
+    /// Counts how long bodies rest, and puts islands to sleep.
+    pub(crate) fn settle(&mut self) {
+        let Some(sleep) = self.settings.sleep else {
+            return;
+        };
+        self.islands.ticks += 1;
+        let Bodies {
+            lines,
+            limits,
+            rest,
+            ..
+        } = &mut self.bodies;
+        let mut longest = 0.0f64;
+        for ((line, limit), rest) in lines.iter().zip(limits).zip(rest).skip(2) {
+            let v = line.v();
+            let speed = v.x.abs().max(v.y.abs()) + line.w().abs() * limit.reach;
+            let rests = speed <= sleep.speed * limit.extent && line.inverse_mass() > 0.0;
+            *rest = if rests {
+                *rest + self.settings.tick
+            } else {
+                0.0
+            };
+            longest = longest.max(*rest);
+        }
+        if longest >= sleep.after && self.islands.ticks.is_multiple_of(SEARCH) {
+            for island in self.islands_at_rest(sleep.after) {
+                self.lay(&island);
+            }
+        }
+    }
+
+    /// Islands of which all bodies have rested for so long, in s.
+    fn islands_at_rest(&self, after: f64) -> Vec<Vec<u32>> {
+        let mut seen = vec![false; self.bodies.records.len()];
+        let mut found = Vec::new();
+        for line in 2..self.bodies.lines.len() {
+            let slot = self.bodies.slot_of[line];
+            if self.bodies.rest[line] >= after && !seen[slot as usize] {
+                let (island, rests) = self.island(slot, after, &mut seen);
+                if rests {
+                    found.push(island);
+                }
+            }
+        }
+        found
+    }
+
+    /// The island of a body that is awake, and whether all of it has rested for so long and nothing that moves touches it.
+    fn island(&self, slot: u32, after: f64, seen: &mut [bool]) -> (Vec<u32>, bool) {
+        let (mut island, mut rests) = (vec![slot], true);
+        seen[slot as usize] = true;
+        let mut next = 0;
+        while let Some(&slot) = island.get(next) {
+            next += 1;
+            rests &= self.bodies.rest[self.bodies.line_of(slot)] >= after;
+            for (id, side) in self.graph.of_body(&self.bodies, slot) {
+                let other = self.graph.contacts[id as usize].bodies[1 - side];
+                if !self.touches(id) {
+                    continue;
+                }
+                match self.bodies.records[other as usize].kind {
+                    BodyKind::Dynamic if !seen[other as usize] => {
+                        seen[other as usize] = true;
+                        island.push(other);
+                    }
+                    BodyKind::Kinematic => {
+                        let (v, w) = self.bodies.velocity_of(other);
+                        rests &= v == Vec2::ZERO && w.abs() <= 0.0;
+                    }
+                    _ => {}
+                }
+            }
+        }
+        (island, rests)
+    }
+
+    /// Whether a contact pushes or overlaps.
+    fn touches(&self, id: u32) -> bool {
+        let (block, _, lane) = self.graph.lane(id);
+        let [a, b] = [block.a[lane], block.b[lane]].map(|line| &self.bodies.lines[line as usize]);
+        let gaps = block.gaps(lane, a, b);
+        block.j1[lane] + block.j2[lane] > 0.0 || gaps[0].min(gaps[1]) <= 0.0
+    }
+
+    /// Puts an island to sleep.
+    fn lay(&mut self, island: &[u32]) {
+        let number = self.islands.free.pop().unwrap_or_else(|| {
+            self.islands.asleep.push(None);
+            #[expect(clippy::cast_possible_truncation, reason = "fewer than bodies")]
+            let last = self.islands.asleep.len() as u32 - 1;
+            last
+        });
+        for &slot in island {
+            self.bodies.records[slot as usize].island = number;
+        }
+        for &slot in island {
+            let ids: Vec<_> = self.graph.of_body(&self.bodies, slot).collect();
+            for (id, side) in ids {
+                let contact = self.graph.contacts[id as usize];
+                let other = &self.bodies.records[contact.bodies[1 - side] as usize];
+                if other.kind == BodyKind::Dynamic && other.island != number {
+                    // Near, and no part of the island: found again when one of both moves.
+                    self.known.remove(contact.pieces);
+                    self.graph.remove(&mut self.bodies, id);
+                } else if !contact.sleeps() {
+                    self.graph.shift(&mut self.bodies, id, true);
+                }
+            }
+        }
+        let mut sleepers = Vec::with_capacity(island.len());
+        for &slot in island {
+            let (sleeper, moved) = self.bodies.lay(slot);
+            sleepers.push(sleeper);
+            if let Some(moved) = moved {
+                self.graph.renumber(&self.bodies, moved);
+            }
+            let record = &self.bodies.records[slot as usize];
+            for piece in record.first_piece..record.first_piece + record.pieces {
+                self.broad.stand(piece, self.pieces.boxes[piece as usize]);
+            }
+        }
+        self.islands.asleep[number as usize] = Some(sleepers);
+    }
+
+    /// Wakes these islands.
+    pub(crate) fn wake_all(&mut self, islands: &[u32]) {
+        for &number in islands {
+            let Some(sleepers) = self.islands.asleep[number as usize].take() else {
+                continue;
+            };
+            self.islands.free.push(number);
+            for sleeper in &sleepers {
+                self.bodies.raise(sleeper, &self.settings);
+                let record = &mut self.bodies.records[sleeper.slot as usize];
+                record.island = Bodies::NONE;
+                for piece in record.first_piece..record.first_piece + record.pieces {
+                    self.broad.leave(piece);
+                }
+            }
+            for sleeper in &sleepers {
+                let ids: Vec<_> = self.graph.of_body(&self.bodies, sleeper.slot).collect();
+                for (id, _) in ids {
+                    if self.graph.contacts[id as usize].sleeps() {
+                        self.graph.shift(&mut self.bodies, id, false);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Wakes the island of a body, and all islands that touch it.
+    pub(crate) fn wake_around(&mut self, slot: u32) {
+        let mut islands = vec![self.bodies.records[slot as usize].island];
+        for (id, side) in self.graph.of_body(&self.bodies, slot) {
+            let contact = &self.graph.contacts[id as usize];
+            if contact.sleeps() {
+                islands.push(self.bodies.records[contact.bodies[1 - side] as usize].island);
+            }
+        }
+        islands.retain(|island| *island != Bodies::NONE);
+        islands.dedup();
+        self.wake_all(&islands);
+    }
+
+    /// Wakes a body with its island.
+    ///
+    /// # Errors
+    /// [`EngineError::Stale`] if it is not in this engine.
+    pub fn wake(&mut self, id: BodyId) -> Result<(), EngineError> {
+        self.bodies.get(id)?;
+        self.wake_around(id.slot);
+        Ok(())
+    }
+
+    /// Whether a body sleeps: nothing is computed for it until something meets its island.
+    ///
+    /// # Errors
+    /// [`EngineError::Stale`] if it is not in this engine.
+    pub fn is_asleep(&self, id: BodyId) -> Result<bool, EngineError> {
+        Ok(self.bodies.get(id)?.island != Bodies::NONE)
+    }
+
+    /// The bodies that a dynamic body hangs together with by contacts that push or overlap, itself the first.
+    ///
+    /// # Errors
+    /// [`EngineError::Stale`] if it is not in this engine.
+    pub fn island_of(&self, id: BodyId) -> Result<Vec<BodyId>, EngineError> {
+        let record = self.bodies.get(id)?;
+        let slots = if record.kind != BodyKind::Dynamic {
+            vec![id.slot]
+        } else if let Some(Some(sleepers)) = self.islands.asleep.get(record.island as usize) {
+            sleepers.iter().map(|sleeper| sleeper.slot).collect()
+        } else {
+            let mut seen = vec![false; self.bodies.records.len()];
+            self.island(id.slot, 0.0, &mut seen).0
+        };
+        Ok(slots.into_iter().map(|slot| self.bodies.id(slot)).collect())
+    }
+}

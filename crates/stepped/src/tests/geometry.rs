@@ -1,0 +1,70 @@
+//! The narrow phase agrees with `carom-collision`.
+
+use carom_math::{Vec2, vec2};
+
+use super::Random;
+use crate::narrow::{Manifold, collide, collide_any};
+use crate::pieces::Piece;
+
+/// Both ends of a manifold as places relative to the centre of A, from its arms.
+fn places(found: &Manifold) -> [Vec2; 2] {
+    let n = found.normal;
+    // r · n is the tangential arm, and r × n = −r · t.
+    let t = vec2(-n.y, n.x);
+    let at = |arm: f64| n * found.tangent_a - t * arm;
+    [at(found.arm_a), at(found.arm_a + found.length)]
+}
+
+#[test]
+fn outlines_that_touch_agree_with_hulls() {
+    let mut random = Random::new(1);
+    let (mut touching, mut ties) = (0, 0);
+    for _ in 0..60_000 {
+        let inputs = [random.piece(), random.piece()];
+        let [a, b] = inputs
+            .each_ref()
+            .map(|input| Piece::of(input, 0, 0).next().unwrap());
+        let (pose_a, pose_b) = (random.pose(0.6), random.pose(0.6));
+        let [turned_a, turned_b] = [(&a, pose_a), (&b, pose_b)].map(|(piece, pose)| {
+            let mut pieces = crate::pieces::Pieces::default();
+            let number = pieces.insert(vec![piece.clone()]);
+            pieces.pose(number, pose);
+            pieces.turned[0]
+        });
+        let d = pose_b.position - pose_a.position;
+        let ours =
+            collide(&turned_a, &turned_b, d, Vec2::ZERO, 0.0, 0.0).filter(|ours| ours.gap() <= 0.0);
+        let theirs = collide_any((&a, pose_a), (&b, pose_b), 0.0);
+        // Cores apart, roundings in touch: there the hulls' normal is that of the nearest points.
+        let cores = a.rounding + b.rounding == 0.0;
+        let Some(ours) = ours else {
+            assert!(theirs.is_none(), "missed {theirs:?}");
+            continue;
+        };
+        if !cores {
+            continue;
+        }
+        touching += 1;
+        let agrees = theirs.is_some_and(|theirs| {
+            let same = |x: f64, y: f64| (x - y).abs() < 1e-9;
+            // Only points below the limit are told by the hulls.
+            let deep = |found: &Manifold| {
+                let points = if found.points == 2 { 2 } else { 1 };
+                let mut list: Vec<_> = (0..points).filter(|k| found.gaps[*k] <= 0.0).collect();
+                list.retain(|k| found.gaps[*k] <= 0.0);
+                list
+            };
+            let (mine, other) = (deep(&ours), deep(&theirs));
+            (ours.normal - theirs.normal).length() < 1e-9
+                && mine.len() == other.len()
+                && mine.iter().zip(&other).all(|(i, j)| {
+                    let (p, q) = (places(&ours)[*i], places(&theirs)[*j]);
+                    let t = vec2(-ours.normal.y, ours.normal.x);
+                    same(ours.gaps[*i], theirs.gaps[*j]) && same(p.dot(t), q.dot(t))
+                })
+        });
+        ties += usize::from(!agrees);
+    }
+    assert!(touching > 10_000, "{touching}");
+    assert!(ties * 1000 < touching, "{ties} of {touching} differ");
+}

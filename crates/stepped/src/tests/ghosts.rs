@@ -1,0 +1,110 @@
+//! What slides over flush tiles does not feel their joints, and feels all else.
+
+use carom_geometry::ConvexPolygon;
+use carom_math::vec2;
+
+use super::{unit_box, with_friction};
+use crate::{BodyId, BodyInput, Engine, PieceInput, Settings};
+
+/// A box of 1 m at `speed` on `count` tiles whose tops lie at 0, each `step` higher than the one before.
+fn tiles(speed: f64, count: u32, step: f64) -> (Engine, BodyId) {
+    let mut engine = Engine::new(Settings::default()).unwrap();
+    let tile = with_friction(unit_box(), 0.0);
+    for k in (0..count).rev() {
+        let at = vec2(f64::from(k) - 2.0, -0.5 + step * f64::from(k));
+        let piece = PieceInput::new(ConvexPolygon::rectangle(1.0, 1.0).unwrap());
+        let body = BodyInput::fixed().at(at);
+        engine.insert(body, &[with_friction(piece, 0.0)]).unwrap();
+    }
+    let body = BodyInput::dynamic(1.0, 1.0 / 6.0).at(vec2(0.0, 0.5 + 2.6 * step));
+    let id = engine
+        .insert(body.moving(vec2(speed, 0.0), 0.0), &[tile])
+        .unwrap();
+    (engine, id)
+}
+
+#[test]
+fn a_box_keeps_its_speed_over_flush_tiles() {
+    for speed in [0.1, 0.5, 5.0, 50.0, 150.0] {
+        let (mut engine, id) = tiles(speed, 200, 0.0);
+        let ticks = if speed > 10.0 { 70 } else { 240 };
+        for _ in 0..ticks {
+            engine.tick();
+        }
+        let (v, w) = engine.velocity(id).unwrap();
+        assert!(
+            (v.x - speed).abs() < 1e-6 * speed && w.abs() < 1e-6,
+            "{speed} m/s became {v}, {w}"
+        );
+    }
+}
+
+#[test]
+fn a_box_is_stopped_by_a_step() {
+    let (mut engine, id) = tiles(1.0, 20, 0.02);
+    for _ in 0..240 {
+        engine.tick();
+    }
+    let at = engine.pose(id).unwrap().position;
+    assert!(at.x < 1.0, "it climbed to {at}");
+}
+
+/// The inner corner of tiles and a wall, the last tile, and a ditch.
+#[test]
+fn walls_ends_and_ditches_stay() {
+    let (mut engine, id) = tiles(3.0, 10, 0.0);
+    let wall = PieceInput::new(ConvexPolygon::rectangle(1.0, 4.0).unwrap());
+    let wall = engine
+        .insert(
+            BodyInput::fixed().at(vec2(5.0, 2.0)),
+            &[with_friction(wall, 0.0)],
+        )
+        .unwrap();
+    for _ in 0..180 {
+        engine.tick();
+    }
+    let at = engine.pose(id).unwrap().position;
+    assert!(
+        (at.x - 4.0).abs() < 0.01,
+        "the wall is at 4.5 m, the box at {at}"
+    );
+    engine.remove(wall).unwrap();
+    engine.set_velocity(id, vec2(3.0, 0.0), 0.0).unwrap();
+    for _ in 0..180 {
+        engine.tick();
+    }
+    let at = engine.pose(id).unwrap().position;
+    assert!(
+        at.x > 8.0 && at.y < -1.0,
+        "it falls off the last tile, and is at {at}"
+    );
+
+    // A ditch as wide as two tiles, with walls a tile high.
+    let mut engine = Engine::new(Settings::default()).unwrap();
+    for (x, y) in [
+        (-2.0, -0.5),
+        (-1.0, -0.5),
+        (0.0, -1.5),
+        (1.0, -1.5),
+        (2.0, -0.5),
+        (3.0, -0.5),
+    ] {
+        let tile = with_friction(unit_box(), 0.0);
+        engine
+            .insert(BodyInput::fixed().at(vec2(x, y)), &[tile])
+            .unwrap();
+    }
+    let body = BodyInput::dynamic(1.0, 1.0 / 6.0).at(vec2(0.0, -0.5));
+    let small = with_friction(PieceInput::new(ConvexPolygon::square(1.0).unwrap()), 0.0);
+    let id = engine
+        .insert(body.moving(vec2(2.0, 0.0), 0.0), &[small])
+        .unwrap();
+    for _ in 0..120 {
+        engine.tick();
+    }
+    let at = engine.pose(id).unwrap().position;
+    assert!(
+        (at - vec2(1.0, -0.5)).length() < 0.01,
+        "it stands in the corner of the ditch, and is at {at}"
+    );
+}

@@ -1,0 +1,138 @@
+//! Islands and their sleep.
+
+use carom_math::{Vec2, vec2};
+
+use super::{Random, floor, pyramid, unit_box};
+use crate::{BodyInput, BodyKind, Engine, Material, Settings};
+
+#[test]
+fn a_pyramid_falls_asleep_and_wakes_as_it_was() {
+    let mut engine = Engine::new(Settings::default()).unwrap();
+    floor(&mut engine);
+    let ids = pyramid(&mut engine, 6, Vec2::ZERO);
+    let far = pyramid(&mut engine, 3, vec2(50.0, 0.0));
+    for _ in 0..120 {
+        engine.tick();
+        engine.graph.check(&engine.bodies);
+    }
+    assert!(
+        ids.iter()
+            .chain(&far)
+            .all(|id| engine.is_asleep(*id).unwrap())
+    );
+    assert_eq!(engine.bodies.lines.len(), 2);
+    assert_eq!(engine.island_of(ids[0]).unwrap().len(), ids.len());
+    let poses: Vec<_> = ids.iter().map(|id| engine.pose(*id).unwrap()).collect();
+    for _ in 0..60 {
+        engine.tick();
+    }
+    engine.wake(ids[3]).unwrap();
+    engine.graph.check(&engine.bodies);
+    assert!(ids.iter().all(|id| !engine.is_asleep(*id).unwrap()));
+    assert!(far.iter().all(|id| engine.is_asleep(*id).unwrap()));
+    for _ in 0..10 {
+        engine.tick();
+        engine.graph.check(&engine.bodies);
+    }
+    for (id, pose) in ids.iter().zip(poses) {
+        // Impulses were kept: nothing jumps.
+        let way = (engine.pose(*id).unwrap().position - pose.position).length();
+        assert!(way < 1e-4, "{way}");
+    }
+}
+
+#[test]
+fn what_is_hit_wakes_and_what_is_missed_does_not() {
+    let mut engine = Engine::new(Settings::default()).unwrap();
+    floor(&mut engine);
+    let ids = pyramid(&mut engine, 3, Vec2::ZERO);
+    for _ in 0..120 {
+        engine.tick();
+    }
+    assert!(engine.is_asleep(ids[0]).unwrap());
+    let at = |x: f64, y: f64| BodyInput::dynamic(1.0, 1.0 / 6.0).at(vec2(x, y));
+    // Slides past the top, 0.3 m above it.
+    let past = at(-3.0, 3.8).moving(vec2(30.0, 0.0), 0.0);
+    engine.insert(past, &[unit_box()]).unwrap();
+    for _ in 0..12 {
+        engine.tick();
+        engine.graph.check(&engine.bodies);
+    }
+    assert!(engine.is_asleep(ids[0]).unwrap());
+    let top = *ids.last().unwrap();
+    let before = engine.pose(top).unwrap().position;
+    engine.insert(at(1.0, 5.0), &[unit_box()]).unwrap();
+    for _ in 0..40 {
+        engine.tick();
+        engine.graph.check(&engine.bodies);
+    }
+    assert!(!engine.is_asleep(top).unwrap());
+    assert!((engine.pose(top).unwrap().position - before).length() < 0.1);
+}
+
+#[test]
+fn a_floor_taken_away_wakes_what_lay_on_it() {
+    let mut engine = Engine::new(Settings::default()).unwrap();
+    let ground = floor(&mut engine);
+    let ids = pyramid(&mut engine, 3, Vec2::ZERO);
+    for _ in 0..120 {
+        engine.tick();
+    }
+    assert!(engine.is_asleep(ids[0]).unwrap());
+    engine.remove(ground).unwrap();
+    engine.graph.check(&engine.bodies);
+    for _ in 0..30 {
+        engine.tick();
+    }
+    assert!(engine.pose(ids[0]).unwrap().position.y < -0.5);
+}
+
+/// Sleep or not, random calls keep lanes and warm starts.
+#[test]
+fn random_calls_among_sleepers_keep_the_graph() {
+    let mut total = 0;
+    for seed in 0..12 {
+        let mut engine = Engine::new(Settings::default()).unwrap();
+        let ground = floor(&mut engine);
+        let mut random = Random::new(900 + seed);
+        let mut ids = vec![ground];
+        let mut slept = 0;
+        for step in 0..600 {
+            let pick = ids[random.below(ids.len())];
+            match random.below(60) {
+                0..6 if step < 200 => {
+                    let surface = Material {
+                        friction: random.next(),
+                        restitution: [0.0, 0.0, 0.5, 1.0][random.below(4)],
+                    };
+                    let piece = random.piece().with_material(surface);
+                    let mut body = random.body(&piece, 5.0);
+                    body.pose.position.y += 7.0;
+                    body.kind = [BodyKind::Dynamic, BodyKind::Kinematic, BodyKind::Fixed]
+                        [random.below(12).saturating_sub(9)];
+                    if body.kind == BodyKind::Kinematic {
+                        (body.velocity, body.spin) = (body.velocity * 0.2, 0.0);
+                    }
+                    ids.push(engine.insert(body, &[piece]).unwrap());
+                }
+                6 if pick != ground => {
+                    engine.remove(pick).unwrap();
+                    ids.retain(|id| *id != pick);
+                }
+                7 => engine
+                    .set_velocity(pick, vec2(random.signed(), 2.0), 0.0)
+                    .unwrap(),
+                8 if pick != ground => engine.set_pose(pick, random.pose(5.0)).unwrap(),
+                _ => {}
+            }
+            engine.tick();
+            engine.graph.check(&engine.bodies);
+            slept += ids
+                .iter()
+                .filter(|id| engine.is_asleep(**id).unwrap())
+                .count();
+        }
+        total += slept;
+    }
+    assert!(total > 100, "{total}");
+}
