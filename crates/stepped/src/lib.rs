@@ -28,6 +28,7 @@ mod broad;
 mod engine;
 mod error;
 mod ghost;
+mod input;
 mod insert;
 #[cfg(test)]
 mod naive;
@@ -41,9 +42,9 @@ mod sleep;
 mod tests;
 mod update;
 
-pub use bodies::{BodyId, BodyInput, BodyKind};
 pub use engine::Engine;
 pub use error::EngineError;
+pub use input::{BodyId, BodyInput, BodyKind};
 pub use pieces::{Material, PieceInput};
 pub use read::Contact;
 pub use settings::{Relaxation, Settings, Sleep, Softness};

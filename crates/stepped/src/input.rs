@@ -1,0 +1,109 @@
+//! A body as a caller tells of it.
+
+use carom_math::{Pose, Vec2};
+
+use crate::EngineError;
+use crate::error::{finite, positive};
+
+/// Name of a body in its engine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct BodyId {
+    pub(crate) slot: u32,
+    pub(crate) generation: u32,
+}
+
+/// What moves a body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BodyKind {
+    /// Nothing.
+    Fixed,
+    /// Its velocity alone; it pushes and is not pushed.
+    Kinematic,
+    /// Gravity and contacts.
+    Dynamic,
+}
+
+/// A body to insert. Its frame has the centre of mass for origin.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BodyInput {
+    /// What moves it.
+    pub kind: BodyKind,
+    /// Where the centre of mass is, in m, and how the body is turned.
+    pub pose: Pose,
+    /// Velocity of the centre of mass, in m/s.
+    pub velocity: Vec2,
+    /// Angular velocity, in rad/s, counter-clockwise.
+    pub spin: f64,
+    /// Of a dynamic body, in kg.
+    pub mass: f64,
+    /// Of a dynamic body about its centre of mass, in kg·m²; infinite: it never turns.
+    pub inertia: f64,
+    /// Part of gravity that acts on it.
+    pub gravity_scale: f64,
+}
+
+impl BodyInput {
+    /// At the origin, at rest, of 1 kg and 1 kg·m².
+    #[must_use]
+    pub const fn new(kind: BodyKind) -> Self {
+        Self {
+            kind,
+            pose: Pose::IDENTITY,
+            velocity: Vec2::ZERO,
+            spin: 0.0,
+            mass: 1.0,
+            inertia: 1.0,
+            gravity_scale: 1.0,
+        }
+    }
+
+    /// A body that nothing moves.
+    #[must_use]
+    pub const fn fixed() -> Self {
+        Self::new(BodyKind::Fixed)
+    }
+
+    /// A body that its velocity moves.
+    #[must_use]
+    pub const fn kinematic() -> Self {
+        Self::new(BodyKind::Kinematic)
+    }
+
+    /// A body of `mass` kg and `inertia` kg·m² that contacts move.
+    #[must_use]
+    pub const fn dynamic(mass: f64, inertia: f64) -> Self {
+        let mut input = Self::new(BodyKind::Dynamic);
+        (input.mass, input.inertia) = (mass, inertia);
+        input
+    }
+
+    /// The same with its centre of mass at `position`, in m.
+    #[must_use]
+    pub const fn at(mut self, position: Vec2) -> Self {
+        self.pose.position = position;
+        self
+    }
+
+    /// The same at this velocity, in m/s, and spin, in rad/s.
+    #[must_use]
+    pub const fn moving(mut self, velocity: Vec2, spin: f64) -> Self {
+        (self.velocity, self.spin) = (velocity, spin);
+        self
+    }
+
+    pub(crate) fn check(&self) -> Result<(), EngineError> {
+        finite("BodyInput::pose.position.x", self.pose.position.x)?;
+        finite("BodyInput::pose.position.y", self.pose.position.y)?;
+        finite("BodyInput::velocity.x", self.velocity.x)?;
+        finite("BodyInput::velocity.y", self.velocity.y)?;
+        finite("BodyInput::spin", self.spin)?;
+        finite("BodyInput::gravity_scale", self.gravity_scale)?;
+        if self.kind == BodyKind::Dynamic {
+            positive("BodyInput::mass", self.mass)?;
+            if self.inertia != f64::INFINITY {
+                positive("BodyInput::inertia", self.inertia)?;
+            }
+        }
+        Ok(())
+    }
+}
