@@ -11,14 +11,21 @@ use super::table;
 use crate::exit::Failure;
 use crate::picture;
 
-/// Cases of the overview: flight, bounces, an impact off centre, sliding, a gas, a stack.
-const TELLING: [&str; 6] = ["01", "03", "06", "08", "12", "13"];
+/// Cases of the overview, in words.
+const TELLING: [(&str, &str); 6] = [
+    ("01", "A throw: place after 1 s"),
+    ("03", "A bouncing ball: height of its bounces"),
+    ("06", "An elastic blow off centre: velocities"),
+    ("08", "A sliding block: distance after 2 s"),
+    ("12", "Elastic polygons in a box: energy"),
+    ("13", "A stack of 20 boxes: deepest overlap"),
+];
 
 /// Writes a chart for every case, by its first error, and the overview.
 pub(super) fn write(folder: &Path, rows: &[AccuracyRow]) -> Result<Vec<PathBuf>, Failure> {
     let mut written = Vec::new();
     let mut overview = Panels::new("Error against run time", 3)
-        .subtitled("down and to the left is better; a curve runs over the length of the step");
+        .subtitled("down and to the left is better; a curve runs from few steps a second to many; exact: no error; failed: fell, tunnelled or blew up");
     let mut charts: Vec<(&str, Chart)> = Vec::new();
     for case in row::cases(rows) {
         let Some(chart) = of_case(rows, case) else {
@@ -31,16 +38,15 @@ pub(super) fn write(folder: &Path, rows: &[AccuracyRow]) -> Result<Vec<PathBuf>,
         )?);
         charts.push((case, chart));
     }
-    let telling = |case: &str| {
-        TELLING
-            .iter()
-            .any(|number| case.split('_').next() == Some(*number))
-    };
-    for (_, chart) in charts.into_iter().filter(|(case, _)| telling(case)) {
-        overview = overview.with(Chart {
-            subtitle: String::new(),
-            ..chart
-        });
+    for (case, chart) in charts {
+        let number = case.split('_').next();
+        if let Some((_, title)) = TELLING.iter().find(|(known, _)| number == Some(known)) {
+            overview = overview.with(Chart {
+                title: (*title).to_owned(),
+                subtitle: String::new(),
+                ..chart
+            });
+        }
     }
     if !overview.charts.is_empty() {
         let lines = u32::try_from(overview.charts.len().div_ceil(3)).unwrap_or(1);
@@ -88,12 +94,10 @@ fn of_case(rows: &[AccuracyRow], case: &str) -> Option<Chart> {
         }
         chart = chart.with(picture::series(curve[0].engine, curve[0].mode, points));
     }
-    let unit = if unit == "1" {
-        String::new()
-    } else {
-        format!(" ({unit})")
-    };
-    Some(chart.y(format!("error{unit}")))
+    Some(chart.y(match unit {
+        "1" => "error, as a part of the right value".to_owned(),
+        unit => format!("error, in {unit}"),
+    }))
 }
 
 /// CPU time in ms and error; a failed run is infinitely wrong.
