@@ -3,7 +3,7 @@
 //! stands out of the floor by more than counts as touch is met as ever, and so are its ends.
 
 use carom_dynamics::{BodyDef, BodyId, Material, Mode, Settings, World};
-use carom_geometry::{Compound, ConvexPolygon, Segment, Shape};
+use carom_geometry::{Compound, ConvexPolygon, Polygon, Segment, Shape};
 use carom_math::{Pose, Vec2, vec2};
 use carom_tests::scenes::{block, put};
 
@@ -210,6 +210,37 @@ fn a_driven_box_passes_the_corner_of_a_chain() {
                     (x - start - 2.0).abs() < 1e-9,
                     "{mode:?}, from {start}: {x} m"
                 );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_step_on_the_tile_behind_a_seam_is_met() {
+    for mode in MODES {
+        for drop in [0.0, 1e-4, 1e-2] {
+            for speed in [0.5, 2.0, 20.0] {
+                let mut world = empty(mode);
+                tiles(&mut world, 4, 0.0, 0.0);
+                // One shape: flush to x = 7, and half a metre higher from there on.
+                let step = Polygon::new([
+                    vec2(4.0, -1.0),
+                    vec2(12.0, -1.0),
+                    vec2(12.0, 0.5),
+                    vec2(7.0, 0.5),
+                    vec2(7.0, 0.0),
+                    vec2(4.0, 0.0),
+                ])
+                .expect("simple");
+                put(&mut world, BodyDef::fixed(), step, smooth(0.0));
+                let id = slider(&mut world, drop, speed, 0.0, true, 0.0);
+                let whole = 8.0 / speed;
+                while world.time() < carom_math::SimTime::ZERO + whole {
+                    world.step(1.0 / 60.0);
+                }
+                let x = place(&world, id).x;
+                let story = format!("{mode:?}, drop {drop} m, {speed} m/s");
+                assert!((x - 6.5).abs() < 1e-4, "{story}: it is at {x} m");
             }
         }
     }
