@@ -23,6 +23,7 @@
 mod check;
 pub mod clock;
 pub mod exit;
+mod field;
 pub mod files;
 pub mod film;
 mod flags;

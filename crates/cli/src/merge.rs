@@ -136,7 +136,7 @@ fn index(k: u64) -> usize {
 }
 
 fn frames(slice: &Slice) -> Range<u64> {
-    slice.job.shard.frames(slice.job.frames)
+    slice.job.shard.range(slice.job.frames)
 }
 
 /// A frame's file name: that of a picture, or of a drawing.

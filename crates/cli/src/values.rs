@@ -60,10 +60,10 @@ impl Shard {
     /// All in one.
     pub const WHOLE: Self = Self { index: 0, count: 1 };
 
-    /// The frames of this slice, out of `frames`: slices are contiguous and differ by at most one frame.
-    pub const fn frames(self, frames: u64) -> std::ops::Range<u64> {
-        // At most 1e6 frames and 1e6 slices: no overflow.
-        self.index * frames / self.count..(self.index + 1) * frames / self.count
+    /// What of `all` frames or runs is this slice's: slices are contiguous and differ by at most one.
+    pub const fn range(self, all: u64) -> std::ops::Range<u64> {
+        // At most 1e9 runs and 1e6 slices: no overflow.
+        self.index * all / self.count..(self.index + 1) * all / self.count
     }
 }
 
@@ -120,7 +120,7 @@ mod tests {
     #[test]
     fn slices_cover_every_frame_once() {
         for (frames, count) in [(600, 1), (600, 7), (3, 5), (0, 2)] {
-            let slices = (0..count).flat_map(|index| Shard { index, count }.frames(frames));
+            let slices = (0..count).flat_map(|index| Shard { index, count }.range(frames));
             assert!(slices.eq(0..frames), "{frames} frames in {count} slices");
         }
     }

@@ -150,7 +150,7 @@ fn plan(args: &RenderArgs, built: &Built) -> Result<Plan, Failure> {
     Ok(Plan {
         rate,
         frames,
-        slice: shard.frames(frames),
+        slice: shard.range(frames),
         threads: args.threads.map_or_else(parallel::cores, usize::from),
     })
 }

@@ -8,6 +8,7 @@ use carom_render::Draft;
 use carom_scenes::Built;
 
 use crate::exit::Failure;
+use crate::field::field;
 use crate::files;
 use crate::out::is_closed_pipe;
 
@@ -100,25 +101,5 @@ impl Table {
             },
             Target::File(draft) => Ok(draft.finish()?),
         }
-    }
-}
-
-/// A name as a field of a CSV line: quoted where it has to be.
-fn field(name: &str) -> String {
-    if name.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", name.replace('"', "\"\""))
-    } else {
-        name.to_owned()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn names_with_commas_are_quoted() {
-        assert_eq!(field("left wedge"), "left wedge");
-        assert_eq!(field("a, \"b\""), "\"a, \"\"b\"\"\"");
     }
 }

@@ -7,9 +7,10 @@ mod table;
 
 use carom_dynamics::StepReport;
 use carom_math::SimTime;
-use carom_scenes::Scene;
+use carom_scenes::{Built, Scene};
 
 use crate::exit::{End, Failure, Outcome, fail};
+use crate::field::field;
 use crate::flags::SweepArgs;
 use crate::interrupt;
 use crate::out::{say, tell};
@@ -31,8 +32,8 @@ pub(crate) fn run(args: &SweepArgs) -> Outcome {
         (_, true) => Earlier::Replace,
         _ => Earlier::Refuse,
     };
-    // Whatever is wrong with all runs alike is said before anything is written.
-    plan.play(plan.mine.start)?;
+    // Before anything is written.
+    plan.check()?;
     let (mut table, known) = Table::open(args.out.as_deref(), &plan.heading(), earlier)?;
     interrupt::watch("finishing the runs in hand")?;
     let left = plan.mine.start + known..plan.mine.end;
@@ -40,7 +41,7 @@ pub(crate) fn run(args: &SweepArgs) -> Outcome {
         fail!("there are more rows than runs: --force begins anew");
     }
     let mut progress = Progress::new("sweep", left.end - left.start, "runs");
-    let (mut next, mut written, mut reader_left) = (left.start, known, false);
+    let (mut next, mut written, mut ended) = (left.start, known, false);
     let produced = || {
         let more = next < left.end && !interrupt::asked();
         let job = more.then_some(next);
@@ -54,11 +55,11 @@ pub(crate) fn run(args: &SweepArgs) -> Outcome {
         |k| plan.play(k),
         |row| {
             // What Ctrl-C cut short has no row, nor has what comes after it.
-            let Some(row) = row.filter(|_| !reader_left) else {
-                reader_left = true;
+            let Some(row) = row.filter(|_| !ended) else {
+                ended = true;
                 return Ok(());
             };
-            reader_left = !table.write(&row)?;
+            ended = !table.write(&row)?;
             written += 1;
             progress.advance();
             Ok(())
@@ -98,8 +99,7 @@ impl<'a> Plan<'a> {
     fn new(args: &'a SweepArgs, scene: &'a Scene) -> Result<Self, Failure> {
         let seeds = args.seeds.unwrap_or(1);
         let runs = axis::runs(&args.set, seeds).map_err(Failure::new)?;
-        let mine = args.shard.unwrap_or(Shard::WHOLE);
-        let mine = mine.index * runs / mine.count..(mine.index + 1) * runs / mine.count;
+        let mine = args.shard.unwrap_or(Shard::WHOLE).range(runs);
         if mine.is_empty() {
             fail!(
                 "slice {} of {runs} runs has none",
@@ -130,20 +130,40 @@ impl<'a> Plan<'a> {
             .chain(keys)
             .chain(seed)
             .chain(columns);
-        names.map(quoted).collect::<Vec<_>>().join(",")
+        names.map(field).collect::<Vec<_>>().join(",")
+    }
+
+    /// What is set in run `k`: the values of `--set`, and the seed.
+    fn settings(&self, k: u64) -> (Vec<&str>, Option<String>) {
+        let (values, seed) = axis::values(&self.args.set, self.seeds, k);
+        (values, self.args.seeds.map(|_| seed.to_string()))
+    }
+
+    /// Run `k` at its start.
+    fn build(&self, k: u64) -> Result<Built, Failure> {
+        let (values, seed) = self.settings(k);
+        let keys = self.args.set.iter().map(|axis| axis.key.as_str());
+        let mut settings: Vec<(&str, &str)> = keys.zip(values).collect();
+        settings.extend(seed.iter().map(|seed| ("seed", seed.as_str())));
+        let mut scene = self.scene.clone();
+        scene.set_all(&settings)?;
+        let built = scene.build()?;
+        scene::check_step(&scene, &built.world, self.seconds)?;
+        Ok(built)
+    }
+
+    /// Says what is wrong with the first run, and with all alike: keys, values, names of columns.
+    fn check(&self) -> Result<(), Failure> {
+        let built = self.build(self.mine.start)?;
+        for column in &self.args.report {
+            column.read(&built, &StepReport::default())?;
+        }
+        Ok(())
     }
 
     /// The row of run `k`; `None` if it was interrupted.
     fn play(&self, k: u64) -> Result<Option<String>, Failure> {
-        let (values, seed) = axis::values(&self.args.set, self.seeds, k);
-        let keys = self.args.set.iter().map(|axis| axis.key.as_str());
-        let mut settings: Vec<(&str, &str)> = keys.zip(values.iter().copied()).collect();
-        let seed = self.args.seeds.map(|_| seed.to_string());
-        settings.extend(seed.iter().map(|seed| ("seed", seed.as_str())));
-        let mut scene = self.scene.clone();
-        scene.set_all(&settings)?;
-        let mut built = scene.build()?;
-        scene::check_step(&scene, &built.world, self.seconds)?;
+        let mut built = self.build(k)?;
         let mut report = StepReport::default();
         let end = SimTime::from_secs(self.seconds);
         match reach(&mut built.world, end, |_, part| report += part) {
@@ -151,21 +171,13 @@ impl<'a> Plan<'a> {
             Reached::Interrupted => return Ok(None),
             Reached::Refused(why) => fail!("run {k} was refused: {why}"),
         }
+        let (values, seed) = self.settings(k);
         let mut row = vec![k.to_string(), self.runs.to_string()];
-        row.extend(values.into_iter().map(quoted));
+        row.extend(values.into_iter().map(field));
         row.extend(seed);
         for column in &self.args.report {
             row.push(column.read(&built, &report)?);
         }
         Ok(Some(row.join(",")))
-    }
-}
-
-/// A cell, in quotes where it has a comma, a quote or the end of a line (RFC 4180).
-fn quoted(cell: &str) -> String {
-    if cell.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", cell.replace('"', "\"\""))
-    } else {
-        cell.to_owned()
     }
 }

@@ -1,8 +1,11 @@
 //! The table of a sweep while it grows: `FILE.part`, which a later run goes on with, and which gets its name when it is whole.
 
+use std::fmt::Display;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Stdout, Write};
 use std::path::{Path, PathBuf};
+
+use carom_render::read_file;
 
 use crate::exit::{Failure, fail};
 use crate::files;
@@ -50,11 +53,10 @@ impl Table {
                 )
             }
             _ => {
-                let begun = if earlier == Earlier::Replace {
-                    File::create(&part)
-                } else {
-                    OpenOptions::new().write(true).create_new(true).open(&part)
-                };
+                if earlier == Earlier::Replace && part.exists() {
+                    fs::remove_file(&part).map_err(|error| cannot("replace", &part, &error))?;
+                }
+                let begun = OpenOptions::new().write(true).create_new(true).open(&part);
                 let mut file = begun.map_err(|error| cannot("write", &part, &error))?;
                 writeln!(file, "{heading}").map_err(|error| cannot("write", &part, &error))?;
                 (file, 0)
@@ -103,9 +105,12 @@ impl Table {
     }
 }
 
+/// Largest table that is gone on with, in bytes.
+const LARGEST: u64 = 1 << 32;
+
 /// What an interrupted sweep left behind, cut after its last whole row.
 fn kept(part: &Path, heading: &str) -> Result<(File, u64), Failure> {
-    let text = fs::read(part).map_err(|error| cannot("read", part, &error))?;
+    let text = read_file(part, LARGEST).map_err(|error| cannot("read", part, &error))?;
     let whole = text
         .iter()
         .rposition(|byte| *byte == b'\n')
@@ -133,6 +138,6 @@ fn lost(error: &io::Error) -> Result<(), Failure> {
     }
 }
 
-fn cannot(what: &str, place: &Path, error: &io::Error) -> Failure {
+fn cannot(what: &str, place: &Path, error: &impl Display) -> Failure {
     Failure::new(format!("cannot {what} {}: {error}", place.display()))
 }

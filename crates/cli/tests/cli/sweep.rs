@@ -92,5 +92,13 @@ fn what_is_wrong_gets_one_line() {
     fs::write(folder.path().join("other.csv"), "a,b\n1,2\n").unwrap();
     let merge = ["merge", "other.csv", "--out", "x.csv"];
     carom_in(folder.path(), &merge).refused(&["other.csv", "no table"]);
+    // What has no end, or waits for ever, is not opened.
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink("/dev/zero", folder.path().join("zero.csv")).unwrap();
+        let merge = ["merge", "zero.csv", "--out", "x.csv"];
+        carom_in(folder.path(), &merge).refused(&["zero.csv"]);
+        fs::remove_file(folder.path().join("zero.csv")).unwrap();
+    }
     assert_eq!(names(folder.path()), ["other.csv", "throw.toml"]);
 }
