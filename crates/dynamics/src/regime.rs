@@ -1,9 +1,9 @@
-//! Who moves a body now: one word for what a body's flags say together, and which of their combinations there are.
+//! Which method moves a body now: one word for what a body's flags say together, and which of their combinations there are.
 
 use crate::state::BodyState;
 use crate::{BodyKind, Mode, World};
 
-/// Who moves a body.
+/// What moves a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Regime {
     /// Nothing, ever.
@@ -81,8 +81,11 @@ impl World {
 
     /// Whether a body is moved by one method, in builds that check so.
     pub(crate) fn check_regime(&self, index: u32) {
-        let state = self.bodies.get(index);
-        let regime = Regime::of(state, self.settings.mode);
-        debug_assert!(regime.is_ok(), "{}: {}", state.id, regime.unwrap_err());
+        if cfg!(debug_assertions) {
+            let state = self.bodies.get(index);
+            if let Err(why) = Regime::of(state, self.settings.mode) {
+                panic!("{}: {why}", state.id);
+            }
+        }
     }
 }

@@ -118,13 +118,6 @@ impl World {
         let reach = reaches.fold(0.0, f64::max);
         let filter = self.colliders[state.colliders[0] as usize].surface.filter;
         self.leave_all(index);
-        self.alter(index, |state| {
-            let moved = state.motion.rotation * (mass.centroid - state.mass.centroid);
-            state.motion.centre += moved;
-            state.motion.velocity += state.motion.spin * carom_math::perp(moved);
-            (state.mass, state.reach) = (mass, reach);
-            state.set_kind(state.kind);
-        });
         self.forget_boxes(index);
         self.free_shapes(index);
         let add = |(shape, material)| {
@@ -133,8 +126,13 @@ impl World {
         };
         let colliders = shapes.into_iter().map(add).collect();
         self.bodies.get_mut(index).colliders = colliders;
-        self.arrive(index);
-        self.unsettle_on(index, self.clock.now);
+        self.remake(index, |state| {
+            let moved = state.motion.rotation * (mass.centroid - state.mass.centroid);
+            state.motion.centre += moved;
+            state.motion.velocity += state.motion.spin * carom_math::perp(moved);
+            (state.mass, state.reach) = (mass, reach);
+            state.set_kind(state.kind);
+        });
         Ok(())
     }
 

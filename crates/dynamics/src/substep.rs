@@ -194,10 +194,10 @@ impl World {
         if pair.buried {
             return Some(flyer);
         }
-        let rest = rest_speed(&self.bodies, self.pairs.get(place), h);
+        let rest = rest_speed(&self.bodies, pair, h);
         let touch = TOUCH * one.reach.min(two.reach);
         // What was struck within a sub-step and touches again at its end has come back: turning presses it.
-        let back = self.pairs.get(place).impacts > 0;
+        let back = pair.impacts > 0;
         let holds = |contact: &PairContact| {
             contact.points.iter().any(|point| {
                 let rate = opening_speed(one, two, time, point.position, contact.normal);
@@ -209,8 +209,7 @@ impl World {
                 }
             })
         };
-        let contacts = &self.pairs.get(place).contacts;
-        contacts.iter().any(holds).then_some(flyer)
+        pair.contacts.iter().any(holds).then_some(flyer)
     }
 
     /// Contacts of all near pairs; begins and ends of touch; what touches a sleeper wakes it.

@@ -68,7 +68,6 @@ impl World {
                     self.wake(index, time);
                 }
                 let members = self.dissolve(place, time);
-                self.set_free(&members, time);
                 self.drop_forces(&members, time);
             }
         }
