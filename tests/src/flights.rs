@@ -9,17 +9,20 @@ use carom_collision::{Motion, TimeOfImpact, time_of_impact};
 use carom_dynamics::{
     BodyDef, BodyId, BodyKind, EventKind, Mode, PairSearch, RadialField, Settings, World,
 };
-use carom_geometry::{HalfPlane, Shape};
+use carom_geometry::{ConvexPolygon, HalfPlane, Shape};
 use carom_math::{Pose, Vec2, vec2};
 
 use crate::draw::{self, Dice};
 use crate::elastic;
 
 /// Slower approaches are left out, in sizes of the smaller body a second: a graze.
-const SLOW: f64 = 1e-4;
+const SLOW: f64 = 1e-6;
 
-/// What a time of impact may be off by, in s for each size a second of approach: rounding of the poses.
-const LATE: f64 = 1e-9;
+/// What a time of impact may be off by, in parts of itself and of the time for the smaller body's size.
+const LATE: f64 = 1e-11;
+
+/// Roundings of a body's coordinates that shift the instant of an impact, too.
+const BLUR: f64 = 8.0 * f64::EPSILON;
 
 /// Events of a scene.
 const EVENTS: usize = 40;
@@ -106,8 +109,8 @@ pub fn play(mode: Mode, seed: u64) -> Result<Seen, String> {
     Ok(seen)
 }
 
-/// Bodies in a grid, smaller ones by up to a factor of 1,000, a third of them fixed or driven, in any order; whether they fly on other
-/// curves than parabolas.
+/// Bodies in a grid, smaller ones by up to a factor of 1,000, a third of them fixed or driven, and in half of the scenes a plank, in any
+/// order; whether they fly on other curves than parabolas.
 fn scene(mode: Mode, seed: u64, pair_search: PairSearch) -> (World, bool) {
     let mut dice = Dice::new(seed);
     let bends = dice.chance(0.3);
@@ -138,8 +141,13 @@ fn scene(mode: Mode, seed: u64, pair_search: PairSearch) -> (World, bool) {
         let field = RadialField::new(dice.inside(half), 30.0, 0.5).expect("a field");
         world.add_field(field);
     }
+    // Beside the grid: longer than all of it, before or after the others.
+    let plank = dice.chance(0.5).then(|| dice.below(side * side + 1));
     let mut places: Vec<usize> = (0..side * side).collect();
     while !places.is_empty() {
+        if plank == Some(places.len()) {
+            insert_plank(&mut world, &mut dice, half);
+        }
         let place = places.swap_remove(dice.below(places.len()));
         let at = vec2((place % side) as f64, (place / side) as f64);
         let at = (at - Vec2::splat(0.5 * (side as f64 - 1.0))) * 2.2;
@@ -174,6 +182,18 @@ fn scene(mode: Mode, seed: u64, pair_search: PairSearch) -> (World, bool) {
     (world, bends)
 }
 
+/// A thin plank above the grid, fixed, driven or free: its circle covers all that flies, its box little.
+fn insert_plank(world: &mut World, dice: &mut Dice, half: f64) {
+    let kinds = [BodyDef::fixed(), BodyDef::kinematic(), BodyDef::dynamic()];
+    let mut def = kinds[dice.below(3)].at(vec2(0.0, half + 1.0));
+    if def.kind != BodyKind::Fixed && dice.chance(0.5) {
+        def = def.moving(vec2(dice.between(-1.0, 1.0), -dice.between(0.0, 1.0)));
+    }
+    let length = dice.log(10.0, 100.0);
+    let plank = ConvexPolygon::rectangle(length, 0.01 * length).expect("a plank");
+    world.insert(def, plank, elastic()).expect("a valid body");
+}
+
 fn solids(world: &World) -> Vec<Solid> {
     let solid = |body: carom_dynamics::Body<'_>| {
         let centre = body.pose().inverse_point(body.centre());
@@ -206,7 +226,9 @@ fn ahead(solids: &[Solid]) -> Vec<Next> {
                             let size = a.size.min(b.size);
                             let rate = -hit.gap_rate;
                             touches |= rate < SLOW * size;
-                            let margin = LATE * (hit.time + size / rate);
+                            let far = a.motion.centre.abs().max(b.motion.centre.abs());
+                            let blur = BLUR * far.max_element() / rate;
+                            let margin = LATE * (hit.time + size / rate) + blur;
                             let next = Next {
                                 pair: [a.id, b.id],
                                 wait: hit.time,
