@@ -4,10 +4,11 @@ use std::sync::Arc;
 
 use carom_collision::{Hull, part, part_count};
 use carom_geometry::{Aabb, Shape};
-use carom_math::{Pose, Rot, Vec2, vec2};
+use carom_math::{Pose, Vec2, vec2};
 
 use crate::EngineError;
 use crate::error::{check, finite, not_negative};
+use crate::rows::Numbers;
 
 /// Corners of an outline.
 pub(crate) const CORNERS: usize = 8;
@@ -91,93 +92,138 @@ impl PieceInput {
 
 /// At most eight corners, counter-clockwise, relative to the centre of mass, in m; grown by a radius.
 ///
-/// Edge i goes from corner i to the next; its points have `normal · point = off`. A disc has one corner and no edge, a
-/// segment two of both. 336 bytes.
+/// ```text
+/// x y reach extent | radius corners – – | – – – – | – – – –          x, y: where the centre of mass is in space
+/// x x x x | y y y y | nx nx nx nx | ny ny ny ny                     corners 0 to 3, and the normals of edges 0 to 3
+/// x x x x | y y y y | nx nx nx nx | ny ny ny ny                     corners 4 to 7
+/// ```
+/// Edge i goes from corner i to the next; a disc has one corner and no edge, a segment two of both. What is not there
+/// repeats the first, and so is never nearer, nor separates better. Five cache lines, of which boxes have three.
 #[derive(Clone, Copy, Debug)]
-#[repr(C, align(16))]
-pub(crate) struct Outline {
-    pub(crate) x: [f64; CORNERS],
-    pub(crate) y: [f64; CORNERS],
-    pub(crate) nx: [f64; CORNERS],
-    pub(crate) ny: [f64; CORNERS],
-    pub(crate) off: [f64; CORNERS],
-    pub(crate) radius: f64,
-    pub(crate) corners: usize,
+#[repr(C, align(64))]
+pub(crate) struct Outline([f64; 40]);
+
+impl Numbers for Outline {
+    fn numbers(&self) -> &[f64] {
+        &self.0
+    }
 }
 
 impl Outline {
-    /// Of a piece that has none.
-    const NONE: Self = Self {
-        x: [0.0; CORNERS],
-        y: [0.0; CORNERS],
-        nx: [0.0; CORNERS],
-        ny: [0.0; CORNERS],
-        off: [0.0; CORNERS],
-        radius: 0.0,
-        corners: 0,
-    };
+    /// Where the x of four corners begin; their y and their normals follow, four by four.
+    pub(crate) const QUADS: [usize; 2] = [8, 24];
 
-    /// The outline of a hull, if it has one: no half-plane, no cuts, not too many corners.
-    fn of(hull: &Hull<'_>, radius: f64) -> Option<Self> {
+    const EMPTY: Self = Self([0.0; 40]);
+
+    /// The outline of a piece; without corners if it has none: a half-plane, cuts, too many corners.
+    fn of(piece: &Piece) -> Self {
+        let hull = piece.hull();
         let corners = hull.vertices.len();
+        let mut outline = Self::EMPTY;
+        outline.0[2..4].copy_from_slice(&[piece.reach, piece.extent]);
         if hull.is_half_plane() || hull.boundary.is_some() || corners > CORNERS {
-            return None;
+            return outline;
         }
-        let first = hull.vertices[0];
-        let mut outline = Self {
-            // Corners that are not there repeat the first: they are never the deepest before it.
-            x: [first.x; CORNERS],
-            y: [first.y; CORNERS],
-            // Edges that are not there separate nothing.
-            nx: [0.0; CORNERS],
-            ny: [0.0; CORNERS],
-            off: [1e9; CORNERS],
-            radius: hull.radius + radius,
-            corners,
-        };
-        for (i, v) in hull.vertices.iter().enumerate() {
-            (outline.x[i], outline.y[i]) = (v.x, v.y);
+        outline.0[4..6].copy_from_slice(&[hull.radius + piece.rounding, corners as f64]);
+        for i in 0..CORNERS {
+            let k = if i < corners { i } else { 0 };
+            let at = Self::at(i);
+            let n = hull.normals.get(k).copied().unwrap_or(Vec2::ZERO);
+            (outline.0[at], outline.0[at + 4]) = (hull.vertices[k].x, hull.vertices[k].y);
+            (outline.0[at + 8], outline.0[at + 12]) = (n.x, n.y);
         }
-        for (i, n) in hull.normals.iter().enumerate() {
-            (outline.nx[i], outline.ny[i]) = (n.x, n.y);
-            outline.off[i] = n.dot(hull.vertices[i]);
-        }
-        Some(outline)
+        outline
     }
 
-    /// The same outline of a body that is turned by `rot`.
-    pub(crate) fn turned(&self, rot: Rot) -> Self {
-        let mut turned = *self;
-        let (c, s) = (rot.cos(), rot.sin());
-        for i in 0..CORNERS {
-            turned.x[i] = c * self.x[i] - s * self.y[i];
-            turned.y[i] = s * self.x[i] + c * self.y[i];
-            turned.nx[i] = c * self.nx[i] - s * self.ny[i];
-            turned.ny[i] = s * self.nx[i] + c * self.ny[i];
+    /// Becomes that of a body with this pose.
+    fn pose(&mut self, of_body: &Self, pose: Pose) {
+        self.0[..8].copy_from_slice(&of_body.0[..8]);
+        (self.0[0], self.0[1]) = (pose.position.x, pose.position.y);
+        let (c, s) = (pose.rotation.cos(), pose.rotation.sin());
+        let mut turn = |from: usize| {
+            let (x, y) = (&of_body.0[from..from + 4], &of_body.0[from + 4..from + 8]);
+            let to = &mut self.0[from..from + 8];
+            for i in 0..4 {
+                to[i] = c * x[i] - s * y[i];
+                to[i + 4] = s * x[i] + c * y[i];
+            }
+        };
+        turn(8);
+        turn(16);
+        // Corners 4 to 7 of what has fewer are never read.
+        if of_body.count() > 4.0 {
+            turn(24);
+            turn(32);
         }
-        turned
+    }
+
+    /// Where the x of a corner is.
+    const fn at(i: usize) -> usize {
+        Self::QUADS[i / 4] + i % 4
+    }
+
+    /// Where the centre of mass of its body is.
+    pub(crate) const fn centre(&self) -> Vec2 {
+        vec2(self.0[0], self.0[1])
+    }
+
+    /// Of its piece, in m.
+    pub(crate) const fn reach(&self) -> f64 {
+        self.0[2]
+    }
+
+    /// Of its piece, in m.
+    pub(crate) const fn extent(&self) -> f64 {
+        self.0[3]
+    }
+
+    pub(crate) const fn radius(&self) -> f64 {
+        self.0[4]
+    }
+
+    /// How many corners it has; 0 is no outline.
+    pub(crate) const fn count(&self) -> f64 {
+        self.0[5]
+    }
+
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "at most eight"
+    )]
+    pub(crate) const fn corners(&self) -> usize {
+        self.0[5] as usize
     }
 
     pub(crate) const fn corner(&self, i: usize) -> Vec2 {
-        vec2(self.x[i], self.y[i])
+        let at = Self::at(i);
+        vec2(self.0[at], self.0[at + 4])
     }
 
     pub(crate) const fn normal(&self, i: usize) -> Vec2 {
-        vec2(self.nx[i], self.ny[i])
+        let at = Self::at(i);
+        vec2(self.0[at + 8], self.0[at + 12])
+    }
+
+    /// `normal · point` of all points of an edge.
+    pub(crate) fn off(&self, i: usize) -> f64 {
+        self.normal(i).dot(self.corner(i))
     }
 
     pub(crate) const fn next(&self, i: usize) -> usize {
-        if i + 1 == self.corners { 0 } else { i + 1 }
+        if i + 1 == self.corners() { 0 } else { i + 1 }
     }
 
-    /// The box around it with the centre of mass at `centre`.
-    fn aabb(&self, centre: Vec2) -> Aabb {
+    /// The box around it.
+    fn aabb(&self) -> Aabb {
         let (mut low, mut high) = (self.corner(0), self.corner(0));
-        for i in 1..CORNERS {
+        let last = if self.count() > 4.0 { CORNERS } else { 4 };
+        for i in 1..last {
             low = low.min(self.corner(i));
             high = high.max(self.corner(i));
         }
-        Aabb::new(centre + low, centre + high).grown(self.radius)
+        let centre = self.centre();
+        Aabb::new(centre + low, centre + high).grown(self.radius())
     }
 }
 
@@ -192,7 +238,6 @@ pub(crate) struct Piece {
     part: usize,
     /// What the shape is grown by, in m.
     pub(crate) rounding: f64,
-    outline: Option<Box<Outline>>,
     pub(crate) material: Material,
     /// Twice the distance from its middle to its nearest side, in m; of something without a width an eighth of its length.
     pub(crate) extent: f64,
@@ -230,7 +275,11 @@ impl Disc {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Pieces {
     pub(crate) list: Vec<Piece>,
-    /// Outlines turned by the base poses of their bodies; no corners: the piece has no outline.
+    /// Slots of their bodies.
+    pub(crate) body_of: Vec<u32>,
+    /// Outlines as the bodies have them.
+    outlines: Vec<Outline>,
+    /// Outlines in the base poses of their bodies; no corners: the piece has no outline.
     pub(crate) turned: Vec<Outline>,
     /// Boxes around what a piece may reach within the tick, each with half a margin.
     pub(crate) boxes: Vec<Aabb>,
@@ -248,12 +297,17 @@ impl Pieces {
         let again = self.free.iter().rposition(|free| free.1 == count);
         let first = again.map_or(end, |k| self.free.swap_remove(k).0);
         for (number, piece) in (first as usize..).zip(pieces) {
+            let outline = Outline::of(&piece);
             if number == self.list.len() {
+                self.outlines.push(outline);
+                self.body_of.push(piece.body);
                 self.list.push(piece);
-                self.turned.push(Outline::NONE);
+                self.turned.push(Outline::EMPTY);
                 self.boxes.push(Aabb::EMPTY);
                 self.discs.push(Disc::ENDLESS);
             } else {
+                self.outlines[number] = outline;
+                self.body_of[number] = piece.body;
                 self.list[number] = piece;
             }
         }
@@ -267,10 +321,13 @@ impl Pieces {
     /// Takes over the pose of a body, and gives the box that the piece is in.
     pub(crate) fn pose(&mut self, number: u32, pose: Pose) -> Aabb {
         let k = number as usize;
-        let piece = &self.list[k];
-        self.turned[k] = piece.turned(pose.rotation).unwrap_or(Outline::NONE);
-        let turned = (self.turned[k].corners > 0).then_some(&self.turned[k]);
-        piece.aabb(turned, pose)
+        self.turned[k].pose(&self.outlines[k], pose);
+        if self.turned[k].count() > 0.0 {
+            self.turned[k].aabb()
+        } else {
+            let piece = &self.list[k];
+            piece.hull().aabb(pose).grown(piece.rounding)
+        }
     }
 }
 
@@ -286,39 +343,26 @@ impl Piece {
                 let around = hull.vertices.iter().map(|v| v.length());
                 let reach = around.fold(0.0, f64::max) + hull.radius + rounding;
                 let half_plane = hull.is_half_plane();
+                let (reach, extent) = if half_plane {
+                    (f64::INFINITY, f64::INFINITY)
+                } else {
+                    (reach, extent(&hull) + 2.0 * rounding)
+                };
                 Self {
                     body,
                     ordinal,
                     part: i,
                     rounding,
-                    outline: Outline::of(&hull, rounding).map(Box::new),
                     material,
-                    extent: if half_plane {
-                        f64::INFINITY
-                    } else {
-                        extent(&hull) + 2.0 * rounding
-                    },
-                    reach: if half_plane { f64::INFINITY } else { reach },
+                    extent,
+                    reach,
                     shape: Arc::clone(&shape),
                 }
             })
     }
 
-    /// What to collide: turned as the body is.
-    fn turned(&self, rot: Rot) -> Option<Outline> {
-        self.outline.as_ref().map(|outline| outline.turned(rot))
-    }
-
     pub(crate) fn hull(&self) -> Hull<'_> {
         part(&self.shape, self.part)
-    }
-
-    /// The box around it, given its turned outline if it has one.
-    fn aabb(&self, turned: Option<&Outline>, pose: Pose) -> Aabb {
-        match turned {
-            Some(outline) => outline.aabb(pose.position),
-            None => self.hull().aabb(pose).grown(self.rounding),
-        }
     }
 }
 

@@ -4,7 +4,7 @@ use super::block::{Block, Cold, LANES, OPEN};
 use super::colour::Colour;
 use crate::Material;
 use crate::bodies::{Bodies, BodyKind};
-use crate::narrow::Manifold;
+use crate::narrow::{Manifold, Patch};
 
 /// Colours of a mask. Contacts that find none of them free take the overflow colour, a block each, one after the other.
 pub(crate) const COLOURS: usize = 64;
@@ -39,6 +39,8 @@ pub(crate) struct Contact {
 #[derive(Clone, Debug)]
 pub(crate) struct Graph {
     pub(crate) contacts: Vec<Contact>,
+    /// Where they are in space.
+    pub(crate) patches: Vec<Patch>,
     free: Vec<u32>,
     /// Behind those of masks the overflow colour, and behind it what sleeps.
     pub(super) colours: Vec<Colour>,
@@ -59,6 +61,7 @@ impl Graph {
     pub(crate) fn new() -> Self {
         Self {
             contacts: Vec::new(),
+            patches: Vec::new(),
             free: Vec::new(),
             colours: vec![Colour::default(); COLOURS + 2],
         }
@@ -74,12 +77,17 @@ impl Graph {
         &mut self.colours[..ASLEEP]
     }
 
+    /// The same, and all patches.
+    pub(crate) fn awake_and_patches(&mut self) -> (&mut [Colour], &mut [Patch]) {
+        (&mut self.colours[..ASLEEP], &mut self.patches)
+    }
+
     /// Gives a contact of two bodies a number and a lane, without impulses.
     pub(crate) fn insert(
         &mut self,
         bodies: &mut Bodies,
         ends: [u32; 2],
-        pieces: [u32; 2],
+        patch: Patch,
         manifold: &Manifold,
         surface: Material,
     ) -> u32 {
@@ -87,7 +95,7 @@ impl Graph {
         let id = self.free.pop().unwrap_or(self.contacts.len() as u32);
         let mut contact = Contact {
             bodies: ends,
-            pieces,
+            pieces: patch.pieces,
             colour: 0,
             home: 0,
             index: 0,
@@ -105,8 +113,10 @@ impl Graph {
         }
         if id as usize == self.contacts.len() {
             self.contacts.push(contact);
+            self.patches.push(patch);
         } else {
             self.contacts[id as usize] = contact;
+            self.patches[id as usize] = patch;
         }
         self.colour(bodies, id, manifold, surface);
         id
