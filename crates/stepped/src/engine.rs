@@ -6,7 +6,7 @@ use fearless_simd::Level;
 
 use crate::bodies::Bodies;
 use crate::broad::{Broad, Pairs};
-use crate::ghost::hide;
+use crate::ghost::{Suspects, hide};
 use crate::pieces::{Disc, Pieces};
 use crate::rows::{
     Arrival, Graph, Law, Pass, arrivals, bounce, correct, displace, sweep, warm_start,
@@ -31,6 +31,7 @@ pub struct Engine {
     pub(crate) graph: Graph,
     /// Contacts that parted in this tick.
     parted: Vec<u32>,
+    suspects: Suspects,
     pub(crate) islands: Islands,
     /// Points that bounce in this sub-step.
     arrived: Vec<Arrival>,
@@ -53,6 +54,7 @@ impl Engine {
             known: Pairs::new(),
             graph: Graph::new(),
             parted: Vec::new(),
+            suspects: Suspects::default(),
             islands: Islands::default(),
             arrived: Vec::new(),
         })
@@ -157,10 +159,13 @@ impl Engine {
             broad,
             graph,
             parted,
+            suspects,
             ..
         } = self;
         parted.clear();
-        update(*level, graph, bodies, pieces, settings, parted);
+        suspects.clear();
+        suspects.cover(bodies.lines.len());
+        update(*level, graph, bodies, pieces, settings, parted, suspects);
         if self.islands.any_asleep() {
             let met = met_asleep(bodies, pieces, settings, &broad.found);
             self.wake_all(&met);
@@ -174,14 +179,19 @@ impl Engine {
             known,
             graph,
             parted,
+            suspects,
             ..
         } = self;
-        create(*level, graph, bodies, pieces, settings, known, &broad.found);
+        suspects.cover(bodies.lines.len());
+        let found = &broad.found;
+        create(
+            *level, graph, bodies, pieces, settings, known, found, suspects,
+        );
         for &id in &*parted {
             known.remove(graph.contacts[id as usize].pieces);
             graph.remove(bodies, id);
         }
-        hide(*level, graph, bodies, pieces, known);
+        hide(*level, graph, bodies, pieces, known, suspects);
         bodies.moved.fill(false);
     }
 

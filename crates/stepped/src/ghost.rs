@@ -26,6 +26,29 @@ const LEANS: f64 = 0.02;
 /// A body with more rows is a floor itself: all pairs of its rows would be too many.
 const MOST: usize = 32;
 
+/// Bodies of which some row is short enough to be a ghost: they have all in front of a plane that its piece is behind, and
+/// so it is as long as they are deep in it at most.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Suspects(Vec<bool>);
+
+impl Suspects {
+    pub(crate) fn clear(&mut self) {
+        self.0.clear();
+    }
+
+    /// There are so many lines now.
+    pub(crate) fn cover(&mut self, lines: usize) {
+        self.0.resize(lines, false);
+    }
+
+    /// Adds the bodies of two lines.
+    pub(crate) fn add(&mut self, lines: [u32; 2]) {
+        for line in lines {
+            self.0[line as usize] = true;
+        }
+    }
+}
+
 /// Rows as a body sees them, and what it takes to find those that may be hidden.
 #[repr(C, align(64))]
 struct Rows {
@@ -51,11 +74,12 @@ pub(crate) fn hide(
     bodies: &mut Bodies,
     pieces: &Pieces,
     known: &Pairs,
+    suspects: &Suspects,
 ) {
     let mut ids = Vec::new();
     let mut rows = Rows::NONE;
     let mut ghosts = Vec::new();
-    for line in (2..bodies.lines.len()).filter(|line| bodies.moved[*line]) {
+    for line in (2..bodies.lines.len()).filter(|line| bodies.moved[*line] && suspects.0[*line]) {
         let record = &bodies.records[bodies.slot_of[line] as usize];
         if record.kind != BodyKind::Dynamic {
             continue;
@@ -73,9 +97,9 @@ pub(crate) fn hide(
             ids.extend(of_body.map(|(id, _)| id).take(MOST + 1));
         }
         if (2..=MOST).contains(&ids.len()) {
-            rows.fill(graph, pieces, &ids, &its);
+            rows.fill(graph, &ids, &its);
             let mut hidden = 0;
-            dispatch!(level, simd => suspects(simd, &rows, pieces, &mut hidden));
+            dispatch!(level, simd => hidden_rows(simd, &rows, pieces, &mut hidden));
             let hidden = (0..rows.len).filter(|k| hidden >> k & 1 == 1);
             ghosts.extend(hidden.map(|k| rows.contacts[k]));
         }
@@ -88,7 +112,7 @@ pub(crate) fn hide(
 /// Sets a bit for each row that some other one hides. Few rows come past the tests of normals and heights: most pairs are
 /// two sides of a heap.
 #[inline(always)]
-fn suspects<S: Simd>(simd: S, rows: &Rows, pieces: &Pieces, hidden: &mut u32) {
+fn hidden_rows<S: Simd>(simd: S, rows: &Rows, pieces: &Pieces, hidden: &mut u32) {
     let parallel = f64x4::splat(simd, 1.0 - LEANS * LEANS);
     let leans = f64x4::splat(simd, -LEANS);
     for o in 0..rows.len {
@@ -164,14 +188,14 @@ impl Rows {
     };
 
     /// The rows of the body that has the pieces `its`.
-    fn fill(&mut self, graph: &Graph, pieces: &Pieces, ids: &[u32], its: &Range<u32>) {
+    fn fill(&mut self, graph: &Graph, ids: &[u32], its: &Range<u32>) {
         self.len = ids.len();
         for (k, id) in ids.iter().enumerate() {
             let patch = &graph.patches[*id as usize];
-            let (normal, piece) = if its.contains(&patch.pieces[0]) {
-                (-patch.normal, patch.pieces[1])
+            let (normal, side) = if its.contains(&patch.pieces[0]) {
+                (-patch.normal, 1)
             } else {
-                (patch.normal, patch.pieces[0])
+                (patch.normal, 0)
             };
             // Points lie midway between the surfaces: half a gap against the normal is the piece's own.
             let first = patch.point - normal * (0.5 * patch.gap);
@@ -179,8 +203,8 @@ impl Rows {
             (self.nx[k], self.ny[k]) = (normal.x, normal.y);
             (self.x1[k], self.y1[k]) = (first.x, first.y);
             (self.x2[k], self.y2[k]) = (last.x, last.y);
-            self.flush[k] = FLUSH * pieces.turned[piece as usize].extent();
-            (self.pieces[k], self.contacts[k]) = (piece, *id);
+            self.flush[k] = FLUSH * f64::from(patch.extents[side]);
+            (self.pieces[k], self.contacts[k]) = (patch.pieces[side], *id);
         }
         // What is beyond the last of the lanes is flush with nothing.
         let end = self.len.next_multiple_of(4);

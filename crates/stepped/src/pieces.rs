@@ -271,12 +271,19 @@ impl Disc {
     }
 }
 
+/// Slot of the body of a piece, and the index that it has there.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Owner {
+    pub(crate) body: u32,
+    pub(crate) ordinal: u32,
+}
+
 /// All pieces; those of a body have consecutive numbers.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Pieces {
     pub(crate) list: Vec<Piece>,
-    /// Slots of their bodies.
-    pub(crate) body_of: Vec<u32>,
+    /// What is asked of a piece most often.
+    pub(crate) owners: Vec<Owner>,
     /// Outlines as the bodies have them.
     outlines: Vec<Outline>,
     /// Outlines in the base poses of their bodies; no corners: the piece has no outline.
@@ -298,16 +305,20 @@ impl Pieces {
         let first = again.map_or(end, |k| self.free.swap_remove(k).0);
         for (number, piece) in (first as usize..).zip(pieces) {
             let outline = Outline::of(&piece);
+            let owner = Owner {
+                body: piece.body,
+                ordinal: piece.ordinal,
+            };
             if number == self.list.len() {
                 self.outlines.push(outline);
-                self.body_of.push(piece.body);
+                self.owners.push(owner);
                 self.list.push(piece);
                 self.turned.push(Outline::EMPTY);
                 self.boxes.push(Aabb::EMPTY);
                 self.discs.push(Disc::ENDLESS);
             } else {
                 self.outlines[number] = outline;
-                self.body_of[number] = piece.body;
+                self.owners[number] = owner;
                 self.list[number] = piece;
             }
         }

@@ -4,8 +4,9 @@
 use fearless_simd::Level;
 
 use crate::Settings;
-use crate::bodies::Bodies;
+use crate::bodies::{Bodies, BodyKind};
 use crate::broad::Pairs;
+use crate::ghost::Suspects;
 use crate::narrow::{Eight, Found, Manifold, Patch, Scene, collide_eight};
 use crate::pieces::Pieces;
 use crate::rows::{Block, Cold, Graph, LANES, renew};
@@ -21,10 +22,14 @@ pub(crate) fn update(
     pieces: &Pieces,
     settings: &Settings,
     parted: &mut Vec<u32>,
+    suspects: &mut Suspects,
 ) {
+    let touched = graph.touched(bodies);
     let (colours, patches) = graph.awake_and_patches();
-    for colour in colours {
-        for (block, cold) in colour.blocks.iter_mut().zip(&mut colour.cold) {
+    let mut found = Found::NONE;
+    for (colour, blocks) in colours.iter_mut().zip(touched) {
+        for k in blocks {
+            let (block, cold) = (&mut colour.blocks[k], &mut colour.cold[k]);
             let mut moved = 0u8;
             for lane in 0..LANES {
                 let (a, b) = (block.a[lane] as usize, block.b[lane] as usize);
@@ -38,14 +43,16 @@ pub(crate) fn update(
                 pieces,
                 settings,
             };
-            let found = manifolds(level, &scene, block, cold, moved);
+            manifolds(level, &scene, block, cold, moved, &mut found);
             let near = moved & found.near;
             renew(level, &bodies.lines, &mut bodies.start, block, &found, near);
             for lane in lanes(near) {
                 let (manifold, pair) = (found.manifold(lane), cold.pieces[lane]);
                 cold.features[lane] = manifold.features;
-                let centre = pieces.turned[pair[0] as usize].centre();
-                patches[cold.contact[lane] as usize] = Patch::new(&manifold, centre, pair);
+                patches[cold.contact[lane] as usize] = Patch::new(&manifold, pieces, pair);
+            }
+            for lane in lanes(near & found.short) {
+                suspects.add([block.a[lane], block.b[lane]]);
             }
             parted.extend(lanes(moved & !near).map(|lane| cold.contact[lane]));
         }
@@ -58,19 +65,24 @@ fn lanes(bits: u8) -> impl Iterator<Item = usize> {
 }
 
 /// Manifolds of the lanes of a block that have a bit in `moved`: pieces without outlines one by one.
-fn manifolds(level: Level, scene: &Scene<'_>, block: &Block, cold: &Cold, moved: u8) -> Found {
-    let mut eight = Eight::NONE;
-    eight.lines = [block.a, block.b];
+fn manifolds(
+    level: Level,
+    scene: &Scene<'_>,
+    block: &Block,
+    cold: &Cold,
+    moved: u8,
+    found: &mut Found,
+) {
+    let mut eight = Eight::new(scene.pieces, [block.a, block.b]);
     for lane in lanes(moved) {
-        eight.set_pieces(scene, lane, cold.pieces[lane]);
+        eight.set_pieces(scene.pieces, lane, cold.pieces[lane]);
     }
-    let mut found = collide_eight(level, scene, KEPT, &eight);
+    collide_eight(level, scene, KEPT, &eight, found);
     for lane in lanes(moved & !eight.used) {
         if let Some(manifold) = scene.contact(cold.pieces[lane], KEPT) {
             found.set(lane, &manifold);
         }
     }
-    found
 }
 
 /// Islands asleep that some candidate reaches before the next tick: its gap may come below 0 until then.
@@ -105,6 +117,7 @@ pub(crate) fn met_asleep(
 }
 
 /// Makes contacts of those candidates that are near enough, in the order in which their bodies were inserted.
+#[expect(clippy::too_many_arguments, reason = "parts of the engine")]
 pub(crate) fn create(
     level: Level,
     graph: &mut Graph,
@@ -113,33 +126,30 @@ pub(crate) fn create(
     settings: &Settings,
     known: &mut Pairs,
     candidates: &[[u32; 2]],
+    suspects: &mut Suspects,
 ) {
     let scene = Scene {
         bodies,
         pieces,
         settings,
     };
-    let line = |piece: u32| bodies.records[pieces.body_of[piece as usize] as usize].line;
-    let dynamic = |piece: u32| bodies.is_dynamic(pieces.body_of[piece as usize]);
-    let unknown = candidates.iter().filter(|pair| {
-        !known.contains(**pair)
-            && !pair.map(line).contains(&Bodies::NONE)
-            && (dynamic(pair[0]) || dynamic(pair[1]))
-    });
-    let news: Vec<_> = unknown.map(|pair| New::of(&scene, *pair)).collect();
+    let unknown = candidates.iter().filter(|pair| !known.contains(**pair));
+    let news: Vec<_> = unknown
+        .filter_map(|pair| New::of(bodies, pieces, *pair))
+        .collect();
     let mut fresh = Vec::new();
+    let mut found = Found::NONE;
     for news in news.chunks(LANES) {
-        let mut eight = Eight::NONE;
+        let mut eight = Eight::new(pieces, [[0; LANES]; 2]);
         for (lane, new) in news.iter().enumerate() {
-            let lines = new.pieces.map(line);
-            if eight.set_pieces(&scene, lane, new.pieces) {
-                (eight.lines[0][lane], eight.lines[1][lane]) = (lines[0], lines[1]);
-                eight.least[lane] = scene.seen(lines.map(|line| line as usize));
+            if eight.set_pieces(pieces, lane, new.pieces) {
+                (eight.lines[0][lane], eight.lines[1][lane]) = (new.lines[0], new.lines[1]);
+                eight.least[lane] = scene.seen(new.lines.map(|line| line as usize));
             } else if let Some(manifold) = scene.contact(new.pieces, 1.0) {
                 fresh.push((*new, manifold));
             }
         }
-        let found = collide_eight(level, &scene, 1.0, &eight);
+        collide_eight(level, &scene, 1.0, &eight, &mut found);
         let near = lanes(found.near);
         fresh.extend(near.map(|lane| (news[lane], found.manifold(lane))));
     }
@@ -148,9 +158,10 @@ pub(crate) fn create(
         let [a, b] = pair.map(|piece| &pieces.list[piece as usize]);
         let ends = [a.body, b.body];
         let surface = a.material.with(b.material);
-        let patch = Patch::new(&manifold, pieces.turned[pair[0] as usize].centre(), pair);
+        let patch = Patch::new(&manifold, pieces, pair);
         let id = graph.insert(bodies, ends, patch, &manifold, surface);
         known.insert(pair, id);
+        suspects.add(ends.map(|slot| bodies.records[slot as usize].line));
         narrow_tolerances(bodies, settings, ends, a.extent.min(b.extent));
     }
 }
@@ -161,24 +172,43 @@ struct New {
     /// Birth of the body, and index of the piece.
     order: [(u64, u32); 2],
     pieces: [u32; 2],
+    lines: [u32; 2],
 }
 
 impl New {
-    fn of(scene: &Scene<'_>, pieces: [u32; 2]) -> Self {
-        let order = pieces.map(|piece| {
-            let piece = &scene.pieces.list[piece as usize];
-            (
-                scene.bodies.records[piece.body as usize].birth,
-                piece.ordinal,
-            )
-        });
-        if order[0] < order[1] {
-            Self { order, pieces }
+    /// Two pieces of bodies that are awake or fixed, and that contacts move at least one of.
+    fn of(bodies: &Bodies, pieces: &Pieces, [a, b]: [u32; 2]) -> Option<Self> {
+        let (of_a, of_b) = (pieces.owners[a as usize], pieces.owners[b as usize]);
+        let (body_a, body_b) = (
+            &bodies.records[of_a.body as usize],
+            &bodies.records[of_b.body as usize],
+        );
+        let dynamic = body_a.kind == BodyKind::Dynamic || body_b.kind == BodyKind::Dynamic;
+        if !dynamic || body_a.line == Bodies::NONE || body_b.line == Bodies::NONE {
+            return None;
+        }
+        let new = Self {
+            order: [(body_a.birth, of_a.ordinal), (body_b.birth, of_b.ordinal)],
+            pieces: [a, b],
+            lines: [body_a.line, body_b.line],
+        };
+        Some(if new.order[0] < new.order[1] {
+            new
         } else {
-            Self {
-                order: [order[1], order[0]],
-                pieces: [pieces[1], pieces[0]],
-            }
+            new.swapped()
+        })
+    }
+
+    const fn swapped(self) -> Self {
+        let Self {
+            order: [p, q],
+            pieces: [a, b],
+            lines: [k, l],
+        } = self;
+        Self {
+            order: [q, p],
+            pieces: [b, a],
+            lines: [l, k],
         }
     }
 }

@@ -161,6 +161,6 @@ impl Broad {
 /// Pieces of two bodies that may meet within the tick.
 fn may_touch(pieces: &Pieces, pair: [u32; 2], tick: f64) -> bool {
     let [a, b] = pair.map(|piece| &pieces.discs[piece as usize]);
-    let [of_a, of_b] = pair.map(|piece| pieces.body_of[piece as usize]);
+    let [of_a, of_b] = pair.map(|piece| pieces.owners[piece as usize].body);
     of_a != of_b && a.may_meet(b, tick)
 }

@@ -3,7 +3,10 @@
 use super::table::Table;
 
 /// Partners in a list. Boxes in a pile have six, and rarely more than eight.
-const ROOM: usize = 15;
+const ROOM: usize = 14;
+
+/// No piece, or no contact.
+const NONE: u32 = u32::MAX;
 
 /// Partners of each piece with their contacts, in lists of both pieces: movers are asked about others one after the other,
 /// and have theirs at hand. What has many (a floor) is in the lists of the many.
@@ -14,24 +17,32 @@ pub(crate) struct Pairs {
     rest: Table,
 }
 
-/// 128 bytes.
+/// Two cache lines: pieces are compared all at once.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 struct Partners {
-    pieces: [u32; ROOM],
-    len: u32,
+    pieces: [u32; 16],
     contacts: [u32; ROOM],
+    len: u32,
     /// Partners that are not in the list.
     missing: u32,
 }
 
 impl Partners {
     const NONE: Self = Self {
-        pieces: [u32::MAX; ROOM],
+        pieces: [NONE; 16],
+        contacts: [NONE; ROOM],
         len: 0,
-        contacts: [u32::MAX; ROOM],
         missing: 0,
     };
+
+    fn contains(&self, piece: u32) -> bool {
+        let mut found = false;
+        for other in self.pieces {
+            found |= other == piece;
+        }
+        found
+    }
 
     fn find(&self, piece: u32) -> Option<usize> {
         let pieces = &self.pieces[..self.len as usize];
@@ -58,6 +69,7 @@ impl Partners {
             self.len -= 1;
             let last = self.len as usize;
             (self.pieces[at], self.contacts[at]) = (self.pieces[last], self.contacts[last]);
+            self.pieces[last] = NONE;
         } else {
             self.missing -= 1;
         }
@@ -75,18 +87,16 @@ impl Pairs {
 
     /// Whether a pair has a contact; the first had better be the one that is asked about more often.
     pub(crate) fn contains(&self, [a, b]: [u32; 2]) -> bool {
-        let [Some(of_a), Some(of_b)] = [a, b].map(|piece| self.lists.get(piece as usize)) else {
+        let Some(of_a) = self.lists.get(a as usize) else {
             return false;
         };
-        if of_a.missing == 0 {
-            of_a.find(b).is_some()
-        } else {
-            of_b.find(a).is_some() || of_b.missing > 0 && self.is_in_rest([a, b])
-        }
+        of_a.contains(b) || of_a.missing > 0 && self.contains_otherwise([a, b])
     }
 
-    fn is_in_rest(&self, [a, b]: [u32; 2]) -> bool {
-        self.lists[a as usize].find(b).is_some() || self.rest.get([a, b]).is_some()
+    /// Whether it does where the list of A may lack B.
+    fn contains_otherwise(&self, [a, b]: [u32; 2]) -> bool {
+        let of_b = &self.lists[b as usize];
+        of_b.contains(a) || of_b.missing > 0 && self.rest.get([a, b]).is_some()
     }
 
     /// Contacts of a piece, if its list has them all.

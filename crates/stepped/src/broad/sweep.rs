@@ -43,7 +43,7 @@ impl Mover {
         Self {
             disc: pieces.discs[piece as usize],
             piece,
-            body: pieces.body_of[piece as usize],
+            body: pieces.owners[piece as usize].body,
             moved,
         }
     }
@@ -350,6 +350,7 @@ fn rounded(x: f64) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::pieces::Owner;
 
     #[test]
     fn finds_the_pairs_that_asking_all_finds() {
@@ -371,7 +372,7 @@ mod tests {
             let mut sweep = Sweep::default();
             let mut pieces = Pieces::default();
             pieces.discs = vec![Disc::ENDLESS; 200];
-            pieces.body_of = (0..200).collect();
+            pieces.owners = (0..200).map(|body| Owner { body, ordinal: 0 }).collect();
             pieces.boxes.clone_from(&boxes);
             sweep.sort((0..200).map(|piece| (piece, moved(piece))), &pieces);
             let mut found = Vec::new();

@@ -2,13 +2,14 @@
 
 use carom_math::vec2;
 
-use super::{Manifold, Scene};
+use super::Manifold;
+use crate::pieces::{Outline, Pieces};
 use crate::rows::{LANES, OPEN};
 
 /// Which pairs: pieces that have outlines, and the lines of their bodies.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Eight {
-    pub(crate) pieces: [[u32; LANES]; 2],
+pub(crate) struct Eight<'a> {
+    pub(super) outlines: [[&'a Outline; LANES]; 2],
     pub(crate) lines: [[u32; LANES]; 2],
     /// What the margin is at least, in m.
     pub(crate) least: [f64; LANES],
@@ -18,24 +19,29 @@ pub(crate) struct Eight {
     pub(super) many: bool,
 }
 
-impl Eight {
-    /// The first piece against itself.
-    pub(crate) const NONE: Self = Self {
-        pieces: [[0; LANES]; 2],
-        lines: [[0; LANES]; 2],
-        least: [0.0; LANES],
-        used: 0,
-        many: false,
-    };
+impl<'a> Eight<'a> {
+    /// No pairs: the first piece against itself.
+    pub(crate) fn new(pieces: &'a Pieces, lines: [[u32; LANES]; 2]) -> Self {
+        Self {
+            outlines: [[&pieces.turned[0]; LANES]; 2],
+            lines,
+            least: [0.0; LANES],
+            used: 0,
+            many: false,
+        }
+    }
 
     /// Puts two pieces into a lane, if both have outlines.
-    pub(crate) fn set_pieces(&mut self, scene: &Scene<'_>, lane: usize, pair: [u32; 2]) -> bool {
-        let [a, b] = pair.map(|piece| scene.pieces.turned[piece as usize].count());
-        let all = a.min(b) > 0.0;
+    pub(crate) fn set_pieces(&mut self, pieces: &'a Pieces, lane: usize, pair: [u32; 2]) -> bool {
+        let (a, b) = (
+            &pieces.turned[pair[0] as usize],
+            &pieces.turned[pair[1] as usize],
+        );
+        let all = a.count().min(b.count()) > 0.0;
         if all {
-            (self.pieces[0][lane], self.pieces[1][lane]) = (pair[0], pair[1]);
+            (self.outlines[0][lane], self.outlines[1][lane]) = (a, b);
             self.used |= 1 << lane;
-            self.many |= a.max(b) > 4.0;
+            self.many |= a.count().max(b.count()) > 4.0;
         }
         all
     }
@@ -58,10 +64,12 @@ pub(crate) struct Found {
     pub(super) features: [[f64; LANES]; 2],
     /// A bit for each pair that is near.
     pub(crate) near: u8,
+    /// A bit for each of these that is so short that it may be a ghost.
+    pub(crate) short: u8,
 }
 
 impl Found {
-    pub(super) const NONE: Self = Self {
+    pub(crate) const NONE: Self = Self {
         nx: [0.0; LANES],
         ny: [0.0; LANES],
         a1: [0.0; LANES],
@@ -73,6 +81,7 @@ impl Found {
         bt: [0.0; LANES],
         features: [[0.0; LANES]; 2],
         near: 0,
+        short: 0,
     };
 
     /// Puts a manifold that was found otherwise into a lane.
@@ -88,6 +97,7 @@ impl Found {
             mine[lane] = f64::from(theirs);
         }
         self.near |= 1 << lane;
+        self.short |= 1 << lane;
     }
 
     #[expect(

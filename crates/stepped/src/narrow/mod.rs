@@ -10,6 +10,7 @@ mod wide;
 
 use carom_math::{Vec2, cross, perp};
 
+use crate::pieces::Pieces;
 pub(crate) use eight::{Eight, Found};
 pub(crate) use hulls::collide_any;
 pub(crate) use pair::collide;
@@ -75,20 +76,27 @@ pub(crate) struct Patch {
     /// Of point 1.
     pub(crate) gap: f64,
     pub(crate) pieces: [u32; 2],
+    /// Of both pieces, in m.
+    pub(crate) extents: [f32; 2],
 }
 
 impl Patch {
-    /// With the centre of mass of A at `centre`.
-    pub(crate) fn new(manifold: &Manifold, centre: Vec2, pieces: [u32; 2]) -> Self {
+    pub(crate) fn new(manifold: &Manifold, pieces: &Pieces, pair: [u32; 2]) -> Self {
+        let [a, b] = pair.map(|piece| &pieces.turned[piece as usize]);
         let n = manifold.normal;
         let two = manifold.points == 2;
         Self {
             // r · n = a_t, r × n = a: so r = n a_t − t a.
-            point: centre + n * manifold.tangent_a - perp(n) * manifold.arm_a,
+            point: a.centre() + n * manifold.tangent_a - perp(n) * manifold.arm_a,
             normal: n,
             length: if two { manifold.length } else { 0.0 },
             gap: manifold.gaps[0],
-            pieces,
+            pieces: pair,
+            #[expect(
+                clippy::cast_possible_truncation,
+                reason = "flush is flush, more or less"
+            )]
+            extents: [a.extent() as f32, b.extent() as f32],
         }
     }
 }

@@ -11,25 +11,35 @@ use super::{Eight, Found, Scene};
 use crate::pieces::Outline;
 use crate::rows::{OPEN, Wide, any, eight_lanes};
 
+/// Margins that a contact is at most long if it may be one with the side of a flush piece: a quarter of the extent.
+const SHORT: f64 = 4.0;
+
+/// Margins that its gap is at most when the tick ends.
+const NEAR: f64 = 0.25;
+
 /// Separation of what has no face: less than that of any face.
 const FACELESS: f64 = -1e300;
 
-/// Manifolds of eight pairs, and which gaps are below `factor` margins, or may be until the next tick.
-pub(crate) fn collide_eight(level: Level, scene: &Scene<'_>, factor: f64, eight: &Eight) -> Found {
-    let mut found = Found::NONE;
-    let out = &mut found;
+/// Finds manifolds of eight pairs, and which gaps are below `factor` margins, or may be until the next tick.
+pub(crate) fn collide_eight(
+    level: Level,
+    scene: &Scene<'_>,
+    factor: f64,
+    eight: &Eight<'_>,
+    found: &mut Found,
+) {
+    (found.near, found.short) = (0, 0);
     if eight_lanes(level) {
-        dispatch!(level, simd => whole(simd, scene, factor, eight, out));
+        dispatch!(level, simd => whole(simd, scene, factor, eight, found));
     } else {
         // Eight lanes would be two registers each, more than there are.
-        dispatch!(level, simd => halves(simd, scene, factor, eight, out));
+        dispatch!(level, simd => halves(simd, scene, factor, eight, found));
     }
     found.near &= eight.used;
-    found
 }
 
 #[inline(always)]
-fn whole<S: Simd>(simd: S, scene: &Scene<'_>, factor: f64, eight: &Eight, found: &mut Found) {
+fn whole<S: Simd>(simd: S, scene: &Scene<'_>, factor: f64, eight: &Eight<'_>, found: &mut Found) {
     if eight.many {
         part::<S, f64x8<S>, 8>(simd, scene, factor, eight, found, 0);
     } else {
@@ -38,7 +48,7 @@ fn whole<S: Simd>(simd: S, scene: &Scene<'_>, factor: f64, eight: &Eight, found:
 }
 
 #[inline(always)]
-fn halves<S: Simd>(simd: S, scene: &Scene<'_>, factor: f64, eight: &Eight, found: &mut Found) {
+fn halves<S: Simd>(simd: S, scene: &Scene<'_>, factor: f64, eight: &Eight<'_>, found: &mut Found) {
     for at in [0, 4] {
         if eight.many {
             part::<S, f64x4<S>, 8>(simd, scene, factor, eight, found, at);
@@ -79,7 +89,7 @@ fn part<S: Simd, V: Wide<S>, const N: usize>(
     simd: S,
     scene: &Scene<'_>,
     factor: f64,
-    eight: &Eight,
+    eight: &Eight<'_>,
     found: &mut Found,
     at: usize,
 ) {
@@ -88,10 +98,9 @@ fn part<S: Simd, V: Wide<S>, const N: usize>(
     let one = V::splat(simd, 1.0);
     let half = V::splat(simd, 0.5);
     let tick = V::splat(simd, scene.settings.tick);
-    let outlines = &scene.pieces.turned[..];
     let lines = &scene.bodies.lines[..];
     let pulls = &scene.bodies.pull[..];
-    let (piece_a, piece_b) = (&eight.pieces[0][at..end], &eight.pieces[1][at..end]);
+    let (out_a, out_b) = (&eight.outlines[0][at..end], &eight.outlines[1][at..end]);
     let (line_a, line_b) = (&eight.lines[0][at..end], &eight.lines[1][at..end]);
 
     // What the pair does within the tick.
@@ -101,10 +110,10 @@ fn part<S: Simd, V: Wide<S>, const N: usize>(
     let [bdx, bdy, bturn, _] = V::columns(simd, lines, line_b, 4);
     let [agx, agy, _, _] = V::columns(simd, pulls, line_a, 0);
     let [bgx, bgy, _, _] = V::columns(simd, pulls, line_b, 0);
-    let [ax, ay, a_reach, a_extent] = V::columns(simd, outlines, piece_a, 0);
-    let [bx, by, b_reach, b_extent] = V::columns(simd, outlines, piece_b, 0);
-    let [a_radius, a_count, _, _] = V::columns(simd, outlines, piece_a, 4);
-    let [b_radius, b_count, _, _] = V::columns(simd, outlines, piece_b, 4);
+    let [ax, ay, a_reach, a_extent] = V::columns_of(simd, out_a, 0);
+    let [bx, by, b_reach, b_extent] = V::columns_of(simd, out_b, 0);
+    let [a_radius, a_count, _, _] = V::columns_of(simd, out_a, 4);
+    let [b_radius, b_count, _, _] = V::columns_of(simd, out_b, 4);
     let (dx, dy) = (bx - ax, by - ay);
     let (vx, vy) = (bvx - avx, bvy - avy);
     let (gone_x, gone_y) = (bdx - adx, bdy - ady);
@@ -119,8 +128,8 @@ fn part<S: Simd, V: Wide<S>, const N: usize>(
     let limit = near + (turning + pull) * tick + moved;
     let radii = a_radius + b_radius;
 
-    let a = corners::<S, V, N>(simd, outlines, piece_a, a_count);
-    let b = corners::<S, V, N>(simd, outlines, piece_b, b_count);
+    let a = corners::<S, V, N>(simd, out_a, a_count);
+    let b = corners::<S, V, N>(simd, out_b, b_count);
     let mut of_a = best(simd, &a, &b, [dx, dy, wx, wy]);
     let mut of_b = best(simd, &b, &a, [-dx, -dy, -wx, -wy]);
     let faceless = V::splat(simd, FACELESS);
@@ -200,6 +209,8 @@ fn part<S: Simd, V: Wide<S>, const N: usize>(
     let mut f2 = flip.select(j * code + i_next, i * code + j_next);
     let mut twice = single.select(zero, length);
 
+    let mut short = length.simd_le(V::splat(simd, SHORT) * margin);
+
     // Corner on corner: beyond one end of the face, or where the nearer corner of the other's edge overhangs, since rounded
     // corners meet before the faces do.
     let lower = z_low.simd_le(z_high);
@@ -242,6 +253,7 @@ fn part<S: Simd, V: Wide<S>, const N: usize>(
         f1 = instead.select(feature, f1);
         f2 = instead.select(feature, f2);
         twice = instead.select(zero, twice);
+        short |= instead;
     }
 
     // How far the nearer point closes until the next tick, if velocities stay but for gravity.
@@ -253,6 +265,8 @@ fn part<S: Simd, V: Wide<S>, const N: usize>(
     let closes = (-(opens + pulled)).max(zero) * tick - went;
     let gap = s2.min(s1);
     let goes = (wx * wx + wy * wy).sqrt();
+    // A ghost that is far, and does not come near, does nothing.
+    let short = short & gap.simd_lt(V::splat(simd, NEAR) * margin + closes);
     let kept = gap.simd_lt(near + closes) & !passes & (!discs | gap.simd_le(limit + goes));
 
     n_x.store_slice(&mut found.nx[at..end]);
@@ -267,15 +281,15 @@ fn part<S: Simd, V: Wide<S>, const N: usize>(
     f1.store_slice(&mut found.features[0][at..end]);
     f2.store_slice(&mut found.features[1][at..end]);
     #[expect(clippy::cast_possible_truncation, reason = "eight lanes")]
-    let bits = kept.to_bitmask() as u8;
-    found.near |= bits << at;
+    let (near, short) = (kept.to_bitmask() as u8, (kept & short).to_bitmask() as u8);
+    found.near |= near << at;
+    found.short |= short << at;
 }
 
 #[inline(always)]
 fn corners<S: Simd, V: Wide<S>, const N: usize>(
     simd: S,
-    outlines: &[Outline],
-    at: &[u32],
+    outlines: &[&Outline],
     count: V,
 ) -> Corners<V, N> {
     let zero = V::splat(simd, 0.0);
@@ -287,10 +301,10 @@ fn corners<S: Simd, V: Wide<S>, const N: usize>(
     };
     for (k, from) in Outline::QUADS.into_iter().enumerate().take(N / 4) {
         let k = 4 * k..4 * k + 4;
-        found.x[k.clone()].copy_from_slice(&V::columns(simd, outlines, at, from));
-        found.y[k.clone()].copy_from_slice(&V::columns(simd, outlines, at, from + 4));
-        found.nx[k.clone()].copy_from_slice(&V::columns(simd, outlines, at, from + 8));
-        found.ny[k].copy_from_slice(&V::columns(simd, outlines, at, from + 12));
+        found.x[k.clone()].copy_from_slice(&V::columns_of(simd, outlines, from));
+        found.y[k.clone()].copy_from_slice(&V::columns_of(simd, outlines, from + 4));
+        found.nx[k.clone()].copy_from_slice(&V::columns_of(simd, outlines, from + 8));
+        found.ny[k].copy_from_slice(&V::columns_of(simd, outlines, from + 12));
     }
     // Outlines of at most four corners have no others in memory.
     let has = count.simd_gt(V::splat(simd, 4.0));

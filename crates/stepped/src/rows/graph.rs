@@ -16,6 +16,9 @@ pub(crate) const ASLEEP: usize = COLOURS + 1;
 /// boxes need 6 to 10 colours.
 const GROUND: u64 = 12;
 
+/// Lists of contacts are walked if fewer than one of so many bodies moved.
+const FEW: usize = 16;
+
 /// No contact.
 const END: u32 = u32::MAX;
 
@@ -77,7 +80,33 @@ impl Graph {
         &mut self.colours[..ASLEEP]
     }
 
-    /// The same, and all patches.
+    /// Blocks in which a contact of a moved body may be, colour by colour: all, but if few moved.
+    pub(crate) fn touched(&self, bodies: &Bodies) -> Vec<Vec<usize>> {
+        let moved = bodies.moved.iter().filter(|moved| **moved).count();
+        let colours = &self.colours[..ASLEEP];
+        if FEW * moved > bodies.moved.len() {
+            return colours
+                .iter()
+                .map(|colour| (0..colour.blocks.len()).collect())
+                .collect();
+        }
+        let mut touched = vec![Vec::new(); ASLEEP];
+        for line in (2..bodies.lines.len()).filter(|line| bodies.moved[*line]) {
+            for (id, _) in self.of_body(bodies, bodies.slot_of[line]) {
+                let contact = &self.contacts[id as usize];
+                if !contact.sleeps() {
+                    touched[contact.colour as usize].push(contact.place().0);
+                }
+            }
+        }
+        for blocks in &mut touched {
+            blocks.sort_unstable();
+            blocks.dedup();
+        }
+        touched
+    }
+
+    /// The colours of what is awake, and all patches.
     pub(crate) fn awake_and_patches(&mut self) -> (&mut [Colour], &mut [Patch]) {
         (&mut self.colours[..ASLEEP], &mut self.patches)
     }

@@ -26,6 +26,9 @@ pub(crate) trait Wide<S: Simd>: SimdFloat<S, Element = f64> {
     /// Four columns of the rows that begin at number `from` of each.
     fn columns<L: Numbers>(simd: S, list: &[L], at: &[u32], from: usize) -> [Self; 4];
 
+    /// The same of these.
+    fn columns_of<L: Numbers>(simd: S, of: &[&L], from: usize) -> [Self; 4];
+
     /// Writes four columns back to the first rows.
     fn write<L: NumbersMut>(list: &mut [L], at: &[u32], columns: [Self; 4]);
 }
@@ -42,10 +45,18 @@ impl<S: Simd> Wide<S> for f64x4<S> {
     #[inline(always)]
     fn columns<L: Numbers>(simd: S, list: &[L], at: &[u32], from: usize) -> [Self; 4] {
         let at: &[u32; 4] = at.first_chunk().expect("four lanes");
-        let l0 = Self::from_slice(simd, &list[at[0] as usize].numbers()[from..from + 4]);
-        let l1 = Self::from_slice(simd, &list[at[1] as usize].numbers()[from..from + 4]);
-        let l2 = Self::from_slice(simd, &list[at[2] as usize].numbers()[from..from + 4]);
-        let l3 = Self::from_slice(simd, &list[at[3] as usize].numbers()[from..from + 4]);
+        let (l0, l1) = (&list[at[0] as usize], &list[at[1] as usize]);
+        let (l2, l3) = (&list[at[2] as usize], &list[at[3] as usize]);
+        Self::columns_of(simd, &[l0, l1, l2, l3], from)
+    }
+
+    #[inline(always)]
+    fn columns_of<L: Numbers>(simd: S, of: &[&L], from: usize) -> [Self; 4] {
+        let of: &[&L; 4] = of.first_chunk().expect("four lanes");
+        let l0 = Self::from_slice(simd, &of[0].numbers()[from..from + 4]);
+        let l1 = Self::from_slice(simd, &of[1].numbers()[from..from + 4]);
+        let l2 = Self::from_slice(simd, &of[2].numbers()[from..from + 4]);
+        let l3 = Self::from_slice(simd, &of[3].numbers()[from..from + 4]);
         turned(simd, [l0, l1, l2, l3])
     }
 
@@ -67,6 +78,14 @@ impl<S: Simd> Wide<S> for f64x8<S> {
     fn columns<L: Numbers>(simd: S, list: &[L], at: &[u32], from: usize) -> [Self; 4] {
         let low = <f64x4<S> as Wide<S>>::columns(simd, list, &at[..4], from);
         let high = <f64x4<S> as Wide<S>>::columns(simd, list, &at[4..], from);
+        let ([x, y, z, w], [p, q, r, s]) = (low, high);
+        [x.combine(p), y.combine(q), z.combine(r), w.combine(s)]
+    }
+
+    #[inline(always)]
+    fn columns_of<L: Numbers>(simd: S, of: &[&L], from: usize) -> [Self; 4] {
+        let low = <f64x4<S> as Wide<S>>::columns_of(simd, &of[..4], from);
+        let high = <f64x4<S> as Wide<S>>::columns_of(simd, &of[4..], from);
         let ([x, y, z, w], [p, q, r, s]) = (low, high);
         [x.combine(p), y.combine(q), z.combine(r), w.combine(s)]
     }

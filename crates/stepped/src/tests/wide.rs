@@ -1,5 +1,7 @@
 //! Eight pairs at once are what they are one by one.
 
+use fearless_simd::Level;
+
 use super::{Random, levels};
 use crate::narrow::{Eight, Found, Manifold, Scene, collide_eight};
 use crate::rows::LANES;
@@ -23,15 +25,21 @@ fn pairs(count: u32) -> Vec<[u32; 2]> {
     (0..count).flat_map(of).collect()
 }
 
-fn eight(scene: &Scene<'_>, pairs: &[[u32; 2]]) -> Eight {
-    let mut eight = Eight::NONE;
+fn eight<'a>(scene: &Scene<'a>, pairs: &[[u32; 2]]) -> Eight<'a> {
+    let mut eight = Eight::new(scene.pieces, [[0; LANES]; 2]);
     for (lane, pair) in pairs.iter().enumerate() {
-        assert!(eight.set_pieces(scene, lane, *pair));
+        assert!(eight.set_pieces(scene.pieces, lane, *pair));
         let line = |piece: u32| scene.bodies.records[piece as usize].line;
         (eight.lines[0][lane], eight.lines[1][lane]) = (line(pair[0]), line(pair[1]));
         eight.least[lane] = scene.seen(pair.map(|piece| line(piece) as usize));
     }
     eight
+}
+
+fn found(level: Level, scene: &Scene<'_>, eight: &Eight<'_>) -> Found {
+    let mut found = Found::NONE;
+    collide_eight(level, scene, 1.0, eight, &mut found);
+    found
 }
 
 fn agree(ours: &Manifold, theirs: &Manifold) -> bool {
@@ -61,7 +69,7 @@ fn eight_at_once_agree_with_one_by_one() {
         };
         for pairs in pairs(40).chunks(LANES) {
             let eight = eight(&scene, pairs);
-            let found = collide_eight(engine.level, &scene, 1.0, &eight);
+            let found = found(engine.level, &scene, &eight);
             for (lane, pair) in pairs.iter().enumerate() {
                 let ours = (found.near >> lane & 1 == 1).then(|| found.manifold(lane));
                 let theirs = scene.contact(*pair, 1.0);
@@ -93,9 +101,9 @@ fn all_widths_find_the_same_bits() {
         };
         for pairs in pairs(40).chunks(LANES) {
             let eight = eight(&scene, pairs);
-            let first = collide_eight(engine.level, &scene, 1.0, &eight);
+            let first = found(engine.level, &scene, &eight);
             for level in levels() {
-                let found = collide_eight(level, &scene, 1.0, &eight);
+                let found = found(level, &scene, &eight);
                 assert_eq!(bits(&first), bits(&found), "{level:?}");
             }
         }
