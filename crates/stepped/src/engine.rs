@@ -6,7 +6,7 @@ use fearless_simd::Level;
 
 use crate::bodies::Bodies;
 use crate::broad::{Broad, Pairs};
-use crate::ghost::{Suspects, hide};
+use crate::ghost::hide;
 use crate::pieces::{Disc, Pieces};
 use crate::rows::{
     Arrival, Graph, Law, Pass, arrivals, bounce, correct, displace, sweep, warm_start,
@@ -31,7 +31,6 @@ pub struct Engine {
     pub(crate) graph: Graph,
     /// Contacts that parted in this tick.
     parted: Vec<u32>,
-    suspects: Suspects,
     pub(crate) islands: Islands,
     /// Points that bounce in this sub-step.
     arrived: Vec<Arrival>,
@@ -54,7 +53,6 @@ impl Engine {
             known: Pairs::new(),
             graph: Graph::new(),
             parted: Vec::new(),
-            suspects: Suspects::default(),
             islands: Islands::default(),
             arrived: Vec::new(),
         })
@@ -130,7 +128,7 @@ impl Engine {
         let pose = bodies.base[line];
         for number in record.first_piece..record.first_piece + record.pieces {
             let tight = pieces.pose(number, pose);
-            let outline = &pieces.turned[number as usize];
+            let outline = &pieces.outlines[number as usize];
             let (reach, extent) = (outline.reach(), outline.extent());
             // Half of a pair's margin, and what the body may go unseen.
             let slack = 0.5 * settings.margin * extent + 2.0 * limit.tolerance;
@@ -159,13 +157,10 @@ impl Engine {
             broad,
             graph,
             parted,
-            suspects,
             ..
         } = self;
         parted.clear();
-        suspects.clear();
-        suspects.cover(bodies.lines.len());
-        update(*level, graph, bodies, pieces, settings, parted, suspects);
+        update(*level, graph, bodies, pieces, settings, parted);
         if self.islands.any_asleep() {
             let met = met_asleep(bodies, pieces, settings, &broad.found);
             self.wake_all(&met);
@@ -179,19 +174,14 @@ impl Engine {
             known,
             graph,
             parted,
-            suspects,
             ..
         } = self;
-        suspects.cover(bodies.lines.len());
-        let found = &broad.found;
-        create(
-            *level, graph, bodies, pieces, settings, known, found, suspects,
-        );
+        create(*level, graph, bodies, pieces, settings, known, &broad.found);
         for &id in &*parted {
             known.remove(graph.contacts[id as usize].pieces);
             graph.remove(bodies, id);
         }
-        hide(*level, graph, bodies, pieces, known, suspects);
+        hide(*level, graph, bodies, pieces, known);
         bodies.moved.fill(false);
     }
 

@@ -14,7 +14,8 @@ use fearless_simd::{Level, Simd, SimdBase, SimdMask, dispatch, f64x4};
 
 use crate::bodies::{Bodies, BodyKind};
 use crate::broad::Pairs;
-use crate::pieces::{Outline, Pieces};
+use crate::outline::Turned;
+use crate::pieces::Pieces;
 use crate::rows::Graph;
 
 /// Pieces are flush within this part of the smaller extent. Smaller than rounding far out hides nothing; larger hides steps.
@@ -74,12 +75,13 @@ pub(crate) fn hide(
     bodies: &mut Bodies,
     pieces: &Pieces,
     known: &Pairs,
-    suspects: &Suspects,
 ) {
     let mut ids = Vec::new();
     let mut rows = Rows::NONE;
     let mut ghosts = Vec::new();
-    for line in (2..bodies.lines.len()).filter(|line| bodies.moved[*line] && suspects.0[*line]) {
+    for line in
+        (2..bodies.lines.len()).filter(|line| bodies.moved[*line] && graph.suspects.0[*line])
+    {
         let record = &bodies.records[bodies.slot_of[line] as usize];
         if record.kind != BodyKind::Dynamic {
             continue;
@@ -155,7 +157,7 @@ fn four<S: Simd>(simd: S, column: &[f64; MOST], at: usize) -> f64x4<S> {
 /// Whether all of the piece P of row k lies behind the plane of row o, and where its side goes on beyond the points another
 /// piece is.
 fn is_hidden(rows: &Rows, pieces: &Pieces, k: usize, o: usize) -> bool {
-    let p = &pieces.turned[rows.pieces[k] as usize];
+    let p = pieces.turned(rows.pieces[k]);
     if rows.pieces[k] == rows.pieces[o] || p.corners() < 3 {
         return false;
     }
@@ -168,7 +170,7 @@ fn is_hidden(rows: &Rows, pieces: &Pieces, k: usize, o: usize) -> bool {
         && rows.points(k).iter().all(|point| {
             (0..rows.len).any(|third| {
                 let q = rows.pieces[third];
-                q != rows.pieces[k] && holds(&pieces.turned[q as usize], *point + lean, flush)
+                q != rows.pieces[k] && holds(&pieces.turned(q), *point + lean, flush)
             })
         })
 }
@@ -221,7 +223,7 @@ impl Rows {
 }
 
 /// Whether a point is in an outline with sides, or so near to it.
-fn holds(outline: &Outline, point: Vec2, near: f64) -> bool {
+fn holds(outline: &Turned<'_>, point: Vec2, near: f64) -> bool {
     let point = point - outline.centre();
     let edge = outline.radius() + near;
     let behind = |i: usize| outline.normal(i).dot(point) - outline.off(i) <= edge;

@@ -4,14 +4,11 @@ use std::sync::Arc;
 
 use carom_collision::{Hull, part, part_count};
 use carom_geometry::{Aabb, Shape};
-use carom_math::{Pose, Vec2, vec2};
+use carom_math::{Pose, Vec2};
 
 use crate::EngineError;
 use crate::error::{check, finite, not_negative};
-use crate::rows::Numbers;
-
-/// Corners of an outline.
-pub(crate) const CORNERS: usize = 8;
+use crate::outline::{CORNERS, Outline, Rest, Turned, outline_of};
 
 /// What a surface is like.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -90,143 +87,6 @@ impl PieceInput {
     }
 }
 
-/// At most eight corners, counter-clockwise, relative to the centre of mass, in m; grown by a radius.
-///
-/// ```text
-/// x y reach extent | radius corners – – | – – – – | – – – –          x, y: where the centre of mass is in space
-/// x x x x | y y y y | nx nx nx nx | ny ny ny ny                     corners 0 to 3, and the normals of edges 0 to 3
-/// x x x x | y y y y | nx nx nx nx | ny ny ny ny                     corners 4 to 7
-/// ```
-/// Edge i goes from corner i to the next; a disc has one corner and no edge, a segment two of both. What is not there
-/// repeats the first, and so is never nearer, nor separates better. Five cache lines, of which boxes have three.
-#[derive(Clone, Copy, Debug)]
-#[repr(C, align(64))]
-pub(crate) struct Outline([f64; 40]);
-
-impl Numbers for Outline {
-    fn numbers(&self) -> &[f64] {
-        &self.0
-    }
-}
-
-impl Outline {
-    /// Where the x of four corners begin; their y and their normals follow, four by four.
-    pub(crate) const QUADS: [usize; 2] = [8, 24];
-
-    const EMPTY: Self = Self([0.0; 40]);
-
-    /// The outline of a piece; without corners if it has none: a half-plane, cuts, too many corners.
-    fn of(piece: &Piece) -> Self {
-        let hull = piece.hull();
-        let corners = hull.vertices.len();
-        let mut outline = Self::EMPTY;
-        outline.0[2..4].copy_from_slice(&[piece.reach, piece.extent]);
-        if hull.is_half_plane() || hull.boundary.is_some() || corners > CORNERS {
-            return outline;
-        }
-        outline.0[4..6].copy_from_slice(&[hull.radius + piece.rounding, corners as f64]);
-        for i in 0..CORNERS {
-            let k = if i < corners { i } else { 0 };
-            let at = Self::at(i);
-            let n = hull.normals.get(k).copied().unwrap_or(Vec2::ZERO);
-            (outline.0[at], outline.0[at + 4]) = (hull.vertices[k].x, hull.vertices[k].y);
-            (outline.0[at + 8], outline.0[at + 12]) = (n.x, n.y);
-        }
-        outline
-    }
-
-    /// Becomes that of a body with this pose.
-    fn pose(&mut self, of_body: &Self, pose: Pose) {
-        self.0[..8].copy_from_slice(&of_body.0[..8]);
-        (self.0[0], self.0[1]) = (pose.position.x, pose.position.y);
-        let (c, s) = (pose.rotation.cos(), pose.rotation.sin());
-        let mut turn = |from: usize| {
-            let (x, y) = (&of_body.0[from..from + 4], &of_body.0[from + 4..from + 8]);
-            let to = &mut self.0[from..from + 8];
-            for i in 0..4 {
-                to[i] = c * x[i] - s * y[i];
-                to[i + 4] = s * x[i] + c * y[i];
-            }
-        };
-        turn(8);
-        turn(16);
-        // Corners 4 to 7 of what has fewer are never read.
-        if of_body.count() > 4.0 {
-            turn(24);
-            turn(32);
-        }
-    }
-
-    /// Where the x of a corner is.
-    const fn at(i: usize) -> usize {
-        Self::QUADS[i / 4] + i % 4
-    }
-
-    /// Where the centre of mass of its body is.
-    pub(crate) const fn centre(&self) -> Vec2 {
-        vec2(self.0[0], self.0[1])
-    }
-
-    /// Of its piece, in m.
-    pub(crate) const fn reach(&self) -> f64 {
-        self.0[2]
-    }
-
-    /// Of its piece, in m.
-    pub(crate) const fn extent(&self) -> f64 {
-        self.0[3]
-    }
-
-    pub(crate) const fn radius(&self) -> f64 {
-        self.0[4]
-    }
-
-    /// How many corners it has; 0 is no outline.
-    pub(crate) const fn count(&self) -> f64 {
-        self.0[5]
-    }
-
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "at most eight"
-    )]
-    pub(crate) const fn corners(&self) -> usize {
-        self.0[5] as usize
-    }
-
-    pub(crate) const fn corner(&self, i: usize) -> Vec2 {
-        let at = Self::at(i);
-        vec2(self.0[at], self.0[at + 4])
-    }
-
-    pub(crate) const fn normal(&self, i: usize) -> Vec2 {
-        let at = Self::at(i);
-        vec2(self.0[at + 8], self.0[at + 12])
-    }
-
-    /// `normal · point` of all points of an edge.
-    pub(crate) fn off(&self, i: usize) -> f64 {
-        self.normal(i).dot(self.corner(i))
-    }
-
-    pub(crate) const fn next(&self, i: usize) -> usize {
-        if i + 1 == self.corners() { 0 } else { i + 1 }
-    }
-
-    /// The box around it.
-    fn aabb(&self) -> Aabb {
-        let (mut low, mut high) = (self.corner(0), self.corner(0));
-        let last = if self.count() > 4.0 { CORNERS } else { 4 };
-        for i in 1..last {
-            low = low.min(self.corner(i));
-            high = high.max(self.corner(i));
-        }
-        let centre = self.centre();
-        Aabb::new(centre + low, centre + high).grown(self.radius())
-    }
-}
-
 /// A convex piece of a body.
 #[derive(Clone, Debug)]
 pub(crate) struct Piece {
@@ -285,9 +145,10 @@ pub(crate) struct Pieces {
     /// What is asked of a piece most often.
     pub(crate) owners: Vec<Owner>,
     /// Outlines as the bodies have them.
-    outlines: Vec<Outline>,
+    of_body: Vec<(Outline, Rest)>,
     /// Outlines in the base poses of their bodies; no corners: the piece has no outline.
-    pub(crate) turned: Vec<Outline>,
+    pub(crate) outlines: Vec<Outline>,
+    pub(crate) rests: Vec<Rest>,
     /// Boxes around what a piece may reach within the tick, each with half a margin.
     pub(crate) boxes: Vec<Aabb>,
     /// Circles around movers, and their velocities.
@@ -304,20 +165,21 @@ impl Pieces {
         let again = self.free.iter().rposition(|free| free.1 == count);
         let first = again.map_or(end, |k| self.free.swap_remove(k).0);
         for (number, piece) in (first as usize..).zip(pieces) {
-            let outline = Outline::of(&piece);
+            let outline = outline(&piece);
             let owner = Owner {
                 body: piece.body,
                 ordinal: piece.ordinal,
             };
             if number == self.list.len() {
-                self.outlines.push(outline);
+                self.of_body.push(outline);
                 self.owners.push(owner);
                 self.list.push(piece);
-                self.turned.push(Outline::EMPTY);
+                self.outlines.push(outline.0);
+                self.rests.push(outline.1);
                 self.boxes.push(Aabb::EMPTY);
                 self.discs.push(Disc::ENDLESS);
             } else {
-                self.outlines[number] = outline;
+                self.of_body[number] = outline;
                 self.owners[number] = owner;
                 self.list[number] = piece;
             }
@@ -332,14 +194,41 @@ impl Pieces {
     /// Takes over the pose of a body, and gives the box that the piece is in.
     pub(crate) fn pose(&mut self, number: u32, pose: Pose) -> Aabb {
         let k = number as usize;
-        self.turned[k].pose(&self.outlines[k], pose);
-        if self.turned[k].count() > 0.0 {
-            self.turned[k].aabb()
+        let of_body = &self.of_body[k];
+        let (outline, rest) = (&mut self.outlines[k], &mut self.rests[k]);
+        outline.pose(&of_body.0, pose);
+        if !outline.is_box() {
+            rest.pose(&of_body.1, pose);
+        }
+        if outline.count() > 0.0 {
+            Turned { outline, rest }.aabb()
         } else {
             let piece = &self.list[k];
             piece.hull().aabb(pose).grown(piece.rounding)
         }
     }
+
+    /// The outline of a piece in the base pose of its body.
+    pub(crate) fn turned(&self, piece: u32) -> Turned<'_> {
+        let k = piece as usize;
+        Turned {
+            outline: &self.outlines[k],
+            rest: &self.rests[k],
+        }
+    }
+}
+
+/// The outline of a piece; without corners if it has none: a half-plane, cuts, too many corners.
+fn outline(piece: &Piece) -> (Outline, Rest) {
+    let hull = piece.hull();
+    let none = hull.is_half_plane() || hull.boundary.is_some() || hull.vertices.len() > CORNERS;
+    let (vertices, normals) = if none {
+        (&[][..], &[][..])
+    } else {
+        (hull.vertices, hull.normals)
+    };
+    let radius = hull.radius + piece.rounding;
+    outline_of(vertices, normals, [piece.reach, piece.extent, radius])
 }
 
 impl Piece {

@@ -6,7 +6,6 @@ use fearless_simd::Level;
 use crate::Settings;
 use crate::bodies::{Bodies, BodyKind};
 use crate::broad::Pairs;
-use crate::ghost::Suspects;
 use crate::narrow::{Eight, Found, Manifold, Patch, Scene, collide_eight};
 use crate::pieces::Pieces;
 use crate::rows::{Block, Cold, Graph, LANES, renew};
@@ -22,10 +21,11 @@ pub(crate) fn update(
     pieces: &Pieces,
     settings: &Settings,
     parted: &mut Vec<u32>,
-    suspects: &mut Suspects,
 ) {
     let touched = graph.touched(bodies);
-    let (colours, patches) = graph.awake_and_patches();
+    graph.suspects.clear();
+    graph.suspects.cover(bodies.lines.len());
+    let (colours, patches, suspects) = graph.parts();
     let mut found = Found::NONE;
     for (colour, blocks) in colours.iter_mut().zip(touched) {
         for k in blocks {
@@ -117,7 +117,6 @@ pub(crate) fn met_asleep(
 }
 
 /// Makes contacts of those candidates that are near enough, in the order in which their bodies were inserted.
-#[expect(clippy::too_many_arguments, reason = "parts of the engine")]
 pub(crate) fn create(
     level: Level,
     graph: &mut Graph,
@@ -126,13 +125,13 @@ pub(crate) fn create(
     settings: &Settings,
     known: &mut Pairs,
     candidates: &[[u32; 2]],
-    suspects: &mut Suspects,
 ) {
     let scene = Scene {
         bodies,
         pieces,
         settings,
     };
+    graph.suspects.cover(bodies.lines.len());
     let unknown = candidates.iter().filter(|pair| !known.contains(**pair));
     let news: Vec<_> = unknown
         .filter_map(|pair| New::of(bodies, pieces, *pair))
@@ -161,7 +160,9 @@ pub(crate) fn create(
         let patch = Patch::new(&manifold, pieces, pair);
         let id = graph.insert(bodies, ends, patch, &manifold, surface);
         known.insert(pair, id);
-        suspects.add(ends.map(|slot| bodies.records[slot as usize].line));
+        graph
+            .suspects
+            .add(ends.map(|slot| bodies.records[slot as usize].line));
         narrow_tolerances(bodies, settings, ends, a.extent.min(b.extent));
     }
 }

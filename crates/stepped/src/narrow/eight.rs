@@ -3,45 +3,46 @@
 use carom_math::vec2;
 
 use super::Manifold;
-use crate::pieces::{Outline, Pieces};
+use crate::outline::{Outline, Rest};
+use crate::pieces::Pieces;
 use crate::rows::{LANES, OPEN};
 
 /// Which pairs: pieces that have outlines, and the lines of their bodies.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Eight<'a> {
     pub(super) outlines: [[&'a Outline; LANES]; 2],
+    pub(super) rests: [[&'a Rest; LANES]; 2],
     pub(crate) lines: [[u32; LANES]; 2],
     /// What the margin is at least, in m.
     pub(crate) least: [f64; LANES],
     /// A bit for each lane that has a pair.
     pub(crate) used: u8,
-    /// Some outline has more than four corners.
-    pub(super) many: bool,
+    /// All outlines are boxes.
+    pub(super) boxes: bool,
 }
 
 impl<'a> Eight<'a> {
     /// No pairs: the first piece against itself.
     pub(crate) fn new(pieces: &'a Pieces, lines: [[u32; LANES]; 2]) -> Self {
         Self {
-            outlines: [[&pieces.turned[0]; LANES]; 2],
+            outlines: [[&pieces.outlines[0]; LANES]; 2],
+            rests: [[&pieces.rests[0]; LANES]; 2],
             lines,
             least: [0.0; LANES],
             used: 0,
-            many: false,
+            boxes: true,
         }
     }
 
     /// Puts two pieces into a lane, if both have outlines.
     pub(crate) fn set_pieces(&mut self, pieces: &'a Pieces, lane: usize, pair: [u32; 2]) -> bool {
-        let (a, b) = (
-            &pieces.turned[pair[0] as usize],
-            &pieces.turned[pair[1] as usize],
-        );
-        let all = a.count().min(b.count()) > 0.0;
+        let [a, b] = pair.map(|piece| pieces.turned(piece));
+        let all = a.outline.count().min(b.outline.count()) > 0.0;
         if all {
-            (self.outlines[0][lane], self.outlines[1][lane]) = (a, b);
+            (self.outlines[0][lane], self.outlines[1][lane]) = (a.outline, b.outline);
+            (self.rests[0][lane], self.rests[1][lane]) = (a.rest, b.rest);
             self.used |= 1 << lane;
-            self.many |= a.count().max(b.count()) > 4.0;
+            self.boxes &= a.outline.is_box() && b.outline.is_box();
         }
         all
     }

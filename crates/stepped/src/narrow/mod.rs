@@ -82,7 +82,7 @@ pub(crate) struct Patch {
 
 impl Patch {
     pub(crate) fn new(manifold: &Manifold, pieces: &Pieces, pair: [u32; 2]) -> Self {
-        let [a, b] = pair.map(|piece| &pieces.turned[piece as usize]);
+        let [a, b] = pair.map(|piece| &pieces.outlines[piece as usize]);
         let n = manifold.normal;
         let two = manifold.points == 2;
         Self {

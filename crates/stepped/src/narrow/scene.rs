@@ -35,13 +35,13 @@ impl Scene<'_> {
         let meeting = self.meeting(pair);
         let margin = factor * meeting.margin;
         let [a, b] = pair.map(|piece| &self.pieces.list[piece as usize]);
-        let [turned_a, turned_b] = pair.map(|piece| &self.pieces.turned[piece as usize]);
+        let [turned_a, turned_b] = pair.map(|piece| self.pieces.turned(piece));
         let [pose_a, pose_b] = [a.body, b.body].map(|slot| self.bodies.base_of(slot));
         let limit = margin + meeting.closing + meeting.moved;
         let found = if turned_a.corners() > 0 && turned_b.corners() > 0 {
             let d = pose_b.position - pose_a.position;
             let hysteresis = HYSTERESIS * meeting.margin;
-            collide(turned_a, turned_b, d, meeting.way, limit, hysteresis)
+            collide(&turned_a, &turned_b, d, meeting.way, limit, hysteresis)
         } else {
             collide_any((a, pose_a), (b, pose_b), limit + meeting.way.length())
         }?;

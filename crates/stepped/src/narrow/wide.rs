@@ -8,7 +8,7 @@
 use fearless_simd::{Level, Select, Simd, SimdMask, dispatch, f64x4, f64x8};
 
 use super::{Eight, Found, Scene};
-use crate::pieces::Outline;
+use crate::outline::{Outline, Rest};
 use crate::rows::{OPEN, Wide, any, eight_lanes};
 
 /// Margins that a contact is at most long if it may be one with the side of a flush piece: a quarter of the extent.
@@ -40,20 +40,20 @@ pub(crate) fn collide_eight(
 
 #[inline(always)]
 fn whole<S: Simd>(simd: S, scene: &Scene<'_>, factor: f64, eight: &Eight<'_>, found: &mut Found) {
-    if eight.many {
-        part::<S, f64x8<S>, 8>(simd, scene, factor, eight, found, 0);
-    } else {
+    if eight.boxes {
         part::<S, f64x8<S>, 4>(simd, scene, factor, eight, found, 0);
+    } else {
+        part::<S, f64x8<S>, 8>(simd, scene, factor, eight, found, 0);
     }
 }
 
 #[inline(always)]
 fn halves<S: Simd>(simd: S, scene: &Scene<'_>, factor: f64, eight: &Eight<'_>, found: &mut Found) {
     for at in [0, 4] {
-        if eight.many {
-            part::<S, f64x4<S>, 8>(simd, scene, factor, eight, found, at);
-        } else {
+        if eight.boxes {
             part::<S, f64x4<S>, 4>(simd, scene, factor, eight, found, at);
+        } else {
+            part::<S, f64x4<S>, 8>(simd, scene, factor, eight, found, at);
         }
     }
 }
@@ -112,8 +112,8 @@ fn part<S: Simd, V: Wide<S>, const N: usize>(
     let [bgx, bgy, _, _] = V::columns(simd, pulls, line_b, 0);
     let [ax, ay, a_reach, a_extent] = V::columns_of(simd, out_a, 0);
     let [bx, by, b_reach, b_extent] = V::columns_of(simd, out_b, 0);
-    let [a_radius, a_count, _, _] = V::columns_of(simd, out_a, 4);
-    let [b_radius, b_count, _, _] = V::columns_of(simd, out_b, 4);
+    let [a_radius, a_count, a_l, a_m] = V::columns_of(simd, out_a, 4);
+    let [b_radius, b_count, b_l, b_m] = V::columns_of(simd, out_b, 4);
     let (dx, dy) = (bx - ax, by - ay);
     let (vx, vy) = (bvx - avx, bvy - avy);
     let (gone_x, gone_y) = (bdx - adx, bdy - ady);
@@ -128,8 +128,9 @@ fn part<S: Simd, V: Wide<S>, const N: usize>(
     let limit = near + (turning + pull) * tick + moved;
     let radii = a_radius + b_radius;
 
-    let a = corners::<S, V, N>(simd, out_a, a_count);
-    let b = corners::<S, V, N>(simd, out_b, b_count);
+    let (rest_a, rest_b) = (&eight.rests[0][at..end], &eight.rests[1][at..end]);
+    let a = corners::<S, V, N>(simd, out_a, rest_a, [a_l, a_m]);
+    let b = corners::<S, V, N>(simd, out_b, rest_b, [b_l, b_m]);
     let mut of_a = best(simd, &a, &b, [dx, dy, wx, wy]);
     let mut of_b = best(simd, &b, &a, [-dx, -dy, -wx, -wy]);
     let faceless = V::splat(simd, FACELESS);
@@ -286,11 +287,13 @@ fn part<S: Simd, V: Wide<S>, const N: usize>(
     found.short |= short << at;
 }
 
+/// The corners of boxes if N is 4, of any outlines if it is 8.
 #[inline(always)]
 fn corners<S: Simd, V: Wide<S>, const N: usize>(
     simd: S,
     outlines: &[&Outline],
-    count: V,
+    rests: &[&Rest],
+    [l, m]: [V; 2],
 ) -> Corners<V, N> {
     let zero = V::splat(simd, 0.0);
     let mut found = Corners {
@@ -299,20 +302,31 @@ fn corners<S: Simd, V: Wide<S>, const N: usize>(
         nx: [zero; N],
         ny: [zero; N],
     };
-    for (k, from) in Outline::QUADS.into_iter().enumerate().take(N / 4) {
-        let k = 4 * k..4 * k + 4;
-        found.x[k.clone()].copy_from_slice(&V::columns_of(simd, outlines, from));
-        found.y[k.clone()].copy_from_slice(&V::columns_of(simd, outlines, from + 4));
-        found.nx[k.clone()].copy_from_slice(&V::columns_of(simd, outlines, from + 8));
-        found.ny[k].copy_from_slice(&V::columns_of(simd, outlines, from + 12));
+    found.x[..4].copy_from_slice(&V::columns_of(simd, outlines, 8));
+    found.y[..4].copy_from_slice(&V::columns_of(simd, outlines, 12));
+    let (x, y) = (&found.x, &found.y);
+    let (px, py) = ((y[1] - y[0]) * l, (x[0] - x[1]) * l);
+    let (qx, qy) = ((y[2] - y[1]) * m, (x[1] - x[2]) * m);
+    (found.nx[0], found.nx[1], found.nx[2], found.nx[3]) = (px, qx, -px, -qx);
+    (found.ny[0], found.ny[1], found.ny[2], found.ny[3]) = (py, qy, -py, -qy);
+    if N == 4 {
+        return found;
     }
-    // Outlines of at most four corners have no others in memory.
-    let has = count.simd_gt(V::splat(simd, 4.0));
-    for k in 4..N {
-        found.x[k] = has.select(found.x[k], found.x[0]);
-        found.y[k] = has.select(found.y[k], found.y[0]);
-        found.nx[k] = has.select(found.nx[k], found.nx[0]);
-        found.ny[k] = has.select(found.ny[k], found.ny[0]);
+    // Among others boxes have no rest in memory: their first corner is repeated.
+    let boxes = l.simd_gt(zero);
+    let (mut nx, mut ny) = ([zero; 8], [zero; 8]);
+    nx[..4].copy_from_slice(&V::columns_of(simd, rests, 0));
+    ny[..4].copy_from_slice(&V::columns_of(simd, rests, 4));
+    found.x[4..].copy_from_slice(&V::columns_of(simd, rests, 8));
+    found.y[4..].copy_from_slice(&V::columns_of(simd, rests, 12));
+    nx[4..].copy_from_slice(&V::columns_of(simd, rests, 16));
+    ny[4..].copy_from_slice(&V::columns_of(simd, rests, 20));
+    for k in 0..N {
+        let its = if k < 4 { k } else { 0 };
+        found.x[k] = boxes.select(found.x[its], found.x[k]);
+        found.y[k] = boxes.select(found.y[its], found.y[k]);
+        found.nx[k] = boxes.select(found.nx[its], nx[k]);
+        found.ny[k] = boxes.select(found.ny[its], ny[k]);
     }
     found
 }
@@ -338,15 +352,12 @@ fn best<S: Simd, V: Wide<S>, const N: usize>(
         x_next: a.x[1],
         y_next: a.y[1],
     };
+    let least = nearest(simd, a, b);
     for i in 0..N {
         let next = (i + 1) % N;
         let (nx, ny) = (a.nx[i], a.ny[i]);
-        let mut least = nx * b.x[0] + ny * b.y[0];
-        for k in 1..N {
-            least = (nx * b.x[k] + ny * b.y[k]).min(least);
-        }
         let off = nx * a.x[i] + ny * a.y[i];
-        let separation = least + (nx * dx + ny * dy) - off;
+        let separation = least[i] + (nx * dx + ny * dy) - off;
         let nears = (nx * wx + ny * wy).min(zero);
         face.stays = (separation + nears).max(face.stays);
         let better = separation.simd_gt(face.separation);
@@ -360,6 +371,32 @@ fn best<S: Simd, V: Wide<S>, const N: usize>(
         face.y_next = better.select(a.y[next], face.y_next);
     }
     face
+}
+
+/// How far the nearest corner of B is along each normal of A, from the centre of mass of B.
+#[inline(always)]
+fn nearest<S: Simd, V: Wide<S>, const N: usize>(
+    simd: S,
+    a: &Corners<V, N>,
+    b: &Corners<V, N>,
+) -> [V; N] {
+    let mut least = [V::splat(simd, 0.0); N];
+    // Normals of a box are two and their opposites.
+    let normals = if N == 4 { 2 } else { N };
+    for i in 0..normals {
+        let mut low = a.nx[i] * b.x[0] + a.ny[i] * b.y[0];
+        let mut high = low;
+        for k in 1..N {
+            let along = a.nx[i] * b.x[k] + a.ny[i] * b.y[k];
+            low = along.min(low);
+            high = along.max(high);
+        }
+        least[i] = low;
+        if N == 4 {
+            least[i + 2] = -high;
+        }
+    }
+    least
 }
 
 #[inline(always)]

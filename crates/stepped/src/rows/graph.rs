@@ -4,6 +4,7 @@ use super::block::{Block, Cold, LANES, OPEN};
 use super::colour::Colour;
 use crate::Material;
 use crate::bodies::{Bodies, BodyKind};
+use crate::ghost::Suspects;
 use crate::narrow::{Manifold, Patch};
 
 /// Colours of a mask. Contacts that find none of them free take the overflow colour, a block each, one after the other.
@@ -44,6 +45,8 @@ pub(crate) struct Graph {
     pub(crate) contacts: Vec<Contact>,
     /// Where they are in space.
     pub(crate) patches: Vec<Patch>,
+    /// Bodies that may have ghosts.
+    pub(crate) suspects: Suspects,
     free: Vec<u32>,
     /// Behind those of masks the overflow colour, and behind it what sleeps.
     pub(super) colours: Vec<Colour>,
@@ -65,6 +68,7 @@ impl Graph {
         Self {
             contacts: Vec::new(),
             patches: Vec::new(),
+            suspects: Suspects::default(),
             free: Vec::new(),
             colours: vec![Colour::default(); COLOURS + 2],
         }
@@ -106,9 +110,10 @@ impl Graph {
         touched
     }
 
-    /// The colours of what is awake, and all patches.
-    pub(crate) fn awake_and_patches(&mut self) -> (&mut [Colour], &mut [Patch]) {
-        (&mut self.colours[..ASLEEP], &mut self.patches)
+    /// The colours of what is awake, all patches, and the bodies that may have ghosts.
+    pub(crate) fn parts(&mut self) -> (&mut [Colour], &mut [Patch], &mut Suspects) {
+        let colours = &mut self.colours[..ASLEEP];
+        (colours, &mut self.patches, &mut self.suspects)
     }
 
     /// Gives a contact of two bodies a number and a lane, without impulses.
