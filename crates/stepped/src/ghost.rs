@@ -27,26 +27,62 @@ const LEANS: f64 = 0.02;
 /// A body with more rows is a floor itself: all pairs of its rows would be too many.
 const MOST: usize = 32;
 
-/// Bodies of which some row is short enough to be a ghost: they have all in front of a plane that its piece is behind, and
-/// so it is as long as they are deep in it at most.
+/// Contacts that may be ghosts, by the lines of their bodies.
+///
+/// A ghost's body has all of its piece behind a plane that the body itself is in front of: the contact is as long as the
+/// body is deep in the plane at most. Its piece is flush with another one: it stands, is driven, is one of several, or has
+/// a seam.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Suspects(Vec<bool>);
+pub(crate) struct Suspects {
+    short: Vec<[u32; 2]>,
+    /// Bodies with a side that may go on in that of another body, as far as they moved.
+    seamed: Vec<bool>,
+}
 
 impl Suspects {
     pub(crate) fn clear(&mut self) {
-        self.0.clear();
+        self.short.clear();
+        self.seamed.clear();
     }
 
     /// There are so many lines now.
     pub(crate) fn cover(&mut self, lines: usize) {
-        self.0.resize(lines, false);
+        self.seamed.resize(lines, false);
     }
 
-    /// Adds the bodies of two lines.
-    pub(crate) fn add(&mut self, lines: [u32; 2]) {
+    pub(crate) fn add_short(&mut self, lines: [u32; 2]) {
+        self.short.push(lines);
+    }
+
+    pub(crate) fn add_seam(&mut self, lines: [u32; 2]) {
         for line in lines {
-            self.0[line as usize] = true;
+            self.seamed[line as usize] = true;
         }
+    }
+
+    /// Lines of moved bodies that may have ghosts, in order.
+    fn lines(&self, bodies: &Bodies) -> Vec<usize> {
+        let flush = |line: usize| {
+            let joined = || {
+                let slot = bodies.slot_of[line];
+                slot == Bodies::NONE || bodies.records[slot as usize].pieces > 1
+            };
+            let driven = bodies.lines[line].inverse_mass() == 0.0;
+            // The contacts of what did not move are those of before.
+            !bodies.moved[line] || self.seamed[line] || driven || joined()
+        };
+        let mut lines = Vec::new();
+        for pair in &self.short {
+            let [a, b] = pair.map(|line| line as usize);
+            for (body, other) in [(a, b), (b, a)] {
+                if bodies.moved[body] && flush(other) {
+                    lines.push(body);
+                }
+            }
+        }
+        lines.sort_unstable();
+        lines.dedup();
+        lines
     }
 }
 
@@ -79,9 +115,7 @@ pub(crate) fn hide(
     let mut ids = Vec::new();
     let mut rows = Rows::NONE;
     let mut ghosts = Vec::new();
-    for line in
-        (2..bodies.lines.len()).filter(|line| bodies.moved[*line] && graph.suspects.0[*line])
-    {
+    for line in graph.suspects.lines(bodies) {
         let record = &bodies.records[bodies.slot_of[line] as usize];
         if record.kind != BodyKind::Dynamic {
             continue;
@@ -99,7 +133,7 @@ pub(crate) fn hide(
             ids.extend(of_body.map(|(id, _)| id).take(MOST + 1));
         }
         if (2..=MOST).contains(&ids.len()) {
-            rows.fill(graph, &ids, &its);
+            rows.fill(graph, pieces, &ids, &its);
             let mut hidden = 0;
             dispatch!(level, simd => hidden_rows(simd, &rows, pieces, &mut hidden));
             let hidden = (0..rows.len).filter(|k| hidden >> k & 1 == 1);
@@ -170,7 +204,7 @@ fn is_hidden(rows: &Rows, pieces: &Pieces, k: usize, o: usize) -> bool {
         && rows.points(k).iter().all(|point| {
             (0..rows.len).any(|third| {
                 let q = rows.pieces[third];
-                q != rows.pieces[k] && holds(&pieces.turned(q), *point + lean, flush)
+                q != rows.pieces[k] && holds(pieces.turned(q), *point + lean, flush)
             })
         })
 }
@@ -190,23 +224,30 @@ impl Rows {
     };
 
     /// The rows of the body that has the pieces `its`.
-    fn fill(&mut self, graph: &Graph, ids: &[u32], its: &Range<u32>) {
+    fn fill(&mut self, graph: &Graph, pieces: &Pieces, ids: &[u32], its: &Range<u32>) {
         self.len = ids.len();
         for (k, id) in ids.iter().enumerate() {
-            let patch = &graph.patches[*id as usize];
-            let (normal, side) = if its.contains(&patch.pieces[0]) {
-                (-patch.normal, 1)
+            let pair = graph.contacts[*id as usize].pieces;
+            let (block, _, lane) = graph.lane(*id);
+            let (side, sign) = if its.contains(&pair[0]) {
+                (1, -1.0)
             } else {
-                (patch.normal, 0)
+                (0, 1.0)
             };
+            let n = vec2(block.nx[lane], block.ny[lane]);
+            // r · n = a_t, r × n = a: so r = n a_t − t a.
+            let arm = n * block.at[lane] - perp(n) * block.a1[lane];
+            let normal = n * sign;
             // Points lie midway between the surfaces: half a gap against the normal is the piece's own.
-            let first = patch.point - normal * (0.5 * patch.gap);
-            let last = first - perp(patch.normal) * patch.length;
+            let first = pieces.outlines[pair[0] as usize].centre() + arm;
+            let first = first - normal * (0.5 * block.s1[lane]);
+            let two = block.points(lane) == 2;
+            let last = first - perp(n) * if two { block.l[lane] } else { 0.0 };
             (self.nx[k], self.ny[k]) = (normal.x, normal.y);
             (self.x1[k], self.y1[k]) = (first.x, first.y);
             (self.x2[k], self.y2[k]) = (last.x, last.y);
-            self.flush[k] = FLUSH * f64::from(patch.extents[side]);
-            (self.pieces[k], self.contacts[k]) = (patch.pieces[side], *id);
+            self.flush[k] = FLUSH * pieces.outlines[pair[side] as usize].extent();
+            (self.pieces[k], self.contacts[k]) = (pair[side], *id);
         }
         // What is beyond the last of the lanes is flush with nothing.
         let end = self.len.next_multiple_of(4);
@@ -223,7 +264,7 @@ impl Rows {
 }
 
 /// Whether a point is in an outline with sides, or so near to it.
-fn holds(outline: &Turned<'_>, point: Vec2, near: f64) -> bool {
+fn holds(outline: Turned<'_>, point: Vec2, near: f64) -> bool {
     let point = point - outline.centre();
     let edge = outline.radius() + near;
     let behind = |i: usize| outline.normal(i).dot(point) - outline.off(i) <= edge;

@@ -139,11 +139,11 @@ fn turn(to: &mut [f64], from: &[f64], pose: Pose) {
 }
 
 impl Turned<'_> {
-    pub(crate) const fn centre(&self) -> Vec2 {
+    pub(crate) const fn centre(self) -> Vec2 {
         self.outline.centre()
     }
 
-    pub(crate) const fn radius(&self) -> f64 {
+    pub(crate) const fn radius(self) -> f64 {
         self.outline.0[4]
     }
 
@@ -152,11 +152,11 @@ impl Turned<'_> {
         clippy::cast_sign_loss,
         reason = "at most eight"
     )]
-    pub(crate) const fn corners(&self) -> usize {
+    pub(crate) const fn corners(self) -> usize {
         self.outline.0[5] as usize
     }
 
-    pub(crate) const fn corner(&self, i: usize) -> Vec2 {
+    pub(crate) const fn corner(self, i: usize) -> Vec2 {
         if i < 4 {
             vec2(self.outline.0[8 + i], self.outline.0[12 + i])
         } else {
@@ -164,7 +164,7 @@ impl Turned<'_> {
         }
     }
 
-    pub(crate) fn normal(&self, i: usize) -> Vec2 {
+    pub(crate) fn normal(self, i: usize) -> Vec2 {
         if self.outline.is_box() {
             let inverse = self.outline.0[6 + i % 2];
             let edge = (self.corner(i % 2 + 1) - self.corner(i % 2)) * inverse;
@@ -177,16 +177,16 @@ impl Turned<'_> {
     }
 
     /// `normal · point` of all points of an edge.
-    pub(crate) fn off(&self, i: usize) -> f64 {
+    pub(crate) fn off(self, i: usize) -> f64 {
         self.normal(i).dot(self.corner(i))
     }
 
-    pub(crate) const fn next(&self, i: usize) -> usize {
+    pub(crate) const fn next(self, i: usize) -> usize {
         if i + 1 == self.corners() { 0 } else { i + 1 }
     }
 
     /// The box around it.
-    pub(crate) fn aabb(&self) -> Aabb {
+    pub(crate) fn aabb(self) -> Aabb {
         let (mut low, mut high) = (self.corner(0), self.corner(0));
         let last = if self.outline.count() > 4.0 {
             CORNERS

@@ -6,7 +6,7 @@ use fearless_simd::Level;
 use crate::Settings;
 use crate::bodies::{Bodies, BodyKind};
 use crate::broad::Pairs;
-use crate::narrow::{Eight, Found, Manifold, Patch, Scene, collide_eight};
+use crate::narrow::{Eight, Found, Manifold, Scene, collide_eight};
 use crate::pieces::Pieces;
 use crate::rows::{Block, Cold, Graph, LANES, renew};
 
@@ -25,7 +25,7 @@ pub(crate) fn update(
     let touched = graph.touched(bodies);
     graph.suspects.clear();
     graph.suspects.cover(bodies.lines.len());
-    let (colours, patches, suspects) = graph.parts();
+    let (colours, suspects) = graph.awake_and_suspects();
     let mut found = Found::NONE;
     for (colour, blocks) in colours.iter_mut().zip(touched) {
         for k in blocks {
@@ -47,12 +47,13 @@ pub(crate) fn update(
             let near = moved & found.near;
             renew(level, &bodies.lines, &mut bodies.start, block, &found, near);
             for lane in lanes(near) {
-                let (manifold, pair) = (found.manifold(lane), cold.pieces[lane]);
-                cold.features[lane] = manifold.features;
-                patches[cold.contact[lane] as usize] = Patch::new(&manifold, pieces, pair);
+                cold.features[lane] = found.features(lane);
             }
             for lane in lanes(near & found.short) {
-                suspects.add([block.a[lane], block.b[lane]]);
+                suspects.add_short([block.a[lane], block.b[lane]]);
+            }
+            for lane in lanes(near & found.seam) {
+                suspects.add_seam([block.a[lane], block.b[lane]]);
             }
             parted.extend(lanes(moved & !near).map(|lane| cold.contact[lane]));
         }
@@ -157,12 +158,11 @@ pub(crate) fn create(
         let [a, b] = pair.map(|piece| &pieces.list[piece as usize]);
         let ends = [a.body, b.body];
         let surface = a.material.with(b.material);
-        let patch = Patch::new(&manifold, pieces, pair);
-        let id = graph.insert(bodies, ends, patch, &manifold, surface);
+        let id = graph.insert(bodies, ends, pair, &manifold, surface);
         known.insert(pair, id);
-        graph
-            .suspects
-            .add(ends.map(|slot| bodies.records[slot as usize].line));
+        let lines = ends.map(|slot| bodies.records[slot as usize].line);
+        graph.suspects.add_short(lines);
+        graph.suspects.add_seam(lines);
         narrow_tolerances(bodies, settings, ends, a.extent.min(b.extent));
     }
 }

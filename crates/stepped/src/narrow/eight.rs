@@ -67,6 +67,8 @@ pub(crate) struct Found {
     pub(crate) near: u8,
     /// A bit for each of these that is so short that it may be a ghost.
     pub(crate) short: u8,
+    /// A bit for each of these whose pieces may be flush.
+    pub(crate) seam: u8,
 }
 
 impl Found {
@@ -83,6 +85,7 @@ impl Found {
         features: [[0.0; LANES]; 2],
         near: 0,
         short: 0,
+        seam: 0,
     };
 
     /// Puts a manifold that was found otherwise into a lane.
@@ -99,6 +102,7 @@ impl Found {
         }
         self.near |= 1 << lane;
         self.short |= 1 << lane;
+        self.seam |= 1 << lane;
     }
 
     #[expect(

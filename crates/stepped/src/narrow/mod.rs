@@ -8,9 +8,8 @@ mod pair;
 mod scene;
 mod wide;
 
-use carom_math::{Vec2, cross, perp};
+use carom_math::{Vec2, cross};
 
-use crate::pieces::Pieces;
 pub(crate) use eight::{Eight, Found};
 pub(crate) use hulls::collide_any;
 pub(crate) use pair::collide;
@@ -60,43 +59,6 @@ impl Manifold {
             tangent_b: arms[1].dot(normal),
             gaps: [gap; 2],
             features: [feature; 2],
-        }
-    }
-}
-
-/// A contact in space, as it was last computed.
-#[derive(Clone, Copy, Debug)]
-#[repr(C, align(64))]
-pub(crate) struct Patch {
-    /// Point 1, midway between the surfaces.
-    pub(crate) point: Vec2,
-    pub(crate) normal: Vec2,
-    /// Point 2 is so far from it against the normal turned by +90°; 0 if there is none.
-    pub(crate) length: f64,
-    /// Of point 1.
-    pub(crate) gap: f64,
-    pub(crate) pieces: [u32; 2],
-    /// Of both pieces, in m.
-    pub(crate) extents: [f32; 2],
-}
-
-impl Patch {
-    pub(crate) fn new(manifold: &Manifold, pieces: &Pieces, pair: [u32; 2]) -> Self {
-        let [a, b] = pair.map(|piece| &pieces.outlines[piece as usize]);
-        let n = manifold.normal;
-        let two = manifold.points == 2;
-        Self {
-            // r · n = a_t, r × n = a: so r = n a_t − t a.
-            point: a.centre() + n * manifold.tangent_a - perp(n) * manifold.arm_a,
-            normal: n,
-            length: if two { manifold.length } else { 0.0 },
-            gap: manifold.gaps[0],
-            pieces: pair,
-            #[expect(
-                clippy::cast_possible_truncation,
-                reason = "flush is flush, more or less"
-            )]
-            extents: [a.extent() as f32, b.extent() as f32],
         }
     }
 }

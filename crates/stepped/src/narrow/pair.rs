@@ -11,8 +11,8 @@ use crate::outline::Turned;
 ///
 /// A's face is preferred unless B's separates by `hysteresis` more. All in m.
 pub(crate) fn collide(
-    a: &Turned<'_>,
-    b: &Turned<'_>,
+    a: Turned<'_>,
+    b: Turned<'_>,
     d: Vec2,
     way: Vec2,
     limit: f64,
@@ -36,13 +36,7 @@ pub(crate) fn collide(
 
 /// The edge of `a` that separates best, and how far the nearest corner of `b` is in front of it; `None` if that stays
 /// beyond `limit` on the way.
-fn best_face(
-    a: &Turned<'_>,
-    b: &Turned<'_>,
-    d: Vec2,
-    way: Vec2,
-    limit: f64,
-) -> Option<(f64, usize)> {
+fn best_face(a: Turned<'_>, b: Turned<'_>, d: Vec2, way: Vec2, limit: f64) -> Option<(f64, usize)> {
     let mut best = (f64::NEG_INFINITY, 0);
     if a.corners() == 1 {
         return Some(best);
@@ -67,7 +61,7 @@ fn best_face(
 }
 
 /// Clips the edge of `other` that faces edge `i` of `owner` to it; `d` goes from the owner's centre to the other's.
-fn face(owner: &Turned<'_>, other: &Turned<'_>, d: Vec2, i: usize, flipped: bool) -> Manifold {
+fn face(owner: Turned<'_>, other: Turned<'_>, d: Vec2, i: usize, flipped: bool) -> Manifold {
     let n = owner.normal(i);
     let t = perp(n);
     let i_next = owner.next(i);
@@ -180,7 +174,7 @@ fn face(owner: &Turned<'_>, other: &Turned<'_>, d: Vec2, i: usize, flipped: bool
 }
 
 /// The edge whose normal is most opposed to `n`, by its two corners; of a disc its one.
-fn facing(outline: &Turned<'_>, n: Vec2) -> (usize, usize) {
+fn facing(outline: Turned<'_>, n: Vec2) -> (usize, usize) {
     if outline.corners() == 1 {
         return (0, 0);
     }
@@ -196,8 +190,8 @@ fn facing(outline: &Turned<'_>, n: Vec2) -> (usize, usize) {
 
 /// Two corners, or centres of discs; where they coincide there is no normal.
 fn corners(
-    a: &Turned<'_>,
-    b: &Turned<'_>,
+    a: Turned<'_>,
+    b: Turned<'_>,
     d: Vec2,
     [of_a, of_b]: [Vec2; 2],
     feature: u32,

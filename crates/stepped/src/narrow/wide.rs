@@ -14,6 +14,9 @@ use crate::rows::{OPEN, Wide, any, eight_lanes};
 /// Margins that a contact is at most long if it may be one with the side of a flush piece: a quarter of the extent.
 const SHORT: f64 = 4.0;
 
+/// Margins that sides are aligned within that may be flush: 30 times what is flush.
+const SEAM: f64 = 0.05;
+
 /// Margins that its gap is at most when the tick ends.
 const NEAR: f64 = 0.25;
 
@@ -28,7 +31,7 @@ pub(crate) fn collide_eight(
     eight: &Eight<'_>,
     found: &mut Found,
 ) {
-    (found.near, found.short) = (0, 0);
+    (found.near, found.short, found.seam) = (0, 0, 0);
     if eight_lanes(level) {
         dispatch!(level, simd => whole(simd, scene, factor, eight, found));
     } else {
@@ -211,6 +214,11 @@ fn part<S: Simd, V: Wide<S>, const N: usize>(
     let mut twice = single.select(zero, length);
 
     let mut short = length.simd_le(V::splat(simd, SHORT) * margin);
+    // Both faces end at one place, and touch there: their other sides may go on into each other.
+    let aligned = V::splat(simd, SEAM) * margin;
+    let low = (x_low - face_low).abs().max(gap_low).simd_le(aligned);
+    let high = (x_high - face_high).abs().max(gap_high).simd_le(aligned);
+    let seam = low | high;
 
     // Corner on corner: beyond one end of the face, or where the nearer corner of the other's edge overhangs, since rounded
     // corners meet before the faces do.
@@ -282,9 +290,14 @@ fn part<S: Simd, V: Wide<S>, const N: usize>(
     f1.store_slice(&mut found.features[0][at..end]);
     f2.store_slice(&mut found.features[1][at..end]);
     #[expect(clippy::cast_possible_truncation, reason = "eight lanes")]
-    let (near, short) = (kept.to_bitmask() as u8, (kept & short).to_bitmask() as u8);
+    let (near, short, seam) = (
+        kept.to_bitmask() as u8,
+        (kept & short).to_bitmask() as u8,
+        (kept & seam).to_bitmask() as u8,
+    );
     found.near |= near << at;
     found.short |= short << at;
+    found.seam |= seam << at;
 }
 
 /// The corners of boxes if N is 4, of any outlines if it is 8.
@@ -353,6 +366,7 @@ fn best<S: Simd, V: Wide<S>, const N: usize>(
         y_next: a.y[1],
     };
     let least = nearest(simd, a, b);
+    #[expect(clippy::needless_range_loop, reason = "columns go by one number")]
     for i in 0..N {
         let next = (i + 1) % N;
         let (nx, ny) = (a.nx[i], a.ny[i]);

@@ -5,7 +5,7 @@ use super::colour::Colour;
 use crate::Material;
 use crate::bodies::{Bodies, BodyKind};
 use crate::ghost::Suspects;
-use crate::narrow::{Manifold, Patch};
+use crate::narrow::Manifold;
 
 /// Colours of a mask. Contacts that find none of them free take the overflow colour, a block each, one after the other.
 pub(crate) const COLOURS: usize = 64;
@@ -43,8 +43,6 @@ pub(crate) struct Contact {
 #[derive(Clone, Debug)]
 pub(crate) struct Graph {
     pub(crate) contacts: Vec<Contact>,
-    /// Where they are in space.
-    pub(crate) patches: Vec<Patch>,
     /// Bodies that may have ghosts.
     pub(crate) suspects: Suspects,
     free: Vec<u32>,
@@ -67,7 +65,6 @@ impl Graph {
     pub(crate) fn new() -> Self {
         Self {
             contacts: Vec::new(),
-            patches: Vec::new(),
             suspects: Suspects::default(),
             free: Vec::new(),
             colours: vec![Colour::default(); COLOURS + 2],
@@ -110,10 +107,9 @@ impl Graph {
         touched
     }
 
-    /// The colours of what is awake, all patches, and the bodies that may have ghosts.
-    pub(crate) fn parts(&mut self) -> (&mut [Colour], &mut [Patch], &mut Suspects) {
-        let colours = &mut self.colours[..ASLEEP];
-        (colours, &mut self.patches, &mut self.suspects)
+    /// The colours of what is awake, and the bodies that may have ghosts.
+    pub(crate) fn awake_and_suspects(&mut self) -> (&mut [Colour], &mut Suspects) {
+        (&mut self.colours[..ASLEEP], &mut self.suspects)
     }
 
     /// Gives a contact of two bodies a number and a lane, without impulses.
@@ -121,7 +117,7 @@ impl Graph {
         &mut self,
         bodies: &mut Bodies,
         ends: [u32; 2],
-        patch: Patch,
+        pieces: [u32; 2],
         manifold: &Manifold,
         surface: Material,
     ) -> u32 {
@@ -129,7 +125,7 @@ impl Graph {
         let id = self.free.pop().unwrap_or(self.contacts.len() as u32);
         let mut contact = Contact {
             bodies: ends,
-            pieces: patch.pieces,
+            pieces,
             colour: 0,
             home: 0,
             index: 0,
@@ -147,10 +143,8 @@ impl Graph {
         }
         if id as usize == self.contacts.len() {
             self.contacts.push(contact);
-            self.patches.push(patch);
         } else {
             self.contacts[id as usize] = contact;
-            self.patches[id as usize] = patch;
         }
         self.colour(bodies, id, manifold, surface);
         id

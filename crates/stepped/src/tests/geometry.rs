@@ -34,7 +34,7 @@ fn outlines_that_touch_agree_with_hulls() {
         let [turned_a, turned_b] = posed.each_ref().map(|pieces| pieces.turned(0));
         let d = pose_b.position - pose_a.position;
         let ours =
-            collide(&turned_a, &turned_b, d, Vec2::ZERO, 0.0, 0.0).filter(|ours| ours.gap() <= 0.0);
+            collide(turned_a, turned_b, d, Vec2::ZERO, 0.0, 0.0).filter(|ours| ours.gap() <= 0.0);
         let theirs = collide_any((&a, pose_a), (&b, pose_b), 0.0);
         // Cores apart, roundings in touch: there the hulls' normal is that of the nearest points.
         let cores = a.rounding + b.rounding == 0.0;
