@@ -14,6 +14,7 @@ use fearless_simd::{Level, Simd, SimdBase, SimdMask, dispatch, f64x4};
 
 use crate::bodies::{Bodies, BodyKind};
 use crate::broad::Pairs;
+use crate::narrow::Scene;
 use crate::outline::Turned;
 use crate::pieces::Pieces;
 use crate::rows::Graph;
@@ -34,14 +35,17 @@ const MOST: usize = 32;
 /// a seam.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Suspects {
-    short: Vec<[u32; 2]>,
+    /// Moved bodies with a short contact with what may be flush, and those with one with another body, and that.
+    asked: Vec<u32>,
+    pairs: Vec<[u32; 2]>,
     /// Bodies with a side that may go on in that of another body, as far as they moved.
     seamed: Vec<bool>,
 }
 
 impl Suspects {
     pub(crate) fn clear(&mut self) {
-        self.short.clear();
+        self.asked.clear();
+        self.pairs.clear();
         self.seamed.clear();
     }
 
@@ -50,8 +54,20 @@ impl Suspects {
         self.seamed.resize(lines, false);
     }
 
-    pub(crate) fn add_short(&mut self, lines: [u32; 2]) {
-        self.short.push(lines);
+    /// Adds a short contact of two pieces of the bodies of two lines.
+    pub(crate) fn add_short(&mut self, scene: &Scene<'_>, [a, b]: [u32; 2], pieces: [u32; 2]) {
+        for (body, other, piece) in [(a, b, pieces[1]), (b, a, pieces[0])] {
+            if scene.bodies.moved[body as usize] {
+                let driven = scene.bodies.lines[other as usize].inverse_mass() == 0.0;
+                // The seams of what did not move are those of before.
+                let stays = !scene.bodies.moved[other as usize];
+                if stays || driven || scene.pieces.owners[piece as usize].several {
+                    self.asked.push(body);
+                } else {
+                    self.pairs.push([body, other]);
+                }
+            }
+        }
     }
 
     pub(crate) fn add_seam(&mut self, lines: [u32; 2]) {
@@ -60,26 +76,14 @@ impl Suspects {
         }
     }
 
-    /// Lines of moved bodies that may have ghosts, in order.
-    fn lines(&self, bodies: &Bodies) -> Vec<usize> {
-        let flush = |line: usize| {
-            let joined = || {
-                let slot = bodies.slot_of[line];
-                slot == Bodies::NONE || bodies.records[slot as usize].pieces > 1
-            };
-            let driven = bodies.lines[line].inverse_mass() == 0.0;
-            // The contacts of what did not move are those of before.
-            !bodies.moved[line] || self.seamed[line] || driven || joined()
-        };
-        let mut lines = Vec::new();
-        for pair in &self.short {
-            let [a, b] = pair.map(|line| line as usize);
-            for (body, other) in [(a, b), (b, a)] {
-                if bodies.moved[body] && flush(other) {
-                    lines.push(body);
-                }
-            }
-        }
+    /// Lines of bodies that may have ghosts, in order.
+    fn lines(&self) -> Vec<u32> {
+        let mut lines = self.asked.clone();
+        let seamed = self
+            .pairs
+            .iter()
+            .filter(|pair| self.seamed[pair[1] as usize]);
+        lines.extend(seamed.map(|pair| pair[0]));
         lines.sort_unstable();
         lines.dedup();
         lines
@@ -115,7 +119,8 @@ pub(crate) fn hide(
     let mut ids = Vec::new();
     let mut rows = Rows::NONE;
     let mut ghosts = Vec::new();
-    for line in graph.suspects.lines(bodies) {
+    for line in graph.suspects.lines() {
+        let line = line as usize;
         let record = &bodies.records[bodies.slot_of[line] as usize];
         if record.kind != BodyKind::Dynamic {
             continue;

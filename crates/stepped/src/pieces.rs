@@ -136,6 +136,8 @@ impl Disc {
 pub(crate) struct Owner {
     pub(crate) body: u32,
     pub(crate) ordinal: u32,
+    /// The body has other pieces.
+    pub(crate) several: bool,
 }
 
 /// All pieces; those of a body have consecutive numbers.
@@ -169,6 +171,7 @@ impl Pieces {
             let owner = Owner {
                 body: piece.body,
                 ordinal: piece.ordinal,
+                several: count > 1,
             };
             if number == self.list.len() {
                 self.of_body.push(outline);

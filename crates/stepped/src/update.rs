@@ -49,8 +49,14 @@ pub(crate) fn update(
             for lane in lanes(near) {
                 cold.features[lane] = found.features(lane);
             }
+            let scene = Scene {
+                bodies,
+                pieces,
+                settings,
+            };
             for lane in lanes(near & found.short) {
-                suspects.add_short([block.a[lane], block.b[lane]]);
+                let lines = [block.a[lane], block.b[lane]];
+                suspects.add_short(&scene, lines, cold.pieces[lane]);
             }
             for lane in lanes(near & found.seam) {
                 suspects.add_seam([block.a[lane], block.b[lane]]);
@@ -161,7 +167,12 @@ pub(crate) fn create(
         let id = graph.insert(bodies, ends, pair, &manifold, surface);
         known.insert(pair, id);
         let lines = ends.map(|slot| bodies.records[slot as usize].line);
-        graph.suspects.add_short(lines);
+        let scene = Scene {
+            bodies,
+            pieces,
+            settings,
+        };
+        graph.suspects.add_short(&scene, lines, pair);
         graph.suspects.add_seam(lines);
         narrow_tolerances(bodies, settings, ends, a.extent.min(b.extent));
     }

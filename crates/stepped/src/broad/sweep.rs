@@ -372,7 +372,13 @@ mod tests {
             let mut sweep = Sweep::default();
             let mut pieces = Pieces::default();
             pieces.discs = vec![Disc::ENDLESS; 200];
-            pieces.owners = (0..200).map(|body| Owner { body, ordinal: 0 }).collect();
+            pieces.owners = (0..200)
+                .map(|body| Owner {
+                    body,
+                    ordinal: 0,
+                    several: false,
+                })
+                .collect();
             pieces.boxes.clone_from(&boxes);
             sweep.sort((0..200).map(|piece| (piece, moved(piece))), &pieces);
             let mut found = Vec::new();

@@ -142,6 +142,9 @@ fn part<S: Simd, V: Wide<S>, const N: usize>(
     let hysteresis = V::splat(simd, super::HYSTERESIS) * margin;
     let flip = of_b.separation.simd_gt(of_a.separation + hysteresis);
     let passes = of_a.stays.max(of_b.stays).simd_gt(limit + radii);
+    if !any(!passes) {
+        return;
+    }
 
     // The owner's face, and the edge of the other that faces it most: they run against each other.
     let owner = choose(flip, &of_b, &of_a);
