@@ -3,6 +3,7 @@
 //! All lengths are relative to the two centres of mass, so that nothing is lost far from the origin.
 
 mod eight;
+mod faces;
 mod hulls;
 mod pair;
 mod scene;
