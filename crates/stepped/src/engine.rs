@@ -77,7 +77,7 @@ impl Engine {
     pub(crate) fn find_contacts(&mut self) {
         self.rebase();
         self.broad
-            .find(&self.bodies, &self.pieces, self.settings.tick);
+            .find(self.level, &self.bodies, &self.pieces, self.settings.tick);
         self.update_contacts();
     }
 
@@ -95,7 +95,7 @@ impl Engine {
         if self.bodies.rebase_strays(&self.settings, rest) {
             self.pose_moved();
             self.broad
-                .find_few(&self.bodies, &self.pieces, self.settings.tick);
+                .find_few(self.level, &self.bodies, &self.pieces, self.settings.tick);
             self.update_contacts();
         }
     }
@@ -128,11 +128,12 @@ impl Engine {
         let pose = bodies.base[line];
         for number in record.first_piece..record.first_piece + record.pieces {
             let tight = pieces.pose(number, pose);
-            let piece = &pieces.list[number as usize];
+            let outline = &pieces.outlines[number as usize];
+            let (reach, extent) = (outline.reach(), outline.extent());
             // Half of a pair's margin, and what the body may go unseen.
-            let slack = 0.5 * settings.margin * piece.extent + 2.0 * limit.tolerance;
-            let turn = body.w().abs() * settings.tick * piece.reach;
-            let around = Aabb::new(pose.position, pose.position).grown(piece.reach);
+            let slack = 0.5 * settings.margin * extent + 2.0 * limit.tolerance;
+            let turn = body.w().abs() * settings.tick * reach;
+            let around = Aabb::new(pose.position, pose.position).grown(reach);
             let box_ = intersection(tight.grown(turn), around.union(tight));
             let goes = body.v() * settings.tick;
             let falls = bodies.pull[line].v() * (settings.tick * settings.tick);
@@ -141,7 +142,7 @@ impl Engine {
             pieces.discs[number as usize] = Disc {
                 centre: pose.position,
                 velocity: body.v(),
-                radius: piece.reach + slack + falls.length(),
+                radius: reach + slack + falls.length(),
             };
         }
     }
@@ -150,6 +151,7 @@ impl Engine {
     fn update_contacts(&mut self) {
         let Self {
             settings,
+            level,
             bodies,
             pieces,
             broad,
@@ -158,13 +160,14 @@ impl Engine {
             ..
         } = self;
         parted.clear();
-        update(graph, bodies, pieces, settings, parted);
+        update(*level, graph, bodies, pieces, settings, parted);
         if self.islands.any_asleep() {
             let met = met_asleep(bodies, pieces, settings, &broad.found);
             self.wake_all(&met);
         }
         let Self {
             settings,
+            level,
             bodies,
             pieces,
             broad,
@@ -173,12 +176,12 @@ impl Engine {
             parted,
             ..
         } = self;
-        create(graph, bodies, pieces, settings, known, &broad.found);
+        create(*level, graph, bodies, pieces, settings, known, &broad.found);
         for &id in &*parted {
             known.remove(graph.contacts[id as usize].pieces);
             graph.remove(bodies, id);
         }
-        hide(graph, bodies, pieces);
+        hide(*level, graph, bodies, pieces, known);
         bodies.moved.fill(false);
     }
 

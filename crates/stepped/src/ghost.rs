@@ -5,10 +5,18 @@
 //! another touched piece goes on. Ends have no such piece, at convex bends it lies on the other side, and at inner corners P
 //! reaches through the plane.
 
-use carom_math::{Vec2, perp};
+#![allow(clippy::inline_always, reason = "the wide instructions end at a call")]
+
+use core::ops::Range;
+
+use carom_math::{Vec2, perp, vec2};
+use fearless_simd::{Level, Simd, SimdBase, SimdMask, dispatch, f64x4};
 
 use crate::bodies::{Bodies, BodyKind};
-use crate::pieces::{Outline, Pieces};
+use crate::broad::Pairs;
+use crate::narrow::Scene;
+use crate::outline::Turned;
+use crate::pieces::Pieces;
 use crate::rows::Graph;
 
 /// Pieces are flush within this part of the smaller extent. Smaller than rounding far out hides nothing; larger hides steps.
@@ -20,31 +28,121 @@ const LEANS: f64 = 0.02;
 /// A body with more rows is a floor itself: all pairs of its rows would be too many.
 const MOST: usize = 32;
 
-/// A row as a body sees it.
-struct Seen {
-    contact: u32,
-    piece: u32,
-    /// Unit normal from the piece to the body.
-    normal: Vec2,
-    /// Points on the surface of the piece, in space.
-    points: [Vec2; 2],
+/// Contacts that may be ghosts, by the lines of their bodies.
+///
+/// A ghost's body has all of its piece behind a plane that the body itself is in front of: the contact is as long as the
+/// body is deep in the plane at most. Its piece is flush with another one: it stands, is driven, is one of several, or has
+/// a seam.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Suspects {
+    /// Moved bodies with a short contact with what may be flush, and those with one with another body, and that.
+    asked: Vec<u32>,
+    pairs: Vec<[u32; 2]>,
+    /// Bodies with a side that may go on in that of another body, as far as they moved.
+    seamed: Vec<bool>,
+}
+
+impl Suspects {
+    pub(crate) fn clear(&mut self) {
+        self.asked.clear();
+        self.pairs.clear();
+        self.seamed.clear();
+    }
+
+    /// There are so many lines now.
+    pub(crate) fn cover(&mut self, lines: usize) {
+        self.seamed.resize(lines, false);
+    }
+
+    /// Adds a short contact of two pieces of the bodies of two lines.
+    pub(crate) fn add_short(&mut self, scene: &Scene<'_>, [a, b]: [u32; 2], pieces: [u32; 2]) {
+        for (body, other, piece) in [(a, b, pieces[1]), (b, a, pieces[0])] {
+            if scene.bodies.moved[body as usize] {
+                let driven = scene.bodies.lines[other as usize].inverse_mass() == 0.0;
+                // The seams of what did not move are those of before.
+                let stays = !scene.bodies.moved[other as usize];
+                if stays || driven || scene.pieces.owners[piece as usize].several {
+                    self.asked.push(body);
+                } else {
+                    self.pairs.push([body, other]);
+                }
+            }
+        }
+    }
+
+    pub(crate) fn add_seam(&mut self, lines: [u32; 2]) {
+        for line in lines {
+            self.seamed[line as usize] = true;
+        }
+    }
+
+    /// Lines of bodies that may have ghosts, in order.
+    fn lines(&self) -> Vec<u32> {
+        let mut lines = self.asked.clone();
+        let seamed = self
+            .pairs
+            .iter()
+            .filter(|pair| self.seamed[pair[1] as usize]);
+        lines.extend(seamed.map(|pair| pair[0]));
+        lines.sort_unstable();
+        lines.dedup();
+        lines
+    }
+}
+
+/// Rows as a body sees them, and what it takes to find those that may be hidden.
+#[repr(C, align(64))]
+struct Rows {
+    /// Unit normals from the pieces to the body.
+    nx: [f64; MOST],
+    ny: [f64; MOST],
+    /// Points on the surfaces of the pieces, in space.
+    x1: [f64; MOST],
+    y1: [f64; MOST],
+    x2: [f64; MOST],
+    y2: [f64; MOST],
+    /// What is flush with the piece, in m.
+    flush: [f64; MOST],
+    pieces: [u32; MOST],
+    contacts: [u32; MOST],
+    len: usize,
 }
 
 /// Hides rows of moved bodies until they are computed anew.
-pub(crate) fn hide(graph: &mut Graph, bodies: &mut Bodies, pieces: &Pieces) {
-    let mut rows = Vec::new();
+pub(crate) fn hide(
+    level: Level,
+    graph: &mut Graph,
+    bodies: &mut Bodies,
+    pieces: &Pieces,
+    known: &Pairs,
+) {
+    let mut ids = Vec::new();
+    let mut rows = Rows::NONE;
     let mut ghosts = Vec::new();
-    for line in (2..bodies.lines.len()).filter(|line| bodies.moved[*line]) {
-        let slot = bodies.slot_of[line];
-        if bodies.records[slot as usize].kind != BodyKind::Dynamic {
+    for line in graph.suspects.lines() {
+        let line = line as usize;
+        let record = &bodies.records[bodies.slot_of[line] as usize];
+        if record.kind != BodyKind::Dynamic {
             continue;
         }
-        rows.clear();
-        let ids = graph.of_body(bodies, slot).take(MOST + 1);
-        rows.extend(ids.map(|(id, side)| seen(graph, bodies, id, side)));
-        if (2..=MOST).contains(&rows.len()) {
-            let hidden = (0..rows.len()).filter(|k| is_ghost(bodies, pieces, &rows, *k));
-            ghosts.extend(hidden.map(|k| rows[k].contact));
+        let its = record.first_piece..record.first_piece + record.pieces;
+        ids.clear();
+        let all = its.clone().all(|piece| {
+            let contacts = known.contacts(piece);
+            ids.extend_from_slice(contacts.unwrap_or_default());
+            contacts.is_some()
+        });
+        if !all {
+            ids.clear();
+            let of_body = graph.of_body(bodies, bodies.slot_of[line]);
+            ids.extend(of_body.map(|(id, _)| id).take(MOST + 1));
+        }
+        if (2..=MOST).contains(&ids.len()) {
+            rows.fill(graph, pieces, &ids, &its);
+            let mut hidden = 0;
+            dispatch!(level, simd => hidden_rows(simd, &rows, pieces, &mut hidden));
+            let hidden = (0..rows.len).filter(|k| hidden >> k & 1 == 1);
+            ghosts.extend(hidden.map(|k| rows.contacts[k]));
         }
     }
     for id in ghosts {
@@ -52,70 +150,128 @@ pub(crate) fn hide(graph: &mut Graph, bodies: &mut Bodies, pieces: &Pieces) {
     }
 }
 
-fn seen(graph: &Graph, bodies: &Bodies, id: u32, side: usize) -> Seen {
-    let contact = &graph.contacts[id as usize];
-    let (block, _, lane) = graph.lane(id);
-    let n = Vec2::new(block.nx[lane], block.ny[lane]);
-    let at = bodies.base_of(contact.bodies[0]).position + n * block.at[lane];
-    // Points lie midway between the surfaces: half a gap along the normal is the piece's own.
-    let first = at - perp(n) * block.a1[lane];
-    let half = 0.5 * block.s1[lane];
-    let (normal, half) = if side == 0 { (-n, half) } else { (n, -half) };
-    let first = first + n * half;
-    let two = block.points(lane) == 2;
-    let last = if two {
-        first - perp(n) * block.l[lane]
-    } else {
-        first
-    };
-    Seen {
-        contact: id,
-        piece: contact.pieces[1 - side],
-        normal,
-        points: [first, last],
+/// Sets a bit for each row that some other one hides. Few rows come past the tests of normals and heights: most pairs are
+/// two sides of a heap.
+#[inline(always)]
+fn hidden_rows<S: Simd>(simd: S, rows: &Rows, pieces: &Pieces, hidden: &mut u32) {
+    let parallel = f64x4::splat(simd, 1.0 - LEANS * LEANS);
+    let leans = f64x4::splat(simd, -LEANS);
+    for o in 0..rows.len {
+        let (ox, oy) = (
+            f64x4::splat(simd, rows.nx[o]),
+            f64x4::splat(simd, rows.ny[o]),
+        );
+        let (px, py) = (
+            f64x4::splat(simd, rows.x1[o]),
+            f64x4::splat(simd, rows.y1[o]),
+        );
+        let flush = f64x4::splat(simd, rows.flush[o]);
+        for at in (0..rows.len).step_by(4) {
+            let along = four(simd, &rows.nx, at) * ox + four(simd, &rows.ny, at) * oy;
+            let (x, y) = (four(simd, &rows.x1, at) - px, four(simd, &rows.y1, at) - py);
+            let first = x * ox + y * oy;
+            let (x, y) = (four(simd, &rows.x2, at) - px, four(simd, &rows.y2, at) - py);
+            let second = x * ox + y * oy;
+            let low = first
+                .max(second)
+                .simd_le(four(simd, &rows.flush, at).min(flush));
+            let side = (along * along).simd_le(parallel) & along.simd_ge(leans);
+            let mut bits = (low & side).to_bitmask();
+            while bits != 0 {
+                let k = at + bits.trailing_zeros() as usize;
+                bits &= bits - 1;
+                if *hidden >> k & 1 == 0 && is_hidden(rows, pieces, k, o) {
+                    *hidden |= 1 << k;
+                }
+            }
+        }
     }
 }
 
-fn is_ghost(bodies: &Bodies, pieces: &Pieces, rows: &[Seen], k: usize) -> bool {
-    let row = &rows[k];
-    rows.iter().any(|other| {
-        let along = row.normal.dot(other.normal);
-        // Cheap tests first: most pairs of rows are two sides of a heap.
-        if other.piece == row.piece || along * along > 1.0 - LEANS * LEANS || along < -LEANS {
-            return false;
-        }
-        let extent = |piece: u32| pieces.list[piece as usize].extent;
-        let flush = FLUSH * extent(row.piece).min(extent(other.piece));
-        let height = |point: Vec2| other.normal.dot(point - other.points[0]);
-        if row.points.iter().any(|point| height(*point) > flush) {
-            return false;
-        }
-        let Some((p, p_at)) = outline(bodies, pieces, row.piece) else {
-            return false;
-        };
-        // All of P lies behind the plane of the other row, and where its side goes on beyond the points another piece is.
-        let lean = row.normal - other.normal * along;
-        let lean = lean * (10.0 * flush / lean.length());
-        (0..p.corners).all(|i| height(p_at + p.corner(i)) + p.radius <= flush)
-            && row.points.iter().all(|point| {
-                let beyond = *point + lean;
-                rows.iter().any(|third| {
-                    third.piece != row.piece
-                        && outline(bodies, pieces, third.piece)
-                            .is_some_and(|(q, q_at)| holds(q, beyond - q_at, flush))
-                })
+#[inline(always)]
+fn four<S: Simd>(simd: S, column: &[f64; MOST], at: usize) -> f64x4<S> {
+    f64x4::from_slice(simd, &column[at..at + 4])
+}
+
+/// Whether all of the piece P of row k lies behind the plane of row o, and where its side goes on beyond the points another
+/// piece is.
+fn is_hidden(rows: &Rows, pieces: &Pieces, k: usize, o: usize) -> bool {
+    let p = pieces.turned(rows.pieces[k]);
+    if rows.pieces[k] == rows.pieces[o] || p.corners() < 3 {
+        return false;
+    }
+    let (normal, plane) = (rows.normal(k), rows.normal(o));
+    let flush = rows.flush[k].min(rows.flush[o]);
+    let height = |point: Vec2| plane.dot(point - rows.points(o)[0]);
+    let lean = normal - plane * normal.dot(plane);
+    let lean = lean * (10.0 * flush / lean.length());
+    (0..p.corners()).all(|i| height(p.centre() + p.corner(i)) + p.radius() <= flush)
+        && rows.points(k).iter().all(|point| {
+            (0..rows.len).any(|third| {
+                let q = rows.pieces[third];
+                q != rows.pieces[k] && holds(pieces.turned(q), *point + lean, flush)
             })
-    })
+        })
 }
 
-fn outline<'a>(bodies: &Bodies, pieces: &'a Pieces, piece: u32) -> Option<(&'a Outline, Vec2)> {
-    let turned = &pieces.turned[piece as usize];
-    let at = bodies.base_of(pieces.list[piece as usize].body).position;
-    (turned.corners > 2).then_some((turned, at))
+impl Rows {
+    const NONE: Self = Self {
+        nx: [0.0; MOST],
+        ny: [0.0; MOST],
+        x1: [0.0; MOST],
+        y1: [0.0; MOST],
+        x2: [0.0; MOST],
+        y2: [0.0; MOST],
+        flush: [0.0; MOST],
+        pieces: [0; MOST],
+        contacts: [0; MOST],
+        len: 0,
+    };
+
+    /// The rows of the body that has the pieces `its`.
+    fn fill(&mut self, graph: &Graph, pieces: &Pieces, ids: &[u32], its: &Range<u32>) {
+        self.len = ids.len();
+        for (k, id) in ids.iter().enumerate() {
+            let pair = graph.contacts[*id as usize].pieces;
+            let (block, _, lane) = graph.lane(*id);
+            let (side, sign) = if its.contains(&pair[0]) {
+                (1, -1.0)
+            } else {
+                (0, 1.0)
+            };
+            let n = vec2(block.nx[lane], block.ny[lane]);
+            // r · n = a_t, r × n = a: so r = n a_t − t a.
+            let arm = n * block.at[lane] - perp(n) * block.a1[lane];
+            let normal = n * sign;
+            // Points lie midway between the surfaces: half a gap against the normal is the piece's own.
+            let first = pieces.outlines[pair[0] as usize].centre() + arm;
+            let first = first - normal * (0.5 * block.s1[lane]);
+            let two = block.points(lane) == 2;
+            let last = first - perp(n) * if two { block.l[lane] } else { 0.0 };
+            (self.nx[k], self.ny[k]) = (normal.x, normal.y);
+            (self.x1[k], self.y1[k]) = (first.x, first.y);
+            (self.x2[k], self.y2[k]) = (last.x, last.y);
+            self.flush[k] = FLUSH * pieces.outlines[pair[side] as usize].extent();
+            (self.pieces[k], self.contacts[k]) = (pair[side], *id);
+        }
+        // What is beyond the last of the lanes is flush with nothing.
+        let end = self.len.next_multiple_of(4);
+        self.flush[self.len..end].fill(f64::NEG_INFINITY);
+    }
+
+    const fn normal(&self, k: usize) -> Vec2 {
+        vec2(self.nx[k], self.ny[k])
+    }
+
+    const fn points(&self, k: usize) -> [Vec2; 2] {
+        [vec2(self.x1[k], self.y1[k]), vec2(self.x2[k], self.y2[k])]
+    }
 }
 
-/// Whether a point is in an outline, or so near to it.
-fn holds(outline: &Outline, point: Vec2, near: f64) -> bool {
-    (0..outline.corners)
-        .all(|i| outline.normal(i).dot(point) - outline.off[i] <= outline.radius + near)
+/// Whether a point is in an outline with sides, or so near to it.
+fn holds(outline: Turned<'_>, point: Vec2, near: f64) -> bool {
+    let point = point - outline.centre();
+    let edge = outline.radius() + near;
+    let behind = |i: usize| outline.normal(i).dot(point) - outline.off(i) <= edge;
+    outline.corners() > 2 && (0..outline.corners()).all(behind)
 }

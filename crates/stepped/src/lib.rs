@@ -33,6 +33,7 @@ mod insert;
 #[cfg(test)]
 mod naive;
 mod narrow;
+mod outline;
 mod pieces;
 mod read;
 mod rows;

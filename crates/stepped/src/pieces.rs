@@ -4,13 +4,11 @@ use std::sync::Arc;
 
 use carom_collision::{Hull, part, part_count};
 use carom_geometry::{Aabb, Shape};
-use carom_math::{Pose, Rot, Vec2, vec2};
+use carom_math::{Pose, Vec2};
 
 use crate::EngineError;
 use crate::error::{check, finite, not_negative};
-
-/// Corners of an outline.
-pub(crate) const CORNERS: usize = 8;
+use crate::outline::{CORNERS, Outline, Rest, Turned, outline_of};
 
 /// What a surface is like.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -89,98 +87,6 @@ impl PieceInput {
     }
 }
 
-/// At most eight corners, counter-clockwise, relative to the centre of mass, in m; grown by a radius.
-///
-/// Edge i goes from corner i to the next; its points have `normal · point = off`. A disc has one corner and no edge, a
-/// segment two of both. 336 bytes.
-#[derive(Clone, Copy, Debug)]
-#[repr(C, align(16))]
-pub(crate) struct Outline {
-    pub(crate) x: [f64; CORNERS],
-    pub(crate) y: [f64; CORNERS],
-    pub(crate) nx: [f64; CORNERS],
-    pub(crate) ny: [f64; CORNERS],
-    pub(crate) off: [f64; CORNERS],
-    pub(crate) radius: f64,
-    pub(crate) corners: usize,
-}
-
-impl Outline {
-    /// Of a piece that has none.
-    const NONE: Self = Self {
-        x: [0.0; CORNERS],
-        y: [0.0; CORNERS],
-        nx: [0.0; CORNERS],
-        ny: [0.0; CORNERS],
-        off: [0.0; CORNERS],
-        radius: 0.0,
-        corners: 0,
-    };
-
-    /// The outline of a hull, if it has one: no half-plane, no cuts, not too many corners.
-    fn of(hull: &Hull<'_>, radius: f64) -> Option<Self> {
-        let corners = hull.vertices.len();
-        if hull.is_half_plane() || hull.boundary.is_some() || corners > CORNERS {
-            return None;
-        }
-        let first = hull.vertices[0];
-        let mut outline = Self {
-            // Corners that are not there repeat the first: they are never the deepest before it.
-            x: [first.x; CORNERS],
-            y: [first.y; CORNERS],
-            // Edges that are not there separate nothing.
-            nx: [0.0; CORNERS],
-            ny: [0.0; CORNERS],
-            off: [1e9; CORNERS],
-            radius: hull.radius + radius,
-            corners,
-        };
-        for (i, v) in hull.vertices.iter().enumerate() {
-            (outline.x[i], outline.y[i]) = (v.x, v.y);
-        }
-        for (i, n) in hull.normals.iter().enumerate() {
-            (outline.nx[i], outline.ny[i]) = (n.x, n.y);
-            outline.off[i] = n.dot(hull.vertices[i]);
-        }
-        Some(outline)
-    }
-
-    /// The same outline of a body that is turned by `rot`.
-    pub(crate) fn turned(&self, rot: Rot) -> Self {
-        let mut turned = *self;
-        let (c, s) = (rot.cos(), rot.sin());
-        for i in 0..CORNERS {
-            turned.x[i] = c * self.x[i] - s * self.y[i];
-            turned.y[i] = s * self.x[i] + c * self.y[i];
-            turned.nx[i] = c * self.nx[i] - s * self.ny[i];
-            turned.ny[i] = s * self.nx[i] + c * self.ny[i];
-        }
-        turned
-    }
-
-    pub(crate) const fn corner(&self, i: usize) -> Vec2 {
-        vec2(self.x[i], self.y[i])
-    }
-
-    pub(crate) const fn normal(&self, i: usize) -> Vec2 {
-        vec2(self.nx[i], self.ny[i])
-    }
-
-    pub(crate) const fn next(&self, i: usize) -> usize {
-        if i + 1 == self.corners { 0 } else { i + 1 }
-    }
-
-    /// The box around it with the centre of mass at `centre`.
-    fn aabb(&self, centre: Vec2) -> Aabb {
-        let (mut low, mut high) = (self.corner(0), self.corner(0));
-        for i in 1..CORNERS {
-            low = low.min(self.corner(i));
-            high = high.max(self.corner(i));
-        }
-        Aabb::new(centre + low, centre + high).grown(self.radius)
-    }
-}
-
 /// A convex piece of a body.
 #[derive(Clone, Debug)]
 pub(crate) struct Piece {
@@ -192,7 +98,6 @@ pub(crate) struct Piece {
     part: usize,
     /// What the shape is grown by, in m.
     pub(crate) rounding: f64,
-    outline: Option<Box<Outline>>,
     pub(crate) material: Material,
     /// Twice the distance from its middle to its nearest side, in m; of something without a width an eighth of its length.
     pub(crate) extent: f64,
@@ -226,12 +131,26 @@ impl Disc {
     }
 }
 
+/// Slot of the body of a piece, and the index that it has there.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Owner {
+    pub(crate) body: u32,
+    pub(crate) ordinal: u32,
+    /// The body has other pieces.
+    pub(crate) several: bool,
+}
+
 /// All pieces; those of a body have consecutive numbers.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Pieces {
     pub(crate) list: Vec<Piece>,
-    /// Outlines turned by the base poses of their bodies; no corners: the piece has no outline.
-    pub(crate) turned: Vec<Outline>,
+    /// What is asked of a piece most often.
+    pub(crate) owners: Vec<Owner>,
+    /// Outlines as the bodies have them.
+    of_body: Vec<(Outline, Rest)>,
+    /// Outlines in the base poses of their bodies; no corners: the piece has no outline.
+    pub(crate) outlines: Vec<Outline>,
+    pub(crate) rests: Vec<Rest>,
     /// Boxes around what a piece may reach within the tick, each with half a margin.
     pub(crate) boxes: Vec<Aabb>,
     /// Circles around movers, and their velocities.
@@ -248,12 +167,23 @@ impl Pieces {
         let again = self.free.iter().rposition(|free| free.1 == count);
         let first = again.map_or(end, |k| self.free.swap_remove(k).0);
         for (number, piece) in (first as usize..).zip(pieces) {
+            let outline = outline(&piece);
+            let owner = Owner {
+                body: piece.body,
+                ordinal: piece.ordinal,
+                several: count > 1,
+            };
             if number == self.list.len() {
+                self.of_body.push(outline);
+                self.owners.push(owner);
                 self.list.push(piece);
-                self.turned.push(Outline::NONE);
+                self.outlines.push(outline.0);
+                self.rests.push(outline.1);
                 self.boxes.push(Aabb::EMPTY);
                 self.discs.push(Disc::ENDLESS);
             } else {
+                self.of_body[number] = outline;
+                self.owners[number] = owner;
                 self.list[number] = piece;
             }
         }
@@ -267,11 +197,41 @@ impl Pieces {
     /// Takes over the pose of a body, and gives the box that the piece is in.
     pub(crate) fn pose(&mut self, number: u32, pose: Pose) -> Aabb {
         let k = number as usize;
-        let piece = &self.list[k];
-        self.turned[k] = piece.turned(pose.rotation).unwrap_or(Outline::NONE);
-        let turned = (self.turned[k].corners > 0).then_some(&self.turned[k]);
-        piece.aabb(turned, pose)
+        let of_body = &self.of_body[k];
+        let (outline, rest) = (&mut self.outlines[k], &mut self.rests[k]);
+        outline.pose(&of_body.0, pose);
+        if !outline.is_box() {
+            rest.pose(&of_body.1, pose);
+        }
+        if outline.count() > 0.0 {
+            Turned { outline, rest }.aabb()
+        } else {
+            let piece = &self.list[k];
+            piece.hull().aabb(pose).grown(piece.rounding)
+        }
     }
+
+    /// The outline of a piece in the base pose of its body.
+    pub(crate) fn turned(&self, piece: u32) -> Turned<'_> {
+        let k = piece as usize;
+        Turned {
+            outline: &self.outlines[k],
+            rest: &self.rests[k],
+        }
+    }
+}
+
+/// The outline of a piece; without corners if it has none: a half-plane, cuts, too many corners.
+fn outline(piece: &Piece) -> (Outline, Rest) {
+    let hull = piece.hull();
+    let none = hull.is_half_plane() || hull.boundary.is_some() || hull.vertices.len() > CORNERS;
+    let (vertices, normals) = if none {
+        (&[][..], &[][..])
+    } else {
+        (hull.vertices, hull.normals)
+    };
+    let radius = hull.radius + piece.rounding;
+    outline_of(vertices, normals, [piece.reach, piece.extent, radius])
 }
 
 impl Piece {
@@ -286,39 +246,26 @@ impl Piece {
                 let around = hull.vertices.iter().map(|v| v.length());
                 let reach = around.fold(0.0, f64::max) + hull.radius + rounding;
                 let half_plane = hull.is_half_plane();
+                let (reach, extent) = if half_plane {
+                    (f64::INFINITY, f64::INFINITY)
+                } else {
+                    (reach, extent(&hull) + 2.0 * rounding)
+                };
                 Self {
                     body,
                     ordinal,
                     part: i,
                     rounding,
-                    outline: Outline::of(&hull, rounding).map(Box::new),
                     material,
-                    extent: if half_plane {
-                        f64::INFINITY
-                    } else {
-                        extent(&hull) + 2.0 * rounding
-                    },
-                    reach: if half_plane { f64::INFINITY } else { reach },
+                    extent,
+                    reach,
                     shape: Arc::clone(&shape),
                 }
             })
     }
 
-    /// What to collide: turned as the body is.
-    fn turned(&self, rot: Rot) -> Option<Outline> {
-        self.outline.as_ref().map(|outline| outline.turned(rot))
-    }
-
     pub(crate) fn hull(&self) -> Hull<'_> {
         part(&self.shape, self.part)
-    }
-
-    /// The box around it, given its turned outline if it has one.
-    fn aabb(&self, turned: Option<&Outline>, pose: Pose) -> Aabb {
-        match turned {
-            Some(outline) => outline.aabb(pose.position),
-            None => self.hull().aabb(pose).grown(self.rounding),
-        }
     }
 }
 

@@ -1,71 +1,93 @@
 //! The contact update, once a tick: contacts of bodies that moved are computed anew, straight into their rows; new pairs
 //! get a contact, pairs that parted lose theirs.
 
-use carom_math::Vec2;
+use fearless_simd::Level;
 
 use crate::Settings;
-use crate::bodies::Bodies;
+use crate::bodies::{Bodies, BodyKind};
 use crate::broad::Pairs;
-use crate::narrow::{Manifold, collide, collide_any};
+use crate::narrow::{Eight, Found, Manifold, Scene, collide_eight};
 use crate::pieces::Pieces;
-use crate::rows::{Block, Cold, Graph, LANES, Quad};
+use crate::rows::{Block, Cold, Graph, LANES, renew};
 
 /// A kept contact may be so many margins wide, so that pairs do not come and go each tick.
 const KEPT: f64 = 1.5;
 
-/// Part of a margin by which B's face must separate better than A's: flush faces keep one owner.
-const HYSTERESIS: f64 = 0.1;
-
-/// Cosine of 25°: beyond it what pushed along the old normal is no guess for what will along the new one.
-const SAME_NORMAL: f64 = 0.9;
-
-/// What two pieces are to each other within a tick.
-struct Meeting {
-    /// Gaps below it make a contact, in m.
-    margin: f64,
-    /// How far B goes against A until the next tick, in m, and what they may close by besides.
-    way: Vec2,
-    closing: f64,
-    /// The most that they moved by against each other since their base poses, in m.
-    moved: f64,
-}
-
-/// What the narrow phase reads.
-#[derive(Clone, Copy)]
-struct Scene<'a> {
-    bodies: &'a Bodies,
-    pieces: &'a Pieces,
-    settings: &'a Settings,
-}
-
 /// Computes the contacts of moved bodies anew; those that parted are added to `parted`.
 pub(crate) fn update(
+    level: Level,
     graph: &mut Graph,
     bodies: &mut Bodies,
     pieces: &Pieces,
     settings: &Settings,
     parted: &mut Vec<u32>,
 ) {
-    for colour in graph.awake() {
-        for (block, cold) in colour.blocks.iter_mut().zip(&mut colour.cold) {
-            let moved = |line: &u32| bodies.moved[*line as usize];
-            if !block.a.iter().chain(&block.b).any(moved) {
-                continue;
-            }
+    let touched = graph.touched(bodies);
+    graph.suspects.clear();
+    graph.suspects.cover(bodies.lines.len());
+    let (colours, suspects) = graph.awake_and_suspects();
+    let mut found = Found::NONE;
+    for (colour, blocks) in colours.iter_mut().zip(touched) {
+        for k in blocks {
+            let (block, cold) = (&mut colour.blocks[k], &mut colour.cold[k]);
+            let mut moved = 0u8;
             for lane in 0..LANES {
                 let (a, b) = (block.a[lane] as usize, block.b[lane] as usize);
-                if bodies.moved[a] || bodies.moved[b] {
-                    let scene = Scene {
-                        bodies,
-                        pieces,
-                        settings,
-                    };
-                    match scene.contact(cold.pieces[lane], KEPT) {
-                        Some(manifold) => rewrite(bodies, block, cold, lane, &manifold),
-                        None => parted.push(cold.contact[lane]),
-                    }
-                }
+                moved |= u8::from(bodies.moved[a] | bodies.moved[b]) << lane;
             }
+            if moved == 0 {
+                continue;
+            }
+            let scene = Scene {
+                bodies,
+                pieces,
+                settings,
+            };
+            manifolds(level, &scene, block, cold, moved, &mut found);
+            let near = moved & found.near;
+            renew(level, &bodies.lines, &mut bodies.start, block, &found, near);
+            for lane in lanes(near) {
+                cold.features[lane] = found.features(lane);
+            }
+            let scene = Scene {
+                bodies,
+                pieces,
+                settings,
+            };
+            for lane in lanes(near & found.short) {
+                let lines = [block.a[lane], block.b[lane]];
+                suspects.add_short(&scene, lines, cold.pieces[lane]);
+            }
+            for lane in lanes(near & found.seam) {
+                suspects.add_seam([block.a[lane], block.b[lane]]);
+            }
+            parted.extend(lanes(moved & !near).map(|lane| cold.contact[lane]));
+        }
+    }
+}
+
+/// Those lanes that have a bit.
+fn lanes(bits: u8) -> impl Iterator<Item = usize> {
+    (0..LANES).filter(move |lane| bits >> lane & 1 == 1)
+}
+
+/// Manifolds of the lanes of a block that have a bit in `moved`: pieces without outlines one by one.
+fn manifolds(
+    level: Level,
+    scene: &Scene<'_>,
+    block: &Block,
+    cold: &Cold,
+    moved: u8,
+    found: &mut Found,
+) {
+    let mut eight = Eight::new(scene.pieces, [block.a, block.b]);
+    for lane in lanes(moved) {
+        eight.set_pieces(scene.pieces, lane, cold.pieces[lane]);
+    }
+    collide_eight(level, scene, KEPT, &eight, found);
+    for lane in lanes(moved & !eight.used) {
+        if let Some(manifold) = scene.contact(cold.pieces[lane], KEPT) {
+            found.set(lane, &manifold);
         }
     }
 }
@@ -103,6 +125,7 @@ pub(crate) fn met_asleep(
 
 /// Makes contacts of those candidates that are near enough, in the order in which their bodies were inserted.
 pub(crate) fn create(
+    level: Level,
     graph: &mut Graph,
     bodies: &mut Bodies,
     pieces: &Pieces,
@@ -115,36 +138,90 @@ pub(crate) fn create(
         pieces,
         settings,
     };
+    graph.suspects.cover(bodies.lines.len());
+    let unknown = candidates.iter().filter(|pair| !known.contains(**pair));
+    let news: Vec<_> = unknown
+        .filter_map(|pair| New::of(bodies, pieces, *pair))
+        .collect();
     let mut fresh = Vec::new();
-    for &pair in candidates {
-        let asleep = pair.map(|piece| {
-            let slot = pieces.list[piece as usize].body;
-            bodies.records[slot as usize].line == Bodies::NONE
-        });
-        if asleep[0] || asleep[1] || known.get(pair).is_some() {
-            continue;
+    let mut found = Found::NONE;
+    for news in news.chunks(LANES) {
+        let mut eight = Eight::new(pieces, [[0; LANES]; 2]);
+        for (lane, new) in news.iter().enumerate() {
+            if eight.set_pieces(pieces, lane, new.pieces) {
+                (eight.lines[0][lane], eight.lines[1][lane]) = (new.lines[0], new.lines[1]);
+                eight.least[lane] = scene.seen(new.lines.map(|line| line as usize));
+            } else if let Some(manifold) = scene.contact(new.pieces, 1.0) {
+                fresh.push((*new, manifold));
+            }
         }
-        let order = pair.map(|piece| {
-            let piece = &pieces.list[piece as usize];
-            (bodies.records[piece.body as usize].birth, piece.ordinal)
-        });
-        let (pair, order) = if order[0] < order[1] {
-            (pair, order)
-        } else {
-            ([pair[1], pair[0]], [order[1], order[0]])
-        };
-        if let Some(manifold) = scene.contact(pair, 1.0) {
-            fresh.push((order, pair, manifold));
-        }
+        collide_eight(level, &scene, 1.0, &eight, &mut found);
+        let near = lanes(found.near);
+        fresh.extend(near.map(|lane| (news[lane], found.manifold(lane))));
     }
     fresh.sort_unstable_by_key(|new| new.0);
-    for (_, pair, manifold) in fresh {
+    for (New { pieces: pair, .. }, manifold) in fresh {
         let [a, b] = pair.map(|piece| &pieces.list[piece as usize]);
         let ends = [a.body, b.body];
         let surface = a.material.with(b.material);
         let id = graph.insert(bodies, ends, pair, &manifold, surface);
         known.insert(pair, id);
+        let lines = ends.map(|slot| bodies.records[slot as usize].line);
+        let scene = Scene {
+            bodies,
+            pieces,
+            settings,
+        };
+        graph.suspects.add_short(&scene, lines, pair);
+        graph.suspects.add_seam(lines);
         narrow_tolerances(bodies, settings, ends, a.extent.min(b.extent));
+    }
+}
+
+/// A pair that may become a contact: it begins with what was inserted first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct New {
+    /// Birth of the body, and index of the piece.
+    order: [(u64, u32); 2],
+    pieces: [u32; 2],
+    lines: [u32; 2],
+}
+
+impl New {
+    /// Two pieces of bodies that are awake or fixed, and that contacts move at least one of.
+    fn of(bodies: &Bodies, pieces: &Pieces, [a, b]: [u32; 2]) -> Option<Self> {
+        let (of_a, of_b) = (pieces.owners[a as usize], pieces.owners[b as usize]);
+        let (body_a, body_b) = (
+            &bodies.records[of_a.body as usize],
+            &bodies.records[of_b.body as usize],
+        );
+        let dynamic = body_a.kind == BodyKind::Dynamic || body_b.kind == BodyKind::Dynamic;
+        if !dynamic || body_a.line == Bodies::NONE || body_b.line == Bodies::NONE {
+            return None;
+        }
+        let new = Self {
+            order: [(body_a.birth, of_a.ordinal), (body_b.birth, of_b.ordinal)],
+            pieces: [a, b],
+            lines: [body_a.line, body_b.line],
+        };
+        Some(if new.order[0] < new.order[1] {
+            new
+        } else {
+            new.swapped()
+        })
+    }
+
+    const fn swapped(self) -> Self {
+        let Self {
+            order: [p, q],
+            pieces: [a, b],
+            lines: [k, l],
+        } = self;
+        Self {
+            order: [q, p],
+            pieces: [b, a],
+            lines: [l, k],
+        }
     }
 }
 
@@ -154,125 +231,5 @@ fn narrow_tolerances(bodies: &mut Bodies, settings: &Settings, ends: [u32; 2], e
         let line = bodies.line_of(slot);
         let limit = &mut bodies.limits[line];
         limit.tolerance = limit.tolerance.min(settings.tolerance * extent);
-    }
-}
-
-impl Scene<'_> {
-    /// The contact of two pieces whose gap is below `factor` margins, or may be until the next tick.
-    fn contact(&self, pair: [u32; 2], factor: f64) -> Option<Manifold> {
-        let meeting = self.meeting(pair);
-        let margin = factor * meeting.margin;
-        let [a, b] = pair.map(|piece| &self.pieces.list[piece as usize]);
-        let [turned_a, turned_b] = pair.map(|piece| &self.pieces.turned[piece as usize]);
-        let [pose_a, pose_b] = [a.body, b.body].map(|slot| self.bodies.base_of(slot));
-        let limit = margin + meeting.closing + meeting.moved;
-        let found = if turned_a.corners > 0 && turned_b.corners > 0 {
-            let d = pose_b.position - pose_a.position;
-            let hysteresis = HYSTERESIS * meeting.margin;
-            collide(turned_a, turned_b, d, meeting.way, limit, hysteresis)
-        } else {
-            collide_any((a, pose_a), (b, pose_b), limit + meeting.way.length())
-        }?;
-        (found.gap() < margin + self.closes(pair, &found)).then_some(found)
-    }
-
-    fn meeting(&self, pair: [u32; 2]) -> Meeting {
-        let [a, b] = pair.map(|piece| &self.pieces.list[piece as usize]);
-        let [line_a, line_b] = [a, b].map(|piece| self.bodies.line_of(piece.body));
-        let (body_a, body_b) = (&self.bodies.lines[line_a], &self.bodies.lines[line_b]);
-        // Half-planes reach without end, and do not turn.
-        let times = |angle: f64, reach: f64| {
-            if angle == 0.0 {
-                0.0
-            } else {
-                angle.abs() * reach
-            }
-        };
-        let turning = times(body_a.w(), a.reach) + times(body_b.w(), b.reach);
-        let turned = times(body_a.turn(), a.reach) + times(body_b.turn(), b.reach);
-        let tolerance = |line: usize| {
-            let tolerance = self.bodies.limits[line].tolerance;
-            if tolerance < f64::INFINITY {
-                tolerance
-            } else {
-                0.0
-            }
-        };
-        let margin = self.settings.margin * a.extent.min(b.extent);
-        let tick = self.settings.tick;
-        let pull = self.settings.gravity.length() * tick;
-        Meeting {
-            // A body at rest may be a tolerance off its base pose, and go as far again.
-            margin: margin.max(2.0 * (tolerance(line_a) + tolerance(line_b))),
-            way: (body_b.v() - body_a.v()) * tick,
-            closing: (turning + pull) * tick,
-            moved: (body_b.d() - body_a.d()).length() + turned,
-        }
-    }
-
-    /// How far the nearer point closes from the base poses until the next tick, in m, if velocities stay but for gravity.
-    fn closes(&self, pair: [u32; 2], found: &Manifold) -> f64 {
-        let lines = pair.map(|piece| {
-            let slot = self.pieces.list[piece as usize].body;
-            self.bodies.line_of(slot)
-        });
-        let [a, b] = lines.map(|line| &self.bodies.lines[line]);
-        let pull: Vec2 = self.bodies.pull[lines[1]].v() - self.bodies.pull[lines[0]].v();
-        let n = found.normal;
-        let first = n.dot(b.v() - a.v()) + found.arm_b * b.w() - found.arm_a * a.w();
-        let second = first + found.length * (b.w() - a.w());
-        let least = if second < first { second } else { first };
-        let least = least + n.dot(pull).min(0.0) * self.settings.tick;
-        let went = n.dot(b.d() - a.d()) + found.arm_b * b.turn() - found.arm_a * a.turn();
-        let second = went + found.length * (b.turn() - a.turn());
-        let went = if second < went { second } else { went };
-        (-least).max(0.0) * self.settings.tick - went
-    }
-}
-
-/// Puts a contact anew into its row, carries its impulses over, and corrects the warm start of both bodies.
-fn rewrite(bodies: &mut Bodies, block: &mut Block, cold: &mut Cold, lane: usize, new: &Manifold) {
-    let (a, b) = (block.a[lane] as usize, block.b[lane] as usize);
-    let old = block.impulses(lane);
-    let acts = old.iter().any(|j| j.abs() > 0.0);
-    let before = acts.then(|| block.push(lane, &bodies.lines[a], &bodies.lines[b]));
-    if acts {
-        let j = carried(block, lane, new, old);
-        block.set_impulses(lane, j);
-    }
-    block.put(lane, new);
-    cold.features[lane] = new.features;
-    if let Some(before) = before {
-        let after = block.push(lane, &bodies.lines[a], &bodies.lines[b]);
-        correct_start(&mut bodies.start[a], &before[0], &after[0]);
-        correct_start(&mut bodies.start[b], &before[1], &after[1]);
-    }
-}
-
-/// v stays, and what contacts did to it changes.
-fn correct_start(start: &mut Quad, before: &Quad, after: &Quad) {
-    for k in 0..3 {
-        start.0[k] += before.0[k] - after.0[k];
-    }
-}
-
-/// Impulses for the new points: point by point, or summed, or to the nearer one.
-fn carried(block: &Block, lane: usize, new: &Manifold, [j1, j2, jt]: [f64; 3]) -> [f64; 3] {
-    let normal = Vec2::new(block.nx[lane], block.ny[lane]);
-    if normal.dot(new.normal) <= SAME_NORMAL {
-        return [0.0; 3];
-    }
-    let two = block.s2[lane] < crate::rows::OPEN;
-    match (two, new.points == 2) {
-        (_, false) => [j1 + j2, 0.0, jt],
-        (true, true) => [j1, j2, jt],
-        (false, true) => {
-            let off = block.a1[lane] - new.arm_a;
-            if off.abs() <= (off - new.length).abs() {
-                [j1, 0.0, jt]
-            } else {
-                [0.0, j1, jt]
-            }
-        }
     }
 }

@@ -2,11 +2,13 @@
 
 mod pairs;
 mod sweep;
+mod table;
 
 use carom_collision::{BoxTree, NodeId};
 use carom_geometry::Aabb;
+use fearless_simd::Level;
 
-use crate::bodies::{Bodies, BodyKind};
+use crate::bodies::Bodies;
 use crate::pieces::Pieces;
 pub(crate) use pairs::Pairs;
 use sweep::Sweep;
@@ -66,7 +68,7 @@ impl Broad {
     }
 
     /// Finds the pairs of which one piece moved or arrived.
-    pub(crate) fn find(&mut self, bodies: &Bodies, pieces: &Pieces, tick: f64) {
+    pub(crate) fn find(&mut self, level: Level, bodies: &Bodies, pieces: &Pieces, tick: f64) {
         self.found.clear();
         let awake = 2..bodies.lines.len();
         if self.arrived.is_empty() && !bodies.moved[2..].contains(&true) {
@@ -76,42 +78,45 @@ impl Broad {
             let record = &bodies.records[bodies.slot_of[line] as usize];
             record.first_piece..record.first_piece + record.pieces
         };
-        self.sweep
-            .sort(awake.clone().flat_map(of_line), &pieces.boxes);
-        let line = |piece: u32| {
-            let slot = pieces.list[piece as usize].body;
-            bodies.records[slot as usize].line as usize
-        };
-        let moved = |piece: u32| bodies.moved[line(piece)];
+        let movers = awake.clone().flat_map(|line| {
+            let moved = bodies.moved[line];
+            of_line(line).map(move |piece| (piece, moved))
+        });
+        self.sweep.sort(movers, pieces);
         let found = &mut self.found;
         self.sweep
-            .pairs(&pieces.boxes, moved, |a, b| found.push([a, b]));
+            .pairs(level, pieces, tick, |a, b| found.push([a, b]));
+        let moved = |piece: u32| {
+            let slot = pieces.list[piece as usize].body;
+            bodies.moved[bodies.records[slot as usize].line as usize]
+        };
         for at in awake.filter(|at| bodies.moved[*at]) {
             for piece in of_line(at) {
                 let bounds = pieces.boxes[piece as usize];
-                self.standing
-                    .query(bounds, |other| found.push([piece, other]));
+                self.standing.query(bounds, |other| {
+                    if may_touch(pieces, [piece, other], tick) {
+                        found.push([piece, other]);
+                    }
+                });
                 found.extend(self.endless.iter().map(|other| [piece, *other]));
             }
         }
         for &piece in &self.arrived {
             let bounds = pieces.boxes[piece as usize];
-            self.sweep.all_in(&pieces.boxes, bounds, |other| {
-                if !moved(other) {
+            self.sweep.all_in(pieces, bounds, |other| {
+                if !moved(other) && may_touch(pieces, [other, piece], tick) {
                     found.push([other, piece]);
                 }
             });
         }
         self.arrived.clear();
         self.stale = false;
-        self.found
-            .retain(|pair| may_touch(bodies, pieces, *pair, tick));
     }
 
     /// Finds the pairs of the few that moved since [`Self::find`] in the same tick.
-    pub(crate) fn find_few(&mut self, bodies: &Bodies, pieces: &Pieces, tick: f64) {
+    pub(crate) fn find_few(&mut self, level: Level, bodies: &Bodies, pieces: &Pieces, tick: f64) {
         if self.stale {
-            self.find(bodies, pieces, tick);
+            self.find(level, bodies, pieces, tick);
             return;
         }
         self.found.clear();
@@ -125,7 +130,7 @@ impl Broad {
         for &piece in &few {
             let bounds = pieces.boxes[piece as usize];
             self.sweep
-                .all_in(&pieces.boxes, bounds, |other| found.push([piece, other]));
+                .all_in(pieces, bounds, |other| found.push([piece, other]));
             self.standing
                 .query(bounds, |other| found.push([piece, other]));
             found.extend(self.endless.iter().map(|other| [piece, *other]));
@@ -149,17 +154,13 @@ impl Broad {
         }
         found.sort_unstable();
         found.dedup();
-        found.retain(|pair| may_touch(bodies, pieces, *pair, tick));
+        found.retain(|pair| may_touch(pieces, *pair, tick));
     }
 }
 
-/// Pieces of two bodies of which contacts move at least one, and that may meet within the tick.
-fn may_touch(bodies: &Bodies, pieces: &Pieces, pair: [u32; 2], tick: f64) -> bool {
+/// Pieces of two bodies that may meet within the tick.
+fn may_touch(pieces: &Pieces, pair: [u32; 2], tick: f64) -> bool {
     let [a, b] = pair.map(|piece| &pieces.discs[piece as usize]);
-    if !a.may_meet(b, tick) {
-        return false;
-    }
-    let [a, b] = pair.map(|piece| pieces.list[piece as usize].body);
-    let dynamic = |slot: u32| bodies.records[slot as usize].kind == BodyKind::Dynamic;
-    a != b && (dynamic(a) || dynamic(b))
+    let [of_a, of_b] = pair.map(|piece| pieces.owners[piece as usize].body);
+    of_a != of_b && a.may_meet(b, tick)
 }

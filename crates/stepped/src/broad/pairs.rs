@@ -1,88 +1,134 @@
 //! Which pairs of pieces have a contact.
 
-/// A hash table from pairs of numbers to contacts, with linear probing; it is never iterated over.
+use super::table::Table;
+
+/// Partners in a list. Boxes in a pile have six, and rarely more than eight.
+const ROOM: usize = 14;
+
+/// No piece, or no contact.
+const NONE: u32 = u32::MAX;
+
+/// Partners of each piece with their contacts, in lists of both pieces: movers are asked about others one after the other,
+/// and have theirs at hand. What has many (a floor) is in the lists of the many.
 #[derive(Clone, Debug)]
 pub(crate) struct Pairs {
-    /// The pair, or [`Pairs::NONE`], and its contact. A power of two, at most half full.
-    slots: Vec<(u64, u32)>,
-    len: usize,
+    lists: Vec<Partners>,
+    /// Pairs that neither of the two lists had room for.
+    rest: Table,
+}
+
+/// Two cache lines: pieces are compared all at once.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+struct Partners {
+    pieces: [u32; 16],
+    contacts: [u32; ROOM],
+    len: u32,
+    /// Partners that are not in the list.
+    missing: u32,
+}
+
+impl Partners {
+    const NONE: Self = Self {
+        pieces: [NONE; 16],
+        contacts: [NONE; ROOM],
+        len: 0,
+        missing: 0,
+    };
+
+    fn contains(&self, piece: u32) -> bool {
+        let mut found = false;
+        for other in self.pieces {
+            found |= other == piece;
+        }
+        found
+    }
+
+    fn find(&self, piece: u32) -> Option<usize> {
+        let pieces = &self.pieces[..self.len as usize];
+        pieces.iter().position(|other| *other == piece)
+    }
+
+    /// Whether there was room.
+    fn insert(&mut self, piece: u32, contact: u32) -> bool {
+        let at = self.len as usize;
+        let room = at < ROOM;
+        if room {
+            (self.pieces[at], self.contacts[at]) = (piece, contact);
+            self.len += 1;
+        } else {
+            self.missing += 1;
+        }
+        room
+    }
+
+    /// Whether it was there.
+    fn remove(&mut self, piece: u32) -> bool {
+        let found = self.find(piece);
+        if let Some(at) = found {
+            self.len -= 1;
+            let last = self.len as usize;
+            (self.pieces[at], self.contacts[at]) = (self.pieces[last], self.contacts[last]);
+            self.pieces[last] = NONE;
+        } else {
+            self.missing -= 1;
+        }
+        found.is_some()
+    }
 }
 
 impl Pairs {
-    const NONE: u64 = u64::MAX;
-
     pub(crate) fn new() -> Self {
         Self {
-            slots: vec![(Self::NONE, 0); 16],
-            len: 0,
+            lists: Vec::new(),
+            rest: Table::new(),
         }
     }
 
-    /// The contact of a pair, in either order.
-    pub(crate) fn get(&self, pair: [u32; 2]) -> Option<u32> {
-        let (key, contact) = self.slots[self.find(key(pair))];
-        (key != Self::NONE).then_some(contact)
+    /// Whether a pair has a contact; the first had better be the one that is asked about more often.
+    pub(crate) fn contains(&self, [a, b]: [u32; 2]) -> bool {
+        let Some(of_a) = self.lists.get(a as usize) else {
+            return false;
+        };
+        of_a.contains(b) || of_a.missing > 0 && self.contains_otherwise([a, b])
     }
 
-    pub(crate) fn insert(&mut self, pair: [u32; 2], contact: u32) {
-        if 2 * (self.len + 1) > self.slots.len() {
-            let empty = vec![(Self::NONE, 0); 2 * self.slots.len()];
-            for slot in core::mem::replace(&mut self.slots, empty) {
-                if slot.0 != Self::NONE {
-                    let at = self.find(slot.0);
-                    self.slots[at] = slot;
-                }
-            }
-        }
-        let at = self.find(key(pair));
-        self.len += usize::from(self.slots[at].0 == Self::NONE);
-        self.slots[at] = (key(pair), contact);
+    /// Whether it does where the list of A may lack B.
+    fn contains_otherwise(&self, [a, b]: [u32; 2]) -> bool {
+        let of_b = &self.lists[b as usize];
+        of_b.contains(a) || of_b.missing > 0 && self.rest.get([a, b]).is_some()
     }
 
-    pub(crate) fn remove(&mut self, pair: [u32; 2]) {
-        let mut hole = self.find(key(pair));
-        if self.slots[hole].0 == Self::NONE {
-            return;
-        }
-        self.len -= 1;
-        self.slots[hole].0 = Self::NONE;
-        // What came after it in the same run may have been pushed past the hole.
-        let mask = self.slots.len() - 1;
-        let mut at = hole;
-        loop {
-            at = (at + 1) & mask;
-            let slot = self.slots[at];
-            if slot.0 == Self::NONE {
-                return;
-            }
-            let home = self.home(slot.0);
-            if (at.wrapping_sub(home) & mask) >= (at.wrapping_sub(hole) & mask) {
-                self.slots[hole] = slot;
-                self.slots[at].0 = Self::NONE;
-                hole = at;
-            }
+    /// Contacts of a piece, if its list has them all.
+    pub(crate) fn contacts(&self, piece: u32) -> Option<&[u32]> {
+        match self.lists.get(piece as usize) {
+            Some(list) if list.missing > 0 => None,
+            Some(list) => Some(&list.contacts[..list.len as usize]),
+            None => Some(&[]),
         }
     }
 
-    /// Where a key is, or would be.
-    fn find(&self, key: u64) -> usize {
-        let mask = self.slots.len() - 1;
-        let mut at = self.home(key);
-        while self.slots[at].0 != key && self.slots[at].0 != Self::NONE {
-            at = (at + 1) & mask;
+    /// A pair without a contact gets this one.
+    pub(crate) fn insert(&mut self, [a, b]: [u32; 2], contact: u32) {
+        let len = a.max(b) as usize + 1;
+        if self.lists.len() < len {
+            self.lists.resize(len, Partners::NONE);
         }
-        at
+        let in_a = self.lists[a as usize].insert(b, contact);
+        let in_b = self.lists[b as usize].insert(a, contact);
+        if !in_a && !in_b {
+            self.rest.insert([a, b], contact);
+        }
     }
 
-    /// Fibonacci hashing: the upper bits of key × 2⁶⁴/φ.
-    fn home(&self, key: u64) -> usize {
-        let hash = (key.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 32) as usize;
-        hash & (self.slots.len() - 1)
+    /// A pair with a contact has none any more.
+    pub(crate) fn remove(&mut self, [a, b]: [u32; 2]) {
+        let in_a = self.lists[a as usize].remove(b);
+        let in_b = self.lists[b as usize].remove(a);
+        if !in_a && !in_b {
+            self.rest.remove([a, b]);
+        }
     }
-}
-
-fn key([a, b]: [u32; 2]) -> u64 {
-    u64::from(a.min(b)) << 32 | u64::from(a.max(b))
 }
 
 #[cfg(test)]
@@ -92,22 +138,43 @@ mod tests {
     use super::*;
 
     #[test]
-    fn table_agrees_with_a_map() {
-        let (mut table, mut map) = (Pairs::new(), BTreeMap::new());
+    fn lists_agree_with_a_map() {
+        let (mut pairs, mut map) = (Pairs::new(), BTreeMap::new());
         let mut random = 7u32;
-        for step in 0..20_000 {
+        let mut full = 0;
+        for step in 0..40_000 {
             random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            let pair = [random >> 27, random >> 22 & 31];
-            if random & 1 == 0 {
-                table.insert(pair, step);
-                map.insert(key(pair), step);
-            } else {
-                table.remove(pair);
-                map.remove(&key(pair));
+            let (a, b) = (random >> 27, random >> 22 & 31);
+            let pair = [a.min(b), a.max(b)];
+            // Lists fill, and empty again.
+            let inserts = (random >> 8 & 63) < if step / 2000 % 2 == 0 { 48 } else { 16 };
+            if a == b {
+                continue;
             }
+            match (inserts, map.contains_key(&pair)) {
+                (true, false) => {
+                    pairs.insert(pair, step);
+                    map.insert(pair, step);
+                }
+                (false, true) => {
+                    pairs.remove(pair);
+                    map.remove(&pair);
+                }
+                _ => {}
+            }
+            full += usize::from(pairs.contacts(a).is_none());
             let probe = [random >> 10 & 31, random >> 5 & 31];
-            assert_eq!(table.get(probe), map.get(&key(probe)).copied());
-            assert_eq!(table.len, map.len());
+            let key = [probe[0].min(probe[1]), probe[0].max(probe[1])];
+            assert_eq!(pairs.contains(probe), map.contains_key(&key));
+            if let Some(contacts) = pairs.contacts(probe[0]) {
+                let mut contacts = contacts.to_vec();
+                contacts.sort_unstable();
+                let of_probe = map.iter().filter(|(pair, _)| pair.contains(&probe[0]));
+                let mut all: Vec<_> = of_probe.map(|(_, contact)| *contact).collect();
+                all.sort_unstable();
+                assert_eq!(contacts, all);
+            }
         }
+        assert!(full > 1000, "{full}");
     }
 }

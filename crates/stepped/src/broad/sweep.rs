@@ -5,11 +5,20 @@
 //! driven, bullets) are in no strip, and ask all strips that they cross. Everything here decides what is found at which
 //! cost, and nothing what comes of it: pairs are sorted before they are used.
 
+#![allow(clippy::inline_always, reason = "the wide instructions end at a call")]
+
 use carom_geometry::Aabb;
+use carom_math::vec2;
+use fearless_simd::{Level, Simd, SimdBase, SimdMask, dispatch, f64x4};
+
+use crate::pieces::{Disc, Pieces};
 
 /// A box more than so many times the median is unusual. Less: many boxes ask one by one; more: strips so high that
 /// everything in them is compared.
 const UNUSUAL: f64 = 2.0;
+
+/// Boxes tested at once.
+const LANES: usize = 4;
 
 /// A mover and its place in the sweep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -17,36 +26,80 @@ struct Key {
     /// Strip above the order of the left end, rounded down to f32.
     place: u64,
     piece: u32,
+    moved: bool,
+}
+
+/// A mover as the sweep asks about it.
+#[derive(Clone, Copy, Debug)]
+struct Mover {
+    disc: Disc,
+    piece: u32,
+    body: u32,
+    moved: bool,
+}
+
+impl Mover {
+    fn new(pieces: &Pieces, piece: u32, moved: bool) -> Self {
+        Self {
+            disc: pieces.discs[piece as usize],
+            piece,
+            body: pieces.owners[piece as usize].body,
+            moved,
+        }
+    }
+
+    /// Whether contacts of two are to be looked for.
+    fn may_meet(&self, other: &Self, tick: f64) -> bool {
+        (self.moved || other.moved)
+            && self.body != other.body
+            && self.disc.may_meet(&other.disc, tick)
+    }
+}
+
+/// Boxes side by side, and as many more at the end as fill a register: these overlap nothing.
+#[derive(Clone, Debug, Default)]
+struct Boxes {
+    left: Vec<f64>,
+    right: Vec<f64>,
+    low: Vec<f64>,
+    high: Vec<f64>,
 }
 
 /// All movers in order of their strips.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Sweep {
     keys: Vec<Key>,
-    unusual: Vec<u32>,
+    unusual: Vec<Mover>,
     /// Number of each strip that is not empty, and where it begins.
     strips: Vec<(u32, usize)>,
-    /// Boxes in the order of the keys.
-    boxes: Vec<Aabb>,
+    /// Boxes and movers in the order of the keys.
+    boxes: Boxes,
+    movers: Vec<Mover>,
     height: f64,
     widest: f64,
     scratch: Vec<f64>,
 }
 
 impl Sweep {
-    /// Makes the order anew for these movers, each piece once.
-    pub(crate) fn sort(&mut self, movers: impl Iterator<Item = u32> + Clone, boxes: &[Aabb]) {
+    /// Makes the order anew for these movers, each piece once, and whether it moved.
+    pub(crate) fn sort(
+        &mut self,
+        movers: impl Iterator<Item = (u32, bool)> + Clone,
+        pieces: &Pieces,
+    ) {
+        let boxes = &pieces.boxes;
         let longest = |piece: u32| {
             let size = boxes[piece as usize].max - boxes[piece as usize].min;
             if size.x > size.y { size.x } else { size.y }
         };
         self.scratch.clear();
-        self.scratch.extend(movers.clone().map(longest));
+        self.scratch
+            .extend(movers.clone().map(|(piece, _)| longest(piece)));
         if self.scratch.is_empty() {
             self.keys.clear();
             self.unusual.clear();
             self.strips.clear();
-            self.boxes.clear();
+            self.fill(pieces);
             return;
         }
         let middle = self.scratch.len() / 2;
@@ -59,30 +112,54 @@ impl Sweep {
         self.widest = self.height;
         self.keys.clear();
         self.unusual.clear();
-        for piece in movers {
+        for (piece, moved) in movers {
             let min = boxes[piece as usize].min;
             if longest(piece) <= self.height {
                 let place = u64::from(self.strip(min.y)) << 32 | u64::from(ordered(min.x));
-                self.keys.push(Key { place, piece });
+                self.keys.push(Key {
+                    place,
+                    piece,
+                    moved,
+                });
             } else {
-                self.unusual.push(piece);
+                self.unusual.push(Mover::new(pieces, piece, moved));
             }
         }
         self.keys.sort_unstable();
-        self.boxes.clear();
         self.strips.clear();
         for (k, key) in self.keys.iter().enumerate() {
-            self.boxes.push(boxes[key.piece as usize]);
             let strip = key.strip();
             if self.strips.last().is_none_or(|last| last.0 != strip) {
                 self.strips.push((strip, k));
             }
         }
-        let by_left = |a: &u32, b: &u32| {
+        self.fill(pieces);
+        self.unusual.sort_unstable_by(|a, b| {
             let left = |piece: u32| boxes[piece as usize].min.x;
-            left(*a).total_cmp(&left(*b)).then(a.cmp(b))
-        };
-        self.unusual.sort_unstable_by(by_left);
+            let order = left(a.piece).total_cmp(&left(b.piece));
+            order.then(a.piece.cmp(&b.piece))
+        });
+    }
+
+    /// Copies what is asked about into the order of the keys.
+    fn fill(&mut self, pieces: &Pieces) {
+        let (keys, boxes) = (&self.keys, &mut self.boxes);
+        self.movers.clear();
+        let movers = keys.iter();
+        self.movers
+            .extend(movers.map(|key| Mover::new(pieces, key.piece, key.moved)));
+        let bounds = |key: &Key| pieces.boxes[key.piece as usize];
+        let last = Aabb::EMPTY;
+        for (column, of) in [
+            (&mut boxes.left, (|b| b.min.x) as fn(Aabb) -> f64),
+            (&mut boxes.right, |b| b.max.x),
+            (&mut boxes.low, |b| b.min.y),
+            (&mut boxes.high, |b| b.max.y),
+        ] {
+            column.clear();
+            column.extend(keys.iter().map(|key| of(bounds(key))));
+            column.extend([of(last); LANES]);
+        }
     }
 
     /// Number of the strip that holds a height; what is beyond all numbers is in the first or last one.
@@ -97,13 +174,36 @@ impl Sweep {
         strip
     }
 
-    /// Finds all overlapping pairs of which at least one piece moved.
+    /// Finds all pairs that may meet within the tick, and of which at least one piece moved.
     pub(crate) fn pairs(
         &self,
-        boxes: &[Aabb],
-        moved: impl Fn(u32) -> bool,
+        level: Level,
+        pieces: &Pieces,
+        tick: f64,
         mut found: impl FnMut(u32, u32),
     ) {
+        dispatch!(level, simd => self.usual_pairs(simd, tick, &mut found));
+        for (k, mover) in self.unusual.iter().enumerate() {
+            let bounds = pieces.boxes[mover.piece as usize];
+            self.query(bounds, |other| {
+                if mover.may_meet(other, tick) {
+                    found(mover.piece, other.piece);
+                }
+            });
+            for other in &self.unusual[k + 1..] {
+                let theirs = pieces.boxes[other.piece as usize];
+                if theirs.min.x > bounds.max.x {
+                    break;
+                }
+                if theirs.overlaps(bounds) && mover.may_meet(other, tick) {
+                    found(mover.piece, other.piece);
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn usual_pairs<S: Simd>(&self, simd: S, tick: f64, found: &mut impl FnMut(u32, u32)) {
         for (n, &(strip, first)) in self.strips.iter().enumerate() {
             let end = self.end(n);
             // The next strip is swept by a second finger, which only goes forward.
@@ -113,56 +213,42 @@ impl Sweep {
                 .filter(|next| next.0 == strip.wrapping_add(1));
             let (mut finger, beyond) = next.map_or((0, 0), |next| (next.1, self.end(n + 1)));
             for k in first..end {
-                let (key, bounds) = (self.keys[k], self.boxes[k]);
-                let it = moved(key.piece);
-                self.forward(k + 1, end, bounds, |other| {
-                    if it || moved(other) {
-                        found(key.piece, other);
+                let mover = &self.movers[k];
+                let bounds = self.bounds(k);
+                let mut tell = |other: &Mover| {
+                    if mover.may_meet(other, tick) {
+                        found(mover.piece, other.piece);
                     }
-                });
+                };
+                self.forward(simd, k + 1, end, bounds, &mut tell);
                 // In order with the keys, and no farther right than what rounding left of the box.
                 let left = f64::from(rounded(bounds.min.x).next_down()) - self.widest;
-                while finger < beyond && self.boxes[finger].min.x < left {
+                while finger < beyond && self.boxes.left[finger] < left {
                     finger += 1;
                 }
-                self.forward(finger, beyond, bounds, |other| {
-                    if it || moved(other) {
-                        found(key.piece, other);
-                    }
-                });
-            }
-        }
-        for (k, &piece) in self.unusual.iter().enumerate() {
-            let (bounds, it) = (boxes[piece as usize], moved(piece));
-            self.query(bounds, |other| {
-                if it || moved(other) {
-                    found(piece, other);
-                }
-            });
-            for &other in &self.unusual[k + 1..] {
-                let theirs = boxes[other as usize];
-                if theirs.min.x > bounds.max.x {
-                    break;
-                }
-                if (it || moved(other)) && theirs.overlaps(bounds) {
-                    found(piece, other);
-                }
+                self.forward(simd, finger, beyond, bounds, &mut tell);
             }
         }
     }
 
+    fn bounds(&self, k: usize) -> Aabb {
+        let boxes = &self.boxes;
+        let min = vec2(boxes.left[k], boxes.low[k]);
+        Aabb::new(min, vec2(boxes.right[k], boxes.high[k]))
+    }
+
     /// Finds all movers whose boxes overlap `bounds`.
-    pub(crate) fn all_in(&self, boxes: &[Aabb], bounds: Aabb, mut found: impl FnMut(u32)) {
-        self.query(bounds, &mut found);
-        for &piece in &self.unusual {
-            if boxes[piece as usize].overlaps(bounds) {
-                found(piece);
+    pub(crate) fn all_in(&self, pieces: &Pieces, bounds: Aabb, mut found: impl FnMut(u32)) {
+        self.query(bounds, |mover| found(mover.piece));
+        for mover in &self.unusual {
+            if pieces.boxes[mover.piece as usize].overlaps(bounds) {
+                found(mover.piece);
             }
         }
     }
 
     /// Finds what lies in the strips.
-    fn query(&self, bounds: Aabb, mut found: impl FnMut(u32)) {
+    fn query(&self, bounds: Aabb, mut found: impl FnMut(&Mover)) {
         let lowest = self.strip(bounds.min.y).saturating_sub(1);
         let highest = self.strip(bounds.max.y);
         let first = self.strips.partition_point(|strip| strip.0 < lowest);
@@ -172,23 +258,56 @@ impl Sweep {
             }
             let end = self.end(n);
             let left = bounds.min.x - self.widest;
-            let begin = self.boxes[strip.1..end]
-                .partition_point(|theirs| ordered(theirs.min.x) < ordered(left));
-            self.forward(strip.1 + begin, end, bounds, &mut found);
+            let begin = self.boxes.left[strip.1..end]
+                .partition_point(|theirs| ordered(*theirs) < ordered(left));
+            let right = ordered(bounds.max.x);
+            for k in strip.1 + begin..end {
+                if self.keys[k].left() > right {
+                    break;
+                }
+                if self.bounds(k).overlaps(bounds) {
+                    found(&self.movers[k]);
+                }
+            }
         }
     }
 
     /// Tells of the boxes in `from..end`, in order of their left ends, that overlap `bounds`.
-    fn forward(&self, from: usize, end: usize, bounds: Aabb, mut found: impl FnMut(u32)) {
+    #[inline(always)]
+    fn forward<S: Simd>(
+        &self,
+        simd: S,
+        from: usize,
+        end: usize,
+        bounds: Aabb,
+        found: &mut impl FnMut(&Mover),
+    ) {
+        let boxes = &self.boxes;
         // Order is that of left ends rounded down: what is beyond the right end so rounded is beyond it.
         let right = ordered(bounds.max.x);
-        for k in from..end {
-            let theirs = self.boxes[k];
+        let (min_x, max_x) = (
+            f64x4::splat(simd, bounds.min.x),
+            f64x4::splat(simd, bounds.max.x),
+        );
+        let (min_y, max_y) = (
+            f64x4::splat(simd, bounds.min.y),
+            f64x4::splat(simd, bounds.max.y),
+        );
+        for k in (from..end).step_by(LANES) {
             if self.keys[k].left() > right {
                 break;
             }
-            if theirs.overlaps(bounds) {
-                found(self.keys[k].piece);
+            let overlap = f64x4::from_slice(simd, &boxes.left[k..k + LANES]).simd_le(max_x)
+                & f64x4::from_slice(simd, &boxes.right[k..k + LANES]).simd_ge(min_x)
+                & f64x4::from_slice(simd, &boxes.low[k..k + LANES]).simd_le(max_y)
+                & f64x4::from_slice(simd, &boxes.high[k..k + LANES]).simd_ge(min_y);
+            let mut bits = overlap.to_bitmask();
+            while bits != 0 {
+                let other = k + bits.trailing_zeros() as usize;
+                bits &= bits - 1;
+                if other < end {
+                    found(&self.movers[other]);
+                }
             }
         }
     }
@@ -230,9 +349,8 @@ fn rounded(x: f64) -> f32 {
 
 #[cfg(test)]
 mod tests {
-    use carom_math::vec2;
-
     use super::*;
+    use crate::pieces::Owner;
 
     #[test]
     fn finds_the_pairs_that_asking_all_finds() {
@@ -252,9 +370,21 @@ mod tests {
                 .collect();
             let moved = |piece: u32| piece.is_multiple_of(3);
             let mut sweep = Sweep::default();
-            sweep.sort(0..200, &boxes);
+            let mut pieces = Pieces::default();
+            pieces.discs = vec![Disc::ENDLESS; 200];
+            pieces.owners = (0..200)
+                .map(|body| Owner {
+                    body,
+                    ordinal: 0,
+                    several: false,
+                })
+                .collect();
+            pieces.boxes.clone_from(&boxes);
+            sweep.sort((0..200).map(|piece| (piece, moved(piece))), &pieces);
             let mut found = Vec::new();
-            sweep.pairs(&boxes, moved, |a, b| found.push((a.min(b), a.max(b))));
+            sweep.pairs(Level::new(), &pieces, 1.0, |a, b| {
+                found.push((a.min(b), a.max(b)));
+            });
             found.sort_unstable();
             let mut all = Vec::new();
             for a in 0..200u32 {
@@ -265,7 +395,7 @@ mod tests {
                     }
                 }
                 let mut near = Vec::new();
-                sweep.all_in(&boxes, boxes[a as usize], |b| near.push(b));
+                sweep.all_in(&pieces, boxes[a as usize], |b| near.push(b));
                 near.sort_unstable();
                 let meets = |b: &u32| boxes[*b as usize].overlaps(boxes[a as usize]);
                 assert_eq!(near, (0..200).filter(meets).collect::<Vec<_>>());

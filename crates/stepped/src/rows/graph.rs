@@ -4,6 +4,7 @@ use super::block::{Block, Cold, LANES, OPEN};
 use super::colour::Colour;
 use crate::Material;
 use crate::bodies::{Bodies, BodyKind};
+use crate::ghost::Suspects;
 use crate::narrow::Manifold;
 
 /// Colours of a mask. Contacts that find none of them free take the overflow colour, a block each, one after the other.
@@ -15,6 +16,9 @@ pub(crate) const ASLEEP: usize = COLOURS + 1;
 /// Contacts with what cannot be moved take the highest free colour below this one, so that the ground acts last. Piles of
 /// boxes need 6 to 10 colours.
 const GROUND: u64 = 12;
+
+/// Lists of contacts are walked if fewer than one of so many bodies moved.
+const FEW: usize = 16;
 
 /// No contact.
 const END: u32 = u32::MAX;
@@ -39,6 +43,8 @@ pub(crate) struct Contact {
 #[derive(Clone, Debug)]
 pub(crate) struct Graph {
     pub(crate) contacts: Vec<Contact>,
+    /// Bodies that may have ghosts.
+    pub(crate) suspects: Suspects,
     free: Vec<u32>,
     /// Behind those of masks the overflow colour, and behind it what sleeps.
     pub(super) colours: Vec<Colour>,
@@ -59,6 +65,7 @@ impl Graph {
     pub(crate) fn new() -> Self {
         Self {
             contacts: Vec::new(),
+            suspects: Suspects::default(),
             free: Vec::new(),
             colours: vec![Colour::default(); COLOURS + 2],
         }
@@ -72,6 +79,37 @@ impl Graph {
     /// The colours of what is awake, in the order in which they are swept.
     pub(crate) fn awake(&mut self) -> &mut [Colour] {
         &mut self.colours[..ASLEEP]
+    }
+
+    /// Blocks in which a contact of a moved body may be, colour by colour: all, but if few moved.
+    pub(crate) fn touched(&self, bodies: &Bodies) -> Vec<Vec<usize>> {
+        let moved = bodies.moved.iter().filter(|moved| **moved).count();
+        let colours = &self.colours[..ASLEEP];
+        if FEW * moved > bodies.moved.len() {
+            return colours
+                .iter()
+                .map(|colour| (0..colour.blocks.len()).collect())
+                .collect();
+        }
+        let mut touched = vec![Vec::new(); ASLEEP];
+        for line in (2..bodies.lines.len()).filter(|line| bodies.moved[*line]) {
+            for (id, _) in self.of_body(bodies, bodies.slot_of[line]) {
+                let contact = &self.contacts[id as usize];
+                if !contact.sleeps() {
+                    touched[contact.colour as usize].push(contact.place().0);
+                }
+            }
+        }
+        for blocks in &mut touched {
+            blocks.sort_unstable();
+            blocks.dedup();
+        }
+        touched
+    }
+
+    /// The colours of what is awake, and the bodies that may have ghosts.
+    pub(crate) fn awake_and_suspects(&mut self) -> (&mut [Colour], &mut Suspects) {
+        (&mut self.colours[..ASLEEP], &mut self.suspects)
     }
 
     /// Gives a contact of two bodies a number and a lane, without impulses.

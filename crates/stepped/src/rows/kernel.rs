@@ -46,7 +46,7 @@ pub(crate) fn sweep(
 }
 
 /// Whether the processor has registers of eight lanes.
-fn eight_lanes(level: Level) -> bool {
+pub(crate) fn eight_lanes(level: Level) -> bool {
     #[cfg(target_arch = "x86_64")]
     let has = level.as_avx512().is_some();
     #[cfg(not(target_arch = "x86_64"))]

@@ -2,6 +2,8 @@
 
 use carom_math::{Vec2, vec2};
 
+use super::transpose::{Numbers, NumbersMut};
+
 /// A body in the solver, in one cache line:
 ///
 /// ```text
@@ -86,5 +88,29 @@ impl Quad {
         self.0[0] += other.0[0];
         self.0[1] += other.0[1];
         self.0[2] += other.0[2];
+    }
+}
+
+impl Numbers for Line {
+    fn numbers(&self) -> &[f64] {
+        &self.0
+    }
+}
+
+impl NumbersMut for Line {
+    fn first(&mut self) -> &mut [f64; 4] {
+        self.0.first_chunk_mut().expect("eight numbers")
+    }
+}
+
+impl Numbers for Quad {
+    fn numbers(&self) -> &[f64] {
+        &self.0
+    }
+}
+
+impl NumbersMut for Quad {
+    fn first(&mut self) -> &mut [f64; 4] {
+        &mut self.0
     }
 }

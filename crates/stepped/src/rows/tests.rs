@@ -1,22 +1,9 @@
 //! Every width gives the bits of the scalar twin.
 
-use fearless_simd::Level;
-
 use super::kernel::{Pass, sweep};
 use super::plain;
-use crate::tests::{Random, floor};
+use crate::tests::{Random, floor, levels};
 use crate::{Engine, Settings};
-
-fn levels() -> Vec<Level> {
-    let mut levels = vec![Level::new(), Level::baseline()];
-    #[cfg(target_arch = "x86_64")]
-    {
-        let best = Level::new();
-        levels.extend(best.as_avx2().map(Level::Avx2));
-        levels.extend(best.as_sse4_2().map(Level::Sse4_2));
-    }
-    levels
-}
 
 #[test]
 fn all_widths_have_the_bits_of_the_plain_sweep() {

@@ -1,4 +1,4 @@
-//! Halves of lines as columns, and columns as halves: numbers change places, and nothing else.
+//! Rows of four numbers as columns, and columns as rows: numbers change places, and nothing else.
 
 #![allow(clippy::inline_always, reason = "the wide instructions end at a call")]
 
@@ -6,23 +6,36 @@ use fearless_simd::{
     ExtractToken, Simd, SimdBase, SimdCombine, SimdFloat, SimdMask, SimdSplit, f64x4, f64x8,
 };
 
-use super::line::Line;
+/// What lies in memory as whole rows of four numbers.
+pub(crate) trait Numbers {
+    /// All of them.
+    fn numbers(&self) -> &[f64];
+}
+
+/// The same, to write to.
+pub(crate) trait NumbersMut: Numbers {
+    /// The first four.
+    fn first(&mut self) -> &mut [f64; 4];
+}
 
 /// A register of as many lanes as the processor likes best: four but with AVX-512. A block is swept in one or two goes.
-pub(super) trait Wide<S: Simd>: SimdFloat<S, Element = f64> {
+pub(crate) trait Wide<S: Simd>: SimdFloat<S, Element = f64> {
     /// Lanes in a register.
     const LANES: usize;
 
-    /// Four columns of the halves of lines that begin at number `from` of each.
-    fn columns(simd: S, lines: &[Line], at: &[u32], from: usize) -> [Self; 4];
+    /// Four columns of the rows that begin at number `from` of each.
+    fn columns<L: Numbers>(simd: S, list: &[L], at: &[u32], from: usize) -> [Self; 4];
 
-    /// Writes four columns back to the first halves of lines.
-    fn write(lines: &mut [Line], at: &[u32], columns: [Self; 4]);
+    /// The same of these.
+    fn columns_of<L: Numbers>(simd: S, of: &[&L], from: usize) -> [Self; 4];
+
+    /// Writes four columns back to the first rows.
+    fn write<L: NumbersMut>(list: &mut [L], at: &[u32], columns: [Self; 4]);
 }
 
 /// Whether a lane of a mask is set.
 #[inline(always)]
-pub(super) fn any<S: Simd, M: SimdMask<S>>(mask: M) -> bool {
+pub(crate) fn any<S: Simd, M: SimdMask<S>>(mask: M) -> bool {
     mask.to_bitmask() != 0
 }
 
@@ -30,23 +43,31 @@ impl<S: Simd> Wide<S> for f64x4<S> {
     const LANES: usize = 4;
 
     #[inline(always)]
-    fn columns(simd: S, lines: &[Line], at: &[u32], from: usize) -> [Self; 4] {
+    fn columns<L: Numbers>(simd: S, list: &[L], at: &[u32], from: usize) -> [Self; 4] {
         let at: &[u32; 4] = at.first_chunk().expect("four lanes");
-        let l0 = Self::from_slice(simd, &lines[at[0] as usize].0[from..from + 4]);
-        let l1 = Self::from_slice(simd, &lines[at[1] as usize].0[from..from + 4]);
-        let l2 = Self::from_slice(simd, &lines[at[2] as usize].0[from..from + 4]);
-        let l3 = Self::from_slice(simd, &lines[at[3] as usize].0[from..from + 4]);
+        let (l0, l1) = (&list[at[0] as usize], &list[at[1] as usize]);
+        let (l2, l3) = (&list[at[2] as usize], &list[at[3] as usize]);
+        Self::columns_of(simd, &[l0, l1, l2, l3], from)
+    }
+
+    #[inline(always)]
+    fn columns_of<L: Numbers>(simd: S, of: &[&L], from: usize) -> [Self; 4] {
+        let of: &[&L; 4] = of.first_chunk().expect("four lanes");
+        let l0 = Self::from_slice(simd, &of[0].numbers()[from..from + 4]);
+        let l1 = Self::from_slice(simd, &of[1].numbers()[from..from + 4]);
+        let l2 = Self::from_slice(simd, &of[2].numbers()[from..from + 4]);
+        let l3 = Self::from_slice(simd, &of[3].numbers()[from..from + 4]);
         turned(simd, [l0, l1, l2, l3])
     }
 
     #[inline(always)]
-    fn write(lines: &mut [Line], at: &[u32], columns: [Self; 4]) {
+    fn write<L: NumbersMut>(list: &mut [L], at: &[u32], columns: [Self; 4]) {
         let at: &[u32; 4] = at.first_chunk().expect("four lanes");
         let [l0, l1, l2, l3] = turned(columns[0].token(), columns);
-        l0.store_slice(&mut lines[at[0] as usize].0[..4]);
-        l1.store_slice(&mut lines[at[1] as usize].0[..4]);
-        l2.store_slice(&mut lines[at[2] as usize].0[..4]);
-        l3.store_slice(&mut lines[at[3] as usize].0[..4]);
+        l0.store_slice(list[at[0] as usize].first());
+        l1.store_slice(list[at[1] as usize].first());
+        l2.store_slice(list[at[2] as usize].first());
+        l3.store_slice(list[at[3] as usize].first());
     }
 }
 
@@ -54,18 +75,26 @@ impl<S: Simd> Wide<S> for f64x8<S> {
     const LANES: usize = 8;
 
     #[inline(always)]
-    fn columns(simd: S, lines: &[Line], at: &[u32], from: usize) -> [Self; 4] {
-        let low = <f64x4<S> as Wide<S>>::columns(simd, lines, &at[..4], from);
-        let high = <f64x4<S> as Wide<S>>::columns(simd, lines, &at[4..], from);
+    fn columns<L: Numbers>(simd: S, list: &[L], at: &[u32], from: usize) -> [Self; 4] {
+        let low = <f64x4<S> as Wide<S>>::columns(simd, list, &at[..4], from);
+        let high = <f64x4<S> as Wide<S>>::columns(simd, list, &at[4..], from);
         let ([x, y, z, w], [p, q, r, s]) = (low, high);
         [x.combine(p), y.combine(q), z.combine(r), w.combine(s)]
     }
 
     #[inline(always)]
-    fn write(lines: &mut [Line], at: &[u32], [x, y, z, w]: [Self; 4]) {
+    fn columns_of<L: Numbers>(simd: S, of: &[&L], from: usize) -> [Self; 4] {
+        let low = <f64x4<S> as Wide<S>>::columns_of(simd, &of[..4], from);
+        let high = <f64x4<S> as Wide<S>>::columns_of(simd, &of[4..], from);
+        let ([x, y, z, w], [p, q, r, s]) = (low, high);
+        [x.combine(p), y.combine(q), z.combine(r), w.combine(s)]
+    }
+
+    #[inline(always)]
+    fn write<L: NumbersMut>(list: &mut [L], at: &[u32], [x, y, z, w]: [Self; 4]) {
         let ((x, p), (y, q), (z, r), (w, s)) = (x.split(), y.split(), z.split(), w.split());
-        f64x4::write(lines, &at[..4], [x, y, z, w]);
-        f64x4::write(lines, &at[4..], [p, q, r, s]);
+        f64x4::write(list, &at[..4], [x, y, z, w]);
+        f64x4::write(list, &at[4..], [p, q, r, s]);
     }
 }
 

@@ -25,15 +25,16 @@ fn outlines_that_touch_agree_with_hulls() {
             .each_ref()
             .map(|input| Piece::of(input, 0, 0).next().unwrap());
         let (pose_a, pose_b) = (random.pose(0.6), random.pose(0.6));
-        let [turned_a, turned_b] = [(&a, pose_a), (&b, pose_b)].map(|(piece, pose)| {
+        let posed = [(&a, pose_a), (&b, pose_b)].map(|(piece, pose)| {
             let mut pieces = crate::pieces::Pieces::default();
             let number = pieces.insert(vec![piece.clone()]);
             pieces.pose(number, pose);
-            pieces.turned[0]
+            pieces
         });
+        let [turned_a, turned_b] = posed.each_ref().map(|pieces| pieces.turned(0));
         let d = pose_b.position - pose_a.position;
         let ours =
-            collide(&turned_a, &turned_b, d, Vec2::ZERO, 0.0, 0.0).filter(|ours| ours.gap() <= 0.0);
+            collide(turned_a, turned_b, d, Vec2::ZERO, 0.0, 0.0).filter(|ours| ours.gap() <= 0.0);
         let theirs = collide_any((&a, pose_a), (&b, pose_b), 0.0);
         // Cores apart, roundings in touch: there the hulls' normal is that of the nearest points.
         let cores = a.rounding + b.rounding == 0.0;

@@ -108,3 +108,38 @@ fn walls_ends_and_ditches_stay() {
         "it stands in the corner of the ditch, and is at {at}"
     );
 }
+
+/// Boxes side by side are as good as tiles, also where they move along together.
+#[test]
+fn a_box_keeps_its_speed_over_boxes_that_slide_side_by_side() {
+    for speed in [0.5, 2.0, 5.0] {
+        let mut engine = Engine::new(Settings::default()).unwrap();
+        let floor = PieceInput::new(ConvexPolygon::rectangle(200.0, 1.0).unwrap());
+        engine
+            .insert(
+                BodyInput::fixed().at(vec2(0.0, -0.5)),
+                &[with_friction(floor, 0.0)],
+            )
+            .unwrap();
+        let smooth = with_friction(unit_box(), 0.0);
+        let along = vec2(3.0, 0.0);
+        for k in 0..20 {
+            let body = BodyInput::dynamic(1.0, 1.0 / 6.0).at(vec2(f64::from(k), 0.5));
+            let body = body.moving(along, 0.0);
+            engine.insert(body, core::slice::from_ref(&smooth)).unwrap();
+        }
+        let body = BodyInput::dynamic(0.01, 0.01 / 6.0).at(vec2(0.0, 1.5));
+        let velocity = along + vec2(speed, 0.0);
+        let id = engine
+            .insert(body.moving(velocity, 0.0), &[smooth])
+            .unwrap();
+        for _ in 0..150 {
+            engine.tick();
+        }
+        let (v, w) = engine.velocity(id).unwrap();
+        assert!(
+            (v.x - velocity.x).abs() < 0.01 * speed && w.abs() < 0.01,
+            "{velocity} became {v}, {w}"
+        );
+    }
+}

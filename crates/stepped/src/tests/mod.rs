@@ -7,11 +7,25 @@ mod laws;
 mod scales;
 mod sleeping;
 mod twin;
+mod wide;
 
 use carom_geometry::{Circle, ConvexPolygon, HalfPlane, Shape};
 use carom_math::{Pose, Rot, Vec2, vec2};
+use fearless_simd::Level;
 
 use crate::{BodyId, BodyInput, Engine, Material, PieceInput, Settings};
+
+/// Registers of all widths that the processor has.
+pub(super) fn levels() -> Vec<Level> {
+    let mut levels = vec![Level::new(), Level::baseline()];
+    #[cfg(target_arch = "x86_64")]
+    {
+        let best = Level::new();
+        levels.extend(best.as_avx2().map(Level::Avx2));
+        levels.extend(best.as_sse4_2().map(Level::Sse4_2));
+    }
+    levels
+}
 
 /// Numbers from 0 to 1, the same for the same seed.
 pub(super) struct Random(u64);

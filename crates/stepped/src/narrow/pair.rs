@@ -1,75 +1,27 @@
-//! One pair of pieces to its manifold: what a row stores, and nothing else.
-//!
-//! All lengths are relative to the two centres of mass, so that nothing is lost far from the origin. A wide kernel for
-//! eight pairs gives the same numbers.
+//! Two outlines to their manifold, one pair at a time: the slow twin of [`super::wide`], and what sleeping islands are
+//! asked by.
 
-use carom_collision::collide_within;
-use carom_math::{Pose, Vec2, cross, perp};
+use carom_math::{Vec2, perp};
 
-use crate::pieces::{Outline, Piece};
-
-/// Where two pieces meet, in the letters of [`crate::rows::Block`].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Manifold {
-    /// Unit normal from A to B.
-    pub(crate) normal: Vec2,
-    /// `r_A × n` and `r_B × n` of point 1, the one farther along the normal turned by +90°.
-    pub(crate) arm_a: f64,
-    pub(crate) arm_b: f64,
-    /// From point 2 to point 1: both arms of point 2 are larger by it.
-    pub(crate) length: f64,
-    /// 1 or 2.
-    pub(crate) points: u8,
-    /// `r_A · n` and `r_B · n`, midway between the surfaces.
-    pub(crate) tangent_a: f64,
-    pub(crate) tangent_b: f64,
-    /// Gaps at the poses given, in m; below zero the pieces overlap.
-    pub(crate) gaps: [f64; 2],
-    /// What touches: corner of A × 2¹⁶ + corner of B.
-    pub(crate) features: [u32; 2],
-}
-
-impl Manifold {
-    /// The lesser gap.
-    pub(crate) const fn gap(&self) -> f64 {
-        if self.points == 2 && self.gaps[1] < self.gaps[0] {
-            self.gaps[1]
-        } else {
-            self.gaps[0]
-        }
-    }
-
-    fn single(normal: Vec2, arms: [Vec2; 2], gap: f64, feature: u32) -> Self {
-        Self {
-            normal,
-            arm_a: cross(arms[0], normal),
-            arm_b: cross(arms[1], normal),
-            length: 0.0,
-            points: 1,
-            tangent_a: arms[0].dot(normal),
-            tangent_b: arms[1].dot(normal),
-            gaps: [gap; 2],
-            features: [feature; 2],
-        }
-    }
-}
+use super::Manifold;
+use crate::outline::Turned;
 
 /// Two outlines, both turned, with the centre of mass of B at `d` from that of A; `None` if they stay farther apart than
 /// `limit` while B goes `way` against A.
 ///
 /// A's face is preferred unless B's separates by `hysteresis` more. All in m.
 pub(crate) fn collide(
-    a: &Outline,
-    b: &Outline,
+    a: Turned<'_>,
+    b: Turned<'_>,
     d: Vec2,
     way: Vec2,
     limit: f64,
     hysteresis: f64,
 ) -> Option<Manifold> {
-    let radii = a.radius + b.radius;
+    let radii = a.radius() + b.radius();
     let (sa, ia) = best_face(a, b, d, way, limit + radii)?;
     let (sb, ib) = best_face(b, a, -d, -way, limit + radii)?;
-    if a.corners == 1 && b.corners == 1 {
+    if a.corners() == 1 && b.corners() == 1 {
         let ends = [a.corner(0), b.corner(0)];
         let goes = way.length();
         return corners(a, b, d, ends, 0).filter(|found| found.gap() <= limit + goes);
@@ -84,19 +36,19 @@ pub(crate) fn collide(
 
 /// The edge of `a` that separates best, and how far the nearest corner of `b` is in front of it; `None` if that stays
 /// beyond `limit` on the way.
-fn best_face(a: &Outline, b: &Outline, d: Vec2, way: Vec2, limit: f64) -> Option<(f64, usize)> {
+fn best_face(a: Turned<'_>, b: Turned<'_>, d: Vec2, way: Vec2, limit: f64) -> Option<(f64, usize)> {
     let mut best = (f64::NEG_INFINITY, 0);
-    if a.corners == 1 {
+    if a.corners() == 1 {
         return Some(best);
     }
-    for i in 0..a.corners {
+    for i in 0..a.corners() {
         let n = a.normal(i);
         let mut least = n.dot(b.corner(0));
-        for k in 1..b.corners {
+        for k in 1..b.corners() {
             let along = n.dot(b.corner(k));
             least = if along < least { along } else { least };
         }
-        let separation = least + n.dot(d) - a.off[i];
+        let separation = least + n.dot(d) - a.off(i);
         let nears = n.dot(way);
         if separation + if nears < 0.0 { nears } else { 0.0 } > limit {
             return None;
@@ -109,7 +61,7 @@ fn best_face(a: &Outline, b: &Outline, d: Vec2, way: Vec2, limit: f64) -> Option
 }
 
 /// Clips the edge of `other` that faces edge `i` of `owner` to it; `d` goes from the owner's centre to the other's.
-fn face(owner: &Outline, other: &Outline, d: Vec2, i: usize, flipped: bool) -> Manifold {
+fn face(owner: Turned<'_>, other: Turned<'_>, d: Vec2, i: usize, flipped: bool) -> Manifold {
     let n = owner.normal(i);
     let t = perp(n);
     let i_next = owner.next(i);
@@ -118,8 +70,8 @@ fn face(owner: &Outline, other: &Outline, d: Vec2, i: usize, flipped: bool) -> M
     // Edges run against each other, so the end of the other's edge is the lower one.
     let (low, high) = (other.corner(j_next) + d, other.corner(j) + d);
     let (x_low, x_high) = (t.dot(low), t.dot(high));
-    let (z_low, z_high) = (n.dot(low) - owner.off[i], n.dot(high) - owner.off[i]);
-    let radii = owner.radius + other.radius;
+    let (z_low, z_high) = (n.dot(low) - owner.off(i), n.dot(high) - owner.off(i));
+    let radii = owner.radius() + other.radius();
     let feature = |mine: usize, theirs: usize| {
         if flipped {
             id(theirs, mine)
@@ -133,7 +85,7 @@ fn face(owner: &Outline, other: &Outline, d: Vec2, i: usize, flipped: bool) -> M
     } else {
         face_high
     };
-    let flat = owner.corners > 2 && other.corners > 2 && z_low.min(z_high) <= 0.0;
+    let flat = owner.corners() > 2 && other.corners() > 2 && z_low.min(z_high) <= 0.0;
     // Beyond one end of the face: corner on corner.
     let meet = |mine: usize, theirs: usize| {
         let id = feature(mine, theirs);
@@ -188,7 +140,7 @@ fn face(owner: &Outline, other: &Outline, d: Vec2, i: usize, flipped: bool) -> M
             return found;
         }
     }
-    let height = owner.off[i] + owner.radius + 0.5 * nearest;
+    let height = owner.off(i) + owner.radius() + 0.5 * nearest;
     let mine = |x: f64| -x;
     let theirs = |x: f64| t.dot(d) - x;
     let beyond = height - n.dot(d);
@@ -222,12 +174,12 @@ fn face(owner: &Outline, other: &Outline, d: Vec2, i: usize, flipped: bool) -> M
 }
 
 /// The edge whose normal is most opposed to `n`, by its two corners; of a disc its one.
-fn facing(outline: &Outline, n: Vec2) -> (usize, usize) {
-    if outline.corners == 1 {
+fn facing(outline: Turned<'_>, n: Vec2) -> (usize, usize) {
+    if outline.corners() == 1 {
         return (0, 0);
     }
     let mut best = (f64::INFINITY, 0);
-    for i in 0..outline.corners {
+    for i in 0..outline.corners() {
         let along = n.dot(outline.normal(i));
         if along < best.0 {
             best = (along, i);
@@ -238,8 +190,8 @@ fn facing(outline: &Outline, n: Vec2) -> (usize, usize) {
 
 /// Two corners, or centres of discs; where they coincide there is no normal.
 fn corners(
-    a: &Outline,
-    b: &Outline,
+    a: Turned<'_>,
+    b: Turned<'_>,
     d: Vec2,
     [of_a, of_b]: [Vec2; 2],
     feature: u32,
@@ -248,14 +200,14 @@ fn corners(
     let distance = way.length();
     let normal = if distance > 0.0 {
         way / distance
-    } else if a.corners == 1 && b.corners == 1 {
+    } else if a.corners() == 1 && b.corners() == 1 {
         // Discs in one place part upwards.
         Vec2::Y
     } else {
         return None;
     };
-    let gap = distance - a.radius - b.radius;
-    let arm = of_a + normal * (a.radius + 0.5 * gap);
+    let gap = distance - a.radius() - b.radius();
+    let arm = of_a + normal * (a.radius() + 0.5 * gap);
     Some(Manifold::single(normal, [arm, arm - d], gap, feature))
 }
 
@@ -263,43 +215,4 @@ fn id(a: usize, b: usize) -> u32 {
     #[expect(clippy::cast_possible_truncation, reason = "at most eight corners")]
     let id = (a << 16 | b) as u32;
     id
-}
-
-/// The same for pieces of any kind, by `carom-collision`: half-planes, more corners, pieces with cuts.
-pub(crate) fn collide_any(a: (&Piece, Pose), b: (&Piece, Pose), limit: f64) -> Option<Manifold> {
-    let ((a, pose_a), (b, pose_b)) = (a, b);
-    let radii = a.rounding + b.rounding;
-    let b_in_a = pose_b.seen_from(pose_a);
-    let found = collide_within(&a.hull(), &b.hull(), b_in_a, limit + radii);
-    let d = pose_b.position - pose_a.position;
-    let n = pose_a.vector(found.normal);
-    let arm = |k: usize| pose_a.vector(found.points[k].point);
-    let gap = |k: usize| found.points[k].separation - radii;
-    let feature = |k: usize| found.points[k].feature.0;
-    match found.points.len() {
-        0 => None,
-        1 => Some(Manifold::single(
-            n,
-            [arm(0), arm(0) - d],
-            gap(0),
-            feature(0),
-        )),
-        _ => {
-            let along = |k: usize| perp(n).dot(arm(k));
-            let (first, second) = if along(0) >= along(1) { (0, 1) } else { (1, 0) };
-            let nearest = if gap(1) < gap(0) { 1 } else { 0 };
-            let height = arm(nearest).dot(n);
-            Some(Manifold {
-                normal: n,
-                arm_a: cross(arm(first), n),
-                arm_b: cross(arm(first) - d, n),
-                length: along(first) - along(second),
-                points: 2,
-                tangent_a: height,
-                tangent_b: height - d.dot(n),
-                gaps: [gap(first), gap(second)],
-                features: [feature(first), feature(second)],
-            })
-        }
-    }
 }

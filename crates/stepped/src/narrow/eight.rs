@@ -1,0 +1,132 @@
+//! Eight pairs, and their manifolds in columns.
+
+use carom_math::vec2;
+
+use super::Manifold;
+use crate::outline::{Outline, Rest};
+use crate::pieces::Pieces;
+use crate::rows::{LANES, OPEN};
+
+/// Which pairs: pieces that have outlines, and the lines of their bodies.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Eight<'a> {
+    pub(super) outlines: [[&'a Outline; LANES]; 2],
+    pub(super) rests: [[&'a Rest; LANES]; 2],
+    pub(crate) lines: [[u32; LANES]; 2],
+    /// What the margin is at least, in m.
+    pub(crate) least: [f64; LANES],
+    /// A bit for each lane that has a pair.
+    pub(crate) used: u8,
+    /// All outlines are boxes.
+    pub(super) boxes: bool,
+}
+
+impl<'a> Eight<'a> {
+    /// No pairs: the first piece against itself.
+    pub(crate) fn new(pieces: &'a Pieces, lines: [[u32; LANES]; 2]) -> Self {
+        Self {
+            outlines: [[&pieces.outlines[0]; LANES]; 2],
+            rests: [[&pieces.rests[0]; LANES]; 2],
+            lines,
+            least: [0.0; LANES],
+            used: 0,
+            boxes: true,
+        }
+    }
+
+    /// Puts two pieces into a lane, if both have outlines.
+    pub(crate) fn set_pieces(&mut self, pieces: &'a Pieces, lane: usize, pair: [u32; 2]) -> bool {
+        let [a, b] = pair.map(|piece| pieces.turned(piece));
+        let all = a.outline.count().min(b.outline.count()) > 0.0;
+        if all {
+            (self.outlines[0][lane], self.outlines[1][lane]) = (a.outline, b.outline);
+            (self.rests[0][lane], self.rests[1][lane]) = (a.rest, b.rest);
+            self.used |= 1 << lane;
+            self.boxes &= a.outline.is_box() && b.outline.is_box();
+        }
+        all
+    }
+}
+
+/// Manifolds in the columns of a [`crate::rows::Block`].
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+pub(crate) struct Found {
+    pub(crate) nx: [f64; LANES],
+    pub(crate) ny: [f64; LANES],
+    pub(crate) a1: [f64; LANES],
+    pub(crate) b1: [f64; LANES],
+    pub(crate) l: [f64; LANES],
+    pub(crate) s1: [f64; LANES],
+    pub(crate) s2: [f64; LANES],
+    pub(crate) at: [f64; LANES],
+    pub(crate) bt: [f64; LANES],
+    /// Features of both points.
+    pub(super) features: [[f64; LANES]; 2],
+    /// A bit for each pair that is near.
+    pub(crate) near: u8,
+    /// A bit for each of these that is so short that it may be a ghost.
+    pub(crate) short: u8,
+    /// A bit for each of these whose pieces may be flush.
+    pub(crate) seam: u8,
+}
+
+impl Found {
+    pub(crate) const NONE: Self = Self {
+        nx: [0.0; LANES],
+        ny: [0.0; LANES],
+        a1: [0.0; LANES],
+        b1: [0.0; LANES],
+        l: [0.0; LANES],
+        s1: [0.0; LANES],
+        s2: [0.0; LANES],
+        at: [0.0; LANES],
+        bt: [0.0; LANES],
+        features: [[0.0; LANES]; 2],
+        near: 0,
+        short: 0,
+        seam: 0,
+    };
+
+    /// Puts a manifold that was found otherwise into a lane.
+    pub(crate) fn set(&mut self, lane: usize, manifold: &Manifold) {
+        let two = manifold.points == 2;
+        (self.nx[lane], self.ny[lane]) = (manifold.normal.x, manifold.normal.y);
+        (self.a1[lane], self.b1[lane]) = (manifold.arm_a, manifold.arm_b);
+        (self.at[lane], self.bt[lane]) = (manifold.tangent_a, manifold.tangent_b);
+        self.l[lane] = if two { manifold.length } else { 1.0 };
+        self.s1[lane] = manifold.gaps[0];
+        self.s2[lane] = if two { manifold.gaps[1] } else { OPEN };
+        for (mine, theirs) in self.features.iter_mut().zip(manifold.features) {
+            mine[lane] = f64::from(theirs);
+        }
+        self.near |= 1 << lane;
+        self.short |= 1 << lane;
+        self.seam |= 1 << lane;
+    }
+
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "two corners"
+    )]
+    pub(crate) fn features(&self, lane: usize) -> [u32; 2] {
+        [self.features[0][lane] as u32, self.features[1][lane] as u32]
+    }
+
+    pub(crate) fn manifold(&self, lane: usize) -> Manifold {
+        let two = self.s2[lane] < OPEN;
+        let second = if two { self.s2[lane] } else { self.s1[lane] };
+        Manifold {
+            normal: vec2(self.nx[lane], self.ny[lane]),
+            arm_a: self.a1[lane],
+            arm_b: self.b1[lane],
+            length: if two { self.l[lane] } else { 0.0 },
+            points: if two { 2 } else { 1 },
+            tangent_a: self.at[lane],
+            tangent_b: self.bt[lane],
+            gaps: [self.s1[lane], second],
+            features: self.features(lane),
+        }
+    }
+}

@@ -1,0 +1,46 @@
+//! Pieces of any kind to their manifold, by `carom-collision`: half-planes, more corners, pieces with cuts.
+
+use carom_collision::collide_within;
+use carom_math::{Pose, cross, perp};
+
+use super::Manifold;
+use crate::pieces::Piece;
+
+/// Two pieces whose gap is below `limit`, in m.
+pub(crate) fn collide_any(a: (&Piece, Pose), b: (&Piece, Pose), limit: f64) -> Option<Manifold> {
+    let ((a, pose_a), (b, pose_b)) = (a, b);
+    let radii = a.rounding + b.rounding;
+    let b_in_a = pose_b.seen_from(pose_a);
+    let found = collide_within(&a.hull(), &b.hull(), b_in_a, limit + radii);
+    let d = pose_b.position - pose_a.position;
+    let n = pose_a.vector(found.normal);
+    let arm = |k: usize| pose_a.vector(found.points[k].point);
+    let gap = |k: usize| found.points[k].separation - radii;
+    let feature = |k: usize| found.points[k].feature.0;
+    match found.points.len() {
+        0 => None,
+        1 => Some(Manifold::single(
+            n,
+            [arm(0), arm(0) - d],
+            gap(0),
+            feature(0),
+        )),
+        _ => {
+            let along = |k: usize| perp(n).dot(arm(k));
+            let (first, second) = if along(0) >= along(1) { (0, 1) } else { (1, 0) };
+            let nearest = if gap(1) < gap(0) { 1 } else { 0 };
+            let height = arm(nearest).dot(n);
+            Some(Manifold {
+                normal: n,
+                arm_a: cross(arm(first), n),
+                arm_b: cross(arm(first) - d, n),
+                length: along(first) - along(second),
+                points: 2,
+                tangent_a: height,
+                tangent_b: height - d.dot(n),
+                gaps: [gap(first), gap(second)],
+                features: [feature(first), feature(second)],
+            })
+        }
+    }
+}

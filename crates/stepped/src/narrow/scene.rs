@@ -1,0 +1,110 @@
+//! What is near: a pair's margin, and how far it closes until the next tick.
+
+use carom_math::Vec2;
+
+use super::{Manifold, collide, collide_any};
+use crate::Settings;
+use crate::bodies::Bodies;
+use crate::pieces::Pieces;
+
+/// Part of a margin by which B's face must separate better than A's: flush faces keep one owner.
+pub(super) const HYSTERESIS: f64 = 0.1;
+
+/// What the narrow phase reads.
+#[derive(Clone, Copy)]
+pub(crate) struct Scene<'a> {
+    pub(crate) bodies: &'a Bodies,
+    pub(crate) pieces: &'a Pieces,
+    pub(crate) settings: &'a Settings,
+}
+
+/// What two pieces are to each other within a tick.
+struct Meeting {
+    /// Gaps below it make a contact, in m.
+    margin: f64,
+    /// How far B goes against A until the next tick, in m, and what they may close by besides.
+    way: Vec2,
+    closing: f64,
+    /// The most that they moved by against each other since their base poses, in m.
+    moved: f64,
+}
+
+impl Scene<'_> {
+    /// The contact of two pieces whose gap is below `factor` margins, or may be until the next tick.
+    pub(crate) fn contact(&self, pair: [u32; 2], factor: f64) -> Option<Manifold> {
+        let meeting = self.meeting(pair);
+        let margin = factor * meeting.margin;
+        let [a, b] = pair.map(|piece| &self.pieces.list[piece as usize]);
+        let [turned_a, turned_b] = pair.map(|piece| self.pieces.turned(piece));
+        let [pose_a, pose_b] = [a.body, b.body].map(|slot| self.bodies.base_of(slot));
+        let limit = margin + meeting.closing + meeting.moved;
+        let found = if turned_a.corners() > 0 && turned_b.corners() > 0 {
+            let d = pose_b.position - pose_a.position;
+            let hysteresis = HYSTERESIS * meeting.margin;
+            collide(turned_a, turned_b, d, meeting.way, limit, hysteresis)
+        } else {
+            collide_any((a, pose_a), (b, pose_b), limit + meeting.way.length())
+        }?;
+        (found.gap() < margin + self.closes(pair, &found)).then_some(found)
+    }
+
+    /// The line of a piece's body.
+    fn line_of(&self, piece: u32) -> usize {
+        self.bodies.line_of(self.pieces.list[piece as usize].body)
+    }
+
+    /// What the bodies of two lines may close by unseen, in m: each may be a tolerance off its base pose, and go as far again.
+    pub(crate) fn seen(&self, lines: [usize; 2]) -> f64 {
+        let [a, b] = lines.map(|line| {
+            let tolerance = self.bodies.limits[line].tolerance;
+            // What is fixed has no tolerance yet.
+            if tolerance < f64::INFINITY {
+                tolerance
+            } else {
+                0.0
+            }
+        });
+        2.0 * (a + b)
+    }
+
+    fn meeting(&self, pair: [u32; 2]) -> Meeting {
+        let [a, b] = pair.map(|piece| &self.pieces.list[piece as usize]);
+        let [line_a, line_b] = pair.map(|piece| self.line_of(piece));
+        let (body_a, body_b) = (&self.bodies.lines[line_a], &self.bodies.lines[line_b]);
+        // Half-planes reach without end, and do not turn.
+        let times = |angle: f64, reach: f64| {
+            if angle == 0.0 {
+                0.0
+            } else {
+                angle.abs() * reach
+            }
+        };
+        let turning = times(body_a.w(), a.reach) + times(body_b.w(), b.reach);
+        let turned = times(body_a.turn(), a.reach) + times(body_b.turn(), b.reach);
+        let margin = self.settings.margin * a.extent.min(b.extent);
+        let tick = self.settings.tick;
+        let pull = self.settings.gravity.length() * tick;
+        Meeting {
+            margin: margin.max(self.seen([line_a, line_b])),
+            way: (body_b.v() - body_a.v()) * tick,
+            closing: (turning + pull) * tick,
+            moved: (body_b.d() - body_a.d()).length() + turned,
+        }
+    }
+
+    /// How far the nearer point closes from the base poses until the next tick, in m, if velocities stay but for gravity.
+    pub(crate) fn closes(&self, pair: [u32; 2], found: &Manifold) -> f64 {
+        let lines = pair.map(|piece| self.line_of(piece));
+        let [a, b] = lines.map(|line| &self.bodies.lines[line]);
+        let pull: Vec2 = self.bodies.pull[lines[1]].v() - self.bodies.pull[lines[0]].v();
+        let n = found.normal;
+        let first = n.dot(b.v() - a.v()) + found.arm_b * b.w() - found.arm_a * a.w();
+        let second = first + found.length * (b.w() - a.w());
+        let least = if second < first { second } else { first };
+        let least = least + n.dot(pull).min(0.0) * self.settings.tick;
+        let went = n.dot(b.d() - a.d()) + found.arm_b * b.turn() - found.arm_a * a.turn();
+        let second = went + found.length * (b.turn() - a.turn());
+        let went = if second < went { second } else { went };
+        (-least).max(0.0) * self.settings.tick - went
+    }
+}

@@ -1,0 +1,114 @@
+//! Eight pairs at once are what they are one by one.
+
+use fearless_simd::Level;
+
+use super::{Random, levels};
+use crate::narrow::{Eight, Found, Manifold, Scene, collide_eight};
+use crate::rows::LANES;
+use crate::{Engine, PieceInput, Settings};
+
+/// Bodies of all kinds of outlines in a crowd, a tick old: away from their base poses.
+fn crowd(seed: u64, spread: f64) -> Engine {
+    let mut random = Random::new(seed);
+    let mut engine = Engine::new(Settings::default()).unwrap();
+    for _ in 0..40 {
+        let piece: PieceInput = random.piece();
+        let body = random.body(&piece, spread);
+        engine.insert(body, &[piece]).unwrap();
+    }
+    engine.tick();
+    engine
+}
+
+fn pairs(count: u32) -> Vec<[u32; 2]> {
+    let of = |b: u32| (0..b).map(move |a| [a, b]);
+    (0..count).flat_map(of).collect()
+}
+
+fn eight<'a>(scene: &Scene<'a>, pairs: &[[u32; 2]]) -> Eight<'a> {
+    let mut eight = Eight::new(scene.pieces, [[0; LANES]; 2]);
+    for (lane, pair) in pairs.iter().enumerate() {
+        assert!(eight.set_pieces(scene.pieces, lane, *pair));
+        let line = |piece: u32| scene.bodies.records[piece as usize].line;
+        (eight.lines[0][lane], eight.lines[1][lane]) = (line(pair[0]), line(pair[1]));
+        eight.least[lane] = scene.seen(pair.map(|piece| line(piece) as usize));
+    }
+    eight
+}
+
+fn found(level: Level, scene: &Scene<'_>, eight: &Eight<'_>) -> Found {
+    let mut found = Found::NONE;
+    collide_eight(level, scene, 1.0, eight, &mut found);
+    found
+}
+
+fn agree(ours: &Manifold, theirs: &Manifold) -> bool {
+    let same = |x: f64, y: f64| (x - y).abs() < 1e-9;
+    ours.points == theirs.points
+        && ours.features == theirs.features
+        && (ours.normal - theirs.normal).length() < 1e-9
+        && same(ours.arm_a, theirs.arm_a)
+        && same(ours.arm_b, theirs.arm_b)
+        && same(ours.length, theirs.length)
+        && same(ours.tangent_a, theirs.tangent_a)
+        && same(ours.tangent_b, theirs.tangent_b)
+        && same(ours.gaps[0], theirs.gaps[0])
+        && same(ours.gaps[1], theirs.gaps[1])
+}
+
+#[test]
+fn eight_at_once_agree_with_one_by_one() {
+    let (mut near, mut ties) = (0, 0);
+    for seed in 0..60u32 {
+        let spread = [0.3, 1.0, 3.0][seed as usize % 3];
+        let engine = crowd(u64::from(seed), spread);
+        let scene = Scene {
+            bodies: &engine.bodies,
+            pieces: &engine.pieces,
+            settings: &engine.settings,
+        };
+        for pairs in pairs(40).chunks(LANES) {
+            let eight = eight(&scene, pairs);
+            let found = found(engine.level, &scene, &eight);
+            for (lane, pair) in pairs.iter().enumerate() {
+                let ours = (found.near >> lane & 1 == 1).then(|| found.manifold(lane));
+                let theirs = scene.contact(*pair, 1.0);
+                near += usize::from(theirs.is_some());
+                let same = match (&ours, &theirs) {
+                    (Some(ours), Some(theirs)) => agree(ours, theirs),
+                    (ours, theirs) => ours.is_none() && theirs.is_none(),
+                };
+                ties += usize::from(!same);
+            }
+        }
+    }
+    assert!(near > 10_000, "{near}");
+    assert!(ties * 1000 <= near, "{ties} of {near} differ");
+}
+
+#[test]
+fn all_widths_find_the_same_bits() {
+    let bits = |found: &Found| {
+        let near = (0..LANES).filter(|lane| found.near >> lane & 1 == 1);
+        let manifolds: Vec<_> = near
+            .map(|lane| format!("{:?}", found.manifold(lane)))
+            .collect();
+        (found.near, found.short, found.seam, manifolds)
+    };
+    for seed in 0..6 {
+        let engine = crowd(seed, 1.0);
+        let scene = Scene {
+            bodies: &engine.bodies,
+            pieces: &engine.pieces,
+            settings: &engine.settings,
+        };
+        for pairs in pairs(40).chunks(LANES) {
+            let eight = eight(&scene, pairs);
+            let first = found(engine.level, &scene, &eight);
+            for level in levels() {
+                let found = found(level, &scene, &eight);
+                assert_eq!(bits(&first), bits(&found), "{level:?}");
+            }
+        }
+    }
+}
