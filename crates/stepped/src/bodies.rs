@@ -3,57 +3,10 @@
 use carom_math::{Pose, Vec2};
 
 pub(crate) use crate::input::{BodyId, BodyInput, BodyKind};
+pub(crate) use crate::record::{Limit, Record, Sleeper};
+use crate::record::{UNDAMPED, drag};
 use crate::rows::{Line, Quad};
 use crate::{EngineError, Settings};
-
-/// What is kept of a body, awake or not.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Record {
-    pub(crate) generation: u32,
-    pub(crate) kind: BodyKind,
-    pub(crate) live: bool,
-    /// Its line: [`Bodies::GROUND`] if fixed.
-    pub(crate) line: u32,
-    /// Pieces are numbered from here on.
-    pub(crate) first_piece: u32,
-    pub(crate) pieces: u32,
-    /// Counts insertions: the order of bodies that recycled slots cannot change.
-    pub(crate) birth: u64,
-    /// Head of the list of its contacts.
-    pub(crate) contacts: u32,
-    /// A bit for each colour that has a contact of it.
-    pub(crate) colours: u64,
-    /// Where a fixed body is; others have theirs by line.
-    pub(crate) pose: Pose,
-    pub(crate) mass: f64,
-    pub(crate) inertia: f64,
-    pub(crate) gravity_scale: f64,
-    /// Distance of its farthest point from the centre of mass, in m.
-    pub(crate) reach: f64,
-    /// The island that it sleeps in, or [`Bodies::NONE`].
-    pub(crate) island: u32,
-}
-
-/// A body without its line: what waking puts back.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Sleeper {
-    pub(crate) slot: u32,
-    line: Line,
-    start: Quad,
-    base: Pose,
-    limit: Limit,
-}
-
-/// How far a body may go from its base pose before its contacts are computed anew.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Limit {
-    /// Distance of its farthest point from the centre of mass, in m.
-    pub(crate) reach: f64,
-    /// In m.
-    pub(crate) tolerance: f64,
-    /// Of its smallest piece, in m.
-    pub(crate) extent: f64,
-}
 
 /// All bodies. The lists by line hold awake bodies only.
 #[derive(Clone, Debug)]
@@ -68,6 +21,8 @@ pub(crate) struct Bodies {
     pub(crate) pull: Vec<Quad>,
     /// Where bodies were when they were last rebased.
     pub(crate) base: Vec<Pose>,
+    /// Angles by which they had turned then, in rad, whole turns included.
+    pub(crate) turned: Vec<f64>,
     pub(crate) limits: Vec<Limit>,
     /// Slots of the bodies.
     pub(crate) slot_of: Vec<u32>,
@@ -77,6 +32,10 @@ pub(crate) struct Bodies {
     pub(crate) rest: Vec<f64>,
     /// Velocities that their boxes were made for.
     pub(crate) foreseen: Vec<Quad>,
+    /// What a sub-step leaves of their velocities, and part of their accelerations that it adds: 1 without damping.
+    pub(crate) drag: Vec<[Quad; 2]>,
+    /// How many of them are damped.
+    pub(crate) damped: usize,
 }
 
 impl Bodies {
@@ -100,11 +59,14 @@ impl Bodies {
             start: vec![Quad([0.0, 0.0, 0.0, 1.0]), Quad::default()],
             pull: vec![Quad::default(); 2],
             base: vec![Pose::IDENTITY; 2],
+            turned: vec![0.0; 2],
             limits: vec![unlimited; 2],
             slot_of: vec![Self::NONE; 2],
             moved: vec![false; 2],
             rest: vec![0.0; 2],
             foreseen: vec![Quad::default(); 2],
+            drag: vec![UNDAMPED; 2],
+            damped: 0,
         }
     }
 
@@ -132,6 +94,8 @@ impl Bodies {
                 f64::INFINITY
             },
             gravity_scale: if dynamic { input.gravity_scale } else { 0.0 },
+            tag: input.tag,
+            damping: if dynamic { input.damping } else { [0.0; 2] },
             ..Record::NONE
         };
         let generation = record.generation;
@@ -139,6 +103,9 @@ impl Bodies {
             record.line = Self::GROUND;
         } else {
             self.give_line(slot, input.velocity, input.spin, settings);
+            if let Some(turned) = self.turned.last_mut() {
+                *turned = input.turned;
+            }
         }
         BodyId { slot, generation }
     }
@@ -156,6 +123,7 @@ impl Bodies {
         self.pull
             .push(Quad::new(settings.gravity * record.gravity_scale, 0.0));
         self.base.push(record.pose);
+        self.turned.push(0.0);
         self.limits.push(Limit {
             reach: record.reach,
             tolerance: 0.0,
@@ -165,6 +133,9 @@ impl Bodies {
         self.moved.push(true);
         self.rest.push(0.0);
         self.foreseen.push(Quad::new(v, w));
+        let drag = drag(record.damping, settings.substep());
+        self.damped += usize::from(drag != UNDAMPED);
+        self.drag.push(drag);
     }
 
     /// Takes the line of a body out, to be put back as it is but for a velocity of 0; which body moved to its place.
@@ -179,8 +150,11 @@ impl Bodies {
             slot,
             line,
             start,
+            pull: self.pull[at],
             base: self.base[at],
+            turned: self.turned[at],
             limit: self.limits[at],
+            moved: self.moved[at],
         };
         (sleeper, self.take_line(slot))
     }
@@ -191,9 +165,11 @@ impl Bodies {
         let at = self.lines.len() - 1;
         self.lines[at] = sleeper.line;
         self.start[at] = sleeper.start;
+        self.pull[at] = sleeper.pull;
         self.base[at] = sleeper.base;
+        self.turned[at] = sleeper.turned;
         self.limits[at] = sleeper.limit;
-        self.moved[at] = false;
+        self.moved[at] = sleeper.moved;
     }
 
     /// The line of a body; that of fixed ones if it sleeps.
@@ -212,11 +188,14 @@ impl Bodies {
         self.start.swap_remove(at);
         self.pull.swap_remove(at);
         self.base.swap_remove(at);
+        self.turned.swap_remove(at);
         self.limits.swap_remove(at);
         self.slot_of.swap_remove(at);
         self.moved.swap_remove(at);
         self.rest.swap_remove(at);
         self.foreseen.swap_remove(at);
+        let drag = self.drag.swap_remove(at);
+        self.damped -= usize::from(drag != UNDAMPED);
         self.records[slot as usize].line = Self::NONE;
         let moved = *self.slot_of.get(at)?;
         self.records[moved as usize].line = line;
@@ -298,21 +277,31 @@ impl Bodies {
     /// The base pose of the body of a line is where it is, from now on.
     fn rebase_one(&mut self, at: usize) {
         let (line, base) = (&mut self.lines[at], &mut self.base[at]);
+        self.turned[at] += line.turn();
         base.position += line.d();
         base.rotation = base.rotation.turned_slightly(line.turn());
         line.clear_displacement();
     }
 
+    /// By how much a point of a body goes otherwise than was foreseen, in m/s; what gravity adds within a tick is foreseen.
+    pub(crate) fn change(&self, at: usize, tick: f64) -> f64 {
+        let (line, then) = (&self.lines[at], &self.foreseen[at]);
+        let v = line.v() - then.v();
+        let turns = (line.w() - then.w()).abs() * self.limits[at].reach;
+        v.x.abs().max(v.y.abs()) + turns - self.pull[at].v().length() * tick
+    }
+
     /// Rebases those whose velocity changed so much that they may be a margin off what was foreseen `rest` seconds later.
     pub(crate) fn rebase_strays(&mut self, settings: &Settings, rest: f64) -> bool {
-        let mut strays = false;
+        // What came, or was put elsewhere, since the tick.
+        let mut strays = self.moved[2..].contains(&true);
         for at in 2..self.lines.len() {
-            let (line, limit, then) = (&self.lines[at], &self.limits[at], &self.foreseen[at]);
-            let v = line.v() - then.v();
-            let change = v.x.abs().max(v.y.abs()) + (line.w() - then.w()).abs() * limit.reach;
-            // What gravity adds within a tick is foreseen.
-            let change = change - self.pull[at].v().length() * settings.tick;
-            if change * rest > settings.margin * limit.extent {
+            let (line, limit) = (&self.lines[at], &self.limits[at]);
+            let change = self.change(at, settings.tick);
+            // Rows are straight: what turned by θ is off them by r θ²/2.
+            let bend = 0.5 * line.turn() * line.turn() * limit.reach;
+            let most = settings.margin * limit.extent;
+            if self.moved[at] || change * rest > most || bend > BEND * most {
                 (self.moved[at], strays) = (true, true);
                 self.foreseen[at] = Quad::new(line.v(), line.w());
                 self.rebase_one(at);
@@ -322,25 +311,8 @@ impl Bodies {
     }
 }
 
-impl Record {
-    const NONE: Self = Self {
-        generation: 0,
-        kind: BodyKind::Fixed,
-        live: false,
-        line: Bodies::NONE,
-        first_piece: 0,
-        pieces: 0,
-        birth: 0,
-        contacts: u32::MAX,
-        colours: 0,
-        pose: Pose::IDENTITY,
-        mass: f64::INFINITY,
-        inertia: f64::INFINITY,
-        gravity_scale: 0.0,
-        reach: 0.0,
-        island: Bodies::NONE,
-    };
-}
+/// Contacts of a body are computed anew within a tick once its turn bends the way of a point by this part of a margin.
+const BEND: f64 = 0.25;
 
 /// Keeps the first line's name in use: empty lanes name line 0.
 const _: () = assert!(Bodies::EMPTY == 0);

@@ -6,14 +6,16 @@ use fearless_simd::Level;
 
 use crate::bodies::Bodies;
 use crate::broad::{Broad, Pairs};
+use crate::continuous::Way;
 use crate::ghost::hide;
 use crate::pieces::{Disc, Pieces};
 use crate::rows::{
-    Arrival, Graph, Law, Pass, arrivals, bounce, correct, displace, sweep, warm_start,
+    Arrival, Before, Deep, Graph, Heavy, Law, Pass, arrivals, bounce, correct, correct_damped,
+    displace, sweep, warm_start, warm_start_damped,
 };
 use crate::sleep::Islands;
 use crate::update::{create, met_asleep, update};
-use crate::{EngineError, Relaxation, Settings};
+use crate::{EngineError, Mixed, PairRules, Relaxation, Settings};
 
 /// Bodies in contact, moved one sub-step after the other.
 ///
@@ -34,6 +36,23 @@ pub struct Engine {
     pub(crate) islands: Islands,
     /// Points that bounce in this sub-step.
     arrived: Vec<Arrival>,
+    /// Their bodies before they bounced.
+    before: Vec<Before>,
+    /// Rows that are swept again.
+    heavy: Heavy,
+    pub(crate) deep: Deep,
+    /// Sub-steps of the present tick so far.
+    done: u32,
+    /// Tags of pieces whose contacts ended while they touched.
+    pub(crate) ended: Vec<[u64; 2]>,
+    /// Bodies that went far in the last sub-step, or were carried by a caller since.
+    pub(crate) ways: Vec<Way>,
+    /// Pairs of pieces that were looked at by shape.
+    pub(crate) looks: u64,
+    /// What friction turned to heat, in J.
+    pub(crate) heat: f64,
+    /// The least gap of a contact in the last sub-step that was relaxed, in m.
+    pub(crate) least_gap: f64,
 }
 
 impl Engine {
@@ -55,6 +74,15 @@ impl Engine {
             parted: Vec::new(),
             islands: Islands::default(),
             arrived: Vec::new(),
+            before: Vec::new(),
+            heavy: Heavy::default(),
+            deep: Deep::default(),
+            done: 0,
+            ended: Vec::new(),
+            ways: Vec::new(),
+            looks: 0,
+            heat: 0.0,
+            least_gap: f64::INFINITY,
         })
     }
 
@@ -66,37 +94,76 @@ impl Engine {
         }
     }
 
-    /// Moves all bodies by one tick of [`Settings::tick`].
+    /// Moves all bodies by one tick of [`Settings::tick`]; all pieces touch each other.
     pub fn tick(&mut self) {
-        self.find_contacts();
-        self.substeps();
-        self.settle();
+        self.tick_by(&Mixed);
     }
 
-    /// Which pieces touch, or may within the tick, and where.
-    pub(crate) fn find_contacts(&mut self) {
-        self.rebase();
-        self.broad
-            .find(self.level, &self.bodies, &self.pieces, self.settings.tick);
-        self.update_contacts();
-    }
-
-    pub(crate) fn substeps(&mut self) {
-        for k in 1..=self.settings.substeps {
-            self.substep(k == self.settings.substeps);
-            if k < self.settings.substeps {
-                self.follow_strays(f64::from(self.settings.substeps - k) * self.law.h);
-            }
+    /// Moves all bodies to the end of the tick.
+    pub fn tick_by(&mut self, rules: &dyn PairRules) {
+        self.substep(rules);
+        while self.done > 0 {
+            self.substep(rules);
         }
     }
 
-    /// Finds the contacts of bodies that go otherwise than was foreseen at the tick, for the `rest` of it in s.
-    fn follow_strays(&mut self, rest: f64) {
-        if self.bodies.rebase_strays(&self.settings, rest) {
+    /// Moves all bodies by one sub-step. Contacts are found where it begins a tick, and those of bodies that came or go
+    /// otherwise than was foreseen there in each.
+    pub fn substep(&mut self, rules: &dyn PairRules) {
+        self.look(rules);
+        self.go(rules);
+    }
+
+    /// Whether the next sub-step begins a tick.
+    #[must_use]
+    pub const fn is_at_tick(&self) -> bool {
+        self.done == 0
+    }
+
+    /// Which pieces touch, or may within the tick, and where.
+    pub(crate) fn look(&mut self, rules: &dyn PairRules) {
+        if self.done == 0 {
+            self.rebase();
+            self.broad
+                .find(self.level, &self.bodies, &self.pieces, self.settings.tick);
+            self.update_contacts(rules);
+        } else {
+            self.follow_strays(rules);
+        }
+        self.heavy.gather(&self.graph, &self.bodies);
+        self.deep.gather(&mut self.graph, &self.bodies);
+    }
+
+    /// One sub-step with the contacts that are known.
+    fn go(&mut self, rules: &dyn PairRules) {
+        self.done += 1;
+        let last = self.done == self.settings.substeps;
+        self.move_bodies(last);
+        self.stop_ways(self.law.h, rules);
+        if last {
+            self.done = 0;
+            self.settle();
+        }
+    }
+
+    /// The rest of a tick, once its contacts are known.
+    #[cfg(test)]
+    pub(crate) fn substeps(&mut self) {
+        self.go(&Mixed);
+        while self.done > 0 {
+            self.substep(&Mixed);
+        }
+    }
+
+    /// Finds the contacts of bodies that came, or go otherwise than was foreseen at the tick, for the rest of it.
+    fn follow_strays(&mut self, rules: &dyn PairRules) {
+        let rest = f64::from(self.settings.substeps - self.done) * self.law.h;
+        let strays = self.bodies.rebase_strays(&self.settings, rest);
+        if strays || self.broad.has_arrivals() {
             self.pose_moved();
             self.broad
                 .find_few(self.level, &self.bodies, &self.pieces, self.settings.tick);
-            self.update_contacts();
+            self.update_contacts(rules);
         }
     }
 
@@ -116,7 +183,7 @@ impl Engine {
     }
 
     /// Poses the pieces of the body of a line, and makes their boxes.
-    fn pose_pieces(&mut self, line: usize) {
+    pub(crate) fn pose_pieces(&mut self, line: usize) {
         let Self {
             bodies,
             pieces,
@@ -148,7 +215,7 @@ impl Engine {
     }
 
     /// Contacts of moved bodies anew, then those that came, then without those that went.
-    fn update_contacts(&mut self) {
+    fn update_contacts(&mut self, rules: &dyn PairRules) {
         let Self {
             settings,
             level,
@@ -162,7 +229,7 @@ impl Engine {
         parted.clear();
         update(*level, graph, bodies, pieces, settings, parted);
         if self.islands.any_asleep() {
-            let met = met_asleep(bodies, pieces, settings, &broad.found);
+            let met = met_asleep(bodies, pieces, settings, &broad.found, rules);
             self.wake_all(&met);
         }
         let Self {
@@ -173,50 +240,96 @@ impl Engine {
             broad,
             known,
             graph,
-            parted,
             ..
         } = self;
-        create(*level, graph, bodies, pieces, settings, known, &broad.found);
-        for &id in &*parted {
-            known.remove(graph.contacts[id as usize].pieces);
-            graph.remove(bodies, id);
+        let found = &broad.found;
+        self.looks += found.len() as u64;
+        create(
+            *level,
+            graph,
+            bodies,
+            pieces,
+            settings,
+            (known, found),
+            rules,
+        );
+        let parted = core::mem::take(&mut self.parted);
+        for &id in &parted {
+            self.part(id);
         }
-        hide(*level, graph, bodies, pieces, known);
-        bodies.moved.fill(false);
+        self.parted = parted;
+        hide(
+            self.level,
+            &mut self.graph,
+            &mut self.bodies,
+            &self.pieces,
+            &self.known,
+        );
+        self.bodies.moved.fill(false);
+    }
+
+    /// Takes a contact out.
+    pub(crate) fn part(&mut self, id: u32) {
+        let pieces = self.graph.contacts[id as usize].pieces;
+        if self.graph.is_touching(id) {
+            self.ended.push(self.pieces.tags(pieces));
+        }
+        self.known.remove(pieces);
+        self.graph.remove(&mut self.bodies, id);
     }
 
     /// One sub-step of the soft law.
-    fn substep(&mut self, last: bool) {
+    fn move_bodies(&mut self, last: bool) {
         let Self {
             level,
             law,
             bodies,
             graph,
             arrived,
+            before,
             ..
         } = self;
-        let Bodies {
-            lines, start, pull, ..
-        } = bodies;
         let every = self.settings.relaxation == Relaxation::EverySubstep;
-        warm_start(lines, start, pull, law.h);
-        arrivals(*level, law, bodies, graph, arrived);
+        if bodies.damped > 0 {
+            warm_start_damped(bodies, law.h);
+        } else {
+            warm_start(&mut bodies.lines, &mut bodies.start, &bodies.pull, law.h);
+        }
+        arrivals(*level, law, bodies, graph, arrived, before);
         let lines = &mut bodies.lines;
         let solve = if every {
             Pass::Solve
         } else {
             Pass::SolveWithFriction
         };
-        sweep(*level, solve, law, lines, graph.awake());
+        let mut seen = sweep(*level, solve, law, lines, graph.awake());
+        self.heavy.sweep(solve, law, bodies, graph);
+        self.note_ways();
+        let Self {
+            level,
+            law,
+            bodies,
+            graph,
+            arrived,
+            before,
+            ..
+        } = self;
+        let lines = &mut bodies.lines;
         displace(lines, law.h);
+        self.deep.part(law, bodies, graph);
+        let lines = &mut bodies.lines;
         if every || last {
-            sweep(*level, Pass::Relax, law, lines, graph.awake());
+            seen = sweep(*level, Pass::Relax, law, lines, graph.awake());
+            self.heavy.sweep(Pass::Relax, law, bodies, graph);
         }
-        bounce(bodies, graph, arrived);
-        let Bodies {
-            lines, start, pull, ..
-        } = bodies;
-        correct(lines, start, pull, law.h);
+        self.heat += seen.heat;
+        self.least_gap = seen.least_gap;
+        if bodies.damped > 0 {
+            correct_damped(bodies, law.h);
+        } else {
+            correct(&mut bodies.lines, &bodies.start, &bodies.pull, law.h);
+        }
+        bounce(bodies, graph, arrived, before);
     }
 }
 

@@ -3,7 +3,7 @@
 use carom_math::{Pose, Vec2};
 
 use crate::EngineError;
-use crate::error::{finite, positive};
+use crate::error::{finite, not_negative, positive};
 
 /// Name of a body in its engine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -34,12 +34,18 @@ pub struct BodyInput {
     pub velocity: Vec2,
     /// Angular velocity, in rad/s, counter-clockwise.
     pub spin: f64,
+    /// Angle by which it has turned so far, in rad: [`State::turned`](crate::State::turned) counts on from it.
+    pub turned: f64,
     /// Of a dynamic body, in kg.
     pub mass: f64,
     /// Of a dynamic body about its centre of mass, in kg·m²; infinite: it never turns.
     pub inertia: f64,
     /// Part of gravity that acts on it.
     pub gravity_scale: f64,
+    /// What velocity and spin of a dynamic body lose by themselves, in 1/s.
+    pub damping: [f64; 2],
+    /// The caller's own: [`State`](crate::State) names bodies by it.
+    pub tag: u64,
 }
 
 impl BodyInput {
@@ -51,9 +57,12 @@ impl BodyInput {
             pose: Pose::IDENTITY,
             velocity: Vec2::ZERO,
             spin: 0.0,
+            turned: 0.0,
             mass: 1.0,
             inertia: 1.0,
             gravity_scale: 1.0,
+            damping: [0.0; 2],
+            tag: 0,
         }
     }
 
@@ -97,7 +106,10 @@ impl BodyInput {
         finite("BodyInput::velocity.x", self.velocity.x)?;
         finite("BodyInput::velocity.y", self.velocity.y)?;
         finite("BodyInput::spin", self.spin)?;
+        finite("BodyInput::turned", self.turned)?;
         finite("BodyInput::gravity_scale", self.gravity_scale)?;
+        not_negative("BodyInput::damping[0]", self.damping[0])?;
+        not_negative("BodyInput::damping[1]", self.damping[1])?;
         if self.kind == BodyKind::Dynamic {
             positive("BodyInput::mass", self.mass)?;
             if self.inertia != f64::INFINITY {

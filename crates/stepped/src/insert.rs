@@ -1,8 +1,7 @@
 //! What enters and leaves between ticks.
 
-use carom_math::{Pose, Vec2};
+use carom_math::Pose;
 
-use crate::error::finite;
 use crate::pieces::{Disc, Piece};
 use crate::{BodyId, BodyInput, BodyKind, Engine, EngineError, PieceInput};
 
@@ -42,17 +41,19 @@ impl Engine {
             for number in first..first + count {
                 self.stand(number, body.pose);
             }
+            self.wake_overlapped(id.slot);
         } else {
             let limit = &mut self.bodies.limits[record.line as usize];
             limit.reach = reach;
             limit.tolerance = self.settings.tolerance * extent;
             limit.extent = extent;
+            self.broad.stale();
         }
         Ok(id)
     }
 
     /// A piece stands where the pose puts it.
-    fn stand(&mut self, number: u32, pose: Pose) {
+    pub(crate) fn stand(&mut self, number: u32, pose: Pose) {
         let tight = self.pieces.pose(number, pose);
         let piece = &self.pieces.list[number as usize];
         let slack = 0.5 * self.settings.margin * piece.extent;
@@ -87,69 +88,14 @@ impl Engine {
         Ok(())
     }
 
-    fn drop_contacts(&mut self, slot: u32) {
+    pub(crate) fn drop_contacts(&mut self, slot: u32) {
         let ids: Vec<u32> = self
             .graph
             .of_body(&self.bodies, slot)
             .map(|(id, _)| id)
             .collect();
         for id in ids {
-            self.known.remove(self.graph.contacts[id as usize].pieces);
-            self.graph.remove(&mut self.bodies, id);
+            self.part(id);
         }
-    }
-
-    /// Sets the velocity of the centre of mass, in m/s, and the spin, in rad/s; a fixed body stays at rest.
-    ///
-    /// # Errors
-    /// [`EngineError::Stale`] if the body is not in this engine, [`EngineError::Value`] if a number is not finite.
-    pub fn set_velocity(
-        &mut self,
-        id: BodyId,
-        velocity: Vec2,
-        spin: f64,
-    ) -> Result<(), EngineError> {
-        self.bodies.get(id)?;
-        finite("velocity.x", velocity.x)?;
-        finite("velocity.y", velocity.y)?;
-        finite("spin", spin)?;
-        self.wake_around(id.slot);
-        let record = *self.bodies.get(id)?;
-        if record.kind != BodyKind::Fixed {
-            let at = record.line as usize;
-            let (line, start) = (&mut self.bodies.lines[at], &mut self.bodies.start[at]);
-            // What contacts do in a sub-step does not change by it: both change by the same amount.
-            let (v, w) = (line.v(), line.w());
-            let change = crate::rows::Quad::new(velocity - v, spin - w);
-            start.add(&change);
-            line.set_velocity(velocity, spin);
-        }
-        Ok(())
-    }
-
-    /// Puts a body elsewhere, without its contacts.
-    ///
-    /// # Errors
-    /// [`EngineError::Stale`] if the body is not in this engine, [`EngineError::Value`] if a number is not finite.
-    pub fn set_pose(&mut self, id: BodyId, pose: Pose) -> Result<(), EngineError> {
-        self.bodies.get(id)?;
-        finite("pose.position.x", pose.position.x)?;
-        finite("pose.position.y", pose.position.y)?;
-        self.wake_around(id.slot);
-        let record = *self.bodies.get(id)?;
-        self.drop_contacts(id.slot);
-        if record.kind == BodyKind::Fixed {
-            self.bodies.records[id.slot as usize].pose = pose;
-            for number in record.first_piece..record.first_piece + record.pieces {
-                self.broad.leave(number);
-                self.stand(number, pose);
-            }
-        } else {
-            let at = record.line as usize;
-            self.bodies.base[at] = pose;
-            self.bodies.lines[at].clear_displacement();
-            self.bodies.moved[at] = true;
-        }
-        Ok(())
     }
 }

@@ -25,9 +25,12 @@
 
 mod bodies;
 mod broad;
+mod change;
+mod continuous;
 mod engine;
 mod error;
 mod ghost;
+mod groups;
 mod input;
 mod insert;
 #[cfg(test)]
@@ -36,19 +39,24 @@ mod narrow;
 mod outline;
 mod pieces;
 mod read;
+mod record;
 mod rows;
+mod rules;
 mod settings;
 mod sleep;
 #[cfg(test)]
 mod tests;
+mod touch;
 mod update;
 
 pub use engine::Engine;
 pub use error::EngineError;
 pub use input::{BodyId, BodyInput, BodyKind};
 pub use pieces::{Material, PieceInput};
-pub use read::Contact;
+pub use read::{Contact, State};
+pub use rules::{Mixed, PairRules, Surface};
 pub use settings::{Relaxation, Settings, Sleep, Softness};
+pub use touch::Touch;
 
 /// The README's example is a test.
 #[cfg(doctest)]

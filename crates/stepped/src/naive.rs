@@ -224,14 +224,18 @@ impl Row {
             }
         };
         let carried: f64 = j.iter().sum();
-        let rests = carried > 0.0 && x.iter().sum::<f64>() <= 2.0 * carried;
-        let omega = match (bias, rests) {
-            (false, _) => 1.0,
-            (true, true) => law.over_relaxation,
-            (true, false) => 1.0 + gamma,
-        };
+        let wanted: f64 = x.iter().sum();
+        let rests = carried > 0.0 && wanted <= 2.0 * carried && carried <= 2.0 * wanted;
         for (i, x) in x.iter().enumerate() {
             let old = j[i];
+            let (arms, gap, _) = &self.points[i];
+            let gap =
+                gap + n.dot(b.d - a.d) + cross(arms[1], n) * b.turn - cross(arms[0], n) * a.turn;
+            let omega = match (bias, rests && gap <= 0.0) {
+                (false, _) => 1.0,
+                (true, true) => law.over_relaxation,
+                (true, false) => 1.0 + gamma,
+            };
             j[i] = (old + omega * (x - old)).max(0.0);
             self.points[i].2 = j[i];
             push(bodies, self.ends, self.points[i].0, n * (j[i] - old));

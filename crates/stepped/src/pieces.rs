@@ -6,27 +6,17 @@ use carom_collision::{Hull, part, part_count};
 use carom_geometry::{Aabb, Shape};
 use carom_math::{Pose, Vec2};
 
-use crate::EngineError;
 use crate::error::{check, finite, not_negative};
 use crate::outline::{CORNERS, Outline, Rest, Turned, outline_of};
+use crate::{EngineError, PairRules, Surface};
 
 /// What a surface is like.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material {
-    /// Coefficient of friction; a pair has the root of the product.
+    /// Coefficient of friction; [`Mixed`](crate::Mixed) takes the root of the product.
     pub friction: f64,
-    /// Coefficient of restitution: 0 sticks, 1 returns all normal speed; a pair has the larger one.
+    /// Coefficient of restitution: 0 sticks, 1 returns all normal speed; [`Mixed`](crate::Mixed) takes the larger one.
     pub restitution: f64,
-}
-
-impl Material {
-    /// What two surfaces are to each other.
-    pub(crate) fn with(self, other: Self) -> Self {
-        Self {
-            friction: (self.friction * other.friction).sqrt(),
-            restitution: self.restitution.max(other.restitution),
-        }
-    }
 }
 
 impl Default for Material {
@@ -42,21 +32,37 @@ impl Default for Material {
 #[derive(Clone, Debug, PartialEq)]
 pub struct PieceInput {
     /// In the frame of the body, whose origin is the centre of mass, in m. A concave polygon becomes its convex pieces.
-    pub shape: Shape,
+    pub shape: Arc<Shape>,
     /// The shape is grown by so much, with rounded corners, in m.
     pub radius: f64,
     /// Its surface.
     pub material: Material,
+    /// The caller's own: [`PairRules`](crate::PairRules) and [`Touch`](crate::Touch) name pieces by it.
+    pub tag: u64,
 }
 
 impl PieceInput {
     /// A shape with sharp corners and the default material.
     pub fn new(shape: impl Into<Shape>) -> Self {
+        Self::shared(Arc::new(shape.into()))
+    }
+
+    /// The same with a shape that others have, too.
+    #[must_use]
+    pub fn shared(shape: Arc<Shape>) -> Self {
         Self {
-            shape: shape.into(),
+            shape,
             radius: 0.0,
             material: Material::default(),
+            tag: 0,
         }
+    }
+
+    /// The same with this tag.
+    #[must_use]
+    pub const fn tagged(mut self, tag: u64) -> Self {
+        self.tag = tag;
+        self
     }
 
     /// The same with this surface.
@@ -99,6 +105,7 @@ pub(crate) struct Piece {
     /// What the shape is grown by, in m.
     pub(crate) rounding: f64,
     pub(crate) material: Material,
+    pub(crate) tag: u64,
     /// Twice the distance from its middle to its nearest side, in m; of something without a width an eighth of its length.
     pub(crate) extent: f64,
     /// Distance of its farthest point from the centre of mass, in m.
@@ -190,6 +197,17 @@ impl Pieces {
         first
     }
 
+    /// How two pieces meet, if they do.
+    pub(crate) fn surface(&self, pair: [u32; 2], rules: &dyn PairRules) -> Option<Surface> {
+        let [a, b] = pair.map(|piece| &self.list[piece as usize]);
+        rules.surface([a.tag, b.tag], [a.material, b.material])
+    }
+
+    /// Tags of two pieces.
+    pub(crate) fn tags(&self, pair: [u32; 2]) -> [u64; 2] {
+        pair.map(|piece| self.list[piece as usize].tag)
+    }
+
     pub(crate) fn remove(&mut self, first: u32, count: u32) {
         self.free.push((first, count));
     }
@@ -237,8 +255,8 @@ fn outline(piece: &Piece) -> (Outline, Rest) {
 impl Piece {
     /// The convex pieces of an input.
     pub(crate) fn of(input: &PieceInput, body: u32, first: u32) -> impl Iterator<Item = Self> {
-        let shape = Arc::new(input.shape.clone());
-        let (rounding, material) = (input.radius, input.material);
+        let shape = Arc::clone(&input.shape);
+        let (rounding, material, tag) = (input.radius, input.material, input.tag);
         (first..)
             .zip(0..part_count(&shape))
             .map(move |(ordinal, i)| {
@@ -257,11 +275,22 @@ impl Piece {
                     part: i,
                     rounding,
                     material,
+                    tag,
                     extent,
                     reach,
                     shape: Arc::clone(&shape),
                 }
             })
+    }
+
+    /// The shape that it is, or is a part of.
+    pub(crate) fn shape(&self) -> &Shape {
+        &self.shape
+    }
+
+    /// Which convex part of its shape.
+    pub(crate) const fn part(&self) -> usize {
+        self.part
     }
 
     pub(crate) fn hull(&self) -> Hull<'_> {

@@ -1,8 +1,29 @@
 //! What a caller reads between ticks.
 
-use carom_math::{Pose, Vec2};
+use carom_geometry::Aabb;
+use carom_math::{Pose, Vec2, perp};
 
+use crate::bodies::Bodies;
 use crate::{BodyId, BodyKind, Engine, EngineError, Settings};
+
+/// A body as the last sub-step left it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct State {
+    /// Its name.
+    pub id: BodyId,
+    /// The caller's own, as in [`BodyInput::tag`](crate::BodyInput::tag).
+    pub tag: u64,
+    /// What moves it.
+    pub kind: BodyKind,
+    /// Where the centre of mass is, in m, and how the body is turned.
+    pub pose: Pose,
+    /// Angle by which it has turned, in rad, whole turns included, from [`BodyInput::turned`](crate::BodyInput::turned) on.
+    pub turned: f64,
+    /// Velocity of the centre of mass, in m/s, and spin, in rad/s.
+    pub velocity: (Vec2, f64),
+    /// The same before the last sub-step.
+    pub before: (Vec2, f64),
+}
 
 /// A contact of two pieces, as the last sub-step left it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -11,6 +32,12 @@ pub struct Contact {
     pub bodies: [BodyId; 2],
     /// Index of each one's convex piece.
     pub pieces: [u32; 2],
+    /// Tags of both pieces.
+    pub tags: [u64; 2],
+    /// Whether it pushed when begins and ends of touch were last asked for.
+    pub touching: bool,
+    /// Points, midway between the surfaces, in m: of the first [`Self::points`] of them.
+    pub places: [Vec2; 2],
     /// Unit normal from A to B.
     pub normal: Vec2,
     /// How many points it has: 1 or 2.
@@ -46,6 +73,95 @@ impl Engine {
     pub fn velocity(&self, id: BodyId) -> Result<(Vec2, f64), EngineError> {
         self.bodies.get(id)?;
         Ok(self.bodies.velocity_of(id.slot))
+    }
+
+    /// A body, asleep or awake.
+    ///
+    /// # Errors
+    /// [`EngineError::Stale`] if it is not in this engine.
+    pub fn state(&self, id: BodyId) -> Result<State, EngineError> {
+        let record = self.bodies.get(id)?;
+        Ok(
+            if record.line == Bodies::NONE || record.kind == BodyKind::Fixed {
+                State {
+                    id,
+                    tag: record.tag,
+                    kind: record.kind,
+                    pose: record.pose,
+                    turned: 0.0,
+                    velocity: (Vec2::ZERO, 0.0),
+                    before: (Vec2::ZERO, 0.0),
+                }
+            } else {
+                self.state_at(record.line as usize)
+            },
+        )
+    }
+
+    /// All bodies that are awake and not fixed, in no order that means anything.
+    pub fn awake(&self) -> impl Iterator<Item = State> + '_ {
+        (2..self.bodies.lines.len()).map(|line| self.state_at(line))
+    }
+
+    fn state_at(&self, at: usize) -> State {
+        let bodies = &self.bodies;
+        let slot = bodies.slot_of[at];
+        let record = &bodies.records[slot as usize];
+        let (line, base) = (&bodies.lines[at], &bodies.base[at]);
+        let (start, pull, [left, added]) = (&bodies.start[at], &bodies.pull[at], &bodies.drag[at]);
+        let before = |k: usize| (start.0[k] - added.0[k] * (self.law.h * pull.0[k])) / left.0[k];
+        State {
+            id: bodies.id(slot),
+            tag: record.tag,
+            kind: record.kind,
+            pose: Pose::new(
+                base.position + line.d(),
+                base.rotation.turned_slightly(line.turn()),
+            ),
+            turned: bodies.turned[at] + line.turn(),
+            velocity: (line.v() + Vec2::ZERO, line.w() + 0.0),
+            before: (Vec2::new(before(0), before(1)), before(2)),
+        }
+    }
+
+    /// How many contacts of bodies that are awake there are, wide ones too.
+    #[must_use]
+    pub fn awake_contact_count(&self) -> usize {
+        self.graph.awake_len()
+    }
+
+    /// How many bodies contacts move that are awake.
+    #[must_use]
+    pub fn awake_count(&self) -> usize {
+        let lines = self.bodies.lines[2..].iter();
+        lines.filter(|line| line.inverse_mass() > 0.0).count()
+    }
+
+    /// What friction has turned to heat so far, in J, to first order in the sub-step.
+    #[must_use]
+    pub const fn friction_heat(&self) -> f64 {
+        self.heat
+    }
+
+    /// How deep the deepest contact overlapped in the last sub-step, in m; 0 if none did.
+    #[must_use]
+    pub fn deepest_overlap(&self) -> f64 {
+        (-self.least_gap.min(self.deep.least_gap())).max(0.0)
+    }
+
+    /// Pairs of pieces that were looked at by shape so far.
+    #[must_use]
+    pub const fn looks(&self) -> u64 {
+        self.looks
+    }
+
+    /// Calls `found` with the tag of each piece that may be in `bounds` until the next sub-step, perhaps more than once.
+    pub fn query(&self, bounds: Aabb, mut found: impl FnMut(u64)) {
+        let tag = |piece: u32| self.pieces.list[piece as usize].tag;
+        self.broad
+            .pieces_in(&self.bodies, &self.pieces, bounds, |piece| {
+                found(tag(piece));
+            });
     }
 
     /// Names of all bodies, by slot.
@@ -104,12 +220,24 @@ impl Engine {
         let (block, _, lane) = self.graph.lane(id);
         let [a, b] = [block.a[lane], block.b[lane]].map(|line| &self.bodies.lines[line as usize]);
         let [j1, j2, friction] = block.impulses(lane);
+        let normal = Vec2::new(block.nx[lane], block.ny[lane]);
         Contact {
             bodies: contact.bodies.map(|slot| self.bodies.id(slot)),
             pieces: contact
                 .pieces
                 .map(|piece| self.pieces.list[piece as usize].ordinal),
-            normal: Vec2::new(block.nx[lane], block.ny[lane]),
+            tags: self.pieces.tags(contact.pieces),
+            touching: self.graph.is_touching(id),
+            places: [0.0, block.l[lane]].map(|back| {
+                let on = |side: usize, height: f64, arm: f64| {
+                    let centre = self.bodies.pose_of(contact.bodies[side]).position;
+                    centre + normal * height - perp(normal) * (arm + back)
+                };
+                let on_a = on(0, block.at[lane], block.a1[lane]);
+                let on_b = on(1, block.bt[lane], block.b1[lane]);
+                0.5 * (on_a + on_b)
+            }),
+            normal,
             points: if block.s2[lane] < crate::rows::OPEN {
                 2
             } else {

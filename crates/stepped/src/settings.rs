@@ -42,6 +42,8 @@ pub struct Sleep {
     ///
     /// Above 0.2 slowly tipping bodies stop in the air; below 0.005 humming piles stay awake.
     pub speed: f64,
+    /// It rests, too, while no point of it is faster than this, in m/s.
+    pub slow: f64,
     /// How long all bodies of an island must rest, in s.
     pub after: f64,
 }
@@ -87,6 +89,7 @@ impl Default for Sleep {
     fn default() -> Self {
         Self {
             speed: 0.05,
+            slow: 0.0,
             after: 0.5,
         }
     }
@@ -136,28 +139,35 @@ impl Settings {
         }
     }
 
+    /// Length of a sub-step, in s.
+    #[must_use]
+    pub fn substep(&self) -> f64 {
+        self.tick / f64::from(self.substeps)
+    }
+
     pub(crate) fn check(&self) -> Result<(), EngineError> {
         finite("Settings::gravity.x", self.gravity.x)?;
         finite("Settings::gravity.y", self.gravity.y)?;
         positive("Settings::tick", self.tick)?;
         let count = f64::from(self.substeps);
-        let good = (1..=1000).contains(&self.substeps);
-        check("Settings::substeps", count, good, "from 1 to 1000")?;
+        let good = (1..=1_000_000).contains(&self.substeps);
+        check("Settings::substeps", count, good, "from 1 to 1000000")?;
         let soft = &self.softness;
-        positive("Softness::compliance", soft.compliance)?;
+        not_negative("Softness::compliance", soft.compliance)?;
         positive("Softness::frequency", soft.frequency)?;
         positive("Softness::damping_ratio", soft.damping_ratio)?;
-        let good = (1.0..2.0).contains(&soft.over_relaxation);
+        let good = soft.over_relaxation > 0.0 && soft.over_relaxation < 2.0;
         let field = "Softness::over_relaxation";
-        check(field, soft.over_relaxation, good, "at least 1 and below 2")?;
-        positive("Softness::push_out", soft.push_out)?;
+        check(field, soft.over_relaxation, good, "above 0 and below 2")?;
+        not_negative("Softness::push_out", soft.push_out)?;
         let good = self.margin > 0.0 && self.margin <= 1.0;
         check("Settings::margin", self.margin, good, "above 0, at most 1")?;
         let good = self.tolerance > 0.0 && self.tolerance <= 0.25 * self.margin;
         let allowed = "above 0, at most a quarter of the margin";
         check("Settings::tolerance", self.tolerance, good, allowed)?;
         if let Some(sleep) = self.sleep {
-            positive("Sleep::speed", sleep.speed)?;
+            not_negative("Sleep::speed", sleep.speed)?;
+            not_negative("Sleep::slow", sleep.slow)?;
             not_negative("Sleep::after", sleep.after)?;
         }
         Ok(())

@@ -7,11 +7,18 @@
 use carom_math::Vec2;
 
 use crate::bodies::{Bodies, Sleeper};
+use crate::update::nearness;
 use crate::{BodyId, BodyKind, Engine, EngineError};
 
 /// Ticks between two searches for islands at rest. Fewer: an island that rests but for one body is walked for nothing;
 /// more: islands fall asleep later by as much.
 const SEARCH: u64 = 8;
+
+/// What was inserted asleep touches what is nearer than this part of a margin.
+const TOUCHES: f64 = 0.1;
+
+/// A fixed body that is put deeper into sleepers than this part of a margin wakes them.
+const DISTURBS: f64 = 0.02;
 
 /// Islands asleep.
 #[derive(Clone, Debug, Default)]
@@ -19,6 +26,10 @@ pub(crate) struct Islands {
     asleep: Vec<Option<Vec<Sleeper>>>,
     free: Vec<u32>,
     ticks: u64,
+    /// How many of them were inserted asleep: they have met nothing yet.
+    unmet: usize,
+    /// Slots of bodies that fell asleep or woke since a caller asked.
+    changed: Vec<u32>,
 }
 
 impl Islands {
@@ -44,7 +55,8 @@ impl Engine {
         for ((line, limit), rest) in lines.iter().zip(limits).zip(rest).skip(2) {
             let v = line.v();
             let speed = v.x.abs().max(v.y.abs()) + line.w().abs() * limit.reach;
-            let rests = speed <= sleep.speed * limit.extent && line.inverse_mass() > 0.0;
+            let least = (sleep.speed * limit.extent).max(sleep.slow);
+            let rests = speed <= least && line.inverse_mass() > 0.0;
             *rest = if rests {
                 *rest + self.settings.tick
             } else {
@@ -85,7 +97,7 @@ impl Engine {
             rests &= self.bodies.rest[self.bodies.line_of(slot)] >= after;
             for (id, side) in self.graph.of_body(&self.bodies, slot) {
                 let other = self.graph.contacts[id as usize].bodies[1 - side];
-                if !self.touches(id) {
+                if !self.hold_together(id) {
                     continue;
                 }
                 match self.bodies.records[other as usize].kind {
@@ -104,8 +116,8 @@ impl Engine {
         (island, rests)
     }
 
-    /// Whether a contact pushes or overlaps.
-    fn touches(&self, id: u32) -> bool {
+    /// Whether the bodies of a contact hang together: it pushes or overlaps.
+    fn hold_together(&self, id: u32) -> bool {
         let (block, _, lane) = self.graph.lane(id);
         let [a, b] = [block.a[lane], block.b[lane]].map(|line| &self.bodies.lines[line as usize]);
         let gaps = block.gaps(lane, a, b);
@@ -123,6 +135,7 @@ impl Engine {
         for &slot in island {
             self.bodies.records[slot as usize].island = number;
         }
+        self.islands.changed.extend(island);
         for &slot in island {
             let ids: Vec<_> = self.graph.of_body(&self.bodies, slot).collect();
             for (id, side) in ids {
@@ -130,8 +143,7 @@ impl Engine {
                 let other = &self.bodies.records[contact.bodies[1 - side] as usize];
                 if other.kind == BodyKind::Dynamic && other.island != number {
                     // Near, and no part of the island: found again when one of both moves.
-                    self.known.remove(contact.pieces);
-                    self.graph.remove(&mut self.bodies, id);
+                    self.part(id);
                 } else if !contact.sleeps() {
                     self.graph.shift(&mut self.bodies, id, true);
                 }
@@ -149,33 +161,100 @@ impl Engine {
                 self.broad.stand(piece, self.pieces.boxes[piece as usize]);
             }
         }
+        self.islands.unmet += usize::from(sleepers.iter().any(Sleeper::is_unmet));
         self.islands.asleep[number as usize] = Some(sleepers);
     }
 
-    /// Wakes these islands.
+    /// Wakes these islands, and what was inserted asleep in touch with such bodies.
     pub(crate) fn wake_all(&mut self, islands: &[u32]) {
-        for &number in islands {
+        let mut waking = islands.to_vec();
+        while let Some(number) = waking.pop() {
             let Some(sleepers) = self.islands.asleep[number as usize].take() else {
                 continue;
             };
             self.islands.free.push(number);
-            for sleeper in &sleepers {
-                self.bodies.raise(sleeper, &self.settings);
-                let record = &mut self.bodies.records[sleeper.slot as usize];
-                record.island = Bodies::NONE;
-                for piece in record.first_piece..record.first_piece + record.pieces {
-                    self.broad.leave(piece);
+            if sleepers.iter().any(Sleeper::is_unmet) {
+                self.islands.unmet -= 1;
+                for sleeper in &sleepers {
+                    waking.extend(self.unmet_at(sleeper.slot, TOUCHES));
                 }
             }
-            for sleeper in &sleepers {
-                let ids: Vec<_> = self.graph.of_body(&self.bodies, sleeper.slot).collect();
-                for (id, _) in ids {
-                    if self.graph.contacts[id as usize].sleeps() {
-                        self.graph.shift(&mut self.bodies, id, false);
-                    }
+            self.raise(&sleepers);
+        }
+    }
+
+    /// Gives the bodies of an island their lines and contacts again.
+    fn raise(&mut self, sleepers: &[Sleeper]) {
+        for sleeper in sleepers {
+            self.bodies.raise(sleeper, &self.settings);
+            self.islands.changed.push(sleeper.slot);
+            let record = &mut self.bodies.records[sleeper.slot as usize];
+            record.island = Bodies::NONE;
+            for piece in record.first_piece..record.first_piece + record.pieces {
+                self.broad.leave(piece);
+            }
+        }
+        for sleeper in sleepers {
+            let ids: Vec<_> = self.graph.of_body(&self.bodies, sleeper.slot).collect();
+            for (id, _) in ids {
+                if self.graph.contacts[id as usize].sleeps() {
+                    self.graph.shift(&mut self.bodies, id, false);
                 }
             }
         }
+    }
+
+    /// Islands asleep that a body that stands is nearer to than `margins`.
+    fn sleepers_at(&self, slot: u32, margins: f64) -> Vec<u32> {
+        let record = &self.bodies.records[slot as usize];
+        let mut found = Vec::new();
+        for piece in record.first_piece..record.first_piece + record.pieces {
+            let bounds = self.pieces.boxes[piece as usize];
+            self.broad.standing_in(bounds, |other| {
+                let theirs = self.pieces.list[other as usize].body;
+                let island = self.bodies.records[theirs as usize].island;
+                let pair = [piece.min(other), piece.max(other)];
+                if island != Bodies::NONE
+                    && theirs != slot
+                    && nearness(&self.bodies, &self.pieces, &self.settings, pair)
+                        .is_some_and(|gap| gap <= margins)
+                {
+                    found.push(island);
+                }
+            });
+        }
+        found.sort_unstable();
+        found.dedup();
+        found
+    }
+
+    /// Those of them that were inserted asleep.
+    fn unmet_at(&self, slot: u32, margins: f64) -> Vec<u32> {
+        if self.islands.unmet == 0 {
+            return Vec::new();
+        }
+        let mut found = self.sleepers_at(slot, margins);
+        found.retain(|island| {
+            let sleepers = self.islands.asleep[*island as usize].as_ref();
+            sleepers.is_some_and(|sleepers| sleepers.iter().any(Sleeper::is_unmet))
+        });
+        found
+    }
+
+    /// Wakes what a fixed body was put into; what sleeps beside it sleeps on.
+    pub(crate) fn wake_overlapped(&mut self, slot: u32) {
+        if self.islands.any_asleep() {
+            let islands = self.sleepers_at(slot, -DISTURBS);
+            self.wake_all(&islands);
+        }
+    }
+
+    pub(crate) fn wake_every(&mut self) {
+        let all: Vec<u32> = (0u32..)
+            .zip(&self.islands.asleep)
+            .filter_map(|(number, island)| island.is_some().then_some(number))
+            .collect();
+        self.wake_all(&all);
     }
 
     /// Wakes the island of a body, and all islands that touch it.
@@ -187,6 +266,7 @@ impl Engine {
                 islands.push(self.bodies.records[contact.bodies[1 - side] as usize].island);
             }
         }
+        islands.extend(self.unmet_at(slot, TOUCHES));
         islands.retain(|island| *island != Bodies::NONE);
         islands.dedup();
         self.wake_all(&islands);
@@ -200,6 +280,42 @@ impl Engine {
         self.bodies.get(id)?;
         self.wake_around(id.slot);
         Ok(())
+    }
+
+    /// Puts the island of a body to sleep, whatever its speed: it is at rest from then on. A fixed or kinematic body does
+    /// not sleep.
+    ///
+    /// # Errors
+    /// [`EngineError::Stale`] if it is not in this engine.
+    pub fn sleep(&mut self, id: BodyId) -> Result<(), EngineError> {
+        let record = *self.bodies.get(id)?;
+        if record.kind == BodyKind::Dynamic && record.island == Bodies::NONE {
+            let mut seen = vec![false; self.bodies.records.len()];
+            let (island, _) = self.island(id.slot, 0.0, &mut seen);
+            for &slot in &island {
+                let line = self.bodies.line_of(slot);
+                if self.bodies.moved[line] {
+                    self.pose_pieces(line);
+                }
+            }
+            self.lay(&island);
+        }
+        Ok(())
+    }
+
+    /// Calls `tell` for each body that fell asleep (`true`) or woke since this was last called, by slot.
+    pub fn sleep_changes(&mut self, mut tell: impl FnMut(BodyId, bool)) {
+        let mut changed = core::mem::take(&mut self.islands.changed);
+        changed.sort_unstable();
+        changed.dedup();
+        for &slot in &changed {
+            let record = &self.bodies.records[slot as usize];
+            if record.live {
+                tell(self.bodies.id(slot), record.island != Bodies::NONE);
+            }
+        }
+        changed.clear();
+        self.islands.changed = changed;
     }
 
     /// Whether a body sleeps: nothing is computed for it until something meets its island.

@@ -3,12 +3,12 @@
 
 use fearless_simd::Level;
 
-use crate::Settings;
 use crate::bodies::{Bodies, BodyKind};
 use crate::broad::Pairs;
 use crate::narrow::{Eight, Found, Manifold, Scene, collide_eight};
 use crate::pieces::Pieces;
-use crate::rows::{Block, Cold, Graph, LANES, renew};
+use crate::rows::{Block, Cold, DEEP, Graph, LANES, renew};
+use crate::{PairRules, Settings};
 
 /// A kept contact may be so many margins wide, so that pairs do not come and go each tick.
 const KEPT: f64 = 1.5;
@@ -27,6 +27,7 @@ pub(crate) fn update(
     graph.suspects.cover(bodies.lines.len());
     let (colours, suspects) = graph.awake_and_suspects();
     let mut found = Found::NONE;
+    let mut deep = Vec::new();
     for (colour, blocks) in colours.iter_mut().zip(touched) {
         for k in blocks {
             let (block, cold) = (&mut colour.blocks[k], &mut colour.cold[k]);
@@ -48,6 +49,14 @@ pub(crate) fn update(
             renew(level, &bodies.lines, &mut bodies.start, block, &found, near);
             for lane in lanes(near) {
                 cold.features[lane] = found.features(lane);
+                let gaps = [found.s1[lane], found.s2[lane]];
+                if gaps[0].min(gaps[1]) < 0.0 || cold.is_deep(lane) {
+                    let deepest = deepest(pieces, cold.pieces[lane]);
+                    if cold.note_depth(lane, gaps, deepest, false) {
+                        block.show(lane, deepest);
+                        deep.push(cold.contact[lane]);
+                    }
+                }
             }
             let scene = Scene {
                 bodies,
@@ -64,6 +73,13 @@ pub(crate) fn update(
             parted.extend(lanes(moved & !near).map(|lane| cold.contact[lane]));
         }
     }
+    graph.add_deep(&mut deep);
+}
+
+/// The least gap of two pieces that the sweeps see, in m.
+fn deepest(pieces: &Pieces, pair: [u32; 2]) -> f64 {
+    let [a, b] = pair.map(|piece| pieces.outlines[piece as usize].extent());
+    -DEEP * a.min(b)
 }
 
 /// Those lanes that have a bit.
@@ -98,6 +114,7 @@ pub(crate) fn met_asleep(
     pieces: &Pieces,
     settings: &Settings,
     candidates: &[[u32; 2]],
+    rules: &dyn PairRules,
 ) -> Vec<u32> {
     let scene = Scene {
         bodies,
@@ -116,11 +133,28 @@ pub(crate) fn met_asleep(
         let line = bodies.line_of(slots[usize::from(a != Bodies::NONE)]);
         let seen = bodies.limits[line].tolerance;
         let near = |found: &Manifold| found.gap() < scene.closes(pair, found) + seen;
-        if scene.contact(pair, 1.0).is_some_and(|found| near(&found)) {
+        let met = |pair| scene.contact(pair, 1.0).is_some_and(|found| near(&found));
+        if pieces.surface(pair, rules).is_some() && met(pair) {
             islands.push(island);
         }
     }
     islands
+}
+
+/// How near two pieces are where their bodies are based, in margins of theirs, at most one; `None` if they are farther apart.
+pub(crate) fn nearness(
+    bodies: &Bodies,
+    pieces: &Pieces,
+    settings: &Settings,
+    pair: [u32; 2],
+) -> Option<f64> {
+    let scene = Scene {
+        bodies,
+        pieces,
+        settings,
+    };
+    let gap = scene.contact(pair, 1.0)?.gap();
+    Some(gap / scene.meeting(pair).margin)
 }
 
 /// Makes contacts of those candidates that are near enough, in the order in which their bodies were inserted.
@@ -130,8 +164,8 @@ pub(crate) fn create(
     bodies: &mut Bodies,
     pieces: &Pieces,
     settings: &Settings,
-    known: &mut Pairs,
-    candidates: &[[u32; 2]],
+    (known, candidates): (&mut Pairs, &[[u32; 2]]),
+    rules: &dyn PairRules,
 ) {
     let scene = Scene {
         bodies,
@@ -141,30 +175,33 @@ pub(crate) fn create(
     graph.suspects.cover(bodies.lines.len());
     let unknown = candidates.iter().filter(|pair| !known.contains(**pair));
     let news: Vec<_> = unknown
-        .filter_map(|pair| New::of(bodies, pieces, *pair))
+        .filter_map(|pair| {
+            let new = New::of(bodies, pieces, *pair)?;
+            Some((new, pieces.surface(new.pieces, rules)?))
+        })
         .collect();
     let mut fresh = Vec::new();
     let mut found = Found::NONE;
     for news in news.chunks(LANES) {
         let mut eight = Eight::new(pieces, [[0; LANES]; 2]);
-        for (lane, new) in news.iter().enumerate() {
+        for (lane, (new, surface)) in news.iter().enumerate() {
             if eight.set_pieces(pieces, lane, new.pieces) {
                 (eight.lines[0][lane], eight.lines[1][lane]) = (new.lines[0], new.lines[1]);
                 eight.least[lane] = scene.seen(new.lines.map(|line| line as usize));
             } else if let Some(manifold) = scene.contact(new.pieces, 1.0) {
-                fresh.push((*new, manifold));
+                fresh.push((*new, *surface, manifold));
             }
         }
         collide_eight(level, &scene, 1.0, &eight, &mut found);
         let near = lanes(found.near);
-        fresh.extend(near.map(|lane| (news[lane], found.manifold(lane))));
+        fresh.extend(near.map(|lane| (news[lane].0, news[lane].1, found.manifold(lane))));
     }
     fresh.sort_unstable_by_key(|new| new.0);
-    for (New { pieces: pair, .. }, manifold) in fresh {
+    for (New { pieces: pair, .. }, surface, manifold) in fresh {
         let [a, b] = pair.map(|piece| &pieces.list[piece as usize]);
         let ends = [a.body, b.body];
-        let surface = a.material.with(b.material);
-        let id = graph.insert(bodies, ends, pair, &manifold, surface);
+        let deepest = deepest(pieces, pair);
+        let id = graph.insert(bodies, ends, pair, (&manifold, deepest), surface);
         known.insert(pair, id);
         let lines = ends.map(|slot| bodies.records[slot as usize].line);
         let scene = Scene {

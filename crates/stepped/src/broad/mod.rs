@@ -25,6 +25,8 @@ pub(crate) struct Broad {
     stale: bool,
     /// Pieces that stand since the last tick: movers that rest have not met them.
     arrived: Vec<u32>,
+    /// Pieces that got other boxes since the sweep was sorted.
+    few: Vec<u32>,
     /// Pairs of pieces whose boxes overlap, one of which moved.
     pub(crate) found: Vec<[u32; 2]>,
 }
@@ -38,6 +40,7 @@ impl Broad {
             endless: Vec::new(),
             stale: true,
             arrived: Vec::new(),
+            few: Vec::new(),
             found: Vec::new(),
         }
     }
@@ -57,6 +60,16 @@ impl Broad {
         self.stale = true;
     }
 
+    /// A mover came: the sweep does not know it.
+    pub(crate) const fn stale(&mut self) {
+        self.stale = true;
+    }
+
+    /// A piece has a larger box than the sweep knows.
+    pub(crate) fn enlarged(&mut self, piece: u32) {
+        self.few.push(piece);
+    }
+
     /// It stands no more, or never did.
     pub(crate) fn leave(&mut self, piece: u32) {
         if let Some(node) = self.nodes.get_mut(piece as usize).and_then(Option::take) {
@@ -65,6 +78,11 @@ impl Broad {
         self.endless.retain(|other| *other != piece);
         self.arrived.retain(|other| *other != piece);
         self.stale = true;
+    }
+
+    /// Whether some piece stands that no mover has been asked about.
+    pub(crate) const fn has_arrivals(&self) -> bool {
+        !self.arrived.is_empty()
     }
 
     /// Finds the pairs of which one piece moved or arrived.
@@ -78,6 +96,7 @@ impl Broad {
             let record = &bodies.records[bodies.slot_of[line] as usize];
             record.first_piece..record.first_piece + record.pieces
         };
+        self.few.clear();
         let movers = awake.clone().flat_map(|line| {
             let moved = bodies.moved[line];
             of_line(line).map(move |piece| (piece, moved))
@@ -111,6 +130,40 @@ impl Broad {
         }
         self.arrived.clear();
         self.stale = false;
+    }
+
+    /// Calls `found` with the pieces that stand in `bounds`.
+    pub(crate) fn standing_in(&self, bounds: Aabb, mut found: impl FnMut(u32)) {
+        self.standing.query(bounds, &mut found);
+        self.endless.iter().copied().for_each(found);
+    }
+
+    /// Calls `found` with pieces that may be in `bounds`: movers until the end of the tick.
+    pub(crate) fn pieces_in(
+        &self,
+        bodies: &Bodies,
+        pieces: &Pieces,
+        bounds: Aabb,
+        mut tell: impl FnMut(u32),
+    ) {
+        self.standing_in(bounds, &mut tell);
+        if self.stale {
+            // Pieces came or went: the sweep names others.
+            for line in 2..bodies.lines.len() {
+                let record = &bodies.records[bodies.slot_of[line] as usize];
+                (record.first_piece..record.first_piece + record.pieces)
+                    .filter(|piece| pieces.boxes[*piece as usize].overlaps(bounds))
+                    .for_each(&mut tell);
+            }
+        } else {
+            self.sweep.all_in(pieces, bounds, &mut tell);
+            // Their boxes are newer than the sweep.
+            self.few
+                .iter()
+                .copied()
+                .filter(|piece| pieces.boxes[*piece as usize].overlaps(bounds))
+                .for_each(&mut tell);
+        }
     }
 
     /// Finds the pairs of the few that moved since [`Self::find`] in the same tick.
@@ -148,6 +201,7 @@ impl Broad {
                 }
             }
         }
+        self.few.extend(few);
         // A pair may have been found from both sides, and by both ways.
         for pair in &mut *found {
             pair.sort_unstable();

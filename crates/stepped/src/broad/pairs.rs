@@ -95,8 +95,10 @@ impl Pairs {
 
     /// Whether it does where the list of A may lack B.
     fn contains_otherwise(&self, [a, b]: [u32; 2]) -> bool {
-        let of_b = &self.lists[b as usize];
-        of_b.contains(a) || of_b.missing > 0 && self.rest.get([a, b]).is_some()
+        // A piece that never had a contact has no list.
+        self.lists.get(b as usize).is_some_and(|of_b| {
+            of_b.contains(a) || of_b.missing > 0 && self.rest.get([a, b]).is_some()
+        })
     }
 
     /// Contacts of a piece, if its list has them all.
@@ -176,5 +178,15 @@ mod tests {
             }
         }
         assert!(full > 1000, "{full}");
+    }
+
+    #[test]
+    fn a_piece_without_contacts_is_in_no_full_list() {
+        let mut pairs = Pairs::new();
+        for other in 1..40 {
+            pairs.insert([0, other], other);
+        }
+        assert!(pairs.contains([0, 39]) && pairs.contains([39, 0]));
+        assert!(!pairs.contains([0, 40]) && !pairs.contains([40, 0]));
     }
 }

@@ -19,9 +19,9 @@ pub(crate) struct Scene<'a> {
 }
 
 /// What two pieces are to each other within a tick.
-struct Meeting {
+pub(crate) struct Meeting {
     /// Gaps below it make a contact, in m.
-    margin: f64,
+    pub(crate) margin: f64,
     /// How far B goes against A until the next tick, in m, and what they may close by besides.
     way: Vec2,
     closing: f64,
@@ -67,7 +67,7 @@ impl Scene<'_> {
         2.0 * (a + b)
     }
 
-    fn meeting(&self, pair: [u32; 2]) -> Meeting {
+    pub(crate) fn meeting(&self, pair: [u32; 2]) -> Meeting {
         let [a, b] = pair.map(|piece| &self.pieces.list[piece as usize]);
         let [line_a, line_b] = pair.map(|piece| self.line_of(piece));
         let (body_a, body_b) = (&self.bodies.lines[line_a], &self.bodies.lines[line_b]);

@@ -8,6 +8,9 @@ use crate::narrow::Manifold;
 /// Contacts in a block.
 pub(crate) const LANES: usize = 8;
 
+/// What sinks in under a load is held by the sweeps until it is so many times as deep as what was put so.
+const CRUSHED: f64 = 10.0;
+
 /// Gap of a point that is not there, in m: no body closes it within a sub-step.
 pub(crate) const OPEN: f64 = 1e30;
 
@@ -16,7 +19,7 @@ pub(crate) const OPEN: f64 = 1e30;
 /// ```text
 /// a_i = r_A × n, b_i = r_B × n of point i;   a_t = r_A · n, b_t = r_B · n of the face
 /// v_i = n·(v_B − v_A) + b_i ω_B − a_i ω_A     normal velocity of point i, positive opens
-/// v_t = t·(v_B − v_A) + b_t ω_B − a_t ω_A     slip along t, the normal turned by +90°
+/// v_t = t·(v_B − v_A) + b_t ω_B − a_t ω_A     slip along t, the normal turned by +90°, less the speed of a belt
 /// gap_i = s_i + n·(d_B − d_A) + b_i θ_B − a_i θ_A
 /// ```
 /// Both points lie on one face, l apart, and point 1 is the farther one along t: a₂ = a₁ + l, b₂ = b₁ + l.
@@ -51,6 +54,14 @@ pub(crate) struct Cold {
     pub(crate) features: [[u32; 2]; LANES],
     /// Coefficients of restitution.
     pub(crate) restitution: [f64; LANES],
+    /// How fast the surfaces run, together, in m/s.
+    pub(crate) belt: [f64; LANES],
+    /// Gaps at the base poses of what is too deep for the sweeps, in m; 0: it is not.
+    pub(crate) depths: [[f64; 2]; LANES],
+    /// The least gap that the sweeps see of it, in m.
+    pub(crate) deepest: [f64; LANES],
+    /// A bit for each lane that pushed when it was last asked.
+    pub(crate) touching: u8,
     /// A bit for each lane that holds a contact.
     pub(crate) used: u8,
 }
@@ -74,6 +85,12 @@ impl Block {
         mu: [0.0; LANES],
         jt: [0.0; LANES],
     };
+
+    /// Lets the sweeps see no gap below `deepest`, in m.
+    pub(crate) fn show(&mut self, lane: usize, deepest: f64) {
+        self.s1[lane] = self.s1[lane].max(deepest);
+        self.s2[lane] = self.s2[lane].max(deepest);
+    }
 
     /// Writes where a contact is; impulses and friction stay.
     pub(crate) fn put(&mut self, lane: usize, manifold: &Manifold) {
@@ -132,11 +149,13 @@ impl Block {
 
     /// Both gaps with the bodies where their lines say, in m.
     pub(crate) fn gaps(&self, lane: usize, a: &Line, b: &Line) -> [f64; 2] {
-        let n = Vec2::new(self.nx[lane], self.ny[lane]);
-        let (ta, tb) = (a.turn(), b.turn());
-        let first = n.dot(b.d() - a.d()) + self.b1[lane] * tb - self.a1[lane] * ta;
-        let second = first + self.l[lane] * (tb - ta);
+        let [first, second] = self.opened(lane, a, b);
         [self.s1[lane] + first, self.s2[lane] + second]
+    }
+
+    /// What both points of a lane opened by since the base poses, in m.
+    pub(crate) fn opened(&self, lane: usize, a: &Line, b: &Line) -> [f64; 2] {
+        self.along(lane, (a.d(), a.turn()), (b.d(), b.turn()))
     }
 
     /// Copies a lane of another block.
@@ -179,13 +198,47 @@ impl Cold {
         pieces: [[u32::MAX; 2]; LANES],
         features: [[0; 2]; LANES],
         restitution: [0.0; LANES],
+        belt: [0.0; LANES],
+        depths: [[0.0; 2]; LANES],
+        deepest: [0.0; LANES],
+        touching: 0,
         used: 0,
     };
+
+    /// Whether a contact was too deep for the sweeps when it was last computed.
+    pub(crate) fn is_deep(&self, lane: usize) -> bool {
+        self.depths[lane].iter().any(|gap| *gap < 0.0)
+    }
+
+    /// Notes how deep a contact is, if it is too deep for the sweeps, and whether that is so: from the first on if it is `fresh`
+    /// and deeper than `deepest`, else if it was so or is [`CRUSHED`] times as deep.
+    pub(crate) fn note_depth(
+        &mut self,
+        lane: usize,
+        gaps: [f64; 2],
+        deepest: f64,
+        fresh: bool,
+    ) -> bool {
+        let was = self.is_deep(lane);
+        let least = if fresh || was {
+            deepest
+        } else {
+            CRUSHED * deepest
+        };
+        let deep = gaps[0].min(gaps[1]) < least;
+        self.depths[lane] = if deep { gaps } else { [0.0; 2] };
+        self.deepest[lane] = deepest;
+        deep
+    }
 
     pub(crate) const fn copy_lane(&mut self, to: usize, other: &Self, from: usize) {
         self.contact[to] = other.contact[from];
         self.pieces[to] = other.pieces[from];
         self.features[to] = other.features[from];
         self.restitution[to] = other.restitution[from];
+        self.belt[to] = other.belt[from];
+        self.depths[to] = other.depths[from];
+        self.deepest[to] = other.deepest[from];
+        self.touching = self.touching & !(1 << to) | (other.touching >> from & 1) << to;
     }
 }

@@ -10,11 +10,18 @@ pub(crate) struct Colour {
     /// How many contacts of each block have restitution, and all of them.
     pub(crate) bounces: Vec<u8>,
     pub(crate) bouncing: usize,
+    /// How many contacts have a belt.
+    pub(crate) belts: usize,
     /// Lanes in use; all but the last block are full.
     len: usize,
 }
 
 impl Colour {
+    /// Contacts there are, but for those that have a block each.
+    pub(super) const fn len(&self) -> usize {
+        self.len
+    }
+
     /// Gives the next lane to a contact, or a block of its own.
     pub(super) fn push(&mut self, alone: bool, id: u32, pieces: [u32; 2]) -> usize {
         let index = if alone {
@@ -35,18 +42,20 @@ impl Colour {
         index
     }
 
-    /// A lane came that may have restitution.
+    /// A lane came that may have restitution or a belt.
     pub(super) fn count(&mut self, k: usize, lane: usize) {
         let bounces = self.cold[k].restitution[lane] > 0.0;
         self.bounces[k] += u8::from(bounces);
         self.bouncing += usize::from(bounces);
+        self.belts += usize::from(self.cold[k].belt[lane].abs() > 0.0);
     }
 
-    /// A lane that may have restitution goes.
+    /// A lane that may have restitution or a belt goes.
     pub(super) fn discount(&mut self, k: usize, lane: usize) {
         let bounces = self.cold[k].restitution[lane] > 0.0;
         self.bounces[k] -= u8::from(bounces);
         self.bouncing -= usize::from(bounces);
+        self.belts -= usize::from(self.cold[k].belt[lane].abs() > 0.0);
     }
 
     /// Fills a hole with the last lane; which contact moved.

@@ -2,7 +2,7 @@
 
 use super::block::{Block, Cold, LANES, OPEN};
 use super::colour::Colour;
-use crate::Material;
+use crate::Surface;
 use crate::bodies::{Bodies, BodyKind};
 use crate::ghost::Suspects;
 use crate::narrow::Manifold;
@@ -46,6 +46,10 @@ pub(crate) struct Graph {
     /// Bodies that may have ghosts.
     pub(crate) suspects: Suspects,
     free: Vec<u32>,
+    /// Contacts that are too deep for the sweeps, and some that were, in no order.
+    pub(super) deep: Vec<u32>,
+    /// Contacts of two bodies of very different mass, in no order.
+    pub(super) heavy: Vec<u32>,
     /// Behind those of masks the overflow colour, and behind it what sleeps.
     pub(super) colours: Vec<Colour>,
 }
@@ -67,6 +71,8 @@ impl Graph {
             contacts: Vec::new(),
             suspects: Suspects::default(),
             free: Vec::new(),
+            deep: Vec::new(),
+            heavy: Vec::new(),
             colours: vec![Colour::default(); COLOURS + 2],
         }
     }
@@ -74,6 +80,11 @@ impl Graph {
     /// Contacts there are.
     pub(crate) fn len(&self) -> usize {
         self.contacts.len() - self.free.len()
+    }
+
+    /// Contacts of what is awake.
+    pub(crate) fn awake_len(&self) -> usize {
+        self.len() - self.colours[ASLEEP].len()
     }
 
     /// The colours of what is awake, in the order in which they are swept.
@@ -118,8 +129,8 @@ impl Graph {
         bodies: &mut Bodies,
         ends: [u32; 2],
         pieces: [u32; 2],
-        manifold: &Manifold,
-        surface: Material,
+        (manifold, deepest): (&Manifold, f64),
+        surface: Surface,
     ) -> u32 {
         #[expect(clippy::cast_possible_truncation, reason = "dozens of bytes each")]
         let id = self.free.pop().unwrap_or(self.contacts.len() as u32);
@@ -146,12 +157,21 @@ impl Graph {
         } else {
             self.contacts[id as usize] = contact;
         }
-        self.colour(bodies, id, manifold, surface);
+        self.colour(bodies, id, (manifold, deepest), surface);
+        if Self::is_heavy(bodies, ends) {
+            self.heavy.push(id);
+        }
         id
     }
 
     /// Takes the colour that suits a new contact, and a lane there.
-    fn colour(&mut self, bodies: &mut Bodies, id: u32, manifold: &Manifold, surface: Material) {
+    fn colour(
+        &mut self,
+        bodies: &mut Bodies,
+        id: u32,
+        (manifold, deepest): (&Manifold, f64),
+        surface: Surface,
+    ) {
         let contact = &mut self.contacts[id as usize];
         let ends = contact.bodies;
         let dynamic = ends.map(|slot| bodies.is_dynamic(slot));
@@ -177,10 +197,18 @@ impl Graph {
         block.a[lane] = bodies.records[ends[0] as usize].line;
         block.b[lane] = bodies.records[ends[1] as usize].line;
         block.mu[lane] = surface.friction;
-        block.put(lane, manifold);
         let colour = &mut self.colours[colour];
+        colour.blocks[k].put(lane, manifold);
+        let deep = colour.cold[k].note_depth(lane, manifold.gaps, deepest, true);
+        if deep {
+            colour.blocks[k].show(lane, deepest);
+        }
+        if deep {
+            self.deep.push(id);
+        }
         colour.cold[k].features[lane] = manifold.features;
         colour.cold[k].restitution[lane] = surface.restitution;
+        colour.cold[k].belt[lane] = surface.tangent_speed;
         colour.count(k, lane);
     }
 
@@ -204,6 +232,9 @@ impl Graph {
             }
         }
         self.vacate(colour, k, lane);
+        if Self::is_heavy(bodies, contact.bodies) {
+            self.heavy.retain(|other| *other != id);
+        }
         self.free.push(id);
     }
 
@@ -287,6 +318,41 @@ impl Graph {
         let (k, lane) = contact.place();
         let block = &mut self.colours[contact.colour as usize].blocks[k];
         (block.s1[lane], block.s2[lane]) = (OPEN, OPEN);
+        self.colours[contact.colour as usize].cold[k].depths[lane] = [0.0; 2];
+    }
+
+    /// Notes contacts that became deep.
+    pub(crate) fn add_deep(&mut self, deep: &mut Vec<u32>) {
+        self.deep.append(deep);
+    }
+
+    /// Whether there is such a contact, and it is too deep for the sweeps.
+    pub(super) fn is_deep(&self, id: u32) -> bool {
+        let contact = &self.contacts[id as usize];
+        let (k, lane) = contact.place();
+        let cold = self.colours[contact.colour as usize].cold.get(k);
+        !contact.sleeps()
+            && cold.is_some_and(|cold| {
+                cold.used >> lane & 1 == 1 && cold.contact[lane] == id && cold.is_deep(lane)
+            })
+    }
+
+    /// Whether a contact touched when it was last asked.
+    pub(crate) fn is_touching(&self, id: u32) -> bool {
+        let (_, cold, lane) = self.lane(id);
+        cold.touching >> lane & 1 == 1
+    }
+
+    /// Gives a contact another surface; its impulses stay.
+    pub(crate) fn resurface(&mut self, id: u32, surface: Surface) {
+        let contact = &self.contacts[id as usize];
+        let (k, lane) = contact.place();
+        let colour = &mut self.colours[contact.colour as usize];
+        colour.discount(k, lane);
+        colour.blocks[k].mu[lane] = surface.friction;
+        colour.cold[k].restitution[lane] = surface.restitution;
+        colour.cold[k].belt[lane] = surface.tangent_speed;
+        colour.count(k, lane);
     }
 
     /// Takes a contact out of the lists of its bodies.

@@ -1,6 +1,7 @@
 //! What happens to bodies between the sweeps.
 
 use super::line::{Line, Quad};
+use crate::bodies::Bodies;
 
 /// `p = v − start; start = v + h g; v = start + p`: p is the warm start, what contacts did in the last sub-step.
 pub(crate) fn warm_start(lines: &mut [Line], start: &mut [Quad], pull: &[Quad], h: f64) {
@@ -9,6 +10,26 @@ pub(crate) fn warm_start(lines: &mut [Line], start: &mut [Quad], pull: &[Quad], 
             let v = line.0[k];
             let p = v - start.0[k];
             start.0[k] = v + h * pull.0[k];
+            line.0[k] = start.0[k] + p;
+        }
+    }
+}
+
+/// The same for bodies of which some are damped: `start = f v + φ h g`.
+pub(crate) fn warm_start_damped(bodies: &mut Bodies, h: f64) {
+    let Bodies {
+        lines,
+        start,
+        pull,
+        drag,
+        ..
+    } = bodies;
+    let with = lines.iter_mut().zip(start).zip(pull).zip(drag);
+    for (((line, start), pull), [left, added]) in with {
+        for k in 0..3 {
+            let v = line.0[k];
+            let p = v - start.0[k];
+            start.0[k] = left.0[k] * v + added.0[k] * (h * pull.0[k]);
             line.0[k] = start.0[k] + p;
         }
     }
@@ -29,14 +50,38 @@ pub(crate) fn displace(lines: &mut [Line], h: f64) {
 /// and likewise where friction brakes. Where a contact stopped the body at its surface there is
 /// nothing to take back; a stop is what changes the velocity by more than four times the pull.
 pub(crate) fn correct(lines: &mut [Line], start: &[Quad], pull: &[Quad], h: f64) {
-    let most = 16.0 * h * h;
     for ((line, start), pull) in lines.iter_mut().zip(start).zip(pull) {
-        let change = [0, 1, 2].map(|k| line.0[k] - start.0[k] + h * pull.0[k]);
-        let square = change[0] * change[0] + change[1] * change[1];
-        if square <= most * pull.v().length_squared() {
-            for (d, change) in line.0[4..7].iter_mut().zip(change) {
-                *d -= 0.5 * h * change;
-            }
+        correct_one(line, start, [0, 1, 2].map(|k| h * pull.0[k]), h);
+    }
+}
+
+/// The same for bodies of which some are damped.
+pub(crate) fn correct_damped(bodies: &mut Bodies, h: f64) {
+    let Bodies {
+        lines,
+        start,
+        pull,
+        drag,
+        ..
+    } = bodies;
+    let with = lines.iter_mut().zip(start).zip(pull).zip(drag);
+    for (((line, start), pull), [left, added]) in with {
+        // What pull and damping did: `start − v` with the v before.
+        let own = [0, 1, 2].map(|k| {
+            let before = (start.0[k] - added.0[k] * (h * pull.0[k])) / left.0[k];
+            start.0[k] - before
+        });
+        correct_one(line, start, own, h);
+    }
+}
+
+/// `own` is the change of velocity without contacts.
+fn correct_one(line: &mut Line, start: &Quad, own: [f64; 3], h: f64) {
+    let change = [0, 1, 2].map(|k| line.0[k] - start.0[k] + own[k]);
+    let square = change[0] * change[0] + change[1] * change[1];
+    if square <= 16.0 * (own[0] * own[0] + own[1] * own[1]) {
+        for (d, change) in line.0[4..7].iter_mut().zip(change) {
+            *d -= 0.5 * h * change;
         }
     }
 }

@@ -8,7 +8,7 @@
 
 use fearless_simd::{Level, Select, Simd, dispatch, f64x4, f64x8};
 
-use super::block::{Block, LANES};
+use super::block::{Block, LANES, OPEN};
 use super::colour::Colour;
 use super::law::Law;
 use super::line::Line;
@@ -29,6 +29,21 @@ pub(crate) enum Pass {
     Relax,
 }
 
+/// What a pass saw.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Seen {
+    /// What friction turned to heat, in J: of a sub-step if its impulses are those of the whole sub-step.
+    pub(crate) heat: f64,
+    /// The least gap of a point, in m.
+    pub(crate) least_gap: f64,
+}
+
+/// The same, lane by lane.
+struct SeenBy {
+    heat: [f64; LANES],
+    least_gap: [f64; LANES],
+}
+
 /// One pass over all rows, colour by colour.
 pub(crate) fn sweep(
     level: Level,
@@ -36,12 +51,21 @@ pub(crate) fn sweep(
     law: &Law,
     lines: &mut [Line],
     colours: &mut [Colour],
-) {
+) -> Seen {
+    let mut seen = SeenBy {
+        heat: [0.0; LANES],
+        least_gap: [OPEN; LANES],
+    };
     if eight_lanes(level) {
-        dispatch!(level, simd => all::<_, f64x8<_>>(simd, pass, law, lines, colours));
+        dispatch!(level, simd => all::<_, f64x8<_>>(simd, pass, law, lines, colours, &mut seen));
     } else {
         // Eight lanes would be two registers each, more than there are.
-        dispatch!(level, simd => all::<_, f64x4<_>>(simd, pass, law, lines, colours));
+        dispatch!(level, simd => all::<_, f64x4<_>>(simd, pass, law, lines, colours, &mut seen));
+    }
+    let least = |least: f64, gap: &f64| if *gap < least { *gap } else { least };
+    Seen {
+        heat: seen.heat.iter().fold(0.0, |sum, heat| sum + heat),
+        least_gap: seen.least_gap.iter().fold(OPEN, least),
     }
 }
 
@@ -64,11 +88,12 @@ fn all<S: Simd, V: Wide<S>>(
     law: &Law,
     lines: &mut [Line],
     colours: &mut [Colour],
+    seen: &mut SeenBy,
 ) {
     match pass {
-        Pass::Solve => blocks::<S, V, true, false>(simd, law, lines, colours),
-        Pass::SolveWithFriction => blocks::<S, V, true, true>(simd, law, lines, colours),
-        Pass::Relax => blocks::<S, V, false, true>(simd, law, lines, colours),
+        Pass::Solve => blocks::<S, V, true, false>(simd, law, lines, colours, seen),
+        Pass::SolveWithFriction => blocks::<S, V, true, true>(simd, law, lines, colours, seen),
+        Pass::Relax => blocks::<S, V, false, true>(simd, law, lines, colours, seen),
     }
 }
 
@@ -78,12 +103,20 @@ fn blocks<S: Simd, V: Wide<S>, const BIAS: bool, const FRICTION: bool>(
     law: &Law,
     lines: &mut [Line],
     colours: &mut [Colour],
+    seen: &mut SeenBy,
 ) {
+    let still = V::splat(simd, 0.0);
     for colour in colours {
-        for block in &mut colour.blocks {
+        let belts = FRICTION && colour.belts > 0;
+        for (block, cold) in colour.blocks.iter_mut().zip(&colour.cold) {
             let mut at = 0;
             while at < LANES {
-                part::<S, V, BIAS, FRICTION>(simd, law, lines, block, at);
+                let belt = if belts {
+                    V::from_slice(simd, &cold.belt[at..at + V::LANES])
+                } else {
+                    still
+                };
+                part::<S, V, BIAS, FRICTION>(simd, law, lines, block, at, belt, seen);
                 at += V::LANES;
             }
         }
@@ -98,6 +131,8 @@ fn part<S: Simd, V: Wide<S>, const BIAS: bool, const FRICTION: bool>(
     lines: &mut [Line],
     block: &mut Block,
     at: usize,
+    belt: V,
+    seen: &mut SeenBy,
 ) {
     let end = at + V::LANES;
     let zero = V::splat(simd, 0.0);
@@ -121,6 +156,11 @@ fn part<S: Simd, V: Wide<S>, const BIAS: bool, const FRICTION: bool>(
     let gap1 = V::from_slice(simd, &block.s1[at..end]) + moved1;
     let gap2 = V::from_slice(simd, &block.s2[at..end]) + moved2;
 
+    if !BIAS {
+        let least = V::from_slice(simd, &seen.least_gap[at..end]);
+        let least = gap1.min(gap2).min(least);
+        least.store_slice(&mut seen.least_gap[at..end]);
+    }
     let reach = V::splat(simd, law.inverse_h);
     // Where nothing pushes, and no gap closes in this sub-step, nothing will: the impulses that solve for it are 0.
     let (counts1, counts2) = if BIAS {
@@ -146,9 +186,9 @@ fn part<S: Simd, V: Wide<S>, const BIAS: bool, const FRICTION: bool>(
     let k12 = k11 + turns * l;
     let k22 = k12 + (turns + (ia + ib) * l) * l;
     let k12 = k12 * V::splat(simd, REGULAR);
+    let (open1, open2) = (gap1.simd_gt(zero), gap2.simd_gt(zero));
     let (u1, u2, s11, s22, softened);
     if BIAS {
-        let (open1, open2) = (gap1.simd_gt(zero), gap2.simd_gt(zero));
         let ground = ma.min(mb).simd_eq(zero);
         let rate = ground.select(V::splat(simd, law.soft[1].0), V::splat(simd, law.soft[0].0));
         softened = ground.select(V::splat(simd, law.soft[1].1), V::splat(simd, law.soft[0].1));
@@ -186,13 +226,15 @@ fn part<S: Simd, V: Wide<S>, const BIAS: bool, const FRICTION: bool>(
 
     let (new1, new2) = if BIAS {
         // An impulse that more than doubles stops a blow, and has no error to damp: over-relaxed it would throw the
-        // struck body off faster than the one that strikes.
-        let j = j1 + j2;
-        let rests = j.simd_gt(zero) & (j + j).simd_ge(x1 + x2);
+        // struck body off faster than the one that strikes. Nor has one of which less than half is left after a blow, or
+        // that lets an open gap close: over-relaxed it would let go too much.
+        let (j, x) = (j1 + j2, x1 + x2);
+        let rests = j.simd_gt(zero) & (j + j).simd_ge(x) & (x + x).simd_ge(j);
         let omega = rests.select(V::splat(simd, law.over_relaxation), softened);
+        let (omega1, omega2) = (open1.select(softened, omega), open2.select(softened, omega));
         (
-            (j1 + omega * (x1 - j1)).max(zero),
-            (j2 + omega * (x2 - j2)).max(zero),
+            (j1 + omega1 * (x1 - j1)).max(zero),
+            (j2 + omega2 * (x2 - j2)).max(zero),
         )
     } else {
         (x1, x2)
@@ -216,12 +258,19 @@ fn part<S: Simd, V: Wide<S>, const BIAS: bool, const FRICTION: bool>(
         let jt = V::from_slice(simd, &block.jt[at..end]);
         let (eases_a, eases_b) = (ia * at_, ib * bt);
         let k = m + (eases_a * at_ + eases_b * bt);
-        let vt = nx * (bvy - avy) - ny * (bvx - avx) + (bt * bw - at_ * aw);
+        let vt = nx * (bvy - avy) - ny * (bvx - avx) + (bt * bw - at_ * aw) - belt;
         let limit = V::from_slice(simd, &block.mu[at..end]) * (new1 + new2);
         let wanted = limit.min(jt - vt * (one / k));
         let new = (-limit).max(wanted);
         let dt = new - jt;
         new.store_slice(&mut block.jt[at..end]);
+        // The mean of the slips at both ends of the sub-step, as far as the row knows: before it was k jt less. What sticks
+        // makes no heat.
+        let slip = vt + k * dt;
+        let most = slip.abs();
+        let half = (-most).max(most.min(V::splat(simd, 0.5) * (k * new)));
+        let sum = V::from_slice(simd, &seen.heat[at..end]) - new * (slip - half);
+        sum.store_slice(&mut seen.heat[at..end]);
         let (px, py) = (-ny * dt, nx * dt);
         avx -= px * ma;
         avy -= py * ma;

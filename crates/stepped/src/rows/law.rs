@@ -24,7 +24,7 @@ pub(crate) struct Law {
 
 impl Law {
     pub(crate) fn new(settings: &Settings) -> Self {
-        let h = settings.tick / f64::from(settings.substeps);
+        let h = settings.substep();
         let softness = &settings.softness;
         // Above an eighth of the sub-step's rate the implicit spring is under-resolved, and hums.
         let frequency = softness.frequency.min(0.125 / h);

@@ -60,6 +60,15 @@ impl Line {
         }
     }
 
+    pub(crate) const fn set_displacement(&mut self, d: Vec2, turn: f64) {
+        (self.0[4], self.0[5], self.0[6]) = (d.x, d.y, turn);
+    }
+
+    pub(crate) fn displace(&mut self, way: Vec2) {
+        self.0[4] += way.x;
+        self.0[5] += way.y;
+    }
+
     /// It counts from where it is now.
     pub(crate) const fn clear_displacement(&mut self) {
         (self.0[4], self.0[5], self.0[6]) = (0.0, 0.0, 0.0);

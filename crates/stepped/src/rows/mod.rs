@@ -1,15 +1,17 @@
 //! What is solved: contacts in blocks of eight, bodies in lines.
 
 mod block;
+mod bounce_budget;
 #[cfg(test)]
 mod check;
 mod colour;
+mod deep;
 mod graph;
+mod heavy;
 mod integrate;
 mod kernel;
 mod law;
 mod line;
-#[cfg(test)]
 mod plain;
 mod renew;
 mod restitution;
@@ -18,8 +20,11 @@ mod tests;
 mod transpose;
 
 pub(crate) use block::{Block, Cold, LANES, OPEN};
+pub(crate) use bounce_budget::Before;
+pub(crate) use deep::{DEEP, Deep};
 pub(crate) use graph::Graph;
-pub(crate) use integrate::{correct, displace, warm_start};
+pub(crate) use heavy::Heavy;
+pub(crate) use integrate::{correct, correct_damped, displace, warm_start, warm_start_damped};
 pub(crate) use kernel::{Pass, eight_lanes, sweep};
 pub(crate) use law::Law;
 pub(crate) use line::{Line, Quad};

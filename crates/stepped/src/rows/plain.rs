@@ -1,20 +1,26 @@
-//! The soft law, lane by lane: the scalar twin of the wide kernel, bit for bit.
+//! The soft law, lane by lane: the scalar twin of the wide kernel, bit for bit, and what sweeps single rows.
 
-use super::block::{Block, LANES};
+use super::block::Block;
+#[cfg(test)]
+use super::block::LANES;
+#[cfg(test)]
 use super::colour::Colour;
 use super::kernel::{Pass, REGULAR};
 use super::law::Law;
 use super::line::Line;
 
-/// One pass over all rows, colour by colour.
-pub(crate) fn sweep(pass: Pass, law: &Law, lines: &mut [Line], colours: &mut [Colour]) {
+/// One pass over all rows, colour by colour; the heat of friction.
+#[cfg(test)]
+pub(crate) fn sweep(pass: Pass, law: &Law, lines: &mut [Line], colours: &mut [Colour]) -> f64 {
+    let mut heat = [0.0; LANES];
     for colour in colours {
-        for block in &mut colour.blocks {
-            for lane in 0..LANES {
-                row(pass, law, lines, block, lane);
+        for (block, cold) in colour.blocks.iter_mut().zip(&colour.cold) {
+            for (lane, heat) in heat.iter_mut().enumerate() {
+                *heat += row(pass, law, lines, block, lane, cold.belt[lane], None);
             }
         }
     }
+    heat.iter().fold(0.0, |sum, heat| sum + heat)
 }
 
 /// The second where both are equal, or zeros of either sign.
@@ -31,8 +37,30 @@ fn positive(x: f64) -> f64 {
     larger(x, 0.0)
 }
 
-/// Bodies that no lane of the block shares may be written at once.
-fn row(pass: Pass, law: &Law, lines: &mut [Line], block: &mut Block, lane: usize) {
+/// A row that is swept again and again, over-relaxed by `often` in all passes.
+pub(crate) fn row_often(
+    pass: Pass,
+    law: &Law,
+    lines: &mut [Line],
+    block: &mut Block,
+    lane: usize,
+    belt: f64,
+    often: f64,
+) {
+    row(pass, law, lines, block, lane, belt, Some(often));
+}
+
+/// Bodies that no lane of the block shares may be written at once. The heat of its friction, in J.
+fn row(
+    pass: Pass,
+    law: &Law,
+    lines: &mut [Line],
+    block: &mut Block,
+    lane: usize,
+    belt: f64,
+    often: Option<f64>,
+) -> f64 {
+    let mut heat = 0.0;
     let (bias, friction) = (pass != Pass::Relax, pass != Pass::Solve);
     let (ia, ib) = (block.a[lane] as usize, block.b[lane] as usize);
     let Line([mut avx, mut avy, mut aw, ma, adx, ady, aturn, i_a]) = lines[ia];
@@ -89,15 +117,30 @@ fn row(pass: Pass, law: &Law, lines: &mut [Line], block: &mut Block, lane: usize
         (0.0, y2)
     };
 
-    let (new1, new2) = if bias {
-        // An impulse that more than doubles stops a blow, and has no error to damp: over-relaxed it would throw the
-        // struck body off faster than the one that strikes.
+    let (new1, new2) = if let Some(omega) = often {
+        // Where it would pull the solution itself is taken: cut off point by point, it can be farther from it than before.
+        let (h1, h2) = (j1 + omega * (x1 - j1), j2 + omega * (x2 - j2));
+        if smaller(h1, h2) >= 0.0 {
+            (h1, h2)
+        } else {
+            (x1, x2)
+        }
+    } else if bias {
+        // An impulse that more than doubles stops a blow, and one that is more than halved, or lets an open gap close, lets go
+        // enough.
         let j = j1 + j2;
-        let rests = j > 0.0 && j + j >= x1 + x2;
-        let omega = if rests { law.over_relaxation } else { softened };
+        let x = x1 + x2;
+        let rests = j > 0.0 && j + j >= x && x + x >= j;
+        let omega = |gap: f64| {
+            if rests && gap <= 0.0 {
+                law.over_relaxation
+            } else {
+                softened
+            }
+        };
         (
-            positive(j1 + omega * (x1 - j1)),
-            positive(j2 + omega * (x2 - j2)),
+            positive(j1 + omega(gap1) * (x1 - j1)),
+            positive(j2 + omega(gap2) * (x2 - j2)),
         )
     } else {
         (x1, x2)
@@ -118,12 +161,16 @@ fn row(pass: Pass, law: &Law, lines: &mut [Line], block: &mut Block, lane: usize
         let (at, bt, jt) = (block.at[lane], block.bt[lane], block.jt[lane]);
         let (eases_a, eases_b) = (i_a * at, i_b * bt);
         let k = m + (eases_a * at + eases_b * bt);
-        let vt = nx * (bvy - avy) - ny * (bvx - avx) + (bt * bw - at * aw);
+        let vt = nx * (bvy - avy) - ny * (bvx - avx) + (bt * bw - at * aw) - belt;
         let limit = block.mu[lane] * (new1 + new2);
         let wanted = smaller(limit, jt - vt * (1.0 / k));
         let new = larger(-limit, wanted);
         let dt = new - jt;
         block.jt[lane] = new;
+        let slip = vt + k * dt;
+        let most = slip.abs();
+        let half = larger(-most, smaller(most, 0.5 * (k * new)));
+        heat = -(new * (slip - half));
         let (px, py) = (-ny * dt, nx * dt);
         avx -= px * ma;
         avy -= py * ma;
@@ -134,4 +181,5 @@ fn row(pass: Pass, law: &Law, lines: &mut [Line], block: &mut Block, lane: usize
     }
     lines[ia].0[..3].copy_from_slice(&[avx, avy, aw]);
     lines[ib].0[..3].copy_from_slice(&[bvx, bvy, bw]);
+    heat
 }

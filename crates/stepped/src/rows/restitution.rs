@@ -10,6 +10,7 @@
 use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x4};
 
 use super::block::{Block, LANES};
+use super::bounce_budget::{Before, keep, note};
 use super::colour::Colour;
 use super::graph::Graph;
 use super::law::Law;
@@ -27,6 +28,7 @@ const SWEEPS: usize = 8;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Arrival {
     contact: u32,
+    pub(super) lines: [u32; 2],
     point: usize,
     /// Speed with which the surface is left, in m/s.
     leaves: f64,
@@ -42,6 +44,7 @@ pub(crate) fn arrivals(
     bodies: &Bodies,
     graph: &mut Graph,
     found: &mut Vec<Arrival>,
+    before: &mut Vec<Before>,
 ) {
     found.clear();
     let least = REST * law.h * law.gravity;
@@ -70,6 +73,7 @@ pub(crate) fn arrivals(
                 if met && speed > least {
                     found.push(Arrival {
                         contact: cold.contact[lane],
+                        lines: [block.a[lane], block.b[lane]],
                         point,
                         leaves: cold.restitution[lane] * speed,
                         pull: a,
@@ -78,6 +82,10 @@ pub(crate) fn arrivals(
                 }
             }
         }
+    }
+    if !found.is_empty() {
+        let lines: Vec<_> = found.iter().map(|arrival| arrival.lines).collect();
+        note(bodies, &lines, law.h, before);
     }
 }
 
@@ -125,7 +133,16 @@ fn motion(bodies: &Bodies, block: &Block, lane: usize) -> [[f64; 2]; 3] {
 }
 
 /// Lets what arrived leave again; v and start change alike, and the rows start cold.
-pub(crate) fn bounce(bodies: &mut Bodies, graph: &mut Graph, arrived: &mut [Arrival]) {
+pub(crate) fn bounce(
+    bodies: &mut Bodies,
+    graph: &mut Graph,
+    arrived: &mut [Arrival],
+    before: &[Before],
+) {
+    if arrived.is_empty() {
+        return;
+    }
+    let mut pushes = vec![[Quad::default(); 2]; arrived.len()];
     for arrival in &mut *arrived {
         graph.clear_warm_start(bodies, arrival.contact);
         let (block, _, lane) = graph.lane(arrival.contact);
@@ -135,7 +152,7 @@ pub(crate) fn bounce(bodies: &mut Bodies, graph: &mut Graph, arrived: &mut [Arri
         arrival.leaves = square.max(0.0).sqrt();
     }
     for _ in 0..SWEEPS {
-        for arrival in &mut *arrived {
+        for (arrival, pushed) in arrived.iter_mut().zip(&mut pushes) {
             let (block, _, lane) = graph.lane(arrival.contact);
             let (a, b) = (block.a[lane] as usize, block.b[lane] as usize);
             let v = block.opening(lane, &bodies.lines[a], &bodies.lines[b])[arrival.point];
@@ -152,11 +169,13 @@ pub(crate) fn bounce(bodies: &mut Bodies, graph: &mut Graph, arrived: &mut [Arri
             let impulse = (arrival.impulse + (arrival.leaves - v) / k).max(0.0);
             let change = impulse - arrival.impulse;
             arrival.impulse = impulse;
-            for (line, push) in [(a, push_a), (b, push_b)] {
+            for (k, (line, push)) in [(a, push_a), (b, push_b)].into_iter().enumerate() {
                 let push = Quad(push.0.map(|x| x * change));
                 bodies.start[line].add(&push);
                 bodies.lines[line].add(&push);
+                pushed[k].add(&push);
             }
         }
     }
+    keep(bodies, arrived, &pushes, before);
 }

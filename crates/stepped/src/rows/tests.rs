@@ -3,7 +3,7 @@
 use super::kernel::{Pass, sweep};
 use super::plain;
 use crate::tests::{Random, floor, levels};
-use crate::{Engine, Settings};
+use crate::{Engine, Mixed, Settings};
 
 #[test]
 fn all_widths_have_the_bits_of_the_plain_sweep() {
@@ -18,7 +18,7 @@ fn all_widths_have_the_bits_of_the_plain_sweep() {
         engine.insert(body, &[piece]).unwrap();
     }
     for tick in 0..60 {
-        engine.find_contacts();
+        engine.look(&Mixed);
         for level in levels() {
             let mut wide = engine.clone();
             let mut slow = engine.clone();

@@ -1,6 +1,7 @@
 //! Laws that hold whatever is simulated.
 
 mod bouncing;
+mod calls;
 mod geometry;
 mod ghosts;
 mod laws;

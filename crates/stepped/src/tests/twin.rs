@@ -4,7 +4,7 @@ use carom_math::{Pose, Rot, Vec2, vec2};
 
 use super::{Random, floor, pyramid, unit_box};
 use crate::naive;
-use crate::{BodyInput, Engine, Relaxation, Settings};
+use crate::{BodyInput, Engine, Mixed, Relaxation, Settings};
 
 /// A heap in touch: velocities and impulses after a tick are those of rows in a list, swept in the same order.
 #[test]
@@ -29,7 +29,7 @@ fn a_tick_agrees_with_its_slow_twin() {
         leaning.pose.rotation = Rot::from_angle(0.7);
         ids.push(engine.insert(leaning, &[unit_box()]).unwrap());
         for tick in 0..100 {
-            engine.find_contacts();
+            engine.look(&Mixed);
             let expected = naive::State::of(&engine).substeps(&engine);
             engine.substeps();
             for (k, (v, w)) in expected.velocities.iter().enumerate().skip(2) {

@@ -1,0 +1,148 @@
+//! What a caller changes of bodies that are there.
+
+use carom_math::{Pose, Vec2};
+
+use crate::bodies::Bodies;
+use crate::error::finite;
+use crate::rows::{Law, Quad};
+use crate::{BodyId, BodyKind, Engine, EngineError, PairRules};
+
+impl Engine {
+    /// Sets the velocity of the centre of mass, in m/s, and the spin, in rad/s; a fixed body stays at rest.
+    ///
+    /// # Errors
+    /// [`EngineError::Stale`] if the body is not in this engine, [`EngineError::Value`] if a number is not finite.
+    pub fn set_velocity(
+        &mut self,
+        id: BodyId,
+        velocity: Vec2,
+        spin: f64,
+    ) -> Result<(), EngineError> {
+        self.bodies.get(id)?;
+        finite("velocity.x", velocity.x)?;
+        finite("velocity.y", velocity.y)?;
+        finite("spin", spin)?;
+        self.wake_around(id.slot);
+        let record = *self.bodies.get(id)?;
+        if record.kind != BodyKind::Fixed {
+            let at = record.line as usize;
+            let (line, start) = (&mut self.bodies.lines[at], &mut self.bodies.start[at]);
+            // What contacts do in a sub-step does not change by it: both change by the same amount.
+            let (v, w) = (line.v(), line.w());
+            let change = Quad::new(velocity - v, spin - w);
+            start.add(&change);
+            line.set_velocity(velocity, spin);
+        }
+        Ok(())
+    }
+
+    /// Puts a body elsewhere, without its contacts.
+    ///
+    /// # Errors
+    /// [`EngineError::Stale`] if the body is not in this engine, [`EngineError::Value`] if a number is not finite.
+    pub fn set_pose(&mut self, id: BodyId, pose: Pose) -> Result<(), EngineError> {
+        self.bodies.get(id)?;
+        finite("pose.position.x", pose.position.x)?;
+        finite("pose.position.y", pose.position.y)?;
+        self.wake_around(id.slot);
+        let record = *self.bodies.get(id)?;
+        self.drop_contacts(id.slot);
+        if record.kind == BodyKind::Fixed {
+            self.bodies.records[id.slot as usize].pose = pose;
+            for number in record.first_piece..record.first_piece + record.pieces {
+                self.broad.leave(number);
+                self.stand(number, pose);
+            }
+            self.wake_overlapped(id.slot);
+        } else {
+            let at = record.line as usize;
+            self.bodies.base[at] = pose;
+            self.bodies.lines[at].clear_displacement();
+            self.bodies.moved[at] = true;
+        }
+        Ok(())
+    }
+
+    /// Puts a body a little way off, with its contacts: they are computed anew with the next tick.
+    ///
+    /// # Errors
+    /// As [`Self::set_pose`].
+    pub fn shift(&mut self, id: BodyId, pose: Pose) -> Result<(), EngineError> {
+        let record = *self.bodies.get(id)?;
+        if record.line == Bodies::NONE || record.kind == BodyKind::Fixed {
+            return self.set_pose(id, pose);
+        }
+        finite("pose.position.x", pose.position.x)?;
+        finite("pose.position.y", pose.position.y)?;
+        let at = record.line as usize;
+        let base = self.bodies.base[at];
+        let turn = (pose.rotation * base.rotation.inverse()).angle();
+        self.bodies.lines[at].set_displacement(pose.position - base.position, turn);
+        Ok(())
+    }
+
+    /// Sets the angle by which a body has turned so far, in rad, whole turns included: it only counts.
+    ///
+    /// # Errors
+    /// [`EngineError::Stale`] if the body is not in this engine, [`EngineError::Value`] if the angle is not finite.
+    pub fn set_turned(&mut self, id: BodyId, turned: f64) -> Result<(), EngineError> {
+        let record = *self.bodies.get(id)?;
+        finite("turned", turned)?;
+        if record.line != Bodies::NONE && record.kind != BodyKind::Fixed {
+            let at = record.line as usize;
+            self.bodies.turned[at] = turned - self.bodies.lines[at].turn();
+        }
+        Ok(())
+    }
+
+    /// Sets what accelerates a dynamic body besides contacts, in m/s² and rad/s²: gravity, fields and forces together.
+    ///
+    /// A body that sleeps sleeps on.
+    ///
+    /// # Errors
+    /// [`EngineError::Stale`] if the body is not in this engine, [`EngineError::Value`] if a number is not finite.
+    pub fn set_pull(&mut self, id: BodyId, pull: Vec2, twist: f64) -> Result<(), EngineError> {
+        let record = *self.bodies.get(id)?;
+        finite("pull.x", pull.x)?;
+        finite("pull.y", pull.y)?;
+        finite("twist", twist)?;
+        if record.kind == BodyKind::Dynamic && record.line != Bodies::NONE {
+            self.bodies.pull[record.line as usize] = Quad::new(pull, twist);
+        }
+        Ok(())
+    }
+
+    /// Changes gravity, in m/s²: of all dynamic bodies by their scale, whatever their pull was. All that sleeps wakes.
+    ///
+    /// # Errors
+    /// [`EngineError::Value`] if a number is not finite.
+    pub fn set_gravity(&mut self, gravity: Vec2) -> Result<(), EngineError> {
+        finite("gravity.x", gravity.x)?;
+        finite("gravity.y", gravity.y)?;
+        self.settings.gravity = gravity;
+        self.law = Law::new(&self.settings);
+        self.wake_every();
+        for at in 2..self.bodies.lines.len() {
+            let scale = self.bodies.records[self.bodies.slot_of[at] as usize].gravity_scale;
+            self.bodies.pull[at] = Quad::new(gravity * scale, 0.0);
+        }
+        Ok(())
+    }
+
+    /// Asks anew how the contacts of a body meet, and drops those that no longer do.
+    ///
+    /// # Errors
+    /// [`EngineError::Stale`] if the body is not in this engine.
+    pub fn resurface(&mut self, id: BodyId, rules: &dyn PairRules) -> Result<(), EngineError> {
+        self.bodies.get(id)?;
+        let contacts: Vec<_> = self.graph.of_body(&self.bodies, id.slot).collect();
+        for (contact, _) in contacts {
+            let pieces = self.graph.contacts[contact as usize].pieces;
+            match self.pieces.surface(pieces, rules) {
+                Some(surface) => self.graph.resurface(contact, surface),
+                None => self.part(contact),
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,140 @@
+//! The energy of bounces: bodies that bounce together leave with no more than they came with.
+//!
+//! Restitution sets speeds along normals, and friction acts at the same points: both together may give more than the blow took
+//! (Kane's example: a rod that strikes the ground aslant). Then the impulses of all points that hang together by bodies are
+//! made smaller by one factor.
+
+use std::collections::BTreeMap;
+
+use super::line::{Line, Quad};
+use super::restitution::Arrival;
+use crate::bodies::Bodies;
+use crate::groups::Groups;
+
+/// What came out of rounding is no gain, as a part of the energy.
+const ROUNDING: f64 = 1e-13;
+
+/// A body before it bounced.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Before {
+    line: u32,
+    /// Kinetic energy before the sub-step, in J.
+    kinetic: f64,
+    d: Quad,
+}
+
+/// Notes the bodies of all arrivals, once the warm start acts and before anything is solved for.
+pub(crate) fn note(bodies: &Bodies, lines: &[[u32; 2]], h: f64, before: &mut Vec<Before>) {
+    before.clear();
+    let mut all: Vec<u32> = lines.iter().flatten().copied().collect();
+    all.sort_unstable();
+    all.dedup();
+    for line in all {
+        let at = line as usize;
+        let (body, start, pull) = (&bodies.lines[at], &bodies.start[at], &bodies.pull[at]);
+        let [left, added] = &bodies.drag[at];
+        let came = [0, 1, 2].map(|k| (start.0[k] - added.0[k] * (h * pull.0[k])) / left.0[k]);
+        before.push(Before {
+            line,
+            kinetic: kinetic(body, came),
+            d: Quad::new(body.d(), body.turn()),
+        });
+    }
+}
+
+/// Makes bounces smaller that leave their bodies with more energy than these had.
+pub(super) fn keep(
+    bodies: &mut Bodies,
+    arrived: &[Arrival],
+    pushes: &[[Quad; 2]],
+    before: &[Before],
+) {
+    // Points are one group that share a body which can be moved.
+    let mut groups = Groups::new(arrived.len());
+    let mut owner = BTreeMap::new();
+    for (k, arrival) in arrived.iter().enumerate() {
+        for line in arrival.lines {
+            if bodies.lines[line as usize].inverse_mass() > 0.0 {
+                let first = *owner.entry(line).or_insert(k);
+                groups.join(first, k);
+            }
+        }
+    }
+    let mut pushed: BTreeMap<usize, BTreeMap<u32, Quad>> = BTreeMap::new();
+    for (k, (arrival, pushes)) in arrived.iter().zip(pushes).enumerate() {
+        let group = pushed.entry(groups.find(k)).or_default();
+        for (line, push) in arrival.lines.iter().zip(pushes) {
+            group.entry(*line).or_default().add(push);
+        }
+    }
+    for group in pushed.values() {
+        let r = excess(bodies, group, before);
+        if r > 0.0 {
+            for (line, push) in group {
+                let back = Quad(push.0.map(|x| -r * x));
+                bodies.lines[*line as usize].add(&back);
+                bodies.start[*line as usize].add(&back);
+            }
+        }
+    }
+}
+
+/// What part of its bounces a group must give back.
+fn excess(bodies: &Bodies, group: &BTreeMap<u32, Quad>, before: &[Before]) -> f64 {
+    let (mut had, mut has, mut mixed, mut square) = (0.0, 0.0, 0.0, 0.0);
+    for (line, push) in group {
+        let at = *line as usize;
+        let body = &bodies.lines[at];
+        if body.inverse_mass() <= 0.0 {
+            // Whatever drives a body may give energy.
+            if body.v() != carom_math::Vec2::ZERO || body.w().abs() > 0.0 {
+                return 0.0;
+            }
+            continue;
+        }
+        let Ok(known) = before.binary_search_by_key(line, |before| before.line) else {
+            return 0.0;
+        };
+        let came = &before[known];
+        let mass = body.inverse_mass().recip();
+        // What the pull did on the way of this sub-step.
+        let fell = mass * bodies.pull[at].v().dot(body.d() - came.d.v());
+        had += came.kinetic + fell;
+        has += kinetic(body, [body.v().x, body.v().y, body.w()]);
+        let turning = |x: f64| {
+            if body.inverse_inertia() > 0.0 {
+                x / body.inverse_inertia()
+            } else {
+                0.0
+            }
+        };
+        mixed += mass * push.v().dot(body.v()) + turning(push.w() * body.w());
+        square += 0.5 * (mass * push.v().length_squared() + turning(push.w() * push.w()));
+    }
+    let more = has - had;
+    if more <= ROUNDING * (has + had.abs()) || square <= 0.0 {
+        return 0.0;
+    }
+    // E − r B + r² A is what they had.
+    let root = mixed * mixed - 4.0 * square * more;
+    let r = if root > 0.0 {
+        (mixed - root.sqrt()) / (2.0 * square)
+    } else {
+        mixed / (2.0 * square)
+    };
+    r.clamp(0.0, 1.0)
+}
+
+fn kinetic(body: &Line, [x, y, w]: [f64; 3]) -> f64 {
+    let straight = if body.inverse_mass() > 0.0 {
+        (x * x + y * y) / body.inverse_mass()
+    } else {
+        0.0
+    };
+    let turning = if body.inverse_inertia() > 0.0 {
+        w * w / body.inverse_inertia()
+    } else {
+        0.0
+    };
+    0.5 * (straight + turning)
+}

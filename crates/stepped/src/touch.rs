@@ -1,0 +1,49 @@
+//! Which pieces touch: begins and ends, as a caller asks for them.
+
+use crate::Engine;
+use crate::rows::{Block, Cold};
+
+/// Two convex pieces began or ceased to touch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Touch {
+    /// Tags of the pieces: that of the body that was inserted first comes first.
+    pub tags: [u64; 2],
+    /// Whether it began.
+    pub begins: bool,
+}
+
+impl Engine {
+    /// Adds what began and ceased to touch since this was last asked, in no order that means anything; pieces touch
+    /// while a point of theirs pushes. Contacts of what sleeps stay as they are.
+    pub fn touches(&mut self, found: &mut Vec<Touch>) {
+        found.extend(self.ended.drain(..).map(|tags| Touch {
+            tags,
+            begins: false,
+        }));
+        let pieces = &self.pieces;
+        for colour in self.graph.awake() {
+            for (block, cold) in colour.blocks.iter().zip(&mut colour.cold) {
+                let now = pushing(block, cold);
+                let mut changed = now ^ cold.touching;
+                cold.touching = now;
+                while changed != 0 {
+                    let lane = changed.trailing_zeros() as usize;
+                    changed &= changed - 1;
+                    found.push(Touch {
+                        tags: pieces.tags(cold.pieces[lane]),
+                        begins: now >> lane & 1 == 1,
+                    });
+                }
+            }
+        }
+    }
+}
+
+/// A bit for each lane that pushed in the last sub-step.
+fn pushing(block: &Block, cold: &Cold) -> u8 {
+    let mut pushing = 0;
+    for (lane, (j1, j2)) in block.j1.iter().zip(&block.j2).enumerate() {
+        pushing |= u8::from(j1 + j2 > 0.0) << lane;
+    }
+    pushing & cold.used
+}
