@@ -3,7 +3,7 @@
 use carom_dynamics::{BodyDef, BodyKind, EventKind, Material, Settings};
 use carom_geometry::HalfPlane;
 use carom_math::{Pose, Rot, Vec2, vec2};
-use carom_tests::scenes::{boxed, column, disc, floor, put, stepped};
+use carom_tests::scenes::{block, boxed, column, disc, floor, put, stepped};
 use carom_tests::{elastic, run};
 
 #[test]
@@ -225,4 +225,34 @@ fn forces_act_for_their_step() {
         (work - kinetic).abs() < 1e-9 * kinetic,
         "work {work} J of {kinetic}"
     );
+}
+
+/// What falls through something viscous in a field, and comes to rest on a floor.
+#[test]
+fn damping_and_fields_act_in_stepped_mode() {
+    let mut world = stepped(Settings {
+        gravity: Vec2::ZERO,
+        ..Settings::default()
+    });
+    let down = carom_dynamics::RadialField::new(vec2(0.0, -1e4), 9.81e8, 1.0).expect("a field");
+    world.add_field(down);
+    floor(&mut world, Material::default());
+    let def = BodyDef::dynamic().at(vec2(0.0, 20.5)).damped(0.5, 0.1);
+    let id = put(&mut world, def, block(1.0, 1.0), Material::default());
+    run(&mut world, 1.5, |_| {});
+    // v = g/c (1 − e^(−ct)), where g is that of the field at 10 km from its centre.
+    let speed = 9.81 / 0.5 * (1.0 - carom_math::trig::exp(-0.75));
+    let v = world.body(id).expect("it stays").velocity();
+    assert!((v.y + speed).abs() < 0.05, "{v} of {speed} m/s");
+    run(&mut world, 5.0, |_| {});
+    let body = world.body(id).expect("it stays");
+    assert!((body.centre().y - 0.5).abs() < 1e-3, "{}", body.centre());
+    assert!(body.is_asleep());
+    // Damping that is taken away is gone.
+    world.set_damping(id, 0.0, 0.0).expect("valid");
+    let up = vec2(0.0, 30.0);
+    world.set_velocity(id, up, 0.0).expect("valid");
+    world.step(1.0);
+    let v = world.body(id).expect("it stays").velocity();
+    assert!((v.y - 30.0 + 9.81).abs() < 0.05, "{v}");
 }

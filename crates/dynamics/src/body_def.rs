@@ -240,16 +240,6 @@ impl BodyDef {
         self
     }
 
-    /// For worlds that know no damping.
-    pub(crate) fn check_undamped(&self) -> Result<(), BodyError> {
-        for (field, value) in self.dampings() {
-            if value > 0.0 {
-                return Err(BodyError::NotDamped { field, value });
-            }
-        }
-        Ok(())
-    }
-
     const fn dampings(&self) -> [(&'static str, f64); 2] {
         [
             ("linear_damping", self.linear_damping),

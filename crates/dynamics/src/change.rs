@@ -196,17 +196,16 @@ impl World {
     /// [`BodyDef::damped`](crate::BodyDef::damped).
     ///
     /// # Errors
-    /// If the body is not there, a number is not finite or below 0, or above 0 in [`Mode::Stepped`].
+    /// If the body is not there, a number is not finite or below 0.
     pub fn set_damping(&mut self, id: BodyId, linear: f64, angular: f64) -> Result<(), BodyError> {
         let index = self.bodies.find(id)?;
-        let def = BodyDef::dynamic().damped(linear, angular);
-        def.check()?;
-        if self.settings.mode == Mode::Stepped {
-            def.check_undamped()?;
+        BodyDef::dynamic().damped(linear, angular).check()?;
+        let change = |state: &mut BodyState| state.uncommon_mut().damping = (linear, angular);
+        if self.stepping.is_some() {
+            self.remake(index, change);
+        } else {
+            self.disturb(index, change);
         }
-        self.disturb(index, |state| {
-            state.uncommon_mut().damping = (linear, angular);
-        });
         Ok(())
     }
 
@@ -246,6 +245,9 @@ impl World {
                 self.flyers.vanish(&mut self.bodies, index);
             }
             self.flyers = Flyers::under(self.bodies.pull.gravity);
+        }
+        if let Some(stepping) = &mut self.stepping {
+            stepping.set_gravity(self.bodies.pull.gravity);
         }
         for index in self.bodies.indices().collect::<Vec<_>>() {
             self.arrive(index);
@@ -292,6 +294,10 @@ impl World {
     ///
     /// A fixed body that was put into sleepers wakes them; what sleeps beside it sleeps on.
     pub(crate) fn unsettle_on(&mut self, index: u32, time: SimTime) {
+        if self.stepping.is_some() {
+            // The engine wakes whom it was put into.
+            return;
+        }
         let drives = match self.bodies.get(index).kind {
             BodyKind::Dynamic => return,
             BodyKind::Kinematic => true,

@@ -36,14 +36,6 @@ pub enum BodyError {
         /// What it was.
         value: f64,
     },
-    /// [`Mode::Stepped`](crate::Mode::Stepped) knows no damping.
-    #[error("{field} is {value}, but Mode::Stepped knows no damping")]
-    NotDamped {
-        /// The field of the definition.
-        field: &'static str,
-        /// What it was.
-        value: f64,
-    },
     /// A number must be above zero.
     #[error("{field} is {value}, not above 0")]
     NotPositive {
@@ -136,6 +128,12 @@ pub enum SettingsError {
         low: f64,
         /// Largest accepted value.
         high: f64,
+    },
+    /// The stepped engine cannot do with it.
+    #[error("settings: {refused}")]
+    Stepped {
+        /// What the engine says.
+        refused: carom_stepped::EngineError,
     },
     /// The threads could not be started.
     #[error("settings.threads is {threads}, but they could not be started: {reason}")]

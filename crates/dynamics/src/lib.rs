@@ -74,6 +74,7 @@ mod solver;
 mod state;
 mod step;
 mod stepped;
+mod stepping;
 mod substep;
 mod threads;
 mod tipping;

@@ -34,6 +34,7 @@ impl World {
 
     /// Gives the pairs of two bodies the material that they have now.
     fn mix_anew(&mut self, ends: [u32; 2], (a, b): (BodyId, BodyId)) {
+        self.resurface(ends[0]);
         for place in self.bodies.get(ends[0]).pairs.clone() {
             let pair = self.pairs.get_mut(place);
             if pair.bodies == (a.index, b.index) {

@@ -347,8 +347,11 @@ impl Filtered<'_> {
         })
     }
 
-    /// Shapes of flyers in the grid that may be in `bounds`.
+    /// Shapes that are in no tree and may be in `bounds`: of flyers in the grid, or of the engine where it moves everything.
     fn flying_in(&self, bounds: Aabb) -> Vec<u32> {
+        if let Some(stepping) = &self.world.stepping {
+            return self.world.shapes_in(stepping, bounds);
+        }
         let bodies = self
             .world
             .flyers

@@ -82,7 +82,7 @@ impl World {
         // What the caller's changes brought about is told first.
         if !stop_at_event || !self.events.are_due() {
             let reached = if self.settings.mode == Mode::Stepped {
-                self.advance_stepped(end, stop_at_event)
+                self.advance_stepping(end, stop_at_event)
             } else {
                 let time = self.advance(end, stop_at_event);
                 self.write_crowds();
@@ -283,10 +283,8 @@ impl World {
     /// are those of the contact group that it was or is in.
     pub(crate) fn deflected(&mut self, index: u32, time: SimTime) {
         if self.settings.mode == Mode::Stepped {
-            // The next sub-step takes it from here; questions find it by its boxes until then.
-            let left = self.clock.next() - time;
-            self.refit(index, time, left.max(0.25 * self.settings.tick));
-            return self.note_midway(index, time);
+            // The next sub-step takes it from here.
+            return self.bodies.touch(index);
         }
         self.hand_back_of(index, time);
         self.redirect(index, time);
@@ -373,6 +371,10 @@ impl World {
 
     /// Ends the sleep of a body and all sleepers that it touches, and so on; who they are.
     pub(crate) fn woken_with(&mut self, index: u32, time: SimTime) -> Vec<u32> {
+        if self.stepping.is_some() {
+            self.wake_in_engine(index, time);
+            return Vec::new();
+        }
         self.look_at_fresh(time);
         let mut woken = Vec::new();
         wake(
@@ -388,6 +390,9 @@ impl World {
 
     /// Wakes all sleepers that touch a body, and itself: what held them has changed.
     pub(crate) fn wake_around(&mut self, index: u32, time: SimTime) {
+        if self.stepping.is_some() {
+            return self.wake_in_engine(index, time);
+        }
         self.hand_back_around(index, time);
         self.look_at_fresh(time);
         let mut woken = Vec::new();
@@ -405,9 +410,6 @@ impl World {
     /// Has the sub-steps take bodies that woke, and makes their pairs with the flyers near them.
     pub(crate) fn rouse(&mut self, woken: &[u32], time: SimTime) {
         if self.settings.mode == Mode::Stepped {
-            for &index in woken {
-                self.bodies.touch(index);
-            }
             return;
         }
         let mut dozed = false;

@@ -19,6 +19,7 @@ use crate::solver::Law;
 use crate::state::{BodyState, Collider, Surface, drawn_at};
 use crate::step::Work;
 use crate::stepped::Stepped;
+use crate::stepping::Stepping;
 use crate::threads::Threads;
 use crate::{
     Body, BodyDef, BodyError, BodyId, BodyKind, Contact, EnergyLedger, Events, Material, Mode,
@@ -82,6 +83,8 @@ pub struct World {
     pub(crate) stopwatch: Stopwatch,
     /// The solver of stepped mode.
     pub(crate) pool: Stepped,
+    /// The engine of [`Mode::Stepped`].
+    pub(crate) stepping: Option<Box<Stepping>>,
     pub(crate) threads: Threads,
 }
 
@@ -124,6 +127,7 @@ impl World {
             forced: Vec::new(),
             stopwatch: Stopwatch::default(),
             pool,
+            stepping: Stepping::of(&settings)?,
             threads,
             settings,
         })
@@ -183,9 +187,6 @@ impl World {
         shapes: Vec<(Shape, Material)>,
     ) -> Result<BodyId, BodyError> {
         def.check()?;
-        if self.settings.mode == Mode::Stepped {
-            def.check_undamped()?;
-        }
         if shapes.is_empty() {
             return Err(BodyError::NoShape);
         }
@@ -210,7 +211,9 @@ impl World {
         self.bodies.get_mut(id.index).colliders = colliders;
         let (kinetic, potential) = self.bodies.energy_of(id.index, now);
         self.bodies.book.external.add(kinetic + potential);
-        if sleeps {
+        if self.stepping.is_some() {
+            // It enters the engine with the next sub-step.
+        } else if sleeps {
             // No flight, and nothing to predict: it only has to be found.
             self.refit(id.index, now, self.clock.h);
             self.show(id.index, now);
@@ -232,6 +235,7 @@ impl World {
         // A pile that wakes joins the wide solver, and the body with it: it leaves once all are awake.
         self.wake_around(index, now);
         self.quit(index, now);
+        self.leave_engine(index);
         self.bodies.change(index, now, |_| {});
         self.bodies.take_back(|other| other == index, now);
         let (kinetic, potential) = self.bodies.energy_of(index, now);
@@ -272,7 +276,11 @@ impl World {
     pub fn contacts(&self) -> impl Iterator<Item = Contact> + use<'_> {
         let places = self.pairs.in_order().into_iter();
         let touching = places.filter(|place| self.pairs.get(*place).told);
-        touching.flat_map(|place| self.contacts_at(place))
+        let stepped = self.stepping.iter();
+        let stepped = stepped.flat_map(|stepping| self.contacts_in(stepping, None));
+        touching
+            .flat_map(|place| self.contacts_at(place))
+            .chain(stepped)
     }
 
     /// What a body touches: [`Self::contacts`] of one body, in order of the shapes; empty if it is not there.
@@ -284,9 +292,13 @@ impl World {
         let mut touching: Vec<u32> = pairs.into_iter().flatten().copied().collect();
         touching.retain(|place| self.pairs.get(*place).told);
         touching.sort_unstable_by_key(|place| self.pairs.shapes(*place));
+        let index = self.bodies.find(id).ok();
+        let stepped = self.stepping.iter().zip(index);
+        let stepped = stepped.flat_map(|(stepping, index)| self.contacts_in(stepping, Some(index)));
         touching
             .into_iter()
             .flat_map(|place| self.contacts_at(place))
+            .chain(stepped)
     }
 
     fn contacts_at(&self, place: u32) -> Vec<Contact> {
@@ -338,8 +350,8 @@ impl World {
     pub fn energy(&self) -> EnergyLedger {
         let mut ledger = self.bodies.ledger(self.clock.now);
         if self.settings.mode == Mode::Stepped {
-            ledger.friction += self.pool.seats.rig.heat;
-            ledger.impacts += self.pool.bounces.cost();
+            let heat = self.stepping.as_ref().map(|s| s.engine.friction_heat());
+            ledger.friction += heat.unwrap_or(0.0);
             // One sum for all rows and push-outs: what they did is what the energies tell.
             ledger.scheme += ledger.residual();
             return ledger;

@@ -209,17 +209,15 @@ fn case_40_repeats_have_equal_bits_and_other_orders_the_same_laws() {
         world
     };
     let repeat = build(&|k| k, 0.3).state_hash();
+    // Which of eight columns topples is chance, and one that does takes a tenth of the height with it: so means are compared.
+    let (mut heights, mut others) = (0.0, 0.0);
     for variant in 0..10 {
         let spin = 0.3 + 0.01 * f64::from(variant);
         let (first, other) = (build(&|k| k, spin), build(&|k| 59 - k, spin));
         assert!(variant > 0 || first.state_hash() == repeat);
         let (a, b) = (first.energy(), other.energy());
-        assert!(
-            (a.potential - b.potential).abs() < 0.1 * a.potential,
-            "{} {}",
-            a.potential,
-            b.potential
-        );
+        heights += a.potential;
+        others += b.potential;
         for world in [&first, &other] {
             assert!(overlaps(world).0 < 5e-3);
             // Columns jammed side by side do not hum.
@@ -227,6 +225,10 @@ fn case_40_repeats_have_equal_bits_and_other_orders_the_same_laws() {
             assert!(kinetic < 1e-3, "variant {variant}: {kinetic:.1e} J");
         }
     }
+    assert!(
+        (heights - others).abs() < 0.05 * heights,
+        "{heights} J of ten piles, {others} J in other orders"
+    );
 }
 
 /// slembcke/Chipmunk2D#161: normals of disc and polygon the wrong way.

@@ -3,7 +3,7 @@
 use carom_geometry::Circle;
 use carom_math::{Vec2, trig, vec2};
 
-use crate::{BodyDef, BodyError, BodyId, Material, Mode, RadialField, Settings, World};
+use crate::{BodyDef, BodyError, BodyId, Material, RadialField, Settings, World};
 
 fn empty() -> World {
     let settings = Settings {
@@ -121,7 +121,7 @@ fn how_time_is_cut_does_not_matter_to_the_damped() {
 }
 
 #[test]
-fn damping_must_not_be_negative_and_stepped_worlds_know_none() {
+fn damping_must_not_be_negative() {
     let disc = || Circle::new(0.1).expect("valid");
     let mut world = empty();
     let growing = BodyDef::dynamic().damped(-0.1, 0.0);
@@ -130,23 +130,6 @@ fn damping_must_not_be_negative_and_stepped_worlds_know_none() {
         refused,
         Err(BodyError::Negative {
             field: "linear_damping",
-            ..
-        })
-    ));
-    let mut stepped = World::new(Settings {
-        mode: Mode::Stepped,
-        ..Settings::default()
-    })
-    .expect("valid");
-    let refused = stepped.insert(
-        BodyDef::dynamic().damped(0.0, 0.1),
-        disc(),
-        Material::default(),
-    );
-    assert!(matches!(
-        refused,
-        Err(BodyError::NotDamped {
-            field: "angular_damping",
             ..
         })
     ));

@@ -171,10 +171,6 @@ impl Rig {
         self.limits[slot as usize] = limit;
     }
 
-    pub(crate) fn limit(&self, slot: u32) -> Limit {
-        self.limits[slot as usize]
-    }
-
     /// Whether a body moves farther than its limit in a sub-step of `h`, as fast as it is now.
     pub(crate) fn is_swift(&self, slot: u32, h: f64) -> bool {
         self.limits[slot as usize].is_exceeded(&self.lines[slot as usize], h)

@@ -18,7 +18,6 @@ mod depths;
 mod faces;
 mod graze;
 mod heap;
-mod midway;
 mod near;
 mod partners;
 mod relative;
@@ -37,8 +36,6 @@ mod watch;
 mod write;
 
 use carom_collision::PartManifold;
-use carom_math::{SimTime, Vec2};
-
 use crate::pairs::PairContact;
 use crate::solver::{Rig, RowId};
 use crate::{Mode, World};
@@ -93,10 +90,6 @@ pub(crate) struct Stepped {
     /// Cores of shapes, for those who move far in a sub-step.
     cores: Cores,
     depths: Depths,
-    /// Bodies that were changed within the present sub-step since time went on last.
-    midway: Vec<u32>,
-    /// Displacement and turn of each line before the last sub-step, where that is asked for.
-    places: Vec<(Vec2, f64)>,
     /// Pairs that a look goes through: scratch.
     round: Round,
     pub(crate) crowd: Crowd,
@@ -115,56 +108,6 @@ impl Stepped {
 }
 
 impl World {
-    /// Sub-steps up to `end`.
-    pub(crate) fn advance_stepped(&mut self, end: SimTime, stop_at_event: bool) -> SimTime {
-        self.stop_midway();
-        let mut first = true;
-        while self.clock.is_due(end) {
-            let time = self.clock.next();
-            if first {
-                self.take_changes(time);
-            } else if self.settings.history > 0 {
-                self.write_motions(&[]);
-            }
-            self.book_forces(time, first);
-            first = false;
-            if self.pool.until_look == 0 {
-                self.tell_touches(time);
-                if let Some(sleep) = self.settings.sleep {
-                    self.rest(sleep, time);
-                    self.stopwatch.lap(|p| &mut p.sleep);
-                }
-                self.pool.seats.zone();
-                self.pool.until_look = self.settings.substeps_per_tick();
-                self.look_around(time);
-            } else if self.is_restless() {
-                self.look_between(time);
-            }
-            self.pool.until_look -= 1;
-            self.clock.begin();
-            self.report.substeps += 1;
-            // Who looks at its end alone asks nothing of the way.
-            self.note_places(self.settings.history > 0 || self.clock.is_within(end));
-            self.substep();
-            if stop_at_event {
-                self.tell_touches(self.clock.next().min(end));
-            }
-            if self.clock.is_due(end) && self.uses_up() || stop_at_event && self.events.are_due() {
-                self.tell_touches(self.clock.next().min(end));
-                self.write_motions(&[]);
-                return self.clock.next().min(end);
-            }
-        }
-        if !first {
-            self.tell_touches(self.clock.next().min(end));
-            self.write_motions(&[]);
-            self.stopwatch.lap(|p| &mut p.flight);
-        } else if !self.clock.is_within(end) {
-            self.end_way();
-        }
-        end
-    }
-
     fn substep(&mut self) {
         if !self.go_ahead() {
             self.make_substep();

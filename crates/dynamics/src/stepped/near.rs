@@ -2,58 +2,12 @@
 
 use carom_math::SimTime;
 
-use super::seats::pull_of;
 use super::{REFRESH, Stepped};
 use crate::broad::PADDING;
 use crate::pairs::Pair;
 use crate::{BodyKind, World};
 
 impl World {
-    /// Takes over what a caller changed since the last sub-step: who came, went, woke, was moved.
-    pub(super) fn take_changes(&mut self, time: SimTime) {
-        let mut touched = core::mem::take(&mut self.bodies.touched);
-        touched.sort_unstable();
-        touched.dedup();
-        for &index in &touched {
-            let state = self.bodies.get(index);
-            let seats = &mut self.pool.seats;
-            let mut slot = seats.slot(index);
-            let belongs = self.bodies.is_alive(index) && state.is_active();
-            if let Some(old) = slot
-                && !(seats.fits(old, state) && (belongs || state.kind == BodyKind::Fixed))
-            {
-                self.leave(index, old);
-                slot = None;
-            }
-            let state = self.bodies.get(index);
-            match slot {
-                Some(slot) => {
-                    let pull = pull_of(&self.bodies, state, state.motion.centre_at(time));
-                    self.pool.seats.follow(slot, state, time);
-                    self.pool.seats.rig.set_pull(slot, pull);
-                }
-                None if belongs => {
-                    let pull = pull_of(&self.bodies, state, state.motion.centre_at(time));
-                    self.pool.seats.admit(state, &self.colliders, pull, time);
-                }
-                // What stands or sleeps has boxes, and those who move find it.
-                None if self.bodies.is_alive(index) => {
-                    let tick = self.settings.tick;
-                    self.refit(index, time, tick);
-                }
-                None => continue,
-            }
-            self.pool.moved.push(index);
-        }
-        if !touched.is_empty() {
-            self.pool.until_look = 0;
-        }
-        touched.clear();
-        self.bodies.touched = touched;
-        self.pool.seats.close_up();
-        self.stopwatch.lap(|p| &mut p.pairs);
-    }
-
     /// Takes a body out of the solver: its rows leave their impulses with the pairs.
     pub(crate) fn leave(&mut self, index: u32, slot: u32) {
         for k in 0..self.bodies.get(index).pairs.len() {

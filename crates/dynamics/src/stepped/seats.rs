@@ -228,19 +228,6 @@ impl Seats {
         seat.id == state.id && seat.kind == state.kind && same
     }
 
-    /// How far a body may move in a sub-step before it is swift, whether it has a seat yet or not.
-    pub(super) fn limit_of(&self, state: &BodyState, colliders: &[Collider]) -> Limit {
-        let slot = self.slot(state.id.index);
-        match slot.filter(|slot| self.fits(*slot, state)) {
-            Some(slot) => self.rig.limit(slot),
-            None => limit_of(
-                state,
-                state.inner(colliders),
-                state.turns_in_place(colliders),
-            ),
-        }
-    }
-
     /// Takes over what a caller changed: velocity and place at `time`.
     pub(crate) fn follow(&mut self, slot: u32, state: &BodyState, time: SimTime) {
         let (v, w) = (state.velocity_at(time), state.spin_at(time));

@@ -400,7 +400,6 @@ fn field_of(error: &BodyError) -> Option<&'static str> {
         BodyError::NotFinite { field, .. }
         | BodyError::TooLarge { field, .. }
         | BodyError::Negative { field, .. }
-        | BodyError::NotDamped { field, .. }
         | BodyError::NotPositive { field, .. } => Some(field),
         _ => None,
     }

@@ -1,0 +1,179 @@
+//! What a caller changed enters the engine before the next sub-step.
+
+use std::sync::Arc;
+
+use carom_math::{Pose, SimTime, Vec2};
+use carom_stepped::{BodyInput, PieceInput};
+
+use super::{Stepping, place};
+use crate::state::BodyState;
+use crate::{BodyKind, World};
+
+/// A place that differs by less, as a part of the reach, is the same but for rounding: what was only looked at stays.
+const SAME: f64 = 1e-12;
+
+/// A body that was put farther away than this part of its reach leaves its contacts behind.
+const FAR: f64 = 0.05;
+
+impl World {
+    /// Bodies that came or were changed.
+    pub(super) fn enter_changed(&mut self, stepping: &mut Stepping, time: SimTime) {
+        let mut touched = core::mem::take(&mut self.bodies.touched);
+        touched.sort_unstable();
+        touched.dedup();
+        for &index in &touched {
+            if self.bodies.is_alive(index) {
+                match stepping.id(index) {
+                    Some(id) => self.tell_engine(stepping, index, id, time),
+                    None => self.enter(stepping, index, time),
+                }
+            }
+        }
+        touched.clear();
+        self.bodies.touched = touched;
+        let now = self.clock.now;
+        self.tell_sleep(stepping, now);
+        self.stopwatch.lap(|p| &mut p.pairs);
+    }
+
+    fn enter(&mut self, stepping: &mut Stepping, index: u32, time: SimTime) {
+        let state = self.bodies.get(index);
+        let input = input_of(state, time);
+        let pieces: Vec<_> = state
+            .colliders
+            .iter()
+            .map(|at| {
+                let solid = Arc::clone(&self.colliders[*at as usize].solid);
+                PieceInput::shared(solid).tagged(u64::from(*at))
+            })
+            .collect();
+        // All numbers were checked where they entered the world.
+        let Ok(id) = stepping.engine.insert(input, &pieces) else {
+            return;
+        };
+        let at = index as usize;
+        if stepping.ids.len() <= at {
+            stepping.ids.resize(at + 1, None);
+        }
+        stepping.ids[at] = Some(id);
+        let (pull, twist) = self.pull_on(index, state.centre_at(time));
+        let told = stepping.engine.set_pull(id, pull, twist);
+        debug_assert!(told.is_ok(), "{told:?}");
+        if self.bodies.get(index).asleep {
+            let told = stepping.engine.sleep(id);
+            debug_assert!(told.is_ok(), "{told:?}");
+        }
+    }
+
+    /// Takes over velocity, place and pull.
+    fn tell_engine(
+        &mut self,
+        stepping: &mut Stepping,
+        index: u32,
+        id: carom_stepped::BodyId,
+        time: SimTime,
+    ) {
+        let state = self.bodies.get(index);
+        let Ok(known) = stepping.engine.state(id) else {
+            return;
+        };
+        let frame = state.centre_pose(time);
+        let motion = (state.velocity_at(time), state.spin_at(time));
+        let d = frame.position - known.pose.position;
+        let turn = (frame.rotation * known.pose.rotation.inverse()).angle();
+        let reach = state.reach.min(1e9);
+        let off = d.length() + turn.abs() * reach;
+        let engine = &mut stepping.engine;
+        let mut told = Ok(());
+        if off > FAR * reach {
+            told = told.and(engine.set_pose(id, frame));
+        } else if off > SAME * (reach + frame.position.length()) {
+            told = told.and(engine.shift(id, frame));
+        }
+        told = told.and(engine.set_turned(id, state.turned + state.turn_by(time)));
+        if motion != known.velocity && state.kind != BodyKind::Fixed {
+            told = told.and(engine.set_velocity(id, motion.0, motion.1));
+        }
+        let (pull, twist) = self.pull_on(index, frame.position);
+        told = told.and(engine.set_pull(id, pull, twist));
+        debug_assert!(told.is_ok(), "{told:?}");
+    }
+
+    /// A body that goes, or comes back as another one, leaves the engine: who lay on it wakes, and its touches end.
+    pub(crate) fn leave_engine(&mut self, index: u32) {
+        let Some(mut stepping) = self.stepping.take() else {
+            return;
+        };
+        if let Some(id) = stepping.id(index) {
+            let told = stepping.engine.remove(id);
+            debug_assert!(told.is_ok(), "{told:?}");
+            stepping.ids[index as usize] = None;
+            let now = self.clock.now;
+            self.tell_sleep(&mut stepping, now);
+            self.tell_changed_touches(&mut stepping, now);
+        }
+        self.stepping = Some(stepping);
+    }
+
+    /// What accelerates a body at a place besides contacts and damping, in m/s² and rad/s².
+    fn pull_on(&self, index: u32, centre: Vec2) -> (Vec2, f64) {
+        let state = self.bodies.get(index);
+        if !state.is_dynamic() {
+            return (Vec2::ZERO, 0.0);
+        }
+        (
+            state.gravity_scale() * self.bodies.pull.at(centre)
+                + state.force() * state.inverse_mass,
+            state.torque() * state.inverse_inertia,
+        )
+    }
+
+    /// Pulls of the sub-step that begins at `time`; the work of forces since motions were last written is booked.
+    pub(super) fn book_pulls(&mut self, stepping: &mut Stepping, time: SimTime, first: bool) {
+        for k in 0..self.forced.len() {
+            let index = self.forced[k];
+            if !first && let Some(state) = stepping.state(index) {
+                self.write_one(stepping, &state);
+            }
+            self.bodies.change(index, time, |_| {});
+        }
+        self.bodies.touched.clear();
+        if !self.bodies.pull.fields.is_empty() {
+            let pulls: Vec<_> = (stepping.engine.awake())
+                .map(|state| (state.id, self.pull_on(place(&state), state.pose.position)))
+                .collect();
+            for (id, (pull, twist)) in pulls {
+                // A field that is not finite somewhere pulls nothing there.
+                let pull = if pull.is_finite() { pull } else { Vec2::ZERO };
+                let told = stepping.engine.set_pull(id, pull, twist);
+                debug_assert!(told.is_ok(), "{told:?}");
+            }
+        }
+    }
+}
+
+/// A body as the engine takes it.
+fn input_of(state: &BodyState, time: SimTime) -> BodyInput {
+    let kind = match state.kind {
+        BodyKind::Fixed => carom_stepped::BodyKind::Fixed,
+        BodyKind::Kinematic => carom_stepped::BodyKind::Kinematic,
+        BodyKind::Dynamic => carom_stepped::BodyKind::Dynamic,
+    };
+    let mut input = BodyInput::new(kind);
+    input.pose = Pose::new(state.centre_at(time), state.rotation_at(time));
+    (input.velocity, input.spin) = (state.velocity_at(time), state.spin_at(time));
+    if state.is_dynamic() {
+        input.mass = state.mass.mass;
+        input.inertia = if state.inverse_inertia > 0.0 {
+            state.mass.inertia
+        } else {
+            f64::INFINITY
+        };
+    }
+    let (linear, angular) = state.damping();
+    input.turned = state.turned + state.turn_by(time);
+    input.damping = [linear, angular];
+    input.gravity_scale = state.gravity_scale();
+    input.tag = u64::from(state.id.index);
+    input
+}

@@ -1,0 +1,55 @@
+//! Changes in the middle of a sub-step: who was set on its way there does not pass through others, nor others through it.
+//!
+//! The engine has bodies where the sub-step ends. Who would pass through something until then stops on its way, keeps its
+//! velocity, and is shown to go there evenly.
+
+use super::{Stepping, place};
+use crate::World;
+use crate::uncommon::Lag;
+
+impl World {
+    /// Before time goes on within a sub-step in which a caller changed bodies.
+    pub(super) fn enter_midway(&mut self, stepping: &mut Stepping) {
+        let (now, end) = (self.clock.now, self.clock.next());
+        if self.bodies.touched.is_empty() || !self.clock.is_within(now) {
+            return;
+        }
+        let under_way = stepping.engine.swift();
+        let under_way = under_way.filter_map(|id| stepping.engine.state(id).ok());
+        let mut going: Vec<u32> = under_way.map(|state| place(&state)).collect();
+        going.extend(&self.bodies.touched);
+        going.sort_unstable();
+        going.dedup();
+        self.enter_changed(stepping, end);
+        for index in going {
+            if let Some(id) = stepping.id(index).filter(|_| self.bodies.is_alive(index)) {
+                let from = self.bodies.get(index).centre_pose(now);
+                let told = stepping.engine.carry(id, from);
+                debug_assert!(told.is_ok(), "{told:?}");
+            }
+        }
+        let left = end - now;
+        for id in stepping.engine.stop_ways(left, &self.rules()) {
+            let Ok(there) = stepping.engine.state(id) else {
+                continue;
+            };
+            let index = place(&there);
+            let state = self.bodies.get(index);
+            let from = state.centre_pose(now);
+            let before = (state.velocity_at(now), state.spin_at(now));
+            let turned = state.turned + state.turn_by(now);
+            let even = (
+                (there.pose.position - from.position) / left,
+                (there.turned - turned) / left,
+            );
+            self.bodies.change(index, now, |motion| {
+                (motion.velocity, motion.spin) = even;
+                (motion.acceleration, motion.angular_acceleration) = Default::default();
+            });
+            let lag = Lag::of_even(even, before, there.velocity, left);
+            self.bodies.get_mut(index).set_lag(lag);
+        }
+        // The engine has them there already.
+        self.bodies.touched.clear();
+    }
+}

@@ -1,0 +1,166 @@
+//! Every awake body in the engine of `carom-stepped`: [`crate::Mode::Stepped`].
+//!
+//! ```text
+//! changes ─► engine ─► sub-steps of the engine ─► motions, begins and ends of touch, sleep
+//! (enter)                                         (write, touch, rest)
+//! ```
+//! The engine knows bodies by slots of its own. It is told what a caller changed before the sub-step that follows, and
+//! motions are written where somebody asks for them: once at the end of a step, or of each sub-step for a log.
+
+mod enter;
+mod midway;
+mod rest;
+mod rules;
+mod touch;
+mod write;
+
+use std::collections::BTreeMap;
+
+use carom_math::{Pose, SimTime};
+use carom_stepped::{Engine, Relaxation, Softness, State, Touch};
+
+use crate::error::SettingsError;
+use crate::{Mode, Settings, World};
+
+/// The engine, and who its bodies are.
+#[derive(Clone, Debug)]
+pub(crate) struct Stepping {
+    pub(crate) engine: Engine,
+    /// The engine's name of each body, by place in the world.
+    ids: Vec<Option<carom_stepped::BodyId>>,
+    /// How many convex pieces of two shapes touch.
+    touching: BTreeMap<Shapes, u32>,
+    /// Scratch.
+    changes: Vec<Touch>,
+    /// Where bodies were before the last sub-step, where that is asked for: body, pose and turn.
+    places: Vec<(u32, Pose, f64)>,
+}
+
+/// Two shapes that touch, the one of the earlier body first: (body, collider) of both.
+type Shapes = [(u32, u32); 2];
+
+impl Stepping {
+    /// The engine of a world with these settings, if everything is stepped there.
+    pub(crate) fn of(settings: &Settings) -> Result<Option<Box<Self>>, SettingsError> {
+        if settings.mode != Mode::Stepped {
+            return Ok(None);
+        }
+        let contact = &settings.contact;
+        let engine = Engine::new(carom_stepped::Settings {
+            gravity: settings.gravity,
+            tick: settings.tick,
+            substeps: settings.substeps_per_tick(),
+            softness: Softness {
+                compliance: contact.compliance,
+                frequency: contact.frequency,
+                damping_ratio: contact.damping_ratio,
+                over_relaxation: contact.over_relaxation,
+                push_out: contact.push_out,
+            },
+            relaxation: Relaxation::EverySubstep,
+            sleep: settings.sleep.map(|sleep| carom_stepped::Sleep {
+                speed: 0.0,
+                slow: sleep.speed,
+                after: sleep.time,
+            }),
+            ..carom_stepped::Settings::default()
+        });
+        match engine {
+            Ok(engine) => Ok(Some(Box::new(Self {
+                engine,
+                ids: Vec::new(),
+                touching: BTreeMap::new(),
+                changes: Vec::new(),
+                places: Vec::new(),
+            }))),
+            Err(refused) => Err(SettingsError::Stepped { refused }),
+        }
+    }
+
+    pub(crate) fn set_gravity(&mut self, gravity: carom_math::Vec2) {
+        let told = self.engine.set_gravity(gravity);
+        debug_assert!(told.is_ok(), "{told:?}");
+    }
+
+    /// The engine's name of a body.
+    fn id(&self, index: u32) -> Option<carom_stepped::BodyId> {
+        self.ids.get(index as usize).copied().flatten()
+    }
+
+    /// The engine's state of a body.
+    fn state(&self, index: u32) -> Option<State> {
+        self.engine.state(self.id(index)?).ok()
+    }
+}
+
+/// The world's place of a body of the engine.
+#[expect(clippy::cast_possible_truncation, reason = "tags are places")]
+const fn place(state: &State) -> u32 {
+    state.tag as u32
+}
+
+impl World {
+    /// Sub-steps up to `end`.
+    pub(crate) fn advance_stepping(&mut self, end: SimTime, stop_at_event: bool) -> SimTime {
+        let Some(mut stepping) = self.stepping.take() else {
+            return end;
+        };
+        let reached = self.step_all(&mut stepping, end, stop_at_event);
+        self.stepping = Some(stepping);
+        reached
+    }
+
+    fn step_all(&mut self, stepping: &mut Stepping, end: SimTime, stop_at_event: bool) -> SimTime {
+        self.enter_midway(stepping);
+        let mut first = true;
+        while self.clock.is_due(end) {
+            let time = self.clock.next();
+            if first {
+                self.enter_changed(stepping, time);
+            } else if self.settings.history > 0 {
+                self.write_all(stepping);
+            }
+            self.book_pulls(stepping, time, first);
+            first = false;
+            self.clock.begin();
+            self.report.substeps += 1;
+            stepping.note_places(self.settings.history > 0 || self.clock.is_within(end));
+            self.substep_engine(stepping);
+            let reached = self.clock.next();
+            self.tell_sleep(stepping, reached.min(end));
+            if stepping.engine.is_at_tick() || stop_at_event {
+                self.tell_changed_touches(stepping, reached.min(end));
+            }
+            if self.clock.is_due(end) && self.uses_up() || stop_at_event && self.events.are_due() {
+                self.tell_changed_touches(stepping, reached.min(end));
+                self.write_all(stepping);
+                return reached.min(end);
+            }
+        }
+        if !first {
+            self.tell_changed_touches(stepping, self.clock.next().min(end));
+            self.write_all(stepping);
+            self.stopwatch.lap(|p| &mut p.flight);
+        } else if !self.clock.is_within(end) {
+            self.end_ways(stepping);
+        }
+        end
+    }
+
+    fn substep_engine(&mut self, stepping: &mut Stepping) {
+        let looks = stepping.engine.looks();
+        stepping.engine.substep(&self.rules());
+        self.report.pairs += stepping.engine.looks() - looks;
+        let deepest = stepping.engine.deepest_overlap();
+        self.report.deepest_overlap = self.report.deepest_overlap.max(deepest);
+        self.report.rows += stepping.engine.awake_contact_count() as u64;
+        self.report.handed_over += stepping.engine.awake_count() as u64;
+        self.stopwatch.lap(|p| &mut p.solver);
+    }
+}
+
+/// The world's shape that a piece of the engine is, or is a part of.
+#[expect(clippy::cast_possible_truncation, reason = "tags are places")]
+const fn collider(tag: u64) -> u32 {
+    tag as u32
+}

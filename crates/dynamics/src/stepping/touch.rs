@@ -1,0 +1,124 @@
+//! What touches, as callers see it: begins, ends, and contacts read from the engine.
+
+use carom_geometry::Aabb;
+use carom_math::SimTime;
+
+use super::{Shapes, Stepping, collider};
+use crate::{Contact, ContactPoint, EventKind, World};
+
+impl World {
+    /// Begins and ends of touch since this was last called, in order of shapes.
+    pub(super) fn tell_changed_touches(&mut self, stepping: &mut Stepping, time: SimTime) {
+        let mut changes = core::mem::take(&mut stepping.changes);
+        stepping.engine.touches(&mut changes);
+        let mut changed = Vec::new();
+        for change in changes.drain(..) {
+            let shapes = self.shapes_of(change.tags);
+            let count = stepping.touching.entry(shapes).or_insert(0);
+            let before = *count > 0;
+            *count = if change.begins {
+                *count + 1
+            } else {
+                count.saturating_sub(1)
+            };
+            changed.push((shapes, before));
+        }
+        stepping.changes = changes;
+        // A pair that changed more than once is told of by what it was first.
+        changed.sort_by_key(|change| change.0);
+        changed.dedup_by_key(|change| change.0);
+        for (shapes, before) in changed {
+            let now = stepping
+                .touching
+                .get(&shapes)
+                .is_some_and(|count| *count > 0);
+            if !now {
+                stepping.touching.remove(&shapes);
+            }
+            if now != before {
+                self.tell_pair(shapes, now, time);
+            }
+        }
+    }
+
+    fn tell_pair(&mut self, [one, other]: Shapes, begins: bool, time: SimTime) {
+        let [a, b] = [one.0, other.0].map(|index| self.bodies.get(index));
+        let shapes = (a.shape_of(one.1), b.shape_of(other.1));
+        let (a, b) = (a.id, b.id);
+        let kind = if begins {
+            EventKind::Begin { a, b, shapes }
+        } else {
+            EventKind::End { a, b, shapes }
+        };
+        self.events.push(time, kind);
+    }
+
+    /// Bodies and colliders of two pieces, in order.
+    fn shapes_of(&self, tags: [u64; 2]) -> Shapes {
+        let mut shapes = tags.map(|tag| {
+            let at = collider(tag);
+            (self.colliders[at as usize].body, at)
+        });
+        shapes.sort_unstable();
+        shapes
+    }
+
+    /// Shapes that may be in `bounds`.
+    pub(crate) fn shapes_in(&self, stepping: &Stepping, bounds: Aabb) -> Vec<u32> {
+        let mut found = Vec::new();
+        stepping
+            .engine
+            .query(bounds, |tag| found.push(collider(tag)));
+        // What a caller changed since is not where the engine has it.
+        let changed = self.bodies.touched.iter();
+        let changed = changed.filter(|index| self.bodies.is_alive(**index));
+        found.extend(changed.flat_map(|index| self.bodies.get(*index).colliders.iter()));
+        found.sort_unstable();
+        found.dedup();
+        found
+    }
+
+    /// All contacts that push, in order of shapes; those of one body if one is asked for.
+    pub(crate) fn contacts_in(&self, stepping: &Stepping, of: Option<u32>) -> Vec<Contact> {
+        let all = match of.map(|index| stepping.id(index)) {
+            None => stepping.engine.contacts().collect(),
+            Some(Some(id)) => stepping
+                .engine
+                .contacts_of(id)
+                .map_or_else(|_| Vec::new(), Iterator::collect),
+            Some(None) => Vec::new(),
+        };
+        let mut found: Vec<_> = all
+            .into_iter()
+            .filter(|contact| contact.touching)
+            .map(|contact| (self.shapes_of(contact.tags), contact.pieces, contact))
+            .collect();
+        found.sort_unstable_by_key(|(shapes, pieces, _)| (*shapes, *pieces));
+        found
+            .into_iter()
+            .map(|(shapes, _, contact)| self.contact_in(shapes, &contact))
+            .collect()
+    }
+
+    fn contact_in(&self, shapes: Shapes, contact: &carom_stepped::Contact) -> Contact {
+        let [a, b] = shapes.map(|shape| self.bodies.get(shape.0).id);
+        let flipped = collider(contact.tags[0]) != shapes[0].1;
+        let points = (0..contact.points).map(|k| ContactPoint {
+            position: contact.places[k],
+            separation: contact.gaps[k],
+            normal_impulse: contact.impulses[k],
+        });
+        Contact {
+            a,
+            b,
+            normal: if flipped {
+                -contact.normal
+            } else {
+                contact.normal
+            },
+            points: points.collect(),
+            // Both the normal and the body change sides: the impulse along the normal turned by +90° stays.
+            tangent_impulse: contact.friction,
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! Motions for everybody else: written where somebody asks, and once at the end of a step.
+
+use carom_collision::Motion;
+use carom_math::SimTime;
+use carom_stepped::State;
+
+use super::{Stepping, place};
+use crate::World;
+use crate::uncommon::Lag;
+
+/// Places that differ by less, as a part of the reach and the way, are one but for rounding.
+const SAME: f64 = 1e-12;
+
+impl Stepping {
+    /// Notes where everybody is before a sub-step within which somebody may ask, and forgets it before any other.
+    pub(super) fn note_places(&mut self, asked: bool) {
+        self.places.clear();
+        if asked {
+            let states = self.engine.awake();
+            self.places
+                .extend(states.map(|state| (place(&state), state.pose, state.turned)));
+            self.places.sort_unstable_by_key(|noted| noted.0);
+        }
+    }
+}
+
+impl World {
+    /// Motions of the last sub-step for all that moved in it.
+    pub(super) fn write_all(&mut self, stepping: &Stepping) {
+        for state in stepping.engine.awake() {
+            self.write_one(stepping, &state);
+        }
+    }
+
+    /// The end of a sub-step within which somebody asked has the bits that it has if nobody did.
+    pub(super) fn end_ways(&mut self, stepping: &mut Stepping) {
+        if stepping.places.is_empty() || self.settings.history > 0 {
+            return;
+        }
+        stepping.note_places(false);
+        // Whoever was changed meanwhile goes on from there.
+        let mut changed = self.bodies.touched.clone();
+        changed.sort_unstable();
+        for state in stepping.engine.awake() {
+            if changed.binary_search(&place(&state)).is_err() {
+                self.write_one(stepping, &state);
+            }
+        }
+    }
+
+    /// A body's motion of the last sub-step: from the velocity before to the one after, to where it is.
+    ///
+    /// That is where it came from, too, unless a contact stopped it or pushed it out within the sub-step. Such a body goes
+    /// evenly from place to place: a path between two that are free, and no faster than it was.
+    pub(super) fn write_one(&mut self, stepping: &Stepping, state: &State) {
+        let (index, start, h) = (place(state), self.clock.last(), self.clock.h);
+        let ((v, w), (u, s)) = (state.velocity, state.before);
+        let mut motion = Motion {
+            start,
+            centre: state.pose.position,
+            velocity: u,
+            acceleration: (v - u) / h,
+            rotation: state.pose.rotation,
+            spin: s,
+            angular_acceleration: (w - s) / h,
+            left_out: 0.0,
+        };
+        let (way, turn) = (motion.travel(h), motion.turn(h));
+        motion.centre -= way;
+        motion.rotation = motion.rotation.turned_slightly(-turn);
+        let noted = stepping
+            .places
+            .binary_search_by_key(&index, |noted| noted.0)
+            .map(|k| stepping.places[k]);
+        if let Ok((_, from, turned)) = noted {
+            let reach = self.bodies.get(index).reach;
+            let left = state.turned - turned;
+            let off = (motion.centre - from.position).length() + (left - turn).abs() * reach;
+            if off > SAME * (reach + way.length()) {
+                let even = ((state.pose.position - from.position) / h, left / h);
+                motion = Motion {
+                    start,
+                    velocity: even.0,
+                    rotation: from.rotation,
+                    spin: even.1,
+                    ..Motion::resting(from.position)
+                };
+                self.bodies.go_on_as(index, &motion, turned);
+                let lag = Lag::of_even(even, (u, s), (v, w), h);
+                self.bodies.get_mut(index).set_lag(lag);
+                self.bodies.renew(index);
+                return;
+            }
+        }
+        self.bodies.go_on_as(index, &motion, state.turned - turn);
+        self.bodies.renew(index);
+    }
+
+    /// A body that fell asleep lies where the engine has it.
+    pub(super) fn write_rest(&mut self, state: &State, time: SimTime) {
+        let index = place(state);
+        let turned = {
+            let known = self.bodies.get(index);
+            known.turned + known.turn_by(time)
+        };
+        let motion = Motion {
+            start: time,
+            rotation: state.pose.rotation,
+            ..Motion::resting(state.pose.position)
+        };
+        self.bodies.go_on_as(index, &motion, turned);
+        self.bodies.renew(index);
+    }
+}
