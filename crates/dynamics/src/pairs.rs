@@ -129,12 +129,6 @@ pub(crate) struct Glance {
     /// What was nearer than this then has a row, in m.
     pub(crate) sought: f64,
     pub(crate) rows: Rows,
-    /// One of its bodies is so much heavier that one sweep does not carry it.
-    pub(crate) heavy: bool,
-    /// How many times as heavy the one of its bodies is that the other gives way to; 1 or less: neither does.
-    pub(crate) load: f64,
-    /// It was put deep into each other, and still is.
-    pub(crate) buried: bool,
     /// Sub-steps before the next tick at which it is asked again; 0: not before that.
     pub(crate) due: u32,
 }
@@ -154,9 +148,6 @@ impl Glance {
             gap: 0.0,
             sought: 0.0,
             rows: Rows::None,
-            heavy: false,
-            load: 0.0,
-            buried: false,
             due: 0,
         }
     }

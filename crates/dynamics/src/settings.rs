@@ -126,7 +126,7 @@ impl Settings {
 #[non_exhaustive]
 pub enum Mode {
     /// Each group the cheapest method that is right for it. Large groups in touch, and many bodies whose impacts come
-    /// fast, are moved by the solver of [`Mode::Stepped`]; what strikes them joins them.
+    /// fast, are moved by a solver of their own in sub-steps; what strikes them joins them.
     #[default]
     Hybrid,
     /// Closed forms only; what they cannot finish is sub-stepped and marks the run as not exact. So is who spends more

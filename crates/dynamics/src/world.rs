@@ -81,7 +81,7 @@ pub struct World {
     /// Bodies with a force that waits for a step or acts during this one.
     pub(crate) forced: Vec<u32>,
     pub(crate) stopwatch: Stopwatch,
-    /// The solver of stepped mode.
+    /// The solver of crowds.
     pub(crate) pool: Stepped,
     /// The engine of [`Mode::Stepped`].
     pub(crate) stepping: Option<Box<Stepping>>,

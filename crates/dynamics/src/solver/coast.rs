@@ -8,7 +8,6 @@
 use carom_math::{Vec2, vec2};
 use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x4};
 
-use super::rig::{Limit, Swift};
 use super::wide::Line;
 
 /// vx vy ω m⁻¹, or ax ay α 0.
@@ -49,7 +48,6 @@ pub(crate) struct Bodies<'a> {
     /// Velocities just before contacts acted.
     pub(crate) start: &'a mut [Quad],
     pub(crate) pull: &'a [Quad],
-    pub(crate) limits: &'a [Limit],
 }
 
 impl<'a> Bodies<'a> {
@@ -59,16 +57,12 @@ impl<'a> Bodies<'a> {
             self.lines.split_at_mut(count),
             self.start.split_at_mut(count),
         );
-        let (pull, limits) = (self.pull.split_at(count), self.limits.split_at(count));
-        let bodies = |lines: &'a mut [Line], start: &'a mut [Quad], pull, limits| Self {
-            lines,
-            start,
-            pull,
-            limits,
-        };
+        let pull = self.pull.split_at(count);
+        let bodies =
+            |lines: &'a mut [Line], start: &'a mut [Quad], pull| Self { lines, start, pull };
         (
-            bodies(lines.0, start.0, pull.0, limits.0),
-            bodies(lines.1, start.1, pull.1, limits.1),
+            bodies(lines.0, start.0, pull.0),
+            bodies(lines.1, start.1, pull.1),
         )
     }
 }
@@ -78,15 +72,9 @@ pub(crate) fn pull_and_warm(level: Level, bodies: &mut Bodies<'_>, h: f64) {
     dispatch!(level, simd => warm_all(simd, bodies, h));
 }
 
-/// `d += h v`; who went beyond its limit is added to `swift`, numbered from `first`.
-pub(crate) fn displace(
-    level: Level,
-    bodies: &mut Bodies<'_>,
-    h: f64,
-    first: u32,
-    swift: &mut Vec<Swift>,
-) {
-    dispatch!(level, simd => displace_all(simd, bodies, h, first, swift));
+/// `d += h v`
+pub(crate) fn displace(level: Level, bodies: &mut Bodies<'_>, h: f64) {
+    dispatch!(level, simd => displace_all(simd, bodies, h));
 }
 
 /// Makes displacements of second order where velocities change smoothly.
@@ -112,20 +100,10 @@ fn warm_all<S: Simd>(simd: S, bodies: &mut Bodies<'_>, h: f64) {
 }
 
 #[inline(always)]
-fn displace_all<S: Simd>(
-    simd: S,
-    bodies: &mut Bodies<'_>,
-    h: f64,
-    first: u32,
-    swift: &mut Vec<Swift>,
-) {
+fn displace_all<S: Simd>(simd: S, bodies: &mut Bodies<'_>, h: f64) {
     let hs = [h, h, h, 0.0];
     let hs = f64x4::from_slice(simd, &hs);
-    for (slot, (line, limit)) in (first..).zip(bodies.lines.iter_mut().zip(bodies.limits)) {
-        if limit.is_exceeded(line, h) {
-            let (d, turn) = (line.d(), line.turn());
-            swift.push(Swift { slot, d, turn });
-        }
+    for line in &mut *bodies.lines {
         let v = f64x4::from_slice(simd, &line.0[..4]);
         let d = f64x4::from_slice(simd, &line.0[4..]);
         (d + hs * v).store_slice(&mut line.0[4..]);

@@ -17,21 +17,17 @@ pub(super) const MET: f64 = 0.25;
 
 /// A body so many times as heavy as another, or that cannot be moved, counts as a load: one sweep a sub-step does not carry
 /// it.
-pub(crate) const HEAVY: f64 = 64.0;
+pub(super) const HEAVY: f64 = 64.0;
 
 /// One pass over all rows, colour by colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Pass {
     /// Normals with bias: overlaps are pushed out, gaps may close.
     Solve,
-    /// The same over rows that are swept often.
-    SolveOften,
     /// Normals without bias, then friction.
     Relax,
     /// The same where some surface runs along.
     RelaxBelts,
-    /// The same over rows that relax often, over-relaxed.
-    RelaxOften,
 }
 
 /// Rows of a block that are met with a speed when a solving sweep comes to them.
@@ -55,25 +51,19 @@ pub(crate) fn sweep(
 ) -> f64 {
     match pass {
         Pass::Solve => {
-            dispatch!(level, simd => all::<_, false, false, false>(simd, law, lines, colours, met))
-        }
-        Pass::SolveOften => {
-            dispatch!(level, simd => all::<_, false, false, true>(simd, law, lines, colours, met))
+            dispatch!(level, simd => all::<_, false, false>(simd, law, lines, colours, met))
         }
         Pass::Relax => {
-            dispatch!(level, simd => all::<_, true, false, false>(simd, law, lines, colours, met))
+            dispatch!(level, simd => all::<_, true, false>(simd, law, lines, colours, met))
         }
         Pass::RelaxBelts => {
-            dispatch!(level, simd => all::<_, true, true, false>(simd, law, lines, colours, met))
-        }
-        Pass::RelaxOften => {
-            dispatch!(level, simd => all::<_, true, true, true>(simd, law, lines, colours, met))
+            dispatch!(level, simd => all::<_, true, true>(simd, law, lines, colours, met))
         }
     }
 }
 
 #[inline(always)]
-fn all<S: Simd, const RELAX: bool, const BELTS: bool, const OFTEN: bool>(
+fn all<S: Simd, const RELAX: bool, const BELTS: bool>(
     simd: S,
     law: &Law,
     lines: &mut [Line],
@@ -83,7 +73,7 @@ fn all<S: Simd, const RELAX: bool, const BELTS: bool, const OFTEN: bool>(
     let mut heat = f64x8::splat(simd, 0.0);
     for (colour, blocks) in (0u32..).zip(colours) {
         for (k, wide) in (0u32..).zip(blocks) {
-            let lanes = block::<S, RELAX, BELTS, OFTEN>(simd, law, lines, wide, &mut heat);
+            let lanes = block::<S, RELAX, BELTS>(simd, law, lines, wide, &mut heat);
             if lanes != 0 {
                 let block = k;
                 met.push(Met {
@@ -105,7 +95,7 @@ fn all<S: Simd, const RELAX: bool, const BELTS: bool, const OFTEN: bool>(
 type Eight<S> = [f64x8<S>; 8];
 
 #[inline(always)]
-fn block<S: Simd, const RELAX: bool, const BELTS: bool, const OFTEN: bool>(
+fn block<S: Simd, const RELAX: bool, const BELTS: bool>(
     simd: S,
     law: &Law,
     lines: &mut [Line],
@@ -173,7 +163,8 @@ fn block<S: Simd, const RELAX: bool, const BELTS: bool, const OFTEN: bool>(
         u1 = v1 + counts1 * reach;
         u2 = v2 + counts2 * reach;
         (s11, s22) = (k11, k22);
-        omega = f64x8::splat(simd, law.often);
+        // What relaxes is not hurried on: friction acts at once by what pushes, and jammed columns would hum.
+        omega = one;
     } else {
         let (open1, open2) = (gap1.simd_gt(zero), gap2.simd_gt(zero));
         let ground = ma.min(mb).simd_eq(zero);
@@ -197,11 +188,7 @@ fn block<S: Simd, const RELAX: bool, const BELTS: bool, const OFTEN: bool>(
         // stops a heavy body comes through a light one and from the ground in many sweeps.
         let loaded = ma.max(mb).simd_gt(ma.min(mb) * f64x8::splat(simd, HEAVY));
         let rests = (j1 + j2).simd_gt(zero) & (loaded | !struck);
-        omega = if OFTEN {
-            f64x8::splat(simd, law.often)
-        } else {
-            rests.select(f64x8::splat(simd, law.over_relaxation), softened)
-        };
+        omega = rests.select(f64x8::splat(simd, law.over_relaxation), softened);
     }
 
     // The case of the 2 × 2 complementarity problem that holds.
@@ -222,13 +209,7 @@ fn block<S: Simd, const RELAX: bool, const BELTS: bool, const OFTEN: bool>(
     let x1 = both.select(x1, first.select(y1, zero));
     let x2 = both.select(x2, first.select(zero, y2));
 
-    let (new1, new2) = if OFTEN {
-        // Where it would pull the solution itself is taken: cut off point by point, it can be farther from it than before.
-        let (h1, h2) = (j1 + omega * (x1 - j1), j2 + omega * (x2 - j2));
-        let pushes = h1.min(h2).simd_ge(zero);
-        (pushes.select(h1, x1), pushes.select(h2, x2))
-    } else if RELAX {
-        // What relaxes once is not hurried on: friction acts at once by what pushes, and jammed columns would hum.
+    let (new1, new2) = if RELAX {
         (x1, x2)
     } else {
         (

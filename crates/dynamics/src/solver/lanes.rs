@@ -96,16 +96,6 @@ impl Lanes {
         self.belts |= row.belt != 0.0;
     }
 
-    /// Zone and colour of a row, and its lane there, counted through all blocks.
-    pub(super) fn place_of(&self, id: RowId) -> (usize, usize, usize) {
-        let place = self.places[id.0 as usize];
-        (
-            place.zone as usize,
-            place.colour as usize,
-            place.index as usize,
-        )
-    }
-
     /// Gives a row a lane.
     pub(super) fn insert(&mut self, row: &Row, lines: &[Line]) -> RowId {
         let id = self.free.pop().unwrap_or_else(|| {

@@ -22,9 +22,8 @@ mod wide;
 mod zone;
 
 pub(crate) use budget::Budget;
-pub(crate) use kernel::HEAVY;
 pub(crate) use lanes::RowId;
-pub(crate) use rig::{Limit, Member, Often, Pull, Rig};
+pub(crate) use rig::{Member, Pull, Rig};
 pub(crate) use row::{Row, SolverBody};
 pub(crate) use soft::{Law, sweep, warm_start};
 pub(crate) use wide::Line;

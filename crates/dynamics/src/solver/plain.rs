@@ -30,7 +30,7 @@ pub(crate) fn sweep_all(pass: Pass, law: &Law, lines: &mut [Line], colours: &mut
 
 /// Whether no row of a block pushes, and none closes in this sub-step.
 fn is_idle(pass: Pass, law: &Law, lines: &[Line], wide: &Wide) -> bool {
-    let relax = !matches!(pass, Pass::Solve | Pass::SolveOften);
+    let relax = pass != Pass::Solve;
     (0..LANES).all(|lane| {
         let (a, b) = (wide.a[lane], wide.b[lane]);
         let row = wide.row(lane, (a, b), lines);
@@ -67,8 +67,7 @@ fn positive(x: f64) -> f64 {
 
 /// One lane; bodies that no lane of the block shares may be written at once.
 fn row(pass: Pass, law: &Law, lines: &mut [Line], wide: &mut Wide, lane: usize, heat: &mut f64) {
-    let relax = !matches!(pass, Pass::Solve | Pass::SolveOften);
-    let often = matches!(pass, Pass::SolveOften | Pass::RelaxOften);
+    let relax = pass != Pass::Solve;
     let (ia, ib) = (wide.a[lane] as usize, wide.b[lane] as usize);
     let Line([mut avx, mut avy, mut aw, ma, adx, ady, aturn, i_a]) = lines[ia];
     let Line([mut bvx, mut bvy, mut bw, mb, bdx, bdy, bturn, i_b]) = lines[ib];
@@ -92,7 +91,7 @@ fn row(pass: Pass, law: &Law, lines: &mut [Line], wide: &mut Wide, lane: usize, 
         u1 = v1 + positive(gap1) * law.inverse_h;
         u2 = v2 + positive(gap2) * law.inverse_h;
         (s11, s22) = (k11, k22);
-        omega = law.often;
+        omega = 1.0;
     } else {
         let ground = ma == 0.0 || mb == 0.0;
         let (rate, gamma) = law.soft[usize::from(ground)];
@@ -108,9 +107,7 @@ fn row(pass: Pass, law: &Law, lines: &mut [Line], wide: &mut Wide, lane: usize, 
         let struck = |v: f64, gap: f64| v < -MET && gap < 0.5 * Row::OPEN;
         let struck = struck(v1, gap1) || struck(v2, gap2);
         let loaded = larger(ma, mb) > smaller(ma, mb) * HEAVY;
-        omega = if often {
-            law.often
-        } else if j1 + j2 > 0.0 && (loaded || !struck) {
+        omega = if j1 + j2 > 0.0 && (loaded || !struck) {
             law.over_relaxation
         } else {
             softened
@@ -135,14 +132,7 @@ fn row(pass: Pass, law: &Law, lines: &mut [Line], wide: &mut Wide, lane: usize, 
         (0.0, y2)
     };
 
-    let (new1, new2) = if often {
-        let (h1, h2) = (j1 + omega * (x1 - j1), j2 + omega * (x2 - j2));
-        if smaller(h1, h2) >= 0.0 {
-            (h1, h2)
-        } else {
-            (x1, x2)
-        }
-    } else if relax {
+    let (new1, new2) = if relax {
         (x1, x2)
     } else {
         (

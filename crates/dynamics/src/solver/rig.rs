@@ -10,7 +10,6 @@
 //! Everything that changes a row, a velocity or a mass keeps it.
 
 mod ahead;
-mod local;
 mod restitution;
 mod substep;
 mod zoning;
@@ -23,7 +22,6 @@ use super::lanes::{Lanes, RowId};
 use super::wide::Line;
 use super::{Row, SolverBody};
 pub(crate) use ahead::Ahead;
-pub(crate) use local::Often;
 #[cfg(test)]
 pub(crate) use substep::NOBODY;
 
@@ -37,10 +35,6 @@ pub(crate) struct Rig {
     /// What pulls on each body: acceleration, and angular acceleration.
     pull: Vec<Quad>,
     pub(crate) lanes: Lanes,
-    /// How far each body may move in a sub-step before it is swift.
-    limits: Vec<Limit>,
-    /// Who went farther in the last sub-step, and where it was before.
-    pub(crate) swift: Vec<Swift>,
     /// Rows that were met in the last sub-step: their impulses stopped something once.
     pub(crate) met: Vec<RowId>,
     /// Rows that bounced in the last sub-step.
@@ -65,40 +59,6 @@ pub(crate) struct Pull {
     pub(crate) angular: f64,
 }
 
-/// How far a body may move in a sub-step before it is swift.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Limit {
-    /// Square of the travel, in m².
-    pub(crate) travel: f64,
-    /// In rad.
-    pub(crate) turn: f64,
-}
-
-impl Limit {
-    pub(crate) const NONE: Self = Self {
-        travel: f64::INFINITY,
-        turn: f64::INFINITY,
-    };
-
-    /// Whether a body goes beyond it within `h`.
-    pub(super) fn is_exceeded(self, line: &Line, h: f64) -> bool {
-        self.is_exceeded_at(line.v(), line.w(), h)
-    }
-
-    /// The same at a velocity in m/s and a spin in rad/s.
-    pub(crate) fn is_exceeded_at(self, v: Vec2, w: f64, h: f64) -> bool {
-        v.length_squared() * h * h > self.travel || w.abs() * h > self.turn
-    }
-}
-
-/// Where a swift body was before a sub-step, against its base.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Swift {
-    pub(crate) slot: u32,
-    pub(crate) d: Vec2,
-    pub(crate) turn: f64,
-}
-
 /// A body that joins.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Member {
@@ -119,8 +79,6 @@ impl Default for Rig {
             start: vec![Quad::of(Vec2::ZERO, 0.0, 1.0)],
             pull: vec![Quad::default()],
             lanes,
-            limits: vec![Limit::NONE],
-            swift: Vec::new(),
             met: Vec::new(),
             bounced: Vec::new(),
             cuts: cfg!(test),
@@ -141,7 +99,6 @@ impl Rig {
             self.lines.push(Line::EMPTY);
             self.start.push(Quad::default());
             self.pull.push(Quad::default());
-            self.limits.push(Limit::NONE);
             slot
         });
         let i = slot as usize;
@@ -150,7 +107,6 @@ impl Rig {
         self.lines[i] = Line::new(v, w, member.inverse_mass, member.inverse_inertia);
         self.start[i] = Quad::of(v, w, member.inverse_mass);
         self.set_pull(slot, member.pull);
-        self.limits[i] = Limit::NONE;
         self.lanes.admit(slot);
         slot
     }
@@ -163,17 +119,7 @@ impl Rig {
         self.lines[i] = Line::new(Vec2::ZERO, 0.0, 0.0, 0.0);
         self.start[i] = Quad::default();
         self.pull[i] = Quad::default();
-        self.limits[i] = Limit::NONE;
         self.free.push(slot);
-    }
-
-    pub(crate) fn set_limit(&mut self, slot: u32, limit: Limit) {
-        self.limits[slot as usize] = limit;
-    }
-
-    /// Whether a body moves farther than its limit in a sub-step of `h`, as fast as it is now.
-    pub(crate) fn is_swift(&self, slot: u32, h: f64) -> bool {
-        self.limits[slot as usize].is_exceeded(&self.lines[slot as usize], h)
     }
 
     /// Lines that nobody uses.

@@ -16,8 +16,6 @@ pub(crate) struct Law {
     pub(super) over_relaxation: f64,
     /// The same over rows that are rebuilt in every sub-step.
     pub(super) milder: f64,
-    /// The same over rows that relax often.
-    pub(super) often: f64,
     pub(super) push_out: f64,
     /// (rate, γ) between moving bodies, and against the ground at twice the frequency.
     pub(super) soft: [(f64, f64); 2],
@@ -63,7 +61,6 @@ impl Law {
             inverse_h: h.recip(),
             over_relaxation: softness.over_relaxation,
             milder: 1.0 + 0.6 * (softness.over_relaxation - 1.0),
-            often: 1.0 + 1.4 * (softness.over_relaxation - 1.0),
             push_out: softness.push_out,
             soft: [soft(frequency), soft(2.0 * frequency)],
         }

@@ -6,7 +6,7 @@ use proptest::prelude::*;
 
 use super::kernel::{Pass, sweep};
 use super::rig::{Member, NOBODY, Pull};
-use super::{Law, Often, Rig, Row, plain};
+use super::{Law, Rig, Row, plain};
 use crate::Softness;
 
 const G: f64 = 10.0;
@@ -50,7 +50,7 @@ fn a_column_comes_to_rest_and_carries_its_weight() {
     let law = Law::new(&Softness::default(), 1.0 / 360.0);
     let (mut rig, slots, rows) = column(10);
     for _ in 0..3600 {
-        rig.step(&law, &Often::default(), NOBODY);
+        rig.step(&law, NOBODY);
     }
     rig.lanes.check(&rig.lines);
     for (i, (slot, id)) in slots[1..].iter().zip(&rows).enumerate() {
@@ -83,7 +83,7 @@ fn free_flight_is_the_parabola() {
         },
     });
     for _ in 0..240 {
-        rig.step(&law, &Often::default(), NOBODY);
+        rig.step(&law, NOBODY);
     }
     let line = rig.lines[slot as usize];
     assert!(
@@ -234,14 +234,7 @@ proptest! {
     fn every_width_gives_the_bits_of_the_plain_sweep(seed in any::<u64>()) {
         let law = Law::new(&Softness::default(), 1.0 / 240.0);
         let (rig, ..) = heap(seed, 12, 40);
-        let passes = [
-            Pass::Solve,
-            Pass::SolveOften,
-            Pass::Relax,
-            Pass::RelaxBelts,
-            Pass::RelaxOften,
-        ];
-        for pass in passes {
+        for pass in [Pass::Solve, Pass::Relax, Pass::RelaxBelts] {
             let mut plain = rig.clone();
             let colours = &mut plain.lanes.zones[0].colours;
             let heat = plain::sweep(pass, &law, &mut plain.lines, colours);
@@ -278,7 +271,7 @@ proptest! {
             (wide.j1, wide.j2, wide.jt) = Default::default();
             wide.s1.iter_mut().chain(&mut wide.s2).for_each(|gap| *gap = gap.abs() + open);
         }
-        for pass in [Pass::Solve, Pass::SolveOften, Pass::Relax, Pass::RelaxBelts, Pass::RelaxOften] {
+        for pass in [Pass::Solve, Pass::Relax, Pass::RelaxBelts] {
             let [mut some, mut all] = [rig.clone(), rig.clone()];
             plain::sweep(pass, &law, &mut some.lines, &mut some.lanes.zones[0].colours);
             plain::sweep_all(pass, &law, &mut all.lines, &mut all.lanes.zones[0].colours);
@@ -344,7 +337,7 @@ proptest! {
                     let after: Vec<[f64; 2]> = ids.iter().map(|id| rig.row(*id).j).collect();
                     prop_assert_eq!(before, after);
                 }
-                _ => rig.step(&law, &Often::default(), NOBODY),
+                _ => rig.step(&law, NOBODY),
             }
             rig.lanes.check(&rig.lines);
             prop_assert!(warmth_error(&rig, &slots) < 1e-10, "after {op}: {:e}", warmth_error(&rig, &slots));
@@ -369,7 +362,7 @@ proptest! {
         // The impulses that the rows came with are not part of the velocities yet.
         let before = momentum(&rig, &slots);
         for _ in 0..20 {
-            rig.step(&law, &Often::default(), NOBODY);
+            rig.step(&law, NOBODY);
             for id in &ids {
                 let row = rig.row(*id);
                 prop_assert!(row.j[0] >= 0.0 && row.j[1] >= 0.0);
@@ -393,7 +386,7 @@ fn a_rocking_face_is_stopped_at_the_corner_that_comes_down() {
     row.gap = [0.06, 0.0];
     rig.rewrite(rows[0], &row);
     rig.set_velocity(slots[1], vec2(0.0, -0.5), -1.0);
-    rig.step(&law, &Often::default(), NOBODY);
+    rig.step(&law, NOBODY);
     let [_, opening, _] = rig.seen(&rig.row(rows[0]));
     // Pushed out softly: it may open a little, by no more than the push-out of its travel. It closes by no more
     // than rounding.
@@ -427,7 +420,7 @@ fn a_body_of_a_hundred_contacts_finds_room() {
         })
         .collect();
     rig.lanes.check(&rig.lines);
-    rig.step(&law, &Often::default(), NOBODY);
+    rig.step(&law, NOBODY);
     for id in ids.into_iter().step_by(3) {
         rig.remove(id);
         rig.lanes.check(&rig.lines);
@@ -446,12 +439,7 @@ fn the_number_of_threads_changes_no_bit() {
     let swept = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         let mut rig = heap.clone();
-        let often = Often {
-            rows: rig.lanes.ids().take(40).collect(),
-            solve: 1,
-            relax: 1,
-        };
-        let mut run = || (0..50).for_each(|_| rig.step(&law, &often, NOBODY));
+        let mut run = || (0..50).for_each(|_| rig.step(&law, NOBODY));
         match threads {
             0 => run(),
             _ => pool.expect("threads").install(run),

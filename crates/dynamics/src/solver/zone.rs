@@ -5,7 +5,7 @@
 
 use super::kernel::Met;
 use super::lanes::{COLOURS, RowId};
-use super::rig::{Ahead, Swift};
+use super::rig::Ahead;
 use super::wide::{LANES, Wide};
 
 /// Rows that only know the lines of a stretch.
@@ -22,9 +22,8 @@ pub(crate) struct Zone {
     pub(super) count: u32,
     /// What cannot be moved: its line, and its double here; in order.
     pub(super) doubles: Vec<(u32, u32)>,
-    /// What a sub-step tells: rows that were met, who went far, what friction turned into heat, in J.
+    /// What a sub-step tells: rows that were met, what friction turned into heat, in J.
     pub(super) met: Vec<Met>,
-    pub(super) swift: Vec<Swift>,
     pub(super) heat: f64,
     /// What it was before several sub-steps that were made at once.
     pub(super) ahead: Ahead,
@@ -40,7 +39,6 @@ impl Zone {
             count,
             doubles,
             met: Vec::new(),
-            swift: Vec::new(),
             heat: 0.0,
             ahead: Ahead::default(),
         }
@@ -112,9 +110,9 @@ impl Zone {
         self.owners[colour].get(index).copied().filter(|_| there)
     }
 
-    /// Whether somebody was met, or went far.
-    pub(super) fn has_news(&self) -> bool {
-        !(self.met.is_empty() && self.swift.is_empty())
+    /// Whether somebody was met.
+    pub(super) const fn has_news(&self) -> bool {
+        !self.met.is_empty()
     }
 
     /// Rows that were met in the last solving sweep.

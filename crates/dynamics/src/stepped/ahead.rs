@@ -53,16 +53,15 @@ impl World {
         let pool = &self.pool;
         let h = self.clock.h;
         let end = self.clock.next() + f64::from(pool.until_look) * h;
-        let alone = self.moves_all()
-            || self.stepped.is_empty()
-                && !self.closed.changes()
-                && self.flyers.is_idle()
-                && !pool.rush.is_due()
-                && self.pairs.near.is_empty()
-                && self.pairs.fringe.is_empty()
-                && pool.crowd.newcomers.is_empty()
-                && pool.crowd.drivers.is_empty()
-                && pool.crowd.belts.is_empty();
+        let alone = self.stepped.is_empty()
+            && !self.closed.changes()
+            && self.flyers.is_idle()
+            && !pool.rush.is_due()
+            && self.pairs.near.is_empty()
+            && self.pairs.fringe.is_empty()
+            && pool.crowd.newcomers.is_empty()
+            && pool.crowd.drivers.is_empty()
+            && pool.crowd.belts.is_empty();
         pool.seats.rig.may_go_ahead()
             && alone
             && end - self.unseen_until <= 1e-9 * h
@@ -70,6 +69,5 @@ impl World {
             && self.forced.is_empty()
             && !self.is_restless()
             && pool.bounces.is_idle()
-            && self.rows_in_need().rows.is_empty()
     }
 }

@@ -214,7 +214,7 @@ impl World {
         let mut newcomers = core::mem::take(&mut self.pool.crowd.newcomers);
         newcomers.retain(|index| self.bodies.get(*index).in_crowd);
         newcomers.sort_unstable();
-        self.look_at_pairs(&mut newcomers, time, false);
+        self.look_at_pairs(&newcomers, time, false);
     }
 
     fn forced_lines(&self) -> impl Iterator<Item = (u32, Vec2, f64)> + use<'_> {

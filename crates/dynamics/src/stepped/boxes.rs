@@ -1,12 +1,12 @@
 //! Boxes of bodies that are stepped: made where a body is, and kept as long as it keeps the course they were made for.
 
 use carom_geometry::{Aabb, Shape};
-use carom_math::{Pose, SimTime, Vec2};
+use carom_math::{Pose, SimTime};
 
 use super::courses::Course;
 use super::seats::Seats;
 use crate::World;
-use crate::broad::{PADDING, swept_box};
+use crate::broad::PADDING;
 
 /// Boxes are stretched over so many ticks of a body's motion.
 const TICKS: f64 = 2.0;
@@ -16,50 +16,6 @@ impl World {
     pub(super) fn lacks_boxes(&self, index: u32) -> bool {
         let mut shapes = self.bodies.get(index).colliders.iter();
         shapes.any(|at| self.colliders[*at as usize].node.is_none())
-    }
-
-    /// New boxes for a body that went out of its old ones in a sub-step, from displacement and turn `from` on.
-    pub(super) fn hold_way(
-        &mut self,
-        (index, slot): (u32, u32),
-        from: (Vec2, f64),
-        start: SimTime,
-        seconds: f64,
-    ) {
-        let seats = &self.pool.seats;
-        let (seat, line) = (seats.get(slot), &seats.rig.lines[slot as usize]);
-        let holds = if let Some(course) = seats.courses.of(slot) {
-            // It went straight on. Whoever left its course may have met whom it could not have met on it.
-            let ends = [(from, start), ((line.d(), line.turn()), start + seconds)];
-            ends.into_iter()
-                .all(|(at, time)| course.passes(seat, at, time))
-                && !self.lacks_boxes(index)
-        } else {
-            self.boxes_hold(index, start, seconds)
-        };
-        if !holds {
-            // The way is not over: the boxes hold what is ahead of it, and what lies behind.
-            let state = self.bodies.get(index);
-            let behind = state.colliders.iter();
-            let behind = behind.map(|at| {
-                let collider = &self.colliders[*at as usize];
-                swept_box(collider, &state.motion, start, seconds)
-            });
-            let behind: Vec<Aabb> = behind.collect();
-            self.pool.seats.courses.end(slot);
-            self.box_anew(index, slot, start, &behind);
-            self.seek_partners(index, slot, start);
-        }
-    }
-
-    /// Whether a body stays in its boxes along its motion, `seconds` long.
-    fn boxes_hold(&self, index: u32, start: SimTime, seconds: f64) -> bool {
-        let state = self.bodies.get(index);
-        state.colliders.iter().all(|at| {
-            let collider = &self.colliders[*at as usize];
-            let swept = swept_box(collider, &state.motion, start, seconds);
-            collider.node.is_some() && collider.fat.contains(swept)
-        })
     }
 
     /// New boxes for a body that leaves its course within `seconds`; whether it got some.
@@ -85,7 +41,7 @@ impl World {
             lasts: lasts * (1.0 + 1e-9),
         };
         self.pool.seats.courses.begin(slot, course);
-        self.box_anew(index, slot, time, &[]);
+        self.box_anew(index, slot, time);
         true
     }
 
@@ -94,14 +50,14 @@ impl World {
         let seats = &mut self.pool.seats;
         seats.get_mut(slot).roamed = 0.0;
         seats.courses.end(slot);
-        self.box_anew(index, slot, time, &[]);
+        self.box_anew(index, slot, time);
     }
 
-    /// New boxes, stretched along a body's course; `with`: what else is to be in each.
-    fn box_anew(&mut self, index: u32, slot: u32, time: SimTime, with: &[Aabb]) {
+    /// New boxes, stretched along a body's course.
+    fn box_anew(&mut self, index: u32, slot: u32, time: SimTime) {
         let seat = self.pool.seats.get(slot);
         let on_course = self.pool.seats.is_on_course(slot);
-        let lasts = if on_course || !with.is_empty() {
+        let lasts = if on_course {
             TICKS * self.settings.tick
         } else {
             0.0
@@ -110,9 +66,9 @@ impl World {
         let way = Stretch::new(&self.pool.seats, slot, lasts);
         for k in 0..self.bodies.get(index).colliders.len() {
             let at = self.bodies.get(index).colliders[k];
-            let mut fat = way.around(&self.colliders[at as usize].solid);
-            fat = with.get(k).map_or(fat, |more| fat.union(*more));
-            let fat = fat.grown(padding);
+            let fat = way
+                .around(&self.colliders[at as usize].solid)
+                .grown(padding);
             let in_cells = on_course && self.pool.throng.takes(fat);
             self.broad.put(&mut self.colliders, at, fat, time, in_cells);
         }

@@ -12,11 +12,10 @@ use crate::state::inner_of;
 /// of 1 m, more than contacts of a pile sink in by.
 const CORE: f64 = 0.005;
 
-/// Ticks for which nobody asks for a core before it is dropped: what falls is swift in all of them, and what has landed
-/// leaves none behind.
+/// Ticks for which nobody asks for a core before it is dropped.
 const KEPT: u32 = 16;
 
-/// The cores of shapes whose bodies were swift lately, by collider.
+/// The cores of shapes that passed others by a hair lately, by collider.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Cores {
     list: Vec<Option<Cored>>,
@@ -29,20 +28,13 @@ pub(crate) struct Cores {
 #[derive(Clone, Debug)]
 struct Cored {
     of: Arc<Shape>,
-    parts: Arc<[Part]>,
+    /// Of each convex part.
+    parts: Arc<[Shape]>,
     asked: bool,
 }
 
-/// A convex part of a shape.
-#[derive(Clone, Debug)]
-pub(super) struct Part {
-    pub(super) core: Shape,
-    /// `None`: the shape itself.
-    pub(super) whole: Option<Shape>,
-}
-
 impl Cores {
-    pub(super) fn of(&mut self, collider: u32, solid: &Arc<Shape>) -> Arc<[Part]> {
+    pub(super) fn of(&mut self, collider: u32, solid: &Arc<Shape>) -> Arc<[Shape]> {
         let at = collider as usize;
         if self.list.len() <= at {
             self.list.resize(at + 1, None);
@@ -85,7 +77,7 @@ impl Cores {
     }
 }
 
-fn parts_of(solid: &Shape) -> Arc<[Part]> {
+fn parts_of(solid: &Shape) -> Arc<[Shape]> {
     let single = hulls(solid).len() == 1;
     let parts = hulls(solid).map(|hull| {
         let inner = inner_of(&hull);
@@ -98,13 +90,10 @@ fn parts_of(solid: &Shape) -> Arc<[Part]> {
             let polygon = ConvexPolygon::new(corners.collect::<Vec<_>>());
             polygon.ok().map(Shape::from)
         };
-        let whole = if single { None } else { within(0.0) };
         // What cannot be shrunk, a segment, is all core.
-        let plain = || whole.clone().unwrap_or_else(|| solid.clone());
-        Part {
-            core: within(CORE * inner).unwrap_or_else(plain),
-            whole,
-        }
+        let whole = || if single { None } else { within(0.0) };
+        let core = within(CORE * inner).or_else(whole);
+        core.unwrap_or_else(|| solid.clone())
     });
     parts.collect()
 }

@@ -64,13 +64,6 @@ impl Course {
         is_near(seat, off, turned) && is_near(seat, then, turned_then)
     }
 
-    /// Whether a body with a displacement and a turn at `time` is on its course then.
-    pub(super) fn passes(&self, seat: &Seat, at: (Vec2, f64), time: SimTime) -> bool {
-        let passed = time - self.from;
-        let (off, turned) = self.off_by(seat, at, passed);
-        passed <= self.lasts && is_near(seat, off, turned)
-    }
-
     /// How far a displacement and a turn are off the course.
     fn off_by(&self, seat: &Seat, (d, turn): (Vec2, f64), passed: f64) -> (Vec2, f64) {
         (

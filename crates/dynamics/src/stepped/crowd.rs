@@ -1,4 +1,4 @@
-//! Crowds: in [`Mode::Hybrid`], groups too large for impacts one by one are moved by the solver of stepped mode.
+//! Crowds: in [`Mode::Hybrid`], groups too large for impacts one by one are moved by a solver of their own.
 //!
 //! Everybody else flies, or is sub-stepped pair by pair. A body joins when it touches a large group, or when it
 //! would meet a crowd before the next sub-step; it leaves when nothing has been near for three ticks.
@@ -374,16 +374,9 @@ impl World {
         self.is_crowds(place) && self.ends(self.pairs.get(place).bodies).is_none()
     }
 
-    /// Whether one solver moves everybody.
-    pub(super) fn moves_all(&self) -> bool {
-        self.settings.mode == Mode::Stepped
-    }
-
     /// Takes the line of a fixed or kinematic body away.
     pub(crate) fn take_line(&mut self, index: u32) {
-        if !self.moves_all()
-            && let Some(slot) = self.pool.seats.slot(index)
-        {
+        if let Some(slot) = self.pool.seats.slot(index) {
             self.leave(index, slot);
         }
     }

@@ -5,35 +5,26 @@ use carom_math::{Pose, SimTime};
 
 use super::Stepped;
 use super::relative::{Against, fall};
-use super::seats::{PART, pull_of};
+use super::seats::pull_of;
 use super::watch::{KEPT_APART, MARGIN, Moving, RESERVE, farther};
-use crate::heavy::{BEARS, mass_ratio};
-use crate::narrow::{BURIED, carried};
+use crate::narrow::carried;
 use crate::pairs::{Glance, Pair, PairContact, PairPoint, Rows};
 use crate::solver::{Row, RowId};
 use crate::{BodyKind, World};
 
-/// A light body gives way to a heavy one when they lie this deep in each other, or close by as much in a tick, as a
-/// fraction of the smaller reach: 2.8 mm for boxes of 1 m.
-pub(super) const GIVES: f64 = 1.0 / 256.0;
-
 impl World {
     /// Finds the contacts of a pair anew, and gives them rows, unless it is nothing to the solver; `moving`: both
-    /// are in it, and move so. Whoever wakes goes to `moved`. Gives how they move if they are so quick that they may
-    /// want another look before the next tick; of others the margin is wide enough.
+    /// are in it, and move so. Gives how they move if they are so quick that they may want another look before the next
+    /// tick; of others the margin is wide enough.
     pub(super) fn look_at(
         &mut self,
         place: u32,
         time: SimTime,
-        moved: &mut Vec<u32>,
         moving: Option<Moving>,
     ) -> Option<Moving> {
-        let moving = moving.or_else(|| self.bring_in(place, time, moved))?;
+        let moving = moving.or_else(|| self.bring_in(place, time))?;
         let Moving { slots, against } = moving;
-        debug_assert!(
-            self.moves_all() || self.is_inside(place),
-            "a pair of the solver"
-        );
+        debug_assert!(self.is_inside(place), "a pair of the solver");
         let both = slots.map(|slot| self.pool.seats.stand(slot));
         let reaches = both.map(|stand| stand.reach);
         let apart = both[1].centre - both[0].centre;
@@ -42,22 +33,20 @@ impl World {
         for slot in slots {
             self.pool.seats.minds(slot, size);
         }
-        let (tick, h, all) = (self.settings.tick, self.clock.h, self.moves_all());
+        let (tick, h) = (self.settings.tick, self.clock.h);
         let ahead = f64::from(self.pool.until_look) * h;
-        let quick = against.is_quick(tick, all);
-        let travel = if !quick {
-            against.speed() * ahead + farther(against.speed() * tick, size)
-        } else if all && self.is_stopped(slots, &against) {
-            0.0
-        } else {
+        let quick = against.is_quick(tick);
+        let travel = if quick {
             against.speed() * h
+        } else {
+            against.speed() * ahead + farther(against.speed() * tick, size)
         };
         let margin = MARGIN * size + travel + fall(against.pull(), 2.0 * tick);
         let pair = self.pairs.get_mut(place);
         pair.fresh = false;
         let may_have_touched = pair.touching || pair.told;
         let circles = apart.length() - (reaches[0] + reaches[1]);
-        let (gap, normal, load) = if circles <= margin {
+        let (gap, normal) = if circles <= margin {
             let seats = &mut self.pool.seats;
             let poses = [seats.stand_pose(slots[0]), seats.stand_pose(slots[1])];
             let found = &mut self.pool.found;
@@ -72,21 +61,18 @@ impl World {
             self.report.pairs += 1;
             let colliders = pair.colliders;
             self.drop_grazes(colliders, slots, poses, size);
-            let load = self.face(place, slots, poses, against.speed(), size);
-            (gap.separation, poses[0].vector(gap.normal), load)
+            self.face(place, slots, poses);
+            (gap.separation, poses[0].vector(gap.normal))
         } else {
             self.pool.release(pair);
             pair.contacts = Vec::new();
             pair.fresh = false;
-            (circles, apart / apart.length(), 1.0)
+            (circles, apart / apart.length())
         };
         let pair = self.pairs.get(place);
         let bodies = pair.bodies;
         let rows = Rows::of(&pair.contacts);
-        let buried = all && rows != Rows::None && pair.buried;
         let due = self.pairs.glance(place).due;
-        let masses = self.pool.seats.masses(slots);
-        let heavy = all && mass_ratio(masses) > BEARS;
         *self.pairs.glance_mut(place) = Glance {
             holds: true,
             bodies,
@@ -96,9 +82,6 @@ impl World {
             gap,
             sought: margin,
             rows,
-            heavy,
-            load,
-            buried,
             due,
         };
         if may_have_touched {
@@ -108,10 +91,10 @@ impl World {
     }
 
     /// Gives the bodies of a pair seats, and wakes who is met; `None`: the pair is nothing to the solver.
-    fn bring_in(&mut self, place: u32, time: SimTime, moved: &mut Vec<u32>) -> Option<Moving> {
+    fn bring_in(&mut self, place: u32, time: SimTime) -> Option<Moving> {
         let bodies = self.pairs.get(place).bodies;
         let active = [bodies.0, bodies.1].map(|i| self.bodies.get(i).is_active());
-        if active == [false, false] || !self.moves_all() && !self.is_inside(place) {
+        if active == [false, false] || !self.is_inside(place) {
             return None;
         }
         for index in [bodies.0, bodies.1] {
@@ -119,7 +102,8 @@ impl World {
                 if !self.meets_sleeper(place, time) {
                     return None;
                 }
-                self.call_up(index, time, moved);
+                let woken = self.woken_with(index, time);
+                self.join_awake(&woken, time);
             }
         }
         let slots = [bodies.0, bodies.1].map(|i| self.sit(i, time));
@@ -127,19 +111,6 @@ impl World {
         seats.take_stand(slots);
         let against = Against::new(slots.map(|slot| seats.stand(slot)));
         Some(Moving { slots, against })
-    }
-
-    /// Whether somebody of a pair that moves so is stopped at its time of impact, if they meet: then rows need
-    /// not know of it before.
-    pub(super) fn is_stopped(&self, slots: [u32; 2], against: &Against) -> bool {
-        let (rig, h) = (&self.pool.seats.rig, self.clock.h);
-        slots.iter().any(|slot| rig.is_swift(*slot, h)) && self.outruns_rows(slots, against)
-    }
-
-    /// Whether bodies that move so may pass each other before a row knows of it.
-    pub(super) fn outruns_rows(&self, slots: [u32; 2], against: &Against) -> bool {
-        let inner = slots.map(|slot| self.pool.seats.get(slot).inner);
-        against.speed() * self.clock.h > PART * inner[0].min(inner[1])
     }
 
     /// Whether an active body is about to touch a sleeper of its pair: then that one wakes.
@@ -200,43 +171,18 @@ impl World {
         let state = self.bodies.get(index);
         let pull = pull_of(&self.bodies, state, state.motion.centre_at(time));
         let slot = self.pool.seats.admit(state, &self.colliders, pull, time);
-        if !self.moves_all() {
-            if state.kind == BodyKind::Kinematic {
-                self.pool.crowd.drivers.push(index);
-            }
-            self.bodies.get_mut(index).has_line = true;
+        if state.kind == BodyKind::Kinematic {
+            self.pool.crowd.drivers.push(index);
         }
+        self.bodies.get_mut(index).has_line = true;
         slot
     }
 
-    /// Gives the contacts that were found their rows: lanes go over by parts, impulses by feature. How many
-    /// times as heavy the body is that one gives way to, or 1: of bodies that may approach at `closing` m/s.
-    fn face(
-        &mut self,
-        place: u32,
-        slots: [u32; 2],
-        poses: [Pose; 2],
-        closing: f64,
-        size: f64,
-    ) -> f64 {
-        let mut load = 1.0;
-        let (all, tick) = (self.moves_all(), self.settings.tick);
+    /// Gives the contacts that were found their rows: lanes go over by parts, impulses by feature.
+    fn face(&mut self, place: u32, slots: [u32; 2], poses: [Pose; 2]) {
         let pair = self.pairs.get_mut(place);
         let stepped = &mut self.pool;
         let found = core::mem::take(&mut stepped.found);
-        if all {
-            // What was put there is deep at its first contact; what sinks in later is left to go on, but
-            // for a load that one sweep does not carry.
-            let depths = found.iter().filter_map(|new| new.manifold.deepest());
-            let deepest = depths.fold(0.0, f64::min);
-            let deep = deepest < -BURIED * size;
-            pair.buried = deep && (pair.buried || pair.contacts.is_empty());
-            let gives = deepest.min(-closing * tick) < -GIVES * size;
-            if gives && !found.is_empty() {
-                load = mass_ratio(stepped.seats.masses(slots));
-            }
-            stepped.depths.note(pair, load);
-        }
         if let ([new], [before]) = (found.as_slice(), pair.contacts.as_mut_slice())
             && before.parts == (new.part_a, new.part_b)
             && let Some(id) = before.row
@@ -252,11 +198,9 @@ impl World {
             stepped.face_anew(place, pair, &found, slots, poses);
         }
         stepped.found = found;
-        // Stepped mode keeps no account of them.
-        if !all && pair.material.tangent_speed != 0.0 && !pair.contacts.is_empty() {
+        if pair.material.tangent_speed != 0.0 && !pair.contacts.is_empty() {
             stepped.crowd.belts.push(place);
         }
-        load
     }
 }
 

@@ -111,7 +111,7 @@ impl World {
         });
         self.report.pairs += 1;
         let next = time_of_impact_of_parts(
-            &part(&cores[contact.part_a as usize].core, 0),
+            &part(&cores[contact.part_a as usize], 0),
             &a,
             &part(target, contact.part_b as usize),
             &b,

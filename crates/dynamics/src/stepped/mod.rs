@@ -1,8 +1,8 @@
-//! Every moving body in one solver: [`crate::Mode::Stepped`].
+//! The solver of crowds: groups in [`crate::Mode::Hybrid`] that are too large for impacts one by one.
 //!
 //! ```text
-//! changes ─► look (once a tick) ─► sub-steps ─────────► write
-//! seats      near, faces           rig, bounce, swift   motions, touch
+//! changes ─► look (once a tick) ─► sub-steps ──► write
+//! seats      near, faces           rig, bounce   motions, touch
 //! ```
 //! During a step bodies live in the solver's lines, and pairs in its rows. Motions are written once,
 //! at the end; a look does nothing for a pair that kept its relative pose.
@@ -14,7 +14,6 @@ mod boxes;
 mod cores;
 mod courses;
 mod crowd;
-mod depths;
 mod faces;
 mod graze;
 mod heap;
@@ -27,7 +26,6 @@ mod rush;
 mod seats;
 mod sent;
 mod stand;
-mod swift;
 #[cfg(test)]
 mod tests;
 mod throng;
@@ -35,16 +33,15 @@ mod touch;
 mod watch;
 mod write;
 
-use carom_collision::PartManifold;
+use crate::World;
 use crate::pairs::PairContact;
 use crate::solver::{Rig, RowId};
-use crate::{Mode, World};
 use ahead::Hurry;
 use bounce::Bounces;
+use carom_collision::PartManifold;
 use cores::Cores;
 use crowd::Crowd;
 pub(crate) use crowd::{FEW, MANY};
-use depths::Depths;
 pub(crate) use heap::Seen;
 use round::Round;
 use rush::Rush;
@@ -89,7 +86,6 @@ pub(crate) struct Stepped {
     hurry: Hurry,
     /// Cores of shapes, for those who move far in a sub-step.
     cores: Cores,
-    depths: Depths,
     /// Pairs that a look goes through: scratch.
     round: Round,
     pub(crate) crowd: Crowd,
@@ -121,17 +117,13 @@ impl World {
     }
 
     fn make_substep(&mut self) {
-        let often = self.rows_in_need();
         let (rig, bounces) = (&mut self.pool.seats.rig, &mut self.pool.bounces);
         let h = self.clock.h;
         bounces.arm(rig, h);
-        if self.settings.mode != Mode::Stepped {
-            // Rows of a crowd keep their impulses from step to step, those that have just met too.
-            rig.met.clear();
-        }
+        // Rows of a crowd keep their impulses from step to step, those that have just met too.
+        rig.met.clear();
         let pay = bounces.owe().then_some(|rig: &mut Rig| bounces.pay(rig, h));
-        rig.step(&self.law, &often, pay);
+        rig.step(&self.law, pay);
         self.pool.stirred |= !rig.met.is_empty();
-        self.stop_swift();
     }
 }

@@ -25,7 +25,6 @@ impl World {
 
     /// The look at the start of a tick: whoever moved gets new boxes, and its pairs are looked at.
     pub(super) fn look_around(&mut self, time: SimTime) {
-        self.pool.depths.clear();
         self.pool.cores.age();
         self.look_at_fresh(time);
         self.pool.looks = (self.pool.looks + 1) % REFRESH;
@@ -50,7 +49,6 @@ impl World {
         }
         moved.sort_unstable();
         moved.dedup();
-        let all = self.moves_all();
         let left = self.pool.until_look;
         let mut reboxed = core::mem::take(&mut self.pool.reboxed);
         self.broad.trees.gather();
@@ -67,7 +65,7 @@ impl World {
             let seats = &mut self.pool.seats;
             seats.send(slot, left);
             let (seat, line) = (seats.get(slot), &seats.rig.lines[slot as usize]);
-            if seat.kind == BodyKind::Kinematic && !all {
+            if seat.kind == BodyKind::Kinematic {
                 // A flyer: its boxes are its own.
                 continue;
             }
@@ -91,7 +89,7 @@ impl World {
         reboxed.clear();
         self.pool.reboxed = reboxed;
         self.stopwatch.lap(|p| &mut p.pairs);
-        self.look_at_pairs(&mut moved, time, true);
+        self.look_at_pairs(&moved, time, true);
         moved.clear();
         self.pool.moved = moved;
         self.stopwatch.lap(|p| &mut p.contacts);
@@ -111,18 +109,15 @@ impl World {
             };
             self.pool.seats.send(slot, left);
             let kind = self.pool.seats.get(slot).kind;
-            let boxed_here = kind == BodyKind::Dynamic || self.moves_all();
-            if boxed_here && self.rebox(index, slot, time, f64::from(left) * h) {
+            if kind == BodyKind::Dynamic && self.rebox(index, slot, time, f64::from(left) * h) {
                 self.seek_partners(index, slot, time);
             }
         }
-        self.look_at_pairs(&mut moved, time, false);
+        self.look_at_pairs(&moved, time, false);
         let mut due = self.pairs_due().into_iter();
-        self.attend(&mut due, time, &mut moved, false);
-        if !moved.is_empty() {
-            // Who woke.
-            self.look_at_pairs(&mut moved, time, false);
-        }
+        self.attend(&mut due, time, false);
+        // Once more, now that all who were due have been looked at.
+        self.look_at_pairs(&moved, time, false);
         moved.clear();
         self.pool.moved = moved;
         self.stopwatch.lap(|p| &mut p.contacts);
@@ -133,23 +128,17 @@ impl World {
         self.pool.stirred || !(self.pool.watched.is_empty() && self.pool.moved.is_empty())
     }
 
-    /// Looks at all pairs of these bodies, and of those who wake meanwhile; `parts`: those whose boxes
-    /// parted are let go.
-    pub(super) fn look_at_pairs(&mut self, moved: &mut Vec<u32>, time: SimTime, parts: bool) {
+    /// Looks at all pairs of these bodies; `parts`: those whose boxes parted are let go.
+    pub(super) fn look_at_pairs(&mut self, moved: &[u32], time: SimTime, parts: bool) {
         self.pool.seats.stands.renew();
         // Where most are asked about they are read as they lie, and not in the order in which pairs name them.
         if 2 * moved.len() > self.pool.seats.len() {
             self.pool.seats.take_all_stands();
         }
-        let parts = parts && !self.moves_all();
         let mut round = core::mem::take(&mut self.pool.round);
         round.begin();
-        let mut k = 0;
-        while k < moved.len() {
-            self.note_pairs(&mut round, moved[k..].iter().copied());
-            k = moved.len();
-            self.attend(&mut round, time, moved, parts);
-        }
+        self.note_pairs(&mut round, moved.iter().copied());
+        self.attend(&mut round, time, parts);
         self.pool.round = round;
     }
 }

@@ -25,10 +25,6 @@ const TURNED: f64 = 0.1;
 /// while it has rows that act: 11 m/s for boxes of 1 m.
 pub(super) const QUICK: f64 = 0.25;
 
-/// So is one of which a body turns by so much in a tick, in rad, 3.8 rad/s: gaps are linear in the turn, and off by
-/// ½ r θ², 1.4 mm for boxes of 1 m.
-pub(super) const WHIRL: f64 = 0.063;
-
 /// Where the larger body turned by more since a look, in rad, nobody knows what is left of the strip.
 const LOST: f64 = 0.25;
 
@@ -39,8 +35,6 @@ pub(super) struct Against {
     pub(super) v: Vec2,
     /// Of its points about the centre, in m/s.
     pub(super) swing: f64,
-    /// In rad/s, the faster of both.
-    whirl: f64,
     /// Difference of what pulls on both, in m/s².
     pub(super) pull: f64,
     pub(super) size: f64,
@@ -60,7 +54,6 @@ impl Against {
         Self {
             v: s.v - f.v - carried,
             swing: swing(s.rim, s.spin - f.spin),
-            whirl: f.spin.abs().max(s.spin.abs()),
             pull: if pull == Vec2::ZERO {
                 0.0
             } else {
@@ -79,10 +72,10 @@ impl Against {
         self.pull
     }
 
-    /// Whether rows found at a tick would not serve until the next. By the turn in [`crate::Mode::Stepped`] alone:
-    /// jammed columns in a crowd of hybrid mode hummed at 0.6 m/s with it.
-    pub(super) fn is_quick(&self, tick: f64, stepped: bool) -> bool {
-        stepped && self.whirl * tick > WHIRL || self.speed() * tick > QUICK * self.size
+    /// Whether rows found at a tick would not serve until the next. Who turns fast is not quick by that alone: jammed
+    /// columns hummed at 0.6 m/s with it.
+    pub(super) fn is_quick(&self, tick: f64) -> bool {
+        self.speed() * tick > QUICK * self.size
     }
 }
 

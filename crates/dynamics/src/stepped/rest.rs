@@ -2,7 +2,7 @@
 
 use carom_math::{SimTime, Vec2};
 
-use crate::{BodyKind, EventKind, Mode, Sleep, World};
+use crate::{BodyKind, EventKind, Sleep, World};
 
 /// Looks for groups at rest so often in the time that a group must have been at rest.
 const LOOKS: f64 = 4.0;
@@ -16,16 +16,10 @@ impl World {
         }
         self.pool.since_rest = 0.0;
         let mut ready = false;
-        let stepped = self.settings.mode == Mode::Stepped;
         for slot in 0..self.pool.seats.places() {
             if self.pool.seats.get(slot).kind != BodyKind::Dynamic {
                 continue;
             }
-            let seats = &mut self.pool.seats;
-            let centre = seats.centre(slot);
-            let seat = seats.get_mut(slot);
-            // What is pushed out of an overlap goes its way without a velocity.
-            let way = (centre - core::mem::replace(&mut seat.rested, centre)).length();
             let seats = &self.pool.seats;
             let seat = seats.get(slot);
             let line = &seats.rig.lines[slot as usize];
@@ -33,12 +27,11 @@ impl World {
             // Only what something holds can be at rest: the top of a throw is not.
             let held = seats.rig.is_pushed(slot);
             let state = self.bodies.get_mut(seat.body);
-            state.slow_for =
-                if held && speed <= sleep.speed && (!stepped || way <= sleep.speed * passed) {
-                    state.slow_for + passed
-                } else {
-                    0.0
-                };
+            state.slow_for = if held && speed <= sleep.speed {
+                state.slow_for + passed
+            } else {
+                0.0
+            };
             ready |= state.slow_for >= sleep.time;
         }
         if ready {
@@ -91,30 +84,10 @@ impl World {
             self.bodies.renew(index);
             lying.push(index);
         }
-        if !self.moves_all() {
-            for index in lying {
-                self.quit(index, time);
-                self.lie_down(index, time);
-            }
+        for index in lying {
+            self.quit(index, time);
+            self.lie_down(index, time);
         }
         self.pool.seats.close_up();
-    }
-
-    /// Wakes a body, and gives everyone who wakes with it a seat; they are looked at in this look.
-    pub(super) fn call_up(&mut self, index: u32, time: SimTime, moved: &mut Vec<u32>) {
-        if !self.moves_all() {
-            let woken = self.woken_with(index, time);
-            return self.join_awake(&woken, time);
-        }
-        self.wake(index, time);
-        let mut woken = core::mem::take(&mut self.bodies.touched);
-        woken.sort_unstable();
-        for index in woken.drain(..) {
-            if self.pool.seats.slot(index).is_none() {
-                self.sit(index, time);
-                moved.push(index);
-            }
-        }
-        self.bodies.touched = woken;
     }
 }

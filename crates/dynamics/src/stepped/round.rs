@@ -13,9 +13,8 @@ const ALL: usize = 8;
 /// Pairs that a round goes through, each once.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Round {
-    /// A bit for each place: who is still to be asked, and who was noted at all.
+    /// A bit for each place: who is still to be asked.
     left: Vec<u64>,
-    noted: Vec<u64>,
     /// Words before this one have nobody left.
     at: usize,
     /// Who moved: scratch.
@@ -50,14 +49,14 @@ impl Marks {
 }
 
 impl World {
-    /// The round goes through all pairs of these bodies.
+    /// The round, which has just begun, goes through all pairs of these bodies.
     pub(super) fn note_pairs(
         &self,
         round: &mut Round,
         bodies: impl ExactSizeIterator<Item = u32> + Clone,
     ) {
         let glances = self.pairs.glances();
-        if round.takes_all(bodies.len(), glances.len()) {
+        if glances.len() <= ALL * bodies.len() {
             round.note_all(bodies, glances);
         } else {
             for place in bodies.flat_map(|index| &self.bodies.get(index).pairs) {
@@ -71,25 +70,16 @@ impl Round {
     /// A new round begins.
     pub(super) fn begin(&mut self) {
         self.left.clear();
-        self.noted.clear();
         self.at = 0;
     }
 
-    /// The round goes through this pair, too, unless it has already.
+    /// The round goes through this pair, too.
     fn note(&mut self, place: u32) {
         let (word, bit) = bit_of(place);
-        if self.noted.len() <= word {
-            self.noted.resize(word + 1, 0);
+        if self.left.len() <= word {
             self.left.resize(word + 1, 0);
         }
-        self.left[word] |= bit & !self.noted[word];
-        self.noted[word] |= bit;
-        self.at = self.at.min(word);
-    }
-
-    /// Whether a round that has just begun goes through so many places in less time than through the lists of so many bodies.
-    const fn takes_all(&self, moved: usize, places: usize) -> bool {
-        self.noted.is_empty() && places <= ALL * moved
+        self.left[word] |= bit;
     }
 
     /// The round goes through all pairs of these bodies: the same as [`Self::note`] of each of them, without their lists.
@@ -101,7 +91,6 @@ impl Round {
                 word | self.moved.either(glance.bodies) << bit
             })
         }));
-        self.noted.extend_from_slice(&self.left);
     }
 }
 
@@ -137,16 +126,8 @@ mod tests {
         for place in [200, 3, 64, 3, 63] {
             round.note(place);
         }
-        assert_eq!(round.next(), Some(3));
-        assert_eq!(round.next(), Some(63));
-        // Who comes up meanwhile is asked, too, but nobody twice.
-        for place in [3, 5, 700] {
-            round.note(place);
-        }
-        let rest: Vec<u32> = round.by_ref().collect();
-        assert_eq!(rest, [5, 64, 200, 700]);
-        assert_eq!(round.next(), None);
-        round.note(5);
+        let all: Vec<u32> = round.by_ref().collect();
+        assert_eq!(all, [3, 63, 64, 200]);
         assert_eq!(round.next(), None);
         round.begin();
         assert_eq!(round.next(), None);

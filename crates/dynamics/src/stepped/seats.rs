@@ -6,7 +6,7 @@ use super::courses::Courses;
 use super::sent::Sent;
 use super::stand::Stands;
 use crate::bodies::Bodies;
-use crate::solver::{Limit, Member, Pull, Rig, RowId};
+use crate::solver::{Member, Pull, Rig, RowId};
 use crate::state::{BodyState, Collider};
 use crate::{BodyId, BodyKind};
 
@@ -20,10 +20,6 @@ const TURN: f64 = 0.25;
 /// Beyond this displacement against the base, as a multiple of the reach, the base moves up: sums of
 /// small steps keep their digits.
 const AWAY: f64 = 4.0;
-
-/// Who moves more than this part of its least half width in a sub-step is swift: 0.125 m for boxes
-/// of 1 m, 45 m/s at 1/360 s.
-pub(super) const PART: f64 = 0.25;
 
 /// The solver's bodies.
 #[derive(Clone, Debug, Default)]
@@ -52,14 +48,10 @@ pub(crate) struct Seat {
     pub(crate) reach: f64,
     /// The same for what a turn moves: 0 for a disc about its centre.
     pub(crate) rim: f64,
-    /// Least half width of its shapes, in m.
-    pub(crate) inner: f64,
     /// Where displacement and turn count from.
     pub(crate) base: Pose,
     /// Angle of the base with whole turns.
     pub(crate) base_angle: f64,
-    /// Where its centre was when it was last asked whether it rests.
-    pub(crate) rested: Vec2,
     /// How far it went since its boxes were made, at most, in m; infinite if they are those of a course.
     pub(crate) roamed: f64,
 }
@@ -74,10 +66,8 @@ impl Seat {
         kind: BodyKind::Fixed,
         reach: 0.0,
         rim: 0.0,
-        inner: 0.0,
         base: Pose::IDENTITY,
         base_angle: 0.0,
-        rested: Vec2::NAN,
         roamed: 0.0,
     };
 }
@@ -128,9 +118,7 @@ impl Seats {
         pull: Pull,
         time: SimTime,
     ) -> u32 {
-        let inner = state.inner(colliders);
         let in_place = state.turns_in_place(colliders);
-        let limit = limit_of(state, inner, in_place);
         let slot = self.rig.admit(&Member {
             velocity: state.velocity_at(time),
             spin: state.spin_at(time),
@@ -138,7 +126,6 @@ impl Seats {
             inverse_inertia: state.inverse_inertia,
             pull,
         });
-        self.rig.set_limit(slot, limit);
         self.stands.forget(slot);
         let (at, body) = (slot as usize, state.id.index as usize);
         if self.list.len() <= at {
@@ -156,10 +143,8 @@ impl Seats {
             kind: state.kind,
             reach: state.reach,
             rim,
-            inner,
             base: motion.pose_at(time),
             base_angle: state.turned + motion.turn(time - motion.start),
-            rested: Vec2::NAN,
             roamed: f64::INFINITY,
         };
         self.courses.end(slot);
@@ -241,11 +226,6 @@ impl Seats {
         self.rig.set_displacement(slot, d, turn);
     }
 
-    /// Inverse masses of two bodies.
-    pub(super) fn masses(&self, slots: [u32; 2]) -> [f64; 2] {
-        slots.map(|slot| self.rig.lines[slot as usize].inverse_mass())
-    }
-
     pub(crate) fn centre(&self, slot: u32) -> Vec2 {
         self.list[slot as usize].base.position + self.rig.lines[slot as usize].d()
     }
@@ -276,21 +256,6 @@ impl Seats {
         self.sent[slot as usize].rebase();
         self.rig.rebase(slot, rows);
     }
-}
-
-/// How far a body may move in a sub-step before it is swift: any way where it is not dynamic.
-fn limit_of(state: &BodyState, inner: f64, in_place: bool) -> Limit {
-    if state.kind != BodyKind::Dynamic {
-        return Limit::NONE;
-    }
-    let travel = PART * inner;
-    let turn = if in_place {
-        f64::INFINITY
-    } else {
-        travel / state.reach
-    };
-    let travel = travel * travel;
-    Limit { travel, turn }
 }
 
 /// What pulls on a body at a place.

@@ -60,14 +60,6 @@ impl Stand {
     }
 }
 
-impl Stand {
-    /// Gives it another velocity and spin.
-    pub(super) fn goes(&mut self, v: Vec2, spin: f64) {
-        self.v = v;
-        self.spin = if self.rim > 0.0 { spin } else { 0.0 };
-    }
-}
-
 /// Stands of one asking, by slot.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Stands {
@@ -95,7 +87,7 @@ impl Stands {
 
 impl Seats {
     /// A body as it is now.
-    pub(super) fn stand_of(&self, slot: u32) -> Stand {
+    fn stand_of(&self, slot: u32) -> Stand {
         Stand::new(
             self.get(slot),
             &self.rig.lines[slot as usize],

@@ -1,4 +1,4 @@
-//! What stepping keeps from step to step does not grow.
+//! What is kept from step to step does not grow.
 
 use carom_geometry::ConvexPolygon;
 use carom_math::{Pose, Vec2, vec2};
@@ -17,23 +17,6 @@ fn world(mode: Mode) -> World {
         ..Settings::default()
     })
     .expect("valid settings")
-}
-
-#[test]
-fn belts_are_on_no_list_where_nobody_keeps_their_account() {
-    let mut world = world(Mode::Stepped);
-    let belt = Material {
-        tangent_speed: 2.0,
-        ..Material::default()
-    };
-    let floor = BodyDef::fixed().at(vec2(0.0, -1.0));
-    block(&mut world, floor, vec2(100.0, 2.0), belt);
-    let load = BodyDef::dynamic().at(vec2(0.0, 0.5));
-    block(&mut world, load, vec2(1.0, 1.0), Material::default());
-    for _ in 0..120 {
-        world.step(1.0 / 60.0);
-    }
-    assert_eq!(world.pool.crowd.belts.len(), 0);
 }
 
 #[test]

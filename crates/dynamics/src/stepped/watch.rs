@@ -5,11 +5,9 @@ use core::hint::black_box;
 use arrayvec::ArrayVec;
 use carom_math::{SimTime, Vec2};
 
-use super::faces::GIVES;
-use super::relative::{Against, QUICK, Since, WHIRL, fall};
+use super::relative::{Against, QUICK, Since, fall};
 use super::stand::Stand;
 use crate::World;
-use crate::heavy::BEARS;
 use crate::pairs::{Glance, Rows};
 
 /// How far a body may move before it is asked about, as a fraction of the smallest reach about it: 5 mm for boxes
@@ -47,6 +45,10 @@ pub(super) fn farther(travel: f64, size: f64) -> f64 {
 /// Rows of a pair that are so much farther apart than they can come until the next tick are let go. Less only means
 /// that rows come and go more often.
 const LET_GO: f64 = 0.028;
+
+/// A pair of which a body turns by so much in a tick, in rad, 3.8 rad/s, is asked at length: gaps are linear in the turn, and
+/// off by ½ r θ², 1.4 mm for boxes of 1 m.
+const WHIRL: f64 = 0.063;
 
 /// So many pairs are asked one after the other, before those of them that want it are looked at: what they answer takes 4 KB.
 const AT_ONCE: usize = 32;
@@ -125,7 +127,6 @@ impl World {
         &mut self,
         pairs: &mut impl Iterator<Item = u32>,
         time: SimTime,
-        moved: &mut Vec<u32>,
         parts: bool,
     ) {
         loop {
@@ -158,7 +159,7 @@ impl World {
                 if parts && !self.keeps(place) {
                     self.part(place, time);
                 } else {
-                    self.heed(place, (wish, moving), time, moved);
+                    self.heed(place, (wish, moving), time);
                 }
             }
         }
@@ -181,28 +182,13 @@ impl World {
     }
 
     /// Looks at a pair if it must be, and notes when to ask it again before the next tick.
-    fn heed(
-        &mut self,
-        place: u32,
-        (mut wish, moving): (Wish, Option<Moving>),
-        time: SimTime,
-        moved: &mut Vec<u32>,
-    ) {
+    fn heed(&mut self, place: u32, (mut wish, moving): (Wish, Option<Moving>), time: SimTime) {
         let left = self.pool.until_look;
-        if wish == Wish::Rest && self.may_give(place) {
-            wish = Wish::Look;
-        }
         if wish == Wish::Look {
-            let Some(quick) = self.look_at(place, time, moved, moving) else {
+            let Some(quick) = self.look_at(place, time, moving) else {
                 return;
             };
             wish = self.wish_after(place, &quick);
-        } else {
-            let glance = self.pairs.glance(place);
-            if glance.load > BEARS || glance.buried {
-                let load = glance.load;
-                self.pool.depths.note(self.pairs.get(place), load);
-            }
         }
         let after = match wish {
             Wish::Rest => return,
@@ -217,26 +203,6 @@ impl World {
             glance.due = due;
             self.pool.watched.push((due, place));
         }
-    }
-
-    /// Whether the light body of a pair may give way to the heavy one in this tick, or the pair is deep in each other:
-    /// rows are swept often while that is so, and only a look tells. Asked at ticks.
-    fn may_give(&self, place: u32) -> bool {
-        let glance = self.pairs.glance(place);
-        if !(glance.has_rows() && (glance.heavy || glance.buried))
-            || self.pool.until_look < self.settings.substeps_per_tick()
-        {
-            return false;
-        }
-        if glance.buried {
-            return true;
-        }
-        let seats = &self.pool.seats;
-        let (Some(a), Some(b)) = (seats.slot(glance.bodies.0), seats.slot(glance.bodies.1)) else {
-            return false;
-        };
-        let against = Against::new([seats.stand(a), seats.stand(b)]);
-        glance.load > BEARS || against.speed() * self.settings.tick > GIVES * against.size
     }
 
     /// What becomes of a pair until the next tick, as its bodies move now, and how they do if it was asked at length.
@@ -307,7 +273,7 @@ impl World {
             };
         }
         let (went, speed) = (since.went(), against.speed());
-        let quick = against.is_quick(tick, self.moves_all());
+        let quick = against.is_quick(tick);
         // Sub-steps, of those that are left, for which so much room lasts.
         let lasts = |room: f64, rate: f64| {
             let rate = rate + 0.5 * against.pull * ahead;
@@ -372,7 +338,6 @@ impl World {
         let touched = pair.told;
         let glance = self.pairs.glance_mut(place);
         (glance.rows, glance.sought) = (Rows::None, f64::NEG_INFINITY);
-        (glance.load, glance.buried) = (1.0, false);
         if touched {
             self.judge(place, time);
         }
@@ -414,7 +379,7 @@ mod tests {
     #[test]
     fn the_short_answer_is_that_at_length() {
         let settings = Settings {
-            mode: Mode::Stepped,
+            mode: Mode::Hybrid,
             sleep: None,
             ..Settings::default()
         };

@@ -34,18 +34,14 @@ impl World {
 
     /// Motions of the last sub-step for all who move, but for those who joined within it: `newcomers`, in order.
     pub(super) fn write_motions(&mut self, newcomers: &[u32]) {
-        let (start, all) = (self.clock.last(), self.moves_all());
+        let start = self.clock.last();
         let mut slots = 0..self.pool.seats.places();
         loop {
             let seats = &self.pool.seats;
             // Kinematic bodies fly beside a crowd.
             let is_written = |slot: &u32| {
                 let seat = seats.get(*slot);
-                match seat.kind {
-                    BodyKind::Dynamic => newcomers.binary_search(&seat.body).is_err(),
-                    BodyKind::Kinematic => all,
-                    BodyKind::Fixed => false,
-                }
+                seat.kind == BodyKind::Dynamic && newcomers.binary_search(&seat.body).is_err()
             };
             let batch: ArrayVec<u32, AT_ONCE> =
                 slots.by_ref().filter(is_written).take(AT_ONCE).collect();

@@ -44,7 +44,6 @@ impl Rig {
                 self.heat += zone.ahead.heats[k];
             }
         }
-        self.swift.clear();
         true
     }
 
@@ -98,7 +97,6 @@ impl Work<'_> {
             colours,
             ahead,
             met,
-            swift,
             ..
         } = &mut *self.zone;
         self.bodies.lines.copy_from_slice(&ahead.lines);
@@ -107,6 +105,5 @@ impl Work<'_> {
             [wide.j1, wide.j2, wide.jt] = *kept;
         }
         met.clear();
-        swift.clear();
     }
 }

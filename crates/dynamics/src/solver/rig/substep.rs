@@ -8,7 +8,7 @@
 
 use fearless_simd::Level;
 
-use super::{Often, Rig};
+use super::Rig;
 use crate::solver::Law;
 use crate::solver::coast::{self, Bodies};
 use crate::solver::kernel::{Pass, sweep};
@@ -32,9 +32,7 @@ impl Work<'_> {
     }
 
     pub(super) fn displace(&mut self, level: Level, law: &Law) {
-        let Zone { swift, first, .. } = &mut *self.zone;
-        swift.clear();
-        coast::displace(level, &mut self.bodies, law.h, *first, swift);
+        coast::displace(level, &mut self.bodies, law.h);
     }
 
     pub(super) fn relax(&mut self, level: Level, law: &Law, pass: Pass) {
@@ -63,17 +61,12 @@ impl Rig {
     /// One sub-step. Displacements grow by it; rows are read where they are.
     ///
     /// `bounce` may change velocities before displacements are made of second order.
-    pub(crate) fn step(
-        &mut self,
-        law: &Law,
-        often: &Often,
-        bounce: Option<impl FnOnce(&mut Self)>,
-    ) {
+    pub(crate) fn step(&mut self, law: &Law, bounce: Option<impl FnOnce(&mut Self)>) {
         let (level, h, pass) = (self.level, law.h, self.relaxing());
         self.forget_impacts();
         self.follow();
         // Where no row crosses from zone to zone nothing has to wait for anything.
-        let alone = self.lanes.loose() == 0 && often.rows.is_empty();
+        let alone = self.lanes.loose() == 0;
         let in_one = alone && bounce.is_none();
         self.in_zones(|work| {
             coast::pull_and_warm(level, &mut work.bodies, h);
@@ -86,13 +79,11 @@ impl Rig {
                 coast::second_order(level, &mut work.bodies, h);
             }
         });
-        self.outside(|bodies, _, _| coast::pull_and_warm(level, bodies, h));
+        self.outside(|bodies| coast::pull_and_warm(level, bodies, h));
         self.over_all(|work| work.solve(level, law));
-        self.sweep_near(law, Pass::SolveOften, often.solve, &often.rows);
-        self.outside(|bodies, first, swift| coast::displace(level, bodies, h, first, swift));
+        self.outside(|bodies| coast::displace(level, bodies, h));
         if !alone {
             self.in_zones(|work| work.displace(level, law));
-            self.sweep_near(law, Pass::RelaxOften, often.relax, &often.rows);
             self.in_zones(|work| work.relax(level, law, pass));
             self.over_all(|work| work.relax(level, law, pass));
         }
@@ -103,7 +94,7 @@ impl Rig {
         if !in_one {
             self.in_zones(|work| coast::second_order(level, &mut work.bodies, h));
         }
-        self.outside(|bodies, _, _| coast::second_order(level, bodies, h));
+        self.outside(|bodies| coast::second_order(level, bodies, h));
     }
 
     /// How rows relax.
@@ -130,20 +121,16 @@ impl Rig {
     /// What zones tell of a sub-step, in their order.
     fn collect(&mut self) {
         let (over_all, zones) = self.lanes.zones.split_at_mut(1);
-        self.swift.clear();
         for zone in zones.iter_mut().chain(over_all) {
             self.heat += core::mem::take(&mut zone.heat);
             self.met.extend(zone.met());
-            self.swift.append(&mut zone.swift);
         }
-        self.swift.sort_unstable_by_key(|swift| swift.slot);
     }
 
     /// For every zone, with the bodies in it.
     pub(super) fn in_zones(&mut self, f: impl Fn(&mut Work<'_>) + Send + Sync) {
         let (first, last) = self.lanes.zoned();
-        let (bodies, _) =
-            bodies_of(&mut self.lines, &mut self.start, &self.pull, &self.limits).split_at(last);
+        let (bodies, _) = bodies_of(&mut self.lines, &mut self.start, &self.pull).split_at(last);
         let (_, mut rest) = bodies.split_at(first);
         let zones = &mut self.lanes.zones[1..];
         let mut works = Vec::with_capacity(zones.len());
@@ -162,21 +149,19 @@ impl Rig {
 
     /// With all lines, for the rows that know them.
     fn over_all(&mut self, f: impl Fn(&mut Work<'_>)) {
-        let bodies = bodies_of(&mut self.lines, &mut self.start, &self.pull, &self.limits);
+        let bodies = bodies_of(&mut self.lines, &mut self.start, &self.pull);
         let zone = &mut self.lanes.zones[0];
         f(&mut Work { bodies, zone });
     }
 
-    /// For bodies in no zone: the number of the first, and where to tell who is swift.
-    fn outside(&mut self, f: impl Fn(&mut Bodies<'_>, u32, &mut Vec<super::Swift>)) {
+    /// For bodies in no zone.
+    fn outside(&mut self, f: impl Fn(&mut Bodies<'_>)) {
         let (first, last) = self.lanes.zoned();
-        let bodies = bodies_of(&mut self.lines, &mut self.start, &self.pull, &self.limits);
+        let bodies = bodies_of(&mut self.lines, &mut self.start, &self.pull);
         let (bodies, mut tail) = bodies.split_at(last);
         let (mut head, _) = bodies.split_at(first);
-        let swift = &mut self.lanes.zones[0].swift;
-        f(&mut head, 0, swift);
-        #[expect(clippy::cast_possible_truncation, reason = "slots are u32")]
-        f(&mut tail, last as u32, swift);
+        f(&mut head);
+        f(&mut tail);
     }
 }
 
@@ -184,12 +169,6 @@ fn bodies_of<'a>(
     lines: &'a mut [super::Line],
     start: &'a mut [super::Quad],
     pull: &'a [super::Quad],
-    limits: &'a [super::Limit],
 ) -> Bodies<'a> {
-    Bodies {
-        lines,
-        start,
-        pull,
-        limits,
-    }
+    Bodies { lines, start, pull }
 }

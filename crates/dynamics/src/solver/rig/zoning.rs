@@ -1,7 +1,7 @@
 //! Which bodies belong to which zone: groups that hang together stay together while they are small, and
 //! large ones are cut where few rows cross.
 
-use super::{Limit, Rig};
+use super::Rig;
 use crate::solver::coast::Quad;
 use crate::solver::wide::Line;
 use crate::solver::zone::Zone;
@@ -41,10 +41,8 @@ impl Rig {
         let lines: Vec<Line> = plan.old.iter().map(lines).collect();
         let start = |old: &Option<u32>| old.map_or(Quad::EMPTY, |i| self.start[i as usize]);
         let pull = |old: &Option<u32>| old.map_or(Quad::default(), |i| self.pull[i as usize]);
-        let limit = |old: &Option<u32>| old.map_or(Limit::NONE, |i| self.limits[i as usize]);
         self.start = plan.old.iter().map(start).collect();
         self.pull = plan.old.iter().map(pull).collect();
-        self.limits = plan.old.iter().map(limit).collect();
         self.free.clear();
         if plan.zones.len() == 1 && self.lanes.zones.len() == 1 {
             self.lanes.renumber(&plan.new);
@@ -236,7 +234,7 @@ impl Plan {
 mod tests {
     use super::*;
     use crate::solver::rig::{Member, NOBODY, Pull};
-    use crate::solver::{Law, Often, Row};
+    use crate::solver::{Law, Row};
     use crate::{Settings, Softness};
     use carom_math::{Vec2, vec2};
 
@@ -293,8 +291,8 @@ mod tests {
         let mut parted = whole.clone();
         parted.back = !whole.back;
         for _ in 0..100 {
-            whole.step(&law, &Often::default(), NOBODY);
-            parted.step(&law, &Often::default(), Some(|_: &mut Rig| ()));
+            whole.step(&law, NOBODY);
+            parted.step(&law, Some(|_: &mut Rig| ()));
         }
         assert!(whole.lines.iter().any(|line| line.d().y < -1e-6));
         assert_eq!(whole.lines, parted.lines);
@@ -310,7 +308,7 @@ mod tests {
         let mut slow = ahead.clone();
         for _ in 0..20 {
             assert!(ahead.step_ahead(&law, 6), "nothing comes up");
-            (0..6).for_each(|_| slow.step(&law, &Often::default(), NOBODY));
+            (0..6).for_each(|_| slow.step(&law, NOBODY));
         }
         assert!(ahead.lines.iter().any(|line| line.d().y < -1e-6));
         assert_eq!(ahead.lines, slow.lines);
@@ -324,8 +322,8 @@ mod tests {
         }
         assert!(ahead.may_go_ahead() && !ahead.step_ahead(&law, 6));
         for _ in 0..6 {
-            ahead.step(&law, &Often::default(), NOBODY);
-            slow.step(&law, &Often::default(), NOBODY);
+            ahead.step(&law, NOBODY);
+            slow.step(&law, NOBODY);
         }
         assert_eq!(ahead.lines, slow.lines);
         assert_eq!(ahead.heat.to_bits(), slow.heat.to_bits());
@@ -338,7 +336,7 @@ mod tests {
             let mut rig = columns(heights);
             rig.compact();
             for _ in 0..3600 {
-                rig.step(&law, &Often::default(), NOBODY);
+                rig.step(&law, NOBODY);
             }
             let moving = rig.lines.iter().filter(|line| line.inverse_mass() > 0.0);
             let mut sunk: Vec<f64> = moving.map(|line| line.d().y).collect();
