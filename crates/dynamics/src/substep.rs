@@ -2,6 +2,7 @@
 
 use carom_math::SimTime;
 
+use crate::World;
 use crate::agenda::Entry;
 use crate::flight::fly;
 use crate::narrow::{TOUCH, opening_speed, rest_speed};
@@ -9,7 +10,6 @@ use crate::pairs::PairContact;
 use crate::predict::BUDGET;
 use crate::sleep::settle;
 use crate::stepped::{FEW, MANY, Seen};
-use crate::{Mode, World};
 
 /// Sub-steps with nothing near after which a body flies: fewer, and what rattles changes sides all the time.
 const IDLE: u8 = 4;
@@ -290,9 +290,6 @@ impl World {
 
     /// Bodies that nothing held or neared for a while fly from here on.
     fn release(&mut self, time: SimTime) {
-        if self.settings.mode == Mode::Stepped {
-            return;
-        }
         for index in self.stepped.clone() {
             let near = |place: &u32| !self.pairs.get(*place).contacts.is_empty();
             let held = self.groups.pushed(index) || self.bodies.get(index).pairs.iter().any(near);

@@ -25,7 +25,7 @@ use store::{Group, Kept};
 impl World {
     /// Closed forms for all groups that allow them at the start of a sub-step.
     pub(crate) fn close_groups(&mut self, time: SimTime) {
-        if self.settings.mode == Mode::Stepped || !self.bodies.pull.fields.is_empty() {
+        if !self.bodies.pull.fields.is_empty() {
             return;
         }
         let mut i = 0;

@@ -30,24 +30,15 @@ pub(crate) enum Pass {
     RelaxBelts,
 }
 
-/// Rows of a block that are met with a speed when a solving sweep comes to them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Met {
-    pub(crate) colour: u32,
-    pub(crate) block: u32,
-    /// A bit for each lane.
-    pub(crate) lanes: u64,
-}
-
-/// Sweeps over all blocks; what friction turned to heat in a relaxing sweep, in J. A solving sweep adds the
-/// rows that are met to `met`.
+/// Sweeps over all blocks; what friction turned to heat in a relaxing sweep, in J. A solving sweep sets `met` if somebody
+/// is met with a speed when it comes to them.
 pub(crate) fn sweep(
     level: Level,
     pass: Pass,
     law: &Law,
     lines: &mut [Line],
     colours: &mut [Vec<Wide>],
-    met: &mut Vec<Met>,
+    met: &mut bool,
 ) -> f64 {
     match pass {
         Pass::Solve => {
@@ -68,21 +59,11 @@ fn all<S: Simd, const RELAX: bool, const BELTS: bool>(
     law: &Law,
     lines: &mut [Line],
     colours: &mut [Vec<Wide>],
-    met: &mut Vec<Met>,
+    met: &mut bool,
 ) -> f64 {
     let mut heat = f64x8::splat(simd, 0.0);
-    for (colour, blocks) in (0u32..).zip(colours) {
-        for (k, wide) in (0u32..).zip(blocks) {
-            let lanes = block::<S, RELAX, BELTS>(simd, law, lines, wide, &mut heat);
-            if lanes != 0 {
-                let block = k;
-                met.push(Met {
-                    colour,
-                    block,
-                    lanes,
-                });
-            }
-        }
+    for wide in colours.iter_mut().flatten() {
+        *met |= block::<S, RELAX, BELTS>(simd, law, lines, wide, &mut heat);
     }
     let mut sum = 0.0;
     for lane in 0..LANES {
@@ -101,7 +82,7 @@ fn block<S: Simd, const RELAX: bool, const BELTS: bool>(
     lines: &mut [Line],
     wide: &mut Wide,
     heat: &mut f64x8<S>,
-) -> u64 {
+) -> bool {
     let zero = f64x8::splat(simd, 0.0);
     let one = f64x8::splat(simd, 1.0);
     let [mut avx, mut avy, mut aw, ma, adx, ady, aturn, ia] = gather(simd, lines, &wide.a);
@@ -122,7 +103,7 @@ fn block<S: Simd, const RELAX: bool, const BELTS: bool>(
     let gap2 = f64x8::from_slice(simd, &wide.s2) + moved2;
 
     let reach = f64x8::splat(simd, law.inverse_h);
-    let mut met = 0;
+    let mut met = false;
     let mut struck = zero.simd_lt(zero);
     if !RELAX {
         let (fast, near) = (
@@ -132,7 +113,7 @@ fn block<S: Simd, const RELAX: bool, const BELTS: bool>(
         let met1 = v1.simd_lt(fast) & gap1.simd_lt(near);
         let met2 = v2.simd_lt(fast) & gap2.simd_lt(near);
         struck = met1 | met2;
-        met = struck.to_bitmask();
+        met = struck.to_bitmask() != 0;
     }
     // Where nothing pushes, and no gap closes in this sub-step, nothing will: u ≥ 0, and the impulses that solve for it are 0.
     let (counts1, counts2) = if RELAX {
@@ -163,7 +144,6 @@ fn block<S: Simd, const RELAX: bool, const BELTS: bool>(
         u1 = v1 + counts1 * reach;
         u2 = v2 + counts2 * reach;
         (s11, s22) = (k11, k22);
-        // What relaxes is not hurried on: friction acts at once by what pushes, and jammed columns would hum.
         omega = one;
     } else {
         let (open1, open2) = (gap1.simd_gt(zero), gap2.simd_gt(zero));
@@ -210,6 +190,7 @@ fn block<S: Simd, const RELAX: bool, const BELTS: bool>(
     let x2 = both.select(x2, first.select(zero, y2));
 
     let (new1, new2) = if RELAX {
+        // What relaxes is not hurried on: friction acts at once by what pushes, and jammed columns would hum.
         (x1, x2)
     } else {
         (

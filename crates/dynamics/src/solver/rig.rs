@@ -35,8 +35,8 @@ pub(crate) struct Rig {
     /// What pulls on each body: acceleration, and angular acceleration.
     pull: Vec<Quad>,
     pub(crate) lanes: Lanes,
-    /// Rows that were met in the last sub-step: their impulses stopped something once.
-    pub(crate) met: Vec<RowId>,
+    /// Somebody was met with a speed in the last sub-step.
+    pub(crate) met: bool,
     /// Rows that bounced in the last sub-step.
     bounced: Vec<RowId>,
     /// Whether groups that hang together are cut where they are too large for one zone.
@@ -79,7 +79,7 @@ impl Default for Rig {
             start: vec![Quad::of(Vec2::ZERO, 0.0, 1.0)],
             pull: vec![Quad::default()],
             lanes,
-            met: Vec::new(),
+            met: false,
             bounced: Vec::new(),
             cuts: cfg!(test),
             crossing: 0,
@@ -295,23 +295,9 @@ impl Rig {
         self.lanes = lanes;
     }
 
-    /// Rows that were met start cold: what stopped a body, and what friction took from it then, does not act
-    /// once more. Only those that one sweep solves for, and bounces off what cannot be moved where nothing else pushes: in a pile
-    /// what came in goes on for some sub-steps.
-    fn forget_impacts(&mut self) {
-        let mut met = core::mem::take(&mut self.met);
-        met.retain(|id| self.lanes.holds(*id));
-        for id in met.drain(..) {
-            let (a, b) = self.bodies(id);
-            let alone = |slot: u32| {
-                self.lines[slot as usize].inverse_mass() == 0.0 || self.lanes.degree(slot) == 1
-            };
-            if alone(a) && alone(b) {
-                self.warm(&self.row(id), -1.0);
-                self.chill(id);
-            }
-        }
-        self.met = met;
+    /// Rows that bounced off what cannot be moved start cold where nothing else pushes: what stopped a body, and what friction
+    /// took from it then, does not act once more. In a pile what came in goes on for some sub-steps.
+    fn forget_bounces(&mut self) {
         let mut bounced = core::mem::take(&mut self.bounced);
         bounced.retain(|id| self.lanes.holds(*id) && self.is_ground(*id));
         for id in &bounced {

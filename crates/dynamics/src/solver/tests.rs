@@ -246,7 +246,7 @@ proptest! {
                     &law,
                     &mut wide.lines,
                     &mut wide.lanes.zones[0].colours,
-                    &mut Vec::new(),
+                    &mut false,
                 );
                 prop_assert_eq!(same.to_bits(), heat.to_bits());
                 for (x, y) in wide.lines.iter().zip(&plain.lines) {

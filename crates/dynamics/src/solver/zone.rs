@@ -3,7 +3,6 @@
 //! A zone knows its own lines alone, so that zones may be swept at the same time, and one after the other
 //! without leaving the cache. What cannot be moved has a double in every zone that it touches.
 
-use super::kernel::Met;
 use super::lanes::{COLOURS, RowId};
 use super::rig::Ahead;
 use super::wide::{LANES, Wide};
@@ -22,8 +21,8 @@ pub(crate) struct Zone {
     pub(super) count: u32,
     /// What cannot be moved: its line, and its double here; in order.
     pub(super) doubles: Vec<(u32, u32)>,
-    /// What a sub-step tells: rows that were met, what friction turned into heat, in J.
-    pub(super) met: Vec<Met>,
+    /// What a sub-step tells: whether somebody was met with a speed, and what friction turned into heat, in J.
+    pub(super) met: bool,
     pub(super) heat: f64,
     /// What it was before several sub-steps that were made at once.
     pub(super) ahead: Ahead,
@@ -38,7 +37,7 @@ impl Zone {
             first,
             count,
             doubles,
-            met: Vec::new(),
+            met: false,
             heat: 0.0,
             ahead: Ahead::default(),
         }
@@ -108,19 +107,6 @@ impl Zone {
         };
         let there = colour != COLOURS || lane == 0;
         self.owners[colour].get(index).copied().filter(|_| there)
-    }
-
-    /// Whether somebody was met.
-    pub(super) const fn has_news(&self) -> bool {
-        !self.met.is_empty()
-    }
-
-    /// Rows that were met in the last solving sweep.
-    pub(super) fn met(&self) -> impl Iterator<Item = RowId> + use<'_> {
-        self.met.iter().flat_map(|met| {
-            let lanes = (0..LANES).filter(|lane| met.lanes >> lane & 1 == 1);
-            lanes.filter_map(|lane| self.owner(met.colour as usize, met.block as usize, lane))
-        })
     }
 
     /// Rows that began or ceased to push since this was last asked.

@@ -120,10 +120,8 @@ impl World {
         let (rig, bounces) = (&mut self.pool.seats.rig, &mut self.pool.bounces);
         let h = self.clock.h;
         bounces.arm(rig, h);
-        // Rows of a crowd keep their impulses from step to step, those that have just met too.
-        rig.met.clear();
         let pay = bounces.owe().then_some(|rig: &mut Rig| bounces.pay(rig, h));
         rig.step(&self.law, pay);
-        self.pool.stirred |= !rig.met.is_empty();
+        self.pool.stirred |= rig.met;
     }
 }

@@ -35,7 +35,7 @@ impl Rig {
         self.follow();
         self.in_zones(|work| work.go_ahead(level, law, pass, count));
         let zones = &self.lanes.zones[1..];
-        if zones.iter().any(Zone::has_news) {
+        if zones.iter().any(|zone| zone.met) {
             self.in_zones(|work| work.go_back());
             return false;
         }
@@ -54,7 +54,7 @@ impl Rig {
             |line: &Line| line.inverse_mass() == 0.0 && line.v() == Vec2::ZERO && line.w() == 0.0;
         first < last
             && self.lanes.loose() == 0
-            && self.met.is_empty()
+            && !self.met
             && self.bounced.is_empty()
             // The first line serves empty lanes.
             && self.lines[1..first].iter().chain(&self.lines[last..]).all(stands)
@@ -68,7 +68,7 @@ impl Work<'_> {
             coast::pull_and_warm(level, &mut self.bodies, law.h);
             self.solve(level, law);
             self.displace(level, law);
-            if self.zone.has_news() {
+            if self.zone.met {
                 return;
             }
             self.relax(level, law, pass);
@@ -104,6 +104,6 @@ impl Work<'_> {
         for (wide, kept) in colours.iter_mut().flatten().zip(&ahead.impulses) {
             [wide.j1, wide.j2, wide.jt] = *kept;
         }
-        met.clear();
+        *met = false;
     }
 }

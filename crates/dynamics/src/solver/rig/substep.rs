@@ -27,7 +27,7 @@ pub(super) struct Work<'a> {
 impl Work<'_> {
     pub(super) fn solve(&mut self, level: Level, law: &Law) {
         let Zone { colours, met, .. } = &mut *self.zone;
-        met.clear();
+        *met = false;
         sweep(level, Pass::Solve, law, self.bodies.lines, colours, met);
     }
 
@@ -63,7 +63,7 @@ impl Rig {
     /// `bounce` may change velocities before displacements are made of second order.
     pub(crate) fn step(&mut self, law: &Law, bounce: Option<impl FnOnce(&mut Self)>) {
         let (level, h, pass) = (self.level, law.h, self.relaxing());
-        self.forget_impacts();
+        self.forget_bounces();
         self.follow();
         // Where no row crosses from zone to zone nothing has to wait for anything.
         let alone = self.lanes.loose() == 0;
@@ -121,9 +121,10 @@ impl Rig {
     /// What zones tell of a sub-step, in their order.
     fn collect(&mut self) {
         let (over_all, zones) = self.lanes.zones.split_at_mut(1);
+        self.met = false;
         for zone in zones.iter_mut().chain(over_all) {
             self.heat += core::mem::take(&mut zone.heat);
-            self.met.extend(zone.met());
+            self.met |= zone.met;
         }
     }
 
