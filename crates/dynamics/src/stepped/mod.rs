@@ -33,12 +33,13 @@ mod touch;
 mod watch;
 mod write;
 
+use carom_collision::PartManifold;
+
 use crate::World;
 use crate::pairs::PairContact;
 use crate::solver::{Rig, RowId};
 use ahead::Hurry;
 use bounce::Bounces;
-use carom_collision::PartManifold;
 use cores::Cores;
 use crowd::Crowd;
 pub(crate) use crowd::{FEW, MANY};
@@ -84,7 +85,7 @@ pub(crate) struct Stepped {
     /// Somebody was struck since the last tick began.
     stirred: bool,
     hurry: Hurry,
-    /// Cores of shapes, for those who move far in a sub-step.
+    /// Cores of shapes, for those who pass each other by a hair.
     cores: Cores,
     /// Pairs that a look goes through: scratch.
     round: Round,
