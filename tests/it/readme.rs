@@ -103,7 +103,9 @@ fn short(value: f64) -> String {
 
 fn accuracy() -> String {
     let table = Table::read("crates/bench/results/accuracy/accuracy.csv");
-    let mut text = "| what, and its error | Box2D v3 (SSE2) | Rapier | **carom** | `Mode::Stepped` |\n|---|---:|---:|---:|---:|\n".to_owned();
+    let mut text =
+        "| what, and its error | Box2D v3 (SSE2) | Rapier | **carom** |\n|---|---:|---:|---:|\n"
+            .to_owned();
     for (case, metric, name) in ACCURACY {
         let of = |engine, mode| {
             let keys = [
@@ -117,20 +119,15 @@ fn accuracy() -> String {
             short(table.number("error", &keys))
         };
         let [box2d, rapier] = [("box2d-sse2", "stock"), ("rapier", "stock")].map(|(e, m)| of(e, m));
-        let [own, stepped] = ["hybrid", "stepped"].map(|mode| of("carom", mode));
-        let _ = writeln!(
-            text,
-            "| {name} | {box2d} | {rapier} | **{own}** | {stepped} |"
-        );
+        let own = of("carom", "hybrid");
+        let _ = writeln!(text, "| {name} | {box2d} | {rapier} | **{own}** |");
     }
     text
 }
 
 fn speed() -> String {
     let table = Table::read("crates/bench/results/speed/speed.csv");
-    let mut text =
-        "| scene | stepping alone | all poses read | `Mode::Stepped` |\n|---|---:|---:|---:|\n"
-            .to_owned();
+    let mut text = "| scene | stepping alone | all poses read |\n|---|---:|---:|\n".to_owned();
     for (scene, name) in SPEED {
         let of = |engine, mode, reads| {
             let keys = [
@@ -142,15 +139,8 @@ fn speed() -> String {
             ];
             table.number("ms_mean", &keys)
         };
-        let ratio =
-            |mode, reads| short(of("carom", mode, reads) / of("box2d-avx2", "stock", reads));
-        let _ = writeln!(
-            text,
-            "| {name} | {} | {} | {} |",
-            ratio("hybrid", "false"),
-            ratio("hybrid", "true"),
-            ratio("stepped", "false"),
-        );
+        let ratio = |reads| short(of("carom", "hybrid", reads) / of("box2d-avx2", "stock", reads));
+        let _ = writeln!(text, "| {name} | {} | {} |", ratio("false"), ratio("true"));
     }
     text
 }
