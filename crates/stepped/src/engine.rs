@@ -122,7 +122,8 @@ impl Engine {
 
     /// Which pieces touch, or may within the tick, and where.
     pub(crate) fn look(&mut self, rules: &dyn PairRules) {
-        if self.done == 0 {
+        let at_tick = self.done == 0;
+        if at_tick {
             self.rebase();
             self.broad
                 .find(self.level, &self.bodies, &self.pieces, self.settings.tick);
@@ -130,7 +131,9 @@ impl Engine {
         } else {
             self.follow_strays(rules);
         }
-        self.heavy.gather(&self.graph, &self.bodies);
+        if at_tick || self.graph.has_new_heavy() {
+            self.heavy.gather(&mut self.graph, &self.bodies);
+        }
         self.deep.gather(&mut self.graph, &self.bodies);
     }
 

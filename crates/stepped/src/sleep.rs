@@ -136,6 +136,11 @@ impl Engine {
             self.bodies.records[slot as usize].island = number;
         }
         self.islands.changed.extend(island);
+        // Nobody may ask for a long time.
+        if self.islands.changed.len() > 2 * self.bodies.records.len() + 64 {
+            self.islands.changed.sort_unstable();
+            self.islands.changed.dedup();
+        }
         for &slot in island {
             let ids: Vec<_> = self.graph.of_body(&self.bodies, slot).collect();
             for (id, side) in ids {

@@ -1,6 +1,6 @@
 //! The constraint graph: contacts, the colour and lane of each, and the list of each body's contacts.
 
-use super::block::{Block, Cold, LANES, OPEN};
+use super::block::LANES;
 use super::colour::Colour;
 use crate::Surface;
 use crate::bodies::{Bodies, BodyKind};
@@ -48,8 +48,10 @@ pub(crate) struct Graph {
     free: Vec<u32>,
     /// Contacts that are too deep for the sweeps, and some that were, in no order.
     pub(super) deep: Vec<u32>,
-    /// Contacts of two bodies of very different mass, in no order.
+    /// Contacts of two bodies of very different mass, and some that were, in no order.
     pub(super) heavy: Vec<u32>,
+    /// Some of them came since they were last gathered.
+    pub(super) new_heavy: bool,
     /// Behind those of masks the overflow colour, and behind it what sleeps.
     pub(super) colours: Vec<Colour>,
 }
@@ -73,6 +75,7 @@ impl Graph {
             free: Vec::new(),
             deep: Vec::new(),
             heavy: Vec::new(),
+            new_heavy: false,
             colours: vec![Colour::default(); COLOURS + 2],
         }
     }
@@ -160,6 +163,7 @@ impl Graph {
         self.colour(bodies, id, (manifold, deepest), surface);
         if Self::is_heavy(bodies, ends) {
             self.heavy.push(id);
+            self.new_heavy = true;
         }
         id
     }
@@ -232,9 +236,6 @@ impl Graph {
             }
         }
         self.vacate(colour, k, lane);
-        if Self::is_heavy(bodies, contact.bodies) {
-            self.heavy.retain(|other| *other != id);
-        }
         self.free.push(id);
     }
 
@@ -299,62 +300,6 @@ impl Graph {
         }
     }
 
-    /// Lets a contact start the next sub-step without impulses; velocities stay.
-    pub(crate) fn clear_warm_start(&mut self, bodies: &mut Bodies, id: u32) {
-        let contact = &self.contacts[id as usize];
-        let (k, lane) = contact.place();
-        let block = &mut self.colours[contact.colour as usize].blocks[k];
-        let (a, b) = (block.a[lane] as usize, block.b[lane] as usize);
-        let [push_a, push_b] = block.push(lane, &bodies.lines[a], &bodies.lines[b]);
-        bodies.start[a].add(&push_a);
-        bodies.start[b].add(&push_b);
-        block.set_impulses(lane, [0.0; 3]);
-    }
-
-    /// Lets a contact do nothing until it is computed anew.
-    pub(crate) fn hide(&mut self, bodies: &mut Bodies, id: u32) {
-        self.clear_warm_start(bodies, id);
-        let contact = &self.contacts[id as usize];
-        let (k, lane) = contact.place();
-        let block = &mut self.colours[contact.colour as usize].blocks[k];
-        (block.s1[lane], block.s2[lane]) = (OPEN, OPEN);
-        self.colours[contact.colour as usize].cold[k].depths[lane] = [0.0; 2];
-    }
-
-    /// Notes contacts that became deep.
-    pub(crate) fn add_deep(&mut self, deep: &mut Vec<u32>) {
-        self.deep.append(deep);
-    }
-
-    /// Whether there is such a contact, and it is too deep for the sweeps.
-    pub(super) fn is_deep(&self, id: u32) -> bool {
-        let contact = &self.contacts[id as usize];
-        let (k, lane) = contact.place();
-        let cold = self.colours[contact.colour as usize].cold.get(k);
-        !contact.sleeps()
-            && cold.is_some_and(|cold| {
-                cold.used >> lane & 1 == 1 && cold.contact[lane] == id && cold.is_deep(lane)
-            })
-    }
-
-    /// Whether a contact touched when it was last asked.
-    pub(crate) fn is_touching(&self, id: u32) -> bool {
-        let (_, cold, lane) = self.lane(id);
-        cold.touching >> lane & 1 == 1
-    }
-
-    /// Gives a contact another surface; its impulses stay.
-    pub(crate) fn resurface(&mut self, id: u32, surface: Surface) {
-        let contact = &self.contacts[id as usize];
-        let (k, lane) = contact.place();
-        let colour = &mut self.colours[contact.colour as usize];
-        colour.discount(k, lane);
-        colour.blocks[k].mu[lane] = surface.friction;
-        colour.cold[k].restitution[lane] = surface.restitution;
-        colour.cold[k].belt[lane] = surface.tangent_speed;
-        colour.count(k, lane);
-    }
-
     /// Takes a contact out of the lists of its bodies.
     fn unlink(&mut self, bodies: &mut Bodies, id: u32) {
         let contact = self.contacts[id as usize];
@@ -384,14 +329,6 @@ impl Graph {
         })
     }
 
-    /// The block and lane of a contact.
-    pub(crate) fn lane(&self, id: u32) -> (&Block, &Cold, usize) {
-        let contact = &self.contacts[id as usize];
-        let (k, lane) = contact.place();
-        let colour = &self.colours[contact.colour as usize];
-        (&colour.blocks[k], &colour.cold[k], lane)
-    }
-
     /// Tells the rows of a body that it has another line.
     pub(crate) fn renumber(&mut self, bodies: &Bodies, slot: u32) {
         let line = bodies.records[slot as usize].line;
@@ -409,15 +346,6 @@ impl Graph {
             end[lane] = if contact.sleeps() { 0 } else { line };
             at = contact.next[side];
         }
-    }
-
-    /// Numbers of all contacts, colour by colour.
-    pub(crate) fn ids(&self) -> impl Iterator<Item = u32> {
-        let cold = self.colours.iter().flat_map(|colour| &colour.cold);
-        cold.flat_map(|cold| {
-            let lanes = (0..LANES).filter(|lane| cold.used >> lane & 1 == 1);
-            lanes.map(|lane| cold.contact[lane])
-        })
     }
 }
 

@@ -4,7 +4,7 @@
 //! rows of a body that touches one more than [`HEAVY`] times as heavy are swept again after each sweep, group by group:
 //! how often depends on the group alone.
 
-use super::graph::{ASLEEP, Graph};
+use super::graph::Graph;
 use super::kernel::Pass;
 use super::law::Law;
 use super::plain::row_often;
@@ -32,6 +32,8 @@ const PART: f64 = 0.6;
 pub(crate) struct Heavy {
     /// Contacts of each group, in the order of their bodies, and how often they are swept.
     groups: Vec<(Vec<u32>, usize)>,
+    /// The first light body about each body, while groups are gathered: scratch.
+    owner: Vec<u32>,
 }
 
 impl Graph {
@@ -52,16 +54,27 @@ fn ratio(bodies: &Bodies, ends: [u32; 2]) -> f64 {
 
 impl Heavy {
     /// Gathers the groups for the sub-steps until contacts change.
-    pub(crate) fn gather(&mut self, graph: &Graph, bodies: &Bodies) {
+    pub(crate) fn gather(&mut self, graph: &mut Graph, bodies: &Bodies) {
         self.groups.clear();
+        graph.new_heavy = false;
         if graph.heavy.is_empty() {
             return;
         }
+        // Those of what sleeps stay, and those that went go.
+        let mut heavy = core::mem::take(&mut graph.heavy);
+        heavy.sort_unstable();
+        heavy.dedup();
+        heavy.retain(|id| {
+            let contact = &graph.contacts[*id as usize];
+            contact.sleeps() || graph.cold(*id).is_some() && Graph::is_heavy(bodies, contact.bodies)
+        });
+        graph.heavy = heavy;
+        let graph = &*graph;
         // Light bodies, and the greatest ratio that each has to bear.
         let mut light: Vec<(u32, f64)> = Vec::new();
         for &id in &graph.heavy {
             let contact = &graph.contacts[id as usize];
-            if contact.colour as usize == ASLEEP {
+            if contact.sleeps() {
                 continue;
             }
             let [a, b] = contact.bodies;
@@ -72,18 +85,22 @@ impl Heavy {
         light.dedup_by_key(|light| light.0);
         // Light bodies that touch each other, or the same heavy one, are one group.
         let mut groups = Groups::new(light.len());
-        let mut owner = std::collections::BTreeMap::new();
-        for (k, (slot, _)) in light.iter().enumerate() {
+        self.owner.resize(bodies.records.len(), u32::MAX);
+        for ((slot, _), k) in light.iter().zip(0u32..) {
             let others = graph
                 .of_body(bodies, *slot)
                 .map(|(id, side)| graph.contacts[id as usize].bodies[1 - side]);
             for other in others.chain([*slot]) {
                 if bodies.is_dynamic(other) {
-                    let first = *owner.entry(other).or_insert(k);
-                    groups.join(first, k);
+                    let first = &mut self.owner[other as usize];
+                    if *first == u32::MAX {
+                        *first = k;
+                    }
+                    groups.join(*first as usize, k as usize);
                 }
             }
         }
+        self.owner.clear();
         let mut gathered = std::collections::BTreeMap::new();
         for (k, (slot, ratio)) in light.iter().enumerate() {
             let group: &mut (Vec<u32>, f64) =
@@ -117,10 +134,14 @@ impl Heavy {
         for (rows, sweeps) in &self.groups {
             for _ in 0..*sweeps {
                 for id in rows {
+                    // Some may have gone since the groups were gathered.
+                    let Some((cold, lane)) = graph.cold(*id) else {
+                        continue;
+                    };
+                    let belt = cold.belt[lane];
                     let contact = &graph.contacts[*id as usize];
-                    let (k, lane) = contact.place();
+                    let k = contact.place().0;
                     let colour = &mut graph.colours[contact.colour as usize];
-                    let belt = colour.cold[k].belt[lane];
                     row_often(
                         pass,
                         law,

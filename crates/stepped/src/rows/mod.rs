@@ -10,11 +10,13 @@ mod graph;
 mod heavy;
 mod integrate;
 mod kernel;
+mod lanes;
 mod law;
 mod line;
 mod plain;
 mod renew;
 mod restitution;
+
 #[cfg(test)]
 mod tests;
 mod transpose;

@@ -1,0 +1,89 @@
+//! The rows of contacts that are there: where they lie, and what is asked and changed of them.
+
+use super::block::{Block, Cold, LANES, OPEN};
+use super::graph::Graph;
+use crate::Surface;
+use crate::bodies::Bodies;
+
+impl Graph {
+    /// The block and lane of a contact.
+    pub(crate) fn lane(&self, id: u32) -> (&Block, &Cold, usize) {
+        let contact = &self.contacts[id as usize];
+        let (k, lane) = contact.place();
+        let colour = &self.colours[contact.colour as usize];
+        (&colour.blocks[k], &colour.cold[k], lane)
+    }
+
+    /// The cold part and lane of a contact, if there is one of this number and it is awake.
+    pub(super) fn cold(&self, id: u32) -> Option<(&Cold, usize)> {
+        let contact = &self.contacts[id as usize];
+        let (k, lane) = contact.place();
+        let cold = self.colours[contact.colour as usize].cold.get(k)?;
+        let there = cold.used >> lane & 1 == 1 && cold.contact[lane] == id;
+        (there && !contact.sleeps()).then_some((cold, lane))
+    }
+
+    /// Numbers of all contacts, colour by colour.
+    pub(crate) fn ids(&self) -> impl Iterator<Item = u32> {
+        let cold = self.colours.iter().flat_map(|colour| &colour.cold);
+        cold.flat_map(|cold| {
+            let lanes = (0..LANES).filter(|lane| cold.used >> lane & 1 == 1);
+            lanes.map(|lane| cold.contact[lane])
+        })
+    }
+
+    /// Whether there is such a contact, and it is too deep for the sweeps.
+    pub(super) fn is_deep(&self, id: u32) -> bool {
+        self.cold(id).is_some_and(|(cold, lane)| cold.is_deep(lane))
+    }
+
+    /// Notes contacts that became deep.
+    pub(crate) fn add_deep(&mut self, deep: &mut Vec<u32>) {
+        self.deep.append(deep);
+    }
+
+    /// Whether contacts of very different masses came since they were last gathered.
+    pub(crate) const fn has_new_heavy(&self) -> bool {
+        self.new_heavy
+    }
+
+    /// Whether a contact touched when it was last asked.
+    pub(crate) fn is_touching(&self, id: u32) -> bool {
+        let (_, cold, lane) = self.lane(id);
+        cold.touching >> lane & 1 == 1
+    }
+
+    /// Gives a contact another surface; its impulses stay.
+    pub(crate) fn resurface(&mut self, id: u32, surface: Surface) {
+        let contact = &self.contacts[id as usize];
+        let (k, lane) = contact.place();
+        let colour = &mut self.colours[contact.colour as usize];
+        colour.discount(k, lane);
+        colour.blocks[k].mu[lane] = surface.friction;
+        colour.cold[k].restitution[lane] = surface.restitution;
+        colour.cold[k].belt[lane] = surface.tangent_speed;
+        colour.count(k, lane);
+    }
+
+    /// Lets a contact start the next sub-step without impulses; velocities stay.
+    pub(crate) fn clear_warm_start(&mut self, bodies: &mut Bodies, id: u32) {
+        let contact = &self.contacts[id as usize];
+        let (k, lane) = contact.place();
+        let block = &mut self.colours[contact.colour as usize].blocks[k];
+        let (a, b) = (block.a[lane] as usize, block.b[lane] as usize);
+        let [push_a, push_b] = block.push(lane, &bodies.lines[a], &bodies.lines[b]);
+        bodies.start[a].add(&push_a);
+        bodies.start[b].add(&push_b);
+        block.set_impulses(lane, [0.0; 3]);
+    }
+
+    /// Lets a contact do nothing until it is computed anew.
+    pub(crate) fn hide(&mut self, bodies: &mut Bodies, id: u32) {
+        self.clear_warm_start(bodies, id);
+        let contact = &self.contacts[id as usize];
+        let (k, lane) = contact.place();
+        let block = &mut self.colours[contact.colour as usize].blocks[k];
+        (block.s1[lane], block.s2[lane]) = (OPEN, OPEN);
+        self.colours[contact.colour as usize].cold[k].depths[lane] = [0.0; 2];
+    }
+}
