@@ -256,3 +256,20 @@ fn damping_and_fields_act_in_stepped_mode() {
     let v = world.body(id).expect("it stays").velocity();
     assert!((v.y - 30.0 + 9.81).abs() < 0.05, "{v}");
 }
+
+/// A half-plane reaches without end, and a move of it by little was taken for rounding.
+#[test]
+fn a_floor_that_is_put_a_little_lower_is_lower() {
+    let mut world = stepped(Settings::default());
+    let plane = HalfPlane::new(Vec2::ZERO, Vec2::Y).expect("a floor");
+    let floor = put(&mut world, BodyDef::fixed(), plane, Material::default());
+    let id = boxed(&mut world, vec2(0.0, 0.5), Material::default());
+    run(&mut world, 2.0, |_| {});
+    let before = world.body(id).expect("it stays").centre().y;
+    let pose = world.body(floor).expect("it stays").pose();
+    let lower = Pose::new(pose.position - vec2(0.0, 5e-4), pose.rotation);
+    world.teleport(floor, lower).expect("valid");
+    run(&mut world, 2.0, |_| {});
+    let fell = before - world.body(id).expect("it stays").centre().y;
+    assert!((fell - 5e-4).abs() < 5e-5, "{fell} m");
+}

@@ -85,7 +85,12 @@ impl World {
         let off = d.length() + turn.abs() * reach;
         let engine = &mut stepping.engine;
         let mut told = Ok(());
-        if off > FAR * reach {
+        if state.kind == BodyKind::Fixed {
+            // It may reach without end: any move counts.
+            if frame != known.pose {
+                told = told.and(engine.set_pose(id, frame));
+            }
+        } else if off > FAR * reach {
             told = told.and(engine.set_pose(id, frame));
         } else if off > SAME * (reach + frame.position.length()) {
             told = told.and(engine.shift(id, frame));
