@@ -238,8 +238,9 @@ impl Engine {
         for piece in others {
             let slot = self.pieces.list[piece as usize].body;
             let partner = way_of(ways, self.bodies.records[slot as usize].birth);
-            // Two ways are looked at once.
-            if slot != way.slot && partner.is_none_or(|other| other > k) {
+            // Two ways that both look for what moves are looked at once.
+            let again = partner.is_some_and(|other| other < k && ways[other].unforeseen);
+            if slot != way.slot && !again {
                 self.meet_piece(ways, (k, partner), piece, span, rules, meetings);
             }
         }

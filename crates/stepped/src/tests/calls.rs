@@ -259,3 +259,28 @@ fn a_way_is_gone_once() {
     engine.tick();
     assert!(engine.pose(wall).unwrap().position == Vec2::ZERO);
 }
+
+/// A body that was set on its way after its rows were found crosses one that flies as foreseen, whichever was inserted first.
+#[test]
+fn a_way_that_rows_do_not_know_meets_one_that_they_do() {
+    for struck_first in [true, false] {
+        let mut engine = weightless();
+        let mut insert = |at: Vec2, velocity: Vec2| {
+            let input = BodyInput::dynamic(1.0, 1e-3).at(at).moving(velocity, 0.0);
+            engine.insert(input, &[disc(0.1, 0.0)]).unwrap()
+        };
+        let (flies, struck);
+        if struck_first {
+            struck = insert(vec2(-0.5, 0.0), Vec2::ZERO);
+            flies = insert(vec2(0.0, -0.5), vec2(0.0, 300.0));
+        } else {
+            flies = insert(vec2(0.0, -0.5), vec2(0.0, 300.0));
+            struck = insert(vec2(-0.5, 0.0), Vec2::ZERO);
+        }
+        engine.look(&Mixed);
+        engine.set_velocity(struck, vec2(300.0, 0.0), 0.0).unwrap();
+        engine.substeps();
+        let x = engine.pose(flies).unwrap().position.x;
+        assert!(x > 0.1, "it was not met: x = {x} m");
+    }
+}
