@@ -6,7 +6,7 @@ use fearless_simd::Level;
 
 use crate::bodies::Bodies;
 use crate::broad::{Broad, Pairs};
-use crate::continuous::Way;
+use crate::continuous::{Way, note_ways};
 use crate::ghost::hide;
 use crate::pieces::{Disc, Pieces};
 use crate::rows::{
@@ -284,15 +284,17 @@ impl Engine {
     /// One sub-step of the soft law.
     fn move_bodies(&mut self, last: bool) {
         let Self {
+            settings,
             level,
             law,
             bodies,
             graph,
             arrived,
             before,
+            ways,
             ..
         } = self;
-        let every = self.settings.relaxation == Relaxation::EverySubstep;
+        let every = settings.relaxation == Relaxation::EverySubstep;
         if bodies.damped > 0 {
             warm_start_damped(bodies, law.h);
         } else {
@@ -307,18 +309,8 @@ impl Engine {
         };
         let mut seen = sweep(*level, solve, law, lines, graph.awake());
         self.heavy.sweep(solve, law, bodies, graph);
-        self.note_ways();
-        let Self {
-            level,
-            law,
-            bodies,
-            graph,
-            arrived,
-            before,
-            ..
-        } = self;
-        let lines = &mut bodies.lines;
-        displace(lines, law.h);
+        note_ways(bodies, settings, law.h, ways);
+        displace(&mut bodies.lines, law.h);
         self.deep.part(law, bodies, graph);
         let lines = &mut bodies.lines;
         if every || last {

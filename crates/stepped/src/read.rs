@@ -4,6 +4,7 @@ use carom_geometry::Aabb;
 use carom_math::{Pose, Vec2, perp};
 
 use crate::bodies::Bodies;
+use crate::rows::velocity_before;
 use crate::{BodyId, BodyKind, Engine, EngineError, Settings};
 
 /// A body as the last sub-step left it.
@@ -108,8 +109,8 @@ impl Engine {
         let slot = bodies.slot_of[at];
         let record = &bodies.records[slot as usize];
         let (line, base) = (&bodies.lines[at], &bodies.base[at]);
-        let (start, pull, [left, added]) = (&bodies.start[at], &bodies.pull[at], &bodies.drag[at]);
-        let before = |k: usize| (start.0[k] - added.0[k] * (self.law.h * pull.0[k])) / left.0[k];
+        let (start, pull, drag) = (&bodies.start[at], &bodies.pull[at], &bodies.drag[at]);
+        let [x, y, w] = velocity_before(start, pull, drag, self.law.h);
         State {
             id: bodies.id(slot),
             tag: record.tag,
@@ -120,7 +121,7 @@ impl Engine {
             ),
             turned: bodies.turned[at] + line.turn(),
             velocity: (line.v() + Vec2::ZERO, line.w() + 0.0),
-            before: (Vec2::new(before(0), before(1)), before(2)),
+            before: (Vec2::new(x, y), w),
         }
     }
 
@@ -238,11 +239,7 @@ impl Engine {
                 0.5 * (on_a + on_b)
             }),
             normal,
-            points: if block.s2[lane] < crate::rows::OPEN {
-                2
-            } else {
-                1
-            },
+            points: block.points(lane),
             gaps: block.gaps(lane, a, b),
             impulses: [j1, j2],
             friction,

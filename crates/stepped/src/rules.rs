@@ -14,7 +14,7 @@ pub struct Surface {
     pub tangent_speed: f64,
 }
 
-/// Asked once for each new contact, and again by [`Engine::resurface`](crate::Engine::resurface).
+/// Asked of pieces that come near and have no contact yet, and of contacts again by [`Engine::resurface`](crate::Engine::resurface).
 pub trait PairRules {
     /// How two pieces meet, by their tags and materials; `None`: they pass through each other.
     fn surface(&self, tags: [u64; 2], materials: [Material; 2]) -> Option<Surface>;

@@ -67,7 +67,9 @@ impl Broad {
 
     /// A piece has a larger box than the sweep knows.
     pub(crate) fn enlarged(&mut self, piece: u32) {
-        self.few.push(piece);
+        if !self.few.contains(&piece) {
+            self.few.push(piece);
+        }
     }
 
     /// It stands no more, or never did.

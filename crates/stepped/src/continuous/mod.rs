@@ -15,7 +15,7 @@ use carom_geometry::Aabb;
 use carom_math::{Pose, SimTime, Vec2};
 
 use crate::bodies::Bodies;
-use crate::{BodyId, BodyKind, Engine, EngineError, PairRules};
+use crate::{BodyId, BodyKind, Engine, EngineError, PairRules, Settings};
 use cores::cores;
 use meeting::Meeting;
 
@@ -46,28 +46,27 @@ struct Going {
     stopped: bool,
 }
 
-impl Engine {
-    /// Notes where those are that go far in the coming displacement. What moves is not held by rows against who turns far, and
-    /// against who was struck so that it goes otherwise than was foreseen when its rows were found.
-    pub(crate) fn note_ways(&mut self) {
-        self.ways.clear();
-        let (h, bodies) = (self.law.h, &self.bodies);
-        for at in 2..bodies.lines.len() {
-            let line = &bodies.lines[at];
-            if !is_far(bodies, at, line.v() * h, line.w() * h) || line.inverse_mass() <= 0.0 {
-                continue;
-            }
-            let turns = is_far(bodies, at, Vec2::ZERO, line.w() * h);
-            let strays = bodies.change(at, self.settings.tick) * h
-                > self.settings.margin * bodies.limits[at].extent;
-            self.ways.push(Way {
-                slot: bodies.slot_of[at],
-                from: (line.d(), line.turn()),
-                unforeseen: turns || strays,
-            });
+/// Notes which bodies go far in the coming displacement, and where from. Rows do not hold moving bodies off a body that turns
+/// far, or that an impact sent elsewhere than was foreseen when its rows were found.
+pub(crate) fn note_ways(bodies: &Bodies, settings: &Settings, h: f64, ways: &mut Vec<Way>) {
+    ways.clear();
+    for at in 2..bodies.lines.len() {
+        let line = &bodies.lines[at];
+        if !is_far(bodies, at, line.v() * h, line.w() * h) || line.inverse_mass() <= 0.0 {
+            continue;
         }
+        let turns = is_far(bodies, at, Vec2::ZERO, line.w() * h);
+        let strays =
+            bodies.change(at, settings.tick) * h > settings.margin * bodies.limits[at].extent;
+        ways.push(Way {
+            slot: bodies.slot_of[at],
+            from: (line.d(), line.turn()),
+            unforeseen: turns || strays,
+        });
     }
+}
 
+impl Engine {
     /// A body comes from a pose to where it is within `left` seconds, as a caller moved it: see [`Self::stop_ways`].
     ///
     /// # Errors

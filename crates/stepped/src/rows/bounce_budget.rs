@@ -6,6 +6,7 @@
 
 use std::collections::BTreeMap;
 
+use super::integrate::velocity_before;
 use super::line::{Line, Quad};
 use super::restitution::Arrival;
 use crate::bodies::Bodies;
@@ -32,8 +33,7 @@ pub(crate) fn note(bodies: &Bodies, lines: &[[u32; 2]], h: f64, before: &mut Vec
     for line in all {
         let at = line as usize;
         let (body, start, pull) = (&bodies.lines[at], &bodies.start[at], &bodies.pull[at]);
-        let [left, added] = &bodies.drag[at];
-        let came = [0, 1, 2].map(|k| (start.0[k] - added.0[k] * (h * pull.0[k])) / left.0[k]);
+        let came = velocity_before(start, pull, &bodies.drag[at], h);
         before.push(Before {
             line,
             kinetic: kinetic(body, came),
@@ -97,17 +97,11 @@ fn excess(bodies: &Bodies, group: &BTreeMap<u32, Quad>, before: &[Before]) -> f6
         };
         let came = &before[known];
         let mass = body.inverse_mass().recip();
+        let turning = |x: f64| quotient(x, body.inverse_inertia());
         // What the pull did on the way of this sub-step.
         let fell = mass * bodies.pull[at].v().dot(body.d() - came.d.v());
         had += came.kinetic + fell;
         has += kinetic(body, [body.v().x, body.v().y, body.w()]);
-        let turning = |x: f64| {
-            if body.inverse_inertia() > 0.0 {
-                x / body.inverse_inertia()
-            } else {
-                0.0
-            }
-        };
         mixed += mass * push.v().dot(body.v()) + turning(push.w() * body.w());
         square += 0.5 * (mass * push.v().length_squared() + turning(push.w() * push.w()));
     }
@@ -126,15 +120,11 @@ fn excess(bodies: &Bodies, group: &BTreeMap<u32, Quad>, before: &[Before]) -> f6
 }
 
 fn kinetic(body: &Line, [x, y, w]: [f64; 3]) -> f64 {
-    let straight = if body.inverse_mass() > 0.0 {
-        (x * x + y * y) / body.inverse_mass()
-    } else {
-        0.0
-    };
-    let turning = if body.inverse_inertia() > 0.0 {
-        w * w / body.inverse_inertia()
-    } else {
-        0.0
-    };
-    0.5 * (straight + turning)
+    let straight = quotient(x * x + y * y, body.inverse_mass());
+    0.5 * (straight + quotient(w * w, body.inverse_inertia()))
+}
+
+/// x times a mass or inertia, given its inverse; 0 of what cannot be moved.
+fn quotient(x: f64, inverse: f64) -> f64 {
+    if inverse > 0.0 { x / inverse } else { 0.0 }
 }

@@ -29,12 +29,7 @@ impl Deep {
     pub(crate) fn gather(&mut self, graph: &mut Graph, bodies: &Bodies) {
         let mut contacts = core::mem::take(&mut graph.deep);
         contacts.retain(|id| graph.is_deep(*id));
-        let order = |id: &u32| {
-            let contact = &graph.contacts[*id as usize];
-            let birth = |slot: u32| bodies.records[slot as usize].birth;
-            (contact.bodies.map(birth), contact.pieces, *id)
-        };
-        contacts.sort_unstable_by_key(order);
+        contacts.sort_unstable_by_key(|id| graph.order(bodies, *id));
         contacts.dedup();
         self.contacts.clone_from(&contacts);
         graph.deep = contacts;

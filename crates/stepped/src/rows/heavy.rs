@@ -111,12 +111,7 @@ impl Heavy {
             group.1 = group.1.max(*ratio);
         }
         for (mut rows, ratio) in gathered.into_values() {
-            let order = |id: &u32| {
-                let contact = &graph.contacts[*id as usize];
-                let birth = |slot: u32| bodies.records[slot as usize].birth;
-                (contact.bodies.map(birth), contact.pieces, *id)
-            };
-            rows.sort_unstable_by_key(order);
+            rows.sort_unstable_by_key(|id| graph.order(bodies, *id));
             rows.dedup();
             let wanted = if ratio >= HEAVIEST {
                 4 * SWEEPS

@@ -17,15 +17,7 @@ pub(crate) fn warm_start(lines: &mut [Line], start: &mut [Quad], pull: &[Quad], 
 
 /// The same for bodies of which some are damped: `start = f v + φ h g`.
 pub(crate) fn warm_start_damped(bodies: &mut Bodies, h: f64) {
-    let Bodies {
-        lines,
-        start,
-        pull,
-        drag,
-        ..
-    } = bodies;
-    let with = lines.iter_mut().zip(start).zip(pull).zip(drag);
-    for (((line, start), pull), [left, added]) in with {
+    for (line, start, pull, [left, added]) in with_drag(bodies) {
         for k in 0..3 {
             let v = line.0[k];
             let p = v - start.0[k];
@@ -57,6 +49,28 @@ pub(crate) fn correct(lines: &mut [Line], start: &[Quad], pull: &[Quad], h: f64)
 
 /// The same for bodies of which some are damped.
 pub(crate) fn correct_damped(bodies: &mut Bodies, h: f64) {
+    for (line, start, pull, drag) in with_drag(bodies) {
+        // What pull and damping did: `start − v` with the v before.
+        let before = velocity_before(start, pull, drag, h);
+        let own = [0, 1, 2].map(|k| start.0[k] - before[k]);
+        correct_one(line, start, own, h);
+    }
+}
+
+/// The velocity at the beginning of a sub-step, which `start` comes from by pull and damping.
+pub(crate) fn velocity_before(
+    start: &Quad,
+    pull: &Quad,
+    [left, added]: &[Quad; 2],
+    h: f64,
+) -> [f64; 3] {
+    [0, 1, 2].map(|k| (start.0[k] - added.0[k] * (h * pull.0[k])) / left.0[k])
+}
+
+/// Line, start, pull and drag of each body.
+fn with_drag(
+    bodies: &mut Bodies,
+) -> impl Iterator<Item = (&mut Line, &mut Quad, &Quad, &[Quad; 2])> {
     let Bodies {
         lines,
         start,
@@ -65,14 +79,7 @@ pub(crate) fn correct_damped(bodies: &mut Bodies, h: f64) {
         ..
     } = bodies;
     let with = lines.iter_mut().zip(start).zip(pull).zip(drag);
-    for (((line, start), pull), [left, added]) in with {
-        // What pull and damping did: `start − v` with the v before.
-        let own = [0, 1, 2].map(|k| {
-            let before = (start.0[k] - added.0[k] * (h * pull.0[k])) / left.0[k];
-            start.0[k] - before
-        });
-        correct_one(line, start, own, h);
-    }
+    with.map(|(((line, start), pull), drag)| (line, start, &*pull, &*drag))
 }
 
 /// `own` is the change of velocity without contacts.
