@@ -44,6 +44,26 @@ impl<'a> Hull<'a> {
         self.normals.is_empty()
     }
 
+    /// The hull with all edges moved inwards by `depth` m; a sharp corner moves by twice that at most. `None` if nothing with an
+    /// area is left: of a segment or half-plane, too.
+    #[must_use]
+    pub fn inset(&self, depth: f64) -> Option<Shape> {
+        if self.is_disc() {
+            return Circle::at(self.vertices[0], self.radius - depth)
+                .ok()
+                .map(Shape::from);
+        }
+        let corner = |i: usize| {
+            let before = if i == 0 { self.normals.len() } else { i } - 1;
+            let (m, n) = (self.normals[before], self.normals[i]);
+            // p + w with w·m = w·n = −depth: w = −depth (m + n)/(1 + m·n).
+            let way = (m + n) / (1.0 + m.dot(n)).max(0.5 * (m + n).length());
+            self.vertices[i] - way * depth
+        };
+        let corners: Vec<Vec2> = (0..self.vertices.len()).map(corner).collect();
+        ConvexPolygon::new(corners).ok().map(Shape::from)
+    }
+
     /// Whether edge `i` belongs to the outline of its shape, and is no cut through it.
     ///
     /// # Panics
@@ -240,4 +260,24 @@ pub fn part(shape: &Shape, i: usize) -> Hull<'_> {
 /// The convex parts of a shape, in order.
 pub fn hulls(shape: &Shape) -> impl ExactSizeIterator<Item = Hull<'_>> {
     (0..part_count(shape)).map(move |i| part(shape, i))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn edges_of_an_inset_hull_lie_deeper() {
+        let triangle = ConvexPolygon::regular(3, 1.0).expect("a triangle");
+        let inset = triangle.hull().inset(0.1).expect("a smaller triangle");
+        for (n, v) in triangle.hull().normals.iter().zip(triangle.hull().vertices) {
+            let outermost = inset.vertices().iter().map(|w| n.dot(*w - *v));
+            let outermost = outermost.fold(f64::NEG_INFINITY, f64::max);
+            assert!((outermost + 0.1).abs() < 1e-15, "{outermost}");
+        }
+        let disc = Circle::new(0.5).expect("a disc");
+        let smaller = Shape::from(Circle::new(0.4).expect("a disc"));
+        assert_eq!(disc.hull().inset(0.1), Some(smaller));
+        assert_eq!(disc.hull().inset(0.6), None);
+    }
 }

@@ -2,9 +2,8 @@
 
 use std::sync::Arc;
 
-use carom_collision::{Hull, hulls};
-use carom_geometry::{Circle, ConvexPolygon, Shape};
-use carom_math::Vec2;
+use carom_collision::hulls;
+use carom_geometry::Shape;
 
 use crate::state::inner_of;
 
@@ -81,35 +80,18 @@ fn parts_of(solid: &Shape) -> Arc<[Shape]> {
     let single = hulls(solid).len() == 1;
     let parts = hulls(solid).map(|hull| {
         let inner = inner_of(&hull);
-        let within = |depth: f64| {
-            if hull.normals.is_empty() {
-                let smaller = Circle::at(hull.vertices[0], hull.radius - depth);
-                return smaller.ok().map(Shape::from);
-            }
-            let corners = (0..hull.vertices.len()).map(|i| shrunk_corner(&hull, i, depth));
-            let polygon = ConvexPolygon::new(corners.collect::<Vec<_>>());
-            polygon.ok().map(Shape::from)
-        };
         // What cannot be shrunk, a segment, is all core.
-        let whole = || if single { None } else { within(0.0) };
-        let core = within(CORE * inner).or_else(whole);
+        let whole = || if single { None } else { hull.inset(0.0) };
+        let core = hull.inset(CORE * inner).or_else(whole);
         core.unwrap_or_else(|| solid.clone())
     });
     parts.collect()
 }
 
-/// A corner after both of its edges moved inwards by `depth`; a sharp tip by twice that at most.
-fn shrunk_corner(hull: &Hull<'_>, i: usize, depth: f64) -> Vec2 {
-    let before = if i == 0 { hull.normals.len() } else { i } - 1;
-    let (m, n) = (hull.normals[before], hull.normals[i]);
-    // p + w with w·m = w·n = −depth: w = −depth (m + n)/(1 + m·n).
-    let way = (m + n) / (1.0 + m.dot(n)).max(0.5 * (m + n).length());
-    hull.vertices[i] - way * depth
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use carom_geometry::ConvexPolygon;
 
     #[test]
     fn cores_that_nobody_asks_for_are_dropped() {
