@@ -273,3 +273,28 @@ fn a_floor_that_is_put_a_little_lower_is_lower() {
     let fell = before - world.body(id).expect("it stays").centre().y;
     assert!((fell - 5e-4).abs() < 5e-5, "{fell} m");
 }
+
+/// A field without a number somewhere: bodies there feel nothing of it, in builds with assertions, too.
+#[test]
+fn a_field_that_is_no_number_accelerates_nothing() {
+    #[derive(Debug)]
+    struct Hole;
+    impl carom_dynamics::Field for Hole {
+        fn acceleration(&self, _: Vec2) -> Vec2 {
+            Vec2::NAN
+        }
+        fn potential(&self, _: Vec2) -> f64 {
+            0.0
+        }
+        fn gradient_bound(&self, _: Vec2, _: f64) -> f64 {
+            0.0
+        }
+    }
+    let mut world = stepped(Settings::default());
+    world.add_field(Hole);
+    let def = BodyDef::dynamic().moving(vec2(1.0, 0.0));
+    let id = put(&mut world, def, disc(0.5), Material::default());
+    world.step(1.0);
+    let centre = world.body(id).expect("it stays").centre();
+    assert!((centre - vec2(1.0, 0.0)).length() < 1e-9, "{centre}");
+}

@@ -49,27 +49,31 @@ fn settings(mode: Mode, threads: usize) -> Settings {
 
 #[test]
 fn the_number_of_threads_changes_no_bit_of_a_large_pile() {
-    let ends = [1, 2, 3].map(|threads| {
-        let mut world = struck_pyramid(settings(Mode::Stepped, threads));
-        let ends = (0..40).map(|_| {
-            world.step(1.0 / 60.0);
-            world.state_hash()
+    for mode in [Mode::Stepped, Mode::Hybrid] {
+        let ends = [1, 2, 3].map(|threads| {
+            let mut world = struck_pyramid(settings(mode, threads));
+            let ends = (0..40).map(|_| {
+                world.step(1.0 / 60.0);
+                world.state_hash()
+            });
+            ends.collect::<Vec<_>>()
         });
-        ends.collect::<Vec<_>>()
-    });
-    assert!(ends[1] == ends[0], "two threads give other bits than one");
-    assert!(ends[2] == ends[0], "three threads give other bits than one");
+        assert!(ends[1] == ends[0], "two threads give other bits than one");
+        assert!(ends[2] == ends[0], "three threads give other bits than one");
+    }
 }
 
 #[test]
 fn how_a_step_is_cut_changes_no_bit_of_a_pile_in_zones() {
-    let mut whole = struck_pyramid(settings(Mode::Stepped, 1));
-    let mut cut = struck_pyramid(settings(Mode::Stepped, 1));
-    whole.step(0.5);
-    for _ in 0..64 {
-        cut.step(1.0 / 128.0);
+    for mode in [Mode::Stepped, Mode::Hybrid] {
+        let mut whole = struck_pyramid(settings(mode, 1));
+        let mut cut = struck_pyramid(settings(mode, 1));
+        whole.step(0.5);
+        for _ in 0..64 {
+            cut.step(1.0 / 128.0);
+        }
+        assert!(whole.state_hash() == cut.state_hash(), "{mode:?}");
     }
-    assert!(whole.state_hash() == cut.state_hash());
 }
 
 /// Where steps end at ticks the sub-steps between two looks are made at once, but for those in which somebody is struck; where

@@ -164,13 +164,24 @@ impl Events {
             return;
         }
         pair.told = pair.touching;
-        let (one, other) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
+        let ends = [pair.bodies.0, pair.bodies.1];
+        let colliders = [pair.colliders.0, pair.colliders.1];
+        self.push_touch(bodies, ends, colliders, pair.touching, time);
+    }
+
+    /// Tells that two colliders of two bodies began or ceased to touch.
+    pub(crate) fn push_touch(
+        &mut self,
+        bodies: &Bodies,
+        ends: [u32; 2],
+        colliders: [u32; 2],
+        begins: bool,
+        time: SimTime,
+    ) {
+        let [one, other] = ends.map(|index| bodies.get(index));
         let (a, b) = (one.id, other.id);
-        let shapes = (
-            one.shape_of(pair.colliders.0),
-            other.shape_of(pair.colliders.1),
-        );
-        let kind = if pair.touching {
+        let shapes = (one.shape_of(colliders[0]), other.shape_of(colliders[1]));
+        let kind = if begins {
             EventKind::Begin { a, b, shapes }
         } else {
             EventKind::End { a, b, shapes }

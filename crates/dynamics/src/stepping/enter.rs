@@ -120,17 +120,17 @@ impl World {
         self.stepping = Some(stepping);
     }
 
-    /// What accelerates a body at a place besides contacts and damping, in m/s² and rad/s².
+    /// What accelerates a body at a place besides contacts and damping, in m/s² and rad/s²; a field that is not finite there
+    /// accelerates nothing.
     fn pull_on(&self, index: u32, centre: Vec2) -> (Vec2, f64) {
         let state = self.bodies.get(index);
         if !state.is_dynamic() {
             return (Vec2::ZERO, 0.0);
         }
-        (
-            state.gravity_scale() * self.bodies.pull.at(centre)
-                + state.force() * state.inverse_mass,
-            state.torque() * state.inverse_inertia,
-        )
+        let pull = state.gravity_scale() * self.bodies.pull.at(centre)
+            + state.force() * state.inverse_mass;
+        let pull = if pull.is_finite() { pull } else { Vec2::ZERO };
+        (pull, state.torque() * state.inverse_inertia)
     }
 
     /// Pulls of the sub-step that begins at `time`; the work of forces since motions were last written is booked.
@@ -148,8 +148,6 @@ impl World {
                 .map(|state| (state.id, self.pull_on(place(&state), state.pose.position)))
                 .collect();
             for (id, (pull, twist)) in pulls {
-                // A field that is not finite somewhere pulls nothing there.
-                let pull = if pull.is_finite() { pull } else { Vec2::ZERO };
                 let told = stepping.engine.set_pull(id, pull, twist);
                 debug_assert!(told.is_ok(), "{told:?}");
             }

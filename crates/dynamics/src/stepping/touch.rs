@@ -4,7 +4,7 @@ use carom_geometry::Aabb;
 use carom_math::SimTime;
 
 use super::{Shapes, Stepping, collider};
-use crate::{Contact, ContactPoint, EventKind, World};
+use crate::{Contact, ContactPoint, World};
 
 impl World {
     /// Begins and ends of touch since this was last called, in order of shapes.
@@ -36,21 +36,11 @@ impl World {
                 stepping.touching.remove(&shapes);
             }
             if now != before {
-                self.tell_pair(shapes, now, time);
+                let [ends, colliders] = [shapes.map(|shape| shape.0), shapes.map(|shape| shape.1)];
+                let bodies = &self.bodies;
+                self.events.push_touch(bodies, ends, colliders, now, time);
             }
         }
-    }
-
-    fn tell_pair(&mut self, [one, other]: Shapes, begins: bool, time: SimTime) {
-        let [a, b] = [one.0, other.0].map(|index| self.bodies.get(index));
-        let shapes = (a.shape_of(one.1), b.shape_of(other.1));
-        let (a, b) = (a.id, b.id);
-        let kind = if begins {
-            EventKind::Begin { a, b, shapes }
-        } else {
-            EventKind::End { a, b, shapes }
-        };
-        self.events.push(time, kind);
     }
 
     /// Bodies and colliders of two pieces, in order.
