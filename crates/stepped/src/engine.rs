@@ -6,7 +6,7 @@ use fearless_simd::Level;
 
 use crate::bodies::Bodies;
 use crate::broad::{Broad, Pairs};
-use crate::continuous::{Way, note_ways};
+use crate::continuous::{FastBody, note_fast};
 use crate::ghost::hide;
 use crate::pieces::{Disc, Pieces};
 use crate::rows::{
@@ -46,7 +46,7 @@ pub struct Engine {
     /// Tags of pieces whose contacts ended while they touched.
     pub(crate) ended: Vec<[u64; 2]>,
     /// Bodies that went far in the last sub-step, or were carried by a caller since.
-    pub(crate) ways: Vec<Way>,
+    pub(crate) fast_bodies: Vec<FastBody>,
     /// Pairs of pieces that were looked at by shape.
     pub(crate) looks: u64,
     /// What friction turned to heat, in J.
@@ -79,7 +79,7 @@ impl Engine {
             deep: Deep::default(),
             done: 0,
             ended: Vec::new(),
-            ways: Vec::new(),
+            fast_bodies: Vec::new(),
             looks: 0,
             heat: 0.0,
             least_gap: f64::INFINITY,
@@ -142,7 +142,7 @@ impl Engine {
         self.done += 1;
         let last = self.done == self.settings.substeps;
         self.move_bodies(last);
-        self.stop_ways(self.law.h, rules);
+        self.stop_fast(self.law.h, rules);
         if last {
             self.done = 0;
             self.settle();
@@ -291,7 +291,7 @@ impl Engine {
             graph,
             arrived,
             before,
-            ways,
+            fast_bodies,
             ..
         } = self;
         let every = settings.relaxation == Relaxation::EverySubstep;
@@ -309,7 +309,7 @@ impl Engine {
         };
         let mut seen = sweep(*level, solve, law, lines, graph.awake());
         self.heavy.sweep(solve, law, bodies, graph);
-        note_ways(bodies, settings, law.h, ways);
+        note_fast(bodies, settings, law.h, fast_bodies);
         displace(&mut bodies.lines, law.h);
         self.deep.part(law, bodies, graph);
         let lines = &mut bodies.lines;

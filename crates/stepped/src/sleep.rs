@@ -136,7 +136,7 @@ impl Engine {
             self.bodies.records[slot as usize].island = number;
         }
         self.islands.changed.extend(island);
-        // Nobody may ask for a long time.
+        // A caller may not ask for a long time.
         if self.islands.changed.len() > 2 * self.bodies.records.len() + 64 {
             self.islands.changed.sort_unstable();
             self.islands.changed.dedup();

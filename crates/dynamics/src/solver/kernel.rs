@@ -30,8 +30,8 @@ pub(crate) enum Pass {
     RelaxBelts,
 }
 
-/// Sweeps over all blocks; what friction turned to heat in a relaxing sweep, in J. A solving sweep sets `met` if somebody
-/// is met with a speed when it comes to them.
+/// Sweeps over all blocks; what friction turned to heat in a relaxing sweep, in J. A solving sweep sets `met` if a
+/// contact closes with a speed at its turn.
 pub(crate) fn sweep(
     level: Level,
     pass: Pass,

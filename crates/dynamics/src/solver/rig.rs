@@ -35,7 +35,7 @@ pub(crate) struct Rig {
     /// What pulls on each body: acceleration, and angular acceleration.
     pull: Vec<Quad>,
     pub(crate) lanes: Lanes,
-    /// Somebody was met with a speed in the last sub-step.
+    /// Some contact closed with a speed in the last sub-step.
     pub(crate) met: bool,
     /// Rows that bounced in the last sub-step.
     bounced: Vec<RowId>,

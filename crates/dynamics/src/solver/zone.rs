@@ -21,7 +21,7 @@ pub(crate) struct Zone {
     pub(super) count: u32,
     /// What cannot be moved: its line, and its double here; in order.
     pub(super) doubles: Vec<(u32, u32)>,
-    /// What a sub-step tells: whether somebody was met with a speed, and what friction turned into heat, in J.
+    /// What a sub-step tells: whether a contact closed with a speed, and what friction turned into heat, in J.
     pub(super) met: bool,
     pub(super) heat: f64,
     /// What it was before several sub-steps that were made at once.

@@ -11,7 +11,7 @@ use crate::state::inner_of;
 /// of 1 m, more than contacts of a pile sink in by.
 const CORE: f64 = 0.005;
 
-/// Ticks for which nobody asks for a core before it is dropped.
+/// A core that is not used for so many ticks is dropped.
 const KEPT: u32 = 16;
 
 /// The cores of shapes that passed others by a hair lately, by collider.

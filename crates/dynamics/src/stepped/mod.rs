@@ -85,7 +85,7 @@ pub(crate) struct Stepped {
     /// Somebody was struck since the last tick began.
     stirred: bool,
     hurry: Hurry,
-    /// Cores of shapes, for those who pass each other by a hair.
+    /// Core polygons, for ghost collisions.
     cores: Cores,
     /// Pairs that a look goes through: scratch.
     round: Round,

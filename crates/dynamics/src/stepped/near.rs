@@ -116,7 +116,7 @@ impl World {
         self.look_at_pairs(&moved, time, false);
         let mut due = self.pairs_due().into_iter();
         self.attend(&mut due, time, false);
-        // Once more, now that all who were due have been looked at.
+        // Once more, now that all pairs that were due are updated.
         self.look_at_pairs(&moved, time, false);
         moved.clear();
         self.pool.moved = moved;
@@ -128,7 +128,7 @@ impl World {
         self.pool.stirred || !(self.pool.watched.is_empty() && self.pool.moved.is_empty())
     }
 
-    /// Looks at all pairs of these bodies; `parts`: those whose boxes parted are let go.
+    /// Updates all pairs of these bodies; `parts`: pairs whose boxes parted are dropped.
     pub(super) fn look_at_pairs(&mut self, moved: &[u32], time: SimTime, parts: bool) {
         self.pool.seats.stands.renew();
         // Where most are asked about they are read as they lie, and not in the order in which pairs name them.

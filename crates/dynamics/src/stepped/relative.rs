@@ -72,7 +72,7 @@ impl Against {
         self.pull
     }
 
-    /// Whether rows found at a tick would not serve until the next. Who turns fast is not quick by that alone: jammed
+    /// Whether rows found at a tick would not serve until the next. A fast turn alone does not make a pair quick: jammed
     /// columns hummed at 0.6 m/s with it.
     pub(super) fn is_quick(&self, tick: f64) -> bool {
         self.speed() * tick > QUICK * self.size

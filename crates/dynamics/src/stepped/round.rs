@@ -13,9 +13,9 @@ const ALL: usize = 8;
 /// Pairs that a round goes through, each once.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Round {
-    /// A bit for each place: who is still to be asked.
+    /// A bit for each place: pairs that are still to be updated.
     left: Vec<u64>,
-    /// Words before this one have nobody left.
+    /// Words before this one have none left.
     at: usize,
     /// Who moved: scratch.
     moved: Marks,

@@ -104,7 +104,7 @@ impl World {
         debug_assert!(told.is_ok(), "{told:?}");
     }
 
-    /// A body that goes, or comes back as another one, leaves the engine: who lay on it wakes, and its touches end.
+    /// A body that goes, or comes back as another one, leaves the engine: sleepers on it wake, and its touches end.
     pub(crate) fn leave_engine(&mut self, index: u32) {
         let Some(mut stepping) = self.stepping.take() else {
             return;

@@ -5,13 +5,13 @@
 //! (enter)                                         (write, touch, rest)
 //! ```
 //! The engine knows bodies by slots of its own. It is told what a caller changed before the sub-step that follows, and
-//! motions are written where somebody asks for them: once at the end of a step, or of each sub-step for a log.
+//! motions are written once at the end of a step, or of each sub-step for a log.
 
 mod enter;
-mod midway;
 mod rest;
 mod rules;
 mod touch;
+mod within;
 mod write;
 
 use std::collections::BTreeMap;
@@ -22,7 +22,7 @@ use carom_stepped::{Engine, Relaxation, Softness, State, Touch};
 use crate::error::SettingsError;
 use crate::{Mode, Settings, World};
 
-/// The engine, and who its bodies are.
+/// The engine, and which bodies of the world its bodies are.
 #[derive(Clone, Debug)]
 pub(crate) struct Stepping {
     pub(crate) engine: Engine,
@@ -111,7 +111,7 @@ impl World {
     }
 
     fn step_all(&mut self, stepping: &mut Stepping, end: SimTime, stop_at_event: bool) -> SimTime {
-        self.enter_midway(stepping);
+        self.enter_within(stepping);
         let mut first = true;
         while self.clock.is_due(end) {
             let time = self.clock.next();
@@ -142,7 +142,7 @@ impl World {
             self.write_all(stepping);
             self.stopwatch.lap(|p| &mut p.flight);
         } else if !self.clock.is_within(end) {
-            self.end_ways(stepping);
+            self.end_motions(stepping);
         }
         end
     }

@@ -1,4 +1,4 @@
-//! Sleep: who fell asleep or woke in the engine is told, and what a caller does wakes whom it touches.
+//! Sleep: bodies that fell asleep or woke in the engine are told of, and changes by a caller wake what they touch.
 
 use carom_math::SimTime;
 

@@ -1,4 +1,4 @@
-//! Motions for everybody else: written where somebody asks, and once at the end of a step.
+//! Motions of bodies, written at the end of a step, and of each sub-step for a log.
 
 use carom_collision::Motion;
 use carom_math::SimTime;
@@ -12,7 +12,7 @@ use crate::uncommon::Lag;
 const SAME: f64 = 1e-12;
 
 impl Stepping {
-    /// Notes where everybody is before a sub-step within which somebody may ask, and forgets it before any other.
+    /// Notes all poses before a sub-step within which a pose may be read, and forgets them before any other.
     pub(super) fn note_places(&mut self, asked: bool) {
         self.places.clear();
         if asked {
@@ -32,13 +32,13 @@ impl World {
         }
     }
 
-    /// The end of a sub-step within which somebody asked has the bits that it has if nobody did.
-    pub(super) fn end_ways(&mut self, stepping: &mut Stepping) {
+    /// Writes the end of a sub-step within which poses were read: with the bits that it has if none was.
+    pub(super) fn end_motions(&mut self, stepping: &mut Stepping) {
         if stepping.places.is_empty() || self.settings.history > 0 {
             return;
         }
         stepping.note_places(false);
-        // Whoever was changed meanwhile goes on from there.
+        // Bodies that were changed meanwhile go on from there.
         let mut changed = self.bodies.touched.clone();
         changed.sort_unstable();
         for state in stepping.engine.awake() {

@@ -184,7 +184,7 @@ fn what_is_carried_stops_at_what_is_in_its_way() {
     let ball = BodyInput::dynamic(1.0, 1e-4).at(vec2(0.5, 0.0));
     let ball = engine.insert(ball, &[disc(0.01, 0.0)]).unwrap();
     engine.carry(ball, Pose::at(vec2(-0.5, 0.0))).unwrap();
-    assert_eq!(engine.stop_ways(1e-3, &Mixed), [ball]);
+    assert_eq!(engine.stop_fast(1e-3, &Mixed), [ball]);
     let x = engine.pose(ball).unwrap().position.x;
     assert!((x + 0.015).abs() < 1e-6, "{x}");
 }
@@ -244,9 +244,9 @@ fn a_spinning_elastic_box_gains_nothing_from_friction() {
     }
 }
 
-/// A way of the sub-step before was gone once more when a caller carried another body, though its own had been taken out.
+/// A motion of the sub-step before was searched once more when a caller carried another body, though its own had been taken out.
 #[test]
-fn a_way_is_gone_once() {
+fn a_motion_is_searched_once() {
     let mut engine = weightless();
     floor(&mut engine);
     let fast = BodyInput::dynamic(1.0, 1e-4).at(vec2(0.0, 1.0));
@@ -255,14 +255,14 @@ fn a_way_is_gone_once() {
     engine.substep(&Mixed);
     engine.remove(fast).unwrap();
     let wall = engine.insert(BodyInput::fixed(), &[unit_box()]).unwrap();
-    assert_eq!(engine.stop_ways(1e-3, &Mixed), []);
+    assert_eq!(engine.stop_fast(1e-3, &Mixed), []);
     engine.tick();
     assert!(engine.pose(wall).unwrap().position == Vec2::ZERO);
 }
 
-/// A body that was set on its way after its rows were found crosses one that flies as foreseen, whichever was inserted first.
+/// A body whose velocity was set after its rows were found crosses one that flies as foreseen, whichever was inserted first.
 #[test]
-fn a_way_that_rows_do_not_know_meets_one_that_they_do() {
+fn a_motion_that_rows_do_not_know_meets_one_that_they_do() {
     for struck_first in [true, false] {
         let mut engine = weightless();
         let mut insert = |at: Vec2, velocity: Vec2| {

@@ -91,7 +91,7 @@ impl Random {
     }
 }
 
-/// No gravity, and nobody sleeps.
+/// No gravity, and no sleep.
 pub(super) fn weightless() -> Settings {
     Settings {
         gravity: Vec2::ZERO,

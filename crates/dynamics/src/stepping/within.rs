@@ -1,7 +1,7 @@
-//! Changes in the middle of a sub-step: who was set on its way there does not pass through others, nor others through it.
+//! Changes in the middle of a sub-step: continuous collision for its rest.
 //!
-//! The engine has bodies where the sub-step ends. Who would pass through something until then stops on its way, keeps its
-//! velocity, and is shown to go there evenly.
+//! The engine has bodies at the poses that the sub-step ends with. A body that would pass through another one until then is
+//! stopped, keeps its velocity, and is shown to move there evenly.
 
 use super::{Stepping, place};
 use crate::World;
@@ -9,12 +9,12 @@ use crate::uncommon::Lag;
 
 impl World {
     /// Before time goes on within a sub-step in which a caller changed bodies.
-    pub(super) fn enter_midway(&mut self, stepping: &mut Stepping) {
+    pub(super) fn enter_within(&mut self, stepping: &mut Stepping) {
         let (now, end) = (self.clock.now, self.clock.next());
         if self.bodies.touched.is_empty() || !self.clock.is_within(now) {
             return;
         }
-        let under_way = stepping.engine.swift();
+        let under_way = stepping.engine.fast();
         let under_way = under_way.filter_map(|id| stepping.engine.state(id).ok());
         let mut going: Vec<u32> = under_way.map(|state| place(&state)).collect();
         going.extend(&self.bodies.touched);
@@ -29,7 +29,7 @@ impl World {
             }
         }
         let left = end - now;
-        for id in stepping.engine.stop_ways(left, &self.rules()) {
+        for id in stepping.engine.stop_fast(left, &self.rules()) {
             let Ok(there) = stepping.engine.state(id) else {
                 continue;
             };

@@ -2,25 +2,25 @@
 
 use core::cmp::Ordering;
 
-/// A touch of way `a`, `wait` seconds on, with a piece of another body; `b`: that body's way.
+/// A touch of fast body `a`, `wait` seconds on, with a piece of another body; `b`: that body if it is fast and moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Meeting {
+pub(super) struct Touching {
     pub(super) wait: f64,
     pub(super) order: (u64, u64),
     pub(super) a: usize,
     pub(super) b: Option<usize>,
 }
 
-impl Eq for Meeting {}
+impl Eq for Touching {}
 
-impl PartialOrd for Meeting {
+impl PartialOrd for Touching {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
 /// The earliest is the greatest: it leaves a heap first.
-impl Ord for Meeting {
+impl Ord for Touching {
     fn cmp(&self, other: &Self) -> Ordering {
         let wait = other.wait.total_cmp(&self.wait);
         wait.then(other.order.cmp(&self.order))
