@@ -10,8 +10,8 @@ use crate::continuous::{FastBody, note_fast};
 use crate::ghost::hide;
 use crate::pieces::{Disc, Pieces};
 use crate::rows::{
-    Arrival, Before, Deep, Graph, Heavy, Law, Pass, arrivals, bounce, correct, correct_damped,
-    displace, sweep, warm_start, warm_start_damped,
+    Arrival, Before, Deep, ExtraSweeps, Graph, Law, Pass, arrivals, bounce, correct,
+    correct_damped, displace, sweep, warm_start, warm_start_damped,
 };
 use crate::sleep::Islands;
 use crate::update::{create, met_asleep, update};
@@ -38,8 +38,8 @@ pub struct Engine {
     arrived: Vec<Arrival>,
     /// Their bodies before they bounced.
     before: Vec<Before>,
-    /// Rows that are swept again.
-    heavy: Heavy,
+    /// Rows with extra sweeps.
+    extra: ExtraSweeps,
     pub(crate) deep: Deep,
     /// Sub-steps of the present tick so far.
     done: u32,
@@ -75,7 +75,7 @@ impl Engine {
             islands: Islands::default(),
             arrived: Vec::new(),
             before: Vec::new(),
-            heavy: Heavy::default(),
+            extra: ExtraSweeps::default(),
             deep: Deep::default(),
             done: 0,
             ended: Vec::new(),
@@ -131,8 +131,8 @@ impl Engine {
         } else {
             self.follow_strays(rules);
         }
-        if at_tick || self.graph.has_new_heavy() {
-            self.heavy.gather(&mut self.graph, &self.bodies);
+        if at_tick || self.graph.has_new_unequal() {
+            self.extra.gather(&mut self.graph, &self.bodies);
         }
         self.deep.gather(&mut self.graph, &self.bodies);
     }
@@ -308,14 +308,14 @@ impl Engine {
             Pass::SolveWithFriction
         };
         let mut seen = sweep(*level, solve, law, lines, graph.awake());
-        self.heavy.sweep(solve, law, bodies, graph);
+        self.extra.sweep(solve, law, bodies, graph);
         note_fast(bodies, settings, law.h, fast_bodies);
         displace(&mut bodies.lines, law.h);
         self.deep.part(law, bodies, graph);
         let lines = &mut bodies.lines;
         if every || last {
             seen = sweep(*level, Pass::Relax, law, lines, graph.awake());
-            self.heavy.sweep(Pass::Relax, law, bodies, graph);
+            self.extra.sweep(Pass::Relax, law, bodies, graph);
         }
         self.heat += seen.heat;
         self.least_gap = seen.least_gap;

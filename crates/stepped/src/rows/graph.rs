@@ -49,9 +49,9 @@ pub(crate) struct Graph {
     /// Contacts that are too deep for the sweeps, and some that were, in no order.
     pub(super) deep: Vec<u32>,
     /// Contacts of two bodies of very different mass, and some that were, in no order.
-    pub(super) heavy: Vec<u32>,
+    pub(super) unequal: Vec<u32>,
     /// Some of them came since they were last gathered.
-    pub(super) new_heavy: bool,
+    pub(super) new_unequal: bool,
     /// Behind those of masks the overflow colour, and behind it what sleeps.
     pub(super) colours: Vec<Colour>,
 }
@@ -74,8 +74,8 @@ impl Graph {
             suspects: Suspects::default(),
             free: Vec::new(),
             deep: Vec::new(),
-            heavy: Vec::new(),
-            new_heavy: false,
+            unequal: Vec::new(),
+            new_unequal: false,
             colours: vec![Colour::default(); COLOURS + 2],
         }
     }
@@ -161,9 +161,9 @@ impl Graph {
             self.contacts[id as usize] = contact;
         }
         self.colour(bodies, id, (manifold, deepest), surface);
-        if Self::is_heavy(bodies, ends) {
-            self.heavy.push(id);
-            self.new_heavy = true;
+        if Self::is_unequal(bodies, ends) {
+            self.unequal.push(id);
+            self.new_unequal = true;
         }
         id
     }

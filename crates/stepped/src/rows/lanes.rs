@@ -50,8 +50,8 @@ impl Graph {
     }
 
     /// Whether contacts of very different masses came since they were last gathered.
-    pub(crate) const fn has_new_heavy(&self) -> bool {
-        self.new_heavy
+    pub(crate) const fn has_new_unequal(&self) -> bool {
+        self.new_unequal
     }
 
     /// Whether a contact touched when it was last asked.

@@ -6,8 +6,8 @@ mod bounce_budget;
 mod check;
 mod colour;
 mod deep;
+mod extra_sweeps;
 mod graph;
-mod heavy;
 mod integrate;
 mod kernel;
 mod lanes;
@@ -24,8 +24,8 @@ mod transpose;
 pub(crate) use block::{Block, Cold, LANES, OPEN};
 pub(crate) use bounce_budget::Before;
 pub(crate) use deep::{DEEP, Deep};
+pub(crate) use extra_sweeps::ExtraSweeps;
 pub(crate) use graph::Graph;
-pub(crate) use heavy::Heavy;
 pub(crate) use integrate::{
     correct, correct_damped, displace, velocity_before, warm_start, warm_start_damped,
 };

@@ -37,17 +37,17 @@ fn positive(x: f64) -> f64 {
     larger(x, 0.0)
 }
 
-/// A row that is swept again and again, over-relaxed by `often` in all passes.
-pub(crate) fn row_often(
+/// A row in an extra sweep, over-relaxed by `omega` in all passes.
+pub(crate) fn row_again(
     pass: Pass,
     law: &Law,
     lines: &mut [Line],
     block: &mut Block,
     lane: usize,
     belt: f64,
-    often: f64,
+    omega: f64,
 ) {
-    row(pass, law, lines, block, lane, belt, Some(often));
+    row(pass, law, lines, block, lane, belt, Some(omega));
 }
 
 /// Bodies that no lane of the block shares may be written at once. The heat of its friction, in J.
@@ -58,7 +58,7 @@ fn row(
     block: &mut Block,
     lane: usize,
     belt: f64,
-    often: Option<f64>,
+    extra: Option<f64>,
 ) -> f64 {
     let mut heat = 0.0;
     let (bias, friction) = (pass != Pass::Relax, pass != Pass::Solve);
@@ -117,7 +117,7 @@ fn row(
         (0.0, y2)
     };
 
-    let (new1, new2) = if let Some(omega) = often {
+    let (new1, new2) = if let Some(omega) = extra {
         // Where it would pull the solution itself is taken: cut off point by point, it can be farther from it than before.
         let (h1, h2) = (j1 + omega * (x1 - j1), j2 + omega * (x2 - j2));
         if smaller(h1, h2) >= 0.0 {

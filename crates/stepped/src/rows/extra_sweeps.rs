@@ -1,22 +1,22 @@
-//! Mass ratios: what a light body holds between a heavy one and the ground comes through in many sweeps.
+//! Extra sweeps at large mass ratios.
 //!
-//! One sweep halves the error of a contact between equal bodies; between bodies of ratio r it leaves r/(r + 1) of it. So all
-//! rows of a body that touches one more than [`HEAVY`] times as heavy are swept again after each sweep, group by group:
-//! how often depends on the group alone.
+//! A Gauss–Seidel sweep over a light body between a heavy one and the ground leaves r/(r + 1) of the error at mass ratio r. So all
+//! rows of a body that touches one more than [`UNEQUAL`] times as heavy are swept again after each sweep, group by group: how
+//! often depends on the group alone.
 
 use super::graph::Graph;
 use super::kernel::Pass;
 use super::law::Law;
-use super::plain::row_often;
+use super::plain::row_again;
 use crate::bodies::{Bodies, BodyKind};
 use crate::groups::Groups;
 
-/// Mass ratio above which one sweep a sub-step does not do. A box of 20 times the mass comes back from a light one at 1.5 m/s of
-/// 4.4 without it.
-const HEAVY: f64 = 16.0;
+/// Mass ratio above which rows get extra sweeps. A box of 20 times the mass comes back from a light one at 1.5 m/s of 4.4
+/// without them, and one of 10 times does so at 1.6 m/s.
+const UNEQUAL: f64 = 16.0;
 
 /// Above this ratio sweeps are four times as many.
-const HEAVIEST: f64 = 64.0;
+const VERY_UNEQUAL: f64 = 64.0;
 
 /// Sweeps of a group: a load of 20 times the mass comes to rest with 30, one of 100 times with 120.
 const SWEEPS: usize = 30;
@@ -27,9 +27,9 @@ const MOST: usize = 6000;
 /// Over-relaxation of repeated sweeps, as a part of that of single ones beyond 1.
 const PART: f64 = 0.6;
 
-/// Rows that are swept again.
+/// Rows with extra sweeps.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Heavy {
+pub(crate) struct ExtraSweeps {
     /// Contacts of each group, in the order of their bodies, and how often they are swept.
     groups: Vec<(Vec<u32>, usize)>,
     /// The first light body about each body, while groups are gathered: scratch.
@@ -38,8 +38,8 @@ pub(crate) struct Heavy {
 
 impl Graph {
     /// Whether a contact is between two bodies of very different mass.
-    pub(super) fn is_heavy(bodies: &Bodies, ends: [u32; 2]) -> bool {
-        ratio(bodies, ends) > HEAVY
+    pub(super) fn is_unequal(bodies: &Bodies, ends: [u32; 2]) -> bool {
+        ratio(bodies, ends) > UNEQUAL
     }
 }
 
@@ -52,27 +52,28 @@ fn ratio(bodies: &Bodies, ends: [u32; 2]) -> f64 {
     a.mass.max(b.mass) / a.mass.min(b.mass)
 }
 
-impl Heavy {
+impl ExtraSweeps {
     /// Gathers the groups for the sub-steps until contacts change.
     pub(crate) fn gather(&mut self, graph: &mut Graph, bodies: &Bodies) {
         self.groups.clear();
-        graph.new_heavy = false;
-        if graph.heavy.is_empty() {
+        graph.new_unequal = false;
+        if graph.unequal.is_empty() {
             return;
         }
         // Those of what sleeps stay, and those that went go.
-        let mut heavy = core::mem::take(&mut graph.heavy);
-        heavy.sort_unstable();
-        heavy.dedup();
-        heavy.retain(|id| {
+        let mut unequal = core::mem::take(&mut graph.unequal);
+        unequal.sort_unstable();
+        unequal.dedup();
+        unequal.retain(|id| {
             let contact = &graph.contacts[*id as usize];
-            contact.sleeps() || graph.cold(*id).is_some() && Graph::is_heavy(bodies, contact.bodies)
+            contact.sleeps()
+                || graph.cold(*id).is_some() && Graph::is_unequal(bodies, contact.bodies)
         });
-        graph.heavy = heavy;
+        graph.unequal = unequal;
         let graph = &*graph;
         // Light bodies, and the greatest ratio that each has to bear.
         let mut light: Vec<(u32, f64)> = Vec::new();
-        for &id in &graph.heavy {
+        for &id in &graph.unequal {
             let contact = &graph.contacts[id as usize];
             if contact.sleeps() {
                 continue;
@@ -113,7 +114,7 @@ impl Heavy {
         for (mut rows, ratio) in gathered.into_values() {
             rows.sort_unstable_by_key(|id| graph.order(bodies, *id));
             rows.dedup();
-            let wanted = if ratio >= HEAVIEST {
+            let wanted = if ratio >= VERY_UNEQUAL {
                 4 * SWEEPS
             } else {
                 SWEEPS
@@ -123,9 +124,9 @@ impl Heavy {
         }
     }
 
-    /// Sweeps the rows of all groups again.
+    /// Sweeps the rows of all groups.
     pub(crate) fn sweep(&self, pass: Pass, law: &Law, bodies: &mut Bodies, graph: &mut Graph) {
-        let often = 1.0 + PART * (law.over_relaxation - 1.0);
+        let omega = 1.0 + PART * (law.over_relaxation - 1.0);
         for (rows, sweeps) in &self.groups {
             for _ in 0..*sweeps {
                 for id in rows {
@@ -137,14 +138,14 @@ impl Heavy {
                     let contact = &graph.contacts[*id as usize];
                     let k = contact.place().0;
                     let colour = &mut graph.colours[contact.colour as usize];
-                    row_often(
+                    row_again(
                         pass,
                         law,
                         &mut bodies.lines,
                         &mut colour.blocks[k],
                         lane,
                         belt,
-                        often,
+                        omega,
                     );
                 }
             }
