@@ -45,9 +45,10 @@ pub struct Settings {
     pub history: usize,
     /// How many events of a step are kept; the buffer says what it left out.
     pub events: usize,
-    /// Whether large piles are cut into zones that threads may share. Where there are more than 8,192 contacts, piles that
-    /// do not touch each other lie in zones without it, unless one has most of the contacts. A cut changes the order in
-    /// which contacts are solved for, and so bits; and one thread alone gains nothing by it.
+    /// Whether large piles of the default mode are cut into zones that threads may share; [`Mode::Stepped`] has one thread and no
+    /// zones. Where there are more than 8,192 contacts, piles that do not touch each other lie in zones without it, unless one has
+    /// most of the contacts. A cut changes the order in which contacts are solved for, and so bits; and one thread alone gains
+    /// nothing by it.
     pub zones: bool,
     /// How many threads a step may use on zones, 1 to 1024, with the cargo feature `parallel`; without it there is
     /// one. Their number changes no bit. With 1 a world that is stepped within a rayon pool uses that pool.

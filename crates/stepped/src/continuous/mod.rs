@@ -19,7 +19,8 @@ use crate::{BodyId, BodyKind, Engine, EngineError, PairRules, Settings};
 use cores::cores;
 use touching::Touching;
 
-/// A body that moves by less than this part of its least half width is not fast: rows hold it.
+/// A body that moves by less than this part of its least half width is not fast: rows hold it. 0.1: a drum takes twice the time;
+/// 0.5: no difference in time, but a body may move by half of itself unsearched.
 const PART: f64 = 0.25;
 
 /// A body stops so far before a touch, as a part of its reach: its contact is found open.

@@ -8,7 +8,8 @@ use crate::narrow::Manifold;
 /// Contacts in a block.
 pub(crate) const LANES: usize = 8;
 
-/// What sinks in under a load is held by the sweeps until it is so many times as deep as what was put so.
+/// A contact that sinks in under a load is held by the sweeps until it is so many times as deep as one that was put so. 25: a
+/// hundred bodies at one place part with 123 J; 5: with 25 J, but a smash takes a fifth longer.
 const CRUSHED: f64 = 10.0;
 
 /// Gap of a point that is not there, in m: no body closes it within a sub-step.
