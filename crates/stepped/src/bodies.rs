@@ -237,7 +237,10 @@ impl Bodies {
             Self::GROUND | Self::NONE => record.pose,
             line => {
                 let (base, line) = (self.base[line as usize], &self.lines[line as usize]);
-                Pose::new(base.position + line.d(), base.rotation.turned(line.turn()))
+                Pose::new(
+                    base.position + line.d(),
+                    base.rotation.turned_slightly(line.turn()),
+                )
             }
         }
     }

@@ -108,17 +108,14 @@ impl Engine {
         let bodies = &self.bodies;
         let slot = bodies.slot_of[at];
         let record = &bodies.records[slot as usize];
-        let (line, base) = (&bodies.lines[at], &bodies.base[at]);
+        let line = &bodies.lines[at];
         let (start, pull, drag) = (&bodies.start[at], &bodies.pull[at], &bodies.drag[at]);
         let [x, y, w] = velocity_before(start, pull, drag, self.law.h);
         State {
             id: bodies.id(slot),
             tag: record.tag,
             kind: record.kind,
-            pose: Pose::new(
-                base.position + line.d(),
-                base.rotation.turned_slightly(line.turn()),
-            ),
+            pose: bodies.pose_of(slot),
             turned: bodies.turned[at] + line.turn(),
             velocity: (line.v() + Vec2::ZERO, line.w() + 0.0),
             before: (Vec2::new(x, y), w),
