@@ -43,6 +43,8 @@ pub struct Engine {
     pub(crate) deep: Deep,
     /// Sub-steps of the present tick so far.
     done: u32,
+    /// Contacts of the next sub-step were found.
+    found: bool,
     /// Tags of pieces whose contacts ended while they touched.
     pub(crate) ended: Vec<[u64; 2]>,
     /// Bodies that went far in the last sub-step, or were carried by a caller since.
@@ -78,6 +80,7 @@ impl Engine {
             extra: ExtraSweeps::default(),
             deep: Deep::default(),
             done: 0,
+            found: false,
             ended: Vec::new(),
             fast_bodies: Vec::new(),
             looks: 0,
@@ -110,8 +113,22 @@ impl Engine {
     /// Moves all bodies by one sub-step. Contacts are found where it begins a tick, and those of bodies that came or go
     /// otherwise than was foreseen there in each.
     pub fn substep(&mut self, rules: &dyn PairRules) {
-        self.look(rules);
+        self.find_contacts(rules);
         self.go(rules);
+    }
+
+    /// Lets sub-steps pass in which nobody moves.
+    pub fn wait(&mut self, substeps: u64) {
+        let all = u64::from(self.settings.substeps);
+        #[expect(clippy::cast_possible_truncation, reason = "less than the sub-steps of a tick")]
+        let done = ((u64::from(self.done) + substeps % all) % all) as u32;
+        (self.done, self.found) = (done, false);
+    }
+
+    /// Time to the end of the tick, in s.
+    #[must_use]
+    pub fn left(&self) -> f64 {
+        f64::from(self.settings.substeps - self.done) * self.law.h
     }
 
     /// Whether the next sub-step begins a tick.
@@ -120,9 +137,14 @@ impl Engine {
         self.done == 0
     }
 
-    /// Which pieces touch, or may within the tick, and where.
-    pub(crate) fn look(&mut self, rules: &dyn PairRules) {
-        let at_tick = self.done == 0;
+    /// Finds which pieces touch, or may within the tick, and where: what [`Self::substep`] begins with. Called before it, it
+    /// wakes who is met, and boxes are those of the sub-step; only what came or was moved since is looked for again.
+    pub fn find_contacts(&mut self, rules: &dyn PairRules) {
+        let again = core::mem::replace(&mut self.found, true);
+        if again && !self.broad.has_arrivals() && !self.bodies.moved[2..].contains(&true) {
+            return;
+        }
+        let at_tick = self.done == 0 && !again;
         if at_tick {
             self.rebase();
             self.broad
@@ -139,7 +161,7 @@ impl Engine {
 
     /// One sub-step with the contacts that are known.
     fn go(&mut self, rules: &dyn PairRules) {
-        self.done += 1;
+        (self.done, self.found) = (self.done + 1, false);
         let last = self.done == self.settings.substeps;
         self.move_bodies(last);
         self.stop_fast(self.law.h, rules);
@@ -160,7 +182,7 @@ impl Engine {
 
     /// Finds the contacts of bodies that came, or go otherwise than was foreseen at the tick, for the rest of it.
     fn follow_strays(&mut self, rules: &dyn PairRules) {
-        let rest = f64::from(self.settings.substeps - self.done) * self.law.h;
+        let rest = self.left();
         let strays = self.bodies.rebase_strays(&self.settings, rest);
         if strays || self.broad.has_arrivals() {
             self.pose_moved();

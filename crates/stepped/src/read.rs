@@ -24,6 +24,8 @@ pub struct State {
     pub velocity: (Vec2, f64),
     /// The same before the last sub-step.
     pub before: (Vec2, f64),
+    /// Whether it has a contact, pushing or not.
+    pub in_contact: bool,
 }
 
 /// A contact of two pieces, as the last sub-step left it.
@@ -92,6 +94,7 @@ impl Engine {
                     turned: 0.0,
                     velocity: (Vec2::ZERO, 0.0),
                     before: (Vec2::ZERO, 0.0),
+                    in_contact: record.contacts != Bodies::NONE,
                 }
             } else {
                 self.state_at(record.line as usize)
@@ -119,6 +122,7 @@ impl Engine {
             turned: bodies.turned[at] + line.turn(),
             velocity: (line.v() + Vec2::ZERO, line.w() + 0.0),
             before: (Vec2::new(x, y), w),
+            in_contact: record.contacts != Bodies::NONE,
         }
     }
 
@@ -158,6 +162,15 @@ impl Engine {
         let tag = |piece: u32| self.pieces.list[piece as usize].tag;
         self.broad
             .pieces_in(&self.bodies, &self.pieces, bounds, |piece| {
+                found(tag(piece));
+            });
+    }
+
+    /// [`Self::query`] of those alone that are awake and not fixed.
+    pub fn query_awake(&self, bounds: Aabb, mut found: impl FnMut(u64)) {
+        let tag = |piece: u32| self.pieces.list[piece as usize].tag;
+        self.broad
+            .movers_in(&self.bodies, &self.pieces, bounds, |piece| {
                 found(tag(piece));
             });
     }

@@ -149,6 +149,17 @@ impl Broad {
         mut tell: impl FnMut(u32),
     ) {
         self.standing_in(bounds, &mut tell);
+        self.movers_in(bodies, pieces, bounds, tell);
+    }
+
+    /// The same of movers alone.
+    pub(crate) fn movers_in(
+        &self,
+        bodies: &Bodies,
+        pieces: &Pieces,
+        bounds: Aabb,
+        mut tell: impl FnMut(u32),
+    ) {
         if self.stale {
             // Pieces came or went: the sweep names others.
             for line in 2..bodies.lines.len() {

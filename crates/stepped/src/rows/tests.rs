@@ -18,7 +18,7 @@ fn all_widths_have_the_bits_of_the_plain_sweep() {
         engine.insert(body, &[piece]).unwrap();
     }
     for tick in 0..60 {
-        engine.look(&Mixed);
+        engine.find_contacts(&Mixed);
         for level in levels() {
             let mut wide = engine.clone();
             let mut slow = engine.clone();

@@ -277,7 +277,7 @@ fn a_motion_that_rows_do_not_know_meets_one_that_they_do() {
             flies = insert(vec2(0.0, -0.5), vec2(0.0, 300.0));
             struck = insert(vec2(-0.5, 0.0), Vec2::ZERO);
         }
-        engine.look(&Mixed);
+        engine.find_contacts(&Mixed);
         engine.set_velocity(struck, vec2(300.0, 0.0), 0.0).unwrap();
         engine.substeps();
         let x = engine.pose(flies).unwrap().position.x;

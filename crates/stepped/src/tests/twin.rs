@@ -29,7 +29,7 @@ fn a_tick_agrees_with_its_slow_twin() {
         leaning.pose.rotation = Rot::from_angle(0.7);
         ids.push(engine.insert(leaning, &[unit_box()]).unwrap());
         for tick in 0..100 {
-            engine.look(&Mixed);
+            engine.find_contacts(&Mixed);
             let expected = naive::State::of(&engine).substeps(&engine);
             engine.substeps();
             for (k, (v, w)) in expected.velocities.iter().enumerate().skip(2) {
