@@ -1,10 +1,10 @@
 //! Steps scenes of boxes and prints time and error: ms a tick (thread CPU time), overlap, hum.
 //!
-//! `cargo run --release -p carom-stepped --example pyramid -- [all|a|e|b|c|d|pile|thousand] [fast|default|accurate] [four]`
+//! `cargo run --release -p carom-stepped --example pyramid -- [all|a|e|b|c|d|pile|thousand] [fast|default|accurate|world] [four]`
 
 use carom_geometry::{ConvexPolygon, Segment};
 use carom_math::{Vec2, vec2};
-use carom_stepped::{BodyId, BodyInput, Engine, Material, PieceInput, Settings};
+use carom_stepped::{BodyId, BodyInput, Engine, Material, PieceInput, Settings, Softness};
 use rustix::time::{ClockId, clock_gettime};
 
 type Outcome<T> = Result<T, Box<dyn std::error::Error>>;
@@ -17,6 +17,7 @@ fn main() -> Outcome<()> {
     let settings = match preset.as_str() {
         "fast" => Settings::fast(),
         "accurate" => Settings::accurate(),
+        "world" => as_the_world(),
         _ => Settings::default(),
     };
     let settings = Settings {
@@ -55,6 +56,19 @@ fn main() -> Outcome<()> {
         }
     }
     Ok(())
+}
+
+/// What `carom-dynamics` asks for.
+fn as_the_world() -> Settings {
+    let accurate = Settings::accurate();
+    let softness = Softness {
+        frequency: 45.0,
+        ..accurate.softness
+    };
+    Settings {
+        softness,
+        ..accurate
+    }
 }
 
 type Build = fn(Settings) -> Outcome<Engine>;
