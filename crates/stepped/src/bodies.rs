@@ -36,6 +36,8 @@ pub(crate) struct Bodies {
     pub(crate) drag: Vec<[Quad; 2]>,
     /// How many of them are damped.
     pub(crate) damped: usize,
+    /// Whether [`Self::rebase_strays`] may find some.
+    pub(crate) may_stray: bool,
 }
 
 impl Bodies {
@@ -67,6 +69,7 @@ impl Bodies {
             foreseen: vec![Quad::default(); 2],
             drag: vec![UNDAMPED; 2],
             damped: 0,
+            may_stray: false,
         }
     }
 
@@ -136,6 +139,7 @@ impl Bodies {
         let drag = drag(record.damping, settings.substep());
         self.damped += usize::from(drag != UNDAMPED);
         self.drag.push(drag);
+        self.may_stray = true;
     }
 
     /// Takes the line of a body out, to be put back as it is but for a velocity of 0; which body moved to its place.
@@ -296,15 +300,15 @@ impl Bodies {
 
     /// Rebases those whose velocity changed so much that they may be a margin off what was foreseen `rest` seconds later.
     pub(crate) fn rebase_strays(&mut self, settings: &Settings, rest: f64) -> bool {
-        // What came, or was put elsewhere, since the tick.
-        let mut strays = self.moved[2..].contains(&true);
+        if !self.may_stray {
+            return false;
+        }
+        let mut strays = false;
         for at in 2..self.lines.len() {
             let (line, limit) = (&self.lines[at], &self.limits[at]);
-            let change = self.change(at, settings.tick);
-            // Rows are straight: what turned by θ is off them by r θ²/2.
-            let bend = 0.5 * line.turn() * line.turn() * limit.reach;
-            let most = settings.margin * limit.extent;
-            if self.moved[at] || change * rest > most || bend > BEND * most {
+            let off = self.change(at, settings.tick) * rest;
+            // What came, or was put elsewhere, since the tick is off as well.
+            if self.moved[at] || limit.strays(settings.margin, off, line.turn()) {
                 (self.moved[at], strays) = (true, true);
                 self.foreseen[at] = Quad::new(line.v(), line.w());
                 self.rebase_one(at);
@@ -313,10 +317,6 @@ impl Bodies {
         strays
     }
 }
-
-/// Contacts of a body are computed anew within a tick once its turn bends the path of a point by this part of a margin. A box of
-/// 1 m by 0.5 m that lands on its edge at 20 m/s sinks in by 0.30 mm; 1: by 0.43; 0.06: by 0.25. Times do not differ.
-const BEND: f64 = 0.25;
 
 /// Keeps the first line's name in use: empty lanes name line 0.
 const _: () = assert!(Bodies::EMPTY == 0);

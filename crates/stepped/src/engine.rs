@@ -10,8 +10,8 @@ use crate::continuous::{FastBody, note_fast};
 use crate::ghost::hide;
 use crate::pieces::{Disc, Pieces};
 use crate::rows::{
-    Arrival, Before, Deep, ExtraSweeps, Graph, Law, Pass, arrivals, bounce, correct,
-    correct_damped, displace, sweep, warm_start, warm_start_damped,
+    Arrival, Before, Deep, ExtraSweeps, Graph, Law, Pass, Quad, arrivals, bounce, correct,
+    displace, sweep, warm_start,
 };
 use crate::sleep::Islands;
 use crate::update::{create, met_asleep, update};
@@ -49,6 +49,8 @@ pub struct Engine {
     pub(crate) ended: Vec<[u64; 2]>,
     /// Bodies that went far in the last sub-step, or were carried by a caller since.
     pub(crate) fast_bodies: Vec<FastBody>,
+    /// Lines of bodies that went far in this sub-step, and their displacements before it.
+    far: Vec<(u32, Quad)>,
     /// Pairs of pieces that were looked at by shape.
     pub(crate) looks: u64,
     /// What friction turned to heat, in J.
@@ -83,6 +85,7 @@ impl Engine {
             found: false,
             ended: Vec::new(),
             fast_bodies: Vec::new(),
+            far: Vec::new(),
             looks: 0,
             heat: 0.0,
             least_gap: f64::INFINITY,
@@ -314,14 +317,11 @@ impl Engine {
             arrived,
             before,
             fast_bodies,
+            far,
             ..
         } = self;
         let every = settings.relaxation == Relaxation::EverySubstep;
-        if bodies.damped > 0 {
-            warm_start_damped(bodies, law.h);
-        } else {
-            warm_start(&mut bodies.lines, &mut bodies.start, &bodies.pull, law.h);
-        }
+        warm_start(*level, bodies, law.h);
         arrivals(*level, law, bodies, graph, arrived, before);
         let lines = &mut bodies.lines;
         let solve = if every {
@@ -331,8 +331,8 @@ impl Engine {
         };
         let mut seen = sweep(*level, solve, law, lines, graph.awake());
         self.extra.sweep(solve, law, bodies, graph);
-        note_fast(bodies, settings, law.h, fast_bodies);
-        displace(&mut bodies.lines, law.h);
+        displace(*level, bodies, law.h, far);
+        note_fast(bodies, settings, law.h, far, fast_bodies);
         self.deep.part(law, bodies, graph);
         let lines = &mut bodies.lines;
         if every || last {
@@ -341,11 +341,8 @@ impl Engine {
         }
         self.heat += seen.heat;
         self.least_gap = seen.least_gap;
-        if bodies.damped > 0 {
-            correct_damped(bodies, law.h);
-        } else {
-            correct(&mut bodies.lines, &bodies.start, &bodies.pull, law.h);
-        }
+        let rest = f64::from(settings.substeps - self.done) * law.h;
+        correct(*level, bodies, settings, law.h, rest);
         bounce(bodies, graph, arrived, before);
     }
 }

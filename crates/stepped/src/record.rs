@@ -69,6 +69,32 @@ pub(crate) struct Limit {
     pub(crate) extent: f64,
 }
 
+/// A body that moves by less than this part of its least half width is not fast: rows hold it. 0.1: a drum takes twice the time;
+/// 0.5: no difference in time, but a body may move by half of itself unsearched.
+const FAST: f64 = 0.25;
+
+/// Contacts of a body are computed anew within a tick once its turn bends the path of a point by this part of a margin. A box of
+/// 1 m by 0.5 m that lands on its edge at 20 m/s sinks in by 0.30 mm; 1: by 0.43; 0.06: by 0.25. Times do not differ.
+const BEND: f64 = 0.25;
+
+impl Limit {
+    /// Whether a displacement, squared, or a turn is so large that the body may pass through another one.
+    #[inline]
+    pub(crate) fn is_far(&self, square: f64, turn: f64) -> bool {
+        let least = FAST * 0.5 * self.extent;
+        square > least * least || turn.abs() * self.reach > least
+    }
+
+    /// Whether a body that will be so far off what was foreseen, or has turned so far since its base pose, is off its rows by a
+    /// part of a margin that counts.
+    #[inline]
+    pub(crate) fn strays(&self, margin: f64, off: f64, turn: f64) -> bool {
+        let most = margin * self.extent;
+        // Rows are straight: what turned by θ is off them by r θ²/2.
+        off > most || 0.5 * turn * turn * self.reach > BEND * most
+    }
+}
+
 /// What a sub-step of `h` seconds leaves of velocity and spin that lose `rates` of themselves in a second, and what part of
 /// their accelerations it adds: `v' = a − c v` gives `v(h) = e^(−ch) v + h a (1 − e^(−ch))/(ch)`.
 pub(crate) fn drag(rates: [f64; 2], h: f64) -> [Quad; 2] {

@@ -15,13 +15,10 @@ use carom_geometry::Aabb;
 use carom_math::{Pose, SimTime, Vec2};
 
 use crate::bodies::Bodies;
+use crate::rows::Quad;
 use crate::{BodyId, BodyKind, Engine, EngineError, PairRules, Settings};
 use cores::cores;
 use touching::Touching;
-
-/// A body that moves by less than this part of its least half width is not fast: rows hold it. 0.1: a drum takes twice the time;
-/// 0.5: no difference in time, but a body may move by half of itself unsearched.
-const PART: f64 = 0.25;
 
 /// A body stops so far before a touch, as a part of its reach: its contact is found open.
 const SHORT: f64 = 1e-7;
@@ -47,23 +44,28 @@ struct Moving {
     stopped: bool,
 }
 
-/// Notes which bodies go far in the coming displacement, and where from. Rows do not hold moving bodies off a body that turns
-/// far, or that an impact sent elsewhere than was foreseen when its rows were found.
-pub(crate) fn note_fast(bodies: &Bodies, settings: &Settings, h: f64, fast: &mut Vec<FastBody>) {
+/// Notes the bodies that a displacement moved far, and where from. Rows do not hold moving bodies off a body that turns far, or
+/// that an impact sent elsewhere than was foreseen when its rows were found.
+pub(crate) fn note_fast(
+    bodies: &Bodies,
+    settings: &Settings,
+    h: f64,
+    far: &[(u32, Quad)],
+    fast: &mut Vec<FastBody>,
+) {
     fast.clear();
-    for at in 2..bodies.lines.len() {
-        let line = &bodies.lines[at];
-        if !is_far(bodies, at, line.v() * h, line.w() * h) || line.inverse_mass() <= 0.0 {
-            continue;
+    for (at, from) in far {
+        let at = *at as usize;
+        let (line, limit) = (&bodies.lines[at], &bodies.limits[at]);
+        if line.inverse_mass() > 0.0 {
+            let turns = limit.is_far(0.0, line.w() * h);
+            let strays = bodies.change(at, settings.tick) * h > settings.margin * limit.extent;
+            fast.push(FastBody {
+                slot: bodies.slot_of[at],
+                from: (from.v(), from.w()),
+                unforeseen: turns || strays,
+            });
         }
-        let turns = is_far(bodies, at, Vec2::ZERO, line.w() * h);
-        let strays =
-            bodies.change(at, settings.tick) * h > settings.margin * bodies.limits[at].extent;
-        fast.push(FastBody {
-            slot: bodies.slot_of[at],
-            from: (line.d(), line.turn()),
-            unforeseen: turns || strays,
-        });
     }
 }
 
@@ -92,7 +94,8 @@ impl Engine {
         let (line, base) = (&self.bodies.lines[at], &self.bodies.base[at]);
         let d = from.position - base.position;
         let turn = (from.rotation * base.rotation.inverse()).angle();
-        let far = is_far(&self.bodies, at, line.d() - d, line.turn() - turn);
+        let square = (line.d() - d).length_squared();
+        let far = self.bodies.limits[at].is_far(square, line.turn() - turn);
         self.fast_bodies.retain(|body| body.slot != id.slot);
         if far {
             self.fast_bodies.push(FastBody {
@@ -109,7 +112,7 @@ impl Engine {
         let (bodies, h) = (&self.bodies, self.law.h);
         let far = (2..bodies.lines.len()).filter(move |at| {
             let line = &bodies.lines[*at];
-            is_far(bodies, *at, line.v() * h, line.w() * h)
+            bodies.limits[*at].is_far((line.v() * h).length_squared(), line.w() * h)
         });
         far.map(|at| bodies.id(bodies.slot_of[at]))
     }
@@ -165,7 +168,7 @@ impl Engine {
         let base = self.bodies.base[at];
         let turn = (body.motion.rotation * base.rotation.inverse()).angle();
         self.bodies.lines[at].set_displacement(body.motion.centre - base.position, turn);
-        self.bodies.moved[at] = true;
+        (self.bodies.moved[at], self.bodies.may_stray) = (true, true);
     }
 
     /// The motion that brings a body to its pose within `left` seconds: from a displacement, or at its velocity.
@@ -303,15 +306,11 @@ impl Engine {
         };
         // Rows hold bodies that move little against each other, however fast both are.
         let left = span.1 - span.0;
-        let (at, other) = (
-            self.bodies.line_of(body.slot),
-            self.bodies.line_of(theirs.body),
-        );
+        let [limit, other] =
+            [body.slot, theirs.body].map(|slot| &self.bodies.limits[self.bodies.line_of(slot)]);
         let against = (body.motion.velocity - motion.velocity) * left;
         let turns = (body.motion.spin * left, motion.spin * left);
-        if !is_far(&self.bodies, at, against, turns.0)
-            && !is_far(&self.bodies, other, Vec2::ZERO, turns.1)
-        {
+        if !limit.is_far(against.length_squared(), turns.0) && !other.is_far(0.0, turns.1) {
             return;
         }
         if let Some(wait) = self.first_touch(body, (piece, &motion), span, rules) {
@@ -373,7 +372,7 @@ impl Engine {
         // One sweep may leave much of a blow: what stands is sought whether there is a row or not.
         let stands = self.bodies.records[self.pieces.list[pair[1] as usize].body as usize].line
             == Bodies::GROUND;
-        !stands && self.known.contains(pair) && !is_far(&self.bodies, at, Vec2::ZERO, turn)
+        !stands && self.known.contains(pair) && !self.bodies.limits[at].is_far(0.0, turn)
     }
 }
 
@@ -386,11 +385,4 @@ fn fast_of(fast: &[Moving], birth: u64) -> Option<usize> {
 fn bounds_of(motion: &Motion, reach: f64, left: f64) -> Aabb {
     let ends = [motion.centre, motion.centre + motion.velocity * left];
     Aabb::from_points(ends).grown(reach)
-}
-
-/// Whether a displacement or a turn of a body is so large that it may pass through another one.
-fn is_far(bodies: &Bodies, at: usize, body: Vec2, turn: f64) -> bool {
-    let limit = &bodies.limits[at];
-    let least = PART * 0.5 * limit.extent;
-    body.length_squared() > least * least || turn.abs() * limit.reach > least
 }

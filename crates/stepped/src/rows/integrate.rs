@@ -1,60 +1,111 @@
-//! What happens to bodies between the sweeps.
+//! What happens to bodies between the sweeps, four numbers at a time.
+//!
+//! Behind three velocities stands the inverse mass in a line and in a start, and 0 in a pull: so that it stays what it is.
 
-use super::line::{Line, Quad};
+#![allow(clippy::inline_always, reason = "the wide instructions end at a call")]
+
+use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x4};
+
+use super::line::Quad;
+use crate::Settings;
 use crate::bodies::Bodies;
 
-/// `p = v − start; start = v + h g; v = start + p`: p is the warm start, what contacts did in the last sub-step.
-pub(crate) fn warm_start(lines: &mut [Line], start: &mut [Quad], pull: &[Quad], h: f64) {
-    for ((line, start), pull) in lines.iter_mut().zip(start).zip(pull) {
-        for k in 0..3 {
-            let v = line.0[k];
-            let p = v - start.0[k];
-            start.0[k] = v + h * pull.0[k];
-            line.0[k] = start.0[k] + p;
-        }
+/// `p = v − start; start = v + h g; v = start + p`: p is the warm start, what contacts did in the last sub-step. Of damped
+/// bodies `start = f v + φ h g`.
+pub(crate) fn warm_start(level: Level, bodies: &mut Bodies, h: f64) {
+    if bodies.damped > 0 {
+        dispatch!(level, simd => warm_start_all::<_, true>(simd, bodies, h));
+    } else {
+        dispatch!(level, simd => warm_start_all::<_, false>(simd, bodies, h));
     }
 }
 
-/// The same for bodies of which some are damped: `start = f v + φ h g`.
-pub(crate) fn warm_start_damped(bodies: &mut Bodies, h: f64) {
-    for (line, start, pull, [left, added]) in with_drag(bodies) {
-        for k in 0..3 {
-            let v = line.0[k];
-            let p = v - start.0[k];
-            start.0[k] = left.0[k] * v + added.0[k] * (h * pull.0[k]);
-            line.0[k] = start.0[k] + p;
-        }
+#[inline(always)]
+fn warm_start_all<S: Simd, const DAMPED: bool>(simd: S, bodies: &mut Bodies, h: f64) {
+    let h = f64x4::splat(simd, h);
+    let (start, pull) = (&mut bodies.start, &bodies.pull);
+    let lines = bodies.lines.iter_mut().zip(start).zip(pull);
+    for (((line, start), pull), [left, added]) in lines.zip(&bodies.drag) {
+        let v = f64x4::from_slice(simd, &line.0[..4]);
+        let p = v - f64x4::from_slice(simd, &start.0);
+        let own = h * f64x4::from_slice(simd, &pull.0);
+        let pulled = if DAMPED {
+            f64x4::from_slice(simd, &left.0) * v + f64x4::from_slice(simd, &added.0) * own
+        } else {
+            v + own
+        };
+        pulled.store_slice(&mut start.0);
+        (pulled + p).store_slice(&mut line.0[..4]);
     }
 }
 
-/// `d += h v`
-pub(crate) fn displace(lines: &mut [Line], h: f64) {
-    for line in lines {
-        for k in 0..3 {
-            line.0[4 + k] += h * line.0[k];
+/// `d += h v`; which bodies go far by that, and where they were.
+pub(crate) fn displace(level: Level, bodies: &mut Bodies, h: f64, far: &mut Vec<(u32, Quad)>) {
+    far.clear();
+    dispatch!(level, simd => displace_all(simd, bodies, h, far));
+}
+
+#[inline(always)]
+fn displace_all<S: Simd>(simd: S, bodies: &mut Bodies, h: f64, far: &mut Vec<(u32, Quad)>) {
+    let h = f64x4::from_slice(simd, &[h, h, h, 0.0]);
+    for ((line, limit), at) in bodies.lines.iter_mut().zip(&bodies.limits).zip(0..) {
+        let d = f64x4::from_slice(simd, &line.0[4..]);
+        let step = h * f64x4::from_slice(simd, &line.0[..4]);
+        if limit.is_far(step[0] * step[0] + step[1] * step[1], step[2]) {
+            far.push((at, Quad([line.0[4], line.0[5], line.0[6], 0.0])));
         }
+        (d + step).store_slice(&mut line.0[4..]);
     }
 }
 
-/// Makes displacements of second order where velocities change smoothly: `d −= ½ h Δv`.
+/// Makes displacements of second order where velocities change smoothly: `d −= ½ h Δv`. Notes whether a body may stray in
+/// the `rest` of the tick.
 ///
 /// `h v` with the velocity at the end overshoots the trapezoid by h/2 Δv: g h²/2 in free flight,
 /// and likewise where friction brakes. Where a contact stopped the body at its surface there is
 /// nothing to take back; a stop is what changes the velocity by more than four times the pull.
-pub(crate) fn correct(lines: &mut [Line], start: &[Quad], pull: &[Quad], h: f64) {
-    for ((line, start), pull) in lines.iter_mut().zip(start).zip(pull) {
-        correct_one(line, start, [0, 1, 2].map(|k| h * pull.0[k]), h);
+pub(crate) fn correct(level: Level, bodies: &mut Bodies, settings: &Settings, h: f64, rest: f64) {
+    if bodies.damped > 0 {
+        dispatch!(level, simd => correct_all::<_, true>(simd, bodies, settings, h, rest));
+    } else {
+        dispatch!(level, simd => correct_all::<_, false>(simd, bodies, settings, h, rest));
     }
 }
 
-/// The same for bodies of which some are damped.
-pub(crate) fn correct_damped(bodies: &mut Bodies, h: f64) {
-    for (line, start, pull, drag) in with_drag(bodies) {
+#[inline(always)]
+fn correct_all<S: Simd, const DAMPED: bool>(
+    simd: S,
+    bodies: &mut Bodies,
+    settings: &Settings,
+    h: f64,
+    rest: f64,
+) {
+    let (h, half) = (f64x4::splat(simd, h), f64x4::splat(simd, 0.5 * h));
+    let mut strays = false;
+    let lines = bodies.lines.iter_mut().zip(&bodies.start).zip(&bodies.pull);
+    let more = bodies.drag.iter().zip(&bodies.foreseen).zip(&bodies.limits);
+    for (((line, start), pull), (([left, added], foreseen), limit)) in lines.zip(more) {
+        let v = f64x4::from_slice(simd, &line.0[..4]);
+        let start = f64x4::from_slice(simd, &start.0);
         // What pull and damping did: `start − v` with the v before.
-        let before = velocity_before(start, pull, drag, h);
-        let own = [0, 1, 2].map(|k| start.0[k] - before[k]);
-        correct_one(line, start, own, h);
+        let pulled = h * f64x4::from_slice(simd, &pull.0);
+        let own = if DAMPED {
+            let added = f64x4::from_slice(simd, &added.0) * pulled;
+            start - (start - added) / f64x4::from_slice(simd, &left.0)
+        } else {
+            pulled
+        };
+        let change = v - start + own;
+        let square = change[0] * change[0] + change[1] * change[1];
+        if square <= 16.0 * (own[0] * own[0] + own[1] * own[1]) {
+            let d = f64x4::from_slice(simd, &line.0[4..]);
+            (d - half * change).store_slice(&mut line.0[4..]);
+        }
+        let off = (v - f64x4::from_slice(simd, &foreseen.0)).abs();
+        let off = off[0].max(off[1]) + off[2] * limit.reach;
+        strays |= limit.strays(settings.margin, off * rest, line.turn());
     }
+    bodies.may_stray = strays;
 }
 
 /// The velocity at the beginning of a sub-step, which `start` comes from by pull and damping.
@@ -65,30 +116,4 @@ pub(crate) fn velocity_before(
     h: f64,
 ) -> [f64; 3] {
     [0, 1, 2].map(|k| (start.0[k] - added.0[k] * (h * pull.0[k])) / left.0[k])
-}
-
-/// Line, start, pull and drag of each body.
-fn with_drag(
-    bodies: &mut Bodies,
-) -> impl Iterator<Item = (&mut Line, &mut Quad, &Quad, &[Quad; 2])> {
-    let Bodies {
-        lines,
-        start,
-        pull,
-        drag,
-        ..
-    } = bodies;
-    let with = lines.iter_mut().zip(start).zip(pull).zip(drag);
-    with.map(|(((line, start), pull), drag)| (line, start, &*pull, &*drag))
-}
-
-/// `own` is the change of velocity without contacts.
-fn correct_one(line: &mut Line, start: &Quad, own: [f64; 3], h: f64) {
-    let change = [0, 1, 2].map(|k| line.0[k] - start.0[k] + own[k]);
-    let square = change[0] * change[0] + change[1] * change[1];
-    if square <= 16.0 * (own[0] * own[0] + own[1] * own[1]) {
-        for (d, change) in line.0[4..7].iter_mut().zip(change) {
-            *d -= 0.5 * h * change;
-        }
-    }
 }

@@ -26,9 +26,7 @@ pub(crate) use bounce_budget::Before;
 pub(crate) use deep::{DEEP, Deep};
 pub(crate) use extra_sweeps::ExtraSweeps;
 pub(crate) use graph::Graph;
-pub(crate) use integrate::{
-    correct, correct_damped, displace, velocity_before, warm_start, warm_start_damped,
-};
+pub(crate) use integrate::{correct, displace, velocity_before, warm_start};
 pub(crate) use kernel::{Pass, eight_lanes, sweep};
 pub(crate) use law::Law;
 pub(crate) use line::{Line, Quad};
