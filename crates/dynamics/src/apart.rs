@@ -2,9 +2,9 @@
 
 use core::ops::Range;
 
+use crate::groups::{Row, SolverBody};
 use crate::heavy::{BEARS, mass_ratio};
 use crate::sleep::Tree;
-use crate::solver::{Row, SolverBody};
 
 /// Points of a group that are solved for at once; what has more is swept. A common stop takes the cube of its rows, of
 /// which a point with friction has two.

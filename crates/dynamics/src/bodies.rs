@@ -1,6 +1,5 @@
 //! The store of bodies, and the one door through which a motion changes.
 
-use core::hint::black_box;
 use std::sync::Arc;
 
 use carom_collision::Motion;
@@ -130,7 +129,7 @@ impl Bodies {
     /// Notes that a body is not as its solver knows it.
     pub(crate) fn touch(&mut self, index: u32) {
         let state = self.list.get(index as usize);
-        if self.notes_touched || state.is_some_and(|state| state.in_crowd || state.has_line) {
+        if self.notes_touched || state.is_some_and(|state| state.in_engine || state.is_guest) {
             self.touched.push(index);
             // A caller may change a body any number of times between two sub-steps.
             if self.touched.len() > 2 * self.list.len() + 64 {
@@ -138,15 +137,6 @@ impl Bodies {
                 self.touched.dedup();
             }
         }
-    }
-
-    /// Reads the motions of bodies that are written next, all at once: each would wait for its own memory.
-    pub(crate) fn read_ahead(&self, bodies: impl Iterator<Item = u32>) {
-        let known = bodies.map(|index| {
-            let state = self.get(index);
-            state.motion.centre.x + state.motion.left_out + state.turned
-        });
-        black_box(known.sum::<f64>());
     }
 
     pub(crate) fn is_alive(&self, index: u32) -> bool {
@@ -291,7 +281,7 @@ impl Bodies {
         if let Some((velocity, spin)) = after {
             state.close(time, velocity, spin);
         }
-        if state.in_crowd {
+        if state.in_engine {
             let before = state.kinetic_energy(time);
             change(&mut state.motion);
             let after = state.kinetic_energy(time);
@@ -324,7 +314,7 @@ impl Bodies {
         let free = state.gravity_scale() * self.pull.gravity;
         // Crowds keep their own account.
         if !state.is_dynamic()
-            || state.in_crowd
+            || state.in_engine
             || (motion.acceleration == free
                 && motion.angular_acceleration == 0.0
                 && state.force() == Vec2::ZERO

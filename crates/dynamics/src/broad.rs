@@ -2,15 +2,14 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use carom_collision::{Motion, roundable};
+use carom_collision::{BoxTree, Motion, roundable};
 use carom_geometry::Aabb;
 use carom_math::{SimTime, Vec2};
 
 use crate::bodies::Bodies;
 use crate::flyers::Flyers;
-use crate::pairs::{Near, Pair, Pairs};
+use crate::pairs::{Pair, Pairs};
 use crate::state::Collider;
-use crate::trees::Trees;
 use crate::{BodyId, BodyKind, PairMaterial, PairSearch};
 
 /// Boxes are stretched along the motion over this many sub-steps, so that a body that keeps its
@@ -24,7 +23,7 @@ pub(crate) const PADDING: f64 = 0.05;
 #[derive(Clone, Debug)]
 pub(crate) struct Broad {
     pub(crate) search: PairSearch,
-    pub(crate) trees: Trees,
+    pub(crate) tree: BoxTree,
     /// When last a box came into the tree, or was changed there.
     pub(crate) changed: SimTime,
     pub(crate) overrides: BTreeMap<(BodyId, BodyId), PairMaterial>,
@@ -39,7 +38,7 @@ impl Broad {
     pub(crate) fn new(search: PairSearch) -> Self {
         Self {
             search,
-            trees: Trees::default(),
+            tree: BoxTree::default(),
             changed: SimTime::ZERO,
             overrides: BTreeMap::new(),
             excluded: BTreeSet::new(),
@@ -80,26 +79,23 @@ impl Broad {
                 0.0
             };
             let fat = swept.union(ahead).grown(padding);
-            self.put(colliders, at, fat, time, false);
+            self.put(colliders, at, fat, time);
             self.meet(bodies, colliders, pairs, at, flyers);
         }
     }
 
     /// Gives a collider a new box.
-    pub(crate) fn put(
-        &mut self,
-        colliders: &mut [Collider],
-        at: u32,
-        fat: Aabb,
-        time: SimTime,
-        on_course: bool,
-    ) {
+    pub(crate) fn put(&mut self, colliders: &mut [Collider], at: u32, fat: Aabb, time: SimTime) {
         let collider = &mut colliders[at as usize];
         collider.fat = fat;
         // The tree is asked where a body is at instants in between, too.
         let kept = fat.grown(roundable(fat));
         self.changed = time;
-        self.trees.put(&mut collider.node, kept, at, on_course);
+        if let Some(node) = collider.node {
+            self.tree.update(node, kept);
+        } else {
+            collider.node = Some(self.tree.insert(kept, at));
+        }
     }
 
     /// Boxes of a flyer that is too large for the grid, over its motion up to its horizon.
@@ -114,7 +110,7 @@ impl Broad {
         let body = bodies.get(index);
         for &at in &body.colliders {
             let fat = swept_box(&colliders[at as usize], &body.motion, time, seconds);
-            self.put(colliders, at, fat, time, false);
+            self.put(colliders, at, fat, time);
         }
     }
 
@@ -135,17 +131,11 @@ impl Broad {
                 near.extend(all.filter(|(_, c)| c.node.is_some()).map(|(at, _)| at));
             }
             PairSearch::Indexed => {
-                self.trees
+                self.tree
                     .query(bounds, overlapping(colliders, bounds, near));
                 near.sort_unstable();
             }
         }
-    }
-
-    /// [`Self::search_tree`] among those that are not on a course; in no order, and added to what was found before.
-    pub(crate) fn search_still(&self, colliders: &[Collider], bounds: Aabb, near: &mut Vec<u32>) {
-        self.trees
-            .query_still(bounds, overlapping(colliders, bounds, near));
     }
 
     /// New pairs of a collider whose box is new.
@@ -172,7 +162,7 @@ impl Broad {
                 );
             }
             PairSearch::Indexed => {
-                self.trees.query(mine.fat, |other| near.push(other));
+                self.tree.query(mine.fat, |other| near.push(other));
                 if let Some(flyers) = flyers {
                     flyers.overlapping(bodies, mine.fat, &mut self.flying);
                     let shapes = |body: &u32| &bodies.get(*body).colliders;
@@ -224,19 +214,6 @@ impl Broad {
         ) {
             return;
         }
-        if a.in_crowd && b.is_flying() || b.in_crowd && a.is_flying() {
-            // Watched for a tick.
-            pairs.near.push(Near {
-                colliders: (first, second),
-                bodies: ends,
-            });
-            return;
-        }
-        if (a.in_crowd || b.in_crowd)
-            && misses(&colliders[first as usize], &colliders[second as usize])
-        {
-            return;
-        }
         let known = if a.pairs.len() < b.pairs.len() {
             &a.pairs
         } else {
@@ -251,7 +228,6 @@ impl Broad {
             &colliders[first as usize],
             &colliders[second as usize],
         );
-        let fringe = a.in_crowd != b.in_crowd && a.is_dynamic() && b.is_dynamic();
         let place = pairs.insert(Pair {
             colliders: (first, second),
             bodies: ends,
@@ -272,9 +248,6 @@ impl Broad {
             at_once: false,
             round: false,
         });
-        if fringe {
-            pairs.fringe.push(place);
-        }
         bodies.get_mut(ends.0).pairs.push(place);
         bodies.get_mut(ends.1).pairs.push(place);
     }
@@ -320,17 +293,6 @@ fn overlapping<'a>(
             near.push(at);
         }
     }
-}
-
-/// Whether a shape of a crowd is out of the tight box of one that is driven.
-pub(crate) fn misses(a: &Collider, b: &Collider) -> bool {
-    let apart = |driven: &Collider, other: &Collider| {
-        driven
-            .tight
-            .as_ref()
-            .is_some_and(|tight| !tight.overlaps(other.fat))
-    };
-    apart(a, b) || apart(b, a)
 }
 
 /// Takes a pair out of the store and out of its bodies' lists.
@@ -392,7 +354,6 @@ mod tests {
             }),
             node: None,
             fat: Aabb::EMPTY,
-            tight: None,
         };
         // Half a radian there and back: at both ends of the second nothing has turned.
         let motion = Motion {

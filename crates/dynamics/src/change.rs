@@ -46,7 +46,7 @@ impl World {
         let (pull, twist) = self.bodies.freely(index, self.clock.now);
         self.disturb(index, |state| {
             let motion = &mut state.motion;
-            if state.in_crowd && (motion.acceleration - pull).length() > 2.0 * pull.length() {
+            if state.in_engine && (motion.acceleration - pull).length() > 2.0 * pull.length() {
                 // The rest of a blow of this sub-step is not for the velocity that it has now.
                 (motion.acceleration, motion.angular_acceleration) = (pull, twist);
             }
@@ -201,7 +201,7 @@ impl World {
         let index = self.bodies.find(id)?;
         BodyDef::dynamic().damped(linear, angular).check()?;
         let change = |state: &mut BodyState| state.uncommon_mut().damping = (linear, angular);
-        if self.stepping.is_some() {
+        if self.settings.mode == Mode::Stepped || self.bodies.get(index).in_engine {
             self.remake(index, change);
         } else {
             self.disturb(index, change);
@@ -227,18 +227,19 @@ impl World {
     pub(crate) fn change_pull(&mut self, change: impl FnOnce(&mut Pull)) {
         let now = self.clock.now;
         for index in self.bodies.indices().collect::<Vec<_>>() {
-            // A crowd books what its members had when they left, in the fields that they felt.
-            self.quit(index, now);
-            // Nor does a closed form hold in other fields than it was found in.
+            // No closed form holds in other fields than it was found in.
             let group = self.bodies.get(index).membership.group;
             self.dissolve(group, now);
             self.bodies.change(index, now, |_| {});
         }
         let before = self.bodies.ledger(now).potential;
+        let members_before = self.potential_of_members();
         let gravity = self.bodies.pull.gravity;
         change(&mut self.bodies.pull);
         let after = self.bodies.ledger(now).potential;
         self.bodies.book.external.add(after - before);
+        let brought = self.potential_of_members() - members_before;
+        self.joins.balance.add(-brought);
         if self.bodies.pull.gravity != gravity {
             // Bodies in flight look for each other in a frame that falls with them.
             for index in self.bodies.indices().collect::<Vec<_>>() {
@@ -250,7 +251,9 @@ impl World {
             stepping.set_gravity(self.bodies.pull.gravity);
         }
         for index in self.bodies.indices().collect::<Vec<_>>() {
-            self.arrive(index);
+            if !self.bodies.get(index).in_engine {
+                self.arrive(index);
+            }
             if self.bodies.get(index).asleep {
                 self.wake(index, now);
             }
@@ -282,8 +285,8 @@ impl World {
         let after = self.bodies.energy_of(index, now);
         let brought = (after.0 + after.1) - (before.0 + before.1);
         self.bodies.book.external.add(brought);
-        if self.bodies.get(index).in_crowd {
-            self.pool.crowd.balance.add(-brought);
+        if self.bodies.get(index).in_engine {
+            self.joins.balance.add(-brought);
         }
         self.deflected(index, now);
     }
@@ -294,7 +297,7 @@ impl World {
     ///
     /// A fixed body that was put into sleepers wakes them; what sleeps beside it sleeps on.
     pub(crate) fn unsettle_on(&mut self, index: u32, time: SimTime) {
-        if self.stepping.is_some() {
+        if self.settings.mode == Mode::Stepped {
             // The engine wakes whom it was put into.
             return;
         }
@@ -351,6 +354,7 @@ impl World {
         }
         let now = self.clock.now;
         self.quit(index, now);
+        self.show_engine(index);
         self.hand_back_of(index, now);
         self.flyers.vanish(&mut self.bodies, index);
         self.discharge(index);
@@ -394,7 +398,7 @@ impl World {
     pub(crate) fn forget_boxes(&mut self, index: u32) {
         for &at in &self.bodies.get(index).colliders.clone() {
             if let Some(node) = self.colliders[at as usize].node.take() {
-                self.broad.trees.remove(node);
+                self.broad.tree.remove(node);
             }
         }
     }

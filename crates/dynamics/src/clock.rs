@@ -62,6 +62,16 @@ impl Clock {
         }
     }
 
+    /// Which sub-step of its tick begins next, of so many.
+    pub(crate) fn phase(&self, substeps: u32) -> u32 {
+        #[expect(
+            clippy::cast_possible_truncation,
+            reason = "less than the sub-steps of a tick"
+        )]
+        let phase = (self.begun % u64::from(substeps)) as u32;
+        phase
+    }
+
     pub(crate) fn begin(&mut self) {
         self.begun += 1;
     }

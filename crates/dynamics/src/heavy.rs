@@ -6,8 +6,8 @@
 
 use carom_math::Vec2;
 
+use crate::groups::{Law, Row, SolverBody};
 use crate::impact::{ImpactBody, ImpactContact, SharedContact, held};
-use crate::solver::{Law, Row, SolverBody};
 
 /// A body so many times as heavy as the one that gives way to it is a load that one sweep does not carry.
 pub(crate) const BEARS: f64 = 16.0;

@@ -70,16 +70,13 @@ mod settings;
 mod shock;
 mod sink;
 mod sleep;
-mod solver;
 mod state;
 mod step;
-mod stepped;
 mod stepping;
 mod substep;
 mod threads;
 mod tipping;
 mod touching;
-mod trees;
 mod uncommon;
 #[cfg(feature = "serde")]
 mod wire;

@@ -155,7 +155,6 @@ pub(crate) fn carried(new: &PartManifold, pose_a: Pose, old: &[PairContact]) -> 
         normal,
         points,
         tangent_impulse: kept.map_or(0.0, |contact| contact.tangent_impulse),
-        row: before.and_then(|contact| contact.row),
     }
 }
 

@@ -41,9 +41,6 @@ impl World {
                 let [one, two] = [pair.colliders.0, pair.colliders.1]
                     .map(|collider| &self.colliders[collider as usize]);
                 pair.material = self.broad.material(a, b, one, two);
-                // Rows keep what they were made with.
-                self.pool.release(pair);
-                self.pairs.glance_mut(place).forget();
             }
         }
         for index in ends {

@@ -7,7 +7,6 @@ use carom_math::Vec2;
 use crate::agenda::Entry;
 use crate::bodies::Bodies;
 use crate::press::Spot;
-use crate::solver::RowId;
 use crate::state::Collider;
 use crate::{ContactMode, PairMaterial};
 
@@ -57,13 +56,6 @@ impl Pair {
         points.any(|point| point.separation < -touch)
     }
 
-    pub(crate) const fn near(&self) -> Near {
-        Near {
-            colliders: self.colliders,
-            bodies: self.bodies,
-        }
-    }
-
     /// The one of its bodies that is not this one.
     pub(crate) fn other(&self, body: u32) -> u32 {
         let (a, b) = self.bodies;
@@ -111,81 +103,6 @@ impl Pair {
     }
 }
 
-/// What a look asks of a pair that it need not look at: kept apart from all else, since most are asked in vain.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Glance {
-    /// Everything here but for the bodies is as the last look of stepping left it, and both have their lines.
-    pub(crate) holds: bool,
-    /// Those of the pair; `u32::MAX`: there is none.
-    pub(crate) bodies: (u32, u32),
-    /// From the centre of A to that of B when their contacts were found, in m.
-    pub(crate) apart: Vec2,
-    /// Angles of both then, in rad.
-    pub(crate) angles: (f64, f64),
-    /// Unit normal then, from A to B, along which they were `gap` apart, in m; zero: no such direction is known,
-    /// but so far apart they were.
-    pub(crate) normal: Vec2,
-    pub(crate) gap: f64,
-    /// What was nearer than this then has a row, in m.
-    pub(crate) sought: f64,
-    pub(crate) rows: Rows,
-    /// Sub-steps before the next tick at which it is asked again; 0: not before that.
-    pub(crate) due: u32,
-}
-
-impl Glance {
-    /// There is no pair.
-    pub(crate) const NONE: Self = Self::of((u32::MAX, u32::MAX));
-
-    /// A pair that was not looked at.
-    pub(crate) const fn of(bodies: (u32, u32)) -> Self {
-        Self {
-            holds: false,
-            bodies,
-            apart: Vec2::ZERO,
-            angles: (0.0, 0.0),
-            normal: Vec2::ZERO,
-            gap: 0.0,
-            sought: 0.0,
-            rows: Rows::None,
-            due: 0,
-        }
-    }
-
-    /// Its rows are taken, and the last look is worth nothing.
-    pub(crate) const fn forget(&mut self) {
-        (self.holds, self.rows) = (false, Rows::None);
-    }
-
-    pub(crate) const fn has_rows(&self) -> bool {
-        !matches!(self.rows, Rows::None)
-    }
-
-    /// Whether there is a pair.
-    pub(crate) const fn is_there(&self) -> bool {
-        self.bodies.0 != u32::MAX
-    }
-}
-
-/// The rows of a pair: most have one, and need not be asked for it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Rows {
-    None,
-    One(RowId),
-    /// Its contacts know them.
-    Many,
-}
-
-impl Rows {
-    pub(crate) fn of(contacts: &[PairContact]) -> Self {
-        match contacts {
-            [one] => one.row.map_or(Self::None, Self::One),
-            many if many.iter().any(|contact| contact.row.is_some()) => Self::Many,
-            _ => Self::None,
-        }
-    }
-}
-
 /// A contact of two convex parts at the last look.
 #[derive(Clone, Debug)]
 pub(crate) struct PairContact {
@@ -194,18 +111,6 @@ pub(crate) struct PairContact {
     pub(crate) normal: Vec2,
     pub(crate) points: ArrayVec<PairPoint, 2>,
     pub(crate) tangent_impulse: f64,
-    /// Its row, while both bodies are stepped.
-    pub(crate) row: Option<RowId>,
-}
-
-impl PairContact {
-    /// Takes over the impulses of its row.
-    pub(crate) fn takes(&mut self, j: [f64; 2], jt: f64) {
-        for (point, j) in self.points.iter_mut().zip(j) {
-            point.impulse = j;
-        }
-        self.tangent_impulse = jt;
-    }
 }
 
 /// A point of a contact.
@@ -218,31 +123,19 @@ pub(crate) struct PairPoint {
     pub(crate) impulse: f64,
 }
 
-/// Two shapes that are no pair, and may meet.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Near {
-    pub(crate) colliders: (u32, u32),
-    pub(crate) bodies: (u32, u32),
-}
-
 /// The pairs of a world.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Pairs {
     list: Vec<Option<Pair>>,
-    /// By place; so are the shapes of pairs, to be read without the rest.
-    glances: Vec<Glance>,
+    /// By place: shapes of pairs, to be read without the rest.
     shapes: Vec<(u32, u32)>,
     free: Vec<u32>,
-    /// Places of pairs with a body that is sub-stepped, and none of a crowd, in order of colliders: rows and
+    /// Places of pairs with a body that is sub-stepped pair by pair, in order of colliders: rows and
     /// searches go through pairs in this order.
     order: Vec<u32>,
     dirty: bool,
     /// Places of pairs that nobody has looked at yet.
     pub(crate) fresh: Vec<u32>,
-    /// Places of all pairs of a member of a crowd and a dynamic body that is none, and of some that were.
-    pub(crate) fringe: Vec<u32>,
-    /// Members of crowds and flyers that may meet them within a tick.
-    pub(crate) near: Vec<Near>,
 }
 
 impl Pairs {
@@ -254,15 +147,13 @@ impl Pairs {
     }
 
     fn place_for(&mut self, pair: Pair) -> u32 {
-        let (glance, shapes) = (Glance::of(pair.bodies), pair.colliders);
+        let shapes = pair.colliders;
         if let Some(place) = self.free.pop() {
             self.list[place as usize] = Some(pair);
-            self.glances[place as usize] = glance;
             self.shapes[place as usize] = shapes;
             return place;
         }
         self.list.push(Some(pair));
-        self.glances.push(glance);
         self.shapes.push(shapes);
         #[expect(
             clippy::cast_possible_truncation,
@@ -276,7 +167,6 @@ impl Pairs {
         self.dirty = true;
         let pair = self.list[place as usize].take();
         if pair.is_some() {
-            self.glances[place as usize] = Glance::NONE;
             self.free.push(place);
         }
         pair
@@ -309,42 +199,12 @@ impl Pairs {
             .expect("a listed pair is there")
     }
 
-    pub(crate) fn glance(&self, place: u32) -> &Glance {
-        &self.glances[place as usize]
-    }
-
-    /// The rows of a pair.
-    #[inline]
-    pub(crate) fn rows_of(&self, place: u32) -> impl Iterator<Item = RowId> + use<'_> {
-        debug_assert_eq!(
-            self.glance(place).rows,
-            Rows::of(&self.get(place).contacts),
-            "rows come and go with the pair's note of them"
-        );
-        let (one, contacts) = match self.glance(place).rows {
-            Rows::None => (None, [].as_slice()),
-            Rows::One(id) => (Some(id), [].as_slice()),
-            Rows::Many => (None, self.get(place).contacts.as_slice()),
-        };
-        let many = contacts.iter().filter_map(|contact| contact.row);
-        one.into_iter().chain(many)
-    }
-
-    /// By place.
-    pub(crate) fn glances(&self) -> &[Glance] {
-        &self.glances
-    }
-
     /// What a pair is of, without the rest of it.
     pub(crate) fn shapes(&self, place: u32) -> (u32, u32) {
         self.shapes[place as usize]
     }
 
-    pub(crate) fn glance_mut(&mut self, place: u32) -> &mut Glance {
-        &mut self.glances[place as usize]
-    }
-
-    /// Collects the pairs of these bodies that no crowd takes, in order of colliders.
+    /// Collects the pairs of these bodies, in order of colliders.
     pub(crate) fn sort(&mut self, bodies: &Bodies, stepped: &[u32]) {
         if !core::mem::take(&mut self.dirty) {
             return;
@@ -357,7 +217,7 @@ impl Pairs {
                 let state = bodies.get(other);
                 // A pair of two of them is listed by the lower one.
                 let twice = state.is_held() && other < index;
-                if !state.in_crowd && !twice {
+                if !twice {
                     found.push(place);
                 }
             }
@@ -376,7 +236,7 @@ impl Pairs {
         keyed.into_iter().map(|(_, place)| place).collect()
     }
 
-    /// Who is sub-stepped, or in a crowd, has changed.
+    /// Who is sub-stepped has changed.
     pub(crate) const fn reorder(&mut self) {
         self.dirty = true;
     }

@@ -8,7 +8,7 @@ use carom_geometry::{Aabb, Shape};
 use carom_math::{Pose, Vec2};
 
 use crate::state::{BodyState, Collider};
-use crate::{BodyId, Filter, World};
+use crate::{BodyId, Filter, Mode, World};
 
 /// What a ray met first.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -172,7 +172,8 @@ impl Filtered<'_> {
         for at in self.flying_in(ray_box(origin, direction, max)) {
             reach = reach.min(meet(at));
         }
-        self.world.broad.trees.ray(origin, direction, reach, meet);
+        let bounds = Aabb::new(origin, origin);
+        self.world.broad.tree.sweep(bounds, direction, reach, meet);
         best.map(|(_, hit)| hit)
     }
 
@@ -196,7 +197,8 @@ impl Filtered<'_> {
         for at in self.flying_in(ray_box(origin, direction, max)) {
             meet(at);
         }
-        self.world.broad.trees.ray(origin, direction, max, meet);
+        let bounds = Aabb::new(origin, origin);
+        self.world.broad.tree.sweep(bounds, direction, max, meet);
         hits.sort_by(|a, b| {
             let key = |hit: &RayHit| (hit.body.index, hit.shape);
             a.distance.total_cmp(&b.distance).then(key(a).cmp(&key(b)))
@@ -250,7 +252,7 @@ impl Filtered<'_> {
         };
         let bounds = Aabb::new(point, point).grown(max);
         self.flying_in(bounds).into_iter().for_each(&mut look);
-        self.world.broad.trees.query(bounds, look);
+        self.world.broad.tree.query(bounds, look);
         best.map(|(_, found)| found)
     }
 
@@ -306,10 +308,7 @@ impl Filtered<'_> {
         for at in self.flying_in(start.union(end)) {
             reach = reach.min(meet(at));
         }
-        self.world
-            .broad
-            .trees
-            .sweep(start, translation, reach, meet);
+        self.world.broad.tree.sweep(start, translation, reach, meet);
         best.map(|(_, hit)| hit)
     }
 
@@ -323,7 +322,7 @@ impl Filtered<'_> {
             }
         };
         self.flying_in(bounds).into_iter().for_each(&mut look);
-        self.world.broad.trees.query(bounds, look);
+        self.world.broad.tree.query(bounds, look);
         found.sort_unstable();
         found.dedup();
         found
@@ -349,8 +348,8 @@ impl Filtered<'_> {
 
     /// Shapes that are in no tree and may be in `bounds`: of flyers in the grid, or of the engine where it moves everything.
     fn flying_in(&self, bounds: Aabb) -> Vec<u32> {
-        if let Some(stepping) = &self.world.stepping {
-            return self.world.shapes_in(stepping, bounds);
+        if self.world.settings.mode == Mode::Stepped {
+            return self.world.shapes_in_engine(bounds);
         }
         let bodies = self
             .world
@@ -359,7 +358,13 @@ impl Filtered<'_> {
         let shapes = bodies
             .iter()
             .flat_map(|body| &self.world.bodies.get(*body).colliders);
-        shapes.copied().collect()
+        let members = self.world.shapes_in_engine(bounds).into_iter();
+        let is_member = |at: &u32| {
+            let owner = self.world.colliders[*at as usize].body;
+            let state = self.world.bodies.get(owner);
+            state.in_engine && !state.asleep
+        };
+        shapes.copied().chain(members.filter(is_member)).collect()
     }
 
     fn sees(&self, collider: &Collider) -> bool {

@@ -16,7 +16,7 @@ pub(crate) enum Regime {
     Analytic,
     /// Sub-steps, pair by pair.
     Held,
-    /// Sub-steps of the wide solver.
+    /// Sub-steps of the engine.
     Stepped,
     /// Nothing, until it is touched.
     Asleep,
@@ -31,7 +31,7 @@ impl Regime {
         let (flies, glides) = (state.course.flies, state.course.glides);
         let closed = state.membership.is_closed();
         if state.kind != BodyKind::Dynamic {
-            let held = state.in_crowd || state.asleep || state.dozes || glides || closed;
+            let held = state.in_engine || state.asleep || state.dozes || glides || closed;
             return match (held, state.kind) {
                 (true, _) => Err("what is not dynamic is in no island, and does not sleep"),
                 (_, BodyKind::Fixed) if flies => Err("what is fixed does not fly"),
@@ -46,12 +46,12 @@ impl Regime {
             return Err("what glides flies in an analytic island");
         }
         if state.asleep {
-            return match flies || state.in_crowd {
-                true => Err("what sleeps neither flies nor is stepped"),
+            return match flies || state.in_engine && closed {
+                true => Err("what sleeps does not fly, nor in the engine in an analytic island"),
                 false => Ok(Self::Asleep),
             };
         }
-        if state.in_crowd {
+        if state.in_engine {
             return match flies || closed {
                 true => Err("what is stepped neither flies nor is analytic"),
                 false => Ok(Self::Stepped),

@@ -27,9 +27,9 @@
 use carom_math::Vec2;
 
 use crate::bodies::Bodies;
+use crate::groups::{Row, SolverBody, warm_start};
 use crate::impact::{Moving, Sweeper, Swept};
 use crate::pairs::Pair;
-use crate::solver::{Row, SolverBody, warm_start};
 use crate::state::{BodyState, Collider};
 
 /// Sweeps before what is left stays.

@@ -170,14 +170,9 @@ impl World {
         self.check_regime(index);
     }
 
-    /// Takes a body out of its crowd, its row and all its pairs.
+    /// Takes a body out of the engine and all its pairs.
     fn leave_all(&mut self, index: u32) {
-        self.leave_engine(index);
         self.quit(index, self.clock.now);
-        if let Some(slot) = self.pool.seats.slot(index) {
-            // What is solved for next gets a new line.
-            self.leave(index, slot);
-        }
         self.part_all(index);
     }
 

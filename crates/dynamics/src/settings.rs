@@ -45,13 +45,8 @@ pub struct Settings {
     pub history: usize,
     /// How many events of a step are kept; the buffer says what it left out.
     pub events: usize,
-    /// Whether large piles of the default mode are cut into zones that threads may share; [`Mode::Stepped`] has one thread and no
-    /// zones. Where there are more than 8,192 contacts, piles that do not touch each other lie in zones without it, unless one has
-    /// most of the contacts. A cut changes the order in which contacts are solved for, and so bits; and one thread alone gains
-    /// nothing by it.
-    pub zones: bool,
-    /// How many threads a step may use on zones, 1 to 1024, with the cargo feature `parallel`; without it there is
-    /// one. Their number changes no bit. With 1 a world that is stepped within a rayon pool uses that pool.
+    /// How many threads a step may use, 1 to 1024, with the cargo feature `parallel`; their number changes no bit. No method shares
+    /// its work among threads yet: the engine that moves large piles has one.
     pub threads: usize,
 }
 
@@ -71,7 +66,6 @@ impl Default for Settings {
             work: 100_000,
             history: 0,
             events: 4096,
-            zones: false,
             threads: 1,
         }
     }
@@ -157,7 +151,7 @@ pub enum PairSearch {
     None,
 }
 
-/// The soft law of lasting contacts: a damped spring that is solved implicitly. Groups of discs outside of crowds have none.
+/// The soft law of lasting contacts: a damped spring that is solved implicitly. Groups of at most 16 discs have none.
 ///
 /// At rest a contact sinks in by `compliance · load / (m ω²)` with ω = 2π `frequency` and m the
 /// pair's reduced mass; a fixed partner doubles the frequency.

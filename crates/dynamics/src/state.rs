@@ -13,9 +13,9 @@ use crate::flight::Flight;
 use crate::flyers::Course;
 use crate::impact::ImpactBody;
 use crate::mass::mass_of;
-use crate::trees::Leaf;
 use crate::uncommon::{Lag, Uncommon};
 use crate::{BodyDef, BodyId, BodyKind, Filter, Material};
+use carom_collision::NodeId;
 
 /// All that a world keeps of one body. Nothing else stores a pose.
 ///
@@ -35,10 +35,10 @@ pub(crate) struct BodyState {
     pub(crate) locked_rotation: bool,
     /// Solved for as part of a group in this sub-step.
     pub(crate) member: bool,
-    /// Moved by the wide solver, in hybrid mode.
-    pub(crate) in_crowd: bool,
-    /// Fixed or kinematic, with a line in the wide solver.
-    pub(crate) has_line: bool,
+    /// Moved by the engine in hybrid mode, or asleep in it.
+    pub(crate) in_engine: bool,
+    /// Known to the engine in hybrid mode, and moved by something else.
+    pub(crate) is_guest: bool,
     pub(crate) asleep: bool,
     /// Asleep for the machinery alone: a group in closed form at rest, which the caller sees awake until its time.
     pub(crate) dozes: bool,
@@ -73,13 +73,11 @@ pub(crate) struct Collider {
     pub(crate) surface: Arc<Surface>,
     pub(crate) body: u32,
     /// Node in the tree of boxes.
-    pub(crate) node: Option<Leaf>,
+    pub(crate) node: Option<NodeId>,
     /// Box that the pairs were searched with.
     pub(crate) fat: Aabb,
     /// As the caller drew it.
     pub(crate) drawn: Arc<Shape>,
-    /// Box for the coming tick of a shape that is driven beside a crowd: a flyer's own reaches farther.
-    pub(crate) tight: Option<Box<Aabb>>,
 }
 
 /// How a shape meets others, and whom. One for all that are alike, as far as that is seen at a glance.
@@ -160,8 +158,8 @@ impl BodyState {
             ),
             flight: None,
             member: false,
-            in_crowd: false,
-            has_line: false,
+            in_engine: false,
+            is_guest: false,
             asleep: false,
             dozes: false,
             membership: Membership::default(),
@@ -315,7 +313,7 @@ impl BodyState {
 
     /// Dynamic, and sub-stepped pair by pair.
     pub(crate) fn is_held(&self) -> bool {
-        self.is_dynamic() && self.is_stepped() && !self.in_crowd
+        self.is_dynamic() && self.is_stepped() && !self.in_engine
     }
 
     /// Whether anything slows it down by itself.
@@ -466,8 +464,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_shape_fills_80_bytes() {
-        assert_eq!(size_of::<Collider>(), 80);
+    fn a_shape_fills_72_bytes() {
+        assert_eq!(size_of::<Collider>(), 72);
     }
 
     #[test]

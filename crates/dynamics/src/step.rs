@@ -84,8 +84,9 @@ impl World {
             let reached = if self.settings.mode == Mode::Stepped {
                 self.advance_stepping(end, stop_at_event)
             } else {
+                self.carry_members();
                 let time = self.advance(end, stop_at_event);
-                self.write_crowds();
+                self.write_members(time);
                 time
             };
             // The sub-step that began with the event may begin before the step, where sums of `dt` round past it.
@@ -119,8 +120,7 @@ impl World {
     /// Sub-steps that are made ahead cannot be looked into.
     pub(crate) fn uses_up(&mut self) -> bool {
         self.work.done += 1;
-        self.work.used_up =
-            (self.work.done + self.report.pairs) as f64 >= self.work.most && !self.is_ahead();
+        self.work.used_up = (self.work.done + self.report.pairs) as f64 >= self.work.most;
         self.work.used_up
     }
 
@@ -307,7 +307,7 @@ impl World {
             self.wake(index, time);
         }
         let state = self.bodies.get(index);
-        if state.in_crowd {
+        if state.in_engine {
             return false;
         }
         if state.course.flies {
@@ -371,7 +371,7 @@ impl World {
 
     /// Ends the sleep of a body and all sleepers that it touches, and so on; who they are.
     pub(crate) fn woken_with(&mut self, index: u32, time: SimTime) -> Vec<u32> {
-        if self.stepping.is_some() {
+        if self.is_engines(index) {
             self.wake_in_engine(index, time);
             return Vec::new();
         }
@@ -390,7 +390,7 @@ impl World {
 
     /// Wakes all sleepers that touch a body, and itself: what held them has changed.
     pub(crate) fn wake_around(&mut self, index: u32, time: SimTime) {
-        if self.stepping.is_some() {
+        if self.is_engines(index) {
             return self.wake_in_engine(index, time);
         }
         self.hand_back_around(index, time);
@@ -418,7 +418,7 @@ impl World {
             dozed |= membership.is_closed();
             self.dissolve(membership.group, time);
         }
-        if !dozed && self.crowd_wakes(woken, time) {
+        if !dozed && self.many_woke(woken, time) {
             return;
         }
         for &index in woken {
@@ -477,9 +477,6 @@ impl World {
     }
 
     pub(crate) fn predict(&mut self, place: u32, time: SimTime) {
-        if self.is_crowds(place) {
-            return self.knock_between(place, time);
-        }
         predict(
             &self.bodies,
             &self.colliders,

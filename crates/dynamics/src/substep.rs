@@ -9,7 +9,7 @@ use crate::narrow::{TOUCH, opening_speed, rest_speed};
 use crate::pairs::PairContact;
 use crate::predict::BUDGET;
 use crate::sleep::settle;
-use crate::stepped::{FEW, MANY, Seen};
+use crate::stepping::{FEW, MANY, Seen};
 
 /// Sub-steps with nothing near after which a body flies: fewer, and what rattles changes sides all the time.
 const IDLE: u8 = 4;
@@ -33,11 +33,12 @@ impl World {
         self.stopwatch.lap(|p| &mut p.pairs);
         self.gather_landings(time, h);
         self.look(time, h);
-        self.gather_crowds(MANY, time);
+        self.gather_groups(MANY, time);
         self.close_groups(time);
         self.doze(time);
         self.glide(time);
-        self.gather_crowds(FEW, time);
+        self.gather_groups(FEW, time);
+        self.gather_members(time);
         self.stopwatch.lap(|p| &mut p.contacts);
         self.groups.step(
             &self.law,
@@ -72,7 +73,7 @@ impl World {
         self.release(time);
         self.groups.stamp(&self.bodies);
         self.stopwatch.lap(|p| &mut p.sleep);
-        self.step_crowds(time, h);
+        self.step_members(time);
         self.pairs.sort(&self.bodies, &self.stepped);
         let mut i = 0;
         while let Some(place) = self.pairs.place(i) {
@@ -148,7 +149,7 @@ impl World {
                 .collect();
             if landed.len() + lands.len() > FEW {
                 self.gather_heaps(&mut lands, &mut seen, time, h);
-                landed.retain(|index| !self.bodies.get(*index).in_crowd);
+                landed.retain(|index| !self.bodies.get(*index).in_engine);
             }
             if lands.is_empty() && landed.is_empty() {
                 break;
@@ -217,9 +218,6 @@ impl World {
         let mut i = 0;
         while let Some(place) = self.pairs.place(i) {
             i += 1;
-            if self.is_crowds(place) {
-                continue;
-            }
             let pair = self.pairs.get_mut(place);
             let (a, b) = pair.bodies;
             let active = (
@@ -286,6 +284,7 @@ impl World {
             }
         }
         self.show(index, time);
+        self.show_engine(index);
     }
 
     /// Bodies that nothing held or neared for a while fly from here on.

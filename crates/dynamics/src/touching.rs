@@ -199,7 +199,7 @@ impl World {
                 }
                 continue;
             }
-            if state.asleep || state.is_damped() || state.in_crowd {
+            if state.asleep || state.is_damped() || state.in_engine {
                 return Err(found.refused());
             }
             let pairs = state.pairs.clone();
@@ -244,7 +244,6 @@ impl World {
         let h = self.clock.h;
         let mut touching = self.pairs.get(place).touching;
         if looks == Looks::Old {
-            self.write_members_of(place);
             let pair = self.narrow.look_at(
                 &self.bodies,
                 &self.colliders,

@@ -12,14 +12,13 @@ use crate::clock::Clock;
 use crate::closed::Closed;
 use crate::flyers::Flyers;
 use crate::groups::Groups;
+use crate::groups::Law;
 use crate::narrow::Narrow;
-use crate::pairs::Pairs;
+use crate::pairs::{Pair, Pairs};
 use crate::profile::Stopwatch;
-use crate::solver::Law;
 use crate::state::{BodyState, Collider, Surface, drawn_at};
 use crate::step::Work;
-use crate::stepped::Stepped;
-use crate::stepping::Stepping;
+use crate::stepping::{Joins, Stepping};
 use crate::threads::Threads;
 use crate::{
     Body, BodyDef, BodyError, BodyId, BodyKind, Contact, EnergyLedger, Events, Material, Mode,
@@ -81,10 +80,10 @@ pub struct World {
     /// Bodies with a force that waits for a step or acts during this one.
     pub(crate) forced: Vec<u32>,
     pub(crate) stopwatch: Stopwatch,
-    /// The solver of crowds.
-    pub(crate) pool: Stepped,
-    /// The engine of [`Mode::Stepped`].
+    /// The engine of bodies in contact; none in [`Mode::Exact`].
     pub(crate) stepping: Option<Box<Stepping>>,
+    /// Who is moved by it in [`Mode::Hybrid`].
+    pub(crate) joins: Joins,
     pub(crate) threads: Threads,
 }
 
@@ -97,8 +96,6 @@ impl World {
         settings.check()?;
         let threads = Threads::new(settings.threads)?;
         let h = settings.h();
-        let mut pool = Stepped::new(settings.tick);
-        pool.seats.rig.cuts |= settings.zones;
         Ok(Self {
             law: Law::new(&settings.contact, h),
             clock: Clock::new(h),
@@ -126,8 +123,8 @@ impl World {
             handed_over: 0,
             forced: Vec::new(),
             stopwatch: Stopwatch::default(),
-            pool,
             stepping: Stepping::of(&settings)?,
+            joins: Joins::default(),
             threads,
             settings,
         })
@@ -211,12 +208,13 @@ impl World {
         self.bodies.get_mut(id.index).colliders = colliders;
         let (kinetic, potential) = self.bodies.energy_of(id.index, now);
         self.bodies.book.external.add(kinetic + potential);
-        if self.stepping.is_some() {
+        if self.settings.mode == Mode::Stepped {
             // It enters the engine with the next sub-step.
         } else if sleeps {
             // No flight, and nothing to predict: it only has to be found.
             self.refit(id.index, now, self.clock.h);
             self.show(id.index, now);
+            self.show_engine(id.index);
         } else {
             self.arrive(id.index);
             self.unsettle_on(id.index, now);
@@ -235,7 +233,6 @@ impl World {
         // A pile that wakes joins the wide solver, and the body with it: it leaves once all are awake.
         self.wake_around(index, now);
         self.quit(index, now);
-        self.leave_engine(index);
         self.bodies.change(index, now, |_| {});
         self.bodies.take_back(|other| other == index, now);
         let (kinetic, potential) = self.bodies.energy_of(index, now);
@@ -247,7 +244,6 @@ impl World {
         }
         self.flyers.vanish(&mut self.bodies, index);
         self.discharge(index);
-        self.take_line(index);
         self.forget_boxes(index);
         self.free_shapes(index);
         self.forced.retain(|i| *i != index);
@@ -304,7 +300,7 @@ impl World {
     fn contacts_at(&self, place: u32) -> Vec<Contact> {
         let now = self.gliding_now(place);
         let pair = now.as_ref().unwrap_or_else(|| self.pairs.get(place));
-        self.pool.contacts_of(&self.bodies, pair)
+        Contact::of(&self.bodies, pair).collect()
     }
 
     /// Frame of a body's shapes at `time`; `None` if it was not there or the log does not reach.
@@ -356,7 +352,7 @@ impl World {
             ledger.scheme += ledger.residual();
             return ledger;
         }
-        self.book_crowd(&mut ledger);
+        self.book_members(&mut ledger);
         let (heat, driven) = self.closed.unbooked(self.clock.now);
         ledger.friction += heat;
         ledger.external += driven;
@@ -442,7 +438,6 @@ impl World {
             surface,
             node: None,
             fat: Aabb::EMPTY,
-            tight: None,
         };
         if let Some(at) = self.free_colliders.pop() {
             self.colliders[at as usize] = collider;
@@ -486,13 +481,17 @@ impl World {
 
     /// Takes a pair out and says so if it touched.
     pub(crate) fn part(&mut self, place: u32, time: SimTime) {
+        if let Some(mut pair) = self.take_pair(place, time) {
+            pair.touching = false;
+            self.events.tell_touch(&self.bodies, &mut pair, time);
+        }
+    }
+
+    /// Takes a pair out; a group that it held together is taken apart.
+    pub(crate) fn take_pair(&mut self, place: u32, time: SimTime) -> Option<Pair> {
         self.hand_back_by(place, time);
-        let Some(mut pair) = part(&mut self.bodies, &mut self.pairs, place) else {
-            return;
-        };
+        let pair = part(&mut self.bodies, &mut self.pairs, place)?;
         self.loosen(place, pair.bodies, time);
-        self.pool.release(&mut pair);
-        pair.touching = false;
-        self.events.tell_touch(&self.bodies, &mut pair, time);
+        Some(pair)
     }
 }

@@ -120,12 +120,14 @@ impl Engine {
         self.go(rules);
     }
 
-    /// Lets sub-steps pass in which nobody moves.
-    pub fn wait(&mut self, substeps: u64) {
-        let all = u64::from(self.settings.substeps);
-        #[expect(clippy::cast_possible_truncation, reason = "less than the sub-steps of a tick")]
-        let done = ((u64::from(self.done) + substeps % all) % all) as u32;
-        (self.done, self.found) = (done, false);
+    /// Says which sub-step of its tick is the next, from 0: time went by without one. Whether it did.
+    pub fn set_phase(&mut self, done: u32) -> bool {
+        let done = done % self.settings.substeps;
+        let passed = self.done != done;
+        if passed {
+            (self.done, self.found) = (done, false);
+        }
+        passed
     }
 
     /// Time to the end of the tick, in s.
@@ -141,25 +143,28 @@ impl Engine {
     }
 
     /// Finds which pieces touch, or may within the tick, and where: what [`Self::substep`] begins with. Called before it, it
-    /// wakes who is met, and boxes are those of the sub-step; only what came or was moved since is looked for again.
-    pub fn find_contacts(&mut self, rules: &dyn PairRules) {
+    /// wakes who is met, and boxes are those of the sub-step; only what came or was moved since is looked for again. Whether
+    /// some body came, or goes otherwise than was foreseen at the tick.
+    pub fn find_contacts(&mut self, rules: &dyn PairRules) -> bool {
         let again = core::mem::replace(&mut self.found, true);
         if again && !self.broad.has_arrivals() && !self.bodies.moved[2..].contains(&true) {
-            return;
+            return false;
         }
         let at_tick = self.done == 0 && !again;
+        let mut strays = false;
         if at_tick {
             self.rebase();
             self.broad
                 .find(self.level, &self.bodies, &self.pieces, self.settings.tick);
             self.update_contacts(rules);
         } else {
-            self.follow_strays(rules);
+            strays = self.follow_strays(rules);
         }
         if at_tick || self.graph.has_new_unequal() {
             self.extra.gather(&mut self.graph, &self.bodies);
         }
         self.deep.gather(&mut self.graph, &self.bodies);
+        strays
     }
 
     /// One sub-step with the contacts that are known.
@@ -183,8 +188,9 @@ impl Engine {
         }
     }
 
-    /// Finds the contacts of bodies that came, or go otherwise than was foreseen at the tick, for the rest of it.
-    fn follow_strays(&mut self, rules: &dyn PairRules) {
+    /// Finds the contacts of bodies that came, or go otherwise than was foreseen at the tick, for the rest of it; whether
+    /// there are any.
+    fn follow_strays(&mut self, rules: &dyn PairRules) -> bool {
         let rest = self.left();
         let strays = self.bodies.rebase_strays(&self.settings, rest);
         if strays || self.broad.has_arrivals() {
@@ -192,7 +198,9 @@ impl Engine {
             self.broad
                 .find_few(self.level, &self.bodies, &self.pieces, self.settings.tick);
             self.update_contacts(rules);
+            return true;
         }
+        false
     }
 
     /// Makes where bodies are their base poses, if that is far from these, and their boxes anew.

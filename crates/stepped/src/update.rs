@@ -129,9 +129,14 @@ pub(crate) fn met_asleep(
         if island == Bodies::NONE || islands.contains(&island) {
             continue;
         }
-        // A body that creeps is seen once a tolerance.
+        // A body that moves is seen once a tolerance; one that rests wakes nobody by lying near.
         let line = bodies.line_of(slots[usize::from(a != Bodies::NONE)]);
-        let seen = bodies.limits[line].tolerance;
+        let rests = bodies.rest[line] > 0.0;
+        let seen = if rests {
+            0.0
+        } else {
+            bodies.limits[line].tolerance
+        };
         let near = |found: &Manifold| found.gap() < scene.closes(pair, found) + seen;
         let met = |pair| scene.contact(pair, 1.0).is_some_and(|found| near(&found));
         if pieces.surface(pair, rules).is_some() && met(pair) {

@@ -58,8 +58,6 @@ fn settings(scene: &PlainScene, setup: &Setup) -> Settings {
             _ => carom_dynamics::Mode::Hybrid,
         },
         sleep: setup.sleeping.then(Sleep::default),
-        // One thread has nobody to share zones with.
-        zones: setup.threads > 1,
         threads: setup.threads as usize,
         ..default
     }

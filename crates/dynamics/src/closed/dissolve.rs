@@ -20,7 +20,7 @@ impl World {
         let left = self.clock.next() - time;
         for &index in members {
             let state = self.bodies.get(index);
-            let moves = state.is_stepped() && !state.in_crowd;
+            let moves = state.is_stepped() && !state.in_engine;
             if left > 0.0 && moves && self.feels_island(index) {
                 fly(&mut self.bodies, index, time, left);
                 self.redirect(index, time);

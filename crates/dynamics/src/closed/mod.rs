@@ -41,7 +41,7 @@ impl World {
                 let state = self.bodies.get(index);
                 if !state.is_dynamic()
                     || state.asleep
-                    || state.in_crowd
+                    || state.in_engine
                     || state.membership.is_closed()
                 {
                     continue;
@@ -128,7 +128,7 @@ impl World {
             }
             None if state.is_dynamic()
                 && !state.asleep
-                && !state.in_crowd
+                && !state.in_engine
                 && self.may_last(index) =>
             {
                 self.bodies.get_mut(index).membership = Membership::default();

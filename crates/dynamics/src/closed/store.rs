@@ -210,11 +210,6 @@ impl Kept {
 }
 
 impl Closed {
-    /// Whether some group changes by itself, or did.
-    pub(crate) fn changes(&self) -> bool {
-        !self.changes.is_empty()
-    }
-
     /// When the next change is due.
     pub(crate) fn next(&mut self) -> Option<SimTime> {
         loop {

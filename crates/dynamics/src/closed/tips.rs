@@ -179,7 +179,7 @@ impl World {
         for &index in members {
             let mut astray = self.closed.astray.iter();
             if left <= 0.0
-                || self.bodies.get(index).in_crowd
+                || self.bodies.get(index).in_engine
                 || !astray.any(|it| it.index == index && goes_on(&self.bodies, it))
                 || self.is_touched(index, time)
             {
@@ -194,7 +194,6 @@ impl World {
     fn is_touched(&mut self, index: u32, time: SimTime) -> bool {
         let h = self.clock.h;
         self.bodies.get(index).pairs.clone().iter().any(|&place| {
-            self.write_members_of(place);
             let pair = self.pairs.get(place);
             if !pair.touching && !pair.lasting {
                 return false;

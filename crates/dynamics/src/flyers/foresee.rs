@@ -46,13 +46,15 @@ impl World {
             self.follow(index, time, 0.0);
         } else if cause == Cause::Deflected && self.is_clear(index, time) {
             self.meet_flyers(index, time, cause, but);
-            return self.predict_pairs(index, time);
+            self.predict_pairs(index, time);
+            return self.meet_members(index, time);
         } else {
             self.forget_boxes(index);
             self.look_down(index, time, self.first_span(index, time));
         }
         self.meet_flyers(index, time, cause, but);
         self.meet_shapes(index, time, cause);
+        self.meet_members(index, time);
     }
 
     /// Registers a flyer in the grid up to its horizon; whether it fits.

@@ -34,17 +34,6 @@ impl Foreseen {
 }
 
 impl Flyers {
-    /// How many entries the calendar has, stale or not.
-    #[cfg(test)]
-    pub(crate) fn ahead(&self) -> usize {
-        self.queue.len()
-    }
-
-    /// Whether nothing is ahead of anybody.
-    pub(crate) fn is_idle(&self) -> bool {
-        self.queue.len() == 0 && self.aside.first().is_none()
-    }
-
     /// When the next entry is due, if that is by `limit`.
     pub(crate) fn next(
         &mut self,

@@ -92,7 +92,7 @@ impl World {
 
     /// From the first box in the tree on flyers look down for what is there.
     pub(crate) fn look_down_first(&mut self, time: SimTime) {
-        if self.flyers.grounded || self.broad.trees.is_empty() {
+        if self.flyers.grounded || self.broad.tree.is_empty() {
             return;
         }
         self.flyers.grounded = true;
@@ -137,13 +137,6 @@ impl World {
                     [index, owner].map(|body| Circle::of(self.bodies.get(body), time));
                 if let Some(window) = own.meets(&theirs) {
                     self.approach(index, owner, window, time, cause);
-                }
-            } else if state.in_crowd {
-                self.pair_flyer(index, at);
-                self.knock_at(index, at, time);
-                if !self.bodies.get(index).course.flies {
-                    self.flyers.shapes = near;
-                    return;
                 }
             } else if state.is_active() {
                 self.pair_flyer(index, at);

@@ -154,19 +154,17 @@ impl World {
     /// Adds a body to those that are sub-stepped.
     pub(crate) fn enlist(&mut self, index: u32, time: SimTime) {
         if !self.is_substepping() {
-            self.begin_substeps(time);
+            self.clock.catch_up(time);
+        }
+        if self.stepped.is_empty() {
+            // Bodies look for flyers by boxes in the world from now on.
+            self.narrow(time);
+            self.flyers.raise(&self.bodies);
         }
         if let Err(at) = self.stepped.binary_search(&index) {
             self.stepped.insert(at, index);
             self.pairs.reorder();
         }
-    }
-
-    /// Somebody is sub-stepped from now on: until now the grid of sub-steps was not followed.
-    pub(crate) fn begin_substeps(&mut self, time: SimTime) {
-        self.clock.catch_up(time);
-        self.narrow(time);
-        self.flyers.raise(&self.bodies);
     }
 
     /// Takes a body from those that are sub-stepped.
@@ -185,9 +183,9 @@ impl World {
         self.pairs.reorder();
     }
 
-    /// If nobody is sub-stepped any more, nobody looks for flyers by boxes in the world.
+    /// If nobody is sub-stepped pair by pair any more, nobody looks for flyers by boxes in the world.
     pub(crate) fn lower_flyers(&mut self) {
-        if !self.is_substepping() {
+        if self.stepped.is_empty() {
             self.flyers.lower();
         }
     }

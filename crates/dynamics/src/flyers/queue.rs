@@ -196,11 +196,6 @@ impl Queue {
         self.due.pop().map(|Reverse(entry)| entry)
     }
 
-    /// How many entries there are, stale or not.
-    pub(crate) fn len(&self) -> usize {
-        self.due.len() + self.days.count() + self.later.len()
-    }
-
     /// Today's list becomes the heap.
     fn open(&mut self, stale: &mut impl FnMut(&Entry) -> bool) {
         let Self {

@@ -44,7 +44,7 @@ impl World {
             if self.bodies.get(index).asleep {
                 // Awake it is in the hands of the solver, which is struck with all that it holds.
                 self.wake(index, time);
-                if self.bodies.get(index).in_crowd {
+                if self.bodies.get(index).in_engine {
                     // It waits at the surface of those who woke for the next sub-step.
                     self.join(if index == a { b } else { a }, time);
                 }

@@ -6,10 +6,10 @@ use super::{Groups, NOT_HERE, Source, key_of};
 use crate::apart::Method;
 use crate::bodies::Bodies;
 use crate::flight::driven;
+use crate::groups::{Row, SolverBody};
 use crate::narrow::{RestSpeed, TOUCH, opening_speed};
 use crate::pairs::{PairPoint, Pairs};
 use crate::round::{Speed, Way, is_round};
-use crate::solver::{Row, SolverBody};
 use crate::state::Collider;
 
 impl Groups {
@@ -47,8 +47,8 @@ impl Groups {
                     || !(a.is_stepped() || b.is_stepped())
                     || a.is_flying()
                     || b.is_flying()
-                    || a.in_crowd
-                    || b.in_crowd
+                    || a.in_engine
+                    || b.in_engine
                     // Who touches a sleeper has woken it; across a gap it is met, and woken, by an impact.
                     || a.asleep
                     || b.asleep

@@ -11,9 +11,9 @@ use super::{Groups, NOT_HERE};
 use crate::StepReport;
 use crate::bodies::Bodies;
 use crate::flight::fly;
+use crate::groups::Row;
 use crate::pairs::Pairs;
 use crate::round::{Way, hold};
-use crate::solver::Row;
 
 impl Groups {
     /// Holds the groups of bodies whose motions an impact has `changed`, once each; who goes another way since.

@@ -3,6 +3,8 @@
 mod gather;
 mod go_on;
 mod motions;
+mod row;
+mod soft;
 
 use core::ops::Range;
 
@@ -13,9 +15,10 @@ use crate::bodies::Bodies;
 use crate::heavy::{Place, solve_heavy};
 use crate::pairs::{Pair, Pairs};
 use crate::round::{Way, hold, members_of};
-use crate::solver::{Law, Row, SolverBody, sweep};
 use crate::state::Collider;
 use crate::{BodyId, StepReport};
+pub(crate) use row::{Row, SolverBody};
+pub(crate) use soft::{Law, sweep, warm_start};
 
 /// Contact groups of a sub-step, and the scratch of its solve.
 #[derive(Clone, Debug, Default)]

@@ -5,8 +5,8 @@ use carom_math::SimTime;
 use super::Groups;
 use crate::apart::Method;
 use crate::bodies::{Bodies, Booked};
+use crate::groups::SolverBody;
 use crate::pairs::Pairs;
-use crate::solver::SolverBody;
 use crate::uncommon::Lag;
 
 impl Groups {

@@ -7,7 +7,7 @@ use carom_stepped::{BodyInput, PieceInput};
 
 use super::{Stepping, place};
 use crate::state::BodyState;
-use crate::{BodyKind, World};
+use crate::{BodyKind, Mode, World};
 
 /// A place that differs by less, as a part of the reach, is the same but for rounding: what was only looked at stays.
 const SAME: f64 = 1e-12;
@@ -22,11 +22,14 @@ impl World {
         touched.sort_unstable();
         touched.dedup();
         for &index in &touched {
-            if self.bodies.is_alive(index) {
-                match stepping.id(index) {
-                    Some(id) => self.tell_engine(stepping, index, id, time),
-                    None => self.enter(stepping, index, time),
-                }
+            if !self.bodies.is_alive(index) {
+                continue;
+            }
+            match (stepping.id(index), self.belongs(index)) {
+                (Some(id), true) => self.tell_engine(stepping, index, id, time),
+                (None, true) => self.enter(stepping, index, time),
+                (Some(_), false) => stepping.remove(index),
+                (None, false) => {}
             }
         }
         touched.clear();
@@ -36,9 +39,23 @@ impl World {
         self.stopwatch.lap(|p| &mut p.pairs);
     }
 
+    /// Whether the engine is to know a body; one that does not belong to it any more is no guest.
+    fn belongs(&mut self, index: u32) -> bool {
+        let state = self.bodies.get_mut(index);
+        let rests = state.asleep || !state.is_dynamic();
+        state.is_guest &= rests && !state.in_engine;
+        self.settings.mode == Mode::Stepped || state.in_engine || state.is_guest
+    }
+
     fn enter(&mut self, stepping: &mut Stepping, index: u32, time: SimTime) {
         let state = self.bodies.get(index);
-        let input = input_of(state, time);
+        // Who joined within a sub-step waited there.
+        let at = if state.in_engine {
+            state.motion.start
+        } else {
+            time
+        };
+        let input = input_of(state, at);
         let pieces: Vec<_> = state
             .colliders
             .iter()
@@ -77,6 +94,10 @@ impl World {
         let Ok(known) = stepping.engine.state(id) else {
             return;
         };
+        if !state.asleep && stepping.engine.is_asleep(id) == Ok(true) {
+            let told = stepping.engine.wake(id);
+            debug_assert!(told.is_ok(), "{told:?}");
+        }
         let frame = state.centre_pose(time);
         let motion = (state.velocity_at(time), state.spin_at(time));
         let d = frame.position - known.pose.position;
@@ -109,20 +130,20 @@ impl World {
         let Some(mut stepping) = self.stepping.take() else {
             return;
         };
-        if let Some(id) = stepping.id(index) {
-            let told = stepping.engine.remove(id);
-            debug_assert!(told.is_ok(), "{told:?}");
-            stepping.ids[index as usize] = None;
+        if stepping.id(index).is_some() {
+            stepping.remove(index);
             let now = self.clock.now;
             self.tell_sleep(&mut stepping, now);
             self.tell_changed_touches(&mut stepping, now);
         }
         self.stepping = Some(stepping);
+        self.bodies.get_mut(index).is_guest = false;
+        self.take_woken(self.clock.now);
     }
 
     /// What accelerates a body at a place besides contacts and damping, in m/s² and rad/s²; a field that is not finite there
     /// accelerates nothing.
-    fn pull_on(&self, index: u32, centre: Vec2) -> (Vec2, f64) {
+    pub(super) fn pull_on(&self, index: u32, centre: Vec2) -> (Vec2, f64) {
         let state = self.bodies.get(index);
         if !state.is_dynamic() {
             return (Vec2::ZERO, 0.0);
@@ -143,6 +164,11 @@ impl World {
             self.bodies.change(index, time, |_| {});
         }
         self.bodies.touched.clear();
+        self.pull_members(stepping);
+    }
+
+    /// What fields do to bodies where they are.
+    pub(super) fn pull_members(&self, stepping: &mut Stepping) {
         if !self.bodies.pull.fields.is_empty() {
             let pulls: Vec<_> = (stepping.engine.awake())
                 .map(|state| (state.id, self.pull_on(place(&state), state.pose.position)))

@@ -1,4 +1,5 @@
-//! Every awake body in the engine of `carom-stepped`: [`crate::Mode::Stepped`].
+//! The boundary to the engine of `carom-stepped`: of all awake bodies in [`crate::Mode::Stepped`], of its members in
+//! [`crate::Mode::Hybrid`].
 //!
 //! ```text
 //! changes ─► engine ─► sub-steps of the engine ─► motions, begins and ends of touch, sleep
@@ -8,8 +9,12 @@
 //! motions are written once at the end of a step, or of each sub-step for a log.
 
 mod enter;
+mod heap;
+mod join;
+mod members;
 mod rest;
 mod rules;
+mod rush;
 mod touch;
 mod within;
 mod write;
@@ -22,14 +27,17 @@ use carom_stepped::{Engine, Relaxation, Softness, State, Touch};
 use crate::error::SettingsError;
 use crate::{Mode, Settings, World};
 
+pub(crate) use heap::Seen;
+pub(crate) use join::{FEW, Joins, MANY};
+
 /// The engine, and which bodies of the world its bodies are.
 #[derive(Clone, Debug)]
 pub(crate) struct Stepping {
     pub(crate) engine: Engine,
     /// The engine's name of each body, by place in the world.
     ids: Vec<Option<carom_stepped::BodyId>>,
-    /// How many convex pieces of two shapes touch.
-    touching: BTreeMap<Shapes, u32>,
+    /// Shapes that touch: how many convex pieces of theirs, and whether the caller was told.
+    touching: BTreeMap<Shapes, (u32, bool)>,
     /// Scratch.
     changes: Vec<Touch>,
     /// Where bodies were before the last sub-step, where that is asked for: body, pose and turn.
@@ -40,9 +48,9 @@ pub(crate) struct Stepping {
 type Shapes = [(u32, u32); 2];
 
 impl Stepping {
-    /// The engine of a world with these settings, if everything is stepped there.
+    /// The engine of a world with these settings, if something may be stepped there.
     pub(crate) fn of(settings: &Settings) -> Result<Option<Box<Self>>, SettingsError> {
-        if settings.mode != Mode::Stepped {
+        if settings.mode == Mode::Exact {
             return Ok(None);
         }
         let contact = &settings.contact;
@@ -80,6 +88,15 @@ impl Stepping {
     pub(crate) fn set_gravity(&mut self, gravity: carom_math::Vec2) {
         let told = self.engine.set_gravity(gravity);
         debug_assert!(told.is_ok(), "{told:?}");
+    }
+
+    /// Takes a body out of the engine.
+    fn remove(&mut self, index: u32) {
+        if let Some(id) = self.id(index) {
+            let told = self.engine.remove(id);
+            debug_assert!(told.is_ok(), "{told:?}");
+            self.ids[index as usize] = None;
+        }
     }
 
     /// The engine's name of a body.

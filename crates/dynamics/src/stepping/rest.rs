@@ -3,12 +3,12 @@
 use carom_math::SimTime;
 
 use super::{Stepping, place};
-use crate::{EventKind, World};
+use crate::{EventKind, Mode, World};
 
 impl World {
     /// Tells of bodies that fell asleep or woke.
     pub(super) fn tell_sleep(&mut self, stepping: &mut Stepping, time: SimTime) {
-        let mut changed = Vec::new();
+        let (mut changed, mut laid) = (Vec::new(), Vec::new());
         stepping
             .engine
             .sleep_changes(|id, asleep| changed.push((id, asleep)));
@@ -22,6 +22,13 @@ impl World {
             if known.asleep == asleep {
                 continue;
             }
+            if self.settings.mode == Mode::Hybrid && !asleep {
+                self.joins.woken.push(index);
+                if !known.in_engine {
+                    // A guest wakes with all that sleeps in touch with it.
+                    continue;
+                }
+            }
             (known.asleep, known.slow_for) = (asleep, 0.0);
             let id = known.id;
             let kind = if asleep {
@@ -32,8 +39,22 @@ impl World {
             self.events.push(time, kind);
             if asleep {
                 self.write_rest(&state, time);
+                if self.bodies.get(index).in_engine {
+                    self.joins.members -= 1;
+                    laid.push(index);
+                }
             }
         }
+        // Flyers meet them as what rests.
+        for index in laid {
+            self.refit_among(index, time, self.clock.h, false);
+            self.show(index, time);
+        }
+    }
+
+    /// Whether the sleep of a body is the engine's to end.
+    pub(crate) fn is_engines(&self, index: u32) -> bool {
+        self.settings.mode == Mode::Stepped || self.bodies.get(index).in_engine
     }
 
     /// Wakes a body, what sleeps with it and what sleeps in touch with it.
@@ -47,6 +68,7 @@ impl World {
             self.tell_sleep(&mut stepping, time);
         }
         self.stepping = Some(stepping);
+        self.take_woken(time);
         // The engine does not know it yet.
         let state = self.bodies.get_mut(index);
         if state.asleep {

@@ -14,24 +14,27 @@ impl World {
         let mut changed = Vec::new();
         for change in changes.drain(..) {
             let shapes = self.shapes_of(change.tags);
-            let count = stepping.touching.entry(shapes).or_insert(0);
-            let before = *count > 0;
+            let (count, _) = stepping.touching.entry(shapes).or_default();
             *count = if change.begins {
                 *count + 1
             } else {
                 count.saturating_sub(1)
             };
-            changed.push((shapes, before));
+            changed.push(shapes);
         }
         stepping.changes = changes;
-        // A pair that changed more than once is told of by what it was first.
-        changed.sort_by_key(|change| change.0);
-        changed.dedup_by_key(|change| change.0);
-        for (shapes, before) in changed {
-            let now = stepping
-                .touching
-                .get(&shapes)
-                .is_some_and(|count| *count > 0);
+        for shapes in self.joins.told.drain(..) {
+            stepping.touching.entry(shapes).or_default().1 = true;
+            changed.push(shapes);
+        }
+        changed.sort_unstable();
+        changed.dedup();
+        for shapes in changed {
+            let Some((count, told)) = stepping.touching.get_mut(&shapes) else {
+                continue;
+            };
+            let now = *count > 0;
+            let before = core::mem::replace(told, now);
             if !now {
                 stepping.touching.remove(&shapes);
             }
@@ -54,8 +57,11 @@ impl World {
     }
 
     /// Shapes that may be in `bounds`.
-    pub(crate) fn shapes_in(&self, stepping: &Stepping, bounds: Aabb) -> Vec<u32> {
+    pub(crate) fn shapes_in_engine(&self, bounds: Aabb) -> Vec<u32> {
         let mut found = Vec::new();
+        let Some(stepping) = &self.stepping else {
+            return found;
+        };
         stepping
             .engine
             .query(bounds, |tag| found.push(collider(tag)));

@@ -54,6 +54,9 @@ impl World {
     /// evenly from place to place: a path between two that are free, and no faster than it was.
     pub(super) fn write_one(&mut self, stepping: &Stepping, state: &State) {
         let (index, start, h) = (place(state), self.clock.last(), self.clock.h);
+        if self.bodies.get(index).is_guest {
+            return;
+        }
         let ((v, w), (u, s)) = (state.velocity, state.before);
         let mut motion = Motion {
             start,

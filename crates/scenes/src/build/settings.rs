@@ -61,7 +61,6 @@ pub(crate) fn settings(file: &SceneFile) -> Settings {
         },
         history: table.history.unwrap_or(default.history),
         events: table.events.unwrap_or(default.events),
-        zones: table.zones.unwrap_or(default.zones),
         threads: table.threads.unwrap_or(default.threads),
         work: default.work,
     }

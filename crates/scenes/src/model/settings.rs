@@ -18,7 +18,6 @@ pub(crate) struct SettingsTable {
     pub(crate) contact: ContactTable,
     pub(crate) history: Option<usize>,
     pub(crate) events: Option<usize>,
-    pub(crate) zones: Option<bool>,
     pub(crate) threads: Option<usize>,
 }
 

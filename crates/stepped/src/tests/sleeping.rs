@@ -41,6 +41,30 @@ fn a_pyramid_falls_asleep_and_wakes_as_it_was() {
     }
 }
 
+/// A box that came to rest a hair beside sleepers woke them, was laid beside them while they were awake, and woke with them: for
+/// ever.
+#[test]
+fn what_rests_beside_sleepers_lets_them_sleep() {
+    let mut engine = Engine::new(Settings::default()).unwrap();
+    floor(&mut engine);
+    let first = pyramid(&mut engine, 1, Vec2::ZERO);
+    for _ in 0..20 {
+        engine.tick();
+    }
+    let at = engine.pose(first[0]).unwrap().position + vec2(1.0 + 1e-5, 0.0);
+    let beside = BodyInput::dynamic(1.0, 1.0 / 6.0).at(at);
+    let beside = engine.insert(beside, &[unit_box()]).unwrap();
+    for _ in 0..120 {
+        engine.tick();
+        engine.graph.check(&engine.bodies);
+    }
+    assert!(
+        [first[0], beside]
+            .iter()
+            .all(|id| engine.is_asleep(*id).unwrap())
+    );
+}
+
 #[test]
 fn what_is_hit_wakes_and_what_is_missed_does_not() {
     let mut engine = Engine::new(Settings::default()).unwrap();

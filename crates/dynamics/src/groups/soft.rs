@@ -13,8 +13,7 @@ use crate::Softness;
 pub(crate) struct Law {
     pub(super) h: f64,
     pub(super) inverse_h: f64,
-    pub(super) over_relaxation: f64,
-    /// The same over rows that are rebuilt in every sub-step.
+    /// Over-relaxation, milder than for rows that last: these are rebuilt in every sub-step.
     pub(super) milder: f64,
     pub(super) push_out: f64,
     /// (rate, γ) between moving bodies, and against the ground at twice the frequency.
@@ -59,7 +58,6 @@ impl Law {
         Self {
             h,
             inverse_h: h.recip(),
-            over_relaxation: softness.over_relaxation,
             milder: 1.0 + 0.6 * (softness.over_relaxation - 1.0),
             push_out: softness.push_out,
             soft: [soft(frequency), soft(2.0 * frequency)],

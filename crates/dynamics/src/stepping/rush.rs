@@ -110,7 +110,7 @@ impl World {
         let Some(&first) = bodies.first() else {
             return;
         };
-        if self.settings.mode != Mode::Hybrid || !self.bodies.pull.fields.is_empty() {
+        if self.settings.mode != Mode::Hybrid {
             return;
         }
         #[expect(
@@ -118,7 +118,7 @@ impl World {
             reason = "the cast saturates; a tick more or less in a budget is no matter"
         )]
         let tick = (time.as_secs() / self.settings.tick) as i64;
-        if self.pool.rush.tick != tick {
+        if self.joins.rush.tick != tick {
             self.end_rush(time);
         }
         let masses = bodies
@@ -128,7 +128,7 @@ impl World {
             (mass.max(most), mass.min(least))
         });
         let heavy = mass_ratio([lightest, heaviest]) > BEARS;
-        let rush = &mut self.pool.rush;
+        let rush = &mut self.joins.rush;
         rush.turn_to(tick);
         let mut root = rush.root(first);
         for &other in &bodies[1..] {
@@ -144,11 +144,11 @@ impl World {
             return;
         }
         let was = self.is_substepping();
-        if !self.pool.rush.due.contains(&root) {
-            self.pool.rush.due.push(root);
+        if !self.joins.rush.due.contains(&root) {
+            self.joins.rush.due.push(root);
         }
         if !was {
-            self.begin_substeps(time);
+            self.clock.catch_up(time);
         }
         if spent > AT_ONCE * size {
             self.end_rush(time);
@@ -157,7 +157,7 @@ impl World {
 
     /// Whoever struck too often joins the crowd.
     pub(crate) fn end_rush(&mut self, time: SimTime) {
-        let rush = &mut self.pool.rush;
+        let rush = &mut self.joins.rush;
         if rush.due.is_empty() {
             return;
         }
@@ -172,8 +172,7 @@ impl World {
         }
         members.sort_unstable();
         for index in members {
-            let state = self.bodies.get(index);
-            if self.bodies.is_alive(index) && !state.is_damped() {
+            if self.bodies.is_alive(index) {
                 self.join(index, time);
             }
         }

@@ -1,8 +1,7 @@
-//! Large piles in zones: threads share them, and nobody can tell how many.
+//! Large piles: neither threads nor how steps are cut change a bit.
 
 use carom_dynamics::{BodyDef, Material, Mode, Settings, World};
 use carom_math::vec2;
-use carom_tests::overlaps;
 use carom_tests::scenes::{block, boxed, put};
 
 /// A pyramid of 78 rows, 3,081 boxes of 1 m with some 9,000 contacts, and a box that strikes it.
@@ -40,7 +39,6 @@ fn pyramids(settings: Settings, count: u32, rows: u32) -> World {
 fn settings(mode: Mode, threads: usize) -> Settings {
     Settings {
         mode,
-        zones: true,
         threads,
         sleep: None,
         ..Settings::default()
@@ -64,7 +62,7 @@ fn the_number_of_threads_changes_no_bit_of_a_large_pile() {
 }
 
 #[test]
-fn how_a_step_is_cut_changes_no_bit_of_a_pile_in_zones() {
+fn how_a_step_is_cut_changes_no_bit_of_a_large_pile() {
     for mode in [Mode::Stepped, Mode::Hybrid] {
         let mut whole = struck_pyramid(settings(mode, 1));
         let mut cut = struck_pyramid(settings(mode, 1));
@@ -76,16 +74,10 @@ fn how_a_step_is_cut_changes_no_bit_of_a_pile_in_zones() {
     }
 }
 
-/// Where steps end at ticks the sub-steps between two looks are made at once, but for those in which somebody is struck; where
-/// a step ends within a tick they are made one after the other.
 #[test]
-fn sub_steps_made_at_once_have_the_bits_of_one_after_the_other() {
+fn how_a_tick_is_cut_changes_no_bit_of_many_piles() {
     for mode in [Mode::Stepped, Mode::Hybrid] {
-        let settings = Settings {
-            zones: false,
-            ..settings(mode, 1)
-        };
-        let mut worlds = [1, 2].map(|_| pyramids(settings, 62, 10));
+        let mut worlds = [1, 2].map(|_| pyramids(settings(mode, 1), 62, 10));
         // In hybrid mode it takes the calendar of flyers 46 ticks to forget that they flew.
         for tick in 0..72 {
             for (world, cuts) in worlds.iter_mut().zip([1, 2]) {
@@ -106,54 +98,5 @@ fn sub_steps_made_at_once_have_the_bits_of_one_after_the_other() {
             let [whole, cut] = [whole, cut].map(World::energy);
             assert_eq!(whole.friction.to_bits(), cut.friction.to_bits());
         }
-    }
-}
-
-/// Nobody strikes it: boxes that a blow has tumble sink in wherever they land, and the deepest contact of an instant
-/// is one or the other of them.
-#[test]
-fn zones_carry_a_pile_as_one_sweep_does() {
-    let mut zoned = pyramid(settings(Mode::Hybrid, 1));
-    let mut whole = pyramid(Settings {
-        zones: false,
-        ..settings(Mode::Hybrid, 1)
-    });
-    for world in [&mut zoned, &mut whole] {
-        world.step(2.0);
-    }
-    assert!(
-        zoned.state_hash() != whole.state_hash(),
-        "there are no zones"
-    );
-    let [zoned, whole] = [&zoned, &whole].map(overlaps);
-    assert!(
-        zoned.0 < 1.2 * whole.0 && zoned.1 < 1.05 * whole.1,
-        "overlaps {zoned:?} m with zones, {whole:?} m without"
-    );
-}
-
-#[test]
-fn many_piles_lie_in_zones_as_one_does_alone() {
-    for mode in [Mode::Stepped, Mode::Hybrid] {
-        let settings = |threads| Settings {
-            zones: false,
-            ..settings(mode, threads)
-        };
-        let ends = [1, 2].map(|threads| {
-            let mut world = pyramids(settings(threads), 62, 10);
-            world.step(0.5);
-            (world.state_hash(), overlaps(&world))
-        });
-        assert!(
-            ends[0].0 == ends[1].0,
-            "two threads give other bits than one"
-        );
-        let mut alone = pyramids(settings(1), 1, 10);
-        alone.step(0.5);
-        let (many, alone) = (ends[0].1, overlaps(&alone));
-        assert!(
-            many.0 < 1.2 * alone.0 && many.1 < 1.05 * alone.1,
-            "{mode:?}: overlaps {many:?} m in zones, {alone:?} m alone"
-        );
     }
 }

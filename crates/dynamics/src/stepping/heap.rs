@@ -38,7 +38,7 @@ struct Heap {
 
 impl Heap {
     /// Whether the wide solver takes it before closed forms are tried, or after these were tried in vain.
-    fn is_for_crowd(&self) -> bool {
+    fn is_for_engine(&self) -> bool {
         let count = self.bodies.len();
         self.fits && (count > MANY || count > FEW && self.points > ROWS)
     }
@@ -60,7 +60,7 @@ impl World {
         time: SimTime,
         h: f64,
     ) {
-        if !self.may_crowd() || self.broad.search != PairSearch::Indexed {
+        if !self.may_join() || self.broad.search != PairSearch::Indexed {
             return;
         }
         seen.of.resize(self.bodies.places(), Step::Unseen);
@@ -68,7 +68,7 @@ impl World {
         for &index in &*lands {
             if seen.of[index as usize] == Step::Unseen {
                 let heap = self.heap_around(index, seen, time, h);
-                if heap.is_for_crowd() {
+                if heap.is_for_engine() {
                     joining.extend(heap.bodies);
                 }
             }
@@ -106,8 +106,7 @@ impl World {
             next += 1;
             seen.of[index as usize] = Step::Asked;
             let state = self.bodies.get(index);
-            heap.fits &=
-                !(state.is_damped() || state.membership.is_closed() || state.course.glides);
+            heap.fits &= !(state.membership.is_closed() || state.course.glides);
             let here = Here::of(state, time);
             for &mine in &state.colliders {
                 self.near_at(mine, &here, &mut scratch);
@@ -124,7 +123,7 @@ impl World {
                     heap.points += rest.points;
                     heap.fits &= !rest.buried;
                     let state = self.bodies.get(owner);
-                    let belongs = state.is_dynamic() && !state.asleep && !state.in_crowd;
+                    let belongs = state.is_dynamic() && !state.asleep && !state.in_engine;
                     if belongs && seen.of[owner as usize] == Step::Unseen {
                         seen.of[owner as usize] = Step::Found;
                         heap.bodies.push(owner);
@@ -274,7 +273,7 @@ mod tests {
 
     /// Who belongs to a crowd.
     fn members(world: &World) -> Vec<BodyId> {
-        let members = world.bodies.iter().filter(|state| state.in_crowd);
+        let members = world.bodies.iter().filter(|state| state.in_engine);
         members.map(|state| state.id).collect()
     }
 

@@ -1,0 +1,416 @@
+//! Joins and leaves in [`crate::Mode::Hybrid`]: who is moved by the engine.
+//!
+//! ```text
+//! free, analytic, held ─► near a member within the tick, or in a large group ─► member
+//! member ─► no contact for three ticks, and nobody near ─► free
+//! ```
+//! Fixed and kinematic bodies, and bodies that sleep outside of the engine, are its guests: it knows them, and moves only
+//! what they meet.
+
+use carom_collision::Motion;
+use carom_geometry::Aabb;
+use carom_math::{SimTime, Sum};
+
+use super::rush::Rush;
+use super::{Shapes, Stepping};
+use crate::sleep::Tree;
+use crate::state::BodyState;
+use crate::{EnergyLedger, Mode, World};
+
+/// Groups of more bodies in touch than this are moved by the engine.
+pub(crate) const FEW: usize = 16;
+
+/// Groups of more bodies in touch than this have more than [`crate::modes::ROWS`] rows: no closed form is tried.
+pub(crate) const MANY: usize = 64;
+
+/// A member flies after more ticks than these without a contact.
+const IDLE: u8 = 2;
+
+/// What the boundary to the engine keeps of its members.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Joins {
+    /// Dynamic bodies awake that the engine moves.
+    pub(crate) members: usize,
+    /// Guests have entered, and are told of from now on.
+    pub(super) has_guests: bool,
+    /// Kinematic guests, and some that were.
+    pub(super) drivers: Vec<u32>,
+    /// Bodies that woke in the engine.
+    pub(super) woken: Vec<u32>,
+    /// Shapes that touched when one of their bodies joined: the caller was told.
+    pub(super) told: Vec<Shapes>,
+    /// Members that had no contact at the last ticks, and at how many; in order of bodies.
+    idle: Vec<(u32, u8)>,
+    /// Bodies that took to flight, and some that landed since.
+    pub(crate) aloft: Vec<u32>,
+    /// Somebody outside has a motion that is newer than the last search for who joins.
+    pub(crate) is_restless: bool,
+    /// Motions are older than the engine.
+    pub(super) unwritten: bool,
+    /// Where the engine's last sub-step ended.
+    pub(super) reached: SimTime,
+    pub(crate) rush: Rush,
+    /// Energy of those who left less that of those who came, in J.
+    pub(crate) balance: Sum,
+    /// Work of kinematic bodies and belts, and of the caller's forces, in J.
+    pub(super) driven: Sum,
+    pub(super) forced: Sum,
+}
+
+impl World {
+    /// Whether somebody needs sub-steps.
+    pub(crate) const fn is_substepping(&self) -> bool {
+        !self.stepped.is_empty() || self.joins.members > 0 || self.joins.rush.is_due()
+    }
+
+    /// Whether bodies may join the engine.
+    pub(super) const fn may_join(&self) -> bool {
+        matches!(self.settings.mode, Mode::Hybrid)
+    }
+
+    /// Every group of more than `most` sub-stepped bodies in touch joins.
+    pub(crate) fn gather_groups(&mut self, most: usize, time: SimTime) {
+        if !self.may_join() || self.stepped.len() <= most {
+            return;
+        }
+        let mut tree = Tree::new(self.bodies.places());
+        let mut i = 0;
+        while let Some(place) = self.pairs.place(i) {
+            i += 1;
+            let Some(pair) = self.pairs.find(place) else {
+                continue;
+            };
+            let (a, b) = pair.bodies;
+            let held = |index| self.bodies.get(index).is_held();
+            if pair.touching && held(a) && held(b) {
+                tree.join(a, b);
+            }
+        }
+        let mut count = vec![0usize; self.bodies.places()];
+        for &index in &self.stepped {
+            let state = self.bodies.get(index);
+            let at = tree.root(index) as usize;
+            if !state.is_held() || state.membership.is_closed() {
+                // Whose group keeps its method.
+                count[at] = usize::MAX;
+            }
+            count[at] = count[at].saturating_add(1);
+        }
+        let joins = |index: &&u32| {
+            let size = count[tree.root(**index) as usize];
+            size > most && size != usize::MAX
+        };
+        let joining: Vec<u32> = self.stepped.clone().iter().filter(joins).copied().collect();
+        self.discharge_all(&joining);
+        for index in joining {
+            self.join(index, time);
+        }
+        self.pairs.sort(&self.bodies, &self.stepped);
+    }
+
+    /// All who woke together join if they are many; whether they did.
+    pub(crate) fn many_woke(&mut self, woken: &[u32], time: SimTime) -> bool {
+        if woken.len() <= FEW || !self.may_join() {
+            return false;
+        }
+        for &index in woken {
+            self.join(index, time);
+        }
+        true
+    }
+
+    /// From now on the engine moves this body. In the middle of a sub-step it waits where it is for the next.
+    pub(crate) fn join(&mut self, index: u32, time: SimTime) {
+        let state = self.bodies.get(index);
+        if !state.is_dynamic() || state.asleep || state.in_engine {
+            return;
+        }
+        let group = state.membership.group;
+        self.dissolve(group, time);
+        // What leaves a path looks for whom it meets, and may have met a member.
+        if self.bodies.get(index).in_engine {
+            return;
+        }
+        if !self.is_substepping() {
+            self.clock.catch_up(time);
+        }
+        self.invite();
+        if self.bodies.get(index).course.flies {
+            self.bodies.get_mut(index).course.land();
+            self.flyers.vanish(&mut self.bodies, index);
+        } else {
+            self.discharge(index);
+        }
+        self.joins.members += 1;
+        self.bodies.change(index, time, |_| {});
+        let (kinetic, potential) = self.bodies.energy_of(index, time);
+        self.joins.balance.add(-(kinetic + potential));
+        let state = self.bodies.get_mut(index);
+        (state.in_engine, state.member, state.idle) = (true, false, 0);
+        self.bodies.touch(index);
+        self.leave_pairs(index, time);
+    }
+
+    /// Fixed and kinematic bodies and sleepers are known to the engine from its first member on.
+    fn invite(&mut self) {
+        if !core::mem::replace(&mut self.joins.has_guests, true) {
+            for index in self.bodies.indices().collect::<Vec<_>>() {
+                self.show_engine(index);
+            }
+        }
+    }
+
+    /// Has the engine know a body that rests or drives.
+    pub(crate) fn show_engine(&mut self, index: u32) {
+        let state = self.bodies.get_mut(index);
+        if !self.joins.has_guests || state.in_engine || !state.asleep && state.is_dynamic() {
+            return;
+        }
+        state.is_guest = true;
+        if state.kind == crate::BodyKind::Kinematic {
+            self.joins.drivers.push(index);
+        }
+        self.bodies.touch(index);
+    }
+
+    /// Takes a body's boxes and pairs from the world: the engine has its own. What touches goes on to touch.
+    pub(super) fn leave_pairs(&mut self, index: u32, time: SimTime) {
+        for place in self.bodies.get(index).pairs.clone() {
+            let Some(pair) = self.take_pair(place, time) else {
+                continue;
+            };
+            if pair.told {
+                let mut shapes = [
+                    (pair.bodies.0, pair.colliders.0),
+                    (pair.bodies.1, pair.colliders.1),
+                ];
+                shapes.sort_unstable();
+                self.joins.told.push(shapes);
+            }
+        }
+        self.forget_boxes(index);
+        for &at in &self.bodies.get(index).colliders {
+            self.colliders[at as usize].fat = Aabb::EMPTY;
+        }
+    }
+
+    /// A member leaves, with the motion that it has at `time`: who moves it next is for the caller to say.
+    pub(crate) fn quit(&mut self, index: u32, time: SimTime) {
+        self.leave_engine(index);
+        let state = self.bodies.get(index);
+        if !state.in_engine {
+            return;
+        }
+        if !state.asleep {
+            self.joins.members -= 1;
+        }
+        self.bodies.change(index, time, |_| {});
+        let (kinetic, potential) = self.bodies.energy_of(index, time);
+        self.joins.balance.add(kinetic + potential);
+        let state = self.bodies.get_mut(index);
+        (state.in_engine, state.member, state.idle) = (false, false, 0);
+        self.bodies.renew(index);
+    }
+
+    /// Notes that a body flies.
+    pub(crate) fn note_flight(&mut self, index: u32) {
+        let most = 2 * self.bodies.places() + 64;
+        let aloft = &mut self.joins.aloft;
+        if self.settings.mode == Mode::Hybrid {
+            aloft.push(index);
+            if aloft.len() > most {
+                aloft.sort_unstable();
+                aloft.dedup();
+            }
+        }
+    }
+
+    /// Members that nothing touches or nears for a while fly from here on. At the start of a tick.
+    pub(super) fn disperse(&mut self, time: SimTime) {
+        let Some(stepping) = self.stepping.take() else {
+            return;
+        };
+        let before = core::mem::take(&mut self.joins.idle);
+        let (mut idle, mut gone) = (Vec::new(), Vec::new());
+        for state in stepping.engine.awake() {
+            let index = super::place(&state);
+            if state.in_contact || !self.bodies.get(index).in_engine {
+                continue;
+            }
+            let last = before.binary_search_by_key(&index, |known| known.0);
+            let ticks = last.map_or(0, |at| before[at].1) + 1;
+            if ticks > IDLE && !self.nears_member(&stepping, index, time, 2.0 * self.settings.tick)
+            {
+                gone.push(state);
+            } else {
+                idle.push((index, ticks.min(IDLE)));
+            }
+        }
+        idle.sort_unstable();
+        self.joins.idle = idle;
+        gone.sort_unstable_by_key(super::place);
+        self.stepping = Some(stepping);
+        for state in gone {
+            let index = super::place(&state);
+            let (pull, twist) = self.pull_on(index, state.pose.position);
+            let motion = Motion {
+                start: time,
+                velocity: state.velocity.0,
+                acceleration: pull,
+                rotation: state.pose.rotation,
+                spin: state.velocity.1,
+                angular_acceleration: twist,
+                ..Motion::resting(state.pose.position)
+            };
+            self.bodies.go_on_as(index, &motion, state.turned);
+            self.quit(index, time);
+            self.take_off(index, time);
+        }
+    }
+
+    /// Bodies outside that may meet a member before the next tick.
+    pub(super) fn outsiders_near(&mut self, time: SimTime) -> Vec<u32> {
+        let aloft = &mut self.joins.aloft;
+        aloft.sort_unstable();
+        aloft.dedup();
+        let bodies = &self.bodies;
+        aloft.retain(|&index| bodies.is_alive(index) && bodies.get(index).is_flying());
+        let Some(stepping) = &self.stepping else {
+            return Vec::new();
+        };
+        let left = stepping.engine.left();
+        let outside = self.joins.aloft.iter().chain(&self.stepped);
+        let mut near: Vec<u32> = outside
+            .filter(|index| self.bodies.get(**index).is_dynamic())
+            .filter(|index| self.nears_member(stepping, **index, time, left))
+            .copied()
+            .collect();
+        near.sort_unstable();
+        near.dedup();
+        near
+    }
+
+    /// A flyer with a new motion joins if it may meet a member before the next sub-step begins.
+    pub(crate) fn meet_members(&mut self, index: u32, time: SimTime) {
+        self.joins.is_restless = true;
+        let left = self.clock.next() - time;
+        let near = self.joins.members > 0
+            && left > 0.0
+            && self.bodies.get(index).is_flying()
+            && self.stepping.as_ref().is_some_and(|stepping| {
+                self.joins.reached == self.clock.next()
+                    && self.nears_member(stepping, index, time, left)
+            });
+        if near {
+            self.join(index, time);
+        }
+    }
+
+    /// Whether a body may meet a member within `left` seconds.
+    fn nears_member(&self, stepping: &Stepping, index: u32, time: SimTime, left: f64) -> bool {
+        let (mut shapes, mut near) = (Vec::new(), false);
+        let ahead = disc_swept(self.bodies.get(index), time, left);
+        stepping
+            .engine
+            .query_awake(ahead, |tag| shapes.push(super::collider(tag)));
+        for at in shapes {
+            let owner = self.colliders[at as usize].body;
+            near |= owner != index
+                && self.bodies.get(owner).in_engine
+                && self.nears(stepping, (index, owner), at, (time, left));
+        }
+        near
+    }
+
+    /// Whether a shape of a member may be met by a body within `left` seconds: by their circles, then by their shapes.
+    fn nears(
+        &self,
+        stepping: &Stepping,
+        (index, owner): (u32, u32),
+        at: u32,
+        (time, left): (SimTime, f64),
+    ) -> bool {
+        /// What is nearer than this joins however it moves, as a fraction of the smaller reach.
+        const MARGIN: f64 = 1.0 / 128.0;
+        let Some(theirs) = stepping.state(owner) else {
+            return false;
+        };
+        let (state, other) = (self.bodies.get(index), self.bodies.get(owner));
+        let mut pose = theirs.pose;
+        pose.position -= theirs.velocity.0 * (self.joins.reached - time).max(0.0);
+        let own = state.centre_pose(time);
+        let closing = theirs.velocity.0 - state.velocity_at(time);
+        let pull =
+            state.motion.acceleration.length() + self.pull_on(owner, pose.position).0.length();
+        let bulge = 0.5 * pull * left * left;
+        let margin = MARGIN * state.reach.min(other.reach) + bulge + state.motion.left_out;
+        let apart = pose.position - own.position;
+        // Where the line on which they pass each other is nearest.
+        let speed = closing.length_squared();
+        let nearest = if speed > 0.0 {
+            (-apart.dot(closing) / speed).clamp(0.0, left)
+        } else {
+            0.0
+        };
+        let within = state.reach + other.reach + margin;
+        if (apart + closing * nearest).length_squared() > within * within {
+            return false;
+        }
+        let rim = |spin: f64, reach: f64| spin.abs() * reach * left;
+        let turning = rim(state.spin_at(time), state.reach) + rim(theirs.velocity.1, other.reach);
+        let margin = margin + closing.length() * left + turning;
+        let mut found = Vec::new();
+        for mine in &state.colliders {
+            let [mine, their] = [*mine, at].map(|at| &self.colliders[at as usize]);
+            if self.broad.may_touch(&self.bodies, mine, their) {
+                let seen = pose.seen_from(own);
+                carom_collision::contacts(&mine.solid, &their.solid, seen, margin, &mut found);
+            }
+        }
+        !found.is_empty()
+    }
+
+    /// Potential energy of all members, in J.
+    pub(crate) fn potential_of_members(&self) -> f64 {
+        let members = self.bodies.iter().filter(|state| state.in_engine);
+        let potentials =
+            members.map(|state| self.bodies.energy_of(state.id.index, self.clock.now).1);
+        potentials
+            .fold(Sum::ZERO, |mut sum, potential| {
+                sum.add(potential);
+                sum
+            })
+            .value()
+    }
+
+    /// The columns of the ledger that members have.
+    pub(crate) fn book_members(&self, ledger: &mut EnergyLedger) {
+        let mut gained = self.joins.balance;
+        for state in self.bodies.iter().filter(|state| state.in_engine) {
+            let (kinetic, potential) = self.bodies.energy_of(state.id.index, self.clock.now);
+            gained.add(kinetic);
+            gained.add(potential);
+        }
+        gained.add(-self.bodies.book.struck.value());
+        let heat = self.stepping.as_ref().map(|s| s.engine.friction_heat());
+        let heat = heat.unwrap_or(0.0);
+        let (driven, forced) = (self.joins.driven.value(), self.joins.forced.value());
+        ledger.friction += heat;
+        ledger.external += driven;
+        ledger.forces += forced;
+        // What rows and push-outs did is what the energies tell beside that.
+        ledger.scheme += gained.value() + heat - driven - forced;
+    }
+}
+
+/// Box of a body's bounding circle over `seconds` from `time` on.
+fn disc_swept(state: &BodyState, time: SimTime, seconds: f64) -> Aabb {
+    let (centre, velocity) = (state.centre_at(time), state.velocity_at(time));
+    let pull = state.motion.acceleration;
+    let ends = [
+        centre,
+        centre + velocity * seconds,
+        centre + velocity * seconds + pull * (0.5 * seconds * seconds),
+    ];
+    Aabb::from_points(ends).grown(state.reach)
+}

@@ -1,0 +1,230 @@
+//! A sub-step of the members of the engine in [`crate::Mode::Hybrid`].
+
+use carom_math::{SimTime, Vec2, cross_scalar, perp};
+
+use super::Stepping;
+use crate::World;
+
+impl World {
+    /// Before a sub-step: what a caller changed enters the engine, who is met wakes, and who may be met joins.
+    pub(crate) fn gather_members(&mut self, time: SimTime) {
+        if self.joins.members == 0 {
+            return;
+        }
+        let at_tick = self.resume(time);
+        if at_tick {
+            self.tell_touches(time);
+            self.disperse(time);
+            self.stopwatch.lap(|p| &mut p.sleep);
+        }
+        let mut searches = self.find_contacts(time) || at_tick;
+        searches |= core::mem::take(&mut self.joins.is_restless);
+        while searches {
+            let near = self.outsiders_near(time);
+            searches = !near.is_empty();
+            for index in near {
+                self.join(index, time);
+            }
+            if searches {
+                self.find_contacts(time);
+            }
+        }
+        self.joins.is_restless = false;
+        self.pairs.sort(&self.bodies, &self.stepped);
+        self.stopwatch.lap(|p| &mut p.contacts);
+    }
+
+    /// The engine was left alone while nobody was awake in it, and kinematic bodies went on; whether a tick begins.
+    fn resume(&mut self, time: SimTime) -> bool {
+        let Some(stepping) = &mut self.stepping else {
+            return false;
+        };
+        let phase = self.clock.phase(self.settings.substeps_per_tick());
+        let slept = stepping.engine.set_phase(phase);
+        if slept || phase == 0 {
+            let mut drivers = core::mem::take(&mut self.joins.drivers);
+            drivers.sort_unstable();
+            drivers.dedup();
+            let bodies = &self.bodies;
+            drivers.retain(|index| {
+                let drives = |index| bodies.get(index).kind == crate::BodyKind::Kinematic;
+                bodies.is_alive(*index) && drives(*index)
+            });
+            for &index in &drivers {
+                self.bodies.touch(index);
+            }
+            self.joins.drivers = drivers;
+        }
+        self.joins.reached = time;
+        phase == 0
+    }
+
+    /// Contacts of the sub-step that begins; whether some body came or went astray.
+    fn find_contacts(&mut self, time: SimTime) -> bool {
+        let Some(mut stepping) = self.stepping.take() else {
+            return false;
+        };
+        if !self.bodies.touched.is_empty() {
+            self.enter_changed(&mut stepping, time);
+        }
+        let strays = stepping.engine.find_contacts(&self.rules());
+        self.tell_sleep(&mut stepping, time);
+        self.stepping = Some(stepping);
+        self.take_woken(time);
+        strays
+    }
+
+    /// Bodies that woke in the engine are its members, with all that slept in touch with them.
+    pub(crate) fn take_woken(&mut self, time: SimTime) {
+        for index in core::mem::take(&mut self.joins.woken) {
+            if !self.bodies.is_alive(index) {
+                continue;
+            }
+            if self.bodies.get(index).in_engine {
+                self.joins.members += 1;
+                self.leave_pairs(index, time);
+                continue;
+            }
+            for index in self.woken_with(index, time) {
+                let group = self.bodies.get(index).membership.group;
+                self.dissolve(group, time);
+                self.join(index, time);
+            }
+        }
+    }
+
+    /// Moves all members on by one sub-step.
+    pub(crate) fn step_members(&mut self, time: SimTime) {
+        if self.joins.members == 0 {
+            return;
+        }
+        let Some(mut stepping) = self.stepping.take() else {
+            return;
+        };
+        self.end_motions(&mut stepping);
+        if !self.bodies.touched.is_empty() {
+            self.enter_changed(&mut stepping, time);
+        }
+        self.pull_members(&mut stepping);
+        let forced = self.forced_members(&stepping);
+        // `begin` was called: the clock is at the end of this sub-step.
+        stepping.note_places(self.settings.history > 0 || self.clock.is_within(self.unseen_until));
+        self.substep_engine(&mut stepping);
+        self.book_work(&stepping, &forced);
+        self.joins.reached = self.clock.next();
+        self.joins.unwritten = true;
+        self.tell_sleep(&mut stepping, self.clock.next());
+        if self.settings.history > 0 {
+            self.write_all(&stepping);
+        }
+        self.stepping = Some(stepping);
+        let woken = self.joins.woken.clone();
+        self.take_woken(time);
+        // They are where the engine has moved them.
+        self.bodies.touched.retain(|index| !woken.contains(index));
+    }
+
+    /// Members that a caller changed in the midst of a sub-step pass through nothing in the rest of it.
+    pub(crate) fn carry_members(&mut self) {
+        if self.joins.members > 0
+            && self.joins.reached == self.clock.next()
+            && let Some(mut stepping) = self.stepping.take()
+        {
+            // Who joined since, and who woke elsewhere, waits for the next sub-step.
+            let is_carried = |index: &u32| {
+                let state = self.bodies.get(*index);
+                stepping.id(*index).is_some() && (state.in_engine || !state.is_dynamic())
+            };
+            let touched = self.bodies.touched.clone();
+            let (carried, mut others) = touched.into_iter().partition(is_carried);
+            self.bodies.touched = carried;
+            self.enter_within(&mut stepping);
+            self.bodies.touched.append(&mut others);
+            self.stepping = Some(stepping);
+            self.take_woken(self.clock.now);
+        }
+    }
+
+    /// Motions of all members and what touches, where somebody may ask.
+    pub(crate) fn write_members(&mut self, time: SimTime) {
+        if core::mem::take(&mut self.joins.unwritten)
+            && let Some(mut stepping) = self.stepping.take()
+        {
+            if self.settings.history == 0 && !self.clock.is_within(time) {
+                // Nobody reads a pose within the last sub-step.
+                stepping.note_places(false);
+            }
+            self.write_all(&stepping);
+            self.stepping = Some(stepping);
+            self.tell_touches(time);
+        } else if !self.clock.is_within(time)
+            && let Some(mut stepping) = self.stepping.take()
+        {
+            self.end_motions(&mut stepping);
+            self.stepping = Some(stepping);
+        }
+    }
+
+    fn tell_touches(&mut self, time: SimTime) {
+        if let Some(mut stepping) = self.stepping.take() {
+            self.tell_changed_touches(&mut stepping, time);
+            self.stepping = Some(stepping);
+        }
+    }
+
+    /// Places and turns of members that a caller's force acts on.
+    fn forced_members(&self, stepping: &Stepping) -> Vec<(u32, Vec2, f64)> {
+        let members = self
+            .forced
+            .iter()
+            .filter(|index| self.bodies.get(**index).in_engine);
+        members
+            .filter_map(|index| {
+                let state = stepping.state(*index)?;
+                Some((*index, state.pose.position, state.turned))
+            })
+            .collect()
+    }
+
+    /// What the caller's forces and kinematic bodies did in the last sub-step.
+    fn book_work(&mut self, stepping: &Stepping, forced: &[(u32, Vec2, f64)]) {
+        for &(index, from, turned) in forced {
+            if let Some(now) = stepping.state(index) {
+                let state = self.bodies.get(index);
+                let way = now.pose.position - from;
+                let work = state.force().dot(way) + state.torque() * (now.turned - turned);
+                self.joins.forced.add(work);
+            }
+        }
+        for &index in &self.joins.drivers {
+            let Some(driver) = stepping.state(index) else {
+                continue;
+            };
+            let (velocity, spin) = driver.velocity;
+            if (velocity, spin) == (Vec2::ZERO, 0.0) {
+                continue;
+            }
+            let Ok(contacts) = stepping.engine.contacts_of(driver.id) else {
+                continue;
+            };
+            for contact in contacts {
+                // Impulses act on B as they are, and on A the other way round.
+                let side = if contact.bodies[0] == driver.id {
+                    1.0
+                } else {
+                    -1.0
+                };
+                for (place, impulse) in contact.places.iter().zip(contact.impulses) {
+                    let own = velocity + cross_scalar(spin, *place - driver.pose.position);
+                    self.joins
+                        .driven
+                        .add(side * impulse * contact.normal.dot(own));
+                }
+                let middle = 0.5 * (contact.places[0] + contact.places[1]);
+                let own = velocity + cross_scalar(spin, middle - driver.pose.position);
+                let along = perp(contact.normal).dot(own);
+                self.joins.driven.add(side * contact.friction * along);
+            }
+        }
+    }
+}
