@@ -24,8 +24,6 @@ pub struct State {
     pub velocity: (Vec2, f64),
     /// The same before the last sub-step.
     pub before: (Vec2, f64),
-    /// Whether it has a contact, pushing or not.
-    pub in_contact: bool,
 }
 
 /// A contact of two pieces, as the last sub-step left it.
@@ -94,7 +92,6 @@ impl Engine {
                     turned: 0.0,
                     velocity: (Vec2::ZERO, 0.0),
                     before: (Vec2::ZERO, 0.0),
-                    in_contact: record.contacts != Bodies::NONE,
                 }
             } else {
                 self.state_at(record.line as usize)
@@ -105,6 +102,15 @@ impl Engine {
     /// All bodies that are awake and not fixed, in no order that means anything.
     pub fn awake(&self) -> impl Iterator<Item = State> + '_ {
         (2..self.bodies.lines.len()).map(|line| self.state_at(line))
+    }
+
+    /// Those of [`Self::awake`] that have no contact, pushing or not.
+    pub fn without_contact(&self) -> impl Iterator<Item = State> + '_ {
+        let bodies = &self.bodies;
+        let contacts = |at: usize| bodies.records[bodies.slot_of[at] as usize].contacts;
+        (2..bodies.lines.len())
+            .filter(move |at| contacts(*at) == Bodies::NONE)
+            .map(|at| self.state_at(at))
     }
 
     fn state_at(&self, at: usize) -> State {
@@ -122,7 +128,6 @@ impl Engine {
             turned: bodies.turned[at] + line.turn(),
             velocity: (line.v() + Vec2::ZERO, line.w() + 0.0),
             before: (Vec2::new(x, y), w),
-            in_contact: record.contacts != Bodies::NONE,
         }
     }
 

@@ -371,6 +371,11 @@ pub(super) fn at_most(seconds: f64) -> f64 {
     if seconds < LONGEST { seconds } else { LONGEST }
 }
 
+/// Box of a body's bounding circle along its motion from `time` on for `seconds`.
+pub(crate) fn box_ahead(state: &BodyState, time: SimTime, seconds: f64) -> Aabb {
+    swept(state, &Track::of(&state.motion, time), seconds)
+}
+
 /// Box of a body's bounding circle along a track for `seconds`: both ends, and where it turns.
 pub(super) fn swept(state: &BodyState, track: &Track, seconds: f64) -> Aabb {
     let (from, to) = (track.centre, track.centre_after(seconds));

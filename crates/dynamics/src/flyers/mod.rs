@@ -34,7 +34,7 @@ use crate::bodies::Bodies;
 use crate::state::{BodyState, Collider};
 use aside::Aside;
 use circle::Registered;
-pub(crate) use foresee::Cause;
+pub(crate) use foresee::{Cause, box_ahead};
 pub(crate) use foreseen::Foreseen;
 use frame::{Frame, Track};
 pub(crate) use gap::{Touching, gap_acceleration};

@@ -13,9 +13,10 @@ use carom_math::{SimTime, Sum};
 
 use super::rush::Rush;
 use super::{Shapes, Stepping};
+use crate::flyers::box_ahead;
 use crate::sleep::Tree;
 use crate::state::BodyState;
-use crate::{EnergyLedger, Mode, World};
+use crate::{BodyKind, EnergyLedger, Mode, World};
 
 /// Groups of more bodies in touch than this are moved by the engine.
 pub(crate) const FEW: usize = 16;
@@ -52,7 +53,7 @@ pub(crate) struct Joins {
     pub(crate) rush: Rush,
     /// Energy of those who left less that of those who came, in J.
     pub(crate) balance: Sum,
-    /// Work of kinematic bodies and belts, and of the caller's forces, in J.
+    /// Work of kinematic bodies, and of the caller's forces, in J.
     pub(super) driven: Sum,
     pub(super) forced: Sum,
 }
@@ -96,11 +97,11 @@ impl World {
             }
             count[at] = count[at].saturating_add(1);
         }
-        let joins = |index: &&u32| {
-            let size = count[tree.root(**index) as usize];
+        let joins = |index: &u32| {
+            let size = count[tree.root(*index) as usize];
             size > most && size != usize::MAX
         };
-        let joining: Vec<u32> = self.stepped.clone().iter().filter(joins).copied().collect();
+        let joining: Vec<u32> = self.stepped.iter().copied().filter(joins).collect();
         self.discharge_all(&joining);
         for index in joining {
             self.join(index, time);
@@ -167,7 +168,7 @@ impl World {
             return;
         }
         state.is_guest = true;
-        if state.kind == crate::BodyKind::Kinematic {
+        if state.kind == BodyKind::Kinematic {
             self.joins.drivers.push(index);
         }
         self.bodies.touch(index);
@@ -180,11 +181,8 @@ impl World {
                 continue;
             };
             if pair.told {
-                let mut shapes = [
-                    (pair.bodies.0, pair.colliders.0),
-                    (pair.bodies.1, pair.colliders.1),
-                ];
-                shapes.sort_unstable();
+                let [a, b] = [pair.bodies.0, pair.bodies.1];
+                let shapes = [(a, pair.colliders.0), (b, pair.colliders.1)];
                 self.joins.told.push(shapes);
             }
         }
@@ -232,9 +230,9 @@ impl World {
         };
         let before = core::mem::take(&mut self.joins.idle);
         let (mut idle, mut gone) = (Vec::new(), Vec::new());
-        for state in stepping.engine.awake() {
+        for state in stepping.engine.without_contact() {
             let index = super::place(&state);
-            if state.in_contact || !self.bodies.get(index).in_engine {
+            if !self.bodies.get(index).in_engine {
                 continue;
             }
             let last = before.binary_search_by_key(&index, |known| known.0);
@@ -309,7 +307,7 @@ impl World {
     /// Whether a body may meet a member within `left` seconds.
     fn nears_member(&self, stepping: &Stepping, index: u32, time: SimTime, left: f64) -> bool {
         let (mut shapes, mut near) = (Vec::new(), false);
-        let ahead = disc_swept(self.bodies.get(index), time, left);
+        let ahead = box_ahead(self.bodies.get(index), time, left);
         stepping
             .engine
             .query_awake(ahead, |tag| shapes.push(super::collider(tag)));
@@ -373,14 +371,8 @@ impl World {
     /// Potential energy of all members, in J.
     pub(crate) fn potential_of_members(&self) -> f64 {
         let members = self.bodies.iter().filter(|state| state.in_engine);
-        let potentials =
-            members.map(|state| self.bodies.energy_of(state.id.index, self.clock.now).1);
-        potentials
-            .fold(Sum::ZERO, |mut sum, potential| {
-                sum.add(potential);
-                sum
-            })
-            .value()
+        let of = |state: &BodyState| self.bodies.energy_of(state.id.index, self.clock.now).1;
+        members.map(of).collect::<Sum>().value()
     }
 
     /// The columns of the ledger that members have.
@@ -401,16 +393,4 @@ impl World {
         // What rows and push-outs did is what the energies tell beside that.
         ledger.scheme += gained.value() + heat - driven - forced;
     }
-}
-
-/// Box of a body's bounding circle over `seconds` from `time` on.
-fn disc_swept(state: &BodyState, time: SimTime, seconds: f64) -> Aabb {
-    let (centre, velocity) = (state.centre_at(time), state.velocity_at(time));
-    let pull = state.motion.acceleration;
-    let ends = [
-        centre,
-        centre + velocity * seconds,
-        centre + velocity * seconds + pull * (0.5 * seconds * seconds),
-    ];
-    Aabb::from_points(ends).grown(state.reach)
 }

@@ -3,7 +3,7 @@
 use carom_math::{SimTime, Vec2, cross_scalar, perp};
 
 use super::Stepping;
-use crate::World;
+use crate::{BodyKind, World};
 
 impl World {
     /// Before a sub-step: what a caller changed enters the engine, who is met wakes, and who may be met joins.
@@ -47,8 +47,7 @@ impl World {
             drivers.dedup();
             let bodies = &self.bodies;
             drivers.retain(|index| {
-                let drives = |index| bodies.get(index).kind == crate::BodyKind::Kinematic;
-                bodies.is_alive(*index) && drives(*index)
+                bodies.is_alive(*index) && bodies.get(*index).kind == BodyKind::Kinematic
             });
             for &index in &drivers {
                 self.bodies.touch(index);
@@ -86,8 +85,6 @@ impl World {
                 continue;
             }
             for index in self.woken_with(index, time) {
-                let group = self.bodies.get(index).membership.group;
-                self.dissolve(group, time);
                 self.join(index, time);
             }
         }

@@ -55,6 +55,7 @@ impl World {
     pub(super) fn write_one(&mut self, stepping: &Stepping, state: &State) {
         let (index, start, h) = (place(state), self.clock.last(), self.clock.h);
         if self.bodies.get(index).is_guest {
+            // Another method moves it, and what that predicted stands.
             return;
         }
         let ((v, w), (u, s)) = (state.velocity, state.before);
