@@ -8,7 +8,7 @@ use carom_math::{Pose, SimTime, Vec2, cross_scalar};
 
 use super::{FEW, MANY};
 use crate::modes::ROWS;
-use crate::narrow::{BURIED, TOUCH, rest_speed_between};
+use crate::narrow::{TOUCH, rest_speed_between};
 use crate::state::BodyState;
 use crate::{PairSearch, World};
 
@@ -42,12 +42,6 @@ impl Heap {
         let count = self.bodies.len();
         self.fits && (count > MANY || count > FEW && self.points > ROWS)
     }
-}
-
-/// Two shapes at rest on each other.
-struct Rest {
-    points: usize,
-    buried: bool,
 }
 
 impl World {
@@ -116,12 +110,11 @@ impl World {
                         continue;
                     }
                     let shapes = (mine, other);
-                    let Some(rest) = self.rest_between(shapes, &here, time, h, &mut scratch.found)
-                    else {
+                    let points = self.rest_between(shapes, &here, time, h, &mut scratch.found);
+                    if points == 0 {
                         continue;
-                    };
-                    heap.points += rest.points;
-                    heap.fits &= !rest.buried;
+                    }
+                    heap.points += points;
                     let state = self.bodies.get(owner);
                     let belongs = state.is_dynamic() && !state.asleep && !state.in_engine;
                     if belongs && seen.of[owner as usize] == Step::Unseen {
@@ -146,7 +139,7 @@ impl World {
         scratch.near.extend(scratch.flying.iter().flat_map(shapes));
     }
 
-    /// How a shape of a body that is here rests on another one, if they touch and do not approach faster than what rests.
+    /// At how many points a shape of a body that is here rests on another one: they touch, and do not approach faster than what rests.
     fn rest_between(
         &self,
         (mine, other): (u32, u32),
@@ -154,40 +147,33 @@ impl World {
         time: SimTime,
         h: f64,
         found: &mut Vec<PartManifold>,
-    ) -> Option<Rest> {
+    ) -> usize {
         let [mine, other] = [mine, other].map(|at| &self.colliders[at as usize]);
         let (a, b) = (self.bodies.get(mine.body), self.bodies.get(other.body));
         let apart = b.centre_at(time) - here.pose.position;
-        let size = a.reach.min(b.reach);
-        let touch = TOUCH * size;
+        let touch = TOUCH * a.reach.min(b.reach);
         let near = a.reach + b.reach + touch;
         if mine.body == other.body
             || apart.length_squared() > near * near
             || !self.broad.may_touch(&self.bodies, mine, other)
         {
-            return None;
+            return 0;
         }
         let there = Here::of(b, time);
         let b_in_a = there.pose.seen_from(here.pose);
         found.clear();
         contacts(&mine.solid, &other.solid, b_in_a, touch, found);
         let slowest = -rest_speed_between(&self.bodies, (mine.body, other.body), h);
-        let mut rest = Rest {
-            points: 0,
-            buried: false,
-        };
+        let mut points = 0;
         for contact in &*found {
             let normal = here.pose.vector(contact.manifold.normal);
             for point in &contact.manifold.points {
                 let at = here.pose.point(point.point);
                 let rate = (there.velocity_of(at) - here.velocity_of(at)).dot(normal);
-                if point.separation <= touch && rate >= slowest {
-                    rest.points += 1;
-                    rest.buried |= point.separation < -BURIED * size;
-                }
+                points += usize::from(point.separation <= touch && rate >= slowest);
             }
         }
-        (rest.points > 0).then_some(rest)
+        points
     }
 }
 
