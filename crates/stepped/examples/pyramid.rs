@@ -1,9 +1,9 @@
 //! Steps scenes of boxes and prints time and error: ms a tick (thread CPU time), overlap, hum.
 //!
-//! `cargo run --release -p carom-stepped --example pyramid -- [all|a|e|b|c|d|pile|thousand] [fast|default|accurate|world] [four]`
+//! `cargo run --release -p carom-stepped --example pyramid -- [all|a|e|b|c|d|g|plain|pile|thousand] [fast|default|accurate|world] [four]`
 
-use carom_geometry::{ConvexPolygon, Segment};
-use carom_math::{Vec2, vec2};
+use carom_geometry::{ConvexPolygon, Polygon, Segment};
+use carom_math::{Pose, Rot, Vec2, vec2};
 use carom_stepped::{BodyId, BodyInput, Engine, Material, PieceInput, Settings, Softness};
 use rustix::time::{ClockId, clock_gettime};
 
@@ -37,12 +37,14 @@ fn main() -> Outcome<()> {
         "hum m/s²",
         "v m/s"
     );
-    let scenes: [(&str, Build, u32, u32); 7] = [
+    let scenes: [(&str, Build, u32, u32); 9] = [
         ("a", large_pyramid, 50, 300),
         ("e", bouncing_pyramid, 50, 300),
         ("b", many_pyramids, 30, 120),
         ("c", smash, 75, 225),
         ("d", tumbler, 200, 300),
+        ("g", concave_pile, 300, 200),
+        ("plain", plain_pile, 300, 200),
         ("pile", falling_pile, 0, 240),
         ("thousand", thousand_boxes, 0, 240),
     ];
@@ -169,6 +171,97 @@ fn tumbler(settings: Settings) -> Outcome<Engine> {
             let at = vec2(-9.0 + 0.4 * f64::from(column), 1.0 + 0.4 * f64::from(row));
             drop(&mut engine, &square, at)?;
         }
+    }
+    Ok(engine)
+}
+
+/// 800 concave L, U and stars that fall into a bin.
+fn concave_pile(settings: Settings) -> Outcome<Engine> {
+    letters(settings, |ring, _| {
+        Ok(vec![PieceInput::new(Polygon::new(ring.to_vec())?)])
+    })
+}
+
+/// The same of convex pieces that know nothing of each other.
+fn plain_pile(settings: Settings) -> Outcome<Engine> {
+    letters(settings, |_, pieces| {
+        let piece = |piece: &Vec<Vec2>| Ok(PieceInput::new(ConvexPolygon::new(piece.clone())?));
+        pieces.iter().map(piece).collect()
+    })
+}
+
+fn letters(
+    settings: Settings,
+    make: impl Fn(&[Vec2], &[Vec<Vec2>]) -> Outcome<Vec<PieceInput>>,
+) -> Outcome<Engine> {
+    let mut engine = bin(settings, 40.0)?;
+    for i in 0..800u32 {
+        let at = vec2(
+            f64::from(i % 22) * 1.75 - 18.375,
+            1.5 + 1.75 * f64::from(i / 22),
+        );
+        let angle = 2.399_963 * f64::from(i);
+        let size = 0.9 + 0.4 * (0.618_034 * f64::from(i)).fract();
+        let (h, t) = (size / 2.0, size / 6.0);
+        let rectangle =
+            |x0, y0, x1, y1| vec![vec2(x0, y0), vec2(x1, y0), vec2(x1, y1), vec2(x0, y1)];
+        let corners = |ring: &[(f64, f64)]| ring.iter().map(|(x, y)| vec2(*x, *y)).collect();
+        let (ring, pieces): (Vec<Vec2>, Vec<Vec<Vec2>>) = match i % 3 {
+            0 => (
+                corners(&[(-h, -h), (h, -h), (h, -t), (-t, -t), (-t, h), (-h, h)]),
+                vec![rectangle(-h, -h, h, -t), rectangle(-h, -t, -t, h)],
+            ),
+            1 => {
+                let t = 0.2 * size;
+                (
+                    corners(&[
+                        (-h, -h),
+                        (h, -h),
+                        (h, h),
+                        (t, h),
+                        (t, -t),
+                        (-t, -t),
+                        (-t, h),
+                        (-h, h),
+                    ]),
+                    vec![
+                        rectangle(-h, -h, h, -t),
+                        rectangle(-h, -t, -t, h),
+                        rectangle(t, -t, h, h),
+                    ],
+                )
+            }
+            _ => {
+                let ring: Vec<Vec2> = (0..10u32)
+                    .map(|k| {
+                        let radius = [h, 0.45 * h][k as usize % 2];
+                        let angle = core::f64::consts::PI * f64::from(k) / 5.0;
+                        Rot::from_angle(angle) * vec2(radius, 0.0)
+                    })
+                    .collect();
+                let inner = ring.iter().skip(1).step_by(2).copied().collect();
+                let mut pieces = vec![inner];
+                pieces.extend(
+                    (0..10)
+                        .step_by(2)
+                        .map(|k| vec![ring[k], ring[k + 1], ring[(k + 9) % 10]]),
+                );
+                (ring, pieces)
+            }
+        };
+        let area = Polygon::new(ring.clone())?
+            .area_properties()
+            .with_density(1.0);
+        let about = |points: &[Vec2]| {
+            points
+                .iter()
+                .map(|p| *p - area.centroid)
+                .collect::<Vec<_>>()
+        };
+        let pieces: Vec<Vec<Vec2>> = pieces.iter().map(|piece| about(piece)).collect();
+        let mut body = BodyInput::dynamic(area.mass, area.inertia);
+        body.pose = Pose::new(at, Rot::from_angle(angle));
+        engine.insert(body, &make(&about(&ring), &pieces)?)?;
     }
     Ok(engine)
 }

@@ -18,7 +18,8 @@ const BOX: f64 = 1e-14;
 /// ```
 /// x, y is where the centre of mass is in space; corners 0 to 3 follow. 1/l and 1/m are inverse lengths of edges 0 and 1 if
 /// the outline is a parallelogram, a *box*: its normals follow from them, and two cache lines are all of it.
-/// Otherwise they are 0, and there is a [`Rest`].
+/// Otherwise 1/l is 0, instead of 1/m stands the sum of 2ⁱ over all edges i that are cuts through a concave polygon, and
+/// there is a [`Rest`].
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub(crate) struct Outline([f64; 16]);
@@ -54,16 +55,21 @@ impl Numbers for Rest {
     }
 }
 
-/// The outline of these corners, of which there are at most eight, with reach, extent and radius, in m.
+/// The outline of these corners, of which there are at most eight, with reach, extent and radius, in m; edge i is a cut if
+/// `cuts` has bit i.
 pub(crate) fn outline_of(
     vertices: &[Vec2],
     normals: &[Vec2],
+    cuts: u8,
     [reach, extent, radius]: [f64; 3],
 ) -> (Outline, Rest) {
     let (mut outline, mut rest) = (Outline([0.0; 16]), Rest([0.0; 24]));
     let head = [reach, extent, radius, vertices.len() as f64];
     outline.0[2..6].copy_from_slice(&head);
-    if let [p, q, r, s] = vertices {
+    outline.0[7] = f64::from(cuts);
+    if let [p, q, r, s] = vertices
+        && cuts == 0
+    {
         let (edge, next) = (*q - *p, *r - *q);
         let off = (edge + *s - *r).abs() + (next + *p - *s).abs();
         if off.x.max(off.y) <= BOX * edge.length().min(next.length()) {
@@ -116,6 +122,10 @@ impl Outline {
 
     pub(crate) fn is_box(&self) -> bool {
         self.0[6] > 0.0
+    }
+
+    pub(crate) fn has_cuts(&self) -> bool {
+        self.0[7] > 0.0 && !self.is_box()
     }
 }
 
@@ -179,6 +189,16 @@ impl Turned<'_> {
     /// `normal · point` of all points of an edge.
     pub(crate) fn off(self, i: usize) -> f64 {
         self.normal(i).dot(self.corner(i))
+    }
+
+    /// Whether edge `i` is a cut through a concave polygon, beyond which another piece goes on.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "eight bits"
+    )]
+    pub(crate) fn is_cut(self, i: usize) -> bool {
+        !self.outline.is_box() && self.outline.0[7] as u8 >> i & 1 == 1
     }
 
     pub(crate) const fn next(self, i: usize) -> usize {

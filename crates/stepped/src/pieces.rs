@@ -239,17 +239,19 @@ impl Pieces {
     }
 }
 
-/// The outline of a piece; without corners if it has none: a half-plane, cuts, too many corners.
+/// The outline of a piece; without corners if it has none: a half-plane, too many corners.
 fn outline(piece: &Piece) -> (Outline, Rest) {
     let hull = piece.hull();
-    let none = hull.is_half_plane() || hull.boundary.is_some() || hull.vertices.len() > CORNERS;
+    let none = hull.is_half_plane() || hull.vertices.len() > CORNERS;
     let (vertices, normals) = if none {
         (&[][..], &[][..])
     } else {
         (hull.vertices, hull.normals)
     };
+    let cuts = (0..normals.len()).filter(|i| !hull.is_boundary(*i));
+    let cuts = cuts.fold(0, |cuts, i| cuts | 1 << i);
     let radius = hull.radius + piece.rounding;
-    outline_of(vertices, normals, [piece.reach, piece.extent, radius])
+    outline_of(vertices, normals, cuts, [piece.reach, piece.extent, radius])
 }
 
 impl Piece {

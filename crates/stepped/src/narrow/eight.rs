@@ -19,6 +19,8 @@ pub(crate) struct Eight<'a> {
     pub(crate) used: u8,
     /// All outlines are boxes.
     pub(super) boxes: bool,
+    /// Some outline has a cut.
+    pub(super) cuts: bool,
 }
 
 impl<'a> Eight<'a> {
@@ -31,6 +33,7 @@ impl<'a> Eight<'a> {
             least: [0.0; LANES],
             used: 0,
             boxes: true,
+            cuts: false,
         }
     }
 
@@ -43,6 +46,7 @@ impl<'a> Eight<'a> {
             (self.rests[0][lane], self.rests[1][lane]) = (a.rest, b.rest);
             self.used |= 1 << lane;
             self.boxes &= a.outline.is_box() && b.outline.is_box();
+            self.cuts |= a.outline.has_cuts() || b.outline.has_cuts();
         }
         all
     }

@@ -7,6 +7,9 @@ use fearless_simd::{Select, Simd};
 use crate::outline::{Outline, Rest};
 use crate::rows::Wide;
 
+/// Separation of what is no face: less than that of any face.
+pub(super) const FACELESS: f64 = -1e200;
+
 /// Corners of an outline a lane, and the normals of the edges from them.
 #[derive(Clone, Copy)]
 pub(super) struct Corners<V, const N: usize> {
@@ -76,13 +79,30 @@ pub(super) fn corners<S: Simd, V: Wide<S>, const N: usize>(
     found
 }
 
-/// The edge of A that separates best, with the centre of B at d, going w against A.
+/// For each edge 1 if it is a cut, else 0, from the sum of 2ⁱ.
+#[inline(always)]
+pub(super) fn cuts<S: Simd, V: Wide<S>, const N: usize>(simd: S, [l, m]: [V; 2]) -> [V; N] {
+    let (zero, one) = (V::splat(simd, 0.0), V::splat(simd, 1.0));
+    let mut left = l.simd_gt(zero).select(zero, m);
+    let mut cuts = [zero; N];
+    for i in (0..N).rev() {
+        let bit = V::splat(simd, f64::from(1u32 << i));
+        let cut = left.simd_ge(bit);
+        left = cut.select(left - bit, left);
+        cuts[i] = cut.select(one, zero);
+    }
+    cuts
+}
+
+/// The edge of A that separates best, with the centre of B at d, going w against A. A cut is no face, but it separates: what
+/// stays beyond it is met by another piece, however `near`.
 #[inline(always)]
 pub(super) fn best<S: Simd, V: Wide<S>, const N: usize>(
     simd: S,
     a: &Corners<V, N>,
     b: &Corners<V, N>,
     [dx, dy, wx, wy]: [V; 4],
+    cuts: Option<([V; N], V)>,
 ) -> Face<V> {
     let zero = V::splat(simd, 0.0);
     let none = V::splat(simd, f64::NEG_INFINITY);
@@ -98,14 +118,18 @@ pub(super) fn best<S: Simd, V: Wide<S>, const N: usize>(
         y_next: a.y[1],
     };
     let least = nearest(simd, a, b);
-    #[expect(clippy::needless_range_loop, reason = "columns go by one number")]
     for i in 0..N {
         let next = (i + 1) % N;
         let (nx, ny) = (a.nx[i], a.ny[i]);
         let off = nx * a.x[i] + ny * a.y[i];
         let separation = least[i] + (nx * dx + ny * dy) - off;
         let nears = (nx * wx + ny * wy).min(zero);
-        face.stays = (separation + nears).max(face.stays);
+        let (mut stays, mut separation) = (separation + nears, separation);
+        if let Some((cuts, near)) = &cuts {
+            stays += cuts[i] * *near;
+            separation += cuts[i] * V::splat(simd, FACELESS);
+        }
+        face.stays = stays.max(face.stays);
         let better = separation.simd_gt(face.separation);
         face.separation = better.select(separation, face.separation);
         face.index = better.select(V::splat(simd, i as f64), face.index);

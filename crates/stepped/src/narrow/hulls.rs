@@ -1,4 +1,4 @@
-//! Pieces of any kind to their manifold, by `carom-collision`: half-planes, more corners, pieces with cuts.
+//! Pieces of any kind to their manifold, by `carom-collision`: half-planes, more corners.
 
 use carom_collision::collide_within;
 use carom_math::{Pose, cross, perp};

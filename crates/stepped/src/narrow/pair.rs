@@ -9,22 +9,26 @@ use crate::outline::Turned;
 /// Two outlines, both turned, with the centre of mass of B at `d` from that of A; `None` if they stay farther apart than
 /// `limit` while B goes `way` against A.
 ///
-/// A's face is preferred unless B's separates by `hysteresis` more. All in m.
+/// A's face is preferred unless B's separates by `hysteresis` more. Beyond a cut they may be by `past` less. All in m.
 pub(crate) fn collide(
     a: Turned<'_>,
     b: Turned<'_>,
     d: Vec2,
     way: Vec2,
-    limit: f64,
+    [limit, past]: [f64; 2],
     hysteresis: f64,
 ) -> Option<Manifold> {
     let radii = a.radius() + b.radius();
-    let (sa, ia) = best_face(a, b, d, way, limit + radii)?;
-    let (sb, ib) = best_face(b, a, -d, -way, limit + radii)?;
+    let limits = [limit + radii, limit + radii - past];
+    let (sa, ia) = best_face(a, b, d, way, limits)?;
+    let (sb, ib) = best_face(b, a, -d, -way, limits)?;
     if a.corners() == 1 && b.corners() == 1 {
         let ends = [a.corner(0), b.corner(0)];
         let goes = way.length();
         return corners(a, b, d, ends, 0).filter(|found| found.gap() <= limit + goes);
+    }
+    if sa.max(sb) == f64::NEG_INFINITY {
+        return None;
     }
     let found = if sb > sa + hysteresis {
         face(b, a, -d, ib, true)
@@ -34,9 +38,15 @@ pub(crate) fn collide(
     Some(found)
 }
 
-/// The edge of `a` that separates best, and how far the nearest corner of `b` is in front of it; `None` if that stays
-/// beyond `limit` on the way.
-fn best_face(a: Turned<'_>, b: Turned<'_>, d: Vec2, way: Vec2, limit: f64) -> Option<(f64, usize)> {
+/// The edge of `a` that separates best and is no cut, and how far the nearest corner of `b` is in front of it; `None` if
+/// that of some edge stays beyond `limit` on the way, of a cut beyond `past_cut`: there `b` meets another piece.
+fn best_face(
+    a: Turned<'_>,
+    b: Turned<'_>,
+    d: Vec2,
+    way: Vec2,
+    [limit, past_cut]: [f64; 2],
+) -> Option<(f64, usize)> {
     let mut best = (f64::NEG_INFINITY, 0);
     if a.corners() == 1 {
         return Some(best);
@@ -50,10 +60,11 @@ fn best_face(a: Turned<'_>, b: Turned<'_>, d: Vec2, way: Vec2, limit: f64) -> Op
         }
         let separation = least + n.dot(d) - a.off(i);
         let nears = n.dot(way);
+        let limit = if a.is_cut(i) { past_cut } else { limit };
         if separation + if nears < 0.0 { nears } else { 0.0 } > limit {
             return None;
         }
-        if separation > best.0 {
+        if separation > best.0 && !a.is_cut(i) {
             best = (separation, i);
         }
     }

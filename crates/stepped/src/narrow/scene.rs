@@ -41,7 +41,14 @@ impl Scene<'_> {
         let found = if turned_a.corners() > 0 && turned_b.corners() > 0 {
             let d = pose_b.position - pose_a.position;
             let hysteresis = HYSTERESIS * meeting.margin;
-            collide(turned_a, turned_b, d, meeting.way, limit, hysteresis)
+            collide(
+                turned_a,
+                turned_b,
+                d,
+                meeting.way,
+                [limit, margin],
+                hysteresis,
+            )
         } else {
             collide_any((a, pose_a), (b, pose_b), limit + meeting.way.length())
         }?;

@@ -7,7 +7,7 @@
 
 use fearless_simd::{Level, Select, Simd, SimdMask, dispatch, f64x4, f64x8};
 
-use super::faces::{best, choose, corners};
+use super::faces::{FACELESS, best, choose, corners, cuts};
 use super::{Eight, Found, Scene};
 use crate::rows::{OPEN, Wide, any, eight_lanes};
 
@@ -19,9 +19,6 @@ const SEAM: f64 = 0.05;
 
 /// Margins that its gap is at most when the tick ends.
 const NEAR: f64 = 0.25;
-
-/// Separation of what has no face: less than that of any face.
-const FACELESS: f64 = -1e300;
 
 /// Finds manifolds of eight pairs, and which gaps are below `factor` margins, or may be until the next tick.
 pub(crate) fn collide_eight(
@@ -109,14 +106,22 @@ fn part<S: Simd, V: Wide<S>, const N: usize>(
     let (rest_a, rest_b) = (&eight.rests[0][at..end], &eight.rests[1][at..end]);
     let a = corners::<S, V, N>(simd, out_a, rest_a, [a_l, a_m]);
     let b = corners::<S, V, N>(simd, out_b, rest_b, [b_l, b_m]);
-    let mut of_a = best(simd, &a, &b, [dx, dy, wx, wy]);
-    let mut of_b = best(simd, &b, &a, [-dx, -dy, -wx, -wy]);
+    // Boxes have no cuts.
+    let cuts = |lengths| (N > 4 && eight.cuts).then(|| (cuts(simd, lengths), near));
+    let mut of_a = best(simd, &a, &b, [dx, dy, wx, wy], cuts([a_l, a_m]));
+    let mut of_b = best(simd, &b, &a, [-dx, -dy, -wx, -wy], cuts([b_l, b_m]));
     let faceless = V::splat(simd, FACELESS);
     of_a.separation = a_count.simd_gt(one).select(of_a.separation, faceless);
     of_b.separation = b_count.simd_gt(one).select(of_b.separation, faceless);
     let hysteresis = V::splat(simd, super::HYSTERESIS) * margin;
     let flip = of_b.separation.simd_gt(of_a.separation + hysteresis);
     let passes = of_a.stays.max(of_b.stays).simd_gt(limit + radii);
+    // Two pieces between cuts alone have no face; discs have none either.
+    let cut_off = of_a
+        .separation
+        .max(of_b.separation)
+        .simd_lt(faceless * half);
+    let passes = passes | (cut_off & a_count.max(b_count).simd_gt(one));
     if !any(!passes) {
         return;
     }

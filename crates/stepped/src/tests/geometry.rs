@@ -33,8 +33,8 @@ fn outlines_that_touch_agree_with_hulls() {
         });
         let [turned_a, turned_b] = posed.each_ref().map(|pieces| pieces.turned(0));
         let d = pose_b.position - pose_a.position;
-        let ours =
-            collide(turned_a, turned_b, d, Vec2::ZERO, 0.0, 0.0).filter(|ours| ours.gap() <= 0.0);
+        let ours = collide(turned_a, turned_b, d, Vec2::ZERO, [0.0; 2], 0.0)
+            .filter(|ours| ours.gap() <= 0.0);
         let theirs = collide_any((&a, pose_a), (&b, pose_b), 0.0);
         // Cores apart, roundings in touch: there the hulls' normal is that of the nearest points.
         let cores = a.rounding + b.rounding == 0.0;
@@ -68,4 +68,44 @@ fn outlines_that_touch_agree_with_hulls() {
     }
     assert!(touching > 10_000, "{touching}");
     assert!(ties * 1000 < touching, "{ties} of {touching} differ");
+}
+
+/// A cut through a concave body separates, and is never touched.
+#[test]
+fn no_cut_is_touched() {
+    let (mut random, mut touching) = (Random::new(2), 0);
+    for _ in 0..20_000 {
+        let letter = super::wide::letter();
+        let parts: Vec<_> = Piece::of(&letter, 0, 0).collect();
+        let other = Piece::of(&random.piece(), 0, 0).next().unwrap();
+        let (pose_a, pose_b) = (random.pose(0.6), random.pose(0.6));
+        let posed = |piece: &Piece, pose| {
+            let mut pieces = crate::pieces::Pieces::default();
+            let number = pieces.insert(vec![piece.clone()]);
+            pieces.pose(number, pose);
+            pieces
+        };
+        let b = posed(&other, pose_b);
+        for part in &parts {
+            let a = posed(part, pose_a);
+            let (turned, other) = (a.turned(0), b.turned(0));
+            let d = pose_b.position - pose_a.position;
+            let none = [0.0; 2];
+            let Some(found) = collide(turned, other, d, Vec2::ZERO, none, 0.0) else {
+                continue;
+            };
+            touching += 1;
+            let sides = (0..turned.corners()).filter(|i| turned.is_cut(*i));
+            for i in sides {
+                let along = turned.normal(i).dot(found.normal);
+                let of_other =
+                    (0..other.corners()).any(|k| (other.normal(k) + found.normal).length() < 1e-9);
+                assert!(
+                    along < 1.0 - 1e-9 || of_other || other.corners() == 1,
+                    "{found:?}"
+                );
+            }
+        }
+    }
+    assert!(touching > 1000, "{touching}");
 }

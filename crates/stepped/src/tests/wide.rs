@@ -1,5 +1,7 @@
 //! Eight pairs at once are what they are one by one.
 
+use carom_geometry::Polygon;
+use carom_math::vec2;
 use fearless_simd::Level;
 
 use super::{Random, levels};
@@ -14,22 +16,36 @@ fn crowd(seed: u64, spread: f64) -> Engine {
     for _ in 0..40 {
         let piece: PieceInput = random.piece();
         let body = random.body(&piece, spread);
+        let concave = random.signed() < -0.5;
+        let piece = if concave { letter() } else { piece };
         engine.insert(body, &[piece]).unwrap();
     }
     engine.tick();
     engine
 }
 
-fn pairs(count: u32) -> Vec<[u32; 2]> {
+/// An L, which has pieces with cuts.
+pub(super) fn letter() -> PieceInput {
+    let corners = [(-2, -2), (2, -2), (2, -1), (-1, -1), (-1, 2), (-2, 2)];
+    let ring = corners.map(|(x, y)| vec2(f64::from(x), f64::from(y)) * 0.25);
+    PieceInput::new(Polygon::new(ring).unwrap())
+}
+
+/// All pairs of pieces of two bodies.
+fn pairs(scene: &Scene<'_>) -> Vec<[u32; 2]> {
+    let owner = |piece: u32| scene.pieces.list[piece as usize].body;
+    let count = scene.pieces.list.len().try_into().unwrap();
     let of = |b: u32| (0..b).map(move |a| [a, b]);
-    (0..count).flat_map(of).collect()
+    let all = (0..count).flat_map(of);
+    all.filter(|[a, b]| owner(*a) != owner(*b)).collect()
 }
 
 fn eight<'a>(scene: &Scene<'a>, pairs: &[[u32; 2]]) -> Eight<'a> {
     let mut eight = Eight::new(scene.pieces, [[0; LANES]; 2]);
     for (lane, pair) in pairs.iter().enumerate() {
         assert!(eight.set_pieces(scene.pieces, lane, *pair));
-        let line = |piece: u32| scene.bodies.records[piece as usize].line;
+        let body = |piece: u32| scene.pieces.list[piece as usize].body;
+        let line = |piece: u32| scene.bodies.records[body(piece) as usize].line;
         (eight.lines[0][lane], eight.lines[1][lane]) = (line(pair[0]), line(pair[1]));
         eight.least[lane] = scene.seen(pair.map(|piece| line(piece) as usize));
     }
@@ -67,7 +83,7 @@ fn eight_at_once_agree_with_one_by_one() {
             pieces: &engine.pieces,
             settings: &engine.settings,
         };
-        for pairs in pairs(40).chunks(LANES) {
+        for pairs in pairs(&scene).chunks(LANES) {
             let eight = eight(&scene, pairs);
             let found = found(engine.level, &scene, &eight);
             for (lane, pair) in pairs.iter().enumerate() {
@@ -102,7 +118,7 @@ fn all_widths_find_the_same_bits() {
             pieces: &engine.pieces,
             settings: &engine.settings,
         };
-        for pairs in pairs(40).chunks(LANES) {
+        for pairs in pairs(&scene).chunks(LANES) {
             let eight = eight(&scene, pairs);
             let first = found(engine.level, &scene, &eight);
             for level in levels() {
