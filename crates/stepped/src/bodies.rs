@@ -298,7 +298,7 @@ impl Bodies {
         v.x.abs().max(v.y.abs()) + turns - self.pull[at].v().length() * tick
     }
 
-    /// Rebases those whose velocity changed so much that they may be a margin off what was foreseen `rest` seconds later.
+    /// Rebases bodies that may be a margin off their predicted motion `rest` seconds later, since their velocities changed.
     pub(crate) fn rebase_strays(&mut self, settings: &Settings, rest: f64) -> bool {
         if !self.may_stray {
             return false;

@@ -45,7 +45,7 @@ pub struct Engine {
     done: u32,
     /// Contacts of the next sub-step were found.
     found: bool,
-    /// Tags of pieces whose contacts ended while they touched.
+    /// Tags of both pieces of each contact that ended while it touched.
     pub(crate) ended: Vec<[u64; 2]>,
     /// Bodies that went far in the last sub-step, or were carried by a caller since.
     pub(crate) fast_bodies: Vec<FastBody>,
@@ -143,8 +143,8 @@ impl Engine {
     }
 
     /// Finds which pieces touch, or may within the tick, and where: what [`Self::substep`] begins with. Called before it, it
-    /// wakes who is met, and boxes are those of the sub-step; only what came or was moved since is looked for again. Whether
-    /// some body came, or goes otherwise than was foreseen at the tick.
+    /// wakes islands that are met, and boxes are those of the sub-step; only bodies that came or were moved since are searched for
+    /// again. Whether some body came, or goes otherwise than was foreseen at the tick.
     pub fn find_contacts(&mut self, rules: &dyn PairRules) -> bool {
         let again = core::mem::replace(&mut self.found, true);
         if again && !self.broad.has_arrivals() && !self.bodies.moved[2..].contains(&true) {

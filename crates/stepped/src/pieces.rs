@@ -31,7 +31,7 @@ impl Default for Material {
 /// A shape of a body with its surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PieceInput {
-    /// In the frame of the body, whose origin is the centre of mass, in m. A concave polygon becomes its convex pieces.
+    /// In the frame of the body, with its origin at the centre of mass, in m. A concave polygon becomes its convex pieces.
     pub shape: Arc<Shape>,
     /// The shape is grown by so much, with rounded corners, in m.
     pub radius: f64,

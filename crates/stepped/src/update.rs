@@ -129,7 +129,7 @@ pub(crate) fn met_asleep(
         if island == Bodies::NONE || islands.contains(&island) {
             continue;
         }
-        // A body that moves is seen once a tolerance; one that rests wakes nobody by lying near.
+        // A body that moves is seen once a tolerance; one that rests wakes no island by lying near.
         let line = bodies.line_of(slots[usize::from(a != Bodies::NONE)]);
         let rests = bodies.rest[line] > 0.0;
         let seen = if rests {

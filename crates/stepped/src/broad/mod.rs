@@ -27,7 +27,7 @@ pub(crate) struct Broad {
     arrived: Vec<u32>,
     /// Pieces that got other boxes since the sweep was sorted.
     few: Vec<u32>,
-    /// Pairs of pieces whose boxes overlap, one of which moved.
+    /// Pairs of pieces with overlapping boxes, one of which moved.
     pub(crate) found: Vec<[u32; 2]>,
 }
 

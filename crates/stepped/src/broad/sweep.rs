@@ -237,7 +237,7 @@ impl Sweep {
         Aabb::new(min, vec2(boxes.right[k], boxes.high[k]))
     }
 
-    /// Finds all movers whose boxes overlap `bounds`.
+    /// Finds all movers with a box that overlaps `bounds`.
     pub(crate) fn all_in(&self, pieces: &Pieces, bounds: Aabb, mut found: impl FnMut(u32)) {
         self.query(bounds, |mover| found(mover.piece));
         for mover in &self.unusual {

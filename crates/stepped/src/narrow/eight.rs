@@ -71,7 +71,7 @@ pub(crate) struct Found {
     pub(crate) near: u8,
     /// A bit for each of these that is so short that it may be a ghost.
     pub(crate) short: u8,
-    /// A bit for each of these whose pieces may be flush.
+    /// A bit for each of these between pieces that may be flush.
     pub(crate) seam: u8,
 }
 

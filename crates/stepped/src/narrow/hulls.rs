@@ -6,7 +6,7 @@ use carom_math::{Pose, cross, perp};
 use super::Manifold;
 use crate::pieces::Piece;
 
-/// Two pieces whose gap is below `limit`, in m.
+/// The contact of two pieces if their gap is below `limit`, in m.
 pub(crate) fn collide_any(a: (&Piece, Pose), b: (&Piece, Pose), limit: f64) -> Option<Manifold> {
     let ((a, pose_a), (b, pose_b)) = (a, b);
     let radii = a.rounding + b.rounding;

@@ -184,7 +184,7 @@ fn face(owner: Turned<'_>, other: Turned<'_>, d: Vec2, i: usize, flipped: bool) 
     }
 }
 
-/// The edge whose normal is most opposed to `n`, by its two corners; of a disc its one.
+/// The edge with the normal most opposed to `n`, by its two corners; of a disc its one.
 fn facing(outline: Turned<'_>, n: Vec2) -> (usize, usize) {
     if outline.corners() == 1 {
         return (0, 0);

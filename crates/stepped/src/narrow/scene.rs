@@ -30,7 +30,7 @@ pub(crate) struct Meeting {
 }
 
 impl Scene<'_> {
-    /// The contact of two pieces whose gap is below `factor` margins, or may be until the next tick.
+    /// The contact of two pieces if their gap is below `factor` margins, or may be until the next tick.
     pub(crate) fn contact(&self, pair: [u32; 2], factor: f64) -> Option<Manifold> {
         let meeting = self.meeting(pair);
         let margin = factor * meeting.margin;

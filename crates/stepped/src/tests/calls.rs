@@ -260,7 +260,7 @@ fn a_motion_is_searched_once() {
     assert!(engine.pose(wall).unwrap().position == Vec2::ZERO);
 }
 
-/// A body whose velocity was set after its rows were found crosses one that flies as foreseen, whichever was inserted first.
+/// A body with a velocity set after its rows were found crosses one that flies as foreseen, whichever was inserted first.
 #[test]
 fn a_motion_that_rows_do_not_know_meets_one_that_they_do() {
     for struck_first in [true, false] {

@@ -6,7 +6,7 @@ use carom_math::vec2;
 use super::{unit_box, with_friction};
 use crate::{BodyId, BodyInput, Engine, PieceInput, Settings};
 
-/// A box of 1 m at `speed` on `count` tiles whose tops lie at 0, each `step` higher than the one before.
+/// A box of 1 m at `speed` on `count` tiles with tops from 0 upwards, each `step` higher than the one before.
 fn tiles(speed: f64, count: u32, step: f64) -> (Engine, BodyId) {
     let mut engine = Engine::new(Settings::default()).unwrap();
     let tile = with_friction(unit_box(), 0.0);

@@ -9,7 +9,7 @@ use crate::narrow::{Eight, Found, Manifold, Scene, collide_eight};
 use crate::rows::LANES;
 use crate::{Engine, PieceInput, Settings};
 
-/// Bodies of all kinds of outlines in a crowd, a tick old: away from their base poses.
+/// Bodies of all kinds of outlines close together, a tick old: away from their base poses.
 fn crowd(seed: u64, spread: f64) -> Engine {
     let mut random = Random::new(seed);
     let mut engine = Engine::new(Settings::default()).unwrap();
