@@ -20,7 +20,7 @@ pub(crate) struct EnergyBook {
     pub(crate) forces: Sum,
     pub(crate) external: Sum,
     pub(crate) scheme: Sum,
-    /// Given to members of crowds by impacts, which have booked it.
+    /// Given to members of the engine by impacts, which have booked it.
     pub(crate) struck: Sum,
 }
 
@@ -75,8 +75,8 @@ pub(crate) struct Bodies {
     pub(crate) pull: Pull,
     /// Flights since the last report that leave out more than [`Pull::error`], as short as their stretches are.
     pub(crate) inaccurate: u64,
-    /// Bodies that came, went, woke or were changed since the last sub-step; only where somebody
-    /// reads the list.
+    /// Bodies that came, went, woke or were changed since the last sub-step; only where the list is
+    /// read.
     pub(crate) touched: Vec<u32>,
     pub(crate) notes_touched: bool,
 }
@@ -312,7 +312,7 @@ impl Bodies {
     fn piece(&self, state: &BodyState, time: SimTime) -> Option<Piece> {
         let motion = &state.motion;
         let free = state.gravity_scale() * self.pull.gravity;
-        // Crowds keep their own account.
+        // The account of members is kept in `stepping::join`.
         if !state.is_dynamic()
             || state.in_engine
             || (motion.acceleration == free

@@ -10,7 +10,7 @@ use crate::press::Spot;
 use crate::state::Collider;
 use crate::{ContactMode, PairMaterial};
 
-/// Two colliders of different bodies whose boxes overlap; the lower body comes first.
+/// Two colliders of different bodies with overlapping boxes; the lower body comes first.
 #[derive(Clone, Debug)]
 pub(crate) struct Pair {
     pub(crate) colliders: (u32, u32),
@@ -134,7 +134,7 @@ pub(crate) struct Pairs {
     /// searches go through pairs in this order.
     order: Vec<u32>,
     dirty: bool,
-    /// Places of pairs that nobody has looked at yet.
+    /// Places of pairs that have not been looked at yet.
     pub(crate) fresh: Vec<u32>,
 }
 
@@ -236,7 +236,7 @@ impl Pairs {
         keyed.into_iter().map(|(_, place)| place).collect()
     }
 
-    /// Who is sub-stepped has changed.
+    /// The list of sub-stepped bodies has changed.
     pub(crate) const fn reorder(&mut self) {
         self.dirty = true;
     }

@@ -71,7 +71,7 @@ pub struct World {
     pub(crate) events: Events,
     pub(crate) report: StepReport,
     pub(crate) work: Work,
-    /// Nobody asks for anything before this instant.
+    /// No pose is read before this instant.
     pub(crate) unseen_until: SimTime,
     /// What the impacts of the present sub-step spent of its budget.
     pub(crate) spent: f64,
@@ -82,7 +82,7 @@ pub struct World {
     pub(crate) stopwatch: Stopwatch,
     /// The engine of bodies in contact; none in [`Mode::Exact`].
     pub(crate) stepping: Option<Box<Stepping>>,
-    /// Who is moved by it in [`Mode::Hybrid`].
+    /// Bodies that it moves in [`Mode::Hybrid`].
     pub(crate) joins: Joins,
     pub(crate) threads: Threads,
 }
@@ -230,7 +230,7 @@ impl World {
     pub fn remove(&mut self, id: BodyId) -> Result<(), BodyError> {
         let index = self.bodies.find(id)?;
         let now = self.clock.now;
-        // A pile that wakes joins the wide solver, and the body with it: it leaves once all are awake.
+        // A pile that wakes joins the engine, and the body with it: it leaves once all are awake.
         self.wake_around(index, now);
         self.quit(index, now);
         self.bodies.change(index, now, |_| {});

@@ -1,4 +1,4 @@
-//! Groups that turn about their contacts, in a world: who touches with what, and whom the path moves.
+//! Groups that turn about their contacts, in a world: which shapes touch, and which bodies the path moves.
 
 use std::sync::Arc;
 
@@ -154,7 +154,7 @@ impl World {
         };
         let accelerations = tip.accelerations_after(time - tip.path.start);
         for (&(index, _), &slot) in group.members.iter().zip(slots) {
-            // Who was given another velocity has left the path already, and still has the parabola of its last piece.
+            // A body that was given another velocity has left the path already, and still has the parabola of its last piece.
             if self.bodies.get(index).flight.is_some() {
                 let (acceleration, angular) = accelerations[slot];
                 self.bodies.change(index, time, |motion| {
@@ -173,7 +173,7 @@ impl World {
         }
     }
 
-    /// Those of `members` who left a path and whom nothing touches but what opens fly from here on, but for those who met a crowd.
+    /// Bodies of `members` that left a path fly from here on if all their contacts open, unless they joined the engine.
     pub(super) fn set_free(&mut self, members: &[u32], time: SimTime) {
         let left = self.clock.next() - time;
         for &index in members {
@@ -230,7 +230,7 @@ impl World {
         })
     }
 
-    /// Reports those who left a path and still go on by its parabola, which pushes along the arms of that instant: a
+    /// Reports bodies that left a path and still go on by its parabola, which pushes along the arms of that instant: a
     /// group that takes them in, or their own flight, gives them another one.
     pub(crate) fn report_astray(&mut self, now: SimTime) {
         let (bodies, report) = (&self.bodies, &mut self.report);
@@ -330,7 +330,7 @@ impl World {
     }
 }
 
-/// Whether who left the path of a group still goes on by the parabola of that instant.
+/// Whether a body that left the path of a group still goes on by the parabola of that instant.
 fn goes_on(bodies: &Bodies, astray: &Astray) -> bool {
     let state = bodies.get(astray.index);
     state.motion.acceleration == astray.acceleration

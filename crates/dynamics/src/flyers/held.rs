@@ -36,8 +36,8 @@ impl World {
         }
     }
 
-    /// As [`Self::land`], at the start of a sub-step, which predicts all pairs when it is over, and judges whom it
-    /// touches once all have landed.
+    /// As [`Self::land`], at the start of a sub-step, which predicts all pairs when it is over, and judges the groups
+    /// that it touches once all have landed.
     pub(crate) fn land_first(&mut self, index: u32, time: SimTime) {
         if self.alight(index, time) {
             self.steer(index, time);
@@ -95,8 +95,8 @@ impl World {
         self.foresee(index, time, Cause::Deflected, None);
     }
 
-    /// Those of bodies that woke, or whose hold was taken away, that nothing holds fly at once: until the next sub-step begins
-    /// they would hang in the air.
+    /// Bodies that woke, or lost their support, fly at once if nothing holds them: until the next sub-step begins they would
+    /// hang in the air.
     pub(crate) fn drop_unheld(&mut self, bodies: &[u32], time: SimTime) {
         for &index in bodies {
             if !self.hangs(index, time) {
@@ -183,7 +183,7 @@ impl World {
         self.pairs.reorder();
     }
 
-    /// If nobody is sub-stepped pair by pair any more, nobody looks for flyers by boxes in the world.
+    /// If no body is sub-stepped pair by pair any more, flyers need no boxes in the world.
     pub(crate) fn lower_flyers(&mut self) {
         if self.stepped.is_empty() {
             self.flyers.lower();

@@ -49,7 +49,7 @@ impl World {
 
     fn enter(&mut self, stepping: &mut Stepping, index: u32, time: SimTime) {
         let state = self.bodies.get(index);
-        // Who joined within a sub-step waited there.
+        // A body that joined within a sub-step waited there.
         let at = if state.in_engine {
             state.motion.start
         } else {

@@ -1,7 +1,7 @@
-//! Heaps that land at once: what rests on each other joins the crowd together, without being sub-stepped first.
+//! Heaps that land at once: bodies that rest on each other join the engine together, without being sub-stepped first.
 //!
 //! Body by body each would be made ready for sub-steps, paired, looked at and judged, layer upon layer, only to be
-//! handed to the wide solver, which pairs it and looks at it once more.
+//! handed to the engine, which pairs it and looks at it once more.
 
 use carom_collision::{PartManifold, contacts};
 use carom_math::{Pose, SimTime, Vec2, cross_scalar};
@@ -32,12 +32,12 @@ struct Heap {
     bodies: Vec<u32>,
     /// Points of contact: at least as many rows.
     points: usize,
-    /// Nobody in it has a method of his own.
+    /// No body in it is in closed form.
     fits: bool,
 }
 
 impl Heap {
-    /// Whether the wide solver takes it before closed forms are tried, or after these were tried in vain.
+    /// Whether the engine takes it before closed forms are tried, or after these were tried in vain.
     fn is_for_engine(&self) -> bool {
         let count = self.bodies.len();
         self.fits && (count > MANY || count > FEW && self.points > ROWS)
@@ -45,8 +45,8 @@ impl Heap {
 }
 
 impl World {
-    /// At the start of a sub-step: those of `lands`, bodies that begin to rest, whose heap is for the wide solver join
-    /// with all of it; the others stay.
+    /// At the start of a sub-step: bodies of `lands`, which begin to rest, join with all of their heap if it is for the engine;
+    /// the others stay.
     pub(crate) fn gather_heaps(
         &mut self,
         lands: &mut Vec<u32>,
@@ -73,7 +73,7 @@ impl World {
         joining.sort_unstable();
         lands.retain(|index| joining.binary_search(index).is_err());
         self.discharge_all(&joining);
-        // Nobody flies any more when the first one joins: pairs are found once, as those of members.
+        // No body flies any more when the first one joins: pairs are found once, as those of members.
         for &index in &joining {
             let course = &mut self.bodies.get_mut(index).course;
             if course.flies {
@@ -217,7 +217,7 @@ mod tests {
     use carom_geometry::ConvexPolygon;
     use carom_math::vec2;
 
-    /// Pyramids on a floor, too small for the wide solver, for it after closed forms and for it at once; of each one is at rest, in
+    /// Pyramids on a floor, too small for the engine, for it after closed forms and for it at once; of each one is at rest, in
     /// one a body is damped, in one it was put deep into the floor, on one the top moves, and onto one it falls.
     fn stacks(pair_search: PairSearch) -> World {
         let settings = Settings {
@@ -257,7 +257,7 @@ mod tests {
         world
     }
 
-    /// Who belongs to a crowd.
+    /// Members of the engine.
     fn members(world: &World) -> Vec<BodyId> {
         let members = world.bodies.iter().filter(|state| state.in_engine);
         members.map(|state| state.id).collect()

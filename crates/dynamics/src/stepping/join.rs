@@ -1,11 +1,11 @@
-//! Joins and leaves in [`crate::Mode::Hybrid`]: who is moved by the engine.
+//! Joins and leaves in [`crate::Mode::Hybrid`]: which bodies the engine moves.
 //!
 //! ```text
 //! free, analytic, held ─► near a member within the tick, or in a large group ─► member
-//! member ─► no contact for three ticks, and nobody near ─► free
+//! member ─► no contact for three ticks, and no body near ─► free
 //! ```
 //! Fixed and kinematic bodies, and bodies that sleep outside of the engine, are its guests: it knows them, and moves only
-//! what they meet.
+//! members that meet them.
 
 use carom_collision::Motion;
 use carom_geometry::Aabb;
@@ -44,14 +44,14 @@ pub(crate) struct Joins {
     idle: Vec<(u32, u8)>,
     /// Bodies that took to flight, and some that landed since.
     pub(crate) aloft: Vec<u32>,
-    /// Somebody outside has a motion that is newer than the last search for who joins.
+    /// A body outside has a motion that is newer than the last search for bodies that join.
     pub(crate) is_restless: bool,
     /// Motions are older than the engine.
     pub(super) unwritten: bool,
     /// Where the engine's last sub-step ended.
     pub(super) reached: SimTime,
     pub(crate) rush: Rush,
-    /// Energy of those who left less that of those who came, in J.
+    /// Energy of all bodies that left less that of all that joined, in J.
     pub(crate) balance: Sum,
     /// Work of kinematic bodies, and of the caller's forces, in J.
     pub(super) driven: Sum,
@@ -59,7 +59,7 @@ pub(crate) struct Joins {
 }
 
 impl World {
-    /// Whether somebody needs sub-steps.
+    /// Whether a body needs sub-steps.
     pub(crate) const fn is_substepping(&self) -> bool {
         !self.stepped.is_empty() || self.joins.members > 0 || self.joins.rush.is_due()
     }
@@ -92,7 +92,7 @@ impl World {
             let state = self.bodies.get(index);
             let at = tree.root(index) as usize;
             if !state.is_held() || state.membership.is_closed() {
-                // Whose group keeps its method.
+                // Its group keeps its method.
                 count[at] = usize::MAX;
             }
             count[at] = count[at].saturating_add(1);
@@ -109,7 +109,7 @@ impl World {
         self.pairs.sort(&self.bodies, &self.stepped);
     }
 
-    /// All who woke together join if they are many; whether they did.
+    /// Bodies that woke together join if they are many; whether they did.
     pub(crate) fn many_woke(&mut self, woken: &[u32], time: SimTime) -> bool {
         if woken.len() <= FEW || !self.may_join() {
             return false;
@@ -128,7 +128,7 @@ impl World {
         }
         let group = state.membership.group;
         self.dissolve(group, time);
-        // What leaves a path looks for whom it meets, and may have met a member.
+        // A body that leaves a path searches for pairs, and may have met a member.
         if self.bodies.get(index).in_engine {
             return;
         }
@@ -192,7 +192,7 @@ impl World {
         }
     }
 
-    /// A member leaves, with the motion that it has at `time`: who moves it next is for the caller to say.
+    /// A member leaves, with the motion that it has at `time`: its next regime is for the caller to choose.
     pub(crate) fn quit(&mut self, index: u32, time: SimTime) {
         self.leave_engine(index);
         let state = self.bodies.get(index);

@@ -6,7 +6,7 @@ use super::Stepping;
 use crate::{BodyKind, World};
 
 impl World {
-    /// Before a sub-step: what a caller changed enters the engine, who is met wakes, and who may be met joins.
+    /// Before a sub-step: changes by a caller enter the engine, islands that are met wake, and bodies that may be met join.
     pub(crate) fn gather_members(&mut self, time: SimTime) {
         if self.joins.members == 0 {
             return;
@@ -34,7 +34,7 @@ impl World {
         self.stopwatch.lap(|p| &mut p.contacts);
     }
 
-    /// The engine was left alone while nobody was awake in it, and kinematic bodies went on; whether a tick begins.
+    /// The engine was left alone while no body was awake in it, and kinematic bodies went on; whether a tick begins.
     fn resume(&mut self, time: SimTime) -> bool {
         let Some(stepping) = &mut self.stepping else {
             return false;
@@ -127,7 +127,7 @@ impl World {
             && self.joins.reached == self.clock.next()
             && let Some(mut stepping) = self.stepping.take()
         {
-            // Who joined since, and who woke elsewhere, waits for the next sub-step.
+            // Bodies that joined since, or woke elsewhere, wait for the next sub-step.
             let is_carried = |index: &u32| {
                 let state = self.bodies.get(*index);
                 stepping.id(*index).is_some() && (state.in_engine || !state.is_dynamic())
@@ -142,13 +142,13 @@ impl World {
         }
     }
 
-    /// Motions of all members and what touches, where somebody may ask.
+    /// Motions and touches of all members, where a caller may read them.
     pub(crate) fn write_members(&mut self, time: SimTime) {
         if core::mem::take(&mut self.joins.unwritten)
             && let Some(mut stepping) = self.stepping.take()
         {
             if self.settings.history == 0 && !self.clock.is_within(time) {
-                // Nobody reads a pose within the last sub-step.
+                // No pose is read within the last sub-step.
                 stepping.note_places(false);
             }
             self.write_all(&stepping);

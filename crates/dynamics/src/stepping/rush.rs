@@ -1,4 +1,4 @@
-//! Who strikes whom within a tick: where impacts come fast among many, the crowd's solver takes over.
+//! Impacts within a tick: bodies that strike each other too often join the engine.
 
 use carom_math::SimTime;
 
@@ -8,8 +8,8 @@ use crate::{Mode, World};
 /// So many bodies that strike each other stay with their exact impacts, however many these are.
 const HANDFUL: f64 = 6.0;
 
-/// More than so many are a crowd beyond [`LOSSES`], fewer beyond [`RATTLE`], unless one is a load for another that no sweep carries:
-/// sub-steps pair by pair solve for such groups at once.
+/// More bodies than these join beyond [`LOSSES`]; fewer join beyond [`RATTLE`], unless a mass ratio exceeds [`BEARS`]: one sweep
+/// does not converge there, and sub-steps pair by pair solve for such groups at once.
 const MANY: f64 = 16.0;
 
 /// Losses of relative speed a body and tick: with no restitution as many impacts, with e = 0.9 ten times as many.
@@ -155,7 +155,7 @@ impl World {
         }
     }
 
-    /// Whoever struck too often joins the crowd.
+    /// Bodies that struck each other too often join the engine.
     pub(crate) fn end_rush(&mut self, time: SimTime) {
         let rush = &mut self.joins.rush;
         if rush.due.is_empty() {
