@@ -353,7 +353,7 @@ impl World {
             return self.deflected(index, self.clock.now);
         }
         let now = self.clock.now;
-        self.quit(index, now);
+        self.leave(index, now);
         self.show_engine(index);
         self.hand_back_of(index, now);
         self.flyers.vanish(&mut self.bodies, index);

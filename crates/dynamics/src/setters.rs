@@ -172,7 +172,7 @@ impl World {
 
     /// Takes a body out of the engine and all its pairs.
     fn leave_all(&mut self, index: u32) {
-        self.quit(index, self.clock.now);
+        self.leave(index, self.clock.now);
         self.part_all(index);
     }
 

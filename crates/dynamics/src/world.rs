@@ -232,7 +232,7 @@ impl World {
         let now = self.clock.now;
         // A pile that wakes joins the engine, and the body with it: it leaves once all are awake.
         self.wake_around(index, now);
-        self.quit(index, now);
+        self.leave(index, now);
         self.bodies.change(index, now, |_| {});
         self.bodies.take_back(|other| other == index, now);
         let (kinetic, potential) = self.bodies.energy_of(index, now);

@@ -193,7 +193,7 @@ impl World {
     }
 
     /// A member leaves, with the motion that it has at `time`: its next regime is for the caller to choose.
-    pub(crate) fn quit(&mut self, index: u32, time: SimTime) {
+    pub(crate) fn leave(&mut self, index: u32, time: SimTime) {
         self.leave_engine(index);
         let state = self.bodies.get(index);
         if !state.in_engine {
@@ -261,7 +261,7 @@ impl World {
                 ..Motion::resting(state.pose.position)
             };
             self.bodies.go_on_as(index, &motion, state.turned);
-            self.quit(index, time);
+            self.leave(index, time);
             self.take_off(index, time);
         }
     }
