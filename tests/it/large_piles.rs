@@ -45,6 +45,7 @@ fn settings(mode: Mode, threads: usize) -> Settings {
     }
 }
 
+// It cannot fail until the engine has threads.
 #[test]
 fn the_number_of_threads_changes_no_bit_of_a_large_pile() {
     for mode in [Mode::Stepped, Mode::Hybrid] {

@@ -147,7 +147,7 @@ fn a_stack_that_stands_needs_no_sub_steps() {
 }
 
 /// A landing judges the group anew that it joins, and what that does to the others' pairs is asked too: boxes that were
-/// not asked went to the crowd, and sank in there.
+/// not asked joined the engine of large islands, and sank in there.
 #[test]
 fn stacks_that_land_at_once_stand_without_sub_steps() {
     let mut world = World::new(Settings {

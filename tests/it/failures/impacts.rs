@@ -98,7 +98,7 @@ fn case_11_a_ball_that_bounces_on_a_joint_stays_over_it() {
     }
 }
 
-/// erincatto/box2d#76, liabru/matter-js#667: restitution side by side, and in a crowd.
+/// erincatto/box2d#76, liabru/matter-js#667: restitution side by side, and in a large island.
 #[test]
 fn case_12_every_apex_is_the_drop_times_e_squared() {
     let mut world = world(9.81);
@@ -202,10 +202,10 @@ fn case_12_a_full_box_of_lively_balls_never_gains_energy() {
     no_full_box_gains(Mode::Exact);
 }
 
-/// The same where such a box is a crowd.
+/// The same where such a box is a large island.
 #[test]
-#[ignore = "fails: crowds have springs, and gain up to 6e-5 of the energy in a tick"]
-fn case_12_a_full_box_never_gains_energy_as_a_crowd() {
+#[ignore = "fails: contacts of large islands have springs, and gain up to 6e-5 of the energy in a tick"]
+fn case_12_a_full_box_never_gains_energy_as_a_large_island() {
     no_full_box_gains(Mode::Hybrid);
 }
 
@@ -244,7 +244,7 @@ fn case_12_a_full_box_has_at_no_instant_more_than_a_tick_ago() {
 
 /// What holds of it in hybrid mode: not monotone, but little.
 #[test]
-fn case_12_a_full_box_gains_little_as_a_crowd() {
+fn case_12_a_full_box_gains_little_as_a_large_island() {
     let gains: Vec<f64> = (1..=6)
         .map(|seed| worst_gain(Mode::Hybrid, seed, 8.0))
         .collect();

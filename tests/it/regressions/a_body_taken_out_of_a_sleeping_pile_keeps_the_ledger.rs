@@ -1,6 +1,6 @@
-//! A sleeping pile of more than 16 bodies that wakes joins the wide solver, which keeps its own account of what its members had
-//! when they joined. A body that was removed had its energy booked before the others woke, and then joined with them: its energy
-//! stayed in that account for good, 3 J of 92.
+//! A sleeping pile of more than 16 bodies that wakes joins the stepped engine, and the energies with which its members joined have
+//! an account of their own. A body that was removed had its energy booked before the others woke, and then joined with them: its
+//! energy stayed in that account for good, 3 J of 92.
 
 use carom_dynamics::{BodyDef, BodyId, BodyKind, Settings, World};
 use carom_geometry::HalfPlane;

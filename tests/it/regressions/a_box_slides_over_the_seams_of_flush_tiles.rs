@@ -26,7 +26,7 @@ fn empty(mode: Mode) -> World {
     World::new(settings).expect("valid settings")
 }
 
-/// Tiles of 1 m from x = 0 on, whose tops lie at `level`.
+/// Tiles of 1 m from x = 0 on, with tops at `level`.
 fn tiles(world: &mut World, count: u32, level: f64, restitution: f64) {
     for k in 0..count {
         let def = BodyDef::fixed().at(vec2(0.5 + f64::from(k), level - 0.5));

@@ -1,4 +1,4 @@
-//! A kinematic body among a crowd that became a dynamic one went on as it was driven: through the floor.
+//! A kinematic body in a large island that became a dynamic one went on as it was driven: through the floor.
 
 use carom_dynamics::{BodyDef, BodyKind, Settings, World};
 use carom_math::vec2;
@@ -27,7 +27,7 @@ fn a_driver_that_is_let_go_falls_on_the_floor() {
             stone,
         );
     }
-    // In the middle of a sub-step: the plate joins the crowd on it at once.
+    // In the middle of a sub-step: the plate joins the large island on it at once.
     world.step(0.501);
     world
         .set_kind(plate, BodyKind::Dynamic)

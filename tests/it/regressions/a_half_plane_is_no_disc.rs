@@ -1,6 +1,6 @@
-//! In stepped mode a half-plane, whose only vertex is its point, was taken for a disc that turns in place: its points
+//! In stepped mode a half-plane, with its point as only vertex, was taken for a disc that turns in place: its points
 //! were thought to stay where they are as a body that turns sees it. So what spun at 3 rad/s without gravity flew into
-//! the ground, by more than its size, before anybody looked.
+//! the ground, by more than its size, before the pair was looked at.
 
 use carom_dynamics::{BodyDef, Mode, Settings, World};
 use carom_geometry::HalfPlane;

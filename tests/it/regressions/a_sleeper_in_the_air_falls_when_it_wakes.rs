@@ -1,5 +1,5 @@
-//! Who was put to sleep in the air and woke hung there until the next sub-step began, in steps that called themselves exact;
-//! and a flyer that woke it bounced off it as off something held.
+//! A body that was put to sleep in the air and woke hung there until the next sub-step began, in steps that called themselves
+//! exact; and a flyer that woke it bounced off it as off something held.
 
 use carom_dynamics::{BodyDef, EventKind, Force, Mode, Settings, World};
 use carom_math::{SimTime, Vec2, vec2};
@@ -50,9 +50,9 @@ fn a_sleeper_in_the_air_falls_when_it_wakes() {
     }
 }
 
-/// Who slept on what is taken away falls from that instant on.
+/// A sleeper falls from the instant at which its support is taken away.
 #[test]
-fn who_is_left_in_the_air_falls_at_once() {
+fn a_body_left_in_the_air_falls_at_once() {
     for mode in [Mode::Hybrid, Mode::Exact] {
         for wait in [1e-3, 1.0 / 60.0, 1.0] {
             let mut world = world(mode);
@@ -72,7 +72,7 @@ fn who_is_left_in_the_air_falls_at_once() {
 
 /// A ball that flies into a sleeper in the air meets a flyer: one impact at its instant, and no touch.
 #[test]
-fn who_strikes_a_sleeper_in_the_air_strikes_a_flyer() {
+fn a_blow_on_a_sleeper_in_the_air_strikes_a_flyer() {
     for mode in [Mode::Hybrid, Mode::Exact] {
         let mut world = world(mode);
         let material = surface(1.0, 0.0);

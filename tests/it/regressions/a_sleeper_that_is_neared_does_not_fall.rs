@@ -1,5 +1,5 @@
 //! A disc of 1000 kg dozes in a corner, and a thin box comes near it slower than rest. The solver held the two across their
-//! gap, and gave the disc a motion with gravity, but nobody had woken it: it fell through the floor, and on for ever.
+//! gap, and gave the disc a motion with gravity, but had not woken it: it fell through the floor, and on for ever.
 
 use carom_dynamics::{BodyDef, Mode};
 use carom_math::{Vec2, vec2};

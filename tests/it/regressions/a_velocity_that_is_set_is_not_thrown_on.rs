@@ -1,5 +1,5 @@
-//! In a crowd a velocity that was set in the middle of a sub-step had the rest of a bounce of that sub-step put on top: a ball that
-//! was stopped within its bounce left at 4.4 m/s.
+//! In a large island a velocity that was set in the middle of a sub-step had the rest of a bounce of that sub-step put on top: a
+//! ball that was stopped within its bounce left at 4.4 m/s.
 
 use carom_dynamics::{BodyDef, BodyId, Mode, Settings, World};
 use carom_math::vec2;
@@ -7,7 +7,7 @@ use carom_tests::scenes::{block, boxed, disc, put, surface};
 
 const SUBSTEP: f64 = 1.0 / 360.0;
 
-/// An elastic ball of 0.2 m that falls on a pile, which is a crowd in hybrid mode.
+/// An elastic ball of 0.2 m that falls on a pile, which is a large island in hybrid mode.
 fn ball(mode: Mode) -> (World, BodyId) {
     let settings = Settings {
         mode,

@@ -8,7 +8,7 @@ use carom_geometry::{ConvexPolygon, Shape};
 use carom_math::{Vec2, vec2};
 use carom_tests::scenes::{block, disc, put, surface, walled};
 
-/// Who touches whom, as told by events.
+/// Bodies in touch, as told by events.
 #[derive(Default)]
 struct Told(BTreeSet<(BodyId, BodyId)>);
 

@@ -1,7 +1,7 @@
-//! Where steps end changes no bit of a heap. It did, in exact mode: who left the path of a group that turns, in the midst of a
-//! sub-step, was forgotten where a step ended. In hybrid mode, too: who looked at a member of a crowd in the midst of a sub-step saw
-//! where it was when a step had last ended, and a step that ended after somebody had joined took the impact back that made it join;
-//! and who fell asleep and woke at one look was moved back by a sub-step.
+//! Where steps end changes no bit of a heap. It did, in exact mode: a body that left the path of a group that turns, in the
+//! midst of a sub-step, was forgotten where a step ended. In hybrid mode, too: a member of a large island, read in the midst of a
+//! sub-step, was where it had been when a step had last ended, and a step that ended after a body had joined took the impact back
+//! that made it join; and a body that fell asleep and woke at one look was moved back by a sub-step.
 
 use carom_dynamics::{Mode, Motion, Settings, World};
 use carom_math::{SimTime, vec2};

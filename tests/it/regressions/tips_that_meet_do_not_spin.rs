@@ -7,7 +7,7 @@ use carom_math::vec2;
 
 #[test]
 fn tips_that_meet_do_not_spin() {
-    // Two right triangles whose long edges lie in one line, tip to tip; one falls along it.
+    // Two right triangles with their long edges in one line, tip to tip; one falls along it.
     let shape = |mirror: f64| {
         let points = [
             vec2(0.0, 0.0),

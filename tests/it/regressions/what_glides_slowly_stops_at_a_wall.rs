@@ -1,5 +1,5 @@
 //! What slid or rolled over a floor more slowly than counts as rest went through any wall in its way: its group knew
-//! nothing of a touch to come, and was not judged again because nobody's motion had changed.
+//! nothing of a touch to come, and was not judged again because no motion had changed.
 
 use carom_dynamics::{BodyDef, Settings, World};
 use carom_geometry::{Polygon, Shape};

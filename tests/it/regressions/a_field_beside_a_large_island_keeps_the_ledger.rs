@@ -1,12 +1,12 @@
-//! A field ends the crowds of hybrid mode. Its potential was booked while the members still counted as the crowd's, which
-//! then told it a second time: the ledger was off by all of it.
+//! A field ended the large islands of hybrid mode. Its potential was booked while their members still had an account of their
+//! own, which then told it a second time: the ledger was off by all of it.
 
 use carom_dynamics::{BodyDef, Mode, RadialField, World};
 use carom_math::vec2;
 use carom_tests::scenes::{disc, put, surface, walled};
 
 #[test]
-fn a_field_beside_a_crowd_keeps_the_books() {
+fn a_field_beside_a_large_island_keeps_the_ledger() {
     let material = surface(0.0, 0.5);
     let mut world = walled(Mode::Hybrid, vec2(2.0, 4.0), material);
     for k in 0..40_u32 {

@@ -1,12 +1,12 @@
-//! Within a sub-step a body went by the mean of the velocities that it had before and has afterwards, and ended where it was: who
-//! was stopped there set out from elsewhere than it was, by up to its way in a sub-step (0.25 m at 90 m/s).
+//! Within a sub-step a body went by the mean of the velocities that it had before and has afterwards, and ended where it was: a
+//! body that was stopped there set out from elsewhere than it was, by up to its way in a sub-step (0.25 m at 90 m/s).
 
 use carom_dynamics::{BodyDef, BodyId, Settings, World};
 use carom_geometry::Shape;
 use carom_math::{SimTime, Vec2, vec2};
 use carom_tests::scenes::{block, disc, put, stepped, surface};
 
-/// A body of this shape that is thrown at a wall whose face is at x = 0.
+/// A body of this shape that is thrown at a wall with its face at x = 0.
 fn thrown(shape: Shape, speed: f64, restitution: f64, history: usize) -> (World, BodyId) {
     let mut world = stepped(Settings {
         gravity: Vec2::ZERO,
@@ -46,7 +46,7 @@ fn looking_back_finds_no_jump_where_a_sub_step_stopped_a_body() {
                 for k in 1..samples {
                     let now = at(k);
                     let way = (now.position - before.position).length();
-                    // Nobody gets faster; what friction turns moves a corner of 0.2 m.
+                    // No body gets faster; what friction turns moves a corner of 0.2 m.
                     assert!(
                         way <= 1.01 * speed * dt + 1e-9,
                         "{speed} m/s, restitution {restitution}: {way:.2e} m in {dt:.1e} s after {:.6} s",
@@ -62,7 +62,7 @@ fn looking_back_finds_no_jump_where_a_sub_step_stopped_a_body() {
     }
 }
 
-/// The same of who looks while it happens; and nobody sees what others looked at.
+/// The same of poses read while it happens; and reading them changes nothing.
 #[test]
 fn looks_within_a_sub_step_find_no_jump_and_change_nothing() {
     for speed in [20.0, 90.0] {

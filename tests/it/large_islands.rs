@@ -1,4 +1,4 @@
-//! Crowds in hybrid mode: large groups in touch are moved by the wide solver, flyers and callers meet them.
+//! Large islands in hybrid mode: the stepped engine moves them, free bodies and callers meet them.
 
 use carom_dynamics::{
     BodyDef, BodyId, BodyKind, Force, Impulse, Material, PairMaterial, Settings, Sleep, World,
@@ -80,7 +80,7 @@ fn a_pile_that_falls_together_rests_and_its_books_balance() {
         worst = worst.max(balance(world));
         most = most.max(world.contacts().count());
     });
-    assert!(most > 100, "{most} contacts: no crowd");
+    assert!(most > 100, "{most} contacts: no large island");
     assert!(worst < 1e-12, "the ledger is open by {worst:.1e}");
     assert!(world.energy().mechanical() < start);
     let restless = world
@@ -92,7 +92,7 @@ fn a_pile_that_falls_together_rests_and_its_books_balance() {
 }
 
 #[test]
-fn how_time_is_cut_does_not_matter_to_a_crowd() {
+fn how_time_is_cut_does_not_matter_to_a_large_island() {
     let hash = |cuts: u32| {
         let mut world = world(awake());
         floor(&mut world);
@@ -113,10 +113,10 @@ fn how_time_is_cut_does_not_matter_to_a_crowd() {
 }
 
 #[test]
-fn a_blow_on_a_sleeping_crowd_keeps_momentum_and_adds_no_energy() {
+fn a_blow_on_a_sleeping_island_keeps_momentum_and_adds_no_energy() {
     let mut world = world(Settings {
         gravity: Vec2::ZERO,
-        // Who falls asleep leaves what little momentum it had.
+        // A body that falls asleep loses what little momentum it had.
         sleep: Some(Sleep {
             time: 10.0,
             ..Sleep::default()
@@ -153,7 +153,7 @@ fn a_blow_on_a_sleeping_crowd_keeps_momentum_and_adds_no_energy() {
 }
 
 #[test]
-fn a_ball_bounces_off_a_crowd_by_its_restitution() {
+fn a_ball_bounces_off_a_large_island_by_its_restitution() {
     let mut world = world(awake());
     floor(&mut world);
     let boxes = wall(&mut world, 24, 1);
@@ -193,7 +193,7 @@ fn a_ball_bounces_off_a_crowd_by_its_restitution() {
 }
 
 #[test]
-fn a_drum_puts_in_what_its_crowd_gets() {
+fn a_drum_puts_in_what_its_boxes_get() {
     let mut world = world(Settings::default());
     let bar = |half: Vec2, at: Vec2| block(2.0 * half.x, 2.0 * half.y).translated(at);
     let walls = [
@@ -226,7 +226,7 @@ fn a_drum_puts_in_what_its_crowd_gets() {
 }
 
 #[test]
-fn a_caller_may_change_members_of_a_crowd() {
+fn a_caller_may_change_members_of_a_large_island() {
     let mut world = world(Settings::default());
     floor(&mut world);
     let boxes = wall(&mut world, 10, 4);
@@ -284,7 +284,7 @@ fn a_caller_may_change_members_of_a_crowd() {
 }
 
 #[test]
-fn a_few_bodies_are_no_crowd() {
+fn a_few_bodies_are_no_large_island() {
     let mut world = world(awake());
     floor(&mut world);
     wall(&mut world, 1, 9);

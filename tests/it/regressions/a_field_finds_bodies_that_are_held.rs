@@ -1,12 +1,12 @@
-//! A field that came while a contact was held in closed form left that form in charge, found without it, and nobody looked at the
-//! contact again: a box that had fallen on its corner and lay down on ice fell through it, by 0.45 m in 0.3 s.
+//! A field that came while a contact was held in closed form left that form in charge, found without it, and the contact was
+//! not looked at again: a box that had fallen on its corner and lay down on ice fell through it, by 0.45 m in 0.3 s.
 
 use carom_dynamics::{BodyDef, Mode, RadialField, Settings, World};
 use carom_math::vec2;
 use carom_tests::scenes::{block, floor, put, surface};
 
 #[test]
-fn a_field_finds_who_is_held() {
+fn a_field_finds_bodies_that_are_held() {
     for mode in [Mode::Hybrid, Mode::Exact] {
         let settings = Settings {
             gravity: vec2(0.0, -10.0),
