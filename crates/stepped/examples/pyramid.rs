@@ -37,13 +37,14 @@ fn main() -> Outcome<()> {
         "hum m/s²",
         "v m/s"
     );
-    let scenes: [(&str, Build, u32, u32); 9] = [
+    let scenes: [(&str, Build, u32, u32); 10] = [
         ("a", large_pyramid, 50, 300),
         ("e", bouncing_pyramid, 50, 300),
         ("b", many_pyramids, 30, 120),
         ("c", smash, 75, 225),
         ("d", tumbler, 200, 300),
         ("g", concave_pile, 300, 200),
+        ("g2", concave_pile, 1000, 500),
         ("plain", plain_pile, 300, 200),
         ("pile", falling_pile, 0, 240),
         ("thousand", thousand_boxes, 0, 240),

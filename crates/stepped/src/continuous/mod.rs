@@ -3,25 +3,29 @@
 //! A body is fast if it moves farther than a part of its width. Its motion is straight, from its pose before the sub-step to
 //! the one after it, and its core polygon must be free along all of it: contacts that slide, roll or are held off by a row lie
 //! outside of the core. Where the core would touch another shape, the body is stopped short of the touch of its surface, and
-//! keeps its velocity; a contact row takes over in the next sub-step.
+//! keeps its velocity; a contact row takes over in the next sub-step. If there is a row that did not hold it, the body goes on
+//! without what closes of its motion: no row takes the velocity along a wall, and what falls along it would hang there.
 
 mod cores;
+mod search;
 mod touching;
 
 use std::collections::BinaryHeap;
 
-use carom_collision::{Motion, TimeOfImpact, time_of_impact};
+use carom_collision::Motion;
 use carom_geometry::Aabb;
 use carom_math::{Pose, SimTime, Vec2};
 
 use crate::bodies::Bodies;
 use crate::rows::Quad;
 use crate::{BodyId, BodyKind, Engine, EngineError, PairRules, Settings};
-use cores::cores;
 use touching::Touching;
 
 /// A body stops so far before a touch, as a part of its reach: its contact is found open.
 const SHORT: f64 = 1e-7;
+
+/// A body that touches so often within a sub-step is stopped there.
+const MOST: u8 = 3;
 
 /// The motion of a fast body through the rest of a sub-step.
 #[derive(Clone, Debug)]
@@ -41,7 +45,30 @@ struct Moving {
     unforeseen: bool,
     /// It leaves the swept boxes of the tick.
     astray: bool,
-    stopped: bool,
+    /// How often it touched so far.
+    touches: u8,
+}
+
+impl Moving {
+    const fn is_stopped(&self) -> bool {
+        self.touches >= MOST
+    }
+
+    /// It goes on `wait` seconds on, without this part of its velocity, and without turning; stopped if it has none or touches
+    /// too often.
+    fn deflect(&mut self, wait: f64, part: Option<Vec2>) {
+        self.touches = part.map_or(MOST, |_| self.touches + 1);
+        let there = self.motion.rebased(self.motion.start + wait);
+        let part = part.filter(|_| !self.is_stopped());
+        let velocity = part.map_or(Vec2::ZERO, |part| there.velocity - part);
+        self.motion = Motion {
+            start: SimTime::ZERO,
+            centre: there.centre - velocity * wait,
+            velocity,
+            spin: 0.0,
+            ..there
+        };
+    }
 }
 
 /// Notes the bodies that a displacement moved far, and where from. Rows do not hold moving bodies off a body that turns far, or
@@ -136,38 +163,52 @@ impl Engine {
         }
         while let Some(touch) = touches.pop() {
             let ends = [Some(touch.a), touch.b];
-            if ends.iter().flatten().any(|k| fast[*k].stopped) {
+            let stale =
+                |(k, touches): (&Option<usize>, u8)| k.is_some_and(|k| fast[k].touches != touches);
+            if ends.iter().zip(touch.touches).any(stale) {
                 continue;
             }
+            self.deflect(&mut fast, &touch);
             for &k in ends.iter().flatten() {
-                let body = &mut fast[k];
-                body.stopped = true;
-                let there = body.motion.rebased(body.motion.start + touch.wait);
-                body.motion = Motion {
-                    start: SimTime::ZERO,
-                    velocity: Vec2::ZERO,
-                    spin: 0.0,
-                    ..there
-                };
-            }
-            // A body that still moves may meet one that has stopped.
-            for &stopped in ends.iter().flatten() {
-                self.search_stopped(&fast, stopped, (touch.wait, left), rules, &mut touches);
+                let rest = (touch.wait, left);
+                if !fast[k].is_stopped() {
+                    self.search_on(&fast, k, rest, rules, &mut touches);
+                }
+                // A body that still moves may meet one that goes elsewhere.
+                self.search_changed(&fast, k, rest, rules, &mut touches);
             }
         }
         let mut stopped = Vec::new();
-        for body in fast.iter().filter(|body| body.stopped) {
-            self.stop_at(body);
+        for body in fast.iter().filter(|body| body.touches > 0) {
+            self.stop_at(body, left);
             stopped.push(self.bodies.id(body.slot));
         }
         stopped
     }
 
-    fn stop_at(&mut self, body: &Moving) {
+    /// Both bodies go on without what closes of their motions, which they share as an impact without restitution does.
+    fn deflect(&self, fast: &mut [Moving], touch: &Touching) {
+        let inverse_mass = |k: usize| {
+            let line = self.bodies.line_of(fast[k].slot);
+            self.bodies.lines[line].inverse_mass()
+        };
+        let of_a = touch.b.map_or(1.0, |b| {
+            let (a, b) = (inverse_mass(touch.a), inverse_mass(b));
+            a / (a + b)
+        });
+        let closing = touch.normal.map(|n| n * touch.against.dot(n).max(0.0));
+        fast[touch.a].deflect(touch.wait, closing.map(|part| part * of_a));
+        if let Some(b) = touch.b {
+            fast[b].deflect(touch.wait, closing.map(|part| part * (of_a - 1.0)));
+        }
+    }
+
+    fn stop_at(&mut self, body: &Moving, left: f64) {
         let at = self.bodies.line_of(body.slot);
         let base = self.bodies.base[at];
         let turn = (body.motion.rotation * base.rotation.inverse()).angle();
-        self.bodies.lines[at].set_displacement(body.motion.centre - base.position, turn);
+        let centre = body.motion.centre + body.motion.velocity * left;
+        self.bodies.lines[at].set_displacement(centre - base.position, turn);
         (self.bodies.moved[at], self.bodies.may_stray) = (true, true);
     }
 
@@ -206,179 +247,9 @@ impl Engine {
             motion,
             unforeseen: body.unforeseen,
             astray: !known.contains(bounds_of(&motion, 0.0, left)),
-            stopped: false,
+            touches: 0,
         }
     }
-
-    /// Enters the first touches of fast body `k` with others from `span.0` to `span.1` seconds on; `astray`: fast bodies that
-    /// leave their boxes.
-    fn search(
-        &self,
-        fast: &[Moving],
-        k: usize,
-        span: (f64, f64),
-        astray: &[usize],
-        rules: &dyn PairRules,
-        touches: &mut BinaryHeap<Touching>,
-    ) {
-        let body = &fast[k];
-        let mine = &self.bodies.records[body.slot as usize];
-        let bounds = bounds_of(&body.motion, mine.reach, span.1);
-        let mut others: Vec<u32> = Vec::new();
-        let found = |piece: u32| others.push(piece);
-        if body.unforeseen {
-            self.broad
-                .pieces_in(&self.bodies, &self.pieces, bounds, found);
-        } else {
-            self.broad.standing_in(bounds, found);
-        }
-        for &other in astray {
-            let theirs = &fast[other];
-            let record = &self.bodies.records[theirs.slot as usize];
-            if bounds_of(&theirs.motion, record.reach, span.1).overlaps(bounds) {
-                others.extend(record.first_piece..record.first_piece + record.pieces);
-            }
-        }
-        self.first_parts(&mut others);
-        for piece in others {
-            let slot = self.pieces.list[piece as usize].body;
-            let partner = fast_of(fast, self.bodies.records[slot as usize].birth);
-            // A pair of which both search among moving bodies is searched once.
-            let again = partner.is_some_and(|other| other < k && fast[other].unforeseen);
-            if slot != body.slot && !again {
-                self.search_piece(fast, (k, partner), piece, span, rules, touches);
-            }
-        }
-    }
-
-    /// The same of all fast bodies that still move with one that has stopped.
-    fn search_stopped(
-        &self,
-        fast: &[Moving],
-        stopped: usize,
-        span: (f64, f64),
-        rules: &dyn PairRules,
-        touches: &mut BinaryHeap<Touching>,
-    ) {
-        let record = &self.bodies.records[fast[stopped].slot as usize];
-        let bounds = bounds_of(&fast[stopped].motion, record.reach, span.1);
-        for (k, body) in fast.iter().enumerate().filter(|(_, body)| !body.stopped) {
-            let reach = self.bodies.records[body.slot as usize].reach;
-            if bounds_of(&body.motion, reach, span.1).overlaps(bounds) {
-                let mut pieces: Vec<u32> =
-                    (record.first_piece..record.first_piece + record.pieces).collect();
-                self.first_parts(&mut pieces);
-                for piece in pieces {
-                    self.search_piece(fast, (k, Some(stopped)), piece, span, rules, touches);
-                }
-            }
-        }
-    }
-
-    /// A shape is searched whole, from its first part on.
-    fn first_parts(&self, pieces: &mut Vec<u32>) {
-        for piece in &mut *pieces {
-            let part = self.pieces.list[*piece as usize].part();
-            #[expect(clippy::cast_possible_truncation, reason = "parts are pieces")]
-            {
-                *piece -= part as u32;
-            }
-        }
-        pieces.sort_unstable();
-        pieces.dedup();
-    }
-
-    /// Enters the first touch of fast body `k` with a piece of another one, fast or not.
-    fn search_piece(
-        &self,
-        fast: &[Moving],
-        (k, partner): (usize, Option<usize>),
-        piece: u32,
-        span: (f64, f64),
-        rules: &dyn PairRules,
-        touches: &mut BinaryHeap<Touching>,
-    ) {
-        let body = &fast[k];
-        let theirs = &self.pieces.list[piece as usize];
-        let motion = match partner {
-            Some(other) => fast[other].motion,
-            None => self.motion(theirs.body, None, span.1),
-        };
-        // Rows hold bodies that move little against each other, however fast both are.
-        let left = span.1 - span.0;
-        let [limit, other] =
-            [body.slot, theirs.body].map(|slot| &self.bodies.limits[self.bodies.line_of(slot)]);
-        let against = (body.motion.velocity - motion.velocity) * left;
-        let turns = (body.motion.spin * left, motion.spin * left);
-        if !limit.is_far(against.length_squared(), turns.0) && !other.is_far(0.0, turns.1) {
-            return;
-        }
-        if let Some(wait) = self.first_touch(body, (piece, &motion), span, rules) {
-            let birth = self.bodies.records[theirs.body as usize].birth;
-            touches.push(Touching {
-                wait,
-                order: (body.birth, birth << 16 | u64::from(theirs.ordinal)),
-                a: k,
-                b: partner.filter(|other| !fast[*other].stopped),
-            });
-        }
-    }
-
-    /// When a body first touches the shape of a piece, in s, if its core meets it.
-    fn first_touch(
-        &self,
-        body: &Moving,
-        (piece, motion): (u32, &Motion),
-        (from, to): (f64, f64),
-        rules: &dyn PairRules,
-    ) -> Option<f64> {
-        let mine = &self.bodies.records[body.slot as usize];
-        let start = SimTime::ZERO + from;
-        let (own, other) = (body.motion.rebased(start), motion.rebased(start));
-        let target = self.pieces.list[piece as usize].shape();
-        let mut first: Option<f64> = None;
-        for number in mine.first_piece..mine.first_piece + mine.pieces {
-            let piece_of_mine = &self.pieces.list[number as usize];
-            if piece_of_mine.part() != 0
-                || self.is_held([number, piece], body.slot)
-                || self.pieces.surface([number, piece], rules).is_none()
-            {
-                continue;
-            }
-            for (core, whole) in cores(piece_of_mine) {
-                let left = first.unwrap_or(to) - from;
-                let wait = match time_of_impact(&core, &own, target, &other, left) {
-                    TimeOfImpact::Hit(hit) => hit.time,
-                    TimeOfImpact::Unresolved { safe_until } => safe_until,
-                    // In touch from the start: its rows hold it.
-                    TimeOfImpact::Clear | TimeOfImpact::Touching(_) => continue,
-                };
-                let wait = match time_of_impact(&whole, &own, target, &other, wait) {
-                    TimeOfImpact::Hit(hit) => {
-                        (hit.time + SHORT * mine.reach / hit.gap_rate).max(0.0)
-                    }
-                    _ => wait,
-                };
-                first = Some(from + wait);
-            }
-        }
-        first
-    }
-
-    /// Whether a row of two pieces is there that a body on its way cannot turn out of.
-    fn is_held(&self, pair: [u32; 2], slot: u32) -> bool {
-        let at = self.bodies.line_of(slot);
-        let turn = self.bodies.lines[at].w() * self.law.h;
-        // One sweep may leave much of a blow: what stands is sought whether there is a row or not.
-        let stands = self.bodies.records[self.pieces.list[pair[1] as usize].body as usize].line
-            == Bodies::GROUND;
-        !stands && self.known.contains(pair) && !self.bodies.limits[at].is_far(0.0, turn)
-    }
-}
-
-/// The fast body of a birth.
-fn fast_of(fast: &[Moving], birth: u64) -> Option<usize> {
-    fast.binary_search_by_key(&birth, |body| body.birth).ok()
 }
 
 /// The box that a body stays in for so long.

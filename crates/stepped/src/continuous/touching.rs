@@ -2,6 +2,8 @@
 
 use core::cmp::Ordering;
 
+use carom_math::Vec2;
+
 /// A touch of fast body `a`, `wait` seconds on, with a piece of another body; `b`: that body if it is fast and moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Touching {
@@ -9,6 +11,12 @@ pub(super) struct Touching {
     pub(super) order: (u64, u64),
     pub(super) a: usize,
     pub(super) b: Option<usize>,
+    /// How often both had touched when it was found: after a later touch they go elsewhere.
+    pub(super) touches: [u8; 2],
+    /// Unit normal from A to the other body; none if it is not known, or they are stopped there.
+    pub(super) normal: Option<Vec2>,
+    /// Velocity of A against the other body, in m/s.
+    pub(super) against: Vec2,
 }
 
 impl Eq for Touching {}

@@ -1,0 +1,221 @@
+//! The search for the first touches of fast bodies.
+
+use std::collections::BinaryHeap;
+
+use carom_collision::{Motion, TimeOfImpact, time_of_impact};
+use carom_math::{SimTime, Vec2};
+
+use super::cores::cores;
+use super::touching::Touching;
+use super::{Moving, SHORT, bounds_of};
+use crate::bodies::Bodies;
+use crate::{Engine, PairRules};
+
+impl Engine {
+    /// Enters the first touches of fast body `k` with others from `span.0` to `span.1` seconds on; `astray`: fast bodies that
+    /// leave their boxes.
+    pub(super) fn search(
+        &self,
+        fast: &[Moving],
+        k: usize,
+        span: (f64, f64),
+        astray: &[usize],
+        rules: &dyn PairRules,
+        touches: &mut BinaryHeap<Touching>,
+    ) {
+        let body = &fast[k];
+        let mine = &self.bodies.records[body.slot as usize];
+        let bounds = bounds_of(&body.motion, mine.reach, span.1);
+        let mut others: Vec<u32> = Vec::new();
+        let found = |piece: u32| others.push(piece);
+        if body.unforeseen {
+            self.broad
+                .pieces_in(&self.bodies, &self.pieces, bounds, found);
+        } else {
+            self.broad.standing_in(bounds, found);
+        }
+        for &other in astray {
+            let theirs = &fast[other];
+            let record = &self.bodies.records[theirs.slot as usize];
+            if bounds_of(&theirs.motion, record.reach, span.1).overlaps(bounds) {
+                others.extend(record.first_piece..record.first_piece + record.pieces);
+            }
+        }
+        self.first_parts(&mut others);
+        for piece in others {
+            let slot = self.pieces.list[piece as usize].body;
+            let partner = fast_of(fast, self.bodies.records[slot as usize].birth);
+            // A pair of which both search among moving bodies is searched once.
+            let again = partner.is_some_and(|other| other < k && fast[other].unforeseen);
+            if slot != body.slot && !again {
+                self.search_piece(fast, (k, partner), piece, span, rules, touches);
+            }
+        }
+    }
+
+    /// The same of a body that goes on after a touch, with bodies that are not fast.
+    pub(super) fn search_on(
+        &self,
+        fast: &[Moving],
+        k: usize,
+        span: (f64, f64),
+        rules: &dyn PairRules,
+        touches: &mut BinaryHeap<Touching>,
+    ) {
+        let body = &fast[k];
+        let reach = self.bodies.records[body.slot as usize].reach;
+        let bounds = bounds_of(&body.motion, reach, span.1);
+        let mut others: Vec<u32> = Vec::new();
+        let found = |piece: u32| others.push(piece);
+        self.broad
+            .pieces_in(&self.bodies, &self.pieces, bounds, found);
+        self.first_parts(&mut others);
+        for piece in others {
+            let slot = self.pieces.list[piece as usize].body;
+            if fast_of(fast, self.bodies.records[slot as usize].birth).is_none() {
+                self.search_piece(fast, (k, None), piece, span, rules, touches);
+            }
+        }
+    }
+
+    /// The same of all fast bodies that still move with one that goes elsewhere, or stopped.
+    pub(super) fn search_changed(
+        &self,
+        fast: &[Moving],
+        changed: usize,
+        span: (f64, f64),
+        rules: &dyn PairRules,
+        touches: &mut BinaryHeap<Touching>,
+    ) {
+        let record = &self.bodies.records[fast[changed].slot as usize];
+        let bounds = bounds_of(&fast[changed].motion, record.reach, span.1);
+        let others = fast.iter().enumerate();
+        for (k, body) in others.filter(|(k, body)| *k != changed && !body.is_stopped()) {
+            let reach = self.bodies.records[body.slot as usize].reach;
+            if bounds_of(&body.motion, reach, span.1).overlaps(bounds) {
+                let mut pieces: Vec<u32> =
+                    (record.first_piece..record.first_piece + record.pieces).collect();
+                self.first_parts(&mut pieces);
+                for piece in pieces {
+                    self.search_piece(fast, (k, Some(changed)), piece, span, rules, touches);
+                }
+            }
+        }
+    }
+
+    /// A shape is searched whole, from its first part on.
+    fn first_parts(&self, pieces: &mut Vec<u32>) {
+        for piece in &mut *pieces {
+            let part = self.pieces.list[*piece as usize].part();
+            #[expect(clippy::cast_possible_truncation, reason = "parts are pieces")]
+            {
+                *piece -= part as u32;
+            }
+        }
+        pieces.sort_unstable();
+        pieces.dedup();
+    }
+
+    /// Enters the first touch of fast body `k` with a piece of another one, fast or not.
+    fn search_piece(
+        &self,
+        fast: &[Moving],
+        (k, partner): (usize, Option<usize>),
+        piece: u32,
+        span: (f64, f64),
+        rules: &dyn PairRules,
+        touches: &mut BinaryHeap<Touching>,
+    ) {
+        let body = &fast[k];
+        let theirs = &self.pieces.list[piece as usize];
+        let motion = match partner {
+            Some(other) => fast[other].motion,
+            None => self.motion(theirs.body, None, span.1),
+        };
+        // Rows hold bodies that move little against each other, however fast both are.
+        let left = span.1 - span.0;
+        let [limit, other] =
+            [body.slot, theirs.body].map(|slot| &self.bodies.limits[self.bodies.line_of(slot)]);
+        let against = (body.motion.velocity - motion.velocity) * left;
+        let turns = (body.motion.spin * left, motion.spin * left);
+        if !limit.is_far(against.length_squared(), turns.0) && !other.is_far(0.0, turns.1) {
+            return;
+        }
+        if let Some((wait, normal)) = self.first_touch(body, (piece, &motion), span, rules) {
+            let birth = self.bodies.records[theirs.body as usize].birth;
+            let moves = partner.filter(|other| !fast[*other].is_stopped());
+            touches.push(Touching {
+                wait,
+                order: (body.birth, birth << 16 | u64::from(theirs.ordinal)),
+                a: k,
+                b: moves,
+                touches: [body.touches, moves.map_or(0, |other| fast[other].touches)],
+                normal: normal.filter(|_| self.have_row(body.slot, theirs.body)),
+                against: body.motion.velocity - motion.velocity,
+            });
+        }
+    }
+
+    /// When a body first touches the shape of a piece, in s, and the unit normal from it, if its core meets it.
+    fn first_touch(
+        &self,
+        body: &Moving,
+        (piece, motion): (u32, &Motion),
+        (from, to): (f64, f64),
+        rules: &dyn PairRules,
+    ) -> Option<(f64, Option<Vec2>)> {
+        let mine = &self.bodies.records[body.slot as usize];
+        let start = SimTime::ZERO + from;
+        let (own, other) = (body.motion.rebased(start), motion.rebased(start));
+        let target = self.pieces.list[piece as usize].shape();
+        let mut first: Option<(f64, Option<Vec2>)> = None;
+        for number in mine.first_piece..mine.first_piece + mine.pieces {
+            let piece_of_mine = &self.pieces.list[number as usize];
+            if piece_of_mine.part() != 0
+                || self.is_held([number, piece], body.slot)
+                || self.pieces.surface([number, piece], rules).is_none()
+            {
+                continue;
+            }
+            for (core, whole) in cores(piece_of_mine) {
+                let left = first.map_or(to, |first| first.0) - from;
+                let met = match time_of_impact(&core, &own, target, &other, left) {
+                    TimeOfImpact::Hit(hit) => (hit.time, Some(hit.normal)),
+                    TimeOfImpact::Unresolved { safe_until } => (safe_until, None),
+                    // In touch from the start: its rows hold it.
+                    TimeOfImpact::Clear | TimeOfImpact::Touching(_) => continue,
+                };
+                let (wait, normal) = match time_of_impact(&whole, &own, target, &other, met.0) {
+                    TimeOfImpact::Hit(hit) => {
+                        let wait = hit.time + SHORT * mine.reach / hit.gap_rate;
+                        (wait.max(0.0), Some(hit.normal))
+                    }
+                    _ => met,
+                };
+                first = Some((from + wait, normal));
+            }
+        }
+        first
+    }
+
+    /// Whether two bodies have a row, if perhaps none that holds them.
+    fn have_row(&self, slot: u32, other: u32) -> bool {
+        let mut ids = self.graph.of_body(&self.bodies, slot);
+        ids.any(|(id, side)| self.graph.contacts[id as usize].bodies[1 - side] == other)
+    }
+
+    /// Whether a row of two pieces is there that a body on its way cannot turn out of.
+    fn is_held(&self, pair: [u32; 2], slot: u32) -> bool {
+        let at = self.bodies.line_of(slot);
+        let turn = self.bodies.lines[at].w() * self.law.h;
+        // One sweep may leave much of a blow: what stands is sought whether there is a row or not.
+        let stands = self.bodies.records[self.pieces.list[pair[1] as usize].body as usize].line
+            == Bodies::GROUND;
+        !stands && self.known.contains(pair) && !self.bodies.limits[at].is_far(0.0, turn)
+    }
+}
+
+/// The fast body of a birth.
+fn fast_of(fast: &[Moving], birth: u64) -> Option<usize> {
+    fast.binary_search_by_key(&birth, |body| body.birth).ok()
+}
