@@ -255,6 +255,7 @@ impl Engine {
         let Self {
             settings,
             level,
+            law,
             bodies,
             pieces,
             broad,
@@ -263,7 +264,7 @@ impl Engine {
             ..
         } = self;
         parted.clear();
-        update(*level, graph, bodies, pieces, settings, parted);
+        update((*level, law), graph, bodies, pieces, settings, parted);
         if self.islands.any_asleep() {
             let met = met_asleep(bodies, pieces, settings, &broad.found, rules);
             self.wake_all(&met);
@@ -271,6 +272,7 @@ impl Engine {
         let Self {
             settings,
             level,
+            law,
             bodies,
             pieces,
             broad,
@@ -281,7 +283,7 @@ impl Engine {
         let found = &broad.found;
         self.looks += found.len() as u64;
         create(
-            *level,
+            (*level, law),
             graph,
             bodies,
             pieces,

@@ -7,7 +7,7 @@ use crate::bodies::{Bodies, BodyKind};
 use crate::broad::Pairs;
 use crate::narrow::{Eight, Found, Manifold, Scene, collide_eight};
 use crate::pieces::Pieces;
-use crate::rows::{Block, Cold, DEEP, Graph, LANES, renew};
+use crate::rows::{Block, Cold, Graph, LANES, Law, renew};
 use crate::{PairRules, Settings};
 
 /// A kept contact may be so many margins wide, so that pairs do not come and go each tick.
@@ -15,7 +15,7 @@ const KEPT: f64 = 1.5;
 
 /// Computes the contacts of moved bodies anew; those that parted are added to `parted`.
 pub(crate) fn update(
-    level: Level,
+    (level, law): (Level, &Law),
     graph: &mut Graph,
     bodies: &mut Bodies,
     pieces: &Pieces,
@@ -51,7 +51,7 @@ pub(crate) fn update(
                 cold.features[lane] = found.features(lane);
                 let gaps = [found.s1[lane], found.s2[lane]];
                 if gaps[0].min(gaps[1]) < 0.0 || cold.is_deep(lane) {
-                    let deepest = deepest(pieces, cold.pieces[lane]);
+                    let deepest = deepest(law, pieces, cold.pieces[lane]);
                     if cold.note_depth(lane, gaps, deepest, false) {
                         block.show(lane, deepest);
                         deep.push(cold.contact[lane]);
@@ -77,9 +77,9 @@ pub(crate) fn update(
 }
 
 /// The least gap of two pieces that the sweeps see, in m.
-fn deepest(pieces: &Pieces, pair: [u32; 2]) -> f64 {
+fn deepest(law: &Law, pieces: &Pieces, pair: [u32; 2]) -> f64 {
     let [a, b] = pair.map(|piece| pieces.outlines[piece as usize].extent());
-    -DEEP * a.min(b)
+    law.deepest(a.min(b))
 }
 
 /// Those lanes that have a bit.
@@ -164,7 +164,7 @@ pub(crate) fn nearness(
 
 /// Makes contacts of those candidates that are near enough, in the order in which their bodies were inserted.
 pub(crate) fn create(
-    level: Level,
+    (level, law): (Level, &Law),
     graph: &mut Graph,
     bodies: &mut Bodies,
     pieces: &Pieces,
@@ -205,7 +205,7 @@ pub(crate) fn create(
     for (New { pieces: pair, .. }, surface, manifold) in fresh {
         let [a, b] = pair.map(|piece| &pieces.list[piece as usize]);
         let ends = [a.body, b.body];
-        let deepest = deepest(pieces, pair);
+        let deepest = deepest(law, pieces, pair);
         let id = graph.insert(bodies, ends, pair, (&manifold, deepest), surface);
         known.insert(pair, id);
         let lines = ends.map(|slot| bodies.records[slot as usize].line);

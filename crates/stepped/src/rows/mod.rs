@@ -23,7 +23,7 @@ mod transpose;
 
 pub(crate) use block::{Block, Cold, LANES, OPEN};
 pub(crate) use bounce_budget::Before;
-pub(crate) use deep::{DEEP, Deep};
+pub(crate) use deep::Deep;
 pub(crate) use extra_sweeps::ExtraSweeps;
 pub(crate) use graph::Graph;
 pub(crate) use integrate::{correct, displace, velocity_before, warm_start};

@@ -1,9 +1,10 @@
 //! Islands and their sleep.
 
+use carom_geometry::{ConvexPolygon, Polygon};
 use carom_math::{Vec2, vec2};
 
 use super::{Random, floor, pyramid, unit_box};
-use crate::{BodyInput, BodyKind, Engine, Material, Settings};
+use crate::{BodyId, BodyInput, BodyKind, Engine, Material, PieceInput, Settings};
 
 #[test]
 fn a_pyramid_falls_asleep_and_wakes_as_it_was() {
@@ -159,4 +160,47 @@ fn random_calls_among_sleepers_keep_the_graph() {
         total += slept;
     }
     assert!(total > 100, "{total}");
+}
+
+/// Overlaps under a load were taken for such that a caller made, and parted under it for ever: a tall heap of soft contacts
+/// trembled. Continuous collision stopped bodies that fell along a wall whole, and those that fell onto them: they hung in the
+/// air, and their velocities grew.
+#[test]
+fn a_tall_heap_of_concave_bodies_comes_to_rest() {
+    for (settings, ticks) in [(Settings::fast(), 8000), (Settings::default(), 3000)] {
+        let mut engine = Engine::new(Settings {
+            sleep: None,
+            ..settings
+        })
+        .unwrap();
+        floor(&mut engine);
+        for x in [-2.5, 2.5] {
+            let wall = PieceInput::new(ConvexPolygon::rectangle(1.0, 400.0).unwrap());
+            engine
+                .insert(BodyInput::fixed().at(vec2(x, 0.0)), &[wall])
+                .unwrap();
+        }
+        // Arms of 0.1 m: what is deep is little.
+        let corners = [(-5, -5), (5, -5), (5, -4), (-4, -4), (-4, 5), (-5, 5)];
+        let ring = corners.map(|(x, y)| vec2(f64::from(x), f64::from(y)) * 0.1);
+        let letter = PieceInput::new(Polygon::new(ring).unwrap());
+        let mut random = Random::new(7);
+        let mut ids = Vec::new();
+        for k in 0..180u32 {
+            let (column, row) = (f64::from(k % 3), f64::from(k / 3));
+            let mut body = BodyInput::dynamic(0.25, 0.04);
+            body.pose = random.pose(0.0);
+            body.pose.position = vec2(1.3 * (column - 1.0), 1.0 + 1.4 * row);
+            ids.push(engine.insert(body, std::slice::from_ref(&letter)).unwrap());
+        }
+        let energy = |engine: &Engine| engine.energy().0 + engine.energy().1;
+        let first = energy(&engine);
+        for _ in 0..ticks {
+            engine.tick();
+            assert!(energy(&engine) < 1.001 * first, "{} J", energy(&engine));
+        }
+        let speed = |id: &BodyId| engine.velocity(*id).unwrap().0.length();
+        let fastest = ids.iter().map(speed).fold(0.0, f64::max);
+        assert!(fastest < 1e-5, "{fastest} m/s with {settings:?}");
+    }
 }
