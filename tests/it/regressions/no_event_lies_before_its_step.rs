@@ -1,8 +1,8 @@
 //! Where sums of `dt` round past the grid of sub-steps, what was seen at its next instant was told for before the step began in
 //! which it was seen, by up to 1e-9 of a sub-step; and the end of impacts that come ever faster for before the last of them.
 
-use carom_dynamics::{BodyDef, Mode, Settings, World};
-use carom_math::vec2;
+use carom_dynamics::{BodyDef, EventKind, Mode, Settings, World};
+use carom_math::{SimTime, vec2};
 use carom_tests::scenes::{block, disc, floor, put, surface};
 
 #[test]
@@ -49,4 +49,47 @@ fn no_event_lies_before_its_step_or_the_event_before() {
         }
     }
     assert!(told > 1000, "{told} events");
+}
+
+/// A large island that fell asleep was told so at the beginning of the sub-step, with the time of its end.
+#[test]
+fn no_sleep_lies_after_its_step() {
+    for dt in [0.007, 0.01, 1.0 / 60.0] {
+        let mut world = World::new(Settings::default()).expect("valid settings");
+        put(
+            &mut world,
+            BodyDef::fixed().at(vec2(0.0, -0.5)),
+            block(40.0, 1.0),
+            surface(0.0, 0.5),
+        );
+        for row in 0..8 {
+            for column in 0..8 - row {
+                let (x, y) = (f64::from(column) + 0.5 * f64::from(row), f64::from(row));
+                let def = BodyDef::dynamic()
+                    .at(vec2(x, 0.5 + y))
+                    .moving(vec2(0.01 * y, 0.0));
+                put(&mut world, def, block(1.0, 1.0), surface(0.0, 0.5));
+            }
+        }
+        let mut slept = 0;
+        for k in 0.. {
+            if world.time() > SimTime::ZERO + 6.0 {
+                break;
+            }
+            if k % 2 == 0 {
+                world.step(dt);
+            } else {
+                world.step_to_next_event(dt);
+            }
+            for event in world.events() {
+                assert!(
+                    event.time <= world.time(),
+                    "{event:?} at {:?}",
+                    world.time()
+                );
+                slept += usize::from(matches!(event.kind, EventKind::Asleep(_)));
+            }
+        }
+        assert!(slept >= 36, "{slept}");
+    }
 }

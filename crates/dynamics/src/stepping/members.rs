@@ -101,6 +101,8 @@ impl World {
         self.end_motions(&mut stepping);
         if !self.bodies.touched.is_empty() {
             self.enter_changed(&mut stepping, time);
+            stepping.engine.find_contacts(&self.rules());
+            self.tell_sleep(&mut stepping, time);
         }
         self.pull_members(&mut stepping);
         let forced = self.forced_members(&stepping);
@@ -110,7 +112,7 @@ impl World {
         self.book_work(&stepping, &forced);
         self.joins.reached = self.clock.next();
         self.joins.unwritten = true;
-        self.tell_sleep(&mut stepping, self.clock.next());
+        self.lay_members(&mut stepping);
         if self.settings.history > 0 {
             self.write_all(&stepping);
         }
@@ -152,12 +154,16 @@ impl World {
                 stepping.note_places(false);
             }
             self.write_all(&stepping);
+            if !self.clock.is_within(time) {
+                self.tell_sleep(&mut stepping, time);
+            }
             self.stepping = Some(stepping);
             self.tell_touches(time);
         } else if !self.clock.is_within(time)
             && let Some(mut stepping) = self.stepping.take()
         {
             self.end_motions(&mut stepping);
+            self.tell_sleep(&mut stepping, time);
             self.stepping = Some(stepping);
         }
     }

@@ -38,6 +38,8 @@ pub(crate) struct Stepping {
     ids: Vec<Option<carom_stepped::BodyId>>,
     /// Shapes that touch: how many convex pieces of theirs, and whether the caller was told.
     touching: BTreeMap<Shapes, (u32, bool)>,
+    /// Bodies that fell asleep or woke since that was told.
+    slept: Vec<carom_stepped::BodyId>,
     /// Scratch.
     changes: Vec<Touch>,
     /// Where bodies were before the last sub-step, where that is asked for: body, pose and turn.
@@ -78,6 +80,7 @@ impl Stepping {
                 engine,
                 ids: Vec::new(),
                 touching: BTreeMap::new(),
+                slept: Vec::new(),
                 changes: Vec::new(),
                 places: Vec::new(),
             }))),

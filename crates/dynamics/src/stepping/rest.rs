@@ -5,18 +5,28 @@ use carom_math::SimTime;
 use super::{Stepping, place};
 use crate::{EventKind, Mode, World};
 
+impl Stepping {
+    /// Notes bodies that fell asleep or woke, to tell of them.
+    fn note_sleep(&mut self) {
+        let slept = &mut self.slept;
+        self.engine.sleep_changes(|id, _| slept.push(id));
+    }
+}
+
 impl World {
     /// Tells of bodies that fell asleep or woke.
     pub(super) fn tell_sleep(&mut self, stepping: &mut Stepping, time: SimTime) {
-        let (mut changed, mut laid) = (Vec::new(), Vec::new());
-        stepping
-            .engine
-            .sleep_changes(|id, asleep| changed.push((id, asleep)));
+        let mut laid = Vec::new();
+        stepping.note_sleep();
+        let mut changed = core::mem::take(&mut stepping.slept);
+        changed.sort_unstable();
+        changed.dedup();
         let mut told: Vec<_> = (changed.into_iter())
-            .filter_map(|(id, asleep)| Some((stepping.engine.state(id).ok()?, asleep)))
+            .filter_map(|id| Some((stepping.engine.state(id).ok()?, id)))
             .collect();
         told.sort_unstable_by_key(|(state, _)| place(state));
-        for (state, asleep) in told {
+        for (state, id) in told {
+            let asleep = stepping.engine.is_asleep(id).unwrap_or(false);
             let index = place(&state);
             let known = self.bodies.get_mut(index);
             if known.asleep == asleep {
@@ -49,6 +59,22 @@ impl World {
         for index in laid {
             self.refit_among(index, time, self.clock.h, false);
             self.show(index, time);
+        }
+    }
+
+    /// Bodies that fell asleep in a sub-step lie there from its end on, which is told when time has come to it.
+    pub(super) fn lay_members(&mut self, stepping: &mut Stepping) {
+        let reached = self.clock.next();
+        let known = stepping.slept.len();
+        stepping.note_sleep();
+        for &id in &stepping.slept[known..] {
+            let Ok(state) = stepping.engine.state(id) else {
+                continue;
+            };
+            let asleep = stepping.engine.is_asleep(id).unwrap_or(false);
+            if asleep && self.bodies.get(place(&state)).in_engine {
+                self.write_rest(&state, reached);
+            }
         }
     }
 
