@@ -159,7 +159,7 @@ impl World {
         for k in 0..self.forced.len() {
             let index = self.forced[k];
             if !first && let Some(state) = stepping.state(index) {
-                self.write_one(stepping, &state);
+                self.write_one(stepping, &state, self.clock.last());
             }
             self.bodies.change(index, time, |_| {});
         }

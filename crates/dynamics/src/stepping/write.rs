@@ -27,8 +27,9 @@ impl Stepping {
 impl World {
     /// Motions of the last sub-step for all that moved in it.
     pub(super) fn write_all(&mut self, stepping: &Stepping) {
+        let start = self.clock.last();
         for state in stepping.engine.awake() {
-            self.write_one(stepping, &state);
+            self.write_one(stepping, &state, start);
         }
     }
 
@@ -41,19 +42,20 @@ impl World {
         // Bodies that were changed meanwhile go on from there.
         let mut changed = self.bodies.touched.clone();
         changed.sort_unstable();
+        let start = self.clock.last();
         for state in stepping.engine.awake() {
             if changed.binary_search(&place(&state)).is_err() {
-                self.write_one(stepping, &state);
+                self.write_one(stepping, &state, start);
             }
         }
     }
 
-    /// A body's motion of the last sub-step: from the velocity before to the one after, to where it is.
+    /// A body's motion of the last sub-step, which began at `start`: from the velocity before to the one after, to where it is.
     ///
     /// That is where it came from, too, unless a contact stopped it or pushed it out within the sub-step. Such a body goes
     /// evenly from place to place: a path between two that are free, and no faster than it was.
-    pub(super) fn write_one(&mut self, stepping: &Stepping, state: &State) {
-        let (index, start, h) = (place(state), self.clock.last(), self.clock.h);
+    pub(super) fn write_one(&mut self, stepping: &Stepping, state: &State, start: SimTime) {
+        let (index, h) = (place(state), self.clock.h);
         if self.bodies.get(index).is_guest {
             // Another method moves it, and what that predicted stands.
             return;
