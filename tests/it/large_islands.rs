@@ -1,7 +1,8 @@
 //! Large islands in hybrid mode: the stepped engine moves them, free bodies and callers meet them.
 
 use carom_dynamics::{
-    BodyDef, BodyId, BodyKind, Force, Impulse, Material, PairMaterial, Settings, Sleep, World,
+    BodyDef, BodyId, BodyKind, EventKind, Force, Impulse, Material, Mode, PairMaterial, Settings,
+    Sleep, World,
 };
 use carom_math::{Pose, Rot, Vec2, vec2};
 use carom_tests::scenes::{block, disc, put};
@@ -298,5 +299,112 @@ fn a_few_bodies_are_no_large_island() {
         .filter(|body| body.kind() == BodyKind::Dynamic)
     {
         assert_eq!(body.velocity(), Vec2::ZERO);
+    }
+}
+
+/// Impacts of a step: when, which bodies, speed and impulse.
+fn impacts(world: &World) -> Vec<(f64, [BodyId; 2], f64, f64)> {
+    let told = world
+        .events()
+        .into_iter()
+        .filter_map(|event| match event.kind {
+            EventKind::Impact {
+                a,
+                b,
+                speed,
+                normal_impulse,
+                ..
+            } => Some((event.time.as_secs(), [a, b], speed, normal_impulse)),
+            _ => None,
+        });
+    told.collect()
+}
+
+/// A ball that falls onto a pile of many: one impact with what it meets, when it meets it, and the others' as the blow goes on.
+#[test]
+fn a_blow_on_a_large_island_is_an_impact() {
+    for mode in [Mode::Hybrid, Mode::Stepped] {
+        let mut world = world(Settings { mode, ..awake() });
+        floor(&mut world);
+        let boxes = wall(&mut world, 8, 5);
+        run(&mut world, 1.0, |_| {});
+        let start = world.time().as_secs();
+        let top = world.body(boxes[36]).expect("a box").centre();
+        let def = BodyDef::dynamic().at(top + vec2(0.0, 0.5 + 0.3 + 2.0));
+        let ball = put(&mut world, def, disc(0.3), stone());
+        let mut told = Vec::new();
+        for _ in 0..60 {
+            world.step(1.0 / 60.0);
+            told.extend(impacts(&world));
+        }
+        let (speed, time) = ((2.0f64 * 9.81 * 2.0).sqrt(), (2.0f64 * 2.0 / 9.81).sqrt());
+        let first = told.iter().find(|(_, ends, ..)| ends.contains(&ball));
+        let (when, _, met, impulse) = first.expect("the blow is told");
+        assert!(
+            (met - speed).abs() < 0.01 * speed,
+            "{mode:?}: {met} m/s, not {speed}"
+        );
+        assert!(
+            (when - start - time).abs() < 1.0 / 360.0,
+            "{mode:?}: {when} s"
+        );
+        let mass = world.body(ball).expect("the ball").mass();
+        assert!(
+            *impulse > 0.4 * mass * speed && *impulse < 2.5 * mass * speed,
+            "{mode:?}: {impulse} N s"
+        );
+        // What rests tells of nothing.
+        run(&mut world, 2.0, |_| {});
+        for _ in 0..20 {
+            world.step(1.0 / 60.0);
+            assert_eq!(impacts(&world), [], "{mode:?}");
+        }
+    }
+}
+
+/// Impacts are told in order of time, whatever pieces time is cut into, and the same ones.
+#[test]
+fn impacts_of_a_large_island_do_not_depend_on_the_steps() {
+    for mode in [Mode::Hybrid, Mode::Stepped] {
+        let run = |cuts: &[f64]| {
+            let mut world = world(Settings { mode, ..awake() });
+            floor(&mut world);
+            for k in 0..40 {
+                let at = vec2(
+                    1.1 * f64::from(k % 5) + 0.1 * f64::from(k / 5),
+                    1.0 + 1.3 * f64::from(k / 5),
+                );
+                boxed(&mut world, BodyDef::dynamic().at(at));
+            }
+            let (mut told, mut last, mut k) = (Vec::new(), 0.0, 0);
+            while world.time().as_secs() < 2.9 {
+                world.step(cuts[k % cuts.len()]);
+                k += 1;
+                for event in &world.events().into_iter().collect::<Vec<_>>() {
+                    let time = event.time.as_secs();
+                    assert!(
+                        last <= time && event.time <= world.time(),
+                        "{mode:?}: {event:?} after {last} s"
+                    );
+                    last = time;
+                }
+                told.extend(impacts(&world));
+            }
+            world.step((3.0 - world.time().as_secs()).max(0.0));
+            told.extend(impacts(&world));
+            let key = |(_, ends, speed, impulse): (f64, [BodyId; 2], f64, f64)| {
+                (
+                    ends.map(|id| format!("{id:?}")),
+                    speed.to_bits(),
+                    impulse.to_bits(),
+                )
+            };
+            let mut told: Vec<_> = told.into_iter().map(key).collect();
+            told.sort();
+            told
+        };
+        let whole = run(&[1.0 / 60.0]);
+        assert!(whole.len() > 40, "{mode:?}: {}", whole.len());
+        assert_eq!(whole, run(&[0.0071, 0.0013, 0.04]), "{mode:?}");
     }
 }

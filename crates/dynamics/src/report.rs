@@ -13,7 +13,7 @@ pub struct StepReport {
     pub advanced: f64,
     /// Sub-steps that began.
     pub substeps: u64,
-    /// Impacts with an impulse.
+    /// Impacts with an impulse. Of bodies that the engine of `carom-stepped` moves they are noted where events are.
     pub impacts: u64,
     /// Sub-steps of single bodies that were solved for as part of a group in lasting contact.
     pub handed_over: u64,

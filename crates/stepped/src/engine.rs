@@ -8,6 +8,7 @@ use crate::bodies::Bodies;
 use crate::broad::{Broad, Pairs};
 use crate::continuous::{FastBody, note_fast};
 use crate::ghost::hide;
+use crate::impact::Impacts;
 use crate::pieces::{Disc, Pieces};
 use crate::rows::{
     Arrival, Before, Deep, ExtraSweeps, Graph, Law, Pass, Quad, arrivals, bounce, correct,
@@ -41,6 +42,7 @@ pub struct Engine {
     /// Rows with extra sweeps.
     extra: ExtraSweeps,
     pub(crate) deep: Deep,
+    pub(crate) impacts: Impacts,
     /// Sub-steps of the present tick so far.
     done: u32,
     /// Contacts of the next sub-step were found.
@@ -81,6 +83,7 @@ impl Engine {
             before: Vec::new(),
             extra: ExtraSweeps::default(),
             deep: Deep::default(),
+            impacts: Impacts::default(),
             done: 0,
             found: false,
             ended: Vec::new(),
@@ -323,9 +326,11 @@ impl Engine {
             level,
             law,
             bodies,
+            pieces,
             graph,
             arrived,
             before,
+            impacts,
             fast_bodies,
             far,
             ..
@@ -333,6 +338,7 @@ impl Engine {
         let every = settings.relaxation == Relaxation::EverySubstep;
         warm_start(*level, bodies, law.h);
         arrivals(*level, law, bodies, graph, arrived, before);
+        impacts.note_arrivals(arrived, graph, pieces);
         let lines = &mut bodies.lines;
         let solve = if every {
             Pass::Solve
@@ -341,6 +347,7 @@ impl Engine {
         };
         let mut seen = sweep(*level, solve, law, lines, graph.awake());
         self.extra.sweep(solve, law, bodies, graph);
+        impacts.note_hits((*level, law), bodies, graph, pieces, false);
         displace(*level, bodies, law.h, far);
         note_fast(bodies, settings, law.h, far, fast_bodies);
         self.deep.part(law, bodies, graph);
@@ -353,7 +360,10 @@ impl Engine {
         self.least_gap = seen.least_gap;
         let rest = f64::from(settings.substeps - self.done) * law.h;
         correct(*level, bodies, settings, law.h, rest);
+        impacts.note_hits((*level, law), bodies, graph, pieces, true);
+        impacts.add_rows(bodies, graph);
         bounce(bodies, graph, arrived, before);
+        impacts.end(law, arrived, bodies, graph, pieces);
     }
 }
 

@@ -75,6 +75,7 @@ impl Engine {
         self.wake(id)?;
         let record = *self.bodies.get(id)?;
         self.drop_contacts(id.slot);
+        self.impacts.forget(id.slot);
         for number in record.first_piece..record.first_piece + record.pieces {
             self.broad.leave(number);
         }

@@ -31,6 +31,7 @@ mod engine;
 mod error;
 mod ghost;
 mod groups;
+mod impact;
 mod input;
 mod insert;
 #[cfg(test)]
@@ -51,6 +52,7 @@ mod update;
 
 pub use engine::Engine;
 pub use error::EngineError;
+pub use impact::Impact;
 pub use input::{BodyId, BodyInput, BodyKind};
 pub use pieces::{Material, PieceInput};
 pub use read::{Contact, State};

@@ -1,7 +1,7 @@
 //! What a caller reads between ticks.
 
 use carom_geometry::Aabb;
-use carom_math::{Pose, Vec2, perp};
+use carom_math::{Pose, Vec2};
 
 use crate::bodies::Bodies;
 use crate::rows::velocity_before;
@@ -236,7 +236,7 @@ impl Engine {
         let (block, _, lane) = self.graph.lane(id);
         let [a, b] = [block.a[lane], block.b[lane]].map(|line| &self.bodies.lines[line as usize]);
         let [j1, j2, friction] = block.impulses(lane);
-        let normal = Vec2::new(block.nx[lane], block.ny[lane]);
+        let normal = block.normal(lane);
         Contact {
             bodies: contact.bodies.map(|slot| self.bodies.id(slot)),
             pieces: contact
@@ -244,15 +244,7 @@ impl Engine {
                 .map(|piece| self.pieces.list[piece as usize].ordinal),
             tags: self.pieces.tags(contact.pieces),
             touching: self.graph.is_touching(id),
-            places: [0.0, block.l[lane]].map(|back| {
-                let on = |side: usize, height: f64, arm: f64| {
-                    let centre = self.bodies.pose_of(contact.bodies[side]).position;
-                    centre + normal * height - perp(normal) * (arm + back)
-                };
-                let on_a = on(0, block.at[lane], block.a1[lane]);
-                let on_b = on(1, block.bt[lane], block.b1[lane]);
-                0.5 * (on_a + on_b)
-            }),
+            places: self.graph.places(&self.bodies, id),
             normal,
             points: block.points(lane),
             gaps: block.gaps(lane, a, b),

@@ -68,6 +68,7 @@ impl World {
         }
         let strays = stepping.engine.find_contacts(&self.rules());
         self.tell_sleep(&mut stepping, time);
+        self.tell_impacts(&mut stepping, time);
         self.stepping = Some(stepping);
         self.take_woken(time);
         strays
@@ -156,6 +157,7 @@ impl World {
             self.write_all(&stepping);
             if !self.clock.is_within(time) {
                 self.tell_sleep(&mut stepping, time);
+                self.tell_impacts(&mut stepping, time);
             }
             self.stepping = Some(stepping);
             self.tell_touches(time);
@@ -164,6 +166,7 @@ impl World {
         {
             self.end_motions(&mut stepping);
             self.tell_sleep(&mut stepping, time);
+            self.tell_impacts(&mut stepping, time);
             self.stepping = Some(stepping);
         }
     }

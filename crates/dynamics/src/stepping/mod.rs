@@ -22,7 +22,7 @@ mod write;
 use std::collections::BTreeMap;
 
 use carom_math::{Pose, SimTime};
-use carom_stepped::{Engine, Relaxation, Softness, State, Touch};
+use carom_stepped::{Engine, Impact, Relaxation, Softness, State, Touch};
 
 use crate::error::SettingsError;
 use crate::{Mode, Settings, World};
@@ -42,6 +42,7 @@ pub(crate) struct Stepping {
     slept: Vec<carom_stepped::BodyId>,
     /// Scratch.
     changes: Vec<Touch>,
+    impacts: Vec<Impact>,
     /// Where bodies were before the last sub-step, where that is asked for: body, pose and turn.
     places: Vec<(u32, Pose, f64)>,
 }
@@ -76,14 +77,18 @@ impl Stepping {
             ..carom_stepped::Settings::default()
         });
         match engine {
-            Ok(engine) => Ok(Some(Box::new(Self {
-                engine,
-                ids: Vec::new(),
-                touching: BTreeMap::new(),
-                slept: Vec::new(),
-                changes: Vec::new(),
-                places: Vec::new(),
-            }))),
+            Ok(mut engine) => {
+                engine.note_impacts(settings.events > 0);
+                Ok(Some(Box::new(Self {
+                    engine,
+                    ids: Vec::new(),
+                    touching: BTreeMap::new(),
+                    slept: Vec::new(),
+                    changes: Vec::new(),
+                    impacts: Vec::new(),
+                    places: Vec::new(),
+                })))
+            }
             Err(refused) => Err(SettingsError::Stepped { refused }),
         }
     }
@@ -148,6 +153,7 @@ impl World {
             self.substep_engine(stepping);
             let reached = self.clock.next();
             self.tell_sleep(stepping, reached.min(end));
+            self.tell_impacts(stepping, reached.min(end));
             if stepping.engine.is_at_tick() || stop_at_event {
                 self.tell_changed_touches(stepping, reached.min(end));
             }

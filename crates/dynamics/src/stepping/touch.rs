@@ -4,7 +4,7 @@ use carom_geometry::Aabb;
 use carom_math::SimTime;
 
 use super::{Shapes, Stepping, collider};
-use crate::{Contact, ContactPoint, World};
+use crate::{Contact, ContactPoint, EventKind, World};
 
 impl World {
     /// Begins and ends of touch since this was last called, in order of shapes.
@@ -44,6 +44,32 @@ impl World {
                 self.events.push_touch(bodies, ends, colliders, now, time);
             }
         }
+    }
+
+    /// Impacts that ended by `time`, the end of a sub-step.
+    pub(super) fn tell_impacts(&mut self, stepping: &mut Stepping, time: SimTime) {
+        let mut impacts = core::mem::take(&mut stepping.impacts);
+        stepping.engine.impacts(&mut impacts);
+        self.report.impacts += impacts.len() as u64;
+        for impact in impacts.drain(..) {
+            let [a, b] = impact
+                .tags
+                .map(|tag| self.colliders[collider(tag) as usize].body);
+            let [a, b] = [a, b].map(|index| self.bodies.get(index).id);
+            self.events.push_late(
+                time + -impact.since,
+                EventKind::Impact {
+                    a,
+                    b,
+                    point: impact.place,
+                    normal: impact.normal,
+                    normal_impulse: impact.normal_impulse,
+                    tangential_impulse: impact.tangential_impulse,
+                    speed: impact.speed,
+                },
+            );
+        }
+        stepping.impacts = impacts;
     }
 
     /// Bodies and colliders of two pieces, in order.

@@ -63,6 +63,8 @@ pub(crate) struct Cold {
     pub(crate) deepest: [f64; LANES],
     /// A bit for each lane that pushed when it was last asked.
     pub(crate) touching: u8,
+    /// A bit for each lane that pushed in the last sub-step, if impacts are noted.
+    pub(crate) pushed: u8,
     /// A bit for each lane that holds a contact.
     pub(crate) used: u8,
 }
@@ -103,6 +105,11 @@ impl Block {
         let two = manifold.points == 2;
         self.l[lane] = if two { manifold.length } else { 1.0 };
         self.s2[lane] = if two { manifold.gaps[1] } else { OPEN };
+    }
+
+    /// Unit normal from A to B.
+    pub(crate) const fn normal(&self, lane: usize) -> Vec2 {
+        Vec2::new(self.nx[lane], self.ny[lane])
     }
 
     pub(crate) const fn impulses(&self, lane: usize) -> [f64; 3] {
@@ -203,6 +210,7 @@ impl Cold {
         depths: [[0.0; 2]; LANES],
         deepest: [0.0; LANES],
         touching: 0,
+        pushed: 0,
         used: 0,
     };
 
@@ -232,7 +240,7 @@ impl Cold {
         deep
     }
 
-    pub(crate) const fn copy_lane(&mut self, to: usize, other: &Self, from: usize) {
+    pub(crate) fn copy_lane(&mut self, to: usize, other: &Self, from: usize) {
         self.contact[to] = other.contact[from];
         self.pieces[to] = other.pieces[from];
         self.features[to] = other.features[from];
@@ -240,6 +248,8 @@ impl Cold {
         self.belt[to] = other.belt[from];
         self.depths[to] = other.depths[from];
         self.deepest[to] = other.deepest[from];
-        self.touching = self.touching & !(1 << to) | (other.touching >> from & 1) << to;
+        let bit = |mine: u8, theirs: u8| mine & !(1 << to) | (theirs >> from & 1) << to;
+        self.touching = bit(self.touching, other.touching);
+        self.pushed = bit(self.pushed, other.pushed);
     }
 }

@@ -45,7 +45,7 @@ pub(crate) fn note(bodies: &Bodies, lines: &[[u32; 2]], h: f64, before: &mut Vec
 /// Makes bounces smaller that leave their bodies with more energy than these had.
 pub(super) fn keep(
     bodies: &mut Bodies,
-    arrived: &[Arrival],
+    arrived: &mut [Arrival],
     pushes: &[[Quad; 2]],
     before: &[Before],
 ) {
@@ -67,9 +67,14 @@ pub(super) fn keep(
             group.entry(*line).or_default().add(push);
         }
     }
-    for group in pushed.values() {
+    for (first, group) in &pushed {
         let r = excess(bodies, group, before);
         if r > 0.0 {
+            for (k, arrival) in arrived.iter_mut().enumerate() {
+                if groups.find(k) == *first {
+                    arrival.impulse *= 1.0 - r;
+                }
+            }
             for (line, push) in group {
                 let back = Quad(push.0.map(|x| -r * x));
                 bodies.lines[*line as usize].add(&back);

@@ -1,5 +1,7 @@
 //! The rows of contacts that are there: where they lie, and what is asked and changed of them.
 
+use carom_math::{Vec2, perp};
+
 use super::block::{Block, Cold, LANES, OPEN};
 use super::graph::Graph;
 use crate::Surface;
@@ -21,6 +23,27 @@ impl Graph {
         let cold = self.colours[contact.colour as usize].cold.get(k)?;
         let there = cold.used >> lane & 1 == 1 && cold.contact[lane] == id;
         (there && !contact.sleeps()).then_some((cold, lane))
+    }
+
+    /// Whether there is such a contact of these pieces, and it is awake.
+    pub(crate) fn has(&self, id: u32, pieces: [u32; 2]) -> bool {
+        self.cold(id).is_some() && self.contacts[id as usize].pieces == pieces
+    }
+
+    /// Both points of a contact, midway between the surfaces, in m.
+    pub(crate) fn places(&self, bodies: &Bodies, id: u32) -> [Vec2; 2] {
+        let (block, _, lane) = self.lane(id);
+        let normal = block.normal(lane);
+        let slots = self.contacts[id as usize].bodies;
+        let centres = slots.map(|slot| bodies.pose_of(slot).position);
+        [0.0, block.l[lane]].map(|back| {
+            let on = |centre: Vec2, height: f64, arm: f64| {
+                centre + normal * height - perp(normal) * (arm + back)
+            };
+            let on_a = on(centres[0], block.at[lane], block.a1[lane]);
+            let on_b = on(centres[1], block.bt[lane], block.b1[lane]);
+            0.5 * (on_a + on_b)
+        })
     }
 
     /// Numbers of all contacts, colour by colour.

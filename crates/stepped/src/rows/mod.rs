@@ -23,6 +23,7 @@ mod transpose;
 
 pub(crate) use block::{Block, Cold, LANES, OPEN};
 pub(crate) use bounce_budget::Before;
+pub(crate) use colour::Colour;
 pub(crate) use deep::Deep;
 pub(crate) use extra_sweeps::ExtraSweeps;
 pub(crate) use graph::Graph;
@@ -31,5 +32,5 @@ pub(crate) use kernel::{Pass, eight_lanes, sweep};
 pub(crate) use law::Law;
 pub(crate) use line::{Line, Quad};
 pub(crate) use renew::renew;
-pub(crate) use restitution::{Arrival, arrivals, bounce};
+pub(crate) use restitution::{Arrival, REST, arrivals, bounce};
 pub(crate) use transpose::{Numbers, Wide, any};

@@ -19,7 +19,7 @@ use super::transpose::{Wide, any};
 use crate::bodies::Bodies;
 
 /// Pull over so many sub-steps is rest. Less: piles with restitution hum; more: low bounces end early.
-const REST: f64 = 2.0;
+pub(crate) const REST: f64 = 2.0;
 
 /// Sweeps over all points that bounce in one sub-step: those of one face need about three.
 const SWEEPS: usize = 8;
@@ -27,14 +27,17 @@ const SWEEPS: usize = 8;
 /// A point that is met.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Arrival {
-    contact: u32,
+    pub(crate) contact: u32,
     pub(super) lines: [u32; 2],
-    point: usize,
+    pub(crate) point: usize,
+    /// Speed of arrival, in m/s, and when, in s from the beginning of the sub-step on.
+    pub(crate) speed: f64,
+    pub(crate) met: f64,
     /// Speed with which the surface is left, in m/s.
     leaves: f64,
     /// Acceleration that opens the point, in m/s².
     pull: f64,
-    impulse: f64,
+    pub(crate) impulse: f64,
 }
 
 /// Finds what is met within this sub-step or the next, once the warm start acts.
@@ -75,6 +78,8 @@ pub(crate) fn arrivals(
                         contact: cold.contact[lane],
                         lines: [block.a[lane], block.b[lane]],
                         point,
+                        speed,
+                        met: gap / speed,
                         leaves: cold.restitution[lane] * speed,
                         pull: a,
                         impulse: 0.0,

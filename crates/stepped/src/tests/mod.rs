@@ -4,6 +4,7 @@ mod bouncing;
 mod calls;
 mod geometry;
 mod ghosts;
+mod impacts;
 mod laws;
 mod scales;
 mod sleeping;

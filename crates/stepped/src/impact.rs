@@ -1,0 +1,292 @@
+//! Impacts, as callers see them.
+//!
+//! ```text
+//! a point that was apart pushes, and closed faster than rest ─► its pair's run begins ─► nothing of it closes any more
+//! ```
+//! The impact of two pieces' shapes is that run of sub-steps: its speed is that of arrival, its impulse the sum over sub-steps,
+//! points and pieces, its time when the gap was closed. For sub-steps of no length it is the event of exact motion.
+
+#![allow(clippy::inline_always, reason = "the wide instructions end at a call")]
+
+use std::collections::BTreeMap;
+
+use carom_math::{Vec2, perp};
+use fearless_simd::{Level, Simd, SimdBase, SimdMask, dispatch, f64x4};
+
+use crate::bodies::Bodies;
+use crate::pieces::Pieces;
+use crate::rows::{Arrival, Block, Colour, Graph, LANES, Law, REST};
+use crate::{BodyId, Engine};
+
+/// A run goes on for so many sub-steps at most: what is pressed on for longer lies there.
+const LONGEST: u32 = 16;
+
+/// An impact of two bodies' shapes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Impact {
+    /// A and B: A was inserted first.
+    pub bodies: [BodyId; 2],
+    /// Tags of the pieces that met: what has the same tag is one shape.
+    pub tags: [u64; 2],
+    /// Point at which its impulses act together, in m.
+    pub place: Vec2,
+    /// Unit normal from A to B.
+    pub normal: Vec2,
+    /// Impulse on B along the normal, in N·s.
+    pub normal_impulse: f64,
+    /// Impulse on B along the normal turned by +90°, in N·s.
+    pub tangential_impulse: f64,
+    /// Normal speed of approach with which the surface was met, in m/s.
+    pub speed: f64,
+    /// For how long it has been met, in s.
+    pub since: f64,
+}
+
+/// Slots and tags of the bodies of a run.
+type Pair = ([u32; 2], [u64; 2]);
+
+/// An impact that goes on.
+#[derive(Clone, Debug, Default)]
+struct Run {
+    /// Numbers of its contacts, and their pieces: numbers are given anew.
+    contacts: Vec<(u32, [u32; 2])>,
+    speed: f64,
+    /// From the beginning of its first sub-step on, in s.
+    met: f64,
+    age: u32,
+    impulse: Vec2,
+    /// Sums of the normal impulses of all points: alone, times normals, times places.
+    weight: f64,
+    normal: Vec2,
+    moment: Vec2,
+}
+
+/// Impacts that go on, and those that ended.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Impacts {
+    /// The caller asks for them.
+    asked: bool,
+    runs: BTreeMap<Pair, Run>,
+    ended: Vec<Impact>,
+    /// Scratch.
+    new: Vec<u32>,
+}
+
+impl Impacts {
+    /// Points that bounce in this sub-step or the next begin runs.
+    pub(crate) fn note_arrivals(&mut self, arrived: &[Arrival], graph: &Graph, pieces: &Pieces) {
+        if self.asked {
+            for arrival in arrived {
+                self.meet(arrival.contact, [arrival.speed, arrival.met], graph, pieces);
+            }
+        }
+    }
+
+    /// Contacts that push, and did not when this was last called, begin runs if a point of theirs that was apart closed faster
+    /// than what counts as rest. To be called before the bodies move, and once more when they `moved`: relaxing stops them
+    /// short of what they would meet in the next sub-step.
+    pub(crate) fn note_hits(
+        &mut self,
+        (level, law): (Level, &Law),
+        bodies: &Bodies,
+        graph: &mut Graph,
+        pieces: &Pieces,
+        moved: bool,
+    ) {
+        if !self.asked {
+            return;
+        }
+        let mut new = core::mem::take(&mut self.new);
+        new.clear();
+        for colour in graph.awake() {
+            dispatch!(level, simd => pushing(simd, colour, &mut new));
+        }
+        for &id in &new {
+            let (block, _, lane) = graph.lane(id);
+            if let Some(arrives) = arrival(law, bodies, block, lane, moved) {
+                self.meet(id, arrives, graph, pieces);
+            }
+        }
+        self.new = new;
+    }
+
+    fn meet(&mut self, id: u32, [speed, met]: [f64; 2], graph: &Graph, pieces: &Pieces) {
+        let contact = &graph.contacts[id as usize];
+        let pair = (contact.bodies, pieces.tags(contact.pieces));
+        let run = self.runs.entry(pair).or_insert_with(|| Run {
+            met,
+            ..Run::default()
+        });
+        run.speed = run.speed.max(speed);
+        if run.age == 0 {
+            run.met = run.met.min(met);
+        }
+        let known = (id, contact.pieces);
+        if !run.contacts.contains(&known) {
+            run.contacts.push(known);
+        }
+    }
+
+    /// Adds what the rows of all runs did in this sub-step.
+    pub(crate) fn add_rows(&mut self, bodies: &Bodies, graph: &Graph) {
+        for run in self.runs.values_mut() {
+            run.contacts.retain(|(id, pieces)| graph.has(*id, *pieces));
+            for k in 0..run.contacts.len() {
+                let (block, _, lane) = graph.lane(run.contacts[k].0);
+                let [j1, j2, jt] = block.impulses(lane);
+                run.add(bodies, graph, run.contacts[k].0, [j1, j2]);
+                run.impulse += perp(block.normal(lane)) * jt;
+            }
+        }
+    }
+
+    /// Adds what bounces did, and ends the runs of what closes no more. A sub-step lasts `h` seconds.
+    pub(crate) fn end(
+        &mut self,
+        law: &Law,
+        arrived: &[Arrival],
+        bodies: &Bodies,
+        graph: &Graph,
+        pieces: &Pieces,
+    ) {
+        if self.runs.is_empty() {
+            return;
+        }
+        for arrival in arrived {
+            let contact = &graph.contacts[arrival.contact as usize];
+            let pair = (contact.bodies, pieces.tags(contact.pieces));
+            if let Some(run) = self.runs.get_mut(&pair) {
+                let mut j = [0.0; 2];
+                j[arrival.point] = arrival.impulse;
+                run.add(bodies, graph, arrival.contact, j);
+            }
+        }
+        let least = REST * law.h * law.gravity;
+        let ended = &mut self.ended;
+        self.runs.retain(|(slots, tags), run| {
+            run.age += 1;
+            let closes = run.contacts.iter().any(|&(id, _)| {
+                let (block, _, lane) = graph.lane(id);
+                let [a, b] =
+                    [block.a[lane], block.b[lane]].map(|line| &bodies.lines[line as usize]);
+                let (v, gaps) = (block.opening(lane, a, b), block.gaps(lane, a, b));
+                (0..block.points(lane)).any(|k| v[k] < -least && gaps[k] + 2.0 * v[k] * law.h < 0.0)
+            });
+            let goes_on = closes && run.age < LONGEST;
+            if !goes_on && run.weight > 0.0 {
+                let normal = run.normal / run.normal.length();
+                ended.push(Impact {
+                    bodies: slots.map(|slot| bodies.id(slot)),
+                    tags: *tags,
+                    place: run.moment / run.weight,
+                    normal,
+                    normal_impulse: run.impulse.dot(normal),
+                    tangential_impulse: run.impulse.dot(perp(normal)),
+                    speed: run.speed,
+                    since: (f64::from(run.age) * law.h - run.met).max(0.0),
+                });
+            }
+            goes_on
+        });
+    }
+
+    /// Forgets the impacts of a body that is taken out.
+    pub(crate) fn forget(&mut self, slot: u32) {
+        self.runs.retain(|(slots, _), _| !slots.contains(&slot));
+        self.ended
+            .retain(|impact| impact.bodies.iter().all(|body| body.slot != slot));
+    }
+}
+
+impl Run {
+    /// Adds normal impulses of both points of a contact.
+    fn add(&mut self, bodies: &Bodies, graph: &Graph, id: u32, j: [f64; 2]) {
+        let (block, _, lane) = graph.lane(id);
+        let normal = block.normal(lane);
+        let places = graph.places(bodies, id);
+        for (j, place) in j.into_iter().zip(places) {
+            self.weight += j;
+            self.normal += normal * j;
+            self.impulse += normal * j;
+            self.moment += place * j;
+        }
+    }
+}
+
+/// Numbers of contacts that push and did not when this was last asked.
+#[inline(always)]
+fn pushing<S: Simd>(simd: S, colour: &mut Colour, new: &mut Vec<u32>) {
+    let zero = f64x4::splat(simd, 0.0);
+    for (block, cold) in colour.blocks.iter().zip(&mut colour.cold) {
+        let mut pushes = 0u8;
+        for at in [0, LANES / 2] {
+            let j1 = f64x4::from_slice(simd, &block.j1[at..at + 4]);
+            let j2 = f64x4::from_slice(simd, &block.j2[at..at + 4]);
+            #[expect(clippy::cast_possible_truncation, reason = "four lanes")]
+            let bits = (j1 + j2).simd_gt(zero).to_bitmask() as u8;
+            pushes |= bits << at;
+        }
+        let pushes = pushes & cold.used;
+        let mut begins = pushes & !cold.pushed;
+        cold.pushed = pushes;
+        while begins != 0 {
+            new.push(cold.contact[begins.trailing_zeros() as usize]);
+            begins &= begins - 1;
+        }
+    }
+}
+
+/// The speed with which the fastest point that pushes and was apart arrives, in m/s, and when, in s from the beginning of the
+/// sub-step on; `None` if none does so faster than what counts as rest.
+fn arrival(
+    law: &Law,
+    bodies: &Bodies,
+    block: &Block,
+    lane: usize,
+    moved: bool,
+) -> Option<[f64; 2]> {
+    let ends = [block.a[lane] as usize, block.b[lane] as usize];
+    let mut gaps = {
+        let [a, b] = ends.map(|line| &bodies.lines[line]);
+        block.gaps(lane, a, b)
+    };
+    // Before contacts acted.
+    let [a, b] = ends.map(|line| {
+        let mut free = bodies.lines[line];
+        free.set_velocity(bodies.start[line].v(), bodies.start[line].w());
+        free
+    });
+    let opening = block.opening(lane, &a, &b);
+    if moved {
+        // No row held it: it went as it came.
+        gaps = [0, 1].map(|point| gaps[point] - opening[point] * law.h);
+    }
+    let pull = bodies.pull[ends[1]].v() - bodies.pull[ends[0]].v();
+    let pull = block.normal(lane).dot(pull).min(0.0);
+    let j = block.impulses(lane);
+    let mut first: Option<[f64; 2]> = None;
+    for point in (0..block.points(lane)).filter(|point| j[*point] > 0.0 && gaps[*point] > 0.0) {
+        let before = opening[point] - pull * law.h;
+        let speed = (before * before - 2.0 * pull * gaps[point]).sqrt();
+        let faster = first.is_none_or(|[known, _]| speed > known);
+        if before < 0.0 && speed > REST * law.h * law.gravity && faster {
+            first = Some([speed, gaps[point] / speed]);
+        }
+    }
+    first
+}
+
+impl Engine {
+    /// Notes impacts from now on, for [`Self::impacts`]; or ceases to.
+    pub fn note_impacts(&mut self, asked: bool) {
+        self.impacts = Impacts {
+            asked,
+            ..Impacts::default()
+        };
+    }
+
+    /// Adds the impacts that ended since this was last asked, in order of time up to a sub-step, then of their bodies' slots.
+    pub fn impacts(&mut self, found: &mut Vec<Impact>) {
+        found.append(&mut self.impacts.ended);
+    }
+}
