@@ -36,8 +36,8 @@ pub(crate) struct Stepping {
     pub(crate) engine: Engine,
     /// The engine's name of each body, by place in the world.
     ids: Vec<Option<carom_stepped::BodyId>>,
-    /// Shapes that touch: how many convex pieces of theirs, and whether the caller was told.
-    touching: BTreeMap<Shapes, (u32, bool)>,
+    /// Shapes of several convex pieces that touch: how many pairs of theirs.
+    touching: BTreeMap<Shapes, u32>,
     /// Bodies that fell asleep or woke since that was told.
     slept: Vec<carom_stepped::BodyId>,
     /// Scratch.

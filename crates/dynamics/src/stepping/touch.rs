@@ -1,5 +1,6 @@
 //! What touches, as callers see it: begins, ends, and contacts read from the engine.
 
+use carom_collision::part_count;
 use carom_geometry::Aabb;
 use carom_math::SimTime;
 
@@ -11,33 +12,33 @@ impl World {
     pub(super) fn tell_changed_touches(&mut self, stepping: &mut Stepping, time: SimTime) {
         let mut changes = core::mem::take(&mut stepping.changes);
         stepping.engine.touches(&mut changes);
-        let mut changed = Vec::new();
+        // What a shape pair's pieces gained in touches; told: it touched when one of its bodies joined.
+        let mut changed: Vec<(Shapes, i32, bool)> = Vec::with_capacity(changes.len());
         for change in changes.drain(..) {
-            let shapes = self.shapes_of(change.tags);
-            let (count, _) = stepping.touching.entry(shapes).or_default();
-            *count = if change.begins {
-                *count + 1
-            } else {
-                count.saturating_sub(1)
-            };
-            changed.push(shapes);
+            let gained = if change.begins { 1 } else { -1 };
+            changed.push((self.shapes_of(change.tags), gained, false));
         }
         stepping.changes = changes;
-        for shapes in self.joins.told.drain(..) {
-            stepping.touching.entry(shapes).or_default().1 = true;
-            changed.push(shapes);
-        }
+        changed.extend(self.joins.told.drain(..).map(|shapes| (shapes, 0, true)));
         changed.sort_unstable();
-        changed.dedup();
-        for shapes in changed {
-            let Some((count, told)) = stepping.touching.get_mut(&shapes) else {
-                continue;
+        for of_pair in changed.chunk_by(|one, other| one.0 == other.0) {
+            let shapes = of_pair[0].0;
+            let gained: i32 = of_pair.iter().map(|change| change.1).sum();
+            let was_told = of_pair.iter().any(|change| change.2);
+            let several = |(_, at): (u32, u32)| part_count(&self.colliders[at as usize].solid) > 1;
+            // Pieces of a pair of single ones touch or do not: there is nothing to count.
+            let (before, now) = if shapes.into_iter().any(several) {
+                let count = stepping.touching.entry(shapes).or_default();
+                let before = *count > 0;
+                *count = count.saturating_add_signed(gained);
+                let now = *count > 0;
+                if !now {
+                    stepping.touching.remove(&shapes);
+                }
+                (before || was_told, now)
+            } else {
+                (was_told || gained < 0, gained > 0)
             };
-            let now = *count > 0;
-            let before = core::mem::replace(told, now);
-            if !now {
-                stepping.touching.remove(&shapes);
-            }
             if now != before {
                 let [ends, colliders] = [shapes.map(|shape| shape.0), shapes.map(|shape| shape.1)];
                 let bodies = &self.bodies;
