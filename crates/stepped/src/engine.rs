@@ -338,7 +338,7 @@ impl Engine {
         let every = settings.relaxation == Relaxation::EverySubstep;
         warm_start(*level, bodies, law.h);
         arrivals(*level, law, bodies, graph, arrived, before);
-        impacts.note_arrivals(arrived, graph, pieces);
+        impacts.note_arrivals(arrived, graph);
         let lines = &mut bodies.lines;
         let solve = if every {
             Pass::Solve
@@ -347,7 +347,7 @@ impl Engine {
         };
         let mut seen = sweep(*level, solve, law, lines, graph.awake());
         self.extra.sweep(solve, law, bodies, graph);
-        impacts.note_hits((*level, law), bodies, graph, pieces, false);
+        impacts.note_hits((*level, law), bodies, graph, false);
         displace(*level, bodies, law.h, far);
         note_fast(bodies, settings, law.h, far, fast_bodies);
         self.deep.part(law, bodies, graph);
@@ -360,7 +360,7 @@ impl Engine {
         self.least_gap = seen.least_gap;
         let rest = f64::from(settings.substeps - self.done) * law.h;
         correct(*level, bodies, settings, law.h, rest);
-        impacts.note_hits((*level, law), bodies, graph, pieces, true);
+        impacts.note_hits((*level, law), bodies, graph, true);
         impacts.add_rows(bodies, graph);
         bounce(bodies, graph, arrived, before);
         impacts.end(law, arrived, bodies, graph, pieces);

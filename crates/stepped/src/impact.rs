@@ -8,8 +8,6 @@
 
 #![allow(clippy::inline_always, reason = "the wide instructions end at a call")]
 
-use std::collections::BTreeMap;
-
 use carom_math::{Vec2, perp};
 use fearless_simd::{Level, Simd, SimdBase, SimdMask, dispatch, f64x4};
 
@@ -42,14 +40,13 @@ pub struct Impact {
     pub since: f64,
 }
 
-/// Slots and tags of the bodies of a run.
-type Pair = ([u32; 2], [u64; 2]);
-
-/// An impact that goes on.
-#[derive(Clone, Debug, Default)]
+/// An impact of two pieces that goes on.
+#[derive(Clone, Copy, Debug)]
 struct Run {
-    /// Numbers of its contacts, and their pieces: numbers are given anew.
-    contacts: Vec<(u32, [u32; 2])>,
+    /// Number of the contact, and its bodies and pieces: numbers are given anew.
+    contact: u32,
+    slots: [u32; 2],
+    pieces: [u32; 2],
     speed: f64,
     /// From the beginning of its first sub-step on, in s.
     met: f64,
@@ -66,7 +63,7 @@ struct Run {
 pub(crate) struct Impacts {
     /// The caller asks for them.
     asked: bool,
-    runs: BTreeMap<Pair, Run>,
+    runs: Vec<Run>,
     ended: Vec<Impact>,
     /// Scratch.
     new: Vec<u32>,
@@ -74,10 +71,10 @@ pub(crate) struct Impacts {
 
 impl Impacts {
     /// Points that bounce in this sub-step or the next begin runs.
-    pub(crate) fn note_arrivals(&mut self, arrived: &[Arrival], graph: &Graph, pieces: &Pieces) {
+    pub(crate) fn note_arrivals(&mut self, arrived: &[Arrival], graph: &mut Graph) {
         if self.asked {
             for arrival in arrived {
-                self.meet(arrival.contact, [arrival.speed, arrival.met], graph, pieces);
+                self.meet(arrival.contact, [arrival.speed, arrival.met], graph);
             }
         }
     }
@@ -90,7 +87,6 @@ impl Impacts {
         (level, law): (Level, &Law),
         bodies: &Bodies,
         graph: &mut Graph,
-        pieces: &Pieces,
         moved: bool,
     ) {
         if !self.asked {
@@ -104,112 +100,147 @@ impl Impacts {
         for &id in &new {
             let (block, _, lane) = graph.lane(id);
             if let Some(arrives) = arrival(law, bodies, block, lane, moved) {
-                self.meet(id, arrives, graph, pieces);
+                self.meet(id, arrives, graph);
             }
         }
         self.new = new;
     }
 
-    fn meet(&mut self, id: u32, [speed, met]: [f64; 2], graph: &Graph, pieces: &Pieces) {
-        let contact = &graph.contacts[id as usize];
-        let pair = (contact.bodies, pieces.tags(contact.pieces));
-        let run = self.runs.entry(pair).or_insert_with(|| Run {
-            met,
-            ..Run::default()
-        });
-        run.speed = run.speed.max(speed);
-        if run.age == 0 {
-            run.met = run.met.min(met);
-        }
-        let known = (id, contact.pieces);
-        if !run.contacts.contains(&known) {
-            run.contacts.push(known);
+    fn meet(&mut self, id: u32, [speed, met]: [f64; 2], graph: &mut Graph) {
+        let contact = graph.contacts[id as usize];
+        if graph.begin_run(id) {
+            self.runs.push(Run {
+                contact: id,
+                slots: contact.bodies,
+                pieces: contact.pieces,
+                speed,
+                met,
+                age: 0,
+                impulse: Vec2::ZERO,
+                weight: 0.0,
+                normal: Vec2::ZERO,
+                moment: Vec2::ZERO,
+            });
+        } else if let Some(run) = self.runs.iter_mut().rev().find(|run| run.contact == id) {
+            // Its other point, or both ways found it.
+            run.speed = run.speed.max(speed);
+            if run.age == 0 {
+                run.met = run.met.min(met);
+            }
         }
     }
 
     /// Adds what the rows of all runs did in this sub-step.
     pub(crate) fn add_rows(&mut self, bodies: &Bodies, graph: &Graph) {
-        for run in self.runs.values_mut() {
-            run.contacts.retain(|(id, pieces)| graph.has(*id, *pieces));
-            for k in 0..run.contacts.len() {
-                let (block, _, lane) = graph.lane(run.contacts[k].0);
+        for run in &mut self.runs {
+            if graph.has(run.contact, run.pieces) {
+                let (block, _, lane) = graph.lane(run.contact);
                 let [j1, j2, jt] = block.impulses(lane);
-                run.add(bodies, graph, run.contacts[k].0, [j1, j2]);
+                run.add(bodies, graph, [j1, j2]);
                 run.impulse += perp(block.normal(lane)) * jt;
             }
         }
     }
 
-    /// Adds what bounces did, and ends the runs of what closes no more. A sub-step lasts `h` seconds.
+    /// Adds what bounces did, and ends the runs of what closes no more.
     pub(crate) fn end(
         &mut self,
         law: &Law,
         arrived: &[Arrival],
         bodies: &Bodies,
-        graph: &Graph,
+        graph: &mut Graph,
         pieces: &Pieces,
     ) {
         if self.runs.is_empty() {
             return;
         }
-        for arrival in arrived {
-            let contact = &graph.contacts[arrival.contact as usize];
-            let pair = (contact.bodies, pieces.tags(contact.pieces));
-            if let Some(run) = self.runs.get_mut(&pair) {
-                let mut j = [0.0; 2];
-                j[arrival.point] = arrival.impulse;
-                run.add(bodies, graph, arrival.contact, j);
+        if !arrived.is_empty() {
+            self.runs.sort_unstable_by_key(|run| run.contact);
+            for arrival in arrived {
+                let run = self
+                    .runs
+                    .binary_search_by_key(&arrival.contact, |run| run.contact);
+                if let Ok(k) = run {
+                    let mut j = [0.0; 2];
+                    j[arrival.point] = arrival.impulse;
+                    self.runs[k].add(bodies, graph, j);
+                }
             }
         }
         let least = REST * law.h * law.gravity;
-        let ended = &mut self.ended;
-        self.runs.retain(|(slots, tags), run| {
+        let mut over = Vec::new();
+        self.runs.retain_mut(|run| {
             run.age += 1;
-            let closes = run.contacts.iter().any(|&(id, _)| {
-                let (block, _, lane) = graph.lane(id);
+            let there = graph.has(run.contact, run.pieces);
+            let closes = there && {
+                let (block, _, lane) = graph.lane(run.contact);
                 let [a, b] =
                     [block.a[lane], block.b[lane]].map(|line| &bodies.lines[line as usize]);
                 let (v, gaps) = (block.opening(lane, a, b), block.gaps(lane, a, b));
                 (0..block.points(lane)).any(|k| v[k] < -least && gaps[k] + 2.0 * v[k] * law.h < 0.0)
-            });
+            };
             let goes_on = closes && run.age < LONGEST;
-            if !goes_on && run.weight > 0.0 {
-                let normal = run.normal / run.normal.length();
-                ended.push(Impact {
-                    bodies: slots.map(|slot| bodies.id(slot)),
-                    tags: *tags,
-                    place: run.moment / run.weight,
-                    normal,
-                    normal_impulse: run.impulse.dot(normal),
-                    tangential_impulse: run.impulse.dot(perp(normal)),
-                    speed: run.speed,
-                    since: (f64::from(run.age) * law.h - run.met).max(0.0),
-                });
+            if !goes_on {
+                graph.end_run(run.contact, run.pieces);
+                over.push(*run);
             }
             goes_on
         });
+        self.tell(law, bodies, pieces, over);
+    }
+
+    /// Pieces of two shapes that end in one sub-step are one impact.
+    fn tell(&mut self, law: &Law, bodies: &Bodies, pieces: &Pieces, mut over: Vec<Run>) {
+        let pair = |run: &Run| (run.slots, pieces.tags(run.pieces));
+        over.retain(|run| run.weight > 0.0);
+        over.sort_unstable_by_key(|run| (pair(run), run.pieces));
+        for runs in over.chunk_by(|one, other| pair(one) == pair(other)) {
+            let sum = |of: fn(&Run) -> Vec2| runs.iter().map(of).sum::<Vec2>();
+            let weight: f64 = runs.iter().map(|run| run.weight).sum();
+            let normal = sum(|run| run.normal);
+            let (normal, impulse) = (normal / normal.length(), sum(|run| run.impulse));
+            let since = |run: &Run| f64::from(run.age) * law.h - run.met;
+            self.ended.push(Impact {
+                bodies: runs[0].slots.map(|slot| bodies.id(slot)),
+                tags: pieces.tags(runs[0].pieces),
+                place: sum(|run| run.moment) / weight,
+                normal,
+                normal_impulse: impulse.dot(normal),
+                tangential_impulse: impulse.dot(perp(normal)),
+                speed: runs.iter().map(|run| run.speed).fold(0.0, f64::max),
+                since: runs.iter().map(since).fold(0.0, f64::max),
+            });
+        }
     }
 
     /// Forgets the impacts of a body that is taken out.
     pub(crate) fn forget(&mut self, slot: u32) {
-        self.runs.retain(|(slots, _), _| !slots.contains(&slot));
+        self.runs.retain(|run| !run.slots.contains(&slot));
         self.ended
             .retain(|impact| impact.bodies.iter().all(|body| body.slot != slot));
     }
 }
 
 impl Run {
-    /// Adds normal impulses of both points of a contact.
-    fn add(&mut self, bodies: &Bodies, graph: &Graph, id: u32, j: [f64; 2]) {
-        let (block, _, lane) = graph.lane(id);
+    /// Adds normal impulses of both points.
+    fn add(&mut self, bodies: &Bodies, graph: &Graph, j: [f64; 2]) {
+        let (block, _, lane) = graph.lane(self.contact);
         let normal = block.normal(lane);
-        let places = graph.places(bodies, id);
-        for (j, place) in j.into_iter().zip(places) {
-            self.weight += j;
-            self.normal += normal * j;
-            self.impulse += normal * j;
-            self.moment += place * j;
-        }
+        let sum = j[0] + j[1];
+        // Arms go to points midway between the surfaces at the base poses: from the centre of a body that has a line of its own.
+        let [a, b] = [block.a[lane], block.b[lane]].map(|line| line as usize);
+        let [opened, _] = block.opened(lane, &bodies.lines[a], &bodies.lines[b]);
+        let (line, height, arm) = if block.a[lane] == Bodies::GROUND {
+            (b, block.bt[lane] - 0.5 * opened, block.b1[lane])
+        } else {
+            (a, block.at[lane] + 0.5 * opened, block.a1[lane])
+        };
+        let centre = bodies.base[line].position + bodies.lines[line].d();
+        let first = centre + normal * height - perp(normal) * arm;
+        self.weight += sum;
+        self.normal += normal * sum;
+        self.impulse += normal * sum;
+        self.moment += first * sum - perp(normal) * (block.l[lane] * j[1]);
     }
 }
 

@@ -63,8 +63,9 @@ pub(crate) struct Cold {
     pub(crate) deepest: [f64; LANES],
     /// A bit for each lane that pushed when it was last asked.
     pub(crate) touching: u8,
-    /// A bit for each lane that pushed in the last sub-step, if impacts are noted.
+    /// A bit for each lane that pushed in the last sub-step, if impacts are noted, and for each that an impact goes on in.
     pub(crate) pushed: u8,
+    pub(super) runs: u8,
     /// A bit for each lane that holds a contact.
     pub(crate) used: u8,
 }
@@ -211,6 +212,7 @@ impl Cold {
         deepest: [0.0; LANES],
         touching: 0,
         pushed: 0,
+        runs: 0,
         used: 0,
     };
 
@@ -251,5 +253,6 @@ impl Cold {
         let bit = |mine: u8, theirs: u8| mine & !(1 << to) | (theirs >> from & 1) << to;
         self.touching = bit(self.touching, other.touching);
         self.pushed = bit(self.pushed, other.pushed);
+        self.runs = bit(self.runs, other.runs);
     }
 }

@@ -30,6 +30,28 @@ impl Graph {
         self.cold(id).is_some() && self.contacts[id as usize].pieces == pieces
     }
 
+    /// Notes that an impact begins in the row of a contact; whether none went on.
+    pub(crate) fn begin_run(&mut self, id: u32) -> bool {
+        let contact = &self.contacts[id as usize];
+        let (k, lane) = contact.place();
+        let runs = &mut self.colours[contact.colour as usize].cold[k].runs;
+        let fresh = *runs >> lane & 1 == 0;
+        *runs |= 1 << lane;
+        fresh
+    }
+
+    /// It is over, if the contact is still one of these pieces.
+    pub(crate) fn end_run(&mut self, id: u32, pieces: [u32; 2]) {
+        let contact = &self.contacts[id as usize];
+        let (k, lane) = contact.place();
+        if let Some(cold) = self.colours[contact.colour as usize].cold.get_mut(k)
+            && cold.contact[lane] == id
+            && cold.pieces[lane] == pieces
+        {
+            cold.runs &= !(1 << lane);
+        }
+    }
+
     /// Both points of a contact, midway between the surfaces, in m.
     pub(crate) fn places(&self, bodies: &Bodies, id: u32) -> [Vec2; 2] {
         let (block, _, lane) = self.lane(id);
