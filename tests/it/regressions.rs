@@ -23,6 +23,7 @@ mod a_place_used_again_inherits_nothing;
 mod a_refused_step_takes_no_events;
 mod a_removed_body_strikes_nobody;
 mod a_ring_that_spins_adds_nothing_to_what_it_carries;
+mod a_seam_has_its_contact_modes_solved_twice;
 mod a_sleeper_feels_no_force_that_has_ended;
 mod a_sleeper_in_the_air_falls_when_it_wakes;
 mod a_sleeper_that_is_neared_does_not_fall;

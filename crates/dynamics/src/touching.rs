@@ -329,6 +329,9 @@ impl World {
                 features = (Feature::Corner, Feature::Corner);
             }
             features = past_the_end(features, ends, contact.normal);
+            if part_here(features, ends, contact.normal) {
+                continue;
+            }
             // A surface that runs is no body that moves.
             if pair.material.tangent_speed != 0.0 {
                 return None;
@@ -445,6 +448,27 @@ fn past_the_end(
         }
         _ => features,
     }
+}
+
+/// Whether two edges that glide along each other have come to the end of their common stretch, but for rounding: the touch
+/// is over, and not a rounding later.
+fn part_here(features: (Feature, Feature), (a, b): (&ModeBody, &ModeBody), normal: Vec2) -> bool {
+    let (
+        Feature::Edge {
+            low: a_low,
+            high: a_high,
+        },
+        Feature::Edge {
+            low: b_low,
+            high: b_high,
+        },
+    ) = features
+    else {
+        return false;
+    };
+    let glide = (b.velocity - a.velocity).dot(perp(normal));
+    let room = end_room(a.centre, b.centre);
+    (glide > 0.0 && a_high - b_low <= room) || (glide < 0.0 && b_high - a_low <= room)
 }
 
 /// How near to the end of an edge is at its end but for the rounding of where both bodies are, in m.

@@ -2,7 +2,10 @@
 
 use super::balance::{Balance, Tangent, balance};
 use super::faces::Faces;
-use super::{BodyMove, Cause, Change, Feature, ModeBody, NotMine, Touch, slip_rate, tangents};
+use super::{
+    BodyMove, CLOSED, Cause, Change, Feature, ModeBody, NotMine, Touch, slip_rate, tangents,
+};
+use arrayvec::ArrayVec;
 use carom_math::perp;
 
 /// How far ahead a load that shifts is looked at where nothing else ends the mode, in s.
@@ -64,7 +67,7 @@ pub(super) fn next(
             found,
             tangents: tangents(touches, slips),
         };
-        if let Some(after) = load.first_other_motion(end) {
+        if let Some(after) = load.first_other_motion(load.looks(end)) {
             first = Some(Change {
                 after,
                 touch,
@@ -170,11 +173,10 @@ struct Load<'a> {
 }
 
 impl Load<'_> {
-    /// The first instant up to `end` from which on the forces need another motion.
-    fn first_other_motion(&self, end: f64) -> Option<f64> {
+    /// The first instant from which on the forces need another motion, seen at these `looks`.
+    fn first_other_motion(&self, looks: impl IntoIterator<Item = f64>) -> Option<f64> {
         let mut good = 0.0;
-        for k in 1..=LOOKS {
-            let look = end * f64::from(k) / f64::from(LOOKS);
+        for look in looks {
             if self.goes_on(look) {
                 good = look;
                 continue;
@@ -191,6 +193,46 @@ impl Load<'_> {
             return Some(bad);
         }
         None
+    }
+
+    /// Instants at which the load is looked at.
+    ///
+    /// What slides alone has its motion while some N ≥ 0 at the ends of its touches add up to what presses it, and their moments
+    /// to none. Seen from the body each end is where it was or falls back as the body goes on by d, so the lowest of them and
+    /// the highest only fall with d: the ways that bear it are one stretch, and both ends of the way tell of all between.
+    fn looks(&self, end: f64) -> ArrayVec<f64, { LOOKS as usize }> {
+        if !self.slides_alone() {
+            let part = |k| end * f64::from(k) / f64::from(LOOKS);
+            return (1..=LOOKS).map(part).collect();
+        }
+        let turns = self.touches.iter().filter_map(|touch| {
+            let glide = Glide::of(touch, self.moves);
+            let after = -glide.speed / glide.rate;
+            (after > 0.0 && after < end).then_some(after)
+        });
+        turns.take(1).chain([end]).collect()
+    }
+
+    /// Whether one body slides, and touches only what is at rest, on one side.
+    fn slides_alone(&self) -> bool {
+        let mut moving = (0..self.bodies.len()).filter(|at| self.bodies[*at].inverse_mass > 0.0);
+        let (Some(alone), None) = (moving.next(), moving.next()) else {
+            return false;
+        };
+        let rests = |(at, body): (usize, &BodyMove)| at == alone || *body == BodyMove::default();
+        let up = |touch: &Touch| {
+            if touch.bodies.1 == alone {
+                touch.normal
+            } else {
+                -touch.normal
+            }
+        };
+        let side = up(&self.touches[0]);
+        self.moves.iter().enumerate().all(rests)
+            && self
+                .touches
+                .iter()
+                .all(|touch| (up(touch) - side).length() <= CLOSED)
     }
 
     /// Whether the accelerations are the same where the load is then.
@@ -230,5 +272,91 @@ impl Load<'_> {
             touch
         });
         (bodies.collect(), touches.collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use arrayvec::ArrayVec;
+    use carom_math::{Vec2, vec2};
+    use proptest::prelude::*;
+
+    use super::super::faces;
+    use super::*;
+
+    /// A box 1 m wide slides on two floors at rest, at these heights and up to and from these ends.
+    fn slider(
+        speed: f64,
+        pull: Vec2,
+        ends: [f64; 2],
+        step: f64,
+        friction: f64,
+    ) -> (Vec<ModeBody>, Vec<Touch>) {
+        let body = |inverse_mass: f64, centre: Vec2, velocity: Vec2, pull: Vec2| ModeBody {
+            inverse_mass,
+            inverse_inertia: 3.0 * inverse_mass,
+            centre,
+            velocity,
+            spin: 0.0,
+            pull,
+            twist: 0.0,
+        };
+        let ground = body(0.0, Vec2::ZERO, Vec2::ZERO, Vec2::ZERO);
+        let slides = body(1.0, vec2(0.0, 1.0), vec2(speed, 0.0), pull);
+        let touch = |a: usize, (low, high): (f64, f64), y: f64, foot: (f64, f64)| {
+            let (from, to) = (low.max(foot.0), high.min(foot.1));
+            Touch {
+                bodies: (a, 2),
+                normal: Vec2::Y,
+                points: ArrayVec::from_iter([vec2(from, y), vec2(to, y)]),
+                features: (
+                    Feature::Edge {
+                        low: low - from,
+                        high: high - from,
+                    },
+                    Feature::Edge {
+                        low: foot.0 - from,
+                        high: foot.1 - from,
+                    },
+                ),
+                friction,
+            }
+        };
+        let touches = vec![
+            touch(0, (-9.0, ends[0]), 0.0, (-0.5, 0.0)),
+            touch(1, (ends[1], 9.0), step, (0.0, 0.5)),
+        ];
+        (vec![ground, ground, slides], touches)
+    }
+
+    proptest! {
+        #[test]
+        fn two_looks_at_what_slides_alone_see_what_many_see(
+            speed in -3.0..3.0,
+            pull in (-3.0..3.0, -12.0..-1.0),
+            ends in (-0.4..0.5, -0.5..0.4),
+            step in -0.3..0.3,
+            friction in prop_oneof![Just(0.0), 0.0..0.6],
+            end in 0.01..1.0,
+        ) {
+            let ends = [ends.0, ends.1];
+            let (bodies, touches) = slider(speed, vec2(pull.0, pull.1), ends, step, friction);
+            let faces = Faces::new(&bodies, &touches);
+            let slips = faces::slips(&bodies, &touches, speed.abs()).expect("it slides");
+            let tangents = tangents(&touches, &slips);
+            let found = balance(&faces, &tangents);
+            prop_assume!(found.is_ok());
+            let found = found.expect("asked for");
+            let moves = faces.moves(&bodies, &found, &slips);
+            let load = Load { bodies: &bodies, touches: &touches, moves: &moves, found: &found, tangents };
+            prop_assume!(moves[2].spin == 0.0 && moves[2].angular_acceleration == 0.0);
+            prop_assume!(load.slides_alone());
+            let few = load.first_other_motion(load.looks(end));
+            let many = load.first_other_motion((1..=256).map(|k| end * f64::from(k) / 256.0));
+            match (few, many) {
+                (Some(few), Some(many)) => prop_assert!((few - many).abs() <= 1e-9, "{few} {many}"),
+                (few, many) => prop_assert_eq!(few, many),
+            }
+        }
     }
 }
