@@ -9,6 +9,7 @@ use crate::narrow::{Eight, Found, Manifold, Scene, collide_eight};
 use crate::pieces::Pieces;
 use crate::rows::{Block, Cold, Graph, LANES, Law, renew};
 use crate::{PairRules, Settings};
+use carom_math::Vec2;
 
 /// A kept contact may be so many margins wide, so that pairs do not come and go each tick.
 const KEPT: f64 = 1.5;
@@ -130,7 +131,13 @@ pub(crate) fn met_asleep(
             continue;
         }
         // A body that moves is seen once a tolerance; one that rests wakes no island by lying near.
-        let line = bodies.line_of(slots[usize::from(a != Bodies::NONE)]);
+        let slot = slots[usize::from(a != Bodies::NONE)];
+        let line = bodies.line_of(slot);
+        // Nor does what is driven and stands still: sleepers may lean on it.
+        let stands = !bodies.is_dynamic(slot) && bodies.velocity_of(slot) == (Vec2::ZERO, 0.0);
+        if stands && !bodies.moved[line] {
+            continue;
+        }
         let rests = bodies.rest[line] > 0.0;
         let seen = if rests {
             0.0

@@ -1,7 +1,7 @@
 //! Islands and their sleep.
 
 use carom_geometry::{ConvexPolygon, Polygon};
-use carom_math::{Vec2, vec2};
+use carom_math::{Rot, Vec2, vec2};
 
 use super::{Random, floor, pyramid, unit_box};
 use crate::{BodyId, BodyInput, BodyKind, Engine, Material, PieceInput, Settings};
@@ -203,4 +203,30 @@ fn a_tall_heap_of_concave_bodies_comes_to_rest() {
         let fastest = ids.iter().map(speed).fold(0.0, f64::max);
         assert!(fastest < 1e-5, "{fastest} m/s with {settings:?}");
     }
+}
+
+/// What leans on a kinematic body that stands still falls asleep, and goes on to sleep: it was woken at the next tick.
+#[test]
+fn what_leans_on_a_kinematic_body_at_rest_sleeps() {
+    let mut engine = Engine::new(Settings::default()).unwrap();
+    floor(&mut engine);
+    let post = PieceInput::new(ConvexPolygon::rectangle(1.0, 3.0).unwrap());
+    let body = BodyInput::new(BodyKind::Kinematic).at(vec2(0.0, 1.5));
+    let post = engine.insert(body, &[post]).unwrap();
+    let plank = PieceInput::new(ConvexPolygon::rectangle(0.2, 2.0).unwrap());
+    let mut body = BodyInput::dynamic(1.0, 0.34).at(vec2(1.0, 1.05));
+    body.pose.rotation = Rot::from_angle(0.35);
+    let leans = engine.insert(body, &[plank]).unwrap();
+    for _ in 0..300 {
+        engine.tick();
+    }
+    for _ in 0..120 {
+        assert!(engine.is_asleep(leans).unwrap());
+        engine.tick();
+    }
+    assert!(engine.pose(leans).unwrap().position.y > 0.8, "it fell");
+    engine.set_velocity(post, vec2(0.5, 0.0), 0.0).unwrap();
+    engine.tick();
+    engine.tick();
+    assert!(!engine.is_asleep(leans).unwrap(), "it is driven");
 }
