@@ -20,6 +20,7 @@ mod large_islands;
 mod large_piles;
 mod lasting;
 mod laws;
+mod moved;
 mod observing;
 mod readme;
 mod regressions;

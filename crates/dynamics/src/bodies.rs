@@ -8,6 +8,7 @@ use carom_math::{SimTime, Sum, Vec2};
 use crate::few::Few;
 use crate::flyers::Course;
 use crate::history::History;
+use crate::moved::{Moved, moves};
 use crate::state::BodyState;
 use crate::uncommon::Lag;
 use crate::{BodyError, BodyId, BodyKind, EnergyLedger, Field};
@@ -79,6 +80,7 @@ pub(crate) struct Bodies {
     /// read.
     pub(crate) touched: Vec<u32>,
     pub(crate) notes_touched: bool,
+    pub(crate) moved: Moved,
 }
 
 impl Bodies {
@@ -99,6 +101,7 @@ impl Bodies {
             inaccurate: 0,
             touched: Vec::new(),
             notes_touched,
+            moved: Moved::default(),
         }
     }
 
@@ -145,6 +148,7 @@ impl Bodies {
 
     pub(crate) fn insert(&mut self, state: BodyState) {
         self.touch(state.id.index);
+        self.moved.note(state.id.index);
         let index = state.id.index as usize;
         if index == self.list.len() {
             self.list.push(state);
@@ -237,6 +241,21 @@ impl Bodies {
     pub(crate) fn renew(&mut self, index: u32) {
         let version = &mut self.versions[index as usize];
         *version = version.wrapping_add(1);
+        self.moved.note(index);
+    }
+
+    /// A step is over: from now on [`Self::moved`] tells of it.
+    pub(crate) fn end_step(&mut self) {
+        let Self {
+            list, alive, moved, ..
+        } = self;
+        moved.end_step(|index| alive[index as usize].then(|| moves(&list[index as usize])));
+    }
+
+    /// Bodies that moved in the last step, and are there.
+    pub(crate) fn moved(&self) -> impl Iterator<Item = &BodyState> {
+        let there = self.moved.indices().filter(|index| self.is_alive(*index));
+        there.map(|index| self.get(index))
     }
 
     /// Whether a body flies along anything but a parabola.

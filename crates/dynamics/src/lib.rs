@@ -54,6 +54,7 @@ mod ledger;
 mod mass;
 mod material;
 mod modes;
+mod moved;
 mod narrow;
 mod pair_rules;
 mod pairs;
