@@ -2,9 +2,7 @@
 
 use super::balance::{Balance, Tangent, balance};
 use super::faces::Faces;
-use super::{
-    BodyMove, CLOSED, Cause, Change, Feature, ModeBody, NotMine, Touch, slip_rate, tangents,
-};
+use super::{BodyMove, Cause, Change, Feature, ModeBody, NotMine, Touch, slip_rate, tangents};
 use arrayvec::ArrayVec;
 use carom_math::perp;
 
@@ -13,6 +11,9 @@ const LOOK: f64 = 64.0;
 
 /// Instants within a mode at which a load that shifts is looked at.
 const LOOKS: u32 = 8;
+
+/// Unit normals that differ by no more are those of parallel edges, as edges are flush.
+const PARALLEL: f64 = 1e-9;
 
 /// Accelerations that differ by more than this part belong to another motion.
 const SAME: f64 = 1e-12;
@@ -232,7 +233,7 @@ impl Load<'_> {
             && self
                 .touches
                 .iter()
-                .all(|touch| (up(touch) - side).length() <= CLOSED)
+                .all(|touch| (up(touch) - side).length() <= PARALLEL)
     }
 
     /// Whether the accelerations are the same where the load is then.
@@ -351,6 +352,13 @@ mod tests {
             let load = Load { bodies: &bodies, touches: &touches, moves: &moves, found: &found, tangents };
             prop_assume!(moves[2].spin == 0.0 && moves[2].angular_acceleration == 0.0);
             prop_assume!(load.slides_alone());
+            // As far as the touches and the slip last: beyond that nobody looks.
+            let ends = touches.iter().filter_map(|touch| Glide::of(touch, &moves).ends());
+            let stops = touches.iter().zip(&slips).filter_map(|(touch, slip)| {
+                let after = -slip / slip_rate(&bodies, touch, &moves);
+                (touch.friction > 0.0 && after > 0.0).then_some(after)
+            });
+            let end = ends.chain(stops).fold(end, f64::min);
             let few = load.first_other_motion(load.looks(end));
             let many = load.first_other_motion((1..=256).map(|k| end * f64::from(k) / 256.0));
             match (few, many) {
