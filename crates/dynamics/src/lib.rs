@@ -36,6 +36,7 @@ mod change;
 mod clock;
 mod closed;
 mod contact;
+mod edges;
 mod error;
 mod event;
 mod few;

@@ -5,11 +5,11 @@ use carom_geometry::Shape;
 use carom_math::{SimTime, Vec2, cross_scalar, perp};
 
 use crate::bodies::Bodies;
+use crate::edges::feature;
 use crate::flight::motion_along;
 use crate::flyers::{Touching, gap_acceleration};
 use crate::modes::Feature;
 use crate::state::BodyState;
-use crate::touching::feature;
 
 /// Stretch of a law that its acceleration is read from, in s.
 const STRETCH: f64 = 1e-5;

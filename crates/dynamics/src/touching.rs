@@ -1,19 +1,17 @@
 //! Who touches whom at an instant, as plain data for the closed forms of contact groups.
 
 use arrayvec::ArrayVec;
-use carom_collision::{Hull, part};
-use carom_math::{Pose, SimTime, Vec2, cross_scalar, perp};
+use carom_collision::part;
+use carom_math::{SimTime, Vec2, cross_scalar};
 
 use crate::World;
 use crate::bodies::Bodies;
+use crate::edges::{at_the_end, feature};
 use crate::heavy::{BEARS, mass_ratio};
 use crate::modes::{CLOSED, Feature, ModeBody, ROWS, Touch, hold};
 use crate::narrow::{RestSpeed, TOUCH};
 use crate::pairs::PairContact;
 use crate::state::BodyState;
-
-/// Sine of the angle up to which an edge lies along a contact: far above rounding.
-const FLUSH: f64 = 1e-9;
 
 /// Overlap beyond which a pair is pushed apart first, as a part of the smaller reach: closed forms keep what
 /// overlap there is.
@@ -328,10 +326,9 @@ impl World {
                 // Not flush: it may rest, but not slide.
                 features = (Feature::Corner, Feature::Corner);
             }
-            features = past_the_end(features, ends, contact.normal);
-            if part_here(features, ends, contact.normal) {
+            let Some(features) = at_the_end(features, ends, contact.normal) else {
                 continue;
-            }
+            };
             // A surface that runs is no body that moves.
             if pair.material.tangent_speed != 0.0 {
                 return None;
@@ -425,88 +422,4 @@ pub(crate) enum Approach {
     Leaves(f64),
     Stays,
     Closes(f64),
-}
-
-/// At the very end of an edge it is the way that a disc goes that tells the edge from its corner: where it leaves, it
-/// leaves at once, and not a rounding later.
-fn past_the_end(
-    features: (Feature, Feature),
-    (a, b): (&ModeBody, &ModeBody),
-    normal: Vec2,
-) -> (Feature, Feature) {
-    let glide = (b.velocity - a.velocity).dot(perp(normal));
-    let room = end_room(a.centre, b.centre);
-    let leaves = |low: f64, high: f64, glide: f64| {
-        (glide > 0.0 && high <= room) || (glide < 0.0 && low >= -room)
-    };
-    match features {
-        (Feature::Edge { low, high }, Feature::Round) if leaves(low, high, glide) => {
-            (Feature::Corner, Feature::Round)
-        }
-        (Feature::Round, Feature::Edge { low, high }) if leaves(low, high, -glide) => {
-            (Feature::Round, Feature::Corner)
-        }
-        _ => features,
-    }
-}
-
-/// Whether two edges that glide along each other have come to the end of their common stretch, but for rounding: the touch
-/// is over, and not a rounding later.
-fn part_here(features: (Feature, Feature), (a, b): (&ModeBody, &ModeBody), normal: Vec2) -> bool {
-    let (
-        Feature::Edge {
-            low: a_low,
-            high: a_high,
-        },
-        Feature::Edge {
-            low: b_low,
-            high: b_high,
-        },
-    ) = features
-    else {
-        return false;
-    };
-    let glide = (b.velocity - a.velocity).dot(perp(normal));
-    let room = end_room(a.centre, b.centre);
-    (glide > 0.0 && a_high - b_low <= room) || (glide < 0.0 && b_high - a_low <= room)
-}
-
-/// How near to the end of an edge is at its end but for the rounding of where both bodies are, in m.
-pub(crate) fn end_room(a: Vec2, b: Vec2) -> f64 {
-    16.0 * f64::EPSILON * (a.length() + b.length())
-}
-
-/// What of a hull lies along a contact: `outward` is the way out of it, `normal` the touch's own.
-pub(crate) fn feature(
-    hull: &Hull<'_>,
-    pose: Pose,
-    outward: Vec2,
-    normal: Vec2,
-    origin: Vec2,
-) -> Feature {
-    if hull.normals.is_empty() {
-        return if hull.vertices[0] == Vec2::ZERO {
-            Feature::Round
-        } else {
-            Feature::Corner
-        };
-    }
-    let local = pose.inverse_vector(outward);
-    let flush = |edge: &usize| (hull.normals[*edge] - local).length() <= FLUSH;
-    let Some(edge) = (0..hull.normals.len()).find(flush) else {
-        return Feature::Corner;
-    };
-    if hull.is_half_plane() {
-        return Feature::Edge {
-            low: f64::NEG_INFINITY,
-            high: f64::INFINITY,
-        };
-    }
-    let (from, to) = hull.edge(edge);
-    let along = |vertex: Vec2| (pose.point(vertex) - origin).dot(perp(normal));
-    let (x, y) = (along(from), along(to));
-    Feature::Edge {
-        low: if x < y { x } else { y },
-        high: if x < y { y } else { x },
-    }
 }

@@ -1,0 +1,79 @@
+//! What of a hull lies along a contact, and where that ends.
+
+use carom_collision::Hull;
+use carom_math::{Pose, Vec2, perp};
+
+use crate::modes::{Feature, ModeBody};
+
+/// Sine of the angle up to which an edge lies along a contact: far above rounding.
+const FLUSH: f64 = 1e-9;
+
+/// What two bodies touch with where an edge may end here, by the way that they glide: the end of an edge that a disc leaves is a
+/// corner, and a common stretch of two edges that is over is no contact. Otherwise they would leave it a rounding later.
+pub(crate) fn at_the_end(
+    features: (Feature, Feature),
+    (a, b): (&ModeBody, &ModeBody),
+    normal: Vec2,
+) -> Option<(Feature, Feature)> {
+    let glide = (b.velocity - a.velocity).dot(perp(normal));
+    let room = end_room(a.centre, b.centre);
+    let leaves = |low: f64, high: f64, glide: f64| {
+        (glide > 0.0 && high <= room) || (glide < 0.0 && low >= -room)
+    };
+    match features {
+        (Feature::Edge { low, high }, Feature::Round) if leaves(low, high, glide) => {
+            Some((Feature::Corner, Feature::Round))
+        }
+        (Feature::Round, Feature::Edge { low, high }) if leaves(low, high, -glide) => {
+            Some((Feature::Round, Feature::Corner))
+        }
+        (
+            Feature::Edge { low, high },
+            Feature::Edge {
+                low: from,
+                high: to,
+            },
+        ) if leaves(low - to, high - from, glide) => None,
+        _ => Some(features),
+    }
+}
+
+/// How near to the end of an edge is at its end but for the rounding of where both bodies are, in m.
+pub(crate) fn end_room(a: Vec2, b: Vec2) -> f64 {
+    16.0 * f64::EPSILON * (a.length() + b.length())
+}
+
+/// What of a hull lies along a contact: `outward` is the way out of it, `normal` the touch's own.
+pub(crate) fn feature(
+    hull: &Hull<'_>,
+    pose: Pose,
+    outward: Vec2,
+    normal: Vec2,
+    origin: Vec2,
+) -> Feature {
+    if hull.normals.is_empty() {
+        return if hull.vertices[0] == Vec2::ZERO {
+            Feature::Round
+        } else {
+            Feature::Corner
+        };
+    }
+    let local = pose.inverse_vector(outward);
+    let flush = |edge: &usize| (hull.normals[*edge] - local).length() <= FLUSH;
+    let Some(edge) = (0..hull.normals.len()).find(flush) else {
+        return Feature::Corner;
+    };
+    if hull.is_half_plane() {
+        return Feature::Edge {
+            low: f64::NEG_INFINITY,
+            high: f64::INFINITY,
+        };
+    }
+    let (from, to) = hull.edge(edge);
+    let along = |vertex: Vec2| (pose.point(vertex) - origin).dot(perp(normal));
+    let (x, y) = (along(from), along(to));
+    Feature::Edge {
+        low: if x < y { x } else { y },
+        high: if x < y { y } else { x },
+    }
+}
