@@ -1,4 +1,4 @@
-//! `World::moved` lists whoever is elsewhere than after the step before, in every mode, and nobody who rests.
+//! `World::moved` lists every body that is elsewhere than after the step before, in every mode, and none that sleeps.
 
 use std::collections::BTreeMap;
 
@@ -18,11 +18,11 @@ fn moved(world: &World) -> Vec<BodyId> {
     ids.sort_unstable();
     let all = ids.len();
     ids.dedup();
-    assert_eq!(ids.len(), all, "somebody is listed twice");
+    assert_eq!(ids.len(), all, "a body is listed twice");
     ids
 }
 
-/// A floor, stacks, balls that bounce on it, and a platform that goes to and fro.
+/// A floor, stacks, balls that bounce on it, and a platform, the last of the list.
 fn yard(mode: Mode) -> (World, Vec<BodyId>) {
     let mut world = World::new(Settings {
         gravity: vec2(0.0, -9.81),
@@ -68,7 +68,7 @@ fn yard(mode: Mode) -> (World, Vec<BodyId>) {
 }
 
 #[test]
-fn who_is_elsewhere_is_listed() {
+fn a_body_that_is_elsewhere_is_listed() {
     for mode in [Mode::Hybrid, Mode::Exact, Mode::Stepped] {
         let (mut world, mut ids) = yard(mode);
         assert_eq!(moved(&world), [], "nothing has moved yet");
@@ -110,6 +110,7 @@ fn who_is_elsewhere_is_listed() {
             assert!(listed.iter().all(|id| world.body(*id).is_some()));
         }
         assert!(most > 5);
+        // A kinematic body at rest is awake in the engine.
         let awake = |id: &BodyId| world.body(*id).is_some_and(|body| !body.is_asleep());
         let listed = moved(&world);
         assert!(

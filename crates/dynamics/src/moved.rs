@@ -1,21 +1,35 @@
-//! Which bodies move, and which have come to rest in the last step.
+//! Bodies that move, and bodies that came to rest in the last step.
+
+use carom_math::Vec2;
 
 use crate::state::BodyState;
+use crate::{Body, World};
 
 /// No place in the list.
 const NONE: u32 = u32::MAX;
 
-/// Bodies that move or were moved, by their places. What only flies on costs nothing.
+/// Places of bodies that move, and of those whose motion changed. A flight that goes on costs nothing.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Moved {
-    /// Whose motions changed since the last step ended, each once.
+    /// Bodies whose motion changed since the last step ended, each once.
     changed: Vec<u32>,
     is_changed: Vec<bool>,
-    /// Who moves, and where each body is in this list.
+    /// Bodies that move, and where each body is in this list.
     moving: Vec<u32>,
     place: Vec<u32>,
-    /// Whose motions changed in the last step, and who rests now.
+    /// Bodies at rest whose motion changed in the last step.
     stopped: Vec<u32>,
+}
+
+impl World {
+    /// Bodies that the last step may have left elsewhere than the one before did: all that move, and those that came to rest
+    /// in it or were put elsewhere since that one; every other body has the pose that it had. In an order that is the same after the
+    /// same calls; none before the first step. A body that was removed since is not among them.
+    ///
+    /// A viewer that knows all poses after one step needs to read only these after the next.
+    pub fn moved(&self) -> impl Iterator<Item = Body<'_>> {
+        self.bodies.moved().map(|state| self.view(state))
+    }
 }
 
 impl Moved {
@@ -34,7 +48,8 @@ impl Moved {
     /// A step is over: `moves` tells whether a body moves, or that it is not there any more.
     pub(crate) fn end_step(&mut self, moves: impl Fn(u32) -> Option<bool>) {
         self.stopped.clear();
-        for index in core::mem::take(&mut self.changed) {
+        let mut changed = core::mem::take(&mut self.changed);
+        for index in changed.drain(..) {
             self.is_changed[index as usize] = false;
             match moves(index) {
                 Some(true) => self.enter(index),
@@ -45,6 +60,7 @@ impl Moved {
                 None => self.leave(index),
             }
         }
+        self.changed = changed;
     }
 
     /// Places of bodies that moved in the last step.
@@ -78,8 +94,8 @@ impl Moved {
 /// Whether a body is elsewhere a moment later.
 pub(crate) fn moves(state: &BodyState) -> bool {
     let motion = &state.motion;
-    let still = motion.velocity == carom_math::Vec2::ZERO
-        && motion.acceleration == carom_math::Vec2::ZERO
+    let still = motion.velocity == Vec2::ZERO
+        && motion.acceleration == Vec2::ZERO
         && motion.spin == 0.0
         && motion.angular_acceleration == 0.0;
     !still || state.flight.is_some()

@@ -268,15 +268,6 @@ impl World {
         self.bodies.iter().map(|state| self.view(state))
     }
 
-    /// Bodies that the last step may have left elsewhere than the one before did: all that move, and those that came to rest
-    /// in it or were put elsewhere since that one; every other body has the pose that it had. In an order that is the same after the
-    /// same calls; none before the first step. A body that was removed since is not among them.
-    ///
-    /// A viewer that knows all poses after one step needs to read only these after the next.
-    pub fn moved(&self) -> impl Iterator<Item = Body<'_>> {
-        self.bodies.moved().map(|state| self.view(state))
-    }
-
     /// All pairs that touch, as of the last sub-step, in order of their shapes; of what moves without sub-steps, as of now.
     pub fn contacts(&self) -> impl Iterator<Item = Contact> + use<'_> {
         let places = self.pairs.in_order().into_iter();
