@@ -218,16 +218,7 @@ fn letters(
             1 => {
                 let t = 0.2 * size;
                 (
-                    corners(&[
-                        (-h, -h),
-                        (h, -h),
-                        (h, h),
-                        (t, h),
-                        (t, -t),
-                        (-t, -t),
-                        (-t, h),
-                        (-h, h),
-                    ]),
+                    corners(&u_shape(size)),
                     vec![
                         rectangle(-h, -h, h, -t),
                         rectangle(-h, -t, -t, h),
@@ -356,11 +347,7 @@ fn measure(name: &str, mut engine: Engine, skipped: u32, ticks: u32) -> Outcome<
         }
         if last {
             let after = velocities(&engine, &ids)?;
-            let squares = before
-                .iter()
-                .zip(&after)
-                .map(|(b, a)| (*a - *b).length_squared());
-            hum = (squares.sum::<f64>() / ids.len() as f64).sqrt() / engine.settings().tick;
+            hum = hum_of(&before, &after, engine.settings().tick);
         }
     }
     let speed = velocities(&engine, &ids)?
@@ -400,6 +387,30 @@ fn timed(call: impl FnOnce()) -> f64 {
     now() - start
 }
 
+/// Corners of a U as wide as it is high.
+fn u_shape(size: f64) -> [(f64, f64); 8] {
+    let (h, t) = (size / 2.0, 0.2 * size);
+    [
+        (-h, -h),
+        (h, -h),
+        (h, h),
+        (t, h),
+        (t, -t),
+        (-t, -t),
+        (-t, h),
+        (-h, h),
+    ]
+}
+
+/// Root mean square of accelerations between two ticks, in m/s².
+fn hum_of(before: &[Vec2], after: &[Vec2], tick: f64) -> f64 {
+    let squares = before
+        .iter()
+        .zip(after)
+        .map(|(b, a)| (*a - *b).length_squared());
+    (squares.sum::<f64>() / before.len() as f64).sqrt() / tick
+}
+
 /// How many of 160 heaps of bodies like a U still move.
 fn heaps(settings: Settings) -> Outcome<()> {
     let mut lively = [0; 3];
@@ -412,9 +423,7 @@ fn heaps(settings: Settings) -> Outcome<()> {
             }
             let before = velocities(&engine, &ids)?;
             engine.tick();
-            let both = before.iter().zip(velocities(&engine, &ids)?);
-            let squares: f64 = both.map(|(b, a)| (a - *b).length_squared()).sum();
-            let hum = (squares / ids.len() as f64).sqrt() / engine.settings().tick;
+            let hum = hum_of(&before, &velocities(&engine, &ids)?, engine.settings().tick);
             *lively += i32::from(hum > 5e-3 * 9.81);
         }
     }
@@ -427,18 +436,7 @@ fn heap(settings: Settings, k: u32) -> Outcome<Engine> {
     let mut engine = bin(settings, 12.0)?;
     for i in 0..120 {
         let size = 0.9 + 0.4 * (0.618_034 * f64::from(i + 100 * k)).fract();
-        let (h, t) = (0.5 * size, 0.2 * size);
-        let ring = [
-            (-h, -h),
-            (h, -h),
-            (h, h),
-            (t, h),
-            (t, -t),
-            (-t, -t),
-            (-t, h),
-            (-h, h),
-        ];
-        let ring = Polygon::new(ring.map(|(x, y)| vec2(x, y)))?;
+        let ring = Polygon::new(u_shape(size).map(|(x, y)| vec2(x, y)))?;
         let mass = ring.area_properties().with_density(1.0);
         let mut body = BodyInput::dynamic(mass.mass, mass.inertia);
         let at = vec2(f64::from(i % 6) * 1.9 - 4.75, 1.5 + 1.9 * f64::from(i / 6));

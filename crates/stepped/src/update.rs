@@ -1,6 +1,7 @@
 //! The contact update, once a tick: contacts of bodies that moved are computed anew, straight into their rows; new pairs
 //! get a contact, pairs that parted lose theirs.
 
+use carom_math::Vec2;
 use fearless_simd::Level;
 
 use crate::bodies::{Bodies, BodyKind};
@@ -9,7 +10,6 @@ use crate::narrow::{Eight, Found, Manifold, Scene, collide_eight};
 use crate::pieces::Pieces;
 use crate::rows::{Block, Cold, Graph, LANES, Law, renew};
 use crate::{PairRules, Settings};
-use carom_math::Vec2;
 
 /// A kept contact may be so many margins wide, so that pairs do not come and go each tick.
 const KEPT: f64 = 1.5;
@@ -133,7 +133,7 @@ pub(crate) fn met_asleep(
         // A body that moves is seen once a tolerance; one that rests wakes no island by lying near.
         let slot = slots[usize::from(a != Bodies::NONE)];
         let line = bodies.line_of(slot);
-        // Nor does what is driven and stands still: sleepers may lean on it.
+        // Nor does a kinematic body at rest: sleepers may lean on it.
         let stands = !bodies.is_dynamic(slot) && bodies.velocity_of(slot) == (Vec2::ZERO, 0.0);
         if stands && !bodies.moved[line] {
             continue;
