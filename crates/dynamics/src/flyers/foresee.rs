@@ -271,6 +271,7 @@ impl World {
         let Some((entry, impact)) = self.flyers.pop() else {
             return;
         };
+        self.lower_idle(entry.time);
         let Some(impact) = impact else {
             return self.run_search(&entry);
         };

@@ -156,7 +156,7 @@ impl World {
         if !self.is_substepping() {
             self.clock.catch_up(time);
         }
-        if self.stepped.is_empty() {
+        if !self.flyers.is_raised() {
             // Bodies look for flyers by boxes in the world from now on.
             self.narrow(time);
             self.flyers.raise(&self.bodies);
@@ -183,9 +183,17 @@ impl World {
         self.pairs.reorder();
     }
 
-    /// If no body is sub-stepped pair by pair any more, flyers need no boxes in the world.
+    /// If no body is sub-stepped pair by pair any more, flyers need no boxes in the world: after a tick, since an analytic
+    /// island that changes its mode lands and is let go of at one instant.
     pub(crate) fn lower_flyers(&mut self) {
         if self.stepped.is_empty() {
+            self.flyers.lowers = self.clock.next() + self.settings.tick;
+        }
+    }
+
+    /// Takes the boxes of flyers from the world where nobody has looked for them for a tick.
+    pub(crate) fn lower_idle(&mut self, time: SimTime) {
+        if self.flyers.is_raised() && self.stepped.is_empty() && self.flyers.lowers <= time {
             self.flyers.lower();
         }
     }

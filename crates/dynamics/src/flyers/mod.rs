@@ -129,6 +129,8 @@ pub(crate) struct Flyers {
     grounded: bool,
     /// Boxes of the grid's flyers in the world, while somebody needs to find them there.
     aloft: Option<BoxTree>,
+    /// When they go, if nobody needs them by then.
+    lowers: SimTime,
     /// Their nodes there, by body.
     nodes: Vec<Option<NodeId>>,
     /// Circles of the grid's flyers, by body.
@@ -166,6 +168,7 @@ impl Flyers {
             drifts: false,
             grounded: false,
             aloft: None,
+            lowers: SimTime::ZERO,
             nodes: Vec::new(),
             circles: Vec::new(),
             horizons: Vec::new(),

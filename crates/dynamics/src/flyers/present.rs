@@ -98,7 +98,7 @@ impl Flyers {
     }
 
     /// Whether bodies look for flyers by boxes in the world.
-    pub(super) const fn is_raised(&self) -> bool {
+    pub(crate) const fn is_raised(&self) -> bool {
         self.aloft.is_some()
     }
 
