@@ -2,10 +2,10 @@
 
 use carom_math::Vec2;
 
-use super::Rub;
 use super::equations::Equations;
 use super::joint::{Margin, Place};
 use super::path::Path;
+use super::{AT_ONCE, Rub};
 
 /// Instants of a stretch at which margins are looked at.
 const LOOKS: u32 = 12;
@@ -77,17 +77,20 @@ pub(super) fn first(equations: &Equations, path: &Path, sizes: (f64, f64)) -> En
                 armed[i] = true;
                 continue;
             }
+            let mut above = (from, before[i].value);
             if !armed[i] {
-                if margin.value < -margin.nothing {
-                    return End::Never(margin.limit);
+                if margin.value >= -margin.nothing {
+                    continue;
                 }
-                continue;
+                match rise(&at, i, to) {
+                    Some(risen) => above = risen,
+                    None => return End::Never(margin.limit),
+                }
             }
             if margin.value > 0.0 {
                 continue;
             }
-            let Some((after, limit)) = fall(&at, i, (from, before[i].value), (to, margin.value))
-            else {
+            let Some((after, limit)) = fall(&at, i, above, (to, margin.value)) else {
                 return End::Lost;
             };
             if found.is_none_or(|(known, _)| after < known) {
@@ -100,6 +103,24 @@ pub(super) fn first(equations: &Equations, path: &Path, sizes: (f64, f64)) -> En
         (before, from) = (now, to);
     }
     End::Open
+}
+
+/// An instant before `to` at which margin `i`, which is 0 at the start and has fallen at `to`, is above 0: a corner that opens
+/// may be back before the first look.
+fn rise(at: &impl Fn(f64) -> Option<Vec<Left>>, i: usize, to: f64) -> Option<(f64, f64)> {
+    let mut after = 0.5 * to;
+    while after > AT_ONCE {
+        let margin = *at(after)?.get(i)?;
+        if margin.value > margin.nothing {
+            return Some((after, margin.value));
+        }
+        if margin.value >= -margin.nothing {
+            // So near the start that rounding hides which way it goes.
+            return None;
+        }
+        after *= 0.5;
+    }
+    None
 }
 
 /// Where margin `i` falls through 0 between two looks: false position with the Illinois rule, to the last bits.
