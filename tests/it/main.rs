@@ -24,6 +24,7 @@ mod moved;
 mod observing;
 mod readme;
 mod regressions;
+mod rocking;
 mod round;
 mod scripts;
 mod setters;

@@ -79,14 +79,49 @@ pub(crate) fn fly(bodies: &mut Bodies, index: u32, time: SimTime, h: f64) {
 ///
 /// `h` is what counts as short, in s: where a field has an edge, or a centre is near.
 pub(crate) fn begin_piece(bodies: &mut Bodies, index: u32, time: SimTime, h: f64) -> SimTime {
-    let state = bodies.get(index);
-    let reach = state.reach;
-    let known = state.flight.clone();
+    let known = bodies.get(index).flight.clone();
     let shortest = SHORTEST * h;
     let flight = match known {
         Some(flight) if flight.is_free() && flight.lasts(time, h) > shortest => flight,
         _ => Arc::new(new_law(bodies, index, time, h, 0.0)),
     };
+    let end = lay_piece(bodies, index, &flight, time, shortest);
+    let state = bodies.get_mut(index);
+    state.member = false;
+    state.flight = Some(flight);
+    end
+}
+
+/// Gives a member of a group that turns the next piece of its path. When it ends: never, if the group changes before.
+pub(crate) fn begin_held_piece(
+    bodies: &mut Bodies,
+    index: u32,
+    flight: Arc<Flight>,
+    time: SimTime,
+    h: f64,
+) -> SimTime {
+    let left = flight.lasts(time, LONGEST);
+    let end = lay_piece(bodies, index, &flight, time, SHORTEST * h);
+    let state = bodies.get_mut(index);
+    state.member = true;
+    state.set_lag(Lag::NONE);
+    state.flight = Some(flight);
+    if end - time < left {
+        end
+    } else {
+        SimTime::NEVER
+    }
+}
+
+/// The parabola that touches a flight at `time`, for as long as it stays near: when that ends.
+fn lay_piece(
+    bodies: &mut Bodies,
+    index: u32,
+    flight: &Flight,
+    time: SimTime,
+    shortest: f64,
+) -> SimTime {
+    let reach = bodies.get(index).reach;
     let touching = flight.osculating(time, reach);
     let mut span = flight.lasts(time, LONGEST);
     let stays = |span: f64| touching.left_out(span) <= APART * reach;
@@ -96,9 +131,6 @@ pub(crate) fn begin_piece(bodies: &mut Bodies, index: u32, time: SimTime, h: f64
     // They must come to an end, whatever the field says.
     let span = if span > shortest { span } else { shortest };
     bodies.change(index, time, |motion| *motion = touching.for_seconds(span));
-    let state = bodies.get_mut(index);
-    state.member = false;
-    state.flight = Some(flight);
     time + span
 }
 

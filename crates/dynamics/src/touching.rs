@@ -8,7 +8,7 @@ use crate::World;
 use crate::bodies::Bodies;
 use crate::edges::{at_the_end, feature};
 use crate::heavy::{BEARS, mass_ratio};
-use crate::modes::{CLOSED, Feature, ModeBody, ROWS, Touch, hold};
+use crate::modes::{CLOSED, Feature, ModeBody, ROWS, Touch, hold, stand};
 use crate::narrow::{RestSpeed, TOUCH};
 use crate::pairs::PairContact;
 use crate::state::BodyState;
@@ -109,6 +109,15 @@ impl Gathered {
     pub(crate) fn kinetic(&self, bodies: &Bodies, time: SimTime) -> f64 {
         let all = self.places.iter();
         all.map(|&index| bodies.energy_of(index, time).0).sum()
+    }
+
+    /// Every touch that there was before a landing stays closed: what that opened comes back at once.
+    pub(crate) fn stand(&mut self, landed: &Self) {
+        let speed = self.rest;
+        let held = stand(&landed.bodies, &self.touches, speed);
+        for (body, (velocity, spin)) in self.bodies.iter_mut().zip(held) {
+            (body.velocity, body.spin) = (velocity, spin);
+        }
     }
 
     /// What a landing opens so little that turning brings it back at once stays closed.

@@ -5,11 +5,15 @@
 //! its mode. Only what it touches is not searched for: that is the group's own affair. Whoever meets it, or changes it,
 //! gives the whole group back to the sub-steps at that instant, and they let go of it again at their next look.
 
+use std::sync::Arc;
+
 use carom_collision::part_count;
 use carom_geometry::Aabb;
 use carom_math::SimTime;
 
 use super::store::Kept;
+use super::tips::Tipping;
+use crate::flight::{Flight, begin_held_piece};
 use crate::flyers::Cause;
 use crate::narrow::Narrow;
 use crate::pairs::Pair;
@@ -96,6 +100,7 @@ impl World {
             (state.course.flies, state.course.glides) = (true, true);
             state.set_piece(until);
             self.note_flight(index);
+            self.glide_on(index, time);
         }
         self.renew_members(place);
         for index in members {
@@ -104,13 +109,44 @@ impl World {
         true
     }
 
+    /// The next piece of the path of a member of a group that turns.
+    pub(crate) fn glide_on(&mut self, index: u32, time: SimTime) {
+        let place = self.bodies.get(index).membership.group;
+        let Some(group) = self.closed.get_mut(place) else {
+            return;
+        };
+        let Some(Tipping { tip, slots }) = &group.tipping else {
+            return;
+        };
+        let Some(k) = group.members.iter().position(|member| member.0 == index) else {
+            return;
+        };
+        let flight = Arc::new(Flight::held(tip.clone(), slots[k]));
+        let until = group.until.unwrap_or(SimTime::NEVER);
+        let end = begin_held_piece(&mut self.bodies, index, flight, time, self.clock.h);
+        group.members[k].1 = self.bodies.version(index);
+        self.bodies.get_mut(index).set_piece(end.min(until));
+    }
+
     /// Gives a group that glides back to the sub-steps: its motions stand, and its mode.
     pub(crate) fn hand_back(&mut self, place: u32, time: SimTime) {
+        self.land_group(place, time, false);
+    }
+
+    /// The same; a group that turns and `ends` now leaves its path: what it strikes is searched for from there.
+    pub(super) fn land_group(&mut self, place: u32, time: SimTime, ends: bool) {
         let Some(group) = self.closed.get_mut(place).filter(|group| group.glides) else {
             return;
         };
         group.glides = false;
+        let turns = group.tipping.is_some();
         let h = self.clock.h;
+        if turns {
+            self.feel_path(place, time);
+        }
+        let Some(group) = self.closed.get(place) else {
+            return;
+        };
         for touch in &group.touches {
             let pair = self.pairs.get_mut(touch.pair);
             self.narrow
@@ -128,6 +164,9 @@ impl World {
         for &index in &members {
             self.enlist(index, time);
         }
+        if turns {
+            self.lay_pieces(place, time, self.clock.next() - time);
+        }
         // Their boxes are as long as their way was: narrow ones meet whom a sub-step meets.
         for &index in &members {
             for slot in 0..self.bodies.get(index).colliders.len() {
@@ -136,8 +175,10 @@ impl World {
             }
         }
         self.closed.moves(place);
-        for index in members {
-            self.redirect(index, time);
+        if !(ends && turns) {
+            for index in members {
+                self.redirect(index, time);
+            }
         }
     }
 
@@ -197,8 +238,16 @@ impl World {
         let mut now = pair.clone();
         let (time, h) = (self.clock.now, self.clock.h);
         Narrow::default().look(&self.bodies, &self.colliders, &mut now, time, h);
-        for touch in group.touches.iter().filter(|touch| touch.pair == place) {
-            touch.carry(&self.bodies, &mut now, h);
+        let forces = group.forces_at(time);
+        for (k, touch) in group.touches.iter().enumerate() {
+            if touch.pair == place {
+                let moved = forces.as_ref().and_then(|forces| forces.get(k));
+                let touch = Kept {
+                    moved: *moved.unwrap_or(&touch.moved),
+                    ..*touch
+                };
+                touch.carry(&self.bodies, &mut now, h);
+            }
         }
         Some(now)
     }
@@ -295,21 +344,28 @@ mod tests {
         (world, ids)
     }
 
-    /// Roundings decide what becomes of bodies that touch just so: a few runs part there.
+    /// Until a contact without closed form takes soft rows: they begin from forces that are as old as a sub-step, or as new as
+    /// the end of a glide. Roundings decide what becomes of bodies that touch just so: a few runs part there.
     #[test]
     fn who_glides_moves_as_who_is_stepped() {
         let (mut glided, mut stepped, mut parted) = (0, 0, Vec::new());
+        let mut ticks = 0;
         for seed in 1..40 {
             let (mut fast, ids) = scene(seed, false);
             let (mut slow, _) = scene(seed, true);
             for tick in 0..180 {
-                glided += fast.step(1.0 / 60.0).substeps;
-                stepped += slow.step(1.0 / 60.0).substeps;
+                let reports = [&mut fast, &mut slow].map(|world| world.step(1.0 / 60.0));
+                glided += reports[0].substeps;
+                stepped += reports[1].substeps;
                 let off = |id: &BodyId| {
                     let [a, b] = [&fast, &slow].map(|world| world.body(*id).expect("there").pose());
                     (a.position - b.position).length()
                         + (a.rotation.x_axis() - b.rotation.x_axis()).length()
                 };
+                if reports.iter().any(|report| report.rows > 0) {
+                    break;
+                }
+                ticks += 1;
                 let worst = ids.iter().map(off).fold(0.0, f64::max);
                 if worst > 1e-9 {
                     parted.push((seed, tick));
@@ -317,6 +373,7 @@ mod tests {
                 }
             }
         }
+        assert!(ticks > 2000, "{ticks} ticks compared");
         assert!(parted.len() < 4, "seeds and ticks: {parted:?}");
         assert!(
             4 * glided < 3 * stepped,

@@ -248,6 +248,7 @@ impl World {
         if gathered.closing > gathered.rest {
             return self.wait_around(&gathered.dynamic(), time);
         }
+        let arrived = (gathered.closing > 0.0).then(|| gathered.clone());
         if gathered.closing > 0.0 {
             match land(&gathered.bodies, &gathered.touches) {
                 Ok(landed) => gathered.landed(&landed),
@@ -272,15 +273,36 @@ impl World {
             }
             Err(why) => {
                 let known = match why {
-                    NotMine::Turns | NotMine::Curved => self.tip_over(&gathered, time, speed),
+                    NotMine::Turns | NotMine::Curved => {
+                        self.tip_over(&gathered, time, speed, arrived.is_some())
+                    }
                     why => Err(why),
                 };
                 match known {
                     Ok(()) => {}
+                    Err(NotMine::Returns) => self.end_rocking(arrived, &gathered, time, speed),
                     Err(NotMine::Painleve) if self.jams(&gathered, time) => {}
                     Err(_) => self.wait_around(&gathered.dynamic(), time),
                 }
             }
+        }
+    }
+
+    /// A landing that opens a touch for less than a sub-step is the last one of its series.
+    fn end_rocking(
+        &mut self,
+        arrived: Option<Gathered>,
+        landed: &Gathered,
+        time: SimTime,
+        speed: f64,
+    ) {
+        let Some(mut gathered) = arrived else {
+            return;
+        };
+        gathered.stand(landed);
+        match judge(&gathered.bodies, &gathered.touches, speed) {
+            Ok(moves) => self.close(&gathered, &moves, time, speed),
+            Err(_) => self.wait_around(&gathered.dynamic(), time),
         }
     }
 

@@ -156,6 +156,12 @@ impl Group {
         })
     }
 
+    /// What every contact does at `time`, in a group that turns.
+    pub(super) fn forces_at(&self, time: SimTime) -> Option<Vec<TouchMove>> {
+        let tip = &self.tipping.as_ref()?.tip;
+        tip.touches_after(time - tip.path.start)
+    }
+
     /// The pair whose corner comes down at the next change, the normal from A to B, and where.
     pub(super) fn landing(&self) -> Option<(u32, Vec2, Vec2)> {
         match self.tipping.as_ref()?.tip.ends {
@@ -256,11 +262,11 @@ impl Closed {
         place
     }
 
-    /// Places of the groups that turn.
+    /// Places of the groups that turn in sub-steps.
     pub(super) fn tipping(&self) -> Vec<u32> {
         let turns = |held: &Option<(u64, Group)>| {
             held.as_ref()
-                .is_some_and(|(_, group)| group.tipping.is_some())
+                .is_some_and(|(_, group)| group.tipping.is_some() && !group.glides)
         };
         let all = (0_u32..).zip(&self.groups);
         all.filter(|(_, held)| turns(held))

@@ -8,13 +8,13 @@ use carom_math::SimTime;
 
 use super::joints::{Held, joint};
 use super::store::{Astray, Group, Kept, Membership};
-use crate::World;
 use crate::bodies::Bodies;
 use crate::flight::{Flight, fly, follow};
 use crate::modes::{BodyMove, NotMine, TouchMove};
 use crate::narrow::{TOUCH, rest_speed};
-use crate::tipping::{Contact, Joint, Place, Tip, tip};
+use crate::tipping::{Contact, Ends, Joint, Place, Tip, tip};
 use crate::touching::{Approach, Gathered, approach_at};
+use crate::{Mode, World};
 
 /// A corner this near to a point of contact is what touches there, as a part of the smaller reach.
 const NEAR: f64 = 1e-6;
@@ -25,6 +25,9 @@ const MOST: usize = 4;
 /// Shortest piece that a parabola is laid through, in s.
 const PIECE: f64 = 1e-4;
 
+/// Sub-steps within which what a landing opens comes back, if it counts as closed.
+const BACK: f64 = 4.0;
+
 /// A group that turns.
 #[derive(Clone, Debug)]
 pub(super) struct Tipping {
@@ -34,12 +37,16 @@ pub(super) struct Tipping {
 }
 
 impl World {
-    /// Moves a group along the path that its contacts leave it.
+    /// Moves a group along the path that its contacts leave it; `landed`: a corner came down just now.
+    ///
+    /// A corner that is back within [`BACK`] sub-steps rests, as a bounce does that is over in these (`rest_speed`): with e = 0
+    /// a box rocks in a series without end. In [`Mode::Exact`] the series goes on.
     pub(super) fn tip_over(
         &mut self,
         gathered: &Gathered,
         time: SimTime,
         speed: f64,
+        landed: bool,
     ) -> Result<(), NotMine> {
         let moving = gathered.bodies.iter();
         if moving.filter(|body| body.inverse_mass > 0.0).count() > MOST {
@@ -68,6 +75,11 @@ impl World {
             });
         }
         let tip = tip(&gathered.bodies, &places, &reaches, contacts, time, speed)?;
+        let lands = matches!(tip.ends, Ends::Lands { .. });
+        if landed && lands && tip.after < BACK * self.clock.h && self.settings.mode == Mode::Hybrid
+        {
+            return Err(NotMine::Returns);
+        }
         let touches = tip.touches_after(0.0).ok_or(NotMine::Unsolved)?;
         let moves: Vec<BodyMove> = tip.path.places_after(0.0).iter().map(moved).collect();
         let lost = gathered.kinetic(&self.bodies, time) - super::kinetic(gathered, &moves);
@@ -120,6 +132,9 @@ impl World {
             self.bodies.get_mut(index).membership = Membership::of(place);
         }
         self.lay_pieces(place, time, self.clock.next() - time);
+        if self.settings.mode == Mode::Hybrid {
+            self.closed.moves(place);
+        }
         self.tell_modes(&gathered.pairs, &touches, time);
         for (index, _) in members {
             self.redirect(index, time);
@@ -241,7 +256,7 @@ impl World {
     }
 
     /// Gives every member of a group that turns the parabola through both ends of its path's next piece.
-    fn lay_pieces(&mut self, place: u32, time: SimTime, left: f64) {
+    pub(super) fn lay_pieces(&mut self, place: u32, time: SimTime, left: f64) {
         let Some(group) = self.closed.get(place) else {
             return;
         };
@@ -262,12 +277,20 @@ impl World {
             self.bodies.get_mut(index).member = true;
             renewed.push((index, self.bodies.version(index)));
         }
-        let moved = tip.touches_after(passed);
         if let Some(group) = self.closed.get_mut(place) {
             group.members = renewed;
-            for (kept, moved) in group.touches.iter_mut().zip(moved.into_iter().flatten()) {
-                kept.moved = moved;
-            }
+        }
+        self.feel_path(place, time);
+    }
+
+    /// The contacts of a group that turns carry the forces of this instant.
+    pub(super) fn feel_path(&mut self, place: u32, time: SimTime) {
+        let Some(group) = self.closed.get_mut(place) else {
+            return;
+        };
+        let forces = group.forces_at(time);
+        for (kept, moved) in group.touches.iter_mut().zip(forces.into_iter().flatten()) {
+            kept.moved = moved;
         }
     }
 

@@ -34,7 +34,9 @@ const BEYOND: f64 = 1e-6;
 /// The parabola that touches the flight of a body at `time`.
 fn near(state: &BodyState, time: SimTime) -> Osculating {
     match &state.flight {
-        Some(flight) if flight.is_free() => flight.osculating(time, state.reach),
+        Some(flight) if flight.is_free() || state.course.glides => {
+            flight.osculating(time, state.reach)
+        }
         _ => Osculating::of(state.motion.rebased(time)),
     }
 }

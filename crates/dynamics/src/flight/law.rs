@@ -167,12 +167,11 @@ impl Flight {
     }
 
     /// The parabola that touches the flight at `time`, and how fast that leaves it. `reach` is that of the body.
-    ///
-    /// A body that is held keeps to the parabola through both ends of its piece instead: its own is at rest here.
     pub(crate) fn osculating(&self, time: SimTime, reach: f64) -> Osculating {
         let ((x, v), (rotation, spin)) = (self.at(time), self.turn_at(time));
         let turn = &self.turn;
-        let angular_acceleration = turn.pull - turn.damping * spin;
+        let mut angular_acceleration = turn.pull - turn.damping * spin;
+        let mut twist = turn.damping * angular_acceleration.abs();
         let (acceleration, jerk) = match &self.path {
             // d³x/dt³ = −c a, and a falls off.
             Path::Damped { pull, damping, .. } => {
@@ -190,7 +189,14 @@ impl Flight {
                 let most = stretches.iter().map(Stretch::jerk).fold(0.0, f64::max);
                 (stretches[k].acceleration(t), Jerk::Most(most))
             }
-            Path::Held { .. } => (Vec2::ZERO, Jerk::Most(f64::INFINITY)),
+            Path::Held { tip, body } => {
+                let jerk;
+                (jerk, twist) = tip.path.jerk(*body);
+                let acceleration;
+                (acceleration, angular_acceleration) =
+                    tip.path.acceleration_after(*body, time - self.start);
+                (acceleration, Jerk::Most(jerk))
+            }
         };
         Osculating {
             motion: Motion {
@@ -204,7 +210,7 @@ impl Flight {
                 left_out: 0.0,
             },
             jerk,
-            twist: turn.damping * angular_acceleration.abs() * reach,
+            twist: twist * reach,
         }
     }
 

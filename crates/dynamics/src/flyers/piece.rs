@@ -10,8 +10,11 @@ impl World {
     ///
     /// All that is foreseen for a flyer is foreseen for its piece, and all its searches end with it.
     pub(super) fn follow_law(&mut self, index: u32, time: SimTime) {
-        // Its piece is the mode of its group.
+        // Its law is its group's.
         if self.bodies.get(index).course.glides {
+            if self.piece_ends(index, time) {
+                self.glide_on(index, time);
+            }
             return;
         }
         if !self.bodies.bends(index) {

@@ -204,11 +204,20 @@ fn scaled(bodies: &[ModeBody], of: impl Fn(&ModeBody) -> (Vec2, f64)) -> Vec<f64
     state
 }
 
-/// Velocities and spins with which no point of any touch opens or closes: the nearest, by energy.
-pub(super) fn held(bodies: &[ModeBody], touches: &[&Touch]) -> Vec<(Vec2, f64)> {
+/// Velocities and spins with which no point of any touch opens or closes, nor slips where it `sticks`: the nearest, by energy.
+pub(super) fn held(
+    bodies: &[ModeBody],
+    touches: &[&Touch],
+    sticks: impl Fn(&Touch) -> bool,
+) -> Vec<(Vec2, f64)> {
     let rows = touches.iter().flat_map(|touch| {
-        let row = |&point| Row::new(bodies, touch.bodies, point, touch.normal).unit;
-        touch.points.iter().map(row)
+        let row = |point: &Vec2, along| Row::new(bodies, touch.bodies, *point, along).unit;
+        let normals = touch
+            .points
+            .iter()
+            .map(move |point| row(point, touch.normal));
+        let held = touch.points.iter().take(usize::from(sticks(touch)));
+        normals.chain(held.map(move |point| row(point, perp(touch.normal))))
     });
     let mut state = scaled(bodies, |body| (body.velocity, body.spin));
     Stops::of(rows.collect()).apply(&mut state);
@@ -257,32 +266,47 @@ pub(super) fn slips(
         let mut least = f64::INFINITY;
         let mut slip = 0.0;
         for &point in &touch.points {
-            let of = |place: usize| {
-                let body = &bodies[place];
-                let turning = cross_scalar(body.spin, point - body.centre);
-                (
-                    body.velocity + turning,
-                    body.velocity.length() + turning.length(),
-                )
-            };
-            let ((a, scale_a), (b, scale_b)) = (of(touch.bodies.0), of(touch.bodies.1));
-            let scale = scale_a + scale_b + speed;
-            if (b - a).dot(touch.normal).abs() > CLOSED * scale {
+            let (velocity, scale) = between(bodies, touch, point, speed);
+            if velocity.dot(touch.normal).abs() > CLOSED * scale {
                 return Err(NotMine::Approaches);
             }
-            let along = (b - a).dot(perp(touch.normal));
+            let along = velocity.dot(perp(touch.normal));
             if along.abs() < least {
                 least = along.abs();
-                slip = if along.abs() <= STILL * scale {
-                    0.0
-                } else {
-                    along
-                };
+                slip = still(along, scale);
             }
         }
         slips.push(slip);
     }
     Ok(slips)
+}
+
+/// Slip of a touch at a point, exactly 0 where it is no more than rounding.
+pub(super) fn slip(bodies: &[ModeBody], touch: &Touch, point: Vec2, speed: f64) -> f64 {
+    let (velocity, scale) = between(bodies, touch, point, speed);
+    still(velocity.dot(perp(touch.normal)), scale)
+}
+
+fn still(along: f64, scale: f64) -> f64 {
+    if along.abs() <= STILL * scale {
+        0.0
+    } else {
+        along
+    }
+}
+
+/// Velocity of B against A at a point, and what its roundings are measured by, in m/s.
+fn between(bodies: &[ModeBody], touch: &Touch, point: Vec2, speed: f64) -> (Vec2, f64) {
+    let of = |place: usize| {
+        let body = &bodies[place];
+        let turning = cross_scalar(body.spin, point - body.centre);
+        (
+            body.velocity + turning,
+            body.velocity.length() + turning.length(),
+        )
+    };
+    let ((a, scale_a), (b, scale_b)) = (of(touch.bodies.0), of(touch.bodies.1));
+    (b - a, scale_a + scale_b + speed)
 }
 
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {

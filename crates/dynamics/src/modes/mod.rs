@@ -155,6 +155,8 @@ pub(crate) enum NotMine {
     Painleve,
     /// No accelerations were found.
     Unsolved,
+    /// What a landing opens comes back within a sub-step.
+    Returns,
 }
 
 /// Modes and motions of a group from now on.
@@ -277,7 +279,16 @@ pub(crate) fn hold(bodies: &[ModeBody], touches: &[&Touch]) -> Vec<(Vec2, f64)> 
             .map(|body| (body.velocity, body.spin))
             .collect();
     }
-    faces::held(bodies, touches)
+    faces::held(bodies, touches, |_| false)
+}
+
+/// The same where what sticks after a landing goes on to stick: `bodies` have the velocities after it, and `speed` is the
+/// largest from whose roundings these may come, in m/s.
+pub(crate) fn stand(bodies: &[ModeBody], touches: &[Touch], speed: f64) -> Vec<(Vec2, f64)> {
+    let all: Vec<&Touch> = touches.iter().collect();
+    faces::held(bodies, &all, |touch| {
+        touch.friction > 0.0 && faces::slip(bodies, touch, touch.points[0], speed) == 0.0
+    })
 }
 
 /// What friction does at each touch: it opposes the slip there is, or holds if it can.

@@ -152,6 +152,16 @@ impl Path {
         (vec2(x, y), vec2(u, v), angle, spin)
     }
 
+    /// Acceleration of a body's centre, in m/s², and of its angle, in rad/s², `t` seconds after the start.
+    pub(crate) fn acceleration_after(&self, body: usize, t: f64) -> (Vec2, f64) {
+        let tau = t / self.length;
+        let of = |k: usize| {
+            let terms = self.terms[3 * body + k].iter().rev();
+            terms.fold(0.0, |sum, term| sum * tau + term)
+        };
+        (vec2(of(0), of(1)), of(2))
+    }
+
     /// Bound on the third derivative of a body's path, in m/s³, and of its angle, in rad/s³.
     pub(crate) fn jerk(&self, body: usize) -> (f64, f64) {
         let of = |k: usize| {
