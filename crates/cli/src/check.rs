@@ -16,7 +16,8 @@ const BYTES: u64 = 3;
 pub(crate) fn run(args: &CheckArgs) -> Outcome {
     let scene = scene::open(&args.scene, &args.set, None)?;
     let built = scene.build()?;
-    let frames = frames(built.duration, built.rate)?;
+    let size = built.camera.size();
+    let frames = frames(built.duration, built.rate, size)?;
     scene::check_step(&scene, &built.world, built.rate.interval())?;
 
     let (mut bodies, mut moving, mut shapes, mut vertices) = (0, 0, 0, 0);
@@ -28,7 +29,6 @@ pub(crate) fn run(args: &CheckArgs) -> Outcome {
             vertices += count(shape);
         }
     }
-    let size = built.camera.size();
     let pixels = frames * size.pixels() as u64;
     say!("valid        {}", scene.name());
     say!("bodies       {bodies} ({moving} moving)");

@@ -6,7 +6,7 @@ use std::sync::Mutex;
 use std::sync::mpsc::{Receiver, channel};
 use std::thread;
 
-use crate::exit::Failure;
+use crate::exit::{Failure, fail};
 
 /// One job a core, or one.
 pub fn cores() -> usize {
@@ -16,7 +16,7 @@ pub fn cores() -> usize {
 /// Hands jobs from `produce` to `threads` workers and their results, in the order of the jobs, to `take`.
 ///
 /// `produce` and `take` run on the calling thread. At most two jobs a thread are under way, so memory stays bounded.
-/// The first failure ends it all.
+/// The first failure ends it all. Where the system starts fewer threads, those work.
 pub fn in_order<J: Send, T: Send>(
     threads: usize,
     produce: impl FnMut() -> Result<Option<J>, Failure>,
@@ -47,9 +47,10 @@ pub fn in_order_with<S, J: Send, T: Send>(
     thread::scope(|scope| {
         // Dropped with this closure: then the workers find the queue closed and end.
         let jobs = jobs;
+        let mut started = 0;
         for _ in 0..threads {
             let (results, queue, equip, work) = (results.clone(), &queue, &equip, &work);
-            scope.spawn(move || {
+            let worker = move || {
                 let mut own = equip();
                 while let Some((index, job)) = next(queue) {
                     // A panic must not leave the caller waiting for a result that never comes.
@@ -58,13 +59,20 @@ pub fn in_order_with<S, J: Send, T: Send>(
                         break;
                     }
                 }
-            });
+            };
+            if let Err(error) = thread::Builder::new().spawn_scoped(scope, worker) {
+                if started == 0 {
+                    fail!("cannot start a thread: {error}");
+                }
+                break;
+            }
+            started += 1;
         }
         drop(results);
         let (mut sent, mut taken, mut more) = (0, 0, true);
         let mut early = BTreeMap::new();
         loop {
-            while more && sent - taken < 2 * threads {
+            while more && sent - taken < 2 * started {
                 let job = produce()?;
                 more = job.is_some_and(|job| jobs.send((sent, job)).is_ok());
                 sent += usize::from(more);

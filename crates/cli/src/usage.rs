@@ -8,7 +8,7 @@ use clap::error::ErrorKind;
 use crate::exit::{End, Failure};
 use crate::out;
 
-/// Help goes to stdout; a wrong value gets one line, other wrong usage clap's own hints.
+/// Help goes to stdout; a wrong value, or one that is no text, gets one line, other wrong usage clap's own hints.
 #[must_use]
 pub fn usage(error: &clap::Error) -> ExitCode {
     match error.kind() {
@@ -18,6 +18,10 @@ pub fn usage(error: &clap::Error) -> ExitCode {
             let first = text.split("\n\n").next().unwrap_or_default();
             Failure::new(first.strip_prefix("error: ").unwrap_or(first)).report()
         }
+        ErrorKind::InvalidUtf8 => Failure::new(
+            "an argument is not UTF-8; folders and files after a flag may have any name",
+        )
+        .report(),
         _ => {
             let printed = error.print();
             if error.use_stderr() {

@@ -27,6 +27,8 @@ pub struct Axis {
     pub floor: String,
     /// Name of a strip above an upright axis in which infinity has its place, marked by a cross; empty for none.
     pub ceiling: String,
+    /// Numbers with a line across the plot and a name; those beyond the ends of the axis are left out.
+    pub marks: Vec<(f64, String)>,
 }
 
 /// An axis with its ends fixed: numbers to fractions of its length, and its ticks.

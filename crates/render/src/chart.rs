@@ -18,6 +18,18 @@ pub enum Marker {
     Diamond,
     /// Two crossed strokes: what failed.
     Cross,
+    /// A ring around what is drawn beneath it: a point that is spoken of.
+    Ring,
+}
+
+/// Where the names of a chart's series stand.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Names {
+    /// In a legend above the plot.
+    #[default]
+    Legend,
+    /// Beside the plot, at the height of each curve's last point, in its colour.
+    AtEnds,
 }
 
 impl Marker {
@@ -121,6 +133,8 @@ pub struct Chart {
     pub x: Axis,
     /// The upright axis.
     pub y: Axis,
+    /// Where the names of the series stand.
+    pub names: Names,
     /// The series, lowest first.
     pub series: Vec<Series>,
 }
@@ -172,6 +186,13 @@ impl Chart {
         self
     }
 
+    /// The same with names at the ends of curves in place of a legend.
+    #[must_use]
+    pub const fn named_at_ends(mut self) -> Self {
+        self.names = Names::AtEnds;
+        self
+    }
+
     /// The same with one more series, above the others.
     #[must_use]
     pub fn with(mut self, series: Series) -> Self {
@@ -201,6 +222,9 @@ impl Chart {
             layout.draw_axes(self, frame);
             for (i, series) in self.series.iter().enumerate() {
                 layout.draw_series(series, self.ink(i), frame);
+            }
+            if self.names == Names::AtEnds {
+                layout.draw_names(self, frame);
             }
         }
     }
@@ -285,6 +309,38 @@ mod tests {
         );
         let svg = stripped.frame(size()).to_svg(&Style::light());
         assert!(svg.contains("exact") && svg.contains("failed"));
+    }
+
+    #[test]
+    fn a_name_stands_beside_the_end_of_its_curve() {
+        let up = Series::line("up", vec![vec2(0.0, 0.0), vec2(1.0, 1.0)]);
+        let down = Series::line("down", vec![vec2(0.0, 1.0), vec2(1.0, 0.0)]);
+        let chart = Chart::new("").with(up).with(down).named_at_ends();
+        let layout = Layout::new(&chart, Vec2::ZERO, size().corner());
+        let frame = chart.frame(size());
+        for (name, end) in [("up", vec2(1.0, 1.0)), ("down", vec2(1.0, 0.0))] {
+            let at = frame.ops().iter().find_map(|op| match op {
+                Op::Label(label) if label.text == name => Some(label.at),
+                _ => None,
+            });
+            let (at, end) = (at.unwrap(), layout.place(end).unwrap());
+            assert!(
+                (at.y - end.y).abs() < 1e-9 && at.x > end.x,
+                "{name}: {at} {end}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_mark_is_drawn_where_its_axis_has_room_for_it() {
+        let mut chart = chart(vec![vec2(1.0, 1.0), vec2(100.0, 100.0)])
+            .log_x()
+            .log_y();
+        chart.y.marks = vec![(10.0, "ten".to_owned()), (1e9, "beyond".to_owned())];
+        chart.x.marks = vec![(10.0, "across".to_owned()), (-1.0, "nowhere".to_owned())];
+        let svg = chart.frame(size()).to_svg(&Style::light());
+        assert!(svg.contains("ten") && svg.contains("across"));
+        assert!(!svg.contains("beyond") && !svg.contains("nowhere"));
     }
 
     #[test]

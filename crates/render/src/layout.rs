@@ -4,7 +4,8 @@ use carom_math::{Rot, Vec2, vec2};
 
 use crate::axis::{Ruler, TickText};
 use crate::clip::Window;
-use crate::{Axis, Chart, Frame, Ink, Label, Marker, Op, Series, font};
+use crate::ends::{self, End};
+use crate::{Axis, Chart, Frame, Ink, Label, Marker, Names, Op, Series, font};
 
 /// Heights of capitals, in pixels.
 const TITLE: f64 = 12.5;
@@ -63,7 +64,13 @@ impl Layout {
             }
         };
         let left = EDGE + label(&chart.y) + widest + TICK_GAP;
-        let right = size.x - EDGE - 6.0;
+        let at_ends = chart.names == Names::AtEnds;
+        let beside = if at_ends {
+            ends::room(chart.series.iter())
+        } else {
+            0.0
+        };
+        let right = size.x - EDGE - 6.0 - beside;
         let x_count = ((right - left) / 84.0).clamp(2.0, 10.0);
         // What stands in the strip of infinity has a place on the level axis too.
         let above = !chart.y.ceiling.is_empty();
@@ -76,7 +83,7 @@ impl Layout {
             .series
             .iter()
             .enumerate()
-            .filter(|(_, s)| !s.name.is_empty());
+            .filter(|(_, s)| !s.name.is_empty() && !at_ends);
         let mut legend = Vec::new();
         let mut pen = vec2(left, top + TEXT);
         for (i, series) in named {
@@ -207,6 +214,7 @@ impl Layout {
             dash: None,
             ink: Ink::Muted,
         });
+        self.draw_marks(chart, frame);
         for tick in &self.x.ticks {
             let x = min.x + tick.at * (max.x - min.x);
             draw_tick(&tick.text, vec2(x, foot + TICK_GAP), vec2(0.5, 1.0), frame);
@@ -230,6 +238,53 @@ impl Layout {
         let side = vec2(self.origin.x + EDGE, middle.y);
         let label = Label::new(side, chart.y.label.clone(), TEXT, Ink::Text);
         frame.push(label.anchored(0.5, 1.0).upwards());
+    }
+
+    /// Lines across the plot at numbers that are spoken of, each with its name at an end.
+    fn draw_marks(&self, chart: &Chart, frame: &mut Frame) {
+        let (min, max) = (self.min, self.max);
+        let within = |ruler: &Ruler, x: f64| ruler.at(x).filter(|at| (0.0..=1.0).contains(at));
+        let mut mark = |from: Vec2, to: Vec2, name: &String, at: Vec2, anchor: Vec2| {
+            frame.push(Op::Line {
+                points: vec![from, to],
+                width: 1.0,
+                dash: Some(4.0),
+                ink: Ink::Muted,
+            });
+            let label = Label::new(at, name.clone(), SMALL, Ink::Muted);
+            frame.push(label.anchored(anchor.x, anchor.y).with_halo());
+        };
+        for (x, name) in &chart.x.marks {
+            if let Some(at) = within(&self.x, *x) {
+                let x = crisp(min.x + at * (max.x - min.x));
+                let (top, foot) = (vec2(x, self.top), vec2(x, self.foot));
+                mark(top, foot, name, top - vec2(0.0, 4.0), vec2(0.5, 0.0));
+            }
+        }
+        for (y, name) in &chart.y.marks {
+            if let Some(at) = within(&self.y, *y) {
+                let y = crisp(max.y - at * (max.y - min.y));
+                let (left, right) = (vec2(min.x, y), vec2(max.x, y));
+                mark(left, right, name, left + vec2(4.0, -4.0), vec2(0.0, 0.0));
+            }
+        }
+    }
+
+    /// The names of the curves, beside their last points.
+    pub(crate) fn draw_names(&self, chart: &Chart, frame: &mut Frame) {
+        let seen = |place: &Vec2| (self.min.x..=self.max.x).contains(&place.x);
+        let end = |(i, series): (usize, &'_ Series)| {
+            let mut places = series.points.iter().filter_map(|&p| self.place(p));
+            let at = places.rfind(seen)?;
+            (!series.name.is_empty()).then_some((i, at))
+        };
+        let ends = chart.series.iter().enumerate().filter_map(end);
+        let ends = ends.map(|(i, at)| End {
+            name: &chart.series[i].name,
+            ink: chart.ink(i),
+            at: vec2(at.x, at.y.clamp(self.top, self.foot)),
+        });
+        ends::draw(ends.collect(), self.max.x, self.top, self.foot, frame);
     }
 
     pub(crate) fn draw_series(&self, series: &Series, ink: Ink, frame: &mut Frame) {
@@ -257,13 +312,9 @@ impl Layout {
                 let Some(place) = self.place(point).filter(|&p| window.contains(p)) else {
                     continue;
                 };
-                let failed = point.y == f64::INFINITY;
-                draw_marker(
-                    if failed { Marker::Cross } else { marker },
-                    place,
-                    ink,
-                    frame,
-                );
+                let failed = point.y == f64::INFINITY && marker != Marker::Ring;
+                let marker = if failed { Marker::Cross } else { marker };
+                draw_marker(marker, place, ink, frame);
             }
         }
     }
@@ -372,6 +423,16 @@ fn draw_marker(marker: Marker, at: Vec2, ink: Ink, frame: &mut Frame) {
         }
         return;
     }
+    if marker == Marker::Ring {
+        let corner = |i: i32| at + 6.6 * Rot::from_degrees(15.0 * f64::from(i)).x_axis();
+        frame.push(Op::Line {
+            points: (0..=24).map(corner).collect(),
+            width: 1.2,
+            dash: None,
+            ink,
+        });
+        return;
+    }
     for (radius, ink) in [(5.2, Ink::Background), (3.8, ink)] {
         if marker == Marker::Circle {
             frame.push(Op::Dot {
@@ -385,7 +446,7 @@ fn draw_marker(marker: Marker, at: Vec2, ink: Ink, frame: &mut Frame) {
         let (corners, first, grown) = match marker {
             Marker::Square => (4, 45.0, 1.25),
             Marker::Triangle => (3, -90.0, 1.3),
-            Marker::Diamond | Marker::Circle | Marker::Cross => (4, 0.0, 1.35),
+            Marker::Diamond | Marker::Circle | Marker::Cross | Marker::Ring => (4, 0.0, 1.35),
         };
         let points = (0..corners)
             .map(|i| {

@@ -3,7 +3,7 @@
 use carom_math::{Vec2, vec2};
 
 use crate::layout::{draw_entry, entry_width};
-use crate::{Chart, Frame, Ink, Label, Series, Size};
+use crate::{Chart, Frame, Ink, Label, Names, Series, Size};
 
 /// Heights of capitals, in pixels.
 const TITLE: f64 = 14.0;
@@ -12,7 +12,7 @@ const SMALL: f64 = 8.5;
 const EDGE: f64 = 20.0;
 const LINE: f64 = 20.0;
 
-/// Charts in a grid with a common legend: series of one name and colour are one entry.
+/// Charts in a grid with a common legend: series of one name and colour are one entry. Charts with names at ends have none in it.
 ///
 /// # Examples
 /// ```
@@ -29,7 +29,7 @@ const LINE: f64 = 20.0;
 pub struct Panels {
     /// Line above all.
     pub title: String,
-    /// Smaller line below the title; empty for none.
+    /// Smaller lines below the title; empty for none.
     pub subtitle: String,
     /// Charts in a row; 0 counts as 1.
     pub columns: usize,
@@ -74,8 +74,8 @@ impl Panels {
             (&self.title, TITLE, Ink::Text),
             (&self.subtitle, SMALL, Ink::Muted),
         ] {
-            if !text.is_empty() {
-                let label = Label::new(vec2(EDGE, top), text.clone(), height, ink);
+            for line in text.lines() {
+                let label = Label::new(vec2(EDGE, top), line, height, ink);
                 frame.push(label.anchored(0.0, 1.0));
                 top += 1.9 * height;
             }
@@ -107,7 +107,11 @@ impl Panels {
     /// Every named series once.
     fn entries(&self) -> Vec<(&Series, Ink)> {
         let mut entries: Vec<(&Series, Ink)> = Vec::new();
-        for chart in &self.charts {
+        for chart in self
+            .charts
+            .iter()
+            .filter(|chart| chart.names == Names::Legend)
+        {
             for (index, series) in chart.series.iter().enumerate() {
                 let ink = chart.ink(index);
                 let known = |(found, of): &(&Series, Ink)| found.name == series.name && *of == ink;
@@ -130,8 +134,10 @@ impl Panels {
         for (index, chart) in self.charts.iter().enumerate() {
             let place = vec2((index % columns) as f64, (index / columns) as f64);
             let mut chart = chart.clone();
-            for series in &mut chart.series {
-                series.name.clear();
+            if chart.names == Names::Legend {
+                for series in &mut chart.series {
+                    series.name.clear();
+                }
             }
             chart.draw(vec2(0.0, top) + place * cell, cell, frame);
         }

@@ -64,11 +64,7 @@ impl Sheet {
         picture: &Picture,
         caption: impl Into<String>,
     ) -> Result<(), RenderError> {
-        let size = picture.size();
-        let width = self.width.min(size.width());
-        let height = u64::from(size.height()) * u64::from(width) / u64::from(size.width());
-        let height = u32::try_from(height).unwrap_or(u32::MAX).max(1);
-        let small = shrunk(picture, Size::new(width, height)?);
+        let small = shrunk(picture, self.tile(picture.size())?);
         if let Some((first, _)) = self.tiles.first()
             && first.size() != small.size()
         {
@@ -82,6 +78,53 @@ impl Sheet {
         Ok(())
     }
 
+    /// The size of the whole sheet with `count` pictures of this size: known before any of them is painted.
+    ///
+    /// # Errors
+    /// [`RenderError::NoFrames`] if `count` is 0, [`RenderError::TooLarge`] if the sheet would be.
+    ///
+    /// # Examples
+    /// ```
+    /// use carom_render::{Sheet, Size};
+    /// let sheet = Sheet::new(4, 100);                                        // columns, px
+    /// assert_eq!(sheet.size(Size::new(300, 200)?, 12)?.width(), 4 * 100 + 5 * 12);
+    /// assert!(Sheet::new(4, 5000).size(Size::new(5000, 10)?, 12).is_err());
+    /// # Ok::<(), carom_render::RenderError>(())
+    /// ```
+    pub fn size(&self, picture: Size, count: u32) -> Result<Size, RenderError> {
+        self.canvas(self.tile(picture)?, count)
+    }
+
+    /// The same, with tiles of this size.
+    fn canvas(&self, tile: Size, count: u32) -> Result<Size, RenderError> {
+        if count == 0 {
+            return Err(RenderError::NoFrames);
+        }
+        let columns = self.columns.min(count);
+        let (step_x, step_y) = steps(tile);
+        let rows = count.div_ceil(columns);
+        Size::new(
+            step_x.saturating_mul(columns).saturating_add(GAP),
+            step_y.saturating_mul(rows).saturating_add(self.top()),
+        )
+    }
+
+    /// A picture scaled down to the tile's width.
+    fn tile(&self, picture: Size) -> Result<Size, RenderError> {
+        let width = self.width.min(picture.width());
+        let height = u64::from(picture.height()) * u64::from(width) / u64::from(picture.width());
+        Size::new(width, u32::try_from(height).unwrap_or(u32::MAX).max(1))
+    }
+
+    /// Height above the first row.
+    const fn top(&self) -> u32 {
+        if self.title.is_empty() {
+            GAP
+        } else {
+            GAP + TITLE_ROOM
+        }
+    }
+
     /// Lays the tiles out, row by row.
     ///
     /// # Errors
@@ -91,17 +134,9 @@ impl Sheet {
         let count = u32::try_from(self.tiles.len()).unwrap_or(u32::MAX);
         let columns = self.columns.min(count);
         let (tile_width, tile_height) = (first.size().width(), first.size().height());
-        let (step_x, step_y) = (tile_width + GAP, tile_height + CAPTION_ROOM + GAP);
-        let top = if self.title.is_empty() {
-            GAP
-        } else {
-            GAP + TITLE_ROOM
-        };
-        let width = step_x.saturating_mul(columns).saturating_add(GAP);
-        let height = step_y
-            .saturating_mul(count.div_ceil(columns))
-            .saturating_add(top);
-        let mut frame = Frame::new(Size::new(width, height)?);
+        let (step_x, step_y) = steps(first.size());
+        let top = self.top();
+        let mut frame = Frame::new(self.canvas(first.size(), count)?);
         if !self.title.is_empty() {
             let at = vec2(f64::from(GAP), f64::from(GAP) + 1.6 * TITLE);
             frame.push(Label::new(at, self.title.clone(), TITLE, Ink::Text));
@@ -130,6 +165,11 @@ impl Sheet {
         }
         Ok(sheet)
     }
+}
+
+/// From a tile to the next one in its row and in its column.
+fn steps(tile: Size) -> (u32, u32) {
+    (tile.width() + GAP, tile.height() + CAPTION_ROOM + GAP)
 }
 
 /// The picture at a smaller size: every pixel is the mean of the area it covers, in whole numbers.

@@ -132,6 +132,10 @@ fn broken_texts_are_named() {
             "bad.toml:2:12: duration: 1e999 is not a finite number",
         ),
         (
+            "version = 1\n[camera]\nsize = [100000000000000000000, 1]\n",
+            "bad.toml:3:9: camera.size[0]: found the integer 100000000000000000000, expected a whole number from 0 to 4294967295",
+        ),
+        (
             "version = 1\ngravity = [0, -inf]\n",
             "bad.toml:2:15: gravity[1]: -inf is not a finite number",
         ),

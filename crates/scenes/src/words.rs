@@ -18,6 +18,9 @@ pub(crate) fn plain_words(message: &str) -> String {
         ("invalid type: map", "found a table"),
         ("invalid type: sequence", "found a list"),
         ("invalid type: floating point", "found the number"),
+        // Of integers beyond 64 bits.
+        (" as i128", ""),
+        (" as u128", ""),
         ("invalid type: ", "found the "),
         ("invalid value: ", "found the "),
         ("invalid length ", "found a list of "),

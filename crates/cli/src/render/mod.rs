@@ -1,5 +1,6 @@
 //! `render`: a scene to numbered frames, an APNG or a Y4M film.
 
+mod budget;
 mod job;
 mod look;
 mod sink;
@@ -18,11 +19,9 @@ use crate::scene;
 use crate::values::Shard;
 use crate::{interrupt, summary};
 
+pub(crate) use budget::frames;
 pub(crate) use job::Job;
 pub use sink::{caption, tiles};
-
-/// Most frames of a film: more than four hours at 60 frames per second.
-const MAX_FRAMES: f64 = 1e6;
 
 pub(crate) fn run(args: &RenderArgs) -> Outcome {
     let to_stdout = args.out.as_deref() == Some(Path::new("-"));
@@ -35,6 +34,9 @@ pub(crate) fn run(args: &RenderArgs) -> Outcome {
     look::dress(&mut built, &args.overlay, args.style);
     let plan = plan(args, &built)?;
     scene::check_step(&scene, &built.world, plan.rate.interval())?;
+    if args.format == Format::Sheet {
+        sink::check_sheet(&built, &plan)?;
+    }
     let shard = args.shard.unwrap_or(Shard::WHOLE);
     if to_stdout {
         return stream(&mut built, &plan, scene.name());
@@ -139,7 +141,8 @@ fn check_flags(args: &RenderArgs, to_stdout: bool) -> Result<(), Failure> {
 fn plan(args: &RenderArgs, built: &Built) -> Result<Plan, Failure> {
     let seconds = args.seconds.map_or(built.duration, |seconds| seconds.0);
     let rate = args.fps.map_or(Ok(built.rate), FrameRate::per_second)?;
-    let frames = frames(seconds, rate)?;
+    let size = built.camera.size();
+    let frames = frames(seconds, rate, size)?;
     let shard = args.shard.unwrap_or(Shard::WHOLE);
     if shard.count > frames {
         fail!(
@@ -147,30 +150,13 @@ fn plan(args: &RenderArgs, built: &Built) -> Result<Plan, Failure> {
             shard.count
         );
     }
+    let asked = args.threads.map_or_else(parallel::cores, usize::from);
     Ok(Plan {
         rate,
         frames,
         slice: shard.range(frames),
-        threads: args.threads.map_or_else(parallel::cores, usize::from),
+        threads: budget::threads(asked, frames, size),
     })
-}
-
-/// Frames of so many seconds: one at least.
-pub(crate) fn frames(seconds: f64, rate: FrameRate) -> Result<u64, Failure> {
-    let count = (seconds * f64::from(rate.get())).round();
-    if count > MAX_FRAMES {
-        fail!(
-            "{seconds} s at {} frames per second are {count:e} frames, more than {MAX_FRAMES:e}",
-            rate.get()
-        );
-    }
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "between 0 and 1e6"
-    )]
-    let frames = (count as u64).max(1);
-    Ok(frames)
 }
 
 /// The same view on another canvas: all that was seen is seen.

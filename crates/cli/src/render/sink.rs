@@ -9,7 +9,7 @@ use carom_render::{
 };
 use carom_scenes::Built;
 
-use crate::exit::Failure;
+use crate::exit::{Failure, fail};
 use crate::film::{Easel, Footage, Plan, shoot};
 use crate::out::is_closed_pipe;
 use crate::relay::Relay;
@@ -172,7 +172,7 @@ pub(super) fn sheet(
     packing: Packing,
 ) -> Shot {
     let style = built.look.style.clone();
-    let mut sheet = Sheet::new(COLUMNS, (built.camera.size().width() / 3).max(1)).titled(name);
+    let mut sheet = blank(built).titled(name);
     let tiles = tiles(plan.frames);
     let footage = shoot(
         built,
@@ -192,6 +192,23 @@ pub(super) fn sheet(
         footage,
         format!("in {}", folder.path().join(name).display()),
     ))
+}
+
+fn blank(built: &Built) -> Sheet {
+    Sheet::new(COLUMNS, (built.camera.size().width() / 3).max(1))
+}
+
+/// Refuses a sheet that would be too large, before anything is drawn.
+pub(super) fn check_sheet(built: &Built, plan: &Plan) -> Result<(), Failure> {
+    let count = u32::try_from(tiles(plan.frames).len()).unwrap_or(u32::MAX);
+    let sheet = blank(built).titled("title");
+    if let Err(error) = sheet.size(built.camera.size(), count) {
+        fail!(
+            "--format sheet of {count} frames of {} px: {error}",
+            built.camera.size()
+        );
+    }
+    Ok(())
 }
 
 /// The time of a frame, for its tile.

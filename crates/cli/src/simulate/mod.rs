@@ -2,7 +2,7 @@
 
 mod table;
 
-use carom_dynamics::World;
+use carom_dynamics::{Body, BodyKind, World};
 use carom_math::SimTime;
 
 use crate::clock::Clock;
@@ -18,8 +18,11 @@ use crate::summary::{Summary, Watch};
 
 use table::Table;
 
-/// Most samples of a run: a thousand bodies make 100 GB of this.
+/// Most samples of a run.
 const MAX_SAMPLES: f64 = 1e9;
+
+/// Most rows, samples times bodies: a terabyte.
+const MAX_ROWS: f64 = 1e10;
 
 /// Seconds between samples where nothing else is asked for.
 const EVERY: f64 = 1.0 / 60.0;
@@ -36,6 +39,16 @@ pub(crate) fn run(args: &SimulateArgs) -> Outcome {
     let scene = scene::open(&args.scene, &args.set, args.mode)?;
     let mut built = scene.build()?;
     scene::check_step(&scene, &built.world, every.min(seconds))?;
+    let samples = whole_steps(seconds, every) + 1;
+    let moving = |body: &Body<'_>| body.kind() != BodyKind::Fixed;
+    let bodies = built.world.bodies().filter(moving).count();
+    #[expect(clippy::cast_precision_loss, reason = "far below 2^53")]
+    let rows = samples as f64 * bodies as f64;
+    if rows > MAX_ROWS {
+        fail!(
+            "--seconds {seconds} every {every} s are {samples} samples of {bodies} bodies: {rows:e} rows, more than {MAX_ROWS:e}"
+        );
+    }
     args.json.as_deref().map_or(Ok(()), files::prepare)?;
     interrupt::watch("finishing the sample")?;
     let mut table = Table::open(args.out.as_deref(), &built)?;

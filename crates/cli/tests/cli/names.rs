@@ -56,6 +56,24 @@ fn folders_of_any_name_are_written_to() {
     }
 }
 
+#[cfg(unix)]
+#[test]
+fn a_scene_name_that_is_no_text_is_refused_in_one_line() {
+    use std::os::unix::ffi::OsStrExt;
+    let ran = Command::new(crate::CAROM)
+        .arg("render")
+        .arg(OsStr::from_bytes(b"\xFFscene"))
+        .output()
+        .expect("the binary was built");
+    let said = String::from_utf8_lossy(&ran.stderr);
+    assert_eq!(ran.status.code(), Some(2), "{said}");
+    assert_eq!(said.lines().count(), 1, "{said}");
+    assert!(
+        said.starts_with("error: an argument is not UTF-8"),
+        "{said}"
+    );
+}
+
 #[test]
 fn a_name_that_is_too_long_is_refused_in_one_line() {
     let folder = tempfile::tempdir().unwrap();

@@ -284,20 +284,26 @@ impl Graph {
     fn vacate(&mut self, colour: usize, k: usize, lane: usize) {
         if colour == COLOURS {
             // Here order matters to the bits: it stays.
-            self.colours[colour].discount(k, lane);
-            self.colours[colour].blocks.remove(k);
-            self.colours[colour].cold.remove(k);
-            self.colours[colour].bounces.remove(k);
-            for cold in &self.colours[colour].cold[k..] {
-                #[expect(clippy::cast_possible_truncation, reason = "eight lanes")]
-                let lanes = LANES as u32;
-                self.contacts[cold.contact[0] as usize].index -= lanes;
+            if self.colours[colour].empty(k) {
+                self.close_up();
             }
         } else if let Some(moved) = self.colours[colour].pull(k, lane) {
             #[expect(clippy::cast_possible_truncation, reason = "fewer than 2^32 contacts")]
             let index = (k * LANES + lane) as u32;
             self.contacts[moved as usize].index = index;
         }
+    }
+
+    /// Takes blocks without a contact out of the overflow colour; the others keep their order.
+    fn close_up(&mut self) {
+        let Self {
+            colours, contacts, ..
+        } = self;
+        colours[COLOURS].close_up(|id, k| {
+            #[expect(clippy::cast_possible_truncation, reason = "fewer than 2^32 contacts")]
+            let index = (k * LANES) as u32;
+            contacts[id as usize].index = index;
+        });
     }
 
     /// Takes a contact out of the lists of its bodies.

@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use carom_bench::{CASES, Kind};
+use carom_bench::{CASES, EngineName, Kind, Mode};
 use carom_math::{Vec2, vec2};
-use carom_render::{Chart, Panels, Size};
+use carom_render::{Chart, Frame, Ink, Marker, Panels, Series, Size};
 
 use super::row::{self, AccuracyRow};
 use super::table;
@@ -21,39 +21,78 @@ const TELLING: [(&str, &str); 6] = [
     ("13", "A stack of 20 boxes: deepest overlap"),
 ];
 
+/// Curves of the overview: every engine as it comes, carom also without closed forms; the tables have the others.
+const SHOWN: [(EngineName, Mode, &str); 6] = [
+    (EngineName::Box2dSse2, Mode::Stock, "Box2D"),
+    (EngineName::Rapier, Mode::Stock, "Rapier"),
+    (EngineName::RapierF64, Mode::Stock, "Rapier, f64"),
+    (EngineName::Chipmunk, Mode::Stock, "Chipmunk"),
+    (EngineName::Carom, Mode::Stepped, "carom, stepped"),
+    (EngineName::Carom, Mode::Hybrid, "carom"),
+];
+
+/// The rate that points are ringed at, in steps per simulated second: what games and most simulations run at.
+const USUAL: u32 = 60;
+
 /// Writes a chart for every case, by its first error, and the overview.
 pub(super) fn write(folder: &Path, rows: &[AccuracyRow]) -> Result<Vec<PathBuf>, Failure> {
     let mut written = Vec::new();
-    let mut overview = Panels::new("Error against run time", 3)
-        .subtitled("down and to the left is better; a curve runs from few steps a second to many; exact: no error; failed: fell, tunnelled or blew up");
-    let mut charts: Vec<(&str, Chart)> = Vec::new();
     for case in row::cases(rows) {
-        let Some(chart) = of_case(rows, case) else {
-            continue;
-        };
-        written.extend(picture::write(
-            folder,
-            case,
-            &chart.frame(Size::new(860, 560)?),
-        )?);
-        charts.push((case, chart));
-    }
-    for (case, chart) in charts {
-        let number = case.split('_').next();
-        if let Some((_, title)) = TELLING.iter().find(|(known, _)| number == Some(known)) {
-            overview = overview.with(Chart {
-                title: (*title).to_owned(),
-                subtitle: String::new(),
-                ..chart
-            });
+        if let Some(chart) = of_case(rows, case) {
+            let frame = chart.frame(Size::new(860, 560)?);
+            written.extend(picture::write(folder, case, &frame)?);
         }
     }
-    if !overview.charts.is_empty() {
-        let lines = u32::try_from(overview.charts.len().div_ceil(3)).unwrap_or(1);
-        let size = Size::new(1320, 120 + 380 * lines)?;
-        written.extend(picture::write(folder, "overview", &overview.frame(size))?);
+    if let Some(frame) = overview(rows)? {
+        written.extend(picture::write(folder, "overview", &frame)?);
     }
     Ok(written)
+}
+
+/// Six cases, an engine a curve, in words; `None` if none of them was measured.
+fn overview(rows: &[AccuracyRow]) -> Result<Option<Frame>, Failure> {
+    let shown: Vec<AccuracyRow> = rows
+        .iter()
+        .filter(|row| name(row.engine, row.mode).is_some())
+        .cloned()
+        .collect();
+    let mut panels = Panels::new("Error against computing time", 2);
+    panels.subtitle = "Down and to the left is better. Each engine with its defaults, from 30 to 3840 steps a second along its curve; ringed: 60.\n\
+         \"carom, stepped\" does without closed forms (Mode::Stepped); \"Rapier, f64\" is Rapier built for double precision."
+        .to_owned();
+    for (number, title) in TELLING {
+        let case = row::cases(&shown)
+            .into_iter()
+            .find(|case| case.split('_').next() == Some(number));
+        let Some(mut chart) = case.and_then(|case| of_case(&shown, case)) else {
+            continue;
+        };
+        title.clone_into(&mut chart.title);
+        chart.subtitle.clear();
+        panels = panels.with(chart.named_at_ends());
+    }
+    if panels.charts.is_empty() {
+        return Ok(None);
+    }
+    let has = |strip: fn(&Chart) -> &String| panels.charts.iter().any(|c| !strip(c).is_empty());
+    let mut strips = Vec::new();
+    if has(|chart| &chart.y.floor) {
+        strips.push("\"exact\": no error at all.");
+    }
+    if has(|chart| &chart.y.ceiling) {
+        strips.push("\"failed\": something fell, passed through, or blew up.");
+    }
+    panels.subtitle = format!("{}\n{}", panels.subtitle, strips.join(" "));
+    let lines = u32::try_from(panels.charts.len().div_ceil(2)).unwrap_or(1);
+    Ok(Some(panels.frame(Size::new(1000, 116 + 330 * lines)?)))
+}
+
+/// What the overview calls a curve; `None` if it is not there.
+fn name(engine: EngineName, mode: Mode) -> Option<&'static str> {
+    let found = SHOWN
+        .iter()
+        .find(|shown| (shown.0, shown.1) == (engine, mode));
+    found.map(|(_, _, name)| *name)
 }
 
 /// The chart of a case's first error; `None` if it has none.
@@ -70,7 +109,7 @@ fn of_case(rows: &[AccuracyRow], case: &str) -> Option<Chart> {
     let about = CASES.iter().find(|found| found.name == case);
     let mut chart = Chart::new(format!("{case}: {metric}"))
         .subtitled(about.map_or("", |case| case.about))
-        .x("CPU ms per simulated second")
+        .x("CPU time for a simulated second, in ms")
         .log_x()
         .log_y();
     let mut curves = table::curves(&rows, metric);
@@ -82,6 +121,7 @@ fn of_case(rows: &[AccuracyRow], case: &str) -> Option<Chart> {
         .filter_map(|row| row.cpu_s_per_s)
         .fold(f64::INFINITY, f64::min);
     let mut unit = "";
+    let mut ringed = Vec::new();
     for curve in curves {
         unit = &curve[0].unit;
         let points: Vec<Vec2> = curve.iter().map(|row| place(row, &curve, left)).collect();
@@ -92,8 +132,17 @@ fn of_case(rows: &[AccuracyRow], case: &str) -> Option<Chart> {
         if points.iter().any(|point| point.y == f64::INFINITY) {
             chart.y.ceiling = "failed".to_owned();
         }
-        chart = chart.with(picture::series(curve[0].engine, curve[0].mode, points));
+        let usual = curve.iter().position(|row| row.hz == USUAL);
+        ringed.extend(usual.map(|index| points[index]));
+        let (engine, mode) = (curve[0].engine, curve[0].mode);
+        let mut series = picture::series(engine, mode, points);
+        if let Some(name) = name(engine, mode) {
+            name.clone_into(&mut series.name);
+        }
+        chart = chart.with(series);
     }
+    let rings = Series::line("", ringed).scattered(Marker::Ring);
+    let chart = chart.with(rings.inked(Ink::Text));
     Some(chart.y(match unit {
         "1" => "error, as a part of the right value".to_owned(),
         unit => format!("error, in {unit}"),
@@ -123,7 +172,7 @@ mod tests {
     fn what_failed_stands_at_the_top_and_what_is_exact_at_the_bottom() {
         let rows = some();
         let chart = of_case(&rows, "01_projectile").unwrap();
-        assert_eq!(chart.series.len(), 2);
+        assert_eq!(chart.series.len(), 3, "two curves and the rings");
         let [rapier, carom] = [0, 1].map(|i| &chart.series[i]);
         assert!(
             carom.name.starts_with("carom"),
@@ -141,6 +190,40 @@ mod tests {
             (rapier.points[1].x - 64.0 * 0.06).abs() < 1e-9,
             "{}",
             rapier.points[1]
+        );
+    }
+
+    #[test]
+    fn the_committed_overview_and_table_are_those_of_the_committed_rows() {
+        let folder = picture::tests::results().join("accuracy");
+        let (head, rows) = row::read(&folder.join("accuracy.csv")).unwrap();
+        picture::tests::committed(&folder, "overview", &overview(&rows).unwrap().unwrap());
+        picture::tests::same(
+            &folder.join("accuracy.md"),
+            table::markdown(&head, &rows).as_bytes(),
+        );
+    }
+
+    #[test]
+    fn every_engine_of_the_overview_is_one_colour_and_rings_its_usual_rate() {
+        let folder = picture::tests::results().join("accuracy");
+        let (_, rows) = row::read(&folder.join("accuracy.csv")).unwrap();
+        let shown: Vec<AccuracyRow> = rows
+            .into_iter()
+            .filter(|row| name(row.engine, row.mode).is_some())
+            .collect();
+        let chart = of_case(&shown, "01_projectile").unwrap();
+        let ink = |name: &str| {
+            let found = chart.series.iter().find(|series| series.name == name);
+            found.unwrap_or_else(|| panic!("no {name}")).ink
+        };
+        assert_eq!(ink("carom"), ink("carom, stepped"));
+        assert_eq!(ink("Rapier"), ink("Rapier, f64"));
+        assert!(ink("carom") != ink("Box2D") && ink("Box2D") != ink("Rapier"));
+        let rings = chart.series.last().unwrap();
+        assert_eq!(
+            (rings.marker, rings.points.len()),
+            (Some(Marker::Ring), SHOWN.len())
         );
     }
 

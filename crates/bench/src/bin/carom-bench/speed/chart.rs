@@ -2,51 +2,109 @@
 
 use std::path::{Path, PathBuf};
 
+use carom_bench::{EngineName, Mode};
 use carom_math::vec2;
-use carom_render::{Chart, Size};
+use carom_render::{Chart, Frame, Size};
+use serde::Deserialize;
 
-use super::row::{self, SpeedRow};
+use super::row::SpeedRow;
 use crate::exit::Failure;
 use crate::picture;
 
-/// Writes `ratios`; nothing if no peer ran.
-pub(super) fn write(folder: &Path, rows: &[SpeedRow]) -> Result<Vec<PathBuf>, Failure> {
-    let Some(chart) = ratios(rows) else {
-        return Ok(Vec::new());
-    };
-    let lines = u32::try_from(chart.y.names.len()).unwrap_or(1);
-    let frame = chart.frame(Size::new(900, 170 + 34 * lines)?);
-    picture::write(folder, "ratios", &frame)
+/// Scenes in words.
+const TELLING: [(&str, &str); 11] = [
+    ("a_large_pyramid", "5,050 boxes in a pyramid"),
+    ("b_many_pyramids", "22,000 boxes in 400 pyramids"),
+    ("c_smash", "9,600 boxes, struck"),
+    ("d_tumbler", "2,025 boxes in a drum"),
+    ("e_flying_polygons", "2,000 elastic polygons, dense"),
+    ("e_medium", "2,000 elastic polygons, thinner"),
+    ("e_dilute", "2,000 elastic polygons, thin"),
+    ("f_polygon_pile", "3,000 polygons piled up"),
+    ("g_concave_pile", "800 concave polygons piled up"),
+    ("h_mostly_sleeping", "10,000 sleepers, 20 balls"),
+    ("i_mostly_empty", "10,000 falling discs"),
+];
+
+/// What the chart shows of a row.
+#[derive(Debug, Deserialize)]
+struct Dot {
+    scene: String,
+    engine: EngineName,
+    mode: Mode,
+    threads: u32,
+    reads_poses: bool,
+    ratio_to_best_peer: Option<f64>,
 }
 
-fn ratios(rows: &[SpeedRow]) -> Option<Chart> {
-    let compared = |row: &&SpeedRow| {
-        row.threads == 1
-            && !row.reads_poses
-            && row.mode == row.engine.modes()[0]
-            && row.ratio_to_best_peer.is_some()
+impl From<&SpeedRow> for Dot {
+    fn from(row: &SpeedRow) -> Self {
+        Self {
+            scene: row.scene.clone(),
+            engine: row.engine,
+            mode: row.mode,
+            threads: row.threads,
+            reads_poses: row.reads_poses,
+            ratio_to_best_peer: row.ratio_to_best_peer,
+        }
+    }
+}
+
+/// Writes `ratios`; nothing if no peer ran.
+pub(super) fn write(folder: &Path, rows: &[SpeedRow]) -> Result<Vec<PathBuf>, Failure> {
+    match frame(rows.iter().map(Dot::from).collect())? {
+        Some(frame) => picture::write(folder, "ratios", &frame),
+        None => Ok(Vec::new()),
+    }
+}
+
+fn frame(dots: Vec<Dot>) -> Result<Option<Frame>, Failure> {
+    let Some(chart) = ratios(dots) else {
+        return Ok(None);
     };
-    let rows: Vec<SpeedRow> = rows.iter().filter(compared).cloned().collect();
-    if rows.is_empty() {
+    let lines = u32::try_from(chart.y.names.len()).unwrap_or(1);
+    Ok(Some(chart.frame(Size::new(900, 170 + 34 * lines)?)))
+}
+
+fn ratios(mut dots: Vec<Dot>) -> Option<Chart> {
+    dots.retain(|dot| {
+        dot.threads == 1
+            && !dot.reads_poses
+            && dot.mode == dot.engine.modes()[0]
+            && dot.ratio_to_best_peer.is_some()
+    });
+    // The scene on which carom, or else an engine, is slowest on top.
+    dots.sort_by(|a, b| {
+        let key = |dot: &Dot| (picture::on_top(dot.engine), dot.ratio_to_best_peer);
+        let ((own_a, a), (own_b, b)) = (key(a), key(b));
+        own_b
+            .cmp(&own_a)
+            .then(a.unwrap_or(0.0).total_cmp(&b.unwrap_or(0.0)))
+    });
+    let mut scenes: Vec<&str> = Vec::new();
+    for dot in &dots {
+        if !scenes.contains(&dot.scene.as_str()) {
+            scenes.push(&dot.scene);
+        }
+    }
+    if scenes.is_empty() {
         return None;
     }
-    let mut scenes = row::scenes(&rows);
-    // The first scene on top.
-    scenes.reverse();
-    let mut chart = Chart::new("Time of a step, as a multiple of the best peer's")
-        .subtitled("one thread, defaults, stepping only; left is faster")
-        .x("times the best peer")
+    let mut chart = Chart::new("Time of a step")
+        .subtitled("one thread, defaults, stepping alone")
+        .x("time of a step, as a multiple of that of the fastest other engine")
         .log_x();
-    chart.y.names = scenes.iter().map(|scene| (*scene).to_owned()).collect();
-    let mut engines: Vec<_> = rows.iter().map(|row| row.engine).collect();
+    chart.x.marks = vec![(1.0, "faster | slower".to_owned())];
+    chart.y.names = scenes.iter().map(|scene| words(scene).to_owned()).collect();
+    let mut engines: Vec<_> = dots.iter().map(|dot| dot.engine).collect();
     engines.sort_by_key(|engine| (picture::on_top(*engine), *engine));
     engines.dedup();
     for engine in engines {
-        let of_engine = rows.iter().filter(|row| row.engine == engine);
+        let of_engine = dots.iter().filter(|dot| dot.engine == engine);
         #[expect(clippy::cast_precision_loss, reason = "a count of scenes")]
-        let place = |row: &SpeedRow| {
-            let line = scenes.iter().position(|scene| *scene == row.scene)?;
-            Some(vec2(row.ratio_to_best_peer?, line as f64))
+        let place = |dot: &Dot| {
+            let line = scenes.iter().position(|scene| *scene == dot.scene)?;
+            Some(vec2(dot.ratio_to_best_peer?, line as f64))
         };
         let points = of_engine.filter_map(place).collect();
         let mut series = picture::series(engine, engine.modes()[0], points);
@@ -57,6 +115,11 @@ fn ratios(rows: &[SpeedRow]) -> Option<Chart> {
     Some(chart)
 }
 
+fn words(scene: &str) -> &str {
+    let known = TELLING.iter().find(|(name, _)| *name == scene);
+    known.map_or(scene, |(_, words)| words)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -64,8 +127,8 @@ mod tests {
 
     #[test]
     fn a_scene_is_a_line_and_an_engine_a_dot() {
-        let chart = ratios(&some()).unwrap();
-        assert_eq!(chart.y.names, ["a_large_pyramid"]);
+        let chart = ratios(some().iter().map(Dot::from).collect()).unwrap();
+        assert_eq!(chart.y.names, ["5,050 boxes in a pyramid"]);
         let names: Vec<&str> = chart
             .series
             .iter()
@@ -77,6 +140,24 @@ mod tests {
             "who failed has no ratio"
         );
         assert_eq!(chart.series[2].points, [vec2(3.0, 0.0)]);
-        assert!(ratios(&[]).is_none());
+        assert!(ratios(Vec::new()).is_none());
+    }
+
+    #[test]
+    fn the_committed_chart_is_that_of_the_committed_rows() {
+        let folder = picture::tests::results().join("speed");
+        let text = std::fs::read_to_string(folder.join("speed.csv")).unwrap();
+        let mut reader = csv::ReaderBuilder::new()
+            .comment(Some(b'#'))
+            .from_reader(text.as_bytes());
+        let dots = reader.deserialize().collect::<Result<_, _>>().unwrap();
+        picture::tests::committed(&folder, "ratios", &frame(dots).unwrap().unwrap());
+    }
+
+    #[test]
+    fn every_scene_has_its_words() {
+        for (scene, _) in TELLING {
+            assert!(carom_scenes::plain_scene(scene).is_some(), "{scene}");
+        }
     }
 }

@@ -14,6 +14,9 @@ use crate::picture;
 use crate::plan::{Planned, STEP_BUDGET};
 use crate::store::Row;
 
+/// Time that a step may take where 60 are computed in a second, in ms.
+const FRAME: f64 = 1e3 / 60.0;
+
 /// Kind and number of bodies of a scene like `grow_pile_2000`.
 fn parts(scene: &str) -> Option<(GrowthKind, u32)> {
     let (kind, bodies) = scene.strip_prefix("grow_")?.split_once('_')?;
@@ -62,10 +65,11 @@ fn panels(rows: &[SpeedRow]) -> Panels {
     engines.dedup();
     for kind in GrowthKind::ALL {
         let mut chart = Chart::new(kind.name())
-            .x("bodies")
-            .y("ms per step")
+            .x("number of bodies")
+            .y("time of a step, in ms")
             .log_x()
             .log_y();
+        chart.y.marks = vec![(FRAME, "16.7 ms: 60 steps a second".to_owned())];
         for engine in &engines {
             let place = |row: &SpeedRow| {
                 let (found, bodies) = parts(&row.scene)?;
