@@ -48,6 +48,7 @@ mod tips_that_meet_do_not_spin;
 mod what_bore_a_heavy_body_is_not_pushed_when_it_has_gone;
 mod what_glides_slowly_stops_at_a_wall;
 mod what_is_made_fixed_stands_in_the_way_at_once;
+mod what_lands_again_begins_a_mode_anew;
 mod what_leaves_a_turning_group_is_not_called_exact;
 mod what_opens_under_a_ceiling_comes_back_to_it;
 mod who_is_clamped_is_not_struck_for_ever;

@@ -178,6 +178,13 @@ impl Events {
         }
         pair.told = pair.touching;
         let ends = [pair.bodies.0, pair.bodies.1];
+        // Torn off, or left at the very end of a path, it opened without a judgement; and what lands again begins a mode anew.
+        if !pair.touching && pair.mode.is_some_and(|mode| mode != ContactMode::Open) {
+            pair.mode = Some(ContactMode::Open);
+            let [a, b] = ends.map(|index| bodies.get(index).id);
+            let mode = ContactMode::Open;
+            self.push(time, EventKind::Mode { a, b, mode });
+        }
         let colliders = [pair.colliders.0, pair.colliders.1];
         self.push_touch(bodies, ends, colliders, pair.touching, time);
     }
