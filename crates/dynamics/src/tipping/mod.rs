@@ -20,7 +20,7 @@ use crate::modes::{Feature, ModeBody, NotMine, ROWS, Touch, TouchMove, begin};
 pub(crate) use equations::{Equations, Forces};
 pub(crate) use joint::{End, Joint, Place};
 pub(crate) use path::Path;
-use roots::{Limit, first, heat};
+use roots::{Limit, faint, first, heat};
 
 /// Longest stretch of a path, in s.
 const LONGEST: f64 = 0.25;
@@ -189,8 +189,13 @@ pub(crate) fn tip(
         };
         let f = |places: &[Place]| equations.forces(places).map(flat);
         let lengths = (LONGEST, SHORTEST);
-        let path = Path::follow(&f, start, &places, reaches, lengths, ERROR * size)
-            .ok_or(NotMine::Unsolved)?;
+        let error = ERROR * size;
+        let Some(path) = Path::follow(&f, start, &places, reaches, lengths, error) else {
+            // A touch that fades while it slides has no path of its own: it opens.
+            let limit = faint(&equations, &places).ok_or(NotMine::Unsolved)?;
+            amend(&mut equations, limit)?;
+            continue;
+        };
         let (after, limit) = match first(&equations, &path, (size, fastest)) {
             roots::End::Open => (path.length, None),
             roots::End::After(after, limit)

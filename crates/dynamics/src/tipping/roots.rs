@@ -13,6 +13,9 @@ const LOOKS: u32 = 12;
 /// A margin below this part of what it is the difference of is 0.
 const NOTHING: f64 = 1e-12;
 
+/// A force below this part of the largest weight presses with nothing, where no path is found for it.
+const FAINT: f64 = 1e-9;
+
 /// What a margin belongs to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Limit {
@@ -52,6 +55,23 @@ pub(super) enum End {
     After(f64, Limit),
     /// Forces were not found.
     Lost,
+}
+
+/// A point that is closed, and presses with no more than rounding of what pulls its bodies.
+pub(super) fn faint(equations: &Equations, places: &[Place]) -> Option<Limit> {
+    let forces = equations.forces(places)?;
+    let pulls = equations
+        .bodies
+        .iter()
+        .filter(|body| body.inverse_mass > 0.0);
+    let weights = pulls.map(|body| body.pull.length() / body.inverse_mass);
+    let least = FAINT * weights.fold(0.0, f64::max);
+    let all = equations.holds.iter().zip(&forces.normal).enumerate();
+    let mut points = all.flat_map(|(contact, (hold, normal))| {
+        (0..2).map(move |point| (contact, point, hold.closed[point], normal[point]))
+    });
+    let found = points.find(|(.., closed, force)| *closed && *force <= least);
+    found.map(|(contact, point, ..)| Limit::Press { contact, point })
 }
 
 /// The first margin to fall to 0.
