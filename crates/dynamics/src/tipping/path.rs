@@ -8,7 +8,7 @@ use super::joint::Place;
 use crate::flight::{NODES, ROUNDS, STANDS};
 
 /// First guess of how far a body turns in a stretch, in rad.
-const TURN: f64 = 1.0 / 7.0;
+const TURN: f64 = 1.0 / 12.0;
 
 /// Where bodies are for a while, as polynomials of degree 9.
 #[derive(Clone, Debug)]
@@ -47,7 +47,8 @@ impl Path {
             terms: Vec::new(),
             integrals: Vec::new(),
         };
-        // In 1/7 of a radian by what turns fastest the polynomials are as right as is asked for, or nearly.
+        // In 1/12 of a radian by what turns fastest the polynomials are as right as is asked for. 1/7: nearly always too long, and
+        // all of it is done twice.
         let mut rate = 0.0_f64;
         for (place, turn) in places.iter().zip(first.iter().skip(2).step_by(3)) {
             rate = rate.max(place.spin.abs().max(turn.abs().sqrt()));
