@@ -179,14 +179,26 @@ impl Events {
         pair.told = pair.touching;
         let ends = [pair.bodies.0, pair.bodies.1];
         // Torn off, or left at the very end of a path, it opened without a judgement; and what lands again begins a mode anew.
-        if !pair.touching && pair.mode.is_some_and(|mode| mode != ContactMode::Open) {
-            pair.mode = Some(ContactMode::Open);
-            let [a, b] = ends.map(|index| bodies.get(index).id);
-            let mode = ContactMode::Open;
-            self.push(time, EventKind::Mode { a, b, mode });
+        if !pair.touching && pair.mode.is_some() {
+            self.tell_mode(bodies, pair, ContactMode::Open, time);
         }
         let colliders = [pair.colliders.0, pair.colliders.1];
         self.push_touch(bodies, ends, colliders, pair.touching, time);
+    }
+
+    /// Tells how a contact in closed form moves from now on, if that is new.
+    pub(crate) fn tell_mode(
+        &mut self,
+        bodies: &Bodies,
+        pair: &mut Pair,
+        mode: ContactMode,
+        time: SimTime,
+    ) {
+        if pair.mode != Some(mode) {
+            pair.mode = Some(mode);
+            let (a, b) = (bodies.get(pair.bodies.0).id, bodies.get(pair.bodies.1).id);
+            self.push(time, EventKind::Mode { a, b, mode });
+        }
     }
 
     /// Tells that two colliders of two bodies began or ceased to touch.

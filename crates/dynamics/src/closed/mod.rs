@@ -423,16 +423,9 @@ impl World {
             pair.lasting = moved.mode != ContactMode::Open;
             // A pair of several contacts moves as its first.
             let first = pairs.iter().find(|other| other.0 == place);
-            if first != Some(&(place, contact)) || pair.mode == Some(moved.mode) {
-                continue;
+            if first == Some(&(place, contact)) {
+                self.events.tell_mode(&self.bodies, pair, moved.mode, time);
             }
-            pair.mode = Some(moved.mode);
-            let (a, b) = (
-                self.bodies.get(pair.bodies.0).id,
-                self.bodies.get(pair.bodies.1).id,
-            );
-            let mode = moved.mode;
-            self.events.push(time, EventKind::Mode { a, b, mode });
         }
     }
 
