@@ -79,9 +79,7 @@ impl Gathered {
 
     /// Velocities after a landing; what opens then is let go.
     pub(crate) fn landed(&mut self, velocities: &[(Vec2, f64)]) {
-        for (body, &(velocity, spin)) in self.bodies.iter_mut().zip(velocities) {
-            (body.velocity, body.spin) = (velocity, spin);
-        }
+        self.move_by(velocities);
         self.end_series();
         let (bodies, rest) = (&self.bodies, self.rest);
         for touch in &mut self.touches {
@@ -113,9 +111,12 @@ impl Gathered {
 
     /// Every touch that there was before a landing stays closed: what that opened comes back at once.
     pub(crate) fn stand(&mut self, landed: &Self) {
-        let speed = self.rest;
-        let held = stand(&landed.bodies, &self.touches, speed);
-        for (body, (velocity, spin)) in self.bodies.iter_mut().zip(held) {
+        let held = stand(&landed.bodies, &self.touches, self.rest);
+        self.move_by(&held);
+    }
+
+    fn move_by(&mut self, velocities: &[(Vec2, f64)]) {
+        for (body, &(velocity, spin)) in self.bodies.iter_mut().zip(velocities) {
             (body.velocity, body.spin) = (velocity, spin);
         }
     }
@@ -143,9 +144,7 @@ impl Gathered {
             .map(|(touch, _)| touch)
             .collect();
         let held = hold(&self.bodies, &kept);
-        for (body, (velocity, spin)) in self.bodies.iter_mut().zip(held) {
-            (body.velocity, body.spin) = (velocity, spin);
-        }
+        self.move_by(&held);
     }
 
     fn place_of(&mut self, bodies: &Bodies, index: u32, time: SimTime) -> usize {

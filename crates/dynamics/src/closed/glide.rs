@@ -133,21 +133,15 @@ impl World {
         self.land_group(place, time, false);
     }
 
-    /// The same; a group that turns and `ends` now leaves its path: what it strikes is searched for from there.
+    /// The same. A group that turns, and `ends` now, leaves its path: its impacts are searched for from there.
     pub(super) fn land_group(&mut self, place: u32, time: SimTime, ends: bool) {
         let Some(group) = self.closed.get_mut(place).filter(|group| group.glides) else {
             return;
         };
         group.glides = false;
-        let turns = group.tipping.is_some();
+        let leaves = ends && group.tipping.is_some();
         let h = self.clock.h;
-        if turns {
-            self.feel_path(place, time);
-        }
-        let Some(group) = self.closed.get(place) else {
-            return;
-        };
-        for touch in &group.touches {
+        for touch in group.touches_at(time) {
             let pair = self.pairs.get_mut(touch.pair);
             self.narrow
                 .look(&self.bodies, &self.colliders, pair, time, h);
@@ -164,9 +158,7 @@ impl World {
         for &index in &members {
             self.enlist(index, time);
         }
-        if turns {
-            self.lay_pieces(place, time, self.clock.next() - time);
-        }
+        self.lay_pieces(place, time, self.clock.next() - time);
         // Their boxes are as long as their way was: narrow ones meet whom a sub-step meets.
         for &index in &members {
             for slot in 0..self.bodies.get(index).colliders.len() {
@@ -175,7 +167,7 @@ impl World {
             }
         }
         self.closed.moves(place);
-        if !(ends && turns) {
+        if !leaves {
             for index in members {
                 self.redirect(index, time);
             }
@@ -238,16 +230,9 @@ impl World {
         let mut now = pair.clone();
         let (time, h) = (self.clock.now, self.clock.h);
         Narrow::default().look(&self.bodies, &self.colliders, &mut now, time, h);
-        let forces = group.forces_at(time);
-        for (k, touch) in group.touches.iter().enumerate() {
-            if touch.pair == place {
-                let moved = forces.as_ref().and_then(|forces| forces.get(k));
-                let touch = Kept {
-                    moved: *moved.unwrap_or(&touch.moved),
-                    ..*touch
-                };
-                touch.carry(&self.bodies, &mut now, h);
-            }
+        let touches = group.touches_at(time).into_iter();
+        for touch in touches.filter(|touch| touch.pair == place) {
+            touch.carry(&self.bodies, &mut now, h);
         }
         Some(now)
     }

@@ -288,7 +288,7 @@ impl World {
         }
     }
 
-    /// A landing that opens a touch for less than a sub-step is the last one of its series.
+    /// The last landing of a series: every touch that it opened comes back at once, and stays closed.
     fn end_rocking(
         &mut self,
         arrived: Option<Gathered>,

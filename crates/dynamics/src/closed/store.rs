@@ -156,10 +156,16 @@ impl Group {
         })
     }
 
-    /// What every contact does at `time`, in a group that turns.
-    pub(super) fn forces_at(&self, time: SimTime) -> Option<Vec<TouchMove>> {
-        let tip = &self.tipping.as_ref()?.tip;
-        tip.touches_after(time - tip.path.start)
+    /// Its touches with what they do at `time`: in a group that turns forces change along its path.
+    pub(super) fn touches_at(&self, time: SimTime) -> Vec<Kept> {
+        let mut touches = self.touches.clone();
+        if let Some(Tipping { tip, .. }) = &self.tipping {
+            let moved = tip.touches_after(time - tip.path.start);
+            for (kept, moved) in touches.iter_mut().zip(moved.into_iter().flatten()) {
+                kept.moved = moved;
+            }
+        }
+        touches
     }
 
     /// The pair whose corner comes down at the next change, the normal from A to B, and where.

@@ -155,7 +155,7 @@ pub(crate) enum NotMine {
     Painleve,
     /// No accelerations were found.
     Unsolved,
-    /// What a landing opens comes back within a sub-step.
+    /// What a landing opens comes back at once: the series of landings ends.
     Returns,
 }
 
@@ -282,8 +282,8 @@ pub(crate) fn hold(bodies: &[ModeBody], touches: &[&Touch]) -> Vec<(Vec2, f64)> 
     faces::held(bodies, touches, |_| false)
 }
 
-/// The same where what sticks after a landing goes on to stick: `bodies` have the velocities after it, and `speed` is the
-/// largest from whose roundings these may come, in m/s.
+/// The same where what sticks after a landing goes on to stick: `bodies` have the velocities after it; `speed`, in m/s, is the
+/// largest that their roundings are measured by.
 pub(crate) fn stand(bodies: &[ModeBody], touches: &[Touch], speed: f64) -> Vec<(Vec2, f64)> {
     let all: Vec<&Touch> = touches.iter().collect();
     faces::held(bodies, &all, |touch| {
