@@ -5,6 +5,7 @@
 //! as long as its mode lasts. What does not qualify is left to the sub-steps.
 
 mod dissolve;
+mod doze;
 mod glide;
 mod jam;
 mod joints;
@@ -18,7 +19,7 @@ use crate::agenda::Entry;
 use crate::flight::fly;
 use crate::modes::{BodyMove, GroupMove, NotMine, TouchMove, judge, land};
 use crate::touching::{Gathered, Looks, Refused};
-use crate::{BodyKind, ContactMode, EventKind, Mode, World};
+use crate::{BodyKind, ContactMode, Mode, World};
 pub(crate) use store::{Closed, Membership};
 use store::{Group, Kept};
 
@@ -426,53 +427,6 @@ impl World {
             if first == Some(&(place, contact)) {
                 self.events.tell_mode(&self.bodies, pair, moved.mode, time);
             }
-        }
-    }
-
-    /// Groups at rest leave the sub-steps: whoever meets one wakes it, as if it slept.
-    pub(crate) fn doze(&mut self, time: SimTime) {
-        let still = self.closed.take_still();
-        if still.is_empty() {
-            return;
-        }
-        let mut lying = Vec::new();
-        for place in still {
-            let Some(group) = self.closed.get_mut(place) else {
-                continue;
-            };
-            group.dozes = true;
-            for touch in &group.touches {
-                touch.carry(&self.bodies, self.pairs.get_mut(touch.pair), self.clock.h);
-            }
-            for &(index, _) in &group.members {
-                let state = self.bodies.get_mut(index);
-                (state.asleep, state.dozes) = (true, true);
-                lying.push(index);
-            }
-        }
-        lying.sort_unstable();
-        self.discharge_all(&lying);
-        for index in lying {
-            self.lie_down(index, time);
-        }
-        self.lower_flyers();
-        self.pairs.sort(&self.bodies, &self.stepped);
-    }
-
-    /// A group that has been at rest for long enough falls asleep.
-    fn lull(&mut self, place: u32, time: SimTime) {
-        let members = self.dissolve(place, time);
-        let mut lying = Vec::new();
-        for &index in &members {
-            let state = self.bodies.get_mut(index);
-            state.asleep = true;
-            if !core::mem::take(&mut state.dozes) {
-                lying.push(index);
-            }
-            self.events.push(time, EventKind::Asleep(state.id));
-        }
-        for index in lying {
-            self.lie_down(index, time);
         }
     }
 }

@@ -172,11 +172,11 @@ impl World {
         if let Ok(at) = self.stepped.binary_search(&index) {
             self.stepped.remove(at);
             self.pairs.reorder();
-            self.lower_flyers();
+            self.lower_flyers_later();
         }
     }
 
-    /// Takes bodies from those that are sub-stepped, which are given in order; [`Self::lower_flyers`] is for the caller.
+    /// Takes bodies from those that are sub-stepped, which are given in order; [`Self::lower_flyers_later`] is for the caller.
     pub(crate) fn discharge_all(&mut self, gone: &[u32]) {
         self.stepped
             .retain(|index| gone.binary_search(index).is_err());
@@ -185,15 +185,15 @@ impl World {
 
     /// If no body is sub-stepped pair by pair any more, flyers need no boxes in the world: after a tick, since an analytic
     /// island that changes its mode lands and is let go of at one instant.
-    pub(crate) fn lower_flyers(&mut self) {
+    pub(crate) fn lower_flyers_later(&mut self) {
         if self.stepped.is_empty() {
-            self.flyers.lowers = self.clock.next() + self.settings.tick;
+            self.flyers.raised_until = self.clock.next() + self.settings.tick;
         }
     }
 
-    /// Takes the boxes of flyers from the world where nobody has looked for them for a tick.
+    /// Takes the boxes of flyers from the world once no search has needed them for a tick.
     pub(crate) fn lower_idle(&mut self, time: SimTime) {
-        if self.flyers.is_raised() && self.stepped.is_empty() && self.flyers.lowers <= time {
+        if self.flyers.is_raised() && self.stepped.is_empty() && self.flyers.raised_until <= time {
             self.flyers.lower();
         }
     }

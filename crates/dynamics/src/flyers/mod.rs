@@ -129,8 +129,8 @@ pub(crate) struct Flyers {
     grounded: bool,
     /// Boxes of the grid's flyers in the world, while somebody needs to find them there.
     aloft: Option<BoxTree>,
-    /// When they go, if nobody needs them by then.
-    lowers: SimTime,
+    /// When they go, if no body is sub-stepped then.
+    raised_until: SimTime,
     /// Their nodes there, by body.
     nodes: Vec<Option<NodeId>>,
     /// Circles of the grid's flyers, by body.
@@ -168,7 +168,7 @@ impl Flyers {
             drifts: false,
             grounded: false,
             aloft: None,
-            lowers: SimTime::ZERO,
+            raised_until: SimTime::ZERO,
             nodes: Vec::new(),
             circles: Vec::new(),
             horizons: Vec::new(),

@@ -176,6 +176,6 @@ impl World {
                 self.join(index, time);
             }
         }
-        self.lower_flyers();
+        self.lower_flyers_later();
     }
 }
