@@ -39,7 +39,8 @@ pub(crate) fn run(args: &SimulateArgs) -> Outcome {
     let scene = scene::open(&args.scene, &args.set, args.mode)?;
     let mut built = scene.build()?;
     scene::check_step(&scene, &built.world, every.min(seconds))?;
-    let samples = whole_steps(seconds, every) + 1;
+    let steps = whole_steps(seconds, every);
+    let samples = steps + 1;
     let moving = |body: &Body<'_>| body.kind() != BodyKind::Fixed;
     let bodies = built.world.bodies().filter(moving).count();
     #[expect(clippy::cast_precision_loss, reason = "far below 2^53")]
@@ -52,7 +53,7 @@ pub(crate) fn run(args: &SimulateArgs) -> Outcome {
     args.json.as_deref().map_or(Ok(()), files::prepare)?;
     interrupt::watch("finishing the sample")?;
     let mut table = Table::open(args.out.as_deref(), &built)?;
-    let run = sample(&mut built.world, seconds, every, &mut table)?;
+    let run = sample(&mut built.world, (seconds, every, steps), &mut table)?;
     table.finish()?;
 
     let summary = run.watch.finish(&built.world, scene.name());
@@ -73,9 +74,12 @@ struct Run {
     interrupted: bool,
 }
 
-/// Samples at 0, `every`, 2 `every`, … and at the end.
-fn sample(world: &mut World, seconds: f64, every: f64, table: &mut Table) -> Result<Run, Failure> {
-    let count = whole_steps(seconds, every);
+/// Samples at 0, `every`, 2 `every`, … and at the end, which is the last of `count` after the first.
+fn sample(
+    world: &mut World,
+    (seconds, every, count): (f64, f64, u64),
+    table: &mut Table,
+) -> Result<Run, Failure> {
     let end = SimTime::from_secs(seconds);
     let mut progress = Progress::new("simulate", count, "samples");
     let mut run = Run {
