@@ -97,9 +97,8 @@ pub(crate) fn hold(
     let acted = |at: &u32| bodies[*at as usize].acted;
     let mut acted: Vec<bool> = members.iter().map(acted).collect();
     let work = |sweeper: &Sweeper| Work::of(sweeper, &before, &acted);
-    sweep(&mut sweeper, fastest, |sweeper| {
-        !work(sweeper).gains(1.0, fastest)
-    });
+    let gains = |sweeper: &Sweeper| work(sweeper).gains(1.0, fastest);
+    sweep(&mut sweeper, fastest, gains, |_| true);
     let (part, is_even) = work(&sweeper).way(fastest);
     for (row, contact) in rows.iter_mut().zip(&sweeper.contacts) {
         (row.j[0], row.jt) = (contact.j_n, contact.j_t);
@@ -148,20 +147,33 @@ fn land(mut down: Sweeper, before: &[Speed], slow: f64, fastest: f64) -> Option<
         return None;
     }
     let nobody = vec![false; before.len()];
-    sweep(&mut down, fastest, |down| {
-        !comes_down(down, slow.max(LANDED * fastest))
-            && !Work::of(down, before, &nobody).gains(0.5, fastest)
-    });
+    let gains = |down: &Sweeper| Work::of(down, before, &nobody).gains(0.5, fastest);
+    let near = slow.max(LANDED * fastest);
+    sweep(&mut down, fastest, gains, |down| !comes_down(down, near));
     Some((0..before.len()).map(|k| down.velocity(k)).collect())
 }
 
-/// Sweeps until nothing changes any more, or what is there is `enough`, or [`SWEEPS`] times.
-fn sweep(sweeper: &mut Sweeper, fastest: f64, enough: impl Fn(&Sweeper) -> bool) {
+/// Sweeps until nothing changes any more, or what is there is `enough` and gains nothing, or [`SWEEPS`] times.
+///
+/// With µ above 1 sweeps may go round in circles, and gain wherever they stop. Without friction they descend: they gain nothing.
+fn sweep(
+    sweeper: &mut Sweeper,
+    fastest: f64,
+    gains: impl Fn(&Sweeper) -> bool,
+    enough: impl Fn(&Sweeper) -> bool,
+) {
     let every = (ENOUGH.0 / sweeper.contacts.len()).max(ENOUGH.1);
-    for k in 1..=SWEEPS {
-        if sweeper.sweep() <= CONVERGED * fastest || k % every == 0 && enough(sweeper) {
-            break;
+    let settles = |sweeper: &mut Sweeper| {
+        (1..=SWEEPS).any(|k| {
+            sweeper.sweep() <= CONVERGED * fastest
+                || k % every == 0 && enough(sweeper) && !gains(sweeper)
+        })
+    };
+    if !settles(sweeper) && gains(sweeper) {
+        for contact in &mut sweeper.contacts {
+            contact.friction = 0.0;
         }
+        settles(sweeper);
     }
 }
 
@@ -344,6 +356,30 @@ mod tests {
 
     fn kinetic((v, w): Speed) -> f64 {
         0.5 * (v.length_squared() + w * w / 8.0)
+    }
+
+    /// With µ = 1.37 sweeps went to and fro between two answers, and 2.7e-3 J came of 2.1.
+    #[test]
+    fn sweeps_that_go_round_in_circles_gain_nothing() {
+        let places = [vec2(0.0, 0.5), vec2(1.0, 0.5), vec2(2.0, 0.5)];
+        let velocities = [
+            (vec2(0.822_649_192_444_679_6, 0.0), 0.0),
+            (
+                vec2(0.748_175_626_960_073_7, 0.020_726_903_334_430_363),
+                -2.904_243_213_480_147,
+            ),
+            (
+                vec2(0.843_681_440_743_424_5, -0.022_177_799_410_381_796),
+                2.984_043_105_743_952_5,
+            ),
+        ];
+        let mu = 1.368_142_032_648_462_3;
+        let (mut bodies, before, mut rows) = row_of_discs(&places, &velocities, mu);
+        let mut ways = before.clone();
+        hold(H, &mut bodies, &mut ways, &mut rows, 1e-9);
+        let energy = |ways: &[Way]| ways[1..].iter().map(|way| kinetic(way.start)).sum::<f64>();
+        let (was, is) = (energy(&before), energy(&ways));
+        assert!(is <= was * (1.0 + 1e-13), "{is} J of {was} J");
     }
 
     proptest! {
