@@ -11,7 +11,7 @@ use crate::ghost::hide;
 use crate::impact::Impacts;
 use crate::pieces::{Disc, Pieces};
 use crate::rows::{
-    Arrival, Before, Deep, ExtraSweeps, Graph, Law, Pass, Quad, arrivals, bounce, correct,
+    Arrival, Before, Bent, Deep, ExtraSweeps, Graph, Law, Pass, Quad, arrivals, bounce, correct,
     displace, sweep, warm_start,
 };
 use crate::sleep::Islands;
@@ -42,6 +42,7 @@ pub struct Engine {
     /// Rows with extra sweeps.
     extra: ExtraSweeps,
     pub(crate) deep: Deep,
+    bent: Bent,
     pub(crate) impacts: Impacts,
     /// Sub-steps of the present tick so far.
     done: u32,
@@ -83,6 +84,7 @@ impl Engine {
             before: Vec::new(),
             extra: ExtraSweeps::default(),
             deep: Deep::default(),
+            bent: Bent::default(),
             impacts: Impacts::default(),
             done: 0,
             found: false,
@@ -263,11 +265,19 @@ impl Engine {
             pieces,
             broad,
             graph,
+            bent,
             parted,
             ..
         } = self;
         parted.clear();
-        update((*level, law), graph, bodies, pieces, settings, parted);
+        update(
+            (*level, law),
+            (graph, bent),
+            bodies,
+            pieces,
+            settings,
+            parted,
+        );
         if self.islands.any_asleep() {
             let met = met_asleep(bodies, pieces, settings, &broad.found, rules);
             self.wake_all(&met);
@@ -336,6 +346,7 @@ impl Engine {
             ..
         } = self;
         let every = settings.relaxation == Relaxation::EverySubstep;
+        self.bent.turn_rows(graph, bodies);
         warm_start(*level, bodies, law.h);
         arrivals(*level, law, bodies, graph, arrived, before);
         impacts.note_arrivals(arrived, graph);

@@ -115,6 +115,10 @@ impl Outline {
         self.0[3]
     }
 
+    pub(crate) const fn radius(&self) -> f64 {
+        self.0[4]
+    }
+
     /// How many corners it has; 0 is no outline.
     pub(crate) const fn count(&self) -> f64 {
         self.0[5]
@@ -154,7 +158,7 @@ impl Turned<'_> {
     }
 
     pub(crate) const fn radius(self) -> f64 {
-        self.outline.0[4]
+        self.outline.radius()
     }
 
     #[expect(

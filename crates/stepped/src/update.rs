@@ -8,7 +8,7 @@ use crate::bodies::{Bodies, BodyKind};
 use crate::broad::Pairs;
 use crate::narrow::{Eight, Found, Manifold, Scene, collide_eight};
 use crate::pieces::Pieces;
-use crate::rows::{Block, Cold, Graph, LANES, Law, renew};
+use crate::rows::{Bent, Block, Cold, Graph, LANES, Law, Side, renew};
 use crate::{PairRules, Settings};
 
 /// A kept contact may be so many margins wide, so that pairs do not come and go each tick.
@@ -17,12 +17,13 @@ const KEPT: f64 = 1.5;
 /// Computes the contacts of moved bodies anew; those that parted are added to `parted`.
 pub(crate) fn update(
     (level, law): (Level, &Law),
-    graph: &mut Graph,
+    (graph, bent): (&mut Graph, &mut Bent),
     bodies: &mut Bodies,
     pieces: &Pieces,
     settings: &Settings,
     parted: &mut Vec<u32>,
 ) {
+    bent.retain(graph, &bodies.moved);
     let touched = graph.touched(bodies);
     graph.suspects.clear();
     graph.suspects.cover(bodies.lines.len());
@@ -45,7 +46,7 @@ pub(crate) fn update(
                 pieces,
                 settings,
             };
-            manifolds(level, &scene, block, cold, moved, &mut found);
+            let eight_used = manifolds(level, &scene, block, cold, moved, &mut found);
             let near = moved & found.near;
             renew(level, &bodies.lines, &mut bodies.start, block, &found, near);
             for lane in lanes(near) {
@@ -68,6 +69,20 @@ pub(crate) fn update(
                 let lines = [block.a[lane], block.b[lane]];
                 suspects.add_short(&scene, lines, cold.pieces[lane]);
             }
+            for lane in lanes(near & !found.short & eight_used) {
+                let pair = cold.pieces[lane];
+                let [a, b] = pair.map(|piece| &pieces.outlines[piece as usize]);
+                let of_b = found.of_b >> lane & 1 == 1;
+                let radius = if of_b { a.radius() } else { b.radius() };
+                if !cold.is_deep(lane) {
+                    bent.consider(
+                        (block, lane),
+                        (cold.contact[lane], pair),
+                        (bodies, Side { of_b, radius }),
+                        (settings.tick, a.extent().min(b.extent())),
+                    );
+                }
+            }
             for lane in lanes(near & found.seam) {
                 suspects.add_seam([block.a[lane], block.b[lane]]);
             }
@@ -88,7 +103,7 @@ fn lanes(bits: u8) -> impl Iterator<Item = usize> {
     (0..LANES).filter(move |lane| bits >> lane & 1 == 1)
 }
 
-/// Manifolds of the lanes of a block that have a bit in `moved`: pieces without outlines one by one.
+/// Manifolds of the lanes of a block that have a bit in `moved`: pieces without outlines one by one. A bit for each that has them.
 fn manifolds(
     level: Level,
     scene: &Scene<'_>,
@@ -96,7 +111,7 @@ fn manifolds(
     cold: &Cold,
     moved: u8,
     found: &mut Found,
-) {
+) -> u8 {
     let mut eight = Eight::new(scene.pieces, [block.a, block.b]);
     for lane in lanes(moved) {
         eight.set_pieces(scene.pieces, lane, cold.pieces[lane]);
@@ -107,6 +122,7 @@ fn manifolds(
             found.set(lane, &manifold);
         }
     }
+    eight.used
 }
 
 /// Islands asleep that some candidate reaches before the next tick: its gap may come below 0 until then.

@@ -73,6 +73,8 @@ pub(crate) struct Found {
     pub(crate) short: u8,
     /// A bit for each of these between pieces that may be flush.
     pub(crate) seam: u8,
+    /// A bit for each of these that lies on a face of B; those that are not short and have none lie on one of A.
+    pub(crate) of_b: u8,
 }
 
 impl Found {
@@ -90,6 +92,7 @@ impl Found {
         near: 0,
         short: 0,
         seam: 0,
+        of_b: 0,
     };
 
     /// Puts a manifold that was found otherwise into a lane.

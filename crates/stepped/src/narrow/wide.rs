@@ -28,7 +28,7 @@ pub(crate) fn collide_eight(
     eight: &Eight<'_>,
     found: &mut Found,
 ) {
-    (found.near, found.short, found.seam) = (0, 0, 0);
+    (found.near, found.short, found.seam, found.of_b) = (0, 0, 0, 0);
     if eight_lanes(level) {
         dispatch!(level, simd => whole(simd, scene, factor, eight, found));
     } else {
@@ -273,12 +273,14 @@ fn part<S: Simd, V: Wide<S>, const N: usize>(
     f1.store_slice(&mut found.features[0][at..end]);
     f2.store_slice(&mut found.features[1][at..end]);
     #[expect(clippy::cast_possible_truncation, reason = "eight lanes")]
-    let (near, short, seam) = (
+    let (near, short, seam, of_b) = (
         kept.to_bitmask() as u8,
         (kept & short).to_bitmask() as u8,
         (kept & seam).to_bitmask() as u8,
+        (kept & flip).to_bitmask() as u8,
     );
     found.near |= near << at;
     found.short |= short << at;
     found.seam |= seam << at;
+    found.of_b |= of_b << at;
 }

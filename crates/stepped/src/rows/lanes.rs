@@ -30,6 +30,13 @@ impl Graph {
         self.cold(id).is_some() && self.contacts[id as usize].pieces == pieces
     }
 
+    pub(super) fn block_mut(&mut self, id: u32) -> (&mut Block, usize) {
+        let contact = &self.contacts[id as usize];
+        let (k, lane) = contact.place();
+        let colour = &mut self.colours[contact.colour as usize];
+        (&mut colour.blocks[k], lane)
+    }
+
     /// Notes that an impact begins in the row of a contact; whether none went on.
     pub(crate) fn begin_run(&mut self, id: u32) -> bool {
         let contact = &self.contacts[id as usize];

@@ -1,5 +1,6 @@
 //! What is solved: contacts in blocks of eight, bodies in lines.
 
+mod bent;
 mod block;
 mod bounce_budget;
 #[cfg(test)]
@@ -21,6 +22,7 @@ mod restitution;
 mod tests;
 mod transpose;
 
+pub(crate) use bent::{Bent, Side};
 pub(crate) use block::{Block, Cold, LANES, OPEN};
 pub(crate) use bounce_budget::Before;
 pub(crate) use colour::Colour;

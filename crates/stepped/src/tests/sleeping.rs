@@ -167,7 +167,7 @@ fn random_calls_among_sleepers_keep_the_graph() {
 /// air, and their velocities grew.
 #[test]
 fn a_tall_heap_of_concave_bodies_comes_to_rest() {
-    for (settings, ticks) in [(Settings::fast(), 8000), (Settings::default(), 3000)] {
+    for (settings, ticks) in [(Settings::fast(), 12_000), (Settings::default(), 4500)] {
         let mut engine = Engine::new(Settings {
             sleep: None,
             ..settings

@@ -109,7 +109,7 @@ fn all_widths_find_the_same_bits() {
         let manifolds: Vec<_> = near
             .map(|lane| format!("{:?}", found.manifold(lane)))
             .collect();
-        (found.near, found.short, found.seam, manifolds)
+        ([found.near, found.short, found.seam, found.of_b], manifolds)
     };
     for seed in 0..6 {
         let engine = crowd(seed, 1.0);
