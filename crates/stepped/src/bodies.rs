@@ -38,6 +38,8 @@ pub(crate) struct Bodies {
     pub(crate) damped: usize,
     /// Whether [`Self::rebase_strays`] may find some.
     pub(crate) may_stray: bool,
+    /// How far beyond their boxes bodies may have come in the last sub-step, in m.
+    pub(crate) beyond_boxes: f64,
 }
 
 impl Bodies {
@@ -70,6 +72,7 @@ impl Bodies {
             drag: vec![UNDAMPED; 2],
             damped: 0,
             may_stray: false,
+            beyond_boxes: 0.0,
         }
     }
 

@@ -81,7 +81,7 @@ fn correct_all<S: Simd, const DAMPED: bool>(
     rest: f64,
 ) {
     let (h, half) = (f64x4::splat(simd, h), f64x4::splat(simd, 0.5 * h));
-    let mut strays = false;
+    let (mut strays, mut beyond) = (false, 0.0_f64);
     let lines = bodies.lines.iter_mut().zip(&bodies.start).zip(&bodies.pull);
     let more = bodies.drag.iter().zip(&bodies.foreseen).zip(&bodies.limits);
     for (((line, start), pull), (([left, added], foreseen), limit)) in lines.zip(more) {
@@ -104,8 +104,10 @@ fn correct_all<S: Simd, const DAMPED: bool>(
         let off = (v - f64x4::from_slice(simd, &foreseen.0)).abs();
         let off = off[0].max(off[1]) + off[2] * limit.reach;
         strays |= limit.strays(settings.margin, off * rest, line.turn());
+        beyond = beyond.max(off * h[0] + settings.margin * limit.extent);
     }
     bodies.may_stray = strays;
+    bodies.beyond_boxes = beyond;
 }
 
 /// The velocity at the beginning of a sub-step, which `start` comes from by pull and damping.
