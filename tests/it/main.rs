@@ -29,6 +29,7 @@ mod round;
 mod scripts;
 mod setters;
 mod skipping;
+mod small_islands;
 mod stability;
 mod stepped;
 mod stepped_cases;

@@ -35,6 +35,7 @@ impl World {
         self.look(time, h);
         self.gather_groups(MANY, time);
         self.close_groups(time);
+        self.join_overdrawn(time);
         self.doze(time);
         self.glide(time);
         self.gather_groups(FEW, time);
@@ -294,8 +295,11 @@ impl World {
             let held = self.groups.pushed(index) || self.bodies.get(index).pairs.iter().any(near);
             let state = self.bodies.get_mut(index);
             state.idle = if held { 0 } else { state.idle + 1 };
+            let unsolved = held && !state.membership.is_closed();
             if state.idle >= IDLE {
                 self.take_off(index, time);
+            } else if unsolved {
+                self.pay_unsolved(index, time);
             }
         }
     }
@@ -306,13 +310,14 @@ mod tests {
     use carom_geometry::{Circle, HalfPlane};
     use carom_math::{Vec2, vec2};
 
-    use crate::{BodyDef, Material, Settings, World};
+    use crate::{BodyDef, Material, Mode, Settings, World};
 
     #[test]
     fn the_impact_at_which_a_budget_ends_is_left_to_the_solver_and_counted() {
         let mut world = World::new(Settings {
             gravity: vec2(0.0, -10.0),
             sleep: None,
+            mode: Mode::Exact,
             ..Settings::default()
         })
         .expect("settings");

@@ -197,6 +197,7 @@ impl World {
         state.asleep = sleeps;
         let centroid = state.mass.centroid;
         self.bodies.insert(state);
+        self.closed.open_account(id.index);
         let add = |(shape, material)| {
             let surface = Surface {
                 material,

@@ -6,6 +6,7 @@
 
 mod dissolve;
 mod doze;
+mod effort;
 mod glide;
 mod jam;
 mod joints;
@@ -309,6 +310,7 @@ impl World {
 
     /// A judgement failed: the next one is later, and later each time.
     fn wait_around(&mut self, members: &[u32], time: SimTime) {
+        self.pay(members, time);
         for &index in members {
             let h = self.clock.h;
             let membership = &mut self.bodies.get_mut(index).membership;
@@ -323,6 +325,7 @@ impl World {
     fn close(&mut self, gathered: &Gathered, moves: &GroupMove, time: SimTime, speed: f64) {
         let lost = gathered.kinetic(&self.bodies, time) - kinetic(gathered, &moves.bodies);
         self.bodies.book.impacts.add(lost);
+        self.pay_for(gathered, &moves.bodies, time);
         let mut members = Vec::new();
         let mut fastest = speed;
         for (&index, moved) in gathered.places.iter().zip(&moves.bodies) {

@@ -5,6 +5,7 @@ use std::collections::BinaryHeap;
 
 use carom_math::{SimTime, Vec2};
 
+use super::effort::Account;
 use super::tips::Tipping;
 use crate::bodies::Bodies;
 use crate::modes::TouchMove;
@@ -108,6 +109,12 @@ pub(crate) struct Closed {
     /// By place of a body: when judgements of it began that took place at one instant, and how many they were; the same of those
     /// in the time of a sub-step.
     stalls: Vec<[(SimTime, u32); 2]>,
+    /// By place of a body: what its islands spent.
+    pub(super) accounts: Vec<Account>,
+    /// Bodies that spent too much: their islands join with the next sub-step.
+    pub(super) overdrawn: Vec<u32>,
+    /// Those among them that have no closed form.
+    pub(crate) loose: Vec<u32>,
     /// Who left the path of a group that turned in this sub-step, on its parabola.
     pub(super) astray: Vec<Astray>,
     /// Nobody is let go of: the slow twin.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use arrayvec::ArrayVec;
 use carom_collision::part;
-use carom_math::SimTime;
+use carom_math::{SimTime, Vec2};
 
 use super::joints::{Held, joint};
 use super::store::{Astray, Group, Kept, Membership};
@@ -81,7 +81,13 @@ impl World {
             return Err(NotMine::Returns);
         }
         let touches = tip.touches_after(0.0).ok_or(NotMine::Unsolved)?;
-        let moves: Vec<BodyMove> = tip.path.places_after(0.0).iter().map(moved).collect();
+        let begins = tip.path.places_after(0.0);
+        let moves: Vec<BodyMove> = begins
+            .iter()
+            .zip(tip.accelerations_after(0.0))
+            .map(|(place, accelerations)| moved(place, accelerations))
+            .collect();
+        self.pay_for(gathered, &moves, time);
         let lost = gathered.kinetic(&self.bodies, time) - super::kinetic(gathered, &moves);
         self.bodies.book.impacts.add(lost);
         let (mut members, mut slots) = (Vec::new(), Vec::new());
@@ -350,10 +356,11 @@ fn goes_on(bodies: &Bodies, astray: &Astray) -> bool {
         && !state.membership.is_closed()
 }
 
-fn moved(place: &Place) -> BodyMove {
+fn moved(place: &Place, (acceleration, angular_acceleration): (Vec2, f64)) -> BodyMove {
     BodyMove {
         velocity: place.velocity,
         spin: place.spin,
-        ..BodyMove::default()
+        acceleration,
+        angular_acceleration,
     }
 }

@@ -45,8 +45,12 @@ impl World {
                 // Awake it is in the hands of the solver, which is struck with all that it holds.
                 self.wake(index, time);
                 if self.bodies.get(index).in_engine {
+                    let other = if index == a { b } else { a };
+                    if self.release_outweighed(other, &[index], &mut Vec::new(), time) {
+                        return;
+                    }
                     // It waits at the surface of those who woke for the next sub-step.
-                    self.join(if index == a { b } else { a }, time);
+                    self.join(other, time);
                 }
                 if !self.bodies.get(index).course.flies {
                     return;

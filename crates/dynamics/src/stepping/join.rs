@@ -10,10 +10,12 @@
 use carom_collision::Motion;
 use carom_geometry::Aabb;
 use carom_math::{SimTime, Sum};
+use carom_stepped::State;
 
 use super::rush::Rush;
 use super::{Shapes, Stepping};
 use crate::flyers::box_ahead;
+use crate::heavy::{BEARS, mass_ratio};
 use crate::sleep::Tree;
 use crate::state::BodyState;
 use crate::{BodyKind, EnergyLedger, Mode, World};
@@ -61,7 +63,10 @@ pub(crate) struct Joins {
 impl World {
     /// Whether a body needs sub-steps.
     pub(crate) const fn is_substepping(&self) -> bool {
-        !self.stepped.is_empty() || self.joins.members > 0 || self.joins.rush.is_due()
+        !self.stepped.is_empty()
+            || self.joins.members > 0
+            || self.joins.rush.is_due()
+            || self.closed.has_overdrawn()
     }
 
     /// Whether bodies may join the engine.
@@ -69,9 +74,10 @@ impl World {
         matches!(self.settings.mode, Mode::Hybrid)
     }
 
-    /// Every group of more than `most` sub-stepped bodies in touch joins.
+    /// Every group of sub-stepped bodies in touch joins that has more than `most`, or spent too much.
     pub(crate) fn gather_groups(&mut self, most: usize, time: SimTime) {
-        if !self.may_join() || self.stepped.len() <= most {
+        let loose = core::mem::take(&mut self.closed.loose);
+        if !self.may_join() || self.stepped.len() <= most && loose.is_empty() {
             return;
         }
         let mut tree = Tree::new(self.bodies.places());
@@ -97,9 +103,11 @@ impl World {
             }
             count[at] = count[at].saturating_add(1);
         }
+        let overdrawn = self.overdrawn_roots(&loose, &mut tree, time);
         let joins = |index: &u32| {
-            let size = count[tree.root(*index) as usize];
-            size > most && size != usize::MAX
+            let root = tree.root(*index);
+            let size = count[root as usize];
+            (size > most || overdrawn.contains(&root)) && size != usize::MAX
         };
         let joining: Vec<u32> = self.stepped.iter().copied().filter(joins).collect();
         self.discharge_all(&joining);
@@ -249,21 +257,26 @@ impl World {
         gone.sort_unstable_by_key(super::place);
         self.stepping = Some(stepping);
         for state in gone {
-            let index = super::place(&state);
-            let (pull, twist) = self.pull_on(index, state.pose.position);
-            let motion = Motion {
-                start: time,
-                velocity: state.velocity.0,
-                acceleration: pull,
-                rotation: state.pose.rotation,
-                spin: state.velocity.1,
-                angular_acceleration: twist,
-                ..Motion::resting(state.pose.position)
-            };
-            self.bodies.go_on_as(index, &motion, state.turned);
-            self.leave(index, time);
-            self.take_off(index, time);
+            self.release_member(&state, time);
         }
+    }
+
+    /// A member flies from here on.
+    fn release_member(&mut self, state: &State, time: SimTime) {
+        let index = super::place(state);
+        let (pull, twist) = self.pull_on(index, state.pose.position);
+        let motion = Motion {
+            start: time,
+            velocity: state.velocity.0,
+            acceleration: pull,
+            rotation: state.pose.rotation,
+            spin: state.velocity.1,
+            angular_acceleration: twist,
+            ..Motion::resting(state.pose.position)
+        };
+        self.bodies.go_on_as(index, &motion, state.turned);
+        self.leave(index, time);
+        self.take_off(index, time);
     }
 
     /// Bodies outside that may meet a member before the next tick.
@@ -306,18 +319,83 @@ impl World {
 
     /// Whether a body may meet a member within `left` seconds.
     fn nears_member(&self, stepping: &Stepping, index: u32, time: SimTime, left: f64) -> bool {
-        let (mut shapes, mut near) = (Vec::new(), false);
+        !self.members_near(stepping, index, time, left).is_empty()
+    }
+
+    /// Members that a body may meet within `left` seconds.
+    fn members_near(&self, stepping: &Stepping, index: u32, time: SimTime, left: f64) -> Vec<u32> {
+        let mut shapes = Vec::new();
         let ahead = box_ahead(self.bodies.get(index), time, left);
         stepping
             .engine
             .query_awake(ahead, |tag| shapes.push(super::collider(tag)));
-        for at in shapes {
+        let owners = shapes.into_iter().filter_map(|at| {
             let owner = self.colliders[at as usize].body;
-            near |= owner != index
+            let meets = owner != index
                 && self.bodies.get(owner).in_engine
                 && self.nears(stepping, (index, owner), at, (time, left));
+            meets.then_some(owner)
+        });
+        owners.collect()
+    }
+
+    /// Small islands that a body of another mass may meet leave for where such ratios are solved for, with those that they may
+    /// meet; whether all do. `released`: what left in this sub-step, and does not leave again.
+    pub(super) fn outweighs_members(
+        &mut self,
+        index: u32,
+        released: &mut Vec<u32>,
+        time: SimTime,
+    ) -> bool {
+        let Some(stepping) = self.stepping.take() else {
+            return false;
+        };
+        let near = self.members_near(&stepping, index, time, stepping.engine.left());
+        self.stepping = Some(stepping);
+        self.release_outweighed(index, &near, released, time)
+    }
+
+    /// The same of the islands of these members.
+    pub(crate) fn release_outweighed(
+        &mut self,
+        index: u32,
+        members: &[u32],
+        released: &mut Vec<u32>,
+        time: SimTime,
+    ) -> bool {
+        let Some(stepping) = &self.stepping else {
+            return false;
+        };
+        let own = self.bodies.get(index).inverse_mass;
+        let mut leaving: Vec<State> = Vec::new();
+        let mut all_leave = true;
+        for &member in members {
+            let ratio = mass_ratio([own, self.bodies.get(member).inverse_mass]);
+            let island = stepping
+                .id(member)
+                .and_then(|id| stepping.engine.island_of(id).ok())
+                .unwrap_or_default();
+            let states = island.iter().map(|id| stepping.engine.state(*id));
+            let island: Vec<State> = states.filter_map(Result::ok).collect();
+            let came_back = |state: &State| released.contains(&super::place(state));
+            if (ratio > BEARS || released.contains(&index))
+                && island.len() < FEW
+                && !island.iter().any(came_back)
+            {
+                leaving.extend(island);
+            } else {
+                all_leave = false;
+            }
         }
-        near
+        leaving.sort_unstable_by_key(super::place);
+        leaving.dedup_by_key(|state| super::place(state));
+        for state in leaving {
+            if self.bodies.get(super::place(&state)).in_engine {
+                released.push(super::place(&state));
+                self.release_member(&state, time);
+            }
+        }
+        all_leave
     }
 
     /// Whether a shape of a member may be met by a body within `left` seconds: by their circles, then by their shapes.

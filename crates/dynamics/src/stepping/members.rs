@@ -19,11 +19,14 @@ impl World {
         }
         let mut searches = self.find_contacts(time) || at_tick;
         searches |= core::mem::take(&mut self.joins.is_restless);
+        let mut released = Vec::new();
         while searches {
             let near = self.outsiders_near(time);
             searches = !near.is_empty();
             for index in near {
-                self.join(index, time);
+                if !self.outweighs_members(index, &mut released, time) {
+                    self.join(index, time);
+                }
             }
             if searches {
                 self.find_contacts(time);
