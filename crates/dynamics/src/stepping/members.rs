@@ -81,6 +81,10 @@ impl World {
                 continue;
             }
             if self.bodies.get(index).in_engine {
+                // No sub-steps were counted while all slept.
+                if !self.is_substepping() {
+                    self.clock.catch_up(time);
+                }
                 self.joins.members += 1;
                 self.leave_pairs(index, time);
                 continue;
