@@ -277,6 +277,86 @@ fn a_sleeper_is_woken_by_hand_and_its_contacts_are_its_own() {
     }
 }
 
+/// Boxes on a floor, on each other or as a pyramid: a tower of three is moved in closed form or pair by pair (damped), a pyramid
+/// of 21 by the engine.
+fn boxes(world: &mut World, rows: u32, is_pyramid: bool, damping: f64) -> Vec<BodyId> {
+    let floor = HalfPlane::new(Vec2::ZERO, Vec2::Y).expect("a unit normal");
+    put(world, BodyDef::fixed(), floor, surface(0.0, 0.5));
+    let mut ids = Vec::new();
+    for row in 0..rows {
+        let columns = if is_pyramid { rows - row } else { 1 };
+        for column in 0..columns {
+            let x = 1.1 * (f64::from(column) - 0.5 * f64::from(columns));
+            let at = vec2(x, 0.5 + f64::from(row));
+            let def = BodyDef::dynamic().at(at).damped(damping, damping);
+            ids.push(put(world, def, block(1.0, 1.0), surface(0.0, 0.5)));
+        }
+    }
+    ids
+}
+
+#[test]
+fn a_body_that_may_not_sleep_keeps_its_island_awake() {
+    for mode in MODES {
+        for (rows, is_pyramid, damping) in [(3, false, 0.0), (3, false, 0.1), (6, true, 0.0)] {
+            let case = format!("{mode:?}, {rows} rows, pyramid: {is_pyramid}, {damping}/s");
+            let mut world = world(mode, vec2(0.0, -10.0));
+            let pile = boxes(&mut world, rows, is_pyramid, damping);
+            let beside = BodyDef::dynamic().at(vec2(-20.0, 0.5));
+            let beside = put(&mut world, beside, block(1.0, 1.0), surface(0.0, 0.5));
+            let asleep =
+                |world: &World, id: BodyId| world.body(id).is_some_and(|body| body.is_asleep());
+            let sleepers = |world: &World| pile.iter().filter(|id| asleep(world, **id)).count();
+            let top = pile[pile.len() - 1];
+            run(&mut world, 180);
+            assert_eq!(sleepers(&world), pile.len(), "{case}");
+            world.set_sleep_allowed(top, false).expect("it is there");
+            assert_eq!(sleepers(&world), 0, "{case}: forbidding wakes");
+            let mut slept = 0;
+            for _ in 0..180 {
+                world.step(1.0 / 60.0);
+                let told = world.events().iter();
+                slept += told
+                    .filter(|event| matches!(event.kind, EventKind::Asleep(id) if id != beside))
+                    .count();
+            }
+            assert_eq!((sleepers(&world), slept), (0, 0), "{case}");
+            assert!(asleep(&world, beside), "{case}: another island sleeps");
+            assert!(world.body(top).is_some_and(|body| !body.is_sleep_allowed()));
+            world.set_sleep_allowed(top, true).expect("it is there");
+            run(&mut world, 180);
+            assert_eq!(sleepers(&world), pile.len(), "{case}: allowed again");
+            let before = world.state_hash();
+            world.set_sleep_allowed(top, true).expect("it is there");
+            assert_eq!((world.state_hash(), sleepers(&world)), (before, pile.len()));
+        }
+    }
+}
+
+#[test]
+fn a_body_that_may_not_sleep_does_not_start_asleep_nor_lets_others() {
+    for mode in MODES {
+        let mut world = world(mode, vec2(0.0, -10.0));
+        let floor = HalfPlane::new(Vec2::ZERO, Vec2::Y).expect("a unit normal");
+        put(&mut world, BodyDef::fixed(), floor, surface(0.0, 0.5));
+        let lower = BodyDef::dynamic().at(vec2(0.0, 0.5)).asleep();
+        let lower = lower.with_sleep_allowed(false);
+        let lower = put(&mut world, lower, block(1.0, 1.0), surface(0.0, 0.5));
+        let upper = BodyDef::dynamic().at(vec2(0.0, 1.5));
+        let upper = put(&mut world, upper, block(1.0, 1.0), surface(0.0, 0.5));
+        let sleeps = |world: &World, id| world.body(id).is_some_and(|body| body.is_asleep());
+        assert!(!sleeps(&world, lower), "{mode:?}");
+        run(&mut world, 120);
+        assert_eq!([lower, upper].map(|id| sleeps(&world, id)), [false; 2]);
+        // What is not dynamic holds no island together, and keeps none awake.
+        world
+            .set_kind(lower, carom_dynamics::BodyKind::Fixed)
+            .expect("it is there");
+        run(&mut world, 120);
+        assert!(sleeps(&world, upper), "{mode:?}");
+    }
+}
+
 #[test]
 fn queries_name_all_that_is_asked_for() {
     let mut world = world(Mode::Hybrid, Vec2::ZERO);

@@ -81,6 +81,19 @@ impl World {
         Ok(())
     }
 
+    /// Allows or forbids a body to fall asleep: see [`BodyDef::sleep_allowed`]. Where it is forbidden, a sleeper wakes with all that
+    /// sleeps in touch with it. What is so already changes nothing.
+    ///
+    /// # Errors
+    /// If the body is not there.
+    pub fn set_sleep_allowed(&mut self, id: BodyId, allowed: bool) -> Result<(), BodyError> {
+        let index = self.bodies.find(id)?;
+        if self.bodies.get(index).sleep_allowed() != allowed {
+            self.remake(index, |state| state.uncommon_mut().sleep_allowed = allowed);
+        }
+        Ok(())
+    }
+
     /// Changes a body's tag, which is the caller's own.
     ///
     /// # Errors

@@ -224,6 +224,7 @@ impl Player {
                 other => self.world.set_pair_collides(id, other, collides),
             },
             Alteration::Awake => self.world.wake_up(id),
+            Alteration::SleepAllowed(allowed) => self.world.set_sleep_allowed(id, allowed),
         }
     }
 

@@ -133,6 +133,7 @@ pub(crate) enum Alteration {
     /// With which other body.
     Collides(usize, bool),
     Awake,
+    SleepAllowed(bool),
 }
 
 /// What is refused.
@@ -297,6 +298,7 @@ fn alteration() -> impl Strategy<Value = Alteration> {
         surface().prop_map(Alteration::Surface),
         (0..32_usize, any::<bool>()).prop_map(|(other, on)| Alteration::Collides(other, on)),
         Just(Alteration::Awake),
+        any::<bool>().prop_map(Alteration::SleepAllowed),
     ]
 }
 
