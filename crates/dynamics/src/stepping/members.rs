@@ -165,7 +165,8 @@ impl World {
             }
             self.stepping = Some(stepping);
             self.tell_touches(time);
-        } else if !self.clock.is_within(time)
+        } else if self.joins.has_guests
+            && !self.clock.is_within(time)
             && let Some(mut stepping) = self.stepping.take()
         {
             self.end_motions(&mut stepping);
