@@ -255,7 +255,7 @@ fn a_written_body_can_be_kept_awake() {
     let text =
         "version = 1\n[[body]]\nshape = { circle = 1.0 }\nasleep = true\nsleep_allowed = false\n";
     let built = Scene::from_toml(text, "x.toml").unwrap().build().unwrap();
-    let awake = |body: carom_dynamics::Body<'_>| !body.is_asleep() && !body.is_sleep_allowed();
+    let awake = |body: Body<'_>| !body.is_asleep() && !body.is_sleep_allowed();
     assert!(built.world.bodies().all(awake));
 }
 

@@ -6,6 +6,9 @@ use carom_geometry::HalfPlane;
 use carom_math::{Vec2, vec2};
 use carom_tests::scenes::{block, put, surface};
 
+/// What wakes the pile by its top.
+type Call = fn(&mut World, BodyId);
+
 fn pyramid() -> (World, BodyId) {
     let mut world = World::new(Settings::default()).expect("valid settings");
     let floor = HalfPlane::new(Vec2::ZERO, Vec2::Y).expect("a unit normal");
@@ -26,7 +29,7 @@ fn pyramid() -> (World, BodyId) {
 
 #[test]
 fn a_step_after_a_call_has_the_substeps_of_a_step() {
-    let calls: [(&str, fn(&mut World, BodyId)); 7] = [
+    let calls: [(&str, Call); 7] = [
         ("wake_up", |world, id| {
             world.wake_up(id).expect("it is there");
         }),
