@@ -1,16 +1,12 @@
-//! The README's tables are those of the committed measurements. `UPDATE=1 cargo test -p carom-tests --test it readme` writes them anew.
+//! The tables of README and docs/measurements.md are those of the committed measurements. `UPDATE=1 cargo test -p carom-tests --test
+//! it readme` writes them anew.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 /// Rows of the accuracy table: case, metric, what a reader calls it.
-const ACCURACY: [(&str, &str, &str); 6] = [
+const ACCURACY: [(&str, &str, &str); 5] = [
     ("01_projectile", "pos_error_m", "a throw after 1 s, m"),
-    (
-        "04_two_discs",
-        "oblique_vel_err_rel_rms",
-        "two discs strike obliquely, velocity",
-    ),
     (
         "08_friction",
         "slide_dist_2s",
@@ -44,6 +40,16 @@ const SPEED: [&str; 7] = [
     "h_mostly_sleeping",
 ];
 
+/// Scenes of the table of presets: piles, where overlaps tell.
+const PILES: [&str; 6] = [
+    "a_large_pyramid",
+    "b_many_pyramids",
+    "c_smash",
+    "d_tumbler",
+    "f_polygon_pile",
+    "g_concave_pile",
+];
+
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
@@ -66,18 +72,21 @@ impl Table {
         }
     }
 
-    /// The number in a column of the one row with these cells.
-    fn number(&self, column: &str, keys: &[(&str, &str)]) -> f64 {
-        let at = |name: &str| {
-            self.names
-                .iter()
-                .position(|known| known == name)
-                .expect("a column")
+    /// The number in a column of the one row with these cells; `None` if it was not measured.
+    fn find(&self, column: &str, keys: &[(&str, &str)]) -> Option<f64> {
+        let at = |name: &str| self.names.iter().position(|known| known == name);
+        let fits = |row: &&Vec<String>| {
+            let mut keys = keys.iter();
+            keys.all(|(name, value)| at(name).is_some_and(|at| row[at] == *value))
         };
-        let fits = |row: &&Vec<String>| keys.iter().all(|(name, value)| row[at(name)] == *value);
-        let row = self.rows.iter().find(fits);
-        let row = row.unwrap_or_else(|| panic!("no row with {keys:?}"));
-        row[at(column)].parse().expect("a number")
+        let row = self.rows.iter().find(fits)?;
+        row[at(column)?].parse().ok()
+    }
+
+    /// The same of what must be there.
+    fn number(&self, column: &str, keys: &[(&str, &str)]) -> f64 {
+        let found = self.find(column, keys);
+        found.unwrap_or_else(|| panic!("no {column} in a row with {keys:?}"))
     }
 }
 
@@ -120,57 +129,238 @@ fn accuracy() -> String {
     text
 }
 
-fn speed() -> String {
-    let table = Table::read("crates/bench/results/speed/speed.csv");
-    let mut text = "| scene | stepping alone | all poses read |\n|---|---:|---:|\n".to_owned();
-    for scene in SPEED {
+/// Times of steps.
+struct Speed(Table);
+
+/// Engine and mode.
+type Who = (&'static str, &'static str);
+
+const OWN: Who = ("carom", "hybrid");
+const STEPPED: Who = ("carom", "stepped");
+const BOX2D: Who = ("box2d-avx2", "stock");
+const RAPIER: Who = ("rapier", "stock");
+
+impl Speed {
+    fn read() -> Self {
+        Self(Table::read("crates/bench/results/speed/speed.csv"))
+    }
+
+    /// A column of one thread that only steps, or reads all poses as well.
+    fn find(&self, column: &str, scene: &str, who: Who, reads: bool) -> Option<f64> {
+        let reads = if reads { "true" } else { "false" };
+        let keys = [
+            ("scene", scene),
+            ("engine", who.0),
+            ("mode", who.1),
+            ("threads", "1"),
+            ("reads_poses", reads),
+        ];
+        self.0.find(column, &keys)
+    }
+
+    fn of(&self, column: &str, scene: &str, who: Who) -> f64 {
+        let found = self.find(column, scene, who, false);
+        found.unwrap_or_else(|| panic!("no {column} of {who:?} in {scene}"))
+    }
+
+    /// Times of Box2D's step.
+    fn ratio(&self, scene: &str, who: Who) -> f64 {
+        self.of("ms_mean", scene, who) / self.of("ms_mean", scene, BOX2D)
+    }
+
+    fn title(scene: &str) -> &'static str {
         let mut known = carom_scenes::plain_scenes().iter();
-        let name = known
+        known
             .find(|info| info.name == scene)
             .expect("a scene")
-            .title;
-        let [alone, read] = ["false", "true"].map(|reads| {
-            let of = |engine, mode| {
-                let keys = [
-                    ("scene", scene),
-                    ("engine", engine),
-                    ("mode", mode),
-                    ("threads", "1"),
-                    ("reads_poses", reads),
-                ];
-                table.number("ms_mean", &keys)
-            };
-            short(of("carom", "hybrid") / of("box2d-avx2", "stock"))
-        });
-        let _ = writeln!(text, "| {name} | {alone} | {read} |");
+            .title
     }
-    text
+
+    /// The scenes of `cargo xtask speed`.
+    fn scenes() -> impl Iterator<Item = &'static str> {
+        let names = carom_scenes::plain_scenes().iter().map(|info| info.name);
+        names.filter(|name| !name.starts_with("case"))
+    }
+
+    /// The README's table, and how it was measured.
+    fn short(&self) -> String {
+        let mut text =
+            "| scene | stepping alone | all poses read | first step |\n|---|---:|---:|---:|\n"
+                .to_owned();
+        for scene in SPEED {
+            let ratio = |column, reads| {
+                let [own, peer] = [OWN, BOX2D].map(|who| self.find(column, scene, who, reads));
+                short(own.expect("measured") / peer.expect("measured"))
+            };
+            let cells = [("ms_mean", false), ("ms_mean", true), ("ms_first", false)];
+            let [alone, read, first] = cells.map(|(column, reads)| ratio(column, reads));
+            let name = Self::title(scene);
+            let _ = writeln!(text, "| {name} | {alone} | {read} | {first} |");
+        }
+        let pyramid = short(self.of("ms_mean", SPEED[0], OWN));
+        let _ = write!(text, "\ncarom steps the pyramid in {pyramid} ms. ");
+        let both = SPEED
+            .iter()
+            .flat_map(|scene| [OWN, BOX2D].map(|who| (*scene, who)));
+        let spreads = both.map(|(scene, who)| self.find("ms_spread", scene, who, false));
+        let _ = match spreads.collect::<Option<Vec<f64>>>() {
+            Some(spreads) => {
+                let most = 100.0 * spreads.into_iter().fold(0.0, f64::max);
+                let runs = self.of("repetitions", SPEED[0], OWN);
+                write!(
+                    text,
+                    "Stepping alone is the median of {runs} runs, which differ by at most {most:.0} %; the rest is of one run. "
+                )
+            }
+            None => write!(
+                text,
+                "Each number is of one run on a shared machine; repeated runs differ by up to a seventh, of microseconds by up to half. "
+            ),
+        };
+        let rapier = |scene: &&str| {
+            let ms = self.find("ms_mean", scene, RAPIER, false)?;
+            Some(ms / self.of("ms_mean", scene, BOX2D))
+        };
+        let ratios: Vec<f64> = SPEED.iter().filter_map(rapier).collect();
+        let least = ratios.iter().copied().fold(f64::INFINITY, f64::min);
+        let most = ratios.iter().copied().fold(0.0, f64::max);
+        text += &if ratios.len() == SPEED.len() {
+            let (least, most) = (short(least), short(most));
+            format!("Rapier takes {least} to {most} times Box2D's time, stepping alone.\n")
+        } else {
+            "Rapier was not timed beside them.\n".to_owned()
+        };
+        text
+    }
+
+    /// Times with what they bought.
+    fn long(&self) -> String {
+        let rapier =
+            Self::scenes().any(|scene| self.find("ms_mean", scene, RAPIER, false).is_some());
+        let mut text = "| scene | Box2D AVX2 | spread | first step | energy | overlap, mm | **carom** | spread | first step | energy | overlap, mm | ratio | ratio, `Mode::Stepped` |".to_owned();
+        text += if rapier { " Rapier |\n" } else { "\n" };
+        text += "|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|";
+        text += if rapier { "---:|\n" } else { "\n" };
+        for scene in Self::scenes() {
+            let _ = write!(text, "| {} |", Self::title(scene));
+            for who in [BOX2D, OWN] {
+                let spread = self.find("ms_spread", scene, who, false);
+                let spread =
+                    spread.map_or("–".to_owned(), |part| format!("{:.0} %", 100.0 * part));
+                let _ = write!(
+                    text,
+                    " {} | {spread} | {} | {:.3} | {} |",
+                    digits(self.of("ms_mean", scene, who), 3),
+                    digits(self.of("ms_first", scene, who), 3),
+                    self.of("energy_ratio", scene, who),
+                    digits(1e3 * self.of("overlap_max", scene, who), 2),
+                );
+            }
+            let [own, stepped] = [OWN, STEPPED].map(|who| digits(self.ratio(scene, who), 2));
+            let _ = write!(text, " **{own}** | {stepped} |");
+            if rapier {
+                let ms = self.find("ms_mean", scene, RAPIER, false);
+                let ms = ms.map_or("failed".to_owned(), |ms| digits(ms, 3));
+                let _ = write!(text, " {ms} |");
+            }
+            text.push('\n');
+        }
+        text += "\nFirst step: of a new world, in ms. Spread: greatest less least mean of the repetitions, over their median; – of a single run.\n";
+        text += if rapier {
+            "Chipmunk was not timed beside them.\n"
+        } else {
+            "Box2D's AVX2 build is the only peer: Chipmunk and Rapier were not timed beside it.\n"
+        };
+        text
+    }
+
+    /// Presets: time and mean overlap, in parts of Box2D's.
+    fn presets(&self) -> String {
+        let modes = [
+            ("default", "hybrid"),
+            ("`fast`", "fast"),
+            ("`accurate`", "accurate"),
+            ("`Mode::Stepped`", "stepped"),
+            ("`Mode::Stepped`, `fast`", "stepped-fast"),
+            ("`Mode::Stepped`, `accurate`", "stepped-accurate"),
+        ];
+        let mut text = "| scene |".to_owned();
+        for (name, _) in modes {
+            let _ = write!(text, " {name} |");
+        }
+        text += "\n|---|---:|---:|---:|---:|---:|---:|\n";
+        for scene in PILES {
+            let _ = write!(text, "| {} |", Self::title(scene));
+            for (_, mode) in modes {
+                let who = ("carom", mode);
+                let overlap = self.of("overlap_mean", scene, who);
+                let overlap = overlap / self.of("overlap_mean", scene, BOX2D);
+                let time = self.ratio(scene, who);
+                let _ = write!(text, " {time:.2}, {} |", digits(overlap, 2));
+            }
+            text.push('\n');
+        }
+        text
+    }
+}
+
+/// So many significant digits, written out; whole numbers are not cut.
+fn digits(value: f64, count: usize) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    let written = format!("{value:.*e}", count - 1);
+    let (_, power) = written.split_once('e').expect("an exponent");
+    let power: i64 = power.parse().expect("a whole number");
+    let decimals = i64::try_from(count).expect("a few digits") - 1 - power;
+    format!("{value:.*}", usize::try_from(decimals).unwrap_or(0))
+}
+
+/// A text with a table between its mark and `<!-- end -->`.
+fn with_table(text: &str, mark: &str, table: &str) -> String {
+    let from = text.find(mark).expect("the table's mark");
+    let from = from + text[from..].find('\n').expect("a line") + 1;
+    let to = from + text[from..].find("<!-- end -->").expect("the table's end");
+    format!("{}\n{table}\n{}", &text[..from], &text[to..])
 }
 
 #[test]
 fn the_tables_are_those_of_the_measurements() {
-    let path = root().join("README.md");
-    let readme = std::fs::read_to_string(&path)
-        .expect("a README")
-        .replace("\r\n", "\n");
-    let mut written = readme.clone();
-    for (mark, table) in [("<!-- accuracy", accuracy()), ("<!-- speed", speed())] {
-        let from = written.find(mark).expect("the table's mark");
-        let from = from + written[from..].find('\n').expect("a line") + 1;
-        let to = from
-            + written[from..]
-                .find("<!-- end -->")
-                .expect("the table's end");
-        written.replace_range(from..to, &format!("\n{table}\n"));
+    let speed = Speed::read();
+    let tables = [
+        ("README.md", "<!-- accuracy", accuracy()),
+        ("README.md", "<!-- speed", speed.short()),
+        ("docs/measurements.md", "<!-- speed", speed.long()),
+        ("docs/measurements.md", "<!-- presets", speed.presets()),
+    ];
+    for (name, mark, table) in tables {
+        let path = root().join(name);
+        let text = std::fs::read_to_string(&path).expect("a page");
+        let text = text.replace("\r\n", "\n");
+        let written = with_table(&text, mark, &table);
+        if std::env::var_os("UPDATE").is_some() {
+            std::fs::write(&path, &written).expect("it can be written");
+        } else {
+            assert!(
+                text == written,
+                "{name} is not what the measurements say: UPDATE=1 cargo test -p carom-tests --test it readme"
+            );
+        }
     }
-    if std::env::var_os("UPDATE").is_some() {
-        std::fs::write(&path, &written).expect("it can be written");
-    } else {
-        assert!(
-            readme == written,
-            "README.md is not what the measurements say: UPDATE=1 cargo test -p carom-tests --test it readme"
-        );
-    }
+}
+
+#[test]
+fn digits_are_as_many_as_asked_for() {
+    let some = [
+        (2.5196, 3),
+        (14.23, 3),
+        (9.996, 3),
+        (0.0057334, 3),
+        (262.4, 2),
+        (0.0, 2),
+    ];
+    let written = some.map(|(value, count)| digits(value, count));
+    assert_eq!(written, ["2.52", "14.2", "10.0", "0.00573", "262", "0"]);
 }
 
 #[test]

@@ -15,6 +15,7 @@ mod a_gap_that_rounds_to_the_tolerance_closes;
 mod a_half_plane_is_no_disc;
 mod a_hundred_bodies_at_one_place_end;
 mod a_jam_ends_in_exact_mode;
+mod a_large_pile_that_is_woken_goes_on_from_then;
 mod a_light_body_keeps_a_heavy_one_off_the_floor;
 mod a_long_body_is_met_in_flight;
 mod a_long_flight_costs_no_more_than_what_it_meets;

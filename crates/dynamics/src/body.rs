@@ -134,6 +134,12 @@ impl<'w> Body<'w> {
         self.state.asleep && !self.state.dozes
     }
 
+    /// Whether it may fall asleep: see [`BodyDef::sleep_allowed`](crate::BodyDef::sleep_allowed).
+    #[must_use]
+    pub fn is_sleep_allowed(&self) -> bool {
+        self.state.sleep_allowed()
+    }
+
     /// ½ m v² + ½ I ω², in J; 0 for fixed and kinematic bodies.
     #[must_use]
     pub fn kinetic_energy(&self) -> f64 {

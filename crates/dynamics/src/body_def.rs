@@ -75,9 +75,12 @@ pub struct BodyDef {
     pub angular_damping: f64,
     /// Whether the body starts asleep: it stays where it is until something touches it or the caller changes it.
     ///
-    /// Without effect where [`Settings::sleep`](crate::Settings::sleep) is off, and on a body that moves or is not
-    /// dynamic.
+    /// Without effect where [`Settings::sleep`](crate::Settings::sleep) is off, and on a body that moves, is not
+    /// dynamic or [may not sleep](Self::sleep_allowed).
     pub asleep: bool,
+    /// Whether the body may fall asleep. One that may not keeps all that it hangs together with awake, too: its island, through
+    /// dynamic bodies in touch. Without effect while it is not dynamic.
+    pub sleep_allowed: bool,
     /// Whom its shapes may touch.
     pub filter: Filter,
     /// Anything the caller wants to find again.
@@ -102,6 +105,7 @@ impl BodyDef {
             linear_damping: 0.0,
             angular_damping: 0.0,
             asleep: false,
+            sleep_allowed: true,
             filter: Filter {
                 categories: 1,
                 mask: u64::MAX,
@@ -223,6 +227,32 @@ impl BodyDef {
     #[must_use]
     pub const fn asleep(mut self) -> Self {
         self.asleep = true;
+        self
+    }
+
+    /// Whether the body may fall asleep, with [what that means for others](Self::sleep_allowed).
+    ///
+    /// # Examples
+    /// ```
+    /// use carom_dynamics::{BodyDef, Material, Settings, World};
+    /// use carom_geometry::{ConvexPolygon, HalfPlane};
+    /// use carom_math::{Vec2, vec2};
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// let mut world = World::new(Settings::default())?;
+    /// world.insert(BodyDef::fixed(), HalfPlane::new(Vec2::ZERO, Vec2::Y)?, Material::default())?;
+    /// let crate_ = ConvexPolygon::rectangle(1.0, 1.0)?;            // m
+    /// let watched = BodyDef::dynamic().at(vec2(0.0, 0.5)).with_sleep_allowed(false);
+    /// let watched = world.insert(watched, crate_.clone(), Material::default())?;
+    /// let other = world.insert(BodyDef::dynamic().at(vec2(5.0, 0.5)), crate_, Material::default())?;
+    /// world.step(2.0);                                             // s
+    /// assert!(!world.body(watched).ok_or("it is there")?.is_asleep());
+    /// assert!(world.body(other).ok_or("it is there")?.is_asleep());
+    /// # Ok(())
+    /// # }
+    /// ```
+    #[must_use]
+    pub const fn with_sleep_allowed(mut self, allowed: bool) -> Self {
+        self.sleep_allowed = allowed;
         self
     }
 

@@ -97,7 +97,7 @@ pub enum BodyError {
     Shape(#[from] ShapeError),
 }
 
-/// Why a world was not made.
+/// Why a world was not made, or its settings were not changed.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SettingsError {
@@ -129,6 +129,12 @@ pub enum SettingsError {
         /// Largest accepted value.
         high: f64,
     },
+    /// These cannot change once a world is made: [`World::set_settings`](crate::World::set_settings).
+    #[error("{} cannot change once a world is made: make another one", named(.fields))]
+    Fixed {
+        /// The fields that differ from the world's.
+        fields: Vec<&'static str>,
+    },
     /// The stepped engine cannot do with it.
     #[error("settings: {refused}")]
     Stepped {
@@ -143,6 +149,14 @@ pub enum SettingsError {
         /// What the system says.
         reason: String,
     },
+}
+
+fn named(fields: &[&str]) -> String {
+    let all: Vec<_> = fields
+        .iter()
+        .map(|field| format!("settings.{field}"))
+        .collect();
+    all.join(", ")
 }
 
 /// Largest coordinate, speed, spin or component of gravity that a world accepts, in its unit.

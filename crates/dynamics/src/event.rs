@@ -120,6 +120,11 @@ impl Events {
         }
     }
 
+    /// Keeps so many of a step from now on.
+    pub(crate) const fn set_capacity(&mut self, capacity: usize) {
+        self.capacity = capacity;
+    }
+
     /// The events in order of time.
     pub fn iter(&self) -> core::slice::Iter<'_, Event> {
         self.list.iter()

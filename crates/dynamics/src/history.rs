@@ -29,6 +29,20 @@ impl History {
         }
     }
 
+    /// Keeps so many from now on; the oldest of those beyond go.
+    pub(crate) fn set_capacity(&mut self, capacity: usize, now: SimTime) {
+        if self.capacity == 0 {
+            // Some of what went on until now was not even written.
+            self.complete_since = now;
+        }
+        self.capacity = capacity;
+        let beyond = self.log.len().saturating_sub(capacity);
+        if beyond > 0 {
+            self.log.drain(..beyond);
+            self.complete_since = (self.log.front()).map_or(now, |(_, (oldest, _))| oldest.start);
+        }
+    }
+
     /// Keeps the motion that body `index` followed until `until`.
     pub(crate) fn replaced(
         &mut self,

@@ -1,14 +1,17 @@
-//! What a caller changes of a body that is there, beside where and how it moves: all that it was inserted with.
+//! What a caller changes of a body that is there, beside where and how it moves: all that it was inserted with; and of the world's
+//! settings.
 //!
-//! Each change goes one way: the body leaves what holds it and all its pairs, is altered, and arrives as if it were new.
+//! Each change of a body goes one way: the body leaves what holds it and all its pairs, is altered, and arrives as if it were new.
 
 use carom_geometry::Shape;
 use carom_math::Vec2;
 
 use crate::error::{check_finite, check_vec2};
+use crate::groups::Law;
 use crate::mass::mass_of;
 use crate::state::{BodyState, Surface};
-use crate::{BodyDef, BodyError, BodyId, BodyKind, Material, World};
+use crate::threads::Threads;
+use crate::{BodyDef, BodyError, BodyId, BodyKind, Material, Settings, SettingsError, World};
 
 impl World {
     /// Changes the surface of one shape: friction, restitution, speed of its belt. Shapes count from 0 in the order of insertion.
@@ -81,6 +84,19 @@ impl World {
         Ok(())
     }
 
+    /// Allows or forbids a body to fall asleep: see [`BodyDef::sleep_allowed`]. Where it is forbidden, a sleeper wakes with all that
+    /// sleeps in touch with it. What is so already changes nothing.
+    ///
+    /// # Errors
+    /// If the body is not there.
+    pub fn set_sleep_allowed(&mut self, id: BodyId, allowed: bool) -> Result<(), BodyError> {
+        let index = self.bodies.find(id)?;
+        if self.bodies.get(index).sleep_allowed() != allowed {
+            self.remake(index, |state| state.uncommon_mut().sleep_allowed = allowed);
+        }
+        Ok(())
+    }
+
     /// Changes a body's tag, which is the caller's own.
     ///
     /// # Errors
@@ -133,6 +149,58 @@ impl World {
             (state.mass, state.reach) = (mass, reach);
             state.set_kind(state.kind);
         });
+        Ok(())
+    }
+
+    /// Changes all settings at once. Where bodies may move otherwise by it, whatever sleeps wakes, and motions are predicted anew from
+    /// now on. A change of `work`, `history`, `events` and `threads` alone moves nothing; but in stepped mode last digits depend on
+    /// whether there is a history. Equal settings change nothing.
+    ///
+    /// `mode`, `tick`, `substep` and `pair_search` are those that the world was made with.
+    ///
+    /// # Errors
+    /// As [`World::new`], and [`SettingsError::Fixed`] with the names of all fields that differ and cannot. The world is as it was
+    /// then.
+    ///
+    /// # Examples
+    /// ```
+    /// use carom_dynamics::{Mode, Settings, SettingsError, World};
+    /// use carom_math::vec2;
+    /// let mut world = World::new(Settings::default())?;
+    /// let moon = vec2(0.0, -1.62);                                 // m/s²
+    /// world.set_settings(Settings { gravity: moon, sleep: None, ..*world.settings() })?;
+    /// assert_eq!(world.settings().gravity, moon);
+    /// let refused = world.set_settings(Settings { mode: Mode::Exact, ..*world.settings() });
+    /// assert_eq!(refused, Err(SettingsError::Fixed { fields: vec!["mode"] }));
+    /// # Ok::<(), SettingsError>(())
+    /// ```
+    pub fn set_settings(&mut self, settings: Settings) -> Result<(), SettingsError> {
+        settings.check()?;
+        let fields = self.settings.fixed_in(&settings);
+        if !fields.is_empty() {
+            return Err(SettingsError::Fixed { fields });
+        }
+        if settings.threads != self.settings.threads {
+            self.threads = Threads::new(settings.threads)?;
+        }
+        let old = core::mem::replace(&mut self.settings, settings);
+        self.events.set_capacity(settings.events);
+        if settings.history != old.history {
+            self.bodies
+                .history
+                .set_capacity(settings.history, self.clock.now);
+        }
+        self.law = Law::new(&settings.contact, self.clock.h);
+        if !settings.moves_as(&old) {
+            self.change_pull(|pull| {
+                pull.gravity = settings.gravity;
+                pull.error = settings.field_error;
+            });
+        }
+        // All that slept is awake, and was told of.
+        if let Some(stepping) = &mut self.stepping {
+            stepping.set_settings(&old, &settings);
+        }
         Ok(())
     }
 

@@ -243,6 +243,34 @@ impl Settings {
         Ok(())
     }
 
+    /// The fields in which others differ that a world keeps for as long as it is there: the grid of sub-steps, who moves bodies and
+    /// who finds pairs is built into it.
+    pub(crate) fn fixed_in(&self, others: &Self) -> Vec<&'static str> {
+        let differ = [
+            ("tick", self.tick.to_bits() != others.tick.to_bits()),
+            (
+                "substep",
+                self.substep.to_bits() != others.substep.to_bits(),
+            ),
+            ("mode", self.mode != others.mode),
+            ("pair_search", self.pair_search != others.pair_search),
+        ];
+        let differ = differ.iter().filter(|(_, differs)| *differs);
+        differ.map(|(field, _)| *field).collect()
+    }
+
+    /// Whether bodies would move otherwise under others; what is kept and counted aside.
+    pub(crate) fn moves_as(&self, others: &Self) -> bool {
+        let others = Self {
+            work: self.work,
+            history: self.history,
+            events: self.events,
+            threads: self.threads,
+            ..*others
+        };
+        *self == others
+    }
+
     /// How many sub-steps a tick holds.
     #[expect(
         clippy::cast_possible_truncation,

@@ -37,7 +37,7 @@ pub(crate) fn settle(
         let end = time + h;
         let speed = state.velocity_at(end).length() + state.spin_at(end).abs() * state.reach;
         // Only what something holds can be at rest: the top of a throw is not.
-        state.slow_for = if pushed && speed <= sleep.speed {
+        state.slow_for = if pushed && speed <= sleep.speed && state.sleep_allowed() {
             state.slow_for + h
         } else {
             0.0

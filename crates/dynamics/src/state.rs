@@ -125,6 +125,9 @@ impl BodyState {
         };
         let (damping, gravity_scale) =
             ((def.linear_damping, def.angular_damping), def.gravity_scale);
+        let is_uncommon = damping != (0.0, 0.0)
+            || gravity_scale.to_bits() != 1_f64.to_bits()
+            || !def.sleep_allowed;
         let inverse = |x: f64| if moving && x > 0.0 { x.recip() } else { 0.0 };
         Ok(Self {
             id,
@@ -147,15 +150,14 @@ impl BodyState {
             },
             locked_rotation: def.locked_rotation,
             tag: def.tag,
-            uncommon: (damping != (0.0, 0.0) || gravity_scale.to_bits() != 1_f64.to_bits()).then(
-                || {
-                    Box::new(Uncommon {
-                        damping,
-                        gravity_scale,
-                        ..Uncommon::NONE
-                    })
-                },
-            ),
+            uncommon: is_uncommon.then(|| {
+                Box::new(Uncommon {
+                    damping,
+                    gravity_scale,
+                    sleep_allowed: def.sleep_allowed,
+                    ..Uncommon::NONE
+                })
+            }),
             flight: None,
             member: false,
             in_engine: false,
@@ -291,9 +293,17 @@ impl BodyState {
         self.kind == BodyKind::Dynamic
     }
 
-    /// Nothing but its own motion would keep it awake.
+    /// It may sleep, and does not move.
     pub(crate) fn can_sleep(&self) -> bool {
-        self.is_dynamic() && self.motion.velocity == Vec2::ZERO && self.motion.spin == 0.0
+        self.is_dynamic()
+            && self.sleep_allowed()
+            && self.motion.velocity == Vec2::ZERO
+            && self.motion.spin == 0.0
+    }
+
+    /// Whether its island may fall asleep.
+    pub(crate) fn sleep_allowed(&self) -> bool {
+        self.uncommon().sleep_allowed
     }
 
     /// Moves by itself now: neither fixed nor asleep.

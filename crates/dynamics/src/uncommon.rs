@@ -11,6 +11,8 @@ pub(crate) struct Uncommon {
     pub(crate) piece: SimTime,
     /// Of velocity and spin, in 1/s.
     pub(crate) damping: (f64, f64),
+    /// Its island may fall asleep.
+    pub(crate) sleep_allowed: bool,
     /// Force and torque of the present step.
     pub(crate) force: Vec2,
     pub(crate) torque: f64,
@@ -25,6 +27,7 @@ impl Uncommon {
         gravity_scale: 1.0,
         piece: SimTime::NEVER,
         damping: (0.0, 0.0),
+        sleep_allowed: true,
         force: Vec2::ZERO,
         torque: 0.0,
         pending: (Vec2::ZERO, 0.0),

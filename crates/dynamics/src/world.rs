@@ -130,7 +130,7 @@ impl World {
         })
     }
 
-    /// What the world was told at its start.
+    /// What the world was told at its start, or [since](Self::set_settings).
     #[must_use]
     pub const fn settings(&self) -> &Settings {
         &self.settings

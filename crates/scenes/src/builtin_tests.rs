@@ -251,6 +251,15 @@ fn a_plain_table_takes_its_scene_and_bodies_or_says_why_not() {
 }
 
 #[test]
+fn a_written_body_can_be_kept_awake() {
+    let text =
+        "version = 1\n[[body]]\nshape = { circle = 1.0 }\nasleep = true\nsleep_allowed = false\n";
+    let built = Scene::from_toml(text, "x.toml").unwrap().build().unwrap();
+    let awake = |body: Body<'_>| !body.is_asleep() && !body.is_sleep_allowed();
+    assert!(built.world.bodies().all(awake));
+}
+
+#[test]
 fn a_written_body_can_start_asleep() {
     let text = "version = 1\n[[body]]\nshape = { circle = 1.0 }\nasleep = true\n";
     let built = Scene::from_toml(text, "x.toml").unwrap().build().unwrap();

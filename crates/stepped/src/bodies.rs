@@ -28,7 +28,7 @@ pub(crate) struct Bodies {
     pub(crate) slot_of: Vec<u32>,
     /// Whether they were rebased in this tick.
     pub(crate) moved: Vec<bool>,
-    /// For how long they have been at rest, in s.
+    /// For how long they have been at rest, in s; −∞ of those that may not sleep.
     pub(crate) rest: Vec<f64>,
     /// Velocities that their boxes were made for.
     pub(crate) foreseen: Vec<Quad>,
@@ -91,6 +91,7 @@ impl Bodies {
             generation: record.generation + 1,
             kind: input.kind,
             live: true,
+            sleep_allowed: input.sleep_allowed,
             birth: self.births,
             pose: input.pose,
             mass: if dynamic { input.mass } else { f64::INFINITY },
@@ -137,7 +138,11 @@ impl Bodies {
         });
         self.slot_of.push(slot);
         self.moved.push(true);
-        self.rest.push(0.0);
+        self.rest.push(if record.sleep_allowed {
+            0.0
+        } else {
+            f64::NEG_INFINITY
+        });
         self.foreseen.push(Quad::new(v, w));
         let drag = drag(record.damping, settings.substep());
         self.damped += usize::from(drag != UNDAMPED);

@@ -5,7 +5,7 @@ use carom_math::{Pose, Vec2};
 use crate::bodies::Bodies;
 use crate::error::finite;
 use crate::rows::{Law, Quad};
-use crate::{BodyId, BodyKind, Engine, EngineError, PairRules};
+use crate::{BodyId, BodyKind, Engine, EngineError, PairRules, Settings, Sleep, Softness};
 
 impl Engine {
     /// Sets the velocity of the centre of mass, in m/s, and the spin, in rad/s; a fixed body stays at rest.
@@ -128,6 +128,37 @@ impl Engine {
             let scale = self.bodies.records[self.bodies.slot_of[at] as usize].gravity_scale;
             self.bodies.pull[at] = Quad::new(gravity * scale, 0.0);
         }
+        Ok(())
+    }
+
+    /// Changes the soft law of contacts, from the next sub-step on. All that sleeps wakes.
+    ///
+    /// # Errors
+    /// [`EngineError::Value`] if a number is out of its range.
+    pub fn set_softness(&mut self, softness: Softness) -> Result<(), EngineError> {
+        let settings = Settings {
+            softness,
+            ..self.settings
+        };
+        settings.check()?;
+        self.settings = settings;
+        self.law = Law::new(&self.settings);
+        self.wake_every();
+        Ok(())
+    }
+
+    /// Changes when islands fall asleep; never if `None`. All that sleeps wakes.
+    ///
+    /// # Errors
+    /// [`EngineError::Value`] if a number is out of its range.
+    pub fn set_sleep(&mut self, sleep: Option<Sleep>) -> Result<(), EngineError> {
+        let settings = Settings {
+            sleep,
+            ..self.settings
+        };
+        settings.check()?;
+        self.settings = settings;
+        self.wake_every();
         Ok(())
     }
 

@@ -44,6 +44,8 @@ pub struct BodyInput {
     pub gravity_scale: f64,
     /// What velocity and spin of a dynamic body lose by themselves, in 1/s.
     pub damping: [f64; 2],
+    /// Whether a dynamic body may fall asleep; one that may not keeps its island awake.
+    pub sleep_allowed: bool,
     /// The caller's own: [`State`](crate::State) names bodies by it.
     pub tag: u64,
 }
@@ -62,6 +64,7 @@ impl BodyInput {
             inertia: 1.0,
             gravity_scale: 1.0,
             damping: [0.0; 2],
+            sleep_allowed: true,
             tag: 0,
         }
     }

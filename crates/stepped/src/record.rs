@@ -12,6 +12,8 @@ pub(crate) struct Record {
     pub(crate) generation: u32,
     pub(crate) kind: BodyKind,
     pub(crate) live: bool,
+    /// Its island may fall asleep.
+    pub(crate) sleep_allowed: bool,
     /// Its line: [`Bodies::GROUND`] if fixed.
     pub(crate) line: u32,
     /// Pieces are numbered from here on.
@@ -120,6 +122,7 @@ impl Record {
         generation: 0,
         kind: BodyKind::Fixed,
         live: false,
+        sleep_allowed: true,
         line: Bodies::NONE,
         first_piece: 0,
         pieces: 0,

@@ -60,7 +60,8 @@ impl Engine {
             *rest = if rests {
                 *rest + self.settings.tick
             } else {
-                0.0
+                // −∞ stays.
+                rest.min(0.0)
             };
             longest = longest.max(*rest);
         }
@@ -287,8 +288,8 @@ impl Engine {
         Ok(())
     }
 
-    /// Puts the island of a body to sleep, whatever its speed: it is at rest from then on. A fixed or kinematic body does
-    /// not sleep.
+    /// Puts the island of a body to sleep, whatever its speed and even if it may not fall asleep by itself: it is at rest from then
+    /// on. A fixed or kinematic body does not sleep.
     ///
     /// # Errors
     /// [`EngineError::Stale`] if it is not in this engine.

@@ -9,7 +9,9 @@ use carom_geometry::{HalfPlane, Shape};
 use carom_math::{Pose, Rot, Vec2, vec2};
 use carom_tests::scenes::{block, disc};
 
-use super::vocabulary::{Alteration, Call, Form, HALF, Nonsense, Piece, Place, Start, Surface};
+use super::vocabulary::{
+    Alteration, Call, Choice, Form, HALF, Nonsense, Piece, Place, Start, Surface,
+};
 
 /// What of the calls is meant as it is said.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -121,6 +123,10 @@ impl Player {
                 return Ok(());
             }
             Call::SetGravity(gravity) => return self.world.set_gravity(*gravity),
+            Call::SetSettings(choice) => {
+                self.choose(*choice);
+                return Ok(());
+            }
             Call::Step(parts, _) => {
                 self.pushed &= *parts == 0;
                 self.world.step(seconds(*parts));
@@ -134,6 +140,23 @@ impl Player {
             _ => {}
         }
         self.change(call)
+    }
+
+    fn choose(&mut self, choice: Choice) {
+        let (calm, stock) = (Settings::calm(), Settings::default());
+        let settings = Settings {
+            impact_law: choice.law,
+            several: choice.several,
+            sleep: stock.sleep.filter(|_| choice.sleeps),
+            contact: if choice.calm {
+                calm.contact
+            } else {
+                stock.contact
+            },
+            history: 4096 + choice.history,
+            ..*self.world.settings()
+        };
+        self.world.set_settings(settings).expect("valid settings");
     }
 
     /// A call about a body.
@@ -224,6 +247,7 @@ impl Player {
                 other => self.world.set_pair_collides(id, other, collides),
             },
             Alteration::Awake => self.world.wake_up(id),
+            Alteration::SleepAllowed(allowed) => self.world.set_sleep_allowed(id, allowed),
         }
     }
 
@@ -258,7 +282,7 @@ impl Player {
     pub(crate) fn is_refused(&mut self, nonsense: Nonsense) -> Option<bool> {
         use Nonsense::{
             Backwards, Damping, Drive, Impulse as Blow, Never, NoMass, NoShape, Pair, Restitution,
-            Shape as Part, Velocity,
+            Shape as Part, Tick, Velocity,
         };
         let nan = vec2(0.0, f64::NAN);
         let never = Pose::at(vec2(f64::INFINITY, 0.0));
@@ -314,6 +338,14 @@ impl Player {
             }),
             Backwards => self.world.step(-0.1).refused.is_some(),
             Never => self.world.step_to_next_event(f64::NAN).refused.is_some(),
+            Tick => {
+                let settings = Settings {
+                    tick: 0.02,
+                    gravity: Vec2::X,
+                    ..*self.world.settings()
+                };
+                self.world.set_settings(settings).is_err()
+            }
         })
     }
 

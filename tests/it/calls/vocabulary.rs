@@ -3,7 +3,7 @@
 //! All within ordinary ranges: bodies of 0.2 to 2 m, densities from 1 to 20 kg/m², velocities given of up to 14 m/s and
 //! 10 rad/s, steps of up to a quarter of a second, most of which end within a sub-step.
 
-use carom_dynamics::{BodyKind, Filter};
+use carom_dynamics::{BodyKind, Filter, ImpactLaw, Several};
 use carom_geometry::{Compound, Polygon, Shape};
 use carom_math::{Pose, Vec2, vec2};
 use carom_tests::scenes::{block, disc};
@@ -114,6 +114,7 @@ pub(crate) enum Call {
     AddField(Vec2, f64),
     ClearFields,
     SetGravity(Vec2),
+    SetSettings(Choice),
     /// In parts of 2⁻¹⁶ s, so that sums of steps are exact; and where to cut it in two.
     Step(u32, Option<u32>),
     StepToNextEvent(f64),
@@ -133,6 +134,19 @@ pub(crate) enum Alteration {
     /// With which other body.
     Collides(usize, bool),
     Awake,
+    SleepAllowed(bool),
+}
+
+/// What is chosen anew of the settings.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Choice {
+    pub(crate) law: ImpactLaw,
+    pub(crate) several: Several,
+    pub(crate) sleeps: bool,
+    /// Whether contacts are as soft as those of the preset `calm`.
+    pub(crate) calm: bool,
+    /// How many motions are kept, beside those that are needed.
+    pub(crate) history: usize,
 }
 
 /// What is refused.
@@ -151,6 +165,7 @@ pub(crate) enum Nonsense {
     NoMass,
     Backwards,
     Never,
+    Tick,
 }
 
 fn pair(half: f64) -> impl Strategy<Value = Vec2> {
@@ -286,6 +301,7 @@ fn nonsense() -> impl Strategy<Value = Nonsense> {
         Just(Nonsense::NoMass),
         Just(Nonsense::Backwards),
         Just(Nonsense::Never),
+        Just(Nonsense::Tick),
     ]
 }
 
@@ -297,7 +313,28 @@ fn alteration() -> impl Strategy<Value = Alteration> {
         surface().prop_map(Alteration::Surface),
         (0..32_usize, any::<bool>()).prop_map(|(other, on)| Alteration::Collides(other, on)),
         Just(Alteration::Awake),
+        any::<bool>().prop_map(Alteration::SleepAllowed),
     ]
+}
+
+fn choice() -> impl Strategy<Value = Choice> {
+    let laws = vec![ImpactLaw::Stronge, ImpactLaw::Poisson, ImpactLaw::Newton];
+    // `NewtonLcp` may gain energy.
+    let several = vec![Several::Blend, Several::Reflections];
+    (
+        prop::sample::select(laws),
+        prop::sample::select(several),
+        any::<bool>(),
+        any::<bool>(),
+        0..64_usize,
+    )
+        .prop_map(|(law, several, sleeps, calm, history)| Choice {
+            law,
+            several,
+            sleeps,
+            calm,
+            history,
+        })
 }
 
 fn call() -> impl Strategy<Value = Call> {
@@ -321,6 +358,7 @@ fn call() -> impl Strategy<Value = Call> {
         2 => (of(), alteration()).prop_map(|(id, what)| Call::Alter(id, what)),
         1 => Just(Call::ClearFields),
         1 => prop_oneof![Just(Vec2::ZERO), pair(10.0)].prop_map(Call::SetGravity),
+        1 => choice().prop_map(Call::SetSettings),
         3 => (pair(6.0), pair(6.0), form()).prop_map(|(from, to, form)| Call::Ask(from, to, form)),
         1 => nonsense().prop_map(Call::Refused),
     ]

@@ -347,7 +347,9 @@ impl World {
             }
         }
         let still = moves.bodies.iter().all(|body| *body == BodyMove::default());
-        let sleep = self.settings.sleep.filter(|_| still);
+        let may_sleep = |(index, _): &(u32, u32)| self.bodies.get(*index).sleep_allowed();
+        let sleeps = still && members.iter().all(may_sleep);
+        let sleep = self.settings.sleep.filter(|_| sleeps);
         let change = match (moves.change, sleep) {
             (Some(change), _) => Some(time + change.after),
             (None, Some(sleep)) => Some(time + sleep.time),

@@ -203,6 +203,7 @@ fn input_of(state: &BodyState, time: SimTime) -> BodyInput {
     input.turned = state.turned + state.turn_by(time);
     input.damping = [linear, angular];
     input.gravity_scale = state.gravity_scale();
+    input.sleep_allowed = state.sleep_allowed();
     input.tag = u64::from(state.id.index);
     input
 }

@@ -84,6 +84,10 @@ impl World {
                 continue;
             }
             if self.bodies.get(index).in_engine {
+                // No sub-steps were counted while all slept.
+                if !self.is_substepping() {
+                    self.clock.catch_up(time);
+                }
                 self.joins.members += 1;
                 self.leave_pairs(index, time);
                 continue;
@@ -164,7 +168,8 @@ impl World {
             }
             self.stepping = Some(stepping);
             self.tell_touches(time);
-        } else if !self.clock.is_within(time)
+        } else if self.joins.has_guests
+            && !self.clock.is_within(time)
             && let Some(mut stepping) = self.stepping.take()
         {
             self.end_motions(&mut stepping);

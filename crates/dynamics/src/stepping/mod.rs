@@ -56,24 +56,13 @@ impl Stepping {
         if settings.mode == Mode::Exact {
             return Ok(None);
         }
-        let contact = &settings.contact;
         let engine = Engine::new(carom_stepped::Settings {
             gravity: settings.gravity,
             tick: settings.tick,
             substeps: settings.substeps_per_tick(),
-            softness: Softness {
-                compliance: contact.compliance,
-                frequency: contact.frequency,
-                damping_ratio: contact.damping_ratio,
-                over_relaxation: contact.over_relaxation,
-                push_out: contact.push_out,
-            },
+            softness: softness_of(settings),
             relaxation: Relaxation::EverySubstep,
-            sleep: settings.sleep.map(|sleep| carom_stepped::Sleep {
-                speed: 0.0,
-                slow: sleep.speed,
-                after: sleep.time,
-            }),
+            sleep: sleep_of(settings),
             ..carom_stepped::Settings::default()
         });
         match engine {
@@ -98,6 +87,22 @@ impl Stepping {
         debug_assert!(told.is_ok(), "{told:?}");
     }
 
+    /// Takes over what may change of a world's settings, but for gravity.
+    pub(crate) fn set_settings(&mut self, old: &Settings, new: &Settings) {
+        let mut told = Ok(());
+        if old.contact != new.contact {
+            told = told.and(self.engine.set_softness(softness_of(new)));
+        }
+        if old.sleep != new.sleep {
+            told = told.and(self.engine.set_sleep(sleep_of(new)));
+        }
+        // All numbers were checked where they entered the world.
+        debug_assert!(told.is_ok(), "{told:?}");
+        if (old.events > 0) != (new.events > 0) {
+            self.engine.note_impacts(new.events > 0);
+        }
+    }
+
     /// Takes a body out of the engine.
     fn remove(&mut self, index: u32) {
         if let Some(id) = self.id(index) {
@@ -116,6 +121,25 @@ impl Stepping {
     fn state(&self, index: u32) -> Option<State> {
         self.engine.state(self.id(index)?).ok()
     }
+}
+
+const fn softness_of(settings: &Settings) -> Softness {
+    let contact = &settings.contact;
+    Softness {
+        compliance: contact.compliance,
+        frequency: contact.frequency,
+        damping_ratio: contact.damping_ratio,
+        over_relaxation: contact.over_relaxation,
+        push_out: contact.push_out,
+    }
+}
+
+fn sleep_of(settings: &Settings) -> Option<carom_stepped::Sleep> {
+    settings.sleep.map(|sleep| carom_stepped::Sleep {
+        speed: 0.0,
+        slow: sleep.speed,
+        after: sleep.time,
+    })
 }
 
 /// The world's place of a body of the engine.

@@ -215,6 +215,7 @@ fn written_body(
     body.gravity_scale = table.gravity_scale;
     body.damping = (table.linear_damping, table.angular_damping);
     body.asleep = table.asleep;
+    body.sleep_allowed = table.sleep_allowed;
     body.impulse = table.impulse.map(|impulse| (impulse.at.0, impulse.value.0));
     body.colour.clone_from(&table.colour);
     body.face.clone_from(&table.face);
@@ -331,6 +332,7 @@ fn insert(document: &Document, world: &mut World, body: &Planned) -> Result<Body
         linear_damping: body.damping.0,
         angular_damping: body.damping.1,
         asleep: body.asleep,
+        sleep_allowed: body.sleep_allowed,
         ..BodyDef::new(body.kind)
     };
     let shapes = body.shapes.iter();

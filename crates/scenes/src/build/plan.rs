@@ -40,6 +40,7 @@ pub(crate) struct Planned {
     /// Of velocity and spin, in 1/s.
     pub(crate) damping: (f64, f64),
     pub(crate) asleep: bool,
+    pub(crate) sleep_allowed: bool,
     /// Point and impulse.
     pub(crate) impulse: Option<(Vec2, Vec2)>,
     pub(crate) colour: Option<String>,
@@ -64,6 +65,7 @@ impl Planned {
             gravity_scale: 1.0,
             damping: (0.0, 0.0),
             asleep: false,
+            sleep_allowed: true,
             impulse: None,
             colour: None,
             face: None,

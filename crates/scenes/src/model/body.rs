@@ -49,6 +49,8 @@ pub(crate) struct BodyTable {
     pub(crate) angular_damping: f64,
     #[serde(default)]
     pub(crate) asleep: bool,
+    #[serde(default = "yes")]
+    pub(crate) sleep_allowed: bool,
     /// A push at t = 0.
     #[serde(default)]
     pub(crate) impulse: Option<ImpulseTable>,
@@ -56,6 +58,10 @@ pub(crate) struct BodyTable {
     pub(crate) colour: Option<String>,
     #[serde(default)]
     pub(crate) face: Option<String>,
+}
+
+fn yes() -> bool {
+    true
 }
 
 fn one() -> f64 {

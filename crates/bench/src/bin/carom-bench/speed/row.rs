@@ -24,6 +24,8 @@ pub(crate) struct SpeedRow {
     pub(crate) ms_median: Option<f64>,
     pub(crate) ms_p99: Option<f64>,
     pub(crate) ms_first: Option<f64>,
+    /// Greatest less least mean of the repetitions, as a part of their median; none of a single one.
+    pub(crate) ms_spread: Option<f64>,
     /// Of the mean, to the fastest peer with as many threads that reads as much.
     pub(crate) ratio_to_best_peer: Option<f64>,
     /// After the measured steps over before them.
@@ -111,6 +113,7 @@ fn row(job: &SpeedJob, readings: &[&Reading]) -> SpeedRow {
         ms_median: of(|reading| reading.ms_median),
         ms_p99: of(|reading| reading.ms_p99),
         ms_first: of(|reading| reading.ms_first),
+        ms_spread: spread(good.iter().map(|reading| reading.ms_mean).collect()),
         ratio_to_best_peer: None,
         energy_ratio: of(|reading| reading.after.energy / reading.before.energy),
         overlap_mean: of(|reading| reading.after.overlap_mean),
@@ -178,6 +181,15 @@ pub(crate) fn median(mut numbers: Vec<f64>) -> Option<f64> {
         n if n % 2 == 1 => Some(numbers[half]),
         _ => Some(0.5 * (numbers[half - 1] + numbers[half])),
     }
+}
+
+/// How far numbers lie apart, as a part of their median; `None` of fewer than two.
+fn spread(numbers: Vec<f64>) -> Option<f64> {
+    let least = numbers.iter().copied().min_by(f64::total_cmp)?;
+    let most = numbers.iter().copied().max_by(f64::total_cmp)?;
+    let several = numbers.len() > 1;
+    let middle = median(numbers)?;
+    several.then_some((most - least) / middle)
 }
 
 /// Head and rows as CSV.
@@ -312,6 +324,8 @@ pub(crate) mod tests {
         assert_eq!(rows[0].engine, EngineName::Carom);
         assert_eq!((rows[0].ms_mean, rows[0].repetitions), (Some(6.0), 3));
         assert_eq!(rows[0].energy_ratio, Some(1.25));
+        // 50, 6 and 5 ms.
+        assert_eq!((rows[0].ms_spread, rows[1].ms_spread), (Some(7.5), None));
     }
 
     #[test]

@@ -11,7 +11,7 @@ pub(crate) fn markdown(head: &Head, rows: &[SpeedRow]) -> String {
     let mut text = String::from("# Milliseconds a step, and what they bought\n\n");
     text += &head.markdown();
     text += "\nms: CPU time of a step on one thread, wall time on several: mean, median and 99th percentile over the measured steps, \
-             median of the repetitions. Ratio: of the means, to the fastest peer with as many threads that reads as much. Energy: after the measured \
+             median of the repetitions. Spread: greatest less least mean of the repetitions, over their median; – of a single one. Ratio: of the means, to the fastest peer with as many threads that reads as much. Energy: after the measured \
              steps over before them. Overlap (m), rms acceleration (m/s²) and drift (m): judged by the same code for all. \
              MiB: peak memory of the process; KiB a body: beyond what it took before the scene, over the dynamic bodies; of data: without pages of the program itself. \
              – was not measured; cut: time ran out before all steps were made.\n";
@@ -46,6 +46,7 @@ fn lines(text: &mut String, rows: &[&SpeedRow]) {
         "ms",
         "median",
         "p99",
+        "spread",
         "ratio",
         "energy",
         "overlap mean",
@@ -90,6 +91,8 @@ fn lines(text: &mut String, rows: &[&SpeedRow]) {
             text::number(row.ms_mean),
             text::number(row.ms_median),
             text::number(row.ms_p99),
+            row.ms_spread
+                .map_or_else(|| "–".to_owned(), |part| format!("{:.1} %", 100.0 * part)),
             text::number(row.ratio_to_best_peer),
             text::ratio(row.energy_ratio),
             text::error(row.overlap_mean),
@@ -128,7 +131,7 @@ mod tests {
             "{text}"
         );
         assert!(
-            text.contains("| carom | hybrid | 1 | 6.00 | 6.00 | 12.0 | 3.00 | 1.2500 |"),
+            text.contains("| carom | hybrid | 1 | 6.00 | 6.00 | 12.0 | 750.0 % | 3.00 | 1.2500 |"),
             "{text}"
         );
         assert!(
