@@ -16,8 +16,8 @@ const SAME: f64 = 1e-12;
 const FAR: f64 = 0.05;
 
 impl World {
-    /// Bodies that came or were changed.
-    pub(super) fn enter_changed(&mut self, stepping: &mut Stepping, time: SimTime) {
+    /// Bodies that came or were changed, before the sub-step from `time` on; who wakes by it is told at `told`.
+    pub(super) fn enter_changed(&mut self, stepping: &mut Stepping, time: SimTime, told: SimTime) {
         let mut touched = core::mem::take(&mut self.bodies.touched);
         touched.sort_unstable();
         touched.dedup();
@@ -34,8 +34,7 @@ impl World {
         }
         touched.clear();
         self.bodies.touched = touched;
-        let now = self.clock.now;
-        self.tell_sleep(stepping, now);
+        self.tell_sleep(stepping, told);
         self.stopwatch.lap(|p| &mut p.pairs);
     }
 
@@ -126,19 +125,18 @@ impl World {
     }
 
     /// A body that goes, or comes back as another one, leaves the engine: sleepers on it wake, and its touches end.
-    pub(crate) fn leave_engine(&mut self, index: u32) {
+    pub(super) fn leave_engine(&mut self, index: u32, time: SimTime) {
         let Some(mut stepping) = self.stepping.take() else {
             return;
         };
         if stepping.id(index).is_some() {
             stepping.remove(index);
-            let now = self.clock.now;
-            self.tell_sleep(&mut stepping, now);
-            self.tell_changed_touches(&mut stepping, now);
+            self.tell_sleep(&mut stepping, time);
+            self.tell_changed_touches(&mut stepping, time);
         }
         self.stepping = Some(stepping);
         self.bodies.get_mut(index).is_guest = false;
-        self.take_woken(self.clock.now);
+        self.take_woken(time);
     }
 
     /// What accelerates a body at a place besides contacts and damping, in m/s² and rad/s²; a field that is not finite there

@@ -202,7 +202,7 @@ impl World {
 
     /// A member leaves, with the motion that it has at `time`: its next regime is for the caller to choose.
     pub(crate) fn leave(&mut self, index: u32, time: SimTime) {
-        self.leave_engine(index);
+        self.leave_engine(index, time);
         let state = self.bodies.get(index);
         if !state.in_engine {
             return;

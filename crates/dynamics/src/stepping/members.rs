@@ -67,7 +67,7 @@ impl World {
             return false;
         };
         if !self.bodies.touched.is_empty() {
-            self.enter_changed(&mut stepping, time);
+            self.enter_changed(&mut stepping, time, time);
         }
         let strays = stepping.engine.find_contacts(&self.rules());
         self.tell_sleep(&mut stepping, time);
@@ -108,7 +108,7 @@ impl World {
         };
         self.end_motions(&mut stepping);
         if !self.bodies.touched.is_empty() {
-            self.enter_changed(&mut stepping, time);
+            self.enter_changed(&mut stepping, time, time);
             stepping.engine.find_contacts(&self.rules());
             self.tell_sleep(&mut stepping, time);
         }

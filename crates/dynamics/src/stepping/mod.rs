@@ -165,7 +165,7 @@ impl World {
         while self.clock.is_due(end) {
             let time = self.clock.next();
             if first {
-                self.enter_changed(stepping, time);
+                self.enter_changed(stepping, time, self.clock.now);
             } else if self.settings.history > 0 {
                 self.write_all(stepping);
             }

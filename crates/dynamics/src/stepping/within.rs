@@ -20,7 +20,7 @@ impl World {
         going.extend(&self.bodies.touched);
         going.sort_unstable();
         going.dedup();
-        self.enter_changed(stepping, end);
+        self.enter_changed(stepping, end, now);
         for index in going {
             if let Some(id) = stepping.id(index).filter(|_| self.bodies.is_alive(index)) {
                 let from = self.bodies.get(index).centre_pose(now);
