@@ -7,6 +7,8 @@
 //! Fixed and kinematic bodies, and bodies that sleep outside of the engine, are its guests: it knows them, and moves only
 //! members that meet them.
 
+use std::collections::BTreeMap;
+
 use carom_collision::Motion;
 use carom_geometry::Aabb;
 use carom_math::{SimTime, Sum};
@@ -279,26 +281,23 @@ impl World {
         self.take_off(index, time);
     }
 
-    /// Bodies outside that may meet a member before the next tick.
-    pub(super) fn outsiders_near(&mut self, time: SimTime) -> Vec<u32> {
+    /// Bodies outside that may meet members before the next tick, and these.
+    pub(super) fn outsiders_near(&mut self, time: SimTime) -> BTreeMap<u32, Vec<u32>> {
         let aloft = &mut self.joins.aloft;
         aloft.sort_unstable();
         aloft.dedup();
         let bodies = &self.bodies;
         aloft.retain(|&index| bodies.is_alive(index) && bodies.get(index).is_flying());
         let Some(stepping) = &self.stepping else {
-            return Vec::new();
+            return BTreeMap::new();
         };
         let left = stepping.engine.left();
         let outside = self.joins.aloft.iter().chain(&self.stepped);
-        let mut near: Vec<u32> = outside
+        outside
             .filter(|index| self.bodies.get(**index).is_dynamic())
-            .filter(|index| self.nears_member(stepping, **index, time, left))
-            .copied()
-            .collect();
-        near.sort_unstable();
-        near.dedup();
-        near
+            .map(|&index| (index, self.members_near(stepping, index, time, left)))
+            .filter(|(_, members)| !members.is_empty())
+            .collect()
     }
 
     /// A flyer with a new motion joins if it may meet a member before the next sub-step begins.
@@ -342,23 +341,8 @@ impl World {
         owners.collect()
     }
 
-    /// Small islands that a body of another mass may meet leave for where such ratios are solved for, with those that they may
-    /// meet; whether all do. `released`: what left in this sub-step, and does not leave again.
-    pub(super) fn outweighs_members(
-        &mut self,
-        index: u32,
-        released: &mut Vec<u32>,
-        time: SimTime,
-    ) -> bool {
-        let Some(stepping) = self.stepping.take() else {
-            return false;
-        };
-        let near = self.members_near(&stepping, index, time, stepping.engine.left());
-        self.stepping = Some(stepping);
-        self.release_outweighed(index, &near, released, time)
-    }
-
-    /// The same of the islands of these members.
+    /// Small islands of these members leave if a body of another mass may meet them, for where such ratios are solved for, and
+    /// those that may be met by what left; whether all do. `released`: what left in this sub-step, and does not leave again.
     pub(crate) fn release_outweighed(
         &mut self,
         index: u32,
@@ -371,9 +355,14 @@ impl World {
         };
         let own = self.bodies.get(index).inverse_mass;
         let mut leaving: Vec<State> = Vec::new();
-        let mut all_leave = true;
         for &member in members {
+            if !self.bodies.get(member).in_engine {
+                continue;
+            }
             let ratio = mass_ratio([own, self.bodies.get(member).inverse_mass]);
+            if ratio <= BEARS && !released.contains(&index) {
+                return false;
+            }
             let island = stepping
                 .id(member)
                 .and_then(|id| stepping.engine.island_of(id).ok())
@@ -381,14 +370,10 @@ impl World {
             let states = island.iter().map(|id| stepping.engine.state(*id));
             let island: Vec<State> = states.filter_map(Result::ok).collect();
             let came_back = |state: &State| released.contains(&super::place(state));
-            if (ratio > BEARS || released.contains(&index))
-                && island.len() < FEW
-                && !island.iter().any(came_back)
-            {
-                leaving.extend(island);
-            } else {
-                all_leave = false;
+            if island.len() >= FEW || island.iter().any(came_back) {
+                return false;
             }
+            leaving.extend(island);
         }
         leaving.sort_unstable_by_key(super::place);
         leaving.dedup_by_key(|state| super::place(state));
@@ -398,7 +383,7 @@ impl World {
                 self.release_member(&state, time);
             }
         }
-        all_leave
+        true
     }
 
     /// Whether a shape of a member may be met by a body within `left` seconds: by their circles, then by their shapes.

@@ -23,8 +23,8 @@ impl World {
         while searches {
             let near = self.outsiders_near(time);
             searches = !near.is_empty();
-            for index in near {
-                if !self.outweighs_members(index, &mut released, time) {
+            for (index, members) in near {
+                if !self.release_outweighed(index, &members, &mut released, time) {
                     self.join(index, time);
                 }
             }
