@@ -42,7 +42,7 @@ pub struct Engine {
     /// Rows with extra sweeps.
     extra: ExtraSweeps,
     pub(crate) deep: Deep,
-    bent: Bent,
+    pub(crate) bent: Bent,
     pub(crate) impacts: Impacts,
     /// Sub-steps of the present tick so far.
     done: u32,

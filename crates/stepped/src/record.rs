@@ -95,6 +95,17 @@ impl Limit {
         // Rows are straight: what turned by θ is off them by r θ²/2.
         off > most || 0.5 * turn * turn * self.reach > BEND * most
     }
+
+    /// Distance beyond its box that a body may have come to by deviating `off` m from its predicted motion in one sub-step, in m:
+    /// before, it deviated by a margin at most, and its box has half of one to spare. 0 of fixed bodies.
+    #[inline]
+    pub(crate) fn beyond_box(&self, margin: f64, off: f64) -> f64 {
+        if self.extent < f64::INFINITY {
+            off + 0.5 * margin * self.extent
+        } else {
+            0.0
+        }
+    }
 }
 
 /// What a sub-step of `h` seconds leaves of velocity and spin that lose `rates` of themselves in a second, and what part of

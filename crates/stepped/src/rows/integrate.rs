@@ -104,7 +104,7 @@ fn correct_all<S: Simd, const DAMPED: bool>(
         let off = (v - f64x4::from_slice(simd, &foreseen.0)).abs();
         let off = off[0].max(off[1]) + off[2] * limit.reach;
         strays |= limit.strays(settings.margin, off * rest, line.turn());
-        beyond = beyond.max(off * h[0] + settings.margin * limit.extent);
+        beyond = beyond.max(limit.beyond_box(settings.margin, off * h[0]));
     }
     bodies.may_stray = strays;
     bodies.beyond_boxes = beyond;

@@ -284,3 +284,21 @@ fn a_motion_that_rows_do_not_know_meets_one_that_they_do() {
         assert!(x > 0.1, "it was not met: x = {x} m");
     }
 }
+
+/// The bound was infinite, so that each query went through all pieces.
+#[test]
+fn a_query_finds_what_is_near_and_not_what_is_far() {
+    let mut engine = Engine::new(Settings::default()).unwrap();
+    floor(&mut engine);
+    for k in 0..100 {
+        let at = vec2(3.0 * f64::from(k), 0.5);
+        engine
+            .insert(BodyInput::dynamic(1.0, 1.0 / 6.0).at(at), &[unit_box()])
+            .unwrap();
+    }
+    engine.tick();
+    let mut found = 0;
+    let bounds = carom_geometry::Aabb::new(vec2(-1.0, 0.0), vec2(4.0, 1.0));
+    engine.query(bounds, |_| found += 1);
+    assert!((2..8).contains(&found), "{found} of 101 pieces");
+}

@@ -165,9 +165,12 @@ fn random_calls_among_sleepers_keep_the_graph() {
 /// Overlaps under a load were taken for such that a caller made, and parted under it for ever: a tall heap of soft contacts
 /// trembled. Continuous collision stopped bodies that fell along a wall whole, and those that fell onto them: they hung in the
 /// air, and their velocities grew.
+///
+/// The time to rest is chaotic: this heap took 8,000 and 3,000 ticks before rows bent, and 18,000 and 10,500 with them, while of
+/// 160 lower heaps as many move after 30 s as before (`--example pyramid -- heaps`).
 #[test]
 fn a_tall_heap_of_concave_bodies_comes_to_rest() {
-    for (settings, ticks) in [(Settings::fast(), 12_000), (Settings::default(), 4500)] {
+    for (settings, most) in [(Settings::fast(), 24_000), (Settings::default(), 16_000)] {
         let mut engine = Engine::new(Settings {
             sleep: None,
             ..settings
@@ -195,13 +198,24 @@ fn a_tall_heap_of_concave_bodies_comes_to_rest() {
         }
         let energy = |engine: &Engine| engine.energy().0 + engine.energy().1;
         let first = energy(&engine);
-        for _ in 0..ticks {
+        let fastest = |engine: &Engine| {
+            let speed = |id: &BodyId| engine.velocity(*id).unwrap().0.length();
+            ids.iter().map(speed).fold(0.0, f64::max)
+        };
+        let mut resting = 0;
+        for _ in 0..most {
             engine.tick();
             assert!(energy(&engine) < 1.001 * first, "{} J", energy(&engine));
+            resting = if fastest(&engine) < 1e-5 {
+                resting + 1
+            } else {
+                0
+            };
+            if resting == 500 {
+                break;
+            }
         }
-        let speed = |id: &BodyId| engine.velocity(*id).unwrap().0.length();
-        let fastest = ids.iter().map(speed).fold(0.0, f64::max);
-        assert!(fastest < 1e-5, "{fastest} m/s with {settings:?}");
+        assert_eq!(resting, 500, "{} m/s with {settings:?}", fastest(&engine));
     }
 }
 
