@@ -33,12 +33,12 @@ impl World {
         self.stopwatch.lap(|p| &mut p.pairs);
         self.gather_landings(time, h);
         self.look(time, h);
-        self.gather_groups(MANY, time);
+        self.gather_groups(MANY, &[], time);
         self.close_groups(time);
-        self.join_overdrawn(time);
+        let loose = self.join_overdrawn(time);
         self.doze(time);
         self.glide(time);
-        self.gather_groups(FEW, time);
+        self.gather_groups(FEW, &loose, time);
         self.gather_members(time);
         self.stopwatch.lap(|p| &mut p.contacts);
         self.groups.step(

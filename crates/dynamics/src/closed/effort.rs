@@ -9,12 +9,12 @@ use std::collections::BTreeSet;
 use carom_math::{SimTime, Vec2};
 
 use super::store::Closed;
+use crate::World;
 use crate::heavy::{BEARS, mass_ratio};
 use crate::modes::BodyMove;
 use crate::sleep::Tree;
 use crate::state::BodyState;
 use crate::touching::Gathered;
-use crate::{Mode, World};
 
 /// Judgements that a body may have ahead of time.
 const AHEAD: f64 = 24.0;
@@ -111,7 +111,7 @@ impl World {
     /// Members of an island with a new mode pay for it, unless they go on as they were: over a seam of tiles, or by the next
     /// stretch of a path.
     pub(super) fn pay_for(&mut self, gathered: &Gathered, moves: &[BodyMove], time: SimTime) {
-        if self.settings.mode != Mode::Hybrid {
+        if !self.may_join() {
             return;
         }
         let mut both = gathered.places.iter().zip(moves);
@@ -131,7 +131,7 @@ impl World {
     }
 
     fn spend(&mut self, members: &[u32], cost: f64, time: SimTime) {
-        if self.settings.mode != Mode::Hybrid {
+        if !self.may_join() {
             return;
         }
         let tick = self.settings.tick;
@@ -151,12 +151,12 @@ impl World {
         self.spend(&[index], AHEAD / UNSOLVED, time);
     }
 
-    /// Islands in closed form that spent too much join, unless they rest.
-    pub(crate) fn join_overdrawn(&mut self, time: SimTime) {
-        if !self.closed.has_overdrawn() {
-            return;
-        }
+    /// Analytic islands that spent too much join, unless they rest; the bodies among the others that have no closed form.
+    pub(crate) fn join_overdrawn(&mut self, time: SimTime) -> Vec<u32> {
         let mut overdrawn = core::mem::take(&mut self.closed.overdrawn);
+        if overdrawn.is_empty() {
+            return overdrawn;
+        }
         overdrawn.sort_unstable();
         overdrawn.dedup();
         let mut loose = Vec::new();
@@ -178,8 +178,8 @@ impl World {
                 self.join(index, time);
             }
         }
-        self.closed.loose = loose;
         self.lower_flyers_later();
+        loose
     }
 
     /// Roots of the islands of `loose` that join. `tree`: sub-stepped bodies in touch.

@@ -113,8 +113,6 @@ pub(crate) struct Closed {
     pub(super) accounts: Vec<Account>,
     /// Bodies that spent too much: their islands join with the next sub-step.
     pub(super) overdrawn: Vec<u32>,
-    /// Those among them that have no closed form.
-    pub(crate) loose: Vec<u32>,
     /// Who left the path of a group that turned in this sub-step, on its parabola.
     pub(super) astray: Vec<Astray>,
     /// Nobody is let go of: the slow twin.

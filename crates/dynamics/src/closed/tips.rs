@@ -4,13 +4,13 @@ use std::sync::Arc;
 
 use arrayvec::ArrayVec;
 use carom_collision::part;
-use carom_math::{SimTime, Vec2};
+use carom_math::SimTime;
 
 use super::joints::{Held, joint};
 use super::store::{Astray, Group, Kept, Membership};
 use crate::bodies::Bodies;
 use crate::flight::{Flight, fly, follow};
-use crate::modes::{BodyMove, NotMine, TouchMove};
+use crate::modes::{NotMine, TouchMove};
 use crate::narrow::{TOUCH, rest_speed};
 use crate::tipping::{Contact, Ends, Joint, Place, Tip, tip};
 use crate::touching::{Approach, Gathered, approach_at};
@@ -80,13 +80,7 @@ impl World {
         {
             return Err(NotMine::Returns);
         }
-        let touches = tip.touches_after(0.0).ok_or(NotMine::Unsolved)?;
-        let begins = tip.path.places_after(0.0);
-        let moves: Vec<BodyMove> = begins
-            .iter()
-            .zip(tip.accelerations_after(0.0))
-            .map(|(place, accelerations)| moved(place, accelerations))
-            .collect();
+        let (moves, touches) = tip.starts().ok_or(NotMine::Unsolved)?;
         self.pay_for(gathered, &moves, time);
         let lost = gathered.kinetic(&self.bodies, time) - super::kinetic(gathered, &moves);
         self.bodies.book.impacts.add(lost);
@@ -354,13 +348,4 @@ fn goes_on(bodies: &Bodies, astray: &Astray) -> bool {
     state.motion.acceleration == astray.acceleration
         && state.is_stepped()
         && !state.membership.is_closed()
-}
-
-fn moved(place: &Place, (acceleration, angular_acceleration): (Vec2, f64)) -> BodyMove {
-    BodyMove {
-        velocity: place.velocity,
-        spin: place.spin,
-        acceleration,
-        angular_acceleration,
-    }
 }

@@ -72,13 +72,12 @@ impl World {
     }
 
     /// Whether bodies may join the engine.
-    pub(super) const fn may_join(&self) -> bool {
+    pub(crate) const fn may_join(&self) -> bool {
         matches!(self.settings.mode, Mode::Hybrid)
     }
 
-    /// Every group of sub-stepped bodies in touch joins that has more than `most`, or spent too much.
-    pub(crate) fn gather_groups(&mut self, most: usize, time: SimTime) {
-        let loose = core::mem::take(&mut self.closed.loose);
+    /// Every group of sub-stepped bodies in touch joins that has more than `most`, or some of `loose`, which spent too much.
+    pub(crate) fn gather_groups(&mut self, most: usize, loose: &[u32], time: SimTime) {
         if !self.may_join() || self.stepped.len() <= most && loose.is_empty() {
             return;
         }
@@ -105,7 +104,7 @@ impl World {
             }
             count[at] = count[at].saturating_add(1);
         }
-        let overdrawn = self.overdrawn_roots(&loose, &mut tree, time);
+        let overdrawn = self.overdrawn_roots(loose, &mut tree, time);
         let joins = |index: &u32| {
             let root = tree.root(*index);
             let size = count[root as usize];
@@ -295,7 +294,10 @@ impl World {
         let outside = self.joins.aloft.iter().chain(&self.stepped);
         outside
             .filter(|index| self.bodies.get(**index).is_dynamic())
-            .map(|&index| (index, self.members_near(stepping, index, time, left)))
+            .map(|&index| {
+                let members = self.members_near(stepping, index, time, left);
+                (index, members.collect::<Vec<_>>())
+            })
             .filter(|(_, members)| !members.is_empty())
             .collect()
     }
@@ -321,24 +323,30 @@ impl World {
 
     /// Whether a body may meet a member within `left` seconds.
     fn nears_member(&self, stepping: &Stepping, index: u32, time: SimTime, left: f64) -> bool {
-        !self.members_near(stepping, index, time, left).is_empty()
+        let mut near = self.members_near(stepping, index, time, left);
+        near.next().is_some()
     }
 
     /// Members that a body may meet within `left` seconds.
-    fn members_near(&self, stepping: &Stepping, index: u32, time: SimTime, left: f64) -> Vec<u32> {
+    fn members_near(
+        &self,
+        stepping: &Stepping,
+        index: u32,
+        time: SimTime,
+        left: f64,
+    ) -> impl Iterator<Item = u32> {
         let mut shapes = Vec::new();
         let ahead = box_ahead(self.bodies.get(index), time, left);
         stepping
             .engine
             .query_awake(ahead, |tag| shapes.push(super::collider(tag)));
-        let owners = shapes.into_iter().filter_map(|at| {
+        shapes.into_iter().filter_map(move |at| {
             let owner = self.colliders[at as usize].body;
             let meets = owner != index
                 && self.bodies.get(owner).in_engine
                 && self.nears(stepping, (index, owner), at, (time, left));
             meets.then_some(owner)
-        });
-        owners.collect()
+        })
     }
 
     /// Small islands of these members leave if a body of another mass may meet them, for where such ratios are solved for, and

@@ -16,7 +16,7 @@ use arrayvec::ArrayVec;
 use carom_math::{SimTime, Vec2};
 
 use crate::ContactMode;
-use crate::modes::{Feature, ModeBody, NotMine, ROWS, Touch, TouchMove, begin};
+use crate::modes::{BodyMove, Feature, ModeBody, NotMine, ROWS, Touch, TouchMove, begin};
 pub(crate) use equations::{Equations, Forces};
 pub(crate) use joint::{End, Joint, Place};
 pub(crate) use path::Path;
@@ -109,24 +109,41 @@ impl Tip {
         )
     }
 
-    /// What every contact does `t` seconds after the start.
+    /// Motions of all bodies and modes of all contacts at the start.
+    pub(crate) fn starts(&self) -> Option<(Vec<BodyMove>, Vec<TouchMove>)> {
+        let places = self.path.places_after(0.0);
+        let forces = self.equations.forces(&places)?;
+        let touches = self.touches_at(&places, &forces);
+        let both = places.iter().zip(forces.accelerations);
+        let moves = both.map(|(place, (acceleration, angular_acceleration))| BodyMove {
+            velocity: place.velocity,
+            spin: place.spin,
+            acceleration,
+            angular_acceleration,
+        });
+        Some((moves.collect(), touches))
+    }
+
+    /// Modes of all contacts `t` seconds after the start.
     pub(crate) fn touches_after(&self, t: f64) -> Option<Vec<TouchMove>> {
         let places = self.path.places_after(t);
         let forces = self.equations.forces(&places)?;
-        let seen = self.equations.seen(&places);
+        Some(self.touches_at(&places, &forces))
+    }
+
+    fn touches_at(&self, places: &[Place], forces: &Forces) -> Vec<TouchMove> {
+        let seen = self.equations.seen(places);
         let all = self.equations.holds.iter().enumerate();
-        Some(
-            all.map(|(i, hold)| TouchMove {
-                mode: self.mode(i),
-                normal: forces.normal[i],
-                tangential: forces.tangential[i],
-                slip: match hold.rub {
-                    Rub::Slides(_) => seen[i][0].map_or(0.0, |seen| seen.slip),
-                    Rub::Smooth | Rub::Sticks => 0.0,
-                },
-            })
-            .collect(),
-        )
+        all.map(|(i, hold)| TouchMove {
+            mode: self.mode(i),
+            normal: forces.normal[i],
+            tangential: forces.tangential[i],
+            slip: match hold.rub {
+                Rub::Slides(_) => seen[i][0].map_or(0.0, |seen| seen.slip),
+                Rub::Smooth | Rub::Sticks => 0.0,
+            },
+        })
+        .collect()
     }
 
     fn mode(&self, i: usize) -> ContactMode {
