@@ -28,6 +28,7 @@ mod rocking;
 mod round;
 mod scripts;
 mod setters;
+mod settings;
 mod skipping;
 mod small_islands;
 mod stability;

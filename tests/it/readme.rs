@@ -133,12 +133,12 @@ fn accuracy() -> String {
 struct Speed(Table);
 
 /// Engine and mode.
-type Who = (&'static str, &'static str);
+type Run = (&'static str, &'static str);
 
-const OWN: Who = ("carom", "hybrid");
-const STEPPED: Who = ("carom", "stepped");
-const BOX2D: Who = ("box2d-avx2", "stock");
-const RAPIER: Who = ("rapier", "stock");
+const OWN: Run = ("carom", "hybrid");
+const STEPPED: Run = ("carom", "stepped");
+const BOX2D: Run = ("box2d-avx2", "stock");
+const RAPIER: Run = ("rapier", "stock");
 
 impl Speed {
     fn read() -> Self {
@@ -146,26 +146,26 @@ impl Speed {
     }
 
     /// A column of one thread that only steps, or reads all poses as well.
-    fn find(&self, column: &str, scene: &str, who: Who, reads: bool) -> Option<f64> {
+    fn find(&self, column: &str, scene: &str, run: Run, reads: bool) -> Option<f64> {
         let reads = if reads { "true" } else { "false" };
         let keys = [
             ("scene", scene),
-            ("engine", who.0),
-            ("mode", who.1),
+            ("engine", run.0),
+            ("mode", run.1),
             ("threads", "1"),
             ("reads_poses", reads),
         ];
         self.0.find(column, &keys)
     }
 
-    fn of(&self, column: &str, scene: &str, who: Who) -> f64 {
-        let found = self.find(column, scene, who, false);
-        found.unwrap_or_else(|| panic!("no {column} of {who:?} in {scene}"))
+    fn of(&self, column: &str, scene: &str, run: Run) -> f64 {
+        let found = self.find(column, scene, run, false);
+        found.unwrap_or_else(|| panic!("no {column} of {run:?} in {scene}"))
     }
 
     /// Times of Box2D's step.
-    fn ratio(&self, scene: &str, who: Who) -> f64 {
-        self.of("ms_mean", scene, who) / self.of("ms_mean", scene, BOX2D)
+    fn ratio(&self, scene: &str, run: Run) -> f64 {
+        self.of("ms_mean", scene, run) / self.of("ms_mean", scene, BOX2D)
     }
 
     fn title(scene: &str) -> &'static str {
@@ -189,7 +189,7 @@ impl Speed {
                 .to_owned();
         for scene in SPEED {
             let ratio = |column, reads| {
-                let [own, peer] = [OWN, BOX2D].map(|who| self.find(column, scene, who, reads));
+                let [own, peer] = [OWN, BOX2D].map(|run| self.find(column, scene, run, reads));
                 short(own.expect("measured") / peer.expect("measured"))
             };
             let cells = [("ms_mean", false), ("ms_mean", true), ("ms_first", false)];
@@ -201,8 +201,8 @@ impl Speed {
         let _ = write!(text, "\ncarom steps the pyramid in {pyramid} ms. ");
         let both = SPEED
             .iter()
-            .flat_map(|scene| [OWN, BOX2D].map(|who| (*scene, who)));
-        let spreads = both.map(|(scene, who)| self.find("ms_spread", scene, who, false));
+            .flat_map(|scene| [OWN, BOX2D].map(|run| (*scene, run)));
+        let spreads = both.map(|(scene, run)| self.find("ms_spread", scene, run, false));
         let _ = match spreads.collect::<Option<Vec<f64>>>() {
             Some(spreads) => {
                 let most = 100.0 * spreads.into_iter().fold(0.0, f64::max);
@@ -243,20 +243,20 @@ impl Speed {
         text += if rapier { "---:|\n" } else { "\n" };
         for scene in Self::scenes() {
             let _ = write!(text, "| {} |", Self::title(scene));
-            for who in [BOX2D, OWN] {
-                let spread = self.find("ms_spread", scene, who, false);
+            for run in [BOX2D, OWN] {
+                let spread = self.find("ms_spread", scene, run, false);
                 let spread =
                     spread.map_or("–".to_owned(), |part| format!("{:.0} %", 100.0 * part));
                 let _ = write!(
                     text,
                     " {} | {spread} | {} | {:.3} | {} |",
-                    digits(self.of("ms_mean", scene, who), 3),
-                    digits(self.of("ms_first", scene, who), 3),
-                    self.of("energy_ratio", scene, who),
-                    digits(1e3 * self.of("overlap_max", scene, who), 2),
+                    digits(self.of("ms_mean", scene, run), 3),
+                    digits(self.of("ms_first", scene, run), 3),
+                    self.of("energy_ratio", scene, run),
+                    digits(1e3 * self.of("overlap_max", scene, run), 2),
                 );
             }
-            let [own, stepped] = [OWN, STEPPED].map(|who| digits(self.ratio(scene, who), 2));
+            let [own, stepped] = [OWN, STEPPED].map(|run| digits(self.ratio(scene, run), 2));
             let _ = write!(text, " **{own}** | {stepped} |");
             if rapier {
                 let ms = self.find("ms_mean", scene, RAPIER, false);
@@ -292,10 +292,10 @@ impl Speed {
         for scene in PILES {
             let _ = write!(text, "| {} |", Self::title(scene));
             for (_, mode) in modes {
-                let who = ("carom", mode);
-                let overlap = self.of("overlap_mean", scene, who);
+                let run = ("carom", mode);
+                let overlap = self.of("overlap_mean", scene, run);
                 let overlap = overlap / self.of("overlap_mean", scene, BOX2D);
-                let time = self.ratio(scene, who);
+                let time = self.ratio(scene, run);
                 let _ = write!(text, " {time:.2}, {} |", digits(overlap, 2));
             }
             text.push('\n');

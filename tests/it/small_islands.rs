@@ -1,4 +1,4 @@
-//! Small islands that change often are moved by the engine: closed forms are spent by the body, and time pays them back.
+//! Small islands that change often are moved by the engine: a body has a budget of mode solves, which refills with time.
 
 use carom_dynamics::{BodyDef, BodyId, Settings, World};
 use carom_geometry::{ConvexPolygon, HalfPlane};
@@ -28,10 +28,10 @@ fn push(world: &mut World, ids: &[BodyId], spin: f64) {
     }
 }
 
-/// 1,000 boxes that were pushed each second took 34 ms a step, three of the engine's for each of which it takes 1.4: their modes
-/// were solved for at each of their landings.
+/// 1,000 boxes that were pushed each second took 34 ms a step, of which the engine takes 1.4: their modes were solved for at each
+/// landing.
 #[test]
-fn what_is_pushed_again_and_again_is_judged_a_bounded_number_of_times() {
+fn boxes_pushed_again_and_again_have_their_modes_solved_a_bounded_number_of_times() {
     let (count, seconds) = (20, 20_u32);
     let mut world = world();
     let ids = blocks(&mut world, 0, count);
@@ -49,8 +49,8 @@ fn what_is_pushed_again_and_again_is_judged_a_bounded_number_of_times() {
     }
     // 24 ahead, one a second, and those that ask whether a mode goes on.
     let bound = u64::from(count) * (2 * 24 + u64::from(seconds));
-    assert!(solved <= bound, "{solved} judgements, {bound} expected");
-    assert_eq!(late, 0, "members of the engine are not judged");
+    assert!(solved <= bound, "{solved} mode solves, {bound} expected");
+    assert_eq!(late, 0, "members of the engine have no modes");
     assert!(rows > 0);
     let lowest = ids
         .iter()
@@ -59,9 +59,9 @@ fn what_is_pushed_again_and_again_is_judged_a_bounded_number_of_times() {
     assert!(lowest > -1e-3, "{lowest} m");
 }
 
-/// What a caller drives each step is no cliff: five boxes on a platform took 20 times the engine's time.
+/// Five boxes on a platform that is driven each step took 20 times the engine's time.
 #[test]
-fn what_lies_on_a_driven_platform_is_judged_a_bounded_number_of_times() {
+fn boxes_on_a_driven_platform_have_their_modes_solved_a_bounded_number_of_times() {
     let mut world = world();
     let wood = surface(0.0, 0.6);
     let def = BodyDef::kinematic().at(vec2(0.0, 3.0));
@@ -88,9 +88,9 @@ fn what_lies_on_a_driven_platform_is_judged_a_bounded_number_of_times() {
     }
 }
 
-/// No island feels another's account: a block that was pushed once moves with the same bits beside others that are pushed again and again.
+/// A block that was pushed once moves with the same bits beside others that are pushed again and again.
 #[test]
-fn an_account_is_the_islands_own() {
+fn a_budget_is_the_islands_own() {
     let run = |others: u32| {
         let mut world = world();
         let others = blocks(&mut world, 100, others);
@@ -111,9 +111,9 @@ fn an_account_is_the_islands_own() {
     assert_eq!(run(0), run(12));
 }
 
-/// A heavy body that comes near takes light ones out of the engine, whose sweeps do not carry it: 0.14 m into the floor at once.
+/// A heavy body that nears a light one takes it out of the engine, whose sweeps do not converge: it was driven 0.14 m into the floor.
 #[test]
-fn light_bodies_that_are_members_bear_a_heavy_one_that_comes() {
+fn a_light_body_of_the_engine_bears_a_heavy_one_that_falls_on_it() {
     let mut world = world();
     let wood = surface(0.0, 0.6);
     let light = blocks(&mut world, 0, 1);

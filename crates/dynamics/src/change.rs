@@ -288,7 +288,7 @@ impl World {
         if self.bodies.get(index).in_engine {
             self.joins.balance.add(-brought);
         }
-        self.note_swift(index, now);
+        self.note_fast(index, now);
         self.deflected(index, now);
     }
 

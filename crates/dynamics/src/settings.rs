@@ -243,8 +243,8 @@ impl Settings {
         Ok(())
     }
 
-    /// The fields in which others differ that a world keeps for as long as it is there: the grid of sub-steps, who moves bodies and
-    /// who finds pairs is built into it.
+    /// Names of the fields that differ and are fixed for the life of a world: the grid of sub-steps, the method and the pair search are
+    /// built into it.
     pub(crate) fn fixed_in(&self, others: &Self) -> Vec<&'static str> {
         let differ = [
             ("tick", self.tick.to_bits() != others.tick.to_bits()),

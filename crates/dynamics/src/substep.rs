@@ -35,10 +35,10 @@ impl World {
         self.look(time, h);
         self.gather_groups(MANY, &[], time);
         self.close_groups(time);
-        let loose = self.join_overdrawn(time);
+        let exhausted = self.join_exhausted(time);
         self.doze(time);
         self.glide(time);
-        self.gather_groups(FEW, &loose, time);
+        self.gather_groups(FEW, &exhausted, time);
         self.gather_members(time);
         self.stopwatch.lap(|p| &mut p.contacts);
         self.groups.step(
@@ -299,7 +299,7 @@ impl World {
             if state.idle >= IDLE {
                 self.take_off(index, time);
             } else if unsolved {
-                self.pay_unsolved(index, time);
+                self.charge_substep(index, time);
             }
         }
     }

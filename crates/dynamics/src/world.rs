@@ -197,7 +197,7 @@ impl World {
         state.asleep = sleeps;
         let centroid = state.mass.centroid;
         self.bodies.insert(state);
-        self.closed.open_account(id.index);
+        self.closed.reset_budget(id.index);
         let add = |(shape, material)| {
             let surface = Surface {
                 material,

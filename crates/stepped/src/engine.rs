@@ -11,8 +11,8 @@ use crate::ghost::hide;
 use crate::impact::Impacts;
 use crate::pieces::{Disc, Pieces};
 use crate::rows::{
-    Arrival, Before, Bent, Deep, ExtraSweeps, Graph, Law, Pass, Quad, arrivals, bounce, correct,
-    displace, sweep, warm_start,
+    Arrival, Before, Deep, ExtraSweeps, Graph, Law, Pass, Quad, RotatingRows, arrivals, bounce,
+    correct, displace, sweep, warm_start,
 };
 use crate::sleep::Islands;
 use crate::update::{create, met_asleep, update};
@@ -42,7 +42,7 @@ pub struct Engine {
     /// Rows with extra sweeps.
     extra: ExtraSweeps,
     pub(crate) deep: Deep,
-    pub(crate) bent: Bent,
+    pub(crate) rotating: RotatingRows,
     pub(crate) impacts: Impacts,
     /// Sub-steps of the present tick so far.
     done: u32,
@@ -84,7 +84,7 @@ impl Engine {
             before: Vec::new(),
             extra: ExtraSweeps::default(),
             deep: Deep::default(),
-            bent: Bent::default(),
+            rotating: RotatingRows::default(),
             impacts: Impacts::default(),
             done: 0,
             found: false,
@@ -265,14 +265,14 @@ impl Engine {
             pieces,
             broad,
             graph,
-            bent,
+            rotating,
             parted,
             ..
         } = self;
         parted.clear();
         update(
             (*level, law),
-            (graph, bent),
+            (graph, rotating),
             bodies,
             pieces,
             settings,
@@ -346,7 +346,7 @@ impl Engine {
             ..
         } = self;
         let every = settings.relaxation == Relaxation::EverySubstep;
-        self.bent.turn_rows(graph, bodies);
+        self.rotating.rotate(graph, bodies);
         warm_start(*level, bodies, law.h);
         arrivals(*level, law, bodies, graph, arrived, before);
         impacts.note_arrivals(arrived, graph);

@@ -8,7 +8,7 @@ use crate::bodies::{Bodies, BodyKind};
 use crate::broad::Pairs;
 use crate::narrow::{Eight, Found, Manifold, Scene, collide_eight};
 use crate::pieces::Pieces;
-use crate::rows::{Bent, Block, Cold, Graph, LANES, Law, Side, renew};
+use crate::rows::{Block, Cold, Graph, LANES, Law, RotatingRows, Side, renew};
 use crate::{PairRules, Settings};
 
 /// A kept contact may be so many margins wide, so that pairs do not come and go each tick.
@@ -17,13 +17,13 @@ const KEPT: f64 = 1.5;
 /// Computes the contacts of moved bodies anew; those that parted are added to `parted`.
 pub(crate) fn update(
     (level, law): (Level, &Law),
-    (graph, bent): (&mut Graph, &mut Bent),
+    (graph, rotating): (&mut Graph, &mut RotatingRows),
     bodies: &mut Bodies,
     pieces: &Pieces,
     settings: &Settings,
     parted: &mut Vec<u32>,
 ) {
-    bent.retain(graph, &bodies.moved);
+    rotating.retain(graph, &bodies.moved);
     let touched = graph.touched(bodies);
     graph.suspects.clear();
     graph.suspects.cover(bodies.lines.len());
@@ -75,7 +75,7 @@ pub(crate) fn update(
                 let of_b = found.of_b >> lane & 1 == 1;
                 let radius = if of_b { a.radius() } else { b.radius() };
                 if !cold.is_deep(lane) {
-                    bent.consider(
+                    rotating.add(
                         (block, lane),
                         (cold.contact[lane], pair),
                         (bodies, Side { of_b, radius }),

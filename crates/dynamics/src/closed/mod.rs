@@ -6,10 +6,10 @@
 
 mod dissolve;
 mod doze;
-mod effort;
 mod glide;
 mod jam;
 mod joints;
+mod mode_budget;
 mod store;
 mod tips;
 
@@ -310,7 +310,7 @@ impl World {
 
     /// A judgement failed: the next one is later, and later each time.
     fn wait_around(&mut self, members: &[u32], time: SimTime) {
-        self.pay(members, time);
+        self.charge(members, time);
         for &index in members {
             let h = self.clock.h;
             let membership = &mut self.bodies.get_mut(index).membership;
@@ -325,7 +325,7 @@ impl World {
     fn close(&mut self, gathered: &Gathered, moves: &GroupMove, time: SimTime, speed: f64) {
         let lost = gathered.kinetic(&self.bodies, time) - kinetic(gathered, &moves.bodies);
         self.bodies.book.impacts.add(lost);
-        self.pay_for(gathered, &moves.bodies, time);
+        self.charge_change(gathered, &moves.bodies, time);
         let mut members = Vec::new();
         let mut fastest = speed;
         for (&index, moved) in gathered.places.iter().zip(&moves.bodies) {

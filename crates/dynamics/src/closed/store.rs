@@ -5,7 +5,7 @@ use std::collections::BinaryHeap;
 
 use carom_math::{SimTime, Vec2};
 
-use super::effort::Account;
+use super::mode_budget::ModeBudget;
 use super::tips::Tipping;
 use crate::bodies::Bodies;
 use crate::modes::TouchMove;
@@ -109,10 +109,10 @@ pub(crate) struct Closed {
     /// By place of a body: when judgements of it began that took place at one instant, and how many they were; the same of those
     /// in the time of a sub-step.
     stalls: Vec<[(SimTime, u32); 2]>,
-    /// By place of a body: what its islands spent.
-    pub(super) accounts: Vec<Account>,
-    /// Bodies that spent too much: their islands join with the next sub-step.
-    pub(super) overdrawn: Vec<u32>,
+    /// By place of a body.
+    pub(super) budgets: Vec<ModeBudget>,
+    /// Bodies with an exhausted budget: their islands join with the next sub-step.
+    pub(super) exhausted: Vec<u32>,
     /// Who left the path of a group that turned in this sub-step, on its parabola.
     pub(super) astray: Vec<Astray>,
     /// Nobody is let go of: the slow twin.

@@ -81,7 +81,7 @@ impl World {
             return Err(NotMine::Returns);
         }
         let (moves, touches) = tip.starts().ok_or(NotMine::Unsolved)?;
-        self.pay_for(gathered, &moves, time);
+        self.charge_change(gathered, &moves, time);
         let lost = gathered.kinetic(&self.bodies, time) - super::kinetic(gathered, &moves);
         self.bodies.book.impacts.add(lost);
         let (mut members, mut slots) = (Vec::new(), Vec::new());

@@ -16,7 +16,7 @@ const SAME: f64 = 1e-12;
 const FAR: f64 = 0.05;
 
 impl World {
-    /// Bodies that came or were changed, before the sub-step from `time` on; who wakes by it is told at `told`.
+    /// Enters bodies that came or were changed, before the sub-step from `time` on. Bodies that this wakes are reported at `told`.
     pub(super) fn enter_changed(&mut self, stepping: &mut Stepping, time: SimTime, told: SimTime) {
         let mut touched = core::mem::take(&mut self.bodies.touched);
         touched.sort_unstable();

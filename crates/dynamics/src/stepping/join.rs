@@ -68,7 +68,7 @@ impl World {
         !self.stepped.is_empty()
             || self.joins.members > 0
             || self.joins.rush.is_due()
-            || self.closed.has_overdrawn()
+            || self.closed.has_exhausted()
     }
 
     /// Whether bodies may join the engine.
@@ -76,9 +76,9 @@ impl World {
         matches!(self.settings.mode, Mode::Hybrid)
     }
 
-    /// Every group of sub-stepped bodies in touch joins that has more than `most`, or some of `loose`, which spent too much.
-    pub(crate) fn gather_groups(&mut self, most: usize, loose: &[u32], time: SimTime) {
-        if !self.may_join() || self.stepped.len() <= most && loose.is_empty() {
+    /// Every group of sub-stepped bodies in touch joins that has more than `most`, or holds some of `exhausted`.
+    pub(crate) fn gather_groups(&mut self, most: usize, exhausted: &[u32], time: SimTime) {
+        if !self.may_join() || self.stepped.len() <= most && exhausted.is_empty() {
             return;
         }
         let mut tree = Tree::new(self.bodies.places());
@@ -104,11 +104,11 @@ impl World {
             }
             count[at] = count[at].saturating_add(1);
         }
-        let overdrawn = self.overdrawn_roots(loose, &mut tree, time);
+        let exhausted = self.exhausted_roots(exhausted, &mut tree, time);
         let joins = |index: &u32| {
             let root = tree.root(*index);
             let size = count[root as usize];
-            (size > most || overdrawn.contains(&root)) && size != usize::MAX
+            (size > most || exhausted.contains(&root)) && size != usize::MAX
         };
         let joining: Vec<u32> = self.stepped.iter().copied().filter(joins).collect();
         self.discharge_all(&joining);
@@ -262,7 +262,7 @@ impl World {
         }
     }
 
-    /// A member flies from here on.
+    /// A member leaves the engine into free flight.
     fn release_member(&mut self, state: &State, time: SimTime) {
         let index = super::place(state);
         let (pull, twist) = self.pull_on(index, state.pose.position);
@@ -349,8 +349,8 @@ impl World {
         })
     }
 
-    /// Small islands of these members leave if a body of another mass may meet them, for where such ratios are solved for, and
-    /// those that may be met by what left; whether all do. `released`: what left in this sub-step, and does not leave again.
+    /// Takes the small islands of these members out of the engine if body `index`, which may meet them, is of another mass or was
+    /// taken out itself; whether all were. `released`: bodies that were taken out in this sub-step, once each.
     pub(crate) fn release_outweighed(
         &mut self,
         index: u32,

@@ -1,6 +1,5 @@
 //! What is solved: contacts in blocks of eight, bodies in lines.
 
-mod bent;
 mod block;
 mod bounce_budget;
 #[cfg(test)]
@@ -17,12 +16,12 @@ mod line;
 mod plain;
 mod renew;
 mod restitution;
+mod rotating;
 
 #[cfg(test)]
 mod tests;
 mod transpose;
 
-pub(crate) use bent::{Bent, Side};
 pub(crate) use block::{Block, Cold, LANES, OPEN};
 pub(crate) use bounce_budget::Before;
 pub(crate) use colour::Colour;
@@ -35,4 +34,5 @@ pub(crate) use law::Law;
 pub(crate) use line::{Line, Quad};
 pub(crate) use renew::renew;
 pub(crate) use restitution::{Arrival, REST, arrivals, bounce};
+pub(crate) use rotating::{RotatingRows, Side};
 pub(crate) use transpose::{Numbers, Wide, any};

@@ -1,4 +1,4 @@
-//! Bent rows: contacts of a corner that slides along a turning face.
+//! Rotating rows: contacts of a corner that slides along a turning face.
 //!
 //! Normals are those of the tick. A corner that slides at 5 m/s along a face that turns at 4 rad/s would penetrate it by
 //! v ω T²/2 = 3 mm a tick, tick after tick. Such a row is rotated with its face before every sub-step: the features stay, the
@@ -12,12 +12,12 @@ use super::line::{Line, Quad};
 use crate::bodies::Bodies;
 
 /// Change of gap to second order within a tick from which on a row is rotated, as a part of the smaller extent. With 1e-3 the
-/// thesis scene has the same deepest overlap (3.5 mm; 15.5 without bent rows), a smash and a drum no less.
-const BENDS: f64 = 3e-3;
+/// thesis scene has the same deepest overlap (3.5 mm; 15.5 without rotating rows), a smash and a drum no less.
+const SECOND_ORDER: f64 = 3e-3;
 
-/// The rows that bend.
+/// The rows that are rotated within the tick.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Bent {
+pub(crate) struct RotatingRows {
     rows: Vec<Row>,
 }
 
@@ -45,7 +45,7 @@ pub(crate) struct Side {
     pub(crate) radius: f64,
 }
 
-impl Bent {
+impl RotatingRows {
     /// Keeps the rows of contacts that are not recomputed in this update.
     pub(crate) fn retain(&mut self, graph: &Graph, moved: &[bool]) {
         self.rows.retain(|row| {
@@ -56,8 +56,8 @@ impl Bent {
         });
     }
 
-    /// Adds a row that bends within a tick of `tick` seconds and may push in it; `extent`: that of the smaller piece, in m.
-    pub(crate) fn consider(
+    /// Adds a row whose gap changes to second order in a tick of `tick` seconds, and that may push in it; `extent`: that of the smaller piece, in m.
+    pub(crate) fn add(
         &mut self,
         (block, lane): (&Block, usize),
         (contact, pieces): (u32, [u32; 2]),
@@ -69,9 +69,9 @@ impl Bent {
         let closes = block
             .opening(lane, a, b)
             .map(|rate| (-rate * tick).max(0.0));
-        let bends = seen.bends(side, [a, b].map(|line| (line.v() * tick, line.w() * tick)));
-        let pushes = |k: usize| seen.gaps[k] < closes[k] + 2.0 * bends;
-        if bends > BENDS * extent && (pushes(0) || pushes(1)) {
+        let change = seen.second_order(side, [a, b].map(|line| (line.v() * tick, line.w() * tick)));
+        let pushes = |k: usize| seen.gaps[k] < closes[k] + 2.0 * change;
+        if change > SECOND_ORDER * extent && (pushes(0) || pushes(1)) {
             self.rows.push(Row {
                 contact,
                 pieces,
@@ -82,7 +82,7 @@ impl Bent {
     }
 
     /// Rotates all rows to the present poses, before a sub-step.
-    pub(crate) fn turn_rows(&self, graph: &mut Graph, bodies: &mut Bodies) {
+    pub(crate) fn rotate(&self, graph: &mut Graph, bodies: &mut Bodies) {
         for row in &self.rows {
             if !graph.has(row.contact, row.pieces) {
                 continue;
@@ -129,7 +129,7 @@ impl Seen {
     }
 
     /// Bound of the change of its gap to second order for these displacements and rotations, in m.
-    fn bends(&self, side: Side, [a, b]: [(Vec2, f64); 2]) -> f64 {
+    fn second_order(&self, side: Side, [a, b]: [(Vec2, f64); 2]) -> f64 {
         let slid = perp(self.n).dot(b.0 - a.0);
         let (face, corner, arm) = if side.of_b {
             (b.1, a.1, self.a.x.abs() + side.radius)
@@ -320,13 +320,20 @@ mod tests {
         for _ in 0..30 {
             engine.tick();
             engine.find_contacts(&Mixed);
-            if !engine.bent.rows.is_empty() {
+            if !engine.rotating.rows.is_empty() {
                 break;
             }
         }
-        let contact = engine.bent.rows.first().expect("a row that bends").contact;
+        let contact = engine
+            .rotating
+            .rows
+            .first()
+            .expect("a rotating row")
+            .contact;
         engine.graph.hide(&mut engine.bodies, contact);
-        engine.bent.turn_rows(&mut engine.graph, &mut engine.bodies);
+        engine
+            .rotating
+            .rotate(&mut engine.graph, &mut engine.bodies);
         let (block, _, lane) = engine.graph.lane(contact);
         assert_eq!(block.s1[lane].to_bits(), OPEN.to_bits());
     }

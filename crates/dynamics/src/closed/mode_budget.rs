@@ -1,0 +1,260 @@
+//! The budget of mode solves: an island that exhausts it joins the engine.
+//!
+//! A mode solve of an island takes as long as hundreds of the engine's sub-steps. Each body has a budget that refills with time; a
+//! solve of n bodies charges each of them n. The budget is the body's alone: no island depends on another.
+
+use std::collections::BTreeSet;
+
+use carom_math::{SimTime, Vec2};
+
+use super::store::Closed;
+use crate::World;
+use crate::heavy::{BEARS, mass_ratio};
+use crate::modes::BodyMove;
+use crate::sleep::Tree;
+use crate::state::BodyState;
+use crate::touching::Gathered;
+
+/// Size of a budget, in mode solves of one body. 16: boxes that rock to rest (`tests/it/rocking.rs`) join before, and part from the
+/// exact motion by 1.5e-5 m. 1,000 boxes pushed each second have the same median step with either.
+const SIZE: f64 = 24.0;
+
+/// Ticks that refill one solve. A solve takes 35 µs, the engine 11 µs for a second of one rocking box.
+const REFILL: f64 = 60.0;
+
+/// Sub-steps in lasting contact without a closed form that use up a budget. 18: the rod of case 46 gains 2.7e-6 of its energy.
+const UNSOLVED: f64 = 64.0;
+
+/// Rotation in a tick, in rad, and distance in a sub-step, in reaches, above which a body is fast: its island keeps its method. 0.25: a
+/// ring that spins at 14.7 rad/s lets a pentagon out by 12 mm.
+const FAST: f64 = 0.2;
+
+/// Ticks for which a body counts as fast. Without them case 21, a body pushed at 1,000 km/s against a wall in turns with impacts that
+/// stop it, penetrates the wall by 2 mm.
+const FAST_FOR: f64 = 4.0;
+
+/// Relative change of velocity or acceleration below which a mode change leaves a motion as it was.
+const SAME: f64 = 1e-6;
+
+/// What the islands of a body spent, and whether it was fast.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct ModeBudget {
+    /// Instant of the last charge.
+    at: SimTime,
+    /// Spent by then, in mode solves of one body.
+    spent: f64,
+    /// When the body was fast the last time.
+    fast: Option<SimTime>,
+}
+
+impl ModeBudget {
+    /// Charges `cost` at `time`, with ticks of `tick` seconds; whether the budget was exhausted before.
+    fn charge(&mut self, cost: f64, time: SimTime, tick: f64) -> bool {
+        let refilled = (time - self.at) / (REFILL * tick);
+        self.spent = (self.spent - refilled).max(0.0);
+        self.at = time;
+        let is_exhausted = self.spent > SIZE;
+        self.spent += cost;
+        is_exhausted
+    }
+}
+
+impl Closed {
+    /// Whether islands join with the next sub-step.
+    pub(crate) const fn has_exhausted(&self) -> bool {
+        !self.exhausted.is_empty()
+    }
+
+    /// A body is inserted: its place may be that of an earlier one.
+    pub(crate) fn reset_budget(&mut self, index: u32) {
+        if let Some(budget) = self.budgets.get_mut(index as usize) {
+            *budget = ModeBudget::default();
+        }
+    }
+
+    fn budget(&mut self, index: u32) -> &mut ModeBudget {
+        let at = index as usize;
+        if at >= self.budgets.len() {
+            self.budgets.resize(at + 1, ModeBudget::default());
+        }
+        &mut self.budgets[at]
+    }
+
+    /// Whether a body was fast within the last few ticks of `tick` seconds.
+    fn was_fast(&self, index: u32, time: SimTime, tick: f64) -> bool {
+        let budget = self.budgets.get(index as usize);
+        let fast = budget.and_then(|budget| budget.fast);
+        fast.is_some_and(|fast| time - fast < FAST_FOR * tick)
+    }
+}
+
+/// Whether a mode change at `time` changes the motion of a body.
+fn changes(state: &BodyState, moved: &BodyMove, time: SimTime) -> bool {
+    let (motion, reach) = (&state.motion, state.reach);
+    let differ = |was: Vec2, is: Vec2, turned: f64, turns: f64| {
+        let step = (is - was).length().max((turns - turned).abs() * reach);
+        let size = was.length().max(turned.abs() * reach);
+        step > SAME * size
+    };
+    state.is_dynamic()
+        && (differ(
+            state.velocity_at(time),
+            moved.velocity,
+            state.spin_at(time),
+            moved.spin,
+        ) || differ(
+            motion.acceleration,
+            moved.acceleration,
+            motion.angular_acceleration,
+            moved.angular_acceleration,
+        ))
+}
+
+impl World {
+    /// Charges an island for a new mode, unless its motion is as before: over a seam of tiles, or in the next stretch of a path.
+    pub(super) fn charge_change(&mut self, gathered: &Gathered, moves: &[BodyMove], time: SimTime) {
+        if !self.may_join() {
+            return;
+        }
+        let mut both = gathered.places.iter().zip(moves);
+        if both.any(|(&index, moved)| changes(self.bodies.get(index), moved, time)) {
+            let members = gathered.dynamic();
+            for &index in &members {
+                self.note_fast(index, time);
+            }
+            self.charge(&members, time);
+        }
+    }
+
+    /// Charges an island for a mode solve.
+    pub(super) fn charge(&mut self, members: &[u32], time: SimTime) {
+        let cost = members.len() as f64;
+        self.charge_each(members, cost, time);
+    }
+
+    fn charge_each(&mut self, members: &[u32], cost: f64, time: SimTime) {
+        if !self.may_join() {
+            return;
+        }
+        let tick = self.settings.tick;
+        let was = self.is_substepping();
+        for &index in members {
+            if self.closed.budget(index).charge(cost, time, tick) {
+                self.closed.exhausted.push(index);
+            }
+        }
+        if !was && self.closed.has_exhausted() {
+            self.clock.catch_up(time);
+        }
+    }
+
+    /// Charges a body for a sub-step in lasting contact without a closed form.
+    pub(crate) fn charge_substep(&mut self, index: u32, time: SimTime) {
+        self.charge_each(&[index], SIZE / UNSOLVED, time);
+    }
+
+    /// Analytic islands with exhausted budgets join, unless they rest. Returns the exhausted bodies without a closed form.
+    pub(crate) fn join_exhausted(&mut self, time: SimTime) -> Vec<u32> {
+        let mut exhausted = core::mem::take(&mut self.closed.exhausted);
+        if exhausted.is_empty() {
+            return exhausted;
+        }
+        exhausted.sort_unstable();
+        exhausted.dedup();
+        let mut unsolved = Vec::new();
+        for index in exhausted {
+            if !self.bodies.is_alive(index) || self.bodies.get(index).asleep {
+                continue;
+            }
+            let Some(group) = self.closed.get(self.bodies.get(index).membership.group) else {
+                if self.bodies.get(index).is_held() {
+                    unsolved.push(index);
+                }
+                continue;
+            };
+            let members: Vec<u32> = group.members.iter().map(|(index, _)| *index).collect();
+            if group.sleeps || self.keeps_method(&members, time) {
+                continue;
+            }
+            for index in members {
+                self.join(index, time);
+            }
+        }
+        self.lower_flyers_later();
+        unsolved
+    }
+
+    /// Roots of the islands of `unsolved` that join, in `tree` of all sub-stepped bodies in touch.
+    pub(crate) fn exhausted_roots(
+        &mut self,
+        unsolved: &[u32],
+        tree: &mut Tree,
+        time: SimTime,
+    ) -> BTreeSet<u32> {
+        let mut roots: BTreeSet<u32> = unsolved.iter().map(|index| tree.root(*index)).collect();
+        if roots.is_empty() {
+            return roots;
+        }
+        let stepped = self.stepped.iter().map(|index| (tree.root(*index), *index));
+        let mut islands: Vec<(u32, u32)> =
+            stepped.filter(|(root, _)| roots.contains(root)).collect();
+        islands.sort_unstable();
+        for island in islands.chunk_by(|one, other| one.0 == other.0) {
+            let members: Vec<u32> = island.iter().map(|(_, index)| *index).collect();
+            if self.keeps_method(&members, time) {
+                roots.remove(&island[0].0);
+            }
+        }
+        roots
+    }
+
+    /// Whether an island keeps its method in spite of an exhausted budget; its budget is full again then.
+    fn keeps_method(&mut self, members: &[u32], time: SimTime) -> bool {
+        let keeps = self.is_beyond_engine(members, time);
+        if keeps {
+            for &index in members {
+                self.closed.budget(index).spent = 0.0;
+            }
+        }
+        keeps
+    }
+
+    /// Whether an island has mass ratios, spins or speeds that the engine does not resolve, or is borne by nothing: the engine
+    /// keeps no angular momentum.
+    fn is_beyond_engine(&self, members: &[u32], time: SimTime) -> bool {
+        let mut is_borne = false;
+        for &index in members {
+            let state = self.bodies.get(index);
+            if self.closed.was_fast(index, time, self.settings.tick) {
+                return true;
+            }
+            for place in &state.pairs {
+                let pair = self.pairs.get(*place);
+                let other = self.bodies.get(pair.other(index));
+                if mass_ratio([state.inverse_mass, other.inverse_mass]) > BEARS {
+                    return true;
+                }
+                if pair.touching {
+                    if [state, other].iter().any(|body| self.is_fast(body, time)) {
+                        return true;
+                    }
+                    is_borne |= !other.is_dynamic() || other.asleep || other.in_engine;
+                }
+            }
+        }
+        !is_borne
+    }
+
+    /// Notes the instant if a body is fast.
+    pub(crate) fn note_fast(&mut self, index: u32, time: SimTime) {
+        if self.is_fast(self.bodies.get(index), time) {
+            self.closed.budget(index).fast = Some(time);
+        }
+    }
+
+    fn is_fast(&self, state: &BodyState, time: SimTime) -> bool {
+        let speed = state.velocity_at(time).length();
+        state.spin_at(time).abs() * self.settings.tick > FAST
+            || speed * self.clock.h > FAST * state.reach
+    }
+}
