@@ -1,5 +1,7 @@
 //! Bodies: a record each, and a line for each that is awake.
 
+use core::ops::Range;
+
 use carom_math::{Pose, Vec2};
 
 pub(crate) use crate::input::{BodyId, BodyInput, BodyKind};
@@ -74,6 +76,12 @@ impl Bodies {
             may_stray: false,
             beyond_boxes: 0.0,
         }
+    }
+
+    /// The pieces of the body of a line.
+    pub(crate) fn pieces_of_line(&self, line: usize) -> Range<u32> {
+        let record = &self.records[self.slot_of[line] as usize];
+        record.first_piece..record.first_piece + record.pieces
     }
 
     /// Makes a record, and a line unless it is fixed; it has no pieces yet.

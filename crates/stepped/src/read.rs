@@ -174,6 +174,11 @@ impl Engine {
             });
     }
 
+    /// Many queries follow: after changes, and sub-steps in which bodies woke or fell asleep, each would look at all bodies awake.
+    pub fn prepare_queries(&mut self) {
+        self.broad.prepare_queries(&self.bodies, &self.pieces);
+    }
+
     /// [`Self::query`] of those alone that are awake and not fixed.
     pub fn query_awake(&self, bounds: Aabb, mut found: impl FnMut(u64)) {
         let tag = |piece: u32| self.pieces.list[piece as usize].tag;

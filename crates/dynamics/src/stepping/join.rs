@@ -234,9 +234,10 @@ impl World {
 
     /// Members that nothing touches or nears for a while fly from here on. At the start of a tick.
     pub(super) fn disperse(&mut self, time: SimTime) {
-        let Some(stepping) = self.stepping.take() else {
+        let Some(mut stepping) = self.stepping.take() else {
             return;
         };
+        stepping.engine.prepare_queries();
         let before = core::mem::take(&mut self.joins.idle);
         let (mut idle, mut gone) = (Vec::new(), Vec::new());
         for state in stepping.engine.without_contact() {
@@ -287,6 +288,9 @@ impl World {
         aloft.dedup();
         let bodies = &self.bodies;
         aloft.retain(|&index| bodies.is_alive(index) && bodies.get(index).is_flying());
+        if let Some(stepping) = &mut self.stepping {
+            stepping.engine.prepare_queries();
+        }
         let Some(stepping) = &self.stepping else {
             return BTreeMap::new();
         };

@@ -23,6 +23,8 @@ pub(crate) struct Broad {
     endless: Vec<u32>,
     /// What moves and what stands is no more what it was when the sweep was sorted.
     stale: bool,
+    /// The same since queries were prepared.
+    unsorted: bool,
     /// Pieces that stand since the last tick: movers that rest have not met them.
     arrived: Vec<u32>,
     /// Pieces that got other boxes since the sweep was sorted.
@@ -39,6 +41,7 @@ impl Broad {
             nodes: Vec::new(),
             endless: Vec::new(),
             stale: true,
+            unsorted: true,
             arrived: Vec::new(),
             few: Vec::new(),
             found: Vec::new(),
@@ -57,12 +60,12 @@ impl Broad {
             self.endless.push(piece);
         }
         self.arrived.push(piece);
-        self.stale = true;
+        self.stale();
     }
 
     /// A mover came: the sweep does not know it.
     pub(crate) const fn stale(&mut self) {
-        self.stale = true;
+        (self.stale, self.unsorted) = (true, true);
     }
 
     /// A piece has a larger box than the sweep knows.
@@ -79,7 +82,7 @@ impl Broad {
         }
         self.endless.retain(|other| *other != piece);
         self.arrived.retain(|other| *other != piece);
-        self.stale = true;
+        self.stale();
     }
 
     /// Whether some piece stands that no mover has been asked about.
@@ -94,16 +97,7 @@ impl Broad {
         if self.arrived.is_empty() && !bodies.moved[2..].contains(&true) {
             return;
         }
-        let of_line = |line: usize| {
-            let record = &bodies.records[bodies.slot_of[line] as usize];
-            record.first_piece..record.first_piece + record.pieces
-        };
-        self.few.clear();
-        let movers = awake.clone().flat_map(|line| {
-            let moved = bodies.moved[line];
-            of_line(line).map(move |piece| (piece, moved))
-        });
-        self.sweep.sort(movers, pieces);
+        self.sort(bodies, pieces);
         let found = &mut self.found;
         self.sweep
             .pairs(level, pieces, tick, |a, b| found.push([a, b]));
@@ -112,7 +106,7 @@ impl Broad {
             bodies.moved[bodies.records[slot as usize].line as usize]
         };
         for at in awake.filter(|at| bodies.moved[*at]) {
-            for piece in of_line(at) {
+            for piece in bodies.pieces_of_line(at) {
                 let bounds = pieces.boxes[piece as usize];
                 self.standing.query(bounds, |other| {
                     if may_touch(pieces, [piece, other], tick) {
@@ -132,6 +126,23 @@ impl Broad {
         }
         self.arrived.clear();
         self.stale = false;
+    }
+
+    /// Queries are answered by the sweep again, if movers came or went since it was sorted.
+    pub(crate) fn prepare_queries(&mut self, bodies: &Bodies, pieces: &Pieces) {
+        if self.unsorted {
+            self.sort(bodies, pieces);
+        }
+    }
+
+    fn sort(&mut self, bodies: &Bodies, pieces: &Pieces) {
+        self.few.clear();
+        let movers = (2..bodies.lines.len()).flat_map(|line| {
+            let moved = bodies.moved[line];
+            bodies.pieces_of_line(line).map(move |piece| (piece, moved))
+        });
+        self.sweep.sort(movers, pieces);
+        self.unsorted = false;
     }
 
     /// Calls `found` with the pieces that stand in `bounds`.
@@ -160,11 +171,11 @@ impl Broad {
         bounds: Aabb,
         mut tell: impl FnMut(u32),
     ) {
-        if self.stale {
+        if self.unsorted {
             // Pieces came or went: the sweep names others.
             for line in 2..bodies.lines.len() {
-                let record = &bodies.records[bodies.slot_of[line] as usize];
-                (record.first_piece..record.first_piece + record.pieces)
+                bodies
+                    .pieces_of_line(line)
                     .filter(|piece| pieces.boxes[*piece as usize].overlaps(bounds))
                     .for_each(&mut tell);
             }
@@ -189,8 +200,7 @@ impl Broad {
         let found = &mut self.found;
         let mut few = Vec::new();
         for line in (2..bodies.lines.len()).filter(|line| bodies.moved[*line]) {
-            let record = &bodies.records[bodies.slot_of[line] as usize];
-            few.extend(record.first_piece..record.first_piece + record.pieces);
+            few.extend(bodies.pieces_of_line(line));
         }
         // The sweep knows where the others' boxes are, and of these where they were: so these are compared as well.
         for &piece in &few {

@@ -302,3 +302,37 @@ fn a_query_finds_what_is_near_and_not_what_is_far() {
     engine.query(bounds, |_| found += 1);
     assert!((2..8).contains(&found), "{found} of 101 pieces");
 }
+
+/// Before, each of the queries after bodies came, went or woke looked at all bodies awake.
+#[test]
+fn prepared_queries_find_what_others_find() {
+    let mut engine = Engine::new(Settings::default()).unwrap();
+    floor(&mut engine);
+    let insert = |engine: &mut Engine, k: u32| {
+        let at = vec2(1.5 * f64::from(k), 0.5);
+        let input = BodyInput::dynamic(1.0, 1.0 / 6.0).at(at);
+        engine.insert(input, &[unit_box()]).unwrap()
+    };
+    let first: Vec<_> = (0..20).map(|k| insert(&mut engine, k)).collect();
+    engine.tick();
+    engine.remove(first[4]).unwrap();
+    for k in 20..25 {
+        insert(&mut engine, k);
+    }
+    let found = |engine: &Engine| -> Vec<usize> {
+        let windows = (0..40).map(|k| {
+            let low = vec2(f64::from(k), 0.0);
+            carom_geometry::Aabb::new(low, low + vec2(1.0, 1.0))
+        });
+        let count = |bounds| {
+            let mut count = 0;
+            engine.query_awake(bounds, |_| count += 1);
+            count
+        };
+        windows.map(count).collect()
+    };
+    let unprepared = found(&engine);
+    engine.prepare_queries();
+    assert_eq!(found(&engine), unprepared);
+    assert!(unprepared.iter().sum::<usize>() >= 24);
+}
