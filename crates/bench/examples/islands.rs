@@ -167,15 +167,14 @@ impl Scene {
 
     /// What the caller does before a step.
     fn drive(&mut self, step: u32) -> Outcome<()> {
-        let turns = if step.is_multiple_of(60) {
-            step / 60
-        } else {
-            u32::MAX
-        };
+        let second = step.is_multiple_of(60).then_some(step / 60);
         match self.name.as_str() {
             "rock" if step == 0 => self.kick(1.0)?,
-            "kicks" if turns % 2 == 0 => self.kick(1.0)?,
-            "kicks" if turns % 2 == 1 => self.kick(-1.0)?,
+            "kicks" => {
+                if let Some(second) = second {
+                    self.kick(if second.is_multiple_of(2) { 1.0 } else { -1.0 })?;
+                }
+            }
             "stacks" => {
                 let id = self.driven[step as usize % self.driven.len()];
                 self.world.set_velocity(id, vec2(0.1, 0.0), 0.0)?;
