@@ -1,7 +1,7 @@
 //! A dense system of a few equations.
 
 /// A square matrix as L U, its rows exchanged so that the largest of a column comes first.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Factored {
     size: usize,
     /// Row by row: L below the diagonal, U on and above it.
@@ -12,8 +12,30 @@ pub struct Factored {
 
 impl Factored {
     /// Of a square matrix given row by row; `None` if a pivot is 0 or not finite.
-    pub fn of(size: usize, mut entries: Vec<f64>) -> Option<Self> {
-        let mut order: Vec<usize> = (0..size).collect();
+    pub fn of(size: usize, entries: Vec<f64>) -> Option<Self> {
+        let mut factored = Self {
+            entries,
+            ..Self::default()
+        };
+        factored.factor(size).then_some(factored)
+    }
+
+    /// Another matrix in the same room; whether it has no pivot that is 0 or not finite.
+    pub fn again(&mut self, size: usize, entries: impl Iterator<Item = f64>) -> bool {
+        self.entries.clear();
+        self.entries.extend(entries);
+        self.factor(size)
+    }
+
+    fn factor(&mut self, size: usize) -> bool {
+        let Self {
+            size: kept,
+            entries,
+            order,
+        } = self;
+        *kept = size;
+        order.clear();
+        order.extend(0..size);
         for k in 0..size {
             let mut best = k;
             for row in k + 1..size {
@@ -23,7 +45,7 @@ impl Factored {
             }
             let pivot = entries[best * size + k];
             if pivot == 0.0 || !pivot.is_finite() {
-                return None;
+                return false;
             }
             if best != k {
                 order.swap(best, k);
@@ -44,11 +66,7 @@ impl Factored {
                 }
             }
         }
-        Some(Self {
-            size,
-            entries,
-            order,
-        })
+        true
     }
 
     /// The smallest pivot by size; infinite where there is none.
@@ -59,7 +77,15 @@ impl Factored {
 
     /// The x with A x = `right`.
     pub fn solve(&self, right: &[f64]) -> Vec<f64> {
-        let mut x: Vec<f64> = self.order.iter().map(|&row| right[row]).collect();
+        let mut x = Vec::new();
+        self.solve_into(right, &mut x);
+        x
+    }
+
+    /// [`Self::solve`] into `x`.
+    pub fn solve_into(&self, right: &[f64], x: &mut Vec<f64>) {
+        x.clear();
+        x.extend(self.order.iter().map(|&row| right[row]));
         for k in 0..self.size {
             let row = &self.entries[k * self.size..];
             let known: f64 = row.iter().zip(&x[..k]).map(|(l, x)| l * x).sum();
@@ -74,7 +100,6 @@ impl Factored {
                 .sum();
             x[k] = (x[k] - known) / row[k];
         }
-        x
     }
 }
 

@@ -26,7 +26,7 @@ pub(crate) struct Equations {
 }
 
 /// Forces and accelerations at an instant.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Forces {
     /// Of each body, in m/s² and rad/s².
     pub(crate) accelerations: Vec<(Vec2, f64)>,
@@ -36,7 +36,25 @@ pub(crate) struct Forces {
     pub(crate) tangential: Vec<f64>,
 }
 
+/// What evaluations one after another need, and the forces of the last one: a path asks for a hundred of them.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Room {
+    unknowns: Vec<Unknown>,
+    factored: Factored,
+    right: Vec<f64>,
+    sizes: Vec<f64>,
+    forces: Forces,
+}
+
+impl Room {
+    /// Accelerations of the last evaluation.
+    pub(crate) fn into_accelerations(self) -> Vec<(Vec2, f64)> {
+        self.forces.accelerations
+    }
+}
+
 /// A force of unknown size.
+#[derive(Clone, Debug)]
 struct Unknown {
     contact: usize,
     /// Which normal force; `None`: friction that holds.
@@ -61,23 +79,29 @@ impl Equations {
         self.contacts.iter().map(one).collect()
     }
 
-    /// Forces that the modes need; `None` where there are none.
-    pub(crate) fn forces(&self, places: &[Place]) -> Option<Forces> {
-        let mut unknowns = self.unknowns(places);
-        let found = self.solved(&unknowns).or_else(|| {
-            self.drop_idle(&mut unknowns);
-            self.solved(&unknowns)
-        })?;
-        let mut forces = Forces {
-            accelerations: self
-                .bodies
-                .iter()
-                .map(|body| (body.pull, body.twist))
-                .collect(),
-            normal: vec![[0.0; 2]; self.contacts.len()],
-            tangential: vec![0.0; self.contacts.len()],
-        };
-        for (unknown, size) in unknowns.iter().zip(found) {
+    /// Forces that the modes need, in `room`; `None` where there are none.
+    pub(crate) fn forces<'r>(&self, places: &[Place], room: &'r mut Room) -> Option<&'r Forces> {
+        self.find_unknowns(places, &mut room.unknowns);
+        if !self.solve(room) {
+            self.drop_idle(room);
+            if !self.solve(room) {
+                return None;
+            }
+        }
+        let Room {
+            unknowns,
+            sizes,
+            forces,
+            ..
+        } = room;
+        let free = self.bodies.iter().map(|body| (body.pull, body.twist));
+        forces.accelerations.clear();
+        forces.accelerations.extend(free);
+        forces.normal.clear();
+        forces.normal.resize(self.contacts.len(), [0.0; 2]);
+        forces.tangential.clear();
+        forces.tangential.resize(self.contacts.len(), 0.0);
+        for (unknown, &size) in unknowns.iter().zip(&*sizes) {
             let force = unknown.force * size;
             for (place, arm, sign) in [
                 (unknown.bodies.0, unknown.arms.0, -1.0),
@@ -102,42 +126,52 @@ impl Equations {
         Some(forces)
     }
 
-    /// Sizes of the forces; `None` where rows depend on each other.
-    fn solved(&self, unknowns: &[Unknown]) -> Option<Vec<f64>> {
-        let size = unknowns.len();
-        if size == 0 {
-            return Some(Vec::new());
+    /// Sizes of the forces; whether rows do not depend on each other.
+    fn solve(&self, room: &mut Room) -> bool {
+        let Room {
+            unknowns,
+            factored,
+            right,
+            sizes,
+            ..
+        } = room;
+        sizes.clear();
+        let count = unknowns.len();
+        if count == 0 {
+            return true;
         }
-        let mut matrix = Vec::with_capacity(size * size);
-        for row in unknowns {
-            matrix.extend(unknowns.iter().map(|other| self.answer(row, other)));
+        let mut largest = 0.0_f64;
+        let entries = unknowns
+            .iter()
+            .flat_map(|row| unknowns.iter().map(|other| self.answer(row, other)))
+            .inspect(|entry| largest = largest.max(entry.abs()));
+        if !factored.again(count, entries) || factored.least_pivot() <= DEPENDENT * largest {
+            return false;
         }
-        let largest = matrix.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-        let factored = Factored::of(size, matrix)?;
-        if factored.least_pivot() <= DEPENDENT * largest {
-            return None;
-        }
-        let right: Vec<f64> = unknowns.iter().map(|row| -self.free_rate(row)).collect();
-        Some(factored.solve(&right))
+        right.clear();
+        right.extend(unknowns.iter().map(|row| -self.free_rate(row)));
+        factored.solve_into(right, sizes);
+        true
     }
 
     /// Takes friction out that holds what others hold already: a disc in a corner that sticks to one wall sticks to the
     /// other. Any share of the forces moves the bodies alike; this one is none.
-    fn drop_idle(&self, unknowns: &mut Vec<Unknown>) {
-        let (mut kept, holding): (Vec<Unknown>, Vec<Unknown>) = unknowns
+    fn drop_idle(&self, room: &mut Room) {
+        let (kept, holding): (Vec<Unknown>, Vec<Unknown>) = room
+            .unknowns
             .drain(..)
             .partition(|unknown| unknown.point.is_some());
+        room.unknowns = kept;
         for unknown in holding {
-            kept.push(unknown);
-            if self.solved(&kept).is_none() {
-                kept.pop();
+            room.unknowns.push(unknown);
+            if !self.solve(room) {
+                room.unknowns.pop();
             }
         }
-        *unknowns = kept;
     }
 
-    fn unknowns(&self, places: &[Place]) -> Vec<Unknown> {
-        let mut unknowns = Vec::new();
+    fn find_unknowns(&self, places: &[Place], unknowns: &mut Vec<Unknown>) {
+        unknowns.clear();
         for (i, (contact, hold)) in self.contacts.iter().zip(&self.holds).enumerate() {
             let (a, b) = (&places[contact.bodies.0], &places[contact.bodies.1]);
             let mut holds_slip = hold.rub == Rub::Sticks;
@@ -170,7 +204,6 @@ impl Equations {
                 }
             }
         }
-        unknowns
     }
 
     /// What a unit of a force adds to the rate of a row.

@@ -17,7 +17,7 @@ use carom_math::{SimTime, Vec2};
 
 use crate::ContactMode;
 use crate::modes::{BodyMove, Feature, ModeBody, NotMine, ROWS, Touch, TouchMove, begin};
-pub(crate) use equations::{Equations, Forces};
+pub(crate) use equations::{Equations, Forces, Room};
 pub(crate) use joint::{End, Joint, Place};
 pub(crate) use path::Path;
 use roots::{Limit, faint, first, heat};
@@ -101,21 +101,23 @@ impl Tip {
 
     /// Accelerations of all bodies `t` seconds after the start: those of gravity alone where forces have none.
     pub(crate) fn accelerations_after(&self, t: f64) -> Vec<(Vec2, f64)> {
-        let forces = self.equations.forces(&self.path.places_after(t));
+        let mut room = Room::default();
+        let places = self.path.places_after(t);
         let free = |body: &ModeBody| (body.pull, body.twist);
-        forces.map_or_else(
-            || self.equations.bodies.iter().map(free).collect(),
-            |forces| forces.accelerations,
-        )
+        match self.equations.forces(&places, &mut room) {
+            Some(_) => room.into_accelerations(),
+            None => self.equations.bodies.iter().map(free).collect(),
+        }
     }
 
     /// Motions of all bodies and modes of all contacts at the start.
     pub(crate) fn starts(&self) -> Option<(Vec<BodyMove>, Vec<TouchMove>)> {
         let places = self.path.places_after(0.0);
-        let forces = self.equations.forces(&places)?;
-        let touches = self.touches_at(&places, &forces);
-        let both = places.iter().zip(forces.accelerations);
-        let moves = both.map(|(place, (acceleration, angular_acceleration))| BodyMove {
+        let mut room = Room::default();
+        let forces = self.equations.forces(&places, &mut room)?;
+        let touches = self.touches_at(&places, forces);
+        let both = places.iter().zip(&forces.accelerations);
+        let moves = both.map(|(place, &(acceleration, angular_acceleration))| BodyMove {
             velocity: place.velocity,
             spin: place.spin,
             acceleration,
@@ -127,8 +129,9 @@ impl Tip {
     /// Modes of all contacts `t` seconds after the start.
     pub(crate) fn touches_after(&self, t: f64) -> Option<Vec<TouchMove>> {
         let places = self.path.places_after(t);
-        let forces = self.equations.forces(&places)?;
-        Some(self.touches_at(&places, &forces))
+        let mut room = Room::default();
+        let forces = self.equations.forces(&places, &mut room)?;
+        Some(self.touches_at(&places, forces))
     }
 
     fn touches_at(&self, places: &[Place], forces: &Forces) -> Vec<TouchMove> {
@@ -167,7 +170,7 @@ impl Tip {
 /// The path of a group from `start` on.
 ///
 /// `speed` is the largest speed from whose roundings the given velocities may come, in m/s; `reaches` are those of the
-/// bodies, in m.
+/// bodies, in m, and 0 of those of infinite mass.
 pub(crate) fn tip(
     bodies: &[ModeBody],
     places: &[Place],
@@ -199,15 +202,21 @@ pub(crate) fn tip(
         contacts,
         holds,
     };
+    let mut room = Room::default();
     for _ in 0..TRIES {
-        let flat = |forces: Forces| {
-            let all = forces.accelerations.into_iter();
-            all.flat_map(|(a, alpha)| [a.x, a.y, alpha]).collect()
+        let accelerations = |places: &[Place], to: &mut Vec<f64>| {
+            let Some(forces) = equations.forces(places, &mut room) else {
+                return false;
+            };
+            let all = forces.accelerations.iter();
+            to.clear();
+            to.extend(all.flat_map(|(a, alpha)| [a.x, a.y, *alpha]));
+            true
         };
-        let f = |places: &[Place]| equations.forces(places).map(flat);
         let lengths = (LONGEST, SHORTEST);
         let error = ERROR * size;
-        let Some(path) = Path::follow(&f, start, &places, reaches, lengths, error) else {
+        let path = Path::follow(accelerations, start, &places, reaches, lengths, error);
+        let Some(path) = path else {
             // A touch that fades while it slides has no path of its own: it opens.
             let limit = faint(&equations, &places).ok_or(NotMine::Unsolved)?;
             amend(&mut equations, limit)?;

@@ -17,6 +17,8 @@ pub(crate) struct Path {
     /// In s.
     pub(crate) length: f64,
     rotations: Vec<Rot>,
+    /// Bodies that do not move.
+    stays: Vec<bool>,
     place: Vec<f64>,
     velocity: Vec<f64>,
     /// b₀ … b₇ of each coordinate.
@@ -28,20 +30,26 @@ pub(crate) struct Path {
 impl Path {
     /// From these places on under `f`, for `longest` seconds or less: as far as it leaves out less than `error`
     /// metres a second, an angle counting as the way at its `reach`; `None` if it is not known for `shortest` seconds.
+    ///
+    /// `f` writes three accelerations a body, and says whether there are any; a body with reach 0 stays where it is.
     pub(crate) fn follow(
-        f: &impl Fn(&[Place]) -> Option<Vec<f64>>,
+        mut f: impl FnMut(&[Place], &mut Vec<f64>) -> bool,
         start: SimTime,
         places: &[Place],
         reaches: &[f64],
         (longest, shortest): (f64, f64),
         error: f64,
     ) -> Option<Self> {
-        let first = f(places)?;
+        let mut first = Vec::with_capacity(3 * places.len());
+        if !f(places, &mut first) {
+            return None;
+        }
         let flat = |of: fn(&Place) -> [f64; 3]| places.iter().flat_map(of).collect::<Vec<f64>>();
         let mut path = Self {
             start,
             length: longest,
             rotations: places.iter().map(|place| place.rotation).collect(),
+            stays: reaches.iter().map(|reach| *reach == 0.0).collect(),
             place: flat(|place| [place.centre.x, place.centre.y, 0.0]),
             velocity: flat(|place| [place.velocity.x, place.velocity.y, place.spin]),
             terms: Vec::new(),
@@ -57,8 +65,10 @@ impl Path {
             path.length = TURN / rate;
         }
         let scale = |k: usize| if k % 3 == 2 { reaches[k / 3] } else { 1.0 };
+        let mut values: Vec<[f64; 8]> = first.iter().map(|x| [*x; 8]).collect();
+        let mut places = Vec::with_capacity(places.len());
         while path.length >= shortest {
-            let stands = path.collocate(f, &first, &scale);
+            let stands = path.collocate(&mut f, (&mut values, &mut places), &scale);
             let left_out = path.left_out(&scale);
             if stands && left_out <= error * path.length {
                 return Some(path);
@@ -74,36 +84,45 @@ impl Path {
         None
     }
 
+    /// Rounds of fixed-point iteration from constant accelerations; whether they came to an end. `values`: accelerations at the
+    /// nodes, those at the first given.
     fn collocate(
         &mut self,
-        f: &impl Fn(&[Place]) -> Option<Vec<f64>>,
-        first: &[f64],
+        f: &mut impl FnMut(&[Place], &mut Vec<f64>) -> bool,
+        (values, places): (&mut [[f64; 8]], &mut Vec<Place>),
         scale: &impl Fn(usize) -> f64,
     ) -> bool {
-        let begins = |first: &f64| [*first, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
-        self.terms = first.iter().map(begins).collect();
-        self.integrals = self.terms.iter().map(integrated).collect();
-        let sizes = first.iter().enumerate().map(|(k, x)| (x * scale(k)).abs());
+        let begins = |values: &[f64; 8]| [values[0], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+        self.terms.clear();
+        self.terms.extend(values.iter().map(begins));
+        self.integrals.clear();
+        self.integrals.extend(self.terms.iter().map(integrated));
+        let sizes = values.iter().enumerate();
+        let sizes = sizes.map(|(k, values)| (values[0] * scale(k)).abs());
         let size = sizes.fold(f64::MIN_POSITIVE, f64::max);
         let mut before = f64::INFINITY;
+        let mut found = Vec::with_capacity(values.len());
         for _ in 0..ROUNDS {
-            let mut values: Vec<[f64; 8]> = first.iter().map(|x| [*x; 8]).collect();
             for (k, node) in NODES.into_iter().enumerate().skip(1) {
-                let Some(found) = f(&self.places_after(node * self.length)) else {
+                self.write_places(node * self.length, places);
+                if !f(places, &mut found) {
                     return false;
-                };
-                for (values, found) in values.iter_mut().zip(found) {
-                    values[k] = found;
+                }
+                for (values, found) in values.iter_mut().zip(&found) {
+                    values[k] = *found;
                 }
             }
             let mut change = 0.0_f64;
-            for (k, (terms, values)) in self.terms.iter_mut().zip(values).enumerate() {
-                let new = through(values);
-                for (new, old) in new.iter().zip(terms.iter()) {
+            for (k, values) in values.iter().enumerate() {
+                if self.stays[k / 3] {
+                    continue;
+                }
+                let new = through(*values);
+                for (new, old) in new.iter().zip(&self.terms[k]) {
                     change = change.max((new - old).abs() * scale(k));
                 }
-                *terms = new;
-                self.integrals[k] = integrated(terms);
+                self.terms[k] = new;
+                self.integrals[k] = integrated(&new);
             }
             if !change.is_finite() {
                 return false;
@@ -129,17 +148,23 @@ impl Path {
 
     /// All bodies `t` seconds after the start.
     pub(crate) fn places_after(&self, t: f64) -> Vec<Place> {
-        (0..self.rotations.len())
-            .map(|body| {
-                let (centre, velocity, angle, spin) = self.body_after(body, t);
-                Place {
-                    centre,
-                    rotation: self.rotations[body].turned(angle),
-                    velocity,
-                    spin,
-                }
-            })
-            .collect()
+        let mut places = Vec::with_capacity(self.rotations.len());
+        self.write_places(t, &mut places);
+        places
+    }
+
+    /// [`Self::places_after`] into `places`.
+    pub(crate) fn write_places(&self, t: f64, places: &mut Vec<Place>) {
+        places.clear();
+        places.extend((0..self.rotations.len()).map(|body| {
+            let (centre, velocity, angle, spin) = self.body_after(body, t);
+            Place {
+                centre,
+                rotation: self.rotations[body].turned(angle),
+                velocity,
+                spin,
+            }
+        }));
     }
 
     /// Rotation of a body at the start.
@@ -149,6 +174,14 @@ impl Path {
 
     /// Centre, velocity, angle since the start, and spin of a body `t` seconds after it.
     pub(crate) fn body_after(&self, body: usize, t: f64) -> (Vec2, Vec2, f64, f64) {
+        if self.stays[body] {
+            return (
+                vec2(self.place[3 * body], self.place[3 * body + 1]),
+                Vec2::ZERO,
+                0.0,
+                0.0,
+            );
+        }
         let [(x, u), (y, v), (angle, spin)] = [0, 1, 2].map(|k| self.coordinate(3 * body + k, t));
         (vec2(x, y), vec2(u, v), angle, spin)
     }

@@ -2,7 +2,7 @@
 
 use carom_math::Vec2;
 
-use super::equations::Equations;
+use super::equations::{Equations, Room};
 use super::joint::{Margin, Place};
 use super::path::Path;
 use super::{AT_ONCE, Rub};
@@ -60,7 +60,8 @@ pub(super) enum End {
 
 /// A closed point whose normal force is no more than rounding of the weights.
 pub(super) fn faint(equations: &Equations, places: &[Place]) -> Option<Limit> {
-    let forces = equations.forces(places)?;
+    let mut room = Room::default();
+    let forces = equations.forces(places, &mut room)?;
     let pulls = equations
         .bodies
         .iter()
@@ -75,20 +76,61 @@ pub(super) fn faint(equations: &Equations, places: &[Place]) -> Option<Limit> {
     found.map(|(contact, point, ..)| Limit::Press { contact, point })
 }
 
+/// The margins of a path.
+struct Margins<'a> {
+    equations: &'a Equations,
+    path: &'a Path,
+    /// A length in m and a speed in m/s that roundings are measured by.
+    sizes: (f64, f64),
+    room: Room,
+    places: Vec<Place>,
+    /// Those of the last instant that was asked for.
+    list: Vec<Left>,
+}
+
+impl Margins<'_> {
+    /// All of them `t` seconds after the start; `None` where forces were not found.
+    fn at(&mut self, t: f64) -> Option<&[Left]> {
+        self.path.write_places(t, &mut self.places);
+        self.list.clear();
+        all(
+            self.equations,
+            &self.places,
+            self.sizes,
+            &mut self.room,
+            &mut self.list,
+        )?;
+        Some(&self.list)
+    }
+
+    fn one(&mut self, i: usize, t: f64) -> Option<Left> {
+        self.at(t)?.get(i).copied()
+    }
+}
+
 /// The first margin to fall to 0.
 pub(super) fn first(equations: &Equations, path: &Path, sizes: (f64, f64)) -> End {
-    let at = |t: f64| all(equations, &path.places_after(t), sizes);
-    let Some(mut before) = at(0.0) else {
+    let mut margins = Margins {
+        equations,
+        path,
+        sizes,
+        room: Room::default(),
+        places: Vec::new(),
+        list: Vec::new(),
+    };
+    let Some(mut before) = margins.at(0.0).map(<[Left]>::to_vec) else {
         return End::Lost;
     };
     // What begins at 0 counts once it has been above.
     let mut armed: Vec<bool> = before.iter().map(|m| m.value > m.nothing).collect();
-    let mut from = 0.0;
+    let (mut now, mut from) = (Vec::new(), 0.0);
     for k in 1..=LOOKS {
         let to = path.length * f64::from(k) / f64::from(LOOKS);
-        let Some(now) = at(to) else {
-            return End::Lost;
-        };
+        now.clear();
+        match margins.at(to) {
+            Some(list) => now.extend_from_slice(list),
+            None => return End::Lost,
+        }
         if now.len() != before.len() {
             return End::Lost;
         }
@@ -103,7 +145,7 @@ pub(super) fn first(equations: &Equations, path: &Path, sizes: (f64, f64)) -> En
                 if margin.value >= -margin.nothing {
                     continue;
                 }
-                match rise(&at, i, to) {
+                match rise(&mut margins, i, to) {
                     Some(risen) => above = risen,
                     None => return End::Never(margin.limit),
                 }
@@ -111,7 +153,7 @@ pub(super) fn first(equations: &Equations, path: &Path, sizes: (f64, f64)) -> En
             if margin.value > 0.0 {
                 continue;
             }
-            let Some((after, limit)) = fall(&at, i, above, (to, margin.value)) else {
+            let Some((after, limit)) = fall(&mut margins, i, above, (to, margin.value)) else {
                 return End::Lost;
             };
             if found.is_none_or(|(known, _)| after < known) {
@@ -121,17 +163,18 @@ pub(super) fn first(equations: &Equations, path: &Path, sizes: (f64, f64)) -> En
         if let Some((after, limit)) = found {
             return End::After(after, limit);
         }
-        (before, from) = (now, to);
+        core::mem::swap(&mut before, &mut now);
+        from = to;
     }
     End::Open
 }
 
 /// An instant before `to` at which margin `i`, which is 0 at the start and has fallen at `to`, is above 0: a corner that opens
 /// may be back before the first look.
-fn rise(at: &impl Fn(f64) -> Option<Vec<Left>>, i: usize, to: f64) -> Option<(f64, f64)> {
+fn rise(margins: &mut Margins<'_>, i: usize, to: f64) -> Option<(f64, f64)> {
     let mut after = 0.5 * to;
     while after > AT_ONCE {
-        let margin = *at(after)?.get(i)?;
+        let margin = margins.one(i, after)?;
         if margin.value > margin.nothing {
             return Some((after, margin.value));
         }
@@ -146,7 +189,7 @@ fn rise(at: &impl Fn(f64) -> Option<Vec<Left>>, i: usize, to: f64) -> Option<(f6
 
 /// Where margin `i` falls through 0 between two looks: false position with the Illinois rule, to the last bits.
 fn fall(
-    at: &impl Fn(f64) -> Option<Vec<Left>>,
+    margins: &mut Margins<'_>,
     i: usize,
     (mut low, mut above): (f64, f64),
     (mut high, mut below): (f64, f64),
@@ -165,7 +208,7 @@ fn fall(
         if !(middle > low && middle < high) {
             break;
         }
-        let value = at(middle)?.get(i)?.value;
+        let value = margins.one(i, middle)?.value;
         if value > 0.0 {
             (low, above) = (middle, value);
             if side == 1 {
@@ -180,15 +223,20 @@ fn fall(
             side = 2;
         }
     }
-    Some((high, at(high)?.get(i)?.limit))
+    Some((high, margins.one(i, high)?.limit))
 }
 
-/// All margins; `sizes`: a length in m and a speed in m/s that roundings are measured by.
-fn all(equations: &Equations, places: &[Place], (size, speed): (f64, f64)) -> Option<Vec<Left>> {
-    let forces = equations.forces(places)?;
+/// All margins of bodies at these places, into `margins`.
+fn all(
+    equations: &Equations,
+    places: &[Place],
+    (size, speed): (f64, f64),
+    room: &mut Room,
+    margins: &mut Vec<Left>,
+) -> Option<()> {
+    let forces = equations.forces(places, room)?;
     let most = forces.normal.iter().flatten();
     let most = most.fold(0.0_f64, |most, force| most.max(force.abs()));
-    let mut margins = Vec::new();
     let mut add = |limit: Limit, value: f64, scale: f64| {
         margins.push(Left {
             limit,
@@ -245,7 +293,7 @@ fn all(equations: &Equations, places: &[Place], (size, speed): (f64, f64)) -> Op
             _ => {}
         }
     }
-    Some(margins)
+    Some(())
 }
 
 /// Heat by friction in the first `elapsed` seconds, in J: Gauss–Legendre in two halves.
@@ -260,9 +308,10 @@ pub(super) fn heat(equations: &Equations, path: &Path, elapsed: f64) -> f64 {
     if !equations.holds.iter().any(slides) {
         return 0.0;
     }
-    let power = |t: f64| {
+    let mut room = Room::default();
+    let mut power = |t: f64| {
         let places = path.places_after(t);
-        let Some(forces) = equations.forces(&places) else {
+        let Some(forces) = equations.forces(&places, &mut room) else {
             return 0.0;
         };
         let seen = equations.seen(&places);
