@@ -16,7 +16,7 @@ use crate::state::BodyState;
 use crate::touching::Gathered;
 
 /// Size of a budget, in mode solves of one body. 16: boxes that rock to rest (`tests/it/rocking.rs`) join before, and part from the
-/// exact motion by 1.5e-5 m. 1,000 boxes pushed each second have the same median step with either.
+/// exact motion by 1.5e-5 m.
 const SIZE: f64 = 24.0;
 
 /// Ticks that refill one solve. A solve takes 35 µs, the engine 11 µs for a second of one rocking box.
