@@ -17,17 +17,17 @@ impl Factored {
             entries,
             ..Self::default()
         };
-        factored.factor(size).then_some(factored)
+        factored.eliminate(size).then_some(factored)
     }
 
-    /// Another matrix in the same room; whether it has no pivot that is 0 or not finite.
-    pub fn again(&mut self, size: usize, entries: impl Iterator<Item = f64>) -> bool {
+    /// Factors another matrix in place of this one; `false` if a pivot is 0 or not finite.
+    pub fn refactor(&mut self, size: usize, entries: impl Iterator<Item = f64>) -> bool {
         self.entries.clear();
         self.entries.extend(entries);
-        self.factor(size)
+        self.eliminate(size)
     }
 
-    fn factor(&mut self, size: usize) -> bool {
+    fn eliminate(&mut self, size: usize) -> bool {
         let Self {
             size: kept,
             entries,

@@ -38,7 +38,7 @@ pub(crate) struct Forces {
 
 /// What evaluations one after another need, and the forces of the last one: a path asks for a hundred of them.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Room {
+pub(crate) struct Workspace {
     unknowns: Vec<Unknown>,
     factored: Factored,
     right: Vec<f64>,
@@ -46,7 +46,7 @@ pub(crate) struct Room {
     forces: Forces,
 }
 
-impl Room {
+impl Workspace {
     /// Accelerations of the last evaluation.
     pub(crate) fn into_accelerations(self) -> Vec<(Vec2, f64)> {
         self.forces.accelerations
@@ -59,11 +59,15 @@ struct Unknown {
     contact: usize,
     /// Which normal force; `None`: friction that holds.
     point: Option<usize>,
-    bodies: (usize, usize),
-    arms: (Vec2, Vec2),
+    /// A and B, and the arms of its point.
+    bodies: [usize; 2],
+    arms: [Vec2; 2],
     /// What is held at rest, and what the force acts along on B.
     row: Vec2,
     force: Vec2,
+    /// Arm × row and arm × force, of A and B, in m.
+    turns: [f64; 2],
+    levers: [f64; 2],
     /// γ, in m/s².
     bend: f64,
 }
@@ -79,21 +83,25 @@ impl Equations {
         self.contacts.iter().map(one).collect()
     }
 
-    /// Forces that the modes need, in `room`; `None` where there are none.
-    pub(crate) fn forces<'r>(&self, places: &[Place], room: &'r mut Room) -> Option<&'r Forces> {
-        self.find_unknowns(places, &mut room.unknowns);
-        if !self.solve(room) {
-            self.drop_idle(room);
-            if !self.solve(room) {
+    /// Forces that the modes need, in `workspace`; `None` where there are none.
+    pub(crate) fn forces<'r>(
+        &self,
+        places: &[Place],
+        workspace: &'r mut Workspace,
+    ) -> Option<&'r Forces> {
+        self.find_unknowns(places, &mut workspace.unknowns);
+        if !self.solve(workspace) {
+            self.drop_idle(workspace);
+            if !self.solve(workspace) {
                 return None;
             }
         }
-        let Room {
+        let Workspace {
             unknowns,
             sizes,
             forces,
             ..
-        } = room;
+        } = workspace;
         let free = self.bodies.iter().map(|body| (body.pull, body.twist));
         forces.accelerations.clear();
         forces.accelerations.extend(free);
@@ -103,10 +111,12 @@ impl Equations {
         forces.tangential.resize(self.contacts.len(), 0.0);
         for (unknown, &size) in unknowns.iter().zip(&*sizes) {
             let force = unknown.force * size;
-            for (place, arm, sign) in [
-                (unknown.bodies.0, unknown.arms.0, -1.0),
-                (unknown.bodies.1, unknown.arms.1, 1.0),
-            ] {
+            for ((place, arm), sign) in unknown
+                .bodies
+                .into_iter()
+                .zip(unknown.arms)
+                .zip([-1.0, 1.0])
+            {
                 let body = &self.bodies[place];
                 let (a, alpha) = &mut forces.accelerations[place];
                 *a += force * (sign * body.inverse_mass);
@@ -127,14 +137,14 @@ impl Equations {
     }
 
     /// Sizes of the forces; whether rows do not depend on each other.
-    fn solve(&self, room: &mut Room) -> bool {
-        let Room {
+    fn solve(&self, workspace: &mut Workspace) -> bool {
+        let Workspace {
             unknowns,
             factored,
             right,
             sizes,
             ..
-        } = room;
+        } = workspace;
         sizes.clear();
         let count = unknowns.len();
         if count == 0 {
@@ -145,7 +155,7 @@ impl Equations {
             .iter()
             .flat_map(|row| unknowns.iter().map(|other| self.answer(row, other)))
             .inspect(|entry| largest = largest.max(entry.abs()));
-        if !factored.again(count, entries) || factored.least_pivot() <= DEPENDENT * largest {
+        if !factored.refactor(count, entries) || factored.least_pivot() <= DEPENDENT * largest {
             return false;
         }
         right.clear();
@@ -156,16 +166,16 @@ impl Equations {
 
     /// Takes friction out that holds what others hold already: a disc in a corner that sticks to one wall sticks to the
     /// other. Any share of the forces moves the bodies alike; this one is none.
-    fn drop_idle(&self, room: &mut Room) {
-        let (kept, holding): (Vec<Unknown>, Vec<Unknown>) = room
+    fn drop_idle(&self, workspace: &mut Workspace) {
+        let (kept, holding): (Vec<Unknown>, Vec<Unknown>) = workspace
             .unknowns
             .drain(..)
             .partition(|unknown| unknown.point.is_some());
-        room.unknowns = kept;
+        workspace.unknowns = kept;
         for unknown in holding {
-            room.unknowns.push(unknown);
-            if !self.solve(room) {
-                room.unknowns.pop();
+            workspace.unknowns.push(unknown);
+            if !self.solve(workspace) {
+                workspace.unknowns.pop();
             }
         }
     }
@@ -181,13 +191,15 @@ impl Equations {
                 }
                 let seen = joint.seen(a, b);
                 let t = perp(seen.normal);
-                let arms = (seen.point - a.centre, seen.point - b.centre);
+                let arms = [seen.point - a.centre, seen.point - b.centre];
                 let mut add = |point: Option<usize>, row: Vec2, force: Vec2, bend: f64| {
                     unknowns.push(Unknown {
                         contact: i,
                         point,
-                        bodies: contact.bodies,
+                        bodies: contact.bodies.into(),
                         arms,
+                        turns: arms.map(|arm| cross(arm, row)),
+                        levers: arms.map(|arm| cross(arm, force)),
                         row,
                         force,
                         bend,
@@ -208,23 +220,15 @@ impl Equations {
 
     /// What a unit of a force adds to the rate of a row.
     fn answer(&self, row: &Unknown, force: &Unknown) -> f64 {
+        let along = row.row.dot(force.force);
         let mut sum = 0.0;
-        for (place, arm, sign) in [
-            (force.bodies.0, force.arms.0, -1.0),
-            (force.bodies.1, force.arms.1, 1.0),
-        ] {
-            let body = &self.bodies[place];
-            for (at, lever, side) in [
-                (row.bodies.0, row.arms.0, -1.0),
-                (row.bodies.1, row.arms.1, 1.0),
-            ] {
+        for (k, place) in force.bodies.into_iter().enumerate() {
+            for (l, at) in row.bodies.into_iter().enumerate() {
                 if at == place {
-                    sum += sign
-                        * side
-                        * (row.row.dot(force.force) * body.inverse_mass
-                            + cross(lever, row.row)
-                                * cross(arm, force.force)
-                                * body.inverse_inertia);
+                    let body = &self.bodies[place];
+                    let part = along * body.inverse_mass
+                        + row.turns[l] * force.levers[k] * body.inverse_inertia;
+                    sum += if k == l { part } else { -part };
                 }
             }
         }
@@ -233,10 +237,10 @@ impl Equations {
 
     /// The rate of a row without contacts.
     fn free_rate(&self, row: &Unknown) -> f64 {
-        let of = |place: usize, arm: Vec2| {
-            let body = &self.bodies[place];
-            body.pull.dot(row.row) + body.twist * cross(arm, row.row)
+        let of = |k: usize| {
+            let body = &self.bodies[row.bodies[k]];
+            body.pull.dot(row.row) + body.twist * row.turns[k]
         };
-        of(row.bodies.1, row.arms.1) - of(row.bodies.0, row.arms.0) + row.bend
+        of(1) - of(0) + row.bend
     }
 }

@@ -17,7 +17,7 @@ use carom_math::{SimTime, Vec2};
 
 use crate::ContactMode;
 use crate::modes::{BodyMove, Feature, ModeBody, NotMine, ROWS, Touch, TouchMove, begin};
-pub(crate) use equations::{Equations, Forces, Room};
+pub(crate) use equations::{Equations, Forces, Workspace};
 pub(crate) use joint::{End, Joint, Place};
 pub(crate) use path::Path;
 use roots::{Limit, faint, first, heat};
@@ -101,11 +101,11 @@ impl Tip {
 
     /// Accelerations of all bodies `t` seconds after the start: those of gravity alone where forces have none.
     pub(crate) fn accelerations_after(&self, t: f64) -> Vec<(Vec2, f64)> {
-        let mut room = Room::default();
+        let mut workspace = Workspace::default();
         let places = self.path.places_after(t);
         let free = |body: &ModeBody| (body.pull, body.twist);
-        match self.equations.forces(&places, &mut room) {
-            Some(_) => room.into_accelerations(),
+        match self.equations.forces(&places, &mut workspace) {
+            Some(_) => workspace.into_accelerations(),
             None => self.equations.bodies.iter().map(free).collect(),
         }
     }
@@ -113,8 +113,8 @@ impl Tip {
     /// Motions of all bodies and modes of all contacts at the start.
     pub(crate) fn starts(&self) -> Option<(Vec<BodyMove>, Vec<TouchMove>)> {
         let places = self.path.places_after(0.0);
-        let mut room = Room::default();
-        let forces = self.equations.forces(&places, &mut room)?;
+        let mut workspace = Workspace::default();
+        let forces = self.equations.forces(&places, &mut workspace)?;
         let touches = self.touches_at(&places, forces);
         let both = places.iter().zip(&forces.accelerations);
         let moves = both.map(|(place, &(acceleration, angular_acceleration))| BodyMove {
@@ -129,8 +129,8 @@ impl Tip {
     /// Modes of all contacts `t` seconds after the start.
     pub(crate) fn touches_after(&self, t: f64) -> Option<Vec<TouchMove>> {
         let places = self.path.places_after(t);
-        let mut room = Room::default();
-        let forces = self.equations.forces(&places, &mut room)?;
+        let mut workspace = Workspace::default();
+        let forces = self.equations.forces(&places, &mut workspace)?;
         Some(self.touches_at(&places, forces))
     }
 
@@ -202,10 +202,10 @@ pub(crate) fn tip(
         contacts,
         holds,
     };
-    let mut room = Room::default();
+    let mut workspace = Workspace::default();
     for _ in 0..TRIES {
         let accelerations = |places: &[Place], to: &mut Vec<f64>| {
-            let Some(forces) = equations.forces(places, &mut room) else {
+            let Some(forces) = equations.forces(places, &mut workspace) else {
                 return false;
             };
             let all = forces.accelerations.iter();

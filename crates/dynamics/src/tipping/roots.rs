@@ -2,7 +2,7 @@
 
 use carom_math::Vec2;
 
-use super::equations::{Equations, Room};
+use super::equations::{Equations, Workspace};
 use super::joint::{Margin, Place};
 use super::path::Path;
 use super::{AT_ONCE, Rub};
@@ -60,8 +60,8 @@ pub(super) enum End {
 
 /// A closed point whose normal force is no more than rounding of the weights.
 pub(super) fn faint(equations: &Equations, places: &[Place]) -> Option<Limit> {
-    let mut room = Room::default();
-    let forces = equations.forces(places, &mut room)?;
+    let mut workspace = Workspace::default();
+    let forces = equations.forces(places, &mut workspace)?;
     let pulls = equations
         .bodies
         .iter()
@@ -82,7 +82,7 @@ struct Margins<'a> {
     path: &'a Path,
     /// A length in m and a speed in m/s that roundings are measured by.
     sizes: (f64, f64),
-    room: Room,
+    workspace: Workspace,
     places: Vec<Place>,
     /// Those of the last instant that was asked for.
     list: Vec<Left>,
@@ -97,7 +97,7 @@ impl Margins<'_> {
             self.equations,
             &self.places,
             self.sizes,
-            &mut self.room,
+            &mut self.workspace,
             &mut self.list,
         )?;
         Some(&self.list)
@@ -114,7 +114,7 @@ pub(super) fn first(equations: &Equations, path: &Path, sizes: (f64, f64)) -> En
         equations,
         path,
         sizes,
-        room: Room::default(),
+        workspace: Workspace::default(),
         places: Vec::new(),
         list: Vec::new(),
     };
@@ -231,10 +231,10 @@ fn all(
     equations: &Equations,
     places: &[Place],
     (size, speed): (f64, f64),
-    room: &mut Room,
+    workspace: &mut Workspace,
     margins: &mut Vec<Left>,
 ) -> Option<()> {
-    let forces = equations.forces(places, room)?;
+    let forces = equations.forces(places, workspace)?;
     let most = forces.normal.iter().flatten();
     let most = most.fold(0.0_f64, |most, force| most.max(force.abs()));
     let mut add = |limit: Limit, value: f64, scale: f64| {
@@ -308,10 +308,10 @@ pub(super) fn heat(equations: &Equations, path: &Path, elapsed: f64) -> f64 {
     if !equations.holds.iter().any(slides) {
         return 0.0;
     }
-    let mut room = Room::default();
+    let mut workspace = Workspace::default();
     let mut power = |t: f64| {
         let places = path.places_after(t);
-        let Some(forces) = equations.forces(&places, &mut room) else {
+        let Some(forces) = equations.forces(&places, &mut workspace) else {
             return 0.0;
         };
         let seen = equations.seen(&places);
