@@ -3,7 +3,7 @@
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-use carom_cli::EXIT_CODES;
+use carom_cli::{EXIT_CODES, ModeFlag};
 use clap::{Args, Parser, Subcommand};
 
 /// Rigid bodies in the plane: scenes to pictures, films, tables and charts.
@@ -51,6 +51,7 @@ pub(crate) struct DemoArgs {
 #[command(after_help = "Examples:\n  \
     cargo xtask reference tests/reference/open\n  \
     cargo xtask reference tests/reference/open --list\n  \
+    cargo xtask reference tests/reference/open --mode hybrid\n  \
     cargo xtask reference tests/reference/open --transform 7 --json answers.json")]
 pub(crate) struct ReferenceArgs {
     /// Folder with reference files (*.json)
@@ -64,6 +65,9 @@ pub(crate) struct ReferenceArgs {
     /// Asks each case mirrored, turned, shifted and relabelled (all exact) and maps the answer back
     #[arg(long, value_name = "SEED")]
     pub(crate) transform: Option<u64>,
+    /// Mode of the worlds that are played; single impacts, mass properties and times of impact know none
+    #[arg(long, value_enum, default_value_t = ModeFlag::Exact)]
+    pub(crate) mode: ModeFlag,
 }
 
 /// What the laboratory's own program reads: `cargo xtask accuracy --help` is answered by it too.

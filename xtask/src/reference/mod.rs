@@ -20,6 +20,8 @@ mod tableau;
 
 use std::hint::black_box;
 
+use carom_cli::ModeFlag;
+use carom_dynamics::Mode;
 use carom_math::Vec2;
 
 use crate::clock::Clock;
@@ -44,15 +46,30 @@ use tableau::SceneCase;
 /// Faults that are listed for a category before the rest is only counted.
 const LISTED: usize = 10;
 
+/// How cases are asked: in a guise, and worlds in a mode.
+#[derive(Clone, Copy, Debug)]
+struct Asked {
+    seed: Option<u64>,
+    mode: Mode,
+}
+
 pub(crate) fn run(args: &ReferenceArgs) -> Outcome {
     args.json.as_deref().map_or(Ok(()), files::prepare)?;
     let books = book::read_folder(&args.dir)?;
+    let asked = Asked {
+        seed: args.transform,
+        mode: match args.mode {
+            ModeFlag::Exact => Mode::Exact,
+            ModeFlag::Hybrid => Mode::Hybrid,
+            ModeFlag::Stepped => Mode::Stepped,
+        },
+    };
     let mut answers = Vec::new();
     let (mut passed, mut total) = (0, 0);
     for book in &books {
         let mut tally = Tally::default();
         for case in &book.cases {
-            let answer = answer(&book.category, case, args.transform);
+            let answer = answer(&book.category, case, asked);
             let verdict = judge::judge(&book.category, case, &answer);
             if args.list {
                 list(case, &verdict);
@@ -88,8 +105,8 @@ fn list(case: &Case, verdict: &judge::Verdict) {
     }
 }
 
-fn answer(category: &str, case: &Case, seed: Option<u64>) -> Answer {
-    let (found, error) = match solve(category, case, seed) {
+fn answer(category: &str, case: &Case, asked: Asked) -> Answer {
+    let (found, error) = match solve(category, case, asked) {
         Ok(found) => (Some(found), None),
         Err(error) => (None, Some(error)),
     };
@@ -103,25 +120,27 @@ fn answer(category: &str, case: &Case, seed: Option<u64>) -> Answer {
 }
 
 /// The answer and the seconds that it took.
-fn solve(category: &str, case: &Case, seed: Option<u64>) -> Result<(f64, Outputs), String> {
+fn solve(category: &str, case: &Case, asked: Asked) -> Result<(f64, Outputs), String> {
+    let seed = asked.seed;
     match category {
         "mass_properties" => mass_properties(case, seed),
         "impacts" => impacts(case, seed),
         "simultaneous" => simultaneous(case, seed),
         "time_of_impact" => first_contact(case, seed),
-        "flight_bounce" => played(case, seed, &FlightCase::read(&case.inputs)?),
-        "friction" => friction(case, seed),
-        "billiards" => played(case, seed, &GasCase::read_billiard(&case.inputs)?),
-        "disc_gas" => played(case, seed, &GasCase::read_gas(case)?),
-        "chains" => played(case, seed, &LineCase::read_chain(&case.inputs)?),
-        "galperin" => played(case, seed, &LineCase::read_galperin(&case.inputs)?),
-        "scenes" => played(case, seed, &SceneCase::read(&case.inputs)?),
+        "flight_bounce" => played(case, asked, &FlightCase::read(&case.inputs)?),
+        "friction" => friction(case, asked),
+        "billiards" => played(case, asked, &GasCase::read_billiard(&case.inputs)?),
+        "disc_gas" => played(case, asked, &GasCase::read_gas(case)?),
+        "chains" => played(case, asked, &LineCase::read_chain(&case.inputs)?),
+        "galperin" => played(case, asked, &LineCase::read_galperin(&case.inputs)?),
+        "scenes" => played(case, asked, &SceneCase::read(&case.inputs)?),
         _ => Err(format!("category {category} is not answered yet")),
     }
 }
 
 /// A world built, stepped and read, with the time that all of it took.
-fn played(case: &Case, seed: Option<u64>, question: &impl Play) -> Result<(f64, Outputs), String> {
+fn played(case: &Case, asked: Asked, question: &impl Play) -> Result<(f64, Outputs), String> {
+    let seed = asked.seed;
     let cast = question.cast();
     let mut symmetry = guise(seed, case, &cast.places());
     if cast.gravity != Vec2::ZERO {
@@ -129,17 +148,17 @@ fn played(case: &Case, seed: Option<u64>, question: &impl Play) -> Result<(f64, 
         symmetry.shift = Vec2::ZERO;
     }
     let clock = Clock::start();
-    let mut stage = cast.enter(&symmetry, seed.is_some())?;
+    let mut stage = cast.enter(&symmetry, seed.is_some(), asked.mode)?;
     let outputs = question.play(&mut stage)?;
     Ok((clock.seconds(), outputs))
 }
 
 /// Where a case asks about several worlds, each is played.
-fn friction(case: &Case, seed: Option<u64>) -> Result<(f64, Outputs), String> {
+fn friction(case: &Case, asked: Asked) -> Result<(f64, Outputs), String> {
     let mut seconds = 0.0;
     let mut outputs = Outputs::new();
     for question in FrictionCase::read(&case.inputs)? {
-        let (spent, mut found) = played(case, seed, &question)?;
+        let (spent, mut found) = played(case, asked, &question)?;
         seconds += spent;
         outputs.append(&mut found);
     }

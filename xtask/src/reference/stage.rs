@@ -211,10 +211,15 @@ impl Cast {
     }
 
     /// Raises the curtain, in a guise if one is given.
-    pub(super) fn enter(&self, symmetry: &Symmetry, guised: bool) -> Result<Stage, String> {
+    pub(super) fn enter(
+        &self,
+        symmetry: &Symmetry,
+        guised: bool,
+        mode: Mode,
+    ) -> Result<Stage, String> {
         let mut world = World::new(Settings {
             gravity: symmetry.vector(self.gravity),
-            mode: Mode::Exact,
+            mode,
             impact_law: self.law,
             sleep: None,
             ..Settings::default()

@@ -16,6 +16,21 @@ const SQUARE: &str = r#"{"category": "mass_properties", "cases": [{
         "inertia_from_mass": {"value": "1.0", "hp": "1.0"},
         "bounding_radius": {"value": "0.7071067811865476"}}}]}"#;
 
+/// Worlds of the default mode answer what those of exact mode do.
+#[test]
+fn what_is_listed_as_passing_passes_in_the_default_mode() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/reference");
+    let list = fs::read_to_string(folder.join("passing.txt")).unwrap();
+    let ran = xtask_in(
+        &folder,
+        &["reference", "open", "--list", "--mode", "hybrid"],
+    );
+    let passes: BTreeSet<&str> = lines_after(&ran.out, "pass ").collect();
+    let broken: Vec<&str> = list.lines().filter(|id| !passes.contains(id)).collect();
+    let why: Vec<&str> = lines_after(&ran.out, "fall short ").collect();
+    assert!(broken.is_empty(), "{broken:?}\n{}", why.join("\n"));
+}
+
 /// The ids that `passing.txt` names are those that pass as asked and in all other guises.
 #[test]
 fn what_is_listed_as_passing_passes_and_nothing_else() {
