@@ -23,8 +23,6 @@ pub(crate) struct Broad {
     endless: Vec<u32>,
     /// What moves and what stands is no more what it was when the sweep was sorted.
     stale: bool,
-    /// The same since queries were prepared.
-    unsorted: bool,
     /// Pieces that stand since the last tick: movers that rest have not met them.
     arrived: Vec<u32>,
     /// Pieces that got other boxes since the sweep was sorted.
@@ -41,7 +39,6 @@ impl Broad {
             nodes: Vec::new(),
             endless: Vec::new(),
             stale: true,
-            unsorted: true,
             arrived: Vec::new(),
             few: Vec::new(),
             found: Vec::new(),
@@ -65,7 +62,7 @@ impl Broad {
 
     /// A mover came: the sweep does not know it.
     pub(crate) const fn stale(&mut self) {
-        (self.stale, self.unsorted) = (true, true);
+        self.stale = true;
     }
 
     /// A piece has a larger box than the sweep knows.
@@ -125,12 +122,11 @@ impl Broad {
             });
         }
         self.arrived.clear();
-        self.stale = false;
     }
 
     /// Queries are answered by the sweep again, if movers came or went since it was sorted.
     pub(crate) fn prepare_queries(&mut self, bodies: &Bodies, pieces: &Pieces) {
-        if self.unsorted {
+        if self.stale {
             self.sort(bodies, pieces);
         }
     }
@@ -142,7 +138,7 @@ impl Broad {
             bodies.pieces_of_line(line).map(move |piece| (piece, moved))
         });
         self.sweep.sort(movers, pieces);
-        self.unsorted = false;
+        self.stale = false;
     }
 
     /// Calls `found` with the pieces that stand in `bounds`.
@@ -171,7 +167,7 @@ impl Broad {
         bounds: Aabb,
         mut tell: impl FnMut(u32),
     ) {
-        if self.unsorted {
+        if self.stale {
             // Pieces came or went: the sweep names others.
             for line in 2..bodies.lines.len() {
                 bodies
@@ -192,7 +188,7 @@ impl Broad {
 
     /// Finds the pairs of the few that moved since [`Self::find`] in the same tick.
     pub(crate) fn find_few(&mut self, level: Level, bodies: &Bodies, pieces: &Pieces, tick: f64) {
-        if self.stale {
+        if self.stale || self.has_arrivals() {
             self.find(level, bodies, pieces, tick);
             return;
         }
