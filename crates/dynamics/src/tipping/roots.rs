@@ -91,15 +91,76 @@ struct Margins<'a> {
 impl Margins<'_> {
     /// All of them `t` seconds after the start; `None` where forces were not found.
     fn at(&mut self, t: f64) -> Option<&[Left]> {
-        self.path.write_places(t, &mut self.places);
-        self.list.clear();
-        all(
-            self.equations,
-            &self.places,
-            self.sizes,
-            &mut self.workspace,
-            &mut self.list,
-        )?;
+        let (size, speed) = self.sizes;
+        let Self {
+            equations,
+            path,
+            workspace,
+            places,
+            list,
+            ..
+        } = self;
+        path.write_places(t, places);
+        list.clear();
+        let forces = equations.forces(places, workspace)?;
+        let most = forces.normal.iter().flatten();
+        let most = most.fold(0.0_f64, |most, force| most.max(force.abs()));
+        let mut add = |limit: Limit, value: f64, scale: f64| {
+            list.push(Left {
+                limit,
+                value,
+                nothing: NOTHING * scale,
+            });
+        };
+        for (contact, (of, hold)) in equations.contacts.iter().zip(&equations.holds).enumerate() {
+            let (a, b) = (&places[of.bodies.0], &places[of.bodies.1]);
+            let mut slips = None;
+            let mut pressed = 0.0;
+            for (point, joint) in of.joints.iter().enumerate() {
+                let seen = joint.seen(a, b);
+                if hold.over[point] {
+                    continue;
+                }
+                if !hold.closed[point] {
+                    let limit = Limit::Corner {
+                        contact,
+                        normal: seen.normal,
+                        at: seen.point,
+                    };
+                    add(limit, seen.gap, size);
+                    continue;
+                }
+                slips.get_or_insert(seen.slip);
+                let force = forces.normal[contact][point];
+                pressed += force;
+                add(Limit::Press { contact, point }, force, most);
+                for margin in joint.margins(a, b) {
+                    let limit = match margin {
+                        Margin::Way(_) => Limit::Way { contact, point },
+                        Margin::Corner { at, .. } => Limit::Corner {
+                            contact,
+                            normal: seen.normal,
+                            at,
+                        },
+                    };
+                    add(limit, margin.value(), size);
+                }
+            }
+            match (hold.rub, slips) {
+                (Rub::Sticks, Some(_)) => {
+                    let pull = forces.tangential[contact];
+                    let limit = Limit::Grip {
+                        contact,
+                        sign: -pull.signum(),
+                    };
+                    add(limit, of.friction * pressed - pull.abs(), most);
+                }
+                (Rub::Slides(sign), Some(slip)) => {
+                    add(Limit::Slip { contact }, slip * sign, speed);
+                }
+                _ => {}
+            }
+        }
         Some(&self.list)
     }
 
@@ -224,76 +285,6 @@ fn fall(
         }
     }
     Some((high, margins.one(i, high)?.limit))
-}
-
-/// All margins of bodies at these places, into `margins`.
-fn all(
-    equations: &Equations,
-    places: &[Place],
-    (size, speed): (f64, f64),
-    workspace: &mut Workspace,
-    margins: &mut Vec<Left>,
-) -> Option<()> {
-    let forces = equations.forces(places, workspace)?;
-    let most = forces.normal.iter().flatten();
-    let most = most.fold(0.0_f64, |most, force| most.max(force.abs()));
-    let mut add = |limit: Limit, value: f64, scale: f64| {
-        margins.push(Left {
-            limit,
-            value,
-            nothing: NOTHING * scale,
-        });
-    };
-    for (contact, (of, hold)) in equations.contacts.iter().zip(&equations.holds).enumerate() {
-        let (a, b) = (&places[of.bodies.0], &places[of.bodies.1]);
-        let mut slips = None;
-        let mut pressed = 0.0;
-        for (point, joint) in of.joints.iter().enumerate() {
-            let seen = joint.seen(a, b);
-            if hold.over[point] {
-                continue;
-            }
-            if !hold.closed[point] {
-                let limit = Limit::Corner {
-                    contact,
-                    normal: seen.normal,
-                    at: seen.point,
-                };
-                add(limit, seen.gap, size);
-                continue;
-            }
-            slips.get_or_insert(seen.slip);
-            let force = forces.normal[contact][point];
-            pressed += force;
-            add(Limit::Press { contact, point }, force, most);
-            for margin in joint.margins(a, b) {
-                let limit = match margin {
-                    Margin::Way(_) => Limit::Way { contact, point },
-                    Margin::Corner { at, .. } => Limit::Corner {
-                        contact,
-                        normal: seen.normal,
-                        at,
-                    },
-                };
-                add(limit, margin.value(), size);
-            }
-        }
-        match (hold.rub, slips) {
-            (Rub::Sticks, Some(_)) => {
-                let pull = forces.tangential[contact];
-                let limit = Limit::Grip {
-                    contact,
-                    sign: -pull.signum(),
-                };
-                add(limit, of.friction * pressed - pull.abs(), most);
-            }
-            (Rub::Slides(sign), Some(slip)) => {
-                add(Limit::Slip { contact }, slip * sign, speed);
-            }
-            _ => {}
-        }
-    }
-    Some(())
 }
 
 /// Heat by friction in the first `elapsed` seconds, in J: Gauss–Legendre in two halves.
