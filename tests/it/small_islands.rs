@@ -111,7 +111,8 @@ fn a_budget_is_the_islands_own() {
     assert_eq!(run(0), run(12));
 }
 
-/// A heavy body that nears a light one takes it out of the engine, whose sweeps do not converge: it was driven 0.14 m into the floor.
+/// The island of a light member leaves the engine where a mass ratio above 16 comes near, at which sweeps do not converge: the light
+/// body penetrated the floor by 0.14 m.
 #[test]
 fn a_light_body_of_the_engine_bears_a_heavy_one_that_falls_on_it() {
     let mut world = world();

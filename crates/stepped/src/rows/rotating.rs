@@ -56,7 +56,8 @@ impl RotatingRows {
         });
     }
 
-    /// Adds a row whose gap changes to second order in a tick of `tick` seconds, and that may push in it; `extent`: that of the smaller piece, in m.
+    /// Adds a row that may close within a tick of `tick` seconds and whose gap changes to second order in it; `extent` of the smaller
+    /// piece, in m.
     pub(crate) fn add(
         &mut self,
         (block, lane): (&Block, usize),
