@@ -209,7 +209,7 @@ impl Engine {
     }
 
     /// Makes where bodies are their base poses, if that is far from these, and their boxes anew.
-    fn rebase(&mut self) {
+    pub(crate) fn rebase(&mut self) {
         self.bodies.rebase(self.settings.tick);
         self.pose_moved();
     }

@@ -162,8 +162,10 @@ impl Engine {
             if let Some(moved) = moved {
                 self.graph.renumber(&self.bodies, moved);
             }
+            // Others meet it where it lies: it has no line to tell how far that is from its base pose.
             let record = &self.bodies.records[slot as usize];
             for piece in record.first_piece..record.first_piece + record.pieces {
+                self.pieces.pose(piece, record.pose);
                 self.broad.stand(piece, self.pieces.boxes[piece as usize]);
             }
         }
@@ -197,6 +199,7 @@ impl Engine {
             let record = &mut self.bodies.records[sleeper.slot as usize];
             record.island = Bodies::NONE;
             for piece in record.first_piece..record.first_piece + record.pieces {
+                self.pieces.pose(piece, sleeper.base);
                 self.broad.leave(piece);
             }
         }

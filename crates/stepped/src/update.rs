@@ -160,7 +160,8 @@ pub(crate) fn met_asleep(
         } else {
             bodies.limits[line].tolerance
         };
-        let near = |found: &Manifold| found.gap() < scene.closes(pair, found) + seen;
+        // What carries a body at rest goes on to.
+        let near = |found: &Manifold| scene.gap_ahead(pair, found, !rests) < seen;
         let met = |pair| scene.contact(pair, 1.0).is_some_and(|found| near(&found));
         if pieces.surface(pair, rules).is_some() && met(pair) {
             islands.push(island);

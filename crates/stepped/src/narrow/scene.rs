@@ -114,4 +114,29 @@ impl Scene<'_> {
         let went = if second < went { second } else { went };
         (-least).max(0.0) * self.settings.tick - went
     }
+
+    /// The least gap at the next tick, in m, if velocities stay but, if it `falls`, for gravity: each point goes its own way.
+    pub(crate) fn gap_ahead(&self, pair: [u32; 2], found: &Manifold, falls: bool) -> f64 {
+        let lines = pair.map(|piece| self.line_of(piece));
+        let [a, b] = lines.map(|line| &self.bodies.lines[line]);
+        let pull = if falls {
+            self.bodies.pull[lines[1]].v() - self.bodies.pull[lines[0]].v()
+        } else {
+            Vec2::ZERO
+        };
+        let tick = self.settings.tick;
+        let ahead = |k: usize| {
+            let along = if k == 0 { 0.0 } else { found.length };
+            let (arm_a, arm_b) = (found.arm_a + along, found.arm_b + along);
+            let way = |d: Vec2, turn_a: f64, turn_b: f64| {
+                found.normal.dot(d) + arm_b * turn_b - arm_a * turn_a
+            };
+            let went = way(b.d() - a.d(), a.turn(), b.turn());
+            let speed = way(b.v() - a.v() + pull * tick, a.w(), b.w());
+            found.gaps[k] + went + speed.min(0.0) * tick
+        };
+        (1..usize::from(found.points))
+            .map(ahead)
+            .fold(ahead(0), f64::min)
+    }
 }

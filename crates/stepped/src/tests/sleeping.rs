@@ -4,6 +4,7 @@ use carom_geometry::{ConvexPolygon, Polygon};
 use carom_math::{Rot, Vec2, vec2};
 
 use super::{Random, floor, pyramid, unit_box};
+use crate::narrow::Scene;
 use crate::{BodyId, BodyInput, BodyKind, Engine, Material, PieceInput, Settings};
 
 #[test]
@@ -64,6 +65,65 @@ fn what_rests_beside_sleepers_lets_them_sleep() {
             .iter()
             .all(|id| engine.is_asleep(*id).unwrap())
     );
+}
+
+/// Their pieces kept the rotation of the last base pose: whatever lay beside them met or missed them by up to a tolerance.
+#[test]
+fn the_pieces_of_sleepers_are_turned_as_their_bodies() {
+    let mut engine = Engine::new(Settings::default()).unwrap();
+    floor(&mut engine);
+    let mut tilted = BodyInput::dynamic(1.0, 1.0 / 6.0).at(vec2(0.0, 0.505));
+    tilted.pose.rotation = Rot::from_angle(0.004);
+    let id = engine.insert(tilted, &[unit_box()]).unwrap();
+    let corner = |engine: &Engine| {
+        let piece = engine.bodies.records[id.slot as usize].first_piece;
+        engine.pieces.turned(piece).corner(0)
+    };
+    for _ in 0..120 {
+        engine.tick();
+    }
+    assert!(engine.is_asleep(id).unwrap());
+    let laid = corner(&engine);
+    engine.wake(id).unwrap();
+    let based = corner(&engine);
+    let turned = based.angle_to(laid);
+    let angle = engine.bodies.lines[engine.bodies.line_of(id.slot)].turn();
+    assert!(
+        angle.abs() > 1e-3,
+        "nothing to see: {angle:e} rad since the base pose"
+    );
+    assert!((turned - angle).abs() < 1e-9, "{turned:e} {angle:e}");
+}
+
+/// The least gap of two points and the least way of two points were added, whichever point each belonged to: of two boxes that
+/// had turned by little each woke the other when it fell asleep, half a second later the other way round, for ever.
+#[test]
+fn the_gap_ahead_is_that_of_a_point_and_its_own_way() {
+    let mut random = Random::new(7);
+    for _ in 0..200 {
+        let mut engine = Engine::new(Settings::default()).unwrap();
+        let gap = 3e-3 * random.next();
+        let mut put = |y: f64| {
+            let input = BodyInput::dynamic(1.0, 1.0 / 6.0).at(vec2(0.0, y));
+            engine.insert(input, &[unit_box()]).unwrap()
+        };
+        let (low, high) = (put(0.0), put(1.0 + gap));
+        engine.rebase();
+        let line = engine.bodies.line_of(high.slot);
+        let (way, turn) = (1e-3 * random.signed(), 4e-3 * random.signed());
+        engine.bodies.lines[line].set_displacement(vec2(0.0, way), turn);
+        let pair = [low, high].map(|id| engine.bodies.records[id.slot as usize].first_piece);
+        let scene = Scene {
+            bodies: &engine.bodies,
+            pieces: &engine.pieces,
+            settings: &engine.settings,
+        };
+        let found = scene.contact(pair, 1.0).expect("near");
+        let right = gap + way - 0.5 * turn.abs();
+        let ahead = scene.gap_ahead(pair, &found, false);
+        // Of second order in the angle.
+        assert!((ahead - right).abs() <= turn * turn, "{ahead:e} {right:e}");
+    }
 }
 
 #[test]
