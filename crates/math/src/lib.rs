@@ -1,6 +1,6 @@
 //! Answers where a point of one frame lies in another, and on which side of a line it lies.
 //!
-//! Vectors, rotations, poses, instants, exact predicates and compensated sums.
+//! Vectors, rotations, poses, instants, exact predicates, roots and compensated sums.
 //! Everything is `f64`, SI and radians; x points right, y up, and counter-clockwise is positive.
 //! The same input gives the same bits on every platform: trigonometry goes through [`trig`],
 //! nothing fuses a multiplication with an addition.
@@ -20,6 +20,7 @@ mod cross;
 mod hash;
 mod pose;
 mod predicate;
+mod roots;
 mod rot;
 mod sum;
 mod time;
@@ -33,6 +34,7 @@ pub use glam::{DVec2 as Vec2, dvec2 as vec2};
 pub use hash::StateHash;
 pub use pose::Pose;
 pub use predicate::orient2d;
+pub use roots::falling_root;
 pub use rot::Rot;
 pub use sum::{Sum, two_product, two_sum};
 pub use time::SimTime;

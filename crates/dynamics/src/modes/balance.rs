@@ -11,7 +11,8 @@
 
 use super::NotMine;
 use super::faces::{Face, Faces, Row, dot};
-use crate::impact::lemke::complementary;
+use crate::impact::dense::Factored;
+use crate::impact::lemke::{Solution, complementary};
 
 /// Accelerations below this part of what they are the difference of are none.
 const ROUNDING: f64 = 1e-11;
@@ -40,6 +41,8 @@ pub(super) struct Balance {
     pub(super) closed: Vec<[bool; 2]>,
     /// Touches that friction holds.
     pub(super) sticks: Vec<bool>,
+    /// Unknowns that the basis solves for.
+    pub(super) basic: Vec<bool>,
 }
 
 /// An unknown of the problem.
@@ -52,41 +55,114 @@ enum Unknown {
 
 /// Solves for accelerations and forces.
 pub(super) fn balance(faces: &Faces, tangents: &[Tangent]) -> Result<Balance, NotMine> {
-    let unknowns = unknowns(faces, tangents);
-    let columns: Vec<Vec<f64>> = unknowns
-        .iter()
-        .map(|unknown| column(faces, tangents, *unknown))
-        .collect();
-    let slides = tangents.iter().any(|t| matches!(t, Tangent::Slides(_)));
-    for (unknown, column) in unknowns.iter().zip(&columns) {
-        if let Unknown::Normal { face, point } = *unknown
-            && faces.list[face].normals[point].rate(column) <= 0.0
-        {
-            return Err(NotMine::Painleve);
+    Problem::of(faces, tangents)?.solve()
+}
+
+/// The complementarity problem of one configuration, w = M z + q: a unit of unknown j adds `columns[j]` to the accelerations.
+pub(super) struct Problem<'a> {
+    faces: &'a Faces,
+    tangents: &'a [Tangent],
+    unknowns: Vec<Unknown>,
+    columns: Vec<Vec<f64>>,
+    q: Vec<f64>,
+}
+
+/// What a basis gives: the unknowns that it solves for, the complements of the others, and scaled accelerations.
+pub(super) struct Basic {
+    /// z of an unknown of the basis, w of another one: all are at least 0 where the basis is that of a solution.
+    pub(super) margins: Vec<f64>,
+    pub(super) state: Vec<f64>,
+}
+
+impl<'a> Problem<'a> {
+    pub(super) fn of(faces: &'a Faces, tangents: &'a [Tangent]) -> Result<Self, NotMine> {
+        let unknowns = unknowns(faces, tangents);
+        let columns: Vec<Vec<f64>> = unknowns
+            .iter()
+            .map(|unknown| column(faces, tangents, *unknown))
+            .collect();
+        for (unknown, column) in unknowns.iter().zip(&columns) {
+            if let Unknown::Normal { face, point } = *unknown
+                && faces.list[face].normals[point].rate(column) <= 0.0
+            {
+                return Err(NotMine::Painleve);
+            }
         }
+        let q = unknowns.iter().map(|row| growth(faces, *row, &faces.free));
+        Ok(Self {
+            q: q.collect(),
+            faces,
+            tangents,
+            unknowns,
+            columns,
+        })
     }
-    let mut m = Vec::with_capacity(unknowns.len() * unknowns.len());
-    let mut q = Vec::with_capacity(unknowns.len());
-    for row in &unknowns {
-        let others = unknowns.iter().zip(&columns);
-        m.extend(others.map(|(other, column)| entry(faces, *row, *other, column)));
-        q.push(growth(faces, *row, &faces.free));
+
+    /// M, row i and column j.
+    fn entry(&self, i: usize, j: usize) -> f64 {
+        entry(
+            self.faces,
+            self.unknowns[i],
+            self.unknowns[j],
+            &self.columns[j],
+        )
     }
-    let failed = if slides {
-        NotMine::Painleve
-    } else {
-        NotMine::Unsolved
-    };
-    let z = complementary(&m, &q).ok_or(failed)?.z;
-    let mut state = faces.free.clone();
-    let mut sizes: Vec<f64> = faces.free.iter().map(|x| x.abs()).collect();
-    for (column, z) in columns.iter().zip(&z) {
-        for ((x, size), y) in state.iter_mut().zip(&mut sizes).zip(column) {
-            *x += z * y;
-            *size += (z * y).abs();
+
+    pub(super) fn solve(&self) -> Result<Balance, NotMine> {
+        let count = self.unknowns.len();
+        let places = (0..count).flat_map(|i| (0..count).map(move |j| (i, j)));
+        let m: Vec<f64> = places.map(|(i, j)| self.entry(i, j)).collect();
+        let slides = |tangent: &Tangent| matches!(tangent, Tangent::Slides(_));
+        let failed = if self.tangents.iter().any(slides) {
+            NotMine::Painleve
+        } else {
+            NotMine::Unsolved
+        };
+        let Solution { z, basic } = complementary(&m, &self.q).ok_or(failed)?;
+        let sizes = self.sum(&z, f64::abs);
+        let state = (self.sum(&z, |x| x), &*sizes);
+        let found = read(self.faces, self.tangents, &self.unknowns, &z, state);
+        found.map(|found| Balance { basic, ..found }).ok_or(failed)
+    }
+
+    /// Accelerations for these unknowns, or the sum of the sizes of their parts.
+    fn sum(&self, z: &[f64], part: impl Fn(f64) -> f64) -> Vec<f64> {
+        let mut sum: Vec<f64> = self.faces.free.iter().map(|x| part(*x)).collect();
+        for (column, z) in self.columns.iter().zip(z) {
+            for (x, y) in sum.iter_mut().zip(column) {
+                *x += part(z * y);
+            }
         }
+        sum
     }
-    read(faces, tangents, &unknowns, &z, (state, &sizes)).ok_or(failed)
+
+    /// What the basis of another configuration gives in this one; `None` where its unknowns depend on each other.
+    pub(super) fn with_basis(&self, basic: &[bool]) -> Option<Basic> {
+        let count = self.unknowns.len();
+        let held: Vec<usize> = (0..count).filter(|&i| basic[i]).collect();
+        let square = held.iter().flat_map(|&i| held.iter().map(move |&j| (i, j)));
+        let entries = square.map(|(i, j)| self.entry(i, j)).collect();
+        let factored = Factored::of(held.len(), entries)?;
+        if factored.least_pivot() <= f64::EPSILON {
+            return None;
+        }
+        let right: Vec<f64> = held.iter().map(|&i| -self.q[i]).collect();
+        let mut z = vec![0.0; count];
+        for (&i, value) in held.iter().zip(factored.solve(&right)) {
+            z[i] = value;
+        }
+        let margin = |i: usize| {
+            if basic[i] {
+                return z[i];
+            }
+            let parts = held.iter().map(|&j| self.entry(i, j) * z[j]);
+            self.q[i] + parts.sum::<f64>()
+        };
+        Some(Basic {
+            margins: (0..count).map(margin).collect(),
+            state: self.sum(&z, |x| x),
+        })
+    }
 }
 
 fn unknowns(faces: &Faces, tangents: &[Tangent]) -> Vec<Unknown> {
@@ -177,6 +253,7 @@ fn read(
         tangential: vec![0.0; count],
         closed: vec![[false; 2]; count],
         sticks: vec![false; count],
+        basic: Vec::new(),
     };
     for (unknown, z) in unknowns.iter().zip(z) {
         match *unknown {

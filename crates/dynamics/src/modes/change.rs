@@ -1,10 +1,10 @@
 //! The next change of a mode, from roots of quadratics.
 
-use super::balance::{Balance, Tangent, balance};
+use super::balance::{Balance, Basic, Problem, Tangent, balance};
 use super::faces::Faces;
 use super::{BodyMove, Cause, Change, Feature, ModeBody, NotMine, Touch, slip_rate, tangents};
 use arrayvec::ArrayVec;
-use carom_math::perp;
+use carom_math::{falling_root, perp};
 
 /// How far ahead a load that shifts is looked at where nothing else ends the mode, in s.
 const LOOK: f64 = 64.0;
@@ -17,6 +17,24 @@ const PARALLEL: f64 = 1e-9;
 
 /// Accelerations that differ by more than this part belong to another motion.
 const SAME: f64 = 1e-12;
+
+/// A force or an opening below this part of the largest one is rounding.
+const NOTHING: f64 = 1e-12;
+
+/// Bases that may follow one another between two looks; with more of them the instant is found by halving.
+const BASES: u32 = 8;
+
+/// Halvings of a stretch after which an instant is as near as it comes.
+const HALVINGS: u32 = 60;
+
+/// Steps of false position to where a motion parts.
+const PARTINGS: u32 = 6;
+
+/// Margins of a basis that may fall before the one that was found.
+const MARGINS: u32 = 4;
+
+/// How far beyond the end of a basis, as a part of the stretch, another one is sought.
+const BEYOND: f64 = 1e-6;
 
 /// The first instant at which something changes.
 pub(super) fn next(
@@ -177,23 +195,71 @@ impl Load<'_> {
     /// The first instant from which on the forces need another motion, seen at these `looks`.
     fn first_other_motion(&self, looks: impl IntoIterator<Item = f64>) -> Option<f64> {
         let mut good = 0.0;
+        let mut basis = self.found.basic.clone();
         for look in looks {
-            if self.goes_on(look) {
-                good = look;
-                continue;
+            if !self.goes_on(look, &mut basis) {
+                return Some(self.other_between(good, look, basis));
             }
-            let mut bad = look;
-            for _ in 0..60 {
-                let middle = 0.5 * (good + bad);
-                if self.goes_on(middle) {
-                    good = middle;
-                } else {
-                    bad = middle;
-                }
-            }
-            return Some(bad);
+            good = look;
         }
         None
+    }
+
+    /// The same between an instant from which it goes on with a basis, and one at which it does not.
+    fn other_between(&self, mut good: f64, mut bad: f64, mut basis: Vec<bool>) -> f64 {
+        for _ in 0..BASES {
+            if let Some(root) = self.basis_ends(&basis, (good, bad)) {
+                let beyond = root + BEYOND * (bad - root);
+                if self.goes_on(beyond, &mut basis) {
+                    // Another basis bears the load from there on.
+                    good = beyond;
+                    continue;
+                }
+                (good, bad) = (root, beyond);
+            }
+            if let Some(after) = self.parts_from(good, bad) {
+                return after;
+            }
+            break;
+        }
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (good + bad);
+            if self.goes_on(middle, &mut basis) {
+                good = middle;
+            } else {
+                bad = middle;
+            }
+        }
+        bad
+    }
+
+    /// Where the first margin of a basis falls through 0 in this stretch.
+    fn basis_ends(&self, basis: &[bool], (good, mut bad): (f64, f64)) -> Option<f64> {
+        let mut root = None;
+        // One margin nearly always; of several the first.
+        for _ in 0..MARGINS {
+            let margins = self.margins(bad, basis)?;
+            let size = margins.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+            let places = 0..margins.len();
+            let least = places.min_by(|&i, &j| margins[i].total_cmp(&margins[j]))?;
+            if margins[least] >= -NOTHING * size {
+                return root;
+            }
+            let above = self.margins(good, basis)?[least];
+            if above <= 0.0 {
+                return None;
+            }
+            let one = |t: f64| Some(self.margins(t, basis)?[least]);
+            bad = falling_root((good, above), (bad, margins[least]), one)?;
+            root = Some(bad);
+        }
+        None
+    }
+
+    fn margins(&self, after: f64, basis: &[bool]) -> Option<Vec<f64>> {
+        let faces = self.faces_at(after);
+        let problem = Problem::of(&faces, &self.tangents).ok()?;
+        Some(problem.with_basis(basis)?.margins)
     }
 
     /// Instants at which the load is looked at.
@@ -236,20 +302,57 @@ impl Load<'_> {
                 .all(|touch| (up(touch) - side).length() <= PARALLEL)
     }
 
-    /// Whether the accelerations are the same where the load is then.
-    fn goes_on(&self, after: f64) -> bool {
-        let (bodies, touches) = self.at(after);
-        let faces = Faces::new(&bodies, &touches);
-        let Ok(then) = balance(&faces, &self.tangents) else {
+    /// Whether the accelerations are the same where the load is then: with this basis, or with the one that takes its place.
+    fn goes_on(&self, after: f64, basis: &mut Vec<bool>) -> bool {
+        let faces = self.faces_at(after);
+        let Ok(problem) = Problem::of(&faces, &self.tangents) else {
             return false;
         };
-        let size = faces
-            .free
-            .iter()
-            .chain(&then.state)
-            .fold(0.0_f64, |most, x| most.max(x.abs()));
-        let both = then.state.iter().zip(&self.found.state);
-        both.map(|(x, y)| (x - y).abs()).fold(0.0, f64::max) <= SAME * size
+        if let Some(Basic { margins, state }) = problem.with_basis(basis) {
+            let size = margins.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+            let bears = margins.iter().all(|margin| *margin >= -NOTHING * size);
+            if bears && self.differs(&faces, &state) <= SAME {
+                return true;
+            }
+        }
+        let Ok(then) = problem.solve() else {
+            return false;
+        };
+        let same = self.differs(&faces, &then.state) <= SAME;
+        if same {
+            *basis = then.basic;
+        }
+        same
+    }
+
+    /// The first instant at which a motion that parts from `from` on, with the distance from there, counts as another one.
+    fn parts_from(&self, from: f64, mut after: f64) -> Option<f64> {
+        for _ in 0..PARTINGS {
+            let faces = self.faces_at(after);
+            let then = balance(&faces, &self.tangents).ok()?;
+            let differs = self.differs(&faces, &then.state);
+            if differs <= SAME {
+                return None;
+            }
+            if differs <= 4.0 * SAME {
+                return Some(after);
+            }
+            after = from + (after - from) * (2.0 * SAME / differs);
+        }
+        None
+    }
+
+    /// By what part the accelerations are others.
+    fn differs(&self, faces: &Faces, state: &[f64]) -> f64 {
+        let all = faces.free.iter().chain(state);
+        let size = all.fold(f64::MIN_POSITIVE, |most, x| most.max(x.abs()));
+        let both = state.iter().zip(&self.found.state);
+        both.map(|(x, y)| (x - y).abs()).fold(0.0, f64::max) / size
+    }
+
+    fn faces_at(&self, after: f64) -> Faces {
+        let (bodies, touches) = self.at(after);
+        Faces::new(&bodies, &touches)
     }
 
     /// Everybody where the present motions lead.

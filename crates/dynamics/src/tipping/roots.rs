@@ -1,6 +1,6 @@
 //! Where a mode ends: the first instant at which one of its margins falls to 0.
 
-use carom_math::Vec2;
+use carom_math::{Vec2, falling_root};
 
 use super::equations::{Equations, Workspace};
 use super::joint::{Margin, Place};
@@ -248,43 +248,15 @@ fn rise(margins: &mut Margins<'_>, i: usize, to: f64) -> Option<(f64, f64)> {
     None
 }
 
-/// Where margin `i` falls through 0 between two looks: false position with the Illinois rule, to the last bits.
+/// Where margin `i` falls through 0 between two looks.
 fn fall(
     margins: &mut Margins<'_>,
     i: usize,
-    (mut low, mut above): (f64, f64),
-    (mut high, mut below): (f64, f64),
+    above: (f64, f64),
+    below: (f64, f64),
 ) -> Option<(f64, Limit)> {
-    let mut side = 0;
-    for _ in 0..100 {
-        if high - low <= 4.0 * f64::EPSILON * high {
-            break;
-        }
-        let guess = low + (high - low) * (above / (above - below));
-        let middle = if guess > low && guess < high {
-            guess
-        } else {
-            0.5 * (low + high)
-        };
-        if !(middle > low && middle < high) {
-            break;
-        }
-        let value = margins.one(i, middle)?.value;
-        if value > 0.0 {
-            (low, above) = (middle, value);
-            if side == 1 {
-                below *= 0.5;
-            }
-            side = 1;
-        } else {
-            (high, below) = (middle, value);
-            if side == 2 {
-                above *= 0.5;
-            }
-            side = 2;
-        }
-    }
-    Some((high, margins.one(i, high)?.limit))
+    let root = falling_root(above, below, |t| Some(margins.one(i, t)?.value))?;
+    Some((root, margins.one(i, root)?.limit))
 }
 
 /// Heat by friction in the first `elapsed` seconds, in J: Gauss–Legendre in two halves.
