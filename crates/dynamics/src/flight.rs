@@ -20,7 +20,7 @@ use crate::state::BodyState;
 use crate::uncommon::Lag;
 pub(crate) use contact::{first_touch, first_touch_of_parts};
 use damped::damped;
-pub(crate) use integrate::{NODES, ROUNDS, STANDS};
+pub(crate) use integrate::{NODES, ROUNDS};
 use kepler::Conic;
 pub(crate) use law::{Flight, Turn};
 

@@ -28,7 +28,7 @@ pub(crate) const NODES: [f64; 8] = [
 pub(crate) const ROUNDS: u32 = 12;
 
 /// Change of the polynomial, as a part of the acceleration, at which it stands.
-pub(crate) const STANDS: f64 = 2.0 * f64::EPSILON;
+const STANDS: f64 = 2.0 * f64::EPSILON;
 
 /// Part of a stretch that may lie beyond a rim.
 const AT: f64 = 1e-12;

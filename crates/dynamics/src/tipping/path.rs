@@ -5,10 +5,20 @@
 use carom_math::{Rot, SimTime, Vec2, vec2};
 
 use super::joint::Place;
-use crate::flight::{NODES, ROUNDS, STANDS};
+use crate::flight::{NODES, ROUNDS};
 
 /// First guess of how far a body turns in a stretch, in rad.
 const TURN: f64 = 1.0 / 12.0;
+
+/// Nodes of the first rounds: a round brings the path nearer by a factor of a hundred and gains one degree, so that more nodes
+/// would tell no more.
+const STAGES: [&[usize]; 3] = [&[0, 5], &[0, 3, 6], &[0, 2, 4, 6, 7]];
+
+/// Nodes of the others.
+const ALL: [usize; 8] = [0, 1, 2, 3, 4, 5, 6, 7];
+
+/// Accelerations are known where what the next round would change is below this part of them: roundings of the terms are 1e-12.
+const STANDS: f64 = 1e-13;
 
 /// Where bodies are for a while, as polynomials of degree 9.
 #[derive(Clone, Debug)]
@@ -68,13 +78,13 @@ impl Path {
         let mut values: Vec<[f64; 8]> = first.iter().map(|x| [*x; 8]).collect();
         let mut places = Vec::with_capacity(places.len());
         while path.length >= shortest {
-            let stands = path.collocate(&mut f, (&mut values, &mut places), &scale);
-            let left_out = path.left_out(&scale);
-            if stands && left_out <= error * path.length {
+            let allowed = error * path.length;
+            let left_out = path.collocate(&mut f, (&mut values, &mut places), &scale, allowed);
+            if left_out.is_some_and(|left_out| left_out <= allowed) {
                 return Some(path);
             }
-            let ratio = error * path.length / left_out;
-            let shrink = if stands && ratio > 0.0 && ratio.is_finite() {
+            let ratio = left_out.map_or(0.0, |left_out| allowed / left_out);
+            let shrink = if ratio > 0.0 && ratio.is_finite() {
                 (0.9 * ratio.sqrt().sqrt().sqrt()).clamp(0.1, 0.8)
             } else {
                 0.25
@@ -84,14 +94,16 @@ impl Path {
         None
     }
 
-    /// Rounds of fixed-point iteration from constant accelerations; whether they came to an end. `values`: accelerations at the
-    /// nodes, those at the first given.
+    /// Rounds of fixed-point iteration from constant accelerations. What the path leaves out, in m; the rounds end as soon as it is
+    /// more than `allowed`, of which the first one knows the half. `None` where they do not converge. `values`: accelerations at the nodes, those at the
+    /// first given.
     fn collocate(
         &mut self,
         f: &mut impl FnMut(&[Place], &mut Vec<f64>) -> bool,
         (values, places): (&mut [[f64; 8]], &mut Vec<Place>),
         scale: &impl Fn(usize) -> f64,
-    ) -> bool {
+        allowed: f64,
+    ) -> Option<f64> {
         let begins = |values: &[f64; 8]| [values[0], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
         self.terms.clear();
         self.terms.extend(values.iter().map(begins));
@@ -100,43 +112,60 @@ impl Path {
         let sizes = values.iter().enumerate();
         let sizes = sizes.map(|(k, values)| (values[0] * scale(k)).abs());
         let size = sizes.fold(f64::MIN_POSITIVE, f64::max);
-        let mut before = f64::INFINITY;
         let mut found = Vec::with_capacity(values.len());
+        for nodes in STAGES {
+            self.round(f, (values, places, &mut found), scale, nodes)?;
+        }
+        let mut before = f64::INFINITY;
         for _ in 0..ROUNDS {
-            for (k, node) in NODES.into_iter().enumerate().skip(1) {
-                self.write_places(node * self.length, places);
-                if !f(places, &mut found) {
-                    return false;
-                }
-                for (values, found) in values.iter_mut().zip(&found) {
-                    values[k] = *found;
-                }
-            }
-            let mut change = 0.0_f64;
-            for (k, values) in values.iter().enumerate() {
-                if self.stays[k / 3] {
-                    continue;
-                }
-                let new = through(*values);
-                for (new, old) in new.iter().zip(&self.terms[k]) {
-                    change = change.max((new - old).abs() * scale(k));
-                }
-                self.terms[k] = new;
-                self.integrals[k] = integrated(&new);
-            }
-            if !change.is_finite() {
-                return false;
-            }
-            if change <= STANDS * size || change >= 0.5 * before && change <= 1e-11 * size {
-                return true;
+            let change = self.round(f, (values, places, &mut found), scale, &ALL)?;
+            let left_out = self.left_out(scale);
+            // The next round changes less by the same factor, until rounding is all that changes.
+            let factor = change / before;
+            let converges = factor > 0.0 && factor < 0.1 && change * factor <= STANDS * size;
+            let stands = change == 0.0 || change <= 1e-11 * size && factor >= 0.5;
+            if converges || stands || left_out > allowed {
+                return Some(left_out);
             }
             // A stretch that is too long gets no nearer.
             if change > before {
-                return false;
+                return None;
             }
             before = change;
         }
-        false
+        None
+    }
+
+    /// A round with these nodes: by how much the terms change at most; `None` where there are no accelerations.
+    fn round(
+        &mut self,
+        f: &mut impl FnMut(&[Place], &mut Vec<f64>) -> bool,
+        (values, places, found): (&mut [[f64; 8]], &mut Vec<Place>, &mut Vec<f64>),
+        scale: &impl Fn(usize) -> f64,
+        nodes: &[usize],
+    ) -> Option<f64> {
+        for &k in &nodes[1..] {
+            self.write_places(NODES[k] * self.length, places);
+            if !f(places, found) {
+                return None;
+            }
+            for (values, found) in values.iter_mut().zip(&*found) {
+                values[k] = *found;
+            }
+        }
+        let mut change = 0.0_f64;
+        for (k, values) in values.iter().enumerate() {
+            if self.stays[k / 3] {
+                continue;
+            }
+            let new = through(values, nodes);
+            for (new, old) in new.iter().zip(&self.terms[k]) {
+                change = change.max((new - old).abs() * scale(k));
+            }
+            self.terms[k] = new;
+            self.integrals[k] = integrated(&new);
+        }
+        change.is_finite().then_some(change)
     }
 
     /// What the path lacks, at most, in m.
@@ -231,20 +260,23 @@ fn integrated(terms: &[f64; 8]) -> [[f64; 2]; 8] {
     })
 }
 
-/// Coefficients of the polynomial through values at the nodes: Newton's divided differences, multiplied out.
-fn through(values: [f64; 8]) -> [f64; 8] {
-    let mut differences = values;
-    for order in 1..8 {
-        for k in (order..8).rev() {
-            let span = NODES[k] - NODES[k - order];
+/// Coefficients of the polynomial through the values at these nodes: Newton's divided differences, multiplied out.
+fn through(values: &[f64; 8], nodes: &[usize]) -> [f64; 8] {
+    let mut differences = [0.0; 8];
+    for (difference, &node) in differences.iter_mut().zip(nodes) {
+        *difference = values[node];
+    }
+    for order in 1..nodes.len() {
+        for k in (order..nodes.len()).rev() {
+            let span = NODES[nodes[k]] - NODES[nodes[k - order]];
             differences[k] = (differences[k] - differences[k - 1]) / span;
         }
     }
     let mut terms = [0.0; 8];
-    for (difference, node) in differences.iter().zip(NODES).rev() {
+    for (difference, &node) in differences.iter().zip(nodes).rev() {
         for k in (0..8).rev() {
             let below = if k > 0 { terms[k - 1] } else { 0.0 };
-            terms[k] = below - terms[k] * node;
+            terms[k] = below - terms[k] * NODES[node];
         }
         terms[0] += *difference;
     }
