@@ -100,13 +100,24 @@ impl World {
             (state.course.flies, state.course.glides) = (true, true);
             state.set_piece(until);
             self.note_flight(index);
+        }
+        self.glide_on_all(place, time);
+        true
+    }
+
+    /// The next pieces of the members of a group that glides, and their impacts.
+    pub(super) fn glide_on_all(&mut self, place: u32, time: SimTime) {
+        let Some(group) = self.closed.get(place) else {
+            return;
+        };
+        let members: Vec<u32> = group.members.iter().map(|(index, _)| *index).collect();
+        for &index in &members {
             self.glide_on(index, time);
         }
         self.renew_members(place);
         for index in members {
             self.foresee(index, time, Cause::Deflected, None);
         }
-        true
     }
 
     /// The next piece of the path of a member of a group that turns.

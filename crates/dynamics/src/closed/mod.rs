@@ -82,8 +82,10 @@ impl World {
         if group.sleeps {
             return self.lull(place, time);
         }
-        let (speed, glides) = (group.speed, group.glides);
-        let landing = group.landing();
+        let (speed, glides, landing) = (group.speed, group.glides, group.landing());
+        if self.continue_path(place, time) {
+            return;
+        }
         let members = self.dissolve(place, time);
         if let Some((pair, normal, at)) = landing {
             self.comes_down(pair, normal, at, time);
@@ -175,12 +177,7 @@ impl World {
     }
 
     fn judge_all(&mut self, members: &[u32], time: SimTime, speed: f64) {
-        // Every call counts for some body that had not been judged too often: they come to an end.
-        let limits = (self.clock.h, self.settings.mode);
-        let bodies = u32::try_from(members.len()).unwrap_or(u32::MAX);
-        let stalls = |index: &&u32| self.closed.stalls(**index, bodies, time, limits);
-        let stalled = members.iter().filter(stalls).count() > 0;
-        if stalled {
+        if self.stalls(members, time) {
             self.set_free(members, time);
         } else {
             for &index in members {
@@ -193,6 +190,15 @@ impl World {
         if !members.iter().all(feels) {
             self.drop_forces(members, time);
         }
+    }
+
+    /// Counts a mode solve of an island: every one counts for some body that had not been judged too often, so they come to an
+    /// end.
+    fn stalls(&mut self, members: &[u32], time: SimTime) -> bool {
+        let limits = (self.clock.h, self.settings.mode);
+        let bodies = u32::try_from(members.len()).unwrap_or(u32::MAX);
+        let stalls = |index: &&u32| self.closed.stalls(**index, bodies, time, limits);
+        members.iter().filter(stalls).count() > 0
     }
 
     /// Judges all that touches a body, and whoever touches that, and so on.

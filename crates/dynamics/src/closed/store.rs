@@ -176,7 +176,7 @@ impl Group {
     /// The pair whose corner comes down at the next change, the normal from A to B, and where.
     pub(super) fn landing(&self) -> Option<(u32, Vec2, Vec2)> {
         match self.tipping.as_ref()?.tip.ends {
-            Ends::Changes => None,
+            Ends::Known | Ends::Changes => None,
             Ends::Lands {
                 contact,
                 normal,
@@ -271,6 +271,14 @@ impl Closed {
             self.changes.push(Reverse((time, place, self.stamp)));
         }
         place
+    }
+
+    /// The next change of a group that goes on.
+    pub(super) fn changes_at(&mut self, place: u32, change: SimTime) {
+        if let Some((stamp, group)) = &mut self.groups[place as usize] {
+            group.until = Some(change);
+            self.changes.push(Reverse((change, place, *stamp)));
+        }
     }
 
     /// Places of the groups that turn in sub-steps.

@@ -142,6 +142,49 @@ impl World {
         Ok(())
     }
 
+    /// A group that turns goes on with the next stretch of its path; whether it does.
+    pub(super) fn continue_path(&mut self, place: u32, time: SimTime) -> bool {
+        let Some(group) = self.closed.get(place) else {
+            return false;
+        };
+        let stands = |&(index, version): &(u32, u32)| self.bodies.version(index) == version;
+        if !group.members.iter().all(stands) {
+            return false;
+        }
+        let Some(tip) = group
+            .tipping
+            .as_ref()
+            .and_then(|of| of.tip.next(group.speed))
+        else {
+            return false;
+        };
+        let (glides, heat) = (group.glides, group.works(time - group.since).0);
+        let members: Vec<u32> = group.members.iter().map(|(index, _)| *index).collect();
+        self.report.modes_solved += 1;
+        if self.stalls(&members, time) {
+            return false;
+        }
+        self.bodies.book.friction.add(heat);
+        self.bodies.book.scheme.add(heat);
+        let change = time + tip.after;
+        if let Some(group) = self.closed.get_mut(place) {
+            group.since = time;
+            if let Some(tipping) = &mut group.tipping {
+                tipping.tip = Arc::new(tip);
+            }
+        }
+        self.closed.changes_at(place, change);
+        if glides {
+            self.glide_on_all(place, time);
+        } else {
+            self.lay_pieces(place, time, self.clock.next() - time);
+            for index in members {
+                self.redirect(index, time);
+            }
+        }
+        true
+    }
+
     /// Pieces of motion for the coming sub-step of all groups that turn.
     pub(crate) fn follow_tips(&mut self, time: SimTime, h: f64) {
         self.report_astray(time);

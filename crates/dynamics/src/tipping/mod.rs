@@ -71,7 +71,9 @@ pub(crate) struct Hold {
 /// Why a path ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Ends {
-    /// A mode changes, or the stretch is over: the group is judged anew.
+    /// The path is known no further.
+    Known,
+    /// A mode changes: the group is judged anew.
     Changes,
     /// A corner comes down on the edge of a contact.
     Lands {
@@ -88,12 +90,30 @@ pub(crate) enum Ends {
 pub(crate) struct Tip {
     pub(crate) path: Path,
     pub(crate) equations: Equations,
+    /// Of the bodies, in m; 0 of those of infinite mass.
+    reaches: Vec<f64>,
     /// In s from the start of the path.
     pub(crate) after: f64,
     pub(crate) ends: Ends,
 }
 
 impl Tip {
+    /// The next stretch of a path that is known no further, while all modes go on.
+    pub(crate) fn next(&self, speed: f64) -> Option<Self> {
+        if self.ends != Ends::Known {
+            return None;
+        }
+        let places = self.path.places_after(self.after);
+        let mut bodies = self.equations.bodies.clone();
+        for (body, place) in bodies.iter_mut().zip(&places) {
+            (body.centre, body.velocity, body.spin) = (place.centre, place.velocity, place.spin);
+        }
+        let contacts = self.equations.contacts.clone();
+        let start = self.path.start + self.after;
+        let next = tip(&bodies, &places, &self.reaches, contacts, start, speed).ok()?;
+        (next.equations.holds == self.equations.holds).then_some(next)
+    }
+
     /// Heat by friction in the first `elapsed` seconds, in J.
     pub(crate) fn heat(&self, elapsed: f64) -> f64 {
         heat(&self.equations, &self.path, elapsed)
@@ -246,11 +266,13 @@ pub(crate) fn tip(
                 normal,
                 at,
             },
-            _ => Ends::Changes,
+            Some(_) => Ends::Changes,
+            None => Ends::Known,
         };
         return Ok(Tip {
             path,
             equations,
+            reaches: reaches.to_vec(),
             after,
             ends,
         });
