@@ -6,7 +6,7 @@
 
 use carom_math::Vec2;
 
-use super::body::ImpactBody;
+use super::body::{ImpactBody, Response};
 use super::coulomb::stop;
 use super::law::{ImpactLaw, poisson, stronge};
 use super::restitution::{Impulses, Return, gathered, give_back, power, push};
@@ -86,12 +86,22 @@ pub(super) fn reflections(
         }
         let some: Vec<SharedContact> = places.iter().map(|&k| contacts[k]).collect();
         let (next, pushes, sure) = reflected(law, &now, &some, common, zero);
-        for (&k, pushed) in places.iter().zip(pushes) {
+        for (&k, pushed) in places.iter().zip(&pushes) {
             total[k].0 += pushed.0;
             total[k].1 += pushed.1;
         }
         now = next;
         unsure |= !sure;
+        if pushes.iter().all(|pushed| *pushed == (0.0, 0.0)) {
+            // All further reflections would be this one. Beside a fast slip an approach below the rounding of the stop is no
+            // approach: `opened` ends it. Any other is one that nothing stops.
+            let yields = |shared: &SharedContact| {
+                let (a, b) = (&bodies[shared.a], &bodies[shared.b]);
+                Response::of(a, b, &shared.contact).k_nn > 0.0
+            };
+            exhausted = !(sure && some.iter().all(yields));
+            break;
+        }
     }
     if exhausted {
         let stopped = newton_rough(&now, &with_restitution(contacts, 0.0));
