@@ -74,12 +74,14 @@ pub(super) fn newton_rough(bodies: &[ImpactBody], contacts: &[SharedContact]) ->
 
 /// Reflections of all approaching contacts together, again and again until none approaches.
 ///
-/// Each gives back by one restitution for all: `common`, or else the mean of those that approach.
+/// Each gives back by one restitution for all: `common`, or else the mean of those that approach. `stop`: what
+/// [`newton_rough`] says at e = 0, if that is known; it is not counted again.
 pub(super) fn reflections(
     law: ImpactLaw,
     bodies: &[ImpactBody],
     contacts: &[SharedContact],
     common: Option<f64>,
+    mut stop: Option<SharedOutcome>,
 ) -> SharedOutcome {
     let zero = rounding(bodies, contacts);
     let mut total: Impulses = vec![(0.0, 0.0); contacts.len()];
@@ -94,7 +96,8 @@ pub(super) fn reflections(
             break;
         }
         let some: Vec<SharedContact> = places.iter().map(|&k| contacts[k]).collect();
-        let next = reflected(law, &now, &some, common, zero);
+        let known = stop.take().filter(|_| places.len() == contacts.len());
+        let next = reflected(law, &now, &some, common, zero, known);
         for (&k, pushed) in places.iter().zip(&next.pushes) {
             total[k].0 += pushed.0;
             total[k].1 += pushed.1;
@@ -140,6 +143,7 @@ fn reflected(
     contacts: &[SharedContact],
     common: Option<f64>,
     zero: f64,
+    known: Option<SharedOutcome>,
 ) -> Reflected {
     let rule = match law {
         ImpactLaw::Poisson => EndRule::Impulse,
@@ -163,7 +167,14 @@ fn reflected(
             operations: SINGLE,
         };
     }
-    let stopped = newton_rough(bodies, &with_restitution(contacts, 0.0));
+    let (stopped, counted) = match known {
+        Some(stopped) => (stopped, 0),
+        None => {
+            let stopped = newton_rough(bodies, &with_restitution(contacts, 0.0));
+            let operations = stopped.operations;
+            (stopped, operations)
+        }
+    };
     let presses = &stopped.normal_impulses;
     let restitution = common.unwrap_or_else(|| super::several::mean_restitution(contacts, presses));
     let impulses: Impulses = presses
@@ -199,7 +210,7 @@ fn reflected(
         bodies: after,
         pushes,
         sure: !stopped.exhausted,
-        operations: stopped.operations + operations,
+        operations: counted + operations,
     }
 }
 

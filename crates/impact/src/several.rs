@@ -114,7 +114,7 @@ pub fn several(
     match choice {
         Several::Blend => blend_by(law, bodies, contacts),
         Several::NewtonLcp => newton_lcp(bodies, contacts),
-        Several::Reflections => opened(reflections(law, bodies, contacts, None), contacts),
+        Several::Reflections => opened(reflections(law, bodies, contacts, None, None), contacts),
     }
 }
 
@@ -184,7 +184,7 @@ pub fn newton_lcp(bodies: &[ImpactBody], contacts: &[SharedContact]) -> SharedOu
 pub fn generalised_reflections(bodies: &[ImpactBody], contacts: &[SharedContact]) -> SharedOutcome {
     if is_rough(contacts) {
         return opened(
-            reflections(ImpactLaw::Stronge, bodies, contacts, Some(1.0)),
+            reflections(ImpactLaw::Stronge, bodies, contacts, Some(1.0), None),
             contacts,
         );
     }
@@ -302,14 +302,21 @@ fn blend_by(law: ImpactLaw, bodies: &[ImpactBody], contacts: &[SharedContact]) -
 }
 
 fn mixed(law: ImpactLaw, bodies: &[ImpactBody], contacts: &[SharedContact]) -> SharedOutcome {
-    let stuck = newton_lcp(bodies, &with_restitution(contacts, 0.0));
+    let still = with_restitution(contacts, 0.0);
+    let rough = is_rough(contacts);
+    // Reflections begin with the same stop, before it is opened.
+    let stop = rough.then(|| newton_rough(bodies, &still));
+    let stuck = match &stop {
+        Some(stop) => opened(stop.clone(), &still),
+        None => newton_lcp(bodies, &still),
+    };
     let e = mean_restitution(contacts, &stuck.normal_impulses);
     // What nothing stops gives nothing back; every reflection would ask for that stop again.
     if e <= 0.0 || stuck.exhausted {
         return stuck;
     }
-    let thrown = if is_rough(contacts) {
-        reflections(law, bodies, contacts, Some(1.0))
+    let thrown = if rough {
+        reflections(law, bodies, contacts, Some(1.0), stop)
     } else {
         generalised_reflections(bodies, contacts)
     };
