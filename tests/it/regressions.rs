@@ -35,6 +35,7 @@ mod a_stopped_body_comes_from_where_it_was;
 mod a_touch_that_opens_hides_no_other;
 mod a_velocity_that_is_set_is_not_thrown_on;
 mod a_wedged_body_is_not_shot_out;
+mod an_approach_hidden_by_a_slip_ends;
 mod an_impact_approaches;
 mod an_impact_as_slow_as_a_rounding_takes_no_time;
 mod an_impact_on_the_border_of_two_sub_steps_bounces;

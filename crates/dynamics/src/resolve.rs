@@ -22,7 +22,11 @@ pub(crate) enum Struck {
     /// what else the pair may strike with in this one is to be looked for beside it.
     Rests,
     /// These bodies have new motions.
-    Impact(Vec<u32>),
+    Impact {
+        changed: Vec<u32>,
+        /// Floating-point operations that it took.
+        operations: u64,
+    },
 }
 
 /// What becomes of an approach that turning brings back at once.
@@ -116,7 +120,10 @@ pub(crate) fn strike(
         shock.solve(settings, bodies, colliders, pairs, narrow);
     }
     shock.hold(pairs);
-    Struck::Impact(apply(bodies, entry.time, &shock, events, report))
+    Struck::Impact {
+        changed: apply(bodies, entry.time, &shock, events, report),
+        operations: shock.operations,
+    }
 }
 
 /// A touch that begins here is an event.

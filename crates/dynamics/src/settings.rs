@@ -38,7 +38,8 @@ pub struct Settings {
     /// When groups at rest fall asleep; `None`: never.
     pub sleep: Option<Sleep>,
     /// Most work in a tick, for each thousand bodies or fewer: events (impacts, ends of searches, changes of contact mode,
-    /// sub-steps; a piece of a law counts as 16) and pairs looked at by shape. A [step](crate::World::step) that needs more stops
+    /// sub-steps; a piece of a law counts as 16, an impact of several contacts as one for each thousand of its floating-point
+    /// operations) and pairs looked at by shape. A [step](crate::World::step) that needs more stops
     /// early between two events, and says so; the next one goes on.
     pub work: u64,
     /// How many replaced motions are kept for [`crate::World::pose_at`]; 0 keeps none.

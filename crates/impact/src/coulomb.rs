@@ -10,9 +10,10 @@
 //! Lemke's pivoting finds a solution, which exists (M. Anitescu, F. Potra 1997); where bodies
 //! are squeezed between others that do not yield none does, and sweeps end it.
 
+use super::body::ImpactBody;
 use super::pivots::pivoted;
 use super::rows::{Bound, Rows};
-use super::sweeps::swept;
+use super::sweeps::{TURN, swept};
 use crate::dense::Factored;
 
 /// Guesses before pivoting takes over; a pile of 32 contacts needs 5 to 8.
@@ -46,73 +47,246 @@ pub(super) enum Part {
     Low,
 }
 
-/// The impulses along all rows, in N·s, and the bodies after them.
-///
-/// Whether the conditions hold to rounding comes last: false where none can.
-pub(super) fn stop(rows: &Rows) -> (Vec<f64>, bool) {
-    let start = rows.speeds(&vec![0.0; rows.len()]);
-    let size = start.iter().fold(0.0, |most: f64, u| most.max(u.abs()));
-    if size == 0.0 {
-        return (vec![0.0; rows.len()], true);
-    }
-    let settled = |impulses: Vec<f64>, parts: Vec<Part>| settled(rows, &start, impulses, parts);
-    let still = || (vec![0.0; rows.len()], vec![Part::Off; rows.len()]);
-    let (none, off) = still();
-    let found = settled(none, off).or_else(|| {
-        let (near, parts) = pivoted(rows, &start)?;
-        polished(rows, &near, &parts, None).or_else(|| settled(near, parts))
-    });
-    let found = found.map_or_else(
-        || {
-            let near = swept(rows);
-            let parts = holding(rows, &near);
-            let found = polished(rows, &near, &parts, None);
-            let found = found.or_else(|| settled(near.clone(), parts));
-            // What cannot be polished may be an answer to rounding as it is.
-            let as_it_is = || answers(rows, &near, fastest(rows)).then(|| near.clone());
-            found.or_else(as_it_is).ok_or(near)
-        },
-        Ok,
-    );
-    match found {
+/// What stops contacts.
+#[derive(Clone, Debug)]
+pub(super) struct Stop {
+    /// Along all rows, in N·s.
+    pub(super) impulses: Vec<f64>,
+    /// Whether the conditions hold to rounding: false where none can.
+    pub(super) sure: bool,
+    /// Floating-point operations that it took, to a factor of a few.
+    pub(super) operations: u64,
+}
+
+/// The impulses along all rows that stop what approaches.
+pub(super) fn stop(rows: &Rows) -> Stop {
+    let mut solver = Solver::new(rows);
+    let found = if solver.fastest_scaled() == 0.0 {
+        Ok(vec![0.0; rows.len()])
+    } else {
+        solver.stop()
+    };
+    let (impulses, sure) = match found {
         Ok(impulses) => (rows.unscaled(&impulses).collect(), true),
         Err(near) => {
-            let share = dissipating(rows, &start, &near);
+            let share = solver.dissipating(&near);
             (rows.unscaled(&near).map(|j| share * j).collect(), false)
         }
-    }
-}
-
-/// Guesses from given impulses on, until a guess stands.
-fn settled(
-    rows: &Rows,
-    start: &[f64],
-    mut impulses: Vec<f64>,
-    mut parts: Vec<Part>,
-) -> Option<Vec<f64>> {
-    let zero = GUESSED * fastest(rows);
-    let mut speeds = along(rows, start, &impulses);
-    let mut system = None;
-    for _ in 0..GUESSES {
-        let next = guess(rows, &impulses, &speeds, &parts, zero);
-        if next == parts {
-            return polished(rows, &impulses, &parts, system);
-        }
-        let solved = System::new(rows, &next, COMPLIANCE)?;
-        impulses = solved.solve(start);
-        speeds = along(rows, start, &impulses);
-        (parts, system) = (next, Some(solved));
-    }
-    None
-}
-
-/// Scaled speeds after scaled impulses, to the rounding of K.
-fn along(rows: &Rows, start: &[f64], impulses: &[f64]) -> Vec<f64> {
-    let change = |(r, start): (usize, &f64)| {
-        let row = &rows.k[r * rows.len()..];
-        start + row.iter().zip(impulses).map(|(k, j)| k * j).sum::<f64>()
     };
-    start.iter().enumerate().map(change).collect()
+    Stop {
+        impulses,
+        sure,
+        operations: solver.operations,
+    }
+}
+
+/// A search for the stop of some rows, with what its guesses share.
+struct Solver<'a> {
+    rows: &'a Rows,
+    /// Scaled speeds before.
+    start: Vec<f64>,
+    /// Largest speed along a row before, in m/s.
+    fastest: f64,
+    /// The equations of the last guess that was solved for.
+    system: System,
+    /// Scaled speeds after the last impulses that were asked about.
+    speeds: Vec<f64>,
+    /// What these give to the bodies.
+    given: Vec<ImpactBody>,
+    operations: u64,
+}
+
+impl<'a> Solver<'a> {
+    fn new(rows: &'a Rows) -> Self {
+        let mut solver = Self {
+            rows,
+            start: Vec::new(),
+            fastest: 0.0,
+            system: System::default(),
+            speeds: Vec::new(),
+            given: Vec::new(),
+            // The matrix.
+            operations: (8 * rows.len() * rows.len()) as u64,
+        };
+        solver.speed_up(&vec![0.0; rows.len()]);
+        solver.start.clone_from(&solver.speeds);
+        let all = solver.start.iter().zip(&rows.scales);
+        solver.fastest = all.fold(0.0, |most: f64, (u, scale)| most.max((u * scale).abs()));
+        solver
+    }
+
+    fn fastest_scaled(&self) -> f64 {
+        self.start
+            .iter()
+            .fold(0.0, |most: f64, u| most.max(u.abs()))
+    }
+
+    /// Scaled impulses that meet the conditions; or else some that come near.
+    fn stop(&mut self) -> Result<Vec<f64>, Vec<f64>> {
+        let rows = self.rows;
+        let size = rows.len();
+        if let Some(found) = self.settled(vec![0.0; size], vec![Part::Off; size]) {
+            return Ok(found);
+        }
+        // About as many pivots as unknowns, of which friction has three.
+        self.operations += 2 * (3 * size as u64).pow(3);
+        if let Some((near, parts)) = pivoted(rows, &self.start) {
+            let found = self.polished(&near, &parts, false);
+            if let Some(found) = found.or_else(|| self.settled(near, parts)) {
+                return Ok(found);
+            }
+        }
+        let (near, operations) = swept(rows);
+        self.operations += operations;
+        let parts = holding(rows, &near);
+        let found = self.polished(&near, &parts, false);
+        if let Some(found) = found.or_else(|| self.settled(near.clone(), parts)) {
+            return Ok(found);
+        }
+        // What cannot be polished may be an answer to rounding as it is.
+        if self.answers(&near) {
+            Ok(near)
+        } else {
+            Err(near)
+        }
+    }
+
+    /// Guesses from given impulses on, until a guess stands.
+    fn settled(&mut self, mut impulses: Vec<f64>, mut parts: Vec<Part>) -> Option<Vec<f64>> {
+        let zero = GUESSED * self.fastest;
+        let mut next = Vec::new();
+        let mut speeds = Vec::new();
+        self.along(&impulses, &mut speeds);
+        let mut solved = false;
+        for _ in 0..GUESSES {
+            guess(self.rows, &impulses, &speeds, &parts, zero, &mut next);
+            if next == parts {
+                return self.polished(&impulses, &parts, solved);
+            }
+            if !self.fit(&next, COMPLIANCE) {
+                return None;
+            }
+            solved = true;
+            self.system.solve(self.rows, &self.start, &mut impulses);
+            self.along(&impulses, &mut speeds);
+            core::mem::swap(&mut parts, &mut next);
+        }
+        None
+    }
+
+    /// The equations of a guess; whether they have a solution.
+    fn fit(&mut self, parts: &[Part], compliance: f64) -> bool {
+        let fits = self.system.fit(self.rows, parts, compliance);
+        let (all, held) = (self.rows.len(), self.system.held.len());
+        self.operations += (2 * held * all + held * held * held / 3) as u64;
+        fits
+    }
+
+    /// Scaled speeds after scaled impulses, to the rounding of K.
+    fn along(&mut self, impulses: &[f64], to: &mut Vec<f64>) {
+        let rows = self.rows;
+        let change = |(r, start): (usize, &f64)| {
+            let row = &rows.k[r * rows.len()..];
+            start + row.iter().zip(impulses).map(|(k, j)| k * j).sum::<f64>()
+        };
+        to.clear();
+        to.extend(self.start.iter().enumerate().map(change));
+        self.operations += (rows.len() * rows.len()) as u64;
+    }
+
+    /// Scaled speeds after scaled impulses, to their own rounding.
+    fn speed_up(&mut self, impulses: &[f64]) {
+        self.rows
+            .speeds(impulses, &mut self.given, &mut self.speeds);
+        self.operations += (self.rows.len() * TURN) as u64;
+    }
+
+    /// The part of impulses, at most 1, up to which energy `j·u₀ + ½ jᵀ K j` only falls.
+    fn dissipating(&mut self, impulses: &[f64]) -> f64 {
+        let mut after = Vec::new();
+        self.along(impulses, &mut after);
+        let power =
+            |speeds: &[f64]| -> f64 { impulses.iter().zip(speeds).map(|(j, u)| j * u).sum() };
+        let (before, after) = (power(&self.start), power(&after));
+        if before >= 0.0 {
+            return 0.0;
+        }
+        if after <= 0.0 {
+            1.0
+        } else {
+            before / (before - after)
+        }
+    }
+
+    /// Impulses near an answer, to rounding: what they leave is taken away until it is no smaller; `solved`: by the equations
+    /// that are known already.
+    ///
+    /// Each time by the least impulses that do it, so loads that rows share stay shared as they are.
+    fn polished(&mut self, near: &[f64], parts: &[Part], mut solved: bool) -> Option<Vec<f64>> {
+        let fastest = self.fastest;
+        let mut best = near.to_vec();
+        for (impulse, part) in best.iter_mut().zip(parts) {
+            if *part == Part::Off {
+                *impulse = 0.0;
+            }
+        }
+        let mut least: Option<f64> = None;
+        let mut impulses = Vec::new();
+        for compliance in [COMPLIANCE, LEAST_COMPLIANCE] {
+            if !core::mem::take(&mut solved) && !self.fit(parts, compliance) {
+                return None;
+            }
+            impulses.clone_from(&best);
+            self.system.spread(self.rows, &mut impulses);
+            let mut last = f64::INFINITY;
+            for _ in 0..REFINEMENTS {
+                self.speed_up(&impulses);
+                let left = self.system.left(self.rows, &self.speeds);
+                if least.is_none_or(|least| left < least) {
+                    least = Some(left);
+                    best.clone_from(&impulses);
+                }
+                if left <= f64::EPSILON * fastest || left > 0.5 * last {
+                    break;
+                }
+                last = left;
+                self.system.refine(self.rows, &mut impulses, &self.speeds);
+            }
+            if least.is_some_and(|left| left <= 64.0 * f64::EPSILON * fastest) {
+                break;
+            }
+        }
+        // Signs and limits that are off by rounding alone.
+        for r in 0..self.rows.len() {
+            let limit = self.rows.limit(r, &best).max(0.0);
+            let least = if self.rows.rows[r].bound == Bound::Push {
+                0.0
+            } else {
+                -limit
+            };
+            best[r] = best[r].clamp(least, limit);
+        }
+        self.answers(&best).then_some(best)
+    }
+
+    /// Whether speeds meet the conditions; impulses are within their bounds already.
+    fn answers(&mut self, impulses: &[f64]) -> bool {
+        self.speed_up(impulses);
+        let rows = self.rows;
+        let rounding = rows.rounding(impulses);
+        (0..rows.len()).all(|r| {
+            let (j, u) = (impulses[r], self.speeds[r]);
+            let zero = (ANSWERED * self.fastest).max(rounding[r]);
+            let none = u.abs() * rows.scales[r] <= zero;
+            none || match rows.rows[r].bound {
+                Bound::Push => u > 0.0 && j == 0.0,
+                Bound::Friction(..) | Bound::Limit(_) => {
+                    // Held back by all that the limit gives.
+                    j * u <= 0.0 && j.abs() >= rows.limit(r, impulses) * (1.0 - ANSWERED)
+                }
+            }
+        })
+    }
 }
 
 /// The guess that impulses stand for.
@@ -131,24 +305,17 @@ fn holding(rows: &Rows, impulses: &[f64]) -> Vec<Part> {
     impulses.iter().enumerate().map(part).collect()
 }
 
-/// The part of impulses, at most 1, up to which energy `j·u₀ + ½ jᵀ K j` only falls.
-fn dissipating(rows: &Rows, start: &[f64], impulses: &[f64]) -> f64 {
-    let after = along(rows, start, impulses);
-    let power = |speeds: &[f64]| -> f64 { impulses.iter().zip(speeds).map(|(j, u)| j * u).sum() };
-    let (before, after) = (power(start), power(&after));
-    if before >= 0.0 {
-        return 0.0;
-    }
-    if after <= 0.0 {
-        1.0
-    } else {
-        before / (before - after)
-    }
-}
-
-/// Who holds, from `j − u`: within its bounds it is an impulse that held, beyond them a speed that is left.
-fn guess(rows: &Rows, impulses: &[f64], speeds: &[f64], before: &[Part], none: f64) -> Vec<Part> {
-    let mut parts = vec![Part::Off; rows.len()];
+/// What holds, from `j − u`: within its bounds it is an impulse that held, beyond them a speed that is left.
+fn guess(
+    rows: &Rows,
+    impulses: &[f64],
+    speeds: &[f64],
+    before: &[Part],
+    none: f64,
+    parts: &mut Vec<Part>,
+) {
+    parts.clear();
+    parts.resize(rows.len(), Part::Off);
     for r in 0..rows.len() {
         if rows.scales[r] == 0.0 {
             continue;
@@ -182,30 +349,41 @@ fn guess(rows: &Rows, impulses: &[f64], speeds: &[f64], before: &[Part], none: f
             Part::Hold
         };
     }
-    parts
 }
 
 /// The equations of a guess: `u_r = 0` wherever a row holds.
-struct System<'a> {
-    rows: &'a Rows,
+#[derive(Default)]
+struct System {
     parts: Vec<Part>,
     held: Vec<usize>,
     factored: Factored,
+    /// Place of each row among those that hold.
+    place: Vec<usize>,
+    entries: Vec<f64>,
+    right: Vec<f64>,
+    pushes: Vec<f64>,
 }
 
-impl<'a> System<'a> {
-    fn new(rows: &'a Rows, parts: &[Part], compliance: f64) -> Option<Self> {
+impl System {
+    /// `false` if there is no solution.
+    fn fit(&mut self, rows: &Rows, parts: &[Part], compliance: f64) -> bool {
         let size = rows.len();
-        let held: Vec<usize> = (0..size).filter(|&r| parts[r] == Part::Hold).collect();
-        let mut place = vec![usize::MAX; size];
-        for (at, &r) in held.iter().enumerate() {
-            place[r] = at;
+        self.parts.clear();
+        self.parts.extend_from_slice(parts);
+        self.held.clear();
+        self.held
+            .extend((0..size).filter(|&r| parts[r] == Part::Hold));
+        self.place.clear();
+        self.place.resize(size, usize::MAX);
+        for (at, &r) in self.held.iter().enumerate() {
+            self.place[r] = at;
         }
-        let n = held.len();
-        let mut entries = vec![0.0; n * n];
-        for (at, &r) in held.iter().enumerate() {
-            let (to, row) = (&mut entries[at * n..(at + 1) * n], &rows.k[r * size..]);
-            for (column, &s) in held.iter().enumerate() {
+        let n = self.held.len();
+        self.entries.clear();
+        self.entries.resize(n * n, 0.0);
+        for (at, &r) in self.held.iter().enumerate() {
+            let (to, row) = (&mut self.entries[at * n..(at + 1) * n], &rows.k[r * size..]);
+            for (column, &s) in self.held.iter().enumerate() {
                 to[column] = row[s];
             }
             // A row that slips pushes along with its normal row.
@@ -215,64 +393,61 @@ impl<'a> System<'a> {
                     continue;
                 };
                 if parts[normal] == Part::Hold {
-                    to[place[normal]] += sign * rows.factor(s) * row[s];
+                    to[self.place[normal]] += sign * rows.factor(s) * row[s];
                 }
             }
             to[at] += compliance;
         }
-        let factored = Factored::of(n, entries)?;
-        Some(Self {
-            rows,
-            parts: parts.to_vec(),
-            held,
-            factored,
-        })
+        self.factored.refactor(n, self.entries.iter().copied())
     }
 
     /// Scaled impulses that take `speeds` away where rows hold, given limits included.
-    fn solve(&self, start: &[f64]) -> Vec<f64> {
-        let mut impulses = vec![0.0; self.rows.len()];
+    fn solve(&mut self, rows: &Rows, start: &[f64], impulses: &mut Vec<f64>) {
+        impulses.clear();
+        impulses.resize(rows.len(), 0.0);
         for (r, part) in self.parts.iter().enumerate() {
-            if let (Bound::Limit(_), Some(sign)) = (self.rows.rows[r].bound, sign(*part)) {
-                impulses[r] = sign * self.rows.limit(r, &[]);
+            if let (Bound::Limit(_), Some(sign)) = (rows.rows[r].bound, sign(*part)) {
+                impulses[r] = sign * rows.limit(r, &[]);
             }
         }
-        let right: Vec<f64> = self
-            .held
-            .iter()
-            .map(|&r| {
-                let row = &self.rows.k[r * self.rows.len()..];
-                let given: f64 = row.iter().zip(&impulses).map(|(k, j)| k * j).sum();
-                -(start[r] + given)
-            })
-            .collect();
-        self.spread(&self.factored.solve(&right), &mut impulses);
-        impulses
+        self.right.clear();
+        self.right.extend(self.held.iter().map(|&r| {
+            let row = &rows.k[r * rows.len()..];
+            let given: f64 = row.iter().zip(&*impulses).map(|(k, j)| k * j).sum();
+            -(start[r] + given)
+        }));
+        self.push(rows, impulses);
     }
 
     /// Takes away what is left of `speeds`, once more.
-    fn refine(&self, impulses: &mut [f64], speeds: &[f64]) {
-        let right: Vec<f64> = self.held.iter().map(|&r| -speeds[r]).collect();
-        self.spread(&self.factored.solve(&right), impulses);
+    fn refine(&mut self, rows: &Rows, impulses: &mut [f64], speeds: &[f64]) {
+        self.right.clear();
+        self.right.extend(self.held.iter().map(|&r| -speeds[r]));
+        self.push(rows, impulses);
     }
 
-    /// Adds what the held rows push, and sets those that slip along with them.
-    fn spread(&self, pushes: &[f64], impulses: &mut [f64]) {
-        for (&r, push) in self.held.iter().zip(pushes) {
+    /// Adds the impulses that solve the equations for the right side.
+    fn push(&mut self, rows: &Rows, impulses: &mut [f64]) {
+        self.factored.solve_into(&self.right, &mut self.pushes);
+        for (&r, push) in self.held.iter().zip(&self.pushes) {
             impulses[r] += push;
         }
+        self.spread(rows, impulses);
+    }
+
+    /// Sets rows that slip along with their normal rows.
+    fn spread(&self, rows: &Rows, impulses: &mut [f64]) {
         for (r, part) in self.parts.iter().enumerate() {
-            if let (Bound::Friction(normal, _), Some(sign)) = (self.rows.rows[r].bound, sign(*part))
-            {
-                impulses[r] = sign * self.rows.factor(r) * impulses[normal];
+            if let (Bound::Friction(normal, _), Some(sign)) = (rows.rows[r].bound, sign(*part)) {
+                impulses[r] = sign * rows.factor(r) * impulses[normal];
             }
         }
     }
 
     /// Largest speed that is left where rows hold, in m/s.
-    fn left(&self, speeds: &[f64]) -> f64 {
+    fn left(&self, rows: &Rows, speeds: &[f64]) -> f64 {
         self.held.iter().fold(0.0, |most: f64, &r| {
-            most.max((speeds[r] * self.rows.scales[r]).abs())
+            most.max((speeds[r] * rows.scales[r]).abs())
         })
     }
 }
@@ -283,88 +458,4 @@ fn sign(part: Part) -> Option<f64> {
         Part::Low => Some(-1.0),
         Part::Off | Part::Hold => None,
     }
-}
-
-/// Impulses near an answer, to rounding: what they leave is taken away until it is no smaller, by
-/// the equations that are known already, if they are.
-///
-/// Each time by the least impulses that do it, so loads that rows share stay shared as they are.
-fn polished(
-    rows: &Rows,
-    near: &[f64],
-    parts: &[Part],
-    mut known: Option<System<'_>>,
-) -> Option<Vec<f64>> {
-    let fastest = fastest(rows);
-    let mut near = near.to_vec();
-    for (impulse, part) in near.iter_mut().zip(parts) {
-        if *part == Part::Off {
-            *impulse = 0.0;
-        }
-    }
-    let mut best: Option<(f64, Vec<f64>)> = None;
-    for compliance in [COMPLIANCE, LEAST_COMPLIANCE] {
-        let system = match known.take() {
-            Some(system) => system,
-            None => System::new(rows, parts, compliance)?,
-        };
-        let mut impulses = best.as_ref().map_or(&near, |(_, held)| held).clone();
-        system.spread(&[], &mut impulses);
-        let mut last = f64::INFINITY;
-        for _ in 0..REFINEMENTS {
-            let speeds = rows.speeds(&impulses);
-            let left = system.left(&speeds);
-            if best.as_ref().is_none_or(|(least, _)| left < *least) {
-                best = Some((left, impulses.clone()));
-            }
-            if left <= f64::EPSILON * fastest || left > 0.5 * last {
-                break;
-            }
-            last = left;
-            system.refine(&mut impulses, &speeds);
-        }
-        if best
-            .as_ref()
-            .is_some_and(|(left, _)| *left <= 64.0 * f64::EPSILON * fastest)
-        {
-            break;
-        }
-    }
-    let (_, mut impulses) = best?;
-    // Signs and limits that are off by rounding alone.
-    for r in 0..rows.len() {
-        let limit = rows.limit(r, &impulses).max(0.0);
-        let least = if rows.rows[r].bound == Bound::Push {
-            0.0
-        } else {
-            -limit
-        };
-        impulses[r] = impulses[r].clamp(least, limit);
-    }
-    answers(rows, &impulses, fastest).then_some(impulses)
-}
-
-/// Largest speed along a row before, in m/s.
-fn fastest(rows: &Rows) -> f64 {
-    let speeds = rows.speeds(&vec![0.0; rows.len()]);
-    let all = speeds.iter().zip(&rows.scales);
-    all.fold(0.0, |most: f64, (u, scale)| most.max((u * scale).abs()))
-}
-
-/// Whether speeds meet the conditions; impulses are within their bounds already.
-fn answers(rows: &Rows, impulses: &[f64], fastest: f64) -> bool {
-    let speeds = rows.speeds(impulses);
-    let rounding = rows.rounding(impulses);
-    (0..rows.len()).all(|r| {
-        let (j, u) = (impulses[r], speeds[r]);
-        let zero = (ANSWERED * fastest).max(rounding[r]);
-        let none = u.abs() * rows.scales[r] <= zero;
-        none || match rows.rows[r].bound {
-            Bound::Push => u > 0.0 && j == 0.0,
-            Bound::Friction(..) | Bound::Limit(_) => {
-                // Held back by all that the limit gives.
-                j * u <= 0.0 && j.abs() >= rows.limit(r, impulses) * (1.0 - ANSWERED)
-            }
-        }
-    })
 }

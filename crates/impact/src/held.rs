@@ -1,7 +1,7 @@
 //! Contacts that are held: what opens at a given speed at least, against Coulomb's friction, by a common stop.
 
 use super::body::ImpactBody;
-use super::coulomb::stop;
+use super::coulomb::{Stop, stop};
 use super::rows::{Bound, Rows, contact_rows};
 use super::several::SharedContact;
 
@@ -34,7 +34,11 @@ pub fn held(bodies: &[ImpactBody], contacts: &[SharedContact], asked: &[(f64, f6
         });
     }
     rows.ask(&wanted);
-    let (found, sure) = stop(&rows);
+    let Stop {
+        impulses: found,
+        sure,
+        ..
+    } = stop(&rows);
     let mut after = bodies.to_vec();
     let mut impulses: Vec<(f64, f64)> = Vec::with_capacity(contacts.len());
     for (row, impulse) in rows.rows.iter().zip(found) {

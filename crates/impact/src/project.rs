@@ -22,6 +22,8 @@ pub(crate) struct Nearest {
     pub(crate) point: Vec<f64>,
     /// λ of every row, ≥ 0.
     pub(crate) multipliers: Vec<f64>,
+    /// Floating-point operations on the way.
+    pub(crate) operations: u64,
 }
 
 /// The point nearest to `start` that meets all bounds.
@@ -38,9 +40,11 @@ pub(crate) fn nearest(
     let mut set = ActiveSet::new(kept, rows, start, bounds);
     set.settle(tolerance);
     let multipliers = set.shares();
+    let operations = set.operations;
     Nearest {
         point: set.polished(),
         multipliers,
+        operations,
     }
 }
 
@@ -67,6 +71,7 @@ struct ActiveSet<'a> {
     point: Vec<f64>,
     /// Rows that depend on the members of now and cannot be met, or are met but for rounding.
     hopeless: Vec<usize>,
+    operations: u64,
 }
 
 impl<'a> ActiveSet<'a> {
@@ -86,6 +91,7 @@ impl<'a> ActiveSet<'a> {
             start,
             point: start.to_vec(),
             hopeless: Vec::new(),
+            operations: 0,
         }
     }
 
@@ -93,6 +99,7 @@ impl<'a> ActiveSet<'a> {
     fn settle(&mut self, tolerance: f64) {
         // A row enters and leaves a few times at most; the bound is for rounding alone.
         for _ in 0..(20 + 10 * self.rows.len()) {
+            self.count(self.rows.len());
             match self.most_violated(tolerance) {
                 Some(row) => self.enter(row),
                 None => break,
@@ -122,9 +129,15 @@ impl<'a> ActiveSet<'a> {
         let multipliers = self.multipliers.split_off(place);
         self.basis.truncate(place);
         for (row, multiplier) in later.into_iter().zip(multipliers).skip(1) {
+            self.count(4 * self.members.len());
             let (column, own) = self.basis.reduce(&self.rows[row]);
             self.add(row, multiplier, column, own);
         }
+    }
+
+    /// Counts `products` of vectors.
+    const fn count(&mut self, products: usize) {
+        self.operations += (products * self.start.len()) as u64;
     }
 
     fn slack(&self, row: usize) -> f64 {
@@ -149,6 +162,7 @@ impl<'a> ActiveSet<'a> {
     fn enter(&mut self, row: usize) {
         let mut multiplier = 0.0;
         loop {
+            self.count(4 * self.members.len() + 4);
             let (column, own) = self.basis.reduce(&self.rows[row]);
             let shares = self.basis.shares(&column);
             let (length, whole) = (dot(&own, &own), dot(&self.rows[row], &self.rows[row]));

@@ -8,7 +8,7 @@
 use carom_math::{Vec2, cross, perp};
 
 use super::body::ImpactBody;
-use super::coulomb::stop;
+use super::coulomb::{Stop, stop};
 use super::rough::velocity;
 use super::routh::EndRule;
 use super::rows::{Bound, Row, Rows};
@@ -32,19 +32,20 @@ pub(super) struct Return<'a> {
     pub(super) zero: &'a [f64],
 }
 
-/// What restitution adds, and the bodies after it.
+/// What restitution adds, the bodies after it, and the operations that it took.
 pub(super) fn give_back(
     stopped: &[ImpactBody],
     contacts: &[SharedContact],
     presses: &[f64],
     how: &Return<'_>,
-) -> (Vec<ImpactBody>, Impulses) {
+) -> (Vec<ImpactBody>, Impulses, u64) {
     let e = how.restitution;
     let mut path = Path {
         contacts,
         presses,
         zero: how.zero,
         bodies: stopped.to_vec(),
+        operations: 0,
     };
     let mut work = e * e * how.work;
     let mut length = match how.rule {
@@ -75,7 +76,7 @@ pub(super) fn give_back(
             break;
         }
     }
-    (path.bodies, total)
+    (path.bodies, total, path.operations)
 }
 
 /// One straight piece, per unit of τ.
@@ -93,7 +94,11 @@ struct Path<'a> {
     presses: &'a [f64],
     zero: &'a [f64],
     bodies: Vec<ImpactBody>,
+    operations: u64,
 }
+
+/// Operations of a contact in a piece.
+const PIECE: usize = 128;
 
 impl Path<'_> {
     /// Direction in which contact k slips; 0 if it sticks.
@@ -107,7 +112,8 @@ impl Path<'_> {
     }
 
     /// What slips is held back by its limit; what sticks is held, if the limit allows it.
-    fn piece(&self) -> Piece {
+    fn piece(&mut self) -> Piece {
+        self.operations += (self.contacts.len() * PIECE) as u64;
         let mut rates: Vec<ImpactBody> = self.bodies.iter().map(ImpactBody::at_rest).collect();
         let mut impulses: Impulses = self.presses.iter().map(|press| (*press, 0.0)).collect();
         let mut slips = vec![true; self.contacts.len()];
@@ -125,7 +131,12 @@ impl Path<'_> {
         }
         if !rows.is_empty() {
             let held = Rows::new(&rates, rows);
-            let (holds, _) = stop(&held);
+            let Stop {
+                impulses: holds,
+                operations,
+                ..
+            } = stop(&held);
+            self.operations += operations;
             for (k, hold) in places.into_iter().zip(holds) {
                 let shared = &self.contacts[k];
                 slips[k] = hold.abs() >= shared.contact.friction * self.presses[k];

@@ -6,8 +6,8 @@
 
 use carom_math::Vec2;
 
-use super::body::ImpactBody;
-use super::coulomb::stop;
+use super::body::{ImpactBody, Response};
+use super::coulomb::{Stop, stop};
 use super::law::{ImpactLaw, poisson, stronge};
 use super::restitution::{Impulses, Return, gathered, give_back, power, push};
 use super::routh::EndRule;
@@ -20,6 +20,9 @@ const ROWS: usize = 64;
 
 /// Reflections before the rest is stopped.
 const REFLECTIONS: u32 = 200;
+
+/// Operations of an impact at one contact.
+pub(super) const SINGLE: u64 = 256;
 
 /// Whether friction has a part in it.
 pub(super) fn is_rough(contacts: &[SharedContact]) -> bool {
@@ -55,27 +58,35 @@ pub(super) fn newton_rough(bodies: &[ImpactBody], contacts: &[SharedContact]) ->
         });
     }
     rows.ask(&wanted);
-    let (impulses, sure) = if large {
-        (rows.unscaled(&swept(&rows)).collect(), false)
+    let stop = if large {
+        let (scaled, operations) = swept(&rows);
+        Stop {
+            impulses: rows.unscaled(&scaled).collect(),
+            sure: false,
+            operations,
+        }
     } else {
         stop(&rows)
     };
-    outcome(bodies, contacts, &by_contact(&rows, &impulses), !sure)
+    let impulses = by_contact(&rows, &stop.impulses);
+    outcome(bodies, contacts, &impulses, !stop.sure, stop.operations)
 }
 
 /// Reflections of all approaching contacts together, again and again until none approaches.
 ///
-/// Each gives back by one restitution for all: `common`, or else the mean of those that approach.
+/// Each gives back by one restitution for all: `common`, or else the mean of those that approach. `stop`: what
+/// [`newton_rough`] says at e = 0, if that is known; it is not counted again.
 pub(super) fn reflections(
     law: ImpactLaw,
     bodies: &[ImpactBody],
     contacts: &[SharedContact],
     common: Option<f64>,
+    mut stop: Option<SharedOutcome>,
 ) -> SharedOutcome {
     let zero = rounding(bodies, contacts);
     let mut total: Impulses = vec![(0.0, 0.0); contacts.len()];
     let mut now = bodies.to_vec();
-    let (mut exhausted, mut unsure) = (true, false);
+    let (mut exhausted, mut unsure, mut operations) = (true, false, 0);
     for _ in 0..REFLECTIONS {
         let places: Vec<usize> = (0..contacts.len())
             .filter(|&k| opening(&now, &contacts[k]) < -zero)
@@ -85,13 +96,25 @@ pub(super) fn reflections(
             break;
         }
         let some: Vec<SharedContact> = places.iter().map(|&k| contacts[k]).collect();
-        let (next, pushes, sure) = reflected(law, &now, &some, common, zero);
-        for (&k, pushed) in places.iter().zip(pushes) {
+        let known = stop.take().filter(|_| places.len() == contacts.len());
+        let next = reflected(law, &now, &some, common, zero, known);
+        for (&k, pushed) in places.iter().zip(&next.pushes) {
             total[k].0 += pushed.0;
             total[k].1 += pushed.1;
         }
-        now = next;
-        unsure |= !sure;
+        now = next.bodies;
+        unsure |= !next.sure;
+        operations += next.operations;
+        if next.pushes.iter().all(|pushed| *pushed == (0.0, 0.0)) {
+            // All further reflections would be this one. Beside a fast slip an approach below the rounding of the stop is no
+            // approach: `opened` ends it. Any other is one that nothing stops.
+            let yields = |shared: &SharedContact| {
+                let (a, b) = (&bodies[shared.a], &bodies[shared.b]);
+                Response::of(a, b, &shared.contact).k_nn > 0.0
+            };
+            exhausted = !(next.sure && some.iter().all(yields));
+            break;
+        }
     }
     if exhausted {
         let stopped = newton_rough(&now, &with_restitution(contacts, 0.0));
@@ -99,8 +122,18 @@ pub(super) fn reflections(
             sum.0 += stopped.normal_impulses[k];
             sum.1 += stopped.tangential_impulses[k];
         }
+        operations += stopped.operations;
     }
-    outcome(bodies, contacts, &total, exhausted || unsure)
+    outcome(bodies, contacts, &total, exhausted || unsure, operations)
+}
+
+/// What a reflection did.
+struct Reflected {
+    bodies: Vec<ImpactBody>,
+    pushes: Impulses,
+    /// Whether the stop that it began with meets its conditions.
+    sure: bool,
+    operations: u64,
 }
 
 /// One reflection: compression of all contacts to a stop, then restitution along Routh's path.
@@ -110,7 +143,8 @@ fn reflected(
     contacts: &[SharedContact],
     common: Option<f64>,
     zero: f64,
-) -> (Vec<ImpactBody>, Impulses, bool) {
+    known: Option<SharedOutcome>,
+) -> Reflected {
     let rule = match law {
         ImpactLaw::Poisson => EndRule::Impulse,
         ImpactLaw::Stronge | ImpactLaw::Newton => EndRule::Work,
@@ -126,9 +160,21 @@ fn reflected(
         let mut after = bodies.to_vec();
         (after[only.a], after[only.b]) = (outcome.a, outcome.b);
         let impulses = vec![(outcome.normal_impulse, outcome.tangential_impulse)];
-        return (after, impulses, true);
+        return Reflected {
+            bodies: after,
+            pushes: impulses,
+            sure: true,
+            operations: SINGLE,
+        };
     }
-    let stopped = newton_rough(bodies, &with_restitution(contacts, 0.0));
+    let (stopped, counted) = match known {
+        Some(stopped) => (stopped, 0),
+        None => {
+            let stopped = newton_rough(bodies, &with_restitution(contacts, 0.0));
+            let operations = stopped.operations;
+            (stopped, operations)
+        }
+    };
     let presses = &stopped.normal_impulses;
     let restitution = common.unwrap_or_else(|| super::several::mean_restitution(contacts, presses));
     let impulses: Impulses = presses
@@ -155,12 +201,17 @@ fn reflected(
         work: work.min(loss).max(0.0),
         zero: &noise,
     };
-    let (after, mut pushes) = give_back(&stopped.bodies, contacts, presses, &how);
+    let (after, mut pushes, operations) = give_back(&stopped.bodies, contacts, presses, &how);
     for (pushed, (n, t)) in pushes.iter_mut().zip(impulses) {
         pushed.0 += n;
         pushed.1 += t;
     }
-    (after, pushes, !stopped.exhausted)
+    Reflected {
+        bodies: after,
+        pushes,
+        sure: !stopped.exhausted,
+        operations: counted + operations,
+    }
 }
 
 /// Normal and tangential impulse of each contact.
@@ -182,6 +233,7 @@ fn outcome(
     contacts: &[SharedContact],
     impulses: &Impulses,
     exhausted: bool,
+    operations: u64,
 ) -> SharedOutcome {
     let mut after = bodies.to_vec();
     for (shared, impulse) in contacts.iter().zip(impulses) {
@@ -192,6 +244,7 @@ fn outcome(
         normal_impulses: impulses.iter().map(|impulse| impulse.0).collect(),
         tangential_impulses: impulses.iter().map(|impulse| impulse.1).collect(),
         exhausted,
+        operations,
     }
 }
 
@@ -229,8 +282,9 @@ pub(super) fn opened(mut found: SharedOutcome, contacts: &[SharedContact]) -> Sh
             OPENS * (speed(shared.a) + speed(shared.b))
         };
         rows.ask(&places.iter().map(asked).collect::<Vec<_>>());
-        let (impulses, _) = stop(&rows);
-        for (k, impulse) in places.into_iter().zip(impulses) {
+        let stopped = stop(&rows);
+        found.operations += stopped.operations;
+        for (k, impulse) in places.into_iter().zip(stopped.impulses) {
             push(&mut found.bodies, &contacts[k], (impulse, 0.0));
             found.normal_impulses[k] += impulse;
         }

@@ -160,10 +160,17 @@ impl Rows {
     }
 
     /// Speeds along the rows after scaled impulses, scaled; by way of the bodies, so that no
-    /// entry of K takes its rounding there.
-    pub(super) fn speeds(&self, impulses: &[f64]) -> Vec<f64> {
-        let after = self.pushed(impulses);
-        (0..self.len()).map(|r| self.speed(r, &after)).collect()
+    /// entry of K takes its rounding there. `given`: velocities that the impulses give to the bodies.
+    pub(super) fn speeds(&self, impulses: &[f64], given: &mut Vec<ImpactBody>, to: &mut Vec<f64>) {
+        given.clear();
+        given.extend_from_slice(&self.still);
+        for (row, impulse) in self.rows.iter().zip(self.unscaled(impulses)) {
+            if impulse != 0.0 {
+                row.push(given, impulse);
+            }
+        }
+        to.clear();
+        to.extend((0..self.len()).map(|r| self.speed(r, given)));
     }
 
     /// Scaled speed along a row where impulses gave bodies these velocities.
@@ -173,17 +180,6 @@ impl Rows {
         } else {
             0.0
         }
-    }
-
-    /// The bodies with what scaled impulses give them.
-    fn pushed(&self, impulses: &[f64]) -> Vec<ImpactBody> {
-        let mut after = self.still.clone();
-        for (k, impulse) in self.unscaled(impulses).enumerate() {
-            if impulse != 0.0 {
-                self.rows[k].push(&mut after, impulse);
-            }
-        }
-        after
     }
 
     /// What the rounding of scaled impulses and of the velocities before is worth along each row, in m/s: large impulses

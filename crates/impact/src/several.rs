@@ -11,7 +11,7 @@ use carom_math::{Vec2, cross, vec2};
 use super::body::{ImpactBody, ImpactContact, Response};
 use super::law::{ImpactLaw, resolve};
 use super::project::{Basis, nearest};
-use super::rough::{is_large, is_rough, newton_rough, opened, opening, reflections};
+use super::rough::{SINGLE, is_large, is_rough, newton_rough, opened, opening, reflections};
 
 /// Reflections before the rest is stopped: a wedge of angle θ takes π/θ of them, a row of a hundred
 /// discs a hundred.
@@ -41,6 +41,8 @@ pub struct SharedOutcome {
     /// and what still approached was stopped with a loss that e = 1 would not have had; or bodies are
     /// squeezed so that nothing meets all conditions, and some contact may still close.
     pub exhausted: bool,
+    /// Floating-point operations that it took, to a factor of a few: what bounds the work of a call charges for it.
+    pub operations: u64,
 }
 
 /// How contacts at one instant share an impact.
@@ -112,7 +114,7 @@ pub fn several(
     match choice {
         Several::Blend => blend_by(law, bodies, contacts),
         Several::NewtonLcp => newton_lcp(bodies, contacts),
-        Several::Reflections => opened(reflections(law, bodies, contacts, None), contacts),
+        Several::Reflections => opened(reflections(law, bodies, contacts, None, None), contacts),
     }
 }
 
@@ -140,6 +142,7 @@ fn single(
         normal_impulses: vec![0.0; contacts.len()],
         tangential_impulses: vec![0.0; contacts.len()],
         exhausted: false,
+        operations: SINGLE,
     };
     found.normal_impulses[only] = outcome.normal_impulse;
     found.tangential_impulses[only] = outcome.tangential_impulse;
@@ -181,13 +184,14 @@ pub fn newton_lcp(bodies: &[ImpactBody], contacts: &[SharedContact]) -> SharedOu
 pub fn generalised_reflections(bodies: &[ImpactBody], contacts: &[SharedContact]) -> SharedOutcome {
     if is_rough(contacts) {
         return opened(
-            reflections(ImpactLaw::Stronge, bodies, contacts, Some(1.0)),
+            reflections(ImpactLaw::Stronge, bodies, contacts, Some(1.0), None),
             contacts,
         );
     }
     let tolerance = tolerance(&opening_speeds(bodies, contacts));
     let mut impulses = vec![0.0; contacts.len()];
     let mut now = bodies.to_vec();
+    let mut operations = 0;
     for _ in 0..REFLECTIONS {
         let speeds = opening_speeds(&now, contacts);
         let approaching: Vec<usize> = (0..speeds.len())
@@ -199,14 +203,16 @@ pub fn generalised_reflections(bodies: &[ImpactBody], contacts: &[SharedContact]
                 tangential_impulses: vec![0.0; contacts.len()],
                 normal_impulses: impulses,
                 exhausted: false,
+                operations,
             };
         }
         let some: Vec<SharedContact> = approaching.iter().map(|&k| contacts[k]).collect();
-        let (next, pushes) = reflected(&now, &some, tolerance);
-        for (&k, j) in approaching.iter().zip(pushes) {
+        let next = reflected(&now, &some, tolerance);
+        for (&k, j) in approaching.iter().zip(next.normal_impulses) {
             impulses[k] += j;
         }
-        now = next;
+        now = next.bodies;
+        operations += next.operations;
     }
     let stopped = newton_lcp(&now, &with_restitution(contacts, 0.0));
     let all = impulses.iter().zip(stopped.normal_impulses);
@@ -215,32 +221,35 @@ pub fn generalised_reflections(bodies: &[ImpactBody], contacts: &[SharedContact]
         normal_impulses: all.map(|(before, j)| before + j).collect(),
         tangential_impulses: vec![0.0; contacts.len()],
         exhausted: true,
+        operations: operations + stopped.operations,
     }
 }
 
 /// Stops the contacts and goes on as far again.
-fn reflected(
-    bodies: &[ImpactBody],
-    contacts: &[SharedContact],
-    tolerance: f64,
-) -> (Vec<ImpactBody>, Vec<f64>) {
+fn reflected(bodies: &[ImpactBody], contacts: &[SharedContact], tolerance: f64) -> SharedOutcome {
     if let [only] = contacts {
         // j = −2 u / K has the fewest roundings.
         let (a, b) = (&bodies[only.a], &bodies[only.b]);
         let response = Response::of(a, b, &only.contact);
         let impulses = vec![-2.0 * response.u_n / response.k_nn];
-        return (pushed(bodies, contacts, &impulses), impulses);
+        return SharedOutcome {
+            bodies: pushed(bodies, contacts, &impulses),
+            normal_impulses: impulses,
+            tangential_impulses: vec![0.0],
+            exhausted: false,
+            operations: SINGLE,
+        };
     }
     let still = vec![0.0; contacts.len()];
-    let stop = Scaled::of(bodies, contacts).reach(bodies, &still, tolerance);
+    let mut stop = Scaled::of(bodies, contacts).reach(bodies, &still, tolerance);
     let onward = |(body, stop): (&ImpactBody, &ImpactBody)| ImpactBody {
         velocity: 2.0 * stop.velocity - body.velocity,
         spin: 2.0 * stop.spin - body.spin,
         ..*body
     };
-    let next = bodies.iter().zip(&stop.bodies).map(onward);
-    let impulses = stop.normal_impulses.iter().map(|j| 2.0 * j);
-    (next.collect(), impulses.collect())
+    stop.bodies = bodies.iter().zip(&stop.bodies).map(onward).collect();
+    stop.normal_impulses.iter_mut().for_each(|j| *j *= 2.0);
+    stop
 }
 
 pub(super) fn with_restitution(contacts: &[SharedContact], restitution: f64) -> Vec<SharedContact> {
@@ -293,19 +302,29 @@ fn blend_by(law: ImpactLaw, bodies: &[ImpactBody], contacts: &[SharedContact]) -
 }
 
 fn mixed(law: ImpactLaw, bodies: &[ImpactBody], contacts: &[SharedContact]) -> SharedOutcome {
-    let stuck = newton_lcp(bodies, &with_restitution(contacts, 0.0));
+    let still = with_restitution(contacts, 0.0);
+    let rough = is_rough(contacts);
+    // Reflections begin with the same stop, before it is opened.
+    let stop = rough.then(|| newton_rough(bodies, &still));
+    let stuck = match &stop {
+        Some(stop) => opened(stop.clone(), &still),
+        None => newton_lcp(bodies, &still),
+    };
     let e = mean_restitution(contacts, &stuck.normal_impulses);
     // What nothing stops gives nothing back; every reflection would ask for that stop again.
     if e <= 0.0 || stuck.exhausted {
         return stuck;
     }
-    let thrown = if is_rough(contacts) {
-        reflections(law, bodies, contacts, Some(1.0))
+    let thrown = if rough {
+        reflections(law, bodies, contacts, Some(1.0), stop)
     } else {
         generalised_reflections(bodies, contacts)
     };
     if e >= 1.0 {
-        return thrown;
+        return SharedOutcome {
+            operations: stuck.operations + thrown.operations,
+            ..thrown
+        };
     }
     let mix = |at_0: f64, at_1: f64| (1.0 - e) * at_0 + e * at_1;
     let mix_all = |at_0: &[f64], at_1: &[f64]| -> Vec<f64> {
@@ -323,6 +342,7 @@ fn mixed(law: ImpactLaw, bodies: &[ImpactBody], contacts: &[SharedContact]) -> S
             })
             .collect(),
         exhausted: stuck.exhausted || thrown.exhausted,
+        operations: stuck.operations + thrown.operations,
     }
 }
 
@@ -451,6 +471,7 @@ impl Scaled {
             tangential_impulses: vec![0.0; found.multipliers.len()],
             normal_impulses: found.multipliers,
             exhausted: false,
+            operations: found.operations,
         }
     }
 }

@@ -229,6 +229,7 @@ impl World {
             &mut self.pairs,
             &mut self.narrow,
         );
+        self.work.impact(shock.operations);
         apply(
             &mut self.bodies,
             time,

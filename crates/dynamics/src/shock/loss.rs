@@ -10,7 +10,7 @@
 
 use carom_math::perp;
 
-use super::{SWEEPS, Shock};
+use super::{SWEEPS, Shock, TURN};
 use crate::impact::Sweeper;
 
 impl Shock {
@@ -46,6 +46,7 @@ impl Shock {
             return;
         }
         let stop = self.stop(settled);
+        self.operations = stop.operations;
         // What is lost is a quadratic in s, and concave: impulses are linear in it, and so are velocities.
         let half = self.between(&stop, 0.5).works().0;
         let lost = stop.works().0.max(0.0);
@@ -79,6 +80,7 @@ impl Shock {
         let mut sweeper = Sweeper::default();
         stop.hand_over(&mut sweeper);
         for _ in 0..SWEEPS {
+            stop.operations += TURN * stop.strikes.len() as u64;
             if sweeper.sweep() <= settled {
                 break;
             }
