@@ -148,29 +148,37 @@ impl World {
             return false;
         };
         let stands = |&(index, version): &(u32, u32)| self.bodies.version(index) == version;
-        if !group.members.iter().all(stands) {
-            return false;
-        }
-        let Some(tip) = group
-            .tipping
-            .as_ref()
-            .and_then(|of| of.tip.next(group.speed))
-        else {
+        let Some(Tipping { tip, slots }) = &group.tipping else {
             return false;
         };
+        let next = tip.next(group.speed);
+        let Some(next) = next.filter(|_| group.members.iter().all(stands)) else {
+            return false;
+        };
+        // The modes take roundings out of the velocities.
+        let (mut lost, mut fastest) = (0.0, group.speed);
+        for (&(index, _), &slot) in group.members.iter().zip(slots) {
+            let (_, velocity, _, spin) = next.path.body_after(slot, 0.0);
+            let state = self.bodies.get(index);
+            let linear = state.mass.mass * velocity.length_squared();
+            let angular = state.turning_inertia() * spin * spin;
+            lost += state.kinetic_energy(time) - 0.5 * (linear + angular);
+            fastest = fastest.max(velocity.length()).max(spin.abs() * state.reach);
+        }
         let (glides, heat) = (group.glides, group.works(time - group.since).0);
         let members: Vec<u32> = group.members.iter().map(|(index, _)| *index).collect();
-        self.report.modes_solved += 1;
         if self.stalls(&members, time) {
             return false;
         }
+        self.report.modes_solved += 1;
         self.bodies.book.friction.add(heat);
         self.bodies.book.scheme.add(heat);
-        let change = time + tip.after;
+        self.bodies.book.impacts.add(lost);
+        let change = time + next.after;
         if let Some(group) = self.closed.get_mut(place) {
-            group.since = time;
+            (group.since, group.speed) = (time, fastest);
             if let Some(tipping) = &mut group.tipping {
-                tipping.tip = Arc::new(tip);
+                tipping.tip = Arc::new(next);
             }
         }
         self.closed.changes_at(place, change);

@@ -94,9 +94,9 @@ impl Path {
         None
     }
 
-    /// Rounds of fixed-point iteration from constant accelerations. What the path leaves out, in m; the rounds end as soon as it is
-    /// more than `allowed`, of which the first one knows the half. `None` where they do not converge. `values`: accelerations at the nodes, those at the
-    /// first given.
+    /// Rounds of fixed-point iteration from constant accelerations: what the path leaves out, in m; `None` where they do not converge.
+    /// The rounds end as soon as it is more than `allowed`: the first one with all nodes knows it to a factor of two. `values`:
+    /// accelerations at the nodes, those at the first given.
     fn collocate(
         &mut self,
         f: &mut impl FnMut(&[Place], &mut Vec<f64>) -> bool,
