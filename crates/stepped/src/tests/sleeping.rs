@@ -86,13 +86,13 @@ fn the_pieces_of_sleepers_are_turned_as_their_bodies() {
     let laid = corner(&engine);
     engine.wake(id).unwrap();
     let based = corner(&engine);
-    let turned = based.angle_to(laid);
     let angle = engine.bodies.lines[engine.bodies.line_of(id.slot)].turn();
     assert!(
         angle.abs() > 1e-3,
         "nothing to see: {angle:e} rad since the base pose"
     );
-    assert!((turned - angle).abs() < 1e-9, "{turned:e} {angle:e}");
+    let off = (Rot::from_angle(angle) * based - laid).length();
+    assert!(off < 1e-9, "{off:e} m");
 }
 
 /// The least gap of two points and the least way of two points were added, whichever point each belonged to: of two boxes that
