@@ -165,9 +165,7 @@ impl Engine {
         } else {
             strays = self.follow_strays(rules);
         }
-        if at_tick || self.graph.has_new_unequal() {
-            self.extra.gather(&mut self.graph, &self.bodies);
-        }
+        self.extra.gather(&mut self.graph, &self.bodies);
         self.deep.gather(&mut self.graph, &self.bodies);
         strays
     }

@@ -53,10 +53,9 @@ fn ratio(bodies: &Bodies, ends: [u32; 2]) -> f64 {
 }
 
 impl ExtraSweeps {
-    /// Gathers the groups for the sub-steps until contacts change.
+    /// Gathers the groups of a sub-step: in every one of them, so that no island depends on when contacts of another one changed.
     pub(crate) fn gather(&mut self, graph: &mut Graph, bodies: &Bodies) {
         self.groups.clear();
-        graph.new_unequal = false;
         if graph.unequal.is_empty() {
             return;
         }

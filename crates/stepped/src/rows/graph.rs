@@ -50,8 +50,6 @@ pub(crate) struct Graph {
     pub(super) deep: Vec<u32>,
     /// Contacts of two bodies of very different mass, and some that were, in no order.
     pub(super) unequal: Vec<u32>,
-    /// Some of them came since they were last gathered.
-    pub(super) new_unequal: bool,
     /// Behind those of masks the overflow colour, and behind it what sleeps.
     pub(super) colours: Vec<Colour>,
 }
@@ -75,7 +73,6 @@ impl Graph {
             free: Vec::new(),
             deep: Vec::new(),
             unequal: Vec::new(),
-            new_unequal: false,
             colours: vec![Colour::default(); COLOURS + 2],
         }
     }
@@ -163,7 +160,6 @@ impl Graph {
         self.colour(bodies, id, (manifold, deepest), surface);
         if Self::is_unequal(bodies, ends) {
             self.unequal.push(id);
-            self.new_unequal = true;
         }
         id
     }

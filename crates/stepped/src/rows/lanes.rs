@@ -101,11 +101,6 @@ impl Graph {
         self.deep.append(deep);
     }
 
-    /// Whether contacts of very different masses came since they were last gathered.
-    pub(crate) const fn has_new_unequal(&self) -> bool {
-        self.new_unequal
-    }
-
     /// Whether a contact touched when it was last asked.
     pub(crate) fn is_touching(&self, id: u32) -> bool {
         let (_, cold, lane) = self.lane(id);

@@ -4,7 +4,7 @@ use carom_geometry::ConvexPolygon;
 use carom_math::{Pose, Rot, Vec2, cross, vec2};
 
 use super::{Random, floor, pyramid, unit_box, weightless, with_friction};
-use crate::{BodyId, BodyInput, Engine, EngineError, PieceInput, Relaxation, Settings};
+use crate::{BodyId, BodyInput, Engine, EngineError, Mixed, PieceInput, Relaxation, Settings};
 
 fn cloud(settings: Settings, seed: u64, count: usize, spread: f64) -> (Engine, Vec<BodyId>) {
     let mut random = Random::new(seed);
@@ -205,6 +205,63 @@ fn equal_calls_give_equal_bits() {
     };
     assert_eq!(run(false), run(false));
     assert_eq!(run(false), run(true));
+}
+
+/// Calls between sub-steps, and what they change of contacts, are felt by no other scene: extra sweeps of all groups were gathered
+/// anew when a contact of a heavy body came anywhere.
+#[test]
+fn far_scenes_do_not_feel_each_others_calls() {
+    let act = |engine: &mut Engine, random: &mut Random, ids: &mut Vec<BodyId>, x: f64| match random
+        .below(40)
+    {
+        0 | 1 if ids.len() < 20 => {
+            let piece = random.piece();
+            let mut body = random.body(&piece, 1.5);
+            body.pose.position += vec2(x, 4.0);
+            let times = [1.0, 1.0, 30.0, 1000.0][random.below(4)];
+            (body.mass, body.inertia) = (times * body.mass, times * body.inertia);
+            ids.push(engine.insert(body, &[piece]).unwrap());
+        }
+        2 if ids.len() > 3 => {
+            let id = ids.swap_remove(random.below(ids.len()));
+            engine.remove(id).unwrap();
+        }
+        3 if !ids.is_empty() => {
+            let id = ids[random.below(ids.len())];
+            let velocity = vec2(5.0 * random.signed(), 2.0);
+            engine.set_velocity(id, velocity, 0.0).unwrap();
+        }
+        4 if !ids.is_empty() && random.below(4) == 0 => {
+            let pose = Pose::new(
+                vec2(x + random.signed(), 3.0),
+                Rot::from_angle(random.signed()),
+            );
+            let id = ids[random.below(ids.len())];
+            engine.set_pose(id, pose).unwrap();
+        }
+        _ => {}
+    };
+    for seed in 0..12 {
+        let run = |beside: bool| {
+            let mut engine = Engine::new(Settings::default()).unwrap();
+            floor(&mut engine);
+            let mut random = [900, 7000].map(|first| Random::new(first + seed));
+            let mut ids = [Vec::new(), Vec::new()];
+            let mut seen = Vec::new();
+            for _ in 0..600 {
+                act(&mut engine, &mut random[0], &mut ids[0], 0.0);
+                if beside {
+                    act(&mut engine, &mut random[1], &mut ids[1], 1024.0);
+                }
+                engine.substep(&Mixed);
+                seen.push(bits(&engine, &ids[0]));
+            }
+            seen
+        };
+        let [alone, beside] = [false, true].map(run);
+        let part = alone.iter().zip(&beside).position(|(a, b)| a != b);
+        assert_eq!(part, None, "seed {seed}");
+    }
 }
 
 /// Two heaps a kilometre apart in one engine have the bits of each alone, inserted in turn or one after the other.
