@@ -5,7 +5,7 @@
 //! ```
 //!
 //! Complementary pivoting with lexicographic ties, which ends (Cottle, Pang, Stone 1992, section 4.4).
-//! The tableau's rounding only decides who is in the basis: the answer is solved for once more.
+//! The tableau's rounding only decides which unknowns are in the basis: the answer is solved for once more.
 
 use crate::dense::Factored;
 

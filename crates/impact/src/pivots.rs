@@ -12,7 +12,7 @@ use super::coulomb::Part;
 use super::rows::{Bound, Rows};
 use crate::lemke::{Solution, complementary};
 
-/// Scaled impulses of a solution and who holds in it, for scaled speeds before; `None` if the pivots
+/// Scaled impulses of a solution and what holds in it, for scaled speeds before; `None` if the pivots
 /// do not end at one.
 pub(super) fn pivoted(rows: &Rows, start: &[f64]) -> Option<(Vec<f64>, Vec<Part>)> {
     let layout = Layout::of(rows);

@@ -251,7 +251,7 @@ fn outcome(
 /// Speed with which a contact opens that rounding has left closing, as a part of its points' speeds.
 const OPENS: f64 = 4.0 * f64::EPSILON;
 
-/// Takes away what rounding has left of an approach, so that nobody strikes at once what is resolved.
+/// Takes away what rounding has left of an approach, so that what is resolved is not struck at once.
 ///
 /// Such contacts are stopped once more, and open as slowly as numbers can tell. Where no impulses stop all of them, because
 /// a body is squeezed between others that do not yield, what closes is no rounding: stopped without friction it would be shot

@@ -28,7 +28,7 @@ impl World {
         }
     }
 
-    /// Takes a group apart; its members keep their motions until somebody gives them others.
+    /// Takes a group apart; its members keep their motions until they are given others.
     pub(crate) fn dissolve(&mut self, place: u32, time: SimTime) -> Vec<u32> {
         self.land_group(place, time, true);
         let Some(group) = self.closed.remove(place) else {

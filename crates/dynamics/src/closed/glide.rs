@@ -91,7 +91,7 @@ impl World {
             self.discharge(index);
             for pair in self.bodies.get(index).pairs.clone() {
                 let other = self.pairs.get(pair).other(index);
-                // Who is stepped goes on to meet it by pairs.
+                // Sub-stepped bodies go on to meet it by pairs.
                 if !touches.contains(&pair) && !self.bodies.get(other).is_held() {
                     self.part(pair, time);
                 }
@@ -170,7 +170,7 @@ impl World {
             self.enlist(index, time);
         }
         self.lay_pieces(place, time, self.clock.next() - time);
-        // Their boxes are as long as their way was: narrow ones meet whom a sub-step meets.
+        // Their boxes are as long as their way was: narrow ones meet what a sub-step meets.
         for &index in &members {
             for slot in 0..self.bodies.get(index).colliders.len() {
                 let at = self.bodies.get(index).colliders[slot];

@@ -1,7 +1,7 @@
-//! Contact groups in closed form, in a world: who belongs together, what moves them, what changes next.
+//! Contact groups in closed form, in a world: which bodies belong together, what moves them, what changes next.
 //!
 //! A group is judged where its contacts begin to last, where one of its members changes its motion, and
-//! at the instant of its own next change. Between these nobody touches it: its motions are right for
+//! at the instant of its own next change. Between these it is left alone: its motions are right for
 //! as long as its mode lasts. What does not qualify is left to the sub-steps.
 
 mod dissolve;
@@ -48,7 +48,7 @@ impl World {
                 {
                     continue;
                 }
-                // Nobody else looks after a touch with a group.
+                // A touch with a group is the group's alone.
                 if joins.contains(&true) || state.membership.waits(time).is_none() {
                     self.judge_around(index, time, 0.0, Looks::Fresh);
                 }
@@ -115,7 +115,7 @@ impl World {
         self.strike_entry(&entry);
     }
 
-    /// A member of a group has another motion: the group is judged anew, with who touches it now.
+    /// A member of a group has another motion: the group is judged anew, with what touches it now.
     pub(crate) fn regroup(&mut self, index: u32, time: SimTime) {
         if self.settings.mode == Mode::Stepped || !self.bodies.pull.fields.is_empty() {
             return;

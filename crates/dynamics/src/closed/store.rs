@@ -113,9 +113,9 @@ pub(crate) struct Closed {
     pub(super) budgets: Vec<ModeBudget>,
     /// Bodies with an exhausted budget: their islands join with the next sub-step.
     pub(super) exhausted: Vec<u32>,
-    /// Who left the path of a group that turned in this sub-step, on its parabola.
+    /// Bodies that left the path of a group that turned in this sub-step, on its parabola.
     pub(super) astray: Vec<Astray>,
-    /// Nobody is let go of: the slow twin.
+    /// No group is let go of: the slow twin.
     #[cfg(test)]
     pub(super) stays: bool,
 }
@@ -139,7 +139,7 @@ pub(super) struct Group {
     /// Largest speed of the mode: what its roundings are measured by, in m/s.
     pub(super) speed: f64,
     pub(super) sleeps: bool,
-    /// Nobody looks at its members: they rest, as the machinery knows what sleeps.
+    /// Its members are not looked at: they rest, as the machinery knows what sleeps.
     pub(super) dozes: bool,
     /// Its members fly until it changes.
     pub(super) glides: bool,
@@ -336,7 +336,7 @@ impl Closed {
         Some(group)
     }
 
-    /// Friction's heat, and the work of driven partners, that nobody has booked yet, in J.
+    /// Friction's heat, and the work of driven partners, not booked yet, in J.
     pub(crate) fn unbooked(&self, now: SimTime) -> (f64, f64) {
         let works = self.iter().map(|group| group.works(now - group.since));
         works.fold((0.0, 0.0), |(heat, driven), (more, work)| {

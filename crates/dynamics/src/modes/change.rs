@@ -355,7 +355,7 @@ impl Load<'_> {
         Faces::new(&bodies, &touches)
     }
 
-    /// Everybody where the present motions lead.
+    /// Bodies and touches where the present motions lead.
     fn at(&self, after: f64) -> (Vec<ModeBody>, Vec<Touch>) {
         let travel = |body: &BodyMove| (body.velocity + body.acceleration * (0.5 * after)) * after;
         let bodies = self
@@ -455,7 +455,7 @@ mod tests {
             let load = Load { bodies: &bodies, touches: &touches, moves: &moves, found: &found, tangents };
             prop_assume!(moves[2].spin == 0.0 && moves[2].angular_acceleration == 0.0);
             prop_assume!(load.slides_alone());
-            // As far as the touches and the slip last: beyond that nobody looks.
+            // As far as the touches and the slip last: no look lies beyond that.
             let ends = touches.iter().filter_map(|touch| Glide::of(touch, &moves).ends());
             let stops = touches.iter().zip(&slips).filter_map(|(touch, slip)| {
                 let after = -slip / slip_rate(&bodies, touch, &moves);
