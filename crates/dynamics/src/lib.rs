@@ -82,6 +82,7 @@ mod touching;
 mod uncommon;
 #[cfg(feature = "serde")]
 mod wire;
+mod work;
 mod world;
 
 pub use body::Body;

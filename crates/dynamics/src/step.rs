@@ -13,38 +13,6 @@ use crate::{Mode, Refusal, StepReport, World};
 /// More ticks than this in one step are refused.
 const TICKS: f64 = 1e7;
 
-/// So many bodies share [`Settings::work`](crate::Settings::work).
-const SHARERS: f64 = 1000.0;
-
-/// What a piece of a law counts for, in events: near the centre of a strong field it takes 70 µs, most events take 1 to 10.
-const PIECE: u64 = 16;
-
-/// Floating-point operations of an impact of several contacts that count for one event: 2,400, of two contacts with friction, take
-/// 12 µs; most events take 1 to 10. The more they are, the longer is a call of such impacts beside one of other events; the fewer,
-/// the earlier it stops.
-const OPERATIONS: u64 = 1000;
-
-/// The work of a call: what is done, and when it stops.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Work {
-    /// Events so far; pairs are counted by the report.
-    done: u64,
-    most: f64,
-    used_up: bool,
-}
-
-impl Work {
-    /// Counts a piece of a law.
-    pub(crate) const fn piece(&mut self) {
-        self.done += PIECE;
-    }
-
-    /// Counts an impact of several contacts by its `operations`, beside the event that it is.
-    pub(crate) const fn impact(&mut self, operations: u64) {
-        self.done += operations / OPERATIONS;
-    }
-}
-
 impl World {
     /// Asks where everything is `dt` seconds later.
     ///
@@ -73,11 +41,7 @@ impl World {
             return self.report;
         }
         self.events.begin_step(self.clock.now);
-        self.work = Work {
-            done: 0,
-            most: self.work_of(dt),
-            used_up: false,
-        };
+        self.begin_work(dt);
         self.stopwatch.start();
         let start = self.clock.now;
         let end = start + dt;
@@ -111,28 +75,12 @@ impl World {
         self.bodies.end_step();
         self.report_astray(self.clock.now);
         self.report.inaccurate += core::mem::take(&mut self.bodies.inaccurate);
-        self.report.advanced = if stop_at_event || self.work.used_up {
+        self.report.advanced = if stop_at_event || self.work.is_used_up() {
             self.clock.now - start
         } else {
             dt
         };
         self.report
-    }
-
-    /// Events and pairs that a step of `dt` seconds may take: of each tick, and of each thousand bodies.
-    fn work_of(&self, dt: f64) -> f64 {
-        let ticks = (dt / self.settings.tick).max(1.0);
-        let shares = (self.bodies.places() as f64 / SHARERS).max(1.0);
-        self.settings.work as f64 * ticks * shares
-    }
-
-    /// Counts an event; whether the step stops after it, since its work is used up.
-    ///
-    /// Sub-steps that are made ahead cannot be looked into.
-    pub(crate) fn uses_up(&mut self) -> bool {
-        self.work.done += 1;
-        self.work.used_up = (self.work.done + self.report.pairs) as f64 >= self.work.most;
-        self.work.used_up
     }
 
     fn refusal(&self, dt: f64) -> Option<Refusal> {

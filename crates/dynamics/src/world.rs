@@ -17,9 +17,9 @@ use crate::narrow::Narrow;
 use crate::pairs::{Pair, Pairs};
 use crate::profile::Stopwatch;
 use crate::state::{BodyState, Collider, Surface, drawn_at};
-use crate::step::Work;
 use crate::stepping::{Joins, Stepping};
 use crate::threads::Threads;
+use crate::work::Work;
 use crate::{
     Body, BodyDef, BodyError, BodyId, BodyKind, Contact, EnergyLedger, Events, Material, Mode,
     Momentum, Settings, SettingsError, StepProfile, StepReport,
