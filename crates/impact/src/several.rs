@@ -477,12 +477,8 @@ impl Scaled {
 }
 
 fn opening_speeds(bodies: &[ImpactBody], contacts: &[SharedContact]) -> Vec<f64> {
-    let opening = |shared: &SharedContact| {
-        let (point, normal) = (shared.contact.point, shared.contact.normal);
-        let (a, b) = (&bodies[shared.a], &bodies[shared.b]);
-        (b.velocity_of(point) - a.velocity_of(point)).dot(normal)
-    };
-    contacts.iter().map(opening).collect()
+    let speeds = contacts.iter().map(|shared| opening(bodies, shared));
+    speeds.collect()
 }
 
 /// What counts as rounding of a speed.
