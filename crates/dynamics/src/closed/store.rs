@@ -268,12 +268,12 @@ impl Closed {
         });
         self.groups[place as usize] = Some((self.stamp, group));
         if let Some(time) = change {
-            self.changes.push(Reverse((time, place, self.stamp)));
+            self.changes_at(place, time);
         }
         place
     }
 
-    /// The next change of a group that goes on.
+    /// When a group changes next.
     pub(super) fn changes_at(&mut self, place: u32, change: SimTime) {
         if let Some((stamp, group)) = &mut self.groups[place as usize] {
             group.until = Some(change);

@@ -151,8 +151,10 @@ impl World {
         let Some(Tipping { tip, slots }) = &group.tipping else {
             return false;
         };
-        let next = tip.next(group.speed);
-        let Some(next) = next.filter(|_| group.members.iter().all(stands)) else {
+        if !group.members.iter().all(stands) {
+            return false;
+        }
+        let Some(next) = tip.next(group.speed) else {
             return false;
         };
         // The modes take roundings out of the velocities.

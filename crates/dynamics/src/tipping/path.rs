@@ -65,8 +65,7 @@ impl Path {
             terms: Vec::new(),
             integrals: Vec::new(),
         };
-        // In 1/12 of a radian by what turns fastest the polynomials are as right as is asked for. 1/7: nearly always too long, and
-        // all of it is done twice.
+        // In 1/12 of a radian by what turns fastest the polynomials are as right as is asked for. 1/7: nearly always too long.
         let mut rate = 0.0_f64;
         for (place, turn) in places.iter().zip(first.iter().skip(2).step_by(3)) {
             rate = rate.max(place.spin.abs().max(turn.abs().sqrt()));
@@ -94,9 +93,9 @@ impl Path {
         None
     }
 
-    /// Rounds of fixed-point iteration from constant accelerations: what the path leaves out, in m; `None` where they do not converge.
-    /// The rounds end as soon as it is more than `allowed`: the first one with all nodes knows it to a factor of two. `values`:
-    /// accelerations at the nodes, those at the first given.
+    /// Rounds of fixed-point iteration from constant accelerations: what the path leaves out, in m; `None` where they do not
+    /// converge. They end as soon as it is more than `allowed`: the first round with all nodes knows it to a factor of two.
+    /// `values`: accelerations at the nodes, those at the first given.
     fn collocate(
         &mut self,
         f: &mut impl FnMut(&[Place], &mut Vec<f64>) -> bool,
