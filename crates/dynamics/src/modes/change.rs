@@ -299,10 +299,11 @@ impl Load<'_> {
         let Ok(problem) = Problem::of(&faces, &self.tangents) else {
             return false;
         };
-        if let Some(Basic { margins, state }) = problem.with_basis(basis) {
-            if fallen(&margins).is_none() && self.differs(&faces, &state) <= SAME {
-                return true;
-            }
+        if let Some(Basic { margins, state }) = problem.with_basis(basis)
+            && fallen(&margins).is_none()
+            && self.differs(&faces, &state) <= SAME
+        {
+            return true;
         }
         let Ok(then) = problem.solve() else {
             return false;
