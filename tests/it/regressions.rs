@@ -41,6 +41,7 @@ mod an_impact_as_slow_as_a_rounding_takes_no_time;
 mod an_impact_on_the_border_of_two_sub_steps_bounces;
 mod an_impulse_beyond_the_largest_speed_is_refused;
 mod begins_and_ends_of_touch_take_turns;
+mod driven_bodies_do_not_hurl_what_they_squeeze;
 mod how_a_heap_is_cut_changes_nothing;
 mod no_event_lies_before_its_step;
 mod nothing_falls_through_the_wall_of_a_turning_drum;

@@ -17,7 +17,8 @@ pub struct StepReport {
     pub impacts: u64,
     /// Sub-steps of single bodies that were solved for as part of a group in lasting contact.
     pub handed_over: u64,
-    /// Pairs whose impacts outran the budget of a sub-step, or of a tick in flight; the solver took the rest.
+    /// Pairs with impacts that outran the budget of a sub-step, or of a tick in flight, or that are squeezed by driven bodies;
+    /// the solver took the rest.
     pub collapsed: u64,
     /// Searches for a time of impact that ended without an answer; the pair is watched by overlap.
     pub unresolved: u64,

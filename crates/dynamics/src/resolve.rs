@@ -120,6 +120,11 @@ pub(crate) fn strike(
         shock.solve(settings, bodies, colliders, pairs, narrow);
     }
     shock.hold(pairs);
+    for strike in shock.squeezed() {
+        let pair = pairs.get_mut(strike.pair);
+        report.collapsed += u64::from(!pair.given_up);
+        (pair.given_up, pair.lasting) = (true, true);
+    }
     Struck::Impact {
         changed: apply(bodies, entry.time, &shock, events, report),
         operations: shock.operations,

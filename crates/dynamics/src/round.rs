@@ -221,6 +221,7 @@ fn sweeper_of(h: f64, bodies: &[SolverBody], rows: &[Row], members: &[u32]) -> S
     Sweeper {
         bodies: members.iter().map(moving).collect(),
         contacts: rows.iter().map(swept).collect(),
+        compliance: 0.0,
     }
 }
 

@@ -15,13 +15,13 @@ use carom_math::{SimTime, Vec2, perp};
 
 use crate::Settings;
 use crate::bodies::Bodies;
-use crate::impact::{ImpactBody, ImpactContact, SharedContact, Sweeper, several};
+use crate::impact::{Growth, ImpactBody, ImpactContact, SharedContact, Sweeper, several};
 use crate::narrow::{Narrow, RestSpeed, TOUCH};
 use crate::pairs::Pairs;
 use crate::state::Collider;
 
 /// Sweeps before the rest is left to the next look: what still closes then is struck again.
-const SWEEPS: u32 = 300;
+const SWEEPS: usize = 300;
 
 /// Contacts in one shock; what it reaches beyond them is struck in its turn.
 const STRIKES: usize = 64;
@@ -47,6 +47,9 @@ const LOOK: u64 = 512;
 /// Part of the speed of rest below which a contact without springs does not close either: in boxes full of sixty balls these
 /// overlap by 1 to 3 mm with 1, 0.5 to 1 mm with 0.3, 0.3 mm with 0.1 and 0.03; that takes a quarter more time (2026-11-23).
 const SLOW: f64 = 1.0 / 16.0;
+
+/// Part of the fastest approach from which on a contact goes on closing, and not by what the sweeps have left.
+const CLOSES: f64 = 1.0 / 64.0;
 
 /// A contact in a shock.
 #[derive(Clone, Copy, Debug)]
@@ -96,6 +99,8 @@ pub(crate) struct Shock {
     rest: f64,
     /// The limit of impacts that came ever faster: nothing is given back.
     collapses: bool,
+    /// Bodies may be squeezed between others that do not yield: contacts may close afterwards.
+    squeezed: bool,
     /// Floating-point operations so far, to a factor of a few: what the work of a call is charged for.
     pub(crate) operations: u64,
 }
@@ -110,6 +115,7 @@ impl Shock {
             looked: Vec::new(),
             rest: f64::INFINITY,
             collapses: false,
+            squeezed: false,
             operations: 0,
         }
     }
@@ -130,6 +136,19 @@ impl Shock {
                 pairs.get_mut(strike.pair).lasting |= strike.normal_impulse > 0.0;
             }
         }
+    }
+
+    /// Contacts of squeezed bodies that go on closing. No impulses stop them: struck again at this instant they would only
+    /// drive their bodies faster.
+    pub(crate) fn squeezed(&self) -> impl Iterator<Item = &Strike> {
+        let fastest = self.strikes.iter().map(|strike| strike.speed);
+        let least = CLOSES * fastest.fold(0.0, f64::max);
+        let closes = move |strike: &&Strike| {
+            let after = |end: usize| self.bodies[end].after.velocity_of(strike.contact.point);
+            let opening = after(strike.ends.1) - after(strike.ends.0);
+            opening.dot(strike.contact.normal) < -least
+        };
+        self.strikes.iter().filter(|_| self.squeezed).filter(closes)
     }
 
     /// Adds a contact of a pair of bodies; its approach is to be given back by its restitution
@@ -305,6 +324,7 @@ impl Shock {
         let before: Vec<ImpactBody> = self.bodies.iter().map(|shaken| shaken.before).collect();
         let found = several(settings.impact_law, settings.several, &before, &contacts);
         self.operations += found.operations;
+        self.squeezed = found.exhausted;
         for (shaken, after) in self.bodies.iter_mut().zip(found.bodies) {
             shaken.after = after;
         }
@@ -318,6 +338,9 @@ impl Shock {
     }
 
     /// Newton's law by sweeps, from the impulses that are there on.
+    ///
+    /// Where bodies are squeezed between others that do not yield the impulses of the sweeps grow without end. They are
+    /// begun anew there, with contacts that yield and give nothing back.
     fn solve_swept(
         &mut self,
         bodies: &Bodies,
@@ -331,14 +354,36 @@ impl Shock {
             .map(|strike| strike.speed)
             .fold(0.0, f64::max);
         let settled = (CONVERGED * struck).max(SETTLED * self.rest);
-        let mut sweeper = Sweeper::default();
-        for sweep in 0..SWEEPS {
+        let mut sweep =
+            |shock: &mut Self, by| shock.sweep(by, settled, bodies, colliders, pairs, narrow);
+        if sweep(self, Sweeper::default()).is_steady() {
+            self.squeezed = true;
+            self.collapse();
+            self.begin_anew();
+            sweep(self, Sweeper::yielding());
+        } else {
+            self.gain_nothing(settled);
+        }
+    }
+
+    /// Sweeps until `settled` m/s are left, or for a bounded time; how the pushes grew.
+    fn sweep(
+        &mut self,
+        mut sweeper: Sweeper,
+        settled: f64,
+        bodies: &Bodies,
+        colliders: &[Collider],
+        pairs: &mut Pairs,
+        narrow: &mut Narrow,
+    ) -> Growth {
+        let mut growth = Growth::default();
+        for sweep in 1..=SWEEPS {
             self.hand_over(&mut sweeper);
             let converged = sweeper.sweep() <= settled;
             self.operations += TURN * self.strikes.len() as u64;
-            // Who is reached is asked at every doubling, and at last: asking costs more than a sweep.
-            let due = converged || (sweep + 1_u32).is_power_of_two();
-            if !due && sweep + 1 < SWEEPS {
+            growth.note(sweep, SWEEPS, || sweeper.pushes());
+            // Asking which contacts are reached costs more than a sweep: at every doubling, and at last.
+            if !(converged || sweep.is_power_of_two() || sweep == SWEEPS) {
                 continue;
             }
             self.take_over(&sweeper);
@@ -347,7 +392,17 @@ impl Shock {
                 break;
             }
         }
-        self.gain_nothing(settled);
+        growth
+    }
+
+    /// Takes all impulses back.
+    fn begin_anew(&mut self) {
+        for shaken in &mut self.bodies {
+            shaken.after = shaken.before;
+        }
+        for strike in &mut self.strikes {
+            (strike.normal_impulse, strike.tangential_impulse) = (0.0, 0.0);
+        }
     }
 
     /// Bodies and contacts that the sweeps do not know yet.

@@ -8,12 +8,14 @@
 //! at once and solved for, until the guess stands (a semi-smooth Newton method: P. Alart, A. Curnier 1991);
 //! all rows are treated alike, so symmetric questions get symmetric answers. Where guesses run in a circle
 //! Lemke's pivoting finds a solution, which exists (M. Anitescu, F. Potra 1997); where bodies
-//! are squeezed between others that do not yield none does, and sweeps end it.
+//! are squeezed between others that do not yield none does, and sweeps end it. Nor is every solution an answer: a chain of
+//! contacts that is θ rad off its dead point is driven out at u/θ by impulses of m u/θ², and a body that is driven
+//! through dead points at random would in the mean give infinite energy to what it passes.
 
 use super::body::ImpactBody;
 use super::pivots::pivoted;
 use super::rows::{Bound, Rows};
-use super::sweeps::{TURN, swept};
+use super::sweeps::{TURN, swept, yielding};
 use crate::dense::Factored;
 
 /// Guesses before pivoting takes over; a pile of 32 contacts needs 5 to 8.
@@ -34,6 +36,10 @@ const GUESSED: f64 = 1e-11;
 /// Speed, as a part of the largest, that counts as 0 in an answer.
 const ANSWERED: f64 = 1e-10;
 
+/// Speed with which a body that is squeezed by driven ones is moved, as a part of what closes or slips, from which on
+/// it gives way instead: wedges and chains of less than 3.6° take more than 256 times the impulse of a free body.
+const LEVER: f64 = 16.0;
+
 /// A row's part in a guess.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Part {
@@ -52,7 +58,7 @@ pub(super) enum Part {
 pub(super) struct Stop {
     /// Along all rows, in N·s.
     pub(super) impulses: Vec<f64>,
-    /// Whether the conditions hold to rounding: false where none can.
+    /// Whether the conditions hold to rounding: false where none can, or bodies give way.
     pub(super) sure: bool,
     /// Floating-point operations that it took, to a factor of a few.
     pub(super) operations: u64,
@@ -64,7 +70,7 @@ pub(super) fn stop(rows: &Rows) -> Stop {
     let found = if solver.fastest_scaled() == 0.0 {
         Ok(vec![0.0; rows.len()])
     } else {
-        solver.stop()
+        solver.stop().and_then(|found| solver.plausible(found))
     };
     let (impulses, sure) = match found {
         Ok(impulses) => (rows.unscaled(&impulses).collect(), true),
@@ -149,6 +155,28 @@ impl<'a> Solver<'a> {
         } else {
             Err(near)
         }
+    }
+
+    /// Impulses that meet the conditions, unless they drive a squeezed body out at more than [`LEVER`] times the speed that
+    /// squeezes it; then some that yield.
+    fn plausible(&mut self, found: Vec<f64>) -> Result<Vec<f64>, Vec<f64>> {
+        if !self.rows.driven {
+            return Ok(found);
+        }
+        self.speed_up(&found);
+        let most = LEVER * self.fastest;
+        let rows = &self.rows.rows;
+        let touched = rows
+            .iter()
+            .flat_map(|row| [(row.a, row.point), (row.b, row.point)]);
+        for (body, point) in touched {
+            if self.given[body].velocity_of(point).length() > most {
+                let (near, operations) = yielding(self.rows);
+                self.operations += operations;
+                return Err(near);
+            }
+        }
+        Ok(found)
     }
 
     /// Guesses from given impulses on, until a guess stands.

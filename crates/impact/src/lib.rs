@@ -54,7 +54,7 @@ pub use law::{ImpactLaw, jam, newton, poisson, resolve, stronge};
 pub use several::{
     Several, SharedContact, SharedOutcome, blend, generalised_reflections, newton_lcp, several,
 };
-pub use sweeps::{Moving, Sweeper, Swept};
+pub use sweeps::{Growth, Moving, Sweeper, Swept};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -28,7 +28,7 @@ pub(crate) struct Nearest {
 
 /// The point nearest to `start` that meets all bounds.
 ///
-/// A bound counts as met within `tolerance`. If the polyhedron is empty, which no impact makes it,
+/// A bound counts as met within `tolerance`. If the polyhedron is empty, as where driven bodies squeeze others,
 /// the rows that can be met are met. No row has a part along the orthonormal directions `kept`: nor has the way.
 pub(crate) fn nearest(
     kept: &[Vec<f64>],

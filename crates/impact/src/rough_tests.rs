@@ -377,3 +377,91 @@ fn an_approach_below_the_rounding_of_a_slip_ends() {
         }
     }
 }
+
+#[test]
+fn squeezed_bodies_are_driven_no_faster_than_what_squeezes_them() {
+    // Boxes between a floor and a plate that comes down at 4 m/s: nothing meets all conditions, whatever the impulses.
+    let fall = 4.0;
+    for count in [1_u32, 3, 6, 30] {
+        for (tilt, friction) in [(0.0, 0.0), (0.0, 0.6), (0.1, 0.6)] {
+            let wall =
+                |y: f64, speed: f64| ImpactBody::immovable(vec2(0.0, y), vec2(0.0, -speed), 0.0);
+            let heights = (0..count).map(|k| 0.5 + f64::from(k));
+            let mut bodies = vec![wall(0.0, 0.0)];
+            bodies.extend(heights.map(|y| body(1.0, 6.0, vec2(0.0, y), Vec2::ZERO, 0.0)));
+            bodies.push(wall(f64::from(count), fall));
+            let touch = |(k, y): (usize, f64), x: f64| SharedContact {
+                a: k,
+                b: k + 1,
+                contact: ImpactContact {
+                    point: vec2(x, y),
+                    // Wedges that friction holds.
+                    normal: vec2(if k % 2 == 0 { tilt } else { -tilt }, 1.0).normalize(),
+                    restitution: 1.0,
+                    friction,
+                },
+            };
+            let levels = (0..=count).map(|k| (k as usize, f64::from(k)));
+            let contacts: Vec<SharedContact> = levels
+                .flat_map(|level| [touch(level, -0.5), touch(level, 0.5)])
+                .collect();
+            for choice in CHOICES {
+                let after = several(ImpactLaw::Stronge, choice, &bodies, &contacts);
+                let speed = fastest(&after.bodies[1..after.bodies.len() - 1]);
+                let most = after.normal_impulses.iter().copied().fold(0.0, f64::max);
+
+                assert!(after.exhausted);
+                assert!(
+                    speed <= 2.0 * fall,
+                    "{choice:?}, {count} boxes: {speed} m/s"
+                );
+                assert!(most <= 8.0 * fall, "{choice:?}, {count} boxes: {most} N s");
+            }
+        }
+    }
+}
+
+#[test]
+fn driven_bodies_give_way_near_a_dead_point() {
+    // Two discs between a floor and a plate roll on each other and push their contact aside: at 4u/θ, where the lines between the
+    // contacts are at θ/2, by an impulse that grows with θ⁻².
+    let fall = 4.0;
+    let driven = |tilt: f64| {
+        let disc = |y: f64| body(1.0, 8.0, vec2(0.0, y), Vec2::ZERO, 0.0);
+        let (sin, cos) = carom_math::trig::sin_cos(tilt);
+        let normal = vec2(sin, cos);
+        let top = vec2(0.0, 1.5) + normal * 0.5;
+        let plate = ImpactBody::immovable(top, vec2(0.0, -fall), 0.0);
+        let floor = ImpactBody::immovable(Vec2::ZERO, Vec2::ZERO, 0.0);
+        let bodies = [floor, disc(0.5), disc(1.5), plate];
+        let touch = |a: usize, point, normal| SharedContact {
+            a,
+            b: a + 1,
+            contact: ImpactContact {
+                point,
+                normal,
+                restitution: 0.0,
+                friction: 2.0,
+            },
+        };
+        let contacts = [
+            touch(0, Vec2::ZERO, Vec2::Y),
+            touch(1, Vec2::Y, Vec2::Y),
+            touch(2, top, normal),
+        ];
+        let after = several(ImpactLaw::Stronge, Several::Blend, &bodies, &contacts);
+        let speed = after.bodies[1].velocity_of(Vec2::Y).length();
+        (after.exhausted, speed)
+    };
+    for tilt in [1.0, 0.5, 0.3] {
+        let (gives_way, speed) = driven(tilt);
+        assert!(
+            !gives_way && speed > fall,
+            "rigid at {tilt} rad: {speed} m/s"
+        );
+    }
+    for tilt in [0.1, 1e-3, 1e-9] {
+        let (gives_way, speed) = driven(tilt);
+        assert!(gives_way && speed < 4.0 * fall, "{tilt} rad: {speed} m/s");
+    }
+}

@@ -110,6 +110,8 @@ pub(super) struct Rows {
     before: Vec<f64>,
     hidden: Vec<f64>,
     pub(super) rows: Vec<Row>,
+    /// Whether bodies that do not yield move towards or past each other: what is between them may be driven without end.
+    pub(super) driven: bool,
     /// K row by row, each entry divided by both rows' scales.
     pub(super) k: Vec<f64>,
     /// √`K_rr`; an impulse times it is the scaled impulse, a speed by it the scaled speed.
@@ -143,6 +145,7 @@ impl Rows {
             before: rows.iter().map(|row| row.speed(bodies)).collect(),
             hidden: rows.iter().map(|row| row.hidden(bodies)).collect(),
             k: Vec::new(),
+            driven: is_driven(bodies),
             still: bodies.iter().map(ImpactBody::at_rest).collect(),
             rows,
         }
@@ -224,6 +227,16 @@ impl Rows {
             _ => 0.0,
         }
     }
+}
+
+/// Whether two of the bodies do not yield and move differently.
+pub(super) fn is_driven(bodies: &[ImpactBody]) -> bool {
+    let mut unyielding = bodies
+        .iter()
+        .filter(|body| body.inverse_mass == 0.0 && body.inverse_inertia == 0.0)
+        .map(|body| (body.velocity, body.spin));
+    let first = unyielding.next();
+    unyielding.any(|other| Some(other) != first)
 }
 
 /// A normal row for each contact and a friction row for each that has friction.

@@ -12,6 +12,7 @@ use super::body::{ImpactBody, ImpactContact, Response};
 use super::law::{ImpactLaw, resolve};
 use super::project::{Basis, nearest};
 use super::rough::{SINGLE, is_large, is_rough, newton_rough, opened, opening, reflections};
+use super::rows::is_driven;
 
 /// Reflections before the rest is stopped: a wedge of angle θ takes π/θ of them, a row of a hundred
 /// discs a hundred.
@@ -39,7 +40,8 @@ pub struct SharedOutcome {
     pub tangential_impulses: Vec<f64>,
     /// Whether the law was not followed to its end: a thousand reflections (200 with friction) were not enough,
     /// and what still approached was stopped with a loss that e = 1 would not have had; or bodies are
-    /// squeezed so that nothing meets all conditions, and some contact may still close.
+    /// squeezed so that nothing meets all conditions, or by driven bodies so that only more than sixteen times the speed
+    /// that squeezes them does, and some contact may still close.
     pub exhausted: bool,
     /// Floating-point operations that it took, to a factor of a few: what bounds the work of a call charges for it.
     pub operations: u64,
@@ -107,6 +109,13 @@ pub fn several(
 ) -> SharedOutcome {
     if let Some(single) = single(law, bodies, contacts) {
         return single;
+    }
+    if is_driven(bodies) {
+        // What squeezes bodies would go to and fro between them with every reflection, ever faster.
+        let stop = newton_rough(bodies, &with_restitution(contacts, 0.0));
+        if stop.exhausted {
+            return stop;
+        }
     }
     if is_large(contacts) && is_rough(contacts) {
         return newton_rough(bodies, contacts);

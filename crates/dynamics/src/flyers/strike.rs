@@ -29,6 +29,9 @@ const ALIKE: f64 = 1e-12;
 /// Speed of an approach that rounding alone can make, as a fraction of the bodies' speeds.
 const NOISE: f64 = 8.0 * f64::EPSILON;
 
+/// Seconds of a unit of [`SimTime`]: instants are rounded as parts of it.
+const UNIT: f64 = 1.0 / 64.0;
+
 /// Overlap that is looked at again, as a fraction of the smaller reach: what an impact leaves.
 const SLACK: f64 = 1e-12;
 
@@ -64,13 +67,18 @@ impl World {
         let material = self.material_of(impact);
         let before = self.ends_of(impact, time);
         let speed = approach_speed(impact, &before);
-        if speed <= NOISE * self.scale(impact, &before) {
-            let press = self.press(impact, time);
-            return self.touches(impact, time, speed, -press);
-        }
         let smooth = material.restitution >= 1.0 && material.friction == 0.0;
         let keeps = smooth && !self.bodies.bends(a) && !self.bodies.bends(b);
-        let press = if keeps { 0.0 } else { self.press(impact, time) };
+        let rounding = NOISE * self.scale(impact, &before);
+        let press = if keeps && speed > rounding {
+            0.0
+        } else {
+            self.press(impact, time)
+        };
+        // What is pressed together gains as much as the rounding of instants hides of each bounce: it would bounce for ever.
+        if speed <= rounding + NOISE * UNIT * press.max(0.0) {
+            return self.touches(impact, time, speed, -press);
+        }
         let e = material.restitution;
         let lost = price(&material);
         if self.outruns(impact, time, &material) {
@@ -89,7 +97,9 @@ impl World {
             restitution: e,
             ..material
         };
-        self.strike_at(impact, time, &before, material);
+        if !self.strike_at(impact, time, &before, material) {
+            return;
+        }
         if keeps {
             if !self.bounces_high(impact, time, speed) {
                 self.hop(impact, time);
@@ -172,14 +182,14 @@ impl World {
         found
     }
 
-    /// The impact itself, by the law at one point or at all that approach.
+    /// The impact itself, by the law at one point or at all that approach; whether both bodies fly on, or rest as before.
     fn strike_at(
         &mut self,
         impact: &Foreseen,
         time: SimTime,
         before: &[ImpactBody; 2],
         material: PairMaterial,
-    ) {
+    ) -> bool {
         let PairMaterial {
             restitution,
             friction,
@@ -199,13 +209,15 @@ impl World {
         if let [contact] = struck.as_slice()
             && tangent_speed == 0.0
         {
-            return self.strike_once(impact, contact, before, time);
+            self.strike_once(impact, contact, before, time);
+            return true;
         }
         if let [first, last] = struck.as_slice()
             && friction == 0.0
             && let Some(point) = common_point(impact, (first, last), before)
         {
-            return self.strike_once(impact, &ImpactContact { point, ..*first }, before, time);
+            self.strike_once(impact, &ImpactContact { point, ..*first }, before, time);
+            return true;
         }
         let mut shock = Shock::new(time, self.clock.h);
         for contact in struck {
@@ -217,11 +229,11 @@ impl World {
                 0.0,
             );
         }
-        self.strike_together(shock, time);
+        !self.strike_together(shock, time).squeezed
     }
 
-    /// Resolves a shock of several contacts; who has a new motion.
-    pub(super) fn strike_together(&mut self, mut shock: Shock, time: SimTime) -> Vec<u32> {
+    /// Resolves a shock of several contacts. Flyers that it leaves squeezed land: no impulses stop them.
+    pub(super) fn strike_together(&mut self, mut shock: Shock, time: SimTime) -> Together {
         shock.solve(
             &self.settings,
             &self.bodies,
@@ -230,13 +242,25 @@ impl World {
             &mut self.narrow,
         );
         self.work.impact(shock.operations);
-        apply(
+        let mut changed = apply(
             &mut self.bodies,
             time,
             &shock,
             &mut self.events,
             &mut self.report,
-        )
+        );
+        let squeezed: Vec<(u32, u32)> = shock.squeezed().map(|strike| shock.ends(strike)).collect();
+        for &(a, b) in &squeezed {
+            self.report.collapsed += 1;
+            self.report_collapse((a, b), 0.0, time);
+            self.land(a, time);
+            self.land(b, time);
+        }
+        changed.retain(|index| self.bodies.get(*index).is_flying());
+        Together {
+            changed,
+            squeezed: !squeezed.is_empty(),
+        }
     }
 
     /// They touch, and approach by rounding alone: what is pressed together lasts; what opens with
@@ -408,6 +432,14 @@ impl World {
         }
         spent
     }
+}
+
+/// What several contacts at one instant came to.
+pub(super) struct Together {
+    /// Flyers with new motions.
+    pub(super) changed: Vec<u32>,
+    /// Whether bodies were squeezed, and have landed.
+    squeezed: bool,
 }
 
 /// Speed of a body's fastest point, in m/s.

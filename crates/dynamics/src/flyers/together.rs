@@ -215,7 +215,7 @@ impl World {
                 }
             }
         }
-        for index in self.strike_together(shock, time) {
+        for index in self.strike_together(shock, time).changed {
             self.foresee(index, time, Cause::Deflected, None);
         }
     }

@@ -70,12 +70,9 @@ impl Shock {
     /// The same contacts with nothing given back.
     fn stop(&self, settled: f64) -> Self {
         let mut stop = self.clone();
-        for shaken in &mut stop.bodies {
-            shaken.after = shaken.before;
-        }
+        stop.begin_anew();
         for strike in &mut stop.strikes {
             strike.target = 0.0;
-            (strike.normal_impulse, strike.tangential_impulse) = (0.0, 0.0);
         }
         let mut sweeper = Sweeper::default();
         stop.hand_over(&mut sweeper);
