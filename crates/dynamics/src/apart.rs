@@ -89,7 +89,7 @@ pub(crate) fn set_apart<S: Copy>(
             methods.push(group.method());
         }
     }
-    // Who has the same number stays in its order.
+    // The sort is stable: rows of one number stay in their order.
     let mut all: Vec<(usize, Row, S)> = (0..rows.len())
         .map(|k| (known[roots[k]].number, rows[k], sources[k]))
         .collect();

@@ -65,7 +65,7 @@ impl Pull {
 pub(crate) struct Bodies {
     list: Vec<BodyState>,
     /// Raised by every change of a motion: what was predicted with another version is stale. Apart from the bodies, since
-    /// whoever looks at what is predicted asks for nothing else.
+    /// a check of a prediction reads nothing else.
     versions: Vec<u32>,
     alive: Vec<bool>,
     free: Vec<u32>,
@@ -129,7 +129,7 @@ impl Bodies {
         })
     }
 
-    /// Notes that a body is not as its solver knows it.
+    /// Notes that a body differs from its solver's copy.
     pub(crate) fn touch(&mut self, index: u32) {
         let state = self.list.get(index as usize);
         if self.notes_touched || state.is_some_and(|state| state.in_engine || state.is_guest) {

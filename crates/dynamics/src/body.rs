@@ -97,7 +97,7 @@ impl<'w> Body<'w> {
         })
     }
 
-    /// Whom the shapes may touch, in their order.
+    /// Collision filters of the shapes, in their order.
     pub fn filters(&self) -> impl Iterator<Item = Filter> + use<'w> {
         let colliders = self.colliders;
         let shapes = self.state.colliders.iter();

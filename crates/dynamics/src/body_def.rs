@@ -81,7 +81,7 @@ pub struct BodyDef {
     /// Whether the body may fall asleep. One that may not keeps all that it hangs together with awake, too: its island, through
     /// dynamic bodies in touch. Without effect while it is not dynamic.
     pub sleep_allowed: bool,
-    /// Whom its shapes may touch.
+    /// Collision filter of its shapes.
     pub filter: Filter,
     /// Anything the caller wants to find again.
     pub tag: u64,
@@ -256,7 +256,7 @@ impl BodyDef {
         self
     }
 
-    /// Whom its shapes may touch.
+    /// Collision filter of its shapes.
     #[must_use]
     pub const fn filtered(mut self, filter: Filter) -> Self {
         self.filter = filter;

@@ -72,7 +72,7 @@ impl Broad {
                 continue;
             }
             let ahead = swept_box(collider, &body.motion, time, h * LOOK_AHEAD);
-            // Nothing to spare for what never moves: whoever is in its box looks at it.
+            // No padding for a fixed body: every body in its box is tested against it.
             let padding = if body.kind != BodyKind::Fixed && body.reach.is_finite() {
                 PADDING * body.reach
             } else {
@@ -114,7 +114,7 @@ impl Broad {
         }
     }
 
-    /// Colliders in the trees whose boxes overlap `bounds`, in order.
+    /// Colliders in the trees with boxes that overlap `bounds`, in order.
     pub(crate) fn in_tree(&self, colliders: &[Collider], bounds: Aabb) -> Vec<u32> {
         let mut near = Vec::new();
         self.search_tree(colliders, bounds, &mut near);
@@ -138,7 +138,7 @@ impl Broad {
         }
     }
 
-    /// New pairs of a collider whose box is new.
+    /// New pairs of a collider with a new box.
     pub(crate) fn meet(
         &mut self,
         bodies: &mut Bodies,
@@ -282,7 +282,7 @@ impl Broad {
     }
 }
 
-/// Takes those that a tree names whose own boxes overlap `bounds`: its boxes are rounded.
+/// Takes the colliders from a tree if their own boxes overlap `bounds`: the boxes of the tree are rounded.
 fn overlapping<'a>(
     colliders: &'a [Collider],
     bounds: Aabb,

@@ -114,7 +114,7 @@ impl World {
         Ok(())
     }
 
-    /// Changes whom all shapes of a body may touch.
+    /// Changes the collision filter of all shapes of a body.
     ///
     /// # Errors
     /// If the body is not there.
@@ -127,7 +127,7 @@ impl World {
         Ok(())
     }
 
-    /// Changes whom one shape of a body may touch; shapes count from 0 in the order of insertion.
+    /// Changes the collision filter of one shape of a body; shapes count from 0 in the order of insertion.
     ///
     /// # Errors
     /// If the body or the shape is not there.
@@ -292,14 +292,14 @@ impl World {
         self.deflected(index, now);
     }
 
-    /// What rests on a kinematic body whose motion is new: sleepers wake, groups in closed form are judged anew.
+    /// Wakes sleepers on a kinematic body with a new motion, and solves for the modes of analytic islands on it anew.
     ///
     /// A kinematic body has no pairs with what sleeps: it is looked for by boxes.
     ///
     /// A fixed body that was put into sleepers wakes them; what sleeps beside it sleeps on.
     pub(crate) fn unsettle_on(&mut self, index: u32, time: SimTime) {
         if self.settings.mode == Mode::Stepped {
-            // The engine wakes whom it was put into.
+            // The engine wakes the sleepers that it was put into.
             return;
         }
         let drives = match self.bodies.get(index).kind {
@@ -404,9 +404,9 @@ impl World {
         }
     }
 
-    /// Stops a body whose numbers are no longer finite where it was last known.
+    /// Stops a body with numbers that are no longer finite at its last known place.
     pub(crate) fn stop(&mut self, index: u32, time: SimTime) {
-        // Its last box is all that tells where it was.
+        // Its last box is the only record of where it was.
         let colliders = self.bodies.get(index).colliders.iter();
         let mut boxes = colliders.map(|at| self.colliders[*at as usize].fat.centre());
         let last = boxes.find(|centre| centre.is_finite());
@@ -434,7 +434,7 @@ impl World {
         let now = self.clock.now;
         let forced = self.forced.clone();
         for &index in &forced {
-            // Who glides is given back first, since that takes the motion for one that its group knows.
+            // An analytic body is handed back first, since that assumes the motion stored for its island.
             self.hand_back_of(index, now);
             self.bodies.change(index, now, |_| {});
             let state = self.bodies.get_mut(index);

@@ -1,4 +1,4 @@
-//! Who may touch whom.
+//! Collision filters.
 
 /// Which shapes a shape may touch, by categories, a mask and a group.
 ///

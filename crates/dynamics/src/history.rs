@@ -84,7 +84,7 @@ impl History {
             })
     }
 
-    /// Forgets a body whose place another one takes.
+    /// Forgets a body: another one takes its place.
     pub(crate) fn forget(&mut self, index: u32) {
         self.log.retain(|(of, _)| *of != index);
     }

@@ -1,8 +1,8 @@
-//! Touches that open so slowly that they close again before anybody could see them open.
+//! Micro-bounces: contacts that open so slowly that they close again before a search could see them open.
 //!
 //! A blow on one contact may push its bodies apart at another one, by friction, at a speed u at which what presses them
 //! brings them back at once: after `2 u/a`, from a height of `u²/(2 a)`. Where that is less than what counts as touch a
-//! search for its end sees rounding, and whoever took the contact for open would let it sink in.
+//! search for its end sees rounding, and a contact taken for open would penetrate.
 
 use arrayvec::ArrayVec;
 use carom_collision::{AxisFeature, Impact, ImpactFeature};

@@ -38,7 +38,7 @@ use crate::error::{BodyError, check_finite};
     serde(remote = "Self", default, deny_unknown_fields)
 )]
 pub struct Material {
-    /// Mass per area, in kg/m². Above 0 for a moving body whose mass is not given.
+    /// Mass per area, in kg/m². Above 0 for a moving body without a given mass.
     pub density: f64,
     /// Coefficient of Coulomb friction, ≥ 0.
     pub friction: f64,

@@ -8,16 +8,16 @@ use crate::{Body, World};
 /// No place in the list.
 const NONE: u32 = u32::MAX;
 
-/// Places of bodies that move, and of those whose motion changed. A flight that goes on costs nothing.
+/// Places of bodies that move, and of those with a changed motion. A flight that goes on costs nothing.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Moved {
-    /// Bodies whose motion changed since the last step ended, each once.
+    /// Bodies with a motion changed since the last step ended, each once.
     changed: Vec<u32>,
     is_changed: Vec<bool>,
     /// Bodies that move, and where each body is in this list.
     moving: Vec<u32>,
     place: Vec<u32>,
-    /// Bodies at rest whose motion changed in the last step.
+    /// Bodies at rest with a motion changed in the last step.
     stopped: Vec<u32>,
 }
 

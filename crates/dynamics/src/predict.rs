@@ -93,7 +93,7 @@ pub(crate) fn predict(
         pair = pairs.get(place);
     }
     let closed = a.membership.is_closed() || b.membership.is_closed();
-    // Parts whose touch opens and closes again at once.
+    // Parts in a micro-bounce: their contact opens and closes again at once.
     let mut hops: ArrayVec<(u32, u32), 4> = ArrayVec::new();
     if pair.touching && (closed || pair.turning_rest > 0.0) {
         if rest.is_none() && !sunken {
@@ -263,7 +263,7 @@ fn polished(
             let part = (span / state.lag().length).min(1.0);
             state.motion.left_out * part * part * part
         };
-        // Who is as far off however short the stretch has no law to look at.
+        // A body without a law to refine by is as far off however short the stretch.
         of(a) + of(b)
     };
     let mut left = a.motion.left_out + b.motion.left_out;

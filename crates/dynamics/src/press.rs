@@ -36,7 +36,7 @@ impl Spot<'_> {
         self.press_of([a, b].map(|state| motion_along(state, time, STRETCH)), time)
     }
 
-    /// The same if nothing touched them: by fields and forces alone. `ends`: who they are in `bodies`.
+    /// The same if nothing touched them: by fields and forces alone. `ends`: their indices in `bodies`.
     pub(crate) fn free_press(&self, bodies: &Bodies, ends: (u32, u32), time: SimTime) -> f64 {
         let freely = |index: u32| {
             let state = bodies.get(index);
@@ -72,7 +72,7 @@ impl Spot<'_> {
         let size = a.reach.min(b.reach);
         let wait = STEADY / (fastest + slip.abs() / size);
         let speed = press.max(0.0) * wait.min(2.0 * h);
-        // Until somebody holds it, it goes on closing.
+        // Until the solver holds the pair, it goes on closing.
         speed.min(STEADY * size / h)
     }
 

@@ -1,4 +1,4 @@
-//! Where the time of a step goes, by a clock that the caller hands in: nothing here knows one.
+//! Where the time of a step goes, by a clock that the caller hands in.
 
 /// Seconds that the last step spent in each of its stages.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -6,13 +6,13 @@
 pub struct StepProfile {
     /// Boxes over motions, and the pairs that they give.
     pub pairs: f64,
-    /// Looking at near pairs: contacts, what lasts, who wakes.
+    /// Updates of near pairs: contacts, persistence, waking.
     pub contacts: f64,
     /// Lasting contacts.
     pub solver: f64,
     /// Flights.
     pub flight: f64,
-    /// Who falls asleep.
+    /// Falling asleep.
     pub sleep: f64,
     /// Times of impact.
     pub prediction: f64,

@@ -132,7 +132,7 @@ impl World {
         self.unfiltered().nearest(point, max)
     }
 
-    /// Bodies with a shape whose box overlaps `bounds`, in order.
+    /// Bodies with the box of a shape overlapping `bounds`, in order.
     #[must_use]
     pub fn bodies_in(&self, bounds: Aabb) -> Vec<BodyId> {
         self.unfiltered().bodies_in(bounds)
@@ -264,7 +264,7 @@ impl Filtered<'_> {
         })
     }
 
-    /// Bodies with a shape whose box overlaps `bounds`, in order.
+    /// Bodies with the box of a shape overlapping `bounds`, in order.
     #[must_use]
     pub fn bodies_in(&self, bounds: Aabb) -> Vec<BodyId> {
         self.bodies_with(bounds, |pose, collider| {

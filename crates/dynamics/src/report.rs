@@ -26,7 +26,7 @@ pub struct StepReport {
     pub pairs: u64,
     /// Contact rows that were solved for.
     pub rows: u64,
-    /// Contact islands whose modes were solved for: a closed form until the next change of mode, if there is one.
+    /// Mode solves of contact islands: a closed form until the next change of mode, if there is one.
     pub modes_solved: u64,
     /// Flights in fields that leave out more than [`Settings::field_error`](crate::Settings::field_error) in their shortest pieces.
     pub inaccurate: u64,

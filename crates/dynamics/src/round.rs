@@ -11,9 +11,9 @@
 //! ```
 //!
 //! At θ = 1 nothing is gained: pₙ v'ₙ = −pₙ gap/h, and friction opposes the slip. At θ = ½ the scheme is of second order, and
-//! what slides or rolls on a plane loses by friction alone. So a group takes the least θ ≥ ½ that gains nothing. Where somebody
-//! comes down, half of the old way would lead into the other one: there velocities are first made such that no gap closes, by an
-//! impact that gives nothing back. Rolling on a disc is of first order: the normal turns on the way.
+//! what slides or rolls on a plane loses by friction alone. So a group takes the least θ ≥ ½ that gains nothing. Where
+//! a body lands, half of its old way would lead into the other one: there velocities are first made such that no gap
+//! closes, by an impact that gives nothing back. Rolling on a disc is of first order: the normal turns on the way.
 //!
 //! An impact may cut a way short, so at no instant of it may there be more energy than at its start. After a part s of it
 //!
@@ -42,8 +42,8 @@ const ENOUGH: (usize, usize) = (256, 16);
 /// Speed that a contact has still to take away, as a part of the fastest, at which nothing changes any more.
 const CONVERGED: f64 = 1e-14;
 
-/// The same for those who come down. Where each was to land to within a contact's touch, boxes full of lively balls took 1.7 times
-/// the time, and no less with 1/64 than with this (2026-11-23).
+/// The same for bodies that land. Where each was to land to within a contact's touch, boxes full of lively balls took
+/// 1.7 times the time, and no less with 1/64 than with this (2026-11-23).
 const LANDED: f64 = 1.0 / 4096.0;
 
 /// The same of a contact that may open or slip while it pushes: what is gained by it is rounding.
@@ -127,8 +127,8 @@ pub(crate) fn members_of(rows: &[Row]) -> Vec<u32> {
     members
 }
 
-/// What velocities become at once where somebody comes down, by more than `slow` m/s beyond what its gap allows: nothing
-/// closes by more, and nothing is given back.
+/// Velocities after an impact without restitution, where a gap closes by more than `slow` m/s beyond what it allows:
+/// afterwards none does.
 fn land(mut down: Sweeper, before: &[Speed], slow: f64, fastest: f64) -> Option<Vec<Speed>> {
     for (body, (velocity, spin)) in down.bodies.iter_mut().zip(before) {
         (body.velocity, body.spin) = (*velocity, *spin);
@@ -146,8 +146,8 @@ fn land(mut down: Sweeper, before: &[Speed], slow: f64, fastest: f64) -> Option<
     if !comes_down(&down, slow) {
         return None;
     }
-    let nobody = vec![false; before.len()];
-    let gains = |down: &Sweeper| Work::of(down, before, &nobody).gains(0.5, fastest);
+    let acted = vec![false; before.len()];
+    let gains = |down: &Sweeper| Work::of(down, before, &acted).gains(0.5, fastest);
     let near = slow.max(LANDED * fastest);
     sweep(&mut down, fastest, gains, |down| !comes_down(down, near));
     Some((0..before.len()).map(|k| down.velocity(k)).collect())
@@ -177,7 +177,7 @@ fn sweep(
     }
 }
 
-/// Adds those who are pushed.
+/// Marks the bodies that contacts push.
 fn mark(acted: &mut [bool], sweeper: &Sweeper) {
     for contact in sweeper.contacts.iter().filter(|contact| contact.j_n > 0.0) {
         (acted[contact.a], acted[contact.b]) = (true, true);
@@ -232,14 +232,14 @@ struct Work {
     by_old: f64,
     /// p·J v'.
     by_new: f64,
-    /// (v' − v)ᵀ M (v' − v) of those who do not fly.
+    /// (v' − v)ᵀ M (v' − v) of bodies that do not fly.
     change: f64,
     /// Σ pₙ, in N·s.
     pushes: f64,
 }
 
 impl Work {
-    /// `acted`: those who do not fly even if no contact pushes them.
+    /// `acted`: bodies that do not fly even if no contact pushes them.
     fn of(sweeper: &Sweeper, before: &[Speed], acted: &[bool]) -> Self {
         let mut work = Self {
             by_old: 0.0,
@@ -397,7 +397,7 @@ mod tests {
                         vec2(to(body.v.x, way.start.0.x), to(body.v.y, way.start.0.y)),
                         to(body.w, way.start.1),
                     );
-                    // Whom nothing pushes is left to flight.
+                    // A body that nothing pushes is left to free flight.
                     let even = way.even.filter(|_| body.acted);
                     let mean = even.map_or((way.start.0 + now.0) * 0.5, |even| even.0);
                     gain += kinetic(now) - kinetic(old.start) + 9.81 * part * H * mean.y;
@@ -465,7 +465,7 @@ mod tests {
     }
 
     #[test]
-    fn who_slides_on_a_floor_goes_by_the_trapezoid() {
+    fn sliding_on_a_floor_follows_the_trapezoidal_rule() {
         let (mut bodies, before, mut rows) =
             row_of_discs(&[vec2(0.0, 0.5)], &[(vec2(1.0, 0.0), 0.0)], 0.3);
         let mut ways = before.clone();

@@ -123,16 +123,17 @@ impl Settings {
 )]
 #[non_exhaustive]
 pub enum Mode {
-    /// Each group the cheapest method that is right for it. Large groups in touch, and many bodies whose impacts come
-    /// fast, are moved by a solver of their own in sub-steps; what strikes them joins them.
+    /// Each island the cheapest method that is right for it. Large islands, and many bodies with impacts in fast
+    /// succession, are moved by a solver of their own in sub-steps; what strikes them joins them.
     #[default]
     Hybrid,
-    /// Closed forms only; what they cannot finish is sub-stepped and marks the run as not exact. So is who spends more
-    /// than 4,096 losses of relative speed in impacts within a tick; elastic ones without friction spend nothing.
+    /// Closed forms only; what they cannot finish is sub-stepped and marks the run as not exact. So does a body that
+    /// spends more than 4,096 losses of relative speed in impacts within a tick; elastic ones without friction spend
+    /// nothing.
     Exact,
     /// Every moving body is sub-stepped in one solver, without an agenda: contacts stay from step to
     /// step, a pair that keeps its relative pose costs no look. Impacts are as sharp as a sub-step,
-    /// but who is too fast for it is stopped at its time of impact.
+    /// but a body too fast for that is stopped at its time of impact.
     Stepped,
 }
 
@@ -150,7 +151,7 @@ pub enum PairSearch {
     Indexed,
     /// Every body against every other: the slow twin.
     AllPairs,
-    /// Nobody meets anybody.
+    /// No pairs: no body meets another.
     None,
 }
 

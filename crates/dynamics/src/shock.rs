@@ -93,7 +93,7 @@ pub(crate) struct Shock {
     h: f64,
     pub(crate) strikes: Vec<Strike>,
     pub(crate) bodies: Vec<Shaken>,
-    /// Pairs whose contacts are those of this instant, with the speeds that count as rest there.
+    /// Pairs with contacts updated at this instant, and the speeds that count as rest there.
     looked: Vec<(u32, RestSpeed)>,
     /// Slowest rest speed of the pairs, in m/s.
     rest: f64,
@@ -405,7 +405,7 @@ impl Shock {
         }
     }
 
-    /// Bodies and contacts that the sweeps do not know yet.
+    /// Bodies and contacts not yet in the sweeps.
     fn hand_over(&self, sweeper: &mut Sweeper) {
         let (bodies, contacts) = sweeper.len();
         for shaken in &self.bodies[bodies..] {

@@ -54,7 +54,7 @@ pub(crate) fn sinks_in(
             let speed = fastest([a, b], colliders, contact.normal, time + wait, left);
             (allowed - depth(contact)) / speed
         };
-        // A speed of 0 has all the room there is, and so has who touches nowhere.
+        // A speed of 0 has all the room there is, and so has a pair without contacts.
         let room = contacts.iter().map(room).fold(f64::INFINITY, f64::min);
         let least = horizon / f64::from(LOOKS);
         let before = wait;

@@ -8,7 +8,7 @@ use crate::groups::Groups;
 use crate::pairs::Pairs;
 use crate::{BodyKind, Events, Sleep};
 
-/// Puts every group to sleep whose bodies have all been slow for long enough; those that fell asleep.
+/// Puts every island to sleep once all its bodies have been slow for long enough; returns these bodies.
 pub(crate) fn settle(
     sleep: Sleep,
     bodies: &mut Bodies,

@@ -26,7 +26,7 @@ use carom_collision::NodeId;
 pub(crate) struct BodyState {
     /// Where the centre of mass is at every instant from the motion's start on.
     pub(crate) motion: Motion,
-    /// Fingerprint of how it began: who is A and who is B in a pair of flyers.
+    /// Fingerprint of how it began: decides which is A and which B in a pair of free bodies.
     pub(crate) rank: u64,
     pub(crate) inverse_mass: f64,
     pub(crate) inverse_inertia: f64,
@@ -80,7 +80,7 @@ pub(crate) struct Collider {
     pub(crate) drawn: Arc<Shape>,
 }
 
-/// How a shape meets others, and whom. One for all that are alike, as far as that is seen at a glance.
+/// Material and filter of a shape. One for all that are alike, as far as a cheap comparison shows.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Surface {
     pub(crate) material: Material,

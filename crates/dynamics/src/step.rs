@@ -155,7 +155,7 @@ impl World {
         };
         let (a, b) = pair.bodies;
         let now = (self.bodies.version(a), self.bodies.version(b));
-        // Who glides is struck with all that holds it: by the impact that is foreseen once it has landed.
+        // An analytic body is struck with all that holds it: by the impact that is foreseen once it has landed.
         if now == entry.versions
             && (self.hand_back_of(a, entry.time) | self.hand_back_of(b, entry.time))
         {
@@ -210,7 +210,7 @@ impl World {
                 let lost = price(&self.pairs.get(entry.pair).material);
                 self.spent += lost;
                 self.rush(&changed, lost, entry.time);
-                // Who rested is awake before anybody asks who touches whom, and no judgement of before stands.
+                // Wake sleeping bodies first: the contact search below skips sleepers. Failed mode solves are void.
                 for &index in &changed {
                     self.bodies.get_mut(index).membership.forget();
                     if self.bodies.get(index).asleep {
@@ -226,7 +226,7 @@ impl World {
         false
     }
 
-    /// Those who are held together with bodies that an impact `changed` go other ways from there, too.
+    /// Solves for the islands of bodies that an impact `changed`: their other members get new motions, too.
     fn go_on(&mut self, changed: &[u32], time: SimTime) {
         let moved = self.groups.go_on(
             &mut self.bodies,
@@ -332,7 +332,7 @@ impl World {
         self.rouse(&woken, time);
     }
 
-    /// Ends the sleep of a body and all sleepers that it touches, and so on; who they are.
+    /// Ends the sleep of a body and all sleepers that it touches, and so on; returns them.
     pub(crate) fn woken_with(&mut self, index: u32, time: SimTime) -> Vec<u32> {
         if self.is_engines(index) {
             self.wake_in_engine(index, time);

@@ -1,4 +1,4 @@
-//! The pipeline of a sub-step: for bodies in lasting contact, and whoever is near them.
+//! The pipeline of a sub-step: for bodies in persistent contact, and bodies near them.
 
 use carom_math::SimTime;
 
@@ -165,8 +165,8 @@ impl World {
                 self.land_first(index, time);
             }
             landed.extend(lands);
-            // Only the pairs of those who move otherwise now may answer otherwise: of who landed, and of who was judged
-            // again because of it.
+            // Only pairs of bodies with a changed motion may answer otherwise: those that landed, and those with modes
+            // solved for anew because of it.
             let bodies = &self.bodies;
             let changed = |index: &&u32| bodies.version(**index) != before[**index as usize];
             let changed = self.stepped.iter().filter(changed);
@@ -279,7 +279,7 @@ impl World {
             if state.course.flies {
                 self.part(place, time);
             } else if !state.is_stepped() {
-                // Nobody looks at it before somebody wakes.
+                // No contact update before one of the two wakes.
                 (pair.lasting, pair.held, pair.given_up) = (false, pair.lasting, false);
                 (pair.impacts, pair.spent) = (0, 0.0);
             }

@@ -1,4 +1,4 @@
-//! Who touches whom at an instant, as plain data for the closed forms of contact groups.
+//! Contacts at an instant, as plain data for the closed forms of islands.
 
 use arrayvec::ArrayVec;
 use carom_collision::part;
@@ -183,8 +183,8 @@ impl World {
     /// All that hangs together by touch around a dynamic body.
     ///
     /// # Errors
-    /// If these are too many for closed forms, or somebody is asleep, deeper in another than
-    /// rounding, or waits after a judgement that failed.
+    /// If these are too many for closed forms, or a body is asleep, penetrates another by more than
+    /// rounding, or waits after a mode solve that failed.
     pub(crate) fn gather_touching(
         &mut self,
         index: u32,
@@ -232,7 +232,7 @@ impl World {
         Ok(found)
     }
 
-    /// Until when somebody who touches the body waits after a judgement that failed.
+    /// Until when a body in contact with this one waits after a mode solve that failed.
     fn neighbour_waits(&self, index: u32, pairs: &[u32], time: SimTime) -> Option<SimTime> {
         let near = pairs.iter().map(|place| self.pairs.get(*place));
         near.filter(|pair| pair.touching)
@@ -258,7 +258,7 @@ impl World {
                 time,
                 h,
             );
-            // Who begins and ends to touch is for the sub-steps to say.
+            // Begins and ends of touch are reported by the sub-steps.
             core::mem::swap(&mut touching, &mut pair.touching);
         }
         let pair = self.pairs.get(place);

@@ -153,8 +153,8 @@ impl World {
         self.clock.now
     }
 
-    /// Makes room for `bodies` more bodies of one shape each. Whoever says how many will come saves memory: room that
-    /// grows with every body is up to twice as large as it need be, and leaves holes.
+    /// Makes room for `bodies` more bodies of one shape each. This saves memory: room that grows with every body is up
+    /// to twice as large as it need be, and leaves holes.
     pub fn reserve(&mut self, bodies: usize) {
         self.bodies.reserve(bodies);
         self.colliders.reserve_exact(bodies);

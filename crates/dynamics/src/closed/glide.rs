@@ -2,8 +2,8 @@
 //!
 //! A member of a group that slides or rolls has one parabola until the group changes, just as a flyer has one until it
 //! strikes. So it is looked after as a flyer is: boxes over its way, impacts in the calendar, and a search that ends with
-//! its mode. Only what it touches is not searched for: that is the group's own affair. Whoever meets it, or changes it,
-//! gives the whole group back to the sub-steps at that instant, and they let go of it again at their next look.
+//! its mode. Only what it touches is not searched for: the group has these contacts already. A body that meets
+//! it, or a call that changes it, gives the whole group back to the sub-steps at that instant, until their next look.
 
 use std::sync::Arc;
 
@@ -48,7 +48,7 @@ impl World {
         let Some(group) = self.closed.get(place) else {
             return false;
         };
-        // What opens may close again, and the group does not know when.
+        // A contact that opens may close again, at an instant that the mode does not give.
         let opens = |touch: &Kept| touch.moved.mode == ContactMode::Open;
         if group.touches.iter().any(opens) {
             return false;
@@ -343,7 +343,7 @@ mod tests {
     /// Until a contact without closed form takes soft rows: they begin from forces that are as old as a sub-step, or as new as
     /// the end of a glide. Roundings decide what becomes of bodies that touch just so: a few runs part there.
     #[test]
-    fn who_glides_moves_as_who_is_stepped() {
+    fn analytic_bodies_move_as_stepped_ones() {
         let (mut glided, mut stepped, mut parted) = (0, 0, Vec::new());
         let mut ticks = 0;
         for seed in 1..40 {
@@ -378,7 +378,7 @@ mod tests {
     }
 
     #[test]
-    fn steps_that_are_cut_are_the_same_bits_for_who_glides() {
+    fn cutting_steps_changes_no_bit_of_an_analytic_island() {
         for seed in 1..10 {
             let (mut whole, _) = scene(seed, false);
             let (mut cut, _) = scene(seed, false);
@@ -394,7 +394,7 @@ mod tests {
     }
 
     #[test]
-    fn a_caller_may_change_anything_about_who_glides() {
+    fn a_caller_may_change_anything_about_an_analytic_body() {
         for seed in 1..60 {
             let (mut world, ids) = scene(seed, false);
             let mut next = numbers(seed + 200);

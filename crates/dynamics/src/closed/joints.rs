@@ -27,7 +27,7 @@ impl Held<'_> {
         self.velocity + cross_scalar(self.spin, point - self.pose.position)
     }
 
-    /// The edge that lies along a contact whose normal points out of the part.
+    /// The edge that lies along a contact; the normal `outward` points out of the part.
     fn flush_edge(&self, outward: Vec2) -> Option<usize> {
         let local = self.pose.inverse_vector(outward);
         (0..self.hull.normals.len())

@@ -201,7 +201,7 @@ impl World {
         members.iter().filter(stalls).count() > 0
     }
 
-    /// Judges all that touches a body, and whoever touches that, and so on.
+    /// Solves for the modes of the island around a body.
     fn judge_around(&mut self, index: u32, time: SimTime, speed: f64, looks: Looks) {
         self.report.modes_solved += 1;
         let mut found = self.gather_touching(index, time, looks);

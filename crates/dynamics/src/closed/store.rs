@@ -37,7 +37,7 @@ const LONGEST_WAIT: u32 = 256;
 /// No group.
 const NO_GROUP: u32 = u32::MAX;
 
-/// What a body knows of groups.
+/// Membership of a body in groups.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Membership {
     /// Place of the group, or [`NO_GROUP`].
@@ -139,7 +139,7 @@ pub(super) struct Group {
     /// Largest speed of the mode: what its roundings are measured by, in m/s.
     pub(super) speed: f64,
     pub(super) sleeps: bool,
-    /// Its members are not looked at: they rest, as the machinery knows what sleeps.
+    /// Its members are left out of sub-steps and treated as asleep, but reported awake to the caller.
     pub(super) dozes: bool,
     /// Its members fly until it changes.
     pub(super) glides: bool,
@@ -173,7 +173,7 @@ impl Group {
         touches
     }
 
-    /// The pair whose corner comes down at the next change, the normal from A to B, and where.
+    /// The pair with a corner that lands at the next change, the normal from A to B, and the point.
     pub(super) fn landing(&self) -> Option<(u32, Vec2, Vec2)> {
         match self.tipping.as_ref()?.tip.ends {
             Ends::Known | Ends::Changes => None,

@@ -67,7 +67,7 @@ impl Conic {
         alpha.is_finite().then_some(conic)
     }
 
-    /// Where a hyperbola turns: at `x = q e/|e|`, with `√µ t = q U₁ + U₃` from there to the start, whose
+    /// Where a hyperbola turns: at `x = q e/|e|`, with `√µ t = q U₁ + U₃` from there to the start, where
     /// `σ₀ = |e| U₁`.
     fn turn(&self) -> Option<Turn> {
         let (x, v) = self.start;
@@ -354,7 +354,7 @@ mod tests {
             let place = carom_math::Rot::from_angle(angle).x_axis() * r;
             let velocity = carom_math::Rot::from_angle(towards).x_axis() * speed;
             let conic = Conic::through(Vec2::ZERO, strength, place, velocity).unwrap();
-            // Through the centre itself nobody flies.
+            // No orbit passes through the centre itself.
             prop_assume!(conic.nearest() > 1e-3);
             let (x, v) = conic.at(t);
             let scale = strength / conic.nearest();

@@ -1,7 +1,7 @@
 //! Impacts that are due at the instant of another one.
 //!
-//! Whoever comes first asks who else is due, to be resolved together with those that it hangs together with. The
-//! others are laid aside, where they are found by their bodies: of thousands at one instant each is asked once.
+//! The first impact looks for others that are due, and is resolved together with those of its cluster. The rest are
+//! laid aside, where they are found by their bodies: of thousands at one instant each is examined once.
 
 use std::collections::BTreeSet;
 

@@ -43,7 +43,7 @@ impl Circle {
     }
 }
 
-/// Who looks round, and how.
+/// A search for neighbours in the grid.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Look {
     circle: Circle,

@@ -136,8 +136,7 @@ impl Days {
         }
     }
 
-    /// All days are empty: gives back the room that nobody used since this was last said, so that a pile that landed leaves
-    /// none behind.
+    /// All days are empty: frees the memory unused since the last call, so that a pile that landed leaves none behind.
     pub(super) fn give_back(&mut self) {
         debug_assert_eq!(self.count, 0, "every day was taken");
         self.chunks.truncate((self.used as usize).div_ceil(CHUNK));

@@ -1,4 +1,4 @@
-//! Looking ahead: whom a flyer may meet up to its horizon, from when on, and when they touch.
+//! Prediction: the bodies that a free body may meet up to its horizon, from when on, and the times of impact.
 
 use carom_geometry::Aabb;
 use carom_math::SimTime;
@@ -14,7 +14,7 @@ use crate::{BodyKind, PairSearch, World};
 /// Part of a cell that a flyer travels within its horizon.
 const TRAVEL: f64 = 0.35;
 
-/// Way in reaches that a member of a group looks ahead for: farther, and whoever is stepped nearby looks at it in vain.
+/// Look-ahead of an analytic body, in reaches: farther, and stepped bodies nearby are tested against it in vain.
 const GLIDE: f64 = 1.0;
 
 /// Longest horizon, in s: what rests is looked for again at least this often.
@@ -41,7 +41,7 @@ impl World {
             self.stop(index, time);
         }
         self.flyers.resize(&mut self.bodies, time);
-        // Who does not fall leaves the frame that falls ever faster.
+        // A body that does not fall leaves the free-fall frame ever faster.
         if self.bodies.get(index).course.glides || !self.look_round(index, time) {
             self.follow(index, time, 0.0);
         } else if cause == Cause::Deflected && self.is_clear(index, time) {
@@ -195,7 +195,7 @@ impl World {
         self.flyers.near = near;
     }
 
-    /// Two flyers whose circles meet, perhaps before one of their horizons ends.
+    /// Two free bodies with circles that meet, perhaps before one of their horizons ends.
     pub(super) fn approach(
         &mut self,
         index: u32,

@@ -24,7 +24,7 @@ pub(crate) struct Foreseen {
 }
 
 impl Foreseen {
-    /// Whose straight face is struck, if one is.
+    /// The side with the straight face that is struck, if one is.
     pub(super) const fn face(&self) -> Option<Side> {
         match self.feature.feature {
             AxisFeature::Edge { owner, .. } => Some(owner),
@@ -47,7 +47,7 @@ impl Flyers {
             .or(aside)
     }
 
-    /// The same, of all that nobody laid aside.
+    /// The same, of all entries not laid aside.
     fn next_queued(
         &mut self,
         bodies: &Bodies,
@@ -78,7 +78,7 @@ impl Flyers {
         Some((entry, self.release(&entry)))
     }
 
-    /// Takes the next entry that nobody laid aside out, if it is due by `limit`.
+    /// Takes the next entry not laid aside out, if it is due by `limit`.
     pub(super) fn pop_queued(
         &mut self,
         bodies: &Bodies,

@@ -7,7 +7,7 @@ use carom_collision::Motion;
 use carom_geometry::Aabb;
 use carom_math::{SimTime, Vec2};
 
-/// A frame of reference whose origin moves by `velocity u + acceleration u²/2` from `since` on.
+/// A frame of reference with an origin that moves by `velocity u + acceleration u²/2` from `since` on.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Frame {
     since: SimTime,

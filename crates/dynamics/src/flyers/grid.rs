@@ -48,7 +48,7 @@ impl Seat {
         [-right, -top, -left, -bottom]
     }
 
-    /// Four comparisons at once: most boxes are apart, and nobody can tell in which way.
+    /// Four comparisons without a branch: most boxes are apart, in a direction that no branch predictor can tell.
     fn is_within(&self, limits: [f32; 4]) -> bool {
         let apart = [0, 1, 2, 3].map(|side| u32::from(self.sides.0[side] > limits[side]));
         apart[0] | apart[1] | apart[2] | apart[3] == 0
@@ -181,14 +181,14 @@ impl Grid {
         }
     }
 
-    /// Appends every body in the cells whose box overlaps that of `seat`, itself included; some more than once.
+    /// Appends every body in the cells with a box that overlaps that of `seat`, itself included; some more than once.
     /// How many seats there are.
     pub(crate) fn gather(&self, seat: &Seat, cells: Cells, near: &mut Vec<u32>) -> usize {
         let (limits, mut seats) = (seat.limits(), 0);
         for cell in cells.each() {
             let list = &self.lists[self.list(cell)];
             seats += list.len();
-            // Everybody is written down, and kept by moving on: nobody can tell who overlaps.
+            // Every body is written, and kept by advancing `end`: a branch on the overlap would be mispredicted.
             let mut end = near.len();
             near.resize(end + list.len(), 0);
             for other in list {

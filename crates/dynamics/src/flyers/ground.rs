@@ -69,7 +69,7 @@ impl World {
         true
     }
 
-    /// Whether flyers remember where nothing was: not while somebody needs to find them by narrow boxes.
+    /// Whether free bodies remember where nothing was: not while others need to find them by narrow boxes.
     fn clears(&self) -> bool {
         !self.flyers.is_raised()
     }

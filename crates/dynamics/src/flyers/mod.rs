@@ -52,7 +52,7 @@ pub(crate) struct Course {
     pub(crate) cells: Option<Cells>,
     /// Moves in closed form, from event to event.
     pub(crate) flies: bool,
-    /// Flies with others whom it touches, until their group changes.
+    /// Flies with others that it touches, until their island changes.
     pub(crate) glides: bool,
     /// Nothing was found where it looked down, but for half-planes.
     pub(crate) alone: bool,
@@ -127,7 +127,7 @@ pub(crate) struct Flyers {
     drifts: bool,
     /// There is, or was, something in the tree of boxes that they look down for.
     grounded: bool,
-    /// Boxes of the grid's flyers in the world, while somebody needs to find them there.
+    /// Boxes of the grid's flyers in the world, while other bodies need to find them there.
     aloft: Option<BoxTree>,
     /// When they go, if no body is sub-stepped then.
     raised_until: SimTime,
@@ -155,7 +155,7 @@ pub(crate) struct Flyers {
     shapes: Vec<u32>,
     /// The end of a low bounce, in s from the impact that is being resolved.
     hop: Option<(f64, Foreseen)>,
-    /// The shapes whose impact is being resolved, and where they part.
+    /// The shapes in the impact that is being resolved, and where they part.
     struck: Option<((u32, u32), ImpactFeature)>,
 }
 

@@ -1,4 +1,4 @@
-//! Who is where: flyers by their boxes in the grid, and in the world while somebody looks for them there.
+//! Boxes of free bodies: in the grid, and in the world while other bodies look for them there.
 
 use carom_collision::{BoxTree, roundable};
 use carom_geometry::Aabb;
@@ -8,7 +8,7 @@ use super::{Cells, Course, Flyers, Seat, Sides};
 use crate::bodies::Bodies;
 
 impl Flyers {
-    /// Bodies of the grid whose boxes overlap that of a seat, some more than once: see [`Self::has_met`].
+    /// Bodies of the grid with boxes that overlap that of a seat, some more than once: see [`Self::has_met`].
     pub(super) fn search(&mut self, seat: &Seat, cells: Cells) -> Vec<u32> {
         let mut near = core::mem::take(&mut self.near);
         near.clear();
@@ -16,7 +16,7 @@ impl Flyers {
         near
     }
 
-    /// The mark of a new search, which has met nobody yet.
+    /// The mark of a new search, which has met no body yet.
     pub(super) fn begin_to_meet(&mut self, bodies: usize) -> u32 {
         if self.seen.len() < bodies {
             self.seen.resize(bodies, self.mark);
@@ -102,7 +102,7 @@ impl Flyers {
         self.aloft.is_some()
     }
 
-    /// Nobody looks for flyers any more.
+    /// Drops the boxes in the world: no body looks for free bodies there any more.
     pub(crate) fn lower(&mut self) {
         self.aloft = None;
         self.nodes = Vec::new();

@@ -128,7 +128,7 @@ pub(crate) struct Queue {
     due: BinaryHeap<Reverse<Entry>>,
     days: Days,
     later: Vec<Entry>,
-    /// Entries whose day came this year, stale or not.
+    /// Entries of the days that came this year, stale or not.
     come: u64,
 }
 

@@ -26,7 +26,7 @@ impl World {
         let Some(window) = own.meets(&theirs) else {
             return;
         };
-        // A bound, whose end is not known, may come early; a root is there but for its rounding.
+        // A bound, with an unknown end, may come early; a root is exact but for its rounding.
         if window.to.is_infinite() && window.from > 0.0 {
             self.approach(index, other, window, time, Cause::Deflected);
         } else {

@@ -52,7 +52,7 @@ impl World {
                     if self.release_outweighed(other, &[index], &mut Vec::new(), time) {
                         return;
                     }
-                    // It waits at the surface of those who woke for the next sub-step.
+                    // It waits at the surface of the woken bodies for the next sub-step.
                     self.join(other, time);
                 }
                 if !self.bodies.get(index).course.flies {
@@ -151,8 +151,8 @@ impl World {
         approach_speed(impact, before) > NOISE * self.scale(impact, before)
     }
 
-    /// Speed whose rounding an approach is judged by, in m/s: that of the bodies, or with which their
-    /// impacts began to come ever faster.
+    /// Scale of the rounding of an approach, in m/s: the speed of the bodies, or that with which their
+    /// Zeno series began.
     pub(super) fn scale(&self, impact: &Foreseen, before: &[ImpactBody; 2]) -> f64 {
         let of = |index: u32, body: &ImpactBody| {
             let state = self.bodies.get(index);

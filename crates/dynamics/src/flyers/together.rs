@@ -47,7 +47,7 @@ impl World {
             return self.strike_flyer(&first.1, time);
         }
         let mut struck = vec![first];
-        // Whoever moves and is in one of them brings in all others that he is in.
+        // A moving body in one of them brings in all its others.
         let mut k = 0;
         while k < struck.len() {
             let (a, b) = struck[k].1.bodies;

@@ -30,7 +30,7 @@ impl Window {
     }
 }
 
-/// When two circles overlap whose centres are `d` apart (m), and change that by `v` (m/s) and `a`
+/// When two circles overlap with centres `d` apart (m), which changes by `v` (m/s) and `a`
 /// (m/s²); `reach` is the sum of their radii (m). `None`: never.
 ///
 /// Without relative acceleration both times are exact roots; with it `from` is a bound:

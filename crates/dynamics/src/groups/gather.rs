@@ -49,7 +49,7 @@ impl Groups {
                     || b.is_flying()
                     || a.in_engine
                     || b.in_engine
-                    // Who touches a sleeper has woken it; across a gap it is met, and woken, by an impact.
+                    // A touch has woken the sleeper; across a gap it is met, and woken, by an impact.
                     || a.asleep
                     || b.asleep
                 {

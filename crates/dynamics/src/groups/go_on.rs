@@ -16,7 +16,7 @@ use crate::pairs::Pairs;
 use crate::round::{Way, hold};
 
 impl Groups {
-    /// Holds the groups of bodies whose motions an impact has `changed`, once each; who goes another way since.
+    /// Solves for the islands of bodies that an impact has `changed`, once each; returns all with a new motion.
     pub(crate) fn go_on(
         &mut self,
         bodies: &mut Bodies,
@@ -80,7 +80,7 @@ impl Groups {
         rounds
     }
 
-    /// Takes those out of a group whose motions something else than this impact has changed: closed forms, or a caller.
+    /// Removes members with a motion changed by something else than this impact: closed forms, or a caller.
     ///
     /// A body that was taken out, the ground too, holds nothing any more.
     fn leave_out_strays(&mut self, bodies: &Bodies, pairs: &Pairs, number: u32, changed: &[u32]) {

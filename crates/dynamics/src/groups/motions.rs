@@ -13,8 +13,8 @@ impl Groups {
     /// Has the body at a place of the solver go its way from `time` on, for `h` seconds.
     ///
     /// What was pushed out is a displacement, not a motion: it moves the body at once, by the difference of the pushed and
-    /// the relaxed velocity, and strikes nobody. The rest is the trapezoid from the velocity before to the relaxed one, so
-    /// that sliding is of second order and the velocity has no jumps; but for some that are held without springs.
+    /// the relaxed velocity, and strikes nothing. The rest is the trapezoid from the velocity before to the relaxed
+    /// one, so that sliding is of second order and the velocity has no jumps; but for some held without springs.
     pub(super) fn send(&mut self, bodies: &mut Bodies, place: usize, time: SimTime, h: f64) {
         let index = self.members[place];
         let (member, way) = (&mut self.bodies[place], self.ways[place]);
@@ -55,7 +55,7 @@ impl Groups {
         let pair = pairs.get_mut(source.pair);
         pair.at_once = source.method == Method::AtOnce;
         pair.round = source.method == Method::Round;
-        // Who looked at the pair since the sub-step began may have found it apart.
+        // A contact update since the sub-step began may have found the pair apart.
         if let Some(contact) = pair.contacts.get_mut(source.contact) {
             // The next sub-step begins with what a whole one asks for.
             let whole = self.h / h;

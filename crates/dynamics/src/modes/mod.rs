@@ -1,11 +1,11 @@
-//! Contact groups whose rows do not change with time, in closed form.
+//! Contact islands with rows that do not change with time, in closed form.
 //!
 //! Flats that slide on flats and discs on straight edges keep their normals and, seen from what
 //! turns, their arms. So every body of such a group has a constant acceleration until a slip stops,
 //! an edge ends or a body begins to tip: [`judge`] solves the complementarity problem of Signorini and
 //! Coulomb for the accelerations once, and names the instant of the next change.
 //!
-//! Pure functions on plain data: nothing here knows a world.
+//! Pure functions on plain data, without a world.
 
 mod balance;
 mod change;
@@ -161,8 +161,8 @@ pub(crate) enum NotMine {
 
 /// Modes and motions of a group from now on.
 ///
-/// `speed` is the largest speed from whose roundings the given velocities may come, in m/s: what
-/// stopped just now is not exactly still.
+/// The given velocities may be roundings of speeds up to `speed`, in m/s: a body that stopped just
+/// now is not exactly still.
 pub(crate) fn judge(
     bodies: &[ModeBody],
     touches: &[Touch],
@@ -190,7 +190,7 @@ pub(crate) fn judge(
     })
 }
 
-/// How a group begins to move whose rows turn.
+/// How an island with rows that turn begins to move.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Begun {
     /// Points that do not open.
@@ -205,8 +205,8 @@ pub(crate) struct Begun {
     pub(crate) velocities: Vec<(Vec2, f64)>,
 }
 
-/// Modes at an instant of a group whose rows turn; `bends` is what velocities add to the rates of each touch's points,
-/// and of its tangent, in m/s².
+/// Modes at an instant of an island with rows that turn; `bends` is what velocities add to the rates of each touch's
+/// points, and of its tangent, in m/s².
 pub(crate) fn begin(
     bodies: &[ModeBody],
     touches: &[Touch],

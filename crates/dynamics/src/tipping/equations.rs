@@ -1,4 +1,4 @@
-//! The accelerations of a group whose contacts keep their modes, wherever its bodies are.
+//! The accelerations of an island while its contacts keep their modes, wherever its bodies are.
 //!
 //! ```text
 //! R M⁻¹ C λ = −(R M⁻¹ f + γ)

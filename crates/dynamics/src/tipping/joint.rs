@@ -44,7 +44,7 @@ pub(crate) enum End {
 pub(crate) enum Joint {
     /// A corner, or a disc about a point, on a straight edge.
     Line {
-        /// Whose edge it is.
+        /// The body with the edge.
         owner: End,
         /// Outward unit normal of the edge.
         normal: Vec2,
@@ -65,7 +65,7 @@ pub(crate) enum Joint {
         b: Vec2,
         /// 0 for a corner, in m.
         radii: (f64, f64),
-        /// Whose corner it is, and the normals of the edges that end there, clockwise one first.
+        /// The body with the corner, and the normals of the edges that end there, clockwise one first.
         cone: Option<(End, [Vec2; 2])>,
     },
 }

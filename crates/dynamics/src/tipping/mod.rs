@@ -1,9 +1,9 @@
-//! Contact groups whose rows turn with their bodies: a box that tips about its corner, a disc that rolls over a disc.
+//! Contact islands with rows that turn with their bodies: a box tips about its corner, a disc rolls over a disc.
 //!
 //! While every contact keeps its mode the accelerations follow from where the bodies are ([`equations`]); they are
 //! integrated with dense output ([`path`]), and the mode ends at the first root of its margins ([`roots`]).
 //!
-//! Pure functions on plain data: nothing here knows a world.
+//! Pure functions on plain data, without a world.
 
 mod equations;
 mod joint;
@@ -189,8 +189,8 @@ impl Tip {
 
 /// The path of a group from `start` on.
 ///
-/// `speed` is the largest speed from whose roundings the given velocities may come, in m/s; `reaches` are those of the
-/// bodies, in m, and 0 of those of infinite mass.
+/// The given velocities may be roundings of speeds up to `speed`, in m/s; `reaches` are those of the bodies, in m, and
+/// 0 of those of infinite mass.
 pub(crate) fn tip(
     bodies: &[ModeBody],
     places: &[Place],
@@ -280,7 +280,7 @@ pub(crate) fn tip(
     Err(NotMine::Unsolved)
 }
 
-/// A contact whose margin is 0 and falls is in the next mode already.
+/// A contact is in the next mode already if its margin is 0 and falls.
 fn amend(equations: &mut Equations, limit: Limit) -> Result<(), NotMine> {
     let holds = &mut equations.holds;
     match limit {

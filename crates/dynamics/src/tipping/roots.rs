@@ -58,7 +58,7 @@ pub(super) enum End {
     Lost,
 }
 
-/// A closed point whose normal force is no more than rounding of the weights.
+/// A closed point with a normal force of no more than rounding of the weights.
 pub(super) fn faint(equations: &Equations, places: &[Place]) -> Option<Limit> {
     let mut workspace = Workspace::default();
     let forces = equations.forces(places, &mut workspace)?;

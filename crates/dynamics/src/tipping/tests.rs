@@ -53,7 +53,7 @@ fn on_floor(tip: Vec2, friction: f64) -> Contact {
     }
 }
 
-/// A rod of length 2 whose lower end is at the origin, at an angle from the vertical.
+/// A rod of length 2 with its lower end at the origin, at an angle from the vertical.
 fn rod(angle: f64, spin: f64, slip: f64) -> Place {
     let rotation = Rot::from_angle(angle);
     let centre = rotation * Vec2::Y;
