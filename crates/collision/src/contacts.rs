@@ -19,7 +19,7 @@ pub struct PartManifold {
     pub manifold: Manifold,
 }
 
-/// Appends every contact of two shapes whose separation is at most `margin` (metres) to `out`.
+/// Appends every contact of two shapes with a separation of at most `margin` (metres) to `out`.
 ///
 /// Circles, segments and convex polygons have one part; a concave polygon has its pieces, and only
 /// its true outline is touched: a box that slides over the seam of two pieces does not feel it.

@@ -7,8 +7,8 @@
 //! Shape ─► Hull (vertices, normals, radius) ─► separating axis ─► manifold, distance, cast, time of impact
 //! ```
 //!
-//! A circle, a segment or a convex polygon is one [`Hull`]; a concave polygon is several, whose
-//! cuts are marked: a cut separates, but it is never touched. [`vertex_edge_contacts`] works on whole
+//! A circle, a segment or a convex polygon is one [`Hull`]; a concave polygon is several, with
+//! marked cuts: a cut separates, but it is never touched. [`vertex_edge_contacts`] works on whole
 //! outlines and shares nothing with the hulls.
 //!
 //! # Examples

@@ -108,7 +108,7 @@ pub fn collide(a: &impl Convex, b: &impl Convex, b_in_a: Pose) -> Manifold {
     collide_within(&a.hull(), &b.hull(), b_in_a, 0.0)
 }
 
-/// The contact of two convex hulls, with every point whose separation is at most `margin` (metres).
+/// The contact of two convex hulls, with every point at a separation of at most `margin` (metres).
 ///
 /// Of a piece of a concave polygon only the true outline is touched: see [`Hull::allows`]. Two
 /// half-planes have no contact: neither can move.

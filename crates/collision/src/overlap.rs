@@ -78,7 +78,7 @@ pub fn intersection(a: &ConvexPolygon, b: &ConvexPolygon, b_in_a: Pose) -> Vec<V
     common_ring(b.vertices(), &a.hull(), b_in_a)
 }
 
-/// Area of a convex ring behind all edges of a hull, in whose frame the ring is at `pose`.
+/// Area of a convex ring behind all edges of a hull; the ring is at `pose` in the hull's frame.
 fn clipped(ring: &[Vec2], hull: &Hull<'_>, pose: Pose) -> f64 {
     let points = common_ring(ring, hull, pose);
     let Some(&first) = points.first() else {
@@ -91,7 +91,7 @@ fn clipped(ring: &[Vec2], hull: &Hull<'_>, pose: Pose) -> f64 {
     (0.5 * twice.value()).max(0.0)
 }
 
-/// A convex ring behind all edges of a hull, in whose frame the ring is at `pose`; empty if less than a triangle is left.
+/// A convex ring, at `pose` in a hull's frame, behind all edges of the hull; empty if less than a triangle is left.
 ///
 /// Source: I. Sutherland, G. Hodgman, *Reentrant polygon clipping*, 1974; for convex rings.
 fn common_ring(ring: &[Vec2], hull: &Hull<'_>, pose: Pose) -> Vec<Vec2> {

@@ -2,7 +2,7 @@
 //! many.
 //!
 //! The answer is the same with and without a tree, and so is its order: trees only leave out pairs
-//! whose boxes are apart.
+//! with separate boxes.
 
 use arrayvec::ArrayVec;
 use carom_geometry::{Aabb, PartBranch, PartTree, Shape};
@@ -10,7 +10,7 @@ use carom_math::{Pose, Vec2, vec2};
 
 use crate::{Hull, hulls, part, part_count};
 
-/// Visits the pairs of parts (of A, of B) whose boxes come within `margin` while A moves by `sweep`,
+/// Visits the pairs of parts (of A, of B) with boxes that come within `margin` while A moves by `sweep`,
 /// all in A's frame; in order of A's parts, then of B's.
 pub(crate) fn near_parts(
     a: &Shape,
@@ -171,7 +171,7 @@ impl Reach {
         turned(bounds, self.b_in_a).grown(self.margin)
     }
 
-    /// Every pair of parts in two trees whose boxes are near.
+    /// Every pair of parts in two trees with near boxes.
     fn both(&self, a: &Nodes<'_>, b: &Nodes<'_>, mut visit: impl FnMut(u32, u32)) {
         let mut waiting = vec![];
         for i in a.roots() {

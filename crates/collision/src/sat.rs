@@ -113,8 +113,8 @@ pub fn separating_axis(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose) -> Axis {
     wider_axis([a, b], poses, widest)
 }
 
-/// [`separating_axis`] of two polygons or segments whose widest edges are known; `poses`: of the other hull
-/// in the frame of each.
+/// [`separating_axis`] of two polygons or segments with known widest edges; `poses`: of the other hull in the
+/// frame of each.
 pub(crate) fn wider_axis([a, b]: [&Hull<'_>; 2], poses: [Pose; 2], widest: [Widest; 2]) -> Axis {
     let [of_a, of_b] = widest;
     let axis = if of_b.separation > of_a.separation {

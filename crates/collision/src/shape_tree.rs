@@ -217,7 +217,7 @@ impl ShapeTree {
         })
     }
 
-    /// All shapes whose boxes overlap `bounds`, in order.
+    /// All shapes with boxes that overlap `bounds`, in order.
     #[must_use]
     pub fn shapes_in(&self, bounds: Aabb) -> Vec<NodeId> {
         self.all(bounds, |entry| {

@@ -29,8 +29,8 @@ pub struct NodeId {
     generation: u32,
 }
 
-/// An inner node as its two children, side by side: whoever looks at one looks at both, and finds
-/// them in one line of the cache.
+/// An inner node as its two children, side by side: a visit reads both, from one line of the
+/// cache.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
 struct Pair {
@@ -199,8 +199,8 @@ impl BoxTree {
 
     /// Gives a leaf a new box, if it needs one; says whether it did.
     ///
-    /// A leaf whose box still contains the new one, and is at most twice as long around, stays as
-    /// it is: hand in a box with room to move, and leave the tree alone while the body is inside
+    /// A leaf stays as it is while its box contains the new one, and is at most twice as long
+    /// around: hand in a box with room to move, and leave the tree alone while the body is inside
     /// [`Self::fat_box`]. A leaf that was removed stays removed.
     pub fn update(&mut self, id: NodeId, bounds: Aabb) -> bool {
         let Some(place) = self.find(id) else {
@@ -285,7 +285,7 @@ impl BoxTree {
         self.detach(place);
         let leaf = &mut self.leaves[id.leaf as usize];
         leaf.generation = leaf.generation.wrapping_add(1);
-        // A leaf whose generations are used up is not used again.
+        // A leaf is not used again once its generations are used up.
         if leaf.generation != 0 {
             leaf.place = Place(self.free_leaf);
             self.free_leaf = id.leaf;

@@ -57,7 +57,7 @@ pub(super) struct Bend {
     pub(super) most: f64,
 }
 
-/// Two hulls whose motions start together.
+/// Two hulls with motions that start together.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Approach<'a> {
     pub(super) hulls: [Hull<'a>; 2],

@@ -189,7 +189,7 @@ impl<'a> Corners<'a> {
         )
     }
 
-    /// The edge over whose line a point is highest.
+    /// The edge with the line that a point is highest over.
     #[inline(always)]
     pub(super) fn highest<S: Simd>(&self, simd: S, point: Vec2) -> usize {
         let first = placed(simd, over(simd, self.first, point), 0);

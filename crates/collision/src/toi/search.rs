@@ -140,8 +140,8 @@ impl Search<'_> {
             .then_some((axis, facing, least))
     }
 
-    /// Of the axes closed within [`NEAR`] of the widest, the one whose gap opens fastest (or
-    /// closes slowest), and that rate. Cuts through concave shapes are left aside if they can be.
+    /// Of the axes closed within [`NEAR`] of the widest, the one with the fastest opening (or
+    /// slowest closing) gap, and that rate. Cuts through concave shapes are left aside if they can be.
     fn opening(&self, widest: Axis, facing: &Facing, least: &Gap) -> (Axis, f64) {
         let (approach, at, gap) = (self.approach, &self.at, least.gap);
         let near = NEAR * approach.size();

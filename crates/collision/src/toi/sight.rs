@@ -59,14 +59,14 @@ pub(super) enum Normal {
 /// An axis, and the vertex that is lowest along it: see [`super::facing::Facing`].
 #[derive(Clone, Copy)]
 pub(super) struct Sight {
-    /// Whose edge it is; of a fixed axis the polygon.
+    /// The polygon with the edge, or with a fixed axis.
     pub(super) owner: usize,
     pub(super) normal: Normal,
     /// How fast it turns, and the polygon with the vertex against it.
     pub(super) spin: f64,
     pub(super) w: f64,
     pub(super) bend: f64,
-    /// Whose vertex, which, and where in its frame.
+    /// The vertex: its polygon, its index, and its place in the polygon's frame.
     pub(super) side: usize,
     pub(super) vertex: usize,
     pub(super) q: Vec2,
@@ -84,7 +84,7 @@ pub(super) struct Sight {
 }
 
 impl<S: Simd> Even<'_, S> {
-    /// The edge whose line is farthest from the other polygon, and its owner.
+    /// The edge with the line farthest from the other polygon, and its owner.
     #[inline(always)]
     pub(super) fn widest(&self, place: &Place) -> (usize, Normal) {
         let (a, b) = (&self.hulls[0], &self.hulls[1]);

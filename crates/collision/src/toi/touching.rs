@@ -37,8 +37,8 @@ impl Stretch {
         self.ends.map(|end| feature(axis, end.vertices))
     }
 
-    /// The part of it that is on the face of `owner`, whose corners are seen at `face` (from, to), and
-    /// what touches at its ends. Where the face ends first its corner touches the other's edge; where
+    /// The part of it that is on the face of `owner`, with corners at `face` (from, to), and what
+    /// touches at its ends. Where the face ends first its corner touches the other's edge; where
     /// nothing but corners meet, corners touch. Ends within `near` metres of a corner are on the face.
     pub(super) fn on_face(
         &self,

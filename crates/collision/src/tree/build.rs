@@ -91,7 +91,7 @@ impl BoxTree {
     }
 
     /// A node over n leaves takes the n − 1 pairs from its first on: the pairs of a tree lie in the
-    /// order of a walk, and whoever goes down mostly goes to the next one.
+    /// order of a walk, and a descent mostly goes to the next one.
     fn build(&mut self, items: &[Item]) {
         self.pairs.clear();
         self.free_pair = NONE;
@@ -173,7 +173,7 @@ fn join(items: &[Item]) -> Vec<[Node; 2]> {
             }
         }
         nodes.truncate(kept);
-        // Where everyone looks at a neighbour that looks further on, hardly any become a pair:
+        // Where the nearest neighbour of each node has a nearer one itself, hardly any become a pair:
         // then neighbours along the curve do, and work stays bounded.
         if before - kept < before / 8 {
             let half = kept / 2;
@@ -249,7 +249,7 @@ struct Grid {
 }
 
 impl Grid {
-    /// How many middles are looked at to know where most are.
+    /// How many middles are sampled to find where most are.
     const SAMPLE: usize = 64;
 
     fn over(items: &[Item]) -> Self {

@@ -4,7 +4,7 @@ use super::walk::Stack;
 use super::{BoxTree, Pair, Place, ROOT};
 
 impl BoxTree {
-    /// Appends the numbers of all leaves whose boxes overlap, two by two: every pair once, the lower
+    /// Appends the numbers of all leaves with overlapping boxes, two by two: every pair once, the lower
     /// number first, in order.
     ///
     /// The boxes alone decide, not how the tree came to be. A leaf is no pair with itself.

@@ -5,7 +5,7 @@ use super::*;
 use carom_math::{Vec2, vec2};
 use proptest::prelude::*;
 
-/// Every pair knows where it is, its box there is that of its children, and every leaf and every
+/// Every pair records its place, its box there is that of its children, and every leaf and every
 /// pair is either in the tree once or free.
 fn check(tree: &BoxTree) {
     let mut leaves = 0;
@@ -48,7 +48,7 @@ fn check(tree: &BoxTree) {
     }
     assert_eq!(pairs + free, tree.pairs.len());
     if tree.is_empty() {
-        assert_eq!(tree.pairs.capacity(), 0, "who left has left no room behind");
+        assert_eq!(tree.pairs.capacity(), 0, "an empty tree keeps no memory");
     }
 }
 
@@ -160,7 +160,7 @@ fn run(ops: &[Op]) -> (BoxTree, Vec<Entry>) {
                 if len > 0 {
                     let moves = moves.iter().map(|(i, given)| (pick(*i), *given));
                     let moves: Vec<(usize, Aabb)> = moves.collect();
-                    // The last of several counts, or one whose box has room for it.
+                    // The last of several counts, or one with a box that has room for it.
                     tree.update_all(moves.iter().map(|(i, given)| (list[*i].id, *given)));
                     for (i, given) in moves {
                         list[i].given = given;

@@ -93,14 +93,14 @@ impl<T: Copy, const ROOM: usize> Stack<T, ROOM> {
 const HITS: usize = 32;
 
 impl BoxTree {
-    /// Calls `found` with the number of every leaf whose box overlaps `bounds`.
+    /// Calls `found` with the number of every leaf with a box that overlaps `bounds`.
     pub fn query(&self, bounds: Aabb, mut found: impl FnMut(u32)) {
         if self.is_empty() {
             return;
         }
         let sought = Bounds::around(bounds).opposite();
         let mut stack: Stack<u32, 64> = Stack::new(ROOT);
-        // Found leaves wait for others: whoever has an answer for each would interrupt the walk.
+        // Found leaves wait for others: a call for each would interrupt the walk.
         let mut hits = [0; HITS];
         let mut count = 0;
         let mut next = Some(ROOT);
@@ -123,12 +123,12 @@ impl BoxTree {
         hits[..count].iter().for_each(|data| found(*data));
     }
 
-    /// Calls `found` with the number of every leaf whose box contains `point`.
+    /// Calls `found` with the number of every leaf with a box that contains `point`.
     pub fn point(&self, point: Vec2, found: impl FnMut(u32)) {
         self.query(Aabb::new(point, point), found);
     }
 
-    /// Calls `found` with the number of every leaf whose box a ray meets, roughly the nearest first.
+    /// Calls `found` with the number of every leaf with a box that a ray meets, roughly the nearest first.
     ///
     /// `max` and what `found` returns are how far the ray goes, in lengths of `direction`: return
     /// the distance of a hit to leave out what lies behind it, or infinity to see everything up to
@@ -137,8 +137,8 @@ impl BoxTree {
         self.sweep(Aabb::new(origin, origin), direction, max, found);
     }
 
-    /// Calls `found` with the number of every leaf whose box a moving box meets, roughly the first
-    /// met first.
+    /// Calls `found` with the number of every leaf with a box that a moving box meets, roughly the
+    /// first met first.
     ///
     /// The box moves along `direction`; the rest is as with [`Self::ray`].
     pub fn sweep(
@@ -153,7 +153,7 @@ impl BoxTree {
         self.nearest_first(limit(max), |b| sweep.entry(b), |data| limit(found(data)));
     }
 
-    /// Calls `found` with the number of every leaf whose box comes within `max` (m) of `bounds`,
+    /// Calls `found` with the number of every leaf with a box within `max` (m) of `bounds`,
     /// roughly the nearest first.
     ///
     /// What `found` returns is how near the others must be to be seen: return the distance of what
@@ -215,8 +215,8 @@ impl BoxTree {
                     }
                 }
             };
-            // Two ways instead of one with a choice of sides: whoever guesses right is there before
-            // the distances are.
+            // Two branches instead of one with a choice of sides: one predicted right is taken before
+            // the distances are there.
             if two < one {
                 visit(1, two);
                 visit(0, one);

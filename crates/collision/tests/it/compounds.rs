@@ -1,4 +1,4 @@
-//! Compounds: one body of many parts, whose seams nobody feels.
+//! Compounds: one body of many parts, without ghost collisions at their seams.
 
 use carom_collision::{PartManifold, contacts, shape_distance};
 use carom_geometry::{Circle, Compound, ConvexPolygon, Segment, Shape};

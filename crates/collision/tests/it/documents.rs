@@ -24,7 +24,7 @@ fn error_4_a_vertex_that_went_through_the_whole_body_is_not_inside() {
 }
 
 #[test]
-fn error_4_a_vertex_whose_edges_cross_two_edges_is_inside() {
+fn error_4_a_vertex_with_edges_that_cross_two_edges_is_inside() {
     // A wide corner over the narrow end of a wedge: its edges leave by the wedge's two sides.
     let wedge = polygon(&[(-1.0, -4.0), (1.0, -4.0), (0.25, 0.0), (-0.25, 0.0)]);
     let roof = polygon(&[(0.0, 0.0), (4.0, 1.0), (4.0, 3.0), (-4.0, 3.0), (-4.0, 1.0)]);

@@ -175,7 +175,7 @@ fn corner_on_corner_is_one_point_between_them() {
 }
 
 #[test]
-fn a_disc_whose_centre_is_on_an_edge_or_a_corner_is_pushed_out() {
+fn a_disc_centred_on_an_edge_or_a_corner_is_pushed_out() {
     // dimforge/parry#34, #148.
     let cube = square(2.0);
     let disc = Circle::new(0.5).expect("above zero");
