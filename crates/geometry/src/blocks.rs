@@ -44,7 +44,7 @@ impl Blocks {
     }
 }
 
-/// They follow from corners and normals, so that whoever has them is no different.
+/// Always equal: blocks follow from corners and normals.
 impl PartialEq for Blocks {
     fn eq(&self, _: &Self) -> bool {
         true

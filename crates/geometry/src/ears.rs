@@ -21,7 +21,7 @@ use crate::ring::corners;
 /// No edge on the other side: a piece of the outline.
 pub(crate) const OUTLINE: usize = usize::MAX;
 
-/// Triangles over the points of a ring, and who is whose neighbour.
+/// Triangles over the points of a ring, and their neighbours.
 ///
 /// Edge `3 t + k` runs from corner k of triangle t to the next, counter-clockwise.
 pub(crate) struct Triangles {

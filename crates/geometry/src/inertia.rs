@@ -1,7 +1,7 @@
 //! Closed forms of the moment of inertia, as the documents that the project grew from give them.
 //!
 //! The library itself integrates any ring ([`crate::ring_properties`]); these are its oracles, and
-//! answers for whoever has lengths instead of points. Masses in kg, lengths in m, results in kg·m².
+//! answers where lengths are given instead of points. Masses in kg, lengths in m, results in kg·m².
 
 use carom_math::{Vec2, cross, trig};
 

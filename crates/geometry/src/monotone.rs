@@ -178,7 +178,7 @@ fn parts(ring: &[Vec2], cuts: &[(usize, usize)]) -> Vec<Vec<usize>> {
                 .then(0.0_f64.total_cmp(&turn))
         })
     });
-    // Who arrives along an edge leaves along the next one clockwise.
+    // A part that arrives along an edge leaves along the next one clockwise.
     let mut next: Vec<usize> = (0..n).map(|i| if i + 1 == n { 0 } else { i + 1 }).collect();
     next.resize(origins.len(), usize::MAX);
     for (i, &(point, edge)) in leaving.iter().enumerate() {

@@ -5,8 +5,8 @@ use crate::Aabb;
 /// Edges of a shape above which a tree of boxes is faster than a look at every part.
 pub(crate) const TREE_ABOVE: usize = 32;
 
-/// Boxes around the parts of a shape, halved again and again: who asks for the parts near a place
-/// looks at a few boxes instead of all.
+/// Boxes around the parts of a shape, halved again and again: a search for the parts near a place
+/// tests a few boxes instead of all.
 ///
 /// Flat and in order of depth, so that a left child follows its parent; at most 33 levels, since
 /// every split halves the number of parts. 48 bytes a node, two nodes a part.
@@ -100,7 +100,7 @@ impl PartTree {
         (node.bounds, node.kind)
     }
 
-    /// Visits every part whose box is one of those that `near` holds for, and all boxes around it.
+    /// Visits every part if `near` holds for its box, and for all boxes around it.
     ///
     /// # Examples
     /// ```

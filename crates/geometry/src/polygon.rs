@@ -9,9 +9,9 @@ use crate::query::winds_around;
 use crate::ring::Ring;
 use crate::{Aabb, AreaProperties, ConvexPolygon, PolygonError};
 
-/// A polygon whose ring does not touch itself: convex or concave, counter-clockwise.
+/// A simple polygon, with a ring that does not touch itself: convex or concave, counter-clockwise.
 ///
-/// Its convex pieces are made with it; they add no vertices, and know which edges are cuts. Above
+/// Its convex pieces are made with it; they add no vertices, and record which edges are cuts. Above
 /// 32 edges a box tree over them is made, too.
 ///
 /// # Examples

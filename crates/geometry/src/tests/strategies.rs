@@ -25,7 +25,7 @@ pub(super) fn star() -> impl Strategy<Value = Vec<Vec2>> {
     })
 }
 
-/// A star whose edges are cut in halves, by a point exactly on them or a hair beside.
+/// A star with edges cut in halves, by a point exactly on them or a hair beside.
 fn nearly_straight() -> impl Strategy<Value = Vec<Vec2>> {
     let hair = prop_oneof![
         Just(0.0),
