@@ -52,7 +52,7 @@ pub struct Footage {
 pub struct Easel {
     painter: Painter,
     picture: Picture,
-    /// Who packed all pictures so far, if somebody did.
+    /// The encoder of all pictures so far, if there is one.
     packer: Option<Packer>,
 }
 

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU8, Ordering};
 use crate::exit::Failure;
 use crate::out::tell;
 
-/// Exit code of who ends by Ctrl-C (SIGINT, 2).
+/// Exit code after Ctrl-C (SIGINT, 2).
 const CTRL_C: u8 = 128 + 2;
 
 /// The exit code that was asked for; 0 if none was.
@@ -16,7 +16,7 @@ static ASKED: AtomicU8 = AtomicU8::new(0);
 /// `doing` says what happens first, in the words of the command: "finishing the frame".
 ///
 /// # Errors
-/// If the system lets nobody listen.
+/// If the system takes no signal handler.
 pub fn watch(doing: &'static str) -> Result<(), Failure> {
     listen(move |code| {
         if ASKED.swap(code, Ordering::SeqCst) != 0 {
@@ -49,7 +49,7 @@ pub fn asked() -> bool {
     ASKED.load(Ordering::SeqCst) != 0
 }
 
-/// The exit code of who ends because it was asked to: 130 for Ctrl-C, 143 for termination.
+/// The exit code after a request to end: 130 for Ctrl-C, 143 for termination.
 pub(crate) fn code() -> u8 {
     match ASKED.load(Ordering::SeqCst) {
         0 => CTRL_C,

@@ -1,4 +1,4 @@
-//! Work on several threads whose results come back in order: the number of threads never shows.
+//! Work on several threads, with results in order: the number of threads never shows.
 
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};

@@ -20,11 +20,11 @@ pub struct Turn<'a, T> {
 }
 
 impl<T> Relay<T> {
-    /// A relay whose first job, number `first`, has nobody before it.
+    /// A relay with no job before the first one, number `first`.
     pub fn from(first: u64) -> Self {
-        let nobody = first.checked_sub(1).map(|before| (before, None));
+        let before = first.checked_sub(1).map(|index| (index, None));
         Self {
-            made: Mutex::new(nobody.into_iter().collect()),
+            made: Mutex::new(before.into_iter().collect()),
             more: Condvar::new(),
         }
     }
@@ -126,7 +126,7 @@ mod tests {
     }
 
     #[test]
-    fn a_job_that_fails_keeps_nobody_waiting() {
+    fn a_failed_job_blocks_no_other() {
         for threads in [1, 2, 5] {
             assert_eq!(sums(threads, true).0.len(), 4, "{threads} threads");
         }

@@ -114,7 +114,7 @@ impl Animation {
         if self.frames == 0 && !patch.is_whole() {
             return Err(RenderError::NoWhole);
         }
-        // Whoever comes next with a picture starts anew.
+        // A picture that comes next starts anew.
         self.shown = None;
         match &mut self.waiting {
             Some((_, shows)) if patch.is_empty() && *shows < u16::MAX => *shows += 1,

@@ -198,7 +198,7 @@ fn same(a: &[u8; 64], b: &[u8; 64]) -> bool {
     a.iter().zip(b).fold(0, |all, pair| all | differ(pair)) == 0
 }
 
-/// Differences of four pixels, whose opacity is left out.
+/// Differences of four pixels, without their opacity.
 #[inline]
 fn four(above: [u8; 16], here: [u8; 16], out: &mut [u8; 12]) {
     let mut all = [0; 16];

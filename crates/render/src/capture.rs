@@ -96,7 +96,7 @@ impl Frame {
         frame
     }
 
-    /// The same as [`Frame::capture`] into this frame, whose memory is used again: marks of bodies that rest as they did
+    /// The same as [`Frame::capture`] into this frame, reusing its memory: marks of bodies that rest as they did
     /// when this frame last captured them are left as they are.
     pub fn capture_into(&mut self, world: &World, look: &Look, camera: &Camera) {
         let mut trace = Trace::new(&look.overlay);
@@ -106,7 +106,7 @@ impl Frame {
         self.capture_traced_into(world, look, camera, &trace);
     }
 
-    /// The same as [`Frame::capture_traced`] into this frame, whose memory is used again: marks of bodies that rest as they
+    /// The same as [`Frame::capture_traced`] into this frame, reusing its memory: marks of bodies that rest as they
     /// did when this frame last captured them are left as they are.
     pub fn capture_traced_into(
         &mut self,
@@ -132,8 +132,8 @@ impl Frame {
 }
 
 impl Frame {
-    /// Keeps the marks of bodies that rest as they did, and takes away all others; says whom it kept, and how many. Nobody
-    /// is kept where marks lie beneath the bodies, or say who touches whom.
+    /// Keeps the marks of bodies that rest as they did, and removes all others; returns the bodies kept, and how many.
+    /// None is kept where marks lie beneath the bodies, or show contact islands.
     fn stand(
         &mut self,
         world: &World,
@@ -174,7 +174,7 @@ struct Sketch<'a> {
     /// The body at hand, and where it is.
     source: Source,
     pose: Pose,
-    /// Who touches whom, if bodies are coloured by it.
+    /// Contact islands, if bodies are coloured by them.
     groups: Option<Groups>,
 }
 
@@ -288,7 +288,7 @@ impl<'a> Sketch<'a> {
         }
     }
 
-    /// What the picture can show of the half-plane behind a line: a square whose other sides lie
+    /// What the picture can show of the half-plane behind a line: a square with its other sides
     /// outside of it.
     fn behind(&self, point: Vec2, normal: Vec2) -> Vec<Vec2> {
         let view = self.camera.view();

@@ -76,7 +76,7 @@ pub(crate) fn mark(
         let mut changed = |mark: Mark<'_>| tiles.add(mark.pixels(style, size));
         let (a, b) = (old.mark(i), new.mark(j));
         if a.op == b.op {
-            // Who moves is no matter of looks.
+            // The source does not change the appearance.
             if a.source != b.source {
                 found.places.push(j);
             }

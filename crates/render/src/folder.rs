@@ -23,7 +23,7 @@ pub enum Existing {
     /// Remove what the manifest lists, and start anew. Files of others are never touched, and one that was changed since
     /// it was written is not removed: the folder is refused.
     Replace,
-    /// Keep what the manifest lists and go on, if it was the same run. A file whose bytes are not those of its checksum
+    /// Keep what the manifest lists and go on, if it was the same run. A file with bytes that do not match its checksum
     /// counts as missing.
     Resume,
 }
@@ -38,7 +38,7 @@ pub struct OutputFolder {
 #[derive(Debug)]
 struct State {
     manifest: Manifest,
-    /// The manifest's file, and those it took the place of: each is a lock that somebody may ask for.
+    /// The manifest's file, and those it took the place of: each is a lock that another process may ask for.
     locks: Vec<DiskFile>,
 }
 
@@ -222,7 +222,7 @@ impl OutputFolder {
         let temporary = temporary_name(&place);
         let text = state.manifest.text();
         let written = disk::create(&temporary).and_then(|mut file| {
-            // Nobody else knows of it.
+            // No other process has the name yet.
             let _taken = file.is_taken();
             file.write_all(text.as_bytes())?;
             disk::rename(&temporary, &place)?;

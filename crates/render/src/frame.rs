@@ -113,14 +113,14 @@ impl Frame {
         known.min(self.ops.len()).min(earlier.ops.len())
     }
 
-    /// A copy that knows which of its marks this one will still have; it must never get others but by [`Frame::copy`].
+    /// A copy that notes which of its marks this one will still have; it must never get others but by [`Frame::copy`].
     pub(crate) fn snapshot(&self) -> Self {
         let mut copy = self.clone();
         copy.stand_as(self);
         copy
     }
 
-    /// Takes over what another frame, of which it is a copy, knows of its marks.
+    /// Takes over what another frame, of which it is a copy, notes of its marks.
     pub(crate) fn stand_as(&mut self, other: &Self) {
         self.memory.standing = other.memory.standing.clone();
     }
@@ -160,7 +160,7 @@ impl Frame {
 
     /// Takes away all but the first `marks` marks, and keeps the memory of the others.
     ///
-    /// Who knows that the first marks of a list do not change keeps them so from frame to frame: a
+    /// So the first marks of a list, if they do not change, are kept from frame to frame: a
     /// [`Painter`](crate::Painter) does not even compare them.
     ///
     /// # Examples

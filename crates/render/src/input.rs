@@ -129,7 +129,7 @@ mod tests {
             let error = read_file(place, 9).unwrap_err();
             assert!(matches!(error, ReadError::NotAFile), "{error}");
         }
-        // A file whose length is said to be 0.
+        // A file with a reported length of 0.
         if let Ok(status) = fs::read("/proc/self/status") {
             let error = read_file("/proc/self/status", 9).unwrap_err();
             assert!(

@@ -1,4 +1,4 @@
-//! Whose mark it is, and which pixels it can touch.
+//! Where a mark comes from, and which pixels it can touch.
 
 use carom_dynamics::BodyId;
 use carom_math::{Vec2, vec2};
@@ -42,7 +42,7 @@ impl Default for Source {
 pub struct Mark<'a> {
     /// What is drawn.
     pub op: &'a Op,
-    /// Whose it is.
+    /// Where it comes from.
     pub source: Source,
 }
 

@@ -132,7 +132,7 @@ impl Write for Draft {
 impl Drop for Draft {
     fn drop(&mut self) {
         if self.writer.take().is_some() {
-            // Nobody is left to hear of a failure; a hidden file may stay.
+            // A failure can no longer be reported; a hidden file may stay.
             let _gone = disk::remove(&self.temporary);
         }
     }

@@ -96,7 +96,7 @@ pub(crate) struct Overlaid<'a> {
     unit: f64,
 }
 
-/// Sizes of the overlay hold on a picture whose shorter side is 600 px; others in proportion, within limits.
+/// Sizes of the overlay hold on a picture with a shorter side of 600 px; others in proportion, within limits.
 pub(crate) fn unit(camera: &Camera) -> f64 {
     (camera.size().corner().min_element() / 600.0).clamp(0.7, 3.0)
 }

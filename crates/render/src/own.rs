@@ -387,7 +387,7 @@ impl Hand<'_, '_> {
     }
 }
 
-/// Adds the sides of a ring, whose x count from `left`.
+/// Adds the sides of a ring; x counts from `left`.
 fn add_ring(cells: &mut Cells, ring: &[Vec2], left: f64) {
     let left = vec2(left, 0.0);
     let Some(&last) = ring.last() else { return };

@@ -21,9 +21,9 @@ pub enum Engine {
 
 /// Paints one frame after another into a picture, and leaves alone what did not change.
 ///
-/// Marks at the beginning of the list whose [`Source`](crate::Source) is not awake are painted once, into a layer of their own.
-/// Of the rest, the tiles that changed are painted again over the layer. The picture is byte for byte the one that
-/// [`Frame::paint`] makes, and [`Painter::checking`] shows it.
+/// Marks at the beginning of the list with a [`Source`](crate::Source) that is not awake are painted once, into a layer
+/// of their own. Of the rest, the tiles that changed are painted again over the layer. The picture is byte for byte the
+/// one that [`Frame::paint`] makes, and [`Painter::checking`] shows it.
 ///
 /// # Examples
 /// ```
@@ -47,7 +47,7 @@ pub struct Painter {
     style: Style,
     engine: Engine,
     redraw: bool,
-    /// How many pixels differed from frames painted in full; for who wants to check.
+    /// How many pixels differed from frames painted in full; `None`: unchecked.
     check: Option<u64>,
     /// What the picture shows now, and how many of its marks lie in the layer.
     shown: Option<(Frame, usize)>,
@@ -160,7 +160,7 @@ impl Painter {
         &self.changes
     }
 
-    /// Paints all of a frame, of whose marks `beneath` are not awake.
+    /// Paints all of a frame; its first `beneath` marks are not awake.
     fn anew(&mut self, (frame, beneath): (&Frame, usize), bytes: &mut [u8]) {
         let ground = Base::Colour(self.ground());
         let all = frame.ops().len();
@@ -222,7 +222,7 @@ impl Painter {
         self.style.background.with_alpha(255)
     }
 
-    /// Counts the pixels that differ from the frame painted in full, for who asked.
+    /// Counts the pixels that differ from the frame painted in full, if that is checked.
     fn compare(&mut self, frame: &Frame, picture: &Picture) {
         if let Some(differing) = &mut self.check {
             let full = frame.paint(&self.style);

@@ -1,4 +1,4 @@
-//! Pictures read by somebody else: `pngcheck` and Chromium, where they are found.
+//! Pictures read by other programs: `pngcheck` and Chromium, where they are found.
 
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::{TcpListener, TcpStream};

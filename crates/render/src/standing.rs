@@ -1,4 +1,4 @@
-//! What stands from frame to frame, so that nobody has to look at it again.
+//! Marks that stay from frame to frame, and need no second comparison.
 
 use std::sync::Arc;
 
@@ -14,7 +14,7 @@ use crate::{Camera, Look};
 /// prefix that was never truncated in between.
 #[derive(Clone, Debug)]
 pub(crate) struct Standing {
-    /// Of one list since one instant; who holds it keeps it from being taken for another's.
+    /// Of one list since one instant; while it is held it cannot be taken for another's.
     token: Option<Arc<()>>,
     /// The fewest marks that the list had been cut to since then.
     least: usize,
@@ -62,7 +62,7 @@ impl Standing {
     }
 }
 
-/// The bodies at rest whose marks a frame begins with, and all that these marks were made from.
+/// The bodies at rest with the marks that a frame begins with, and all that these marks were made from.
 #[derive(Clone, Debug)]
 pub(crate) struct Resting {
     look: Look,
@@ -96,7 +96,7 @@ impl Resting {
         self.camera == *camera && self.look == *look
     }
 
-    /// Forgets all whose marks go beyond the first `marks`.
+    /// Forgets all bodies with marks beyond the first `marks`.
     pub(crate) fn keep(&mut self, marks: usize) {
         let kept = self.bodies.partition_point(|body| body.end <= marks);
         self.bodies.truncate(kept);
@@ -120,7 +120,7 @@ impl Resting {
         self.bodies.truncate(bodies);
     }
 
-    /// Adds a body after whose marks there are `end`.
+    /// Adds a body; with its marks there are `end`.
     pub(crate) fn add(&mut self, body: &Body<'_>, end: usize) {
         self.bodies.push(Still {
             id: body.id(),

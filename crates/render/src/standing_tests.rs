@@ -131,7 +131,7 @@ fn pile() -> World {
 }
 
 #[test]
-fn nobody_looks_at_marks_of_bodies_that_rest() {
+fn marks_of_resting_bodies_are_not_compared() {
     let mut world = pile();
     let (look, camera) = (
         Look::default(),

@@ -167,7 +167,7 @@ fn luma(weights: [u32; 3], pixel: &[u8]) -> u8 {
     u8::try_from(16 + (scaled >> 8)).unwrap_or(235)
 }
 
-/// Colour difference of `count` pixels whose channels add up to `sum`: 128 is none.
+/// Colour difference of `count` pixels with channels that add up to `sum`: 128 is none.
 fn difference(weights: [i32; 3], sum: [i32; 3], count: i32) -> u8 {
     let scaled = weights[0] * sum[0] + weights[1] * sum[1] + weights[2] * sum[2];
     // Rounded to the nearest; the shift of a negative number rounds down, the half makes it the nearest.

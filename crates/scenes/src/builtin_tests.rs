@@ -87,7 +87,7 @@ fn built_in_scenes_start_apart() {
                 .unwrap();
         }
         if info.name == "projectile" {
-            continue; // Nobody meets anybody, and all start in one point.
+            continue; // No two bodies meet, and all start in one point.
         }
         let built = scene.build().unwrap();
         let name = |body: &Body<'_>| {

@@ -69,7 +69,8 @@ const LISTS: [&str; 7] = [
     "pair",
 ];
 
-/// The field that a stretch of the text belongs to: the deepest whose key or value it is, else the smallest around it.
+/// The field that a stretch of the text belongs to: the deepest with the stretch as its key or value, else the smallest
+/// around it.
 pub(crate) fn field_at(root: &DeTable<'_>, span: &Range<usize>) -> Option<FieldPath> {
     let mut search = Search {
         span,

@@ -4,7 +4,7 @@ use crate::{Problem, Scene};
 
 const README: &str = include_str!("../README.md");
 
-/// A table of each kind, with a key that nobody knows in place of `?`.
+/// A table of each kind, with an unknown key in place of `?`.
 const TABLES: [&str; 23] = [
     "? = 1",
     "[settings]\n? = 1",

@@ -5,7 +5,7 @@
 use std::fs::File;
 use std::process::{Command, Stdio};
 
-/// Runs a command whose stdout or stderr has no room; its exit code and what it says on the other.
+/// Runs a command with a full stdout or stderr; its exit code and what it says on the other.
 fn without_room(args: &[&str], out: bool) -> (Option<i32>, String) {
     let full = || Stdio::from(File::options().write(true).open("/dev/full").unwrap());
     let mut command = Command::new(crate::CAROM);

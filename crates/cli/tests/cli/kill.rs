@@ -1,4 +1,4 @@
-//! A run that is killed at any moment, or whose disk is full, leaves nothing torn and goes on to equal bytes.
+//! A run that is killed at any moment, or finds the disk full, leaves nothing torn and goes on to equal bytes.
 
 #![cfg(unix)]
 

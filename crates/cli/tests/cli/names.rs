@@ -1,4 +1,4 @@
-//! Names that nobody would choose: what the system takes, we take.
+//! Odd names: what the system takes, we take.
 
 use std::ffi::{OsStr, OsString};
 use std::path::Path;

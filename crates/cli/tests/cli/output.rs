@@ -234,7 +234,7 @@ fn a_reader_that_goes_away_ends_the_film_without_an_error() {
     );
 }
 
-/// Every kind of file that holds a picture, read by somebody else.
+/// Every kind of file that holds a picture, read by another program.
 #[test]
 fn pngcheck_finds_no_fault_in_what_is_written() {
     use std::process::Command;

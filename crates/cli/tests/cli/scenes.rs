@@ -17,7 +17,7 @@ fn refused(text: impl AsRef<[u8]>, parts: &[&str]) {
     assert_eq!(names(folder.path()), ["bad.toml"]);
 }
 
-/// A scene with one body, whose table ends with these lines.
+/// A scene with one body; its table ends with these lines.
 fn body(lines: &str) -> String {
     format!("version = 1\n[[body]]\nname = 'a'\n{lines}\n")
 }
@@ -40,7 +40,7 @@ fn files_that_are_no_scenes() {
 }
 
 #[test]
-fn words_that_nobody_knows() {
+fn unknown_words() {
     refused(
         body("masss = 3"),
         &["bad.toml:4:1", "body.masss", "did you mean \"mass\""],

@@ -9,7 +9,7 @@ fn ctrl_c_finishes_the_frame_and_prints_the_summary() {
     stopped_by("-INT", 130);
 }
 
-/// `kill` and whoever shuts a machine down ask this way.
+/// `kill` and a shutdown of the machine send this signal.
 #[test]
 fn termination_finishes_the_frame_and_prints_the_summary() {
     stopped_by("-TERM", 143);

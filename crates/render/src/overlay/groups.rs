@@ -6,10 +6,10 @@ use carom_dynamics::{BodyId, BodyKind, World};
 
 use crate::{Colour, Style};
 
-/// How much paler a body is that touches nobody.
+/// How much paler a body without contacts is.
 const PALE: f64 = 0.75;
 
-/// Bodies that hang together by lasting contacts; fixed and kinematic ones tie nobody.
+/// Islands: bodies joined by persistent contacts; fixed and kinematic ones join none.
 #[derive(Clone, Debug)]
 pub(crate) struct Groups {
     /// For each body that touches another its group's number, in order of each group's first body.

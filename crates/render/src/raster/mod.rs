@@ -2,7 +2,7 @@
 //!
 //! A shape is drawn in strips of rows. Its edges add to the cells of a strip ([`cells`]); then every row is summed from
 //! the left: pixel by pixel where coverage varies, at once in between. Pixels are the same whatever part of the
-//! canvas is asked for, and on every processor: there is no sum whose order could change.
+//! canvas is asked for, and on every processor: every sum has a fixed order.
 
 mod cells;
 mod outline;
@@ -112,7 +112,7 @@ pub(crate) struct Raster {
 }
 
 impl Raster {
-    /// Paints the shape at a place whose edges `edges` adds.
+    /// Paints the shape at a place; `edges` adds its edges.
     #[inline]
     pub(crate) fn draw(
         &mut self,

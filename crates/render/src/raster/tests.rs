@@ -93,7 +93,7 @@ fn place() -> impl Strategy<Value = Vec2> {
     (-4.0..52.0_f64, -4.0..52.0_f64).prop_map(|(x, y)| vec2(x, y))
 }
 
-/// A ring around a point whose corners lie at any distance: simple, seldom convex.
+/// A ring around a point with corners at any distance: simple, seldom convex.
 fn star() -> impl Strategy<Value = Vec<Vec2>> {
     let arms = prop::collection::vec(0.2..1.0_f64, 3..12);
     (place(), arms, 0.0..7.0_f64, 0.3..40.0_f64).prop_map(|(centre, arms, turn, size)| {
@@ -114,7 +114,7 @@ fn radius() -> impl Strategy<Value = f64> {
     ]
 }
 
-/// A circle whose rim comes through the canvas.
+/// A circle with its rim through the canvas.
 fn circle() -> impl Strategy<Value = (Vec2, f64)> {
     (place(), radius(), 0.0..7.0_f64)
         .prop_map(|(rim, r, angle)| (rim + r * Rot::from_angle(angle).x_axis(), r))

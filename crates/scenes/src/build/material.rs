@@ -14,7 +14,7 @@ pub(crate) struct Resolved {
     pub(crate) field: FieldPath,
     /// Whether `parameters.restitution` stands in for the material's own.
     pub(crate) by_parameter: bool,
-    /// Whom the surface may touch.
+    /// Collision filter of the surface.
     pub(crate) filter: Filter,
 }
 

@@ -97,7 +97,7 @@ impl Planner<'_> {
         resolve(self.document, self.file, choice, field)
     }
 
-    /// Material and filter of walls and generated bodies, whose restitution a parameter may set; `field` has both.
+    /// Material and filter of walls and generated bodies; a parameter may set the restitution; `field` has both.
     pub(crate) fn surface(
         &self,
         choice: &MaterialChoice,

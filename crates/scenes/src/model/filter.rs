@@ -1,4 +1,4 @@
-//! Who may touch whom, as a scene file says it.
+//! Collision filters in a scene file.
 
 use serde::Deserialize;
 

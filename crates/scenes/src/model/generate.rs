@@ -1,7 +1,7 @@
 //! Tables that stand for many bodies.
 //!
 //! Each has its own `material`, `filter` and `colour`: were they flattened into one struct, serde could no longer refuse
-//! keys that nobody knows.
+//! unknown keys.
 
 use serde::Deserialize;
 

@@ -19,7 +19,7 @@ pub enum GrowthKind {
     Pile,
     /// Elastic discs and polygons in a closed box, as in scene e: impacts.
     Gas,
-    /// Discs 5 m apart in free fall, as in scene i: nobody meets anybody.
+    /// Discs 5 m apart in free fall, as in scene i: no two meet.
     Free,
 }
 

@@ -84,21 +84,21 @@ pub enum PlainShape {
     Segment([Vec2; 2]),
 }
 
-/// Who moves a body.
+/// How a body is moved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlainKind {
-    /// Nobody.
+    /// Never.
     Fixed,
-    /// Forces and contacts.
+    /// By forces and contacts.
     Dynamic,
-    /// Its own velocity, whatever it meets.
+    /// By its own velocity, whatever it meets.
     Kinematic,
 }
 
 /// A body at the start.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlainBody {
-    /// Who moves it.
+    /// How it is moved.
     pub kind: PlainKind,
     /// Of the body's origin, which is its centre of mass, in m.
     pub position: Vec2,

@@ -47,7 +47,7 @@ fn even_series(x: Wide) -> Wide {
     series(x.times(x), 27.0)
 }
 
-/// The nested brackets from the one whose divisor begins with `first` outwards.
+/// The nested brackets outwards from the one with a divisor that begins with `first`.
 fn series(square: Wide, first: f64) -> Wide {
     let mut sum = Wide::from(1.0);
     let mut n = first;

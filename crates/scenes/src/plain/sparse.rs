@@ -1,4 +1,4 @@
-//! Bodies that meet nobody.
+//! Bodies that never meet.
 
 use carom_math::vec2;
 
