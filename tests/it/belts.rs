@@ -24,7 +24,7 @@ fn rough(friction: f64) -> Material {
     }
 }
 
-/// A floor whose upper side runs to the right at `speed`.
+/// A floor with an upper side that runs to the right at `speed`.
 fn belt(world: &mut World, speed: f64, friction: f64) -> BodyId {
     let belt = Material {
         tangent_speed: -speed,
@@ -147,7 +147,7 @@ fn a_pair_of_its_own_does_not_feel_the_belt() {
 
 #[test]
 fn tracks_of_a_vehicle_drive_it() {
-    // A box whose own outline runs: on the ground the lower side runs to the right, so it goes left.
+    // A box with an outline that runs: on the ground the lower side runs to the right, so it goes left.
     for mode in MODES {
         let mut world = world(mode);
         belt(&mut world, 0.0, 0.8);

@@ -91,7 +91,7 @@ fn a_break_shot_misses_no_impact_that_the_densest_sampling_finds() {
                 }
             }
         }
-        // And none is invented: who strikes touches.
+        // And none is invented: bodies touch at an impact.
         for event in world.events() {
             if let EventKind::Impact { a, b, speed, .. } = event.kind {
                 let centre = |id| world.body(id).expect("it struck").centre();

@@ -202,8 +202,8 @@ fn inside(world: &World) -> Result<(), String> {
     Ok(())
 }
 
-/// Whether nobody jumped since an instant: the half of the time in which a body goes farther is halved again, until what is left is
-/// no way, but a jump.
+/// Whether no body jumped since an instant: the half of the time in which a body goes farther is halved again, until
+/// what is left is no way, but a jump.
 fn looks_back(player: &Player, since: SimTime) -> Result<(), String> {
     let world = &player.world;
     for id in &player.ids {

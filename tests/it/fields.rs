@@ -36,7 +36,7 @@ impl Field for Dish {
     }
 }
 
-/// A gas whose molecules are slowed down: every other one faster than it turns, the rest the other way round.
+/// A gas of damped molecules: every other one more in velocity than in spin, the rest the other way round.
 fn damped_gas(molecule: Molecule, side: u32) -> World {
     let mut world = gas(molecule, side, 11);
     let moving: Vec<BodyId> = world
@@ -82,7 +82,7 @@ fn worlds() -> [(&'static str, World); 5] {
 }
 
 #[test]
-fn nobody_is_stepped_and_nothing_is_missed() {
+fn fields_need_no_sub_steps_and_miss_no_impact() {
     for (name, mut world) in worlds() {
         let (mut report, mut worst) = (StepReport::default(), 0.0_f64);
         for _ in 0..3000 {

@@ -1,4 +1,4 @@
-//! Filters: who passes through whom, in every mode and in questions.
+//! Filters: pairs that pass through each other, in every mode and in queries.
 
 use carom_dynamics::{
     BodyDef, BodyError, BodyId, BodyKind, Filter, Material, Mode, Settings, World,
@@ -10,7 +10,7 @@ use carom_tests::scenes::{block, disc, put};
 
 const MODES: [Mode; 3] = [Mode::Hybrid, Mode::Exact, Mode::Stepped];
 
-/// Coins meet walls, ghosts meet nobody's mask but their own.
+/// Coins meet walls, ghosts match no mask but their own.
 const WALL: Filter = Filter {
     categories: 1,
     mask: u64::MAX,

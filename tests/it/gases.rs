@@ -109,7 +109,7 @@ fn elastic_gases_run_backwards_to_where_they_began() {
             while watch.impacts + watch.collisions < 5 * bodies {
                 watch.next(&mut world, 60.0);
             }
-            // Half the way to the next impact: nobody touches.
+            // Half the way to the next impact: no two bodies touch.
             let turn = world.time();
             let mut ahead = world.clone();
             ahead.step_to_next_event(60.0);

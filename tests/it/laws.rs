@@ -87,7 +87,7 @@ proptest! {
 
 #[test]
 fn no_impact_is_missed_that_dense_samples_find() {
-    // Faster than a body's size in 20 samples nobody is: who passed through would be seen inside.
+    // No body is faster than its size in 20 samples: one that passed through another would be seen inside.
     for (molecule, friction) in [
         (Molecule::Disc, 0.0),
         (Molecule::Box, 0.4),

@@ -181,7 +181,7 @@ fn stacks_that_land_at_once_stand_without_sub_steps() {
     assert!(deepest > -1e-12, "{deepest:e} m");
 }
 
-/// What slides or rolls moves in closed form until it stops or strikes: nobody need step it.
+/// What slides or rolls moves in closed form until it stops or strikes, without sub-steps.
 #[test]
 fn what_slides_and_rolls_on_a_plane_needs_no_sub_steps() {
     const G: f64 = 9.81;

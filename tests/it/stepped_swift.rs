@@ -1,4 +1,4 @@
-//! Stepped mode: who moves far in a sub-step is stopped at its time of impact.
+//! Stepped mode: a fast body is stopped at its time of impact.
 
 use carom_dynamics::{BodyDef, Material, Settings, World};
 use carom_geometry::Polygon;

@@ -21,7 +21,7 @@ fn on_floor(friction: f64) -> World {
     world
 }
 
-/// A box of 1 m × 2 m whose lower right corner is at the origin, turned by `angle` about it.
+/// A box of 1 m × 2 m with its lower right corner at the origin, turned by `angle` about it.
 fn tilted(world: &mut World, angle: f64, spin: f64, friction: f64) -> BodyId {
     let arm = Rot::from_angle(angle) * vec2(-0.5, 1.0);
     let def = BodyDef::dynamic()

@@ -68,7 +68,7 @@ pub fn play(mode: Mode, seed: u64) -> Result<Seen, String> {
         let report = world.step_to_next_event(STEP);
         twin.step_to_next_event(STEP);
         if report.substeps > 0 {
-            // Somebody landed: it is no free flight any more.
+            // A body landed: it is no free flight any more.
             break;
         }
         if world.state_hash() != twin.state_hash() {

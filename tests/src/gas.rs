@@ -31,7 +31,7 @@ pub enum Molecule {
     Polygon,
 }
 
-/// `side`² bodies without gravity in a box of `side` × `side` metres about the origin, at rest to nobody.
+/// `side`² bodies without gravity in a box of `side` × `side` metres about the origin, no two at rest to each other.
 ///
 /// # Panics
 /// Never: all sizes are above 0.
@@ -110,7 +110,7 @@ pub struct Watch {
     pub impacts: u64,
     /// Of these, impacts of two moving bodies.
     pub collisions: u64,
-    /// Sums of the errors of energy, in parts of the energy of whom it struck, and of their squares.
+    /// Sums of the errors of energy, in parts of the energy of the bodies struck, and of their squares.
     errors: [Sum; 2],
     /// Worst change of linear momentum by an impact of two moving bodies, as a part of Σ m |v|.
     pub linear: f64,
@@ -278,7 +278,7 @@ impl State {
 
 fn place(states: &[State], id: BodyId) -> usize {
     let found = states.iter().position(|s| s.id == id);
-    found.expect("nobody comes or goes")
+    found.expect("no body comes or goes")
 }
 
 /// Kinetic energy of all bodies, in J, right to a few roundings.

@@ -42,7 +42,7 @@ pub fn stepped(settings: Settings) -> World {
     .expect("valid settings")
 }
 
-/// A fixed floor of 40 m whose top is at y = 0.
+/// A fixed floor of 40 m with its top at y = 0.
 pub fn floor(world: &mut World, material: Material) -> BodyId {
     let def = BodyDef::fixed().at(vec2(0.0, -1.0));
     put(world, def, block(40.0, 2.0), material)

@@ -1,4 +1,4 @@
-//! The commands of who works on carom: those of the program `carom`, and what only a clone of the repository can do.
+//! The commands for work on carom: those of the program `carom`, and what only a clone of the repository can do.
 //!
 //! A command is a module of its name.
 

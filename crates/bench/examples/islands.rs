@@ -75,7 +75,7 @@ fn measure(name: &str, mode: Mode, count: u32) -> Outcome<()> {
     Ok(())
 }
 
-/// A world, and whom the caller drives in it.
+/// A world, and the bodies that the caller drives in it.
 struct Scene {
     name: String,
     world: World,

@@ -10,7 +10,7 @@ use thiserror::Error;
 use crate::job::{Job, Reading};
 use crate::speed::SpeedJob;
 
-/// The function whose instructions count, with all that it calls; see `speed.rs`, where it is never inlined.
+/// The measured function, with all that it calls; see `speed.rs`, where it is never inlined.
 const COUNTED: &str = "*measured_step*";
 
 /// What was counted.

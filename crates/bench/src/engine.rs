@@ -19,7 +19,7 @@ pub trait Engine {
     /// Mass and inertia of a body, as the engine has them; 0 where it counts as infinite.
     fn body(&self, body: usize) -> Body;
 
-    /// Centre and angle of every body, as a caller who draws would read them: the engine's cheapest way.
+    /// Centre and angle of every body, as a caller that draws would read them: the engine's cheapest way.
     ///
     /// Gives a sum over what was read, so that no compiler leaves the reading out.
     fn read_poses(&mut self) -> f64;
@@ -151,13 +151,13 @@ pub enum EngineError {
     /// This executable was built without it.
     #[error("{engine} is not built into this executable")]
     NotBuilt {
-        /// Who.
+        /// The engine.
         engine: String,
     },
     /// The engine has no such settings.
     #[error("{engine} has no mode {mode}")]
     NoMode {
-        /// Who.
+        /// The engine.
         engine: String,
         /// What was asked for.
         mode: Mode,
@@ -165,7 +165,7 @@ pub enum EngineError {
     /// The engine has no second thread.
     #[error("{engine} does not run on {threads} threads")]
     Threads {
-        /// Who.
+        /// The engine.
         engine: String,
         /// What was asked for.
         threads: u32,
@@ -173,7 +173,7 @@ pub enum EngineError {
     /// The engine refused a body.
     #[error("{engine} refuses body {body}: {reason}")]
     Body {
-        /// Who.
+        /// The engine.
         engine: String,
         /// Index in the scene.
         body: usize,
@@ -191,7 +191,7 @@ pub enum EngineError {
     /// The engine does not say where its time goes.
     #[error("{engine} tells no stages of a step")]
     NoStages {
-        /// Who.
+        /// The engine.
         engine: String,
     },
     /// The job's time ran out before a step was measured.
@@ -199,7 +199,7 @@ pub enum EngineError {
         "{engine} was stopped after {steps} steps, the first of {ms_first:.0} ms: none could be measured"
     )]
     OutOfTime {
-        /// Who.
+        /// The engine.
         engine: String,
         /// Steps that were made.
         steps: u32,
@@ -209,7 +209,7 @@ pub enum EngineError {
     /// The engine refused its settings.
     #[error("{engine} refuses its settings: {reason}")]
     Settings {
-        /// Who.
+        /// The engine.
         engine: String,
         /// In the engine's words.
         reason: String,

@@ -23,7 +23,7 @@ pub enum Job {
 }
 
 impl Job {
-    /// Who.
+    /// The engine.
     #[must_use]
     pub const fn engine(&self) -> EngineName {
         match self {
@@ -54,7 +54,7 @@ impl Job {
 /// One point of a work–precision curve.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Point {
-    /// Who.
+    /// The engine.
     pub engine: EngineName,
     /// With which settings.
     pub mode: Mode,

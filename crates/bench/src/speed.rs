@@ -15,7 +15,7 @@ const REST_STEPS: u32 = 30;
 /// One engine on one scene.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct SpeedJob {
-    /// Who.
+    /// The engine.
     pub engine: EngineName,
     /// With which settings.
     pub mode: Mode,

@@ -1,4 +1,4 @@
-//! What a speed job answers, whoever runs.
+//! The answer of a speed job, for every engine.
 
 use carom_bench::{EngineName, Job, Limits, Mode, Reading, SpeedJob, run};
 

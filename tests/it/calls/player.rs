@@ -16,7 +16,7 @@ use super::vocabulary::{
 /// What of the calls is meant as it is said.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Room {
-    /// Four walls, nobody is driven, and bodies are put where nobody is: the walls keep all of them.
+    /// Four walls, no driven bodies, and bodies are put into free places: the walls keep all of them.
     Tidy,
     /// The same, but bodies are put into each other.
     Crammed,
@@ -28,7 +28,7 @@ pub(crate) enum Room {
 #[derive(Clone, Debug)]
 pub(crate) struct Player {
     pub(crate) world: World,
-    /// Everyone but the walls, the removed ones too.
+    /// All bodies but the walls, the removed ones too.
     pub(crate) ids: Vec<BodyId>,
     room: Room,
     /// Whether a force waits for the next step.
@@ -103,7 +103,7 @@ impl Player {
         }
     }
 
-    /// Who is meant by a number, if anybody was ever inserted.
+    /// The body that a number means, if any was ever inserted.
     fn id(&self, number: usize) -> Option<BodyId> {
         let count = self.ids.len();
         (count > 0).then(|| self.ids[number % count])
@@ -278,7 +278,7 @@ impl Player {
         Ok(())
     }
 
-    /// What a world must not take: whether it refused it. `None`: there is nobody to ask it of.
+    /// What a world must not take: whether it refused it. `None`: there is no body to try it on.
     pub(crate) fn is_refused(&mut self, nonsense: Nonsense) -> Option<bool> {
         use Nonsense::{
             Backwards, Damping, Drive, Impulse as Blow, Never, NoMass, NoShape, Pair, Restitution,

@@ -5,12 +5,12 @@ use std::collections::BTreeMap;
 use carom_dynamics::{BodyId, EventKind, World};
 use carom_math::SimTime;
 
-/// Who touches whom, as told by events.
+/// Bodies in touch, as told by events.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Told {
     /// How many pairs of shapes of two bodies touch.
     touch: BTreeMap<(BodyId, BodyId), usize>,
-    /// How many shapes everybody has, who is gone too.
+    /// How many shapes each body has, removed bodies too.
     shapes: BTreeMap<BodyId, usize>,
     /// Whether some events found no room.
     missed: bool,
@@ -23,7 +23,7 @@ impl Told {
             self.shapes.insert(body.id(), body.shapes().count());
         }
         let events = world.events();
-        // Whoever missed some can count no more.
+        // Once events were dropped the counts are void.
         self.missed |= events.dropped() > 0;
         let mut before = since;
         let mut last = None;
@@ -82,7 +82,7 @@ impl Told {
     }
 
     fn shapes(&self, id: BodyId) -> usize {
-        // Who came and went between two steps has two shapes at most.
+        // A body that came and went between two steps has two shapes at most.
         self.shapes.get(&id).copied().unwrap_or(2)
     }
 

@@ -180,7 +180,7 @@ fn case_05_points_on_one_line_are_named_and_near_ones_are_exact() {
     ] {
         assert_eq!(refused, PolygonError::Degenerate);
     }
-    // The five points of #296, whose hull failed.
+    // The five points of #296: their hull failed.
     let five = rounded(&[
         (-1.700_822_1, -1.432_217_1),
         (0.5, -0.5),
@@ -209,7 +209,7 @@ fn case_05_points_on_one_line_are_named_and_near_ones_are_exact() {
     }
 }
 
-/// erincatto/box2d#726: vertices nearer than half the slop were welded, and nobody was told.
+/// erincatto/box2d#726: vertices nearer than half the slop were welded, and no error told it.
 #[test]
 fn case_06_near_vertices_are_kept() {
     for near in [2e-3, 1e-6, 1e-9, 1e-12] {

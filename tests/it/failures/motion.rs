@@ -74,7 +74,7 @@ fn case_21_huge_impulses_drive_nothing_through_a_wall() {
             let mut world = world(9.81);
             let floor = BodyDef::fixed().at(vec2(0.0, -1.0));
             put(&mut world, floor, block(40.0, 2.0), surface(e, 0.3));
-            // So high that nobody gets over it: friction throws a box up at 85 km/s.
+            // So high that no box gets over it: friction throws a box up at 85 km/s.
             let wall = BodyDef::fixed().at(vec2(5.0, 0.0));
             put(&mut world, wall, block(0.001, 4e6), surface(e, 0.3));
             let mut def = BodyDef::dynamic().at(vec2(0.0, 0.5));
@@ -158,7 +158,7 @@ fn case_32_a_ball_in_a_spinning_hollow_is_left_alone_and_kept() {
         }
         assert!(impacts > 10, "{impacts} impacts, e = {e}");
     }
-    // A ring that the ball moves in turn: nobody puts energy in.
+    // A ring that the ball moves in turn: nothing puts energy in.
     for (e, friction) in [(0.0, 0.3), (1.0, 0.3), (1.0, 0.0)] {
         let mut world = space();
         let def = BodyDef::dynamic().spinning(20.0);
@@ -462,7 +462,7 @@ fn case_48_a_picometre_between_edges_in_a_world() {
         };
         near(first(0.0, spin, 0.0), 2.0 * gap / spin);
         near(first(-spin, spin, 0.0), gap / spin);
-        assert_eq!(first(0.0, 0.0, 0.0), None, "nobody moves");
+        assert_eq!(first(0.0, 0.0, 0.0), None, "nothing moves");
         assert_eq!(
             first(0.0, spin, spin),
             None,

@@ -1,5 +1,6 @@
-//! A pyramid of 21 boxes falls asleep in the engine of hybrid mode, and is woken seconds later by a call. The step that followed
-//! made up for all sub-steps that nobody had needed: 720 where a box was pushed, and the pile moved by two seconds within a frame.
+//! A pyramid of 21 boxes falls asleep in the engine of hybrid mode, and is woken seconds later by a call. The step
+//! that followed made up for all sub-steps that it had not needed: 720 where a box was pushed, and the pile moved by
+//! two seconds within a frame.
 
 use carom_dynamics::{BodyDef, BodyId, Force, Impulse, Settings, World};
 use carom_geometry::HalfPlane;

@@ -155,7 +155,7 @@ fn case_37_bodies_at_one_place_part() {
             most = most.max(world.energy().kinetic);
             assert!(world.bodies().all(|body| body.centre().is_finite()));
         });
-        // Push-out moves nobody faster than 3 m/s against another, and leaves no more.
+        // Push-out moves no body faster than 3 m/s against another, and leaves no more.
         assert!(most <= 0.5 * 9.0 * mass, "{count}: {most:.1e} J");
         let (deepest, _) = overlaps(&world);
         assert!(deepest < 5e-3, "{count}: overlap {deepest:.1e} m");

@@ -105,9 +105,9 @@ fn demo(root: &Path) -> Result<bool, Failure> {
     Ok(succeeds(&mut command)? && pictures::check(&out)?)
 }
 
-/// Cargo, whose property tests ask the same questions every time: a commit passes or fails for good.
+/// Cargo, with the same cases in its property tests every time: a commit passes or fails for good.
 ///
-/// Plain `cargo test` asks new ones, and so does this where the caller has set another seed.
+/// Plain `cargo test` draws new ones, and so does this where the caller has set another seed.
 fn cargo(root: &Path, args: &[&str]) -> Result<bool, Failure> {
     let seed = std::env::var(SEED).unwrap_or_else(|_| "1".to_owned());
     succeeds(cargo_in(root).args(args).env(SEED, seed))

@@ -18,14 +18,14 @@ const LONGEST: f64 = 1e5;
 
 /// A case that a world answers.
 pub(super) trait Play {
-    /// Who plays.
+    /// The bodies at the start, and the laws for them.
     fn cast(&self) -> &Cast;
 
     /// Steps the world, reads it, and answers by the reference's keys.
     fn play(&self, stage: &mut Stage) -> Result<Outputs, String>;
 }
 
-/// Who plays, before the curtain.
+/// The bodies of a case at the start, and the laws for them.
 #[derive(Clone, Debug)]
 pub(super) struct Cast {
     pub(super) gravity: Vec2,
@@ -45,7 +45,7 @@ pub(super) struct Player {
     pub(super) inertia: Option<f64>,
     /// In the body's frame, in m; `None`: by density.
     pub(super) centre: Option<Vec2>,
-    /// `None`: as everybody's.
+    /// `None`: that of all.
     pub(super) friction: Option<f64>,
     /// In kg/m².
     pub(super) density: f64,
@@ -90,7 +90,7 @@ pub(super) struct Stage {
     symmetry: Symmetry,
     /// Cuts steps at random where the case is in a guise.
     cuts: Option<SplitMix>,
-    /// Impacts that nobody has taken out yet.
+    /// Impacts not taken out yet.
     pub(super) impacts: Vec<Struck>,
     /// Modes of lasting contacts, as they began.
     pub(super) modes: Vec<Moved>,
@@ -191,7 +191,7 @@ impl Player {
 }
 
 impl Cast {
-    /// Everybody of one material; single impacts follow the default law.
+    /// All bodies of one material; single impacts follow the default law.
     pub(super) fn of(gravity: Vec2, restitution: f64, friction: f64, players: Vec<Player>) -> Self {
         Self {
             gravity,
@@ -205,7 +205,7 @@ impl Cast {
         }
     }
 
-    /// Where everybody stands, for the choice of a shift that stays exact.
+    /// Positions of all bodies, for the choice of a shift that stays exact.
     pub(super) fn places(&self) -> Vec<Vec2> {
         self.players.iter().map(|player| player.position).collect()
     }

@@ -1,4 +1,4 @@
-//! `stress`: one case by name, and a name that nobody knows.
+//! `stress`: one case by name, and an unknown name.
 
 use crate::xtask;
 

@@ -187,7 +187,7 @@ impl World {
         if !(dt > 0.0 && dt.is_finite() && substeps > 0) {
             return;
         }
-        // SAFETY: the world lives, and nobody else steps or reads it.
+        // SAFETY: the world lives, and nothing else steps or reads it.
         unsafe { ffi::b2World_Step(self.id, dt, substeps) }
     }
 

@@ -309,7 +309,7 @@ impl World {
 
 /// Makes a first space with standard output going where errors go.
 ///
-/// A debug build greets its caller there, once, and whoever reads an answer from standard output does not expect it.
+/// A debug build prints a greeting there, once, which is no part of an answer read from standard output.
 fn greet() {
     let Ok(kept) = rustix::io::dup(rustix::stdio::stdout()) else {
         return;

@@ -21,8 +21,8 @@ pub(super) const CASE: Case = Case {
 
 /// The places are compared here, in s, soon after the first contacts.
 ///
-/// At twice this time the runs part by centimetres however small the step, though a shift of the start does not grow: who
-/// touches whom first differs from rate to rate.
+/// At twice this time the runs part by centimetres however small the step, though a shift of the start does not grow:
+/// the first pair to touch differs from rate to rate.
 const TIME: f64 = 0.25;
 
 /// Four rows of five regular polygons, none turned as its neighbours, 0.1 m and more above what is below them.

@@ -1,4 +1,4 @@
-//! Every case with carom; and with engines whose error is known.
+//! Every case with carom; and with engines of known error.
 
 use std::f64::consts::PI;
 
@@ -70,7 +70,7 @@ fn carom_gives_every_metric_of_every_case() {
     }
 }
 
-/// Bodies whose motion is a formula of time.
+/// Bodies with a formula of time as their motion.
 struct Formula {
     states: Vec<State>,
     gravity: Vec2,

@@ -1,4 +1,4 @@
-//! One engine in one case: worlds whose steps are metered.
+//! One engine in one case: worlds with metered steps.
 
 use carom_scenes::PlainScene;
 
@@ -10,7 +10,7 @@ use crate::job::Point;
 /// One step in so many is metered: reading the clock costs as much as a step of a world of one body.
 const METERED: u64 = 8;
 
-/// Who builds a world: the engines, or what a test puts in their place.
+/// Builds a world: by an engine, or what a test puts in its place.
 pub(super) type Opener =
     fn(EngineName, &PlainScene, &Setup) -> Result<Box<dyn Engine>, EngineError>;
 
@@ -46,7 +46,7 @@ impl Trial {
         }
     }
 
-    /// Who runs.
+    /// The engine that runs.
     #[must_use]
     pub const fn engine(&self) -> EngineName {
         self.point.engine
@@ -76,7 +76,7 @@ impl Trial {
         Ok(Run::new(world, self.hz(), Some(&mut self.meter)))
     }
 
-    /// Builds a world that is stepped at another rate, in Hz, and whose cost does not count: a reference.
+    /// Builds a reference: a world stepped at another rate, in Hz, at no cost to the trial.
     ///
     /// # Errors
     /// If the engine is not built in or refuses the scene.

@@ -10,7 +10,7 @@ pub(super) const G: f64 = 10.0;
 /// Downwards, in m/s².
 pub(super) const GRAVITY: Vec2 = vec2(0.0, -G);
 
-/// A fixed box 2 km wide whose top is y = 0.
+/// A fixed box 2 km wide with its top at y = 0.
 pub(super) fn floor(scene: &mut PlainScene, material: usize) -> usize {
     let body = PlainBody::new(PlainKind::Fixed, vec2(0.0, -1.0), material);
     scene.add(body, PlainShape::rectangle(1000.0, 1.0))

@@ -9,7 +9,7 @@ use crate::engines::EngineName;
 /// Box2D's own advice, and what its samples run with.
 const SUBSTEPS: u32 = 4;
 
-/// A speed that nothing reaches and whose square an `f32` holds.
+/// A speed that nothing reaches, with a square that an `f32` holds.
 const UNCAPPED: f32 = 1e18;
 
 struct Box2d {

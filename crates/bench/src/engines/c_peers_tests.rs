@@ -222,18 +222,14 @@ fn bodies_that_start_asleep_stay_so_until_they_are_met() {
         steps(world.as_mut(), 5);
         assert_eq!(world.counters().awake, 1, "{engine}");
         steps(world.as_mut(), 25);
-        assert!(world.counters().awake > 1, "{engine}: nobody woke");
-        assert!(world.state(1).velocity.x > 0.1, "{engine}: nobody was hit");
+        assert!(world.counters().awake > 1, "{engine}: no body woke");
+        assert!(world.state(1).velocity.x > 0.1, "{engine}: no body was hit");
         steps(world.as_mut(), 600);
-        assert_eq!(
-            world.counters().awake,
-            0,
-            "{engine}: somebody is still awake"
-        );
+        assert_eq!(world.counters().awake, 0, "{engine}: a body is still awake");
 
         let mut world = open(engine, &scene, &STOCK).unwrap();
         steps(world.as_mut(), 1);
-        assert_eq!(world.counters().awake, 4, "{engine}: nobody may sleep");
+        assert_eq!(world.counters().awake, 4, "{engine}: no body may sleep");
     }
 }
 

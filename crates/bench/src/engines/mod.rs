@@ -19,7 +19,7 @@ use thiserror::Error;
 
 use crate::engine::{Engine, EngineError, Mode, Setup};
 
-/// Who runs.
+/// An engine, and its width where there are several.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum EngineName {

@@ -7,7 +7,7 @@ use super::solid::Solid;
 /// A box that covers more cells than this is compared with every other one instead: floors, walls.
 const MANY_CELLS: f64 = 64.0;
 
-/// Calls `found` once for each pair of solids whose boxes meet.
+/// Calls `found` once for each pair of solids with boxes that meet.
 pub(super) fn meeting(solids: &[Solid], mut found: impl FnMut(usize, usize)) {
     let grid = Grid::for_sizes_of(solids);
     let (mut cells, mut large) = (Vec::new(), Vec::new());

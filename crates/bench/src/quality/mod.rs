@@ -41,7 +41,7 @@ pub struct Quality {
     /// Highest centre of a dynamic body, in m: whether a pile still stands.
     #[serde(with = "crate::number")]
     pub highest: f64,
-    /// Dynamic bodies whose centre is not strictly inside the scene's region.
+    /// Dynamic bodies with a centre not strictly inside the scene's region.
     pub escaped: usize,
     /// Bodies with a number, or an energy, that is not finite.
     pub non_finite: usize,

@@ -54,7 +54,7 @@ impl Overlaps {
 
 /// Distance between two shapes along the axis that separates them best, in m; below zero they overlap by so much.
 ///
-/// Above zero it may fall short of the distance between two polygons, whose nearest points may be corners.
+/// Above zero it may fall short of the distance between two polygons: their nearest points may be corners.
 pub(super) fn separation(a: &Form, b: &Form) -> f64 {
     match (a, b) {
         (Form::Convex(a), Form::Convex(b)) => beyond_edges(a, b).max(beyond_edges(b, a)),

@@ -33,7 +33,7 @@ pub(super) struct Convex {
     pub(super) normals: Vec<Vec2>,
 }
 
-/// All shapes of the bodies whose state is finite; segments, which have no inside, are left out.
+/// All shapes of the bodies with a finite state; segments, which have no inside, are left out.
 pub(super) fn place(scene: &PlainScene, states: &[State]) -> Vec<Solid> {
     let mut solids = Vec::new();
     for (index, (body, state)) in scene.bodies.iter().zip(states).enumerate() {

@@ -125,7 +125,7 @@ fn pieces_count_one_by_one_and_never_against_their_own_body() {
 }
 
 #[test]
-fn what_cannot_move_overlaps_nobody_that_cannot_either() {
+fn overlaps_of_two_immovable_bodies_do_not_count() {
     let table = Table::new()
         .put(PlainKind::Fixed, SQUARE, Vec2::ZERO, 0.0)
         .put(PlainKind::Kinematic, SQUARE, vec2(0.5, 0.0), 0.0);
@@ -202,7 +202,7 @@ fn energy_and_momenta_are_those_of_the_textbook() {
 }
 
 #[test]
-fn who_left_the_region_and_who_is_nowhere_is_counted() {
+fn escaped_and_non_finite_bodies_are_counted() {
     let mut table = Table::new()
         .put(DYNAMIC, SQUARE, vec2(0.0, 0.0), 0.0)
         .put(DYNAMIC, SQUARE, vec2(5.0, 0.0), 0.0)
@@ -228,7 +228,7 @@ fn drift_is_the_farthest_move_of_a_centre() {
     assert_near(table.snapshot().drift(&later, &table.scene), 0.5);
 }
 
-/// One body whose velocity and spin are the numbers of its steps.
+/// One body, with the number of its steps as velocity and spin.
 struct Accelerating(f64);
 
 impl Engine for Accelerating {

@@ -7,7 +7,7 @@ use crate::engine::{Body, Engine, State};
 
 /// Root mean square acceleration over dynamic bodies and steps.
 ///
-/// For a body whose velocity changes by Δv and whose spin changes by Δω in a step of length `dt`, the square of the
+/// For a body that changes its velocity by Δv and its spin by Δω in a step of length `dt`, the square of the
 /// acceleration, averaged over the body's mass, is (|Δv|² + k² Δω²) / dt², with k² = I/m the square of its radius of
 /// gyration. At rest it is 0; in free fall |g|; a pile that hums shows it however small its overlaps are.
 #[derive(Clone, Debug)]

@@ -58,7 +58,7 @@ impl PairRules for Rules {
 }
 
 #[test]
-fn rules_say_who_meets_and_what_a_belt_carries() {
+fn rules_filter_pairs_and_set_belt_speeds() {
     let mut engine = Engine::new(Settings::default()).unwrap();
     let belt = PieceInput::new(HalfPlane::new(Vec2::ZERO, Vec2::Y).unwrap()).tagged(3);
     engine.insert(BodyInput::fixed(), &[belt]).unwrap();

@@ -254,7 +254,7 @@ pub(super) fn times_of_impact() -> Result<Finding, Failure> {
                     return;
                 }
             };
-            // Who starts in an overlap that opens is free until it has opened.
+            // A pair that starts in an overlap that opens is free until it has opened.
             let (x, y) = at(0.0);
             if naive::distance(&x, &y) <= 0.0 {
                 return;

@@ -174,7 +174,7 @@ fn has_avx2() -> bool {
     false
 }
 
-/// Where the executables are, and who was left out.
+/// Where the executables are, and which engines were left out.
 #[derive(Debug, Default)]
 pub(crate) struct Executables {
     paths: BTreeMap<Build, PathBuf>,

@@ -37,8 +37,8 @@ pub(crate) enum Command {
     Every job is a process of its own; its reading is in rows.jsonl as soon as it is there. Ctrl-C keeps what is\n\
     measured, --resume adds the rest. The full run has steps of 1/30 to 1/3840 s and is built with fat LTO; Box2D needs\n\
     a C compiler, Chipmunk its library (apt install libchipmunk-dev): what is missing is left out, with a line.\n\
-    Box2D and Rapier answer with eight lanes as with four: the wide builds run only if they are named. A curve whose\n\
-    job was stopped at --limit is not followed to more steps.")]
+    Box2D and Rapier answer with eight lanes as with four: the wide builds run only if they are named. A curve is not\n\
+    followed to more steps once a job of it was stopped at --limit.")]
 pub(crate) struct AccuracyArgs {
     /// A few rates of the cheaper cases, built as for development: under a minute without peers
     #[arg(long)]
@@ -96,7 +96,7 @@ pub(crate) struct SpeedArgs {
     /// Steps before the counted ones, at most the scene's own
     #[arg(long, value_name = "N", default_value_t = 5, requires = "instructions", value_parser = clap::value_parser!(u32).range(1..))]
     pub(crate) warm_up: u32,
-    /// Steps whose instructions are counted, at most the scene's own
+    /// Steps to count the instructions of, at most the scene's own
     #[arg(long, value_name = "N", default_value_t = 5, requires = "instructions", value_parser = clap::value_parser!(u32).range(1..))]
     pub(crate) steps: u32,
     /// Where the time of a step goes instead, stage by stage, as the engine's own clock tells it: carom and Box2D

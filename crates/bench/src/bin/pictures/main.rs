@@ -1,9 +1,9 @@
 //! Pictures side by side: carom's painter against Cairo, tiny-skia and `vello_cpu`.
 //!
-//! Everybody draws the same state in the same round and takes turns in going first; a number is the median CPU time of one
-//! thread. `cargo run --profile bench -p carom-bench --no-default-features --features cairo --bin pictures` prints
+//! All painters draw the same state in the same round and take turns going first; a number is the median CPU time of
+//! one thread. `cargo run --profile bench -p carom-bench --no-default-features --features cairo --bin pictures` prints
 //! the tables, or those that are named: `drawing`, `packing`, `frames`, `still`, `faces`. `--pictures FOLDER` writes what
-//! everybody drew.
+//! each drew.
 
 mod faces;
 mod peers;

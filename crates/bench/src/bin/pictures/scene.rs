@@ -1,4 +1,4 @@
-//! The scene that everybody draws: walls, a bar, a field, and balls and polygons that fly on straight lines.
+//! The scene that all painters draw: walls, a bar, a field, and balls and polygons that fly on straight lines.
 
 use core::f64::consts::TAU;
 
@@ -101,7 +101,7 @@ impl Scene {
         }
     }
 
-    /// A sixtieth of a second on; who leaves comes in on the other side.
+    /// A sixtieth of a second on; a body that leaves comes in on the other side.
     pub(crate) fn step(&mut self) {
         let corner = self.size.corner();
         for body in &mut self.bodies[..self.awake] {
@@ -183,14 +183,14 @@ impl Scene {
         still
     }
 
-    /// The same once more, by who knows that the first `still` marks do not move.
+    /// The same once more, where the first `still` marks do not move.
     pub(crate) fn frame_again(&self, arrows: Arrows, still: usize, frame: &mut Frame) {
         frame.truncate(still);
         self.moving(arrows, frame);
     }
 }
 
-/// Takes things; whoever makes one asks it for memory.
+/// Takes things; `points` gives the memory to make one.
 trait Sink {
     fn points(&mut self) -> Vec<Vec2>;
     fn draw(&mut self, thing: Thing, awake: bool);

@@ -71,16 +71,16 @@ pub(crate) fn raster(arrows: Arrows, rows: &[(u32, u32, usize, usize)], folder: 
             let things = scene.things(arrows);
             scene.frame_into(arrows, &mut frame);
             for turn in 0..PAINTERS {
-                let who = (turn + round) % PAINTERS;
-                let time = timed(|| match who {
-                    0..=2 => cairo[who].draw(&things).expect("Cairo draws"),
+                let which = (turn + round) % PAINTERS;
+                let time = timed(|| match which {
+                    0..=2 => cairo[which].draw(&things).expect("Cairo draws"),
                     3 => skia.draw(&things),
                     4 => vello.draw(&things),
                     _ => {
                         carom.paint(&frame, &mut picture);
                     }
                 });
-                times[who].push(time);
+                times[which].push(time);
             }
         }
         let [direct, original, fast, plain, strips, own] = times.map(|mut t| median(&mut t));
@@ -148,9 +148,9 @@ pub(crate) fn packing() {
             scene.frame_into(Arrows::Strokes, &mut frame);
             let picture = frame.paint(&style());
             for turn in 0..3 {
-                let who = (turn + round) % 3;
-                times[who].push(timed(|| {
-                    bytes[who] = match who {
+                let which = (turn + round) % 3;
+                times[which].push(timed(|| {
+                    bytes[which] = match which {
                         0 => cairo.png(),
                         1 => picture.to_png(),
                         _ => picture.to_png_packed(Packing::Small),
@@ -196,9 +196,9 @@ pub(crate) fn frames() {
         for round in 0..rounds {
             scene.step();
             for turn in 0..3 {
-                let who = (turn + round) % 3;
+                let which = (turn + round) % 3;
                 let (mut list, mut drawing) = (0.0, 0.0);
-                let time = timed(|| match who {
+                let time = timed(|| match which {
                     0 => {
                         cairo
                             .draw(&scene.things(Arrows::Strokes))
@@ -220,8 +220,8 @@ pub(crate) fn frames() {
                         black_box(packer.pack(&picture, &changes));
                     }
                 });
-                times[who].push(time);
-                if who == 2 {
+                times[which].push(time);
+                if which == 2 {
                     times[3].push(list);
                     times[4].push(drawing);
                 }
@@ -273,12 +273,12 @@ pub(crate) fn skipping() {
             }));
             assert!(frames[0] == frames[1], "both lists are the same");
             for turn in 0..2 {
-                let who = (turn + round) % 2;
+                let which = (turn + round) % 2;
                 let mut changes = Changes::default();
-                times[who].push(timed(|| {
-                    changes.clone_from(painters[who].paint(&frames[who], &mut pictures[who]));
+                times[which].push(timed(|| {
+                    changes.clone_from(painters[which].paint(&frames[which], &mut pictures[which]));
                 }));
-                if who == 1 {
+                if which == 1 {
                     dirty += ratio(changes.count(), changes.bands().len());
                     times[4].push(timed(|| {
                         black_box(packer.pack(&pictures[1], &changes));
@@ -328,9 +328,9 @@ pub(crate) fn faces() {
                 });
             }
             for turn in 0..2 {
-                let who = (turn + round) % 2;
-                times[who].push(timed(|| {
-                    if who == 0 {
+                let which = (turn + round) % 2;
+                times[which].push(timed(|| {
+                    if which == 0 {
                         cairo.draw(balls.each()).expect("Cairo draws");
                     } else {
                         carom.paint(&frame, &mut picture);

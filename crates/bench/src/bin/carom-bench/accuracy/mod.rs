@@ -62,7 +62,7 @@ fn measured(args: &AccuracyArgs) -> Result<(Head, Vec<AccuracyRow>), Failure> {
     Ok((store.head, rows))
 }
 
-/// Engines whose answers differ: Box2D and Rapier give the same with four lanes as with eight, which stand in `speed`.
+/// Engines of different answers: Box2D and Rapier give the same with four lanes as with eight, which stand in `speed`.
 fn one_of_each(engines: Vec<EngineName>, asked: &[EngineName]) -> Vec<EngineName> {
     let wide = |engine: &EngineName| matches!(engine, EngineName::Box2dAvx2 | EngineName::Rapier8);
     let kept = |engine: &EngineName| !wide(engine) || asked.contains(engine);

@@ -11,7 +11,7 @@ use crate::text;
 /// The rates of the columns, steps per simulated second.
 const COLUMNS: [u32; 4] = [60, 240, 960, 3840];
 
-/// The rate whose cost is shown, and at which sub-steps are swept.
+/// The rate of the cost shown, and of the sweep over sub-steps.
 const COMMON: u32 = 60;
 
 /// Head, and for each case its metrics.
@@ -136,16 +136,16 @@ fn failures(text: &mut String, rows: &[&AccuracyRow]) {
         let Some(reason) = row.failed.as_ref().filter(|_| row.cpu_s_per_s.is_none()) else {
             continue;
         };
-        let who = format!("{} {}", row.engine, row.mode);
-        if !seen.contains(&(who.clone(), reason.clone())) {
+        let label = format!("{} {}", row.engine, row.mode);
+        if !seen.contains(&(label.clone(), reason.clone())) {
             let _ = writeln!(
                 text,
-                "{}- failed: {who} from {} steps a second: {}",
+                "{}- failed: {label} from {} steps a second: {}",
                 if seen.is_empty() { "\n" } else { "" },
                 row.hz,
                 text::cell(reason)
             );
-            seen.push((who, reason.clone()));
+            seen.push((label, reason.clone()));
         }
     }
 }

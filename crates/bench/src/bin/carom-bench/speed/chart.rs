@@ -124,7 +124,7 @@ mod tests {
         assert_eq!(
             names,
             ["box2d-sse2", "rapier", "carom"],
-            "who failed has no ratio"
+            "a failed engine has no ratio"
         );
         assert_eq!(chart.series[2].points, [vec2(3.0, 0.0)]);
         assert!(ratios(Vec::new()).is_none());

@@ -6,7 +6,7 @@ use carom_math::{Vec2, vec2};
 use carom_tests::scenes::{block, disc, put, surface};
 
 #[test]
-fn who_is_clamped_is_not_struck_for_ever() {
+fn a_clamped_body_is_not_struck_for_ever() {
     for mode in [Mode::Hybrid, Mode::Exact] {
         let settings = Settings {
             mode,

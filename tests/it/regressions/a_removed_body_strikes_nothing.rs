@@ -6,7 +6,7 @@ use carom_geometry::Circle;
 use carom_math::vec2;
 
 #[test]
-fn a_removed_body_strikes_nobody() {
+fn a_removed_body_strikes_nothing() {
     for seconds in [0.0, 1e-4, 3e-4, 1e-3, 0.1] {
         for removed in [true, false] {
             let settings = Settings {

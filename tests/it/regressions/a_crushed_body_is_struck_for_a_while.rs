@@ -6,7 +6,7 @@ use carom_math::{Vec2, vec2};
 use carom_tests::scenes::{block, disc, put, surface};
 
 #[test]
-fn who_is_crushed_is_struck_for_a_while() {
+fn a_crushed_body_is_struck_for_a_while() {
     for mode in [Mode::Hybrid, Mode::Exact, Mode::Stepped] {
         let settings = Settings {
             gravity: Vec2::ZERO,
