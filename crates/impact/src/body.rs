@@ -21,7 +21,7 @@ pub struct ImpactBody {
 }
 
 impl ImpactBody {
-    /// A free body with the given mass and inertia, whose centre of mass is at `centre`.
+    /// A free body with the given mass and inertia, and its centre of mass at `centre`.
     #[must_use]
     pub fn free(mass: MassProperties, centre: Vec2, velocity: Vec2, spin: f64) -> Self {
         Self {

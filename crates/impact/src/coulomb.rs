@@ -4,7 +4,7 @@
 //! 0 ≤ j_n ⟂ u_n ≥ 0,      |j_t| ≤ µ j_n,      u_t ≠ 0  ⇒  j_t = −µ j_n sign(u_t)          u = u₀ + K j
 //! ```
 //!
-//! In the plane a linear complementarity problem. Whoever holds is guessed from `j − u` of all rows
+//! In the plane a linear complementarity problem. The rows that hold are guessed from `j − u` of all rows
 //! at once and solved for, until the guess stands (a semi-smooth Newton method: P. Alart, A. Curnier 1991);
 //! all rows are treated alike, so symmetric questions get symmetric answers. Where guesses run in a circle
 //! Lemke's pivoting finds a solution, which exists (M. Anitescu, F. Potra 1997); where bodies

@@ -120,7 +120,7 @@ pub fn stronge(a: &ImpactBody, b: &ImpactBody, contact: &ImpactContact) -> Outco
 ///
 /// Where `µ |K_nt| > K_nn` friction presses bodies together that only slide on each other: no acceleration
 /// meets Coulomb's law, or two do (P. Painlevé 1895). The impulse does what forces cannot: it grows until
-/// the slip has ended. It never gains energy. A rigid rod of even mass whose end drags over the floor jams at µ > 4/3.
+/// the slip has ended. It never gains energy. A rigid rod of even mass with an end that drags over the floor jams at µ > 4/3.
 ///
 /// # Examples
 /// ```
@@ -144,7 +144,7 @@ pub fn jam(a: &ImpactBody, b: &ImpactBody, contact: &ImpactContact) -> Option<Ou
     jams(&k, contact).then(|| Outcome::of(a, b, contact, follow(&k, contact, EndRule::Work)))
 }
 
-/// Stick if the cone allows it, else the slip whose direction its own friction opposes.
+/// Stick if the cone allows it, else the slip in the direction that its own friction opposes.
 fn newton_impulses(k: &Response, contact: &ImpactContact) -> (f64, f64) {
     if k.u_n >= 0.0 || k.k_nn == 0.0 {
         return (0.0, 0.0);

@@ -91,7 +91,7 @@ impl Tableau {
         self.pivot(worst, 2 * n) + n
     }
 
-    /// The row whose variable first comes to 0; ties by the rows of the inverse basis.
+    /// The row of the variable that first comes to 0; ties by the rows of the inverse basis.
     fn leaving(&self, entering: usize) -> Option<usize> {
         let n = self.n;
         let most = self

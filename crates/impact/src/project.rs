@@ -110,7 +110,7 @@ impl<'a> ActiveSet<'a> {
     /// One more member, with its parts along the others and its own.
     fn add(&mut self, row: usize, multiplier: f64, column: Vec<f64>, mut own: Vec<f64>) {
         let whole = &self.rows[row];
-        // What is left of a row that depends on others is the more its rounding, whose part along
+        // What is left of a row that depends on others is the more its rounding; a part of that along
         // what is kept would be a momentum out of nothing.
         if dot(&own, &own) < NEARLY * NEARLY * dot(whole, whole) {
             for direction in self.kept {
@@ -157,8 +157,8 @@ impl<'a> ActiveSet<'a> {
         worst.map(|(row, _)| row)
     }
 
-    /// Moves along the row's own direction until its bound is met; members whose multiplier would
-    /// turn negative on the way leave.
+    /// Moves along the row's own direction until its bound is met; members with a multiplier that
+    /// would turn negative on the way leave.
     fn enter(&mut self, row: usize) {
         let mut multiplier = 0.0;
         loop {

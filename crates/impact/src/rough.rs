@@ -1,7 +1,7 @@
 //! Several contacts that act at one instant, with friction.
 //!
 //! The two ends of the [blend](super::blend): at e = 0 Signorini's condition and Coulomb's law for all
-//! impulses at once, at e = 1 reflections whose restitution follows Routh's path. Both keep momentum to
+//! impulses at once, at e = 1 reflections with a restitution along Routh's path. Both keep momentum to
 //! rounding, keep friction in its cone, never gain energy and leave no contact closing, so every mean of them does.
 
 use carom_math::Vec2;

@@ -14,9 +14,9 @@ fn heap() -> impl Strategy<Value = (Vec<ImpactBody>, Vec<SharedContact>)> {
     heaps::heap(2.0, 8, (0.0..1.0_f64, Just(0.0)))
 }
 
-/// The same with nobody immovable.
+/// The same without immovable bodies.
 fn free_heap() -> impl Strategy<Value = (Vec<ImpactBody>, Vec<SharedContact>)> {
-    heap().prop_filter("nobody is immovable", |(bodies, _)| {
+    heap().prop_filter("no body is immovable", |(bodies, _)| {
         bodies[0].inverse_mass > 0.0
     })
 }

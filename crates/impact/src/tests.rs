@@ -5,7 +5,7 @@ use proptest::prelude::*;
 
 use super::{ImpactBody, ImpactContact, ImpactLaw, newton, poisson, resolve, stronge};
 
-/// A body near the origin whose mass may be up to 1e12 times another's.
+/// A body near the origin, of up to 1e12 times the mass of another.
 fn body() -> impl Strategy<Value = ImpactBody> {
     (
         (-6.0..6.0_f64, 0.01..100.0_f64),

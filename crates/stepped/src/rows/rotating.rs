@@ -56,7 +56,7 @@ impl RotatingRows {
         });
     }
 
-    /// Adds a row that may close within a tick of `tick` seconds and whose gap changes to second order in it; `extent` of the smaller
+    /// Adds a row that may close within a tick of `tick` seconds with a gap that changes to second order in it; `extent` of the smaller
     /// piece, in m.
     pub(crate) fn add(
         &mut self,

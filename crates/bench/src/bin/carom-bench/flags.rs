@@ -44,7 +44,7 @@ pub(crate) struct AccuracyArgs {
     #[arg(long)]
     pub(crate) quick: bool,
     #[command(flatten)]
-    pub(crate) who: Who,
+    pub(crate) chosen: Chosen,
     /// Only this case, by name or number; may be repeated
     #[arg(long, value_name = "NAME")]
     pub(crate) case: Vec<String>,
@@ -74,7 +74,7 @@ pub(crate) struct AccuracyArgs {
     Times are CPU time of one thread; wall time where there are several. The machine should be quiet.")]
 pub(crate) struct SpeedArgs {
     #[command(flatten)]
-    pub(crate) who: Who,
+    pub(crate) chosen: Chosen,
     /// Only this scene, by name or letter (a to i); may be repeated
     #[arg(long, value_name = "NAME")]
     pub(crate) scene: Vec<String>,
@@ -114,7 +114,7 @@ pub(crate) struct SpeedArgs {
 
 /// Which engines.
 #[derive(Args, Debug)]
-pub(crate) struct Who {
+pub(crate) struct Chosen {
     /// Beside carom, all peers that can be built here
     #[arg(long)]
     pub(crate) peers: bool,

@@ -5,7 +5,7 @@ use carom_bench::{CallgrindError, EngineName, Instructions, Job, Reading, count_
 use crate::builds::{Executables, Probe, Profile};
 use crate::exit::Failure;
 use crate::files;
-use crate::flags::{How, Who};
+use crate::flags::{Chosen, How};
 use crate::head::Head;
 use crate::interrupt;
 use crate::plan::Planned;
@@ -27,14 +27,14 @@ pub(crate) struct Run<'a> {
 }
 
 /// The engines that the flags name: carom, or all, or those asked for.
-pub(crate) fn engines(who: &Who) -> Vec<EngineName> {
-    let chosen = |engine: &EngineName| match (who.engine.is_empty(), who.peers) {
+pub(crate) fn engines(chosen: &Chosen) -> Vec<EngineName> {
+    let runs = |engine: &EngineName| match (chosen.engine.is_empty(), chosen.peers) {
         (true, true) => true,
         (true, false) => *engine == EngineName::Carom,
         // carom beside the named ones only if it is named.
-        (false, _) => who.engine.contains(engine),
+        (false, _) => chosen.engine.contains(engine),
     };
-    EngineName::ALL.into_iter().filter(chosen).collect()
+    EngineName::ALL.into_iter().filter(runs).collect()
 }
 
 impl Run<'_> {

@@ -41,7 +41,7 @@ pub(crate) fn run(args: &AccuracyArgs) -> Outcome {
 
 fn measured(args: &AccuracyArgs) -> Result<(Head, Vec<AccuracyRow>), Failure> {
     let cases = cases(&args.case)?;
-    let engines = one_of_each(measure::engines(&args.who), &args.who.engine);
+    let engines = one_of_each(measure::engines(&args.chosen), &args.chosen.engine);
     let run = Run {
         command: "accuracy",
         profile: if args.quick {

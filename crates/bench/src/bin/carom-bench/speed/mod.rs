@@ -33,7 +33,7 @@ pub(crate) fn run(args: &SpeedArgs) -> Outcome {
     if what == What::Instructions && !builds::answers("valgrind", &["--version"]) {
         fail!("--instructions needs valgrind, which cannot be started (apt install valgrind)");
     }
-    let mut engines = measure::engines(&args.who);
+    let mut engines = measure::engines(&args.chosen);
     if what == What::Profile {
         engines.retain(|engine| stages::tells(*engine));
         if engines.is_empty() {
