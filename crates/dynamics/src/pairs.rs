@@ -56,6 +56,12 @@ impl Pair {
         points.any(|point| point.separation < -touch)
     }
 
+    /// Its deepest overlap, in m, ≥ 0.
+    pub(crate) fn depth(&self) -> f64 {
+        let points = self.contacts.iter().flat_map(|contact| &contact.points);
+        points.map(|point| -point.separation).fold(0.0, f64::max)
+    }
+
     /// The one of its bodies that is not this one.
     pub(crate) fn other(&self, body: u32) -> u32 {
         let (a, b) = self.bodies;

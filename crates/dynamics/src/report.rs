@@ -30,12 +30,12 @@ pub struct StepReport {
     pub modes_solved: u64,
     /// Flights in fields that leave out more than [`Settings::field_error`](crate::Settings::field_error) in their shortest pieces.
     pub inaccurate: u64,
-    /// Pairs found deeper in each other at the start of a sub-step than a touch is, 1e-9 of the smaller body's reach: an impact came
-    /// late, a contact gave way, or they were put so.
+    /// Pairs found deeper in each other at the start of a sub-step, or at the end of the call, than a touch is, 1e-9 of the smaller
+    /// body's reach: an impact came late, a contact gave way, or they were put so.
     pub sunken: u64,
     /// Bodies that were stopped because a number was no longer finite.
     pub stopped: u64,
-    /// Deepest overlap seen at the start of a sub-step, in m, ≥ 0.
+    /// Deepest overlap seen at the start of a sub-step or at the end of the call, in m, ≥ 0.
     pub deepest_overlap: f64,
     /// Why nothing happened, if the step was refused.
     pub refused: Option<Refusal>,

@@ -74,6 +74,7 @@ impl World {
         self.events.end_step();
         self.bodies.end_step();
         self.report_astray(self.clock.now);
+        self.tell_overlaps(self.clock.now);
         self.report.inaccurate += core::mem::take(&mut self.bodies.inaccurate);
         self.report.advanced = if stop_at_event || self.work.is_used_up() {
             self.clock.now - start
@@ -161,16 +162,19 @@ impl World {
         {
             return;
         }
-        let rests = self.strike_or_rest(entry, Slow::Rests);
+        let mut rests = self.strike_or_rest(entry, Slow::Rests);
         let now = (self.bodies.version(a), self.bodies.version(b));
         let closed = |index: u32| self.bodies.get(index).membership.is_closed();
+        let held = closed(a) || closed(b);
         let turns = self
             .pairs
             .of_entry(entry)
             .is_some_and(|pair| pair.turning_rest > 0.0);
-        if rests && turns && now == entry.versions && !closed(a) && !closed(b) {
-            self.strike_or_rest(entry, Slow::Stops);
+        if rests && turns && now == entry.versions && !held {
+            rests = self.strike_or_rest(entry, Slow::Stops);
         }
+        // It goes on closing until the solver holds it with the next sub-step.
+        self.report.handed_over += u64::from(rests && !held);
     }
 
     /// The same; what is too slow to bounce rests, if nothing else is asked of it. Whether it does.

@@ -246,9 +246,7 @@ impl World {
             let reach = |index: u32| self.bodies.get(index).reach;
             let sunken = pair.overlaps(TOUCH * reach(a).min(reach(b)));
             self.report.sunken += u64::from(sunken);
-            for point in pair.contacts.iter().flat_map(|contact| &contact.points) {
-                self.report.deepest_overlap = self.report.deepest_overlap.max(-point.separation);
-            }
+            self.report.deepest_overlap = self.report.deepest_overlap.max(pair.depth());
             self.events.tell_touch(&self.bodies, pair, time);
             if touching && active != (false, false) {
                 for index in [a, b] {
@@ -256,6 +254,33 @@ impl World {
                         self.wake(index, time);
                     }
                 }
+            }
+        }
+    }
+
+    /// Overlaps of sub-stepped bodies when a call ends, as the next sub-step will see them: a caller reads these poses now.
+    pub(crate) fn tell_overlaps(&mut self, time: SimTime) {
+        for index in self.stepped.clone() {
+            for slot in 0..self.bodies.get(index).pairs.len() {
+                let place = self.bodies.get(index).pairs[slot];
+                let other = self.pairs.get(place).other(index);
+                let (one, two) = (self.bodies.get(index), self.bodies.get(other));
+                let near = one.reach + two.reach;
+                let apart = one.centre_at(time) - two.centre_at(time);
+                if two.is_stepped() && other < index || apart.length_squared() > near * near {
+                    continue;
+                }
+                let touch = TOUCH * one.reach.min(two.reach);
+                // What a pair remembers is that of its sub-step: calls only observe.
+                let kept = self.pairs.get(place).clone();
+                let (bodies, colliders) = (&self.bodies, &self.colliders);
+                let pairs = &mut self.pairs;
+                let pair = self
+                    .narrow
+                    .look_at(bodies, colliders, pairs, place, time, self.clock.h);
+                self.report.sunken += u64::from(pair.overlaps(touch));
+                self.report.deepest_overlap = self.report.deepest_overlap.max(pair.depth());
+                *self.pairs.get_mut(place) = kept;
             }
         }
     }
