@@ -47,7 +47,9 @@ impl Engine {
             limit.reach = reach;
             limit.tolerance = self.settings.tolerance * extent;
             limit.extent = extent;
-            self.broad.stale();
+            for number in first..first + count {
+                self.broad.enter(number);
+            }
         }
         Ok(id)
     }

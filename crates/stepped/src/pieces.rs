@@ -208,7 +208,9 @@ impl Pieces {
         pair.map(|piece| self.list[piece as usize].tag)
     }
 
+    /// Their numbers are free again, and in no box.
     pub(crate) fn remove(&mut self, first: u32, count: u32) {
+        self.boxes[first as usize..(first + count) as usize].fill(Aabb::EMPTY);
         self.free.push((first, count));
     }
 

@@ -168,13 +168,12 @@ impl Engine {
         // Boxes are those of the last sub-step's begin: a blow or a push-out in it may lead out of them.
         let pushed = self.law.push_out * self.law.h;
         let bounds = bounds.grown(self.bodies.beyond_boxes + pushed);
-        self.broad
-            .pieces_in(&self.bodies, &self.pieces, bounds, |piece| {
-                found(tag(piece));
-            });
+        self.broad.pieces_in(&self.pieces, bounds, |piece| {
+            found(tag(piece));
+        });
     }
 
-    /// Many queries follow: after changes, and sub-steps in which bodies woke or fell asleep, each would look at all bodies awake.
+    /// Many queries follow: after many changes, and sub-steps in which many bodies woke, each would look at all of these.
     pub fn prepare_queries(&mut self) {
         self.broad.prepare_queries(&self.bodies, &self.pieces);
     }
@@ -183,9 +182,20 @@ impl Engine {
     pub fn query_awake(&self, bounds: Aabb, mut found: impl FnMut(u64)) {
         let tag = |piece: u32| self.pieces.list[piece as usize].tag;
         self.broad
-            .movers_in(&self.bodies, &self.pieces, bounds, |piece| {
-                found(tag(piece));
-            });
+            .movers_in(&self.pieces, bounds, |piece| found(tag(piece)));
+    }
+
+    /// [`Self::query_awake`] of those alone that came, or go otherwise than was foreseen, since contacts were last found at the begin
+    /// of a tick, or since [`Self::forget_news`]. Only after [`Self::prepare_queries`].
+    pub fn query_news(&self, bounds: Aabb, mut found: impl FnMut(u64)) {
+        let tag = |piece: u32| self.pieces.list[piece as usize].tag;
+        self.broad
+            .news_in(&self.pieces, bounds, |piece| found(tag(piece)));
+    }
+
+    /// See [`Self::query_news`].
+    pub fn forget_news(&mut self) {
+        self.broad.forget_news();
     }
 
     /// Names of all bodies, by slot.

@@ -201,6 +201,7 @@ impl Engine {
             for piece in record.first_piece..record.first_piece + record.pieces {
                 self.pieces.pose(piece, sleeper.base);
                 self.broad.leave(piece);
+                self.broad.enter(piece);
             }
         }
         for sleeper in sleepers {
@@ -335,20 +336,37 @@ impl Engine {
         Ok(self.bodies.get(id)?.island != Bodies::NONE)
     }
 
-    /// The bodies that a dynamic body hangs together with by contacts that push or overlap, itself the first.
+    /// The bodies that a dynamic body hangs together with by contacts that push or overlap, itself the first; `None` if these are
+    /// `most` or more.
     ///
     /// # Errors
     /// [`EngineError::Stale`] if it is not in this engine.
-    pub fn island_of(&self, id: BodyId) -> Result<Vec<BodyId>, EngineError> {
+    pub fn small_island_of(
+        &self,
+        id: BodyId,
+        most: usize,
+    ) -> Result<Option<Vec<BodyId>>, EngineError> {
         let record = self.bodies.get(id)?;
-        let slots = if record.kind != BodyKind::Dynamic {
-            vec![id.slot]
-        } else if let Some(Some(sleepers)) = self.islands.asleep.get(record.island as usize) {
-            sleepers.iter().map(|sleeper| sleeper.slot).collect()
-        } else {
-            let mut seen = vec![false; self.bodies.records.len()];
-            self.island(id.slot, 0.0, &mut seen).0
-        };
-        Ok(slots.into_iter().map(|slot| self.bodies.id(slot)).collect())
+        let mut island = vec![id.slot];
+        if let Some(Some(sleepers)) = self.islands.asleep.get(record.island as usize) {
+            island = sleepers.iter().map(|sleeper| sleeper.slot).collect();
+        } else if record.kind == BodyKind::Dynamic {
+            let mut next = 0;
+            while let Some(&slot) = island.get(next) {
+                next += 1;
+                for (id, side) in self.graph.of_body(&self.bodies, slot) {
+                    let other = self.graph.contacts[id as usize].bodies[1 - side];
+                    let dynamic = self.bodies.records[other as usize].kind == BodyKind::Dynamic;
+                    if dynamic && !island.contains(&other) && self.hold_together(id) {
+                        island.push(other);
+                    }
+                }
+                if island.len() >= most {
+                    break;
+                }
+            }
+        }
+        let small = island.len() < most;
+        Ok(small.then(|| island.iter().map(|slot| self.bodies.id(*slot)).collect()))
     }
 }

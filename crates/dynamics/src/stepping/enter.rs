@@ -124,19 +124,20 @@ impl World {
         debug_assert!(told.is_ok(), "{told:?}");
     }
 
-    /// A body that goes, or comes back as another one, leaves the engine: sleepers on it wake, and its touches end.
-    pub(super) fn leave_engine(&mut self, index: u32, time: SimTime) {
+    /// A body that goes, or comes back as another one, leaves the engine; whether it was there: then its touches end, and sleepers
+    /// on it wake, which is for the caller to see to.
+    pub(super) fn leave_engine(&mut self, index: u32, time: SimTime) -> bool {
         let Some(mut stepping) = self.stepping.take() else {
-            return;
+            return false;
         };
-        if stepping.id(index).is_some() {
+        let known = stepping.id(index).is_some();
+        if known {
             stepping.remove(index);
             self.tell_sleep(&mut stepping, time);
-            self.tell_changed_touches(&mut stepping, time);
         }
         self.stepping = Some(stepping);
         self.bodies.get_mut(index).is_guest = false;
-        self.take_woken(time);
+        known
     }
 
     /// What accelerates a body at a place besides contacts and damping, in m/s² and rad/s²; a field that is not finite there

@@ -31,6 +31,14 @@ pub(crate) const MANY: usize = 64;
 /// A member flies after more ticks than these without a contact.
 const IDLE: u8 = 2;
 
+/// Which members are asked about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Among {
+    All,
+    /// Those that came or go otherwise since they were last asked about.
+    News,
+}
+
 /// What the boundary to the engine keeps of its members.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Joins {
@@ -48,8 +56,8 @@ pub(crate) struct Joins {
     idle: Vec<(u32, u8)>,
     /// Bodies that took to flight, and some that landed since.
     pub(crate) aloft: Vec<u32>,
-    /// A body outside has a motion that is newer than the last search for bodies that join.
-    pub(crate) is_restless: bool,
+    /// Bodies outside with motions that are newer than the last search for bodies that join.
+    restless: Vec<u32>,
     /// Motions are older than the engine.
     pub(super) unwritten: bool,
     /// Where the engine's last sub-step ended.
@@ -60,6 +68,13 @@ pub(crate) struct Joins {
     /// Work of kinematic bodies, and of the caller's forces, in J.
     pub(super) driven: Sum,
     pub(super) forced: Sum,
+}
+
+impl Joins {
+    /// Whether a body outside has a motion that is newer than the last search for bodies that join.
+    pub(super) const fn is_restless(&self) -> bool {
+        !self.restless.is_empty()
+    }
 }
 
 impl World {
@@ -203,7 +218,15 @@ impl World {
 
     /// A member leaves, with the motion that it has at `time`: its next regime is for the caller to choose.
     pub(crate) fn leave(&mut self, index: u32, time: SimTime) {
-        self.leave_engine(index, time);
+        if self.leave_engine(index, time) {
+            self.tell_touches(time);
+        }
+        self.take_woken(time);
+        self.end_membership(index, time);
+    }
+
+    /// A body that the engine does not know any more is no member.
+    fn end_membership(&mut self, index: u32, time: SimTime) {
         let state = self.bodies.get(index);
         if !state.in_engine {
             return;
@@ -222,6 +245,9 @@ impl World {
     /// Notes that a body flies.
     pub(crate) fn note_flight(&mut self, index: u32) {
         let most = 2 * self.bodies.places() + 64;
+        if self.joins.members > 0 {
+            self.joins.restless.push(index);
+        }
         let aloft = &mut self.joins.aloft;
         if self.settings.mode == Mode::Hybrid {
             aloft.push(index);
@@ -258,12 +284,15 @@ impl World {
         self.joins.idle = idle;
         gone.sort_unstable_by_key(super::place);
         self.stepping = Some(stepping);
-        for state in gone {
-            self.release_member(&state, time);
+        if !gone.is_empty() {
+            for state in gone {
+                self.release_member(&state, time);
+            }
+            self.tell_touches(time);
         }
     }
 
-    /// A member leaves the engine into free flight.
+    /// A member leaves the engine into free flight; what it touched is for the caller to tell.
     fn release_member(&mut self, state: &State, time: SimTime) {
         let index = super::place(state);
         let (pull, twist) = self.pull_on(index, state.pose.position);
@@ -277,42 +306,65 @@ impl World {
             ..Motion::resting(state.pose.position)
         };
         self.bodies.go_on_as(index, &motion, state.turned);
-        self.leave(index, time);
+        self.leave_engine(index, time);
+        self.take_woken(time);
+        self.end_membership(index, time);
         self.take_off(index, time);
     }
 
-    /// Bodies outside that may meet members before the next tick, and these.
-    pub(super) fn outsiders_near(&mut self, time: SimTime) -> BTreeMap<u32, Vec<u32>> {
+    /// Bodies outside that may meet members before the next tick, and these: of what flies as it did when this was last called
+    /// only those that may meet members that came or go otherwise since, but for the first time in a tick.
+    pub(super) fn outsiders_near(
+        &mut self,
+        time: SimTime,
+        asks_all: bool,
+    ) -> BTreeMap<u32, Vec<u32>> {
         let aloft = &mut self.joins.aloft;
         aloft.sort_unstable();
         aloft.dedup();
         let bodies = &self.bodies;
         aloft.retain(|&index| bodies.is_alive(index) && bodies.get(index).is_flying());
+        let mut restless = core::mem::take(&mut self.joins.restless);
+        restless.sort_unstable();
+        let is_alone = self.joins.aloft.is_empty() && self.stepped.is_empty();
         if let Some(stepping) = &mut self.stepping {
-            stepping.engine.prepare_queries();
+            if is_alone {
+                stepping.engine.forget_news();
+            } else {
+                stepping.engine.prepare_queries();
+            }
         }
-        let Some(stepping) = &self.stepping else {
+        let Some(stepping) = self.stepping.as_ref().filter(|_| !is_alone) else {
             return BTreeMap::new();
         };
         let left = stepping.engine.left();
-        let outside = self.joins.aloft.iter().chain(&self.stepped);
-        outside
-            .filter(|index| self.bodies.get(**index).is_dynamic())
-            .map(|&index| {
-                let members = self.members_near(stepping, index, time, left);
+        let flying = self.joins.aloft.iter().map(|&index| {
+            let asks = asks_all || restless.binary_search(&index).is_ok();
+            (index, if asks { Among::All } else { Among::News })
+        });
+        let held = self.stepped.iter().map(|&index| (index, Among::All));
+        let near = flying
+            .chain(held)
+            .filter(|(index, _)| self.bodies.get(*index).is_dynamic())
+            .map(|(index, among)| {
+                let members = self.members_near(stepping, index, (time, left), among);
                 (index, members.collect::<Vec<_>>())
             })
             .filter(|(_, members)| !members.is_empty())
-            .collect()
+            .collect();
+        if let Some(stepping) = &mut self.stepping {
+            stepping.engine.forget_news();
+        }
+        near
     }
 
     /// A flyer with a new motion joins if it may meet a member before the next sub-step begins.
     pub(crate) fn meet_members(&mut self, index: u32, time: SimTime) {
-        self.joins.is_restless = true;
         // Most worlds of flyers have no members, and the grid's instants are sums with care.
         if self.joins.members == 0 {
             return;
         }
+        self.joins.restless.push(index);
         let left = self.clock.next() - time;
         let near = left > 0.0
             && self.bodies.get(index).is_flying()
@@ -327,7 +379,7 @@ impl World {
 
     /// Whether a body may meet a member within `left` seconds.
     fn nears_member(&self, stepping: &Stepping, index: u32, time: SimTime, left: f64) -> bool {
-        let mut near = self.members_near(stepping, index, time, left);
+        let mut near = self.members_near(stepping, index, (time, left), Among::All);
         near.next().is_some()
     }
 
@@ -336,14 +388,16 @@ impl World {
         &self,
         stepping: &Stepping,
         index: u32,
-        time: SimTime,
-        left: f64,
+        (time, left): (SimTime, f64),
+        among: Among,
     ) -> impl Iterator<Item = u32> {
         let mut shapes = Vec::new();
         let ahead = box_ahead(self.bodies.get(index), time, left);
-        stepping
-            .engine
-            .query_awake(ahead, |tag| shapes.push(super::collider(tag)));
+        let found = |tag| shapes.push(super::collider(tag));
+        match among {
+            Among::All => stepping.engine.query_awake(ahead, found),
+            Among::News => stepping.engine.query_news(ahead, found),
+        }
         shapes.into_iter().filter_map(move |at| {
             let owner = self.colliders[at as usize].body;
             let meets = owner != index
@@ -375,14 +429,17 @@ impl World {
             if ratio <= BEARS && !released.contains(&index) {
                 return false;
             }
-            let island = stepping
-                .id(member)
-                .and_then(|id| stepping.engine.island_of(id).ok())
-                .unwrap_or_default();
+            let island = stepping.id(member).and_then(|id| {
+                let island = stepping.engine.small_island_of(id, FEW);
+                island.ok().flatten()
+            });
+            let Some(island) = island else {
+                return false;
+            };
             let states = island.iter().map(|id| stepping.engine.state(*id));
             let island: Vec<State> = states.filter_map(Result::ok).collect();
             let came_back = |state: &State| released.contains(&super::place(state));
-            if island.len() >= FEW || island.iter().any(came_back) {
+            if island.iter().any(came_back) {
                 return false;
             }
             leaving.extend(island);

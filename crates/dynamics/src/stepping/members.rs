@@ -17,22 +17,25 @@ impl World {
             self.disperse(time);
             self.stopwatch.lap(|p| &mut p.sleep);
         }
-        let mut searches = self.find_contacts(time) || at_tick;
-        searches |= core::mem::take(&mut self.joins.is_restless);
+        let mut searches = self.find_contacts(time) || at_tick || self.joins.is_restless();
+        let mut asks_all = at_tick;
         let mut released = Vec::new();
         while searches {
-            let near = self.outsiders_near(time);
-            searches = !near.is_empty();
+            let near = self.outsiders_near(time, asks_all);
+            (searches, asks_all) = (!near.is_empty(), false);
+            let before = released.len();
             for (index, members) in near {
                 if !self.release_outweighed(index, &members, &mut released, time) {
                     self.join(index, time);
                 }
             }
+            if released.len() > before {
+                self.tell_touches(time);
+            }
             if searches {
                 self.find_contacts(time);
             }
         }
-        self.joins.is_restless = false;
         self.pairs.sort(&self.bodies, &self.stepped);
         self.stopwatch.lap(|p| &mut p.contacts);
     }
@@ -179,7 +182,7 @@ impl World {
         }
     }
 
-    fn tell_touches(&mut self, time: SimTime) {
+    pub(super) fn tell_touches(&mut self, time: SimTime) {
         if let Some(mut stepping) = self.stepping.take() {
             self.tell_changed_touches(&mut stepping, time);
             self.stepping = Some(stepping);

@@ -13,6 +13,9 @@ use crate::pieces::Pieces;
 pub(crate) use pairs::Pairs;
 use sweep::Sweep;
 
+/// The sweep is sorted anew if more than one of so many movers came or got another box.
+const FEW: usize = 16;
+
 /// Movers in a sweep, what stands in a tree, half-planes in a list.
 #[derive(Clone, Debug)]
 pub(crate) struct Broad {
@@ -21,12 +24,12 @@ pub(crate) struct Broad {
     /// Node of each piece that stands.
     nodes: Vec<Option<NodeId>>,
     endless: Vec<u32>,
-    /// What moves and what stands is no more what it was when the sweep was sorted.
-    stale: bool,
     /// Pieces that stand since the last tick: movers that rest have not met them.
     arrived: Vec<u32>,
-    /// Pieces that got other boxes since the sweep was sorted.
+    /// Movers that came or got other boxes since the sweep was sorted, and some that are none any more.
     few: Vec<u32>,
+    /// Those since the last tick that a caller has not looked at.
+    news: News,
     /// Pairs of pieces with overlapping boxes, one of which moved.
     pub(crate) found: Vec<[u32; 2]>,
 }
@@ -38,9 +41,9 @@ impl Broad {
             standing: BoxTree::new(),
             nodes: Vec::new(),
             endless: Vec::new(),
-            stale: true,
             arrived: Vec::new(),
             few: Vec::new(),
+            news: News::default(),
             found: Vec::new(),
         }
     }
@@ -57,19 +60,17 @@ impl Broad {
             self.endless.push(piece);
         }
         self.arrived.push(piece);
-        self.stale();
     }
 
-    /// A mover came: the sweep does not know it.
-    pub(crate) const fn stale(&mut self) {
-        self.stale = true;
+    /// A mover came, or has a larger box than the sweep knows.
+    pub(crate) fn enter(&mut self, piece: u32) {
+        self.few.push(piece);
+        self.news.pieces.push(piece);
     }
 
-    /// A piece has a larger box than the sweep knows.
-    pub(crate) fn enlarged(&mut self, piece: u32) {
-        if !self.few.contains(&piece) {
-            self.few.push(piece);
-        }
+    /// Whether the sweep had better be sorted anew.
+    const fn is_stale(&self) -> bool {
+        FEW * self.few.len() > self.sweep.len()
     }
 
     /// It stands no more, or never did.
@@ -79,7 +80,6 @@ impl Broad {
         }
         self.endless.retain(|other| *other != piece);
         self.arrived.retain(|other| *other != piece);
-        self.stale();
     }
 
     /// Whether some piece stands that no mover has been asked about.
@@ -90,6 +90,7 @@ impl Broad {
     /// Finds the pairs of which one piece moved or arrived.
     pub(crate) fn find(&mut self, level: Level, bodies: &Bodies, pieces: &Pieces, tick: f64) {
         self.found.clear();
+        self.news.pieces.clear();
         let awake = 2..bodies.lines.len();
         if self.arrived.is_empty() && !bodies.moved[2..].contains(&true) {
             return;
@@ -124,11 +125,12 @@ impl Broad {
         self.arrived.clear();
     }
 
-    /// Queries are answered by the sweep again, if movers came or went since it was sorted.
+    /// Queries are answered by the sweep, though many movers came since it was sorted.
     pub(crate) fn prepare_queries(&mut self, bodies: &Bodies, pieces: &Pieces) {
-        if self.stale {
+        if self.is_stale() {
             self.sort(bodies, pieces);
         }
+        self.news.sort(pieces);
     }
 
     fn sort(&mut self, bodies: &Bodies, pieces: &Pieces) {
@@ -138,7 +140,14 @@ impl Broad {
             bodies.pieces_of_line(line).map(move |piece| (piece, moved))
         });
         self.sweep.sort(movers, pieces);
-        self.stale = false;
+    }
+
+    /// Whether a piece is one of those that move, in `bounds`: the sweep may know it as another one, that was there before.
+    fn moves_in(&self, pieces: &Pieces, piece: u32, bounds: Aabb) -> bool {
+        let its = pieces.boxes[piece as usize];
+        let is_endless = !its.is_finite() && self.endless.contains(&piece);
+        let stands = self.nodes.get(piece as usize).is_some_and(Option::is_some);
+        its.overlaps(bounds) && !stands && !is_endless
     }
 
     /// Calls `found` with the pieces that stand in `bounds`.
@@ -148,58 +157,62 @@ impl Broad {
     }
 
     /// Calls `found` with pieces that may be in `bounds`: movers until the end of the tick.
-    pub(crate) fn pieces_in(
-        &self,
-        bodies: &Bodies,
-        pieces: &Pieces,
-        bounds: Aabb,
-        mut tell: impl FnMut(u32),
-    ) {
+    pub(crate) fn pieces_in(&self, pieces: &Pieces, bounds: Aabb, mut tell: impl FnMut(u32)) {
         self.standing_in(bounds, &mut tell);
-        self.movers_in(bodies, pieces, bounds, tell);
+        self.movers_in(pieces, bounds, tell);
     }
 
     /// The same of movers alone.
-    pub(crate) fn movers_in(
-        &self,
-        bodies: &Bodies,
-        pieces: &Pieces,
-        bounds: Aabb,
-        mut tell: impl FnMut(u32),
-    ) {
-        if self.stale {
-            // Pieces came or went: the sweep names others.
-            for line in 2..bodies.lines.len() {
-                bodies
-                    .pieces_of_line(line)
-                    .filter(|piece| pieces.boxes[*piece as usize].overlaps(bounds))
-                    .for_each(&mut tell);
+    pub(crate) fn movers_in(&self, pieces: &Pieces, bounds: Aabb, mut tell: impl FnMut(u32)) {
+        let mut tell = |piece: u32| {
+            if self.moves_in(pieces, piece, bounds) {
+                tell(piece);
             }
-        } else {
-            self.sweep.all_in(pieces, bounds, &mut tell);
-            // Their boxes are newer than the sweep.
-            self.few
-                .iter()
-                .copied()
-                .filter(|piece| pieces.boxes[*piece as usize].overlaps(bounds))
-                .for_each(&mut tell);
-        }
+        };
+        self.sweep.all_in(pieces, bounds, &mut tell);
+        // Their boxes are newer than the sweep.
+        self.few.iter().copied().for_each(tell);
+    }
+
+    /// The same of movers that came or got other boxes since the last tick, or since [`Self::forget_news`].
+    pub(crate) fn news_in(&self, pieces: &Pieces, bounds: Aabb, mut tell: impl FnMut(u32)) {
+        self.news.all_in(pieces, bounds, |piece| {
+            if self.moves_in(pieces, piece, bounds) {
+                tell(piece);
+            }
+        });
+    }
+
+    pub(crate) fn forget_news(&mut self) {
+        self.news.pieces.clear();
     }
 
     /// Finds the pairs of the few that moved since [`Self::find`] in the same tick.
     pub(crate) fn find_few(&mut self, level: Level, bodies: &Bodies, pieces: &Pieces, tick: f64) {
-        if self.stale || self.has_arrivals() {
+        for line in (2..bodies.lines.len()).filter(|line| bodies.moved[*line]) {
+            for piece in bodies.pieces_of_line(line) {
+                self.enter(piece);
+            }
+        }
+        if self.is_stale() || self.has_arrivals() {
+            let news = core::mem::take(&mut self.news);
             self.find(level, bodies, pieces, tick);
+            self.news = news;
             return;
         }
+        let mut few = core::mem::take(&mut self.few);
+        few.retain(|piece| self.moves_in(pieces, *piece, pieces.boxes[*piece as usize]));
+        let left = |piece: &u32| pieces.boxes[*piece as usize].min.x;
+        few.sort_unstable_by(|a, b| left(a).total_cmp(&left(b)).then(a.cmp(b)));
+        few.dedup();
         self.found.clear();
         let found = &mut self.found;
-        let mut few = Vec::new();
-        for line in (2..bodies.lines.len()).filter(|line| bodies.moved[*line]) {
-            few.extend(bodies.pieces_of_line(line));
-        }
+        let moved = |piece: u32| {
+            let slot = pieces.owners[piece as usize].body;
+            bodies.moved[bodies.records[slot as usize].line as usize]
+        };
         // The sweep knows where the others' boxes are, and of these where they were: so these are compared as well.
-        for &piece in &few {
+        for &piece in few.iter().filter(|piece| moved(**piece)) {
             let bounds = pieces.boxes[piece as usize];
             self.sweep
                 .all_in(pieces, bounds, |other| found.push([piece, other]));
@@ -207,27 +220,64 @@ impl Broad {
                 .query(bounds, |other| found.push([piece, other]));
             found.extend(self.endless.iter().map(|other| [piece, *other]));
         }
-        let left = |piece: &u32| pieces.boxes[*piece as usize].min.x;
-        few.sort_unstable_by(|a, b| left(a).total_cmp(&left(b)).then(a.cmp(b)));
-        for (k, piece) in few.iter().enumerate() {
-            let bounds = pieces.boxes[*piece as usize];
-            for other in few[k + 1..]
+        for (k, &piece) in few.iter().enumerate() {
+            let (bounds, moves) = (pieces.boxes[piece as usize], moved(piece));
+            for &other in few[k + 1..]
                 .iter()
                 .take_while(|other| left(other) <= bounds.max.x)
             {
-                if pieces.boxes[*other as usize].overlaps(bounds) {
-                    found.push([*piece, *other]);
+                if (moves || moved(other)) && pieces.boxes[other as usize].overlaps(bounds) {
+                    found.push([piece, other]);
                 }
             }
         }
-        self.few.extend(few);
-        // A pair may have been found from both sides, and by both ways.
+        self.few = few;
+        // A pair may have been found from both sides, and by both ways; what the sweep knows may have gone elsewhere.
         for pair in &mut *found {
             pair.sort_unstable();
         }
         found.sort_unstable();
         found.dedup();
-        found.retain(|pair| may_touch(pieces, *pair, tick));
+        found.retain(|pair| {
+            let [a, b] = pair.map(|piece| pieces.boxes[piece as usize]);
+            a.overlaps(b) && may_touch(pieces, *pair, tick)
+        });
+    }
+}
+
+/// Movers that a caller has not looked at.
+#[derive(Clone, Debug, Default)]
+struct News {
+    pieces: Vec<u32>,
+    widest: f64,
+}
+
+impl News {
+    /// Makes their order that of left ends.
+    fn sort(&mut self, pieces: &Pieces) {
+        let bounds = |piece: &u32| pieces.boxes[*piece as usize];
+        self.pieces.retain(|piece| bounds(piece).is_valid());
+        self.pieces.sort_unstable_by(|a, b| {
+            let order = bounds(a).min.x.total_cmp(&bounds(b).min.x);
+            order.then(a.cmp(b))
+        });
+        self.pieces.dedup();
+        let widths = self.pieces.iter().map(bounds);
+        self.widest = widths
+            .map(|bounds| bounds.max.x - bounds.min.x)
+            .fold(0.0, f64::max);
+    }
+
+    /// Those with a box that overlaps `bounds`, once they are sorted.
+    fn all_in(&self, pieces: &Pieces, bounds: Aabb, tell: impl FnMut(u32)) {
+        let left = |piece: &u32| pieces.boxes[*piece as usize].min.x;
+        let first = bounds.min.x - self.widest;
+        let begin = self.pieces.partition_point(|piece| left(piece) < first);
+        let near = self.pieces[begin..].iter();
+        near.take_while(|piece| left(piece) <= bounds.max.x)
+            .filter(|piece| pieces.boxes[**piece as usize].overlaps(bounds))
+            .copied()
+            .for_each(tell);
     }
 }
 

@@ -141,6 +141,11 @@ impl Sweep {
         });
     }
 
+    /// How many movers it knows.
+    pub(crate) const fn len(&self) -> usize {
+        self.keys.len() + self.unusual.len()
+    }
+
     /// Copies what is asked about into the order of the keys.
     fn fill(&mut self, pieces: &Pieces) {
         let (keys, boxes) = (&self.keys, &mut self.boxes);

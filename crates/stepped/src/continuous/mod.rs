@@ -112,7 +112,7 @@ impl Engine {
         for piece in record.first_piece..record.first_piece + record.pieces {
             let bounds = &mut self.pieces.boxes[piece as usize];
             *bounds = bounds.union(around);
-            self.broad.enlarged(piece);
+            self.broad.enter(piece);
         }
         if record.kind != BodyKind::Dynamic {
             return Ok(());

@@ -29,8 +29,7 @@ impl Engine {
         let mut others: Vec<u32> = Vec::new();
         let found = |piece: u32| others.push(piece);
         if body.unforeseen {
-            self.broad
-                .pieces_in(&self.bodies, &self.pieces, bounds, found);
+            self.broad.pieces_in(&self.pieces, bounds, found);
         } else {
             self.broad.standing_in(bounds, found);
         }
@@ -67,8 +66,7 @@ impl Engine {
         let bounds = bounds_of(&body.motion, reach, span.1);
         let mut others: Vec<u32> = Vec::new();
         let found = |piece: u32| others.push(piece);
-        self.broad
-            .pieces_in(&self.bodies, &self.pieces, bounds, found);
+        self.broad.pieces_in(&self.pieces, bounds, found);
         self.first_parts(&mut others);
         for piece in others {
             let slot = self.pieces.list[piece as usize].body;

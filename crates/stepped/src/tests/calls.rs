@@ -336,3 +336,32 @@ fn prepared_queries_find_what_others_find() {
     assert_eq!(found(&engine), unprepared);
     assert!(unprepared.iter().sum::<usize>() >= 24);
 }
+
+/// Before, a body that went elsewhere than was foreseen was compared with the boxes that others had at the tick.
+#[test]
+fn bodies_that_turn_to_each_other_in_different_sub_steps_of_a_tick_meet() {
+    let mut engine = weightless();
+    let mut insert = |at: Vec2| {
+        let input = BodyInput::dynamic(1.0, 1.0 / 6.0).at(at);
+        engine.insert(input, &[unit_box()]).unwrap()
+    };
+    let [a, b] = [vec2(0.0, 0.0), vec2(1.62, 0.0)].map(&mut insert);
+    for k in 0..200 {
+        insert(vec2(3.0 * f64::from(k), 50.0));
+    }
+    engine.tick();
+    let speed = 30.0; // m/s
+    engine.substep(&Mixed);
+    engine.set_velocity(a, vec2(speed, 0.0), 0.0).unwrap();
+    engine.substep(&Mixed);
+    engine.set_velocity(b, vec2(-speed, 0.0), 0.0).unwrap();
+    while !engine.is_at_tick() {
+        engine.substep(&Mixed);
+    }
+    let [a, b] = [a, b].map(|id| engine.state(id).unwrap().pose.position.x);
+    assert!(
+        b - a > 0.99,
+        "{} m deep in each other at the tick",
+        1.0 - (b - a)
+    );
+}
