@@ -35,8 +35,9 @@ const MOST: usize = 32;
 /// a seam.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Suspects {
-    /// Moved bodies with a short contact with what may be flush, and those with one with another body, and that.
-    asked: Vec<u32>,
+    /// Moved bodies with a short contact with what may be flush, as far as they moved.
+    asked: Vec<bool>,
+    /// Moved bodies with a short contact with another body, and that.
     pairs: Vec<[u32; 2]>,
     /// Bodies with a side that may go on in that of another body, as far as they moved.
     seamed: Vec<bool>,
@@ -51,6 +52,7 @@ impl Suspects {
 
     /// There are so many lines now.
     pub(crate) fn cover(&mut self, lines: usize) {
+        self.asked.resize(lines, false);
         self.seamed.resize(lines, false);
     }
 
@@ -62,7 +64,7 @@ impl Suspects {
                 // The seams of what did not move are those of before.
                 let stays = !scene.bodies.moved[other as usize];
                 if stays || driven || scene.pieces.owners[piece as usize].several {
-                    self.asked.push(body);
+                    self.asked[body as usize] = true;
                 } else {
                     self.pairs.push([body, other]);
                 }
@@ -78,15 +80,14 @@ impl Suspects {
 
     /// Lines of bodies that may have ghosts, in order.
     fn lines(&self) -> Vec<u32> {
-        let mut lines = self.asked.clone();
-        let seamed = self
-            .pairs
-            .iter()
-            .filter(|pair| self.seamed[pair[1] as usize]);
-        lines.extend(seamed.map(|pair| pair[0]));
-        lines.sort_unstable();
-        lines.dedup();
+        let mut asked = self.asked.clone();
+        for &[body, other] in &self.pairs {
+            asked[body as usize] |= self.seamed[other as usize];
+        }
+        let lines = (0u32..).zip(asked);
         lines
+            .filter_map(|(line, asked)| asked.then_some(line))
+            .collect()
     }
 }
 
