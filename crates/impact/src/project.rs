@@ -8,6 +8,8 @@
 //! Solved by the dual active-set method (Goldfarb and Idnani 1983) on an orthogonal factorisation:
 //! finite, right to rounding, and unique in w where rows depend on each other.
 
+use core::ops::Range;
+
 /// A row counts as dependent on others if less than this part of its length is its own.
 const DEPENDENT: f64 = 1e-10;
 
@@ -62,6 +64,8 @@ pub fn balance(rows: &[Vec<f64>], load: &[f64], tolerance: f64) -> (Vec<f64>, f6
 struct ActiveSet<'a> {
     kept: &'a [Vec<f64>],
     rows: &'a [Vec<f64>],
+    /// Where each row is not 0: a contact has two bodies, however many there are.
+    spans: Vec<Range<usize>>,
     bounds: &'a [f64],
     members: Vec<usize>,
     /// Made of the members, in their order.
@@ -84,6 +88,7 @@ impl<'a> ActiveSet<'a> {
         Self {
             kept,
             rows,
+            spans: rows.iter().map(|row| span(row)).collect(),
             bounds,
             members: Vec::new(),
             basis: Basis::new(),
@@ -141,16 +146,18 @@ impl<'a> ActiveSet<'a> {
     }
 
     fn slack(&self, row: usize) -> f64 {
-        dot(&self.rows[row], &self.point) - self.bounds[row]
+        let span = self.spans[row].clone();
+        dot(&self.rows[row][span.clone()], &self.point[span]) - self.bounds[row]
     }
 
     fn most_violated(&self, tolerance: f64) -> Option<usize> {
-        let free = (0..self.rows.len())
-            .filter(|row| !self.members.contains(row) && !self.hopeless.contains(row));
+        let is_free = |row: usize| !self.members.contains(&row) && !self.hopeless.contains(&row);
         let mut worst = None;
-        for row in free {
+        for row in 0..self.rows.len() {
             let slack = self.slack(row);
-            if slack < -tolerance && worst.is_none_or(|(_, least)| slack < least) {
+            let is_worse = slack < -tolerance && worst.is_none_or(|(_, least)| slack < least);
+            // Most members are met: few are asked for.
+            if is_worse && is_free(row) {
                 worst = Some((row, slack));
             }
         }
@@ -252,6 +259,8 @@ impl<'a> ActiveSet<'a> {
 #[derive(Clone, Debug)]
 pub struct Basis {
     directions: Vec<Vec<f64>>,
+    /// Where each direction is not 0.
+    spans: Vec<Range<usize>>,
     /// Column k: the row k in the directions up to its own.
     columns: Vec<Vec<f64>>,
 }
@@ -260,6 +269,7 @@ impl Basis {
     const fn new() -> Self {
         Self {
             directions: Vec::new(),
+            spans: Vec::new(),
             columns: Vec::new(),
         }
     }
@@ -269,6 +279,7 @@ impl Basis {
         let length = dot(&own, &own).sqrt();
         own.iter_mut().for_each(|x| *x /= length);
         column.push(length);
+        self.spans.push(span(&own));
         self.directions.push(own);
         self.columns.push(column);
     }
@@ -300,10 +311,12 @@ impl Basis {
         let mut rest = row.to_vec();
         let mut parts = vec![0.0; self.directions.len()];
         for _ in 0..2 {
-            for (part, direction) in parts.iter_mut().zip(&self.directions) {
-                let along = dot(&rest, direction);
+            let directions = self.directions.iter().zip(&self.spans);
+            for (part, (direction, span)) in parts.iter_mut().zip(directions) {
+                let (rest, direction) = (&mut rest[span.clone()], &direction[span.clone()]);
+                let along = dot(rest, direction);
                 *part += along;
-                add_scaled(&mut rest, direction, -along);
+                add_scaled(rest, direction, -along);
             }
         }
         (parts, rest)
@@ -319,6 +332,7 @@ impl Basis {
     /// Only the first rows.
     fn truncate(&mut self, count: usize) {
         self.directions.truncate(count);
+        self.spans.truncate(count);
         self.columns.truncate(count);
     }
 
@@ -345,6 +359,14 @@ impl Basis {
             x[k] = (x[k] - known) / self.columns[k][k];
         }
     }
+}
+
+/// From the first number that is not 0 to the last.
+fn span(row: &[f64]) -> Range<usize> {
+    let is_some = |x: &f64| *x != 0.0;
+    let first = row.iter().position(is_some).unwrap_or(0);
+    let end = row.iter().rposition(is_some).map_or(0, |last| last + 1);
+    first..end
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {
