@@ -290,6 +290,7 @@ impl World {
         }
         self.note_fast(index, now);
         self.deflected(index, now);
+        self.drop_unheld(&[index], now);
     }
 
     /// Wakes sleepers on a kinematic body with a new motion, and solves for the modes of analytic islands on it anew.

@@ -4,6 +4,8 @@ use carom_math::SimTime;
 
 use super::{Cause, Foreseen};
 use crate::flight::fly;
+use crate::narrow::{NOISE, opening_speed, pace};
+use crate::pairs::PairContact;
 use crate::{BodyKind, Mode, World};
 
 impl World {
@@ -95,8 +97,8 @@ impl World {
         self.foresee(index, time, Cause::Deflected, None);
     }
 
-    /// Bodies that woke, or lost their support, fly at once if nothing holds them: until the next sub-step begins they would
-    /// hang in the air.
+    /// Bodies that woke, lost their support, or have another velocity fly at once if nothing holds them: until the next sub-step
+    /// begins they would hang in the air, or rise without weight.
     pub(crate) fn drop_unheld(&mut self, bodies: &[u32], time: SimTime) {
         for &index in bodies {
             if !self.hangs(index, time) {
@@ -127,7 +129,18 @@ impl World {
                 self.narrow
                     .look(&self.bodies, &self.colliders, pair, time, self.clock.h);
             }
-            if !pair.contacts.is_empty() {
+            let (a, b) = (
+                self.bodies.get(pair.bodies.0),
+                self.bodies.get(pair.bodies.1),
+            );
+            let rounding = NOISE * pace(a, b, time);
+            let holds = |contact: &PairContact| {
+                let mut points = contact.points.iter();
+                points.any(|point| {
+                    opening_speed(a, b, time, point.position, contact.normal) <= rounding
+                })
+            };
+            if pair.contacts.iter().any(holds) {
                 return false;
             }
         }
