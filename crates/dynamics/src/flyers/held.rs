@@ -166,6 +166,10 @@ impl World {
 
     /// Adds a body to those that are sub-stepped.
     pub(crate) fn enlist(&mut self, index: u32, time: SimTime) {
+        // A group that is taken apart may have met a member, and joined.
+        if self.bodies.get(index).in_engine {
+            return;
+        }
         if !self.is_substepping() {
             self.clock.catch_up(time);
         }
