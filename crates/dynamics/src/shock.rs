@@ -15,7 +15,9 @@ use carom_math::{SimTime, Vec2, perp};
 
 use crate::Settings;
 use crate::bodies::Bodies;
-use crate::impact::{Growth, ImpactBody, ImpactContact, SharedContact, Sweeper, several};
+use crate::impact::{
+    Growth, ImpactBody, ImpactContact, SharedContact, Sweeper, is_driven, several,
+};
 use crate::narrow::{Narrow, RestSpeed, TOUCH};
 use crate::pairs::Pairs;
 use crate::state::Collider;
@@ -356,7 +358,8 @@ impl Shock {
         let settled = (CONVERGED * struck).max(SETTLED * self.rest);
         let mut sweep =
             |shock: &mut Self, by| shock.sweep(by, settled, bodies, colliders, pairs, narrow);
-        if sweep(self, Sweeper::default()).is_steady() {
+        let driven = is_driven(self.bodies.iter().map(|shaken| &shaken.before));
+        if sweep(self, Sweeper::default()).is_steady() && driven {
             self.squeezed = true;
             self.collapse();
             self.begin_anew();

@@ -82,6 +82,20 @@ impl ImpactBody {
     }
 }
 
+/// Whether two of the bodies do not yield and move differently, as a paddle and a floor do: only these can squeeze others.
+///
+/// Impulses that leave all other bodies as they are, and push against what closes, push along with the difference of two
+/// unyielding ones: at rest relative to each other there are none.
+#[must_use]
+pub fn is_driven<'a>(bodies: impl IntoIterator<Item = &'a ImpactBody>) -> bool {
+    let mut unyielding = bodies
+        .into_iter()
+        .filter(|body| body.inverse_mass == 0.0 && body.inverse_inertia == 0.0)
+        .map(|body| (body.velocity, body.spin));
+    let first = unyielding.next();
+    unyielding.any(|other| Some(other) != first)
+}
+
 /// Where and how two bodies touch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ImpactContact {

@@ -48,7 +48,7 @@ mod sweeps;
 #[cfg(test)]
 mod tests;
 
-pub use body::{ImpactBody, ImpactContact, Outcome};
+pub use body::{ImpactBody, ImpactContact, Outcome, is_driven};
 pub use held::{Held, held};
 pub use law::{ImpactLaw, jam, newton, poisson, resolve, stronge};
 pub use several::{

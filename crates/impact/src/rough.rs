@@ -103,12 +103,8 @@ pub(super) fn reflections(
             total[k].1 += pushed.1;
         }
         now = next.bodies;
+        unsure |= !next.sure;
         operations += next.operations;
-        if !next.sure {
-            // What nothing stops gives nothing back; every reflection would ask for that stop again.
-            (exhausted, unsure) = (false, true);
-            break;
-        }
         if next.pushes.iter().all(|pushed| *pushed == (0.0, 0.0)) {
             // All further reflections would be this one. Beside a fast slip an approach below the rounding of the stop is no
             // approach: `opened` ends it. Any other is one that nothing stops.

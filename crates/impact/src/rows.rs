@@ -7,7 +7,7 @@
 
 use carom_math::{Vec2, cross, perp};
 
-use super::body::ImpactBody;
+use super::body::{ImpactBody, is_driven};
 use super::several::SharedContact;
 
 /// What an impulse along a row may be.
@@ -227,16 +227,6 @@ impl Rows {
             _ => 0.0,
         }
     }
-}
-
-/// Whether two of the bodies do not yield and move differently.
-pub(super) fn is_driven(bodies: &[ImpactBody]) -> bool {
-    let mut unyielding = bodies
-        .iter()
-        .filter(|body| body.inverse_mass == 0.0 && body.inverse_inertia == 0.0)
-        .map(|body| (body.velocity, body.spin));
-    let first = unyielding.next();
-    unyielding.any(|other| Some(other) != first)
 }
 
 /// A normal row for each contact and a friction row for each that has friction.

@@ -8,11 +8,10 @@
 
 use carom_math::{Vec2, cross, vec2};
 
-use super::body::{ImpactBody, ImpactContact, Response};
+use super::body::{ImpactBody, ImpactContact, Response, is_driven};
 use super::law::{ImpactLaw, resolve};
 use super::project::{Basis, nearest};
 use super::rough::{SINGLE, is_large, is_rough, newton_rough, opened, opening, reflections};
-use super::rows::is_driven;
 
 /// Reflections before the rest is stopped: a wedge of angle θ takes π/θ of them, a row of a hundred
 /// discs a hundred.
@@ -110,18 +109,16 @@ pub fn several(
     if let Some(single) = single(law, bodies, contacts) {
         return single;
     }
-    if is_driven(bodies) {
-        // What squeezes bodies would go to and fro between them with every reflection, ever faster.
-        let stop = newton_rough(bodies, &with_restitution(contacts, 0.0));
-        if stop.exhausted {
-            return stop;
-        }
+    // What squeezes bodies would go to and fro between them with every reflection, ever faster.
+    let stop = is_driven(bodies).then(|| newton_rough(bodies, &with_restitution(contacts, 0.0)));
+    if let Some(squeezed) = stop.as_ref().filter(|stop| stop.exhausted) {
+        return squeezed.clone();
     }
     if is_large(contacts) && is_rough(contacts) {
         return newton_rough(bodies, contacts);
     }
     match choice {
-        Several::Blend => blend_by(law, bodies, contacts),
+        Several::Blend => blend_by(law, bodies, contacts, stop),
         Several::NewtonLcp => newton_lcp(bodies, contacts),
         Several::Reflections => opened(reflections(law, bodies, contacts, None, None), contacts),
     }
@@ -300,21 +297,34 @@ pub(super) fn with_restitution(contacts: &[SharedContact], restitution: f64) -> 
 /// If a contact names a body that is not in the list.
 #[must_use]
 pub fn blend(bodies: &[ImpactBody], contacts: &[SharedContact]) -> SharedOutcome {
-    blend_by(ImpactLaw::Stronge, bodies, contacts)
+    blend_by(ImpactLaw::Stronge, bodies, contacts, None)
 }
 
-fn blend_by(law: ImpactLaw, bodies: &[ImpactBody], contacts: &[SharedContact]) -> SharedOutcome {
+/// `stop`: what [`newton_rough`] says at e = 0, if that is known.
+fn blend_by(
+    law: ImpactLaw,
+    bodies: &[ImpactBody],
+    contacts: &[SharedContact],
+    stop: Option<SharedOutcome>,
+) -> SharedOutcome {
+    let mixed = mixed(law, bodies, contacts, stop);
     if is_rough(contacts) {
-        return opened(mixed(law, bodies, contacts), contacts);
+        opened(mixed, contacts)
+    } else {
+        mixed
     }
-    mixed(law, bodies, contacts)
 }
 
-fn mixed(law: ImpactLaw, bodies: &[ImpactBody], contacts: &[SharedContact]) -> SharedOutcome {
+fn mixed(
+    law: ImpactLaw,
+    bodies: &[ImpactBody],
+    contacts: &[SharedContact],
+    known: Option<SharedOutcome>,
+) -> SharedOutcome {
     let still = with_restitution(contacts, 0.0);
     let rough = is_rough(contacts);
     // Reflections begin with the same stop, before it is opened.
-    let stop = rough.then(|| newton_rough(bodies, &still));
+    let stop = rough.then(|| known.unwrap_or_else(|| newton_rough(bodies, &still)));
     let stuck = match &stop {
         Some(stop) => opened(stop.clone(), &still),
         None => newton_lcp(bodies, &still),

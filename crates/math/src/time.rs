@@ -23,9 +23,11 @@ pub struct SimTime {
 }
 
 const UNITS_PER_SECOND: f64 = 64.0;
-const UNIT: f64 = 1.0 / UNITS_PER_SECOND;
 
 impl SimTime {
+    /// Seconds of a unit: the rest is rounded as a part of it.
+    pub const UNIT: f64 = 1.0 / UNITS_PER_SECOND;
+
     /// The start of time.
     pub const ZERO: Self = Self {
         units: 0,
@@ -73,7 +75,11 @@ impl SimTime {
         if units == i64::MAX {
             return Self::NEVER;
         }
-        let rest = if rest < UNIT { rest } else { UNIT.next_down() };
+        let rest = if rest < Self::UNIT {
+            rest
+        } else {
+            Self::UNIT.next_down()
+        };
         Self { units, rest }
     }
 
@@ -118,7 +124,7 @@ impl SimTime {
         reason = "units stay below 2^53 for 4 million years"
     )]
     pub fn as_secs(self) -> f64 {
-        self.units as f64 * UNIT + self.rest
+        self.units as f64 * Self::UNIT + self.rest
     }
 }
 
@@ -167,22 +173,26 @@ impl Add<f64> for SimTime {
         }
         let whole = floor(secs * UNITS_PER_SECOND);
         // Exact: both terms are multiples of the last bit of `secs`, and the result is smaller.
-        let part = secs - whole * UNIT;
+        let part = secs - whole * Self::UNIT;
         let units = self.units.saturating_add(whole as i64);
         if units == i64::MAX {
             return Self::NEVER;
         }
         // The rest may reach past the unit; its rounding error would be lost at the border.
         let (rest, error) = two_sum(self.rest, part);
-        if rest >= UNIT {
-            let over = (rest - UNIT) + error;
+        if rest >= Self::UNIT {
+            let over = (rest - Self::UNIT) + error;
             if over >= 0.0 {
                 let units = units + 1;
                 let rest = if units == i64::MAX { 0.0 } else { over };
                 return Self { units, rest };
             }
         }
-        let rest = if rest < UNIT { rest } else { UNIT.next_down() };
+        let rest = if rest < Self::UNIT {
+            rest
+        } else {
+            Self::UNIT.next_down()
+        };
         Self { units, rest }
     }
 }
@@ -202,7 +212,7 @@ impl Sub for SimTime {
         reason = "differences stay below 2^53 units for 4 million years"
     )]
     fn sub(self, earlier: Self) -> f64 {
-        self.units.saturating_sub(earlier.units) as f64 * UNIT + (self.rest - earlier.rest)
+        self.units.saturating_sub(earlier.units) as f64 * Self::UNIT + (self.rest - earlier.rest)
     }
 }
 

@@ -29,9 +29,6 @@ const ALIKE: f64 = 1e-12;
 /// Speed of an approach that rounding alone can make, as a fraction of the bodies' speeds.
 const NOISE: f64 = 8.0 * f64::EPSILON;
 
-/// Seconds of a unit of [`SimTime`]: instants are rounded as parts of it.
-const UNIT: f64 = 1.0 / 64.0;
-
 /// Overlap that is looked at again, as a fraction of the smaller reach: what an impact leaves.
 const SLACK: f64 = 1e-12;
 
@@ -76,7 +73,7 @@ impl World {
             self.press(impact, time)
         };
         // What is pressed together gains as much as the rounding of instants hides of each bounce: it would bounce for ever.
-        if speed <= rounding + NOISE * UNIT * press.max(0.0) {
+        if speed <= rounding + NOISE * SimTime::UNIT * press.max(0.0) {
             return self.touches(impact, time, speed, -press);
         }
         let e = material.restitution;
@@ -97,7 +94,12 @@ impl World {
             restitution: e,
             ..material
         };
-        if !self.strike_at(impact, time, &before, material) {
+        self.strike_at(impact, time, &before, material);
+        // What it leaves squeezed has landed.
+        if [a, b]
+            .iter()
+            .any(|index| self.bodies.get(*index).is_stepped())
+        {
             return;
         }
         if keeps {
@@ -182,14 +184,14 @@ impl World {
         found
     }
 
-    /// The impact itself, by the law at one point or at all that approach; whether both bodies fly on, or rest as before.
+    /// The impact itself, by the law at one point or at all that approach.
     fn strike_at(
         &mut self,
         impact: &Foreseen,
         time: SimTime,
         before: &[ImpactBody; 2],
         material: PairMaterial,
-    ) -> bool {
+    ) {
         let PairMaterial {
             restitution,
             friction,
@@ -209,15 +211,13 @@ impl World {
         if let [contact] = struck.as_slice()
             && tangent_speed == 0.0
         {
-            self.strike_once(impact, contact, before, time);
-            return true;
+            return self.strike_once(impact, contact, before, time);
         }
         if let [first, last] = struck.as_slice()
             && friction == 0.0
             && let Some(point) = common_point(impact, (first, last), before)
         {
-            self.strike_once(impact, &ImpactContact { point, ..*first }, before, time);
-            return true;
+            return self.strike_once(impact, &ImpactContact { point, ..*first }, before, time);
         }
         let mut shock = Shock::new(time, self.clock.h);
         for contact in struck {
@@ -229,11 +229,12 @@ impl World {
                 0.0,
             );
         }
-        !self.strike_together(shock, time).squeezed
+        self.strike_together(shock, time);
     }
 
-    /// Resolves a shock of several contacts. Flyers that it leaves squeezed land: no impulses stop them.
-    pub(super) fn strike_together(&mut self, mut shock: Shock, time: SimTime) -> Together {
+    /// Resolves a shock of several contacts; returns the bodies with a new motion. Flyers that it leaves squeezed land: no
+    /// impulses stop them.
+    pub(super) fn strike_together(&mut self, mut shock: Shock, time: SimTime) -> Vec<u32> {
         shock.solve(
             &self.settings,
             &self.bodies,
@@ -242,25 +243,20 @@ impl World {
             &mut self.narrow,
         );
         self.work.impact(shock.operations);
-        let mut changed = apply(
+        let changed = apply(
             &mut self.bodies,
             time,
             &shock,
             &mut self.events,
             &mut self.report,
         );
-        let squeezed: Vec<(u32, u32)> = shock.squeezed().map(|strike| shock.ends(strike)).collect();
-        for &(a, b) in &squeezed {
+        for (a, b) in shock.squeezed().map(|strike| shock.ends(strike)) {
             self.report.collapsed += 1;
             self.report_collapse((a, b), 0.0, time);
             self.land(a, time);
             self.land(b, time);
         }
-        changed.retain(|index| self.bodies.get(*index).is_flying());
-        Together {
-            changed,
-            squeezed: !squeezed.is_empty(),
-        }
+        changed
     }
 
     /// They touch, and approach by rounding alone: what is pressed together lasts; what opens with
@@ -432,14 +428,6 @@ impl World {
         }
         spent
     }
-}
-
-/// What several contacts at one instant came to.
-pub(super) struct Together {
-    /// Flyers with new motions.
-    pub(super) changed: Vec<u32>,
-    /// Whether bodies were squeezed, and have landed.
-    squeezed: bool,
 }
 
 /// Speed of a body's fastest point, in m/s.

@@ -215,8 +215,13 @@ impl World {
                 }
             }
         }
-        for index in self.strike_together(shock, time).changed {
-            self.foresee(index, time, Cause::Deflected, None);
+        for index in self.strike_together(shock, time) {
+            if self.bodies.get(index).is_flying() {
+                self.foresee(index, time, Cause::Deflected, None);
+            } else {
+                // What was left squeezed has landed, and others were struck with it.
+                self.deflected(index, time);
+            }
         }
     }
 }
