@@ -28,8 +28,9 @@ pub(crate) struct Broad {
     arrived: Vec<u32>,
     /// Movers that came or got other boxes since the sweep was sorted, and some that are none any more.
     few: Vec<u32>,
-    /// Those since the last tick that a caller has not looked at.
-    news: News,
+    /// Those since the last tick that a caller has not looked at, and a sweep of these alone.
+    news: Vec<u32>,
+    newcomers: Sweep,
     /// Pairs of pieces with overlapping boxes, one of which moved.
     pub(crate) found: Vec<[u32; 2]>,
 }
@@ -43,7 +44,8 @@ impl Broad {
             endless: Vec::new(),
             arrived: Vec::new(),
             few: Vec::new(),
-            news: News::default(),
+            news: Vec::new(),
+            newcomers: Sweep::default(),
             found: Vec::new(),
         }
     }
@@ -65,7 +67,7 @@ impl Broad {
     /// A mover came, or has a larger box than the sweep knows.
     pub(crate) fn enter(&mut self, piece: u32) {
         self.few.push(piece);
-        self.news.pieces.push(piece);
+        self.news.push(piece);
     }
 
     /// Whether the sweep had better be sorted anew.
@@ -89,8 +91,12 @@ impl Broad {
 
     /// Finds the pairs of which one piece moved or arrived.
     pub(crate) fn find(&mut self, level: Level, bodies: &Bodies, pieces: &Pieces, tick: f64) {
+        self.news.clear();
+        self.find_all(level, bodies, pieces, tick);
+    }
+
+    fn find_all(&mut self, level: Level, bodies: &Bodies, pieces: &Pieces, tick: f64) {
         self.found.clear();
-        self.news.pieces.clear();
         let awake = 2..bodies.lines.len();
         if self.arrived.is_empty() && !bodies.moved[2..].contains(&true) {
             return;
@@ -130,7 +136,12 @@ impl Broad {
         if self.is_stale() {
             self.sort(bodies, pieces);
         }
-        self.news.sort(pieces);
+        self.news.sort_unstable();
+        self.news.dedup();
+        self.news
+            .retain(|piece| pieces.boxes[*piece as usize].is_valid());
+        let news = self.news.iter().map(|piece| (*piece, true));
+        self.newcomers.sort(news, pieces);
     }
 
     fn sort(&mut self, bodies: &Bodies, pieces: &Pieces) {
@@ -176,7 +187,7 @@ impl Broad {
 
     /// The same of movers that came or got other boxes since the last tick, or since [`Self::forget_news`].
     pub(crate) fn news_in(&self, pieces: &Pieces, bounds: Aabb, mut tell: impl FnMut(u32)) {
-        self.news.all_in(pieces, bounds, |piece| {
+        self.newcomers.all_in(pieces, bounds, |piece| {
             if self.moves_in(pieces, piece, bounds) {
                 tell(piece);
             }
@@ -184,7 +195,7 @@ impl Broad {
     }
 
     pub(crate) fn forget_news(&mut self) {
-        self.news.pieces.clear();
+        self.news.clear();
     }
 
     /// Finds the pairs of the few that moved since [`Self::find`] in the same tick.
@@ -195,10 +206,7 @@ impl Broad {
             }
         }
         if self.is_stale() || self.has_arrivals() {
-            let news = core::mem::take(&mut self.news);
-            self.find(level, bodies, pieces, tick);
-            self.news = news;
-            return;
+            return self.find_all(level, bodies, pieces, tick);
         }
         let mut few = core::mem::take(&mut self.few);
         few.retain(|piece| self.moves_in(pieces, *piece, pieces.boxes[*piece as usize]));
@@ -242,42 +250,6 @@ impl Broad {
             let [a, b] = pair.map(|piece| pieces.boxes[piece as usize]);
             a.overlaps(b) && may_touch(pieces, *pair, tick)
         });
-    }
-}
-
-/// Movers that a caller has not looked at.
-#[derive(Clone, Debug, Default)]
-struct News {
-    pieces: Vec<u32>,
-    widest: f64,
-}
-
-impl News {
-    /// Makes their order that of left ends.
-    fn sort(&mut self, pieces: &Pieces) {
-        let bounds = |piece: &u32| pieces.boxes[*piece as usize];
-        self.pieces.retain(|piece| bounds(piece).is_valid());
-        self.pieces.sort_unstable_by(|a, b| {
-            let order = bounds(a).min.x.total_cmp(&bounds(b).min.x);
-            order.then(a.cmp(b))
-        });
-        self.pieces.dedup();
-        let widths = self.pieces.iter().map(bounds);
-        self.widest = widths
-            .map(|bounds| bounds.max.x - bounds.min.x)
-            .fold(0.0, f64::max);
-    }
-
-    /// Those with a box that overlaps `bounds`, once they are sorted.
-    fn all_in(&self, pieces: &Pieces, bounds: Aabb, tell: impl FnMut(u32)) {
-        let left = |piece: &u32| pieces.boxes[*piece as usize].min.x;
-        let first = bounds.min.x - self.widest;
-        let begin = self.pieces.partition_point(|piece| left(piece) < first);
-        let near = self.pieces[begin..].iter();
-        near.take_while(|piece| left(piece) <= bounds.max.x)
-            .filter(|piece| pieces.boxes[**piece as usize].overlaps(bounds))
-            .copied()
-            .for_each(tell);
     }
 }
 
