@@ -21,6 +21,9 @@ use crate::dense::Factored;
 /// Guesses before pivoting takes over; a pile of 32 contacts needs 5 to 8.
 const GUESSES: usize = 24;
 
+/// Guesses from known impulses on, before all begins from none: 1 or 2 where little changed.
+const NEAR_GUESSES: usize = 6;
+
 /// Compliance of a row, as a part of its own response: what shares a load that is not determined.
 const COMPLIANCE: f64 = 1e-10;
 
@@ -66,11 +69,16 @@ pub(super) struct Stop {
 
 /// The impulses along all rows that stop what approaches.
 pub(super) fn stop(rows: &Rows) -> Stop {
+    stop_near(rows, None)
+}
+
+/// The same, which begins with impulses in N·s that may be near an answer.
+pub(super) fn stop_near(rows: &Rows, near: Option<&[f64]>) -> Stop {
     let mut solver = Solver::new(rows);
     let found = if solver.fastest_scaled() == 0.0 {
         Ok(vec![0.0; rows.len()])
     } else {
-        solver.stop().and_then(|found| solver.plausible(found))
+        solver.stop(near).and_then(|found| solver.plausible(found))
     };
     let (impulses, sure) = match found {
         Ok(impulses) => (rows.unscaled(&impulses).collect(), true),
@@ -128,17 +136,25 @@ impl<'a> Solver<'a> {
     }
 
     /// Scaled impulses that meet the conditions; or else some that come near.
-    fn stop(&mut self) -> Result<Vec<f64>, Vec<f64>> {
+    fn stop(&mut self, near: Option<&[f64]>) -> Result<Vec<f64>, Vec<f64>> {
         let rows = self.rows;
         let size = rows.len();
-        if let Some(found) = self.settled(vec![0.0; size], vec![Part::Off; size]) {
+        if let Some(near) = near {
+            let scaled = near.iter().zip(&rows.scales).map(|(j, scale)| j * scale);
+            let near: Vec<f64> = scaled.collect();
+            let parts = holding(rows, &near);
+            if let Some(found) = self.settled(near, parts, NEAR_GUESSES) {
+                return Ok(found);
+            }
+        }
+        if let Some(found) = self.settled(vec![0.0; size], vec![Part::Off; size], GUESSES) {
             return Ok(found);
         }
         // About as many pivots as unknowns, of which friction has three.
         self.operations += 2 * (3 * size as u64).pow(3);
         if let Some((near, parts)) = pivoted(rows, &self.start) {
             let found = self.polished(&near, &parts, false);
-            if let Some(found) = found.or_else(|| self.settled(near, parts)) {
+            if let Some(found) = found.or_else(|| self.settled(near, parts, GUESSES)) {
                 return Ok(found);
             }
         }
@@ -146,7 +162,7 @@ impl<'a> Solver<'a> {
         self.operations += operations;
         let parts = holding(rows, &near);
         let found = self.polished(&near, &parts, false);
-        if let Some(found) = found.or_else(|| self.settled(near.clone(), parts)) {
+        if let Some(found) = found.or_else(|| self.settled(near.clone(), parts, GUESSES)) {
             return Ok(found);
         }
         // What cannot be polished may be an answer to rounding as it is.
@@ -168,7 +184,7 @@ impl<'a> Solver<'a> {
         let rows = &self.rows.rows;
         let touched = rows
             .iter()
-            .flat_map(|row| [(row.a, row.point), (row.b, row.point)]);
+            .flat_map(|row| [(row.a, row.points.0), (row.b, row.points.1)]);
         for (body, point) in touched {
             if self.given[body].velocity_of(point).length() > most {
                 let (near, operations) = yielding(self.rows);
@@ -180,13 +196,18 @@ impl<'a> Solver<'a> {
     }
 
     /// Guesses from given impulses on, until a guess stands.
-    fn settled(&mut self, mut impulses: Vec<f64>, mut parts: Vec<Part>) -> Option<Vec<f64>> {
+    fn settled(
+        &mut self,
+        mut impulses: Vec<f64>,
+        mut parts: Vec<Part>,
+        guesses: usize,
+    ) -> Option<Vec<f64>> {
         let zero = GUESSED * self.fastest;
         let mut next = Vec::new();
         let mut speeds = Vec::new();
         self.along(&impulses, &mut speeds);
         let mut solved = false;
-        for _ in 0..GUESSES {
+        for _ in 0..guesses {
             guess(self.rows, &impulses, &speeds, &parts, zero, &mut next);
             if next == parts {
                 return self.polished(&impulses, &parts, solved);
@@ -362,11 +383,18 @@ fn guess(
                 };
                 continue;
             }
-            Bound::Friction(normal, _) if parts[normal] == Part::Off => continue,
-            Bound::Friction(normal, _) if before[normal] == Part::Off => {
-                rows.factor(r) * (impulses[normal] - speeds[normal])
+            Bound::Friction(normals, _) => {
+                let mut pushes = normals.rows().filter(|n| parts[*n] != Part::Off).peekable();
+                if pushes.peek().is_none() {
+                    continue;
+                }
+                let wants = |n: usize| {
+                    let begins = before[n] == Part::Off;
+                    rows.factor(r, n) * (impulses[n] - if begins { speeds[n] } else { 0.0 })
+                };
+                pushes.map(wants).sum()
             }
-            Bound::Friction(..) | Bound::Limit(_) => rows.limit(r, impulses),
+            Bound::Limit(_) => rows.limit(r, impulses),
         };
         let reach = |part: Part| if before[r] == part { -zero } else { zero };
         parts[r] = if wanted > limit + reach(Part::High) {
@@ -416,12 +444,12 @@ impl System {
             }
             // A row that slips pushes along with its normal row.
             for (s, part) in parts.iter().enumerate() {
-                let (Bound::Friction(normal, _), Some(sign)) = (rows.rows[s].bound, sign(*part))
+                let (Bound::Friction(normals, _), Some(sign)) = (rows.rows[s].bound, sign(*part))
                 else {
                     continue;
                 };
-                if parts[normal] == Part::Hold {
-                    to[self.place[normal]] += sign * rows.factor(s) * row[s];
+                for normal in normals.rows().filter(|n| parts[*n] == Part::Hold) {
+                    to[self.place[normal]] += sign * rows.factor(s, normal) * row[s];
                 }
             }
             to[at] += compliance;
@@ -466,8 +494,8 @@ impl System {
     /// Sets rows that slip along with their normal rows.
     fn spread(&self, rows: &Rows, impulses: &mut [f64]) {
         for (r, part) in self.parts.iter().enumerate() {
-            if let (Bound::Friction(normal, _), Some(sign)) = (rows.rows[r].bound, sign(*part)) {
-                impulses[r] = sign * rows.factor(r) * impulses[normal];
+            if let (Bound::Friction(..), Some(sign)) = (rows.rows[r].bound, sign(*part)) {
+                impulses[r] = sign * rows.limit(r, impulses);
             }
         }
     }

@@ -50,7 +50,7 @@ mod sweeps;
 mod tests;
 
 pub use body::{ImpactBody, ImpactContact, Outcome, is_driven};
-pub use held::{Held, held};
+pub use held::{Friction, Held, HeldFace, HeldFaces, HeldPoint, held, held_faces};
 pub use law::{ImpactLaw, jam, newton, poisson, resolve, stronge};
 pub use several::{
     Several, SharedContact, SharedOutcome, blend, generalised_reflections, newton_lcp, several,

@@ -60,8 +60,10 @@ impl Layout {
                 matrix[(i + 1) * n + i + 2] = 1.0;
                 matrix[(i + 2) * n + i] = -1.0;
                 matrix[(i + 2) * n + i + 1] = -1.0;
-                if let Bound::Friction(normal, _) = rows.rows[r].bound {
-                    matrix[(i + 2) * n + self.first[normal]] = rows.factor(r);
+                if let Bound::Friction(normals, _) = rows.rows[r].bound {
+                    for normal in normals.rows() {
+                        matrix[(i + 2) * n + self.first[normal]] = rows.factor(r, normal);
+                    }
                 }
             }
         }
@@ -102,7 +104,7 @@ impl Layout {
             match rows.rows[r].bound {
                 Bound::Push if found.basic[i] => Part::Hold,
                 Bound::Push => Part::Off,
-                Bound::Friction(normal, _) if !holds(normal) => Part::Off,
+                Bound::Friction(normals, _) if !normals.rows().any(holds) => Part::Off,
                 Bound::Friction(..) | Bound::Limit(_) => {
                     match (found.basic[i], found.basic[i + 1], found.basic[i + 2]) {
                         (true, false, true) => Part::High,

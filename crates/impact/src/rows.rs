@@ -5,6 +5,8 @@
 //!                     K_rs: change of u_r by an impulse of 1 N·s along row s (Delassus)
 //! ```
 
+use core::ops::Range;
+
 use carom_math::{Vec2, cross, perp};
 
 use super::body::{ImpactBody, is_driven};
@@ -15,10 +17,28 @@ use super::several::SharedContact;
 pub(super) enum Bound {
     /// `0 ≤ j ⟂ u ≥ 0`: bodies push, and do not close.
     Push,
-    /// Coulomb: `|j| ≤ µ j_n`, against u where it is at its limit. The row of `j_n`, and µ.
-    Friction(usize, f64),
+    /// Coulomb: `|j| ≤ µ Σ j_n`, against u where it is at its limit. The rows of `j_n`, and µ.
+    Friction(Normals, f64),
     /// The same with a limit that is given, in N·s.
     Limit(f64),
+}
+
+/// Rows of the pushes that one friction row has its limit from: of a point, or of both points of a face, along which their friction
+/// acts as one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Normals {
+    first: usize,
+    count: usize,
+}
+
+impl Normals {
+    pub(super) const fn new(first: usize, count: usize) -> Self {
+        Self { first, count }
+    }
+
+    pub(super) fn rows(self) -> Range<usize> {
+        self.first..self.first + self.count
+    }
 }
 
 /// A direction in which a contact pushes.
@@ -29,7 +49,8 @@ pub(super) struct Row {
     pub(super) b: usize,
     /// Direction of a push on B.
     pub(super) direction: Vec2,
-    pub(super) point: Vec2,
+    /// Where it pushes A, and where B: one point, or a gap apart.
+    pub(super) points: (Vec2, Vec2),
     pub(super) bound: Bound,
     /// Arms of the direction about the centres of A and B, in m.
     arms: (f64, f64),
@@ -43,36 +64,53 @@ impl Row {
         bound: Bound,
     ) -> Self {
         let point = shared.contact.point;
-        let arm = |body: &ImpactBody| cross(point - body.centre, direction);
-        Self {
-            a: shared.a,
-            b: shared.b,
+        Self::between(
+            bodies,
+            (shared.a, shared.b),
+            (point, point),
             direction,
-            point,
             bound,
-            arms: (arm(&bodies[shared.a]), arm(&bodies[shared.b])),
+        )
+    }
+
+    pub(super) fn between(
+        bodies: &[ImpactBody],
+        (a, b): (usize, usize),
+        points: (Vec2, Vec2),
+        direction: Vec2,
+        bound: Bound,
+    ) -> Self {
+        let arm = |body: &ImpactBody, point: Vec2| cross(point - body.centre, direction);
+        Self {
+            a,
+            b,
+            direction,
+            points,
+            bound,
+            arms: (arm(&bodies[a], points.0), arm(&bodies[b], points.1)),
         }
     }
 
     /// Velocity of B's point minus A's along the direction, in m/s.
     pub(super) fn speed(&self, bodies: &[ImpactBody]) -> f64 {
         let (a, b) = (&bodies[self.a], &bodies[self.b]);
-        (b.velocity_of(self.point) - a.velocity_of(self.point)).dot(self.direction)
+        (b.velocity_of(self.points.1) - a.velocity_of(self.points.0)).dot(self.direction)
     }
 
     /// What the rounding of both velocities may hide of it, in m/s.
     fn hidden(&self, bodies: &[ImpactBody]) -> f64 {
-        let fastest = |body: &ImpactBody| {
-            body.velocity.length() + body.spin.abs() * (self.point - body.centre).length()
+        let fastest = |body: &ImpactBody, point: Vec2| {
+            body.velocity.length() + body.spin.abs() * (point - body.centre).length()
         };
-        2.0 * f64::EPSILON * (fastest(&bodies[self.a]) + fastest(&bodies[self.b]))
+        let (a, b) = (&bodies[self.a], &bodies[self.b]);
+        2.0 * f64::EPSILON * (fastest(a, self.points.0) + fastest(b, self.points.1))
     }
 
     /// Applies ±`impulse`, in N·s.
     pub(super) fn push(&self, bodies: &mut [ImpactBody], impulse: f64) {
         let along = self.direction * impulse;
-        bodies[self.a] = bodies[self.a].pushed(-along, self.point);
-        bodies[self.b] = bodies[self.b].pushed(along, self.point);
+        bodies[self.a] = bodies[self.a].pushed(-along, self.points.0);
+        bodies[self.b] = bodies[self.b].pushed(along, self.points.1);
     }
 
     /// Entry of K for this row and another.
@@ -195,7 +233,8 @@ impl Rows {
         }
         let worth = |body: usize, point: Vec2| taken[body] * self.still[body].yields_at(point);
         let of = |(row, hidden): (&Row, &f64)| {
-            4.0 * f64::EPSILON * (worth(row.a, row.point) + worth(row.b, row.point)) + hidden
+            let both = worth(row.a, row.points.0) + worth(row.b, row.points.1);
+            4.0 * f64::EPSILON * both + hidden
         };
         self.rows.iter().zip(&self.hidden).map(of).collect()
     }
@@ -213,15 +252,18 @@ impl Rows {
     pub(super) fn limit(&self, row: usize, impulses: &[f64]) -> f64 {
         match self.rows[row].bound {
             Bound::Push => f64::INFINITY,
-            Bound::Friction(normal, _) => self.factor(row) * impulses[normal],
+            Bound::Friction(normals, _) => {
+                let of = |normal: usize| self.factor(row, normal) * impulses[normal];
+                normals.rows().map(of).sum()
+            }
             Bound::Limit(limit) => limit * self.scales[row],
         }
     }
 
-    /// Scaled µ: limit of a friction row for a scaled normal impulse of 1.
-    pub(super) fn factor(&self, row: usize) -> f64 {
+    /// Scaled µ: limit of a friction row for a scaled impulse of 1 of a normal row.
+    pub(super) fn factor(&self, row: usize, normal: usize) -> f64 {
         match self.rows[row].bound {
-            Bound::Friction(normal, mu) if self.scales[normal] > 0.0 => {
+            Bound::Friction(_, mu) if self.scales[normal] > 0.0 => {
                 mu * (self.scales[row] / self.scales[normal])
             }
             _ => 0.0,
@@ -237,7 +279,7 @@ pub(super) fn contact_rows(bodies: &[ImpactBody], contacts: &[SharedContact]) ->
         let place = rows.len();
         rows.push(Row::new(bodies, shared, normal, Bound::Push));
         if shared.contact.friction > 0.0 {
-            let bound = Bound::Friction(place, shared.contact.friction);
+            let bound = Bound::Friction(Normals::new(place, 1), shared.contact.friction);
             rows.push(Row::new(bodies, shared, perp(normal), bound));
         }
     }
