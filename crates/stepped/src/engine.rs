@@ -8,6 +8,7 @@ use crate::bodies::Bodies;
 use crate::broad::{Broad, Pairs};
 use crate::continuous::{FastBody, note_fast};
 use crate::ghost::hide;
+use crate::hard::HardRows;
 use crate::impact::Impacts;
 use crate::pieces::{Disc, Pieces};
 use crate::rows::{
@@ -41,6 +42,7 @@ pub struct Engine {
     before: Vec<Before>,
     /// Rows with extra sweeps.
     extra: ExtraSweeps,
+    pub(crate) hard: HardRows,
     pub(crate) deep: Deep,
     pub(crate) rotating: RotatingRows,
     pub(crate) impacts: Impacts,
@@ -83,6 +85,7 @@ impl Engine {
             arrived: Vec::new(),
             before: Vec::new(),
             extra: ExtraSweeps::default(),
+            hard: HardRows::default(),
             deep: Deep::default(),
             rotating: RotatingRows::default(),
             impacts: Impacts::default(),
@@ -165,6 +168,7 @@ impl Engine {
         } else {
             strays = self.follow_strays(rules);
         }
+        self.hard.gather(&mut self.graph, &self.bodies);
         self.extra.gather(&mut self.graph, &self.bodies);
         self.deep.gather(&mut self.graph, &self.bodies);
         strays
@@ -338,6 +342,8 @@ impl Engine {
             graph,
             arrived,
             before,
+            extra,
+            hard,
             impacts,
             fast_bodies,
             far,
@@ -346,29 +352,30 @@ impl Engine {
         let every = settings.relaxation == Relaxation::EverySubstep;
         self.rotating.rotate(graph, bodies);
         warm_start(*level, bodies, law.h);
+        hard.free(bodies, graph);
         arrivals(*level, law, bodies, graph, arrived, before);
         impacts.note_arrivals(arrived, graph);
-        let lines = &mut bodies.lines;
+        hard.solve(law, bodies, graph, extra);
         let solve = if every {
             Pass::Solve
         } else {
             Pass::SolveWithFriction
         };
-        let mut seen = sweep(*level, solve, law, lines, graph.awake());
-        self.extra.sweep(solve, law, bodies, graph);
+        let mut seen = sweep(*level, solve, law, &mut bodies.lines, graph.soft());
+        extra.sweep(solve, law, bodies, graph);
         impacts.note_hits((*level, law), bodies, graph, false);
         displace(*level, bodies, law.h, far);
         note_fast(bodies, settings, law.h, far, fast_bodies);
         self.deep.part(law, bodies, graph);
-        let lines = &mut bodies.lines;
         if every || last {
-            seen = sweep(*level, Pass::Relax, law, lines, graph.awake());
-            self.extra.sweep(Pass::Relax, law, bodies, graph);
+            seen = sweep(*level, Pass::Relax, law, &mut bodies.lines, graph.soft());
+            extra.sweep(Pass::Relax, law, bodies, graph);
         }
-        self.heat += seen.heat;
-        self.least_gap = seen.least_gap;
+        self.heat += seen.heat + hard.heat;
+        self.least_gap = seen.least_gap.min(hard.least_gap);
         let rest = f64::from(settings.substeps - self.done) * law.h;
         correct(*level, bodies, settings, law.h, rest);
+        hard.place(bodies);
         impacts.note_hits((*level, law), bodies, graph, true);
         impacts.add_rows(bodies, graph);
         bounce(bodies, graph, arrived, before);

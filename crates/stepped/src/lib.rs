@@ -31,6 +31,7 @@ mod engine;
 mod error;
 mod ghost;
 mod groups;
+mod hard;
 mod impact;
 mod input;
 mod insert;

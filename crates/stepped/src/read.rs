@@ -58,6 +58,12 @@ impl Engine {
         &self.settings
     }
 
+    /// Solves of hard rows that found no answer, since the engine was made: each left an island to soft rows for a tick.
+    #[must_use]
+    pub const fn failed_hard_solves(&self) -> u64 {
+        self.hard.failed
+    }
+
     /// Where the centre of mass of a body is, in m, and how it is turned.
     ///
     /// # Errors

@@ -150,7 +150,20 @@ impl Block {
         self.along(lane, (a.v(), a.w()), (b.v(), b.w()))[point]
     }
 
-    fn along(&self, lane: usize, a: (Vec2, f64), b: (Vec2, f64)) -> [f64; 2] {
+    /// Slip along t, a belt's speed included, in m/s.
+    pub(crate) fn slip(&self, lane: usize, [a, b]: [&Line; 2]) -> f64 {
+        perp(self.normal(lane)).dot(b.v() - a.v()) + self.bt[lane] * b.w() - self.at[lane] * a.w()
+    }
+
+    /// What an impulse of 1 N·s along t changes it by.
+    pub(crate) fn tangent_response(&self, lane: usize, [a, b]: [&Line; 2]) -> f64 {
+        let (at, bt) = (self.at[lane], self.bt[lane]);
+        let turns = at * at * a.inverse_inertia() + bt * bt * b.inverse_inertia();
+        a.inverse_mass() + b.inverse_mass() + turns
+    }
+
+    /// What two motions open both points by.
+    pub(crate) fn along(&self, lane: usize, a: (Vec2, f64), b: (Vec2, f64)) -> [f64; 2] {
         let n = Vec2::new(self.nx[lane], self.ny[lane]);
         let first = n.dot(b.0 - a.0) + self.b1[lane] * b.1 - self.a1[lane] * a.1;
         [first, first + self.l[lane] * (b.1 - a.1)]

@@ -38,7 +38,7 @@ impl Graph {
                         if bodies.is_dynamic(slot) {
                             assert!(!seen.contains(&slot), "body {slot} twice in a block");
                             seen.push(slot);
-                            masks[slot as usize] |= 1u64.checked_shl(contact.colour).unwrap_or(0);
+                            masks[slot as usize] |= contact.mask();
                         }
                     }
                 }

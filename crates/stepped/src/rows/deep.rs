@@ -62,7 +62,9 @@ impl Deep {
             self.least_gap = self.least_gap.min(gap);
             let push = (-gap).max(0.0).min(most);
             let (ma, mb) = (a.inverse_mass(), b.inverse_mass());
-            if push > 0.0 && ma + mb > 0.0 {
+            // Hard rows part what is deep by themselves.
+            let soft = !graph.contacts[id as usize].is_hard();
+            if soft && push > 0.0 && ma + mb > 0.0 {
                 self.moves
                     .push((at, Quad::new(n * (-push * ma / (ma + mb)), 0.0)));
                 self.moves

@@ -38,7 +38,7 @@ pub(crate) struct ExtraSweeps {
 
 impl Graph {
     /// Whether a contact is between two bodies of very different mass.
-    pub(super) fn is_unequal(bodies: &Bodies, ends: [u32; 2]) -> bool {
+    pub(crate) fn is_unequal(bodies: &Bodies, ends: [u32; 2]) -> bool {
         ratio(bodies, ends) > UNEQUAL
     }
 }
@@ -74,7 +74,7 @@ impl ExtraSweeps {
         let mut light: Vec<(u32, f64)> = Vec::new();
         for &id in &graph.unequal {
             let contact = &graph.contacts[id as usize];
-            if contact.sleeps() {
+            if contact.sleeps() || contact.is_hard() {
                 continue;
             }
             let [a, b] = contact.bodies;
@@ -121,6 +121,12 @@ impl ExtraSweeps {
             let sweeps = wanted.min(MOST / rows.len());
             self.groups.push((rows, sweeps));
         }
+    }
+
+    /// Adds an island that was in hard rows.
+    pub(crate) fn add(&mut self, rows: Vec<u32>) {
+        let sweeps = (4 * SWEEPS).min(MOST / rows.len().max(1));
+        self.groups.push((rows, sweeps));
     }
 
     /// Sweeps the rows of all groups.

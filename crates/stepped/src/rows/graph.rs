@@ -10,8 +10,16 @@ use crate::narrow::Manifold;
 /// Colours of a mask. Contacts that find none of them free take the overflow colour, a block each, one after the other.
 pub(crate) const COLOURS: usize = 64;
 
+/// Behind the overflow colour, contacts of islands in hard rows: those of a mask's colour c are in colour `HARD + c`, which no
+/// sweep reads.
+pub(crate) const HARD: usize = COLOURS + 1;
+
+/// The same number.
+#[expect(clippy::cast_possible_truncation, reason = "dozens")]
+pub(super) const FIRST_HARD: u32 = HARD as u32;
+
 /// Where contacts of sleeping islands lie, with all their fields: no pass reads it.
-pub(crate) const ASLEEP: usize = COLOURS + 1;
+pub(crate) const ASLEEP: usize = HARD + COLOURS;
 
 /// Contacts with what cannot be moved take the highest free colour below this one, so that the ground acts last. Piles of
 /// boxes need 6 to 10 colours.
@@ -31,7 +39,7 @@ pub(crate) struct Contact {
     pub(crate) pieces: [u32; 2],
     pub(crate) colour: u32,
     /// The colour that it had awake.
-    home: u32,
+    pub(super) home: u32,
     /// Lane, counted through all blocks of the colour.
     pub(crate) index: u32,
     /// Contact × 2 + side of the neighbours in the lists of A and of B.
@@ -50,15 +58,13 @@ pub(crate) struct Graph {
     pub(super) deep: Vec<u32>,
     /// Contacts of two bodies of very different mass, and some that were, in no order.
     pub(super) unequal: Vec<u32>,
-    /// Behind those of masks the overflow colour, and behind it what sleeps.
+    /// Behind those of masks the overflow colour, then those of hard rows, and last what sleeps.
     pub(super) colours: Vec<Colour>,
+    /// Contacts in hard rows.
+    pub(super) hard: usize,
 }
 
 impl Contact {
-    pub(crate) const fn sleeps(&self) -> bool {
-        self.colour as usize == ASLEEP
-    }
-
     /// Block and lane.
     pub(crate) const fn place(&self) -> (usize, usize) {
         (self.index as usize / LANES, self.index as usize % LANES)
@@ -73,7 +79,8 @@ impl Graph {
             free: Vec::new(),
             deep: Vec::new(),
             unequal: Vec::new(),
-            colours: vec![Colour::default(); COLOURS + 2],
+            colours: vec![Colour::default(); ASLEEP + 1],
+            hard: 0,
         }
     }
 
@@ -87,22 +94,32 @@ impl Graph {
         self.len() - self.colours[ASLEEP].len()
     }
 
-    /// The colours of what is awake, in the order in which they are swept.
+    /// The colours of what is awake: those that are swept come first, in their order.
     pub(crate) fn awake(&mut self) -> &mut [Colour] {
-        &mut self.colours[..ASLEEP]
+        let end = self.awake_end();
+        &mut self.colours[..end]
+    }
+
+    /// The colours of soft rows, in the order in which they are swept.
+    pub(crate) fn soft(&mut self) -> &mut [Colour] {
+        &mut self.colours[..HARD]
+    }
+
+    const fn awake_end(&self) -> usize {
+        if self.hard > 0 { ASLEEP } else { HARD }
     }
 
     /// Blocks in which a contact of a moved body may be, colour by colour: all, but if few moved.
     pub(crate) fn touched(&self, bodies: &Bodies) -> Vec<Vec<usize>> {
         let moved = bodies.moved.iter().filter(|moved| **moved).count();
-        let colours = &self.colours[..ASLEEP];
+        let colours = &self.colours[..self.awake_end()];
         if FEW * moved > bodies.moved.len() {
             return colours
                 .iter()
                 .map(|colour| (0..colour.blocks.len()).collect())
                 .collect();
         }
-        let mut touched = vec![Vec::new(); ASLEEP];
+        let mut touched = vec![Vec::new(); colours.len()];
         for line in (2..bodies.lines.len()).filter(|line| bodies.moved[*line]) {
             for (id, _) in self.of_body(bodies, bodies.slot_of[line]) {
                 let contact = &self.contacts[id as usize];
@@ -120,7 +137,8 @@ impl Graph {
 
     /// The colours of what is awake, and the bodies that may have ghosts.
     pub(crate) fn awake_and_suspects(&mut self) -> (&mut [Colour], &mut Suspects) {
-        (&mut self.colours[..ASLEEP], &mut self.suspects)
+        let end = self.awake_end();
+        (&mut self.colours[..end], &mut self.suspects)
     }
 
     /// Gives a contact of two bodies a number and a lane, without impulses.
@@ -223,7 +241,7 @@ impl Graph {
         for (slot, line) in contact.bodies.into_iter().zip([a, b]) {
             let record = &mut bodies.records[slot as usize];
             if record.kind == BodyKind::Dynamic {
-                record.colours &= !(1u64.checked_shl(contact.colour).unwrap_or(0));
+                record.colours &= !contact.mask();
                 if record.contacts == END {
                     // Nothing acts on it: free flight has no leftovers of rounding.
                     let (v, w) = (bodies.lines[line].v(), bodies.lines[line].w());
@@ -235,49 +253,9 @@ impl Graph {
         self.free.push(id);
     }
 
-    /// Moves a contact between the colours and what sleeps; its bodies have their lines if it wakes.
-    pub(crate) fn shift(&mut self, bodies: &mut Bodies, id: u32, sleeps: bool) {
-        let contact = self.contacts[id as usize];
-        let (from, (k, lane)) = (contact.colour as usize, contact.place());
-        let (block, cold) = (self.colours[from].blocks[k], self.colours[from].cold[k]);
-        self.vacate(from, k, lane);
-        let (to, lines) = if sleeps {
-            (ASLEEP, [0; 2])
-        } else {
-            let lines = contact
-                .bodies
-                .map(|slot| bodies.records[slot as usize].line);
-            (contact.home as usize, lines)
-        };
-        let bit = if sleeps { contact.colour } else { contact.home };
-        for slot in contact.bodies {
-            let record = &mut bodies.records[slot as usize];
-            if record.kind == BodyKind::Dynamic {
-                let bit = 1u64.checked_shl(bit).unwrap_or(0);
-                record.colours = if sleeps {
-                    record.colours & !bit
-                } else {
-                    record.colours | bit
-                };
-            }
-        }
-        let index = self.colours[to].push(to == COLOURS, id, contact.pieces);
-        let (other, place) = (&mut self.colours[to], (index / LANES, index % LANES));
-        other.blocks[place.0].copy_lane(place.1, &block, lane);
-        other.cold[place.0].copy_lane(place.1, &cold, lane);
-        other.count(place.0, place.1);
-        let block = &mut other.blocks[place.0];
-        (block.a[place.1], block.b[place.1]) = (lines[0], lines[1]);
-        let contact = &mut self.contacts[id as usize];
-        #[expect(clippy::cast_possible_truncation, reason = "fewer than 2^32 contacts")]
-        {
-            contact.home = if sleeps { contact.colour } else { contact.home };
-            (contact.colour, contact.index) = (to as u32, index as u32);
-        }
-    }
-
     /// Empties a lane; the last one of the colour moves there.
-    fn vacate(&mut self, colour: usize, k: usize, lane: usize) {
+    pub(super) fn vacate(&mut self, colour: usize, k: usize, lane: usize) {
+        self.hard -= usize::from((HARD..ASLEEP).contains(&colour));
         if colour == COLOURS {
             // Here order matters to the bits: it stays.
             if self.colours[colour].empty(k) {

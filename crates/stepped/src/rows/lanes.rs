@@ -25,12 +25,17 @@ impl Graph {
         (there && !contact.sleeps()).then_some((cold, lane))
     }
 
+    /// Whether there is a contact of this number, in hard rows.
+    pub(crate) fn is_hard(&self, id: u32) -> bool {
+        self.contacts[id as usize].is_hard() && self.cold(id).is_some()
+    }
+
     /// Whether there is such a contact of these pieces, and it is awake.
     pub(crate) fn has(&self, id: u32, pieces: [u32; 2]) -> bool {
         self.cold(id).is_some() && self.contacts[id as usize].pieces == pieces
     }
 
-    pub(super) fn block_mut(&mut self, id: u32) -> (&mut Block, usize) {
+    pub(crate) fn block_mut(&mut self, id: u32) -> (&mut Block, usize) {
         let contact = &self.contacts[id as usize];
         let (k, lane) = contact.place();
         let colour = &mut self.colours[contact.colour as usize];
@@ -85,7 +90,7 @@ impl Graph {
     }
 
     /// Place of a contact in an order that memory does not change: by births of its bodies, then by pieces.
-    pub(super) fn order(&self, bodies: &Bodies, id: u32) -> ([u64; 2], [u32; 2], u32) {
+    pub(crate) fn order(&self, bodies: &Bodies, id: u32) -> ([u64; 2], [u32; 2], u32) {
         let contact = &self.contacts[id as usize];
         let birth = |slot: u32| bodies.records[slot as usize].birth;
         (contact.bodies.map(birth), contact.pieces, id)
@@ -99,6 +104,15 @@ impl Graph {
     /// Notes contacts that became deep.
     pub(crate) fn add_deep(&mut self, deep: &mut Vec<u32>) {
         self.deep.append(deep);
+    }
+
+    /// Contacts of two bodies of very different mass that are awake.
+    pub(crate) fn unequal_awake(&self, bodies: &Bodies) -> impl Iterator<Item = u32> {
+        let is = |id: &u32| {
+            let ends = self.contacts[*id as usize].bodies;
+            self.cold(*id).is_some() && Self::is_unequal(bodies, ends)
+        };
+        self.unequal.iter().copied().filter(is)
     }
 
     /// Whether a contact touched when it was last asked.

@@ -20,6 +20,7 @@ mod rotating;
 
 #[cfg(test)]
 mod tests;
+mod transfer;
 mod transpose;
 
 pub(crate) use block::{Block, Cold, LANES, OPEN};

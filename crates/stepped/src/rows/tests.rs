@@ -29,14 +29,8 @@ fn all_widths_have_the_bits_of_the_plain_sweep() {
                 Pass::Relax,
             ] {
                 let law = engine.law;
-                sweep(
-                    level,
-                    pass,
-                    &law,
-                    &mut wide.bodies.lines,
-                    wide.graph.awake(),
-                );
-                plain::sweep(pass, &law, &mut slow.bodies.lines, slow.graph.awake());
+                sweep(level, pass, &law, &mut wide.bodies.lines, wide.graph.soft());
+                plain::sweep(pass, &law, &mut slow.bodies.lines, slow.graph.soft());
                 for (x, y) in wide.bodies.lines.iter().zip(&slow.bodies.lines) {
                     // Adding 0 makes −0 a 0: a block that is left early writes nothing back.
                     let bits = |line: &super::Line| line.0.map(|x| (x + 0.0).to_bits());

@@ -4,6 +4,7 @@ mod bouncing;
 mod calls;
 mod geometry;
 mod ghosts;
+mod hard;
 mod impacts;
 mod laws;
 mod scales;

@@ -1,0 +1,103 @@
+//! Contacts change colours when they fall asleep, wake, or go into hard rows and back: all their fields go with them.
+
+use super::block::LANES;
+use super::graph::{ASLEEP, COLOURS, Contact, FIRST_HARD, Graph, HARD};
+use crate::bodies::{Bodies, BodyKind};
+
+impl Contact {
+    pub(crate) const fn sleeps(&self) -> bool {
+        self.colour as usize == ASLEEP
+    }
+
+    /// Whether its island is in hard rows.
+    pub(crate) const fn is_hard(&self) -> bool {
+        self.colour >= FIRST_HARD && !self.sleeps()
+    }
+
+    /// The colour that it has in soft rows.
+    const fn soft_colour(&self) -> u32 {
+        if self.is_hard() {
+            self.colour - FIRST_HARD
+        } else {
+            self.colour
+        }
+    }
+
+    /// Its bit in the masks of its bodies: none in the overflow colour, or asleep.
+    pub(crate) const fn mask(&self) -> u64 {
+        bit(self.soft_colour())
+    }
+}
+
+const fn bit(colour: u32) -> u64 {
+    match 1u64.checked_shl(colour) {
+        Some(bit) => bit,
+        None => 0,
+    }
+}
+
+impl Graph {
+    /// Moves a contact between the colours and what sleeps; its bodies have their lines if it wakes. It wakes in soft rows.
+    pub(crate) fn shift(&mut self, bodies: &mut Bodies, id: u32, sleeps: bool) {
+        let contact = self.contacts[id as usize];
+        let (to, lines, home) = if sleeps {
+            (ASLEEP, [0; 2], contact.soft_colour())
+        } else {
+            let lines = contact
+                .bodies
+                .map(|slot| bodies.records[slot as usize].line);
+            (contact.home as usize, lines, contact.home)
+        };
+        for slot in contact.bodies {
+            let record = &mut bodies.records[slot as usize];
+            if record.kind == BodyKind::Dynamic {
+                record.colours = if sleeps {
+                    record.colours & !bit(home)
+                } else {
+                    record.colours | bit(home)
+                };
+            }
+        }
+        self.contacts[id as usize].home = home;
+        self.transfer(id, to, lines);
+    }
+
+    /// Whether an island is in hard rows.
+    #[cfg(test)]
+    pub(crate) const fn has_hard(&self) -> bool {
+        self.hard > 0
+    }
+
+    /// Moves a contact that is awake, and not in the overflow colour, into hard rows or back.
+    pub(crate) fn set_hard(&mut self, id: u32, hard: bool) {
+        let contact = self.contacts[id as usize];
+        if contact.is_hard() != hard {
+            let (k, lane) = contact.place();
+            let block = &self.colours[contact.colour as usize].blocks[k];
+            let lines = [block.a[lane], block.b[lane]];
+            let to = contact.soft_colour() as usize + if hard { HARD } else { 0 };
+            self.transfer(id, to, lines);
+        }
+    }
+
+    /// Moves a contact to another colour, with all its fields.
+    fn transfer(&mut self, id: u32, to: usize, lines: [u32; 2]) {
+        let contact = self.contacts[id as usize];
+        let (from, (k, lane)) = (contact.colour as usize, contact.place());
+        let (block, cold) = (self.colours[from].blocks[k], self.colours[from].cold[k]);
+        self.vacate(from, k, lane);
+        let index = self.colours[to].push(to == COLOURS, id, contact.pieces);
+        let (other, place) = (&mut self.colours[to], (index / LANES, index % LANES));
+        other.blocks[place.0].copy_lane(place.1, &block, lane);
+        other.cold[place.0].copy_lane(place.1, &cold, lane);
+        other.count(place.0, place.1);
+        let block = &mut other.blocks[place.0];
+        (block.a[place.1], block.b[place.1]) = (lines[0], lines[1]);
+        let contact = &mut self.contacts[id as usize];
+        #[expect(clippy::cast_possible_truncation, reason = "fewer than 2^32 contacts")]
+        {
+            (contact.colour, contact.index) = (to as u32, index as u32);
+        }
+        self.hard += usize::from(contact.is_hard());
+    }
+}

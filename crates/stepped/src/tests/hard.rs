@@ -1,0 +1,292 @@
+//! Hard rows: loads that sweeps do not carry.
+
+use carom_geometry::ConvexPolygon;
+use carom_math::{Vec2, vec2};
+
+use super::{Random, floor, levels, pyramid, unit_box};
+use crate::{BodyId, BodyInput, BodyKind, Engine, Material, PieceInput, Settings};
+
+const MUST_STAY: f64 = 1e-6;
+
+/// A box of 1 m and of `mass` kg.
+fn put(engine: &mut Engine, mass: f64, at: Vec2) -> BodyId {
+    let body = BodyInput::dynamic(mass, mass / 6.0).at(at);
+    engine.insert(body, &[unit_box()]).unwrap()
+}
+
+/// Boxes of 1 kg on what is there, and one of `load` kg on top.
+fn stack(engine: &mut Engine, x: f64, light: u32, load: f64) -> Vec<BodyId> {
+    let mass = |row| if row == light { load } else { 1.0 };
+    let mut put = |row| put(engine, mass(row), vec2(x, 0.5 + f64::from(row)));
+    (0..=light).map(&mut put).collect()
+}
+
+fn column(settings: Settings, light: u32, load: f64) -> (Engine, Vec<BodyId>) {
+    let mut engine = Engine::new(settings).unwrap();
+    floor(&mut engine);
+    let ids = stack(&mut engine, 0.0, light, load);
+    (engine, ids)
+}
+
+fn without_sleep() -> Settings {
+    Settings {
+        sleep: None,
+        ..Settings::default()
+    }
+}
+
+fn at(engine: &Engine, id: BodyId) -> Vec2 {
+    engine.pose(id).unwrap().position
+}
+
+/// How far the farthest body of a column is from where it was put, in m.
+fn off(engine: &Engine, ids: &[BodyId]) -> f64 {
+    let way =
+        |(row, id): (u32, &BodyId)| (at(engine, *id) - vec2(0.0, 0.5 + f64::from(row))).length();
+    (0..).zip(ids).map(way).fold(0.0, f64::max)
+}
+
+/// The positions of bodies, bit by bit.
+fn bits(engine: &Engine, ids: &[BodyId], from: Vec2) -> Vec<[u64; 2]> {
+    let of = |id: &BodyId| at(engine, *id) - from;
+    ids.iter()
+        .map(of)
+        .map(|p| [p.x.to_bits(), p.y.to_bits()])
+        .collect()
+}
+
+#[test]
+fn a_column_stands_under_a_heavy_box() {
+    for (light, load) in [(10, 1e3), (24, 1e3), (5, 1e5), (1, 1e9)] {
+        for settings in [Settings::default(), without_sleep()] {
+            let (mut engine, ids) = column(settings, light, load);
+            for _ in 0..600 {
+                engine.tick();
+            }
+            let off = off(&engine, &ids);
+            assert!(off < MUST_STAY, "{light} boxes under {load} kg: {off} m");
+            assert_eq!(engine.failed_hard_solves(), 0);
+            assert_eq!(engine.is_asleep(ids[0]).unwrap(), settings.sleep.is_some());
+        }
+    }
+}
+
+#[test]
+fn a_column_stands_when_its_top_was_nudged() {
+    for (light, load) in [(10, 1e3), (24, 1e3), (5, 1e5)] {
+        let (mut engine, ids) = column(without_sleep(), light, load);
+        let top = ids[light as usize];
+        engine.tick();
+        engine.set_velocity(top, vec2(0.1, 0.0), 0.0).unwrap();
+        for _ in 0..600 {
+            engine.tick();
+            engine.graph.check(&engine.bodies);
+        }
+        let way = at(&engine, top) - vec2(0.0, 0.5 + f64::from(light));
+        // A column of 24 still rocks, about its lower corners: that lifts it.
+        assert!(
+            way.y > -MUST_STAY,
+            "{light} boxes under {load} kg sink by {} m",
+            -way.y
+        );
+        assert!(
+            way.x.abs() < 0.02,
+            "{light} boxes under {load} kg lean by {} m",
+            way.x
+        );
+        assert_eq!(engine.failed_hard_solves(), 0);
+    }
+}
+
+#[test]
+fn a_heavy_box_that_falls_on_a_light_one_does_not_bounce() {
+    for load in [20.0, 1e2, 1e3, 1e5] {
+        let (mut engine, ids) = column(Settings::default(), 0, 1.0);
+        let falls = put(&mut engine, load, vec2(0.0, 2.5));
+        let mut highest = f64::NEG_INFINITY;
+        for _ in 0..60 {
+            engine.tick();
+            engine.graph.check(&engine.bodies);
+            highest = highest.max(engine.velocity(falls).unwrap().0.y);
+        }
+        assert!(highest < 1e-9, "{load} kg come back at {highest} m/s");
+        let off = off(&engine, &[ids[0], falls]);
+        assert!(off < MUST_STAY, "{load} kg: {off} m");
+    }
+}
+
+/// Nothing here bears a body of more than 16 times its mass: no island takes hard rows.
+#[test]
+fn light_loads_take_soft_rows() {
+    let mut engine = Engine::new(without_sleep()).unwrap();
+    floor(&mut engine);
+    pyramid(&mut engine, 5, vec2(50.0, 0.0));
+    stack(&mut engine, 0.0, 3, 16.0);
+    // Light boxes on a heavy one.
+    for (row, mass) in (0u32..).zip([1e3, 1.0, 1.0]) {
+        put(&mut engine, mass, vec2(10.0, 0.5 + f64::from(row)));
+    }
+    // A heavy box flies through light ones.
+    let ram = put(&mut engine, 1e3, vec2(20.0, 30.0));
+    engine.set_velocity(ram, vec2(0.0, -20.0), 0.0).unwrap();
+    for k in 0..3u32 {
+        put(&mut engine, 1.0, vec2(20.0, 26.0 - 1.1 * f64::from(k)));
+    }
+    for _ in 0..60 {
+        engine.tick();
+        assert!(!engine.graph.has_hard());
+    }
+}
+
+#[test]
+fn a_column_wakes_as_it_slept() {
+    let (mut engine, ids) = column(Settings::default(), 10, 1e3);
+    for round in 0..3 {
+        for _ in 0..120 {
+            engine.tick();
+            engine.graph.check(&engine.bodies);
+        }
+        assert!(engine.is_asleep(ids[0]).unwrap());
+        // In the middle of a tick, too.
+        for _ in 0..round {
+            engine.substep(&crate::Mixed);
+        }
+        engine.wake(ids[3]).unwrap();
+        engine.graph.check(&engine.bodies);
+    }
+    assert!(off(&engine, &ids) < MUST_STAY);
+}
+
+#[test]
+fn an_island_in_hard_rows_has_the_bits_that_it_has_alone() {
+    let nudged = |alone: bool, level| {
+        let mut engine = Engine::new(without_sleep()).unwrap();
+        engine.level = level;
+        floor(&mut engine);
+        let others = if alone {
+            Vec::new()
+        } else {
+            stack(&mut engine, 64.0, 6, 300.0)
+        };
+        let ids = stack(&mut engine, 0.0, 4, 1e3);
+        if !alone {
+            pyramid(&mut engine, 4, vec2(128.0, 0.0));
+            engine.set_velocity(others[2], vec2(0.3, 0.0), 0.1).unwrap();
+        }
+        engine.set_velocity(ids[4], vec2(0.1, 0.0), 0.0).unwrap();
+        for _ in 0..120 {
+            engine.tick();
+        }
+        bits(&engine, &ids, Vec2::ZERO)
+    };
+    let first = nudged(true, levels()[0]);
+    for level in levels() {
+        assert_eq!(nudged(false, level), first);
+    }
+}
+
+/// A press goes down on a heavy box on a light one: no velocities hold it. Soft rows take over, and give way.
+#[test]
+fn what_nothing_holds_takes_soft_rows() {
+    let (mut engine, ids) = column(without_sleep(), 1, 1e3);
+    let plate = PieceInput::new(ConvexPolygon::rectangle(3.0, 1.0).unwrap());
+    let mut press = BodyInput::new(BodyKind::Kinematic).at(vec2(0.0, 2.5));
+    press.velocity = vec2(0.0, -0.1);
+    engine.insert(press, &[plate]).unwrap();
+    for _ in 0..30 {
+        engine.tick();
+        engine.graph.check(&engine.bodies);
+    }
+    assert!(engine.failed_hard_solves() > 0);
+    assert!(
+        ids.iter()
+            .all(|id| engine.velocity(*id).unwrap().0.length() < 1.0)
+    );
+}
+
+/// Random calls among bodies of 1 kg to a ton keep lanes and warm starts.
+#[test]
+fn random_calls_among_hard_rows_keep_the_graph() {
+    let mut hard = 0;
+    for seed in 0..8 {
+        let mut engine = Engine::new(Settings::default()).unwrap();
+        let ground = floor(&mut engine);
+        let mut random = Random::new(4000 + seed);
+        let mut ids = vec![ground];
+        for step in 0..400 {
+            let pick = ids[random.below(ids.len())];
+            match random.below(60) {
+                0..5 if step < 200 => {
+                    let piece = random.piece();
+                    let mut body = random.body(&piece, 1.0);
+                    body.pose.position.y += 4.0;
+                    let times = [1.0, 1.0, 30.0, 1000.0][random.below(4)];
+                    (body.mass, body.inertia) = (body.mass * times, body.inertia * times);
+                    ids.push(engine.insert(body, &[piece]).unwrap());
+                }
+                5 if pick != ground => {
+                    engine.remove(pick).unwrap();
+                    ids.retain(|id| *id != pick);
+                }
+                6 => engine
+                    .set_velocity(pick, vec2(random.signed(), 2.0), 0.0)
+                    .unwrap(),
+                7 if pick != ground => engine.set_pose(pick, random.pose(5.0)).unwrap(),
+                8 => engine.wake(pick).unwrap(),
+                _ => {}
+            }
+            if step % 7 == 0 {
+                engine.substep(&crate::Mixed);
+            } else {
+                engine.tick();
+            }
+            engine.graph.check(&engine.bodies);
+            hard += u32::from(engine.graph.has_hard());
+        }
+    }
+    assert!(hard > 500, "{hard} ticks with hard rows");
+}
+/// What falls on a light body, however lively, and a column that rocks have no more energy than they began with.
+#[test]
+fn hard_rows_add_no_energy() {
+    let energy = |engine: &Engine| engine.energy().0 + engine.energy().1;
+    let gain = |engine: &mut Engine, ticks: u32| {
+        let first = energy(engine);
+        let most = (0..ticks).map(|_| {
+            engine.tick();
+            energy(engine)
+        });
+        most.fold(first, f64::max) / first - 1.0
+    };
+    for load in [20.0, 1e3, 1e5] {
+        for restitution in [0.0, 0.5, 1.0] {
+            for x in [0.0, 0.3] {
+                let mut engine = Engine::new(without_sleep()).unwrap();
+                floor(&mut engine);
+                let piece = unit_box().with_material(Material {
+                    restitution,
+                    friction: 0.5,
+                });
+                let mut put = |mass: f64, at: Vec2| {
+                    let body = BodyInput::dynamic(mass, mass / 6.0).at(at);
+                    let turned = body.moving(vec2(0.2, 0.0), 0.3);
+                    engine.insert(turned, std::slice::from_ref(&piece)).unwrap()
+                };
+                let light = put(1.0, vec2(0.0, 0.5));
+                put(load, vec2(x, 2.5));
+                let gain = gain(&mut engine, 180);
+                assert!(gain < 1e-9, "{load} kg, e = {restitution}, {x} m: {gain}");
+                let bottom = at(&engine, light).y - 0.5;
+                assert!(bottom > -1e-4, "{load} kg, e = {restitution}: {bottom} m");
+            }
+        }
+    }
+    for (light, load) in [(10, 1e3), (5, 1e5)] {
+        let (mut engine, ids) = column(without_sleep(), light, load);
+        engine.tick();
+        let top = ids[light as usize];
+        engine.set_velocity(top, vec2(0.1, 0.0), 0.0).unwrap();
+        let gain = gain(&mut engine, 300);
+        assert!(gain < 1e-9, "{light} boxes under {load} kg: {gain}");
+    }
+}
