@@ -111,8 +111,8 @@ fn a_budget_is_the_islands_own() {
     assert_eq!(run(0), run(12));
 }
 
-/// The island of a light member leaves the engine where a mass ratio above 16 comes near, at which sweeps do not converge: the light
-/// body penetrated the floor by 0.14 m.
+/// At mass ratios above 16 sweeps do not converge, and the light body penetrated the floor by 0.14 m; the engine solves for its island
+/// directly.
 #[test]
 fn a_light_body_of_the_engine_bears_a_heavy_one_that_falls_on_it() {
     let mut world = world();

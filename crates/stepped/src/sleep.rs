@@ -335,38 +335,4 @@ impl Engine {
     pub fn is_asleep(&self, id: BodyId) -> Result<bool, EngineError> {
         Ok(self.bodies.get(id)?.island != Bodies::NONE)
     }
-
-    /// The bodies that a dynamic body hangs together with by contacts that push or overlap, itself the first; `None` if these are
-    /// `most` or more.
-    ///
-    /// # Errors
-    /// [`EngineError::Stale`] if it is not in this engine.
-    pub fn small_island_of(
-        &self,
-        id: BodyId,
-        most: usize,
-    ) -> Result<Option<Vec<BodyId>>, EngineError> {
-        let record = self.bodies.get(id)?;
-        let mut island = vec![id.slot];
-        if let Some(Some(sleepers)) = self.islands.asleep.get(record.island as usize) {
-            island = sleepers.iter().map(|sleeper| sleeper.slot).collect();
-        } else if record.kind == BodyKind::Dynamic {
-            let mut next = 0;
-            while let Some(&slot) = island.get(next) {
-                next += 1;
-                for (id, side) in self.graph.of_body(&self.bodies, slot) {
-                    let other = self.graph.contacts[id as usize].bodies[1 - side];
-                    let dynamic = self.bodies.records[other as usize].kind == BodyKind::Dynamic;
-                    if dynamic && !island.contains(&other) && self.hold_together(id) {
-                        island.push(other);
-                    }
-                }
-                if island.len() >= most {
-                    break;
-                }
-            }
-        }
-        let small = island.len() < most;
-        Ok(small.then(|| island.iter().map(|slot| self.bodies.id(*slot)).collect()))
-    }
 }

@@ -296,18 +296,14 @@ fn case_32_a_body_in_a_whirling_hollow_stays_inside() {
 
 /// avianphysics/avian#593: a heavy box thrown back by a light one.
 ///
-/// Mass ratios over 16 across a contact are beyond what one sweep a sub-step holds at once: what gives way to them is swept
-/// 30 times, and 120 times over 64. At 1000 the light box gave way by 13 cm, and the heavy one came back at 0.28 m/s of
-/// 4.4, while only those sweeps were many that push nothing out; at 64, with one sweep, at 2.1 m/s.
+/// Mass ratios over 16 across a contact are beyond what one sweep a sub-step holds at once: such islands are solved for directly.
+/// With 120 sweeps the light box gave way by 5 cm at 1000, and the heavy one came back at 0.08 m/s of 4.4 at 100; with one sweep
+/// at 64 at 2.1 m/s.
 #[test]
 fn case_36_a_dense_box_that_lands_on_a_light_one_comes_to_rest() {
-    let cases = [
-        (20.0, 1e-3, 1e-3),
-        (64.0, 1e-3, 3e-3),
-        (100.0, 0.08, 7e-3),
-        (1000.0, 0.03, 0.05),
-    ];
-    for (ratio, most, deep) in cases {
+    // Before the heavy one comes near the light one is in soft rows, and sinks in under its own weight.
+    let (most, deep) = (1e-6, 5e-5);
+    for ratio in [20.0, 64.0, 100.0, 1000.0, 1e6] {
         let mut world = stepped(restless(Settings::default()));
         floor(&mut world, Material::default());
         let light = boxed(&mut world, vec2(0.0, 0.5), Material::default());
@@ -327,7 +323,7 @@ fn case_36_a_dense_box_that_lands_on_a_light_one_comes_to_rest() {
         );
         let y = [light, heavy].map(|id| world.body(id).expect("it stays").centre().y);
         assert!(
-            (y[0] - 0.5).abs() < 0.02 && (y[1] - 1.5).abs() < 0.08,
+            (y[0] - 0.5).abs() < deep && (y[1] - 1.5).abs() < deep,
             "{ratio}: {y:?}"
         );
     }

@@ -46,9 +46,6 @@ impl World {
                 self.wake(index, time);
                 if self.bodies.get(index).in_engine {
                     let other = if index == a { b } else { a };
-                    if self.release_outweighed(other, &[index], &mut Vec::new(), time) {
-                        return;
-                    }
                     // It waits at the surface of the woken bodies for the next sub-step.
                     self.join(other, time);
                 }

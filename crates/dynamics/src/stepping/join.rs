@@ -13,8 +13,8 @@ use carom_math::{SimTime, Sum};
 use carom_stepped::State;
 
 use super::Shapes;
+use super::near::Among;
 use super::rush::Rush;
-use crate::heavy::{BEARS, mass_ratio};
 use crate::sleep::Tree;
 use crate::state::BodyState;
 use crate::{BodyKind, EnergyLedger, Mode, World};
@@ -262,7 +262,13 @@ impl World {
             }
             let last = before.binary_search_by_key(&index, |known| known.0);
             let ticks = last.map_or(0, |at| before[at].1) + 1;
-            if ticks > IDLE && !self.nears_member(&stepping, index, time, 2.0 * self.settings.tick)
+            if ticks > IDLE
+                && !self.nears_member(
+                    &stepping,
+                    index,
+                    (time, 2.0 * self.settings.tick),
+                    Among::All,
+                )
             {
                 gone.push(state);
             } else {
@@ -299,54 +305,6 @@ impl World {
         self.take_woken(time);
         self.end_membership(index, time);
         self.take_off(index, time);
-    }
-
-    /// Takes the small islands of these members out of the engine if body `index`, which may meet them, is of another mass or was
-    /// taken out itself; whether all were. `released`: bodies that were taken out in this sub-step, once each.
-    pub(crate) fn release_outweighed(
-        &mut self,
-        index: u32,
-        members: &[u32],
-        released: &mut Vec<u32>,
-        time: SimTime,
-    ) -> bool {
-        let Some(stepping) = &self.stepping else {
-            return false;
-        };
-        let own = self.bodies.get(index).inverse_mass;
-        let mut leaving: Vec<State> = Vec::new();
-        for &member in members {
-            if !self.bodies.get(member).in_engine {
-                continue;
-            }
-            let ratio = mass_ratio([own, self.bodies.get(member).inverse_mass]);
-            if ratio <= BEARS && !released.contains(&index) {
-                return false;
-            }
-            let island = stepping.id(member).and_then(|id| {
-                let island = stepping.engine.small_island_of(id, FEW);
-                island.ok().flatten()
-            });
-            let Some(island) = island else {
-                return false;
-            };
-            let states = island.iter().map(|id| stepping.engine.state(*id));
-            let island: Vec<State> = states.filter_map(Result::ok).collect();
-            let came_back = |state: &State| released.contains(&super::place(state));
-            if island.iter().any(came_back) {
-                return false;
-            }
-            leaving.extend(island);
-        }
-        leaving.sort_unstable_by_key(super::place);
-        leaving.dedup_by_key(|state| super::place(state));
-        for state in leaving {
-            if self.bodies.get(super::place(&state)).in_engine {
-                released.push(super::place(&state));
-                self.release_member(&state, time);
-            }
-        }
-        true
     }
 
     /// Potential energy of all members, in J.

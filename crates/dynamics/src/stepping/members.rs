@@ -19,18 +19,11 @@ impl World {
         }
         let mut searches = self.find_contacts(time) || at_tick || self.joins.is_restless();
         let mut asks_all = at_tick;
-        let mut released = Vec::new();
         while searches {
             let near = self.outsiders_near(time, asks_all);
             (searches, asks_all) = (!near.is_empty(), false);
-            let before = released.len();
-            for (index, members) in near {
-                if !self.release_outweighed(index, &members, &mut released, time) {
-                    self.join(index, time);
-                }
-            }
-            if released.len() > before {
-                self.tell_touches(time);
+            for index in near {
+                self.join(index, time);
             }
             if searches {
                 self.find_contacts(time);

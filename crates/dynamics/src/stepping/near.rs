@@ -1,6 +1,6 @@
 //! Which bodies outside of the engine may meet its members before the next tick: these join.
 
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 
 use carom_math::SimTime;
 
@@ -10,20 +10,16 @@ use crate::flyers::box_ahead;
 
 /// Which members are asked about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Among {
+pub(super) enum Among {
     All,
     /// Those that came or go otherwise since they were last asked about.
     News,
 }
 
 impl World {
-    /// Bodies outside that may meet members before the next tick, and these: of what flies as it did when this was last called
-    /// only those that may meet members that came or go otherwise since, but for the first time in a tick.
-    pub(super) fn outsiders_near(
-        &mut self,
-        time: SimTime,
-        asks_all: bool,
-    ) -> BTreeMap<u32, Vec<u32>> {
+    /// Bodies outside that may meet members before the next tick, in order: of what flies as it did when this was last called only
+    /// those that may meet members that came or go otherwise since, but for the first time in a tick.
+    pub(super) fn outsiders_near(&mut self, time: SimTime, asks_all: bool) -> BTreeSet<u32> {
         let aloft = &mut self.joins.aloft;
         aloft.sort_unstable();
         aloft.dedup();
@@ -40,7 +36,7 @@ impl World {
             }
         }
         let Some(stepping) = self.stepping.as_ref().filter(|_| !is_alone) else {
-            return BTreeMap::new();
+            return BTreeSet::new();
         };
         let left = stepping.engine.left();
         let flying = self.joins.aloft.iter().map(|&index| {
@@ -51,11 +47,8 @@ impl World {
         let near = flying
             .chain(held)
             .filter(|(index, _)| self.bodies.get(*index).is_dynamic())
-            .map(|(index, among)| {
-                let members = self.members_near(stepping, index, (time, left), among);
-                (index, members.collect::<Vec<_>>())
-            })
-            .filter(|(_, members)| !members.is_empty())
+            .filter(|(index, among)| self.nears_member(stepping, *index, (time, left), *among))
+            .map(|(index, _)| index)
             .collect();
         if let Some(stepping) = &mut self.stepping {
             stepping.engine.forget_news();
@@ -75,7 +68,7 @@ impl World {
             && self.bodies.get(index).is_flying()
             && self.stepping.as_ref().is_some_and(|stepping| {
                 self.joins.reached == self.clock.next()
-                    && self.nears_member(stepping, index, time, left)
+                    && self.nears_member(stepping, index, (time, left), Among::All)
             });
         if near {
             self.join(index, time);
@@ -87,21 +80,9 @@ impl World {
         &self,
         stepping: &Stepping,
         index: u32,
-        time: SimTime,
-        left: f64,
-    ) -> bool {
-        let mut near = self.members_near(stepping, index, (time, left), Among::All);
-        near.next().is_some()
-    }
-
-    /// Members that a body may meet within `left` seconds.
-    fn members_near(
-        &self,
-        stepping: &Stepping,
-        index: u32,
         (time, left): (SimTime, f64),
         among: Among,
-    ) -> impl Iterator<Item = u32> {
+    ) -> bool {
         let mut shapes = Vec::new();
         let ahead = box_ahead(self.bodies.get(index), time, left);
         let found = |tag| shapes.push(super::collider(tag));
@@ -109,12 +90,11 @@ impl World {
             Among::All => stepping.engine.query_awake(ahead, found),
             Among::News => stepping.engine.query_news(ahead, found),
         }
-        shapes.into_iter().filter_map(move |at| {
+        shapes.into_iter().any(|at| {
             let owner = self.colliders[at as usize].body;
-            let meets = owner != index
+            owner != index
                 && self.bodies.get(owner).in_engine
-                && self.nears(stepping, (index, owner), at, (time, left));
-            meets.then_some(owner)
+                && self.nears(stepping, (index, owner), at, (time, left))
         })
     }
 

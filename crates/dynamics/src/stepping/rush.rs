@@ -2,14 +2,12 @@
 
 use carom_math::SimTime;
 
-use crate::heavy::{BEARS, mass_ratio};
 use crate::{Mode, World};
 
 /// So many bodies that strike each other stay with their exact impacts, however many these are.
 const HANDFUL: f64 = 6.0;
 
-/// More bodies than these join beyond [`LOSSES`]; fewer join beyond [`RATTLE`], unless a mass ratio exceeds [`BEARS`]: one sweep
-/// does not converge there, and sub-steps pair by pair solve for such groups at once.
+/// More bodies than these join beyond [`LOSSES`]; fewer join beyond [`RATTLE`].
 const MANY: f64 = 16.0;
 
 /// Losses of relative speed a body and tick: with no restitution as many impacts, with e = 0.9 ten times as many.
@@ -38,8 +36,6 @@ struct Node {
     /// Of a root: bodies of the tree, and what they lost.
     size: u32,
     spent: f64,
-    /// Of a root: one was struck with another of less than a [`BEARS`]th of its mass.
-    heavy: bool,
 }
 
 /// No tree.
@@ -47,7 +43,6 @@ const NONE: Node = Node {
     parent: u32::MAX,
     size: 0,
     spent: 0.0,
-    heavy: false,
 };
 
 impl Rush {
@@ -99,7 +94,6 @@ impl Rush {
         let node = &mut self.nodes[low as usize];
         node.size += lost.size;
         node.spent += lost.spent;
-        node.heavy |= lost.heavy;
         low
     }
 }
@@ -121,13 +115,6 @@ impl World {
         if self.joins.rush.tick != tick {
             self.end_rush(time);
         }
-        let masses = bodies
-            .iter()
-            .map(|index| self.bodies.get(*index).inverse_mass);
-        let (lightest, heaviest) = masses.fold((0.0, f64::INFINITY), |(most, least), mass| {
-            (mass.max(most), mass.min(least))
-        });
-        let heavy = mass_ratio([lightest, heaviest]) > BEARS;
         let rush = &mut self.joins.rush;
         rush.turn_to(tick);
         let mut root = rush.root(first);
@@ -136,11 +123,9 @@ impl World {
         }
         let node = &mut rush.nodes[root as usize];
         node.spent += lost;
-        node.heavy |= heavy;
         let (size, spent) = (f64::from(node.size), node.spent);
         let losses = if size > MANY { LOSSES } else { RATTLE };
-        let stays = size <= HANDFUL || size <= MANY && node.heavy;
-        if stays || spent <= losses * size {
+        if size <= HANDFUL || spent <= losses * size {
             return;
         }
         let was = self.is_substepping();

@@ -23,9 +23,6 @@ fn a_pyramid_falls_asleep_and_wakes_as_it_was() {
             .all(|id| engine.is_asleep(*id).unwrap())
     );
     assert_eq!(engine.bodies.lines.len(), 2);
-    let island = engine.small_island_of(ids[0], ids.len() + 1).unwrap();
-    assert_eq!(island.map(|island| island.len()), Some(ids.len()));
-    assert_eq!(engine.small_island_of(ids[0], ids.len()), Ok(None));
     let poses: Vec<_> = ids.iter().map(|id| engine.pose(*id).unwrap()).collect();
     for _ in 0..60 {
         engine.tick();
