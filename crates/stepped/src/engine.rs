@@ -168,15 +168,15 @@ impl Engine {
         } else {
             strays = self.follow_strays(rules);
         }
-        self.hard.gather(&mut self.graph, &self.bodies);
-        self.extra.gather(&mut self.graph, &self.bodies);
-        self.deep.gather(&mut self.graph, &self.bodies);
         strays
     }
 
     /// One sub-step with the contacts that are known.
     fn go(&mut self, rules: &dyn PairRules) {
         (self.done, self.found) = (self.done + 1, false);
+        self.hard.gather(&mut self.graph, &self.bodies);
+        self.extra.gather(&mut self.graph, &self.bodies);
+        self.deep.gather(&mut self.graph, &self.bodies);
         let last = self.done == self.settings.substeps;
         self.move_bodies(last);
         self.stop_fast(self.law.h, rules);
@@ -355,7 +355,10 @@ impl Engine {
         hard.free(bodies, graph);
         arrivals(*level, law, bodies, graph, arrived, before);
         impacts.note_arrivals(arrived, graph);
-        hard.solve(law, bodies, graph, extra);
+        if hard.solve(law, bodies, graph) {
+            // Islands without an answer are swept instead.
+            extra.gather(graph, bodies);
+        }
         let solve = if every {
             Pass::Solve
         } else {
@@ -372,10 +375,10 @@ impl Engine {
             extra.sweep(Pass::Relax, law, bodies, graph);
         }
         self.heat += seen.heat + hard.heat;
-        self.least_gap = seen.least_gap.min(hard.least_gap);
         let rest = f64::from(settings.substeps - self.done) * law.h;
         correct(*level, bodies, settings, law.h, rest);
-        hard.place(bodies);
+        let gap = hard.part(law, bodies, graph, settings);
+        self.least_gap = seen.least_gap.min(gap);
         impacts.note_hits((*level, law), bodies, graph, true);
         impacts.add_rows(bodies, graph);
         bounce(bodies, graph, arrived, before);

@@ -58,7 +58,8 @@ impl Engine {
         &self.settings
     }
 
-    /// Solves of hard rows that found no answer, since the engine was made: each left an island to soft rows for a tick.
+    /// Solves of hard rows that found no answer, since the engine was made: each left an island to soft rows until it has other
+    /// contacts.
     #[must_use]
     pub const fn failed_hard_solves(&self) -> u64 {
         self.hard.failed

@@ -1,6 +1,9 @@
-//! Whether the impulses of the last sub-step are the answer of this one, too: at rest, and in even motion, they are.
+//! Whether impulses are an answer: those of the last sub-step are at rest, and in even motion.
 
-use super::solve::{Island, closes, lane_of};
+use carom_impact::ImpactBody;
+use carom_math::{Vec2, perp};
+
+use super::solve::{Island, lane_of};
 use crate::bodies::Bodies;
 use crate::rows::{Graph, Law};
 
@@ -22,7 +25,7 @@ pub(super) fn rest(island: &Island, law: &Law, graph: &Graph) -> f64 {
         let [a, b] = island.free(contact).map(|body| (body.velocity, body.spin));
         let opens = block.along(lane, a, b);
         for (opens, gap) in opens.iter().zip(contact.gaps).take(contact.points) {
-            fastest = fastest.max((opens - closes(law, gap)).abs());
+            fastest = fastest.max((opens - island.closes(law, gap)).abs());
         }
     }
     ANSWERED * fastest
@@ -45,7 +48,7 @@ pub(super) fn answers(
         let sizes = ends.map(|end| end.v().length() + impulse * end.inverse_mass());
         let zero = rest + ROUNDINGS * (sizes[0] + sizes[1]);
         let holds = |point: usize| {
-            let left = opens[point] - closes(law, contact.gaps[point]);
+            let left = opens[point] - island.closes(law, contact.gaps[point]);
             left.abs() <= zero || left > 0.0 && [j1, j2][point] <= 0.0
         };
         let limit = block.mu[lane] * (j1 + j2);
@@ -55,4 +58,69 @@ pub(super) fn answers(
         let slides = jt * slip <= 0.0 && jt.abs() >= limit * (1.0 - LIMIT);
         (0..contact.points).all(holds) && rubs && (sticks || slides)
     })
+}
+
+/// Whether what was before, and what drives the island, can give such velocities. Bodies that are squeezed so that nothing holds them
+/// seem held by impulses so large that their rounding is more than the speeds that were asked for, or leave a wedge of 1e-12 rad at
+/// 1e12 times the speed that closes it.
+///
+/// ```text
+/// nothing is driven: j·(J v') ≤ 0, so with v' = v + M⁻¹ Jᵀ j        (v' − v)ᵀ M v' ≤ 0,        v'ᵀ M v' ≤ vᵀ M v
+/// driven:            a stop mixes velocities, so max s' ≤ max s + h max |pull|        s² = v² + k² ω²
+/// ```
+/// The second counts what bodies would have that move along with drivers, too: at rest on one, h |pull| is all that they have besides.
+/// It is exact along a line, and of one body on one driver; levers and wedges that drivers move go faster, and take soft rows. The speed
+/// of belts is added: what moves may carry one.
+pub(super) fn justified(island: &Island, bodies: &Bodies) -> bool {
+    let (mut before, mut after) = (0.0, 0.0);
+    let (mut fastest, mut fastest_after) = (0.0_f64, 0.0_f64);
+    let mut drives = 0.0_f64;
+    for (&line, body) in island.lines.iter().zip(&island.bodies) {
+        if body.inverse_mass > 0.0 {
+            let (mass, now) = (body.inverse_mass.recip(), &bodies.lines[line as usize]);
+            let was = square(body, body.velocity, body.spin);
+            let is = square(body, now.v(), now.w());
+            (before, after) = (before + mass * was, after + mass * is);
+            (fastest, fastest_after) = (fastest.max(was), fastest_after.max(is));
+        } else if body.velocity != Vec2::ZERO || body.spin.abs() > 0.0 {
+            drives = drives.max(carries(island, bodies, (line, body)));
+        }
+    }
+    let belts = island.contacts.iter().map(|contact| contact.belt.abs());
+    let belt = belts.fold(0.0, f64::max);
+    if drives > 0.0 || belt > 0.0 {
+        let most = fastest.max(drives).sqrt() + belt + island.pulled;
+        fastest_after.sqrt() <= (1.0 + ANSWERED) * most
+    } else {
+        after <= (1.0 + ANSWERED) * before
+    }
+}
+
+/// Twice the kinetic energy of a body, as a part of its mass, in m²/s².
+fn square(body: &ImpactBody, velocity: Vec2, spin: f64) -> f64 {
+    let turns = if body.inverse_inertia > 0.0 {
+        body.inverse_mass / body.inverse_inertia * spin * spin
+    } else {
+        0.0
+    };
+    velocity.length_squared() + turns
+}
+
+/// The largest [`square`] of a body of the island that moves along with a kinematic one.
+fn carries(island: &Island, bodies: &Bodies, (line, driver): (u32, &ImpactBody)) -> f64 {
+    let centre = |line: u32| bodies.base[line as usize].position + bodies.lines[line as usize].d();
+    let of = |(&other, body): (&u32, &ImpactBody)| {
+        if body.inverse_mass > 0.0 {
+            let away = perp(centre(other) - centre(line)) * driver.spin;
+            square(body, driver.velocity + away, driver.spin)
+        } else {
+            0.0
+        }
+    };
+    island
+        .lines
+        .iter()
+        .zip(&island.bodies)
+        .map(of)
+        .fold(0.0, f64::max)
 }

@@ -5,16 +5,24 @@
 use crate::bodies::Bodies;
 use crate::rows::Graph;
 
-/// Points of contact of an island in hard rows, at most: its matrices are dense.
+/// Points of contact of an island that comes into hard rows, at most: its matrices are dense.
 const MOST: usize = 64;
+
+/// The same of one that is in hard rows: points come and go where bodies rock.
+const MOST_KEPT: usize = 80;
 
 /// Cosine of the angle between a load and what may bear it, at least.
 const ALONG: f64 = 1e-3;
 
-/// What hangs together by rows, whether these push or not: hard and soft rows share no body that moves.
-struct Component {
-    slots: Vec<u32>,
-    contacts: Vec<u32>,
+/// A contact, as long as its bodies are there: births and pieces of both. Numbers of contacts are given anew.
+pub(super) type Key = ([u64; 2], [u32; 2]);
+
+pub(super) fn keys(graph: &Graph, bodies: &Bodies, ids: &[u32]) -> Vec<Key> {
+    let key = |id: &u32| {
+        let (births, pieces, _) = graph.order(bodies, *id);
+        (births, pieces)
+    };
+    ids.iter().map(key).collect()
 }
 
 /// What is known of a body's component.
@@ -37,14 +45,10 @@ pub(super) fn find(graph: &Graph, bodies: &Bodies, known: &mut Vec<Known>) -> Ve
         if known[first as usize] != Known::Nothing {
             continue;
         }
-        let (component, fits) = component(graph, bodies, first, known);
-        let is = if fits { Known::Asked } else { Known::Large };
-        for &slot in &component.slots {
-            known[slot as usize] = is;
-        }
-        let bears = |id: &u32| is_borne(graph, bodies, *id);
-        if fits && component.contacts.iter().any(bears) {
-            found.push(component.contacts);
+        if let Some(contacts) = component(graph, bodies, first, known)
+            && contacts.iter().any(|id| is_borne(graph, bodies, *id))
+        {
+            found.push(contacts);
         }
     }
     for contacts in &mut found {
@@ -54,33 +58,46 @@ pub(super) fn find(graph: &Graph, bodies: &Bodies, known: &mut Vec<Known>) -> Ve
     found
 }
 
-/// The component of a body; false, with a part of it, if it is too large, or a contact of it is in the overflow colour.
-fn component(graph: &Graph, bodies: &Bodies, first: u32, known: &[Known]) -> (Component, bool) {
+/// Contacts of the component of a body: what hangs together by rows, whether these push or not, as hard and soft rows share no body
+/// that moves. None if it is too large, or a contact of it is in the overflow colour.
+fn component(graph: &Graph, bodies: &Bodies, first: u32, known: &mut [Known]) -> Option<Vec<u32>> {
     let (mut slots, mut contacts) = (vec![first], Vec::new());
-    let (mut next, mut points) = (0, 0);
+    let (mut next, mut points, mut hard) = (0, 0, false);
     let mut fits = true;
+    known[first as usize] = Known::Asked;
     while let Some(&slot) = slots.get(next).filter(|_| fits) {
         next += 1;
         for (id, side) in graph.of_body(bodies, slot) {
-            let other = graph.contacts[id as usize].bodies[1 - side];
+            let contact = &graph.contacts[id as usize];
+            let other = contact.bodies[1 - side];
             let moves = bodies.is_dynamic(other);
             // Once for both of its bodies.
             if !moves || side == 0 {
                 let (block, _, lane) = graph.lane(id);
                 points += block.points(lane);
-                fits &= graph.contacts[id as usize].mask() != 0 && points <= MOST;
                 contacts.push(id);
             }
-            fits &= known[other as usize] != Known::Large;
-            if moves && !slots.contains(&other) {
+            hard |= contact.is_hard();
+            fits &= contact.mask() != 0;
+            if moves && known[other as usize] != Known::Asked {
+                fits &= known[other as usize] != Known::Large;
+                known[other as usize] = Known::Asked;
                 slots.push(other);
             }
+            // All but the first body have a contact each.
+            fits &= points.max(slots.len() - 1) <= MOST_KEPT;
             if !fits {
                 break;
             }
         }
     }
-    (Component { slots, contacts }, fits)
+    if fits && (hard || points <= MOST) {
+        return Some(contacts);
+    }
+    for slot in slots {
+        known[slot as usize] = Known::Large;
+    }
+    None
 }
 
 /// Whether a contact is one of a heavy body with a light one that bears it: pressed along the normal the light one leans on what

@@ -3,21 +3,20 @@
 use carom_impact::{Friction, HeldFace, HeldPoint, ImpactBody, held_faces};
 use carom_math::{Vec2, perp};
 
-use super::conditions::{answers, rest};
+use super::conditions::{answers, justified, rest};
+use crate::Settings;
 use crate::bodies::Bodies;
-use crate::rows::{Block, Graph, Law, Line, OPEN, Quad, velocity_before};
+use crate::rows::{Block, Graph, Law, Line, OPEN, Quad};
 
-/// Gap or overlap that counts as 0, as a part of what gravity falls in a sub-step: closing what rounding left open, a column at rest
-/// would be solved for in every sub-step.
+/// Gap or overlap that counts as 0, as a part of how far pull moves a body in a sub-step: closing what rounding left open, a column
+/// at rest would be solved for in every sub-step.
 const TOUCHES: f64 = 1e-6;
 
 /// Solves with given limits of friction where Coulomb's law is not solved.
 const LIMITS: usize = 4;
 
-/// A body may move evenly where its velocity changes by at most this many times the change by its pull: a stop is no even motion.
-const EVEN: f64 = 4.0;
-
 /// A contact of the island.
+#[derive(Clone, Debug)]
 pub(super) struct HardContact {
     pub(super) id: u32,
     pub(super) belt: f64,
@@ -29,13 +28,14 @@ pub(super) struct HardContact {
 }
 
 /// Bodies and contacts of an island in a sub-step.
+#[derive(Clone, Debug)]
 pub(super) struct Island {
-    lines: Vec<u32>,
+    pub(super) lines: Vec<u32>,
     /// With centres at 0: arms are told from there.
-    bodies: Vec<ImpactBody>,
+    pub(super) bodies: Vec<ImpactBody>,
     pub(super) contacts: Vec<HardContact>,
-    /// Velocities that lead to the end of the sub-step.
-    ways: Vec<Quad>,
+    /// The most that pull adds to a speed in the sub-step, in m/s.
+    pub(super) pulled: f64,
 }
 
 /// The lane of a contact.
@@ -45,31 +45,23 @@ pub(super) fn lane_of(graph: &Graph, id: u32) -> (&Block, usize) {
 }
 
 impl Island {
-    pub(super) fn of(graph: &Graph, bodies: &Bodies, ids: &[u32]) -> Self {
+    pub(super) fn of(law: &Law, graph: &Graph, bodies: &Bodies, ids: &[u32]) -> Self {
         let mut island = Self {
             lines: Vec::new(),
             bodies: Vec::new(),
             contacts: Vec::with_capacity(ids.len()),
-            ways: Vec::new(),
+            pulled: 0.0,
         };
         for &id in ids {
             let (block, cold, lane) = graph.lane(id);
-            let lines = [block.a[lane], block.b[lane]];
-            let [a, b] = lines.map(|line| &bodies.lines[line as usize]);
-            let mut gaps = block.gaps(lane, a, b);
-            if cold.is_deep(lane) {
-                // Sweeps are shown less.
-                let opened = block.opened(lane, a, b);
-                gaps =
-                    [0, 1].map(|point| gaps[point].min(cold.depths[lane][point] + opened[point]));
-            }
+            let gaps = gaps(graph, bodies, id);
             // Hidden ones push nothing.
             let points = if gaps[0] < 0.5 * OPEN {
                 block.points(lane)
             } else {
                 0
             };
-            let ends = lines.map(|line| island.place(bodies, line));
+            let ends = [block.a[lane], block.b[lane]].map(|line| island.place(bodies, line));
             island.contacts.push(HardContact {
                 id,
                 belt: cold.belt[lane],
@@ -78,6 +70,11 @@ impl Island {
                 points,
             });
         }
+        let pulls = island
+            .lines
+            .iter()
+            .map(|line| bodies.pull[*line as usize].v().length());
+        island.pulled = law.h * pulls.fold(0.0, f64::max);
         island
     }
 
@@ -109,24 +106,31 @@ impl Island {
         contact.ends.map(|end| &self.bodies[end])
     }
 
-    /// Gives bodies and rows what holds all contacts; false if nothing was found that does: then they have the warm start.
+    /// Gives bodies and rows what holds all contacts; false if nothing was found that does: then rows have no impulses.
     pub(super) fn solve(&mut self, law: &Law, bodies: &mut Bodies, graph: &mut Graph) -> bool {
         self.push(bodies, graph);
         let rest = rest(self, law, graph);
-        if answers(self, law, bodies, graph, rest) {
-            self.settle(bodies, rest);
-            return true;
+        let mut answered = answers(self, law, bodies, graph, rest) && justified(self, bodies);
+        if !answered && let Some(impulses) = self.hold(law, graph) {
+            self.set_impulses(graph, impulses);
+            self.push(bodies, graph);
+            answered = justified(self, bodies);
         }
-        let Some(impulses) = self.hold(law, graph) else {
-            return false;
-        };
+        if answered {
+            self.settle(bodies, rest);
+        } else {
+            // What is squeezed pushes by any impulses: sweeps would begin with these.
+            self.set_impulses(graph, vec![[0.0; 3]; self.contacts.len()]);
+            self.push(bodies, graph);
+        }
+        answered
+    }
+
+    fn set_impulses(&self, graph: &mut Graph, impulses: Vec<[f64; 3]>) {
         for (contact, impulses) in self.contacts.iter().zip(impulses) {
             let (block, lane) = graph.block_mut(contact.id);
             block.set_impulses(lane, impulses);
         }
-        self.push(bodies, graph);
-        self.settle(bodies, rest);
-        true
     }
 
     /// Takes out what rounding left of the velocities of bodies at rest: with it each sub-step would need other impulses.
@@ -166,7 +170,7 @@ impl Island {
             let (block, lane) = lane_of(graph, contact.id);
             block.mu[lane]
         };
-        let opens = |gap: f64| closes(law, gap);
+        let opens = |gap: f64| self.closes(law, gap);
         let coulomb = |_: usize, contact: &HardContact| Friction::Coulomb(mu(contact));
         let held = held_faces(&self.bodies, &self.faces(graph, opens, coulomb));
         if held.sure {
@@ -220,78 +224,68 @@ impl Island {
         self.contacts.iter().enumerate().map(face).collect()
     }
 
-    /// Finds where the bodies are at the end of the sub-step, of second order where velocities change smoothly.
-    pub(super) fn displace(
+    /// Displaces the bodies by as little as leaves no gap below 0 at the end of the sub-step, or as little as the fastest push-out
+    /// does; the least gap then, in m. Where some cannot be parted the others are, as far as sweeps do.
+    pub(super) fn part(
         &mut self,
         law: &Law,
-        bodies: &Bodies,
+        bodies: &mut Bodies,
         graph: &Graph,
-        moves: &mut Vec<(u32, Quad)>,
-    ) {
-        self.ways = self
-            .lines
-            .iter()
-            .map(|line| even_way(bodies, *line, law.h))
-            .collect();
-        if self.least_gap(law, graph) < -touches(law) {
-            self.part(law, graph);
-        }
-        for (&line, way) in self.lines.iter().zip(&self.ways) {
-            let body = &bodies.lines[line as usize];
-            if body.inverse_mass() > 0.0 || body.inverse_inertia() > 0.0 {
-                let (d, turn) = (body.d() + way.v() * law.h, body.turn() + way.w() * law.h);
-                moves.push((line, Quad::new(d, turn)));
+        settings: &Settings,
+    ) -> f64 {
+        let mut least = self.least_gap(bodies, graph);
+        if least < -self.touches(law) {
+            let faces = self.faces(
+                graph,
+                |gap| (-gap * law.inverse_h).min(law.push_out),
+                |_, _| Friction::Coulomb(0.0),
+            );
+            for body in &mut self.bodies {
+                (body.velocity, body.spin) = (Vec2::ZERO, 0.0);
             }
+            let parted = held_faces(&self.bodies, &faces).bodies;
+            // What is wedged in goes a long way for a little room: no body is pushed faster than any overlap.
+            let speeds = parted.iter().map(|to| to.velocity.length());
+            let fastest = speeds.fold(0.0, f64::max);
+            let way = law.h * (law.push_out / fastest).min(1.0);
+            for (&line, to) in self.lines.iter().zip(&parted) {
+                let line = &mut bodies.lines[line as usize];
+                let (d, turn) = (line.d() + to.velocity * way, line.turn() + to.spin * way);
+                line.set_displacement(d, turn);
+            }
+            least = self.least_gap(bodies, graph);
         }
+        for &line in &self.lines {
+            let (body, limit) = (&bodies.lines[line as usize], &bodies.limits[line as usize]);
+            bodies.may_stray |= limit.strays(settings.margin, 0.0, body.turn());
+        }
+        least
     }
 
-    /// Leaves no gap below 0, or as little as the fastest push-out does.
-    fn part(&mut self, law: &Law, graph: &Graph) {
-        let faces = self.faces(
-            graph,
-            |gap| (-gap * law.inverse_h).min(law.push_out),
-            |_, _| Friction::Coulomb(0.0),
-        );
-        let mut moving = self.bodies.clone();
-        for (body, way) in moving.iter_mut().zip(&self.ways) {
-            (body.velocity, body.spin) = (way.v(), way.w());
-        }
-        let parted = held_faces(&moving, &faces);
-        if !parted.sure {
-            return;
-        }
-        // What is wedged in goes a long way for a little room: no body is pushed faster than any overlap.
-        let fastest = parted
-            .bodies
-            .iter()
-            .zip(&moving)
-            .map(|(to, from)| (to.velocity - from.velocity).length());
-        let fastest = fastest.fold(0.0, f64::max);
-        let share = if fastest > law.push_out {
-            law.push_out / fastest
-        } else {
-            1.0
-        };
-        for (way, (to, from)) in self.ways.iter_mut().zip(parted.bodies.iter().zip(&moving)) {
-            let more = (to.velocity - from.velocity) * share;
-            way.add(&Quad::new(more, (to.spin - from.spin) * share));
-        }
-    }
-
-    /// The least gap at the end of the sub-step, in m.
-    pub(super) fn least_gap(&self, law: &Law, graph: &Graph) -> f64 {
+    /// The least gap where the bodies are now, in m; gaps are those there.
+    fn least_gap(&mut self, bodies: &Bodies, graph: &Graph) -> f64 {
         let mut least = OPEN;
-        for contact in &self.contacts {
-            let (block, lane) = lane_of(graph, contact.id);
-            let [a, b] = contact
-                .ends
-                .map(|end| (self.ways[end].v(), self.ways[end].w()));
-            let opens = block.along(lane, a, b);
-            for (opens, gap) in opens.iter().zip(contact.gaps).take(contact.points) {
-                least = least.min(gap + law.h * opens);
+        for contact in &mut self.contacts {
+            contact.gaps = gaps(graph, bodies, contact.id);
+            for gap in &contact.gaps[..contact.points] {
+                least = least.min(*gap);
             }
         }
         least
+    }
+
+    /// Gap or overlap that counts as 0, in m.
+    fn touches(&self, law: &Law) -> f64 {
+        TOUCHES * self.pulled * law.h
+    }
+
+    /// Speed at which a point opens at least, in m/s: what is apart may close in the sub-step.
+    pub(super) fn closes(&self, law: &Law, gap: f64) -> f64 {
+        if gap > self.touches(law) {
+            -gap * law.inverse_h
+        } else {
+            0.0
+        }
     }
 
     /// What friction turned to heat, in J: by the mean slip of the sub-step.
@@ -312,36 +306,16 @@ impl Island {
     }
 }
 
-/// Speed at which a point opens at least, in m/s: what is apart may close in the sub-step.
-pub(super) fn closes(law: &Law, gap: f64) -> f64 {
-    if gap > touches(law) {
-        -gap * law.inverse_h
+/// Gaps of both points of a contact where its bodies are, in m.
+fn gaps(graph: &Graph, bodies: &Bodies, id: u32) -> [f64; 2] {
+    let (block, cold, lane) = graph.lane(id);
+    let [a, b] = [block.a[lane], block.b[lane]].map(|line| &bodies.lines[line as usize]);
+    let gaps = block.gaps(lane, a, b);
+    if cold.is_deep(lane) {
+        // Sweeps are shown less.
+        let opened = block.opened(lane, a, b);
+        [0, 1].map(|point| gaps[point].min(cold.depths[lane][point] + opened[point]))
     } else {
-        0.0
+        gaps
     }
-}
-
-fn touches(law: &Law) -> f64 {
-    TOUCHES * law.gravity * law.h * law.h
-}
-
-/// The mean of the velocities before and after the sub-step, or the latter where that is no smooth change.
-fn even_way(bodies: &Bodies, line: u32, h: f64) -> Quad {
-    let at = line as usize;
-    let (body, start) = (&bodies.lines[at], &bodies.start[at]);
-    let before = velocity_before(start, &bodies.pull[at], &bodies.drag[at], h);
-    let after = [body.v().x, body.v().y, body.w()];
-    let change = [0, 1, 2].map(|k| after[k] - before[k]);
-    let own = [0, 1].map(|k| start.0[k] - before[k]);
-    let (change_square, own_square) = (
-        change[0] * change[0] + change[1] * change[1],
-        own[0] * own[0] + own[1] * own[1],
-    );
-    let part = if change_square <= EVEN * EVEN * own_square {
-        0.5
-    } else {
-        0.0
-    };
-    let way = [0, 1, 2].map(|k| after[k] - part * change[k]);
-    Quad([way[0], way[1], way[2], 0.0])
 }

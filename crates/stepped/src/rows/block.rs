@@ -150,7 +150,7 @@ impl Block {
         self.along(lane, (a.v(), a.w()), (b.v(), b.w()))[point]
     }
 
-    /// Slip along t, a belt's speed included, in m/s.
+    /// Speed of B along t less that of A where they meet, in m/s: the slip, but for the speed of a belt.
     pub(crate) fn slip(&self, lane: usize, [a, b]: [&Line; 2]) -> f64 {
         perp(self.normal(lane)).dot(b.v() - a.v()) + self.bt[lane] * b.w() - self.at[lane] * a.w()
     }

@@ -123,12 +123,6 @@ impl ExtraSweeps {
         }
     }
 
-    /// Adds an island that was in hard rows.
-    pub(crate) fn add(&mut self, rows: Vec<u32>) {
-        let sweeps = (4 * SWEEPS).min(MOST / rows.len().max(1));
-        self.groups.push((rows, sweeps));
-    }
-
     /// Sweeps the rows of all groups.
     pub(crate) fn sweep(&self, pass: Pass, law: &Law, bodies: &mut Bodies, graph: &mut Graph) {
         let omega = 1.0 + PART * (law.over_relaxation - 1.0);
@@ -141,6 +135,7 @@ impl ExtraSweeps {
                     };
                     let belt = cold.belt[lane];
                     let contact = &graph.contacts[*id as usize];
+                    debug_assert!(!contact.is_hard(), "a hard row is swept");
                     let k = contact.place().0;
                     let colour = &mut graph.colours[contact.colour as usize];
                     row_again(

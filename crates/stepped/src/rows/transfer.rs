@@ -63,7 +63,6 @@ impl Graph {
     }
 
     /// Whether an island is in hard rows.
-    #[cfg(test)]
     pub(crate) const fn has_hard(&self) -> bool {
         self.hard > 0
     }

@@ -1,10 +1,12 @@
 //! Hard rows: loads that sweeps do not carry.
 
 use carom_geometry::ConvexPolygon;
-use carom_math::{Vec2, vec2};
+use carom_math::{Vec2, perp, vec2};
 
 use super::{Random, floor, levels, pyramid, unit_box};
-use crate::{BodyId, BodyInput, BodyKind, Engine, Material, PieceInput, Settings};
+use crate::{
+    BodyId, BodyInput, BodyKind, Engine, Material, Mixed, PairRules, PieceInput, Settings, Surface,
+};
 
 const MUST_STAY: f64 = 1e-6;
 
@@ -149,7 +151,7 @@ fn a_column_wakes_as_it_slept() {
         assert!(engine.is_asleep(ids[0]).unwrap());
         // In the middle of a tick, too.
         for _ in 0..round {
-            engine.substep(&crate::Mixed);
+            engine.substep(&Mixed);
         }
         engine.wake(ids[3]).unwrap();
         engine.graph.check(&engine.bodies);
@@ -236,7 +238,7 @@ fn random_calls_among_hard_rows_keep_the_graph() {
                 _ => {}
             }
             if step % 7 == 0 {
-                engine.substep(&crate::Mixed);
+                engine.substep(&Mixed);
             } else {
                 engine.tick();
             }
@@ -289,4 +291,301 @@ fn hard_rows_add_no_energy() {
         let gain = gain(&mut engine, 300);
         assert!(gain < 1e-9, "{light} boxes under {load} kg: {gain}");
     }
+}
+
+/// A press goes down on boxes of which the lowest bear the heaviest: no velocities hold them. No body is thrown out: sweeps alone make one of them 42 m/s fast.
+#[test]
+fn a_press_on_a_heavy_load_throws_no_body() {
+    for (light, load) in [
+        (1, 20.0),
+        (1, 1e3),
+        (3, 20.0),
+        (3, 1e3),
+        (8, 20.0),
+        (8, 1e3),
+    ] {
+        for speed in [0.05, 0.3, 2.0] {
+            for x in [0.0, 0.3] {
+                let mut engine = Engine::new(without_sleep()).unwrap();
+                floor(&mut engine);
+                let height = |row: u32| 0.5 + f64::from(row);
+                let mut ids: Vec<_> = (0..light)
+                    .map(|row| {
+                        let at = vec2(0.05 * f64::from(row % 2), height(row));
+                        put(&mut engine, 1.0, at)
+                    })
+                    .collect();
+                ids.push(put(&mut engine, load, vec2(x, height(light))));
+                let plate = PieceInput::new(ConvexPolygon::rectangle(5.0, 1.0).unwrap());
+                let at = vec2(0.0, height(light) + 1.01);
+                let mut press = BodyInput::new(BodyKind::Kinematic).at(at);
+                press.velocity = vec2(0.0, -speed);
+                engine.insert(press, &[plate]).unwrap();
+                let mut fastest = 0.0_f64;
+                for _ in 0..120 {
+                    engine.tick();
+                    engine.graph.check(&engine.bodies);
+                    let speeds = ids
+                        .iter()
+                        .map(|id| engine.velocity(*id).unwrap().0.length());
+                    fastest = speeds.fold(fastest, f64::max);
+                }
+                assert!(
+                    fastest < 45.0,
+                    "{fastest} m/s: {light} boxes under {load} kg, off by {x} m, pressed at {speed} m/s"
+                );
+            }
+        }
+    }
+}
+
+/// Pieces of tag 1 are belts.
+struct Belt(f64);
+
+impl PairRules for Belt {
+    fn surface(&self, tags: [u64; 2], materials: [Material; 2]) -> Option<Surface> {
+        let surface = Mixed.surface(tags, materials)?;
+        let tangent_speed = if tags.contains(&1) { self.0 } else { 0.0 };
+        Some(Surface {
+            tangent_speed,
+            ..surface
+        })
+    }
+}
+
+/// What carries a column along is no press: it is held.
+#[test]
+fn a_column_rides_a_platform_and_a_belt() {
+    for (velocity, spin, belt) in [
+        (vec2(0.0, 0.5), 0.0, 0.0),
+        (vec2(0.3, -0.2), 0.0, 0.0),
+        (Vec2::ZERO, 0.005, 0.0),
+        (Vec2::ZERO, 0.0, 1.0),
+    ] {
+        let mut engine = Engine::new(without_sleep()).unwrap();
+        let plate = PieceInput::new(ConvexPolygon::rectangle(60.0, 1.0).unwrap()).tagged(1);
+        let mut platform = BodyInput::new(BodyKind::Kinematic).at(vec2(0.0, -0.5));
+        (platform.velocity, platform.spin) = (velocity, spin);
+        let platform = engine.insert(platform, &[plate]).unwrap();
+        let ids = stack(&mut engine, 5.0, 4, 1e3);
+        for id in &ids {
+            let along = velocity + perp(at(&engine, *id) + vec2(0.0, 0.5)) * spin - Vec2::X * belt;
+            engine.set_velocity(*id, along, spin).unwrap();
+        }
+        for _ in 0..300 {
+            engine.tick_by(&Belt(belt));
+            engine.graph.check(&engine.bodies);
+        }
+        assert!(engine.graph.has_hard());
+        assert_eq!(engine.failed_hard_solves(), 0, "{velocity} {spin} {belt}");
+        // As seen from the platform.
+        let from = engine.pose(platform).unwrap();
+        for (row, id) in (0..).zip(&ids) {
+            let seen = from.rotation.inverse() * (at(&engine, *id) - from.position);
+            let off = seen.y - 1.0 - f64::from(row);
+            assert!(
+                off.abs() < 1e-4,
+                "box {row} is off by {off} m: {velocity} {spin} {belt}"
+            );
+        }
+    }
+}
+
+/// Random calls at some place.
+struct Scene {
+    random: Random,
+    ids: Vec<BodyId>,
+    x: f64,
+}
+
+impl Scene {
+    fn call(&mut self, engine: &mut Engine) {
+        let Self { random, ids, x } = self;
+        match random.below(40) {
+            0..2 if ids.len() < 20 => {
+                let piece = random.piece();
+                let mut body = random.body(&piece, 1.5);
+                body.pose.position += vec2(*x, 4.0);
+                let times = [1.0, 1.0, 30.0, 1000.0][random.below(4)];
+                (body.mass, body.inertia) = (body.mass * times, body.inertia * times);
+                ids.push(engine.insert(body, &[piece]).unwrap());
+            }
+            2 if ids.len() > 3 => {
+                let k = random.below(ids.len());
+                engine.remove(ids.swap_remove(k)).unwrap();
+            }
+            3 if !ids.is_empty() => {
+                let velocity = vec2(5.0 * random.signed(), 2.0);
+                let id = ids[random.below(ids.len())];
+                engine.set_velocity(id, velocity, 0.0).unwrap();
+            }
+            4 if !ids.is_empty() && random.below(4) == 0 => {
+                let mut pose = random.pose(1.0);
+                pose.position += vec2(*x, 3.0);
+                let id = ids[random.below(ids.len())];
+                engine.set_pose(id, pose).unwrap();
+            }
+            _ => {}
+        }
+    }
+}
+
+#[test]
+fn far_scenes_do_not_feel_each_others_heavy_bodies() {
+    let mut hard = 0;
+    for seed in 0..12 {
+        let mut run = |both: bool| {
+            let mut engine = Engine::new(Settings::default()).unwrap();
+            floor(&mut engine);
+            let scene = |first: u64, x| Scene {
+                random: Random::new(first + seed),
+                ids: Vec::new(),
+                x,
+            };
+            let (mut first, mut other) = (scene(900, 0.0), scene(7000, 1024.0));
+            let mut trace = Vec::new();
+            for _ in 0..1500 {
+                first.call(&mut engine);
+                if both {
+                    other.call(&mut engine);
+                }
+                engine.substep(&Mixed);
+                trace.push(bits(&engine, &first.ids, Vec2::ZERO));
+                hard += u32::from(engine.graph.has_hard());
+            }
+            trace
+        };
+        let (alone, beside) = (run(false), run(true));
+        let differs = alone
+            .iter()
+            .zip(&beside)
+            .position(|(one, other)| one != other);
+        assert_eq!(differs, None, "scene {seed} in this sub-step");
+    }
+    assert!(hard > 2000, "{hard} sub-steps with hard rows");
+}
+
+/// An island that has no answer remembers it by itself: what else changes in the middle of ticks is not asked.
+#[test]
+fn a_pressed_island_does_not_feel_strays_far_away() {
+    let run = |both: bool| {
+        let (mut engine, ids) = column(without_sleep(), 1, 1e3);
+        let plate = PieceInput::new(ConvexPolygon::rectangle(3.0, 1.0).unwrap());
+        let mut press = BodyInput::new(BodyKind::Kinematic).at(vec2(0.0, 2.5));
+        press.velocity = vec2(0.0, -0.1);
+        engine.insert(press, &[plate]).unwrap();
+        let stray = both.then(|| put(&mut engine, 1.0, vec2(1024.0, 50.0)));
+        let mut side = 60.0;
+        for _ in 0..30 {
+            for substep in 0..5 {
+                if let Some(id) = stray.filter(|_| substep == 2) {
+                    side = -side;
+                    engine.set_velocity(id, vec2(side, 0.0), 0.0).unwrap();
+                }
+                engine.substep(&Mixed);
+            }
+        }
+        bits(&engine, &ids, Vec2::ZERO)
+    };
+    assert_eq!(run(true), run(false));
+}
+
+#[test]
+fn strong_damping_leaves_numbers_finite() {
+    for rate in [1.0, 1e2, 1e3, 1e4, 2e4, 1e5, 1e6, 1e9] {
+        for damping in [[rate, rate], [rate, 0.0], [0.0, rate]] {
+            let mut engine = Engine::new(without_sleep()).unwrap();
+            floor(&mut engine);
+            let mut put = |mass: f64, x: f64, y: f64| {
+                let mut body = BodyInput::dynamic(mass, mass / 6.0).at(vec2(x, y));
+                body.damping = damping;
+                engine.insert(body, &[unit_box()]).unwrap()
+            };
+            // In hard rows, in soft ones, and in free fall.
+            let ids = [
+                (1.0, 0.0, 0.5),
+                (1e3, 0.0, 1.5),
+                (1.0, 5.0, 0.5),
+                (1.0, 9.0, 9.0),
+            ];
+            let ids = ids.map(|(mass, x, y)| put(mass, x, y));
+            for _ in 0..60 {
+                engine.tick();
+                engine.graph.check(&engine.bodies);
+            }
+            let fallen = at(&engine, ids[3]).y - 9.0;
+            assert!(
+                fallen <= 0.0 && fallen > -5.0,
+                "{damping:?}: fell by {fallen}"
+            );
+            let off = off(&engine, &ids[..2]);
+            assert!(off < MUST_STAY, "{damping:?}: {off} m");
+            let off = (at(&engine, ids[2]) - vec2(5.0, 0.5)).length();
+            assert!(off < 1e-4, "{damping:?}: {off} m in soft rows");
+        }
+    }
+}
+
+/// A light box is jammed in a slot that is too narrow for it, and a heavy one was put 0.1 m into it.
+#[test]
+fn an_overlap_parts_beside_one_that_cannot() {
+    for jam in [1e-9, 1e-6, 1e-4, 5e-3] {
+        let mut engine = Engine::new(without_sleep()).unwrap();
+        floor(&mut engine);
+        let wall = PieceInput::new(ConvexPolygon::rectangle(1.0, 0.9).unwrap());
+        for side in [-1.0, 1.0] {
+            let body = BodyInput::fixed().at(vec2(side * (1.0 - jam), 0.45));
+            engine.insert(body, std::slice::from_ref(&wall)).unwrap();
+        }
+        let light = put(&mut engine, 1.0, vec2(0.0, 0.5));
+        let heavy = put(&mut engine, 100.0, vec2(0.0, 1.4));
+        for _ in 0..300 {
+            engine.tick();
+        }
+        let overlap = 1.0 - (at(&engine, heavy).y - at(&engine, light).y);
+        println!(
+            "jam {jam}: {overlap} {:?} {:?} failed {}",
+            at(&engine, heavy),
+            at(&engine, light),
+            engine.failed_hard_solves()
+        );
+        assert!(overlap < 1e-3, "jammed by {jam} m: {overlap} m are left");
+    }
+}
+
+/// A slab is put under falling boxes in the middle of a tick: their rows go from extra sweeps to the solve.
+#[test]
+fn extra_sweeps_leave_hard_rows_alone() {
+    let mut engine = Engine::new(without_sleep()).unwrap();
+    let light = put(&mut engine, 1.0, vec2(0.0, 0.5));
+    put(&mut engine, 1e3, vec2(0.3, 1.5));
+    engine.tick();
+    engine.substep(&Mixed);
+    let slab = PieceInput::new(ConvexPolygon::rectangle(6.0, 1.0).unwrap());
+    let under = vec2(0.0, at(&engine, light).y - 1.0);
+    engine
+        .insert(BodyInput::fixed().at(under), &[slab])
+        .unwrap();
+    for _ in 0..8 {
+        engine.substep(&Mixed);
+        assert!(engine.graph.has_hard());
+    }
+}
+
+/// Bodies that are pulled one by one rest as those under gravity do.
+#[test]
+fn a_column_stands_without_gravity_of_the_engine() {
+    let settings = Settings {
+        gravity: Vec2::ZERO,
+        ..without_sleep()
+    };
+    let (mut engine, ids) = column(settings, 10, 1e3);
+    for &id in &ids {
+        engine.set_pull(id, vec2(0.0, -9.81), 0.0).unwrap();
+    }
+    for _ in 0..300 {
+        engine.tick();
+    }
+    let off = off(&engine, &ids);
+    assert!(off < MUST_STAY, "{off} m");
 }
