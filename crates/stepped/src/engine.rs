@@ -174,7 +174,7 @@ impl Engine {
     /// One sub-step with the contacts that are known.
     fn go(&mut self, rules: &dyn PairRules) {
         (self.done, self.found) = (self.done + 1, false);
-        self.hard.gather(&mut self.graph, &self.bodies);
+        self.hard.gather(&mut self.graph, &mut self.bodies);
         self.extra.gather(&mut self.graph, &self.bodies);
         self.deep.gather(&mut self.graph, &self.bodies);
         let last = self.done == self.settings.substeps;

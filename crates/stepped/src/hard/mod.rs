@@ -36,8 +36,9 @@ pub(crate) struct HardRows {
 
 impl HardRows {
     /// Sends islands to hard rows, and back, for a sub-step: in every one of them, so that no island depends on when contacts of
-    /// another one changed.
-    pub(crate) fn gather(&mut self, graph: &mut Graph, bodies: &Bodies) {
+    /// another one changed. What goes back begins with no impulses: where a column buckled those that held it are the larger by
+    /// 1e6, and sweeps cannot take them back.
+    pub(crate) fn gather(&mut self, graph: &mut Graph, bodies: &mut Bodies) {
         let mut found = islands::find(graph, bodies, &mut self.known);
         if !self.unanswered.is_empty() {
             let keys: Vec<Vec<Key>> = found
@@ -56,6 +57,7 @@ impl HardRows {
             hard.sort_unstable();
             for &id in self.islands.iter().flatten() {
                 if hard.binary_search(&id).is_err() && graph.is_hard(id) {
+                    graph.clear_warm_start(bodies, id);
                     graph.set_hard(id, false);
                 }
             }
