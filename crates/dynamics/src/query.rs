@@ -267,7 +267,9 @@ impl Filtered<'_> {
     /// Bodies with the box of a shape overlapping `bounds`, in order.
     #[must_use]
     pub fn bodies_in(&self, bounds: Aabb) -> Vec<BodyId> {
-        self.bodies_with(bounds, |pose, collider| {
+        // The engine has boxes of convex pieces: a corner of a star's box is in none of them.
+        let near = bounds.grown(self.world.beyond_pieces());
+        self.bodies_with(near, |pose, collider| {
             collider.solid.aabb(pose).overlaps(bounds)
         })
     }
@@ -346,7 +348,8 @@ impl Filtered<'_> {
         })
     }
 
-    /// Shapes that are in no tree and may be in `bounds`: of flyers in the grid, or of the engine where it moves everything.
+    /// Shapes that are in no tree and have a piece that may be in `bounds`: of flyers in the grid, or of the engine where it moves
+    /// everything.
     fn flying_in(&self, bounds: Aabb) -> Vec<u32> {
         if self.world.settings.mode == Mode::Stepped {
             return self.world.shapes_in_engine(bounds);

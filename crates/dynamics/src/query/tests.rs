@@ -184,6 +184,75 @@ proptest! {
     }
 }
 
+/// A body that is pushed out of another one by the solver, some hundredths of its size in a sub-step, was sought where it had been.
+#[test]
+fn bodies_that_are_pushed_out_are_found_within_the_same_sub_step() {
+    for mode in [Mode::Exact, Mode::Hybrid] {
+        let mut world = World::new(Settings {
+            mode,
+            ..Settings::default()
+        })
+        .expect("settings");
+        let (def, material) = (BodyDef::fixed(), Material::default());
+        let block = ConvexPolygon::square(2.0).expect("a block");
+        world.insert(def, block, material).expect("a body");
+        let plank = ConvexPolygon::rectangle(0.05, 1.0).expect("a plank");
+        for k in 0..5 {
+            let turned = 0.2 * f64::from(k);
+            let def = BodyDef::dynamic().at(vec2(0.9, 0.0)).turned(turned);
+            let id = world.insert(def, plank.clone(), material).expect("a body");
+            for call in 0..100 {
+                world.step(0.21 * world.clock.h);
+                let state = world.bodies.get(id.index);
+                let pose = state.centre_pose(world.clock.now);
+                let corners = plank.vertices().iter();
+                for corner in corners.map(|corner| pose.point(*corner * 0.999_999)) {
+                    let found = world.bodies_at(corner);
+                    assert!(found.contains(&id), "{mode:?}, plank {k}, call {call}");
+                }
+            }
+            world.remove(id).expect("it is there");
+        }
+    }
+}
+
+/// The engine has boxes of convex pieces, and a corner of a star's box is in none of them.
+#[test]
+fn bodies_are_found_by_the_boxes_of_whole_shapes_in_every_mode() {
+    for mode in [Mode::Exact, Mode::Hybrid, Mode::Stepped] {
+        let mut world = World::new(Settings {
+            mode,
+            gravity: vec2(0.0, -10.0),
+            ..Settings::default()
+        })
+        .expect("settings");
+        let material = Material::default();
+        let floor = HalfPlane::new(vec2(0.0, 0.0), Vec2::Y).expect("a floor");
+        world
+            .insert(BodyDef::fixed(), floor, material)
+            .expect("a body");
+        let star = Polygon::star(4, 1.0, 0.4).expect("a star");
+        // More than are moved pair by pair.
+        for k in 0..24 {
+            let def = BodyDef::dynamic().at(vec2(0.5 * f64::from(k), 1.5));
+            world.insert(def, star.clone(), material).expect("a body");
+        }
+        world.step(0.05);
+        let has_members = world.bodies.iter().any(|body| body.in_engine);
+        assert_eq!(has_members, mode == Mode::Hybrid);
+        for (body, _, collider) in all_shapes(&world) {
+            if !collider.solid.is_bounded() {
+                continue;
+            }
+            let bounds = collider.solid.aabb(body.centre_pose(world.clock.now));
+            for corner in [bounds.min, bounds.max] {
+                let found = world.bodies_in(Aabb::new(corner, corner));
+                assert!(found.contains(&body.id), "{mode:?}, {:?}", body.id);
+            }
+        }
+    }
+}
+
 #[test]
 fn of_two_equal_hits_the_first_body_counts() {
     let mut world = World::new(Settings::default()).expect("settings");

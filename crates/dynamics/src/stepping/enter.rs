@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use carom_collision::part_count;
 use carom_math::{Pose, SimTime, Vec2};
 use carom_stepped::{BodyInput, PieceInput};
 
@@ -67,6 +68,14 @@ impl World {
         let Ok(id) = stepping.engine.insert(input, &pieces) else {
             return;
         };
+        // However it turns, its box is no wider than the diagonal of this one.
+        let widths = state
+            .colliders
+            .iter()
+            .map(|at| &self.colliders[*at as usize].solid)
+            .filter(|solid| part_count(solid) > 1)
+            .map(|solid| solid.aabb(Pose::IDENTITY).extents().length());
+        stepping.widest = widths.fold(stepping.widest, f64::max);
         let at = index as usize;
         if stepping.ids.len() <= at {
             stepping.ids.resize(at + 1, None);

@@ -37,6 +37,8 @@ pub(crate) struct Stepping {
     pub(crate) engine: Engine,
     /// The engine's name of each body, by place in the world.
     ids: Vec<Option<carom_stepped::BodyId>>,
+    /// Greatest width of a shape of several convex pieces that the engine was given, in m: its box may be where no piece is.
+    widest: f64,
     /// Shapes of several convex pieces that touch: how many pairs of theirs.
     touching: BTreeMap<Shapes, u32>,
     /// Bodies that fell asleep or woke since that was told.
@@ -72,6 +74,7 @@ impl Stepping {
                 Ok(Some(Box::new(Self {
                     engine,
                     ids: Vec::new(),
+                    widest: 0.0,
                     touching: BTreeMap::new(),
                     slept: Vec::new(),
                     changes: Vec::new(),

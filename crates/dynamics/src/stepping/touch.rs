@@ -83,7 +83,12 @@ impl World {
         shapes
     }
 
-    /// Shapes that may be in `bounds`.
+    /// How far all pieces of a shape in the engine may be from a box that the shape's own box overlaps, in m.
+    pub(crate) fn beyond_pieces(&self) -> f64 {
+        self.stepping.as_ref().map_or(0.0, |s| s.widest)
+    }
+
+    /// Shapes with a piece that may be in `bounds`.
     pub(crate) fn shapes_in_engine(&self, bounds: Aabb) -> Vec<u32> {
         let mut found = Vec::new();
         let Some(stepping) = &self.stepping else {
