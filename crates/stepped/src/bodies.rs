@@ -84,6 +84,13 @@ impl Bodies {
         record.first_piece..record.first_piece + record.pieces
     }
 
+    /// Number of the insertion of the body of a line; 0 for the lines of empty lanes and of fixed bodies.
+    pub(crate) fn birth_of_line(&self, line: u32) -> u64 {
+        let slot = self.slot_of[line as usize];
+        let record = self.records.get(slot as usize);
+        record.map_or(0, |record| record.birth)
+    }
+
     /// Makes a record, and a line unless it is fixed; it has no pieces yet.
     pub(crate) fn insert(&mut self, input: &BodyInput, settings: &Settings) -> BodyId {
         let dynamic = input.kind == BodyKind::Dynamic;

@@ -60,11 +60,12 @@ pub(super) fn keep(
             }
         }
     }
-    let mut pushed: BTreeMap<usize, BTreeMap<u32, Quad>> = BTreeMap::new();
+    let mut pushed: BTreeMap<usize, BTreeMap<(u64, u32), Quad>> = BTreeMap::new();
     for (k, (arrival, pushes)) in arrived.iter().zip(pushes).enumerate() {
         let group = pushed.entry(groups.find(k)).or_default();
         for (line, push) in arrival.lines.iter().zip(pushes) {
-            group.entry(*line).or_default().add(push);
+            let key = (bodies.birth_of_line(*line), *line);
+            group.entry(key).or_default().add(push);
         }
     }
     for (first, group) in &pushed {
@@ -75,7 +76,7 @@ pub(super) fn keep(
                     arrival.impulse *= 1.0 - r;
                 }
             }
-            for (line, push) in group {
+            for ((_, line), push) in group {
                 let back = Quad(push.0.map(|x| -r * x));
                 bodies.lines[*line as usize].add(&back);
                 bodies.start[*line as usize].add(&back);
@@ -84,10 +85,11 @@ pub(super) fn keep(
     }
 }
 
-/// What part of its bounces a group must give back.
-fn excess(bodies: &Bodies, group: &BTreeMap<u32, Quad>, before: &[Before]) -> f64 {
+/// What part of its bounces a group must give back: sums over its bodies in the order of their births, since lines depend on
+/// other islands.
+fn excess(bodies: &Bodies, group: &BTreeMap<(u64, u32), Quad>, before: &[Before]) -> f64 {
     let (mut had, mut has, mut mixed, mut square) = (0.0, 0.0, 0.0, 0.0);
-    for (line, push) in group {
+    for ((_, line), push) in group {
         let at = *line as usize;
         let body = &bodies.lines[at];
         if body.inverse_mass() <= 0.0 {

@@ -7,7 +7,7 @@
 
 #![allow(clippy::inline_always, reason = "the wide instructions end at a call")]
 
-use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x4};
+use fearless_simd::{Level, Simd, SimdBase, SimdMask, dispatch, f64x4};
 
 use super::block::{Block, LANES};
 use super::bounce_budget::{Before, keep, note};
@@ -15,7 +15,7 @@ use super::colour::Colour;
 use super::graph::Graph;
 use super::law::Law;
 use super::line::{Line, Quad};
-use super::transpose::{Wide, any};
+use super::transpose::Wide;
 use crate::bodies::Bodies;
 
 /// Pull over so many sub-steps is rest. Less: piles with restitution hum; more: low bounces end early.
@@ -57,10 +57,11 @@ pub(crate) fn arrivals(
             dispatch!(level, simd => closing(simd, least, &bodies.lines, colour, c, &mut blocks));
         }
     }
-    for (c, k) in blocks {
+    for (c, k, lanes) in blocks {
         let colour = &graph.awake()[c];
         let (block, cold) = (&colour.blocks[k], &colour.cold[k]);
-        for lane in (0..LANES).filter(|lane| cold.restitution[*lane] > 0.0) {
+        let closes = |lane: &usize| lanes >> lane & 1 == 1 && cold.restitution[*lane] > 0.0;
+        for lane in (0..LANES).filter(closes) {
             // What bears a load is at rest, however it shakes: a bounce would take away what holds the pile above it.
             if block.j1[lane] + block.j2[lane] > 0.0 {
                 continue;
@@ -94,7 +95,7 @@ pub(crate) fn arrivals(
     }
 }
 
-/// Blocks in which a contact with restitution closes faster than `least`.
+/// Blocks with restitution in which a contact closes faster than `least`, and a bit for each lane that does.
 #[inline(always)]
 fn closing<S: Simd>(
     simd: S,
@@ -102,13 +103,13 @@ fn closing<S: Simd>(
     lines: &[Line],
     colour: &Colour,
     c: usize,
-    found: &mut Vec<(usize, usize)>,
+    found: &mut Vec<(usize, usize, u8)>,
 ) {
     for (k, (block, bounces)) in colour.blocks.iter().zip(&colour.bounces).enumerate() {
         if *bounces == 0 {
             continue;
         }
-        let mut closes = false;
+        let mut closes = 0u8;
         for at in [0, 4] {
             let end = at + 4;
             let [avx, avy, aw, _] = f64x4::columns(simd, lines, &block.a[at..end], 0);
@@ -120,10 +121,12 @@ fn closing<S: Simd>(
             let l = f64x4::from_slice(simd, &block.l[at..end]);
             let v1 = nx * (bvx - avx) + ny * (bvy - avy) + b1 * bw - a1 * aw;
             let v2 = v1 + l * (bw - aw);
-            closes |= any(v1.min(v2).simd_lt(-least));
+            #[expect(clippy::cast_possible_truncation, reason = "four lanes")]
+            let bits = v1.min(v2).simd_lt(-least).to_bitmask() as u8;
+            closes |= bits << at;
         }
-        if closes {
-            found.push((c, k));
+        if closes != 0 {
+            found.push((c, k, closes));
         }
     }
 }
