@@ -91,12 +91,13 @@ fn correct_all<S: Simd, const DAMPED: bool>(
     for (((line, start), pull), (([left, added], foreseen), limit)) in lines.zip(more) {
         let v = f64x4::from_slice(simd, &line.0[..4]);
         let start = f64x4::from_slice(simd, &start.0);
-        // What pull and damping did: `start − v` with the v before.
+        // What pull and damping did: `start − v` with the v before, and exactly `h g` without damping (f = φ = 1), so that no
+        // body depends on whether another one is damped: `start − (start − φ h g)/f = (φ h g − (1 − f) start)/f`.
         let pulled = h * f64x4::from_slice(simd, &pull.0);
         let (own, change) = if DAMPED {
             let added = f64x4::from_slice(simd, &added.0) * pulled;
             let left = f64x4::from_slice(simd, &left.0);
-            let own = start - (start - added) / left;
+            let own = (added - (1.0 - left) * start) / left;
             let smooth = left.simd_gt(f64x4::splat(simd, LEFT));
             let none = f64x4::splat(simd, 0.0);
             (
