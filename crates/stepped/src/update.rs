@@ -295,6 +295,10 @@ impl New {
 fn narrow_tolerances(bodies: &mut Bodies, settings: &Settings, ends: [u32; 2], extent: f64) {
     for slot in ends {
         let line = bodies.line_of(slot);
+        // All fixed bodies have one line, and none: they never move.
+        if line == Bodies::GROUND as usize {
+            continue;
+        }
         let limit = &mut bodies.limits[line];
         limit.tolerance = limit.tolerance.min(settings.tolerance * extent);
     }
