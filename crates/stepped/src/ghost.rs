@@ -146,6 +146,8 @@ pub(crate) fn hide(
             ghosts.extend(hidden.map(|k| rows.contacts[k]));
         }
     }
+    // Impulses of several are taken out of one body in an order that other islands do not change.
+    ghosts.sort_unstable_by_key(|id| graph.order(bodies, *id));
     for id in ghosts {
         graph.hide(bodies, id);
     }

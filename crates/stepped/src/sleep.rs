@@ -79,8 +79,10 @@ impl Engine {
         for line in 2..self.bodies.lines.len() {
             let slot = self.bodies.slot_of[line];
             if self.bodies.rest[line] >= after && !seen[slot as usize] {
-                let (island, rests) = self.island(slot, after, &mut seen);
+                let (mut island, rests) = self.island(slot, after, &mut seen);
                 if rests {
+                    // Lines depend on other islands, and contacts of the overflow colour wake in this order.
+                    island.sort_unstable_by_key(|slot| self.bodies.records[*slot as usize].birth);
                     found.push(island);
                 }
             }
@@ -223,10 +225,9 @@ impl Engine {
             self.broad.standing_in(bounds, |other| {
                 let theirs = self.pieces.list[other as usize].body;
                 let island = self.bodies.records[theirs as usize].island;
-                let pair = [piece.min(other), piece.max(other)];
                 if island != Bodies::NONE
                     && theirs != slot
-                    && nearness(&self.bodies, &self.pieces, &self.settings, pair)
+                    && nearness(&self.bodies, &self.pieces, &self.settings, [piece, other])
                         .is_some_and(|gap| gap <= margins)
                 {
                     found.push(island);

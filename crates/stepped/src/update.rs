@@ -161,6 +161,7 @@ pub(crate) fn met_asleep(
             bodies.limits[line].tolerance
         };
         // What carries a body at rest goes on to.
+        let pair = in_order(bodies, pieces, pair);
         let near = |found: &Manifold| scene.gap_ahead(pair, found, !rests) < seen;
         let met = |pair| scene.contact(pair, 1.0).is_some_and(|found| near(&found));
         if pieces.surface(pair, rules).is_some() && met(pair) {
@@ -182,8 +183,19 @@ pub(crate) fn nearness(
         pieces,
         settings,
     };
+    let pair = in_order(bodies, pieces, pair);
     let gap = scene.contact(pair, 1.0)?.gap();
     Some(gap / scene.meeting(pair).margin)
+}
+
+/// Two pieces in the order in which their bodies were inserted: a manifold depends on which one is A, and neither the numbers
+/// of pieces nor the search that found the pair may decide that.
+fn in_order(bodies: &Bodies, pieces: &Pieces, [a, b]: [u32; 2]) -> [u32; 2] {
+    let birth = |piece: u32| {
+        let slot = pieces.owners[piece as usize].body;
+        bodies.records[slot as usize].birth
+    };
+    if birth(a) < birth(b) { [a, b] } else { [b, a] }
 }
 
 /// Makes contacts of those candidates that are near enough, in the order in which their bodies were inserted.

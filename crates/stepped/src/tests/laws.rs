@@ -339,7 +339,7 @@ fn far_scenes_do_not_feel_each_others_bodies() {
         .enumerate()
     {
         for seed in 0..40 {
-            let (scenes, substeps) = (scenes(case, seed), [2, 5][seed as usize % 2]);
+            let (scenes, substeps) = (scenes(case, seed), if seed % 2 == 0 { 2 } else { 5 });
             let [alone, beside] = [1, 2].map(|count| run(&scenes[..count], substeps));
             let part = alone.iter().zip(&beside).position(|(a, b)| a != b);
             assert_eq!(part, None, "{name}, seed {seed}");
