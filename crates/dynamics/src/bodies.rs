@@ -8,6 +8,8 @@ use carom_math::{SimTime, Sum, Vec2};
 use crate::few::Few;
 use crate::flyers::Course;
 use crate::history::History;
+use crate::ledger::damping_loss;
+use crate::left_paths::LeftPaths;
 use crate::moved::{Moved, moves};
 use crate::state::BodyState;
 use crate::uncommon::Lag;
@@ -76,6 +78,7 @@ pub(crate) struct Bodies {
     pub(crate) pull: Pull,
     /// Flights since the last report that leave out more than [`Pull::error`], as short as their stretches are.
     pub(crate) inaccurate: u64,
+    pub(crate) left_paths: LeftPaths,
     /// Bodies that came, went, woke or were changed since the last sub-step; only where the list is
     /// read.
     pub(crate) touched: Vec<u32>,
@@ -99,6 +102,7 @@ impl Bodies {
                 error,
             },
             inaccurate: 0,
+            left_paths: LeftPaths::default(),
             touched: Vec::new(),
             notes_touched,
             moved: Moved::default(),
@@ -283,6 +287,7 @@ impl Bodies {
     /// energy, logs it, and opens the next one with a new version.
     pub(crate) fn change(&mut self, index: u32, time: SimTime, change: impl FnOnce(&mut Motion)) {
         self.touch(index);
+        self.left_paths.end(index, &self.list[index as usize], time);
         let state = &self.list[index as usize];
         let flies_by_law = state.flight.is_some() || *state.lag() != Lag::NONE;
         if let Some(piece) = self.piece(state, time) {
@@ -313,6 +318,16 @@ impl Bodies {
             self.take_back(|other| other == index, time);
         }
         self.renew(index);
+    }
+
+    /// A body leaves a path, and goes on by the parabola that it has.
+    pub(crate) fn leave_path(&mut self, index: u32, time: SimTime) {
+        self.left_paths.add(index, &self.list[index as usize], time);
+    }
+
+    /// How many parabolas of left paths moved a body before `now` that no report tells of yet.
+    pub(crate) fn tell_left_paths(&mut self, now: SimTime) -> u64 {
+        self.left_paths.tell(&self.list, now)
     }
 
     /// Contacts that were booked for the whole sub-step push some bodies no longer: they have other motions from `time` on.
@@ -430,30 +445,6 @@ pub(crate) struct Booked {
 struct Piece {
     forces: f64,
     scheme: f64,
-}
-
-/// What damping has taken along the present piece of a flight up to `time`, in J: ∫ (c m v² + c′ I ω²) dt.
-fn damping_loss(state: &BodyState, time: SimTime) -> f64 {
-    /// Gauss–Legendre points and weights of (−1, 1), mirrored: exact for polynomials of degree 7.
-    const POINTS: [(f64, f64); 2] = [
-        (0.861_136_311_594_052_6, 0.347_854_845_137_453_86),
-        (0.339_981_043_584_856_26, 0.652_145_154_862_546_1),
-    ];
-    if !state.is_damped() || state.flight.is_none() {
-        return 0.0;
-    }
-    let (start, (linear, angular)) = (state.motion.start, state.damping());
-    let half = 0.5 * (time - start);
-    let power = |at: f64| {
-        let at = start + half * (1.0 + at);
-        let (v, w) = (state.velocity_at(at), state.spin_at(at));
-        linear * state.mass.mass * v.length_squared() + angular * state.turning_inertia() * w * w
-    };
-    let sum: f64 = POINTS
-        .iter()
-        .map(|(at, weight)| weight * (power(*at) + power(-at)))
-        .sum();
-    half * sum
 }
 
 #[cfg(test)]

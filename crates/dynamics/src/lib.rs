@@ -52,6 +52,7 @@ mod history;
 mod hops;
 mod id;
 mod ledger;
+mod left_paths;
 mod mass;
 mod material;
 mod modes;

@@ -73,7 +73,7 @@ impl World {
         self.check_regimes();
         self.events.end_step();
         self.bodies.end_step();
-        self.report_astray(self.clock.now);
+        self.report_left_paths(self.clock.now);
         self.tell_overlaps(self.clock.now);
         self.report.inaccurate += core::mem::take(&mut self.bodies.inaccurate);
         self.report.advanced = if stop_at_event || self.work.is_used_up() {

@@ -113,21 +113,9 @@ pub(crate) struct Closed {
     pub(super) budgets: Vec<ModeBudget>,
     /// Bodies with an exhausted budget: their islands join with the next sub-step.
     pub(super) exhausted: Vec<u32>,
-    /// Bodies that left the path of a group that turned in this sub-step, on its parabola.
-    pub(super) astray: Vec<Astray>,
     /// No group is let go of: the slow twin.
     #[cfg(test)]
     pub(super) stays: bool,
-}
-
-/// A body that left a path on the parabola that this had.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Astray {
-    pub(super) index: u32,
-    pub(super) acceleration: Vec2,
-    pub(super) left: SimTime,
-    /// Until when reports have told of it.
-    pub(super) told: SimTime,
 }
 
 #[derive(Clone, Debug)]

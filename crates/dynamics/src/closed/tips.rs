@@ -7,8 +7,7 @@ use carom_collision::part;
 use carom_math::SimTime;
 
 use super::joints::{Held, joint};
-use super::store::{Astray, Group, Kept, Membership};
-use crate::bodies::Bodies;
+use super::store::{Group, Kept, Membership};
 use crate::flight::{Flight, fly, follow};
 use crate::modes::{NotMine, TouchMove};
 use crate::narrow::{TOUCH, rest_speed};
@@ -197,8 +196,8 @@ impl World {
 
     /// Pieces of motion for the coming sub-step of all groups that turn.
     pub(crate) fn follow_tips(&mut self, time: SimTime, h: f64) {
-        self.report_astray(time);
-        self.closed.astray.retain(|it| it.left == time);
+        self.report_left_paths(time);
+        self.bodies.left_paths.begin_substep(time);
         for place in self.closed.tipping() {
             let stands = |group: &Group| {
                 let mut members = group.members.iter();
@@ -230,13 +229,7 @@ impl World {
                     motion.angular_acceleration = angular;
                 });
             }
-            let acceleration = self.bodies.get(index).motion.acceleration;
-            self.closed.astray.push(Astray {
-                index,
-                acceleration,
-                left: time,
-                told: time,
-            });
+            self.bodies.leave_path(index, time);
             self.redirect(index, time);
         }
     }
@@ -245,10 +238,9 @@ impl World {
     pub(super) fn set_free(&mut self, members: &[u32], time: SimTime) {
         let left = self.clock.next() - time;
         for &index in members {
-            let mut astray = self.closed.astray.iter();
             if left <= 0.0
                 || self.bodies.get(index).in_engine
-                || !astray.any(|it| it.index == index && goes_on(&self.bodies, it))
+                || !self.bodies.left_paths.moves(index, self.bodies.get(index))
                 || self.is_touched(index, time)
             {
                 continue;
@@ -298,14 +290,10 @@ impl World {
         })
     }
 
-    /// Reports bodies that left a path and still go on by its parabola, which pushes along the arms of that instant: a
-    /// group that takes them in, or their own flight, gives them another one.
-    pub(crate) fn report_astray(&mut self, now: SimTime) {
-        let (bodies, report) = (&self.bodies, &mut self.report);
-        for astray in &mut self.closed.astray {
-            report.handed_over += u64::from(astray.told < now && goes_on(bodies, astray));
-            astray.told = now;
-        }
+    /// Reports bodies that left a path and went on by its parabola, which pushes along the arms of that instant, until a group
+    /// that took them in, or their own flight, gave them another one.
+    pub(crate) fn report_left_paths(&mut self, now: SimTime) {
+        self.report.handed_over += self.bodies.tell_left_paths(now);
     }
 
     /// Gives every member of a group that turns the parabola through both ends of its path's next piece.
@@ -395,10 +383,48 @@ impl World {
     }
 }
 
-/// Whether a body that left the path of a group still goes on by the parabola of that instant.
-fn goes_on(bodies: &Bodies, astray: &Astray) -> bool {
-    let state = bodies.get(astray.index);
-    state.motion.acceleration == astray.acceleration
-        && state.is_stepped()
-        && !state.membership.is_closed()
+#[cfg(test)]
+mod tests {
+    use carom_geometry::{ConvexPolygon, HalfPlane};
+    use carom_math::{Rot, Vec2, vec2};
+
+    use crate::{BodyDef, Material, Settings, StepReport, World};
+
+    #[test]
+    fn a_parabola_of_a_path_that_ends_within_a_sub_step_is_reported() {
+        let mut world = World::new(Settings {
+            gravity: vec2(0.0, -10.0),
+            ..Settings::default()
+        })
+        .expect("settings");
+        let material = Material {
+            restitution: 0.0,
+            friction: 2.0,
+            ..Material::default()
+        };
+        let floor = HalfPlane::new(Vec2::ZERO, Vec2::Y).expect("a floor");
+        let put = world.insert(BodyDef::fixed(), floor, material);
+        put.expect("valid");
+        let tilted = BodyDef::dynamic().at(Rot::from_angle(-0.3) * vec2(-0.5, 1.0));
+        let solid = ConvexPolygon::rectangle(1.0, 2.0).expect("a box");
+        let id = world
+            .insert(tilted.turned(-0.3), solid, material)
+            .expect("valid");
+        assert!(world.step(0.1).is_exact(), "it turns about its corner");
+        let (index, now) = (id.index, world.clock.now);
+        let place = world.bodies.get(index).membership.group;
+        world.report = StepReport::default();
+        world.dissolve(place, now);
+        world.report_left_paths(now);
+        assert!(world.report.is_exact(), "it has just left its path");
+        let later = now + 1e-4;
+        world.bodies.change(index, later, |motion| {
+            motion.acceleration = vec2(0.0, -10.0);
+        });
+        world.report_left_paths(now + 2e-4);
+        assert_eq!(
+            world.report.handed_over, 1,
+            "it was off its path for 0.1 ms"
+        );
+    }
 }

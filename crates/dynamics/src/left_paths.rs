@@ -1,0 +1,77 @@
+//! Bodies that left the path of an island that turns: they go on by the parabola of that instant, whose forces push along the arms
+//! of then, until the next sub-step or another motion. Neither energy nor angular momentum is kept, and reports say so.
+
+use carom_math::{SimTime, Vec2};
+
+use crate::state::BodyState;
+
+/// The bodies that left a path in the present sub-step.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct LeftPaths {
+    list: Vec<LeftPath>,
+    /// Parabolas that no report tells of yet.
+    untold: u64,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct LeftPath {
+    index: u32,
+    acceleration: Vec2,
+    left: SimTime,
+    /// Until when its parabola was counted.
+    counted: SimTime,
+}
+
+impl LeftPath {
+    /// Whether the body still goes on by the parabola of that instant.
+    fn goes_on(&self, state: &BodyState) -> bool {
+        state.motion.acceleration == self.acceleration
+            && state.is_stepped()
+            && !state.membership.is_closed()
+    }
+
+    /// Counts the parabola of a body if it moved it since that was last asked.
+    fn count(&mut self, state: &BodyState, time: SimTime) -> u64 {
+        let moved = self.counted < time && self.goes_on(state);
+        self.counted = time;
+        u64::from(moved)
+    }
+}
+
+impl LeftPaths {
+    /// A body leaves a path, and goes on by the parabola that it has.
+    pub(crate) fn add(&mut self, index: u32, state: &BodyState, time: SimTime) {
+        self.list.push(LeftPath {
+            index,
+            acceleration: state.motion.acceleration,
+            left: time,
+            counted: time,
+        });
+    }
+
+    /// Whether a body goes on by the parabola of a path that it left.
+    pub(crate) fn moves(&self, index: u32, state: &BodyState) -> bool {
+        let mut list = self.list.iter();
+        list.any(|left| left.index == index && left.goes_on(state))
+    }
+
+    /// A body gets another motion.
+    pub(crate) fn end(&mut self, index: u32, state: &BodyState, time: SimTime) {
+        for left in self.list.iter_mut().filter(|left| left.index == index) {
+            self.untold += left.count(state, time);
+        }
+    }
+
+    /// How many parabolas moved a body before `now` that no report tells of yet.
+    pub(crate) fn tell(&mut self, bodies: &[BodyState], now: SimTime) -> u64 {
+        for left in &mut self.list {
+            self.untold += left.count(&bodies[left.index as usize], now);
+        }
+        core::mem::take(&mut self.untold)
+    }
+
+    /// A sub-step begins: what left a path before has another motion in it.
+    pub(crate) fn begin_substep(&mut self, time: SimTime) {
+        self.list.retain(|left| left.left == time);
+    }
+}
