@@ -150,7 +150,7 @@ impl Engine {
                 let contact = self.graph.contacts[id as usize];
                 let other = &self.bodies.records[contact.bodies[1 - side] as usize];
                 if other.kind == BodyKind::Dynamic && other.island != number {
-                    // Near, and no part of the island: found again when one of both moves.
+                    // Near, and no part of the island: found again when one of both moves, or wakes.
                     self.part(id);
                 } else if !contact.sleeps() {
                     self.graph.shift(&mut self.bodies, id, true);
@@ -202,8 +202,7 @@ impl Engine {
             record.island = Bodies::NONE;
             for piece in record.first_piece..record.first_piece + record.pieces {
                 self.pieces.pose(piece, sleeper.base);
-                self.broad.leave(piece);
-                self.broad.enter(piece);
+                self.broad.wake(piece);
             }
         }
         for sleeper in sleepers {

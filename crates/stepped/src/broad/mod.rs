@@ -26,6 +26,8 @@ pub(crate) struct Broad {
     endless: Vec<u32>,
     /// Pieces that stand since the last tick: movers that rest have not met them.
     arrived: Vec<u32>,
+    /// Pieces that woke since the last search, and perhaps sleep again: bodies at rest came near them while they slept.
+    woken: Vec<u32>,
     /// Movers that came or got other boxes since the sweep was sorted, and some that are none any more.
     few: Vec<u32>,
     /// Those since the last tick that a caller has not looked at, and a sweep of these alone.
@@ -43,6 +45,7 @@ impl Broad {
             nodes: Vec::new(),
             endless: Vec::new(),
             arrived: Vec::new(),
+            woken: Vec::new(),
             few: Vec::new(),
             news: Vec::new(),
             newcomers: Sweep::default(),
@@ -70,6 +73,13 @@ impl Broad {
         self.news.push(piece);
     }
 
+    /// A piece that stood moves from now on, where it stood.
+    pub(crate) fn wake(&mut self, piece: u32) {
+        self.leave(piece);
+        self.enter(piece);
+        self.woken.push(piece);
+    }
+
     /// Whether the sweep had better be sorted anew.
     const fn is_stale(&self) -> bool {
         FEW * self.few.len() > self.sweep.len()
@@ -84,12 +94,12 @@ impl Broad {
         self.arrived.retain(|other| *other != piece);
     }
 
-    /// Whether some piece stands that no mover has been asked about.
+    /// Whether some piece stands, or moves again, that no mover has been asked about.
     pub(crate) const fn has_arrivals(&self) -> bool {
-        !self.arrived.is_empty()
+        !self.arrived.is_empty() || !self.woken.is_empty()
     }
 
-    /// Finds the pairs of which one piece moved or arrived.
+    /// Finds the pairs of which one piece moved, arrived or woke.
     pub(crate) fn find(&mut self, level: Level, bodies: &Bodies, pieces: &Pieces, tick: f64) {
         self.news.clear();
         self.find_all(level, bodies, pieces, tick);
@@ -97,38 +107,36 @@ impl Broad {
 
     fn find_all(&mut self, level: Level, bodies: &Bodies, pieces: &Pieces, tick: f64) {
         self.found.clear();
-        let awake = 2..bodies.lines.len();
-        if self.arrived.is_empty() && !bodies.moved[2..].contains(&true) {
+        if !self.has_arrivals() && !bodies.moved[2..].contains(&true) {
             return;
         }
+        self.woken.sort_unstable();
         self.sort(bodies, pieces);
         let found = &mut self.found;
         self.sweep
             .pairs(level, pieces, tick, |a, b| found.push([a, b]));
-        let moved = |piece: u32| {
-            let slot = pieces.list[piece as usize].body;
-            bodies.moved[bodies.records[slot as usize].line as usize]
-        };
-        for at in awake.filter(|at| bodies.moved[*at]) {
-            for piece in bodies.pieces_of_line(at) {
-                let bounds = pieces.boxes[piece as usize];
-                self.standing.query(bounds, |other| {
-                    if may_touch(pieces, [piece, other], tick) {
-                        found.push([piece, other]);
-                    }
-                });
-                found.extend(self.endless.iter().map(|other| [piece, *other]));
-            }
+        let woken = &self.woken;
+        let asks = |piece: u32| asks(bodies, pieces, woken, piece);
+        let movers = (2..bodies.lines.len()).flat_map(|line| bodies.pieces_of_line(line));
+        for piece in movers.filter(|piece| asks(*piece)) {
+            let bounds = pieces.boxes[piece as usize];
+            self.standing.query(bounds, |other| {
+                if may_touch(pieces, [piece, other], tick) {
+                    found.push([piece, other]);
+                }
+            });
+            found.extend(self.endless.iter().map(|other| [piece, *other]));
         }
         for &piece in &self.arrived {
             let bounds = pieces.boxes[piece as usize];
             self.sweep.all_in(pieces, bounds, |other| {
-                if !moved(other) && may_touch(pieces, [other, piece], tick) {
+                if !asks(other) && may_touch(pieces, [other, piece], tick) {
                     found.push([other, piece]);
                 }
             });
         }
         self.arrived.clear();
+        self.woken.clear();
     }
 
     /// Queries are answered by the sweep, though many movers came since it was sorted.
@@ -146,9 +154,13 @@ impl Broad {
 
     fn sort(&mut self, bodies: &Bodies, pieces: &Pieces) {
         self.few.clear();
+        let woken = &self.woken;
         let movers = (2..bodies.lines.len()).flat_map(|line| {
             let moved = bodies.moved[line];
-            bodies.pieces_of_line(line).map(move |piece| (piece, moved))
+            let asks = move |piece: u32| moved || woken.binary_search(&piece).is_ok();
+            bodies
+                .pieces_of_line(line)
+                .map(move |piece| (piece, asks(piece)))
         });
         self.sweep.sort(movers, pieces);
     }
@@ -205,7 +217,7 @@ impl Broad {
                 self.enter(piece);
             }
         }
-        if self.is_stale() || self.has_arrivals() {
+        if self.is_stale() || !self.arrived.is_empty() {
             return self.find_all(level, bodies, pieces, tick);
         }
         let mut few = core::mem::take(&mut self.few);
@@ -214,13 +226,11 @@ impl Broad {
         few.sort_unstable_by(|a, b| left(a).total_cmp(&left(b)).then(a.cmp(b)));
         few.dedup();
         self.found.clear();
-        let found = &mut self.found;
-        let moved = |piece: u32| {
-            let slot = pieces.owners[piece as usize].body;
-            bodies.moved[bodies.records[slot as usize].line as usize]
-        };
+        self.woken.sort_unstable();
+        let (found, woken) = (&mut self.found, &self.woken);
+        let asks = |piece: u32| asks(bodies, pieces, woken, piece);
         // The sweep knows where the others' boxes are, and of these where they were: so these are compared as well.
-        for &piece in few.iter().filter(|piece| moved(**piece)) {
+        for &piece in few.iter().filter(|piece| asks(**piece)) {
             let bounds = pieces.boxes[piece as usize];
             self.sweep
                 .all_in(pieces, bounds, |other| found.push([piece, other]));
@@ -229,17 +239,18 @@ impl Broad {
             found.extend(self.endless.iter().map(|other| [piece, *other]));
         }
         for (k, &piece) in few.iter().enumerate() {
-            let (bounds, moves) = (pieces.boxes[piece as usize], moved(piece));
+            let (bounds, moves) = (pieces.boxes[piece as usize], asks(piece));
             for &other in few[k + 1..]
                 .iter()
                 .take_while(|other| left(other) <= bounds.max.x)
             {
-                if (moves || moved(other)) && pieces.boxes[other as usize].overlaps(bounds) {
+                if (moves || asks(other)) && pieces.boxes[other as usize].overlaps(bounds) {
                     found.push([piece, other]);
                 }
             }
         }
         self.few = few;
+        self.woken.clear();
         // A pair may have been found from both sides, and by both ways; what the sweep knows may have gone elsewhere.
         for pair in &mut *found {
             pair.sort_unstable();
@@ -251,6 +262,12 @@ impl Broad {
             a.overlaps(b) && may_touch(pieces, *pair, tick)
         });
     }
+}
+
+/// Whether a mover is asked about: its body moved, or it is one of these that `woken` holds in order.
+fn asks(bodies: &Bodies, pieces: &Pieces, woken: &[u32], piece: u32) -> bool {
+    let slot = pieces.owners[piece as usize].body;
+    bodies.moved[bodies.records[slot as usize].line as usize] || woken.binary_search(&piece).is_ok()
 }
 
 /// Pieces of two bodies that may meet within the tick.

@@ -303,3 +303,39 @@ fn what_leans_on_a_kinematic_body_at_rest_sleeps() {
     engine.tick();
     assert!(!engine.is_asleep(leans).unwrap(), "it is driven");
 }
+
+/// A box that lies 0.1 mm from a sleeper has no contact with it. Struck from the other side the sleeper came 5 mm deep into it.
+#[test]
+fn what_lies_near_a_sleeper_is_met_once_it_wakes() {
+    let mut engine = Engine::new(Settings::default()).unwrap();
+    floor(&mut engine);
+    let slides = Material {
+        friction: 0.0,
+        ..Material::default()
+    };
+    let box_at = |x: f64, y: f64| BodyInput::dynamic(1.0, 1.0 / 6.0).at(vec2(x, y));
+    let mut put = |body: BodyInput| {
+        let piece = unit_box().with_material(slides);
+        engine.insert(body, &[piece]).unwrap()
+    };
+    let struck = put(box_at(0.0, 0.5));
+    let beside = put(box_at(1.0001, 0.5));
+    // It keeps the box below it awake.
+    let mut top = box_at(1.4, 1.5);
+    top.sleep_allowed = false;
+    put(top);
+    for _ in 0..120 {
+        engine.tick();
+    }
+    assert!(engine.is_asleep(struck).unwrap());
+    assert!(!engine.is_asleep(beside).unwrap());
+    let strikes = box_at(-1.002, 0.5).moving(vec2(0.3, 0.0), 0.0);
+    let piece = unit_box().with_material(slides);
+    engine.insert(strikes, &[piece]).unwrap();
+    for tick in 0..60 {
+        engine.tick();
+        let x = |id| engine.pose(id).unwrap().position.x;
+        let apart = x(beside) - x(struck);
+        assert!(apart > 0.999, "{apart} m at tick {tick}");
+    }
+}
