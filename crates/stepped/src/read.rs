@@ -172,8 +172,13 @@ impl Engine {
     /// Calls `found` with the tag of each piece that may be in `bounds` until the next sub-step, perhaps more than once.
     pub fn query(&self, bounds: Aabb, mut found: impl FnMut(u64)) {
         let tag = |piece: u32| self.pieces.list[piece as usize].tag;
-        // Boxes are those of the last sub-step's begin: a blow or a push-out in it may lead out of them.
-        let pushed = self.law.push_out * self.law.h;
+        // Boxes are those of the last tick's begin: a blow in the last sub-step may lead out of them, and push-outs since then.
+        let since = if self.is_at_tick() {
+            self.settings.tick
+        } else {
+            self.settings.tick - self.left()
+        };
+        let pushed = self.law.push_out * since;
         let bounds = bounds.grown(self.bodies.beyond_boxes + pushed);
         self.broad.pieces_in(&self.pieces, bounds, |piece| {
             found(tag(piece));

@@ -187,7 +187,7 @@ proptest! {
 /// A body that is pushed out of another one by the solver, some hundredths of its size in a sub-step, was sought where it had been.
 #[test]
 fn bodies_that_are_pushed_out_are_found_within_the_same_sub_step() {
-    for mode in [Mode::Exact, Mode::Hybrid] {
+    for mode in [Mode::Exact, Mode::Hybrid, Mode::Stepped] {
         let mut world = World::new(Settings {
             mode,
             ..Settings::default()
