@@ -9,7 +9,7 @@ use crate::narrow::{TOUCH, opening_speed, rest_speed};
 use crate::pairs::PairContact;
 use crate::predict::BUDGET;
 use crate::sleep::settle;
-use crate::stepping::{FEW, MANY, Seen};
+use crate::stepping::{FEW, Seen};
 
 /// Sub-steps with nothing near after which a body flies: fewer, and what rattles changes sides all the time.
 const IDLE: u8 = 4;
@@ -33,12 +33,12 @@ impl World {
         self.stopwatch.lap(|p| &mut p.pairs);
         self.gather_landings(time, h);
         self.look(time, h);
-        self.gather_groups(MANY, &[], time);
+        self.join_large(time);
         self.close_groups(time);
-        let exhausted = self.join_exhausted(time);
+        self.join_exhausted(time);
         self.doze(time);
         self.glide(time);
-        self.gather_groups(FEW, &exhausted, time);
+        self.join_unsolved(time);
         self.gather_members(time);
         self.stopwatch.lap(|p| &mut p.contacts);
         self.groups.step(
@@ -328,11 +328,8 @@ impl World {
             let held = self.groups.pushed(index) || self.bodies.get(index).pairs.iter().any(near);
             let state = self.bodies.get_mut(index);
             state.idle = if held { 0 } else { state.idle + 1 };
-            let unsolved = held && !state.membership.is_closed();
             if state.idle >= IDLE {
                 self.take_off(index, time);
-            } else if unsolved {
-                self.charge_substep(index, time);
             }
         }
     }

@@ -3,15 +3,12 @@
 //! A mode solve of an island takes as long as hundreds of the engine's sub-steps. Each body has a budget that refills with time; a
 //! solve of n bodies charges each of them n. The budget is the body's alone: no island depends on another.
 
-use std::collections::BTreeSet;
-
 use carom_math::{SimTime, Vec2};
 
 use super::store::Closed;
 use crate::World;
 use crate::heavy::{BEARS, mass_ratio};
 use crate::modes::BodyMove;
-use crate::sleep::Tree;
 use crate::state::BodyState;
 use crate::touching::Gathered;
 
@@ -21,9 +18,6 @@ const SIZE: f64 = 24.0;
 
 /// Ticks that refill one solve. A solve takes 35 µs, the engine 11 µs for a second of one rocking box.
 const REFILL: f64 = 60.0;
-
-/// Sub-steps in lasting contact without a closed form that use up a budget. 18: the rod of case 46 gains 2.7e-6 of its energy.
-const UNSOLVED: f64 = 64.0;
 
 /// Rotation in a tick, in rad, and distance in a sub-step, in reaches, above which a body is fast: its island keeps its method. 0.25: a
 /// ring that spins at 14.7 rad/s lets a pentagon out by 12 mm.
@@ -126,17 +120,12 @@ impl World {
         }
     }
 
-    /// Charges an island for a mode solve.
+    /// Charges each body of an island for a mode solve.
     pub(super) fn charge(&mut self, members: &[u32], time: SimTime) {
-        let cost = members.len() as f64;
-        self.charge_each(members, cost, time);
-    }
-
-    fn charge_each(&mut self, members: &[u32], cost: f64, time: SimTime) {
         if !self.may_join() {
             return;
         }
-        let tick = self.settings.tick;
+        let (cost, tick) = (members.len() as f64, self.settings.tick);
         let was = self.is_substepping();
         for &index in members {
             if self.closed.budget(index).charge(cost, time, tick) {
@@ -148,28 +137,19 @@ impl World {
         }
     }
 
-    /// Charges a body for a sub-step in lasting contact without a closed form.
-    pub(crate) fn charge_substep(&mut self, index: u32, time: SimTime) {
-        self.charge_each(&[index], SIZE / UNSOLVED, time);
-    }
-
-    /// Analytic islands with exhausted budgets join, unless they rest. Returns the exhausted bodies without a closed form.
-    pub(crate) fn join_exhausted(&mut self, time: SimTime) -> Vec<u32> {
+    /// Analytic islands with exhausted budgets join, unless they rest.
+    pub(crate) fn join_exhausted(&mut self, time: SimTime) {
         let mut exhausted = core::mem::take(&mut self.closed.exhausted);
         if exhausted.is_empty() {
-            return exhausted;
+            return;
         }
         exhausted.sort_unstable();
         exhausted.dedup();
-        let mut unsolved = Vec::new();
         for index in exhausted {
             if !self.bodies.is_alive(index) || self.bodies.get(index).asleep {
                 continue;
             }
             let Some(group) = self.closed.get(self.bodies.get(index).membership.group) else {
-                if self.bodies.get(index).is_held() {
-                    unsolved.push(index);
-                }
                 continue;
             };
             let members: Vec<u32> = group.members.iter().map(|(index, _)| *index).collect();
@@ -181,31 +161,6 @@ impl World {
             }
         }
         self.lower_flyers_later();
-        unsolved
-    }
-
-    /// Roots of the islands of `unsolved` that join, in `tree` of all sub-stepped bodies in touch.
-    pub(crate) fn exhausted_roots(
-        &mut self,
-        unsolved: &[u32],
-        tree: &mut Tree,
-        time: SimTime,
-    ) -> BTreeSet<u32> {
-        let mut roots: BTreeSet<u32> = unsolved.iter().map(|index| tree.root(*index)).collect();
-        if roots.is_empty() {
-            return roots;
-        }
-        let stepped = self.stepped.iter().map(|index| (tree.root(*index), *index));
-        let mut islands: Vec<(u32, u32)> =
-            stepped.filter(|(root, _)| roots.contains(root)).collect();
-        islands.sort_unstable();
-        for island in islands.chunk_by(|one, other| one.0 == other.0) {
-            let members: Vec<u32> = island.iter().map(|(_, index)| *index).collect();
-            if self.keeps_method(&members, time) {
-                roots.remove(&island[0].0);
-            }
-        }
-        roots
     }
 
     /// Whether an island keeps its method in spite of an exhausted budget; its budget is full again then.
@@ -221,7 +176,7 @@ impl World {
 
     /// Whether an island has mass ratios, spins or speeds that the engine does not resolve, or is borne by nothing: the engine
     /// keeps no angular momentum.
-    fn is_beyond_engine(&self, members: &[u32], time: SimTime) -> bool {
+    pub(crate) fn is_beyond_engine(&self, members: &[u32], time: SimTime) -> bool {
         let mut is_borne = false;
         for &index in members {
             let state = self.bodies.get(index);

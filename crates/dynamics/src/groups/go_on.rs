@@ -139,13 +139,14 @@ mod tests {
     use carom_geometry::{Circle, HalfPlane};
     use carom_math::{Vec2, vec2};
 
-    use crate::{BodyDef, Material, Settings, World};
+    use crate::{BodyDef, Material, Mode, Settings, World};
 
     /// A heap of discs that rolls apart on a floor, in the midst of a sub-step that holds all of it, and a disc in it.
     fn heap_in_a_substep() -> (World, u32) {
         let mut world = World::new(Settings {
             gravity: vec2(0.0, -10.0),
             sleep: None,
+            mode: Mode::Exact,
             ..Settings::default()
         })
         .expect("settings");

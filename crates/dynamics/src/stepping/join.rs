@@ -7,6 +7,8 @@
 //! Fixed and kinematic bodies, and bodies that sleep outside of the engine, are its guests: it knows them, and moves only
 //! members that meet them.
 
+use std::collections::BTreeMap;
+
 use carom_collision::Motion;
 use carom_geometry::Aabb;
 use carom_math::{SimTime, Sum};
@@ -80,11 +82,30 @@ impl World {
         matches!(self.settings.mode, Mode::Hybrid)
     }
 
-    /// Every group of sub-stepped bodies in touch joins that has more than `most`, or holds some of `exhausted`.
-    pub(crate) fn gather_groups(&mut self, most: usize, exhausted: &[u32], time: SimTime) {
-        if !self.may_join() || self.stepped.len() <= most && exhausted.is_empty() {
-            return;
+    /// Islands of more than [`MANY`] bodies join: their contact modes are not solved for.
+    pub(crate) fn join_large(&mut self, time: SimTime) {
+        if self.may_join() && self.stepped.len() > MANY {
+            let mut islands = self.unsolved_islands();
+            islands.retain(|island| island.len() > MANY);
+            self.join_islands(islands, time);
         }
+    }
+
+    /// Islands whose contact modes have no solution join, unless they are small and the engine does not resolve them.
+    pub(crate) fn join_unsolved(&mut self, time: SimTime) {
+        let is_unsolved = |index: &u32| {
+            let state = self.bodies.get(*index);
+            state.is_held() && !state.membership.is_closed()
+        };
+        if self.may_join() && self.stepped.iter().any(is_unsolved) {
+            let mut islands = self.unsolved_islands();
+            islands.retain(|island| island.len() > FEW || !self.is_beyond_engine(island, time));
+            self.join_islands(islands, time);
+        }
+    }
+
+    /// Islands of sub-stepped bodies in touch of which none moves in closed form.
+    fn unsolved_islands(&self) -> Vec<Vec<u32>> {
         let mut tree = Tree::new(self.bodies.places());
         let mut i = 0;
         while let Some(place) = self.pairs.place(i) {
@@ -98,23 +119,25 @@ impl World {
                 tree.join(a, b);
             }
         }
-        let mut count = vec![0usize; self.bodies.places()];
+        let mut islands: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
         for &index in &self.stepped {
-            let state = self.bodies.get(index);
-            let at = tree.root(index) as usize;
-            if !state.is_held() || state.membership.is_closed() {
-                // Its group keeps its method.
-                count[at] = usize::MAX;
-            }
-            count[at] = count[at].saturating_add(1);
+            islands.entry(tree.root(index)).or_default().push(index);
         }
-        let exhausted = self.exhausted_roots(exhausted, &mut tree, time);
-        let joins = |index: &u32| {
-            let root = tree.root(*index);
-            let size = count[root as usize];
-            (size > most || exhausted.contains(&root)) && size != usize::MAX
+        let is_unsolved = |island: &Vec<u32>| {
+            island.iter().all(|index| {
+                let state = self.bodies.get(*index);
+                state.is_held() && !state.membership.is_closed()
+            })
         };
-        let joining: Vec<u32> = self.stepped.iter().copied().filter(joins).collect();
+        islands.into_values().filter(is_unsolved).collect()
+    }
+
+    fn join_islands(&mut self, islands: Vec<Vec<u32>>, time: SimTime) {
+        let mut joining: Vec<u32> = islands.into_iter().flatten().collect();
+        if joining.is_empty() {
+            return;
+        }
+        joining.sort_unstable();
         self.discharge_all(&joining);
         for index in joining {
             self.join(index, time);
