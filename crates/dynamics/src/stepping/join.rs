@@ -1,7 +1,7 @@
 //! Joins and leaves in [`crate::Mode::Hybrid`]: which bodies the engine moves.
 //!
 //! ```text
-//! free, analytic, held ─► near a member within the tick, or in a large group ─► member
+//! free, analytic, held ─► near a member within the tick, or in an island without a closed form ─► member
 //! member ─► no contact for three ticks, and no body near ─► free
 //! ```
 //! Fixed and kinematic bodies, and bodies that sleep outside of the engine, are its guests: it knows them, and moves only
