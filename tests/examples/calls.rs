@@ -1,4 +1,4 @@
-//! Many random scripts, judged after each step: how many broke which law, and their seeds.
+//! Many random scripts, checked after each step: how many broke which law, and their seeds.
 //!
 //! ```sh
 //! cargo run --release -p carom-tests --example calls -- --mode exact --first 1 --count 20000 --limit 2
@@ -12,7 +12,7 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
 
 use carom_dynamics::Mode;
-use carom_tests::judges::Fault;
+use carom_tests::checks::Fault;
 use carom_tests::scripts::{End, play};
 
 const CLASSES: [&str; 6] = [
@@ -56,7 +56,7 @@ fn run() -> Result<bool, Box<dyn Error>> {
     for mode in modes {
         let (mut passed, mut broken) = (0, [const { Vec::new() }; CLASSES.len()]);
         for seed in first..first.saturating_add(count) {
-            match judged(mode, seed, limit) {
+            match first_fault(mode, seed, limit) {
                 None => passed += 1,
                 Some((class, told)) => {
                     println!("{mode:?} {seed}: {told}");
@@ -83,7 +83,7 @@ fn mode(name: &str) -> Result<Mode, String> {
 }
 
 /// Plays a script on a thread of its own; `None`: it passed. One that does not end is left to itself.
-fn judged(mode: Mode, seed: u64, limit: Duration) -> Option<(usize, String)> {
+fn first_fault(mode: Mode, seed: u64, limit: Duration) -> Option<(usize, String)> {
     let (tell, hear) = channel();
     let stop = Arc::new(AtomicBool::new(false));
     let asked = Arc::clone(&stop);

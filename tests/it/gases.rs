@@ -117,8 +117,9 @@ fn elastic_gases_run_backwards_to_where_they_began() {
             let way = world.time().as_secs();
             let back = backwards(&world, way, 0.0, 0);
             let off = farthest(&world, &back, &start);
-            let astray = (0..4).map(|k| farthest(&world, &backwards(&world, way, NUDGE, k), &back));
-            let growth = astray.fold(0.0, f64::max) / NUDGE;
+            let deviations =
+                (0..4).map(|k| farthest(&world, &backwards(&world, way, NUDGE, k), &back));
+            let growth = deviations.fold(0.0, f64::max) / NUDGE;
             assert!(
                 off < ROUNDING * growth,
                 "{molecule:?} {seed}: {off:.2e} of a size off, and differences grow {growth:.1e} times"

@@ -261,7 +261,7 @@ fn two_bodies_at_one_place_part_by_a_fixed_rule() {
     assert_eq!(run(), run());
 }
 
-/// A flyer that has seen that nothing is about it does not look again with every impact, but where something came.
+/// A free body that found nothing around it does not search again with every impact, but where something came.
 #[test]
 fn a_wall_that_came_where_nothing_was_is_struck() {
     let settings = Settings {

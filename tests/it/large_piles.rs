@@ -79,7 +79,7 @@ fn how_a_step_is_cut_changes_no_bit_of_a_large_pile() {
 fn how_a_tick_is_cut_changes_no_bit_of_many_piles() {
     for mode in [Mode::Stepped, Mode::Hybrid] {
         let mut worlds = [1, 2].map(|_| pyramids(settings(mode, 1), 62, 10));
-        // In hybrid mode it takes the calendar of flyers 46 ticks to forget that they flew.
+        // In hybrid mode it takes the calendar queue 46 ticks to forget that they were free.
         for tick in 0..72 {
             for (world, cuts) in worlds.iter_mut().zip([1, 2]) {
                 if tick == 60 {

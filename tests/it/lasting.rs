@@ -274,7 +274,7 @@ fn a_struck_block_slides_and_stops_where_it_should() {
     assert!((centre(&world, id).x - 9.0 / (0.8 * G)).abs() < 1e-14);
 }
 
-/// More groups change at one instant than one of them may be judged there: only the first 16 stopped where they should,
+/// More groups change at one instant than one of them may have mode solves there: only the first 16 stopped where they should,
 /// all others slid on, and back, to the next sub-step.
 #[test]
 fn a_hundred_blocks_that_come_to_rest_at_one_instant_all_stop_there() {
@@ -298,7 +298,7 @@ fn a_hundred_blocks_that_come_to_rest_at_one_instant_all_stop_there() {
 }
 
 #[test]
-fn a_flyer_that_hits_a_sliding_block_joins_the_account_at_its_instant() {
+fn a_free_body_that_hits_a_sliding_block_joins_the_account_at_its_instant() {
     let mut world = on_floor(0.2);
     let slider = BodyDef::dynamic()
         .at(vec2(0.0, 0.25))

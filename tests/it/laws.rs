@@ -64,7 +64,7 @@ proptest! {
         for _ in 0..3 {
             watch.next(&mut world, 3.0);
             if world.events().iter().any(|event| matches!(event.kind, EventKind::Begin { .. })) {
-                break; // They stay in touch, and are no flyers any more.
+                break; // They stay in touch, and are not free any more.
             }
             let now = kinetic(&world);
             // Newton's law gains where friction turns the slip: there the ledger says how much.

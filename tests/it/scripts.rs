@@ -1,4 +1,4 @@
-//! Random scripts of public calls, asked by judges that share nothing with the library. New ones in each run: the first seed is
+//! Random scripts of public calls, checked by code that shares nothing with the library. New ones in each run: the first seed is
 //! printed, `CAROM_SEED` sets it, and where property tests are told to repeat themselves (`PROPTEST_RNG_SEED`, as in CI), so do these.
 //!
 //! Asserted: nothing panics, every call ends, equal calls leave equal bits, and scripts that broke a law once keep it. Which laws break

@@ -146,7 +146,7 @@ fn a_stack_that_stands_needs_no_sub_steps() {
     assert_eq!(world.step(10.0).substeps, 0);
 }
 
-/// A landing judges the group anew that it joins, and what that does to the others' pairs is asked too: boxes that were
+/// A landing solves for the modes of the group that it joins anew, and what that does to the others' pairs is asked too: boxes that were
 /// not asked joined the engine of large islands, and sank in there.
 #[test]
 fn stacks_that_land_at_once_stand_without_sub_steps() {

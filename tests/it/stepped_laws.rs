@@ -121,7 +121,7 @@ fn struck_between() -> Vec<Piece> {
     pieces.collect()
 }
 
-/// The blow was hurried on: it threw the piece in between into the upper one, faster than what struck it. Then the row
+/// The blow was over-relaxed: it threw the piece in between into the upper one, faster than what struck it. Then the row
 /// below let go, that above kept what it had pushed, and 18 J of 360 came from nowhere.
 #[test]
 fn a_blow_does_not_throw_what_lies_between_two_others() {
@@ -221,7 +221,7 @@ proptest! {
     }
 }
 
-/// A load of 3,200 times their mass: what its many sweeps hurried on and cut off point by point grew to 5e7 m/s.
+/// A load of 3,200 times their mass: the over-relaxation of its many sweeps, cut off point by point, grew to 5e7 m/s.
 #[test]
 fn a_heavy_blow_throws_nothing_out_faster_than_it_came() {
     let mut world = stepped(Settings {

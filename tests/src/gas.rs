@@ -293,7 +293,7 @@ pub fn kinetic(world: &World) -> f64 {
 
 /// Deepest overlap of all pairs of which one moves, in parts of the smaller size, ≥ 0.
 ///
-/// Judged from shapes and poses alone: it shares nothing with the world's own search.
+/// From shapes and poses alone: it shares nothing with the world's own search.
 #[must_use]
 pub fn deepest(world: &World) -> f64 {
     let bodies: Vec<_> = world.bodies().map(|b| (b.aabb(), b)).collect();

@@ -2,14 +2,14 @@
 
 use carom_dynamics::{BodyKind, Material, World};
 
+pub mod checks;
 mod draw;
 pub mod flights;
 pub mod gas;
-pub mod judges;
 pub mod scenes;
 pub mod scripts;
 
-use judges::depth;
+use checks::depth;
 
 /// Steps `world` at 60 Hz until `seconds` more have passed and calls `look` after every step.
 ///
@@ -36,7 +36,7 @@ pub fn elastic() -> Material {
 
 /// Deepest and mean overlap of all pairs of bodies (of which one moves), in m, ≥ 0.
 ///
-/// Judged from shapes and poses alone, pair by pair: it shares nothing with the world's own search or with the library's collision code ([`judges`]).
+/// From shapes and poses alone, pair by pair: it shares nothing with the world's own search or with the library's collision code ([`checks`]).
 #[must_use]
 pub fn overlaps(world: &World) -> (f64, f64) {
     let bodies: Vec<_> = world.bodies().collect();

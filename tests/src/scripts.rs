@@ -1,4 +1,4 @@
-//! Random scripts over the public calls of a world, and the judges after each step. Equal seeds give equal scripts.
+//! Random scripts over the public calls of a world, and the checks after each step. Equal seeds give equal scripts.
 //!
 //! ```sh
 //! cargo run --release -p carom-tests --example calls -- --mode exact --first 1 --count 20000 --limit 2
@@ -12,8 +12,8 @@ use carom_dynamics::{
 use carom_geometry::HalfPlane;
 use carom_math::{SimTime, Vec2, vec2};
 
+use crate::checks::{self, Closed, Fault, Moment};
 use crate::draw::{self, Dice};
-use crate::judges::{self, Closed, Fault, Moment};
 
 /// How a script ended.
 #[derive(Clone, Debug, PartialEq)]
@@ -237,7 +237,7 @@ impl Script {
         let tick = self.world.settings().tick;
         let since = self.world.time();
         self.reports.retain(|(end, _)| since - *end <= tick);
-        let overlaps = judges::overlapping(&self.world);
+        let overlaps = checks::overlapping(&self.world);
         let (moment, energy) = (Moment::of(&self.world), Closed::of(&self.world));
         let now = if self.at_event {
             self.world.step_to_next_event(dt)
@@ -249,7 +249,7 @@ impl Script {
         for (_, part) in &self.reports {
             report += *part;
         }
-        judges::places(&self.world, &overlaps, &report)?;
+        checks::places(&self.world, &overlaps, &report)?;
         if self.room == Room::Free {
             moment.kept(&Moment::of(&self.world), &report)?;
         }

@@ -22,7 +22,7 @@ pub(crate) enum Command {
     /// What the program `carom` does
     #[command(flatten)]
     Carom(carom_cli::Command),
-    /// Answer a folder of reference cases and judge the answers
+    /// Answer a folder of reference cases and check the answers
     Reference(ReferenceArgs),
     /// Run time against error, as table, CSV and chart
     #[command(disable_help_flag = true)]

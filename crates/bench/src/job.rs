@@ -14,7 +14,7 @@ use crate::speed::{SpeedJob, SpeedReading, StageReading};
 pub enum Job {
     /// Time an engine on a scene.
     Speed(SpeedJob),
-    /// Step an engine through a scene with no clock and no judge, for [`count_instructions`](crate::count_instructions).
+    /// Step an engine through a scene with no clock and no assessment, for [`count_instructions`](crate::count_instructions).
     Bare(SpeedJob),
     /// Ask an engine where the time of its steps goes.
     Profile(SpeedJob),

@@ -4,7 +4,7 @@
 //! PlainScene ─► Engine (carom, Box2D, Rapier, Chipmunk) ─► states ─► quality, errors ─► rows ─► tables, charts
 //! ```
 //!
-//! Every engine is given the same bodies, and judged by the same `f64` code. A run is a [`Job`] in a process of its
+//! Every engine is given the same bodies, and assessed by the same `f64` code. A run is a [`Job`] in a process of its
 //! own (`engine-run`), because builds of one engine for different instruction sets cannot share an executable; the
 //! driver (`carom-bench`, started by `cargo xtask accuracy` and `cargo xtask speed`) rotates the processes.
 
@@ -24,5 +24,5 @@ pub use clock::{CpuClock, peak_memory};
 pub use engine::{Body, Counters, Engine, EngineError, Mode, Setup, State};
 pub use engines::{EngineName, UnknownEngine, built, open};
 pub use job::{Job, Point, Reading, run};
-pub use quality::{Quality, Snapshot, Unrest, judge};
+pub use quality::{Quality, Snapshot, Unrest, assess};
 pub use speed::{Limits, SpeedJob, SpeedReading, StageReading};

@@ -124,7 +124,7 @@ pub(crate) fn run(job: &SpeedJob) -> Result<SpeedReading, EngineError> {
     let mut times = race.measure();
     let impacts = impacts.zip(race.engine.impacts());
     let after = race.snapshot();
-    // Before judging: the judge's memory is not the engine's.
+    // Before the assessment: its memory is not the engine's.
     let peak_mib = peak_memory();
     let program_mib = program_memory().zip(own_program);
     let program_mib = program_mib.map(|(now, own)| now - own);
@@ -147,8 +147,8 @@ pub(crate) fn run(job: &SpeedJob) -> Result<SpeedReading, EngineError> {
         measured_steps,
         cut,
         bodies: dynamic(&scene),
-        before: before.judge(&scene),
-        after: after.judge(&scene),
+        before: before.assess(&scene),
+        after: after.assess(&scene),
         rms_acceleration,
         drift: before.drift(&after, &scene),
         impact_rate: impacts.map(|(before, after)| {
@@ -173,7 +173,7 @@ fn rate(impacts: u64, bodies: usize, seconds: f64) -> f64 {
     2.0 * impacts as f64 / (bodies as f64 * seconds)
 }
 
-/// The steps of a job without judge and without a second look at their times.
+/// The steps of a job without assessment and without a second look at their times.
 ///
 /// # Errors
 /// If there is no such scene, or the engine refuses it.

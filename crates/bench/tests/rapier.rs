@@ -1,5 +1,5 @@
 //! Rapier in this laboratory does what it did in another harness, which published how deep its bodies overlapped and
-//! what became of their energy: same bodies, same settings, same judge, or one of these numbers is off.
+//! what became of their energy: same bodies, same settings, same assessment, or one of these numbers is off.
 //!
 //! `cargo test -p carom-bench --features rapier,rapier-f64 --test rapier`
 #![cfg(any(feature = "rapier", feature = "rapier-f64"))]

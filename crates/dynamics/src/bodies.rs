@@ -6,7 +6,7 @@ use carom_collision::Motion;
 use carom_math::{SimTime, Sum, Vec2};
 
 use crate::few::Few;
-use crate::flyers::Course;
+use crate::free::Course;
 use crate::history::History;
 use crate::ledger::damping_loss;
 use crate::left_paths::LeftPaths;

@@ -7,7 +7,7 @@ use carom_geometry::Aabb;
 use carom_math::{SimTime, Vec2};
 
 use crate::bodies::Bodies;
-use crate::flyers::Flyers;
+use crate::free::FreeBodies;
 use crate::pairs::{Pair, Pairs};
 use crate::state::Collider;
 use crate::{BodyId, BodyKind, PairMaterial, PairSearch};
@@ -29,9 +29,9 @@ pub(crate) struct Broad {
     pub(crate) overrides: BTreeMap<(BodyId, BodyId), PairMaterial>,
     /// Pairs of bodies, in order, that do not collide whatever their filters say.
     pub(crate) excluded: BTreeSet<(BodyId, BodyId)>,
-    /// What the last search found, shapes and flyers: kept for its memory.
+    /// What the last search found, shapes and free bodies: kept for its memory.
     near: Vec<u32>,
-    flying: Vec<u32>,
+    free: Vec<u32>,
 }
 
 impl Broad {
@@ -43,7 +43,7 @@ impl Broad {
             overrides: BTreeMap::new(),
             excluded: BTreeSet::new(),
             near: Vec::new(),
-            flying: Vec::new(),
+            free: Vec::new(),
         }
     }
 
@@ -61,7 +61,7 @@ impl Broad {
         index: u32,
         time: SimTime,
         h: f64,
-        flyers: Option<&Flyers>,
+        free: Option<&FreeBodies>,
     ) {
         for slot in 0..bodies.get(index).colliders.len() {
             let body = bodies.get(index);
@@ -80,7 +80,7 @@ impl Broad {
             };
             let fat = swept.union(ahead).grown(padding);
             self.put(colliders, at, fat, time);
-            self.meet(bodies, colliders, pairs, at, flyers);
+            self.meet(bodies, colliders, pairs, at, free);
         }
     }
 
@@ -98,7 +98,7 @@ impl Broad {
         }
     }
 
-    /// Boxes of a flyer that is too large for the grid, over its motion up to its horizon.
+    /// Boxes of a free body that is too large for the grid, over its motion up to its horizon.
     pub(crate) fn follow(
         &mut self,
         bodies: &Bodies,
@@ -145,7 +145,7 @@ impl Broad {
         colliders: &[Collider],
         pairs: &mut Pairs,
         at: u32,
-        flyers: Option<&Flyers>,
+        free: Option<&FreeBodies>,
     ) {
         let mine = &colliders[at as usize];
         let mut near = core::mem::take(&mut self.near);
@@ -153,7 +153,7 @@ impl Broad {
         match self.search {
             PairSearch::None => {}
             PairSearch::AllPairs => {
-                let there = |c: &Collider| c.node.is_some() || bodies.get(c.body).course.flies;
+                let there = |c: &Collider| c.node.is_some() || bodies.get(c.body).course.is_free;
                 near.extend(
                     (0u32..)
                         .zip(colliders)
@@ -163,10 +163,10 @@ impl Broad {
             }
             PairSearch::Indexed => {
                 self.tree.query(mine.fat, |other| near.push(other));
-                if let Some(flyers) = flyers {
-                    flyers.overlapping(bodies, mine.fat, &mut self.flying);
+                if let Some(free) = free {
+                    free.overlapping(bodies, mine.fat, &mut self.free);
                     let shapes = |body: &u32| &bodies.get(*body).colliders;
-                    near.extend(self.flying.iter().flat_map(shapes));
+                    near.extend(self.free.iter().flat_map(shapes));
                 }
             }
         }
@@ -200,8 +200,8 @@ impl Broad {
             return;
         }
         let (a, b) = (bodies.get(ends.0), bodies.get(ends.1));
-        // What a flyer may meet among flyers and what rests is ahead in their queue.
-        if a.course.flies && !b.is_stepped() || b.course.flies && !a.is_stepped() {
+        // Impacts of a free body with free bodies, and with bodies at rest, are events of the calendar queue.
+        if a.course.is_free && !b.is_stepped() || b.course.is_free && !a.is_stepped() {
             return;
         }
         if a.kind != BodyKind::Dynamic && b.kind != BodyKind::Dynamic {

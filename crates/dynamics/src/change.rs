@@ -11,7 +11,7 @@ use carom_math::{Pose, SimTime, Vec2};
 use crate::bodies::Pull;
 use crate::error::{check_finite, check_vec2};
 use crate::flight::fly;
-use crate::flyers::{Course, Flyers};
+use crate::free::{Course, FreeBodies};
 use crate::state::BodyState;
 use crate::{BodyDef, BodyError, BodyId, BodyKind, Field, Filter, Force, Impulse, Mode, World};
 
@@ -243,9 +243,9 @@ impl World {
         if self.bodies.pull.gravity != gravity {
             // Bodies in flight look for each other in a frame that falls with them.
             for index in self.bodies.indices().collect::<Vec<_>>() {
-                self.flyers.vanish(&mut self.bodies, index);
+                self.free.vanish(&mut self.bodies, index);
             }
-            self.flyers = Flyers::under(self.bodies.pull.gravity);
+            self.free = FreeBodies::under(self.bodies.pull.gravity);
         }
         if let Some(stepping) = &mut self.stepping {
             stepping.set_gravity(self.bodies.pull.gravity);
@@ -344,7 +344,7 @@ impl World {
             if self.bodies.get(other).asleep {
                 self.wake(other, time);
             }
-            self.rejudge(other, time);
+            self.solve_modes_anew(other, time);
         }
     }
 
@@ -358,29 +358,29 @@ impl World {
         self.leave(index, now);
         self.show_engine(index);
         self.hand_back_of(index, now);
-        self.flyers.vanish(&mut self.bodies, index);
-        self.discharge(index);
-        let flies = self.may_fly(index);
+        self.free.vanish(&mut self.bodies, index);
+        self.end_substepping(index);
+        let is_free = self.may_fly(index);
         let state = self.bodies.get_mut(index);
         state.course = Course {
-            flies,
+            is_free,
             ..Course::default()
         };
         // A law goes on from piece to piece: without a piece there is none.
         state.flight = None;
         state.set_piece(SimTime::NEVER);
         if state.is_stepped() {
-            self.enlist(index, now);
+            self.begin_substepping(index, now);
         }
-        if flies {
+        if is_free {
             self.note_flight(index);
         }
-        let left = if flies {
+        let left = if is_free {
             self.clock.h
         } else {
             self.clock.next() - now
         };
-        let by_law = flies && self.bodies.bends(index);
+        let by_law = is_free && self.bodies.bends(index);
         if left > 0.0 && self.bodies.get(index).is_dynamic() && !by_law {
             fly(&mut self.bodies, index, now, left);
         }
@@ -465,7 +465,7 @@ impl World {
             if state.asleep {
                 continue;
             }
-            if state.is_flying() {
+            if state.is_free() {
                 // (g + F/m) − F/m is g in a third of all cases: a rounding that is left would bend the parabola for good.
                 let (acceleration, turning) = self.bodies.freely(index, now);
                 let motion = &mut self.bodies.get_mut(index).motion;

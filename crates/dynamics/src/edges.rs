@@ -8,23 +8,23 @@ use crate::modes::{Feature, ModeBody};
 /// Sine of the angle up to which an edge lies along a contact: far above rounding.
 const FLUSH: f64 = 1e-9;
 
-/// What two bodies touch with where an edge may end here, by the way that they glide: the end of an edge that a disc leaves is a
+/// What two bodies touch with where an edge may end here, by the way that they slide: the end of an edge that a disc leaves is a
 /// corner, and a common stretch of two edges that is over is no contact. Otherwise they would leave it a rounding later.
 pub(crate) fn at_the_end(
     features: (Feature, Feature),
     (a, b): (&ModeBody, &ModeBody),
     normal: Vec2,
 ) -> Option<(Feature, Feature)> {
-    let glide = (b.velocity - a.velocity).dot(perp(normal));
+    let slip = (b.velocity - a.velocity).dot(perp(normal));
     let room = end_room(a.centre, b.centre);
-    let leaves = |low: f64, high: f64, glide: f64| {
-        (glide > 0.0 && high <= room) || (glide < 0.0 && low >= -room)
+    let leaves = |low: f64, high: f64, slip: f64| {
+        (slip > 0.0 && high <= room) || (slip < 0.0 && low >= -room)
     };
     match features {
-        (Feature::Edge { low, high }, Feature::Round) if leaves(low, high, glide) => {
+        (Feature::Edge { low, high }, Feature::Round) if leaves(low, high, slip) => {
             Some((Feature::Corner, Feature::Round))
         }
-        (Feature::Round, Feature::Edge { low, high }) if leaves(low, high, -glide) => {
+        (Feature::Round, Feature::Edge { low, high }) if leaves(low, high, -slip) => {
             Some((Feature::Round, Feature::Corner))
         }
         (
@@ -33,7 +33,7 @@ pub(crate) fn at_the_end(
                 low: from,
                 high: to,
             },
-        ) if leaves(low - to, high - from, glide) => None,
+        ) if leaves(low - to, high - from, slip) => None,
         _ => Some(features),
     }
 }

@@ -183,7 +183,7 @@ impl Events {
         }
         pair.told = pair.touching;
         let ends = [pair.bodies.0, pair.bodies.1];
-        // Torn off, or left at the very end of a path, it opened without a judgement; and what lands again begins a mode anew.
+        // Torn off, or left at the very end of a path, it opened without a mode solve; and what lands again begins a mode anew.
         if !pair.touching && pair.mode.is_some() {
             self.tell_mode(bodies, pair, ContactMode::Open, time);
         }

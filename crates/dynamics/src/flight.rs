@@ -30,7 +30,7 @@ const LONGEST: f64 = 1024.0;
 /// Largest `|∇f| h²`, and damping times h, of a stretch: about a quarter of a turn about a centre. Eight points must see what the field is like.
 const BENT: f64 = 2.0;
 
-/// How far the parabola of a flyer may be from its law, as a part of its reach: larger, and bodies that are not near
+/// How far the parabola of a free body may be from its law, as a part of its reach: larger, and bodies that are not near
 /// count as near; smaller, and pieces are shorter.
 const APART: f64 = 1.0 / 32.0;
 
@@ -74,7 +74,7 @@ pub(crate) fn fly(bodies: &mut Bodies, index: u32, time: SimTime, h: f64) {
     follow(bodies, index, flight, time, h, 0.0);
 }
 
-/// Gives a flyer in a field or with damping the next piece of its flight: the parabola that touches its law at `time`, for as
+/// Gives a free body in a field or with damping the next piece of its flight: the parabola that touches its law at `time`, for as
 /// long as that stays near. When it ends.
 ///
 /// `h` is what counts as short, in s: where a field has an edge, or a centre is near.

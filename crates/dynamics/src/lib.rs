@@ -26,7 +26,6 @@
 
 #![cfg_attr(test, allow(clippy::float_cmp, reason = "tests compare exact results"))]
 
-mod agenda;
 mod apart;
 mod bodies;
 mod body;
@@ -39,22 +38,23 @@ mod contact;
 mod edges;
 mod error;
 mod event;
+mod event_queue;
 mod few;
 mod field;
 mod filter;
 mod flight;
-mod flyers;
 mod force;
+mod free;
 mod ghost;
 mod groups;
 mod heavy;
 mod history;
-mod hops;
 mod id;
 mod ledger;
 mod left_paths;
 mod mass;
 mod material;
+mod micro_bounce;
 mod modes;
 mod moved;
 mod narrow;

@@ -196,7 +196,7 @@ pub(crate) fn opening_speed(
 /// Approach below which a contact rests instead of bouncing, in m/s.
 ///
 /// Two sub-steps' worth of what presses the pair together: a bounce that is over within a few
-/// sub-steps cannot be told from rest by a scheme that looks once a sub-step. Two flyers under one
+/// sub-steps cannot be told from rest by a scheme that looks once a sub-step. Two free bodies under one
 /// gravity press with nothing, so they always bounce but where turning presses them.
 pub(crate) fn rest_speed(bodies: &Bodies, pair: &Pair, h: f64) -> f64 {
     RestSpeed::of(bodies, pair, h).all

@@ -4,8 +4,8 @@ use arrayvec::ArrayVec;
 use carom_collision::FeatureId;
 use carom_math::Vec2;
 
-use crate::agenda::Entry;
 use crate::bodies::Bodies;
+use crate::event_queue::Entry;
 use crate::press::Spot;
 use crate::state::Collider;
 use crate::{ContactMode, PairMaterial};

@@ -7,11 +7,11 @@ use carom_collision::{
 };
 use carom_math::{SimTime, Vec2};
 
-use crate::agenda::{Agenda, Entry};
 use crate::bodies::Bodies;
+use crate::event_queue::{Entry, EventQueue};
 use crate::flight::{first_touch_of_parts, motion_along};
 use crate::ghost::Meeting;
-use crate::hops::hop;
+use crate::micro_bounce::micro_bounce;
 use crate::modes::CLOSED;
 use crate::narrow::{NOISE, Narrow, RestSpeed, TOUCH, opening_speed, pace};
 use crate::pairs::{PairContact, PairPoint, Pairs};
@@ -37,7 +37,7 @@ pub(crate) fn price(material: &PairMaterial) -> f64 {
     (1.0 - material.restitution).max(1.0 / 1024.0)
 }
 
-/// Predicts the next impact of a pair between `time` and `end` and enters it into the agenda.
+/// Predicts the next impact of a pair between `time` and `end` and enters it into the event queue.
 #[expect(
     clippy::too_many_arguments,
     reason = "what a prediction reads, and the two stores it writes"
@@ -47,7 +47,7 @@ pub(crate) fn predict(
     colliders: &[Collider],
     pairs: &mut Pairs,
     narrow: &mut Narrow,
-    agenda: &mut Agenda,
+    event_queue: &mut EventQueue,
     report: &mut StepReport,
     place: u32,
     time: SimTime,
@@ -58,7 +58,7 @@ pub(crate) fn predict(
     let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
     let end = end.min(a.stands_until()).min(b.stands_until());
     let horizon = end - time;
-    let by_law = |state: &BodyState| state.is_flying() && state.flight.is_some();
+    let by_law = |state: &BodyState| state.is_free() && state.flight.is_some();
     let by_law = by_law(a) || by_law(b);
     if pair.given_up || pair.buried || horizon <= 0.0 || !(a.is_stepped() || b.is_stepped()) {
         return;
@@ -94,7 +94,7 @@ pub(crate) fn predict(
     }
     let closed = a.membership.is_closed() || b.membership.is_closed();
     // Parts in a micro-bounce: their contact opens and closes again at once.
-    let mut hops: ArrayVec<(u32, u32), 4> = ArrayVec::new();
+    let mut bouncing: ArrayVec<(u32, u32), 4> = ArrayVec::new();
     if pair.touching && (closed || pair.turning_rest > 0.0) {
         if rest.is_none() && !sunken {
             narrow.look_at(bodies, colliders, pairs, place, time, h);
@@ -102,8 +102,8 @@ pub(crate) fn predict(
         }
         for contact in &pair.contacts {
             let now = (time, horizon, group_rest);
-            if let Some(back) = hop(bodies, colliders, pair, contact, now)
-                && hops.try_push(contact.parts).is_ok()
+            if let Some(back) = micro_bounce(bodies, colliders, pair, contact, now)
+                && bouncing.try_push(contact.parts).is_ok()
             {
                 first = earlier(first, TimeOfImpact::Hit(back));
             }
@@ -156,7 +156,7 @@ pub(crate) fn predict(
         for j in 0..part_count(shapes.1) {
             let is_here = |&(x, y): &(u32, u32)| x as usize == i && y as usize == j;
             let held = |contact: &PairContact| is_here(&contact.parts) && holds(contact);
-            if pair.lasting && pair.contacts.iter().any(held) || hops.iter().any(is_here) {
+            if pair.lasting && pair.contacts.iter().any(held) || bouncing.iter().any(is_here) {
                 continue;
             }
             let parts = (part(shapes.0, i), part(shapes.1, j));
@@ -213,7 +213,7 @@ pub(crate) fn predict(
     };
     let pair = pairs.get_mut(place);
     pair.turning_rest = turning_rest;
-    agenda.push(Entry {
+    event_queue.push(Entry {
         time: at,
         key: pair.colliders,
         pair: place,

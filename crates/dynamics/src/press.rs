@@ -7,7 +7,7 @@ use carom_math::{SimTime, Vec2, cross_scalar, perp};
 use crate::bodies::Bodies;
 use crate::edges::feature;
 use crate::flight::motion_along;
-use crate::flyers::{Touching, gap_acceleration};
+use crate::free::{Touching, gap_acceleration};
 use crate::modes::Feature;
 use crate::state::BodyState;
 
@@ -59,12 +59,12 @@ impl Spot<'_> {
             return 0.0;
         }
         // Nothing but their velocities: what pulls them is for others to say.
-        let coasting = |state: &BodyState| Motion {
+        let unforced = |state: &BodyState| Motion {
             acceleration: Vec2::ZERO,
             angular_acceleration: 0.0,
             ..state.at(time)
         };
-        let press = self.press_of([a, b].map(coasting), time);
+        let press = self.press_of([a, b].map(unforced), time);
         let of = |state: &BodyState, spin: f64| {
             state.velocity_at(time) + cross_scalar(spin, self.point - state.centre_at(time))
         };

@@ -16,7 +16,7 @@ pub struct StepProfile {
     pub sleep: f64,
     /// Times of impact.
     pub prediction: f64,
-    /// What is ahead of flyers, impacts, and the predictions that follow from each.
+    /// Events of free bodies, impacts, and the predictions that follow from each.
     pub impacts: f64,
 }
 

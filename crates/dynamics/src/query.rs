@@ -1,6 +1,6 @@
 //! Questions about a world at its present time: rays, points, boxes, casts.
 //!
-//! The tree of boxes and the grid of flyers name those that may answer, the shapes themselves answer. Of equal answers
+//! The tree of boxes and the grid of free bodies name those that may answer, the shapes themselves answer. Of equal answers
 //! the first body's first shape counts, whatever the order in which the tree named them.
 
 use carom_collision::{cast, roundable, shape_distance};
@@ -169,7 +169,7 @@ impl Filtered<'_> {
             best.map_or(f64::INFINITY, |(_, hit)| hit.distance)
         };
         let mut reach = max;
-        for at in self.flying_in(ray_box(origin, direction, max)) {
+        for at in self.shapes_outside_trees(ray_box(origin, direction, max)) {
             reach = reach.min(meet(at));
         }
         let bounds = Aabb::new(origin, origin);
@@ -194,7 +194,7 @@ impl Filtered<'_> {
             hits.extend(self.ray_hit(at, origin, direction, max));
             f64::INFINITY
         };
-        for at in self.flying_in(ray_box(origin, direction, max)) {
+        for at in self.shapes_outside_trees(ray_box(origin, direction, max)) {
             meet(at);
         }
         let bounds = Aabb::new(origin, origin);
@@ -251,7 +251,9 @@ impl Filtered<'_> {
             }
         };
         let bounds = Aabb::new(point, point).grown(max);
-        self.flying_in(bounds).into_iter().for_each(&mut look);
+        self.shapes_outside_trees(bounds)
+            .into_iter()
+            .for_each(&mut look);
         self.world.broad.tree.query(bounds, look);
         best.map(|(_, found)| found)
     }
@@ -307,7 +309,7 @@ impl Filtered<'_> {
         };
         let end = Aabb::new(start.min + translation, start.max + translation);
         let mut reach = 1.0_f64;
-        for at in self.flying_in(start.union(end)) {
+        for at in self.shapes_outside_trees(start.union(end)) {
             reach = reach.min(meet(at));
         }
         self.world.broad.tree.sweep(start, translation, reach, meet);
@@ -323,7 +325,9 @@ impl Filtered<'_> {
                 found.push(body.id);
             }
         };
-        self.flying_in(bounds).into_iter().for_each(&mut look);
+        self.shapes_outside_trees(bounds)
+            .into_iter()
+            .for_each(&mut look);
         self.world.broad.tree.query(bounds, look);
         found.sort_unstable();
         found.dedup();
@@ -348,15 +352,15 @@ impl Filtered<'_> {
         })
     }
 
-    /// Shapes that are in no tree and have a piece that may be in `bounds`: of flyers in the grid, or of the engine where it moves
+    /// Shapes that are in no tree and have a piece that may be in `bounds`: of free bodies in the grid, or of the engine where it moves
     /// everything.
-    fn flying_in(&self, bounds: Aabb) -> Vec<u32> {
+    fn shapes_outside_trees(&self, bounds: Aabb) -> Vec<u32> {
         if self.world.settings.mode == Mode::Stepped {
             return self.world.shapes_in_engine(bounds);
         }
         let bodies = self
             .world
-            .flyers
+            .free
             .present(&self.world.bodies, bounds, self.world.clock.now);
         let shapes = bodies
             .iter()

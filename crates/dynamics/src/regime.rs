@@ -28,39 +28,40 @@ impl Regime {
     /// # Errors
     /// What contradicts itself.
     pub(crate) fn of(state: &BodyState, mode: Mode) -> Result<Self, &'static str> {
-        let (flies, glides) = (state.course.flies, state.course.glides);
+        let (free, moves) = (state.course.is_free, state.course.moves_analytically);
         let closed = state.membership.is_closed();
         if state.kind != BodyKind::Dynamic {
-            let held = state.in_engine || state.asleep || state.dozes || glides || closed;
+            let held =
+                state.in_engine || state.asleep || state.rests_analytically || moves || closed;
             return match (held, state.kind) {
                 (true, _) => Err("what is not dynamic is in no island, and does not sleep"),
-                (_, BodyKind::Fixed) if flies => Err("what is fixed does not fly"),
+                (_, BodyKind::Fixed) if free => Err("a fixed body is not free"),
                 (_, BodyKind::Fixed) => Ok(Self::Fixed),
                 _ => Ok(Self::Kinematic),
             };
         }
-        if state.dozes && !(state.asleep && closed) {
-            return Err("what dozes sleeps in an analytic island");
+        if state.rests_analytically && !(state.asleep && closed) {
+            return Err("a body at analytic rest sleeps in an analytic island");
         }
-        if glides && !(flies && closed) {
-            return Err("what glides flies in an analytic island");
+        if moves && !(free && closed) {
+            return Err("a body in analytic motion is free in an analytic island");
         }
         if state.asleep {
-            return match flies || state.in_engine && closed {
-                true => Err("what sleeps does not fly, nor in the engine in an analytic island"),
+            return match free || state.in_engine && closed {
+                true => Err("a sleeper is not free, nor in the engine in an analytic island"),
                 false => Ok(Self::Asleep),
             };
         }
         if state.in_engine {
-            return match flies || closed {
-                true => Err("what is stepped neither flies nor is analytic"),
+            return match free || closed {
+                true => Err("a stepped body is neither free nor analytic"),
                 false => Ok(Self::Stepped),
             };
         }
-        if flies && closed && !glides {
-            return Err("what flies in an analytic island glides");
+        if free && closed && !moves {
+            return Err("a free body of an analytic island is in analytic motion");
         }
-        Ok(match (closed, flies, mode) {
+        Ok(match (closed, free, mode) {
             (true, ..) => Self::Analytic,
             (_, true, _) => Self::Free,
             (_, _, Mode::Stepped) => Self::Stepped,

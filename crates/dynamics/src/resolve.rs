@@ -2,9 +2,9 @@
 
 use carom_math::SimTime;
 
-use crate::agenda::Entry;
 use crate::bodies::Bodies;
 use crate::event::EventKind;
+use crate::event_queue::Entry;
 use crate::impact::{ImpactContact, resolve};
 use crate::narrow::{NOISE, Narrow, RestSpeed, opening_speed, pace};
 use crate::pairs::{Pair, Pairs};
@@ -38,7 +38,7 @@ pub(crate) enum Slow {
     Stops,
 }
 
-/// Resolves one entry of the agenda.
+/// Resolves one impact of the event queue.
 ///
 /// A single contact follows the impact law; one that runs into others is resolved with them.
 #[expect(
@@ -91,7 +91,7 @@ pub(crate) fn strike(
     if shock.strikes.is_empty() {
         let pair = pairs.get_mut(entry.pair);
         pair.lasting = true;
-        // A group that is judged anew each time comes to an end, too.
+        // A group with modes that are solved for anew each time comes to an end, too.
         pair.given_up |= outruns(pair, 1.0);
         return Struck::Rests;
     }

@@ -131,7 +131,7 @@ pub enum Mode {
     /// spends more than 4,096 losses of relative speed in impacts within a tick; elastic ones without friction spend
     /// nothing.
     Exact,
-    /// Every moving body is sub-stepped in one solver, without an agenda: contacts stay from step to
+    /// Every moving body is sub-stepped in one solver, without an event queue: contacts stay from step to
     /// step, a pair that keeps its relative pose costs no look. Impacts are as sharp as a sub-step,
     /// but a body too fast for that is stopped at its time of impact.
     Stepped,

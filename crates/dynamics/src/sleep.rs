@@ -86,7 +86,7 @@ pub(crate) fn wake(
         }
         state.asleep = false;
         state.slow_for = 0.0;
-        if !core::mem::take(&mut state.dozes) {
+        if !core::mem::take(&mut state.rests_analytically) {
             events.push(time, EventKind::Awake(state.id));
         }
         woken.push(index);

@@ -10,7 +10,7 @@ use crate::closed::Membership;
 use crate::error::BodyError;
 use crate::few::Few;
 use crate::flight::Flight;
-use crate::flyers::Course;
+use crate::free::Course;
 use crate::impact::ImpactBody;
 use crate::mass::mass_of;
 use crate::uncommon::{Lag, Uncommon};
@@ -40,8 +40,8 @@ pub(crate) struct BodyState {
     /// Known to the engine in hybrid mode, and moved by something else.
     pub(crate) is_guest: bool,
     pub(crate) asleep: bool,
-    /// Asleep for the machinery alone: a group in closed form at rest, which the caller sees awake until its time.
-    pub(crate) dozes: bool,
+    /// Its analytic island rests: treated as asleep, but reported awake to the caller until its time.
+    pub(crate) rests_analytically: bool,
     /// Sub-steps in which nothing was near.
     pub(crate) idle: u8,
     /// The law of a flight in a field or with damping, since anything else changed the motion.
@@ -163,7 +163,7 @@ impl BodyState {
             in_engine: false,
             is_guest: false,
             asleep: false,
-            dozes: false,
+            rests_analytically: false,
             membership: Membership::default(),
             course: Course::default(),
             idle: 0,
@@ -210,7 +210,7 @@ impl BodyState {
         self.uncommon_mut().gravity_scale = 0.0;
     }
 
-    /// Until when the motion of a flyer stands for the law that it flies by; for ever where it is the law.
+    /// Until when the motion of a free body stands for the law that it flies by; for ever where it is the law.
     pub(crate) fn piece(&self) -> SimTime {
         self.uncommon().piece
     }
@@ -223,7 +223,7 @@ impl BodyState {
 
     /// Until when the motion stands, if nothing changes it.
     pub(crate) fn stands_until(&self) -> SimTime {
-        if self.course.flies {
+        if self.course.is_free {
             self.piece()
         } else {
             SimTime::NEVER
@@ -312,13 +312,13 @@ impl BodyState {
     }
 
     /// Dynamic, and nothing holds it.
-    pub(crate) fn is_flying(&self) -> bool {
-        self.is_dynamic() && self.course.flies
+    pub(crate) fn is_free(&self) -> bool {
+        self.is_dynamic() && self.course.is_free
     }
 
     /// Moved by the sub-steps.
     pub(crate) fn is_stepped(&self) -> bool {
-        self.is_active() && !self.course.flies
+        self.is_active() && !self.course.is_free
     }
 
     /// Dynamic, and sub-stepped pair by pair.

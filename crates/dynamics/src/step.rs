@@ -2,9 +2,9 @@
 
 use carom_math::SimTime;
 
-use crate::agenda::Entry;
+use crate::event_queue::Entry;
 use crate::flight::fly;
-use crate::flyers::Cause;
+use crate::free::Cause;
 use crate::predict::{predict, price};
 use crate::resolve::{Slow, Struck, strike};
 use crate::sleep::{wake, wake_around};
@@ -97,7 +97,7 @@ impl World {
         }
     }
 
-    /// Entries of the agenda and sub-steps, whichever comes first, up to `end`.
+    /// Impacts of the event queue and sub-steps, whichever comes first, up to `end`.
     fn advance(&mut self, end: SimTime, stop_at_event: bool) -> SimTime {
         loop {
             let grid = if self.is_substepping() {
@@ -107,8 +107,8 @@ impl World {
             };
             let due = |time: &SimTime| *time <= grid;
             let change = self.closed.next().filter(due);
-            let flight = self.flyers.next(&self.bodies, &self.colliders, grid);
-            let impact = self.agenda.next().filter(due);
+            let flight = self.free.next(&self.bodies, &self.colliders, grid);
+            let impact = self.event_queue.next().filter(due);
             let before = |one: Option<SimTime>, other: Option<SimTime>| match (one, other) {
                 (Some(one), Some(other)) => one <= other,
                 (one, _) => one.is_some(),
@@ -124,11 +124,11 @@ impl World {
             } else if let Some(time) = flight
                 && before(flight, impact)
             {
-                self.run_flyers();
+                self.run_free_bodies();
                 if self.uses_up() || stop_at_event && self.events.are_due() {
                     return time;
                 }
-            } else if let Some(entry) = self.agenda.next_until(grid) {
+            } else if let Some(entry) = self.event_queue.next_until(grid) {
                 if self.spent > self.impact_budget() {
                     self.give_up(entry);
                     continue;
@@ -277,7 +277,7 @@ impl World {
         if state.in_engine {
             return false;
         }
-        if state.course.flies {
+        if state.course.is_free {
             self.foresee(index, time, Cause::Arrived, None);
             return false;
         }
@@ -294,19 +294,19 @@ impl World {
         true
     }
 
-    /// Has all flyers near a body that rests look at it.
+    /// Predicts impacts of all free bodies near a body that rests with it.
     pub(crate) fn show(&mut self, index: u32, time: SimTime) {
-        let mut flying = Vec::new();
+        let mut free = Vec::new();
         for &at in &self.bodies.get(index).colliders.clone() {
             let bounds = self.colliders[at as usize].fat;
-            self.flyers.overlapping(&self.bodies, bounds, &mut flying);
-            for &flyer in &flying {
-                self.approach_shape(flyer, at, time, Cause::Arrived);
+            self.free.overlapping(&self.bodies, bounds, &mut free);
+            for &body in &free {
+                self.approach_shape(body, at, time, Cause::Arrived);
             }
             // Those in the tree are few and large.
             for other in self.broad.in_tree(&self.colliders, bounds) {
                 let owner = self.colliders[other as usize].body;
-                if self.bodies.get(owner).course.flies {
+                if self.bodies.get(owner).course.is_free {
                     self.approach_shape(owner, at, time, Cause::Arrived);
                 }
             }
@@ -333,7 +333,7 @@ impl World {
     /// Wakes a body and all sleepers that it touches, and so on.
     pub(crate) fn wake(&mut self, index: u32, time: SimTime) {
         let woken = self.woken_with(index, time);
-        self.rouse(&woken, time);
+        self.resume_woken(&woken, time);
     }
 
     /// Ends the sleep of a body and all sleepers that it touches, and so on; returns them.
@@ -371,25 +371,25 @@ impl World {
             &mut self.events,
             &mut woken,
         );
-        self.rouse(&woken, time);
+        self.resume_woken(&woken, time);
     }
 
-    /// Has the sub-steps take bodies that woke, and makes their pairs with the flyers near them.
-    pub(crate) fn rouse(&mut self, woken: &[u32], time: SimTime) {
+    /// Begins to sub-step bodies that woke, and makes their pairs with the free bodies near them.
+    pub(crate) fn resume_woken(&mut self, woken: &[u32], time: SimTime) {
         if self.settings.mode == Mode::Stepped {
             return;
         }
-        let mut dozed = false;
+        let mut were_analytic = false;
         for &index in woken {
             let membership = self.bodies.get(index).membership;
-            dozed |= membership.is_closed();
+            were_analytic |= membership.is_closed();
             self.dissolve(membership.group, time);
         }
-        if !dozed && self.many_woke(woken, time) {
+        if !were_analytic && self.many_woke(woken, time) {
             return;
         }
         for &index in woken {
-            self.enlist(index, time);
+            self.begin_substepping(index, time);
         }
         for &index in woken {
             self.meet_near(index);
@@ -400,7 +400,7 @@ impl World {
         self.drop_unheld(woken, time);
     }
 
-    /// Makes the pairs of a body's boxes in the tree with what is near them, flyers too.
+    /// Makes the pairs of a body's boxes in the tree with what is near them, free bodies too.
     pub(crate) fn meet_near(&mut self, index: u32) {
         for slot in 0..self.bodies.get(index).colliders.len() {
             let at = self.bodies.get(index).colliders[slot];
@@ -410,14 +410,14 @@ impl World {
                     &self.colliders,
                     &mut self.pairs,
                     at,
-                    Some(&self.flyers),
+                    Some(&self.free),
                 );
             }
         }
     }
 
-    /// A pair of a flyer and a shape of a body that is sub-stepped.
-    pub(crate) fn pair_flyer(&mut self, index: u32, at: u32) {
+    /// A pair of a free body and a shape of a body that is sub-stepped.
+    pub(crate) fn pair_free_body(&mut self, index: u32, at: u32) {
         for slot in 0..self.bodies.get(index).colliders.len() {
             let mine = self.bodies.get(index).colliders[slot];
             self.broad
@@ -429,7 +429,7 @@ impl World {
         self.refit_among(index, time, h, true);
     }
 
-    /// [`Self::refit`]; `meets`: flyers in the new boxes are found.
+    /// [`Self::refit`]; `meets`: free bodies in the new boxes are found.
     pub(crate) fn refit_among(&mut self, index: u32, time: SimTime, h: f64, meets: bool) {
         self.broad.refit(
             &mut self.bodies,
@@ -438,7 +438,7 @@ impl World {
             index,
             time,
             h,
-            meets.then_some(&self.flyers),
+            meets.then_some(&self.free),
         );
         self.look_down_first(time);
     }
@@ -449,7 +449,7 @@ impl World {
             &self.colliders,
             &mut self.pairs,
             &mut self.narrow,
-            &mut self.agenda,
+            &mut self.event_queue,
             &mut self.report,
             place,
             time,

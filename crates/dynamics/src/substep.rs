@@ -3,7 +3,7 @@
 use carom_math::SimTime;
 
 use crate::World;
-use crate::agenda::Entry;
+use crate::event_queue::Entry;
 use crate::flight::fly;
 use crate::narrow::{TOUCH, opening_speed, rest_speed};
 use crate::pairs::PairContact;
@@ -16,12 +16,12 @@ const IDLE: u8 = 4;
 
 impl World {
     /// One sub-step: what touches is looked at, what lasts is solved for, the rest flies, and
-    /// what will strike is entered into the agenda.
+    /// what will strike is entered into the event queue.
     pub(crate) fn begin_substep(&mut self) {
         let (time, h) = (self.clock.next(), self.clock.h);
         self.stopwatch.lap(|p| &mut p.impacts);
         self.clock.begin();
-        self.agenda.clear();
+        self.event_queue.clear();
         self.spent = 0.0;
         self.report.substeps += 1;
         self.look_at_fresh(time);
@@ -36,8 +36,8 @@ impl World {
         self.join_large(time);
         self.close_groups(time);
         self.join_exhausted(time);
-        self.doze(time);
-        self.glide(time);
+        self.begin_analytic_rest(time);
+        self.begin_analytic_motion(time);
         self.join_unsolved(time);
         self.gather_members(time);
         self.stopwatch.lap(|p| &mut p.contacts);
@@ -103,7 +103,7 @@ impl World {
                 pair.given_up = true;
                 self.report.collapsed += 1;
             }
-            due = self.agenda.next_until(self.clock.next());
+            due = self.event_queue.next_until(self.clock.next());
         }
     }
 
@@ -142,10 +142,10 @@ impl World {
         self.pairs.sort(&self.bodies, &self.stepped);
     }
 
-    /// Flyers that come to rest on stepped bodies are stepped from here on, and so on with those that
+    /// Free bodies that come to rest on stepped bodies are stepped from here on, and so on with those that
     /// rest on them.
     ///
-    /// A stack is judged once all of it has landed, not once a layer.
+    /// The modes of a stack are solved for once all of it has landed, not once a layer.
     fn gather_landings(&mut self, time: SimTime, h: f64) {
         let mut asked = self.pairs.ordered().to_vec();
         let mut landed = Vec::new();
@@ -183,11 +183,11 @@ impl World {
         self.pairs.sort(&self.bodies, &self.stepped);
     }
 
-    /// The flyer of a pair, if the other one is stepped and holds it.
+    /// The free body of a pair, if the other one is stepped and holds it.
     fn landing(&mut self, place: u32, time: SimTime, h: f64) -> Option<u32> {
         let (a, b) = self.pairs.get(place).bodies;
         let (one, two) = (self.bodies.get(a), self.bodies.get(b));
-        let flyer = match (one.is_flying(), two.is_flying()) {
+        let free = match (one.is_free(), two.is_free()) {
             (true, false) if two.is_stepped() => a,
             (false, true) if one.is_stepped() => b,
             _ => return None,
@@ -201,7 +201,7 @@ impl World {
             h,
         );
         if pair.buried {
-            return Some(flyer);
+            return Some(free);
         }
         let rest = rest_speed(&self.bodies, pair, h);
         let touch = TOUCH * one.reach.min(two.reach);
@@ -218,7 +218,7 @@ impl World {
                 }
             })
         };
-        pair.contacts.iter().any(holds).then_some(flyer)
+        pair.contacts.iter().any(holds).then_some(free)
     }
 
     /// Contacts of all near pairs; begins and ends of touch; what touches a sleeper wakes it.
@@ -302,14 +302,14 @@ impl World {
         }
     }
 
-    /// A body that fell asleep: it leaves the sub-steps, and flyers meet it as what rests.
+    /// A body that fell asleep: it leaves the sub-steps, and free bodies meet it as one at rest.
     pub(crate) fn lie_down(&mut self, index: u32, time: SimTime) {
-        self.discharge(index);
+        self.end_substepping(index);
         for place in self.bodies.get(index).pairs.clone() {
             let pair = self.pairs.get_mut(place);
             let other = pair.other(index);
             let state = self.bodies.get(other);
-            if state.course.flies {
+            if state.course.is_free {
                 self.part(place, time);
             } else if !state.is_stepped() {
                 // No contact update before one of the two wakes.
@@ -367,7 +367,7 @@ mod tests {
             let (now, end) = (world.clock.now, world.clock.next());
             // An impact of this sub-step, well before it ends.
             let last = now + 0.9 * (end - now);
-            let Some(entry) = world.agenda.next_until(last) else {
+            let Some(entry) = world.event_queue.next_until(last) else {
                 continue;
             };
             if world
@@ -378,7 +378,7 @@ mod tests {
                 continue;
             }
             let place = entry.pair;
-            world.agenda.push(entry);
+            world.event_queue.push(entry);
             world.spent = world.impact_budget() + 1.0;
             let report = world.step(0.95 * (end - now));
             assert!(world.pairs.get(place).given_up, "it got lost");

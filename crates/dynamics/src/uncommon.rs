@@ -7,7 +7,7 @@ use carom_math::{SimTime, Vec2};
 pub(crate) struct Uncommon {
     /// How gravity and fields act on it, as a factor: 1 for most.
     pub(crate) gravity_scale: f64,
-    /// Until when a flyer's motion stands for the law that it flies by; for ever where it is the law.
+    /// Until when a free body's motion stands for the law that it flies by; for ever where it is the law.
     pub(crate) piece: SimTime,
     /// Of velocity and spin, in 1/s.
     pub(crate) damping: (f64, f64),

@@ -5,12 +5,12 @@ use std::sync::Arc;
 use carom_geometry::{Aabb, Shape};
 use carom_math::{Pose, SimTime, StateHash, Sum, Vec2, cross};
 
-use crate::agenda::Agenda;
 use crate::bodies::Bodies;
 use crate::broad::{Broad, part};
 use crate::clock::Clock;
 use crate::closed::Closed;
-use crate::flyers::Flyers;
+use crate::event_queue::EventQueue;
+use crate::free::FreeBodies;
 use crate::groups::Groups;
 use crate::groups::Law;
 use crate::narrow::Narrow;
@@ -64,8 +64,8 @@ pub struct World {
     pub(crate) narrow: Narrow,
     pub(crate) groups: Groups,
     pub(crate) closed: Closed,
-    pub(crate) agenda: Agenda,
-    pub(crate) flyers: Flyers,
+    pub(crate) event_queue: EventQueue,
+    pub(crate) free: FreeBodies,
     /// Bodies that the sub-steps move, in order.
     pub(crate) stepped: Vec<u32>,
     pub(crate) events: Events,
@@ -112,8 +112,8 @@ impl World {
             narrow: Narrow::default(),
             groups: Groups::default(),
             closed: Closed::default(),
-            agenda: Agenda::default(),
-            flyers: Flyers::under(settings.gravity),
+            event_queue: EventQueue::default(),
+            free: FreeBodies::under(settings.gravity),
             stepped: Vec::new(),
             events: Events::new(settings.events),
             report: StepReport::default(),
@@ -158,7 +158,7 @@ impl World {
     pub fn reserve(&mut self, bodies: usize) {
         self.bodies.reserve(bodies);
         self.colliders.reserve_exact(bodies);
-        self.flyers.reserve(bodies);
+        self.free.reserve(bodies);
     }
 
     /// Inserts a body of one shape.
@@ -243,8 +243,8 @@ impl World {
             around.push(self.pairs.get(place).other(index));
             self.part(place, now);
         }
-        self.flyers.vanish(&mut self.bodies, index);
-        self.discharge(index);
+        self.free.vanish(&mut self.bodies, index);
+        self.end_substepping(index);
         self.forget_boxes(index);
         self.free_shapes(index);
         self.forced.retain(|i| *i != index);
@@ -299,7 +299,7 @@ impl World {
     }
 
     fn contacts_at(&self, place: u32) -> Vec<Contact> {
-        let now = self.gliding_now(place);
+        let now = self.moving_pair_now(place);
         let pair = now.as_ref().unwrap_or_else(|| self.pairs.get(place));
         Contact::of(&self.bodies, pair).collect()
     }

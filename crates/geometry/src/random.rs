@@ -139,8 +139,8 @@ impl Polygon {
     ///     state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
     ///     (state >> 40) as f64 / (1 << 24) as f64
     /// };
-    /// let coast = Polygon::random(100, 4.0, 3.0, &mut next)?;
-    /// assert_eq!(coast.vertices().len(), 100);
+    /// let outline = Polygon::random(100, 4.0, 3.0, &mut next)?;
+    /// assert_eq!(outline.vertices().len(), 100);
     /// # Ok::<(), carom_geometry::PolygonError>(())
     /// ```
     pub fn random(

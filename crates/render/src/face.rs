@@ -117,7 +117,7 @@ impl Face {
     }
 }
 
-/// By what they show; clones are equal at a glance.
+/// By what they show; clones share their levels, which is asked first.
 impl PartialEq for Face {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.levels, &other.levels) || self.levels == other.levels

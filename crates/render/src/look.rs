@@ -122,7 +122,7 @@ impl Look {
         let stride = strides[pick(mixed >> 32, strides.len())];
         let start = pick(mixed & 0xFFFF_FFFF, count);
         let base = self.palette[(start + stride * (index % count)) % count];
-        // A little lighter or darker, so that a crowd is lively.
+        // A little lighter or darker, so that many bodies do not look alike.
         let wobble = split_mix(self.seed ^ (index as u64 + 1));
         #[expect(clippy::cast_precision_loss, reason = "16 bits")]
         let part = (wobble & 0xFFFF) as f64 / 65536.0 * 0.14;

@@ -38,8 +38,8 @@ pub(crate) struct Bodies {
     pub(crate) drag: Vec<[Quad; 2]>,
     /// How many of them are damped.
     pub(crate) damped: usize,
-    /// Whether [`Self::rebase_strays`] may find some.
-    pub(crate) may_stray: bool,
+    /// Whether a body may deviate from its predicted motion: see [`Self::rebase_deviating`].
+    pub(crate) may_deviate: bool,
     /// How far beyond their boxes bodies may have come in the last sub-step, in m.
     pub(crate) beyond_boxes: f64,
 }
@@ -73,7 +73,7 @@ impl Bodies {
             foreseen: vec![Quad::default(); 2],
             drag: vec![UNDAMPED; 2],
             damped: 0,
-            may_stray: false,
+            may_deviate: false,
             beyond_boxes: 0.0,
         }
     }
@@ -162,7 +162,7 @@ impl Bodies {
         let drag = drag(record.damping, settings.substep());
         self.damped += usize::from(drag != UNDAMPED);
         self.drag.push(drag);
-        self.may_stray = true;
+        self.may_deviate = true;
     }
 
     /// Takes the line of a body out, to be put back as it is but for a velocity of 0; which body moved to its place.
@@ -322,22 +322,22 @@ impl Bodies {
     }
 
     /// Rebases bodies that may be a margin off their predicted motion `rest` seconds later, since their velocities changed.
-    pub(crate) fn rebase_strays(&mut self, settings: &Settings, rest: f64) -> bool {
-        if !self.may_stray {
+    pub(crate) fn rebase_deviating(&mut self, settings: &Settings, rest: f64) -> bool {
+        if !self.may_deviate {
             return false;
         }
-        let mut strays = false;
+        let mut deviates = false;
         for at in 2..self.lines.len() {
             let (line, limit) = (&self.lines[at], &self.limits[at]);
             let off = self.change(at, settings.tick) * rest;
             // What came, or was put elsewhere, since the tick is off as well.
-            if self.moved[at] || limit.strays(settings.margin, off, line.turn()) {
-                (self.moved[at], strays) = (true, true);
+            if self.moved[at] || limit.deviates(settings.margin, off, line.turn()) {
+                (self.moved[at], deviates) = (true, true);
                 self.foreseen[at] = Quad::new(line.v(), line.w());
                 self.rebase_one(at);
             }
         }
-        strays
+        deviates
     }
 }
 

@@ -31,7 +31,7 @@ impl Engine {
             let (v, w) = (line.v(), line.w());
             let change = Quad::new(velocity - v, spin - w);
             start.add(&change);
-            self.bodies.may_stray = true;
+            self.bodies.may_deviate = true;
             line.set_velocity(velocity, spin);
         }
         Ok(())
@@ -59,7 +59,7 @@ impl Engine {
             let at = record.line as usize;
             self.bodies.base[at] = pose;
             self.bodies.lines[at].clear_displacement();
-            (self.bodies.moved[at], self.bodies.may_stray) = (true, true);
+            (self.bodies.moved[at], self.bodies.may_deviate) = (true, true);
         }
         Ok(())
     }
@@ -79,7 +79,7 @@ impl Engine {
         let base = self.bodies.base[at];
         let turn = (pose.rotation * base.rotation.inverse()).angle();
         self.bodies.lines[at].set_displacement(pose.position - base.position, turn);
-        self.bodies.may_stray = true;
+        self.bodies.may_deviate = true;
         Ok(())
     }
 

@@ -159,16 +159,16 @@ impl Engine {
             return false;
         }
         let at_tick = self.done == 0 && !again;
-        let mut strays = false;
+        let mut deviates = false;
         if at_tick {
             self.rebase();
             self.broad
                 .find(self.level, &self.bodies, &self.pieces, self.settings.tick);
             self.update_contacts(rules);
         } else {
-            strays = self.follow_strays(rules);
+            deviates = self.update_deviating(rules);
         }
-        strays
+        deviates
     }
 
     /// One sub-step with the contacts that are known.
@@ -195,12 +195,12 @@ impl Engine {
         }
     }
 
-    /// Finds the contacts of bodies that came, or go otherwise than was foreseen at the tick, for the rest of it; whether
+    /// Finds the contacts of bodies that came, or deviate from the motion predicted at the tick, for the rest of it; whether
     /// there are any.
-    fn follow_strays(&mut self, rules: &dyn PairRules) -> bool {
+    fn update_deviating(&mut self, rules: &dyn PairRules) -> bool {
         let rest = self.left();
-        let strays = self.bodies.rebase_strays(&self.settings, rest);
-        if strays || self.broad.has_arrivals() {
+        let deviates = self.bodies.rebase_deviating(&self.settings, rest);
+        if deviates || self.broad.has_arrivals() {
             self.pose_moved();
             self.broad
                 .find_few(self.level, &self.bodies, &self.pieces, self.settings.tick);

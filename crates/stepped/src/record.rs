@@ -87,10 +87,10 @@ impl Limit {
         square > least * least || turn.abs() * self.reach > least
     }
 
-    /// Whether a body that will be so far off what was foreseen, or has turned so far since its base pose, is off its rows by a
-    /// part of a margin that counts.
+    /// Whether a body deviates from its rows by a part of a margin that counts: it will be `off` metres from its predicted
+    /// motion, or has turned so far since its base pose.
     #[inline]
-    pub(crate) fn strays(&self, margin: f64, off: f64, turn: f64) -> bool {
+    pub(crate) fn deviates(&self, margin: f64, off: f64, turn: f64) -> bool {
         let most = margin * self.extent;
         // Rows are straight: what turned by θ is off them by r θ²/2.
         off > most || 0.5 * turn * turn * self.reach > BEND * most

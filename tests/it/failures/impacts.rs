@@ -138,8 +138,8 @@ fn case_12_every_apex_is_the_drop_times_e_squared() {
     }
     assert_eq!(bounces[10], 13, "0.45 s, and 0.9 s each");
     for (k, (id, e)) in balls.iter().enumerate().take(10) {
-        // All bounces that are judged took place: e^(2k) is above 1e-12 for so many.
-        let judged = (0..)
+        // All bounces that count took place: e^(2k) is above 1e-12 for so many.
+        let least = (0..)
             .scan(1.0, |power, _| {
                 *power *= e * e;
                 Some(*power)
@@ -148,7 +148,7 @@ fn case_12_every_apex_is_the_drop_times_e_squared() {
             .count();
         let seen = bounces[k];
         assert!(
-            usize::try_from(seen).expect("a count") > judged,
+            usize::try_from(seen).expect("a count") > least,
             "ball {k}: {seen}"
         );
         let body = world.body(*id).expect("it is there");

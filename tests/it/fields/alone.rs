@@ -27,7 +27,7 @@ fn wall(world: &mut World, at: Vec2, normal: Vec2, material: Material) {
 
 /// `v/c (1 − e^(−ct)) = d` at `t = −ln(1 − c d/v)/c`.
 #[test]
-fn a_coasting_disc_strikes_a_wall_at_the_instant_of_its_closed_form() {
+fn a_damped_disc_strikes_a_wall_at_the_instant_of_its_closed_form() {
     for (c, v, d) in [
         (0.1, 3.0, 20.0),
         (0.5, 4.0, 7.5),

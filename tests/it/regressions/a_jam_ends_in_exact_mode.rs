@@ -1,5 +1,5 @@
 //! Three bodies in a notch, a heavy one and a light one among them, strike each other ever faster and never come to an
-//! end, since the streak of each begins anew again and again: exact mode had no budget, and the step did not end.
+//! end, since the Zeno series of each begins anew again and again: exact mode had no budget, and the step did not end.
 
 use carom_dynamics::{BodyDef, Mode, Settings, StepReport, World};
 use carom_geometry::HalfPlane;

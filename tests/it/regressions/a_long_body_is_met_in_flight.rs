@@ -1,4 +1,4 @@
-//! What is too large for the grid of flyers is found by the boxes of its shapes. Its bounding circle met the other one's
+//! What is too large for the grid of free bodies is found by the boxes of its shapes. Its bounding circle met the other one's
 //! long before its box did, so at the end of a look the pair was taken for one that had been followed since its circles
 //! met: a box flew through a wall of 10 m, and nothing was reported.
 

@@ -1,5 +1,5 @@
 //! A body that was removed, or turned to another kind, between the instant at which its impact was
-//! foreseen and the impact itself: the agenda still named its pair, and the step panicked.
+//! foreseen and the impact itself: the event queue still named its pair, and the step panicked.
 
 use carom_dynamics::{BodyDef, BodyKind, Material, Settings, World};
 use carom_geometry::Circle;

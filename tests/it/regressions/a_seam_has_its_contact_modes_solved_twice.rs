@@ -1,5 +1,5 @@
 //! At the end of a tile's edge the stretch that a sliding box has in common with it is as long as a rounding. The box was
-//! judged to slide on until that ended too, 16 times at one instant, before the next sub-step took it.
+//! found to slide on until that ended too, 16 times at one instant, before the next sub-step took it.
 
 use carom_dynamics::{BodyDef, Settings, World};
 use carom_math::{Vec2, vec2};

@@ -1,5 +1,5 @@
 //! A body that was put to sleep in the air and woke hung there until the next sub-step began, in steps that called themselves
-//! exact; and a flyer that woke it bounced off it as off something held.
+//! exact; and a free body that woke it bounced off it as off something held.
 
 use carom_dynamics::{BodyDef, EventKind, Force, Mode, Settings, World};
 use carom_math::{SimTime, Vec2, vec2};
@@ -70,9 +70,9 @@ fn a_body_left_in_the_air_falls_at_once() {
     }
 }
 
-/// A ball that flies into a sleeper in the air meets a flyer: one impact at its instant, and no touch.
+/// A ball that flies into a sleeper in the air meets a free body: one impact at its instant, and no touch.
 #[test]
-fn a_blow_on_a_sleeper_in_the_air_strikes_a_flyer() {
+fn a_blow_on_a_sleeper_in_the_air_strikes_a_free_body() {
     for mode in [Mode::Hybrid, Mode::Exact] {
         let mut world = world(mode);
         let material = surface(1.0, 0.0);

@@ -1,4 +1,4 @@
-//! A disc of 1000 kg dozes in a corner, and a thin box comes near it slower than rest. The solver held the two across their
+//! A disc of 1000 kg rests analytically in a corner, and a thin box comes near it slower than rest. The solver held the two across their
 //! gap, and gave the disc a motion with gravity, but had not woken it: it fell through the floor, and on for ever.
 
 use carom_dynamics::{BodyDef, Mode};

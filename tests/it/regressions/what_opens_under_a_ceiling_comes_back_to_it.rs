@@ -1,5 +1,5 @@
 //! A corner touches a ceiling and opens by its weight alone, since it neither comes nor goes. The body turns, and another
-//! corner comes up: it flew as a group that glides, which is not searched for what it touches, and went through the
+//! corner comes up: its island was in analytic motion, which is not searched for what it touches, and went through the
 //! ceiling by all of its size in steps that called themselves exact.
 
 use carom_dynamics::{BodyDef, Mode, Settings, World};

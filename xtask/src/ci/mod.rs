@@ -4,6 +4,7 @@ mod native;
 mod outside;
 mod packages;
 mod pictures;
+mod words;
 
 use std::path::Path;
 use std::process::{Command, ExitStatus};
@@ -23,7 +24,8 @@ const SEED: &str = "PROPTEST_RNG_SEED";
 pub(crate) fn run() -> Outcome {
     let root = laboratory::workspace();
     let all = Clock::start();
-    let steps: [(&str, Check); 11] = [
+    let steps: [(&str, Check); 12] = [
+        ("words: none of .ci/retired-words", words::check),
         ("format: cargo fmt --check", |root| {
             cargo(root, &["fmt", "--all", "--check"])
         }),

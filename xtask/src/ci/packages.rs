@@ -17,7 +17,7 @@ const INSIDE: [&str; 3] = ["LICENSE-APACHE", "LICENSE-MIT", "README.md"];
 const EXAMPLES: [(&str, &str, &[&str]); 5] = [
     ("carom-geometry", "large", &[]),
     ("carom-dynamics", "discs", &["heaps", "0.5"]),
-    ("carom-dynamics", "gliders", &["50"]),
+    ("carom-dynamics", "sliders", &["50"]),
     ("carom-dynamics", "sleepers", &["100"]),
     ("carom-tests", "fields", &[]),
 ];

@@ -1,4 +1,4 @@
-//! How far off each output of a category may be: the bounds of the reference's own judge.
+//! How far off each output of a category may be: the bounds of the reference's own check.
 
 use carom_math::{Sum, Vec2, vec2};
 use serde_json::Value;

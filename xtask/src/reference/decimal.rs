@@ -1,4 +1,4 @@
-//! Decimals with more digits than a double, for judging errors below its rounding.
+//! Decimals with more digits than a double, for errors below its rounding.
 
 use carom_math::{two_product, two_sum};
 

@@ -1,10 +1,10 @@
-//! Bounds of worlds that are followed impact by impact: judged as far as doubles can follow the motion.
+//! Bounds of worlds that are followed impact by impact: checked as far as doubles can follow the motion.
 
 use super::book::Case;
 use super::bounds::{first_number, numbers};
 use super::decimal::Decimal;
 
-/// Allowed absolute error of each number of one output; infinite where it is not judged.
+/// Allowed absolute error of each number of one output; infinite where it is not checked.
 ///
 /// `None`: the category has no such bounds.
 pub(super) fn bounds(category: &str, case: &Case, key: &str, want: &[Decimal]) -> Option<Vec<f64>> {
@@ -113,14 +113,14 @@ fn scene(case: &Case, key: &str, want: &[Decimal]) -> Vec<f64> {
         };
     }
     let each = (want.len() / count.max(1)).max(1);
-    let judged = |(k, bound): (usize, f64)| {
+    let within = |(k, bound): (usize, f64)| {
         if k / each < seen {
             bound
         } else {
             f64::INFINITY
         }
     };
-    allowed.into_iter().enumerate().map(judged).collect()
+    allowed.into_iter().enumerate().map(within).collect()
 }
 
 /// 100 times what plain double runs lost, at least 1e-13 of the scale; infinite above `limit`.

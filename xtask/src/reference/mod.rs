@@ -1,7 +1,8 @@
-//! `reference`: every case of a folder, answered by the library and judged.
+//! `reference`: every case of a folder, answered by the library and checked.
 
 mod book;
 mod bounds;
+mod check;
 mod decimal;
 mod first_contact;
 mod flight;
@@ -9,7 +10,6 @@ mod friction;
 mod gas;
 mod horizon;
 mod impact;
-mod judge;
 mod line;
 mod mass;
 mod outline;
@@ -70,7 +70,7 @@ pub(crate) fn run(args: &ReferenceArgs) -> Outcome {
         let mut tally = Tally::default();
         for case in &book.cases {
             let answer = answer(&book.category, case, asked);
-            let verdict = judge::judge(&book.category, case, &answer);
+            let verdict = check::check(&book.category, case, &answer);
             if args.list {
                 list(case, &verdict);
             }
@@ -98,7 +98,7 @@ pub(crate) fn run(args: &ReferenceArgs) -> Outcome {
 }
 
 /// `pass ID`, or `fall short ID: why`.
-fn list(case: &Case, verdict: &judge::Verdict) {
+fn list(case: &Case, verdict: &check::Verdict) {
     match verdict.faults.as_slice() {
         [] => say!("pass {}", case.id),
         faults => say!("fall short {}: {}", case.id, faults.join("; ")),
@@ -238,7 +238,7 @@ struct Tally {
 }
 
 impl Tally {
-    fn count(&mut self, case: &Case, answer: &Answer, verdict: &judge::Verdict) {
+    fn count(&mut self, case: &Case, answer: &Answer, verdict: &check::Verdict) {
         self.seconds += answer.seconds.unwrap_or(0.0);
         if verdict.faults.is_empty() {
             self.passed += 1;

@@ -6,7 +6,7 @@ use super::horizon::{dynamic_bodies, horizon};
 use super::worlds::larger;
 use super::{Case, Metric, RATES, Run, Trial, Values};
 use crate::engine::EngineError;
-use crate::quality::judge;
+use crate::quality::assess;
 
 const METRICS: &[Metric] = &[
     Metric::error("energy_dev_worst", "1"),
@@ -18,7 +18,7 @@ const METRICS: &[Metric] = &[
 
 pub(super) const POLYGONS: Case = Case {
     name: "12_polygon_gas",
-    about: "100 smooth polygons in a box for 60 s, e = 1: energy, overlap, escapes; horizon of what can be foretold",
+    about: "100 smooth polygons in a box for 60 s, e = 1: energy, overlap, escapes; horizon of prediction",
     metrics: METRICS,
     rates: RATES,
     sweeps_substeps: true,
@@ -28,7 +28,7 @@ pub(super) const POLYGONS: Case = Case {
 
 pub(super) const DISCS: Case = Case {
     name: "18_disc_gas",
-    about: "100 smooth discs in a box for 60 s, e = 1: energy, overlap, escapes; horizon of what can be foretold",
+    about: "100 smooth discs in a box for 60 s, e = 1: energy, overlap, escapes; horizon of prediction",
     metrics: METRICS,
     rates: RATES,
     sweeps_substeps: true,
@@ -46,8 +46,8 @@ fn measure(trial: &mut Trial, name: &str) -> Result<Values, EngineError> {
     let scene = plain_scene(name).expect("a built-in scene");
     let horizon = horizon(trial, &scene, RUN)?;
     // Overlap with the walls does not count.
-    let mut judged = scene.clone();
-    for body in &mut judged.bodies {
+    let mut reduced = scene.clone();
+    for body in &mut reduced.bodies {
         if body.kind == PlainKind::Fixed {
             body.shapes.clear();
         }
@@ -63,7 +63,7 @@ fn measure(trial: &mut Trial, name: &str) -> Result<Values, EngineError> {
         steps += 1;
         if steps.is_multiple_of(looks) {
             worst = larger(worst, (energy(&run, &scene) / start - 1.0).abs());
-            overlap = larger(overlap, judge(&judged, run.engine()).overlap_max);
+            overlap = larger(overlap, assess(&reduced, run.engine()).overlap_max);
         }
     }
     let inside = |body: &usize| {

@@ -1,4 +1,4 @@
-//! How long a chaotic scene can be foretold.
+//! How long a chaotic scene can be predicted.
 
 use carom_scenes::{PlainKind, PlainScene};
 

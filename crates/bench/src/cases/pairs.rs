@@ -8,7 +8,7 @@ use super::plan::QUICK;
 use super::worlds::{larger, worst};
 use super::{Case, Metric, RATES, Run, Trial, Values};
 use crate::engine::EngineError;
-use crate::quality::judge;
+use crate::quality::assess;
 
 pub(super) const CASE: Case = Case {
     name: "19_polygon_pairs",
@@ -83,7 +83,7 @@ fn meet(trial: &mut Trial, scene: &PlainScene) -> Result<Change, EngineError> {
         run.step();
         steps += 1;
         if steps.is_multiple_of(looks) {
-            overlap = larger(overlap, judge(scene, run.engine()).overlap_max);
+            overlap = larger(overlap, assess(scene, run.engine()).overlap_max);
         }
     }
     let (p, l) = momenta(&run);

@@ -25,7 +25,7 @@ const FINEST: f64 = 7680.0;
 /// - `self_error_m`: the largest distance of a body from where it is at 7680 Hz.
 /// - `observed_order`: log2 (|x(h) − x(h/2)| / |x(h/2) − x(h/4)|), each the largest distance of a body (Richardson);
 ///   no number where the finer difference is 0.
-/// - `horizon_s`: how long the scene can be foretold at this rate, see [`horizon`]; at most `time`.
+/// - `horizon_s`: how long the scene can be predicted at this rate, see [`horizon`]; at most `time`.
 ///
 /// # Errors
 /// If the engine is not built in or refuses the scene.

@@ -60,7 +60,7 @@ fn measure(trial: &mut Trial) -> Result<Values, EngineError> {
                     values.push((format!("{name}_rests"), f64::from(u8::from(rests))));
                     values.push((format!("{name}_deepest_m"), deepest));
                 }
-                // An engine that takes the box alone is judged by the box.
+                // An engine that takes the box alone is assessed by the box.
                 Err(EngineError::Body { .. }) if shape_name == "needle" => {}
                 Err(error) => return Err(error),
             }

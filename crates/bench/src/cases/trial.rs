@@ -203,7 +203,7 @@ impl Run<'_> {
         self.engine.counters()
     }
 
-    /// The world, for the judge.
+    /// The world, for [`assess`](crate::assess).
     #[must_use]
     pub fn engine(&self) -> &dyn Engine {
         self.engine.as_ref()

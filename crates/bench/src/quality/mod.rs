@@ -1,6 +1,6 @@
-//! What a run did to physics, judged by the same `f64` code for every engine.
+//! What a run did to physics, assessed by the same `f64` code for every engine.
 //!
-//! Nothing here is shared with an engine: the separating-axis rule and the grid of candidates are the judge's own.
+//! Nothing here is shared with an engine: the separating-axis rule and the grid of candidates are its own.
 
 mod grid;
 mod overlap;
@@ -47,7 +47,7 @@ pub struct Quality {
     pub non_finite: usize,
 }
 
-/// Where an engine's bodies are at an instant, and what they weigh: to be judged later.
+/// Where an engine's bodies are at an instant, and what they weigh: to be assessed later.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Snapshot {
     states: Vec<State>,
@@ -66,7 +66,7 @@ impl Snapshot {
 
     /// The verdict.
     #[must_use]
-    pub fn judge(&self, scene: &PlainScene) -> Quality {
+    pub fn assess(&self, scene: &PlainScene) -> Quality {
         let mut verdict = Quality {
             highest: f64::NEG_INFINITY,
             ..Quality::default()
@@ -102,16 +102,16 @@ impl Snapshot {
     pub fn drift(&self, later: &Self, scene: &PlainScene) -> f64 {
         let moves = scene.bodies.iter().zip(&self.states).zip(&later.states);
         moves
-            .filter(|((body, from), to)| is_judged(body, from) && finite(to))
+            .filter(|((body, from), to)| is_assessed(body, from) && finite(to))
             .map(|((_, from), to)| from.position.distance(to.position))
             .fold(0.0, f64::max)
     }
 }
 
-/// Judges where an engine's bodies are.
+/// Assesses where an engine's bodies are.
 #[must_use]
-pub fn judge(scene: &PlainScene, engine: &dyn Engine) -> Quality {
-    Snapshot::of(engine, scene.bodies.len()).judge(scene)
+pub fn assess(scene: &PlainScene, engine: &dyn Engine) -> Quality {
+    Snapshot::of(engine, scene.bodies.len()).assess(scene)
 }
 
 /// m v²/2 + I ω²/2 − m g·x, in J.
@@ -127,7 +127,7 @@ fn outside(scene: &PlainScene, centre: Vec2) -> bool {
     })
 }
 
-fn is_judged(body: &PlainBody, state: &State) -> bool {
+fn is_assessed(body: &PlainBody, state: &State) -> bool {
     body.kind == PlainKind::Dynamic && finite(state)
 }
 

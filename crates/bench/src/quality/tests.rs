@@ -47,8 +47,8 @@ impl Table {
         }
     }
 
-    fn judge(&self) -> Quality {
-        self.snapshot().judge(&self.scene)
+    fn assess(&self) -> Quality {
+        self.snapshot().assess(&self.scene)
     }
 }
 
@@ -61,7 +61,7 @@ fn depth(a: PlainShape, b: PlainShape, position: Vec2, angle: f64) -> f64 {
     let table = Table::new()
         .put(DYNAMIC, a, Vec2::ZERO, 0.0)
         .put(DYNAMIC, b, position, angle);
-    table.judge().overlap_max
+    table.assess().overlap_max
 }
 
 #[track_caller]
@@ -119,7 +119,7 @@ fn pieces_count_one_by_one_and_never_against_their_own_body() {
     let twin = table.scene.shape(SQUARE);
     table.scene.bodies[0].shapes.push(twin);
     let table = table.put(DYNAMIC, SQUARE, vec2(0.75, 0.0), 0.0);
-    let verdict = table.judge();
+    let verdict = table.assess();
     assert_eq!(verdict.overlap_pairs, 2);
     assert_near(verdict.overlap_mean, 0.25);
 }
@@ -129,9 +129,9 @@ fn overlaps_of_two_immovable_bodies_do_not_count() {
     let table = Table::new()
         .put(PlainKind::Fixed, SQUARE, Vec2::ZERO, 0.0)
         .put(PlainKind::Kinematic, SQUARE, vec2(0.5, 0.0), 0.0);
-    assert_eq!(table.judge().overlap_pairs, 0);
+    assert_eq!(table.assess().overlap_pairs, 0);
     let table = table.put(DYNAMIC, SQUARE, vec2(0.25, 0.9), 0.0);
-    assert_eq!(table.judge().overlap_pairs, 2);
+    assert_eq!(table.assess().overlap_pairs, 2);
 }
 
 #[test]
@@ -191,7 +191,7 @@ fn energy_and_momenta_are_those_of_the_textbook() {
         mass: 2.0,
         inertia: 0.5,
     };
-    let verdict = table.judge();
+    let verdict = table.assess();
     // 2 (16 + 1)/2 + 0.5·25/2 + 2·10·3
     assert_near(verdict.energy, 17.0 + 6.25 + 60.0);
     assert_near(verdict.momentum[0], 8.0);
@@ -208,11 +208,11 @@ fn escaped_and_non_finite_bodies_are_counted() {
         .put(DYNAMIC, SQUARE, vec2(5.0, 0.0), 0.0)
         .put(DYNAMIC, SQUARE, vec2(f64::NAN, 0.0), 0.0);
     table.scene.region = Some([vec2(-5.0, -5.0), vec2(5.0, 5.0)]);
-    let verdict = table.judge();
+    let verdict = table.assess();
     assert_eq!((verdict.escaped, verdict.non_finite), (1, 1));
     assert!(verdict.energy.is_finite());
     table.states[0].velocity.x = 1e200;
-    assert_eq!(table.judge().non_finite, 2);
+    assert_eq!(table.assess().non_finite, 2);
 }
 
 #[test]

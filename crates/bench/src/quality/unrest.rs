@@ -2,7 +2,7 @@
 
 use carom_scenes::PlainScene;
 
-use super::is_judged;
+use super::is_assessed;
 use crate::engine::{Body, Engine, State};
 
 /// Root mean square acceleration over dynamic bodies and steps.
@@ -12,13 +12,13 @@ use crate::engine::{Body, Engine, State};
 /// gyration. At rest it is 0; in free fall |g|; a pile that hums shows it however small its overlaps are.
 #[derive(Clone, Debug)]
 pub struct Unrest {
-    judged: Vec<Judged>,
+    assessed: Vec<Assessed>,
     sum: f64,
     count: usize,
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Judged {
+struct Assessed {
     body: usize,
     last: State,
     /// Square of the radius of gyration, in m².
@@ -31,15 +31,15 @@ impl Unrest {
     pub fn new(scene: &PlainScene, engine: &dyn Engine) -> Self {
         let bodies = scene.bodies.iter().enumerate();
         let bodies = bodies.map(|(index, body)| (index, body, engine.state(index)));
-        let judged = bodies
-            .filter(|(_, body, state)| is_judged(body, state))
-            .map(|(body, _, last)| Judged {
+        let assessed = bodies
+            .filter(|(_, body, state)| is_assessed(body, state))
+            .map(|(body, _, last)| Assessed {
                 body,
                 last,
                 gyration: gyration(engine.body(body)),
             });
         Self {
-            judged: judged.collect(),
+            assessed: assessed.collect(),
             sum: 0.0,
             count: 0,
         }
@@ -47,16 +47,16 @@ impl Unrest {
 
     /// Adds a step that the engine has just made, of length `dt` in s.
     pub fn add(&mut self, engine: &dyn Engine, dt: f64) {
-        for judged in &mut self.judged {
-            let now = engine.state(judged.body);
-            let pushed = (now.velocity - judged.last.velocity).length_squared();
-            let turned = now.spin - judged.last.spin;
-            let square = (pushed + judged.gyration * turned * turned) / (dt * dt);
+        for assessed in &mut self.assessed {
+            let now = engine.state(assessed.body);
+            let pushed = (now.velocity - assessed.last.velocity).length_squared();
+            let turned = now.spin - assessed.last.spin;
+            let square = (pushed + assessed.gyration * turned * turned) / (dt * dt);
             if square.is_finite() {
                 self.sum += square;
                 self.count += 1;
             }
-            judged.last = now;
+            assessed.last = now;
         }
     }
 

@@ -57,7 +57,7 @@ fn sort(pairs: &mut [(u32, u32)]) {
 /// What is below places of two trees, against each other.
 ///
 /// Two pairs of children that overlap are four questions more. What comes of a question cannot be
-/// foretold, so nothing branches on it: an answer goes to the end of each list that it might go to,
+/// predicted, so nothing branches on it: an answer goes to the end of each list that it might go to,
 /// and one of the lists gets longer.
 struct Search<'a, F> {
     one: &'a BoxTree,

@@ -46,14 +46,14 @@ impl World {
         members
     }
 
-    /// A body flies from here on; those of its group are judged without it.
+    /// A body is free from here on; the modes of its group are solved for without it.
     pub(crate) fn leave_group(&mut self, index: u32, time: SimTime) {
         let place = self.bodies.get(index).membership.group;
         if let Some(group) = self.closed.get(place) {
             let speed = group.speed;
             let mut members = self.dissolve(place, time);
             members.retain(|member| *member != index);
-            self.judge_all(&members, time, speed);
+            self.solve_modes_of(&members, time, speed);
         }
     }
 

@@ -87,14 +87,13 @@ fn disc_on(own: &Held<'_>, disc: &Held<'_>, owner: End, outward: Vec2, near: f64
         let (normal, height, ends) = own.edge_line(edge);
         let t = perp(normal);
         let along = t.dot(local);
-        let glide = own
+        let slip = own
             .pose
             .inverse_vector(disc.velocity_of(centre) - own.velocity_of(centre))
             .dot(t);
         // At the very end it is the way it goes that tells edge from corner.
         let room = near * FLUSH + end_room(own.pose.position, disc.pose.position);
-        let leaves =
-            along <= ends[0] + room && glide < 0.0 || along >= ends[1] - room && glide > 0.0;
+        let leaves = along <= ends[0] + room && slip < 0.0 || along >= ends[1] - room && slip > 0.0;
         if !leaves {
             return Some(Joint::Line {
                 owner,

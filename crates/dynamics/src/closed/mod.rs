@@ -1,24 +1,24 @@
 //! Contact groups in closed form, in a world: which bodies belong together, what moves them, what changes next.
 //!
-//! A group is judged where its contacts begin to last, where one of its members changes its motion, and
+//! A group's modes are solved for where its contacts begin to last, where one of its members changes its motion, and
 //! at the instant of its own next change. Between these it is left alone: its motions are right for
 //! as long as its mode lasts. What does not qualify is left to the sub-steps.
 
+mod at_rest;
 mod dissolve;
-mod doze;
-mod glide;
 mod jam;
 mod joints;
 mod mode_budget;
+mod moving;
 mod store;
 mod tips;
 
 use arrayvec::ArrayVec;
 use carom_math::{SimTime, Vec2, cross_scalar, perp};
 
-use crate::agenda::Entry;
+use crate::event_queue::Entry;
 use crate::flight::fly;
-use crate::modes::{BodyMove, GroupMove, NotMine, TouchMove, judge, land};
+use crate::modes::{BodyMove, GroupMove, NotMine, TouchMove, land, solve_modes};
 use crate::touching::{Gathered, Looks, Refused};
 use crate::{BodyKind, ContactMode, Mode, World};
 pub(crate) use store::{Closed, Membership};
@@ -50,7 +50,7 @@ impl World {
                 }
                 // A touch with a group is the group's alone.
                 if joins.contains(&true) || state.membership.waits(time).is_none() {
-                    self.judge_around(index, time, 0.0, Looks::Fresh);
+                    self.solve_modes_around(index, time, 0.0, Looks::Fresh);
                 }
             }
         }
@@ -63,7 +63,7 @@ impl World {
         for group in self
             .closed
             .iter()
-            .filter(|group| !(group.dozes || group.glides))
+            .filter(|group| !(group.rests_analytically || group.moves_analytically))
         {
             for touch in &group.touches {
                 touch.carry(&self.bodies, self.pairs.get_mut(touch.pair), h);
@@ -80,9 +80,10 @@ impl World {
             return;
         };
         if group.sleeps {
-            return self.lull(place, time);
+            return self.fall_asleep(place, time);
         }
-        let (speed, glides, landing) = (group.speed, group.glides, group.landing());
+        let (speed, moves_analytically, landing) =
+            (group.speed, group.moves_analytically, group.landing());
         if self.continue_path(place, time) {
             return;
         }
@@ -90,11 +91,11 @@ impl World {
         if let Some((pair, normal, at)) = landing {
             self.comes_down(pair, normal, at, time);
         }
-        self.judge_all(&members, time, speed);
-        if glides {
+        self.solve_modes_of(&members, time, speed);
+        if moves_analytically {
             // No sub-step was under way for it, and none need be.
-            self.doze(time);
-            self.glide(time);
+            self.begin_analytic_rest(time);
+            self.begin_analytic_motion(time);
         }
     }
 
@@ -115,7 +116,7 @@ impl World {
         self.strike_entry(&entry);
     }
 
-    /// A member of a group has another motion: the group is judged anew, with what touches it now.
+    /// A member of a group has another motion: the group's modes are solved for anew, with the contacts that it has now.
     pub(crate) fn regroup(&mut self, index: u32, time: SimTime) {
         if self.settings.mode == Mode::Stepped || !self.bodies.pull.fields.is_empty() {
             return;
@@ -140,23 +141,23 @@ impl World {
             }
             None => return,
         };
-        self.judge_all(&members, time, speed);
+        self.solve_modes_of(&members, time, speed);
     }
 
-    /// Judges the group of a body anew, whether its members have other motions or not.
-    pub(crate) fn rejudge(&mut self, index: u32, time: SimTime) {
+    /// Solves for the modes of a body's group anew, whether its members have other motions or not.
+    pub(crate) fn solve_modes_anew(&mut self, index: u32, time: SimTime) {
         let place = self.bodies.get(index).membership.group;
         if let Some(group) = self.closed.get(place) {
             let speed = group.speed;
             let members = self.dissolve(place, time);
-            self.judge_all(&members, time, speed);
+            self.solve_modes_of(&members, time, speed);
         }
     }
 
     /// A body that goes on as before has one contact more: the modes of its island are solved for anew.
     pub(crate) fn gain_contact(&mut self, index: u32, time: SimTime) {
         if self.bodies.get(index).membership.is_closed() {
-            self.rejudge(index, time);
+            self.solve_modes_anew(index, time);
         } else {
             self.regroup(index, time);
         }
@@ -176,13 +177,13 @@ impl World {
             .any(|pair| pair.lasting || (pair.touching && pair.material.restitution == 0.0))
     }
 
-    fn judge_all(&mut self, members: &[u32], time: SimTime, speed: f64) {
+    fn solve_modes_of(&mut self, members: &[u32], time: SimTime, speed: f64) {
         if self.stalls(members, time) {
             self.set_free(members, time);
         } else {
             for &index in members {
                 if !self.bodies.get(index).membership.is_closed() {
-                    self.judge_around(index, time, speed, Looks::Old);
+                    self.solve_modes_around(index, time, speed, Looks::Old);
                 }
             }
         }
@@ -192,7 +193,7 @@ impl World {
         }
     }
 
-    /// Counts a mode solve of an island: every one counts for some body that had not been judged too often, so they come to an
+    /// Counts a mode solve of an island: every one counts for some body that has not used up its number of them, so they come to an
     /// end.
     fn stalls(&mut self, members: &[u32], time: SimTime) -> bool {
         let limits = (self.clock.h, self.settings.mode);
@@ -202,13 +203,13 @@ impl World {
     }
 
     /// Solves for the modes of the island around a body.
-    fn judge_around(&mut self, index: u32, time: SimTime, speed: f64, looks: Looks) {
+    fn solve_modes_around(&mut self, index: u32, time: SimTime, speed: f64, looks: Looks) {
         self.report.modes_solved += 1;
         let mut found = self.gather_touching(index, time, looks);
         while let Err(Refused { seen, .. }) = &found {
             let leaves = |index: &u32| {
                 let state = self.bodies.get(*index);
-                state.dozes || state.course.glides
+                state.rests_analytically || state.course.moves_analytically
             };
             let Some(index) = seen.iter().copied().find(leaves) else {
                 break;
@@ -269,11 +270,11 @@ impl World {
         } else {
             speed
         };
-        match judge(&gathered.bodies, &gathered.touches, speed) {
+        match solve_modes(&gathered.bodies, &gathered.touches, speed) {
             Ok(moves) => {
                 // What flies, and touches what belongs to an island, is the island's from now on.
                 for &index in &gathered.places {
-                    if self.bodies.get(index).is_flying() {
+                    if self.bodies.get(index).is_free() {
                         self.land_first(index, time);
                     }
                 }
@@ -308,13 +309,13 @@ impl World {
             return;
         };
         gathered.stand(landed);
-        match judge(&gathered.bodies, &gathered.touches, speed) {
+        match solve_modes(&gathered.bodies, &gathered.touches, speed) {
             Ok(moves) => self.close(&gathered, &moves, time, speed),
             Err(_) => self.wait_around(&gathered.dynamic(), time),
         }
     }
 
-    /// A judgement failed: the next one is later, and later each time.
+    /// A mode solve failed: the next one is later, and later each time.
     fn wait_around(&mut self, members: &[u32], time: SimTime) {
         self.charge(members, time);
         for &index in members {
@@ -367,8 +368,8 @@ impl World {
             members: members.clone(),
             speed: fastest,
             sleeps: sleep.is_some(),
-            dozes: false,
-            glides: false,
+            rests_analytically: false,
+            moves_analytically: false,
             until: change,
             tipping: None,
         };

@@ -160,7 +160,7 @@ impl World {
                 self.join(index, time);
             }
         }
-        self.lower_flyers_later();
+        self.lower_free_boxes_later();
     }
 
     /// Whether an island keeps its method in spite of an exhausted budget; its budget is full again then.

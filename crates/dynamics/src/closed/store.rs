@@ -17,7 +17,7 @@ use crate::{ContactMode, Mode};
 /// What is no longer than this is one instant, in s.
 const INSTANT: f64 = 1e-12;
 
-/// Judgements that a body's motion makes necessary at one instant: more, and rounding moves it to and fro.
+/// Mode solves that a body's motion makes necessary at one instant: more, and rounding moves it to and fro.
 const STALLED: u32 = 16;
 
 /// Work that a body's island may spend on changes of contact mode in the time of a sub-step, in solves of one body's modes: a solve
@@ -31,7 +31,7 @@ const OFTEN: u32 = 64;
 /// two corners under a heavy one changed its mode every 8 ps.
 const OFTEN_EXACT: u32 = 4096;
 
-/// Sub-steps that a body waits after a judgement that failed: doubled each time, up to this.
+/// Sub-steps that a body waits after a mode solve that failed: doubled each time, up to this.
 const LONGEST_WAIT: u32 = 256;
 
 /// No group.
@@ -42,7 +42,7 @@ const NO_GROUP: u32 = u32::MAX;
 pub(crate) struct Membership {
     /// Place of the group, or [`NO_GROUP`].
     pub(crate) group: u32,
-    /// Not judged again before this instant, while nothing happens to it.
+    /// Its modes are not solved for again before this instant, while nothing happens to it.
     not_before: SimTime,
     /// Sub-steps that it waited the last time.
     waited: u32,
@@ -71,23 +71,23 @@ impl Membership {
         }
     }
 
-    /// A judgement failed: the next one is later, and later each time, in sub-steps of `h` seconds.
+    /// A mode solve failed: the next one is later, and later each time, in sub-steps of `h` seconds.
     pub(super) fn wait(&mut self, time: SimTime, h: f64) {
         self.waited = (2 * self.waited + 1).min(LONGEST_WAIT);
         self.not_before = time + h * (f64::from(self.waited) - 0.5);
     }
 
-    /// Something happened: what was judged before says nothing.
+    /// Something happened: failed mode solves of before are void.
     pub(crate) fn forget(&mut self) {
         (self.not_before, self.waited) = (SimTime::ZERO, 0);
     }
 
-    /// A neighbour's judgement stands for all.
+    /// A neighbour's failed mode solve counts for all.
     pub(super) fn wait_until(&mut self, until: SimTime) {
         self.not_before = until;
     }
 
-    /// Until when a judgement that failed stands, if it still does at `time`.
+    /// Until when a failed mode solve counts, if it still does at `time`.
     pub(crate) fn waits(self, time: SimTime) -> Option<SimTime> {
         Some(self.not_before).filter(|until| *until > time)
     }
@@ -106,7 +106,7 @@ pub(crate) struct Closed {
     still: Vec<(u32, u64)>,
     /// Groups that move, and that the sub-steps still look after, with their stamps.
     moving: Vec<(u32, u64)>,
-    /// By place of a body: when judgements of it began that took place at one instant, and how many they were; the same of those
+    /// By place of a body: when its mode solves of one instant began, and how many they were; the same of those
     /// in the time of a sub-step.
     stalls: Vec<[(SimTime, u32); 2]>,
     /// By place of a body.
@@ -128,9 +128,9 @@ pub(super) struct Group {
     pub(super) speed: f64,
     pub(super) sleeps: bool,
     /// Its members are left out of sub-steps and treated as asleep, but reported awake to the caller.
-    pub(super) dozes: bool,
-    /// Its members fly until it changes.
-    pub(super) glides: bool,
+    pub(super) rests_analytically: bool,
+    /// Its members have left the sub-steps, and move along their parabolas until its mode changes.
+    pub(super) moves_analytically: bool,
     /// When it changes by itself.
     pub(super) until: Option<SimTime>,
     /// The path of one that turns.
@@ -273,7 +273,7 @@ impl Closed {
     pub(super) fn tipping(&self) -> Vec<u32> {
         let turns = |held: &Option<(u64, Group)>| {
             held.as_ref()
-                .is_some_and(|(_, group)| group.tipping.is_some() && !group.glides)
+                .is_some_and(|(_, group)| group.tipping.is_some() && !group.moves_analytically)
         };
         let all = (0_u32..).zip(&self.groups);
         all.filter(|(_, held)| turns(held))
@@ -368,15 +368,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn judgements_that_only_rounding_moves_on_come_to_an_end() {
-        // A slip that ended after 4.6e-17 s, again and again, was judged for ever.
+    fn mode_solves_that_only_rounding_moves_on_come_to_an_end() {
+        // A slip that ended after 4.6e-17 s, again and again, was solved for without end.
         let mut closed = Closed::default();
         let mut time = SimTime::ZERO + 0.25;
-        let judged = (0..1000).take_while(|_| {
+        let solves = (0..1000).take_while(|_| {
             time += 4.6e-17;
             !closed.stalls(3, 1, time, (1e-3, Mode::Exact))
         });
-        assert!(judged.count() <= 17);
+        assert!(solves.count() <= 17);
         assert!(
             !closed.stalls(2, 1, time, (1e-3, Mode::Exact)),
             "another body is another matter"
@@ -388,7 +388,7 @@ mod tests {
     }
 
     #[test]
-    fn judgements_without_end_leave_a_group_to_the_next_sub_step() {
+    fn mode_solves_without_end_leave_a_group_to_the_next_sub_step() {
         // Changes 8 ps apart took 27 s of a sub-step.
         let h = 1.0 / 360.0;
         for (mode, bodies, most) in [

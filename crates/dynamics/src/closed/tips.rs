@@ -51,9 +51,9 @@ impl World {
         if moving.filter(|body| body.inverse_mass > 0.0).count() > MOST {
             return Err(NotMine::TooLarge);
         }
-        // Flyers land first.
-        let flies = |index: &u32| self.bodies.get(*index).is_flying();
-        if gathered.places.iter().any(flies) {
+        // Free bodies land first.
+        let is_free = |index: &u32| self.bodies.get(*index).is_free();
+        if gathered.places.iter().any(is_free) {
             return Err(NotMine::Turns);
         }
         let contacts = self.joints(gathered, time).ok_or(NotMine::Curved)?;
@@ -118,8 +118,8 @@ impl World {
             members: members.clone(),
             speed: fastest,
             sleeps: false,
-            dozes: false,
-            glides: false,
+            rests_analytically: false,
+            moves_analytically: false,
             until: Some(change),
             tipping: Some(Tipping {
                 tip: Arc::new(tip),
@@ -166,7 +166,8 @@ impl World {
             lost += state.kinetic_energy(time) - 0.5 * (linear + angular);
             fastest = fastest.max(velocity.length()).max(spin.abs() * state.reach);
         }
-        let (glides, heat) = (group.glides, group.works(time - group.since).0);
+        let (moves_analytically, heat) =
+            (group.moves_analytically, group.works(time - group.since).0);
         let members: Vec<u32> = group.members.iter().map(|(index, _)| *index).collect();
         if self.stalls(&members, time) {
             return false;
@@ -183,8 +184,8 @@ impl World {
             }
         }
         self.closed.changes_at(place, change);
-        if glides {
-            self.glide_on_all(place, time);
+        if moves_analytically {
+            self.begin_next_pieces(place, time);
         } else {
             self.lay_pieces(place, time, self.clock.next() - time);
             for index in members {
@@ -207,7 +208,7 @@ impl World {
                 Some(group) if stands(group) => self.lay_pieces(place, time, h),
                 Some(group) => {
                     let first = group.members[0].0;
-                    self.rejudge(first, time);
+                    self.solve_modes_anew(first, time);
                 }
                 None => {}
             }

@@ -48,7 +48,7 @@ mod tests {
         // 10 m/s² against 2 per second: 5 m/s.
         let (_, v) = damped(-7.0, -10.0, 2.0, 100.0);
         assert!((v + 5.0).abs() < 1e-15);
-        // A coasting body comes to rest after v/c.
+        // Without a force the body comes to rest after v/c.
         let (x, _) = damped(3.0, 0.0, 2.0, 100.0);
         assert!((x - 1.5).abs() < 1e-15);
     }

@@ -45,8 +45,8 @@ impl Groups {
                     || closed
                     || fixed != ground
                     || !(a.is_stepped() || b.is_stepped())
-                    || a.is_flying()
-                    || b.is_flying()
+                    || a.is_free()
+                    || b.is_free()
                     || a.in_engine
                     || b.in_engine
                     // A touch has woken the sleeper; across a gap it is met, and woken, by an impact.

@@ -31,7 +31,7 @@ impl Groups {
             return moved;
         }
         for number in self.rounds_of(changed) {
-            self.leave_out_strays(bodies, pairs, number, changed);
+            self.leave_out_invalidated(bodies, pairs, number, changed);
             self.begin_anew(bodies, number, time, h);
             let round = &mut self.rounds[number as usize];
             round.span = h;
@@ -83,7 +83,13 @@ impl Groups {
     /// Removes members with a motion changed by something else than this impact: closed forms, or a caller.
     ///
     /// A body that was taken out, the ground too, holds nothing any more.
-    fn leave_out_strays(&mut self, bodies: &Bodies, pairs: &Pairs, number: u32, changed: &[u32]) {
+    fn leave_out_invalidated(
+        &mut self,
+        bodies: &Bodies,
+        pairs: &Pairs,
+        number: u32,
+        changed: &[u32],
+    ) {
         let round = &mut self.rounds[number as usize];
         round.members.retain(|&place| {
             let index = self.members[place as usize];

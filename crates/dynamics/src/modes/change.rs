@@ -62,15 +62,15 @@ pub(super) fn next(
                 offer(-slips[i] / rate, Cause::SlipStops);
             }
         }
-        let glide = Glide::of(touch, moves);
-        if let Some(after) = glide.ends() {
+        let slide = Slide::of(touch, moves);
+        if let Some(after) = slide.ends() {
             offer(after, Cause::EdgeEnds);
         }
         let bears = |place: usize, feature: Feature| {
             feature != Feature::Round && bodies[place].inverse_inertia > 0.0
         };
         let ends = touch.bodies;
-        if glide.moves() && (bears(ends.0, touch.features.0) || bears(ends.1, touch.features.1)) {
+        if slide.moves() && (bears(ends.0, touch.features.0) || bears(ends.1, touch.features.1)) {
             shifts.get_or_insert(i);
         }
     }
@@ -100,15 +100,15 @@ pub(super) fn next(
     Ok(first)
 }
 
-/// How B glides along A: `speed τ + ½ rate τ²` along the tangent, and the stretches that each touches with.
-struct Glide {
+/// How B slides along A: `speed τ + ½ rate τ²` along the tangent, and the stretches that each touches with.
+struct Slide {
     speed: f64,
     rate: f64,
     a: [f64; 2],
     b: [f64; 2],
 }
 
-impl Glide {
+impl Slide {
     fn of(touch: &Touch, moves: &[BodyMove]) -> Self {
         let (a, b) = (&moves[touch.bodies.0], &moves[touch.bodies.1]);
         let t = perp(touch.normal);
@@ -264,8 +264,8 @@ impl Load<'_> {
             return (1..=LOOKS).map(part).collect();
         }
         let turns = self.touches.iter().filter_map(|touch| {
-            let glide = Glide::of(touch, self.moves);
-            let after = -glide.speed / glide.rate;
+            let slide = Slide::of(touch, self.moves);
+            let after = -slide.speed / slide.rate;
             (after > 0.0 && after < end).then_some(after)
         });
         turns.take(1).chain([end]).collect()
@@ -357,10 +357,10 @@ impl Load<'_> {
                 ..*body
             });
         let touches = self.touches.iter().map(|touch| {
-            let glide = Glide::of(touch, self.moves);
+            let slide = Slide::of(touch, self.moves);
             let origin = touch.points[0] + travel(&self.moves[touch.bodies.0]);
             let mut touch = touch.clone();
-            for (point, along) in touch.points.iter_mut().zip(glide.common(after)) {
+            for (point, along) in touch.points.iter_mut().zip(slide.common(after)) {
                 *point = origin + perp(touch.normal) * along;
             }
             touch
@@ -453,7 +453,7 @@ mod tests {
             prop_assume!(moves[2].spin == 0.0 && moves[2].angular_acceleration == 0.0);
             prop_assume!(load.slides_alone());
             // As far as the touches and the slip last: no look lies beyond that.
-            let ends = touches.iter().filter_map(|touch| Glide::of(touch, &moves).ends());
+            let ends = touches.iter().filter_map(|touch| Slide::of(touch, &moves).ends());
             let stops = touches.iter().zip(&slips).filter_map(|(touch, slip)| {
                 let after = -slip / slip_rate(&bodies, touch, &moves);
                 (touch.friction > 0.0 && after > 0.0).then_some(after)

@@ -2,7 +2,7 @@
 //!
 //! Flats that slide on flats and discs on straight edges keep their normals and, seen from what
 //! turns, their arms. So every body of such a group has a constant acceleration until a slip stops,
-//! an edge ends or a body begins to tip: [`judge`] solves the complementarity problem of Signorini and
+//! an edge ends or a body begins to tip: [`solve_modes`] solves the complementarity problem of Signorini and
 //! Coulomb for the accelerations once, and names the instant of the next change.
 //!
 //! Pure functions on plain data, without a world.
@@ -32,7 +32,7 @@ const STILL: f64 = 1e-12;
 /// Opening speed below which a touch neither opens nor closes, as a part of the speeds it is made of.
 pub(crate) const CLOSED: f64 = 1e-9;
 
-/// A body of a group at the instant of the judgement; one of infinite mass moves uniformly.
+/// A body of a group at the instant of the mode solve; one of infinite mass moves uniformly.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ModeBody {
     /// In 1/kg.
@@ -85,7 +85,7 @@ pub(crate) struct Touch {
 /// What a body does until the next change.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct BodyMove {
-    /// At the instant of the judgement: what was given, without the roundings against the rows, in m/s.
+    /// At the instant of the mode solve: what was given, without the roundings against the rows, in m/s.
     pub(crate) velocity: Vec2,
     /// In rad/s.
     pub(crate) spin: f64,
@@ -123,7 +123,7 @@ pub(crate) enum Cause {
 /// The next change of a mode.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Change {
-    /// In s from the judgement.
+    /// In s from the mode solve.
     pub(crate) after: f64,
     /// Which touch; of several at one instant the first.
     pub(crate) touch: usize,
@@ -163,7 +163,7 @@ pub(crate) enum NotMine {
 ///
 /// The given velocities may be roundings of speeds up to `speed`, in m/s: a body that stopped just
 /// now is not exactly still.
-pub(crate) fn judge(
+pub(crate) fn solve_modes(
     bodies: &[ModeBody],
     touches: &[Touch],
     speed: f64,

@@ -91,8 +91,8 @@ fn on_incline(slope: f64, friction: f64, speed: f64) -> (Vec<ModeBody>, Vec<Touc
     )
 }
 
-fn judged((bodies, touches): &(Vec<ModeBody>, Vec<Touch>)) -> GroupMove {
-    judge(bodies, touches, 0.0).expect("a group of ours")
+fn modes_of((bodies, touches): &(Vec<ModeBody>, Vec<Touch>)) -> GroupMove {
+    solve_modes(bodies, touches, 0.0).expect("a group of ours")
 }
 
 fn near(found: f64, wanted: f64) {
@@ -105,7 +105,7 @@ fn near(found: f64, wanted: f64) {
 
 #[test]
 fn a_block_below_its_critical_friction_slides() {
-    let found = judged(&on_incline(30.0, 0.5, 0.0));
+    let found = modes_of(&on_incline(30.0, 0.5, 0.0));
     let (sin, cos) = carom_math::trig::sin_cos(core::f64::consts::PI / 6.0);
     near(found.bodies[1].acceleration.x, G * (sin - 0.5 * cos));
     assert_eq!(found.bodies[1].acceleration.y, 0.0);
@@ -115,7 +115,7 @@ fn a_block_below_its_critical_friction_slides() {
 
 #[test]
 fn a_block_above_its_critical_friction_rests() {
-    let found = judged(&on_incline(30.0, 0.6, 0.0));
+    let found = modes_of(&on_incline(30.0, 0.6, 0.0));
     assert_eq!(found.bodies[1], BodyMove::default());
     assert_eq!(
         (found.touches[0].mode, found.change),
@@ -125,7 +125,7 @@ fn a_block_above_its_critical_friction_rests() {
 
 #[test]
 fn a_block_that_slides_on_the_level_stops_at_v_over_mu_g() {
-    let found = judged(&on_incline(0.0, 0.3, 3.0));
+    let found = modes_of(&on_incline(0.0, 0.3, 3.0));
     let change = found.change.expect("it stops");
     near(change.after, 3.0 / (0.3 * G));
     assert_eq!((change.touch, change.cause), (0, Cause::SlipStops));
@@ -142,7 +142,7 @@ fn a_disc_rolls_or_slips_by_its_friction() {
             vec![fixed(), disc(0.25, share, pull(slope))],
             vec![round((0, 1), Vec2::ZERO, FLOOR, friction)],
         );
-        let found = judged(&group);
+        let found = modes_of(&group);
         let (sin, cos) = carom_math::trig::sin_cos(slope.to_radians());
         let (a, alpha) = if mode == ContactMode::Roll {
             (G * sin / (1.0 + share), -G * sin / (1.0 + share) / 0.25)
@@ -163,7 +163,7 @@ fn a_disc_that_touches_a_rounding_beside_its_centre_rolls() {
     // The normal force turned it at 1.7e-15 rad/s², and its roll was called a slide.
     let mut body = disc(0.05, 0.5, pull(0.0));
     (body.velocity, body.spin) = (vec2(0.2, 0.0), -4.0);
-    let found = judged(&(
+    let found = modes_of(&(
         vec![fixed(), body],
         vec![round((0, 1), vec2(2.2e-19, 0.0), FLOOR, 5.0)],
     ));
@@ -176,7 +176,7 @@ fn a_disc_that_touches_a_rounding_beside_its_centre_rolls() {
 fn a_spinning_disc_comes_to_roll() {
     let mut body = disc(0.25, 0.5, pull(0.0));
     body.spin = -40.0;
-    let found = judged(&(
+    let found = modes_of(&(
         vec![fixed(), body],
         vec![round((0, 1), Vec2::ZERO, FLOOR, 0.3)],
     ));
@@ -201,7 +201,7 @@ fn a_block_on_a_plank_sticks_when_both_are_as_fast() {
             flat((1, 2), 0.5, [-20.0, 20.0], [-0.25, 0.25], 0.2),
         ],
     );
-    let found = judged(&group);
+    let found = modes_of(&group);
     near(
         found.change.expect("it sticks").after,
         2.0 / (0.2 * G * (1.0 + 1e-3)),
@@ -225,7 +225,7 @@ fn a_column_of_ten_is_exactly_still() {
         };
         touches.push(flat((k, k + 1), y, under, [shift - 0.5, shift + 0.5], 0.3));
     }
-    let found = judge(&bodies, &touches, 0.0).expect("a group of ours");
+    let found = solve_modes(&bodies, &touches, 0.0).expect("a group of ours");
     assert!(found.bodies.iter().all(|body| *body == BodyMove::default()));
     near(found.touches[0].normal.iter().sum(), 10.0 * G);
     near(found.touches[9].normal.iter().sum(), G);
@@ -245,7 +245,7 @@ fn a_column_that_is_carried_along_stays_one() {
         let friction = if k == 0 { 0.0 } else { 0.4 };
         touches.push(flat((k, k + 1), y, under, [-0.5, 0.5], friction));
     }
-    let found = judge(&bodies, &touches, 0.0).expect("a group of ours");
+    let found = solve_modes(&bodies, &touches, 0.0).expect("a group of ours");
     for (k, body) in found.bodies.iter().enumerate().skip(1) {
         assert_eq!(body.velocity, vec2(0.3, 0.0), "block {k}");
         assert_eq!(
@@ -263,7 +263,7 @@ fn a_disc_leaves_the_end_of_an_edge() {
     let mut body = disc(0.25, 0.5, pull(0.0));
     body.velocity.x = 2.0;
     body.spin = -8.0;
-    let found = judged(&(
+    let found = modes_of(&(
         vec![fixed(), body],
         vec![round((0, 1), Vec2::ZERO, [-1.0, 3.0], 0.5)],
     ));
@@ -278,7 +278,7 @@ fn a_block_that_slides_off_a_table_tips_when_its_load_passes_the_edge() {
     for friction in [0.0, 0.1] {
         let mut body = block(1.0, 1.0, 0.5, vec2(0.0, 0.25), pull(0.0));
         body.velocity.x = 2.0;
-        let found = judged(&(
+        let found = modes_of(&(
             vec![fixed(), body],
             vec![flat((0, 1), 0.0, [-10.0, 1.0], [-0.5, 0.5], friction)],
         ));
@@ -312,14 +312,14 @@ fn a_slender_rod_that_slides_on_its_tip_has_no_accelerations() {
         friction: 1.6,
     };
     let group = (vec![fixed(), rod], vec![touch]);
-    assert_eq!(judge(&group.0, &group.1, 0.0), Err(NotMine::Painleve));
+    assert_eq!(solve_modes(&group.0, &group.1, 0.0), Err(NotMine::Painleve));
 }
 
 #[test]
 fn a_block_beyond_its_tipping_angle_turns() {
     for (slope, stays) in [(44.9, true), (45.1, false)] {
         let body = block(1.0, 1.0, 1.0, vec2(0.0, 0.5), pull(slope));
-        let found = judge(
+        let found = solve_modes(
             &[fixed(), body],
             &[flat((0, 1), 0.0, FLOOR, [-0.5, 0.5], 2.0)],
             0.0,
@@ -401,7 +401,7 @@ proptest! {
 
     #[test]
     fn the_conditions_of_signorini_and_coulomb_hold((bodies, touches) in tower()) {
-        let Ok(found) = judge(&bodies, &touches, 0.0) else { return Ok(()) };
+        let Ok(found) = solve_modes(&bodies, &touches, 0.0) else { return Ok(()) };
         let mut momentum = vec![(Vec2::ZERO, 0.0); bodies.len()];
         for (touch, moved) in touches.iter().zip(&found.touches) {
             let t = perp(touch.normal);
@@ -451,7 +451,7 @@ proptest! {
             features: (turned(touch.features.0), turned(touch.features.1)),
             ..touch.clone()
         }).collect();
-        let (one, other) = (judge(&bodies, &touches, 0.0), judge(&mirrored, &flipped, 0.0));
+        let (one, other) = (solve_modes(&bodies, &touches, 0.0), solve_modes(&mirrored, &flipped, 0.0));
         prop_assert_eq!(one.is_ok(), other.is_ok());
         if let (Ok(one), Ok(other)) = (one, other) {
             for (a, b) in one.bodies.iter().zip(&other.bodies) {

@@ -1,6 +1,6 @@
 //! Heaps that land at once: bodies that rest on each other join the engine together, without being sub-stepped first.
 //!
-//! Body by body each would be made ready for sub-steps, paired, looked at and judged, layer upon layer, only to be
+//! Body by body each would be made ready for sub-steps, paired, looked at and solved for, layer upon layer, only to be
 //! handed to the engine, which pairs it and looks at it once more.
 
 use carom_collision::{PartManifold, contacts};
@@ -72,13 +72,13 @@ impl World {
         }
         joining.sort_unstable();
         lands.retain(|index| joining.binary_search(index).is_err());
-        self.discharge_all(&joining);
-        // No body flies any more when the first one joins: pairs are found once, as those of members.
+        self.end_substepping_all(&joining);
+        // No body is free any more when the first one joins: pairs are found once, as those of members.
         for &index in &joining {
             let course = &mut self.bodies.get_mut(index).course;
-            if course.flies {
+            if course.is_free {
                 course.land();
-                self.flyers.vanish(&mut self.bodies, index);
+                self.free.vanish(&mut self.bodies, index);
             }
         }
         for index in joining {
@@ -100,7 +100,7 @@ impl World {
             next += 1;
             seen.of[index as usize] = Step::Asked;
             let state = self.bodies.get(index);
-            heap.fits &= !(state.membership.is_closed() || state.course.glides);
+            heap.fits &= !(state.membership.is_closed() || state.course.moves_analytically);
             let here = Here::of(state, time);
             for &mine in &state.colliders {
                 self.near_at(mine, &here, &mut scratch);
@@ -127,16 +127,16 @@ impl World {
         heap
     }
 
-    /// Shapes that may touch one where it is, flyers' too.
+    /// Shapes that may touch one where it is, those of free bodies too.
     fn near_at(&self, mine: u32, here: &Here, scratch: &mut Scratch) {
         let collider = &self.colliders[mine as usize];
         let bounds = collider.solid.aabb(here.pose).grown(here.touch);
         self.broad
             .search_tree(&self.colliders, bounds, &mut scratch.near);
-        self.flyers
-            .overlapping(&self.bodies, bounds, &mut scratch.flying);
+        self.free
+            .overlapping(&self.bodies, bounds, &mut scratch.free);
         let shapes = |body: &u32| &self.bodies.get(*body).colliders;
-        scratch.near.extend(scratch.flying.iter().flat_map(shapes));
+        scratch.near.extend(scratch.free.iter().flat_map(shapes));
     }
 
     /// At how many points a shape of a body that is here rests on another one: they touch, and do not approach faster than what rests.
@@ -206,7 +206,7 @@ impl Here {
 #[derive(Default)]
 struct Scratch {
     near: Vec<u32>,
-    flying: Vec<u32>,
+    free: Vec<u32>,
     found: Vec<PartManifold>,
 }
 

@@ -138,7 +138,7 @@ impl World {
             return;
         }
         joining.sort_unstable();
-        self.discharge_all(&joining);
+        self.end_substepping_all(&joining);
         for index in joining {
             self.join(index, time);
         }
@@ -172,11 +172,11 @@ impl World {
             self.clock.catch_up(time);
         }
         self.invite();
-        if self.bodies.get(index).course.flies {
+        if self.bodies.get(index).course.is_free {
             self.bodies.get_mut(index).course.land();
-            self.flyers.vanish(&mut self.bodies, index);
+            self.free.vanish(&mut self.bodies, index);
         } else {
-            self.discharge(index);
+            self.end_substepping(index);
         }
         self.joins.members += 1;
         self.bodies.change(index, time, |_| {});

@@ -57,7 +57,7 @@ impl World {
         phase == 0
     }
 
-    /// Contacts of the sub-step that begins; whether some body came or went astray.
+    /// Contacts of the sub-step that begins; whether some body came, or deviates from its predicted motion.
     fn find_contacts(&mut self, time: SimTime) -> bool {
         let Some(mut stepping) = self.stepping.take() else {
             return false;
@@ -65,12 +65,12 @@ impl World {
         if !self.bodies.touched.is_empty() {
             self.enter_changed(&mut stepping, time, time);
         }
-        let strays = stepping.engine.find_contacts(&self.rules());
+        let deviates = stepping.engine.find_contacts(&self.rules());
         self.tell_sleep(&mut stepping, time);
         self.tell_impacts(&mut stepping, time);
         self.stepping = Some(stepping);
         self.take_woken(time);
-        strays
+        deviates
     }
 
     /// Bodies that woke in the engine are its members, with all that slept in touch with them.

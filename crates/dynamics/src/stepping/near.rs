@@ -6,7 +6,7 @@ use carom_math::SimTime;
 
 use super::Stepping;
 use crate::World;
-use crate::flyers::box_ahead;
+use crate::free::box_ahead;
 
 /// Which members are asked about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,7 +24,7 @@ impl World {
         aloft.sort_unstable();
         aloft.dedup();
         let bodies = &self.bodies;
-        aloft.retain(|&index| bodies.is_alive(index) && bodies.get(index).is_flying());
+        aloft.retain(|&index| bodies.is_alive(index) && bodies.get(index).is_free());
         let mut restless = core::mem::take(&mut self.joins.restless);
         restless.sort_unstable();
         let is_alone = self.joins.aloft.is_empty() && self.stepped.is_empty();
@@ -39,12 +39,12 @@ impl World {
             return BTreeSet::new();
         };
         let left = stepping.engine.left();
-        let flying = self.joins.aloft.iter().map(|&index| {
+        let free = self.joins.aloft.iter().map(|&index| {
             let asks = asks_all || restless.binary_search(&index).is_ok();
             (index, if asks { Among::All } else { Among::News })
         });
         let held = self.stepped.iter().map(|&index| (index, Among::All));
-        let near = flying
+        let near = free
             .chain(held)
             .filter(|(index, _)| self.bodies.get(*index).is_dynamic())
             .filter(|(index, among)| self.nears_member(stepping, *index, (time, left), *among))
@@ -56,16 +56,16 @@ impl World {
         near
     }
 
-    /// A flyer with a new motion joins if it may meet a member before the next sub-step begins.
+    /// A free body with a new motion joins if it may meet a member before the next sub-step begins.
     pub(crate) fn meet_members(&mut self, index: u32, time: SimTime) {
-        // Most worlds of flyers have no members, and the grid's instants are sums with care.
+        // Most worlds of free bodies have no members, and the grid's instants are sums with care.
         if self.joins.members == 0 {
             return;
         }
         self.joins.restless.push(index);
         let left = self.clock.next() - time;
         let near = left > 0.0
-            && self.bodies.get(index).is_flying()
+            && self.bodies.get(index).is_free()
             && self.stepping.as_ref().is_some_and(|stepping| {
                 self.joins.reached == self.clock.next()
                     && self.nears_member(stepping, index, (time, left), Among::All)

@@ -55,7 +55,7 @@ impl World {
                 }
             }
         }
-        // Flyers meet them as what rests.
+        // Free bodies meet them as bodies at rest.
         for index in laid {
             self.refit_among(index, time, self.clock.h, false);
             self.show(index, time);

@@ -161,6 +161,6 @@ impl World {
                 self.join(index, time);
             }
         }
-        self.lower_flyers_later();
+        self.lower_free_boxes_later();
     }
 }

@@ -73,7 +73,7 @@ pub(crate) struct Hold {
 pub(crate) enum Ends {
     /// The path is known no further.
     Known,
-    /// A mode changes: the group is judged anew.
+    /// A mode changes: the group's modes are solved for anew.
     Changes,
     /// A corner comes down on the edge of a contact.
     Lands {

@@ -44,17 +44,17 @@ proptest! {
         let seen = |i: usize| orient2d(Vec2::ZERO, rock.vertices()[i], rock.vertices()[(i + 1) % n]);
         prop_assert!((0..n).all(|i| seen(i) > 0.0), "all corners are seen from the origin");
 
-        let coast = Polygon::random(count, 3.0, 0.5, &mut next).expect("simple");
-        prop_assert_eq!(coast.vertices().len(), count);
-        let bounds = Aabb::from_points(coast.vertices().iter().copied());
+        let outline = Polygon::random(count, 3.0, 0.5, &mut next).expect("simple");
+        prop_assert_eq!(outline.vertices().len(), count);
+        let bounds = Aabb::from_points(outline.vertices().iter().copied());
         prop_assert!(Aabb::new(vec2(-1.5, -0.25), vec2(1.5, 0.25)).contains(bounds));
     }
 
     #[test]
     fn the_same_numbers_make_the_same_polygon(seed in any::<u64>(), count in 3..50_usize) {
-        let coast = |seed: u64| Polygon::random(count, 1.0, 1.0, &mut numbers(seed)).expect("simple");
-        prop_assert_eq!(coast(seed), coast(seed));
-        prop_assert_ne!(coast(seed), coast(seed.wrapping_add(1)));
+        let outline = |seed: u64| Polygon::random(count, 1.0, 1.0, &mut numbers(seed)).expect("simple");
+        prop_assert_eq!(outline(seed), outline(seed));
+        prop_assert_ne!(outline(seed), outline(seed.wrapping_add(1)));
         let stone = |seed: u64| ConvexPolygon::random_in_box(count, 1.0, 1.0, &mut numbers(seed)).expect("convex");
         prop_assert_eq!(stone(seed), stone(seed));
     }
@@ -98,8 +98,8 @@ fn no_numbers_make_a_bad_polygon() {
             let mut next = || from.next().unwrap_or(0.0);
             let stone = ConvexPolygon::random_in_box(count, 2.0, 1.0, &mut next).expect(name);
             assert_eq!(stone.vertices().len(), count, "{name}");
-            let coast = Polygon::random(count, 2.0, 1.0, &mut next).expect(name);
-            assert_eq!(coast.vertices().len(), count, "{name}");
+            let outline = Polygon::random(count, 2.0, 1.0, &mut next).expect(name);
+            assert_eq!(outline.vertices().len(), count, "{name}");
             let rock = Polygon::random_star(count, 1.0, 2.0, &mut next).expect(name);
             assert_eq!(rock.vertices().len(), count, "{name}");
         }

@@ -229,7 +229,7 @@ mod tests {
     }
 
     #[test]
-    fn lengths_are_read_at_a_glance() {
+    fn lengths_have_two_digits_and_a_fitting_unit() {
         for (metres, text) in [
             (2.34, "2.3 m"),
             (0.234, "23 cm"),

@@ -319,7 +319,7 @@ mod tests {
     use crate::Scene;
 
     /// A region of 20 m with 10,000 small discs and a half-plane in it.
-    fn crowded() -> (PopulationTable, Vec<(Arc<Shape>, Pose)>) {
+    fn dense() -> (PopulationTable, Vec<(Arc<Shape>, Pose)>) {
         let text = "version = 1\n[[population]]\nname = 'p'\ncount = 100\nregion = [-10, -10, 10, 10]\nradius = 0.1\n";
         let scene = Scene::from_toml(text, "p").unwrap();
         let disc = Arc::new(Shape::from(Circle::new(0.03).unwrap()));
@@ -333,8 +333,8 @@ mod tests {
     }
 
     #[test]
-    fn a_place_is_held_against_what_is_near_alone_and_judged_as_by_all() {
-        let (table, standing) = crowded();
+    fn a_place_is_held_against_what_is_near_alone_and_decided_as_by_all() {
+        let (table, standing) = dense();
         let each = || standing.iter().map(|(shape, pose)| (shape, *pose));
         let mut free = FreeSpace::new(&table, each());
         let mut random = Random::new(1, 0);

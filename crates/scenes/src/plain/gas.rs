@@ -50,7 +50,7 @@ fn flying(name: &str, spread: f64) -> PlainScene {
     for i in 0..2000 {
         let (column, row) = (f64::from(i % 45 - 22), f64::from(i / 45 - 22));
         let at = vec2(column * 1.3, row * 1.3) * spread;
-        flyer(&mut scene, &mut random, at);
+        random_body(&mut scene, &mut random, at);
     }
     scene
 }
@@ -77,7 +77,7 @@ pub fn spaced_scene(spacing: u32) -> PlainScene {
     let mut random = Harness::new(42, &[]);
     for i in 0..SPACED {
         let at = vec2(f64::from(i % side), f64::from(i / side)) * metres - Vec2::splat(half);
-        flyer(&mut scene, &mut random, at);
+        random_body(&mut scene, &mut random, at);
     }
     scene
 }
@@ -93,7 +93,7 @@ pub(crate) fn spacing_of(name: &str) -> Option<u32> {
 }
 
 /// A disc (one in seven) or a polygon of three to eight corners.
-pub(super) fn flyer(scene: &mut PlainScene, random: &mut Harness, at: Vec2) {
+pub(super) fn random_body(scene: &mut PlainScene, random: &mut Harness, at: Vec2) {
     let draw = random.below(7);
     let radius = random.between(0.25, 0.55);
     let shape = match draw {

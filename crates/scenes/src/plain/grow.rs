@@ -5,7 +5,7 @@ use core::str::FromStr;
 
 use carom_math::{Vec2, vec2};
 
-use super::gas::{closed_box, flyer};
+use super::gas::{closed_box, random_body};
 use super::harness::{Harness, area_and_centroid};
 use super::{PlainBody, PlainKind, PlainScene, PlainShape};
 
@@ -158,7 +158,7 @@ fn gas(name: &str, bodies: u32) -> PlainScene {
     let mut random = Harness::new(42, &[]);
     for i in 0..bodies {
         let at = vec2(f64::from(i % side), f64::from(i / side)) * 1.3 - Vec2::splat(half);
-        flyer(&mut scene, &mut random, at);
+        random_body(&mut scene, &mut random, at);
     }
     scene
 }

@@ -44,7 +44,7 @@ struct Moving {
     motion: Motion,
     unforeseen: bool,
     /// It leaves the swept boxes of the tick.
-    astray: bool,
+    leaves_boxes: bool,
     /// How often it touched so far.
     touches: u8,
 }
@@ -86,11 +86,11 @@ pub(crate) fn note_fast(
         let (line, limit) = (&bodies.lines[at], &bodies.limits[at]);
         if line.inverse_mass() > 0.0 {
             let turns = limit.is_far(0.0, line.w() * h);
-            let strays = bodies.change(at, settings.tick) * h > settings.margin * limit.extent;
+            let deviates = bodies.change(at, settings.tick) * h > settings.margin * limit.extent;
             fast.push(FastBody {
                 slot: bodies.slot_of[at],
                 from: (from.v(), from.w()),
-                unforeseen: turns || strays,
+                unforeseen: turns || deviates,
             });
         }
     }
@@ -156,10 +156,10 @@ impl Engine {
         }
         noted.sort_unstable_by_key(|body| self.bodies.records[body.slot as usize].birth);
         let mut fast: Vec<_> = noted.iter().map(|body| self.moving(body, left)).collect();
-        let astray: Vec<usize> = (0..fast.len()).filter(|k| fast[*k].astray).collect();
+        let leaving: Vec<usize> = (0..fast.len()).filter(|k| fast[*k].leaves_boxes).collect();
         let mut touches = BinaryHeap::new();
         for k in 0..fast.len() {
-            self.search(&fast, k, (0.0, left), &astray, rules, &mut touches);
+            self.search(&fast, k, (0.0, left), &leaving, rules, &mut touches);
         }
         while let Some(touch) = touches.pop() {
             let ends = [Some(touch.a), touch.b];
@@ -209,7 +209,7 @@ impl Engine {
         let turn = (body.motion.rotation * base.rotation.inverse()).angle();
         let centre = body.motion.centre + body.motion.velocity * left;
         self.bodies.lines[at].set_displacement(centre - base.position, turn);
-        (self.bodies.moved[at], self.bodies.may_stray) = (true, true);
+        (self.bodies.moved[at], self.bodies.may_deviate) = (true, true);
     }
 
     /// The motion that brings a body to its pose within `left` seconds: from a displacement, or at its velocity.
@@ -246,7 +246,7 @@ impl Engine {
             birth: record.birth,
             motion,
             unforeseen: body.unforeseen,
-            astray: !known.contains(bounds_of(&motion, 0.0, left)),
+            leaves_boxes: !known.contains(bounds_of(&motion, 0.0, left)),
             touches: 0,
         }
     }

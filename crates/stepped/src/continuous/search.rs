@@ -12,14 +12,14 @@ use crate::bodies::Bodies;
 use crate::{Engine, PairRules};
 
 impl Engine {
-    /// Enters the first touches of fast body `k` with others from `span.0` to `span.1` seconds on; `astray`: fast bodies that
+    /// Enters the first touches of fast body `k` with others from `span.0` to `span.1` seconds on; `leaving`: fast bodies that
     /// leave their boxes.
     pub(super) fn search(
         &self,
         fast: &[Moving],
         k: usize,
         span: (f64, f64),
-        astray: &[usize],
+        leaving: &[usize],
         rules: &dyn PairRules,
         touches: &mut BinaryHeap<Touching>,
     ) {
@@ -33,7 +33,7 @@ impl Engine {
         } else {
             self.broad.standing_in(bounds, found);
         }
-        for &other in astray {
+        for &other in leaving {
             let theirs = &fast[other];
             let record = &self.bodies.records[theirs.slot as usize];
             if bounds_of(&theirs.motion, record.reach, span.1).overlaps(bounds) {

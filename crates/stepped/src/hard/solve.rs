@@ -257,7 +257,7 @@ impl Island {
         }
         for &line in &self.lines {
             let (body, limit) = (&bodies.lines[line as usize], &bodies.limits[line as usize]);
-            bodies.may_stray |= limit.strays(settings.margin, 0.0, body.turn());
+            bodies.may_deviate |= limit.deviates(settings.margin, 0.0, body.turn());
         }
         least
     }

@@ -62,8 +62,8 @@ fn displace_all<S: Simd>(simd: S, bodies: &mut Bodies, h: f64, far: &mut Vec<(u3
     }
 }
 
-/// Makes displacements of second order where velocities change smoothly: `d −= ½ h Δv`. Notes whether a body may stray in
-/// the `rest` of the tick.
+/// Makes displacements of second order where velocities change smoothly: `d −= ½ h Δv`. Notes whether a body may
+/// deviate from its predicted motion in the `rest` of the tick.
 ///
 /// `h v` with the velocity at the end overshoots the trapezoid by h/2 Δv: g h²/2 in free flight,
 /// and likewise where friction brakes. Where a contact stopped the body at its surface there is
@@ -85,7 +85,7 @@ fn correct_all<S: Simd, const DAMPED: bool>(
     rest: f64,
 ) {
     let (h, half) = (f64x4::splat(simd, h), f64x4::splat(simd, 0.5 * h));
-    let (mut strays, mut beyond) = (false, 0.0_f64);
+    let (mut deviates, mut beyond) = (false, 0.0_f64);
     let lines = bodies.lines.iter_mut().zip(&bodies.start).zip(&bodies.pull);
     let more = bodies.drag.iter().zip(&bodies.foreseen).zip(&bodies.limits);
     for (((line, start), pull), (([left, added], foreseen), limit)) in lines.zip(more) {
@@ -114,10 +114,10 @@ fn correct_all<S: Simd, const DAMPED: bool>(
         }
         let off = (v - f64x4::from_slice(simd, &foreseen.0)).abs();
         let off = off[0].max(off[1]) + off[2] * limit.reach;
-        strays |= limit.strays(settings.margin, off * rest, line.turn());
+        deviates |= limit.deviates(settings.margin, off * rest, line.turn());
         beyond = beyond.max(limit.beyond_box(settings.margin, off * h[0]));
     }
-    bodies.may_stray = strays;
+    bodies.may_deviate = deviates;
     bodies.beyond_boxes = beyond;
 }
 

@@ -150,7 +150,7 @@ pub(crate) fn bounce(
     if arrived.is_empty() {
         return;
     }
-    bodies.may_stray = true;
+    bodies.may_deviate = true;
     let mut pushes = vec![[Quad::default(); 2]; arrived.len()];
     for arrival in &mut *arrived {
         graph.clear_warm_start(bodies, arrival.contact);

@@ -513,18 +513,18 @@ fn far_scenes_do_not_feel_each_others_heavy_bodies() {
 
 /// An island that has no answer remembers it by itself: what else changes in the middle of ticks is not asked.
 #[test]
-fn a_pressed_island_does_not_feel_strays_far_away() {
+fn a_pressed_island_does_not_feel_a_body_far_away() {
     let run = |both: bool| {
         let (mut engine, ids) = column(without_sleep(), 1, 1e3);
         let plate = PieceInput::new(ConvexPolygon::rectangle(3.0, 1.0).unwrap());
         let mut press = BodyInput::new(BodyKind::Kinematic).at(vec2(0.0, 2.5));
         press.velocity = vec2(0.0, -0.1);
         engine.insert(press, &[plate]).unwrap();
-        let stray = both.then(|| put(&mut engine, 1.0, vec2(1024.0, 50.0)));
+        let far = both.then(|| put(&mut engine, 1.0, vec2(1024.0, 50.0)));
         let mut side = 60.0;
         for _ in 0..30 {
             for substep in 0..5 {
-                if let Some(id) = stray.filter(|_| substep == 2) {
+                if let Some(id) = far.filter(|_| substep == 2) {
                     side = -side;
                     engine.set_velocity(id, vec2(side, 0.0), 0.0).unwrap();
                 }

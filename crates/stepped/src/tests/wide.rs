@@ -10,7 +10,7 @@ use crate::rows::LANES;
 use crate::{Engine, PieceInput, Settings};
 
 /// Bodies of all kinds of outlines close together, a tick old: away from their base poses.
-fn crowd(seed: u64, spread: f64) -> Engine {
+fn random_bodies(seed: u64, spread: f64) -> Engine {
     let mut random = Random::new(seed);
     let mut engine = Engine::new(Settings::default()).unwrap();
     for _ in 0..40 {
@@ -77,7 +77,7 @@ fn eight_at_once_agree_with_one_by_one() {
     let (mut near, mut ties) = (0, 0);
     for seed in 0..60u32 {
         let spread = [0.3, 1.0, 3.0][seed as usize % 3];
-        let engine = crowd(u64::from(seed), spread);
+        let engine = random_bodies(u64::from(seed), spread);
         let scene = Scene {
             bodies: &engine.bodies,
             pieces: &engine.pieces,
@@ -112,7 +112,7 @@ fn all_widths_find_the_same_bits() {
         ([found.near, found.short, found.seam, found.of_b], manifolds)
     };
     for seed in 0..6 {
-        let engine = crowd(seed, 1.0);
+        let engine = random_bodies(seed, 1.0);
         let scene = Scene {
             bodies: &engine.bodies,
             pieces: &engine.pieces,

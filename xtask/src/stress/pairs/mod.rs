@@ -45,7 +45,7 @@ struct Tally {
 }
 
 impl Tally {
-    fn judge(&mut self, number: u64, right: bool) {
+    fn check(&mut self, number: u64, right: bool) {
         if !right {
             self.failed += 1;
             self.first = self.first.or(Some(number));
@@ -56,7 +56,7 @@ impl Tally {
     fn error(&mut self, number: u64, error: f64, unit: f64, limit: f64) {
         let share = error / unit;
         self.worst = self.worst.max(share);
-        self.judge(number, share <= limit);
+        self.check(number, share <= limit);
     }
 
     fn join(&mut self, other: Self) {
@@ -145,7 +145,7 @@ pub(super) fn convex_pairs() -> Result<Finding, Failure> {
             tally.error(number, (way.distance - apart).abs(), unit, limit);
             // 0 exactly when they overlap, where rounding does not decide.
             if overlap.abs() > limit * unit {
-                tally.judge(number, (way.distance == 0.0) == (overlap > 0.0));
+                tally.check(number, (way.distance == 0.0) == (overlap > 0.0));
             }
             let gap = (way.point_b - way.point_a).length();
             tally.error(number, (gap - way.distance).abs(), unit, limit);
@@ -159,7 +159,7 @@ pub(super) fn convex_pairs() -> Result<Finding, Failure> {
             let far = Pose::new(pair.pose.position + shift, pair.pose.rotation);
             if far.position - shift == pair.pose.position {
                 let seen = far.seen_from(Pose::at(shift));
-                tally.judge(number, distance(&a, &b, seen) == way);
+                tally.check(number, distance(&a, &b, seen) == way);
             }
         },
     )
@@ -185,8 +185,8 @@ pub(super) fn concave_pairs() -> Result<Finding, Failure> {
             let deepest = deepest.fold(f64::INFINITY, f64::min);
             let area = overlap_area(&a, &b, pose);
             // An overlap of a tenth of a square micrometre is felt; what is apart is not.
-            tally.judge(number, area < 1e-13 || deepest < 0.0);
-            tally.judge(
+            tally.check(number, area < 1e-13 || deepest < 0.0);
+            tally.check(
                 number,
                 apart <= limit * unit || (found.is_empty() && area <= 0.0),
             );
@@ -200,12 +200,12 @@ pub(super) fn concave_pairs() -> Result<Finding, Failure> {
             let parts: f64 = hulls(&a)
                 .flat_map(|x| hulls(&b).map(move |y| distance(&x, &y, pose).distance))
                 .fold(f64::INFINITY, f64::min);
-            tally.judge(number, parts.to_bits() == way.distance.to_bits());
+            tally.check(number, parts.to_bits() == way.distance.to_bits());
             if number.is_multiple_of(16)
                 && let Some(push) = shape_push(&a, &b, pose)
             {
                 let out = Pose::new(pose.position + push, pose.rotation);
-                tally.judge(number, overlap_area(&a, &b, out) < 1e-11);
+                tally.check(number, overlap_area(&a, &b, out) < 1e-11);
             }
         },
     )
@@ -246,7 +246,7 @@ pub(super) fn times_of_impact() -> Result<Finding, Failure> {
                 TimeOfImpact::Clear => horizon,
                 TimeOfImpact::Touching(_) => {
                     let (x, y) = at(0.0);
-                    tally.judge(number, naive::distance(&x, &y) <= limit * unit);
+                    tally.check(number, naive::distance(&x, &y) <= limit * unit);
                     return;
                 }
                 TimeOfImpact::Unresolved { .. } => {
@@ -263,7 +263,7 @@ pub(super) fn times_of_impact() -> Result<Finding, Failure> {
                 let t = until * f64::from(i) / f64::from(SAMPLES);
                 let (x, y) = at(t);
                 let missed = naive::distance(&x, &y) <= 0.0 && t < until - limit * unit;
-                tally.judge(number, !missed || !deep(&x, &y, limit * unit));
+                tally.check(number, !missed || !deep(&x, &y, limit * unit));
                 if missed {
                     break;
                 }

@@ -40,7 +40,7 @@ pub(in crate::stress) fn masses() -> Result<Finding, Failure> {
     over_all("each right to 2e-13", |number, tally| {
         let mut random = Random::new(number);
         let Ok(ring) = ring(&mut random) else {
-            tally.judge(number, false);
+            tally.check(number, false);
             return;
         };
         let mut away = || random.between(-1e6, 1e6).round();
@@ -51,7 +51,7 @@ pub(in crate::stress) fn masses() -> Result<Finding, Failure> {
             return;
         }
         let Ok(found) = ring_properties(&points) else {
-            tally.judge(number, false);
+            tally.check(number, false);
             return;
         };
         let (area, centroid, polar) = moments(&ring);
@@ -59,7 +59,7 @@ pub(in crate::stress) fn masses() -> Result<Finding, Failure> {
         tally.error(number, (found.polar / polar - 1.0).abs(), 1.0, PROMISE);
         let off = (found.centroid - offset - centroid).length();
         let room = PROMISE * 2.0 + f64::EPSILON * offset.length();
-        tally.judge(number, off <= room);
+        tally.check(number, off <= room);
     })
 }
 
@@ -68,13 +68,13 @@ pub(in crate::stress) fn pieces() -> Result<Finding, Failure> {
     over_all("convex, area exact, moments to 2e-13", |number, tally| {
         let mut random = Random::new(number);
         let Ok(ring) = ring(&mut random) else {
-            tally.judge(number, false);
+            tally.check(number, false);
             return;
         };
         let points: Vec<Vec2> = ring.iter().map(|p| placed(*p, Vec2::ZERO)).collect();
         let simple = Polygon::check(&points).is_ok();
         let polygon = Polygon::new(points);
-        tally.judge(number, polygon.is_ok() == simple);
+        tally.check(number, polygon.is_ok() == simple);
         let Ok(polygon) = polygon else {
             return;
         };
@@ -87,15 +87,15 @@ pub(in crate::stress) fn pieces() -> Result<Finding, Failure> {
             let at = |i: usize| part[i % part.len()];
             (0..part.len()).all(|i| turn(at(i), at(i + 1), at(i + 2)) > 0)
         };
-        tally.judge(number, parts.iter().all(convex));
+        tally.check(number, parts.iter().all(convex));
         let area: i128 = parts.iter().map(|part| twice_area(part)).sum();
-        tally.judge(number, area == twice_area(&ring).abs());
+        tally.check(number, area == twice_area(&ring).abs());
         let each = polygon
             .pieces()
             .iter()
             .map(|p| ring_properties(p.vertices()));
         let Ok(each) = each.collect::<Result<Vec<AreaProperties>, _>>() else {
-            tally.judge(number, false);
+            tally.check(number, false);
             return;
         };
         let together: AreaProperties = each.into_iter().sum();
@@ -133,7 +133,7 @@ pub(in crate::stress) fn generators() -> Result<Finding, Failure> {
                     v.len() == wanted
                         && (0..v.len()).all(|i| orient2d(at(i), at(i + 1), at(i + 2)) > 0.0)
                 });
-                tally.judge(number, right);
+                tally.check(number, right);
             }
             let simple = [
                 (corners, Polygon::random(corners, w, h, &mut next)),
@@ -145,7 +145,7 @@ pub(in crate::stress) fn generators() -> Result<Finding, Failure> {
                     let ring = polygon.vertices();
                     ring.len() == wanted && Polygon::check(ring).is_ok()
                 });
-                tally.judge(number, right);
+                tally.check(number, right);
             }
         },
     )

@@ -2,7 +2,7 @@
 //!
 //! Both get the same random shapes, poses and motions, parry through its any-shape entry, and take turns
 //! in going first. A row is the median CPU time of its rounds for one question, and the number of wrong
-//! answers of each, judged by brute force or by whole numbers.
+//! answers of each, checked by brute force or by whole numbers.
 
 mod exact;
 mod flights;

@@ -18,7 +18,7 @@ impl Table {
         Self
     }
 
-    /// One row: both answer every question, [`ROUNDS`] times; then `wrong` judges the answers to each.
+    /// One row: both answer every question, [`ROUNDS`] times; then `wrong` checks the answers to each.
     pub(crate) fn row<T, A, B>(
         &self,
         what: &str,
@@ -49,8 +49,8 @@ impl Table {
         });
         let mut count = [0; 2];
         for question in questions {
-            let judged = wrong(question, &ours(question), &theirs(question));
-            for (sum, bad) in count.iter_mut().zip(judged) {
+            let found = wrong(question, &ours(question), &theirs(question));
+            for (sum, bad) in count.iter_mut().zip(found) {
                 *sum += usize::from(bad);
             }
         }

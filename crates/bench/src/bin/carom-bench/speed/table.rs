@@ -12,7 +12,7 @@ pub(crate) fn markdown(head: &Head, rows: &[SpeedRow]) -> String {
     text += &head.markdown();
     text += "\nms: CPU time of a step on one thread, wall time on several: mean, median and 99th percentile over the measured steps, \
              median of the repetitions. Spread: greatest less least mean of the repetitions, over their median; – of a single one. Ratio: of the means, to the fastest peer with as many threads that reads as much. Energy: after the measured \
-             steps over before them. Overlap (m), rms acceleration (m/s²) and drift (m): judged by the same code for all. \
+             steps over before them. Overlap (m), rms acceleration (m/s²) and drift (m): computed by the same code for all. \
              MiB: peak memory of the process; KiB a body: beyond what it took before the scene, over the dynamic bodies; of data: without pages of the program itself. \
              – was not measured; cut: time ran out before all steps were made.\n";
     for scene in row::scenes(rows) {

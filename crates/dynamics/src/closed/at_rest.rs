@@ -1,12 +1,12 @@
-//! Groups at rest in closed form: they leave the sub-steps at once, and fall asleep after a while.
+//! Analytic islands at rest: they leave the sub-steps at once, and fall asleep after a while.
 
 use carom_math::SimTime;
 
 use crate::{EventKind, World};
 
 impl World {
-    /// Groups that came to rest since the last time leave the sub-steps: what meets one wakes it, as if it slept.
-    pub(crate) fn doze(&mut self, time: SimTime) {
+    /// Islands that came to rest since the last time leave the sub-steps: a body that meets one wakes it, as if it slept.
+    pub(crate) fn begin_analytic_rest(&mut self, time: SimTime) {
         let still = self.closed.take_still();
         if still.is_empty() {
             return;
@@ -16,33 +16,33 @@ impl World {
             let Some(group) = self.closed.get_mut(place) else {
                 continue;
             };
-            group.dozes = true;
+            group.rests_analytically = true;
             for touch in &group.touches {
                 touch.carry(&self.bodies, self.pairs.get_mut(touch.pair), self.clock.h);
             }
             for &(index, _) in &group.members {
                 let state = self.bodies.get_mut(index);
-                (state.asleep, state.dozes) = (true, true);
+                (state.asleep, state.rests_analytically) = (true, true);
                 lying.push(index);
             }
         }
         lying.sort_unstable();
-        self.discharge_all(&lying);
+        self.end_substepping_all(&lying);
         for index in lying {
             self.lie_down(index, time);
         }
-        self.lower_flyers_later();
+        self.lower_free_boxes_later();
         self.pairs.sort(&self.bodies, &self.stepped);
     }
 
-    /// A group that has been at rest for long enough falls asleep.
-    pub(super) fn lull(&mut self, place: u32, time: SimTime) {
+    /// An analytic island that has been at rest for long enough falls asleep.
+    pub(super) fn fall_asleep(&mut self, place: u32, time: SimTime) {
         let members = self.dissolve(place, time);
         let mut lying = Vec::new();
         for &index in &members {
             let state = self.bodies.get_mut(index);
             state.asleep = true;
-            if !core::mem::take(&mut state.dozes) {
+            if !core::mem::take(&mut state.rests_analytically) {
                 lying.push(index);
             }
             self.events.push(time, EventKind::Asleep(state.id));

@@ -7,20 +7,20 @@ use super::foreseen::is_stale;
 use super::frame::Track;
 use super::queue::{Ahead, Entry};
 use super::window::{self, Window};
-use super::{Foreseen, Seat, Sides, drift};
+use super::{Foreseen, Sides, SweptBox, drift};
 use crate::state::BodyState;
 use crate::{BodyKind, PairSearch, World};
 
-/// Part of a cell that a flyer travels within its horizon.
+/// Part of a cell that a free body travels within its horizon.
 const TRAVEL: f64 = 0.35;
 
 /// Look-ahead of an analytic body, in reaches: farther, and stepped bodies nearby are tested against it in vain.
-const GLIDE: f64 = 1.0;
+const LOOK_AHEAD: f64 = 1.0;
 
 /// Longest horizon, in s: what rests is looked for again at least this often.
 const LONGEST: f64 = 1024.0;
 
-/// Why a flyer looks ahead.
+/// Why a free body's events are predicted anew.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Cause {
     /// The caller put it where it is, or moved it: it may overlap others.
@@ -32,42 +32,42 @@ pub(crate) enum Cause {
 }
 
 impl World {
-    /// Registers a flyer with its motion from `time` on, and finds all that it may meet up to its
-    /// horizon, `but` for a flyer that looks for this one next.
+    /// Registers a free body with its motion from `time` on, and finds all that it may meet up to its
+    /// horizon, `but` for a free body that looks for this one next.
     pub(crate) fn foresee(&mut self, index: u32, time: SimTime, cause: Cause, but: Option<u32>) {
         self.follow_law(index, time);
         if !self.bodies.get(index).motion.is_finite() {
             self.report.stopped += 1;
             self.stop(index, time);
         }
-        self.flyers.resize(&mut self.bodies, time);
+        self.free.resize(&mut self.bodies, time);
         // A body that does not fall leaves the free-fall frame ever faster.
-        if self.bodies.get(index).course.glides || !self.look_round(index, time) {
+        if self.bodies.get(index).course.moves_analytically || !self.look_round(index, time) {
             self.follow(index, time, 0.0);
         } else if cause == Cause::Deflected && self.is_clear(index, time) {
-            self.meet_flyers(index, time, cause, but);
+            self.meet_free_bodies(index, time, cause, but);
             self.predict_pairs(index, time);
             return self.meet_members(index, time);
         } else {
             self.forget_boxes(index);
             self.look_down(index, time, self.first_span(index, time));
         }
-        self.meet_flyers(index, time, cause, but);
+        self.meet_free_bodies(index, time, cause, but);
         self.meet_shapes(index, time, cause);
         self.meet_members(index, time);
     }
 
-    /// Registers a flyer in the grid up to its horizon; whether it fits.
+    /// Registers a free body in the grid up to its horizon; whether it fits.
     fn look_round(&mut self, index: u32, time: SimTime) -> bool {
-        let way = TRAVEL * self.flyers.grid.side();
+        let way = TRAVEL * self.free.grid.side();
         let state = self.bodies.get_mut(index);
         let track = Track::of(&state.motion, time);
-        let seen = self.flyers.frame.track(&track, time);
+        let seen = self.free.frame.track(&track, time);
         let seconds = at_most(seen.seconds_for(way));
         let horizon = (time + seconds).min(state.piece());
         state.course.swept = Sides::around(swept(state, &seen, seconds));
         if !self
-            .flyers
+            .free
             .enter(&mut self.bodies, &self.colliders, index, horizon)
         {
             return false;
@@ -76,12 +76,12 @@ impl World {
         true
     }
 
-    /// Boxes in the tree of a flyer that is too large for the grid, for `least` seconds or more.
+    /// Boxes in the tree of a free body that is too large for the grid, for `least` seconds or more.
     pub(super) fn follow(&mut self, index: u32, time: SimTime, least: f64) {
-        let side = self.flyers.grid.side();
+        let side = self.free.grid.side();
         let state = self.bodies.get_mut(index);
-        let way = if state.course.glides {
-            GLIDE * state.reach
+        let way = if state.course.moves_analytically {
+            LOOK_AHEAD * state.reach
         } else {
             // As far as in a grid of its own kind.
             TRAVEL * side.max(2.0 * state.reach)
@@ -101,13 +101,13 @@ impl World {
     /// than its searches end.
     pub(super) fn queue_end(&mut self, index: u32, ahead: Ahead) {
         let state = self.bodies.get_mut(index);
-        let end = self.flyers.end(state, ahead);
+        let end = self.free.end(state, ahead);
         let entered = state.course.entered(ahead);
         if *entered <= end {
             return;
         }
         *entered = end;
-        self.flyers.queue.push(Entry {
+        self.free.queue.push(Entry {
             time: end,
             a: index,
             b: index,
@@ -116,32 +116,32 @@ impl World {
         });
     }
 
-    /// A frame that is no faster than its flyers among themselves: all of them look round in it.
+    /// A frame that is no faster than its free bodies among themselves: all of them look round in it.
     fn retune(&mut self, time: SimTime) {
-        self.flyers.drifts = false;
+        self.free.drifts = false;
         let here = |i: &u32| self.bodies.get(*i).course.cells.is_some();
-        let flying: Vec<u32> = self.bodies.indices().filter(here).collect();
-        let Some(mean) = drift(&self.flyers.frame, &self.bodies, &flying, time) else {
+        let free: Vec<u32> = self.bodies.indices().filter(here).collect();
+        let Some(mean) = drift(&self.free.frame, &self.bodies, &free, time) else {
             return;
         };
-        for &index in &flying {
-            self.flyers.leave(&mut self.bodies, index);
+        for &index in &free {
+            self.free.leave(&mut self.bodies, index);
         }
-        self.flyers.frame = self.flyers.frame.boosted(time, mean);
-        let (fit, large): (Vec<u32>, Vec<u32>) = flying
+        self.free.frame = self.free.frame.boosted(time, mean);
+        let (fit, large): (Vec<u32>, Vec<u32>) = free
             .into_iter()
             .partition(|index| self.look_round(*index, time));
         for index in fit {
-            self.meet_flyers(index, time, Cause::Horizon, None);
+            self.meet_free_bodies(index, time, Cause::Horizon, None);
         }
         for index in large {
-            self.flyers.vanish(&mut self.bodies, index);
+            self.free.vanish(&mut self.bodies, index);
             self.foresee(index, time, Cause::Horizon, None);
         }
     }
 
-    /// Flyers that `index` may meet up to its horizon.
-    pub(super) fn meet_flyers(
+    /// Free bodies that `index` may meet up to its horizon.
+    pub(super) fn meet_free_bodies(
         &mut self,
         index: u32,
         time: SimTime,
@@ -151,18 +151,18 @@ impl World {
         let course = &self.bodies.get(index).course;
         let mut near = match course.cells {
             Some(cells) => {
-                let seat = Seat::new(index, course.swept);
-                self.flyers.search(&seat, cells)
+                let swept_box = SweptBox::new(index, course.swept);
+                self.free.search(&swept_box, cells)
             }
             None => {
                 let mut near = Vec::new();
-                self.flyers
+                self.free
                     .overlapping(&self.bodies, course.reached.bounds(), &mut near);
                 near
             }
         };
-        self.flyers.searches += 1;
-        self.flyers.renewed += usize::from(cause == Cause::Horizon);
+        self.free.searches += 1;
+        self.free.renewed += usize::from(cause == Cause::Horizon);
         match self.broad.search {
             PairSearch::Indexed => {}
             PairSearch::None => near.clear(),
@@ -172,17 +172,17 @@ impl World {
                 near.extend(self.bodies.indices().filter(here));
             }
         }
-        let look = self.flyers.looks(&self.bodies, index, time);
-        let mark = self.flyers.begin_to_meet(self.bodies.places());
+        let look = self.free.looks(&self.bodies, index, time);
+        let mark = self.free.begin_to_meet(self.bodies.places());
         for &other in &near {
-            if other == index || Some(other) == but || self.flyers.has_met(other, mark) {
+            if other == index || Some(other) == but || self.free.has_met(other, mark) {
                 continue;
             }
-            let Some(window) = self.flyers.window(&self.bodies, &look, other, time) else {
+            let Some(window) = self.free.window(&self.bodies, &look, other, time) else {
                 continue;
             };
             // Most come near later, and nothing else is asked of them now.
-            match self.flyers.common_horizon(&look, other) {
+            match self.free.common_horizon(&look, other) {
                 Some(horizon) if window.from > 0.0 => {
                     let meet = time + window.from;
                     if meet <= horizon {
@@ -192,7 +192,7 @@ impl World {
                 _ => self.approach(index, other, window, time, cause),
             }
         }
-        self.flyers.near = near;
+        self.free.near = near;
     }
 
     /// Two free bodies with circles that meet, perhaps before one of their horizons ends.
@@ -215,7 +215,7 @@ impl World {
         }
         if window.from > 0.0 {
             let meet = time + window.from;
-            if meet <= self.flyers.common_horizon_of(a, b) {
+            if meet <= self.free.common_horizon_of(a, b) {
                 self.queue_near(index, other, meet);
             }
             return;
@@ -236,7 +236,7 @@ impl World {
             stamp: self.stamp(a, b),
             what: Ahead::Near.into(),
         };
-        self.flyers.queue.push(entry);
+        self.free.queue.push(entry);
     }
 
     pub(super) fn stamp(&self, a: u32, b: u32) -> u32 {
@@ -251,34 +251,35 @@ impl World {
             stamp: self.stamp(index, self.colliders[at as usize].body),
             what: Ahead::NearShape.into(),
         };
-        self.flyers.queue.push(entry);
+        self.free.queue.push(entry);
     }
 
-    /// Another look at a pair of bodies that a flyer belongs to, at `time`.
+    /// Another look at a pair of bodies that a free body belongs to, at `time`.
     pub(super) fn look_again(&mut self, impact: &Foreseen, time: SimTime) {
         let (a, b) = impact.bodies;
         if self.both_fly(a, b) {
             self.queue_near(a, b, time);
-        } else if self.bodies.get(a).course.flies {
+        } else if self.bodies.get(a).course.is_free {
             self.queue_near_shape(a, impact.colliders.1, time);
         } else {
             self.queue_near_shape(b, impact.colliders.0, time);
         }
     }
 
-    /// What is due for flyers at the next entry's time.
-    pub(crate) fn run_flyers(&mut self) {
-        let Some((entry, impact)) = self.flyers.pop() else {
+    /// Runs the next event of free bodies.
+    pub(crate) fn run_free_bodies(&mut self) {
+        let Some((entry, impact)) = self.free.pop() else {
             return;
         };
         self.lower_idle(entry.time);
         let Some(impact) = impact else {
             return self.run_search(&entry);
         };
-        if self.flyers.drifts {
+        if self.free.drifts {
             self.retune(entry.time);
         }
-        if self.stamp(entry.a, entry.b) == entry.stamp && !self.strikes_gliders(&impact, entry.time)
+        if self.stamp(entry.a, entry.b) == entry.stamp
+            && !self.strikes_moving_island(&impact, entry.time)
         {
             self.strike_with_others((entry, impact));
         }
@@ -287,7 +288,7 @@ impl World {
     /// The end of a search, or the begin of a narrower one.
     pub(super) fn run_search(&mut self, entry: &Entry) {
         let (index, time) = (entry.a, entry.time);
-        if self.flyers.drifts {
+        if self.free.drifts {
             self.retune(time);
         }
         match entry.ahead() {
@@ -298,11 +299,11 @@ impl World {
             }
             Ahead::Horizon => {
                 if self.ends_now(entry) {
-                    self.flyers.resize(&mut self.bodies, time);
+                    self.free.resize(&mut self.bodies, time);
                     if self.look_round(index, time) {
-                        self.meet_flyers(index, time, Cause::Horizon, None);
+                        self.meet_free_bodies(index, time, Cause::Horizon, None);
                     } else {
-                        self.flyers.vanish(&mut self.bodies, index);
+                        self.free.vanish(&mut self.bodies, index);
                         self.foresee(index, time, Cause::Horizon, None);
                     }
                 }
@@ -320,9 +321,9 @@ impl World {
             Ahead::NearShape => {
                 let owner = self.colliders[entry.b as usize].body;
                 let state = self.bodies.get(owner);
-                let rests = !state.course.flies && !state.is_active();
+                let rests = !state.course.is_free && !state.is_active();
                 if self.stamp(index, owner) == entry.stamp
-                    && self.bodies.get(index).course.flies
+                    && self.bodies.get(index).course.is_free
                     && rests
                 {
                     self.seek_shape(index, entry.b, time, Cause::Deflected);
@@ -340,14 +341,14 @@ impl World {
     /// Whether the search that an entry is for ends now; if it ends later, that is entered.
     fn ends_now(&mut self, entry: &Entry) -> bool {
         let state = self.bodies.get_mut(entry.a);
-        let end = self.flyers.end(state, entry.ahead());
+        let end = self.free.end(state, entry.ahead());
         let course = &mut state.course;
         let entered = course.entered(entry.ahead());
         if *entered != entry.time {
             return false;
         }
         *entered = SimTime::NEVER;
-        if !course.flies || entry.ahead() == Ahead::Horizon && course.cells.is_none() {
+        if !course.is_free || entry.ahead() == Ahead::Horizon && course.cells.is_none() {
             return false;
         }
         if end > entry.time {
@@ -357,11 +358,11 @@ impl World {
     }
 
     pub(super) fn both_fly(&self, a: u32, b: u32) -> bool {
-        self.bodies.get(a).course.flies && self.bodies.get(b).course.flies
+        self.bodies.get(a).course.is_free && self.bodies.get(b).course.is_free
     }
 }
 
-/// Whether two flyers found each other by the ways of their circles, so that one of them was told of their window
+/// Whether two free bodies found each other by the ways of their circles, so that one of them was told of their window
 /// before it began. What is in the tree is found by boxes of shapes, which the circle of something long and thin leaves
 /// far behind: its window may have been open for long, and is followed from one look to the next.
 pub(super) const fn both_in_grid(a: &BodyState, b: &BodyState) -> bool {

@@ -2,7 +2,7 @@
 
 use carom_math::{SimTime, Vec2};
 
-use super::Flyers;
+use super::FreeBodies;
 use super::frame::{Frame, Track};
 use super::window::{self, Window};
 use crate::Filter;
@@ -53,7 +53,7 @@ pub(super) struct Look {
     horizon: Option<SimTime>,
 }
 
-/// The circle of a flyer with the motion that it looked round with: 64 bytes, where the body has ten times as many.
+/// The circle of a free body with the motion that it looked round with: 64 bytes, where the body has ten times as many.
 #[derive(Clone, Copy, Debug, Default)]
 #[repr(align(64))]
 pub(super) struct Registered {
@@ -82,7 +82,7 @@ impl Registered {
     }
 }
 
-impl Flyers {
+impl FreeBodies {
     /// Of a body that looks round: its circle, and until when it looks, if it is in the grid and touches whatever is usual.
     pub(super) fn looks(&self, bodies: &Bodies, body: u32, time: SimTime) -> Look {
         let state = bodies.get(body);
@@ -123,7 +123,7 @@ impl Flyers {
         }
     }
 
-    /// Until when two flyers have looked for each other.
+    /// Until when two free bodies have looked for each other.
     pub(super) fn common_horizon_of(&self, a: &BodyState, b: &BodyState) -> SimTime {
         if a.course.cells.is_some() && b.course.cells.is_some() {
             self.horizon(a).min(self.horizon(b))

@@ -15,7 +15,7 @@ use crate::state::Collider;
 use crate::touching::{Approach, approach_at};
 
 /// When a contact closes that opens now, if that is by `horizon` seconds from `time` and it does not come out of touch.
-pub(crate) fn hop(
+pub(crate) fn micro_bounce(
     bodies: &Bodies,
     colliders: &[Collider],
     pair: &Pair,

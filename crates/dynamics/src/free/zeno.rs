@@ -1,17 +1,17 @@
-//! Impacts that come ever faster: their limit, from the times of the last ones.
+//! Zeno series: impacts that come ever faster, and their accumulation point from the times of the last ones.
 
 use carom_math::SimTime;
 
 /// Limits that differ by less, in s, are one: ten times what small bounces lose.
 const AGREES: f64 = 1e-9;
 
-/// What is left of the longest interval of a streak with each impact that nothing presses: where several bodies come to
+/// What is left of the longest interval of a series with each impact that nothing presses: where several bodies come to
 /// rest against each other, short and long intervals take turns, and only whole rounds come ever faster.
 const FADES: f32 = 0.9;
 
-/// The last impacts of a body, while they come ever faster.
+/// The last impacts of a body, while they come ever faster: a Zeno series.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Streak {
+pub(crate) struct ZenoSeries {
     last: SimTime,
     /// Seconds between the last five impacts, the latest first.
     gaps: [f64; 4],
@@ -21,13 +21,13 @@ pub(crate) struct Streak {
     longest: f32,
     /// Impacts so far, if they are few.
     count: u8,
-    /// Limit of the series as the first impact foretold it.
-    foretold: SimTime,
+    /// Accumulation point as the first impact predicted it.
+    predicted: SimTime,
     /// Its end has been reported.
     ended: bool,
 }
 
-impl Default for Streak {
+impl Default for ZenoSeries {
     fn default() -> Self {
         Self {
             last: SimTime::ZERO,
@@ -35,18 +35,18 @@ impl Default for Streak {
             top: 0.0,
             longest: 0.0,
             count: 0,
-            foretold: SimTime::ZERO,
+            predicted: SimTime::ZERO,
             ended: false,
         }
     }
 }
 
-impl Streak {
-    /// Impacts of a streak before it is taken for one: two pairs of intervals.
+impl ZenoSeries {
+    /// Impacts of a series before it is taken for one: two pairs of intervals.
     const LEAST: u8 = 5;
 
     /// An impact at `time` with an approach of `speed` m/s, after which, were it all that ever acts,
-    /// bounces would last for `left` seconds. A streak ends where an impact is stronger than the
+    /// bounces would last for `left` seconds. A Zeno series ends where an impact is stronger than the
     /// first, or an interval twice as long as the last one; where nothing presses (`left` is 0), as the longest lately.
     pub(crate) fn hit(&mut self, time: SimTime, speed: f64, left: f64) {
         let gap = time - self.last;
@@ -56,7 +56,7 @@ impl Streak {
             self.longest = 0.0;
             self.count = 0;
             self.gaps = [f64::INFINITY; 4];
-            self.foretold = time + left;
+            self.predicted = time + left;
             self.ended = false;
         }
         if self.count > 0 {
@@ -77,31 +77,31 @@ impl Streak {
         self.count >= Self::LEAST
     }
 
-    /// Speed of approach of the first impact, in m/s; 0 if there is no streak.
+    /// Speed of approach of the first impact, in m/s; 0 if there is no Zeno series.
     pub(crate) const fn top(&self) -> f64 {
         if self.is_one() { self.top } else { 0.0 }
     }
 
-    /// Reports the end of a streak, once; whether there is one to report.
+    /// Reports the end of a Zeno series, once; whether there is one to report.
     pub(crate) const fn end(&mut self) -> bool {
         let first = self.is_one() && !self.ended;
         self.ended = true;
         first
     }
 
-    /// Whether `speed` is below `part` of that of the first impact of a streak.
+    /// Whether `speed` is below `part` of that of the first impact of a Zeno series.
     pub(crate) fn has_faded(&self, speed: f64, part: f64) -> bool {
         self.is_one() && speed < part * self.top
     }
 
-    /// The limit of the series after the last impact, which foretells `left` more seconds.
+    /// The limit of the series after the last impact, which predicts `left` more seconds.
     ///
-    /// What an impact foretells is right to (rounding of a gap) / (speed of the impact): best at the first.
+    /// The prediction of an impact is right to (rounding of a gap) / (speed of the impact): best at the first.
     /// Where first and last agree it was one point that bounced, else the limit follows from the intervals. No series ends
     /// before its last impact.
     pub(crate) fn limit(&self, left: f64) -> SimTime {
-        if (self.last + left - self.foretold).abs() <= AGREES {
-            self.foretold.max(self.last)
+        if (self.last + left - self.predicted).abs() <= AGREES {
+            self.predicted.max(self.last)
         } else {
             self.last + self.rest()
         }
@@ -135,55 +135,56 @@ mod tests {
     #[test]
     fn no_series_ends_before_its_last_impact() {
         let (start, e) = (SimTime::from_secs(3.0), 0.5);
-        // The first impact foretells an end that lies 2 ps before that of the intervals.
-        let (mut streak, mut time, mut gap) = (Streak::default(), start, 1.0);
+        // The first impact predicts an end that lies 2 ps before that of the intervals.
+        let (mut series, mut time, mut gap) = (ZenoSeries::default(), start, 1.0);
         let mut speed = 5.0;
         for _ in 0..50 {
-            streak.hit(time, speed, 2.0 - 2e-12);
-            assert!(streak.limit(gap / (1.0 - e)) >= time, "at {speed} m/s");
+            series.hit(time, speed, 2.0 - 2e-12);
+            assert!(series.limit(gap / (1.0 - e)) >= time, "at {speed} m/s");
             (time, gap, speed) = (time + gap, e * gap, e * speed);
         }
-        assert_eq!(streak.limit(0.0), streak.last);
+        assert_eq!(series.limit(0.0), series.last);
     }
 
     #[test]
     fn a_geometric_series_ends_at_its_limit() {
         for e in [0.1, 0.5, 0.9] {
-            let (mut streak, mut time, mut gap) = (Streak::default(), SimTime::from_secs(3.0), 0.8);
+            let (mut series, mut time, mut gap) =
+                (ZenoSeries::default(), SimTime::from_secs(3.0), 0.8);
             for _ in 0..8 {
-                streak.hit(time, gap, 0.0);
+                series.hit(time, gap, 0.0);
                 time += gap;
                 gap *= e;
             }
             let limit = 3.0 + 0.8 / (1.0 - e);
             assert!(
-                (streak.last + streak.rest() - SimTime::from_secs(limit)).abs() < 1e-14,
+                (series.last + series.rest() - SimTime::from_secs(limit)).abs() < 1e-14,
                 "e = {e}"
             );
-            assert!(streak.has_faded(0.8, 1.01) && !streak.has_faded(0.8, 0.99));
+            assert!(series.has_faded(0.8, 1.01) && !series.has_faded(0.8, 0.99));
         }
     }
 
     #[test]
-    fn rounds_of_short_and_long_intervals_are_one_streak() {
+    fn rounds_of_short_and_long_intervals_are_one_series() {
         // Of four discs at e = 0.15: every fourth interval is long, and each round a quarter of the one before.
-        let (mut streak, mut time, mut round) = (Streak::default(), SimTime::ZERO, 1.0);
+        let (mut series, mut time, mut round) = (ZenoSeries::default(), SimTime::ZERO, 1.0);
         for _ in 0..8 {
             for part in [0.02, 0.015, 0.08, 0.4] {
                 time += part * round;
-                streak.hit(time, round, 0.0);
+                series.hit(time, round, 0.0);
             }
             round *= 0.25;
         }
-        assert!(streak.is_one() && streak.has_faded(round, 1e-4));
+        assert!(series.is_one() && series.has_faded(round, 1e-4));
     }
 
     #[test]
-    fn steady_bounces_are_no_streak_that_fades() {
-        let mut streak = Streak::default();
+    fn steady_bounces_are_no_series_that_fades() {
+        let mut series = ZenoSeries::default();
         for i in 0..20 {
-            streak.hit(SimTime::from_secs(f64::from(i)), 4.0, 0.0);
+            series.hit(SimTime::from_secs(f64::from(i)), 4.0, 0.0);
         }
-        assert!(!streak.has_faded(4.0, 1.0) && streak.rest() == 0.0);
+        assert!(!series.has_faded(4.0, 1.0) && series.rest() == 0.0);
     }
 }

@@ -4,15 +4,15 @@ use carom_collision::{BoxTree, roundable};
 use carom_geometry::Aabb;
 use carom_math::SimTime;
 
-use super::{Cells, Course, Flyers, Seat, Sides};
+use super::{Cells, Course, FreeBodies, Sides, SweptBox};
 use crate::bodies::Bodies;
 
-impl Flyers {
-    /// Bodies of the grid with boxes that overlap that of a seat, some more than once: see [`Self::has_met`].
-    pub(super) fn search(&mut self, seat: &Seat, cells: Cells) -> Vec<u32> {
+impl FreeBodies {
+    /// Bodies of the grid with boxes that overlap a swept box, some more than once: see [`Self::has_met`].
+    pub(super) fn search(&mut self, swept_box: &SweptBox, cells: Cells) -> Vec<u32> {
         let mut near = core::mem::take(&mut self.near);
         near.clear();
-        self.met += self.grid.gather(seat, cells, &mut near);
+        self.met += self.grid.gather(swept_box, cells, &mut near);
         near
     }
 
@@ -74,8 +74,8 @@ impl Flyers {
         if cells.count() > self.grid.count() as u64 {
             near.extend(bodies.indices().filter(|body| here(*body)));
         } else {
-            let seat = Seat::new(u32::MAX, Sides::around(seen));
-            self.grid.gather(&seat, cells, &mut near);
+            let swept_box = SweptBox::new(u32::MAX, Sides::around(seen));
+            self.grid.gather(&swept_box, cells, &mut near);
             near.retain(|body| here(*body));
         }
         near.sort_unstable();
@@ -83,7 +83,7 @@ impl Flyers {
         near
     }
 
-    /// From now on bodies look for flyers by boxes in the world.
+    /// From now on bodies look for free bodies by boxes in the world.
     pub(crate) fn raise(&mut self, bodies: &Bodies) {
         let mut tree = BoxTree::new();
         self.nodes = vec![None; bodies.places()];
@@ -97,7 +97,7 @@ impl Flyers {
         self.aloft = Some(tree);
     }
 
-    /// Whether bodies look for flyers by boxes in the world.
+    /// Whether bodies look for free bodies by boxes in the world.
     pub(crate) const fn is_raised(&self) -> bool {
         self.aloft.is_some()
     }
@@ -108,7 +108,7 @@ impl Flyers {
         self.nodes = Vec::new();
     }
 
-    /// Keeps the box in the world of a flyer in the grid.
+    /// Keeps the box in the world of a free body in the grid.
     pub(super) fn lift(&mut self, course: &Course, index: u32) {
         let Some(tree) = &mut self.aloft else {
             return;

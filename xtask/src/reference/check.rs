@@ -1,6 +1,6 @@
 //! Which outputs count, how far off they may be, and whether an answer passes.
 //!
-//! The bounds are those of the reference's own judge; a category that is not listed here fails.
+//! The bounds are those of the reference's own check; a category that is not listed here fails.
 
 use core::f64::consts::TAU;
 
@@ -21,8 +21,8 @@ pub(super) struct Verdict {
     pub(super) faults: Vec<String>,
 }
 
-/// Judges one answer.
-pub(super) fn judge(category: &str, case: &Case, answer: &Answer) -> Verdict {
+/// Checks one answer.
+pub(super) fn check(category: &str, case: &Case, answer: &Answer) -> Verdict {
     let mut verdict = Verdict {
         worst: 0.0,
         faults: Vec::new(),
@@ -31,7 +31,7 @@ pub(super) fn judge(category: &str, case: &Case, answer: &Answer) -> Verdict {
         let why = answer.error.clone();
         verdict
             .faults
-            .push(why.unwrap_or_else(|| format!("{category} has no judge")));
+            .push(why.unwrap_or_else(|| format!("{category} has no check")));
         return verdict;
     };
     let Some(outputs) = &answer.outputs else {
@@ -47,7 +47,7 @@ pub(super) fn judge(category: &str, case: &Case, answer: &Answer) -> Verdict {
             continue;
         };
         match outputs.get(key) {
-            None | Some(Value::Null) if unjudged(category, case, key, entry) => {}
+            None | Some(Value::Null) if is_beyond_horizon(category, case, key, entry) => {}
             None | Some(Value::Null) => verdict.faults.push(format!("{key} is missing")),
             Some(got) => verdict.hear(category, case, key, entry, got),
         }
@@ -163,7 +163,7 @@ fn is_critical(case: &Case) -> bool {
 }
 
 /// Nothing of this output lies within the horizon.
-fn unjudged(category: &str, case: &Case, key: &str, entry: &Value) -> bool {
+fn is_beyond_horizon(category: &str, case: &Case, key: &str, entry: &Value) -> bool {
     match &entry["value"] {
         Value::String(_) if category == "scenes" => horizon::followed(case) == 0,
         Value::Bool(_) | Value::String(_) | Value::Number(_) => false,
@@ -174,9 +174,9 @@ fn unjudged(category: &str, case: &Case, key: &str, entry: &Value) -> bool {
 }
 
 /// The first word, one an impact, that differs from what is wanted, within the horizon.
-fn wrong_word(want: &str, got: &Value, judged: usize) -> Option<String> {
+fn wrong_word(want: &str, got: &Value, count: usize) -> Option<String> {
     let have: Vec<&str> = got.as_str().unwrap_or_default().split(' ').collect();
-    let words = want.split(' ').take(judged).enumerate();
+    let words = want.split(' ').take(count).enumerate();
     let mut wrong = words.filter(|(k, word)| have.get(*k) != Some(word));
     wrong.next().map(|(k, word)| {
         let found = have.get(k).copied().unwrap_or("missing");
@@ -345,10 +345,10 @@ mod tests {
     #[test]
     fn a_right_answer_passes_and_a_wrong_one_says_why() {
         let right = answer(json!({"area": 1.0, "centroid": [0.5, 0.5]}));
-        assert_eq!(judge("mass_properties", &case(), &right).faults, [""; 0]);
+        assert_eq!(check("mass_properties", &case(), &right).faults, [""; 0]);
 
         let wrong = answer(json!({"area": 1.0 + 1e-12, "centroid": [0.5]}));
-        let faults = judge("mass_properties", &case(), &wrong).faults;
+        let faults = check("mass_properties", &case(), &wrong).faults;
         assert_eq!(faults[0], "area is off by 1.00e-12, allowed 2.00e-13");
         assert_eq!(faults[1], "centroid has 1 numbers, not 2");
     }
@@ -356,7 +356,7 @@ mod tests {
     #[test]
     fn a_missing_or_unfinished_number_fails() {
         let empty = answer(json!({"area": null, "centroid": [0.5, null]}));
-        let faults = judge("mass_properties", &case(), &empty).faults;
+        let faults = check("mass_properties", &case(), &empty).faults;
         assert_eq!(faults, ["area is missing", "centroid is no finite number"]);
     }
 
@@ -364,8 +364,8 @@ mod tests {
     fn a_category_of_the_future_fails() {
         let right = answer(json!({"area": 1.0}));
         assert_eq!(
-            judge("tides", &case(), &right).faults,
-            ["tides has no judge"]
+            check("tides", &case(), &right).faults,
+            ["tides has no check"]
         );
     }
 
@@ -400,12 +400,12 @@ mod tests {
             let right = answer(json!({
                 "hit": true, "time_of_impact": 1.0, "contact_point": [x, 0.0], "normal_a_to_b": [0.0, -1.0],
             }));
-            assert_eq!(judge("time_of_impact", &landing(), &right).faults, [""; 0]);
+            assert_eq!(check("time_of_impact", &landing(), &right).faults, [""; 0]);
         }
         let wrong = answer(json!({
             "hit": true, "time_of_impact": 1.0 + 1e-12, "contact_point": [1.25, 0.0], "normal_a_to_b": [0.0, 1.0],
         }));
-        let faults = judge("time_of_impact", &landing(), &wrong).faults;
+        let faults = check("time_of_impact", &landing(), &wrong).faults;
         assert!(
             faults[0].starts_with("time_of_impact is off by 1.00e-12"),
             "{faults:?}"
@@ -424,14 +424,14 @@ mod tests {
     fn a_missed_contact_and_half_an_answer_fail() {
         let missed = answer(json!({"hit": false}));
         assert_eq!(
-            judge("time_of_impact", &landing(), &missed).faults[0],
+            check("time_of_impact", &landing(), &missed).faults[0],
             "hit is false, not true"
         );
         let no_point = answer(json!({
             "hit": true, "time_of_impact": 1.0, "contact_point": [0.5, null], "normal_a_to_b": [0.0, -1.0],
         }));
         assert_eq!(
-            judge("time_of_impact", &landing(), &no_point).faults,
+            check("time_of_impact", &landing(), &no_point).faults,
             ["contact_point is no point"]
         );
     }

@@ -1,4 +1,4 @@
-//! Bodies that begin to be held, or cease to: they land, and take off.
+//! Free bodies that land, and stepped ones that take off.
 
 use carom_math::SimTime;
 
@@ -33,21 +33,21 @@ impl World {
 
     /// From now on the sub-steps move this body: something holds it, or is too near to tell.
     pub(crate) fn land(&mut self, index: u32, time: SimTime) {
-        if self.alight(index, time) {
+        if self.leave_flight(index, time) {
             self.deflected(index, time);
         }
     }
 
-    /// As [`Self::land`], at the start of a sub-step, which predicts all pairs when it is over, and judges the groups
-    /// that it touches once all have landed.
+    /// As [`Self::land`], at the start of a sub-step, which predicts all pairs when it is over, and solves for the
+    /// modes of the groups that it touches once all have landed.
     pub(crate) fn land_first(&mut self, index: u32, time: SimTime) {
-        if self.alight(index, time) {
+        if self.leave_flight(index, time) {
             self.steer(index, time);
             self.part_far(index, time);
         }
     }
 
-    /// Forgets the pairs of a body that its boxes have left: a flyer's reach farther than those of a sub-step.
+    /// Forgets the pairs of a body that its boxes have left: a free body's reach farther than those of a sub-step.
     fn part_far(&mut self, index: u32, time: SimTime) {
         let keeps = |place: &u32| self.broad.keeps(&self.colliders, self.pairs.shapes(*place));
         let pairs = self.bodies.get(index).pairs.iter();
@@ -57,21 +57,21 @@ impl World {
         }
     }
 
-    /// Puts a flyer among those that are sub-stepped; whether it was one.
-    fn alight(&mut self, index: u32, time: SimTime) -> bool {
+    /// A free body leaves flight and begins to be sub-stepped; whether it was free.
+    fn leave_flight(&mut self, index: u32, time: SimTime) -> bool {
         if self.hand_back_of(index, time) {
             return true;
         }
         let state = self.bodies.get_mut(index);
-        if state.kind != BodyKind::Dynamic || !state.course.flies {
+        if state.kind != BodyKind::Dynamic || !state.course.is_free {
             return false;
         }
         state.course.land();
         state.idle = 0;
-        // What was foreseen for a flyer is stale.
+        // Events predicted for a free body are stale.
         self.bodies.renew(index);
-        self.flyers.vanish(&mut self.bodies, index);
-        self.enlist(index, time);
+        self.free.vanish(&mut self.bodies, index);
+        self.begin_substepping(index, time);
         // What was too large for the grid keeps its box, and has met no pairs with it.
         self.meet_near(index);
         true
@@ -80,7 +80,7 @@ impl World {
     /// A body that nothing holds any more flies from event to event.
     pub(crate) fn take_off(&mut self, index: u32, time: SimTime) {
         self.leave_group(index, time);
-        self.discharge(index);
+        self.end_substepping(index);
         for place in self.bodies.get(index).pairs.clone() {
             let other = self.pairs.get(place).other(index);
             if !self.bodies.get(other).is_held() {
@@ -89,7 +89,7 @@ impl World {
         }
         let bends = self.bodies.bends(index);
         let state = self.bodies.get_mut(index);
-        state.course.flies = true;
+        state.course.is_free = true;
         // What a sub-step gave it is no piece of its own.
         state.set_piece(if bends { time } else { SimTime::NEVER });
         self.bodies.renew(index);
@@ -121,8 +121,8 @@ impl World {
         for k in 0..self.bodies.get(index).pairs.len() {
             let place = self.bodies.get(index).pairs[k];
             let pair = self.pairs.get_mut(place);
-            if self.bodies.get(pair.other(index)).is_flying() {
-                // What strikes it strikes a flyer.
+            if self.bodies.get(pair.other(index)).is_free() {
+                // Its impacts are those of a free body.
                 continue;
             }
             if pair.fresh {
@@ -147,11 +147,11 @@ impl World {
         true
     }
 
-    /// Whether an impact is one on members of groups, which land then: they are struck with all that holds them.
-    pub(super) fn strikes_gliders(&mut self, impact: &Foreseen, time: SimTime) -> bool {
+    /// Whether an impact is on an island in analytic motion, which lands then: it is struck with all that holds it.
+    pub(super) fn strikes_moving_island(&mut self, impact: &Foreseen, time: SimTime) -> bool {
         let ends = [impact.bodies.0, impact.bodies.1];
-        let glides = |index: u32| self.bodies.get(index).course.glides;
-        if !ends.iter().any(|index| glides(*index)) {
+        let moves_analytically = |index: u32| self.bodies.get(index).course.moves_analytically;
+        if !ends.iter().any(|index| moves_analytically(*index)) {
             return false;
         }
         let before = ends.map(|index| self.bodies.get(index).in_impact(time));
@@ -164,8 +164,8 @@ impl World {
         strikes
     }
 
-    /// Adds a body to those that are sub-stepped.
-    pub(crate) fn enlist(&mut self, index: u32, time: SimTime) {
+    /// Begins to sub-step a body.
+    pub(crate) fn begin_substepping(&mut self, index: u32, time: SimTime) {
         // A group that is taken apart may have met a member, and joined.
         if self.bodies.get(index).in_engine {
             return;
@@ -173,10 +173,10 @@ impl World {
         if !self.is_substepping() {
             self.clock.catch_up(time);
         }
-        if !self.flyers.is_raised() {
-            // Bodies look for flyers by boxes in the world from now on.
+        if !self.free.is_raised() {
+            // Bodies look for free bodies by boxes in the world from now on.
             self.narrow(time);
-            self.flyers.raise(&self.bodies);
+            self.free.raise(&self.bodies);
         }
         if let Err(at) = self.stepped.binary_search(&index) {
             self.stepped.insert(at, index);
@@ -184,34 +184,34 @@ impl World {
         }
     }
 
-    /// Takes a body from those that are sub-stepped.
-    pub(crate) fn discharge(&mut self, index: u32) {
+    /// Ends the sub-stepping of a body.
+    pub(crate) fn end_substepping(&mut self, index: u32) {
         if let Ok(at) = self.stepped.binary_search(&index) {
             self.stepped.remove(at);
             self.pairs.reorder();
-            self.lower_flyers_later();
+            self.lower_free_boxes_later();
         }
     }
 
-    /// Takes bodies from those that are sub-stepped, which are given in order; [`Self::lower_flyers_later`] is for the caller.
-    pub(crate) fn discharge_all(&mut self, gone: &[u32]) {
+    /// Ends the sub-stepping of bodies, which are given in order; [`Self::lower_free_boxes_later`] is for the caller.
+    pub(crate) fn end_substepping_all(&mut self, gone: &[u32]) {
         self.stepped
             .retain(|index| gone.binary_search(index).is_err());
         self.pairs.reorder();
     }
 
-    /// If no body is sub-stepped pair by pair any more, flyers need no boxes in the world: after a tick, since an analytic
+    /// If no body is sub-stepped pair by pair any more, free bodies need no boxes in the world: after a tick, since an analytic
     /// island that changes its mode lands and is let go of at one instant.
-    pub(crate) fn lower_flyers_later(&mut self) {
+    pub(crate) fn lower_free_boxes_later(&mut self) {
         if self.stepped.is_empty() {
-            self.flyers.raised_until = self.clock.next() + self.settings.tick;
+            self.free.raised_until = self.clock.next() + self.settings.tick;
         }
     }
 
-    /// Takes the boxes of flyers from the world once no search has needed them for a tick.
+    /// Takes the boxes of free bodies from the world once no search has needed them for a tick.
     pub(crate) fn lower_idle(&mut self, time: SimTime) {
-        if self.flyers.is_raised() && self.stepped.is_empty() && self.flyers.raised_until <= time {
-            self.flyers.lower();
+        if self.free.is_raised() && self.stepped.is_empty() && self.free.raised_until <= time {
+            self.free.lower();
         }
     }
 }

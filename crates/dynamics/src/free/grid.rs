@@ -1,4 +1,4 @@
-//! A uniform grid of cells over the whole plane: which flyers sweep over which cells.
+//! A uniform grid of cells over the whole plane: which free bodies sweep over which cells.
 
 use carom_geometry::Aabb;
 use carom_math::{Vec2, vec2};
@@ -32,12 +32,12 @@ impl Sides {
 
 /// A body and the box that it sweeps over: 20 bytes, read one after the other.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Seat {
+pub(crate) struct SweptBox {
     pub(crate) body: u32,
     sides: Sides,
 }
 
-impl Seat {
+impl SweptBox {
     pub(crate) const fn new(body: u32, sides: Sides) -> Self {
         Self { body, sides }
     }
@@ -99,7 +99,7 @@ const CORNER: f64 = 0.381_966_011_250_105;
 pub(crate) struct Grid {
     /// Side of a cell, in m.
     side: f64,
-    lists: Vec<Vec<Seat>>,
+    lists: Vec<Vec<SweptBox>>,
     /// Bodies in the grid.
     count: usize,
 }
@@ -137,11 +137,11 @@ impl Grid {
         }
     }
 
-    pub(crate) fn insert(&mut self, seat: Seat, cells: Cells) {
+    pub(crate) fn insert(&mut self, swept_box: SweptBox, cells: Cells) {
         self.count += 1;
         for cell in cells.each() {
             let list = self.list(cell);
-            self.lists[list].push(seat);
+            self.lists[list].push(swept_box);
         }
     }
 
@@ -154,40 +154,40 @@ impl Grid {
     }
 
     /// Moves a body from cells to others, most of which are the same.
-    pub(crate) fn shift(&mut self, seat: Seat, from: Cells, to: Cells) {
+    pub(crate) fn shift(&mut self, swept_box: SweptBox, from: Cells, to: Cells) {
         for cell in from.each() {
             let list = self.list(cell);
             let list = &mut self.lists[list];
             // Where cells share a list a body is in it more than once: those that are moved already do not count.
-            let old = |known: &Seat| known.body == seat.body && *known != seat;
+            let old = |known: &SweptBox| known.body == swept_box.body && *known != swept_box;
             match list.iter().position(old) {
-                Some(at) if to.has(cell) => list[at] = seat,
+                Some(at) if to.has(cell) => list[at] = swept_box,
                 Some(at) => {
                     list.swap_remove(at);
                 }
                 None if to.has(cell) => {}
-                None => Self::drop_from(list, seat.body),
+                None => Self::drop_from(list, swept_box.body),
             }
         }
         for cell in to.each().filter(|cell| !from.has(*cell)) {
             let list = self.list(cell);
-            self.lists[list].push(seat);
+            self.lists[list].push(swept_box);
         }
     }
 
-    fn drop_from(list: &mut Vec<Seat>, body: u32) {
-        if let Some(at) = list.iter().position(|seat| seat.body == body) {
+    fn drop_from(list: &mut Vec<SweptBox>, body: u32) {
+        if let Some(at) = list.iter().position(|swept_box| swept_box.body == body) {
             list.swap_remove(at);
         }
     }
 
-    /// Appends every body in the cells with a box that overlaps that of `seat`, itself included; some more than once.
-    /// How many seats there are.
-    pub(crate) fn gather(&self, seat: &Seat, cells: Cells, near: &mut Vec<u32>) -> usize {
-        let (limits, mut seats) = (seat.limits(), 0);
+    /// Appends every body in the cells with a box that overlaps `swept_box`, itself included; some more than once.
+    /// Returns how many boxes were compared.
+    pub(crate) fn gather(&self, swept_box: &SweptBox, cells: Cells, near: &mut Vec<u32>) -> usize {
+        let (limits, mut count) = (swept_box.limits(), 0);
         for cell in cells.each() {
             let list = &self.lists[self.list(cell)];
-            seats += list.len();
+            count += list.len();
             // Every body is written, and kept by advancing `end`: a branch on the overlap would be mispredicted.
             let mut end = near.len();
             near.resize(end + list.len(), 0);
@@ -197,7 +197,7 @@ impl Grid {
             }
             near.truncate(end);
         }
-        seats
+        count
     }
 
     fn cell(&self, point: Vec2) -> (i32, i32) {
@@ -260,15 +260,15 @@ mod tests {
                 .map(|b| Aabb::new(b.min + way, b.max + way))
                 .collect();
             for (i, bounds) in (0..).zip(&before) {
-                grid.insert(Seat::new(i, Sides::around(*bounds)), grid.cells(*bounds));
+                grid.insert(SweptBox::new(i, Sides::around(*bounds)), grid.cells(*bounds));
             }
             for (i, (from, to)) in (0..).zip(before.iter().zip(&boxes)) {
-                grid.shift(Seat::new(i, Sides::around(*to)), grid.cells(*from), grid.cells(*to));
+                grid.shift(SweptBox::new(i, Sides::around(*to)), grid.cells(*from), grid.cells(*to));
             }
             for (i, bounds) in (0_u32..).zip(&boxes) {
                 let mut near = Vec::new();
-                let seat = Seat::new(i, Sides::around(*bounds));
-                grid.gather(&seat, grid.cells(*bounds), &mut near);
+                let swept_box = SweptBox::new(i, Sides::around(*bounds));
+                grid.gather(&swept_box, grid.cells(*bounds), &mut near);
                 for (j, other) in (0_u32..).zip(&boxes) {
                     prop_assert!(near.contains(&j) || !bounds.overlaps(*other), "{} misses {}", i, j);
                     let apart = !bounds.grown(1e-3).overlaps(other.grown(1e-3));

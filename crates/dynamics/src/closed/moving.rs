@@ -1,9 +1,10 @@
-//! Groups that move in closed form leave the sub-steps: until their next change they fly.
+//! Analytic islands that slide, roll or tip leave the sub-steps: they move analytically until their next mode change.
 //!
-//! A member of a group that slides or rolls has one parabola until the group changes, just as a flyer has one until it
-//! strikes. So it is looked after as a flyer is: boxes over its way, impacts in the calendar, and a search that ends with
-//! its mode. Only what it touches is not searched for: the group has these contacts already. A body that meets
-//! it, or a call that changes it, gives the whole group back to the sub-steps at that instant, until their next look.
+//! A member of an island that slides or rolls has one parabola until its mode changes, just as a free body has one until
+//! its next impact. So it is treated as a free body is: swept boxes, impacts in the calendar queue, and a search that ends
+//! with its mode. Only bodies that it touches are not searched for: the island has these contacts already. A body that
+//! meets it, or a call that changes it, gives the whole island back to the sub-steps at that instant, until the next
+//! sub-step.
 
 use std::sync::Arc;
 
@@ -14,7 +15,7 @@ use carom_math::SimTime;
 use super::store::Kept;
 use super::tips::Tipping;
 use crate::flight::{Flight, begin_held_piece};
-use crate::flyers::Cause;
+use crate::free::Cause;
 use crate::narrow::Narrow;
 use crate::pairs::Pair;
 use crate::{ContactMode, World};
@@ -23,8 +24,8 @@ use crate::{ContactMode, World};
 const WORTH: f64 = 2.0;
 
 impl World {
-    /// Lets go of all groups that came to move since the last time, as far as they may.
-    pub(crate) fn glide(&mut self, time: SimTime) {
+    /// Islands that came to move since the last time leave the sub-steps, where they may.
+    pub(crate) fn begin_analytic_motion(&mut self, time: SimTime) {
         let moving = self.closed.take_moving();
         #[cfg(test)]
         if self.closed.stays {
@@ -32,8 +33,8 @@ impl World {
         }
         let mut left = false;
         for place in moving {
-            if self.may_glide(place) {
-                left |= self.let_glide(place, time);
+            if self.may_move_analytically(place) {
+                left |= self.move_analytically(place, time);
             } else {
                 self.closed.moves(place);
             }
@@ -44,7 +45,7 @@ impl World {
     }
 
     /// Whether nothing touches a group but itself, and nothing of what touches in it opens, or can touch elsewhere.
-    fn may_glide(&self, place: u32) -> bool {
+    fn may_move_analytically(&self, place: u32) -> bool {
         let Some(group) = self.closed.get(place) else {
             return false;
         };
@@ -72,8 +73,8 @@ impl World {
         })
     }
 
-    /// The members of a group fly until its next change; whether that is worth it.
-    fn let_glide(&mut self, place: u32, time: SimTime) -> bool {
+    /// An island moves without sub-steps until its next mode change; whether that is worth it.
+    fn move_analytically(&mut self, place: u32, time: SimTime) -> bool {
         let Some(group) = self.closed.get_mut(place) else {
             return false;
         };
@@ -81,14 +82,14 @@ impl World {
         if until - time < WORTH * self.clock.h {
             return false;
         }
-        group.glides = true;
+        group.moves_analytically = true;
         for touch in &group.touches {
             touch.carry(&self.bodies, self.pairs.get_mut(touch.pair), self.clock.h);
         }
         let members: Vec<u32> = group.members.iter().map(|(index, _)| *index).collect();
         let touches: Vec<u32> = group.touches.iter().map(|touch| touch.pair).collect();
         for &index in &members {
-            self.discharge(index);
+            self.end_substepping(index);
             for pair in self.bodies.get(index).pairs.clone() {
                 let other = self.pairs.get(pair).other(index);
                 // Sub-stepped bodies go on to meet it by pairs.
@@ -97,22 +98,22 @@ impl World {
                 }
             }
             let state = self.bodies.get_mut(index);
-            (state.course.flies, state.course.glides) = (true, true);
+            (state.course.is_free, state.course.moves_analytically) = (true, true);
             state.set_piece(until);
             self.note_flight(index);
         }
-        self.glide_on_all(place, time);
+        self.begin_next_pieces(place, time);
         true
     }
 
-    /// The next pieces of the members of a group that glides, and their impacts.
-    pub(super) fn glide_on_all(&mut self, place: u32, time: SimTime) {
+    /// The next pieces of the members of an island in analytic motion, and their impacts.
+    pub(super) fn begin_next_pieces(&mut self, place: u32, time: SimTime) {
         let Some(group) = self.closed.get(place) else {
             return;
         };
         let members: Vec<u32> = group.members.iter().map(|(index, _)| *index).collect();
         for &index in &members {
-            self.glide_on(index, time);
+            self.begin_next_piece(index, time);
         }
         self.renew_members(place);
         for index in members {
@@ -121,7 +122,7 @@ impl World {
     }
 
     /// The next piece of the path of a member of a group that turns.
-    pub(crate) fn glide_on(&mut self, index: u32, time: SimTime) {
+    pub(crate) fn begin_next_piece(&mut self, index: u32, time: SimTime) {
         let place = self.bodies.get(index).membership.group;
         let Some(group) = self.closed.get_mut(place) else {
             return;
@@ -139,17 +140,21 @@ impl World {
         self.bodies.get_mut(index).set_piece(end.min(until));
     }
 
-    /// Gives a group that glides back to the sub-steps: its motions stand, and its mode.
+    /// Gives an island in analytic motion back to the sub-steps: its motions stand, and its mode.
     pub(crate) fn hand_back(&mut self, place: u32, time: SimTime) {
         self.land_group(place, time, false);
     }
 
     /// The same. A group that turns, and `ends` now, leaves its path: its impacts are searched for from there.
     pub(super) fn land_group(&mut self, place: u32, time: SimTime, ends: bool) {
-        let Some(group) = self.closed.get_mut(place).filter(|group| group.glides) else {
+        let Some(group) = self
+            .closed
+            .get_mut(place)
+            .filter(|group| group.moves_analytically)
+        else {
             return;
         };
-        group.glides = false;
+        group.moves_analytically = false;
         let leaves = ends && group.tipping.is_some();
         let h = self.clock.h;
         for touch in group.touches_at(time) {
@@ -163,11 +168,11 @@ impl World {
             let state = self.bodies.get_mut(index);
             state.course.land();
             state.idle = 0;
-            self.flyers.vanish(&mut self.bodies, index);
+            self.free.vanish(&mut self.bodies, index);
         }
         self.renew_members(place);
         for &index in &members {
-            self.enlist(index, time);
+            self.begin_substepping(index, time);
         }
         self.lay_pieces(place, time, self.clock.next() - time);
         // Their boxes are as long as their way was: narrow ones meet what a sub-step meets.
@@ -185,17 +190,17 @@ impl World {
         }
     }
 
-    /// Gives the group of a body back to the sub-steps, if it glides; whether it did.
+    /// Gives the island of a body back to the sub-steps, if it is in analytic motion; whether it was.
     pub(crate) fn hand_back_of(&mut self, index: u32, time: SimTime) -> bool {
-        let glides = self.bodies.get(index).course.glides;
-        if glides {
+        let moves_analytically = self.bodies.get(index).course.moves_analytically;
+        if moves_analytically {
             self.hand_back(self.bodies.get(index).membership.group, time);
         }
-        glides
+        moves_analytically
     }
 
-    /// Gives a group that a pair holds together back to the sub-steps, if it glides, before the pair goes: all that it
-    /// touches is looked at then.
+    /// Gives an island in analytic motion that a pair holds together back to the sub-steps, before the pair goes: all that
+    /// it touches is looked at then.
     pub(crate) fn hand_back_by(&mut self, pair: u32, time: SimTime) {
         let Some(ends) = self.pairs.find(pair).map(|pair| pair.bodies) else {
             return;
@@ -217,10 +222,10 @@ impl World {
         }
     }
 
-    /// Whether two shapes touch in a group that glides: what becomes of them is that group's next change.
-    pub(crate) fn glide_together(&self, (a, b): (u32, u32), shapes: (u32, u32)) -> bool {
-        let glides = |index: &u32| self.bodies.get(*index).course.glides;
-        let Some(index) = [a, b].into_iter().find(glides) else {
+    /// Whether two shapes touch in an island in analytic motion: their contact changes with the island's mode alone.
+    pub(crate) fn touch_in_moving_island(&self, (a, b): (u32, u32), shapes: (u32, u32)) -> bool {
+        let moves_analytically = |index: &u32| self.bodies.get(*index).course.moves_analytically;
+        let Some(index) = [a, b].into_iter().find(moves_analytically) else {
             return false;
         };
         // Other pairs it has with bodies that are stepped alone.
@@ -232,11 +237,15 @@ impl World {
         })
     }
 
-    /// A pair that glides, with its contacts where they are at the world's time.
-    pub(crate) fn gliding_now(&self, place: u32) -> Option<Pair> {
+    /// A pair of an island in analytic motion, with its contacts where they are at the world's time.
+    pub(crate) fn moving_pair_now(&self, place: u32) -> Option<Pair> {
         let pair = self.pairs.get(place);
         let ends = [pair.bodies.0, pair.bodies.1].map(|index| self.bodies.get(index));
-        let index = ends.iter().find(|state| state.course.glides)?.id.index;
+        let index = ends
+            .iter()
+            .find(|state| state.course.moves_analytically)?
+            .id
+            .index;
         let group = self.closed.get(self.bodies.get(index).membership.group)?;
         let mut now = pair.clone();
         let (time, h) = (self.clock.now, self.clock.h);
@@ -341,17 +350,17 @@ mod tests {
     }
 
     /// Until a contact without closed form takes soft rows: they begin from forces that are as old as a sub-step, or as new as
-    /// the end of a glide. Roundings decide what becomes of bodies that touch just so: a few runs part there.
+    /// the end of an analytic motion. Roundings decide what becomes of bodies that touch just so: a few runs part there.
     #[test]
     fn analytic_bodies_move_as_stepped_ones() {
-        let (mut glided, mut stepped, mut parted) = (0, 0, Vec::new());
+        let (mut analytic, mut stepped, mut parted) = (0, 0, Vec::new());
         let mut ticks = 0;
         for seed in 1..40 {
             let (mut fast, ids) = scene(seed, false);
             let (mut slow, _) = scene(seed, true);
             for tick in 0..180 {
                 let reports = [&mut fast, &mut slow].map(|world| world.step(1.0 / 60.0));
-                glided += reports[0].substeps;
+                analytic += reports[0].substeps;
                 stepped += reports[1].substeps;
                 let off = |id: &BodyId| {
                     let [a, b] = [&fast, &slow].map(|world| world.body(*id).expect("there").pose());
@@ -372,8 +381,8 @@ mod tests {
         assert!(ticks > 2000, "{ticks} ticks compared");
         assert!(parted.len() < 4, "seeds and ticks: {parted:?}");
         assert!(
-            4 * glided < 3 * stepped,
-            "{glided} sub-steps instead of {stepped}"
+            4 * analytic < 3 * stepped,
+            "{analytic} sub-steps instead of {stepped}"
         );
     }
 

@@ -1,7 +1,7 @@
-//! Flyers: bodies that nothing holds. Each has one motion until something happens to it, and what
+//! Free bodies: no contact holds them. Each has one motion until something happens to it, and what
 //! may happen is kept in one queue that lives across steps.
 //!
-//! A flyer is found by the box swept over its own *horizon*: the time to travel a part of a cell.
+//! A free body is found by the box swept over its own *horizon*: the time to travel a part of a cell.
 //! Prediction is lazy: a pair enters the queue with the instant from which on it is near enough to
 //! meet, and its time of impact is sought only when that instant comes with both motions unchanged.
 //! A body that nothing can happen to has no entry, and costs nothing.
@@ -21,11 +21,11 @@ mod piece;
 mod present;
 mod queue;
 mod seek;
-mod streak;
 mod strike;
 mod together;
 mod turning;
 mod window;
+mod zeno;
 
 use carom_collision::{BoxTree, ImpactFeature, NodeId};
 use carom_math::{SimTime, Vec2};
@@ -38,11 +38,11 @@ pub(crate) use foresee::{Cause, box_ahead};
 pub(crate) use foreseen::Foreseen;
 use frame::{Frame, Track};
 pub(crate) use gap::{Touching, gap_acceleration};
-pub(crate) use grid::{Cells, Grid, Seat, Sides};
+pub(crate) use grid::{Cells, Grid, Sides, SweptBox};
 use queue::{Ahead, Queue};
-use streak::Streak;
+use zeno::ZenoSeries;
 
-/// How a body flies.
+/// How a free body moves, and what was searched for around it.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub(crate) struct Course {
@@ -50,10 +50,10 @@ pub(crate) struct Course {
     pub(crate) ground: SimTime,
     /// Where it is in the grid; none for what is too large for it, and is in the tree of boxes.
     pub(crate) cells: Option<Cells>,
-    /// Moves in closed form, from event to event.
-    pub(crate) flies: bool,
-    /// Flies with others that it touches, until their island changes.
-    pub(crate) glides: bool,
+    /// It moves in closed form, from event to event.
+    pub(crate) is_free: bool,
+    /// It moves with its analytic island, without sub-steps, until the island's mode changes.
+    pub(crate) moves_analytically: bool,
     /// Nothing was found where it looked down, but for half-planes.
     pub(crate) alone: bool,
     /// Box of its bounding circle up to the horizon, in the frame that falls.
@@ -69,14 +69,15 @@ pub(crate) struct Course {
     /// The tick in which it last struck, and what its impacts spent in it.
     pub(crate) tick: i64,
     pub(crate) spent: f64,
-    pub(crate) streak: Streak,
+    /// Its last impacts, while they come ever faster.
+    pub(crate) series: ZenoSeries,
 }
 
 impl Default for Course {
     fn default() -> Self {
         Self {
-            flies: false,
-            glides: false,
+            is_free: false,
+            moves_analytically: false,
             swept: Sides::NOTHING,
             cells: None,
             ground: SimTime::ZERO,
@@ -87,7 +88,7 @@ impl Default for Course {
             entered: (SimTime::NEVER, SimTime::NEVER),
             tick: 0,
             spent: 0.0,
-            streak: Streak::default(),
+            series: ZenoSeries::default(),
         }
     }
 }
@@ -95,7 +96,7 @@ impl Default for Course {
 impl Course {
     /// It flies no more, and ends of its searches that are entered are stale: a pile that landed leaves nothing in the calendar.
     pub(crate) const fn land(&mut self) {
-        (self.flies, self.glides) = (false, false);
+        (self.is_free, self.moves_analytically) = (false, false);
         self.entered = (SimTime::NEVER, SimTime::NEVER);
     }
 
@@ -118,29 +119,29 @@ const FITS: usize = 8;
 /// Cells that a box may cover before the body goes to the tree instead.
 const MOST_CELLS: u64 = 64;
 
-/// All that is ahead of flyers.
+/// The free bodies of a world, and their calendar queue.
 #[derive(Clone, Debug)]
-pub(crate) struct Flyers {
+pub(crate) struct FreeBodies {
     pub(crate) grid: Grid,
     frame: Frame,
-    /// The frame has got too fast for its flyers.
+    /// The frame has got too fast for its bodies.
     drifts: bool,
     /// There is, or was, something in the tree of boxes that they look down for.
     grounded: bool,
-    /// Boxes of the grid's flyers in the world, while other bodies need to find them there.
+    /// Boxes of the grid's free bodies in the world, while other bodies need to find them there.
     aloft: Option<BoxTree>,
     /// When they go, if no body is sub-stepped then.
     raised_until: SimTime,
     /// Their nodes there, by body.
     nodes: Vec<Option<NodeId>>,
-    /// Circles of the grid's flyers, by body.
+    /// Circles of the grid's free bodies, by body.
     circles: Vec<Registered>,
     /// Until when they have looked round for each other, by body.
     horizons: Vec<SimTime>,
     queue: Queue,
     aside: Aside,
     impacts: Vec<Option<Foreseen>>,
-    free: Vec<u32>,
+    vacant: Vec<u32>,
     /// Mark of the last search that met a body.
     seen: Vec<u32>,
     mark: u32,
@@ -150,17 +151,17 @@ pub(crate) struct Flyers {
     met: usize,
     /// They were of the right size when that was last looked at.
     fits: bool,
-    /// Scratch of a search: flyers, and shapes of what does not fly.
+    /// Scratch of a search: free bodies, and shapes of bodies that are not free.
     near: Vec<u32>,
     shapes: Vec<u32>,
-    /// The end of a low bounce, in s from the impact that is being resolved.
-    hop: Option<(f64, Foreseen)>,
+    /// The end of a micro-bounce, in s from the impact that is being resolved.
+    micro_bounce: Option<(f64, Foreseen)>,
     /// The shapes in the impact that is being resolved, and where they part.
     struck: Option<((u32, u32), ImpactFeature)>,
 }
 
-impl Flyers {
-    /// No flyers yet, under uniform gravity.
+impl FreeBodies {
+    /// No free bodies yet, under uniform gravity.
     pub(crate) fn under(gravity: Vec2) -> Self {
         Self {
             grid: Grid::new(1.0, 0),
@@ -175,7 +176,7 @@ impl Flyers {
             queue: Queue::default(),
             aside: Aside::default(),
             impacts: Vec::new(),
-            free: Vec::new(),
+            vacant: Vec::new(),
             seen: Vec::new(),
             mark: 0,
             searches: 0,
@@ -184,7 +185,7 @@ impl Flyers {
             fits: false,
             near: Vec::new(),
             shapes: Vec::new(),
-            hop: None,
+            micro_bounce: None,
             struck: None,
         }
     }
@@ -196,7 +197,7 @@ impl Flyers {
         self.seen.reserve_exact(more);
     }
 
-    /// Until when other flyers have been looked for; by those that are not in the grid, where they look for all.
+    /// Until when other free bodies have been looked for; by those that are not in the grid, where they look for all.
     fn horizon(&self, state: &BodyState) -> SimTime {
         if state.course.cells.is_some() {
             self.horizons[state.id.index as usize]
@@ -236,10 +237,10 @@ impl Flyers {
             self.leave(bodies, index);
             return false;
         }
-        let seat = Seat::new(index, course.swept);
+        let swept_box = SweptBox::new(index, course.swept);
         match course.cells.replace(cells) {
-            Some(known) => self.grid.shift(seat, known, cells),
-            None => self.grid.insert(seat, cells),
+            Some(known) => self.grid.shift(swept_box, known, cells),
+            None => self.grid.insert(swept_box, cells),
         }
         let place = index as usize;
         if self.circles.len() <= place {
@@ -262,9 +263,9 @@ impl Flyers {
 
     /// Sizes the cells anew where searches meet too many bodies, or hardly any.
     fn resize(&mut self, bodies: &mut Bodies, time: SimTime) {
-        let crowded = self.grid.count() > self.grid.room();
+        let overfull = self.grid.count() > self.grid.room();
         let patience = if self.fits { FITS } else { 1 };
-        if self.searches < patience * 64.max(self.grid.count()) && !crowded {
+        if self.searches < patience * 64.max(self.grid.count()) && !overfull {
             return;
         }
         #[expect(clippy::cast_precision_loss, reason = "fewer than 2^52 searches")]
@@ -273,16 +274,16 @@ impl Flyers {
             (self.met as f64 / searches, self.renewed as f64 / searches)
         };
         (self.searches, self.renewed, self.met) = (0, 0, 0);
-        let flying: Vec<u32> = bodies
+        let free: Vec<u32> = bodies
             .indices()
             .filter(|i| bodies.get(*i).course.cells.is_some())
             .collect();
-        if flying.is_empty() {
+        if free.is_empty() {
             return;
         }
         #[expect(clippy::cast_precision_loss, reason = "fewer than 2^32 bodies")]
-        let reach = flying.iter().map(|i| bodies.get(*i).reach).sum::<f64>() / flying.len() as f64;
-        self.drifts = drift(&self.frame, bodies, &flying, time).is_some();
+        let reach = free.iter().map(|i| bodies.get(*i).reach).sum::<f64>() / free.len() as f64;
+        self.drifts = drift(&self.frame, bodies, &free, time).is_some();
         // What is met grows with the area that is searched.
         let wanted = (PARTNERS.0 + PARTNERS.1 * renewed) / met.max(1.0);
         let factor = if (0.7..1.4).contains(&wanted) {
@@ -291,31 +292,31 @@ impl Flyers {
             wanted.sqrt().clamp(0.5, 4.0)
         };
         let side = (factor * self.grid.side()).clamp(2.0 * reach, 1e6 * reach);
-        self.fits = (side - self.grid.side()).abs() < 0.1 * side && !crowded;
+        self.fits = (side - self.grid.side()).abs() < 0.1 * side && !overfull;
         if self.fits {
             return;
         }
-        self.grid = Grid::new(side, flying.len());
-        for index in flying {
+        self.grid = Grid::new(side, free.len());
+        for index in free {
             let course = &mut bodies.get_mut(index).course;
             let cells = self.grid.cells(course.swept.bounds());
-            self.grid.insert(Seat::new(index, course.swept), cells);
+            self.grid.insert(SweptBox::new(index, course.swept), cells);
             course.cells = Some(cells);
         }
     }
 }
 
-/// Mean velocity of flyers in the frame, in m/s, where it is faster than they are among themselves.
-fn drift(frame: &Frame, bodies: &Bodies, flying: &[u32], time: SimTime) -> Option<Vec2> {
+/// Mean velocity of free bodies in the frame, in m/s, where it is faster than they are among themselves.
+fn drift(frame: &Frame, bodies: &Bodies, free: &[u32], time: SimTime) -> Option<Vec2> {
     let (mut sum, mut squares) = (Vec2::ZERO, 0.0);
-    for &index in flying {
+    for &index in free {
         let track = Track::of(&bodies.get(index).motion, time);
         let velocity = frame.track(&track, time).velocity;
         sum += velocity;
         squares += velocity.length_squared();
     }
     #[expect(clippy::cast_precision_loss, reason = "fewer than 2^32 bodies")]
-    let count = flying.len() as f64;
+    let count = free.len() as f64;
     let mean = sum / count;
     // The mean square is that of the mean and that about it.
     let square = mean.length_squared();

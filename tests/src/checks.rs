@@ -12,7 +12,7 @@ pub use sums::{Closed, Moment};
 use carom_dynamics::{Body, BodyId, BodyKind, StepReport, World};
 
 /// What a closed form may leave of an overlap, in parts of the smaller size. Times of impact are right to some 1e-12 of the
-/// sizes; below, rounding would be judged, and above 1e-6 a body that sinks in would pass.
+/// sizes; below, rounding would be checked, and above 1e-6 a body that sinks in would pass.
 const SHARP: f64 = 1e-9;
 
 /// A broken law.

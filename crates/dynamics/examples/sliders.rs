@@ -1,7 +1,7 @@
 //! How many sub-steps bodies need that slide or roll on a plane:
 //!
 //! ```sh
-//! cargo run --release -p carom-dynamics --example gliders -- 1000
+//! cargo run --release -p carom-dynamics --example sliders -- 1000
 //! ```
 //!
 //! Blocks that slide to a stop, each at its own instant; balls that roll for as long; both of them; balls that roll into

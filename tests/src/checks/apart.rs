@@ -45,7 +45,7 @@ fn collect(shape: &Shape, pose: Pose, found: &mut Vec<Part>) {
             outward: Some(pose.vector(plane.normal())),
             ..solid(&[plane.point()], 0.0)
         }),
-        other => panic!("a shape without a judge: {other:?}"),
+        other => panic!("a shape without a check: {other:?}"),
     }
 }
 

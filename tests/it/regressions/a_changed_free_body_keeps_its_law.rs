@@ -32,7 +32,7 @@ fn agree(name: &str, one: &World, other: &World, ball: BodyId) {
 }
 
 #[test]
-fn a_changed_flyer_keeps_its_law() {
+fn a_changed_free_body_keeps_its_law() {
     let (mut untouched, ball) = world();
     let (mut filtered, _) = world();
     let (mut driven, _) = world();

@@ -1,4 +1,4 @@
-//! Flyers in a field or with damping: pieces of a law, each a parabola.
+//! Free bodies in a field or with damping: pieces of a law, each a parabola.
 
 use carom_math::SimTime;
 
@@ -6,14 +6,14 @@ use crate::World;
 use crate::flight::begin_piece;
 
 impl World {
-    /// Gives a flyer that flies by a law the piece of it that begins at `time`, if it has none that goes on.
+    /// Gives a free body in a field or with damping the piece of its law that begins at `time`, if it has none that goes on.
     ///
-    /// All that is foreseen for a flyer is foreseen for its piece, and all its searches end with it.
+    /// All predictions for a free body are for its piece, and all its searches end with it.
     pub(super) fn follow_law(&mut self, index: u32, time: SimTime) {
         // Its law is its group's.
-        if self.bodies.get(index).course.glides {
+        if self.bodies.get(index).course.moves_analytically {
             if self.piece_ends(index, time) {
-                self.glide_on(index, time);
+                self.begin_next_piece(index, time);
             }
             return;
         }
@@ -29,7 +29,7 @@ impl World {
         }
     }
 
-    /// Whether the motion of a flyer stands for its law until now, and no longer.
+    /// Whether the motion of a free body stands for its law until now, and no longer.
     pub(super) fn piece_ends(&self, index: u32, time: SimTime) -> bool {
         self.bodies.get(index).piece() <= time
     }

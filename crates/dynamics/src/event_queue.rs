@@ -1,4 +1,4 @@
-//! What is due: impacts ahead, in order of (time, pair).
+//! The event queue of the sub-steps: predicted impacts in order of (time, pair).
 
 use core::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
@@ -42,13 +42,13 @@ impl Ord for Entry {
     }
 }
 
-/// The impacts ahead. Stale entries are not searched for: they are dropped when they come up.
+/// Predicted impacts in order. Stale ones are not searched for: they are dropped when they come up.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Agenda {
+pub(crate) struct EventQueue {
     heap: BinaryHeap<Reverse<Entry>>,
 }
 
-impl Agenda {
+impl EventQueue {
     pub(crate) fn push(&mut self, entry: Entry) {
         self.heap.push(Reverse(entry));
     }

@@ -1,10 +1,10 @@
-//! What is ahead of flyers: the entries of the calendar with the impacts that they are for, and which of them still count.
+//! Events ahead of free bodies: entries of the calendar queue with their impacts, and which of them are stale.
 
 use arrayvec::ArrayVec;
 use carom_collision::{AxisFeature, ImpactFeature, Side};
 use carom_math::{SimTime, Vec2};
 
-use super::Flyers;
+use super::FreeBodies;
 use super::queue::{Ahead, Entry};
 use crate::BodyId;
 use crate::bodies::Bodies;
@@ -33,7 +33,7 @@ impl Foreseen {
     }
 }
 
-impl Flyers {
+impl FreeBodies {
     /// When the next entry is due, if that is by `limit`.
     pub(crate) fn next(
         &mut self,
@@ -54,12 +54,12 @@ impl Flyers {
         colliders: &[Collider],
         limit: SimTime,
     ) -> Option<SimTime> {
-        let (impacts, free) = (&mut self.impacts, &mut self.free);
+        let (impacts, vacant) = (&mut self.impacts, &mut self.vacant);
         self.queue.next(limit, |entry| {
             let stale = is_stale(entry, bodies, colliders);
             if let (true, Ahead::Impact { slot }) = (stale, entry.ahead()) {
                 impacts[slot as usize] = None;
-                free.push(slot);
+                vacant.push(slot);
             }
             stale
         })
@@ -103,13 +103,13 @@ impl Flyers {
         let Ahead::Impact { slot } = entry.ahead() else {
             return None;
         };
-        self.free.push(slot);
+        self.vacant.push(slot);
         self.impacts[slot as usize].take()
     }
 
     pub(super) fn push_impact(&mut self, time: SimTime, stamp: u32, impact: Foreseen) {
         let (a, b) = impact.bodies;
-        let slot = self.free.pop().unwrap_or_else(|| {
+        let slot = self.vacant.pop().unwrap_or_else(|| {
             self.impacts.push(None);
             #[expect(
                 clippy::cast_possible_truncation,

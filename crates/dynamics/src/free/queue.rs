@@ -1,4 +1,4 @@
-//! What is ahead of flyers, in order of time.
+//! The calendar queue of free bodies: events in order of time.
 
 use core::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
@@ -10,13 +10,13 @@ use super::days::Days;
 /// What happens at an entry's time, if the bodies still move as they did.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Ahead {
-    /// The search for flyers that `a` meets reaches no further.
+    /// The search for free bodies that `a` meets reaches no further.
     Horizon,
     /// The search for what does not fly reaches no further.
     Ground,
-    /// From now on flyers `a` and `b` are near enough to meet.
+    /// From now on free bodies `a` and `b` are near enough to meet.
     Near,
-    /// From now on flyer `a` is near enough to meet shape `b` of a body that does not fly.
+    /// From now on free body `a` is near enough to meet shape `b` of a body that does not fly.
     NearShape,
     /// The impacts of bodies `a` and `b`, ever faster, end here.
     Collapse,
@@ -105,10 +105,10 @@ const YEAR: u64 = 4096;
 
 /// Entries a day that the length of a day is chosen for: more, and a day's heap is deep; fewer, and
 /// most days are looked at in vain.
-const CROWD: core::ops::Range<u64> = 8..64;
+const ENTRIES_PER_DAY: core::ops::Range<u64> = 8..64;
 
 /// Entries of one day that it is cut for at once, instead of at the end of the year.
-const CROWDED: usize = 256;
+const MOST_PER_DAY: usize = 256;
 
 /// The shortest day is 2⁻⁶ s / 2^20.
 const SHORTEST: u32 = 20;
@@ -178,7 +178,7 @@ impl Queue {
                 self.today += 1;
             }
             self.open(&mut stale);
-            while self.is_crowded() {
+            while self.is_overfull() {
                 self.refine();
                 self.open(&mut stale);
             }
@@ -214,17 +214,17 @@ impl Queue {
     }
 
     /// A new year begins on the first day with an entry, or on `day` if that is earlier; its days are
-    /// longer or shorter if those of the last one were empty or crowded. What is stale by now is not kept for years.
+    /// longer or shorter if those of the last one were empty or overfull. What is stale by now is not kept for years.
     fn turn_the_year(&mut self, day: u64, stale: &mut impl FnMut(&Entry) -> bool) {
         self.later.retain(|entry| !stale(entry));
         let days = self
             .today
             .saturating_sub(self.last.saturating_sub(YEAR - 1))
             + 1;
-        let crowd = self.come / days;
-        let shift = if crowd >= CROWD.end && self.shift < SHORTEST {
+        let mean = self.come / days;
+        let shift = if mean >= ENTRIES_PER_DAY.end && self.shift < SHORTEST {
             self.shift + 1
-        } else if crowd < CROWD.start && self.shift > 0 {
+        } else if mean < ENTRIES_PER_DAY.start && self.shift > 0 {
             self.shift - 1
         } else {
             self.shift
@@ -233,9 +233,9 @@ impl Queue {
     }
 
     /// Whether today has so many entries that it should be cut, and there is something to cut.
-    fn is_crowded(&self) -> bool {
+    fn is_overfull(&self) -> bool {
         let mut times = self.due.iter().map(|Reverse(entry)| entry.time);
-        self.due.len() > CROWDED
+        self.due.len() > MOST_PER_DAY
             && self.shift < SHORTEST
             && times
                 .next()
@@ -244,7 +244,7 @@ impl Queue {
 
     /// A new year begins today, with days so short that a usual number of today's entries is in each.
     fn refine(&mut self) {
-        let parts = self.due.len() / (CROWDED / 8);
+        let parts = self.due.len() / (MOST_PER_DAY / 8);
         self.later
             .extend(self.due.drain().map(|Reverse(entry)| entry));
         self.begin_year(self.today, (self.shift + parts.ilog2()).min(SHORTEST));
@@ -353,7 +353,7 @@ mod tests {
 
     /// They were left behind on the first part of the day that was cut, and came a year late.
     #[test]
-    fn a_crowded_day_is_cut_without_losing_its_first_hour() {
+    fn an_overfull_day_is_cut_without_losing_its_first_hour() {
         for together in [0.5, 0.500_001] {
             let mut queue = Queue::default();
             let times = (0..2000).map(|a| {

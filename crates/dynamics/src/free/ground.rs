@@ -1,4 +1,4 @@
-//! Looking down: what a flyer may meet that does not fly, or is too large for the grid.
+//! Looking down: bodies that a free body may meet outside of the grid, since they are not free, or too large for it.
 
 use carom_geometry::Aabb;
 use carom_math::SimTime;
@@ -10,16 +10,16 @@ use super::queue::Ahead;
 use super::{Sides, window};
 use crate::{BodyKind, World};
 
-/// Way, in cells, that a flyer looks down for first.
+/// Way, in cells, that a free body looks down for first.
 const SPAN: f64 = 2.0;
 
 /// How much farther it looks about that way, in cells, where it remembers.
 const CLEARING: f64 = 0.75;
 
 impl World {
-    /// Boxes of a flyer in the world for the next `span` seconds; without end while nothing is there.
+    /// Boxes of a free body in the world for the next `span` seconds; without end while nothing is there.
     pub(super) fn look_down(&mut self, index: u32, time: SimTime, span: f64) {
-        if !self.flyers.grounded {
+        if !self.free.grounded {
             let state = self.bodies.get_mut(index);
             state.course.ground = SimTime::NEVER;
             state.course.reached = Sides::NOTHING;
@@ -30,7 +30,7 @@ impl World {
         }
         let span = at_most(span);
         let room = if self.clears() {
-            CLEARING * self.flyers.grid.side()
+            CLEARING * self.free.grid.side()
         } else {
             0.0
         };
@@ -40,14 +40,14 @@ impl World {
         let span = state.course.ground - time;
         let way = swept(state, &Track::of(&state.motion, time), span).grown(room);
         state.course.reached = Sides::around(way);
-        self.flyers.lift(&state.course, index);
+        self.free.lift(&state.course, index);
         for &at in &state.colliders {
             self.colliders[at as usize].fat = state.course.reached.bounds();
         }
         self.queue_end(index, Ahead::Ground);
     }
 
-    /// Whether a flyer with a new motion stays in a clearing for as long as it has looked round: where it looked down
+    /// Whether a free body with a new motion stays in a clearing for as long as it has looked round: where it looked down
     /// last, nothing was there, and nothing has come. It does not look down again before it leaves.
     pub(super) fn is_clear(&mut self, index: u32, time: SimTime) -> bool {
         let (clears, changed) = (self.clears(), self.broad.changed);
@@ -59,7 +59,7 @@ impl World {
         let clearing = state.course.reached.bounds();
         let rim = state.reach * window::ROOM + room_about(state, clearing);
         let stays = Track::of(&state.motion, time).seconds_within(clearing.grown(-rim));
-        if time + stays < self.flyers.horizon(state) {
+        if time + stays < self.free.horizon(state) {
             return false;
         }
         let span = at_most(stays);
@@ -71,15 +71,15 @@ impl World {
 
     /// Whether free bodies remember where nothing was: not while others need to find them by narrow boxes.
     fn clears(&self) -> bool {
-        !self.flyers.is_raised()
+        !self.free.is_raised()
     }
 
-    /// Boxes of all flyers without the room about their ways: from now on bodies need to find them by narrow ones.
+    /// Boxes of all free bodies without the room about their ways: from now on bodies need to find them by narrow ones.
     pub(super) fn narrow(&mut self, time: SimTime) {
         for index in self.bodies.indices().collect::<Vec<_>>() {
             let state = self.bodies.get_mut(index);
             let left = state.course.ground - time;
-            if state.course.cells.is_none() || !self.flyers.grounded || left < 0.0 {
+            if state.course.cells.is_none() || !self.free.grounded || left < 0.0 {
                 continue;
             }
             let way = swept(state, &Track::of(&state.motion, time), at_most(left));
@@ -90,12 +90,12 @@ impl World {
         }
     }
 
-    /// From the first box in the tree on flyers look down for what is there.
+    /// From the first box in the tree on free bodies look down for what is there.
     pub(crate) fn look_down_first(&mut self, time: SimTime) {
-        if self.flyers.grounded || self.broad.tree.is_empty() {
+        if self.free.grounded || self.broad.tree.is_empty() {
             return;
         }
-        self.flyers.grounded = true;
+        self.free.grounded = true;
         for index in self.bodies.indices().collect::<Vec<_>>() {
             if self.bodies.get(index).course.cells.is_some() {
                 self.look_down(index, time, self.first_span(index, time));
@@ -104,16 +104,16 @@ impl World {
         }
     }
 
-    /// How long a flyer with a new motion looks down for, in s.
+    /// How long a free body with a new motion looks down for, in s.
     pub(super) fn first_span(&self, index: u32, time: SimTime) -> f64 {
         let track = Track::of(&self.bodies.get(index).motion, time);
-        track.seconds_for(SPAN * self.flyers.grid.side())
+        track.seconds_for(SPAN * self.free.grid.side())
     }
 
     /// Shapes in the tree that `index` may meet before it looks down again: of bodies that do not fly,
-    /// and of flyers too large for the grid.
+    /// and of free bodies too large for the grid.
     pub(super) fn meet_shapes(&mut self, index: u32, time: SimTime, cause: Cause) {
-        let mut near = core::mem::take(&mut self.flyers.shapes);
+        let mut near = core::mem::take(&mut self.free.shapes);
         let course = &mut self.bodies.get_mut(index).course;
         let reached = course.reached.bounds();
         self.broad.search_tree(&self.colliders, reached, &mut near);
@@ -122,7 +122,7 @@ impl World {
             collider.body != index && collider.fat.overlaps(reached)
         };
         let clear = !near.iter().any(overlaps);
-        // The box of a half-plane that leans is all of the plane: it is there however short a flyer looks.
+        // The box of a half-plane that leans is all of the plane: it is there however short a free body looks.
         let bounded = |at: &u32| self.colliders[*at as usize].solid.is_bounded();
         course.alone = clear || !near.iter().any(|at| overlaps(at) && bounded(at));
         course.clear_at = if clear { time } else { SimTime::NEVER };
@@ -132,20 +132,20 @@ impl World {
                 continue;
             }
             let state = self.bodies.get(owner);
-            if state.course.flies {
+            if state.course.is_free {
                 let [own, theirs] =
                     [index, owner].map(|body| Circle::of(self.bodies.get(body), time));
                 if let Some(window) = own.meets(&theirs) {
                     self.approach(index, owner, window, time, cause);
                 }
             } else if state.is_active() {
-                self.pair_flyer(index, at);
+                self.pair_free_body(index, at);
             } else {
                 self.approach_shape(index, at, time, cause);
             }
         }
         self.predict_pairs(index, time);
-        self.flyers.shapes = near;
+        self.free.shapes = near;
     }
 
     pub(super) fn predict_pairs(&mut self, index: u32, time: SimTime) {
@@ -154,7 +154,7 @@ impl World {
         }
     }
 
-    /// A flyer and a shape that rests.
+    /// A free body and a shape that rests.
     pub(crate) fn approach_shape(&mut self, index: u32, at: u32, time: SimTime, cause: Cause) {
         let body = self.bodies.get(index);
         let owner = self.bodies.get(self.colliders[at as usize].body);
@@ -162,7 +162,7 @@ impl World {
             return;
         }
         if let [one] = *body.colliders
-            && self.glide_together((index, owner.id.index), (one, at))
+            && self.touch_in_moving_island((index, owner.id.index), (one, at))
         {
             return;
         }
@@ -191,10 +191,10 @@ impl World {
         let factor = if course.alone { 2.0 } else { 1.0 };
         if course.cells.is_none() {
             // Those in the grid would have to look at all of its way.
-            let lone = course.alone && !course.glides && self.flyers.grid.count() == 0;
+            let lone = course.alone && !course.moves_analytically && self.free.grid.count() == 0;
             let least = if lone { factor * course.span } else { 0.0 };
             self.follow(index, time, least);
-            self.meet_flyers(index, time, Cause::Horizon, None);
+            self.meet_free_bodies(index, time, Cause::Horizon, None);
             self.meet_shapes(index, time, Cause::Horizon);
             return;
         }
@@ -212,7 +212,7 @@ mod tests {
     use crate::{BodyDef, Material, Settings, World};
 
     #[test]
-    fn the_first_landing_leaves_flyers_narrow_boxes() {
+    fn the_first_landing_leaves_free_bodies_narrow_boxes() {
         let settings = Settings {
             gravity: vec2(0.0, -10.0),
             ..Settings::default()
@@ -230,17 +230,17 @@ mod tests {
             world.insert(falls, disc, material).expect("a disc");
         }
         world.step_to_next_event(1.0);
-        assert!(world.flyers.is_raised(), "the first disc is on the floor");
-        let mut flying = 0;
+        assert!(world.free.is_raised(), "the first disc is on the floor");
+        let mut free = 0;
         for index in world.bodies.indices() {
             let course = &world.bodies.get(index).course;
-            if course.flies {
-                flying += 1;
+            if course.is_free {
+                free += 1;
                 let bounds = course.reached.bounds();
                 let width = bounds.max.x - bounds.min.x;
                 assert!(width < 1.1, "a disc of 1 m falls in a box of {width} m");
             }
         }
-        assert_eq!(flying, 63);
+        assert_eq!(free, 63);
     }
 }

@@ -1,5 +1,5 @@
 //! What slid or rolled over a floor more slowly than counts as rest went through any wall in its way: its group knew
-//! nothing of a touch to come, and was not judged again because no motion had changed.
+//! nothing of a touch to come, and its modes were not solved for again because no motion had changed.
 
 use carom_dynamics::{BodyDef, Settings, World};
 use carom_geometry::{Polygon, Shape};
@@ -8,7 +8,7 @@ use carom_tests::gas::deepest;
 use carom_tests::scenes::{block, disc, put, surface};
 
 #[test]
-fn what_glides_slowly_stops_at_a_wall() {
+fn a_slow_slider_stops_at_a_wall() {
     let shapes = [
         (Shape::from(block(1.0, 1.0)), 0.0),
         (disc(0.5).into(), 0.0),

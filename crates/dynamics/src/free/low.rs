@@ -1,4 +1,4 @@
-//! Low bounces: what presses two bodies together brings them back before a search could tell when.
+//! Micro-bounces: the contact acceleration brings two bodies back before a search could tell when.
 
 use carom_math::SimTime;
 
@@ -21,7 +21,7 @@ impl World {
     ///
     /// The gap is `u t − a t²/2` but for what the normal turns by: nothing where neither turns or the
     /// one that does is a disc about its centre of mass, else less than the spin times the bounce, which is why that must be lower.
-    pub(super) fn hop(&mut self, impact: &Foreseen, time: SimTime) {
+    pub(super) fn micro_bounce(&mut self, impact: &Foreseen, time: SimTime) {
         let (a, b) = impact.bodies;
         let after = [a, b].map(|index| self.bodies.get(index).in_impact(time));
         let (rise, press) = (-approach_speed(impact, &after), self.press(impact, time));
@@ -44,11 +44,11 @@ impl World {
         for point in &mut next.points {
             *point += drift;
         }
-        self.flyers.hop = Some((wait, next));
+        self.free.micro_bounce = Some((wait, next));
     }
 
     /// Whether two bodies part from an impact without loss, at `speed`, so fast that nothing that presses them together makes
-    /// a low bounce of it: they need no [`Self::hop`].
+    /// a low bounce of it: they need no [`Self::micro_bounce`].
     ///
     /// With w the faster spin, and R the reach of what turns, on a face (see [`gap_acceleration`])
     /// ```text

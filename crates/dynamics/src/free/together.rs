@@ -1,4 +1,4 @@
-//! Impacts of flyers at one instant: a body struck from two sides, three that meet in a point, a ball on a joint.
+//! Impacts of free bodies at one instant: a body struck from two sides, three that meet in a point, a ball on a joint.
 //!
 //! With e < 1 a series that comes ever faster is followed to its limit one after the other: there all instants are one.
 
@@ -8,7 +8,7 @@ use super::Foreseen;
 use super::queue::{Ahead, Entry};
 use super::strike::{approach_speed, opening, pace};
 use crate::World;
-use crate::flyers::Cause;
+use crate::free::Cause;
 use crate::impact::{ImpactBody, ImpactContact};
 use crate::shock::Shock;
 use crate::state::BodyState;
@@ -39,12 +39,12 @@ impl World {
         let instant = self.instant(&first.1, time);
         let loses = self.material_of(&first.1).restitution < 1.0;
         if loses && instant > SHORT {
-            return self.strike_flyer(&first.1, time);
+            return self.strike_free_body(&first.1, time);
         }
         let limit = time + instant.min(LONGEST);
         self.lay_aside(limit);
-        if self.flyers.aside.first().is_none() {
-            return self.strike_flyer(&first.1, time);
+        if self.free.aside.first().is_none() {
+            return self.strike_free_body(&first.1, time);
         }
         let mut struck = vec![first];
         // A moving body in one of them brings in all its others.
@@ -55,12 +55,12 @@ impl World {
             let mut joined = Vec::new();
             for index in [a, b] {
                 if self.bodies.get(index).inverse_mass > 0.0 {
-                    joined.extend(self.flyers.take_aside(index, limit));
+                    joined.extend(self.free.take_aside(index, limit));
                 }
             }
             joined.sort_unstable();
             for entry in joined {
-                let Some(other) = self.flyers.release(&entry) else {
+                let Some(other) = self.free.release(&entry) else {
                     continue;
                 };
                 // A pair may have been found twice.
@@ -79,7 +79,7 @@ impl World {
         } else {
             let rest = struck.split_off(1);
             self.put_back(rest);
-            self.strike_flyer(&struck[0].1, time);
+            self.strike_free_body(&struck[0].1, time);
         }
     }
 
@@ -108,9 +108,9 @@ impl World {
 
     /// Lays all impacts aside that are due by `limit`, once all searches due by then are done.
     fn lay_aside(&mut self, limit: SimTime) {
-        while let Some(entry) = self.flyers.pop_queued(&self.bodies, &self.colliders, limit) {
+        while let Some(entry) = self.free.pop_queued(&self.bodies, &self.colliders, limit) {
             if matches!(entry.ahead(), Ahead::Impact { .. }) {
-                self.flyers.aside.lay(entry);
+                self.free.aside.lay(entry);
             } else {
                 self.run_search(&entry);
             }
@@ -119,18 +119,20 @@ impl World {
 
     fn put_back(&mut self, due: Vec<Due>) {
         for (entry, impact) in due {
-            self.flyers.push_impact(entry.time, entry.stamp, impact);
+            self.free.push_impact(entry.time, entry.stamp, impact);
         }
     }
 
-    /// Whether all are approaches, by flyers and what rests.
+    /// Whether all are approaches, of free bodies and bodies at rest.
     fn are_real(&self, struck: &[Due], time: SimTime) -> bool {
         struck.iter().all(|(_, impact)| {
             let ends = [impact.bodies.0, impact.bodies.1].map(|index| self.bodies.get(index));
-            let flies = |state: &&BodyState| {
-                !state.asleep && !state.course.glides && (state.course.flies || !state.is_active())
+            let is_free = |state: &&BodyState| {
+                !state.asleep
+                    && !state.course.moves_analytically
+                    && (state.course.is_free || !state.is_active())
             };
-            ends.iter().all(flies) && self.approaches(impact, &self.ends_of(impact, time))
+            ends.iter().all(is_free) && self.approaches(impact, &self.ends_of(impact, time))
         })
     }
 
@@ -139,11 +141,11 @@ impl World {
     fn are_one(&self, struck: &[Due], time: SimTime) -> bool {
         struck.iter().all(|(_, impact)| {
             let (a, b) = impact.bodies;
-            let streaks = [a, b].map(|index| self.bodies.get(index).course.streak.is_one());
+            let in_series = [a, b].map(|index| self.bodies.get(index).course.series.is_one());
             let ends = self.ends_of(impact, time);
             let fades = approach_speed(impact, &ends) <= FADING * self.scale(impact, &ends);
             self.material_of(impact).restitution >= 1.0
-                || (streaks == [false, false] && !fades && self.instant(impact, time) <= SHORT)
+                || (in_series == [false, false] && !fades && self.instant(impact, time) <= SHORT)
         })
     }
 
@@ -195,7 +197,7 @@ impl World {
         let mut shock = Shock::new(time, self.clock.h);
         for (pair, impact) in (0..u32::MAX).rev().zip(impacts) {
             let before = self.ends_of(impact, time);
-            self.streak(impact, time, approach_speed(impact, &before), 0.0);
+            self.count_in_series(impact, time, approach_speed(impact, &before), 0.0);
             let material = self.material_of(impact);
             for &point in &impact.points {
                 if opening(&before, point, impact.normal) < 0.0 {
@@ -216,7 +218,7 @@ impl World {
             }
         }
         for index in self.strike_together(shock, time) {
-            if self.bodies.get(index).is_flying() {
+            if self.bodies.get(index).is_free() {
                 self.foresee(index, time, Cause::Deflected, None);
             } else {
                 // What was left squeezed has landed, and others were struck with it.

@@ -1,6 +1,6 @@
-//! The frame in which flyers look for each other: it falls as they do.
+//! The frame in which free bodies look for each other: it falls as they do.
 //!
-//! Under one uniform field flyers have constant velocities in it, so that a search holds for as long as
+//! Under one uniform field free bodies have constant velocities in it, so that a search holds for as long as
 //! they take to travel a part of a cell there, however fast all of them fall.
 
 use carom_collision::Motion;

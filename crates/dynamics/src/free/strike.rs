@@ -1,9 +1,9 @@
-//! A flyer strikes: another flyer, or what rests.
+//! Impacts of free bodies, with each other and with bodies that rest.
 
 use arrayvec::ArrayVec;
 use carom_math::{SimTime, Vec2};
 
-use super::streak::Streak;
+use super::zeno::ZenoSeries;
 use super::{Cause, Foreseen};
 use crate::impact::{ImpactBody, ImpactContact, resolve};
 use crate::narrow::opening_speed;
@@ -12,7 +12,7 @@ use crate::resolve::apply;
 use crate::shock::Shock;
 use crate::{BodyKind, EventKind, Mode, PairMaterial, World};
 
-/// What the impacts of one flyer may spend in a tick before the solver takes the rest, in losses of
+/// What the impacts of one free body may spend in a tick before the solver takes the rest, in losses of
 /// relative speed.
 const BUDGET: f64 = 256.0;
 
@@ -38,7 +38,7 @@ const FADED: f64 = 1e-13;
 
 impl World {
     /// Resolves an impact that was foreseen for the motions as they are.
-    pub(super) fn strike_flyer(&mut self, impact: &Foreseen, time: SimTime) {
+    pub(super) fn strike_free_body(&mut self, impact: &Foreseen, time: SimTime) {
         let (a, b) = impact.bodies;
         for index in [a, b] {
             if self.bodies.get(index).asleep {
@@ -49,12 +49,12 @@ impl World {
                     // It waits at the surface of the woken bodies for the next sub-step.
                     self.join(other, time);
                 }
-                if !self.bodies.get(index).course.flies {
+                if !self.bodies.get(index).course.is_free {
                     return;
                 }
             }
             let state = self.bodies.get(index);
-            if !state.course.flies && state.is_active() {
+            if !state.course.is_free && state.is_active() {
                 return;
             }
         }
@@ -84,8 +84,8 @@ impl World {
         } else {
             0.0
         };
-        let streak = self.streak(impact, time, speed, left);
-        let ends = e < 1.0 && streak.has_faded(speed, FADED);
+        let series = self.count_in_series(impact, time, speed, left);
+        let ends = e < 1.0 && series.has_faded(speed, FADED);
         let e = if ends { 0.0 } else { e };
         let material = PairMaterial {
             restitution: e,
@@ -101,27 +101,27 @@ impl World {
         }
         if keeps {
             if !self.bounces_high(impact, time, speed) {
-                self.hop(impact, time);
+                self.micro_bounce(impact, time);
             }
             self.deflect_both(impact, time);
-            self.flyers.hop = None;
+            self.free.micro_bounce = None;
         } else if press <= 0.0 {
             self.deflect_both(impact, time);
         } else if e == 0.0 {
             if ends {
                 let ids = [a, b].map(|index| self.bodies.get(index).id);
-                self.flyers.announce(streak.limit(left), ids);
+                self.free.announce(series.limit(left), ids);
             }
             self.begins_to_last(impact, time);
         } else {
-            self.hop(impact, time);
+            self.micro_bounce(impact, time);
             self.deflect_both(impact, time);
-            self.flyers.hop = None;
+            self.free.micro_bounce = None;
         }
         self.count_strike(impact, lost, time);
     }
 
-    /// Counts an impact of flyers among those of the tick.
+    /// Counts an impact of free bodies among those of the tick.
     fn count_strike(&mut self, impact: &Foreseen, lost: f64, time: SimTime) {
         let (a, b) = impact.bodies;
         let [one, two] = [a, b].map(|index| self.bodies.get(index).is_dynamic());
@@ -155,26 +155,26 @@ impl World {
     pub(super) fn scale(&self, impact: &Foreseen, before: &[ImpactBody; 2]) -> f64 {
         let of = |index: u32, body: &ImpactBody| {
             let state = self.bodies.get(index);
-            pace(body, state.reach).max(state.course.streak.top())
+            pace(body, state.reach).max(state.course.series.top())
         };
         of(impact.bodies.0, &before[0]) + of(impact.bodies.1, &before[1])
     }
 
-    /// Counts an impact among those that come ever faster.
-    pub(super) fn streak(
+    /// Counts an impact in the Zeno series of its bodies.
+    pub(super) fn count_in_series(
         &mut self,
         impact: &Foreseen,
         time: SimTime,
         speed: f64,
         left: f64,
-    ) -> Streak {
-        let mut found = Streak::default();
+    ) -> ZenoSeries {
+        let mut found = ZenoSeries::default();
         for index in [impact.bodies.0, impact.bodies.1] {
             let state = self.bodies.get_mut(index);
             if state.inverse_mass > 0.0 {
-                state.course.streak.hit(time, speed, left);
-                if state.course.streak.is_one() {
-                    found = state.course.streak;
+                state.course.series.hit(time, speed, left);
+                if state.course.series.is_one() {
+                    found = state.course.series;
                 }
             }
         }
@@ -229,7 +229,7 @@ impl World {
         self.strike_together(shock, time);
     }
 
-    /// Resolves a shock of several contacts; returns the bodies with a new motion. Flyers that it leaves squeezed land: no
+    /// Resolves a shock of several contacts; returns the bodies with a new motion. Free bodies that it leaves squeezed land: no
     /// impulses stop them.
     pub(super) fn strike_together(&mut self, mut shock: Shock, time: SimTime) -> Vec<u32> {
         shock.solve(
@@ -265,7 +265,7 @@ impl World {
         let (a, b) = impact.bodies;
         let mut ends = false;
         for index in [a, b] {
-            ends |= self.bodies.get_mut(index).course.streak.end();
+            ends |= self.bodies.get_mut(index).course.series.end();
         }
         if ends {
             self.report_collapse(impact.bodies, 0.5 * speed * speed, time);
@@ -275,9 +275,9 @@ impl World {
         let (one, two) = (self.bodies.get(a), self.bodies.get(b));
         let slack = SLACK * one.reach.min(two.reach);
         let left = self
-            .flyers
+            .free
             .end_of_search(one)
-            .max(self.flyers.end_of_search(two));
+            .max(self.free.end_of_search(two));
         let left = (left - time).max(1e-9);
         let deeper = if speed > 0.0 { slack / speed } else { left };
         let wait = deeper.min(time_to_open(slack, -speed, pull).unwrap_or(left));
@@ -358,7 +358,7 @@ impl World {
     /// New horizons for two bodies that struck each other.
     fn deflect_both(&mut self, impact: &Foreseen, time: SimTime) {
         let (a, b) = impact.bodies;
-        self.flyers.struck = Some((impact.colliders, impact.feature));
+        self.free.struck = Some((impact.colliders, impact.feature));
         let moved = [a, b].map(|index| self.bodies.get(index).inverse_mass > 0.0);
         if moved[0] {
             let partner = moved[1].then_some(b);
@@ -367,7 +367,7 @@ impl World {
         if moved[1] {
             self.foresee(b, time, Cause::Deflected, None);
         }
-        self.flyers.struck = None;
+        self.free.struck = None;
     }
 
     fn is_driven(&self, (a, b): (u32, u32), time: SimTime) -> bool {

@@ -19,7 +19,7 @@ const BEYOND: f64 = 1e-6;
 const BLUR: f64 = 2.0 * f64::EPSILON;
 
 impl World {
-    /// The instant from which on two flyers may meet.
+    /// The instant from which on two free bodies may meet.
     pub(super) fn come_near(&mut self, index: u32, other: u32, time: SimTime) {
         let own = Circle::of(self.bodies.get(index), time);
         let theirs = Circle::of(self.bodies.get(other), time);
@@ -34,7 +34,7 @@ impl World {
         }
     }
 
-    /// Time of impact of two flyers from now on, to the end of their window or, where that is not
+    /// Time of impact of two free bodies from now on, to the end of their window or, where that is not
     /// known or one of them is in the tree, to the nearer horizon.
     pub(super) fn seek(&mut self, a: u32, b: u32, time: SimTime, window: Window, cause: Cause) {
         let (a, b) = if self.goes_first(a, b) {
@@ -46,9 +46,7 @@ impl World {
         let end = if window.to.is_finite() && both_in_grid(one, two) {
             window.to
         } else {
-            window
-                .to
-                .min(self.flyers.common_horizon_of(one, two) - time)
+            window.to.min(self.free.common_horizon_of(one, two) - time)
         };
         let ends = (one.colliders.len(), two.colliders.len());
         let (apart, length) = self.first_piece((a, b), time, end);
@@ -80,7 +78,7 @@ impl World {
         rank(a) < rank(b)
     }
 
-    /// Time of impact of a flyer and a shape that rests, from now to the flyer's horizon.
+    /// Time of impact of a free body and a shape that rests, from now to the free body's horizon.
     pub(super) fn seek_shape(&mut self, index: u32, at: u32, time: SimTime, cause: Cause) {
         let owner = self.colliders[at as usize].body;
         let end = self.bodies.get(index).course.ground - time;
@@ -115,7 +113,7 @@ impl World {
         length: f64,
         cause: Cause,
     ) -> bool {
-        if !self.may_touch(shapes) || self.glide_together((a, b), shapes) {
+        if !self.may_touch(shapes) || self.touch_in_moving_island((a, b), shapes) {
             return false;
         }
         self.report.pairs += 1;
@@ -132,7 +130,7 @@ impl World {
         // A little beyond: an impact at the very end is found to its last digit, too.
         let end = length * (1.0 + BEYOND);
         let (first, second) = (&first.solid, &second.solid);
-        let struck = self.flyers.struck.filter(|(struck, _)| *struck == shapes);
+        let struck = self.free.struck.filter(|(struck, _)| *struck == shapes);
         let last = struck.map(|(_, last)| last);
         let next = if one.flight.is_some() || two.flight.is_some() {
             first_touch([one, two], [&**first, &**second], time, length, last)
@@ -152,15 +150,15 @@ impl World {
         };
         let stamp = self.stamp(a, b);
         if let Some((end, next)) = self
-            .flyers
-            .hop
+            .free
+            .micro_bounce
             .take_if(|(_, next)| next.colliders == shapes)
         {
             // The search may find the same end, blurred, or another point that strikes before.
             let near = 1e-6 * self.bodies.get(a).reach.min(self.bodies.get(b).reach);
             let same = |other: &Impact| (other.points[0] - next.points[0]).length() <= near;
             if wait > 0.5 * end && impact.as_ref().is_none_or(same) || wait > end {
-                self.flyers.push_impact(time + end, stamp, next);
+                self.free.push_impact(time + end, stamp, next);
                 return true;
             }
         }
@@ -179,14 +177,14 @@ impl World {
         } else {
             wait
         };
-        self.flyers.push_impact(time + wait, stamp, foreseen);
+        self.free.push_impact(time + wait, stamp, foreseen);
         true
     }
 
-    /// Whether one of two bodies glides over the side of the other that the impact is on: what bears it is flush with that.
+    /// Whether one of two bodies slides over the side of the other that the impact is on: the side that bears it is flush with that.
     fn passes(&self, ends: (u32, u32), shapes: (u32, u32), impact: &Impact, time: SimTime) -> bool {
-        let glides = |index: u32| self.bodies.get(index).course.glides;
-        if !glides(ends.0) && !glides(ends.1) {
+        let moves_analytically = |index: u32| self.bodies.get(index).course.moves_analytically;
+        if !moves_analytically(ends.0) && !moves_analytically(ends.1) {
             return false;
         }
         let parts = impact.features[0].parts;
