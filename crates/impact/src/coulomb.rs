@@ -13,10 +13,10 @@
 //! through dead points at random would in the mean give infinite energy to what it passes.
 
 use super::body::ImpactBody;
+use super::equations::Equations;
 use super::pivots::pivoted;
 use super::rows::{Bound, Rows};
 use super::sweeps::{TURN, swept, yielding};
-use crate::dense::Factored;
 
 /// Guesses before pivoting takes over; a pile of 32 contacts needs 5 to 8.
 const GUESSES: usize = 24;
@@ -102,7 +102,7 @@ struct Solver<'a> {
     /// Largest speed along a row before, in m/s.
     fastest: f64,
     /// The equations of the last guess that was solved for.
-    system: System,
+    equations: Equations,
     /// Scaled speeds after the last impulses that were asked about.
     speeds: Vec<f64>,
     /// What these give to the bodies.
@@ -116,7 +116,7 @@ impl<'a> Solver<'a> {
             rows,
             start: Vec::new(),
             fastest: 0.0,
-            system: System::default(),
+            equations: Equations::default(),
             speeds: Vec::new(),
             given: Vec::new(),
             // The matrix.
@@ -216,7 +216,7 @@ impl<'a> Solver<'a> {
                 return None;
             }
             solved = true;
-            self.system.solve(self.rows, &self.start, &mut impulses);
+            self.equations.solve(self.rows, &self.start, &mut impulses);
             self.along(&impulses, &mut speeds);
             core::mem::swap(&mut parts, &mut next);
         }
@@ -225,8 +225,8 @@ impl<'a> Solver<'a> {
 
     /// The equations of a guess; whether they have a solution.
     fn fit(&mut self, parts: &[Part], compliance: f64) -> bool {
-        let fits = self.system.fit(self.rows, parts, compliance);
-        let (all, held) = (self.rows.len(), self.system.held.len());
+        let fits = self.equations.fit(self.rows, parts, compliance);
+        let (all, held) = (self.rows.len(), self.equations.held.len());
         self.operations += (2 * held * all + held * held * held / 3) as u64;
         fits
     }
@@ -286,11 +286,11 @@ impl<'a> Solver<'a> {
                 return None;
             }
             impulses.clone_from(&best);
-            self.system.spread(self.rows, &mut impulses);
+            self.equations.spread(self.rows, &mut impulses);
             let mut last = f64::INFINITY;
             for _ in 0..REFINEMENTS {
                 self.speed_up(&impulses);
-                let left = self.system.left(self.rows, &self.speeds);
+                let left = self.equations.left(self.rows, &self.speeds);
                 if least.is_none_or(|least| left < least) {
                     least = Some(left);
                     best.clone_from(&impulses);
@@ -299,7 +299,8 @@ impl<'a> Solver<'a> {
                     break;
                 }
                 last = left;
-                self.system.refine(self.rows, &mut impulses, &self.speeds);
+                self.equations
+                    .refine(self.rows, &mut impulses, &self.speeds);
             }
             if least.is_some_and(|left| left <= 64.0 * f64::EPSILON * fastest) {
                 break;
@@ -404,114 +405,5 @@ fn guess(
         } else {
             Part::Hold
         };
-    }
-}
-
-/// The equations of a guess: `u_r = 0` wherever a row holds.
-#[derive(Default)]
-struct System {
-    parts: Vec<Part>,
-    held: Vec<usize>,
-    factored: Factored,
-    /// Place of each row among those that hold.
-    place: Vec<usize>,
-    entries: Vec<f64>,
-    right: Vec<f64>,
-    pushes: Vec<f64>,
-}
-
-impl System {
-    /// `false` if there is no solution.
-    fn fit(&mut self, rows: &Rows, parts: &[Part], compliance: f64) -> bool {
-        let size = rows.len();
-        self.parts.clear();
-        self.parts.extend_from_slice(parts);
-        self.held.clear();
-        self.held
-            .extend((0..size).filter(|&r| parts[r] == Part::Hold));
-        self.place.clear();
-        self.place.resize(size, usize::MAX);
-        for (at, &r) in self.held.iter().enumerate() {
-            self.place[r] = at;
-        }
-        let n = self.held.len();
-        self.entries.clear();
-        self.entries.resize(n * n, 0.0);
-        for (at, &r) in self.held.iter().enumerate() {
-            let (to, row) = (&mut self.entries[at * n..(at + 1) * n], &rows.k[r * size..]);
-            for (column, &s) in self.held.iter().enumerate() {
-                to[column] = row[s];
-            }
-            // A row that slips pushes along with its normal row.
-            for (s, part) in parts.iter().enumerate() {
-                let (Bound::Friction(normals, _), Some(sign)) = (rows.rows[s].bound, sign(*part))
-                else {
-                    continue;
-                };
-                for normal in normals.rows().filter(|n| parts[*n] == Part::Hold) {
-                    to[self.place[normal]] += sign * rows.factor(s, normal) * row[s];
-                }
-            }
-            to[at] += compliance;
-        }
-        self.factored.refactor(n, self.entries.iter().copied())
-    }
-
-    /// Scaled impulses that take `speeds` away where rows hold, given limits included.
-    fn solve(&mut self, rows: &Rows, start: &[f64], impulses: &mut Vec<f64>) {
-        impulses.clear();
-        impulses.resize(rows.len(), 0.0);
-        for (r, part) in self.parts.iter().enumerate() {
-            if let (Bound::Limit(_), Some(sign)) = (rows.rows[r].bound, sign(*part)) {
-                impulses[r] = sign * rows.limit(r, &[]);
-            }
-        }
-        self.right.clear();
-        self.right.extend(self.held.iter().map(|&r| {
-            let row = &rows.k[r * rows.len()..];
-            let given: f64 = row.iter().zip(&*impulses).map(|(k, j)| k * j).sum();
-            -(start[r] + given)
-        }));
-        self.push(rows, impulses);
-    }
-
-    /// Takes away what is left of `speeds`, once more.
-    fn refine(&mut self, rows: &Rows, impulses: &mut [f64], speeds: &[f64]) {
-        self.right.clear();
-        self.right.extend(self.held.iter().map(|&r| -speeds[r]));
-        self.push(rows, impulses);
-    }
-
-    /// Adds the impulses that solve the equations for the right side.
-    fn push(&mut self, rows: &Rows, impulses: &mut [f64]) {
-        self.factored.solve_into(&self.right, &mut self.pushes);
-        for (&r, push) in self.held.iter().zip(&self.pushes) {
-            impulses[r] += push;
-        }
-        self.spread(rows, impulses);
-    }
-
-    /// Sets rows that slip along with their normal rows.
-    fn spread(&self, rows: &Rows, impulses: &mut [f64]) {
-        for (r, part) in self.parts.iter().enumerate() {
-            if let (Bound::Friction(..), Some(sign)) = (rows.rows[r].bound, sign(*part)) {
-                impulses[r] = sign * rows.limit(r, impulses);
-            }
-        }
-    }
-
-    /// Largest speed that is left where rows hold, in m/s.
-    fn left(&self, rows: &Rows, speeds: &[f64]) -> f64 {
-        self.held.iter().fold(0.0, |most: f64, &r| {
-            most.max((speeds[r] * rows.scales[r]).abs())
-        })
-    }
-}
-
-fn sign(part: Part) -> Option<f64> {
-    match part {
-        Part::High => Some(1.0),
-        Part::Low => Some(-1.0),
-        Part::Off | Part::Hold => None,
     }
 }

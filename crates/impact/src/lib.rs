@@ -28,6 +28,7 @@
 mod body;
 mod coulomb;
 pub mod dense;
+mod equations;
 #[cfg(test)]
 mod heaps;
 mod held;

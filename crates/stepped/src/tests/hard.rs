@@ -1,6 +1,6 @@
 //! Hard rows: loads that sweeps do not carry.
 
-use carom_geometry::{Circle, ConvexPolygon};
+use carom_geometry::ConvexPolygon;
 use carom_math::{Vec2, perp, vec2};
 
 use super::{Random, floor, levels, pyramid, unit_box};
@@ -8,41 +8,41 @@ use crate::{
     BodyId, BodyInput, BodyKind, Engine, Material, Mixed, PairRules, PieceInput, Settings, Surface,
 };
 
-const MUST_STAY: f64 = 1e-6;
+pub(super) const MUST_STAY: f64 = 1e-6;
 
 /// A box of 1 m and of `mass` kg.
-fn put(engine: &mut Engine, mass: f64, at: Vec2) -> BodyId {
+pub(super) fn put(engine: &mut Engine, mass: f64, at: Vec2) -> BodyId {
     let body = BodyInput::dynamic(mass, mass / 6.0).at(at);
     engine.insert(body, &[unit_box()]).unwrap()
 }
 
 /// Boxes of 1 kg on what is there, and one of `load` kg on top.
-fn stack(engine: &mut Engine, x: f64, light: u32, load: f64) -> Vec<BodyId> {
+pub(super) fn stack(engine: &mut Engine, x: f64, light: u32, load: f64) -> Vec<BodyId> {
     let mass = |row| if row == light { load } else { 1.0 };
     let mut put = |row| put(engine, mass(row), vec2(x, 0.5 + f64::from(row)));
     (0..=light).map(&mut put).collect()
 }
 
-fn column(settings: Settings, light: u32, load: f64) -> (Engine, Vec<BodyId>) {
+pub(super) fn column(settings: Settings, light: u32, load: f64) -> (Engine, Vec<BodyId>) {
     let mut engine = Engine::new(settings).unwrap();
     floor(&mut engine);
     let ids = stack(&mut engine, 0.0, light, load);
     (engine, ids)
 }
 
-fn without_sleep() -> Settings {
+pub(super) fn without_sleep() -> Settings {
     Settings {
         sleep: None,
         ..Settings::default()
     }
 }
 
-fn at(engine: &Engine, id: BodyId) -> Vec2 {
+pub(super) fn at(engine: &Engine, id: BodyId) -> Vec2 {
     engine.pose(id).unwrap().position
 }
 
 /// How far the farthest body of a column is from where it was put, in m.
-fn off(engine: &Engine, ids: &[BodyId]) -> f64 {
+pub(super) fn off(engine: &Engine, ids: &[BodyId]) -> f64 {
     let way =
         |(row, id): (u32, &BodyId)| (at(engine, *id) - vec2(0.0, 0.5 + f64::from(row))).length();
     (0..).zip(ids).map(way).fold(0.0, f64::max)
@@ -187,25 +187,6 @@ fn an_island_in_hard_rows_has_the_bits_that_it_has_alone() {
     }
 }
 
-/// A press goes down on a heavy box on a light one: no velocities hold it. Soft rows take over, and give way.
-#[test]
-fn what_nothing_holds_takes_soft_rows() {
-    let (mut engine, ids) = column(without_sleep(), 1, 1e3);
-    let plate = PieceInput::new(ConvexPolygon::rectangle(3.0, 1.0).unwrap());
-    let mut press = BodyInput::new(BodyKind::Kinematic).at(vec2(0.0, 2.5));
-    press.velocity = vec2(0.0, -0.1);
-    engine.insert(press, &[plate]).unwrap();
-    for _ in 0..30 {
-        engine.tick();
-        engine.graph.check(&engine.bodies);
-    }
-    assert!(engine.failed_hard_solves() > 0);
-    assert!(
-        ids.iter()
-            .all(|id| engine.velocity(*id).unwrap().0.length() < 1.0)
-    );
-}
-
 /// Random calls among bodies of 1 kg to a ton keep lanes and warm starts.
 #[test]
 fn random_calls_among_hard_rows_keep_the_graph() {
@@ -248,143 +229,6 @@ fn random_calls_among_hard_rows_keep_the_graph() {
     }
     assert!(hard > 500, "{hard} ticks with hard rows");
 }
-/// What falls on a light body, however lively, and a column that rocks have no more energy than they began with.
-#[test]
-fn hard_rows_add_no_energy() {
-    let energy = |engine: &Engine| engine.energy().0 + engine.energy().1;
-    let gain = |engine: &mut Engine, ticks: u32| {
-        let first = energy(engine);
-        let most = (0..ticks).map(|_| {
-            engine.tick();
-            energy(engine)
-        });
-        most.fold(first, f64::max) / first - 1.0
-    };
-    for load in [20.0, 1e3, 1e5] {
-        for restitution in [0.0, 0.5, 1.0] {
-            for x in [0.0, 0.3] {
-                let mut engine = Engine::new(without_sleep()).unwrap();
-                floor(&mut engine);
-                let piece = unit_box().with_material(Material {
-                    restitution,
-                    friction: 0.5,
-                });
-                let mut put = |mass: f64, at: Vec2| {
-                    let body = BodyInput::dynamic(mass, mass / 6.0).at(at);
-                    let turned = body.moving(vec2(0.2, 0.0), 0.3);
-                    engine.insert(turned, std::slice::from_ref(&piece)).unwrap()
-                };
-                let light = put(1.0, vec2(0.0, 0.5));
-                put(load, vec2(x, 2.5));
-                let gain = gain(&mut engine, 180);
-                assert!(gain < 1e-9, "{load} kg, e = {restitution}, {x} m: {gain}");
-                let bottom = at(&engine, light).y - 0.5;
-                assert!(bottom > -1e-4, "{load} kg, e = {restitution}: {bottom} m");
-            }
-        }
-    }
-    for (light, load) in [(10, 1e3), (5, 1e5)] {
-        let (mut engine, ids) = column(without_sleep(), light, load);
-        engine.tick();
-        let top = ids[light as usize];
-        engine.set_velocity(top, vec2(0.1, 0.0), 0.0).unwrap();
-        let gain = gain(&mut engine, 300);
-        assert!(gain < 1e-9, "{light} boxes under {load} kg: {gain}");
-    }
-}
-
-/// Mixed columns that buckle under what falls on them leave hard rows, in which they pushed by up to 1e6 N·s. As the warm start of
-/// soft rows these threw light bodies at up to 7e5 m/s; from no impulses soft rows reach 2e3 m/s.
-#[test]
-fn what_a_column_pushed_by_does_not_throw_it_when_it_buckles() {
-    let mut fastest = 0.0_f64;
-    for seed in 0..300 {
-        let mut random = Random::new(seed);
-        let mut engine = Engine::new(without_sleep()).unwrap();
-        floor(&mut engine);
-        let (friction, restitution) = (
-            [0.0, 0.3, 1.0][random.below(3)],
-            [0.0, 0.3, 0.9][random.below(3)],
-        );
-        let material = Material {
-            friction,
-            restitution,
-        };
-        let disc = PieceInput::new(Circle::new(0.5).unwrap());
-        let pieces = [unit_box(), disc].map(|piece| [piece.with_material(material)]);
-        let count = 2 + random.below(8);
-        for k in 0..count {
-            #[expect(clippy::cast_precision_loss, reason = "below ten")]
-            let row = k as f64;
-            let body = BodyInput::dynamic(1.0, 1.0 / 6.0).at(vec2(0.0, 0.5 + row));
-            engine.insert(body, &pieces[random.below(2)]).unwrap();
-        }
-        let mass = [1e4, 3e4, 1e5, 3e5, 1e6][random.below(5)];
-        #[expect(clippy::cast_precision_loss, reason = "at most ten")]
-        let at = vec2(
-            0.3 * random.signed(),
-            count as f64 + 1.5 + 3.0 * random.next(),
-        );
-        let load = BodyInput::dynamic(mass, mass / 6.0).at(at);
-        engine.insert(load, &pieces[random.below(2)]).unwrap();
-        let ids: Vec<BodyId> = engine.bodies().collect();
-        for _ in 0..120 {
-            engine.tick();
-            for id in &ids {
-                let speed = engine.velocity(*id).unwrap().0.length();
-                fastest = fastest.max(speed);
-            }
-        }
-    }
-    assert!(fastest < 1e4, "{fastest} m/s");
-}
-
-/// A press goes down on boxes of which the lowest bear the heaviest: no velocities hold them. No body is thrown out: sweeps alone make one of them 42 m/s fast.
-#[test]
-fn a_press_on_a_heavy_load_throws_no_body() {
-    for (light, load) in [
-        (1, 20.0),
-        (1, 1e3),
-        (3, 20.0),
-        (3, 1e3),
-        (8, 20.0),
-        (8, 1e3),
-    ] {
-        for speed in [0.05, 0.3, 2.0] {
-            for x in [0.0, 0.3] {
-                let mut engine = Engine::new(without_sleep()).unwrap();
-                floor(&mut engine);
-                let height = |row: u32| 0.5 + f64::from(row);
-                let mut ids: Vec<_> = (0..light)
-                    .map(|row| {
-                        let at = vec2(0.05 * f64::from(row % 2), height(row));
-                        put(&mut engine, 1.0, at)
-                    })
-                    .collect();
-                ids.push(put(&mut engine, load, vec2(x, height(light))));
-                let plate = PieceInput::new(ConvexPolygon::rectangle(5.0, 1.0).unwrap());
-                let at = vec2(0.0, height(light) + 1.01);
-                let mut press = BodyInput::new(BodyKind::Kinematic).at(at);
-                press.velocity = vec2(0.0, -speed);
-                engine.insert(press, &[plate]).unwrap();
-                let mut fastest = 0.0_f64;
-                for _ in 0..120 {
-                    engine.tick();
-                    engine.graph.check(&engine.bodies);
-                    let speeds = ids
-                        .iter()
-                        .map(|id| engine.velocity(*id).unwrap().0.length());
-                    fastest = speeds.fold(fastest, f64::max);
-                }
-                assert!(
-                    fastest < 45.0,
-                    "{fastest} m/s: {light} boxes under {load} kg, off by {x} m, pressed at {speed} m/s"
-                );
-            }
-        }
-    }
-}
-
 /// Pieces of tag 1 are belts.
 struct Belt(f64);
 
@@ -534,69 +378,6 @@ fn a_pressed_island_does_not_feel_a_body_far_away() {
         bits(&engine, &ids, Vec2::ZERO)
     };
     assert_eq!(run(true), run(false));
-}
-
-#[test]
-fn strong_damping_leaves_numbers_finite() {
-    for rate in [1.0, 1e2, 1e3, 1e4, 2e4, 1e5, 1e6, 1e9] {
-        for damping in [[rate, rate], [rate, 0.0], [0.0, rate]] {
-            let mut engine = Engine::new(without_sleep()).unwrap();
-            floor(&mut engine);
-            let mut put = |mass: f64, x: f64, y: f64| {
-                let mut body = BodyInput::dynamic(mass, mass / 6.0).at(vec2(x, y));
-                body.damping = damping;
-                engine.insert(body, &[unit_box()]).unwrap()
-            };
-            // In hard rows, in soft ones, and in free fall.
-            let ids = [
-                (1.0, 0.0, 0.5),
-                (1e3, 0.0, 1.5),
-                (1.0, 5.0, 0.5),
-                (1.0, 9.0, 9.0),
-            ];
-            let ids = ids.map(|(mass, x, y)| put(mass, x, y));
-            for _ in 0..60 {
-                engine.tick();
-                engine.graph.check(&engine.bodies);
-            }
-            let fallen = at(&engine, ids[3]).y - 9.0;
-            assert!(
-                fallen <= 0.0 && fallen > -5.0,
-                "{damping:?}: fell by {fallen}"
-            );
-            let off = off(&engine, &ids[..2]);
-            assert!(off < MUST_STAY, "{damping:?}: {off} m");
-            let off = (at(&engine, ids[2]) - vec2(5.0, 0.5)).length();
-            assert!(off < 1e-4, "{damping:?}: {off} m in soft rows");
-        }
-    }
-}
-
-/// A light box is jammed in a slot that is too narrow for it, and a heavy one was put 0.1 m into it.
-#[test]
-fn an_overlap_parts_beside_one_that_cannot() {
-    for jam in [1e-9, 1e-6, 1e-4, 5e-3] {
-        let mut engine = Engine::new(without_sleep()).unwrap();
-        floor(&mut engine);
-        let wall = PieceInput::new(ConvexPolygon::rectangle(1.0, 0.9).unwrap());
-        for side in [-1.0, 1.0] {
-            let body = BodyInput::fixed().at(vec2(side * (1.0 - jam), 0.45));
-            engine.insert(body, std::slice::from_ref(&wall)).unwrap();
-        }
-        let light = put(&mut engine, 1.0, vec2(0.0, 0.5));
-        let heavy = put(&mut engine, 100.0, vec2(0.0, 1.4));
-        for _ in 0..300 {
-            engine.tick();
-        }
-        let overlap = 1.0 - (at(&engine, heavy).y - at(&engine, light).y);
-        println!(
-            "jam {jam}: {overlap} {:?} {:?} failed {}",
-            at(&engine, heavy),
-            at(&engine, light),
-            engine.failed_hard_solves()
-        );
-        assert!(overlap < 1e-3, "jammed by {jam} m: {overlap} m are left");
-    }
 }
 
 /// A slab is put under falling boxes in the middle of a tick: their rows go from extra sweeps to the solve.

@@ -2,6 +2,7 @@
 
 mod bouncing;
 mod calls;
+mod composition;
 mod geometry;
 mod ghosts;
 mod hard;
@@ -9,6 +10,7 @@ mod impacts;
 mod laws;
 mod scales;
 mod sleeping;
+mod squeezed;
 mod twin;
 mod wide;
 
