@@ -52,12 +52,16 @@ impl World {
         self.pairs_are_new();
         self.stopwatch.lap(|p| &mut p.solver);
         for index in self.stepped.clone() {
-            if !self.groups.pushed(index) && !self.bodies.get(index).membership.is_closed() {
+            let pushed = self.groups.pushed(index);
+            if !pushed && self.bodies.get(index).membership.is_closed() {
+                continue;
+            }
+            if !pushed {
                 fly(&mut self.bodies, index, time, h);
             }
+            // The new motion may lead out of the boxes, and what the solver pushes out has been displaced already.
+            self.refit(index, time, h);
         }
-        // The solver's motions may lead out of the boxes, and what it pushes out has been displaced already.
-        self.follow_motions(time, h);
         self.stopwatch.lap(|p| &mut p.flight);
         if let Some(sleep) = self.settings.sleep {
             let asleep = settle(
@@ -117,16 +121,11 @@ impl World {
         }
     }
 
-    /// Brings the boxes of all sub-stepped bodies up to date for their motions up to the end of the sub-step.
-    fn follow_motions(&mut self, time: SimTime, h: f64) {
+    /// Boxes and pairs for the motions up to the end of the sub-step.
+    fn find_pairs(&mut self, time: SimTime, h: f64) {
         for index in self.stepped.clone() {
             self.refit(index, time, h);
         }
-    }
-
-    /// Boxes and pairs for the motions up to the end of the sub-step.
-    fn find_pairs(&mut self, time: SimTime, h: f64) {
-        self.follow_motions(time, h);
         self.pairs.sort(&self.bodies, &self.stepped);
         let mut gone = Vec::new();
         let mut i = 0;
