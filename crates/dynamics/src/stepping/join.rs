@@ -21,7 +21,7 @@ use crate::sleep::Tree;
 use crate::state::BodyState;
 use crate::{BodyKind, EnergyLedger, Mode, World};
 
-/// Groups of more bodies in touch than this are moved by the engine.
+/// Islands of more bodies than this join the engine whether it resolves them or not; so many wake, or land, at once.
 pub(crate) const FEW: usize = 16;
 
 /// Groups of more bodies in touch than this have more than [`crate::modes::ROWS`] rows: no closed form is tried.
@@ -91,17 +91,20 @@ impl World {
         }
     }
 
-    /// Islands whose contact modes have no solution join, unless they are small and the engine does not resolve them.
+    /// Islands without a solution of their contact modes join, unless they are small and the engine does not resolve them.
     pub(crate) fn join_unsolved(&mut self, time: SimTime) {
-        let is_unsolved = |index: &u32| {
-            let state = self.bodies.get(*index);
-            state.is_held() && !state.membership.is_closed()
-        };
-        if self.may_join() && self.stepped.iter().any(is_unsolved) {
+        let mut stepped = self.stepped.iter();
+        if self.may_join() && stepped.any(|index| self.is_unsolved(*index)) {
             let mut islands = self.unsolved_islands();
             islands.retain(|island| island.len() > FEW || !self.is_beyond_engine(island, time));
             self.join_islands(islands, time);
         }
+    }
+
+    /// Whether a body is sub-stepped pair by pair, and in no closed form.
+    fn is_unsolved(&self, index: u32) -> bool {
+        let state = self.bodies.get(index);
+        state.is_held() && !state.membership.is_closed()
     }
 
     /// Islands of sub-stepped bodies in touch of which none moves in closed form.
@@ -123,13 +126,10 @@ impl World {
         for &index in &self.stepped {
             islands.entry(tree.root(index)).or_default().push(index);
         }
-        let is_unsolved = |island: &Vec<u32>| {
-            island.iter().all(|index| {
-                let state = self.bodies.get(*index);
-                state.is_held() && !state.membership.is_closed()
-            })
-        };
-        islands.into_values().filter(is_unsolved).collect()
+        let islands = islands.into_values();
+        islands
+            .filter(|island| island.iter().all(|index| self.is_unsolved(*index)))
+            .collect()
     }
 
     fn join_islands(&mut self, islands: Vec<Vec<u32>>, time: SimTime) {

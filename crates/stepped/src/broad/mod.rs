@@ -110,7 +110,6 @@ impl Broad {
         if !self.has_arrivals() && !bodies.moved[2..].contains(&true) {
             return;
         }
-        self.woken.sort_unstable();
         self.sort(bodies, pieces);
         let found = &mut self.found;
         self.sweep
@@ -154,14 +153,10 @@ impl Broad {
 
     fn sort(&mut self, bodies: &Bodies, pieces: &Pieces) {
         self.few.clear();
+        self.woken.sort_unstable();
         let woken = &self.woken;
-        let movers = (2..bodies.lines.len()).flat_map(|line| {
-            let moved = bodies.moved[line];
-            let asks = move |piece: u32| moved || woken.binary_search(&piece).is_ok();
-            bodies
-                .pieces_of_line(line)
-                .map(move |piece| (piece, asks(piece)))
-        });
+        let movers = (2..bodies.lines.len()).flat_map(|line| bodies.pieces_of_line(line));
+        let movers = movers.map(|piece| (piece, asks(bodies, pieces, woken, piece)));
         self.sweep.sort(movers, pieces);
     }
 
