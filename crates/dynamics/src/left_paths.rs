@@ -1,5 +1,5 @@
-//! Bodies that left the path of an island that turns: they go on by the parabola of that instant, whose forces push along the arms
-//! of then, until the next sub-step or another motion. Neither energy nor angular momentum is kept, and reports say so.
+//! Bodies that left the path of an island that turns: they go on by the parabola of that instant, with the forces along the arms of
+//! then, until the next sub-step or another motion. Neither energy nor angular momentum is kept, and reports say so.
 
 use carom_math::{SimTime, Vec2};
 

@@ -1,4 +1,4 @@
-//! Hard rows: islands whose loads Gauss–Seidel sweeps cannot carry are solved for directly, by Signorini's condition and
+//! Hard rows: islands with loads that Gauss–Seidel sweeps cannot carry are solved for directly, by Signorini's condition and
 //! Coulomb's law at velocity level. They have no springs.
 //!
 //! ```text
@@ -36,8 +36,8 @@ pub(crate) struct HardRows {
 
 impl HardRows {
     /// Sends islands to hard rows, and back, for a sub-step: in every one of them, so that no island depends on when contacts of
-    /// another one changed. What goes back begins with no impulses: where a column buckled those that held it are the larger by
-    /// 1e6, and sweeps cannot take them back.
+    /// another one changed. What goes back begins with no impulses: the impulses that held a column which buckled are up to
+    /// 1e6 N·s, and sweeps cannot take them back.
     pub(crate) fn gather(&mut self, graph: &mut Graph, bodies: &mut Bodies) {
         let mut found = islands::find(graph, bodies, &mut self.known);
         if !self.unanswered.is_empty() {
