@@ -5,7 +5,6 @@
 
 use super::{Stepping, place};
 use crate::World;
-use crate::uncommon::Lag;
 
 impl World {
     /// Before time goes on within a sub-step in which a caller changed bodies.
@@ -35,19 +34,12 @@ impl World {
             };
             let index = place(&there);
             let state = self.bodies.get(index);
-            let from = state.centre_pose(now);
-            let before = (state.velocity_at(now), state.spin_at(now));
-            let turned = state.turned + state.turn_by(now);
-            let even = (
-                (there.pose.position - from.position) / left,
-                (there.turned - turned) / left,
+            let from = (
+                state.centre_pose(now),
+                state.turned + state.turn_by(now),
+                (state.velocity_at(now), state.spin_at(now)),
             );
-            self.bodies.change(index, now, |motion| {
-                (motion.velocity, motion.spin) = even;
-                (motion.acceleration, motion.angular_acceleration) = Default::default();
-            });
-            let lag = Lag::of_even(even, before, there.velocity, left);
-            self.bodies.get_mut(index).set_lag(lag);
+            self.go_evenly(index, now, from, &there, left);
         }
         // The engine has them there already.
         self.bodies.touched.clear();

@@ -1,7 +1,7 @@
 //! Motions of bodies, written at the end of a step, and of each sub-step for a log.
 
 use carom_collision::Motion;
-use carom_math::SimTime;
+use carom_math::{Pose, SimTime, Vec2};
 use carom_stepped::State;
 
 use super::{Stepping, place};
@@ -83,22 +83,37 @@ impl World {
             let left = state.turned - turned;
             let off = (motion.centre - from.position).length() + (left - turn).abs() * reach;
             if off > SAME * (reach + way.length()) {
-                let even = ((state.pose.position - from.position) / h, left / h);
-                motion = Motion {
-                    start,
-                    velocity: even.0,
-                    rotation: from.rotation,
-                    spin: even.1,
-                    ..Motion::resting(from.position)
-                };
-                self.bodies.go_on_as(index, &motion, turned);
-                let lag = Lag::of_even(even, (u, s), (v, w), h);
-                self.bodies.get_mut(index).set_lag(lag);
-                self.bodies.renew(index);
+                self.go_evenly(index, start, (from, turned, (u, s)), state, h);
                 return;
             }
         }
         self.bodies.go_on_as(index, &motion, state.turned - turn);
+        self.bodies.renew(index);
+    }
+
+    /// A body goes evenly from a pose, an angle, and a velocity and spin, to those of the engine within `span` seconds.
+    pub(super) fn go_evenly(
+        &mut self,
+        index: u32,
+        start: SimTime,
+        (from, turned, before): (Pose, f64, (Vec2, f64)),
+        to: &State,
+        span: f64,
+    ) {
+        let even = (
+            (to.pose.position - from.position) / span,
+            (to.turned - turned) / span,
+        );
+        let motion = Motion {
+            start,
+            velocity: even.0,
+            rotation: from.rotation,
+            spin: even.1,
+            ..Motion::resting(from.position)
+        };
+        self.bodies.go_on_as(index, &motion, turned);
+        let lag = Lag::of_even(even, before, to.velocity, span);
+        self.bodies.get_mut(index).set_lag(lag);
         self.bodies.renew(index);
     }
 
