@@ -260,6 +260,41 @@ fn case_21_huge_impulses_do_not_push_through_a_wall() {
     }
 }
 
+/// What lies against a wall, and is kicked in the midst of a sub-step, no row takes before the sub-step ends.
+#[test]
+fn kicks_in_the_midst_of_sub_steps_drive_nothing_through_a_thin_wall() {
+    for e in [0.0, 0.5] {
+        let mut world = stepped(Settings::default());
+        let material = surface(e, 0.3);
+        put(
+            &mut world,
+            BodyDef::fixed().at(vec2(0.0, -1.0)),
+            block(40.0, 2.0),
+            material,
+        );
+        let wall = BodyDef::fixed().at(vec2(5.0, 0.0));
+        put(&mut world, wall, block(0.001, 4e6), material);
+        let def = BodyDef::dynamic().at(vec2(0.0, 0.5));
+        let id = put(&mut world, def, block(1.0, 1.0), material);
+        let mut deepest = 0.0_f64;
+        for push in 0..120 {
+            let body = world.body(id).expect("it stays");
+            let kick = Impulse::at(body.centre(), vec2(1e6 * body.mass(), 0.0));
+            world.apply(id, kick).expect("a finite impulse");
+            world.step(1.0 / 240.0);
+            let body = world.body(id).expect("it stays");
+            let x = body.centre().x;
+            deepest = deepest.max(body.aabb().max.x - 4.9995);
+            assert!(x < 4.9995, "through the wall at push {push}: {x}, e = {e}");
+            if x < -30.0 {
+                let home = carom_math::Pose::at(vec2(0.0, 0.5));
+                world.teleport(id, home).expect("it is there");
+            }
+        }
+        assert!(deepest < 1e-3, "{deepest} m deep, e = {e}");
+    }
+}
+
 /// liabru/matter-js#842, #1299: a body in the hollow of another was pushed, or went through its wall.
 #[test]
 fn case_32_a_body_in_a_whirling_hollow_stays_inside() {

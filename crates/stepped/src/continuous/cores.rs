@@ -6,7 +6,7 @@ use carom_geometry::Shape;
 use crate::pieces::Piece;
 
 /// The core lies so deep inside, as a part of the least half width: 2.5 mm in a box of 1 m, deeper than resting contacts.
-const CORE: f64 = 0.005;
+pub(super) const CORE: f64 = 0.005;
 
 /// The convex parts of the shape of a piece: core and whole of each.
 pub(super) fn cores(piece: &Piece) -> Vec<(Shape, Shape)> {

@@ -2,10 +2,10 @@
 
 use std::collections::BinaryHeap;
 
-use carom_collision::{Motion, TimeOfImpact, time_of_impact};
+use carom_collision::{Impact, Motion, TimeOfImpact, time_of_impact};
 use carom_math::{SimTime, Vec2};
 
-use super::cores::cores;
+use super::cores::{CORE, cores};
 use super::touching::Touching;
 use super::{Moving, SHORT, bounds_of};
 use crate::bodies::Bodies;
@@ -177,9 +177,15 @@ impl Engine {
             }
             for (core, whole) in cores(piece_of_mine) {
                 let left = first.map_or(to, |first| first.0) - from;
+                // A way into what is touched already, deeper than a core lies: no row takes what a caller gives within a sub-step.
+                let drives = |hit: &Impact| {
+                    let against = (own.velocity - other.velocity).dot(hit.normal);
+                    against * (to - from) > CORE * 0.5 * piece_of_mine.extent
+                };
                 let met = match time_of_impact(&core, &own, target, &other, left) {
                     TimeOfImpact::Hit(hit) => (hit.time, Some(hit.normal)),
                     TimeOfImpact::Unresolved { safe_until } => (safe_until, None),
+                    TimeOfImpact::Touching(hit) if drives(&hit) => (0.0, Some(hit.normal)),
                     // In touch from the start: its rows hold it.
                     TimeOfImpact::Clear | TimeOfImpact::Touching(_) => continue,
                 };
@@ -188,6 +194,7 @@ impl Engine {
                         let wait = hit.time + SHORT * mine.reach / hit.gap_rate;
                         (wait.max(0.0), Some(hit.normal))
                     }
+                    TimeOfImpact::Touching(hit) if drives(&hit) => (0.0, Some(hit.normal)),
                     _ => met,
                 };
                 first = Some((from + wait, normal));

@@ -189,6 +189,23 @@ fn what_is_carried_stops_at_what_is_in_its_way() {
     assert!((x + 0.015).abs() < 1e-6, "{x}");
 }
 
+/// What overlapped went on until its core touched, 5e-5 m deeper each time, and once that did so at the start, through the wall.
+#[test]
+fn what_is_carried_into_what_it_touches_stays_where_it_is() {
+    for deep in [0.0, 1e-6, 1e-5, 1e-4, 1e-3] {
+        let mut engine = weightless();
+        let wall = PieceInput::new(ConvexPolygon::rectangle(0.01, 4.0).unwrap());
+        engine.insert(BodyInput::fixed(), &[wall]).unwrap();
+        let ball = BodyInput::dynamic(1.0, 1e-4).at(vec2(0.5, 0.3));
+        let ball = engine.insert(ball, &[disc(0.01, 0.0)]).unwrap();
+        let from = vec2(-0.015 + deep, 0.0);
+        engine.carry(ball, Pose::at(from)).unwrap();
+        assert_eq!(engine.stop_fast(1e-3, &Mixed), [ball]);
+        let at = engine.pose(ball).unwrap().position;
+        assert!((at.x - from.x).abs() < 1e-6, "{deep} m deep: {at}");
+    }
+}
+
 /// One sweep a sub-step leaves 20/21 of the error: the load came back at 1.5 m/s of 4.4.
 #[test]
 fn a_heavy_load_comes_to_rest_on_a_light_box() {
