@@ -7,7 +7,6 @@ use carom_math::{SimTime, Vec2};
 
 use super::store::Closed;
 use crate::World;
-use crate::heavy::{BEARS, mass_ratio};
 use crate::modes::BodyMove;
 use crate::state::BodyState;
 use crate::touching::Gathered;
@@ -174,30 +173,36 @@ impl World {
         keeps
     }
 
-    /// Whether an island has mass ratios, spins or speeds that the engine does not resolve, or is borne by nothing: the engine
-    /// keeps no angular momentum.
+    /// Whether the engine does not resolve an island: its spins or speeds, or its angular momentum, as it is borne by nothing.
     pub(crate) fn is_beyond_engine(&self, members: &[u32], time: SimTime) -> bool {
-        let mut is_borne = false;
-        for &index in members {
-            let state = self.bodies.get(index);
-            if self.closed.was_fast(index, time, self.settings.tick) {
-                return true;
-            }
-            for place in &state.pairs {
-                let pair = self.pairs.get(*place);
-                let other = self.bodies.get(pair.other(index));
-                if mass_ratio([state.inverse_mass, other.inverse_mass]) > BEARS {
-                    return true;
-                }
-                if pair.touching {
-                    if [state, other].iter().any(|body| self.is_fast(body, time)) {
-                        return true;
-                    }
-                    is_borne |= !other.is_dynamic() || other.asleep || other.in_engine;
-                }
-            }
-        }
-        !is_borne
+        !self.is_borne(members) || self.any_fast(members, time)
+    }
+
+    fn is_borne(&self, members: &[u32]) -> bool {
+        let bears = |index: u32, place: &u32| {
+            let pair = self.pairs.get(*place);
+            let other = self.bodies.get(pair.other(index));
+            pair.touching && (!other.is_dynamic() || other.asleep || other.in_engine)
+        };
+        let mut members = members.iter();
+        members.any(|&index| {
+            let mut pairs = self.bodies.get(index).pairs.iter();
+            pairs.any(|place| bears(index, place))
+        })
+    }
+
+    /// Whether a body of an island, or what one touches, is fast, or a body was within the last ticks.
+    pub(super) fn any_fast(&self, members: &[u32], time: SimTime) -> bool {
+        let touches_fast = |index: u32, place: &u32| {
+            let pair = self.pairs.get(*place);
+            let mut ends = [index, pair.other(index)].into_iter();
+            pair.touching && ends.any(|index| self.is_fast(self.bodies.get(index), time))
+        };
+        members.iter().any(|&index| {
+            let mut pairs = self.bodies.get(index).pairs.iter();
+            self.closed.was_fast(index, time, self.settings.tick)
+                || pairs.any(|place| touches_fast(index, place))
+        })
     }
 
     /// Notes the instant if a body is fast.
