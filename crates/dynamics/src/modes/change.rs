@@ -24,6 +24,9 @@ const NOTHING: f64 = 1e-12;
 /// Halvings of a stretch after which an instant is as near as it comes.
 const HALVINGS: u32 = 60;
 
+/// Halvings of a stretch after which the end of a basis is no longer sought.
+const SINGULAR: u32 = 4;
+
 /// Steps of false position to where a motion parts: nearly always two or three.
 const PARTINGS: u32 = 6;
 
@@ -204,19 +207,22 @@ impl Load<'_> {
 
     /// The same between an instant from which it goes on with a basis, and one at which it does not.
     fn other_between(&self, mut good: f64, mut bad: f64, mut basis: Vec<bool>) -> f64 {
-        if let Some(root) = self.basis_ends(&basis, (good, bad)) {
-            let beyond = root + BEYOND * (bad - root);
-            if self.goes_on(beyond, &mut basis) {
-                // Another basis bears the load from there on.
-                good = beyond;
-            } else {
-                (good, bad) = (root, beyond);
+        for halvings in 0..HALVINGS {
+            // Where a stretch has shrunk to a point its basis tells nothing: halfway it does.
+            if halvings <= SINGULAR {
+                if let Some(root) = self.basis_ends(&basis, (good, bad)) {
+                    let beyond = root + BEYOND * (bad - root);
+                    if self.goes_on(beyond, &mut basis) {
+                        // Another basis bears the load from there on.
+                        good = beyond;
+                    } else {
+                        (good, bad) = (root, beyond);
+                    }
+                }
+                if let Some(after) = self.parts_from(good, bad) {
+                    return after;
+                }
             }
-        }
-        if let Some(after) = self.parts_from(good, bad) {
-            return after;
-        }
-        for _ in 0..HALVINGS {
             let middle = 0.5 * (good + bad);
             if self.goes_on(middle, &mut basis) {
                 good = middle;
