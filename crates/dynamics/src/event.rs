@@ -163,17 +163,9 @@ impl Events {
         }
     }
 
-    /// The same of what is known only after later events: it is put among them.
-    pub(crate) fn push_late(&mut self, time: SimTime, kind: EventKind) {
-        let time = time.max(self.since);
-        if self.list.len() < self.capacity {
-            let told = &self.list[self.delivered.0..];
-            let later = told.iter().rev().take_while(|event| event.time > time);
-            let at = self.list.len() - later.count();
-            self.list.insert(at, Event { time, kind });
-        } else {
-            self.dropped += 1;
-        }
+    /// Puts what was told after later events among them.
+    pub(crate) fn sort(&mut self) {
+        self.list[self.delivered.0..].sort_by_key(|event| event.time);
     }
 
     /// Tells that a pair began or ceased to touch, if that is new: so begins and ends of a pair come in turns.

@@ -241,6 +241,27 @@ impl Engine {
         Ok(ids.map(|(id, _)| self.contact(id)))
     }
 
+    /// Work of a body on all that it touches in the last sub-step, in J: by the velocity that it has, as kinematic bodies keep theirs.
+    ///
+    /// # Errors
+    /// [`EngineError::Stale`] if it is not in this engine.
+    pub fn work_of(&self, id: BodyId) -> Result<f64, EngineError> {
+        self.bodies.get(id)?;
+        let (still, own) = ((Vec2::ZERO, 0.0), self.bodies.velocity_of(id.slot));
+        if own == still {
+            return Ok(0.0);
+        }
+        let of_contact = |(id, side): (u32, usize)| {
+            let (block, _, lane) = self.graph.lane(id);
+            let [a, b] = if side == 0 { [own, still] } else { [still, own] };
+            let [first, second] = block.along(lane, a, b);
+            let [j1, j2, jt] = block.impulses(lane);
+            j1 * first + j2 * second + jt * block.across(lane, a, b)
+        };
+        let contacts = self.graph.of_body(&self.bodies, id.slot);
+        Ok(-contacts.map(of_contact).sum::<f64>())
+    }
+
     /// Kinetic energy of all dynamic bodies and their potential energy in uniform gravity, in J.
     #[must_use]
     pub fn energy(&self) -> (f64, f64) {

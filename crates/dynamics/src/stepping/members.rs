@@ -1,6 +1,6 @@
 //! A sub-step of the members of the engine in [`crate::Mode::Hybrid`].
 
-use carom_math::{SimTime, Vec2, cross_scalar, perp};
+use carom_math::{SimTime, Vec2};
 
 use super::Stepping;
 use crate::{BodyKind, World};
@@ -207,33 +207,9 @@ impl World {
             }
         }
         for &index in &self.joins.drivers {
-            let Some(driver) = stepping.state(index) else {
-                continue;
-            };
-            let (velocity, spin) = driver.velocity;
-            if (velocity, spin) == (Vec2::ZERO, 0.0) {
-                continue;
-            }
-            let Ok(contacts) = stepping.engine.contacts_of(driver.id) else {
-                continue;
-            };
-            for contact in contacts {
-                // Impulses act on B as they are, and on A the other way round.
-                let side = if contact.bodies[0] == driver.id {
-                    1.0
-                } else {
-                    -1.0
-                };
-                for (place, impulse) in contact.places.iter().zip(contact.impulses) {
-                    let own = velocity + cross_scalar(spin, *place - driver.pose.position);
-                    self.joins
-                        .driven
-                        .add(side * impulse * contact.normal.dot(own));
-                }
-                let middle = 0.5 * (contact.places[0] + contact.places[1]);
-                let own = velocity + cross_scalar(spin, middle - driver.pose.position);
-                let along = perp(contact.normal).dot(own);
-                self.joins.driven.add(side * contact.friction * along);
+            let work = stepping.id(index).map(|id| stepping.engine.work_of(id));
+            if let Some(Ok(work)) = work {
+                self.joins.driven.add(work);
             }
         }
     }

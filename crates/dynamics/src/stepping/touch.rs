@@ -57,7 +57,7 @@ impl World {
                 .tags
                 .map(|tag| self.colliders[collider(tag) as usize].body);
             let [a, b] = [a, b].map(|index| self.bodies.get(index).id);
-            self.events.push_late(
+            self.events.push(
                 time + -impact.since,
                 EventKind::Impact {
                     a,
@@ -70,6 +70,7 @@ impl World {
                 },
             );
         }
+        self.events.sort();
         stepping.impacts = impacts;
     }
 

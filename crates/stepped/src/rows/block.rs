@@ -152,7 +152,12 @@ impl Block {
 
     /// Speed of B along t less that of A where they meet, in m/s: the slip, but for the speed of a belt.
     pub(crate) fn slip(&self, lane: usize, [a, b]: [&Line; 2]) -> f64 {
-        perp(self.normal(lane)).dot(b.v() - a.v()) + self.bt[lane] * b.w() - self.at[lane] * a.w()
+        self.across(lane, (a.v(), a.w()), (b.v(), b.w()))
+    }
+
+    /// What two motions shift B by, along t, against A.
+    pub(crate) fn across(&self, lane: usize, a: (Vec2, f64), b: (Vec2, f64)) -> f64 {
+        perp(self.normal(lane)).dot(b.0 - a.0) + self.bt[lane] * b.1 - self.at[lane] * a.1
     }
 
     /// What an impulse of 1 N·s along t changes it by.
