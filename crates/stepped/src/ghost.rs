@@ -147,7 +147,9 @@ pub(crate) fn hide(
         }
     }
     // Impulses of several are taken out of one body in an order that other islands do not change.
-    ghosts.sort_unstable_by_key(|id| graph.order(bodies, *id));
+    ghosts.sort_unstable();
+    ghosts.dedup();
+    ghosts.sort_by_cached_key(|id| graph.order(bodies, *id));
     for id in ghosts {
         graph.hide(bodies, id);
     }
@@ -212,7 +214,10 @@ fn is_hidden(rows: &Rows, pieces: &Pieces, k: usize, o: usize) -> bool {
         && rows.points(k).iter().all(|point| {
             (0..rows.len).any(|third| {
                 let q = rows.pieces[third];
-                q != rows.pieces[k] && holds(pieces.turned(q), *point + lean, flush)
+                let (point, bounds) = (*point + lean, pieces.boxes[q as usize]);
+                q != rows.pieces[k]
+                    && bounds.grown(flush).contains_point(point)
+                    && holds(pieces.turned(q), point, flush)
             })
         })
 }

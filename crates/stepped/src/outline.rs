@@ -191,6 +191,7 @@ impl Turned<'_> {
     }
 
     /// `normal · point` of all points of an edge.
+    #[inline]
     pub(crate) fn off(self, i: usize) -> f64 {
         self.normal(i).dot(self.corner(i))
     }

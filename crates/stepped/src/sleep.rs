@@ -30,6 +30,8 @@ pub(crate) struct Islands {
     unmet: usize,
     /// Slots of bodies that fell asleep or woke since a caller asked.
     changed: Vec<u32>,
+    /// Scratch of [`Engine::sleep`], by slot: false.
+    seen: Vec<bool>,
 }
 
 impl Islands {
@@ -300,14 +302,17 @@ impl Engine {
     pub fn sleep(&mut self, id: BodyId) -> Result<(), EngineError> {
         let record = *self.bodies.get(id)?;
         if record.kind == BodyKind::Dynamic && record.island == Bodies::NONE {
-            let mut seen = vec![false; self.bodies.records.len()];
+            let mut seen = core::mem::take(&mut self.islands.seen);
+            seen.resize(self.bodies.records.len(), false);
             let (island, _) = self.island(id.slot, 0.0, &mut seen);
             for &slot in &island {
+                seen[slot as usize] = false;
                 let line = self.bodies.line_of(slot);
                 if self.bodies.moved[line] {
                     self.pose_pieces(line);
                 }
             }
+            self.islands.seen = seen;
             self.lay(&island);
         }
         Ok(())

@@ -25,8 +25,9 @@ impl Deep {
     pub(crate) fn gather(&mut self, graph: &mut Graph, bodies: &Bodies) {
         let mut contacts = core::mem::take(&mut graph.deep);
         contacts.retain(|id| graph.is_deep(*id));
-        contacts.sort_unstable_by_key(|id| graph.order(bodies, *id));
+        contacts.sort_unstable();
         contacts.dedup();
+        contacts.sort_by_cached_key(|id| graph.order(bodies, *id));
         self.contacts.clone_from(&contacts);
         graph.deep = contacts;
     }
