@@ -136,7 +136,7 @@ impl Bodies {
     /// Notes that a body differs from its solver's copy.
     pub(crate) fn touch(&mut self, index: u32) {
         let state = self.list.get(index as usize);
-        if self.notes_touched || state.is_some_and(|state| state.in_engine || state.is_guest) {
+        if self.notes_touched || state.is_some_and(|state| state.in_engine() || state.is_guest) {
             self.touched.push(index);
             // A caller may change a body any number of times between two sub-steps.
             if self.touched.len() > 2 * self.list.len() + 64 {
@@ -305,7 +305,7 @@ impl Bodies {
         if let Some((velocity, spin)) = after {
             state.close(time, velocity, spin);
         }
-        if state.in_engine {
+        if state.in_engine() {
             let before = state.kinetic_energy(time);
             change(&mut state.motion);
             let after = state.kinetic_energy(time);
@@ -348,7 +348,7 @@ impl Bodies {
         let free = state.gravity_scale() * self.pull.gravity;
         // The account of members is kept in `stepping::join`.
         if !state.is_dynamic()
-            || state.in_engine
+            || state.in_engine()
             || (motion.acceleration == free
                 && motion.angular_acceleration == 0.0
                 && state.force() == Vec2::ZERO

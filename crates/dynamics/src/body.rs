@@ -131,7 +131,7 @@ impl<'w> Body<'w> {
     /// Whether the body sleeps with its group.
     #[must_use]
     pub fn is_asleep(&self) -> bool {
-        self.state.asleep && !self.state.rests_analytically
+        self.state.is_asleep() && !self.state.rests_analytically()
     }
 
     /// Whether it may fall asleep: see [`BodyDef::sleep_allowed`](crate::BodyDef::sleep_allowed).

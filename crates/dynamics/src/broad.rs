@@ -153,7 +153,7 @@ impl Broad {
         match self.search {
             PairSearch::None => {}
             PairSearch::AllPairs => {
-                let there = |c: &Collider| c.node.is_some() || bodies.get(c.body).course.is_free;
+                let there = |c: &Collider| c.node.is_some() || bodies.get(c.body).goes_by_events();
                 near.extend(
                     (0u32..)
                         .zip(colliders)
@@ -201,7 +201,7 @@ impl Broad {
         }
         let (a, b) = (bodies.get(ends.0), bodies.get(ends.1));
         // Impacts of a free body with free bodies, and with bodies at rest, are events of the calendar queue.
-        if a.course.is_free && !b.is_stepped() || b.course.is_free && !a.is_stepped() {
+        if a.goes_by_events() && !b.is_stepped() || b.goes_by_events() && !a.is_stepped() {
             return;
         }
         if a.kind != BodyKind::Dynamic && b.kind != BodyKind::Dynamic {

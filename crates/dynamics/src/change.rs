@@ -45,8 +45,9 @@ impl World {
         check_finite("spin", spin)?;
         let (pull, twist) = self.bodies.freely(index, self.clock.now);
         self.disturb(index, |state| {
+            let in_engine = state.in_engine();
             let motion = &mut state.motion;
-            if state.in_engine && (motion.acceleration - pull).length() > 2.0 * pull.length() {
+            if in_engine && (motion.acceleration - pull).length() > 2.0 * pull.length() {
                 // The rest of a blow of this sub-step is not for the velocity that it has now.
                 (motion.acceleration, motion.angular_acceleration) = (pull, twist);
             }
@@ -201,7 +202,7 @@ impl World {
         let index = self.bodies.find(id)?;
         BodyDef::dynamic().damped(linear, angular).check()?;
         let change = |state: &mut BodyState| state.uncommon_mut().damping = (linear, angular);
-        if self.settings.mode == Mode::Stepped || self.bodies.get(index).in_engine {
+        if self.settings.mode == Mode::Stepped || self.bodies.get(index).in_engine() {
             self.remake(index, change);
         } else {
             self.disturb(index, change);
@@ -251,10 +252,10 @@ impl World {
             stepping.set_gravity(self.bodies.pull.gravity);
         }
         for index in self.bodies.indices().collect::<Vec<_>>() {
-            if !self.bodies.get(index).in_engine {
+            if !self.bodies.get(index).in_engine() {
                 self.arrive(index);
             }
-            if self.bodies.get(index).asleep {
+            if self.bodies.get(index).is_asleep() {
                 self.wake(index, now);
             }
         }
@@ -285,7 +286,7 @@ impl World {
         let after = self.bodies.energy_of(index, now);
         let brought = (after.0 + after.1) - (before.0 + before.1);
         self.bodies.book.external.add(brought);
-        if self.bodies.get(index).in_engine {
+        if self.bodies.get(index).in_engine() {
             self.joins.balance.add(-brought);
         }
         self.note_fast(index, now);
@@ -323,7 +324,7 @@ impl World {
             for other in self.broad.in_tree(&self.colliders, mine.solid.aabb(pose)) {
                 let theirs = &self.colliders[other as usize];
                 let partner = self.bodies.get(theirs.body);
-                if !partner.asleep || !self.broad.may_touch(&self.bodies, mine, theirs) {
+                if !partner.is_asleep() || !self.broad.may_touch(&self.bodies, mine, theirs) {
                     continue;
                 }
                 // What fell asleep on it may have sunk in, or hover within the solver's margin.
@@ -341,7 +342,7 @@ impl World {
         around.sort_unstable();
         around.dedup();
         for other in around {
-            if self.bodies.get(other).asleep {
+            if self.bodies.get(other).is_asleep() {
                 self.wake(other, time);
             }
             self.solve_modes_anew(other, time);
@@ -462,7 +463,7 @@ impl World {
             let (force, torque) = (acts.force, acts.torque);
             (acts.force, acts.torque) = (Vec2::ZERO, 0.0);
             // A body that fell asleep under its force is accelerated by nothing, and wakes without it.
-            if state.asleep {
+            if state.is_asleep() {
                 continue;
             }
             if state.is_free() {
@@ -476,7 +477,7 @@ impl World {
             }
         }
         for index in forced {
-            if self.bodies.get(index).asleep {
+            if self.bodies.get(index).is_asleep() {
                 self.wake_around(index, now);
             }
             self.deflected(index, now);

@@ -369,7 +369,7 @@ impl Filtered<'_> {
         let is_member = |at: &u32| {
             let owner = self.world.colliders[*at as usize].body;
             let state = self.world.bodies.get(owner);
-            state.in_engine && !state.asleep
+            state.in_engine() && !state.is_asleep()
         };
         shapes.copied().chain(members.filter(is_member)).collect()
     }

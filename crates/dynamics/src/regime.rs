@@ -70,6 +70,33 @@ impl Regime {
     }
 }
 
+impl BodyState {
+    /// Nothing moves it until it is touched: asleep, or in an analytic island at rest.
+    pub(crate) const fn is_asleep(&self) -> bool {
+        self.asleep
+    }
+
+    /// Its analytic island rests: treated as asleep, but reported awake to the caller until its time.
+    pub(crate) const fn rests_analytically(&self) -> bool {
+        self.rests_analytically
+    }
+
+    /// Moves with its analytic island, without sub-steps, until the island's mode changes.
+    pub(crate) const fn moves_analytically(&self) -> bool {
+        self.course.moves_analytically
+    }
+
+    /// Moves in closed form from event to event: free, kinematic, or in analytic motion.
+    pub(crate) const fn goes_by_events(&self) -> bool {
+        self.course.is_free
+    }
+
+    /// Moved by the engine in hybrid mode, or asleep in it.
+    pub(crate) const fn in_engine(&self) -> bool {
+        self.in_engine
+    }
+}
+
 impl World {
     /// Whether every body is moved by one method, in builds that check so.
     pub(crate) fn check_regimes(&self) {

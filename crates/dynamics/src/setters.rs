@@ -221,7 +221,7 @@ impl World {
     /// If the body is not there.
     pub fn wake_up(&mut self, id: BodyId) -> Result<(), BodyError> {
         let index = self.bodies.find(id)?;
-        if self.bodies.get(index).asleep {
+        if self.bodies.get(index).is_asleep() {
             self.wake_around(index, self.clock.now);
         }
         Ok(())

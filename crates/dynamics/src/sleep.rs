@@ -81,7 +81,7 @@ pub(crate) fn wake(
     let mut waking = vec![index];
     while let Some(index) = waking.pop() {
         let state = bodies.get_mut(index);
-        if !state.asleep {
+        if !state.is_asleep() {
             continue;
         }
         state.asleep = false;

@@ -223,7 +223,7 @@ impl BodyState {
 
     /// Until when the motion stands, if nothing changes it.
     pub(crate) fn stands_until(&self) -> SimTime {
-        if self.course.is_free {
+        if self.goes_by_events() {
             self.piece()
         } else {
             SimTime::NEVER
@@ -308,22 +308,22 @@ impl BodyState {
 
     /// Moves by itself now: neither fixed nor asleep.
     pub(crate) fn is_active(&self) -> bool {
-        self.kind != BodyKind::Fixed && !self.asleep
+        self.kind != BodyKind::Fixed && !self.is_asleep()
     }
 
     /// Dynamic, and nothing holds it.
     pub(crate) fn is_free(&self) -> bool {
-        self.is_dynamic() && self.course.is_free
+        self.is_dynamic() && self.goes_by_events()
     }
 
     /// Moved by the sub-steps.
     pub(crate) fn is_stepped(&self) -> bool {
-        self.is_active() && !self.course.is_free
+        self.is_active() && !self.goes_by_events()
     }
 
     /// Dynamic, and sub-stepped pair by pair.
     pub(crate) fn is_held(&self) -> bool {
-        self.is_dynamic() && self.is_stepped() && !self.in_engine
+        self.is_dynamic() && self.is_stepped() && !self.in_engine()
     }
 
     /// Whether anything slows it down by itself.

@@ -217,7 +217,7 @@ impl World {
                 // Wake sleeping bodies first: the contact search below skips sleepers. Failed mode solves are void.
                 for &index in &changed {
                     self.bodies.get_mut(index).membership.forget();
-                    if self.bodies.get(index).asleep {
+                    if self.bodies.get(index).is_asleep() {
                         self.wake(index, entry.time);
                     }
                 }
@@ -270,14 +270,14 @@ impl World {
 
     /// As [`Self::redirect`], but for predictions; whether there are any to make.
     pub(crate) fn steer(&mut self, index: u32, time: SimTime) -> bool {
-        if self.bodies.get(index).asleep {
+        if self.bodies.get(index).is_asleep() {
             self.wake(index, time);
         }
         let state = self.bodies.get(index);
-        if state.in_engine {
+        if state.in_engine() {
             return false;
         }
-        if state.course.is_free {
+        if state.goes_by_events() {
             self.foresee(index, time, Cause::Arrived, None);
             return false;
         }
@@ -306,7 +306,7 @@ impl World {
             // Those in the tree are few and large.
             for other in self.broad.in_tree(&self.colliders, bounds) {
                 let owner = self.colliders[other as usize].body;
-                if self.bodies.get(owner).course.is_free {
+                if self.bodies.get(owner).goes_by_events() {
                     self.approach_shape(owner, at, time, Cause::Arrived);
                 }
             }

@@ -156,7 +156,7 @@ impl World {
                 .collect();
             if landed.len() + lands.len() > FEW {
                 self.gather_heaps(&mut lands, &mut seen, time, h);
-                landed.retain(|index| !self.bodies.get(*index).in_engine);
+                landed.retain(|index| !self.bodies.get(*index).in_engine());
             }
             if lands.is_empty() && landed.is_empty() {
                 break;
@@ -256,7 +256,7 @@ impl World {
             self.events.tell_touch(&self.bodies, pair, time);
             if touching && active != (false, false) {
                 for index in [a, b] {
-                    if self.bodies.get(index).asleep {
+                    if self.bodies.get(index).is_asleep() {
                         self.wake(index, time);
                     }
                 }
@@ -308,7 +308,7 @@ impl World {
             let pair = self.pairs.get_mut(place);
             let other = pair.other(index);
             let state = self.bodies.get(other);
-            if state.course.is_free {
+            if state.goes_by_events() {
                 self.part(place, time);
             } else if !state.is_stepped() {
                 // No contact update before one of the two wakes.

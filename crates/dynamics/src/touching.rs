@@ -205,7 +205,7 @@ impl World {
                 }
                 continue;
             }
-            if state.asleep || state.is_damped() || state.in_engine {
+            if state.is_asleep() || state.is_damped() || state.in_engine() {
                 return Err(found.refused());
             }
             let pairs = state.pairs.clone();

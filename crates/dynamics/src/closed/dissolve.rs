@@ -20,7 +20,7 @@ impl World {
         let left = self.clock.next() - time;
         for &index in members {
             let state = self.bodies.get(index);
-            let moves = state.is_stepped() && !state.in_engine;
+            let moves = state.is_stepped() && !state.in_engine();
             if left > 0.0 && moves && self.feels_island(index) {
                 fly(&mut self.bodies, index, time, left);
                 self.redirect(index, time);
@@ -64,7 +64,7 @@ impl World {
             let group = self.closed.get(place);
             let holds = |group: &Group| group.touches.iter().any(|touch| touch.pair == pair);
             if group.is_some_and(holds) {
-                if self.bodies.get(index).asleep {
+                if self.bodies.get(index).is_asleep() {
                     self.wake(index, time);
                 }
                 let members = self.dissolve(place, time);

@@ -42,8 +42,8 @@ impl World {
             for index in ends {
                 let state = self.bodies.get(index);
                 if !state.is_dynamic()
-                    || state.asleep
-                    || state.in_engine
+                    || state.is_asleep()
+                    || state.in_engine()
                     || state.membership.is_closed()
                 {
                     continue;
@@ -132,8 +132,8 @@ impl World {
                 (self.dissolve(place, time), speed)
             }
             None if state.is_dynamic()
-                && !state.asleep
-                && !state.in_engine
+                && !state.is_asleep()
+                && !state.in_engine()
                 && self.may_last(index) =>
             {
                 self.bodies.get_mut(index).membership = Membership::default();
@@ -209,7 +209,7 @@ impl World {
         while let Err(Refused { seen, .. }) = &found {
             let leaves = |index: &u32| {
                 let state = self.bodies.get(*index);
-                state.rests_analytically || state.course.moves_analytically
+                state.rests_analytically() || state.moves_analytically()
             };
             let Some(index) = seen.iter().copied().find(leaves) else {
                 break;

@@ -145,7 +145,7 @@ impl World {
         exhausted.sort_unstable();
         exhausted.dedup();
         for index in exhausted {
-            if !self.bodies.is_alive(index) || self.bodies.get(index).asleep {
+            if !self.bodies.is_alive(index) || self.bodies.get(index).is_asleep() {
                 continue;
             }
             let Some(group) = self.closed.get(self.bodies.get(index).membership.group) else {
@@ -182,7 +182,7 @@ impl World {
         let bears = |index: u32, place: &u32| {
             let pair = self.pairs.get(*place);
             let other = self.bodies.get(pair.other(index));
-            pair.touching && (!other.is_dynamic() || other.asleep || other.in_engine)
+            pair.touching && (!other.is_dynamic() || other.is_asleep() || other.in_engine())
         };
         let mut members = members.iter();
         members.any(|&index| {

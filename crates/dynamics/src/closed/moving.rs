@@ -192,7 +192,7 @@ impl World {
 
     /// Gives the island of a body back to the sub-steps, if it is in analytic motion; whether it was.
     pub(crate) fn hand_back_of(&mut self, index: u32, time: SimTime) -> bool {
-        let moves_analytically = self.bodies.get(index).course.moves_analytically;
+        let moves_analytically = self.bodies.get(index).moves_analytically();
         if moves_analytically {
             self.hand_back(self.bodies.get(index).membership.group, time);
         }
@@ -224,7 +224,7 @@ impl World {
 
     /// Whether two shapes touch in an island in analytic motion: their contact changes with the island's mode alone.
     pub(crate) fn touch_in_moving_island(&self, (a, b): (u32, u32), shapes: (u32, u32)) -> bool {
-        let moves_analytically = |index: &u32| self.bodies.get(*index).course.moves_analytically;
+        let moves_analytically = |index: &u32| self.bodies.get(*index).moves_analytically();
         let Some(index) = [a, b].into_iter().find(moves_analytically) else {
             return false;
         };
@@ -243,7 +243,7 @@ impl World {
         let ends = [pair.bodies.0, pair.bodies.1].map(|index| self.bodies.get(index));
         let index = ends
             .iter()
-            .find(|state| state.course.moves_analytically)?
+            .find(|state| state.moves_analytically())?
             .id
             .index;
         let group = self.closed.get(self.bodies.get(index).membership.group)?;

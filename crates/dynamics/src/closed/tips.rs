@@ -246,7 +246,7 @@ impl World {
         let left = self.clock.next() - time;
         for &index in members {
             if left <= 0.0
-                || self.bodies.get(index).in_engine
+                || self.bodies.get(index).in_engine()
                 || !self.bodies.left_paths.moves(index, self.bodies.get(index))
                 || self.is_touched(index, time)
             {

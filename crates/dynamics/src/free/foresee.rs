@@ -42,7 +42,7 @@ impl World {
         }
         self.free.resize(&mut self.bodies, time);
         // A body that does not fall leaves the free-fall frame ever faster.
-        if self.bodies.get(index).course.moves_analytically || !self.look_round(index, time) {
+        if self.bodies.get(index).moves_analytically() || !self.look_round(index, time) {
             self.follow(index, time, 0.0);
         } else if cause == Cause::Deflected && self.is_clear(index, time) {
             self.meet_free_bodies(index, time, cause, but);
@@ -80,7 +80,7 @@ impl World {
     pub(super) fn follow(&mut self, index: u32, time: SimTime, least: f64) {
         let side = self.free.grid.side();
         let state = self.bodies.get_mut(index);
-        let way = if state.course.moves_analytically {
+        let way = if state.moves_analytically() {
             LOOK_AHEAD * state.reach
         } else {
             // As far as in a grid of its own kind.
@@ -259,7 +259,7 @@ impl World {
         let (a, b) = impact.bodies;
         if self.both_fly(a, b) {
             self.queue_near(a, b, time);
-        } else if self.bodies.get(a).course.is_free {
+        } else if self.bodies.get(a).goes_by_events() {
             self.queue_near_shape(a, impact.colliders.1, time);
         } else {
             self.queue_near_shape(b, impact.colliders.0, time);
@@ -321,9 +321,9 @@ impl World {
             Ahead::NearShape => {
                 let owner = self.colliders[entry.b as usize].body;
                 let state = self.bodies.get(owner);
-                let rests = !state.course.is_free && !state.is_active();
+                let rests = !state.goes_by_events() && !state.is_active();
                 if self.stamp(index, owner) == entry.stamp
-                    && self.bodies.get(index).course.is_free
+                    && self.bodies.get(index).goes_by_events()
                     && rests
                 {
                     self.seek_shape(index, entry.b, time, Cause::Deflected);
@@ -342,13 +342,14 @@ impl World {
     fn ends_now(&mut self, entry: &Entry) -> bool {
         let state = self.bodies.get_mut(entry.a);
         let end = self.free.end(state, entry.ahead());
+        let goes = state.goes_by_events();
         let course = &mut state.course;
         let entered = course.entered(entry.ahead());
         if *entered != entry.time {
             return false;
         }
         *entered = SimTime::NEVER;
-        if !course.is_free || entry.ahead() == Ahead::Horizon && course.cells.is_none() {
+        if !goes || entry.ahead() == Ahead::Horizon && course.cells.is_none() {
             return false;
         }
         if end > entry.time {
@@ -358,7 +359,7 @@ impl World {
     }
 
     pub(super) fn both_fly(&self, a: u32, b: u32) -> bool {
-        self.bodies.get(a).course.is_free && self.bodies.get(b).course.is_free
+        self.bodies.get(a).goes_by_events() && self.bodies.get(b).goes_by_events()
     }
 }
 

@@ -132,7 +132,7 @@ impl World {
                 continue;
             }
             let state = self.bodies.get(owner);
-            if state.course.is_free {
+            if state.goes_by_events() {
                 let [own, theirs] =
                     [index, owner].map(|body| Circle::of(self.bodies.get(body), time));
                 if let Some(window) = own.meets(&theirs) {
@@ -187,11 +187,12 @@ impl World {
 
     /// What does not fly is looked for anew: twice as far ahead where there was nothing.
     pub(super) fn look_down_again(&mut self, index: u32, time: SimTime) {
-        let course = &self.bodies.get(index).course;
+        let state = self.bodies.get(index);
+        let course = &state.course;
         let factor = if course.alone { 2.0 } else { 1.0 };
         if course.cells.is_none() {
             // Those in the grid would have to look at all of its way.
-            let lone = course.alone && !course.moves_analytically && self.free.grid.count() == 0;
+            let lone = course.alone && !state.moves_analytically() && self.free.grid.count() == 0;
             let least = if lone { factor * course.span } else { 0.0 };
             self.follow(index, time, least);
             self.meet_free_bodies(index, time, Cause::Horizon, None);
@@ -233,10 +234,10 @@ mod tests {
         assert!(world.free.is_raised(), "the first disc is on the floor");
         let mut free = 0;
         for index in world.bodies.indices() {
-            let course = &world.bodies.get(index).course;
-            if course.is_free {
+            let state = world.bodies.get(index);
+            if state.is_free() {
                 free += 1;
-                let bounds = course.reached.bounds();
+                let bounds = state.course.reached.bounds();
                 let width = bounds.max.x - bounds.min.x;
                 assert!(width < 1.1, "a disc of 1 m falls in a box of {width} m");
             }

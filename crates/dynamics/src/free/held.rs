@@ -63,7 +63,7 @@ impl World {
             return true;
         }
         let state = self.bodies.get_mut(index);
-        if state.kind != BodyKind::Dynamic || !state.course.is_free {
+        if state.kind != BodyKind::Dynamic || !state.goes_by_events() {
             return false;
         }
         state.course.land();
@@ -150,7 +150,7 @@ impl World {
     /// Whether an impact is on an island in analytic motion, which lands then: it is struck with all that holds it.
     pub(super) fn strikes_moving_island(&mut self, impact: &Foreseen, time: SimTime) -> bool {
         let ends = [impact.bodies.0, impact.bodies.1];
-        let moves_analytically = |index: u32| self.bodies.get(index).course.moves_analytically;
+        let moves_analytically = |index: u32| self.bodies.get(index).moves_analytically();
         if !ends.iter().any(|index| moves_analytically(*index)) {
             return false;
         }
@@ -167,7 +167,7 @@ impl World {
     /// Begins to sub-step a body.
     pub(crate) fn begin_substepping(&mut self, index: u32, time: SimTime) {
         // A group that is taken apart may have met a member, and joined.
-        if self.bodies.get(index).in_engine {
+        if self.bodies.get(index).in_engine() {
             return;
         }
         if !self.is_substepping() {

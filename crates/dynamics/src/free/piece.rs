@@ -11,7 +11,7 @@ impl World {
     /// All predictions for a free body are for its piece, and all its searches end with it.
     pub(super) fn follow_law(&mut self, index: u32, time: SimTime) {
         // Its law is its group's.
-        if self.bodies.get(index).course.moves_analytically {
+        if self.bodies.get(index).moves_analytically() {
             if self.piece_ends(index, time) {
                 self.begin_next_piece(index, time);
             }

@@ -183,7 +183,7 @@ impl World {
 
     /// Whether one of two bodies slides over the side of the other that the impact is on: the side that bears it is flush with that.
     fn passes(&self, ends: (u32, u32), shapes: (u32, u32), impact: &Impact, time: SimTime) -> bool {
-        let moves_analytically = |index: u32| self.bodies.get(index).course.moves_analytically;
+        let moves_analytically = |index: u32| self.bodies.get(index).moves_analytically();
         if !moves_analytically(ends.0) && !moves_analytically(ends.1) {
             return false;
         }

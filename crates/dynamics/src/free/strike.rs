@@ -41,20 +41,20 @@ impl World {
     pub(super) fn strike_free_body(&mut self, impact: &Foreseen, time: SimTime) {
         let (a, b) = impact.bodies;
         for index in [a, b] {
-            if self.bodies.get(index).asleep {
+            if self.bodies.get(index).is_asleep() {
                 // Awake it is in the hands of the solver, which is struck with all that it holds.
                 self.wake(index, time);
-                if self.bodies.get(index).in_engine {
+                if self.bodies.get(index).in_engine() {
                     let other = if index == a { b } else { a };
                     // It waits at the surface of the woken bodies for the next sub-step.
                     self.join(other, time);
                 }
-                if !self.bodies.get(index).course.is_free {
+                if !self.bodies.get(index).goes_by_events() {
                     return;
                 }
             }
             let state = self.bodies.get(index);
-            if !state.course.is_free && state.is_active() {
+            if !state.goes_by_events() && state.is_active() {
                 return;
             }
         }

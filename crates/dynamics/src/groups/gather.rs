@@ -47,11 +47,11 @@ impl Groups {
                     || !(a.is_stepped() || b.is_stepped())
                     || a.is_free()
                     || b.is_free()
-                    || a.in_engine
-                    || b.in_engine
+                    || a.in_engine()
+                    || b.in_engine()
                     // A touch has woken the sleeper; across a gap it is met, and woken, by an impact.
-                    || a.asleep
-                    || b.asleep
+                    || a.is_asleep()
+                    || b.is_asleep()
                 {
                     continue;
                 }

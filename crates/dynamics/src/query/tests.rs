@@ -238,7 +238,7 @@ fn bodies_are_found_by_the_boxes_of_whole_shapes_in_every_mode() {
             world.insert(def, star.clone(), material).expect("a body");
         }
         world.step(0.05);
-        let has_members = world.bodies.iter().any(|body| body.in_engine);
+        let has_members = world.bodies.iter().any(|body| body.in_engine());
         assert_eq!(has_members, mode == Mode::Hybrid);
         for (body, _, collider) in all_shapes(&world) {
             if !collider.solid.is_bounded() {

@@ -42,15 +42,15 @@ impl World {
     /// Whether the engine is to know a body; one that does not belong to it any more is no guest.
     fn belongs(&mut self, index: u32) -> bool {
         let state = self.bodies.get_mut(index);
-        let rests = state.asleep || !state.is_dynamic();
-        state.is_guest &= rests && !state.in_engine;
-        self.settings.mode == Mode::Stepped || state.in_engine || state.is_guest
+        let rests = state.is_asleep() || !state.is_dynamic();
+        state.is_guest &= rests && !state.in_engine();
+        self.settings.mode == Mode::Stepped || state.in_engine() || state.is_guest
     }
 
     fn enter(&mut self, stepping: &mut Stepping, index: u32, time: SimTime) {
         let state = self.bodies.get(index);
         // A body that joined within a sub-step waited there.
-        let at = if state.in_engine {
+        let at = if state.in_engine() {
             state.motion.start
         } else {
             time
@@ -84,7 +84,7 @@ impl World {
         let (pull, twist) = self.pull_on(index, state.centre_at(time));
         let told = stepping.engine.set_pull(id, pull, twist);
         debug_assert!(told.is_ok(), "{told:?}");
-        if self.bodies.get(index).asleep {
+        if self.bodies.get(index).is_asleep() {
             let told = stepping.engine.sleep(id);
             debug_assert!(told.is_ok(), "{told:?}");
         }
@@ -102,7 +102,7 @@ impl World {
         let Ok(known) = stepping.engine.state(id) else {
             return;
         };
-        if !state.asleep && stepping.engine.is_asleep(id) == Ok(true) {
+        if !state.is_asleep() && stepping.engine.is_asleep(id) == Ok(true) {
             let told = stepping.engine.wake(id);
             debug_assert!(told.is_ok(), "{told:?}");
         }

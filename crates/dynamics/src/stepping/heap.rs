@@ -75,9 +75,9 @@ impl World {
         self.end_substepping_all(&joining);
         // No body is free any more when the first one joins: pairs are found once, as those of members.
         for &index in &joining {
-            let course = &mut self.bodies.get_mut(index).course;
-            if course.is_free {
-                course.land();
+            let state = self.bodies.get_mut(index);
+            if state.goes_by_events() {
+                state.course.land();
                 self.free.vanish(&mut self.bodies, index);
             }
         }
@@ -100,7 +100,7 @@ impl World {
             next += 1;
             seen.of[index as usize] = Step::Asked;
             let state = self.bodies.get(index);
-            heap.fits &= !(state.membership.is_closed() || state.course.moves_analytically);
+            heap.fits &= !(state.membership.is_closed() || state.moves_analytically());
             let here = Here::of(state, time);
             for &mine in &state.colliders {
                 self.near_at(mine, &here, &mut scratch);
@@ -116,7 +116,7 @@ impl World {
                     }
                     heap.points += points;
                     let state = self.bodies.get(owner);
-                    let belongs = state.is_dynamic() && !state.asleep && !state.in_engine;
+                    let belongs = state.is_dynamic() && !state.is_asleep() && !state.in_engine();
                     if belongs && seen.of[owner as usize] == Step::Unseen {
                         seen.of[owner as usize] = Step::Found;
                         heap.bodies.push(owner);
@@ -259,7 +259,7 @@ mod tests {
 
     /// Members of the engine.
     fn members(world: &World) -> Vec<BodyId> {
-        let members = world.bodies.iter().filter(|state| state.in_engine);
+        let members = world.bodies.iter().filter(|state| state.in_engine());
         members.map(|state| state.id).collect()
     }
 

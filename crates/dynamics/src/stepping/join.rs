@@ -159,20 +159,20 @@ impl World {
     /// From now on the engine moves this body. In the middle of a sub-step it waits where it is for the next.
     pub(crate) fn join(&mut self, index: u32, time: SimTime) {
         let state = self.bodies.get(index);
-        if !state.is_dynamic() || state.asleep || state.in_engine {
+        if !state.is_dynamic() || state.is_asleep() || state.in_engine() {
             return;
         }
         let group = state.membership.group;
         self.dissolve(group, time);
         // A body that leaves a path searches for pairs, and may have met a member.
-        if self.bodies.get(index).in_engine {
+        if self.bodies.get(index).in_engine() {
             return;
         }
         if !self.is_substepping() {
             self.clock.catch_up(time);
         }
         self.invite();
-        if self.bodies.get(index).course.is_free {
+        if self.bodies.get(index).goes_by_events() {
             self.bodies.get_mut(index).course.land();
             self.free.vanish(&mut self.bodies, index);
         } else {
@@ -200,7 +200,7 @@ impl World {
     /// Has the engine know a body that rests or drives.
     pub(crate) fn show_engine(&mut self, index: u32) {
         let state = self.bodies.get_mut(index);
-        if !self.joins.has_guests || state.in_engine || !state.asleep && state.is_dynamic() {
+        if !self.joins.has_guests || state.in_engine() || !state.is_asleep() && state.is_dynamic() {
             return;
         }
         state.is_guest = true;
@@ -240,10 +240,10 @@ impl World {
     /// A body that the engine does not know any more is no member.
     fn end_membership(&mut self, index: u32, time: SimTime) {
         let state = self.bodies.get(index);
-        if !state.in_engine {
+        if !state.in_engine() {
             return;
         }
-        if !state.asleep {
+        if !state.is_asleep() {
             self.joins.members -= 1;
         }
         self.bodies.change(index, time, |_| {});
@@ -280,7 +280,7 @@ impl World {
         let (mut idle, mut gone) = (Vec::new(), Vec::new());
         for state in stepping.engine.without_contact() {
             let index = super::place(&state);
-            if !self.bodies.get(index).in_engine {
+            if !self.bodies.get(index).in_engine() {
                 continue;
             }
             let last = before.binary_search_by_key(&index, |known| known.0);
@@ -332,7 +332,7 @@ impl World {
 
     /// Potential energy of all members, in J.
     pub(crate) fn potential_of_members(&self) -> f64 {
-        let members = self.bodies.iter().filter(|state| state.in_engine);
+        let members = self.bodies.iter().filter(|state| state.in_engine());
         let of = |state: &BodyState| self.bodies.energy_of(state.id.index, self.clock.now).1;
         members.map(of).collect::<Sum>().value()
     }
@@ -340,7 +340,7 @@ impl World {
     /// The columns of the ledger that members have.
     pub(crate) fn book_members(&self, ledger: &mut EnergyLedger) {
         let mut gained = self.joins.balance;
-        for state in self.bodies.iter().filter(|state| state.in_engine) {
+        for state in self.bodies.iter().filter(|state| state.in_engine()) {
             let (kinetic, potential) = self.bodies.energy_of(state.id.index, self.clock.now);
             gained.add(kinetic);
             gained.add(potential);

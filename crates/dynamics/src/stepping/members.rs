@@ -79,7 +79,7 @@ impl World {
             if !self.bodies.is_alive(index) {
                 continue;
             }
-            if self.bodies.get(index).in_engine {
+            if self.bodies.get(index).in_engine() {
                 // No sub-steps were counted while all slept.
                 if !self.is_substepping() {
                     self.clock.catch_up(time);
@@ -136,7 +136,7 @@ impl World {
             // Bodies that joined since, or woke elsewhere, wait for the next sub-step.
             let is_carried = |index: &u32| {
                 let state = self.bodies.get(*index);
-                stepping.id(*index).is_some() && (state.in_engine || !state.is_dynamic())
+                stepping.id(*index).is_some() && (state.in_engine() || !state.is_dynamic())
             };
             let touched = self.bodies.touched.clone();
             let (carried, mut others) = touched.into_iter().partition(is_carried);
@@ -187,7 +187,7 @@ impl World {
         let members = self
             .forced
             .iter()
-            .filter(|index| self.bodies.get(**index).in_engine);
+            .filter(|index| self.bodies.get(**index).in_engine());
         members
             .filter_map(|index| {
                 let state = stepping.state(*index)?;

@@ -93,7 +93,7 @@ impl World {
         shapes.into_iter().any(|at| {
             let owner = self.colliders[at as usize].body;
             owner != index
-                && self.bodies.get(owner).in_engine
+                && self.bodies.get(owner).in_engine()
                 && self.nears(stepping, (index, owner), at, (time, left))
         })
     }

@@ -29,12 +29,12 @@ impl World {
             let asleep = stepping.engine.is_asleep(id).unwrap_or(false);
             let index = place(&state);
             let known = self.bodies.get_mut(index);
-            if known.asleep == asleep {
+            if known.is_asleep() == asleep {
                 continue;
             }
             if self.settings.mode == Mode::Hybrid && !asleep {
                 self.joins.woken.push(index);
-                if !known.in_engine {
+                if !known.in_engine() {
                     // A guest wakes with all that sleeps in touch with it.
                     continue;
                 }
@@ -49,7 +49,7 @@ impl World {
             self.events.push(time, kind);
             if asleep {
                 self.write_rest(&state, time);
-                if self.bodies.get(index).in_engine {
+                if self.bodies.get(index).in_engine() {
                     self.joins.members -= 1;
                     laid.push(index);
                 }
@@ -72,7 +72,7 @@ impl World {
                 continue;
             };
             let asleep = stepping.engine.is_asleep(id).unwrap_or(false);
-            if asleep && self.bodies.get(place(&state)).in_engine {
+            if asleep && self.bodies.get(place(&state)).in_engine() {
                 self.write_rest(&state, reached);
             }
         }
@@ -80,7 +80,7 @@ impl World {
 
     /// Whether the sleep of a body is the engine's to end.
     pub(crate) fn is_engines(&self, index: u32) -> bool {
-        self.settings.mode == Mode::Stepped || self.bodies.get(index).in_engine
+        self.settings.mode == Mode::Stepped || self.bodies.get(index).in_engine()
     }
 
     /// Wakes a body, what sleeps with it and what sleeps in touch with it.
@@ -97,7 +97,7 @@ impl World {
         self.take_woken(time);
         // The engine does not know it yet.
         let state = self.bodies.get_mut(index);
-        if state.asleep {
+        if state.is_asleep() {
             state.asleep = false;
             let id = state.id;
             self.events.push(time, EventKind::Awake(id));
