@@ -6,14 +6,13 @@ use carom_collision::Motion;
 use carom_math::{SimTime, Sum, Vec2};
 
 use crate::few::Few;
-use crate::free::Course;
 use crate::history::History;
 use crate::ledger::damping_loss;
 use crate::left_paths::LeftPaths;
 use crate::moved::{Moved, moves};
 use crate::state::BodyState;
 use crate::uncommon::Lag;
-use crate::{BodyError, BodyId, BodyKind, EnergyLedger, Field};
+use crate::{BodyError, BodyId, EnergyLedger, Field};
 
 /// Running sums of the energy ledger's columns, with twice the digits.
 #[derive(Clone, Copy, Debug, Default)]
@@ -173,8 +172,7 @@ impl Bodies {
         // Nothing that was foreseen comes true.
         self.renew(index);
         let state = &mut self.list[index as usize];
-        state.kind = BodyKind::Fixed;
-        state.course = Course::default();
+        state.vanish();
         state.colliders = Few::default();
         state.pairs.clear();
         self.alive[index as usize] = false;

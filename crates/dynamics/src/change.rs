@@ -351,50 +351,40 @@ impl World {
 
     /// A body that is new where it is: it gets its flight, its boxes and its pairs.
     pub(crate) fn arrive(&mut self, index: u32) {
-        if self.settings.mode == Mode::Stepped {
+        let (now, mode) = (self.clock.now, self.settings.mode);
+        if mode == Mode::Stepped {
             self.bodies.touch(index);
-            return self.deflected(index, self.clock.now);
+            self.bodies.get_mut(index).arrive(mode);
+            return self.deflected(index, now);
         }
-        let now = self.clock.now;
         self.leave(index, now);
         self.show_engine(index);
         self.hand_back_of(index, now);
         self.free.vanish(&mut self.bodies, index);
         self.end_substepping(index);
-        let is_free = self.may_fly(index);
         let state = self.bodies.get_mut(index);
-        state.course = Course {
-            is_free,
-            ..Course::default()
-        };
+        state.course = Course::default();
         // A law goes on from piece to piece: without a piece there is none.
         state.flight = None;
         state.set_piece(SimTime::NEVER);
-        if state.is_stepped() {
-            self.begin_substepping(index, now);
+        let sleeps = state.is_asleep();
+        if !sleeps {
+            state.arrive(mode);
         }
-        if is_free {
+        let (moves, is_dynamic) = (state.kind != BodyKind::Fixed, state.is_dynamic());
+        if moves {
             self.note_flight(index);
         }
-        let left = if is_free {
-            self.clock.h
-        } else {
-            self.clock.next() - now
-        };
-        let by_law = is_free && self.bodies.bends(index);
-        if left > 0.0 && self.bodies.get(index).is_dynamic() && !by_law {
-            fly(&mut self.bodies, index, now, left);
+        if is_dynamic && !self.bodies.bends(index) {
+            fly(&mut self.bodies, index, now, self.clock.h);
+        }
+        // It flies once all that sleeps with it is awake.
+        if sleeps {
+            let woken = self.woken_with(index, now);
+            self.bodies.get_mut(index).arrive(mode);
+            self.resume_woken(&woken, now);
         }
         self.deflected(index, now);
-    }
-
-    /// Whether a body moves in closed form while nothing holds it.
-    fn may_fly(&self, index: u32) -> bool {
-        match self.bodies.get(index).kind {
-            BodyKind::Fixed => false,
-            BodyKind::Kinematic => true,
-            BodyKind::Dynamic => self.settings.mode != Mode::Stepped,
-        }
     }
 
     /// Takes the boxes of a body out of the trees.

@@ -1,5 +1,7 @@
 //! Which method moves a body now: one word for what a body's flags say together, and which of their combinations there are.
 
+use crate::closed::Membership;
+use crate::free::Course;
 use crate::state::BodyState;
 use crate::{BodyKind, Mode, World};
 
@@ -94,6 +96,74 @@ impl BodyState {
     /// Moved by the engine in hybrid mode, or asleep in it.
     pub(crate) const fn in_engine(&self) -> bool {
         self.in_engine
+    }
+
+    /// What is new where it is, and awake, flies if it moves: in [`Mode::Stepped`] the engine has it.
+    pub(crate) fn arrive(&mut self, mode: Mode) {
+        self.course.is_free = match self.kind {
+            BodyKind::Fixed => false,
+            BodyKind::Kinematic => true,
+            BodyKind::Dynamic => mode != Mode::Stepped,
+        };
+    }
+
+    /// What was taken out of the world moves no more.
+    pub(crate) fn vanish(&mut self) {
+        self.kind = BodyKind::Fixed;
+        self.course = Course::default();
+    }
+
+    /// Nothing holds it any more.
+    pub(crate) fn take_off(&mut self) {
+        self.course.is_free = true;
+    }
+
+    /// Something holds it from now on, or its analytic island is given back to the sub-steps.
+    pub(crate) fn land(&mut self) {
+        (self.course.is_free, self.course.moves_analytically) = (false, false);
+        self.course.void_searches();
+    }
+
+    /// It belongs to an analytic island.
+    pub(crate) fn enter_island(&mut self, membership: Membership) {
+        self.membership = membership;
+    }
+
+    /// Its analytic island is no more.
+    pub(crate) fn leave_island(&mut self) {
+        self.membership = Membership::default();
+    }
+
+    /// Its analytic island leaves the sub-steps, and moves.
+    pub(crate) fn begin_analytic_motion(&mut self) {
+        (self.course.is_free, self.course.moves_analytically) = (true, true);
+    }
+
+    /// Its analytic island leaves the sub-steps, and rests.
+    pub(crate) fn begin_analytic_rest(&mut self) {
+        (self.asleep, self.rests_analytically) = (true, true);
+    }
+
+    /// The engine moves it from now on.
+    pub(crate) fn join(&mut self) {
+        self.in_engine = true;
+    }
+
+    /// The engine moves it no more.
+    pub(crate) fn leave(&mut self) {
+        self.in_engine = false;
+    }
+
+    /// It sleeps from now on, where it is; whether it left the sub-steps by that.
+    pub(crate) fn fall_asleep(&mut self) -> bool {
+        self.asleep = true;
+        !core::mem::take(&mut self.rests_analytically)
+    }
+
+    /// What moved a sleeper before moves it again; whether the caller took it for asleep.
+    pub(crate) fn wake(&mut self) -> bool {
+        self.asleep = false;
+        !core::mem::take(&mut self.rests_analytically)
     }
 }
 

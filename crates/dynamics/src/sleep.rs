@@ -62,7 +62,7 @@ pub(crate) fn settle(
             motion.angular_acceleration = 0.0;
         });
         let state = bodies.get_mut(index);
-        state.asleep = true;
+        state.fall_asleep();
         events.push(time, EventKind::Asleep(state.id));
         asleep.push(index);
     }
@@ -84,9 +84,8 @@ pub(crate) fn wake(
         if !state.is_asleep() {
             continue;
         }
-        state.asleep = false;
         state.slow_for = 0.0;
-        if !core::mem::take(&mut state.rests_analytically) {
+        if state.wake() {
             events.push(time, EventKind::Awake(state.id));
         }
         woken.push(index);

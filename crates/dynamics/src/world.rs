@@ -194,7 +194,9 @@ impl World {
         let now = self.clock.now;
         let mut state = BodyState::new(id, &def, &shapes, now)?;
         let sleeps = def.asleep && self.settings.sleep.is_some() && state.can_sleep();
-        state.asleep = sleeps;
+        if sleeps {
+            state.fall_asleep();
+        }
         let centroid = state.mass.centroid;
         self.bodies.insert(state);
         self.closed.reset_budget(id.index);

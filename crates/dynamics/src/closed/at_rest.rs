@@ -21,8 +21,7 @@ impl World {
                 touch.carry(&self.bodies, self.pairs.get_mut(touch.pair), self.clock.h);
             }
             for &(index, _) in &group.members {
-                let state = self.bodies.get_mut(index);
-                (state.asleep, state.rests_analytically) = (true, true);
+                self.bodies.get_mut(index).begin_analytic_rest();
                 lying.push(index);
             }
         }
@@ -41,8 +40,7 @@ impl World {
         let mut lying = Vec::new();
         for &index in &members {
             let state = self.bodies.get_mut(index);
-            state.asleep = true;
-            if !core::mem::take(&mut state.rests_analytically) {
+            if state.fall_asleep() {
                 lying.push(index);
             }
             self.events.push(time, EventKind::Asleep(state.id));

@@ -2,7 +2,6 @@
 
 use carom_math::SimTime;
 
-use super::Membership;
 use super::store::Group;
 use crate::World;
 use crate::flight::fly;
@@ -40,7 +39,7 @@ impl World {
         self.bodies.book.scheme.add(heat - driven);
         let members: Vec<u32> = group.members.iter().map(|(index, _)| *index).collect();
         for &index in &members {
-            self.bodies.get_mut(index).membership = Membership::default();
+            self.bodies.get_mut(index).leave_island();
         }
         self.leave_path(&group, time);
         members

@@ -136,7 +136,7 @@ impl World {
                 && !state.in_engine()
                 && self.may_last(index) =>
             {
-                self.bodies.get_mut(index).membership = Membership::default();
+                self.bodies.get_mut(index).membership.forget();
                 (vec![index], 0.0)
             }
             None => return,
@@ -382,7 +382,8 @@ impl World {
             self.closed.stands_still(place);
         }
         for &(index, _) in &members {
-            self.bodies.get_mut(index).membership = Membership::of(place);
+            let state = self.bodies.get_mut(index);
+            state.enter_island(Membership::of(place));
         }
         self.tell_modes(&gathered.pairs, &moves.touches, time);
         for (index, _) in members {

@@ -98,7 +98,7 @@ impl World {
                 }
             }
             let state = self.bodies.get_mut(index);
-            (state.course.is_free, state.course.moves_analytically) = (true, true);
+            state.begin_analytic_motion();
             state.set_piece(until);
             self.note_flight(index);
         }
@@ -166,7 +166,7 @@ impl World {
         let members: Vec<u32> = group.members.iter().map(|(index, _)| *index).collect();
         for &index in &members {
             let state = self.bodies.get_mut(index);
-            state.course.land();
+            state.land();
             state.idle = 0;
             self.free.vanish(&mut self.bodies, index);
         }

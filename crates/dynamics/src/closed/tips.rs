@@ -134,7 +134,8 @@ impl World {
         };
         let place = self.closed.insert(group, Some(change));
         for &(index, _) in &members {
-            self.bodies.get_mut(index).membership = Membership::of(place);
+            let state = self.bodies.get_mut(index);
+            state.enter_island(Membership::of(place));
         }
         self.lay_pieces(place, time, self.clock.next() - time);
         if self.settings.mode == Mode::Hybrid {

@@ -66,7 +66,7 @@ impl World {
         if state.kind != BodyKind::Dynamic || !state.goes_by_events() {
             return false;
         }
-        state.course.land();
+        state.land();
         state.idle = 0;
         // Events predicted for a free body are stale.
         self.bodies.renew(index);
@@ -89,7 +89,7 @@ impl World {
         }
         let bends = self.bodies.bends(index);
         let state = self.bodies.get_mut(index);
-        state.course.is_free = true;
+        state.take_off();
         // What a sub-step gave it is no piece of its own.
         state.set_piece(if bends { time } else { SimTime::NEVER });
         self.bodies.renew(index);

@@ -94,9 +94,8 @@ impl Default for Course {
 }
 
 impl Course {
-    /// It flies no more, and ends of its searches that are entered are stale: a pile that landed leaves nothing in the calendar.
-    pub(crate) const fn land(&mut self) {
-        (self.is_free, self.moves_analytically) = (false, false);
+    /// Ends of its searches that are entered are stale: a pile that landed leaves nothing in the calendar.
+    pub(crate) const fn void_searches(&mut self) {
         self.entered = (SimTime::NEVER, SimTime::NEVER);
     }
 

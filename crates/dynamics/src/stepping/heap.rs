@@ -77,7 +77,7 @@ impl World {
         for &index in &joining {
             let state = self.bodies.get_mut(index);
             if state.goes_by_events() {
-                state.course.land();
+                state.land();
                 self.free.vanish(&mut self.bodies, index);
             }
         }

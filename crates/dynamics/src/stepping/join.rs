@@ -173,7 +173,7 @@ impl World {
         }
         self.invite();
         if self.bodies.get(index).goes_by_events() {
-            self.bodies.get_mut(index).course.land();
+            self.bodies.get_mut(index).land();
             self.free.vanish(&mut self.bodies, index);
         } else {
             self.end_substepping(index);
@@ -183,7 +183,8 @@ impl World {
         let (kinetic, potential) = self.bodies.energy_of(index, time);
         self.joins.balance.add(-(kinetic + potential));
         let state = self.bodies.get_mut(index);
-        (state.in_engine, state.member, state.idle) = (true, false, 0);
+        state.join();
+        (state.member, state.idle) = (false, 0);
         self.bodies.touch(index);
         self.leave_pairs(index, time);
     }
@@ -250,7 +251,8 @@ impl World {
         let (kinetic, potential) = self.bodies.energy_of(index, time);
         self.joins.balance.add(kinetic + potential);
         let state = self.bodies.get_mut(index);
-        (state.in_engine, state.member, state.idle) = (false, false, 0);
+        state.leave();
+        (state.member, state.idle) = (false, 0);
         self.bodies.renew(index);
     }
 

@@ -39,11 +39,13 @@ impl World {
                     continue;
                 }
             }
-            (known.asleep, known.slow_for) = (asleep, 0.0);
+            known.slow_for = 0.0;
             let id = known.id;
             let kind = if asleep {
+                known.fall_asleep();
                 EventKind::Asleep(id)
             } else {
+                known.wake();
                 EventKind::Awake(id)
             };
             self.events.push(time, kind);
@@ -98,7 +100,7 @@ impl World {
         // The engine does not know it yet.
         let state = self.bodies.get_mut(index);
         if state.is_asleep() {
-            state.asleep = false;
+            state.wake();
             let id = state.id;
             self.events.push(time, EventKind::Awake(id));
         }
