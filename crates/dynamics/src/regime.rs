@@ -1,4 +1,33 @@
-//! Which method moves a body now: one word for what a body's flags say together, and which of their combinations there are.
+//! Which method moves a body now, and how one method gives it to another.
+//!
+//! All transitions are made by [`Regime::pass_to`], through the verbs of a body here. These are there:
+//!
+//! ```text
+//! from                                to                                  by
+//! Fixed, Kinematic, Free, Held,       Fixed, Kinematic, Free,             arrive, vanish
+//!   Stepped(All)                        Stepped(All)
+//! Analytic(SubStepped)                Free                                arrive
+//! Held                                Free                                take_off
+//! Free                                Held, Analytic(SubStepped)          land
+//! Held                                Analytic(SubStepped)                enter_island
+//! Analytic(SubStepped)                Held                                leave_island
+//! Analytic(SubStepped)                Analytic(Moves)                     begin_analytic_motion
+//! Analytic(Moves)                     Analytic(SubStepped)                land
+//! Analytic(SubStepped)                Analytic(Rests)                     begin_analytic_rest
+//! Held                                Stepped(Members)                    join
+//! Stepped(Members)                    Held                                leave
+//! Held, Analytic(SubStepped, Rests)   Asleep(None)                        fall_asleep
+//! Stepped(scope)                      Asleep(Some(scope))                 fall_asleep
+//! Asleep(None), Analytic(Rests)       Held, Analytic(SubStepped)          wake
+//! Asleep(Some(scope))                 Stepped(scope)                      wake
+//! Asleep(Some(Members))               Asleep(None)                        leave
+//! ```
+//! Three of these are for a while within a call, or odd:
+//! - A body of another kind keeps its regime until it arrives as what it is then (`World::remake`): a kinematic one may land, and
+//!   a fixed one take off.
+//! - Under a new gravity a body arrives beside others that did so before it: with them it may be in an island already, which is
+//!   taken apart as soon as it is there.
+//! - A sub-step may send an island to sleep before it is let go of (`Sleep::time` of 0 s): it comes to analytic rest asleep.
 
 use crate::closed::Membership;
 use crate::free::Course;
@@ -15,160 +44,256 @@ pub(crate) enum Regime {
     /// Its law of flight, until its next event.
     Free,
     /// The closed form of its contact island, until its contact mode changes.
-    Analytic,
+    Analytic(Form),
     /// Sub-steps, pair by pair.
     Held,
     /// Sub-steps of the engine.
-    Stepped,
-    /// Nothing, until it is touched.
-    Asleep,
+    Stepped(Scope),
+    /// Nothing, until it is touched: in the engine, or outside.
+    Asleep(Option<Scope>),
+}
+
+/// How an analytic island is followed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Form {
+    /// With the sub-steps, which meet what comes near.
+    SubStepped,
+    /// From event to event.
+    Moves,
+    /// Not at all: it is treated as asleep, but reported awake to the caller until its time.
+    Rests,
+}
+
+/// Which bodies an engine moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Scope {
+    /// All of a world, in [`Mode::Stepped`].
+    All,
+    /// Those that joined it, in [`Mode::Hybrid`].
+    Members,
 }
 
 impl Regime {
-    /// What a body's flags say together.
-    ///
-    /// # Errors
-    /// What contradicts itself.
-    pub(crate) fn of(state: &BodyState, mode: Mode) -> Result<Self, &'static str> {
-        let (free, moves) = (state.course.is_free, state.course.moves_analytically);
-        let closed = state.membership.is_closed();
-        if state.kind != BodyKind::Dynamic {
-            let held =
-                state.in_engine || state.asleep || state.rests_analytically || moves || closed;
-            return match (held, state.kind) {
-                (true, _) => Err("what is not dynamic is in no island, and does not sleep"),
-                (_, BodyKind::Fixed) if free => Err("a fixed body is not free"),
-                (_, BodyKind::Fixed) => Ok(Self::Fixed),
-                _ => Ok(Self::Kinematic),
-            };
+    /// Of a body that comes into a world, until it arrives there or falls asleep.
+    pub(crate) const fn at_birth(kind: BodyKind, mode: Mode) -> Self {
+        match (kind, mode) {
+            (BodyKind::Fixed, _) => Self::Fixed,
+            (BodyKind::Kinematic, _) => Self::Kinematic,
+            (BodyKind::Dynamic, Mode::Stepped) => Self::Stepped(Scope::All),
+            (BodyKind::Dynamic, _) => Self::Held,
         }
-        if state.rests_analytically && !(state.asleep && closed) {
-            return Err("a body at analytic rest sleeps in an analytic island");
+    }
+
+    /// Another method moves the body from now on: no other function makes a transition.
+    pub(crate) fn pass_to(&mut self, next: Self) {
+        debug_assert!(
+            *self == next || self.may_pass_to(next),
+            "no transition leads from {self:?} to {next:?}"
+        );
+        *self = next;
+    }
+
+    /// The table of transitions.
+    const fn may_pass_to(self, next: Self) -> bool {
+        use Form::{Moves, Rests, SubStepped};
+        use Regime::{Analytic, Asleep, Fixed, Free, Held, Kinematic, Stepped};
+        use Scope::{All, Members};
+        matches!(
+            (self, next),
+            (
+                Fixed | Kinematic | Free | Held | Stepped(All),
+                Fixed | Kinematic | Free | Stepped(All)
+            ) | (Free | Kinematic, Held | Analytic(SubStepped))
+                | (Held, Analytic(SubStepped) | Stepped(Members))
+                | (
+                    Analytic(SubStepped),
+                    Free | Held | Analytic(Moves | Rests) | Asleep(None)
+                )
+                | (Analytic(Moves), Analytic(SubStepped))
+                | (Analytic(Rests), Held | Analytic(SubStepped) | Asleep(None))
+                | (Held, Asleep(None))
+                | (Asleep(None), Held | Analytic(SubStepped | Rests))
+                | (Stepped(Members), Held | Asleep(Some(Members)))
+                | (Asleep(Some(Members)), Stepped(Members) | Asleep(None))
+                | (Stepped(All), Asleep(Some(All)))
+                | (Asleep(Some(All)), Stepped(All))
+        )
+    }
+
+    /// What contradicts the other things that a body has, when no call is under way.
+    fn check(state: &BodyState, mode: Mode) -> Result<(), &'static str> {
+        let regime = state.regime();
+        let kind = match regime {
+            Self::Fixed => BodyKind::Fixed,
+            Self::Kinematic => BodyKind::Kinematic,
+            _ => BodyKind::Dynamic,
+        };
+        if kind != state.kind {
+            return Err("what is dynamic is moved by other methods than what is not");
         }
-        if moves && !(free && closed) {
-            return Err("a body in analytic motion is free in an analytic island");
+        let islands = match regime {
+            Self::Analytic(_) => [true, true],
+            Self::Asleep(None) => [false, true],
+            _ => [false, false],
+        };
+        if !islands.contains(&state.membership.is_closed()) {
+            return Err("analytic bodies have an island, and no others that are awake");
         }
-        if state.asleep {
-            return match free || state.in_engine && closed {
-                true => Err("a sleeper is not free, nor in the engine in an analytic island"),
-                false => Ok(Self::Asleep),
-            };
+        let is_all = match regime {
+            Self::Fixed | Self::Kinematic => return Ok(()),
+            Self::Stepped(scope) | Self::Asleep(Some(scope)) => scope == Scope::All,
+            _ => false,
+        };
+        if is_all != (mode == Mode::Stepped) {
+            return Err("the engine moves all bodies of a stepped world, and only there");
         }
-        if state.in_engine {
-            return match free || closed {
-                true => Err("a stepped body is neither free nor analytic"),
-                false => Ok(Self::Stepped),
-            };
-        }
-        if free && closed && !moves {
-            return Err("a free body of an analytic island is in analytic motion");
-        }
-        Ok(match (closed, free, mode) {
-            (true, ..) => Self::Analytic,
-            (_, true, _) => Self::Free,
-            (_, _, Mode::Stepped) => Self::Stepped,
-            _ => Self::Held,
-        })
+        Ok(())
     }
 }
 
+/// What moves it.
 impl BodyState {
     /// Nothing moves it until it is touched: asleep, or in an analytic island at rest.
     pub(crate) const fn is_asleep(&self) -> bool {
-        self.asleep
+        matches!(
+            self.regime(),
+            Regime::Asleep(_) | Regime::Analytic(Form::Rests)
+        )
     }
 
     /// Its analytic island rests: treated as asleep, but reported awake to the caller until its time.
     pub(crate) const fn rests_analytically(&self) -> bool {
-        self.rests_analytically
+        matches!(self.regime(), Regime::Analytic(Form::Rests))
     }
 
     /// Moves with its analytic island, without sub-steps, until the island's mode changes.
     pub(crate) const fn moves_analytically(&self) -> bool {
-        self.course.moves_analytically
+        matches!(self.regime(), Regime::Analytic(Form::Moves))
     }
 
     /// Moves in closed form from event to event: free, kinematic, or in analytic motion.
     pub(crate) const fn goes_by_events(&self) -> bool {
-        self.course.is_free
+        matches!(
+            self.regime(),
+            Regime::Free | Regime::Kinematic | Regime::Analytic(Form::Moves)
+        )
     }
 
     /// Moved by the engine in hybrid mode, or asleep in it.
     pub(crate) const fn in_engine(&self) -> bool {
-        self.in_engine
+        matches!(
+            self.regime(),
+            Regime::Stepped(Scope::Members) | Regime::Asleep(Some(Scope::Members))
+        )
     }
+}
 
-    /// What is new where it is, and awake, flies if it moves: in [`Mode::Stepped`] the engine has it.
+/// What begins to move it.
+impl BodyState {
+    /// What is new where it is flies if it moves; in [`Mode::Stepped`] the engine has it, asleep or awake.
     pub(crate) fn arrive(&mut self, mode: Mode) {
-        self.course.is_free = match self.kind {
-            BodyKind::Fixed => false,
-            BodyKind::Kinematic => true,
-            BodyKind::Dynamic => mode != Mode::Stepped,
+        let next = match (self.kind, mode) {
+            (BodyKind::Fixed, _) => Regime::Fixed,
+            (BodyKind::Kinematic, _) => Regime::Kinematic,
+            (BodyKind::Dynamic, Mode::Stepped) if self.is_asleep() => return,
+            (BodyKind::Dynamic, Mode::Stepped) => Regime::Stepped(Scope::All),
+            (BodyKind::Dynamic, _) => Regime::Free,
         };
+        self.pass_to(next);
     }
 
     /// What was taken out of the world moves no more.
     pub(crate) fn vanish(&mut self) {
         self.kind = BodyKind::Fixed;
+        self.pass_to(Regime::Fixed);
         self.course = Course::default();
     }
 
     /// Nothing holds it any more.
     pub(crate) fn take_off(&mut self) {
-        self.course.is_free = true;
+        self.pass_to(Regime::Free);
     }
 
     /// Something holds it from now on, or its analytic island is given back to the sub-steps.
     pub(crate) fn land(&mut self) {
-        (self.course.is_free, self.course.moves_analytically) = (false, false);
+        match self.regime() {
+            Regime::Free | Regime::Kinematic => self.pass_to(self.held()),
+            Regime::Analytic(Form::Moves) => self.pass_to(Regime::Analytic(Form::SubStepped)),
+            _ => {}
+        }
         self.course.void_searches();
     }
 
     /// It belongs to an analytic island.
     pub(crate) fn enter_island(&mut self, membership: Membership) {
         self.membership = membership;
+        self.pass_to(Regime::Analytic(Form::SubStepped));
     }
 
-    /// Its analytic island is no more.
+    /// Its analytic island is no more. One at rest is treated as asleep until it wakes.
     pub(crate) fn leave_island(&mut self) {
         self.membership = Membership::default();
+        if self.regime() == Regime::Analytic(Form::SubStepped) {
+            self.pass_to(Regime::Held);
+        }
     }
 
     /// Its analytic island leaves the sub-steps, and moves.
     pub(crate) fn begin_analytic_motion(&mut self) {
-        (self.course.is_free, self.course.moves_analytically) = (true, true);
+        self.pass_to(Regime::Analytic(Form::Moves));
     }
 
     /// Its analytic island leaves the sub-steps, and rests.
     pub(crate) fn begin_analytic_rest(&mut self) {
-        (self.asleep, self.rests_analytically) = (true, true);
+        self.pass_to(Regime::Analytic(Form::Rests));
     }
 
     /// The engine moves it from now on.
     pub(crate) fn join(&mut self) {
-        self.in_engine = true;
+        self.pass_to(Regime::Stepped(Scope::Members));
     }
 
-    /// The engine moves it no more.
+    /// The engine has it no more.
     pub(crate) fn leave(&mut self) {
-        self.in_engine = false;
+        self.pass_to(if self.is_asleep() {
+            Regime::Asleep(None)
+        } else {
+            Regime::Held
+        });
     }
 
     /// It sleeps from now on, where it is; whether it left the sub-steps by that.
     pub(crate) fn fall_asleep(&mut self) -> bool {
-        self.asleep = true;
-        !core::mem::take(&mut self.rests_analytically)
+        let rested = self.rests_analytically();
+        self.pass_to(match self.regime() {
+            Regime::Stepped(scope) => Regime::Asleep(Some(scope)),
+            _ => Regime::Asleep(None),
+        });
+        !rested
     }
 
     /// What moved a sleeper before moves it again; whether the caller took it for asleep.
     pub(crate) fn wake(&mut self) -> bool {
-        self.asleep = false;
-        !core::mem::take(&mut self.rests_analytically)
+        let rested = self.rests_analytically();
+        self.pass_to(match self.regime() {
+            Regime::Asleep(Some(scope)) => Regime::Stepped(scope),
+            _ => self.held(),
+        });
+        !rested
+    }
+
+    /// Of a body that the sub-steps follow pair by pair: in an island, or outside.
+    const fn held(&self) -> Regime {
+        if self.membership.is_closed() {
+            Regime::Analytic(Form::SubStepped)
+        } else {
+            Regime::Held
+        }
     }
 }
 
 impl World {
-    /// Whether every body is moved by one method, in builds that check so.
+    /// Whether what every body has goes together, in builds that check so.
     pub(crate) fn check_regimes(&self) {
         if cfg!(debug_assertions) {
             for state in self.bodies.iter() {
@@ -177,11 +302,11 @@ impl World {
         }
     }
 
-    /// Whether a body is moved by one method, in builds that check so.
+    /// Whether what a body has goes together, in builds that check so.
     pub(crate) fn check_regime(&self, index: u32) {
         if cfg!(debug_assertions) {
             let state = self.bodies.get(index);
-            if let Err(why) = Regime::of(state, self.settings.mode) {
+            if let Err(why) = Regime::check(state, self.settings.mode) {
                 panic!("{}: {why}", state.id);
             }
         }

@@ -13,8 +13,9 @@ use crate::flight::Flight;
 use crate::free::Course;
 use crate::impact::ImpactBody;
 use crate::mass::mass_of;
+use crate::regime::Regime;
 use crate::uncommon::{Lag, Uncommon};
-use crate::{BodyDef, BodyId, BodyKind, Filter, Material};
+use crate::{BodyDef, BodyId, BodyKind, Filter, Material, Mode};
 use carom_collision::NodeId;
 
 /// All that a world keeps of one body. Nothing else stores a pose.
@@ -35,13 +36,10 @@ pub(crate) struct BodyState {
     pub(crate) locked_rotation: bool,
     /// Solved for as part of a group in this sub-step.
     pub(crate) member: bool,
-    /// Moved by the engine in hybrid mode, or asleep in it.
-    pub(crate) in_engine: bool,
+    /// What moves it: [`Self::pass_to`] alone changes it.
+    regime: Regime,
     /// Known to the engine in hybrid mode, and moved by something else.
     pub(crate) is_guest: bool,
-    pub(crate) asleep: bool,
-    /// Its analytic island rests: treated as asleep, but reported awake to the caller until its time.
-    pub(crate) rests_analytically: bool,
     /// Sub-steps in which nothing was near.
     pub(crate) idle: u8,
     /// The law of a flight in a field or with damping, since anything else changed the motion.
@@ -113,6 +111,7 @@ impl BodyState {
         def: &BodyDef,
         shapes: &[(Shape, Material)],
         now: SimTime,
+        mode: Mode,
     ) -> Result<Self, BodyError> {
         let mass = mass_of(def, shapes)?;
         let moving = def.kind == BodyKind::Dynamic;
@@ -160,10 +159,8 @@ impl BodyState {
             }),
             flight: None,
             member: false,
-            in_engine: false,
+            regime: Regime::at_birth(def.kind, mode),
             is_guest: false,
-            asleep: false,
-            rests_analytically: false,
             membership: Membership::default(),
             course: Course::default(),
             idle: 0,
@@ -175,6 +172,15 @@ impl BodyState {
             colliders: Few::default(),
             pairs: Vec::new(),
         })
+    }
+
+    pub(crate) const fn regime(&self) -> Regime {
+        self.regime
+    }
+
+    /// Another method moves it from now on.
+    pub(crate) fn pass_to(&mut self, next: Regime) {
+        self.regime.pass_to(next);
     }
 
     /// Which of the body's shapes a collider is, in the order of insertion.

@@ -192,7 +192,7 @@ impl World {
         }
         let id = self.bodies.next_id()?;
         let now = self.clock.now;
-        let mut state = BodyState::new(id, &def, &shapes, now)?;
+        let mut state = BodyState::new(id, &def, &shapes, now, self.settings.mode)?;
         let sleeps = def.asleep && self.settings.sleep.is_some() && state.can_sleep();
         if sleeps {
             state.fall_asleep();

@@ -50,10 +50,6 @@ pub(crate) struct Course {
     pub(crate) ground: SimTime,
     /// Where it is in the grid; none for what is too large for it, and is in the tree of boxes.
     pub(crate) cells: Option<Cells>,
-    /// It moves in closed form, from event to event.
-    pub(crate) is_free: bool,
-    /// It moves with its analytic island, without sub-steps, until the island's mode changes.
-    pub(crate) moves_analytically: bool,
     /// Nothing was found where it looked down, but for half-planes.
     pub(crate) alone: bool,
     /// Box of its bounding circle up to the horizon, in the frame that falls.
@@ -76,8 +72,6 @@ pub(crate) struct Course {
 impl Default for Course {
     fn default() -> Self {
         Self {
-            is_free: false,
-            moves_analytically: false,
             swept: Sides::NOTHING,
             cells: None,
             ground: SimTime::ZERO,
