@@ -22,12 +22,12 @@
 //! Asleep(Some(scope))                 Stepped(scope)                      wake
 //! Asleep(Some(Members))               Asleep(None)                        leave
 //! ```
-//! Three of these are for a while within a call, or odd:
-//! - A body of another kind keeps its regime until it arrives as what it is then (`World::remake`): a kinematic one may land, and
-//!   a fixed one take off.
-//! - Under a new gravity a body arrives beside others that did so before it: with them it may be in an island already, which is
-//!   taken apart as soon as it is there.
-//! - A sub-step may send an island to sleep before it is let go of (`Sleep::time` of 0 s): it comes to analytic rest asleep.
+//! - A body of another kind keeps its regime until it arrives as what it is then (`World::remake`): a kinematic one may land
+//!   before, and a fixed one take off.
+//! - Under another gravity bodies arrive one after the other. One that is in an island with earlier ones has left it when its
+//!   arrival is over.
+//! - Sub-steps may send an island to sleep before they let go of it, if [`crate::Sleep::time`] is 0: it comes to analytic rest
+//!   asleep.
 
 use crate::closed::Membership;
 use crate::free::Course;
@@ -151,7 +151,7 @@ impl Regime {
     }
 }
 
-/// What moves it.
+/// What moves it. A body that is remade may be of another kind than its regime: those of these that depend on it ask for it.
 impl BodyState {
     /// Nothing moves it until it is touched: asleep, or in an analytic island at rest.
     pub(crate) const fn is_asleep(&self) -> bool {
@@ -185,6 +185,26 @@ impl BodyState {
             self.regime(),
             Regime::Stepped(Scope::Members) | Regime::Asleep(Some(Scope::Members))
         )
+    }
+
+    /// Moves by itself now: neither fixed nor asleep.
+    pub(crate) fn is_active(&self) -> bool {
+        self.kind != BodyKind::Fixed && !self.is_asleep()
+    }
+
+    /// Dynamic, and nothing holds it.
+    pub(crate) fn is_free(&self) -> bool {
+        self.is_dynamic() && self.goes_by_events()
+    }
+
+    /// Moved by the sub-steps.
+    pub(crate) fn is_stepped(&self) -> bool {
+        self.is_active() && !self.goes_by_events()
+    }
+
+    /// Dynamic, and sub-stepped pair by pair.
+    pub(crate) fn is_held(&self) -> bool {
+        self.is_dynamic() && self.is_stepped() && !self.in_engine()
     }
 }
 

@@ -312,26 +312,6 @@ impl BodyState {
         self.uncommon().sleep_allowed
     }
 
-    /// Moves by itself now: neither fixed nor asleep.
-    pub(crate) fn is_active(&self) -> bool {
-        self.kind != BodyKind::Fixed && !self.is_asleep()
-    }
-
-    /// Dynamic, and nothing holds it.
-    pub(crate) fn is_free(&self) -> bool {
-        self.is_dynamic() && self.goes_by_events()
-    }
-
-    /// Moved by the sub-steps.
-    pub(crate) fn is_stepped(&self) -> bool {
-        self.is_active() && !self.goes_by_events()
-    }
-
-    /// Dynamic, and sub-stepped pair by pair.
-    pub(crate) fn is_held(&self) -> bool {
-        self.is_dynamic() && self.is_stepped() && !self.in_engine()
-    }
-
     /// Whether anything slows it down by itself.
     pub(crate) fn is_damped(&self) -> bool {
         self.damping() != (0.0, 0.0)

@@ -53,8 +53,7 @@ impl World {
                     return;
                 }
             }
-            let state = self.bodies.get(index);
-            if !state.goes_by_events() && state.is_active() {
+            if self.bodies.get(index).is_stepped() {
                 return;
             }
         }

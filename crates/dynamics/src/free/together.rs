@@ -128,9 +128,7 @@ impl World {
         struck.iter().all(|(_, impact)| {
             let ends = [impact.bodies.0, impact.bodies.1].map(|index| self.bodies.get(index));
             let is_free = |state: &&BodyState| {
-                !state.is_asleep()
-                    && !state.moves_analytically()
-                    && (state.goes_by_events() || !state.is_active())
+                !(state.is_asleep() || state.moves_analytically() || state.is_stepped())
             };
             ends.iter().all(is_free) && self.approaches(impact, &self.ends_of(impact, time))
         })

@@ -100,7 +100,7 @@ impl World {
             next += 1;
             seen.of[index as usize] = Step::Asked;
             let state = self.bodies.get(index);
-            heap.fits &= !(state.membership.is_closed() || state.moves_analytically());
+            heap.fits &= !state.membership.is_closed();
             let here = Here::of(state, time);
             for &mine in &state.colliders {
                 self.near_at(mine, &here, &mut scratch);
