@@ -4,8 +4,8 @@
 //!
 //! ```text
 //! from                                to                                  by
-//! Fixed, Kinematic, Free, Held,       Fixed, Kinematic, Free,             arrive, vanish
-//!   Stepped(All)                        Stepped(All)
+//! Fixed, Kinematic, Free, Held        Fixed, Kinematic, Free              arrive, vanish
+//! Fixed, Kinematic, Stepped(All)      Fixed, Kinematic, Stepped(All)      arrive, vanish
 //! Analytic(SubStepped)                Free                                arrive
 //! Held                                Free                                take_off
 //! Free                                Held, Analytic(SubStepped)          land
@@ -98,26 +98,28 @@ impl Regime {
         use Form::{Moves, Rests, SubStepped};
         use Regime::{Analytic, Asleep, Fixed, Free, Held, Kinematic, Stepped};
         use Scope::{All, Members};
-        matches!(
-            (self, next),
-            (
-                Fixed | Kinematic | Free | Held | Stepped(All),
-                Fixed | Kinematic | Free | Stepped(All)
-            ) | (Free | Kinematic, Held | Analytic(SubStepped))
-                | (Held, Analytic(SubStepped) | Stepped(Members))
-                | (
-                    Analytic(SubStepped),
-                    Free | Held | Analytic(Moves | Rests) | Asleep(None)
-                )
-                | (Analytic(Moves), Analytic(SubStepped))
-                | (Analytic(Rests), Held | Analytic(SubStepped) | Asleep(None))
-                | (Held, Asleep(None))
-                | (Asleep(None), Held | Analytic(SubStepped | Rests))
-                | (Stepped(Members), Held | Asleep(Some(Members)))
-                | (Asleep(Some(Members)), Stepped(Members) | Asleep(None))
-                | (Stepped(All), Asleep(Some(All)))
-                | (Asleep(Some(All)), Stepped(All))
-        )
+        match self {
+            Fixed => matches!(next, Kinematic | Free | Stepped(All)),
+            Kinematic => matches!(
+                next,
+                Fixed | Free | Held | Analytic(SubStepped) | Stepped(All)
+            ),
+            Free => matches!(next, Fixed | Kinematic | Held | Analytic(SubStepped)),
+            Held => matches!(
+                next,
+                Fixed | Kinematic | Free | Analytic(SubStepped) | Stepped(Members) | Asleep(None)
+            ),
+            Analytic(SubStepped) => {
+                matches!(next, Free | Held | Analytic(Moves | Rests) | Asleep(None))
+            }
+            Analytic(Moves) => matches!(next, Analytic(SubStepped)),
+            Analytic(Rests) => matches!(next, Held | Analytic(SubStepped) | Asleep(None)),
+            Stepped(Members) => matches!(next, Held | Asleep(Some(Members))),
+            Stepped(All) => matches!(next, Fixed | Kinematic | Asleep(Some(All))),
+            Asleep(None) => matches!(next, Held | Analytic(SubStepped | Rests)),
+            Asleep(Some(Members)) => matches!(next, Stepped(Members) | Asleep(None)),
+            Asleep(Some(All)) => matches!(next, Stepped(All)),
+        }
     }
 
     /// What contradicts the other things that a body has, when no call is under way.
@@ -330,5 +332,67 @@ impl World {
                 panic!("{}: {why}", state.id);
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ALL: [Regime; 12] = [
+        Regime::Fixed,
+        Regime::Kinematic,
+        Regime::Free,
+        Regime::Analytic(Form::SubStepped),
+        Regime::Analytic(Form::Moves),
+        Regime::Analytic(Form::Rests),
+        Regime::Held,
+        Regime::Stepped(Scope::All),
+        Regime::Stepped(Scope::Members),
+        Regime::Asleep(None),
+        Regime::Asleep(Some(Scope::All)),
+        Regime::Asleep(Some(Scope::Members)),
+    ];
+
+    /// Where a body of the regime `first` may come to, after any number of transitions.
+    fn reached(first: Regime) -> Vec<Regime> {
+        let mut found = vec![first];
+        let mut next = 0;
+        while let Some(&from) = found.get(next) {
+            next += 1;
+            let more = ALL.into_iter().filter(|to| from.may_pass_to(*to));
+            let more: Vec<_> = more.filter(|to| !found.contains(to)).collect();
+            found.extend(more);
+        }
+        found
+    }
+
+    #[test]
+    fn every_regime_is_reached_and_left() {
+        for from in ALL {
+            assert_eq!(reached(from).len(), ALL.len(), "from {from:?}");
+        }
+    }
+
+    #[test]
+    fn the_engine_gives_no_member_to_a_closed_form_at_once() {
+        for from in [Regime::Stepped(Scope::Members), Regime::Stepped(Scope::All)] {
+            for form in [Form::SubStepped, Form::Moves, Form::Rests] {
+                assert!(!from.may_pass_to(Regime::Analytic(form)));
+            }
+        }
+    }
+
+    #[test]
+    #[cfg(debug_assertions)]
+    #[should_panic(expected = "no transition leads from Free to Asleep(None)")]
+    fn the_top_of_a_throw_is_no_rest() {
+        let mut regime = Regime::Free;
+        regime.pass_to(Regime::Asleep(None));
+    }
+
+    #[test]
+    fn a_regime_fills_two_bytes_at_most() {
+        assert!(size_of::<Regime>() <= 2, "{}", size_of::<Regime>());
     }
 }
