@@ -153,7 +153,7 @@ impl Regime {
     }
 }
 
-/// What moves it. A body that is remade may be of another kind than its regime: those of these that depend on it ask for it.
+/// What moves it. While a body is remade its kind is newer than its regime: what depends on both asks for both.
 impl BodyState {
     /// Nothing moves it until it is touched: asleep, or in an analytic island at rest.
     pub(crate) const fn is_asleep(&self) -> bool {
