@@ -35,6 +35,8 @@ pub(crate) struct FastBody {
     from: (Vec2, f64),
     /// Rows do not know of it: touches with moving bodies are searched for, too.
     unforeseen: bool,
+    /// A caller moves it: no rows were solved for, and what it touches does not hold it.
+    carried: bool,
 }
 
 /// The same during the search.
@@ -43,6 +45,7 @@ struct Moving {
     birth: u64,
     motion: Motion,
     unforeseen: bool,
+    carried: bool,
     /// It leaves the swept boxes of the tick.
     leaves_boxes: bool,
     /// How often it touched so far.
@@ -91,6 +94,7 @@ pub(crate) fn note_fast(
                 slot: bodies.slot_of[at],
                 from: (from.v(), from.w()),
                 unforeseen: turns || deviates,
+                carried: false,
             });
         }
     }
@@ -129,6 +133,7 @@ impl Engine {
                 slot: id.slot,
                 from: (d, turn),
                 unforeseen: true,
+                carried: true,
             });
         }
         Ok(())
@@ -246,6 +251,7 @@ impl Engine {
             birth: record.birth,
             motion,
             unforeseen: body.unforeseen,
+            carried: body.carried,
             leaves_boxes: !known.contains(bounds_of(&motion, 0.0, left)),
             touches: 0,
         }

@@ -177,10 +177,10 @@ impl Engine {
             }
             for (core, whole) in cores(piece_of_mine) {
                 let left = first.map_or(to, |first| first.0) - from;
-                // A way into what is touched already, deeper than a core lies: no row takes what a caller gives within a sub-step.
+                // A way into what is touched already, deeper than a core lies.
                 let drives = |hit: &Impact| {
                     let against = (own.velocity - other.velocity).dot(hit.normal);
-                    against * (to - from) > CORE * 0.5 * piece_of_mine.extent
+                    body.carried && against * (to - from) > CORE * 0.5 * piece_of_mine.extent
                 };
                 let met = match time_of_impact(&core, &own, target, &other, left) {
                     TimeOfImpact::Hit(hit) => (hit.time, Some(hit.normal)),
