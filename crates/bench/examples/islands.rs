@@ -16,7 +16,7 @@ use carom_math::{Vec2, trig, vec2};
 
 type Outcome<T> = Result<T, Box<dyn std::error::Error>>;
 
-const SCENES: [&str; 7] = [
+const SCENES: [&str; 8] = [
     "rock",
     "kicks",
     "stacks",
@@ -24,6 +24,7 @@ const SCENES: [&str; 7] = [
     "platforms",
     "tiles",
     "dominoes",
+    "beside",
 ];
 
 fn main() -> Outcome<()> {
@@ -66,7 +67,7 @@ fn measure(name: &str, mode: Mode, count: u32) -> Outcome<()> {
     times.sort_by(f64::total_cmp);
     let (median, worst) = (times[times.len() / 2], times[times.len() - 1]);
     let mean = times.iter().sum::<f64>() / times.len() as f64;
-    let rise = if name == "platforms" {
+    let rise = if matches!(name, "platforms" | "beside") {
         "-".to_owned()
     } else {
         format!("{:.1e}", rise / most)
@@ -96,6 +97,9 @@ impl Scene {
         if name != "tiles" {
             let floor = HalfPlane::new(Vec2::ZERO, Vec2::Y)?;
             scene.world.insert(BodyDef::fixed(), floor, wood())?;
+        }
+        if name == "beside" {
+            scene.stir()?;
         }
         for k in 0..count {
             let x = 12.0 * f64::from(k);
@@ -141,6 +145,13 @@ impl Scene {
                         scene.block(slides.moving(vec2(3.0, 0.0)), 0.5, 0.5)?;
                     }
                 }
+                // 100,000 blocks by default that do nothing.
+                "beside" => {
+                    for place in 0..100 {
+                        let at = vec2(100.0 + 3.0 * (100.0 * f64::from(k) + f64::from(place)), 0.5);
+                        scene.block(BodyDef::fixed().at(at), 1.0, 1.0)?;
+                    }
+                }
                 "dominoes" => {
                     let def = BodyDef::dynamic().at(vec2(0.6 * f64::from(k), 1.0));
                     let def = if k == 0 { def.spinning(-1.5) } else { def };
@@ -150,6 +161,20 @@ impl Scene {
             }
         }
         Ok(scene)
+    }
+
+    /// Twenty boxes between two walls that a blade stirs.
+    fn stir(&mut self) -> Outcome<()> {
+        let blade = BodyDef::kinematic().at(vec2(0.0, 3.0)).spinning(2.0);
+        self.block(blade, 6.0, 0.4)?;
+        for x in [-4.0, 4.0] {
+            self.block(BodyDef::fixed().at(vec2(x, 50.0)), 0.5, 100.0)?;
+        }
+        for k in 0..20 {
+            let at = vec2(f64::from(k % 5) - 2.0, 4.0 + f64::from(k / 5));
+            self.block(BodyDef::dynamic().at(at), 0.6, 0.6)?;
+        }
+        Ok(())
     }
 
     fn block(&mut self, def: BodyDef, width: f64, height: f64) -> Outcome<BodyId> {

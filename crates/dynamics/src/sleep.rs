@@ -18,20 +18,27 @@ pub(crate) fn settle(
     h: f64,
     events: &mut Events,
 ) -> Vec<u32> {
-    let mut tree = Tree::new(bodies.places());
+    // Groups by places in the list, which is in order.
+    let mut tree = Tree::new(stepped.len());
     let mut restless = Vec::new();
+    #[expect(clippy::cast_possible_truncation, reason = "fewer than bodies")]
+    let place = |index: u32| stepped.binary_search(&index).ok().map(|at| at as u32);
     for (a, b) in groups.links() {
         match (bodies.get(a).kind, bodies.get(b).kind) {
-            (BodyKind::Dynamic, BodyKind::Dynamic) => tree.join(a, b),
-            (BodyKind::Kinematic, _) if moves(bodies, a) => restless.push(b),
-            (_, BodyKind::Kinematic) if moves(bodies, b) => restless.push(a),
+            (BodyKind::Dynamic, BodyKind::Dynamic) => {
+                if let Some((a, b)) = place(a).zip(place(b)) {
+                    tree.join(a, b);
+                }
+            }
+            (BodyKind::Kinematic, _) if moves(bodies, a) => restless.extend(place(b)),
+            (_, BodyKind::Kinematic) if moves(bodies, b) => restless.extend(place(a)),
             _ => {}
         }
     }
     // Least time of rest in each group, kept at its root.
-    let mut least = vec![f64::INFINITY; bodies.places()];
+    let mut least = vec![f64::INFINITY; stepped.len()];
     let mut asleep = Vec::new();
-    for &index in stepped {
+    for (&index, at) in stepped.iter().zip(0..) {
         let pushed = groups.pushed(index);
         let state = bodies.get_mut(index);
         let end = time + h;
@@ -43,14 +50,14 @@ pub(crate) fn settle(
             0.0
         };
         let slow = state.slow_for;
-        let root = tree.root(index) as usize;
+        let root = tree.root(at) as usize;
         least[root] = least[root].min(slow);
     }
-    for index in restless {
-        least[tree.root(index) as usize] = 0.0;
+    for at in restless {
+        least[tree.root(at) as usize] = 0.0;
     }
-    for &index in stepped {
-        if least[tree.root(index) as usize] < sleep.time {
+    for (&index, at) in stepped.iter().zip(0..) {
+        if least[tree.root(at) as usize] < sleep.time {
             continue;
         }
         let (kinetic, _) = bodies.energy_of(index, time);

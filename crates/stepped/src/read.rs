@@ -253,7 +253,11 @@ impl Engine {
         }
         let of_contact = |(id, side): (u32, usize)| {
             let (block, _, lane) = self.graph.lane(id);
-            let [a, b] = if side == 0 { [own, still] } else { [still, own] };
+            let [a, b] = if side == 0 {
+                [own, still]
+            } else {
+                [still, own]
+            };
             let [first, second] = block.along(lane, a, b);
             let [j1, j2, jt] = block.impulses(lane);
             j1 * first + j2 * second + jt * block.across(lane, a, b)

@@ -119,8 +119,7 @@ impl World {
     /// A frame that is no faster than its free bodies among themselves: all of them look round in it.
     fn retune(&mut self, time: SimTime) {
         self.free.drifts = false;
-        let here = |i: &u32| self.bodies.get(*i).course.cells.is_some();
-        let free: Vec<u32> = self.bodies.indices().filter(here).collect();
+        let free = self.free.in_order();
         let Some(mean) = drift(&self.free.frame, &self.bodies, &free, time) else {
             return;
         };
@@ -167,9 +166,7 @@ impl World {
             PairSearch::Indexed => {}
             PairSearch::None => near.clear(),
             PairSearch::AllPairs => {
-                near.clear();
-                let here = |i: &u32| self.bodies.get(*i).course.cells.is_some();
-                near.extend(self.bodies.indices().filter(here));
+                near = self.free.in_order();
             }
         }
         let look = self.free.looks(&self.bodies, index, time);

@@ -76,10 +76,13 @@ impl World {
 
     /// Boxes of all free bodies without the room about their ways: from now on bodies need to find them by narrow ones.
     pub(super) fn narrow(&mut self, time: SimTime) {
-        for index in self.bodies.indices().collect::<Vec<_>>() {
+        if !self.free.grounded {
+            return;
+        }
+        for index in self.free.in_order() {
             let state = self.bodies.get_mut(index);
             let left = state.course.ground - time;
-            if state.course.cells.is_none() || !self.free.grounded || left < 0.0 {
+            if left < 0.0 {
                 continue;
             }
             let way = swept(state, &Track::of(&state.motion, time), at_most(left));
@@ -96,11 +99,9 @@ impl World {
             return;
         }
         self.free.grounded = true;
-        for index in self.bodies.indices().collect::<Vec<_>>() {
-            if self.bodies.get(index).course.cells.is_some() {
-                self.look_down(index, time, self.first_span(index, time));
-                self.meet_shapes(index, time, Cause::Horizon);
-            }
+        for index in self.free.in_order() {
+            self.look_down(index, time, self.first_span(index, time));
+            self.meet_shapes(index, time, Cause::Horizon);
         }
     }
 

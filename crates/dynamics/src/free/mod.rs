@@ -125,8 +125,12 @@ pub(crate) struct FreeBodies {
     aloft: Option<BoxTree>,
     /// When they go, if no body is sub-stepped then.
     raised_until: SimTime,
-    /// Their nodes there, by body.
+    /// Their nodes there, by body, and the bodies that have or had one.
     nodes: Vec<Option<NodeId>>,
+    raised: Vec<u32>,
+    /// Bodies in the grid, in no order, and where each of them is there, by body.
+    listed: Vec<u32>,
+    spots: Vec<usize>,
     /// Circles of the grid's free bodies, by body.
     circles: Vec<Registered>,
     /// Until when they have looked round for each other, by body.
@@ -164,6 +168,9 @@ impl FreeBodies {
             aloft: None,
             raised_until: SimTime::ZERO,
             nodes: Vec::new(),
+            raised: Vec::new(),
+            listed: Vec::new(),
+            spots: Vec::new(),
             circles: Vec::new(),
             horizons: Vec::new(),
             queue: Queue::default(),
@@ -231,7 +238,9 @@ impl FreeBodies {
             return false;
         }
         let swept_box = SweptBox::new(index, course.swept);
-        match course.cells.replace(cells) {
+        let known = course.cells.replace(cells);
+        let is_new = known.is_none();
+        match known {
             Some(known) => self.grid.shift(swept_box, known, cells),
             None => self.grid.insert(swept_box, cells),
         }
@@ -239,6 +248,11 @@ impl FreeBodies {
         if self.circles.len() <= place {
             self.circles.resize(place + 1, Registered::default());
             self.horizons.resize(place + 1, SimTime::ZERO);
+            self.spots.resize(place + 1, 0);
+        }
+        if is_new {
+            self.spots[place] = self.listed.len();
+            self.listed.push(index);
         }
         let state = bodies.get(index);
         self.circles[place] = Registered::of(state, colliders, &self.frame);
@@ -251,7 +265,19 @@ impl FreeBodies {
         let course = &mut bodies.get_mut(index).course;
         if let Some(cells) = course.cells.take() {
             self.grid.remove(index, cells);
+            let spot = self.spots[index as usize];
+            self.listed.swap_remove(spot);
+            if let Some(moved) = self.listed.get(spot) {
+                self.spots[*moved as usize] = spot;
+            }
         }
+    }
+
+    /// Bodies of the grid, in order.
+    fn in_order(&self) -> Vec<u32> {
+        let mut bodies = self.listed.clone();
+        bodies.sort_unstable();
+        bodies
     }
 
     /// Sizes the cells anew where searches meet too many bodies, or hardly any.
@@ -267,10 +293,7 @@ impl FreeBodies {
             (self.met as f64 / searches, self.renewed as f64 / searches)
         };
         (self.searches, self.renewed, self.met) = (0, 0, 0);
-        let free: Vec<u32> = bodies
-            .indices()
-            .filter(|i| bodies.get(*i).course.cells.is_some())
-            .collect();
+        let free = self.in_order();
         if free.is_empty() {
             return;
         }

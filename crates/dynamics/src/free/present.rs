@@ -51,7 +51,7 @@ impl FreeBodies {
                     near.push(body);
                 }
             }),
-            None => near.extend(bodies.indices().filter(|body| here(*body))),
+            None => near.extend(self.listed.iter().filter(|body| here(**body))),
         }
         near.sort_unstable();
     }
@@ -72,7 +72,7 @@ impl FreeBodies {
         };
         let cells = self.grid.cells(seen);
         if cells.count() > self.grid.count() as u64 {
-            near.extend(bodies.indices().filter(|body| here(*body)));
+            near.extend(self.listed.iter().filter(|body| here(**body)));
         } else {
             let swept_box = SweptBox::new(u32::MAX, Sides::around(seen));
             self.grid.gather(&swept_box, cells, &mut near);
@@ -85,16 +85,10 @@ impl FreeBodies {
 
     /// From now on bodies look for free bodies by boxes in the world.
     pub(crate) fn raise(&mut self, bodies: &Bodies) {
-        let mut tree = BoxTree::new();
-        self.nodes = vec![None; bodies.places()];
-        for index in bodies.indices() {
-            let course = &bodies.get(index).course;
-            self.nodes[index as usize] = course.cells.map(|_| {
-                let bounds = course.reached.bounds();
-                tree.insert(bounds.grown(roundable(bounds)), index)
-            });
+        self.aloft = Some(BoxTree::new());
+        for index in self.in_order() {
+            self.lift(&bodies.get(index).course, index);
         }
-        self.aloft = Some(tree);
     }
 
     /// Whether bodies look for free bodies by boxes in the world.
@@ -105,7 +99,9 @@ impl FreeBodies {
     /// Drops the boxes in the world: no body looks for free bodies there any more.
     pub(crate) fn lower(&mut self) {
         self.aloft = None;
-        self.nodes = Vec::new();
+        for index in self.raised.drain(..) {
+            self.nodes[index as usize] = None;
+        }
     }
 
     /// Keeps the box in the world of a free body in the grid.
@@ -123,7 +119,17 @@ impl FreeBodies {
             Some(node) => {
                 tree.update(node, bounds);
             }
-            None => self.nodes[at] = Some(tree.insert(bounds, index)),
+            None => {
+                self.nodes[at] = Some(tree.insert(bounds, index));
+                self.raised.push(index);
+                if self.raised.len() > 2 * tree.len() + 64 {
+                    // What has none any more, and what has come twice.
+                    self.raised
+                        .retain(|index| self.nodes[*index as usize].is_some());
+                    self.raised.sort_unstable();
+                    self.raised.dedup();
+                }
+            }
         }
     }
 

@@ -27,10 +27,12 @@ impl Groups {
         self.buried = false;
         self.bodies.clear();
         self.ways.clear();
+        for &index in &self.members {
+            self.places[index as usize] = NOT_HERE;
+        }
         self.members.clear();
         self.rounds.clear();
         self.round_of.clear();
-        self.places.clear();
         self.places.resize(bodies.places(), NOT_HERE);
         // Contacts with what cannot be moved come last: the ground has the last word.
         for ground in [false, true] {

@@ -7,7 +7,7 @@
 //! Fixed and kinematic bodies, and bodies that sleep outside of the engine, are its guests: it knows them, and moves only
 //! members that meet them.
 
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 
 use carom_collision::Motion;
 use carom_geometry::Aabb;
@@ -17,7 +17,6 @@ use carom_stepped::State;
 use super::Shapes;
 use super::near::Among;
 use super::rush::Rush;
-use crate::sleep::Tree;
 use crate::state::BodyState;
 use crate::{BodyKind, EnergyLedger, Mode, World};
 
@@ -109,27 +108,27 @@ impl World {
 
     /// Islands of sub-stepped bodies in touch of which none moves in closed form.
     fn unsolved_islands(&self) -> Vec<Vec<u32>> {
-        let mut tree = Tree::new(self.bodies.places());
-        let mut i = 0;
-        while let Some(place) = self.pairs.place(i) {
-            i += 1;
-            let Some(pair) = self.pairs.find(place) else {
+        let (mut seen, mut islands) = (BTreeSet::new(), Vec::new());
+        for &index in &self.stepped {
+            if !self.is_unsolved(index) || !seen.insert(index) {
                 continue;
-            };
-            let (a, b) = pair.bodies;
-            let held = |index| self.bodies.get(index).is_held();
-            if pair.touching && held(a) && held(b) {
-                tree.join(a, b);
+            }
+            let (mut island, mut next) = (vec![index], 0);
+            while let Some(&index) = island.get(next) {
+                next += 1;
+                for place in &self.bodies.get(index).pairs {
+                    let pair = self.pairs.get(*place);
+                    let other = pair.other(index);
+                    if pair.touching && self.bodies.get(other).is_held() && seen.insert(other) {
+                        island.push(other);
+                    }
+                }
+            }
+            if island.iter().all(|index| self.is_unsolved(*index)) {
+                islands.push(island);
             }
         }
-        let mut islands: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
-        for &index in &self.stepped {
-            islands.entry(tree.root(index)).or_default().push(index);
-        }
-        let islands = islands.into_values();
         islands
-            .filter(|island| island.iter().all(|index| self.is_unsolved(*index)))
-            .collect()
     }
 
     fn join_islands(&mut self, islands: Vec<Vec<u32>>, time: SimTime) {
