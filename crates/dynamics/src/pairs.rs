@@ -189,6 +189,11 @@ impl Pairs {
         self.list[place as usize].as_ref()
     }
 
+    /// The same, to change it.
+    pub(crate) fn find_mut(&mut self, place: u32) -> Option<&mut Pair> {
+        self.list[place as usize].as_mut()
+    }
+
     /// # Panics
     /// If the place is empty: lists of places and the store have parted.
     pub(crate) fn get(&self, place: u32) -> &Pair {
@@ -259,7 +264,8 @@ impl Pairs {
         &self.order
     }
 
-    /// Place number `i` in the order of the last [`Self::sort`].
+    /// Place number `i` in the order of the last [`Self::sort`]: empty, if its pair was taken since. What wakes in the engine takes its
+    /// pairs from here.
     pub(crate) fn place(&self, i: usize) -> Option<u32> {
         self.order.get(i).copied()
     }

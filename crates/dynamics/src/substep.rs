@@ -225,7 +225,9 @@ impl World {
         let mut i = 0;
         while let Some(place) = self.pairs.place(i) {
             i += 1;
-            let pair = self.pairs.get_mut(place);
+            let Some(pair) = self.pairs.find_mut(place) else {
+                continue;
+            };
             let (a, b) = pair.bodies;
             let active = (
                 self.bodies.get(a).is_stepped(),

@@ -33,10 +33,9 @@ impl World {
         let mut i = 0;
         while let Some(place) = self.pairs.place(i) {
             i += 1;
-            let pair = self.pairs.get(place);
-            if !pair.touching {
+            let Some(pair) = self.pairs.find(place).filter(|pair| pair.touching) else {
                 continue;
-            }
+            };
             let ends = [pair.bodies.0, pair.bodies.1];
             let joins = ends.map(|index| self.bodies.get(index).membership.is_closed());
             for index in ends {
