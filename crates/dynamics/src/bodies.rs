@@ -10,6 +10,7 @@ use crate::history::History;
 use crate::ledger::damping_loss;
 use crate::left_paths::LeftPaths;
 use crate::moved::{Moved, moves};
+use crate::regime::Members;
 use crate::state::BodyState;
 use crate::uncommon::Lag;
 use crate::{BodyError, BodyId, EnergyLedger, Field};
@@ -83,6 +84,7 @@ pub(crate) struct Bodies {
     pub(crate) touched: Vec<u32>,
     pub(crate) notes_touched: bool,
     pub(crate) moved: Moved,
+    pub(crate) members: Members,
 }
 
 impl Bodies {
@@ -105,6 +107,7 @@ impl Bodies {
             touched: Vec::new(),
             notes_touched,
             moved: Moved::default(),
+            members: Members::default(),
         }
     }
 

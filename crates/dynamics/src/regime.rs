@@ -29,6 +29,7 @@
 //! - Sub-steps may send an island to sleep before they let go of it, if [`crate::Sleep::time`] is 0: it comes to analytic rest
 //!   asleep.
 
+use crate::bodies::Bodies;
 use crate::closed::Membership;
 use crate::free::Course;
 use crate::state::BodyState;
@@ -181,6 +182,11 @@ impl BodyState {
         )
     }
 
+    /// Moved by the engine in hybrid mode.
+    const fn is_member(&self) -> bool {
+        matches!(self.regime(), Regime::Stepped(Scope::Members))
+    }
+
     /// Moved by the engine in hybrid mode, or asleep in it.
     pub(crate) const fn in_engine(&self) -> bool {
         matches!(
@@ -271,12 +277,12 @@ impl BodyState {
     }
 
     /// The engine moves it from now on.
-    pub(crate) fn join(&mut self) {
+    fn join(&mut self) {
         self.pass_to(Regime::Stepped(Scope::Members));
     }
 
     /// The engine has it no more.
-    pub(crate) fn leave(&mut self) {
+    fn leave(&mut self) {
         self.pass_to(if self.is_asleep() {
             Regime::Asleep(None)
         } else {
@@ -285,7 +291,7 @@ impl BodyState {
     }
 
     /// It sleeps from now on, where it is; whether it left the sub-steps by that.
-    pub(crate) fn fall_asleep(&mut self) -> bool {
+    fn fall_asleep(&mut self) -> bool {
         let rested = self.rests_analytically();
         self.pass_to(match self.regime() {
             Regime::Stepped(scope) => Regime::Asleep(Some(scope)),
@@ -295,7 +301,7 @@ impl BodyState {
     }
 
     /// What moved a sleeper before moves it again; whether the caller took it for asleep.
-    pub(crate) fn wake(&mut self) -> bool {
+    fn wake(&mut self) -> bool {
         let rested = self.rests_analytically();
         self.pass_to(match self.regime() {
             Regime::Asleep(Some(scope)) => Regime::Stepped(scope),
@@ -314,13 +320,57 @@ impl BodyState {
     }
 }
 
+/// How many bodies the engine moves in hybrid mode.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Members(usize);
+
+/// The transitions by which bodies become members of the engine, and cease to be: these are counted.
+impl Bodies {
+    /// How many bodies the engine moves in hybrid mode.
+    pub(crate) const fn member_count(&self) -> usize {
+        self.members.0
+    }
+
+    /// The engine moves a body from now on.
+    pub(crate) fn join(&mut self, index: u32) {
+        self.count(index, BodyState::join);
+    }
+
+    /// The engine has a body no more.
+    pub(crate) fn leave(&mut self, index: u32) {
+        self.count(index, BodyState::leave);
+    }
+
+    /// A body sleeps from now on, where it is; whether it left the sub-steps by that.
+    pub(crate) fn fall_asleep(&mut self, index: u32) -> bool {
+        self.count(index, BodyState::fall_asleep)
+    }
+
+    /// What moved a sleeper before moves it again; whether the caller took it for asleep.
+    pub(crate) fn wake(&mut self, index: u32) -> bool {
+        self.count(index, BodyState::wake)
+    }
+
+    fn count<T>(&mut self, index: u32, passes: impl FnOnce(&mut BodyState) -> T) -> T {
+        let state = self.get_mut(index);
+        let before = usize::from(state.is_member());
+        let said = passes(state);
+        let after = usize::from(state.is_member());
+        self.members.0 = self.members.0 + after - before;
+        said
+    }
+}
+
 impl World {
     /// Whether what every body has goes together, in builds that check so.
     pub(crate) fn check_regimes(&self) {
         if cfg!(debug_assertions) {
+            let mut members = 0;
             for state in self.bodies.iter() {
                 self.check_regime(state.id.index);
+                members += usize::from(state.is_member());
             }
+            assert_eq!(members, self.bodies.member_count(), "members are counted");
         }
     }
 

@@ -68,15 +68,14 @@ pub(crate) fn settle(
             motion.spin = 0.0;
             motion.angular_acceleration = 0.0;
         });
-        let state = bodies.get_mut(index);
-        state.fall_asleep();
-        events.push(time, EventKind::Asleep(state.id));
+        bodies.fall_asleep(index);
+        events.push(time, EventKind::Asleep(bodies.get(index).id));
         asleep.push(index);
     }
     asleep
 }
 
-/// Wakes a body and all sleepers that it touches, and so on.
+/// Wakes a body and all sleepers that it touches, and so on; those that the engine has are for the engine to wake.
 pub(crate) fn wake(
     bodies: &mut Bodies,
     pairs: &Pairs,
@@ -91,11 +90,15 @@ pub(crate) fn wake(
         if !state.is_asleep() {
             continue;
         }
-        state.slow_for = 0.0;
-        if state.wake() {
-            events.push(time, EventKind::Awake(state.id));
-        }
         woken.push(index);
+        if state.in_engine() {
+            continue;
+        }
+        state.slow_for = 0.0;
+        let id = state.id;
+        if bodies.wake(index) {
+            events.push(time, EventKind::Awake(id));
+        }
         waking.extend(neighbours(bodies, pairs, index));
     }
 }

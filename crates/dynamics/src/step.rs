@@ -352,7 +352,20 @@ impl World {
             &mut self.events,
             &mut woken,
         );
+        self.wake_members(&mut woken, time);
         woken
+    }
+
+    /// Takes those out of bodies that wake which the engine has: it wakes them.
+    fn wake_members(&mut self, woken: &mut Vec<u32>, time: SimTime) {
+        let has = |index: &u32| self.bodies.get(*index).in_engine();
+        let (members, others) = core::mem::take(woken)
+            .into_iter()
+            .partition::<Vec<_>, _>(has);
+        *woken = others;
+        for index in members {
+            self.wake_in_engine(index, time);
+        }
     }
 
     /// Wakes all sleepers that touch a body, and itself: what held them has changed.
@@ -371,6 +384,7 @@ impl World {
             &mut self.events,
             &mut woken,
         );
+        self.wake_members(&mut woken, time);
         self.resume_woken(&woken, time);
     }
 

@@ -192,13 +192,13 @@ impl World {
         }
         let id = self.bodies.next_id()?;
         let now = self.clock.now;
-        let mut state = BodyState::new(id, &def, &shapes, now, self.settings.mode)?;
+        let state = BodyState::new(id, &def, &shapes, now, self.settings.mode)?;
         let sleeps = def.asleep && self.settings.sleep.is_some() && state.can_sleep();
-        if sleeps {
-            state.fall_asleep();
-        }
         let centroid = state.mass.centroid;
         self.bodies.insert(state);
+        if sleeps {
+            self.bodies.fall_asleep(id.index);
+        }
         self.closed.reset_budget(id.index);
         let add = |(shape, material)| {
             let surface = Surface {

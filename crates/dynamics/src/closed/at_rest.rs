@@ -39,11 +39,11 @@ impl World {
         let members = self.dissolve(place, time);
         let mut lying = Vec::new();
         for &index in &members {
-            let state = self.bodies.get_mut(index);
-            if state.fall_asleep() {
+            if self.bodies.fall_asleep(index) {
                 lying.push(index);
             }
-            self.events.push(time, EventKind::Asleep(state.id));
+            let id = self.bodies.get(index).id;
+            self.events.push(time, EventKind::Asleep(id));
         }
         for index in lying {
             self.lie_down(index, time);

@@ -32,8 +32,6 @@ const IDLE: u8 = 2;
 /// What the boundary to the engine keeps of its members.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Joins {
-    /// Dynamic bodies awake that the engine moves.
-    pub(crate) members: usize,
     /// Guests have entered, and are told of from now on.
     pub(super) has_guests: bool,
     /// Kinematic guests, and some that were.
@@ -71,7 +69,7 @@ impl World {
     /// Whether a body needs sub-steps.
     pub(crate) const fn is_substepping(&self) -> bool {
         !self.stepped.is_empty()
-            || self.joins.members > 0
+            || self.bodies.member_count() > 0
             || self.joins.rush.is_due()
             || self.closed.has_exhausted()
     }
@@ -177,12 +175,11 @@ impl World {
         } else {
             self.end_substepping(index);
         }
-        self.joins.members += 1;
         self.bodies.change(index, time, |_| {});
         let (kinetic, potential) = self.bodies.energy_of(index, time);
         self.joins.balance.add(-(kinetic + potential));
+        self.bodies.join(index);
         let state = self.bodies.get_mut(index);
-        state.join();
         (state.member, state.idle) = (false, 0);
         self.bodies.touch(index);
         self.leave_pairs(index, time);
@@ -239,18 +236,14 @@ impl World {
 
     /// A body that the engine does not know any more is no member.
     fn end_membership(&mut self, index: u32, time: SimTime) {
-        let state = self.bodies.get(index);
-        if !state.in_engine() {
+        if !self.bodies.get(index).in_engine() {
             return;
-        }
-        if !state.is_asleep() {
-            self.joins.members -= 1;
         }
         self.bodies.change(index, time, |_| {});
         let (kinetic, potential) = self.bodies.energy_of(index, time);
         self.joins.balance.add(kinetic + potential);
+        self.bodies.leave(index);
         let state = self.bodies.get_mut(index);
-        state.leave();
         (state.member, state.idle) = (false, 0);
         self.bodies.renew(index);
     }
@@ -258,7 +251,7 @@ impl World {
     /// Notes that a body flies.
     pub(crate) fn note_flight(&mut self, index: u32) {
         let most = 2 * self.bodies.places() + 64;
-        if self.joins.members > 0 {
+        if self.bodies.member_count() > 0 {
             self.joins.restless.push(index);
         }
         let aloft = &mut self.joins.aloft;

@@ -8,7 +8,7 @@ use crate::{BodyKind, World};
 impl World {
     /// Before a sub-step: changes by a caller enter the engine, islands that are met wake, and bodies that may be met join.
     pub(crate) fn gather_members(&mut self, time: SimTime) {
-        if self.joins.members == 0 {
+        if self.bodies.member_count() == 0 {
             return;
         }
         let at_tick = self.resume(time);
@@ -80,11 +80,6 @@ impl World {
                 continue;
             }
             if self.bodies.get(index).in_engine() {
-                // No sub-steps were counted while all slept.
-                if !self.is_substepping() {
-                    self.clock.catch_up(time);
-                }
-                self.joins.members += 1;
                 self.leave_pairs(index, time);
                 continue;
             }
@@ -96,7 +91,7 @@ impl World {
 
     /// Moves all members on by one sub-step.
     pub(crate) fn step_members(&mut self, time: SimTime) {
-        if self.joins.members == 0 {
+        if self.bodies.member_count() == 0 {
             return;
         }
         let Some(mut stepping) = self.stepping.take() else {
@@ -129,7 +124,7 @@ impl World {
 
     /// Members that a caller changed in the midst of a sub-step pass through nothing in the rest of it.
     pub(crate) fn carry_members(&mut self) {
-        if self.joins.members > 0
+        if self.bodies.member_count() > 0
             && self.joins.reached == self.clock.next()
             && let Some(mut stepping) = self.stepping.take()
         {

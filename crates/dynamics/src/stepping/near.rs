@@ -59,7 +59,7 @@ impl World {
     /// A free body with a new motion joins if it may meet a member before the next sub-step begins.
     pub(crate) fn meet_members(&mut self, index: u32, time: SimTime) {
         // Most worlds of free bodies have no members, and the grid's instants are sums with care.
-        if self.joins.members == 0 {
+        if self.bodies.member_count() == 0 {
             return;
         }
         self.joins.restless.push(index);

@@ -28,7 +28,7 @@ impl World {
         for (state, id) in told {
             let asleep = stepping.engine.is_asleep(id).unwrap_or(false);
             let index = place(&state);
-            let known = self.bodies.get_mut(index);
+            let known = self.bodies.get(index);
             if known.is_asleep() == asleep {
                 continue;
             }
@@ -38,21 +38,25 @@ impl World {
                     // A guest wakes with all that sleeps in touch with it.
                     continue;
                 }
+                // No sub-steps were counted while all slept.
+                if !self.is_substepping() {
+                    self.clock.catch_up(time);
+                }
             }
+            let known = self.bodies.get_mut(index);
             known.slow_for = 0.0;
             let id = known.id;
             let kind = if asleep {
-                known.fall_asleep();
+                self.bodies.fall_asleep(index);
                 EventKind::Asleep(id)
             } else {
-                known.wake();
+                self.bodies.wake(index);
                 EventKind::Awake(id)
             };
             self.events.push(time, kind);
             if asleep {
                 self.write_rest(&state, time);
                 if self.bodies.get(index).in_engine() {
-                    self.joins.members -= 1;
                     laid.push(index);
                 }
             }
@@ -98,10 +102,10 @@ impl World {
         self.stepping = Some(stepping);
         self.take_woken(time);
         // The engine does not know it yet.
-        let state = self.bodies.get_mut(index);
+        let state = self.bodies.get(index);
         if state.is_asleep() {
-            state.wake();
             let id = state.id;
+            self.bodies.wake(index);
             self.events.push(time, EventKind::Awake(id));
         }
     }
