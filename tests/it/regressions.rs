@@ -28,6 +28,7 @@ mod a_removed_body_strikes_nothing;
 mod a_ring_that_spins_adds_nothing_to_what_it_carries;
 mod a_seam_has_its_contact_modes_solved_twice;
 mod a_sleeper_feels_no_force_that_has_ended;
+mod a_sleeper_flies_under_another_gravity;
 mod a_sleeper_in_the_air_falls_when_it_wakes;
 mod a_sleeper_of_the_engine_that_is_touched_wakes;
 mod a_sleeper_that_is_neared_does_not_fall;

@@ -380,7 +380,8 @@ impl World {
         }
         // It flies once all that sleeps with it is awake.
         if sleeps {
-            let woken = self.woken_with(index, now);
+            let mut woken = self.woken_with(index, now);
+            woken.retain(|other| *other != index);
             self.bodies.get_mut(index).arrive(mode);
             self.resume_woken(&woken, now);
         }
