@@ -16,9 +16,10 @@
 //! Analytic(SubStepped)                Analytic(Rests)                     begin_analytic_rest
 //! Held                                Stepped(Members)                    join
 //! Stepped(Members)                    Held                                leave
-//! Held, Analytic(SubStepped, Rests)   Asleep(None)                        fall_asleep
+//! Held, Analytic(Rests)               Asleep(None)                        fall_asleep
 //! Stepped(scope)                      Asleep(Some(scope))                 fall_asleep
-//! Asleep(None), Analytic(Rests)       Held, Analytic(SubStepped)          wake
+//! Asleep(None), Analytic(Rests)       Held                                wake
+//! Analytic(Rests)                     Analytic(SubStepped)                wake
 //! Asleep(Some(scope))                 Stepped(scope)                      wake
 //! Asleep(Some(Members))               Asleep(None)                        leave
 //! ```
@@ -26,8 +27,6 @@
 //!   before, and a fixed one take off.
 //! - Under another gravity bodies arrive one after the other. One that is in an island with earlier ones has left it when its
 //!   arrival is over.
-//! - Sub-steps may send an island to sleep before they let go of it, if [`crate::Sleep::time`] is 0: it comes to analytic rest
-//!   asleep.
 
 use crate::bodies::Bodies;
 use crate::closed::Membership;
@@ -111,13 +110,13 @@ impl Regime {
                 Fixed | Kinematic | Free | Analytic(SubStepped) | Stepped(Members) | Asleep(None)
             ),
             Analytic(SubStepped) => {
-                matches!(next, Free | Held | Analytic(Moves | Rests) | Asleep(None))
+                matches!(next, Free | Held | Analytic(Moves | Rests))
             }
             Analytic(Moves) => matches!(next, Analytic(SubStepped)),
             Analytic(Rests) => matches!(next, Held | Analytic(SubStepped) | Asleep(None)),
             Stepped(Members) => matches!(next, Held | Asleep(Some(Members))),
             Stepped(All) => matches!(next, Fixed | Kinematic | Asleep(Some(All))),
-            Asleep(None) => matches!(next, Held | Analytic(SubStepped | Rests)),
+            Asleep(None) => matches!(next, Held),
             Asleep(Some(Members)) => matches!(next, Stepped(Members) | Asleep(None)),
             Asleep(Some(All)) => matches!(next, Stepped(All)),
         }
@@ -134,13 +133,8 @@ impl Regime {
         if kind != state.kind {
             return Err("what is dynamic is moved by other methods than what is not");
         }
-        let islands = match regime {
-            Self::Analytic(_) => [true, true],
-            Self::Asleep(None) => [false, true],
-            _ => [false, false],
-        };
-        if !islands.contains(&state.membership.is_closed()) {
-            return Err("analytic bodies have an island, and no others that are awake");
+        if matches!(regime, Self::Analytic(_)) != state.membership.is_closed() {
+            return Err("analytic bodies have an island, and no others");
         }
         let is_all = match regime {
             Self::Fixed | Self::Kinematic => return Ok(()),

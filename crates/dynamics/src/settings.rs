@@ -202,7 +202,7 @@ impl Default for Softness {
 pub struct Sleep {
     /// Speed of the fastest point of a body below which it counts as at rest, in m/s.
     pub speed: f64,
-    /// How long a whole group must be at rest, in s.
+    /// How long a whole group must be at rest, in s: for one sub-step at least, or one tick of the engine.
     pub time: f64,
 }
 

@@ -44,7 +44,7 @@ pub struct Sleep {
     pub speed: f64,
     /// It rests, too, while no point of it is faster than this, in m/s.
     pub slow: f64,
-    /// How long all bodies of an island must rest, in s.
+    /// How long all bodies of an island must rest, in s: for one tick at least.
     pub after: f64,
 }
 

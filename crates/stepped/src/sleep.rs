@@ -67,8 +67,10 @@ impl Engine {
             };
             longest = longest.max(*rest);
         }
-        if longest >= sleep.after && self.islands.ticks.is_multiple_of(SEARCH) {
-            for island in self.islands_at_rest(sleep.after) {
+        // For this tick at least: what moves has rested for 0 s.
+        let after = sleep.after.max(self.settings.tick);
+        if longest >= after && self.islands.ticks.is_multiple_of(SEARCH) {
+            for island in self.islands_at_rest(after) {
                 self.lay(&island);
             }
         }
