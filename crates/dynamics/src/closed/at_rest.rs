@@ -13,10 +13,9 @@ impl World {
         }
         let mut lying = Vec::new();
         for place in still {
-            let Some(group) = self.closed.get_mut(place) else {
+            let Some(group) = self.closed.get(place) else {
                 continue;
             };
-            group.rests_analytically = true;
             for touch in &group.touches {
                 touch.carry(&self.bodies, self.pairs.get_mut(touch.pair), self.clock.h);
             }

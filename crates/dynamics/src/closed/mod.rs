@@ -58,11 +58,11 @@ impl World {
 
     /// Contacts of groups last, and carry what the group says.
     fn keep_closed(&mut self) {
-        let h = self.clock.h;
+        let (h, bodies) = (self.clock.h, &self.bodies);
         for group in self
             .closed
             .iter()
-            .filter(|group| !(group.rests_analytically || group.moves_analytically))
+            .filter(|group| !(group.rests_analytically(bodies) || group.moves_analytically(bodies)))
         {
             for touch in &group.touches {
                 touch.carry(&self.bodies, self.pairs.get_mut(touch.pair), h);
@@ -81,8 +81,11 @@ impl World {
         if group.sleeps {
             return self.fall_asleep(place, time);
         }
-        let (speed, moves_analytically, landing) =
-            (group.speed, group.moves_analytically, group.landing());
+        let (speed, moves_analytically, landing) = (
+            group.speed,
+            group.moves_analytically(&self.bodies),
+            group.landing(),
+        );
         if self.continue_path(place, time) {
             return;
         }
@@ -367,8 +370,6 @@ impl World {
             members: members.clone(),
             speed: fastest,
             sleeps: sleep.is_some(),
-            rests_analytically: false,
-            moves_analytically: false,
             until: change,
             tipping: None,
         };

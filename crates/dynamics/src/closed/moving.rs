@@ -75,14 +75,13 @@ impl World {
 
     /// An island moves without sub-steps until its next mode change; whether that is worth it.
     fn move_analytically(&mut self, place: u32, time: SimTime) -> bool {
-        let Some(group) = self.closed.get_mut(place) else {
+        let Some(group) = self.closed.get(place) else {
             return false;
         };
         let until = group.until.unwrap_or(SimTime::NEVER);
         if until - time < WORTH * self.clock.h {
             return false;
         }
-        group.moves_analytically = true;
         for touch in &group.touches {
             touch.carry(&self.bodies, self.pairs.get_mut(touch.pair), self.clock.h);
         }
@@ -149,12 +148,11 @@ impl World {
     pub(super) fn land_group(&mut self, place: u32, time: SimTime, ends: bool) {
         let Some(group) = self
             .closed
-            .get_mut(place)
-            .filter(|group| group.moves_analytically)
+            .get(place)
+            .filter(|group| group.moves_analytically(&self.bodies))
         else {
             return;
         };
-        group.moves_analytically = false;
         let leaves = ends && group.tipping.is_some();
         let h = self.clock.h;
         for touch in group.touches_at(time) {

@@ -127,10 +127,6 @@ pub(super) struct Group {
     /// Largest speed of the mode: what its roundings are measured by, in m/s.
     pub(super) speed: f64,
     pub(super) sleeps: bool,
-    /// Its members are left out of sub-steps and treated as asleep, but reported awake to the caller.
-    pub(super) rests_analytically: bool,
-    /// Its members have left the sub-steps, and move along their parabolas until its mode changes.
-    pub(super) moves_analytically: bool,
     /// When it changes by itself.
     pub(super) until: Option<SimTime>,
     /// The path of one that turns.
@@ -138,6 +134,18 @@ pub(super) struct Group {
 }
 
 impl Group {
+    /// Its members are left out of sub-steps and treated as asleep, but reported awake to the caller.
+    pub(super) fn rests_analytically(&self, bodies: &Bodies) -> bool {
+        let first = self.members.first();
+        first.is_some_and(|(index, _)| bodies.get(*index).rests_analytically())
+    }
+
+    /// Its members have left the sub-steps, and move along their parabolas until its mode changes.
+    pub(super) fn moves_analytically(&self, bodies: &Bodies) -> bool {
+        let first = self.members.first();
+        first.is_some_and(|(index, _)| bodies.get(*index).moves_analytically())
+    }
+
     /// Heat by friction, and the work of driven partners, in the first `elapsed` seconds, in J.
     pub(super) fn works(&self, elapsed: f64) -> (f64, f64) {
         if let Some(tipping) = &self.tipping {
@@ -270,10 +278,11 @@ impl Closed {
     }
 
     /// Places of the groups that turn in sub-steps.
-    pub(super) fn tipping(&self) -> Vec<u32> {
+    pub(super) fn tipping(&self, bodies: &Bodies) -> Vec<u32> {
         let turns = |held: &Option<(u64, Group)>| {
-            held.as_ref()
-                .is_some_and(|(_, group)| group.tipping.is_some() && !group.moves_analytically)
+            held.as_ref().is_some_and(|(_, group)| {
+                group.tipping.is_some() && !group.moves_analytically(bodies)
+            })
         };
         let all = (0_u32..).zip(&self.groups);
         all.filter(|(_, held)| turns(held))

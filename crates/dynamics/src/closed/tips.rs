@@ -124,8 +124,6 @@ impl World {
             members: members.clone(),
             speed: fastest,
             sleeps: false,
-            rests_analytically: false,
-            moves_analytically: false,
             until: Some(change),
             tipping: Some(Tipping {
                 tip: Arc::new(tip),
@@ -173,8 +171,10 @@ impl World {
             lost += state.kinetic_energy(time) - 0.5 * (linear + angular);
             fastest = fastest.max(velocity.length()).max(spin.abs() * state.reach);
         }
-        let (moves_analytically, heat) =
-            (group.moves_analytically, group.works(time - group.since).0);
+        let (moves_analytically, heat) = (
+            group.moves_analytically(&self.bodies),
+            group.works(time - group.since).0,
+        );
         let members: Vec<u32> = group.members.iter().map(|(index, _)| *index).collect();
         if self.stalls(&members, time) {
             return false;
@@ -206,7 +206,7 @@ impl World {
     pub(crate) fn follow_tips(&mut self, time: SimTime, h: f64) {
         self.report_left_paths(time);
         self.bodies.left_paths.begin_substep(time);
-        for place in self.closed.tipping() {
+        for place in self.closed.tipping(&self.bodies) {
             let stands = |group: &Group| {
                 let mut members = group.members.iter();
                 members.all(|&(index, version)| self.bodies.version(index) == version)
