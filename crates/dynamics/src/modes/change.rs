@@ -24,10 +24,6 @@ const NOTHING: f64 = 1e-12;
 /// Halvings of a stretch after which an instant is as near as it comes.
 const HALVINGS: u32 = 60;
 
-/// Accelerations that differ by more than this part belong to another motion whatever rounding does near the end of an edge. 1e-12: two
-/// looks see another instant than many do in one of 3,000 random slides, 0.1: of 40,000, as without a middle.
-const FAR: f64 = 0.1;
-
 /// Steps of false position to where a motion parts: nearly always two or three.
 const PARTINGS: u32 = 6;
 
@@ -208,12 +204,6 @@ impl Load<'_> {
 
     /// The same between an instant from which it goes on with a basis, and one at which it does not.
     fn other_between(&self, mut good: f64, mut bad: f64, mut basis: Vec<bool>) -> f64 {
-        // Where an edge ends both points of its touch are one, and the basis tells nothing: halfway it does, if the motion is another
-        // one there by far.
-        let middle = 0.5 * (good + bad);
-        if self.margins(bad, &basis).is_none() && self.parts_by_far(middle) {
-            bad = middle;
-        }
         if let Some(root) = self.basis_ends(&basis, (good, bad)) {
             let beyond = root + BEYOND * (bad - root);
             if self.goes_on(beyond, &mut basis) {
@@ -340,13 +330,6 @@ impl Load<'_> {
             after = from + (after - from) * (2.0 * SAME / differs);
         }
         None
-    }
-
-    /// Whether the motion is another one at an instant by more than what rounding makes of a bad basis.
-    fn parts_by_far(&self, after: f64) -> bool {
-        let faces = self.faces_at(after);
-        let then = balance(&faces, &self.tangents);
-        then.is_ok_and(|then| self.differs(&faces, &then.state) > FAR)
     }
 
     /// By what part the accelerations are others.
