@@ -147,9 +147,7 @@ pub(crate) fn hide(
         }
     }
     // Impulses of several are taken out of one body in an order that other islands do not change.
-    ghosts.sort_unstable();
-    ghosts.dedup();
-    ghosts.sort_by_cached_key(|id| graph.order(bodies, *id));
+    graph.sort(bodies, &mut ghosts);
     for id in ghosts {
         graph.hide(bodies, id);
     }

@@ -5,7 +5,7 @@ use std::collections::BinaryHeap;
 use carom_collision::{Impact, Motion, TimeOfImpact, time_of_impact};
 use carom_math::{SimTime, Vec2};
 
-use super::cores::{CORE, cores};
+use super::cores::{cores, depth};
 use super::touching::Touching;
 use super::{Moving, SHORT, bounds_of};
 use crate::bodies::Bodies;
@@ -180,7 +180,7 @@ impl Engine {
                 // A way into what is touched already, deeper than a core lies.
                 let drives = |hit: &Impact| {
                     let against = (own.velocity - other.velocity).dot(hit.normal);
-                    body.carried && against * (to - from) > CORE * 0.5 * piece_of_mine.extent
+                    body.carried && against * (to - from) > depth(piece_of_mine)
                 };
                 let met = match time_of_impact(&core, &own, target, &other, left) {
                     TimeOfImpact::Hit(hit) => (hit.time, Some(hit.normal)),

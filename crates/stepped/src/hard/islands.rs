@@ -52,7 +52,7 @@ pub(super) fn find(graph: &Graph, bodies: &Bodies, known: &mut Vec<Known>) -> Ve
         }
     }
     for contacts in &mut found {
-        contacts.sort_unstable_by_key(|id| graph.order(bodies, *id));
+        graph.sort(bodies, contacts);
     }
     found.sort_unstable_by_key(|contacts| graph.order(bodies, contacts[0]));
     found

@@ -25,9 +25,7 @@ impl Deep {
     pub(crate) fn gather(&mut self, graph: &mut Graph, bodies: &Bodies) {
         let mut contacts = core::mem::take(&mut graph.deep);
         contacts.retain(|id| graph.is_deep(*id));
-        contacts.sort_unstable();
-        contacts.dedup();
-        contacts.sort_by_cached_key(|id| graph.order(bodies, *id));
+        graph.sort(bodies, &mut contacts);
         self.contacts.clone_from(&contacts);
         graph.deep = contacts;
     }

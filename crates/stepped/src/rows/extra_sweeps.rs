@@ -111,8 +111,7 @@ impl ExtraSweeps {
             group.1 = group.1.max(*ratio);
         }
         for (mut rows, ratio) in gathered.into_values() {
-            rows.sort_unstable_by_key(|id| graph.order(bodies, *id));
-            rows.dedup();
+            graph.sort(bodies, &mut rows);
             let wanted = if ratio >= VERY_UNEQUAL {
                 4 * SWEEPS
             } else {

@@ -96,6 +96,13 @@ impl Graph {
         (contact.bodies.map(birth), contact.pieces, id)
     }
 
+    /// Puts contacts in [`Self::order`], each once.
+    pub(crate) fn sort(&self, bodies: &Bodies, ids: &mut Vec<u32>) {
+        ids.sort_unstable();
+        ids.dedup();
+        ids.sort_by_cached_key(|id| self.order(bodies, *id));
+    }
+
     /// Whether there is such a contact, and it is too deep for the sweeps.
     pub(super) fn is_deep(&self, id: u32) -> bool {
         self.cold(id).is_some_and(|(cold, lane)| cold.is_deep(lane))
