@@ -193,7 +193,7 @@ impl World {
         let factor = if course.alone { 2.0 } else { 1.0 };
         if course.cells.is_none() {
             // Those in the grid would have to look at all of its way.
-            let lone = course.alone && !state.moves_analytically() && self.free.grid.count() == 0;
+            let lone = course.alone && !state.moves_analytically() && self.free.in_grid.is_empty();
             let least = if lone { factor * course.span } else { 0.0 };
             self.follow(index, time, least);
             self.meet_free_bodies(index, time, Cause::Horizon, None);

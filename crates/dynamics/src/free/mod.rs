@@ -27,6 +27,8 @@ mod turning;
 mod window;
 mod zeno;
 
+use std::collections::BTreeSet;
+
 use carom_collision::{BoxTree, ImpactFeature, NodeId};
 use carom_math::{SimTime, Vec2};
 
@@ -125,12 +127,10 @@ pub(crate) struct FreeBodies {
     aloft: Option<BoxTree>,
     /// When they go, if no body is sub-stepped then.
     raised_until: SimTime,
-    /// Their nodes there, by body, and the bodies that have or had one.
+    /// Their nodes there, by body.
     nodes: Vec<Option<NodeId>>,
-    raised: Vec<u32>,
-    /// Bodies in the grid, in no order, and where each of them is there, by body.
-    listed: Vec<u32>,
-    spots: Vec<usize>,
+    /// Bodies in the grid.
+    in_grid: BTreeSet<u32>,
     /// Circles of the grid's free bodies, by body.
     circles: Vec<Registered>,
     /// Until when they have looked round for each other, by body.
@@ -168,9 +168,7 @@ impl FreeBodies {
             aloft: None,
             raised_until: SimTime::ZERO,
             nodes: Vec::new(),
-            raised: Vec::new(),
-            listed: Vec::new(),
-            spots: Vec::new(),
+            in_grid: BTreeSet::new(),
             circles: Vec::new(),
             horizons: Vec::new(),
             queue: Queue::default(),
@@ -238,21 +236,17 @@ impl FreeBodies {
             return false;
         }
         let swept_box = SweptBox::new(index, course.swept);
-        let known = course.cells.replace(cells);
-        let is_new = known.is_none();
-        match known {
+        match course.cells.replace(cells) {
             Some(known) => self.grid.shift(swept_box, known, cells),
-            None => self.grid.insert(swept_box, cells),
+            None => {
+                self.grid.insert(swept_box, cells);
+                self.in_grid.insert(index);
+            }
         }
         let place = index as usize;
         if self.circles.len() <= place {
             self.circles.resize(place + 1, Registered::default());
             self.horizons.resize(place + 1, SimTime::ZERO);
-            self.spots.resize(place + 1, 0);
-        }
-        if is_new {
-            self.spots[place] = self.listed.len();
-            self.listed.push(index);
         }
         let state = bodies.get(index);
         self.circles[place] = Registered::of(state, colliders, &self.frame);
@@ -265,26 +259,20 @@ impl FreeBodies {
         let course = &mut bodies.get_mut(index).course;
         if let Some(cells) = course.cells.take() {
             self.grid.remove(index, cells);
-            let spot = self.spots[index as usize];
-            self.listed.swap_remove(spot);
-            if let Some(moved) = self.listed.get(spot) {
-                self.spots[*moved as usize] = spot;
-            }
+            self.in_grid.remove(&index);
         }
     }
 
     /// Bodies of the grid, in order.
     fn in_order(&self) -> Vec<u32> {
-        let mut bodies = self.listed.clone();
-        bodies.sort_unstable();
-        bodies
+        self.in_grid.iter().copied().collect()
     }
 
     /// Sizes the cells anew where searches meet too many bodies, or hardly any.
     fn resize(&mut self, bodies: &mut Bodies, time: SimTime) {
-        let overfull = self.grid.count() > self.grid.room();
+        let overfull = self.in_grid.len() > self.grid.room();
         let patience = if self.fits { FITS } else { 1 };
-        if self.searches < patience * 64.max(self.grid.count()) && !overfull {
+        if self.searches < patience * 64.max(self.in_grid.len()) && !overfull {
             return;
         }
         #[expect(clippy::cast_precision_loss, reason = "fewer than 2^52 searches")]

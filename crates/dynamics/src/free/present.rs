@@ -38,7 +38,7 @@ impl FreeBodies {
     /// Bodies of the grid that may be in `bounds` before they look down again, in order.
     pub(crate) fn overlapping(&self, bodies: &Bodies, bounds: Aabb, near: &mut Vec<u32>) {
         near.clear();
-        if self.grid.count() == 0 {
+        if self.in_grid.is_empty() {
             return;
         }
         let here = |body: u32| {
@@ -51,7 +51,7 @@ impl FreeBodies {
                     near.push(body);
                 }
             }),
-            None => near.extend(self.listed.iter().filter(|body| here(**body))),
+            None => near.extend(self.in_grid.iter().filter(|body| here(**body))),
         }
         near.sort_unstable();
     }
@@ -59,7 +59,7 @@ impl FreeBodies {
     /// Bodies of the grid that may be in `bounds` at `time`, in order.
     pub(crate) fn present(&self, bodies: &Bodies, bounds: Aabb, time: SimTime) -> Vec<u32> {
         let mut near = Vec::new();
-        if self.grid.count() == 0 {
+        if self.in_grid.is_empty() {
             return near;
         }
         let seen = Aabb::new(
@@ -71,8 +71,8 @@ impl FreeBodies {
             course.cells.is_some() && course.swept.overlaps(seen)
         };
         let cells = self.grid.cells(seen);
-        if cells.count() > self.grid.count() as u64 {
-            near.extend(self.listed.iter().filter(|body| here(**body)));
+        if cells.count() > self.in_grid.len() as u64 {
+            near.extend(self.in_grid.iter().filter(|body| here(**body)));
         } else {
             let swept_box = SweptBox::new(u32::MAX, Sides::around(seen));
             self.grid.gather(&swept_box, cells, &mut near);
@@ -98,9 +98,10 @@ impl FreeBodies {
 
     /// Drops the boxes in the world: no body looks for free bodies there any more.
     pub(crate) fn lower(&mut self) {
-        self.aloft = None;
-        for index in self.raised.drain(..) {
-            self.nodes[index as usize] = None;
+        if let Some(tree) = self.aloft.take() {
+            for index in tree.ids().filter_map(|node| tree.data(node)) {
+                self.nodes[index as usize] = None;
+            }
         }
     }
 
@@ -119,17 +120,7 @@ impl FreeBodies {
             Some(node) => {
                 tree.update(node, bounds);
             }
-            None => {
-                self.nodes[at] = Some(tree.insert(bounds, index));
-                self.raised.push(index);
-                if self.raised.len() > 2 * tree.len() + 64 {
-                    // What has none any more, and what has come twice.
-                    self.raised
-                        .retain(|index| self.nodes[*index as usize].is_some());
-                    self.raised.sort_unstable();
-                    self.raised.dedup();
-                }
-            }
+            None => self.nodes[at] = Some(tree.insert(bounds, index)),
         }
     }
 
