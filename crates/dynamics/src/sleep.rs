@@ -121,7 +121,8 @@ pub(crate) fn wake_around(
     }
 }
 
-fn neighbours<'a>(
+/// Bodies that touch a body.
+pub(crate) fn neighbours<'a>(
     bodies: &'a Bodies,
     pairs: &'a Pairs,
     index: u32,

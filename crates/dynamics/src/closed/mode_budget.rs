@@ -8,6 +8,7 @@ use carom_math::{SimTime, Vec2};
 use super::store::Closed;
 use crate::World;
 use crate::modes::BodyMove;
+use crate::sleep::neighbours;
 use crate::state::BodyState;
 use crate::touching::Gathered;
 
@@ -179,29 +180,21 @@ impl World {
     }
 
     fn is_borne(&self, members: &[u32]) -> bool {
-        let bears = |index: u32, place: &u32| {
-            let pair = self.pairs.get(*place);
-            let other = self.bodies.get(pair.other(index));
-            pair.touching && (!other.is_dynamic() || other.is_asleep() || other.in_engine())
+        let bears = |index: u32| {
+            let other = self.bodies.get(index);
+            !other.is_dynamic() || other.is_asleep() || other.in_engine()
         };
         let mut members = members.iter();
-        members.any(|&index| {
-            let mut pairs = self.bodies.get(index).pairs.iter();
-            pairs.any(|place| bears(index, place))
-        })
+        members.any(|&index| neighbours(&self.bodies, &self.pairs, index).any(bears))
     }
 
     /// Whether a body of an island, or what one touches, is fast, or a body was within the last ticks.
     pub(super) fn any_fast(&self, members: &[u32], time: SimTime) -> bool {
-        let touches_fast = |index: u32, place: &u32| {
-            let pair = self.pairs.get(*place);
-            let mut ends = [index, pair.other(index)].into_iter();
-            pair.touching && ends.any(|index| self.is_fast(self.bodies.get(index), time))
-        };
+        let is_fast = |index: u32| self.is_fast(self.bodies.get(index), time);
         members.iter().any(|&index| {
-            let mut pairs = self.bodies.get(index).pairs.iter();
+            let mut others = neighbours(&self.bodies, &self.pairs, index);
             self.closed.was_fast(index, time, self.settings.tick)
-                || pairs.any(|place| touches_fast(index, place))
+                || others.any(|other| is_fast(index) || is_fast(other))
         })
     }
 

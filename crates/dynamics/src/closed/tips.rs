@@ -51,10 +51,7 @@ impl World {
         speed: f64,
         landed: bool,
     ) -> Result<(), NotMine> {
-        let moving = gathered.dynamic();
-        let is_borne = moving.len() < gathered.places.len();
-        let joins = self.may_join() && is_borne && !self.any_fast(&moving, time);
-        if moving.len() > if joins { MOST_BESIDE_ENGINE } else { MOST } {
+        if self.is_too_large(gathered, time) {
             return Err(NotMine::TooLarge);
         }
         // Free bodies land first.
@@ -144,6 +141,17 @@ impl World {
             self.redirect(index, time);
         }
         Ok(())
+    }
+
+    /// Whether so many bodies turn that they have no path. Touches that are new are in `gathered` alone.
+    fn is_too_large(&self, gathered: &Gathered, time: SimTime) -> bool {
+        let moving = gathered.dynamic();
+        let is_borne = moving.len() < gathered.places.len();
+        moving.len() > MOST
+            || moving.len() > MOST_BESIDE_ENGINE
+                && self.may_join()
+                && is_borne
+                && !self.any_fast(&moving, time)
     }
 
     /// A group that turns goes on with the next stretch of its path; whether it does.

@@ -17,6 +17,7 @@ use carom_stepped::State;
 use super::Shapes;
 use super::near::Among;
 use super::rush::Rush;
+use crate::sleep::neighbours;
 use crate::state::BodyState;
 use crate::{BodyKind, EnergyLedger, Mode, World};
 
@@ -114,13 +115,9 @@ impl World {
             let (mut island, mut next) = (vec![index], 0);
             while let Some(&index) = island.get(next) {
                 next += 1;
-                for place in &self.bodies.get(index).pairs {
-                    let pair = self.pairs.get(*place);
-                    let other = pair.other(index);
-                    if pair.touching && self.bodies.get(other).is_held() && seen.insert(other) {
-                        island.push(other);
-                    }
-                }
+                let others = neighbours(&self.bodies, &self.pairs, index);
+                let held = others.filter(|other| self.bodies.get(*other).is_held());
+                island.extend(held.filter(|other| seen.insert(*other)));
             }
             if island.iter().all(|index| self.is_unsolved(*index)) {
                 islands.push(island);

@@ -51,6 +51,7 @@ impl World {
     pub(super) fn tell_impacts(&mut self, stepping: &mut Stepping, time: SimTime) {
         let mut impacts = core::mem::take(&mut stepping.impacts);
         stepping.engine.impacts(&mut impacts);
+        let are_some = !impacts.is_empty();
         self.report.impacts += impacts.len() as u64;
         for impact in impacts.drain(..) {
             let [a, b] = impact
@@ -70,7 +71,9 @@ impl World {
                 },
             );
         }
-        self.events.sort();
+        if are_some {
+            self.events.sort();
+        }
         stepping.impacts = impacts;
     }
 
