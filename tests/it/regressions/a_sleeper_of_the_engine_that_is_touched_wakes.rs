@@ -2,17 +2,13 @@
 //! contacts had them until it was made anew: a box that was put beside a sleeping one made the step panic, and so did 3 of 150 random
 //! scripts ("a listed pair is there").
 
-use carom_dynamics::{BodyDef, Material, Mode, Settings, World};
+use carom_dynamics::{BodyDef, Material, Settings, World};
 use carom_math::{Pose, vec2};
 use carom_tests::scenes::{block, boxed, floor, put};
 
 /// A damped box that fell asleep in the engine at the origin, and boxes put beside it where these places say.
 fn beside_a_sleeper(places: &[f64]) {
-    let settings = Settings {
-        mode: Mode::Hybrid,
-        ..Settings::default()
-    };
-    let mut world = World::new(settings).expect("settings");
+    let mut world = World::new(Settings::default()).expect("settings");
     let material = Material::default();
     floor(&mut world, material);
     // Nothing damped has a closed form.

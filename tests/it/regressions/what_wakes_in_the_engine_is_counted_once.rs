@@ -1,18 +1,14 @@
 //! Members of the engine are counted where they join it, leave it, wake and fall asleep. A sleeping column that a member pushed against
 //! joined as one, and then each other box of it was counted again: once all slept, every step went on with 6 sub-steps of nothing.
 
-use carom_dynamics::{BodyDef, BodyKind, Material, Mode, Settings, World};
+use carom_dynamics::{BodyDef, BodyKind, Material, Settings, World};
 use carom_math::vec2;
 use carom_tests::scenes::{block, column, floor, put};
 
 #[test]
 fn what_wakes_in_the_engine_is_counted_once() {
     for count in 1..=3 {
-        let settings = Settings {
-            mode: Mode::Hybrid,
-            ..Settings::default()
-        };
-        let mut world = World::new(settings).expect("settings");
+        let mut world = World::new(Settings::default()).expect("settings");
         let material = Material::default();
         floor(&mut world, material);
         column(&mut world, count, material);
