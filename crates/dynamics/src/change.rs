@@ -289,7 +289,6 @@ impl World {
         if self.bodies.get(index).in_engine() {
             self.joins.balance.add(-brought);
         }
-        self.note_fast(index, now);
         self.deflected(index, now);
         self.drop_unheld(&[index], now);
     }

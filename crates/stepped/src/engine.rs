@@ -174,7 +174,8 @@ impl Engine {
     /// One sub-step with the contacts that are known.
     fn go(&mut self, rules: &dyn PairRules) {
         (self.done, self.found) = (self.done + 1, false);
-        self.hard.gather(&mut self.graph, &mut self.bodies);
+        self.hard
+            .gather(self.law.h, &mut self.graph, &mut self.bodies);
         self.extra.gather(&mut self.graph, &self.bodies);
         self.deep.gather(&mut self.graph, &self.bodies);
         let last = self.done == self.settings.substeps;
@@ -350,7 +351,6 @@ impl Engine {
             ..
         } = self;
         let every = settings.relaxation == Relaxation::EverySubstep;
-        self.rotating.rotate(graph, bodies);
         warm_start(*level, bodies, law.h);
         hard.free(bodies, graph);
         arrivals(*level, law, bodies, graph, arrived, before);
@@ -377,6 +377,7 @@ impl Engine {
         self.heat += seen.heat + hard.heat;
         let rest = f64::from(settings.substeps - self.done) * law.h;
         correct(*level, bodies, settings, law.h, rest);
+        self.rotating.rotate(graph, bodies);
         let gap = hard.part(law, bodies, graph, settings);
         self.least_gap = seen.least_gap.min(gap);
         impacts.note_hits((*level, law), bodies, graph, true);

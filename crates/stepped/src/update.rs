@@ -8,7 +8,7 @@ use crate::bodies::{Bodies, BodyKind};
 use crate::broad::Pairs;
 use crate::narrow::{Eight, Found, Manifold, Scene, collide_eight};
 use crate::pieces::Pieces;
-use crate::rows::{Block, Cold, Graph, LANES, Law, RotatingRows, Side, renew};
+use crate::rows::{Block, Cold, Graph, HARD, LANES, Law, RotatingRows, Side, renew};
 use crate::{PairRules, Settings};
 
 /// A kept contact may be so many margins wide, so that pairs do not come and go each tick.
@@ -30,7 +30,8 @@ pub(crate) fn update(
     let (colours, suspects) = graph.awake_and_suspects();
     let mut found = Found::NONE;
     let mut deep = Vec::new();
-    for (colour, blocks) in colours.iter_mut().zip(touched) {
+    for (c, (colour, blocks)) in colours.iter_mut().zip(touched).enumerate() {
+        let is_hard = c >= HARD;
         for k in blocks {
             let (block, cold) = (&mut colour.blocks[k], &mut colour.cold[k]);
             let mut moved = 0u8;
@@ -69,7 +70,9 @@ pub(crate) fn update(
                 let lines = [block.a[lane], block.b[lane]];
                 suspects.add_short(&scene, lines, cold.pieces[lane]);
             }
-            for lane in lanes(near & !found.short & eight_used) {
+            // Soft rows that are short may be ghosts, and go; hard ones are discs on faces, too.
+            let short = if is_hard { 0 } else { found.short };
+            for lane in lanes(near & (found.of_a | found.of_b) & !short & eight_used) {
                 let pair = cold.pieces[lane];
                 let [a, b] = pair.map(|piece| &pieces.outlines[piece as usize]);
                 let of_b = found.of_b >> lane & 1 == 1;
@@ -79,7 +82,7 @@ pub(crate) fn update(
                         (block, lane),
                         (cold.contact[lane], pair),
                         (bodies, Side { of_b, radius }),
-                        (settings.tick, a.extent().min(b.extent())),
+                        (settings.tick, a.extent().min(b.extent()), is_hard),
                     );
                 }
             }

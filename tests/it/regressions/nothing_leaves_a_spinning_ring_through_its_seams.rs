@@ -36,7 +36,9 @@ fn nothing_leaves_a_spinning_ring_through_its_seams() {
                     world.step(1.0 / 60.0);
                     let out = out_of_the_ring(&world, inside, &pentagon);
                     let what = (mode, spin, e, at, world.time());
-                    assert!(out < 0.01, "{out} m out of the ring: {what:?}");
+                    // The engine has it by hard rows that turn with the ring.
+                    let most = if mode == Mode::Hybrid { 1e-3 } else { 0.01 };
+                    assert!(out < most, "{out} m out of the ring: {what:?}");
                 }
             }
         }
@@ -46,9 +48,10 @@ fn nothing_leaves_a_spinning_ring_through_its_seams() {
 #[test]
 fn what_is_thrown_along_a_spinning_ring_stays_in_it() {
     // A plate that is held is looked at 64 times in a sub-step at most: at 2000 m/s it had sunk 87 mm into the next piece between
-    // two looks, and nothing buried is struck.
+    // two looks, and nothing buried is struck. In the engine it was a millimetre deep when a sub-step began, deeper than its core, and
+    // so was sought no more: 72 mm out after 55 frames.
     for mode in [Mode::Hybrid, Mode::Exact] {
-        for frames in [40, 50, 60] {
+        for frames in [40, 45, 50, 55, 60] {
             let settings = Settings {
                 mode,
                 ..Settings::default()

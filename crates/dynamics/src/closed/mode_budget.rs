@@ -19,26 +19,16 @@ const SIZE: f64 = 24.0;
 /// Ticks that refill one solve. A solve takes 35 µs, the engine 11 µs for a second of one rocking box.
 const REFILL: f64 = 60.0;
 
-/// Rotation in a tick, in rad, and distance in a sub-step, in reaches, above which a body is fast: its island keeps its method. 0.25: a
-/// ring that spins at 14.7 rad/s lets a pentagon out by 12 mm.
-const FAST: f64 = 0.2;
-
-/// Ticks for which a body counts as fast. Without them case 21, a body pushed at 1,000 km/s against a wall in turns with impacts that
-/// stop it, penetrates the wall by 2 mm.
-const FAST_FOR: f64 = 4.0;
-
 /// Relative change of velocity or acceleration below which a mode change leaves a motion as it was.
 const SAME: f64 = 1e-6;
 
-/// What the islands of a body spent, and whether it was fast.
+/// What the islands of a body spent.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct ModeBudget {
     /// Instant of the last charge.
     at: SimTime,
     /// Spent by then, in mode solves of one body.
     spent: f64,
-    /// When the body was fast the last time.
-    fast: Option<SimTime>,
 }
 
 impl ModeBudget {
@@ -73,13 +63,6 @@ impl Closed {
         }
         &mut self.budgets[at]
     }
-
-    /// Whether a body was fast within the last few ticks of `tick` seconds.
-    fn was_fast(&self, index: u32, time: SimTime, tick: f64) -> bool {
-        let budget = self.budgets.get(index as usize);
-        let fast = budget.and_then(|budget| budget.fast);
-        fast.is_some_and(|fast| time - fast < FAST_FOR * tick)
-    }
 }
 
 /// Whether a mode change at `time` changes the motion of a body.
@@ -112,11 +95,7 @@ impl World {
         }
         let mut both = gathered.places.iter().zip(moves);
         if both.any(|(&index, moved)| changes(self.bodies.get(index), moved, time)) {
-            let members = gathered.dynamic();
-            for &index in &members {
-                self.note_fast(index, time);
-            }
-            self.charge(&members, time);
+            self.charge(&gathered.dynamic(), time);
         }
     }
 
@@ -153,7 +132,7 @@ impl World {
                 continue;
             };
             let members: Vec<u32> = group.members.iter().map(|(index, _)| *index).collect();
-            if group.sleeps || self.keeps_method(&members, time) {
+            if group.sleeps || self.keeps_method(&members) {
                 continue;
             }
             for index in members {
@@ -164,8 +143,8 @@ impl World {
     }
 
     /// Whether an island keeps its method in spite of an exhausted budget; its budget is full again then.
-    fn keeps_method(&mut self, members: &[u32], time: SimTime) -> bool {
-        let keeps = self.is_beyond_engine(members, time);
+    fn keeps_method(&mut self, members: &[u32]) -> bool {
+        let keeps = !self.is_borne(members);
         if keeps {
             for &index in members {
                 self.closed.budget(index).spent = 0.0;
@@ -174,40 +153,14 @@ impl World {
         keeps
     }
 
-    /// Whether the engine does not resolve an island: its spins or speeds, or its angular momentum, as it is borne by nothing.
-    pub(crate) fn is_beyond_engine(&self, members: &[u32], time: SimTime) -> bool {
-        !self.is_borne(members) || self.any_fast(members, time)
-    }
-
-    fn is_borne(&self, members: &[u32]) -> bool {
+    /// Whether an island is held by what it does not move: of bodies that touch each other alone the engine does not keep the angular
+    /// momentum.
+    pub(crate) fn is_borne(&self, members: &[u32]) -> bool {
         let bears = |index: u32| {
             let other = self.bodies.get(index);
             !other.is_dynamic() || other.is_asleep() || other.in_engine()
         };
         let mut members = members.iter();
         members.any(|&index| neighbours(&self.bodies, &self.pairs, index).any(bears))
-    }
-
-    /// Whether a body of an island, or what one touches, is fast, or a body was within the last ticks.
-    pub(super) fn any_fast(&self, members: &[u32], time: SimTime) -> bool {
-        let is_fast = |index: u32| self.is_fast(self.bodies.get(index), time);
-        members.iter().any(|&index| {
-            let mut others = neighbours(&self.bodies, &self.pairs, index);
-            self.closed.was_fast(index, time, self.settings.tick)
-                || others.any(|other| is_fast(index) || is_fast(other))
-        })
-    }
-
-    /// Notes the instant if a body is fast.
-    pub(crate) fn note_fast(&mut self, index: u32, time: SimTime) {
-        if self.is_fast(self.bodies.get(index), time) {
-            self.closed.budget(index).fast = Some(time);
-        }
-    }
-
-    fn is_fast(&self, state: &BodyState, time: SimTime) -> bool {
-        let speed = state.velocity_at(time).length();
-        state.spin_at(time).abs() * self.settings.tick > FAST
-            || speed * self.clock.h > FAST * state.reach
     }
 }

@@ -51,7 +51,7 @@ impl World {
         speed: f64,
         landed: bool,
     ) -> Result<(), NotMine> {
-        if self.is_too_large(gathered, time) {
+        if self.is_too_large(gathered) {
             return Err(NotMine::TooLarge);
         }
         // Free bodies land first.
@@ -144,14 +144,10 @@ impl World {
     }
 
     /// Whether so many bodies turn that they have no path. Touches that are new are in `gathered` alone.
-    fn is_too_large(&self, gathered: &Gathered, time: SimTime) -> bool {
+    fn is_too_large(&self, gathered: &Gathered) -> bool {
         let moving = gathered.dynamic();
         let is_borne = moving.len() < gathered.places.len();
-        moving.len() > MOST
-            || moving.len() > MOST_BESIDE_ENGINE
-                && self.may_join()
-                && is_borne
-                && !self.any_fast(&moving, time)
+        moving.len() > MOST || moving.len() > MOST_BESIDE_ENGINE && self.may_join() && is_borne
     }
 
     /// A group that turns goes on with the next stretch of its path; whether it does.

@@ -89,12 +89,12 @@ impl World {
         }
     }
 
-    /// Islands without a solution of their contact modes join, unless they are small and the engine does not resolve them.
+    /// Islands without a solution of their contact modes join, unless they are small and borne by nothing.
     pub(crate) fn join_unsolved(&mut self, time: SimTime) {
         let mut stepped = self.stepped.iter();
         if self.may_join() && stepped.any(|index| self.is_unsolved(*index)) {
             let mut islands = self.unsolved_islands();
-            islands.retain(|island| island.len() > FEW || !self.is_beyond_engine(island, time));
+            islands.retain(|island| island.len() > FEW || self.is_borne(island));
             self.join_islands(islands, time);
         }
     }

@@ -5,7 +5,7 @@ use std::collections::BinaryHeap;
 use carom_collision::{Impact, Motion, TimeOfImpact, time_of_impact};
 use carom_math::{SimTime, Vec2};
 
-use super::cores::{cores, depth};
+use super::cores::{depth, parts};
 use super::touching::Touching;
 use super::{Moving, SHORT, bounds_of};
 use crate::bodies::Bodies;
@@ -166,6 +166,7 @@ impl Engine {
         let start = SimTime::ZERO + from;
         let (own, other) = (body.motion.rebased(start), motion.rebased(start));
         let target = self.pieces.list[piece as usize].shape();
+        let between = own.pose_at(start).inverse() * other.pose_at(start);
         let mut first: Option<(f64, Option<Vec2>)> = None;
         for number in mine.first_piece..mine.first_piece + mine.pieces {
             let piece_of_mine = &self.pieces.list[number as usize];
@@ -175,21 +176,23 @@ impl Engine {
             {
                 continue;
             }
-            for (core, whole) in cores(piece_of_mine) {
+            for part in parts(piece_of_mine) {
+                let core = part.core(target, between);
                 let left = first.map_or(to, |first| first.0) - from;
                 // A way into what is touched already, deeper than a core lies.
                 let drives = |hit: &Impact| {
                     let against = (own.velocity - other.velocity).dot(hit.normal);
                     body.carried && against * (to - from) > depth(piece_of_mine)
                 };
-                let met = match time_of_impact(&core, &own, target, &other, left) {
+                let met = match time_of_impact(core, &own, target, &other, left) {
                     TimeOfImpact::Hit(hit) => (hit.time, Some(hit.normal)),
                     TimeOfImpact::Unresolved { safe_until } => (safe_until, None),
                     TimeOfImpact::Touching(hit) if drives(&hit) => (0.0, Some(hit.normal)),
                     // In touch from the start: its rows hold it.
                     TimeOfImpact::Clear | TimeOfImpact::Touching(_) => continue,
                 };
-                let (wait, normal) = match time_of_impact(&whole, &own, target, &other, met.0) {
+                let (wait, normal) = match time_of_impact(&part.whole, &own, target, &other, met.0)
+                {
                     TimeOfImpact::Hit(hit) => {
                         let wait = hit.time + SHORT * mine.reach / hit.gap_rate;
                         (wait.max(0.0), Some(hit.normal))

@@ -60,40 +60,85 @@ pub(super) fn answers(
     })
 }
 
+/// A rigid motion.
+struct Carrier {
+    centre: Vec2,
+    velocity: Vec2,
+    spin: f64,
+}
+
+impl Carrier {
+    const STILL: Self = Self {
+        centre: Vec2::ZERO,
+        velocity: Vec2::ZERO,
+        spin: 0.0,
+    };
+
+    fn at(&self, point: Vec2) -> Vec2 {
+        self.velocity + perp(point - self.centre) * self.spin
+    }
+}
+
 /// Whether what was before, and what drives the island, can give such velocities. Bodies that are squeezed so that nothing holds them
 /// seem held by impulses so large that their rounding is more than the speeds that were asked for, or leave a wedge of 1e-12 rad at
 /// 1e12 times the speed that closes it.
 ///
 /// ```text
-/// nothing is driven: j·(J v') ≤ 0, so with v' = v + M⁻¹ Jᵀ j        (v' − v)ᵀ M v' ≤ 0,        v'ᵀ M v' ≤ vᵀ M v
-/// driven:            a stop mixes velocities, so max s' ≤ max s + h max |pull|        s² = v² + k² ω²
+/// what cannot be moved goes as one, u: j·(J (v' − u)) ≤ 0, so with w = v − u and w' = w + M⁻¹ Jᵀ j        w'ᵀ M w' ≤ wᵀ M w
+/// in several ways, or as belts:        a stop mixes velocities, so max s' ≤ max s + h max |pull|        s² = v² + k² ω²
 /// ```
 /// The second counts what bodies would have that move along with drivers, too: at rest on one, h |pull| is all that they have besides.
 /// It is exact along a line, and of one body on one driver; levers and wedges that drivers move go faster, and take soft rows. The speed
 /// of belts is added: what moves may carry one.
 pub(super) fn justified(island: &Island, bodies: &Bodies) -> bool {
-    let (mut before, mut after) = (0.0, 0.0);
+    let belts = island.contacts.iter().map(|contact| contact.belt.abs());
+    let belt = belts.fold(0.0, f64::max);
+    let carrier = carrier(island, bodies).filter(|_| belt <= 0.0);
+    let still = Carrier::STILL;
+    let from = carrier.as_ref().unwrap_or(&still);
+    let (mut before, mut after, mut carried) = (0.0, 0.0, 0.0);
     let (mut fastest, mut fastest_after) = (0.0_f64, 0.0_f64);
     let mut drives = 0.0_f64;
     for (&line, body) in island.lines.iter().zip(&island.bodies) {
         if body.inverse_mass > 0.0 {
             let (mass, now) = (body.inverse_mass.recip(), &bodies.lines[line as usize]);
-            let was = square(body, body.velocity, body.spin);
-            let is = square(body, now.v(), now.w());
+            let along = from.at(centre(bodies, line));
+            let was = square(body, body.velocity - along, body.spin - from.spin);
+            let is = square(body, now.v() - along, now.w() - from.spin);
             (before, after) = (before + mass * was, after + mass * is);
+            carried += mass * square(body, along, from.spin);
             (fastest, fastest_after) = (fastest.max(was), fastest_after.max(is));
         } else if body.velocity != Vec2::ZERO || body.spin.abs() > 0.0 {
             drives = drives.max(carries(island, bodies, (line, body)));
         }
     }
-    let belts = island.contacts.iter().map(|contact| contact.belt.abs());
-    let belt = belts.fold(0.0, f64::max);
-    if drives > 0.0 || belt > 0.0 {
+    if carrier.is_some() {
+        after <= (1.0 + ANSWERED) * before + ROUNDINGS * ROUNDINGS * carried
+    } else {
         let most = fastest.max(drives).sqrt() + belt + island.pulled;
         fastest_after.sqrt() <= (1.0 + ANSWERED) * most
-    } else {
-        after <= (1.0 + ANSWERED) * before
     }
+}
+
+/// The motion of all bodies of an island that cannot be moved, if they have one in common.
+fn carrier(island: &Island, bodies: &Bodies) -> Option<Carrier> {
+    let lines = island.lines.iter().zip(&island.bodies);
+    let unmoved = lines.filter(|(_, body)| body.inverse_mass <= 0.0);
+    let mut motions = unmoved.map(|(&line, body)| Carrier {
+        centre: centre(bodies, line),
+        velocity: body.velocity,
+        spin: body.spin,
+    });
+    let first = motions.next().unwrap_or(Carrier::STILL);
+    let is_same = |other: Carrier| {
+        (other.spin - first.spin).abs() <= 0.0 && other.velocity == first.at(other.centre)
+    };
+    motions.all(is_same).then_some(first)
+}
+
+/// Where the centre of mass of a body is.
+fn centre(bodies: &Bodies, line: u32) -> Vec2 {
+    bodies.base[line as usize].position + bodies.lines[line as usize].d()
 }
 
 /// Twice the kinetic energy of a body, as a part of its mass, in m²/s².
@@ -108,11 +153,14 @@ fn square(body: &ImpactBody, velocity: Vec2, spin: f64) -> f64 {
 
 /// The largest [`square`] of a body of the island that moves along with a kinematic one.
 fn carries(island: &Island, bodies: &Bodies, (line, driver): (u32, &ImpactBody)) -> f64 {
-    let centre = |line: u32| bodies.base[line as usize].position + bodies.lines[line as usize].d();
+    let driver = Carrier {
+        centre: centre(bodies, line),
+        velocity: driver.velocity,
+        spin: driver.spin,
+    };
     let of = |(&other, body): (&u32, &ImpactBody)| {
         if body.inverse_mass > 0.0 {
-            let away = perp(centre(other) - centre(line)) * driver.spin;
-            square(body, driver.velocity + away, driver.spin)
+            square(body, driver.at(centre(bodies, other)), driver.spin)
         } else {
             0.0
         }

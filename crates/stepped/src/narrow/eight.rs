@@ -73,7 +73,8 @@ pub(crate) struct Found {
     pub(crate) short: u8,
     /// A bit for each of these between pieces that may be flush.
     pub(crate) seam: u8,
-    /// A bit for each of these that lies on a face of B; those that are not short and have none lie on one of A.
+    /// A bit for each of these that lies on a face of A, and of B: corner on corner has none, nor has what was found otherwise.
+    pub(crate) of_a: u8,
     pub(crate) of_b: u8,
 }
 
@@ -92,6 +93,7 @@ impl Found {
         near: 0,
         short: 0,
         seam: 0,
+        of_a: 0,
         of_b: 0,
     };
 

@@ -28,7 +28,8 @@ pub(crate) fn collide_eight(
     eight: &Eight<'_>,
     found: &mut Found,
 ) {
-    (found.near, found.short, found.seam, found.of_b) = (0, 0, 0, 0);
+    (found.near, found.short, found.seam) = (0, 0, 0);
+    (found.of_a, found.of_b) = (0, 0);
     if eight_lanes(level) {
         dispatch!(level, simd => whole(simd, scene, factor, eight, found));
     } else {
@@ -196,6 +197,7 @@ fn part<S: Simd, V: Wide<S>, const N: usize>(
     let mut f2 = flip.select(j * code + i_next, i * code + j_next);
     let mut twice = single.select(zero, length);
 
+    let mut on_face = one.simd_gt(zero);
     let mut short = length.simd_le(V::splat(simd, SHORT) * margin);
     // Both faces end at one place, and touch there: their other sides may go on into each other.
     let aligned = V::splat(simd, SEAM) * margin;
@@ -246,6 +248,7 @@ fn part<S: Simd, V: Wide<S>, const N: usize>(
         f2 = instead.select(feature, f2);
         twice = instead.select(zero, twice);
         short |= instead;
+        on_face = !instead;
     }
 
     // How far the nearer point closes until the next tick, if velocities stay but for gravity.
@@ -273,14 +276,16 @@ fn part<S: Simd, V: Wide<S>, const N: usize>(
     f1.store_slice(&mut found.features[0][at..end]);
     f2.store_slice(&mut found.features[1][at..end]);
     #[expect(clippy::cast_possible_truncation, reason = "eight lanes")]
-    let (near, short, seam, of_b) = (
+    let (near, short, seam, of_a, of_b) = (
         kept.to_bitmask() as u8,
         (kept & short).to_bitmask() as u8,
         (kept & seam).to_bitmask() as u8,
-        (kept & flip).to_bitmask() as u8,
+        (kept & on_face & !flip).to_bitmask() as u8,
+        (kept & on_face & flip).to_bitmask() as u8,
     );
     found.near |= near << at;
     found.short |= short << at;
     found.seam |= seam << at;
+    found.of_a |= of_a << at;
     found.of_b |= of_b << at;
 }

@@ -28,7 +28,7 @@ pub(crate) use bounce_budget::Before;
 pub(crate) use colour::Colour;
 pub(crate) use deep::Deep;
 pub(crate) use extra_sweeps::ExtraSweeps;
-pub(crate) use graph::Graph;
+pub(crate) use graph::{Graph, HARD};
 pub(crate) use integrate::{correct, displace, velocity_before, warm_start};
 pub(crate) use kernel::{Pass, eight_lanes, sweep};
 pub(crate) use law::Law;

@@ -3,6 +3,7 @@
 mod bouncing;
 mod calls;
 mod composition;
+mod fast;
 mod geometry;
 mod ghosts;
 mod hard;
