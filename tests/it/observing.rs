@@ -30,6 +30,42 @@ fn the_caller_s_dt_does_not_change_the_motion() {
     }
 }
 
+/// Whether a body leaves the engine was asked of motions as old as the step: bodies that are thrown up from a heap met others where
+/// they had been seconds ago.
+#[test]
+fn a_long_step_lets_members_fly_as_short_ones_do() {
+    let heap = || {
+        let mut world = World::new(Settings {
+            sleep: None,
+            ..Settings::default()
+        })
+        .expect("valid");
+        let floor = HalfPlane::new(Vec2::ZERO, Vec2::Y).expect("a floor");
+        let lively = Material {
+            restitution: 0.7,
+            ..Material::default()
+        };
+        world
+            .insert(BodyDef::fixed(), floor, lively)
+            .expect("valid");
+        for k in 0..40_u32 {
+            let at = vec2(1.1 * f64::from(k % 8), 0.6 + 1.1 * f64::from(k / 8));
+            let def = BodyDef::dynamic().at(at).turned(0.3 * f64::from(k));
+            let block = ConvexPolygon::rectangle(1.0, 0.7).expect("a block");
+            world.insert(def, block, lively).expect("valid");
+        }
+        world
+    };
+    let (mut coarse, mut fine) = (heap(), heap());
+    coarse.step(4.0);
+    for _ in 0..1024 {
+        fine.step(1.0 / 256.0);
+    }
+    for (a, b) in coarse.bodies().zip(fine.bodies()) {
+        assert_eq!(a.motion(), b.motion(), "{}", a.id());
+    }
+}
+
 #[test]
 fn a_look_back_is_what_was_seen() {
     let mut world = World::new(Settings {

@@ -276,33 +276,36 @@ impl World {
             }
             let last = before.binary_search_by_key(&index, |known| known.0);
             let ticks = last.map_or(0, |at| before[at].1) + 1;
-            if ticks > IDLE
-                && !self.nears_member(
-                    &stepping,
-                    index,
-                    (time, 2.0 * self.settings.tick),
-                    Among::All,
-                )
-            {
-                gone.push(state);
+            let ahead = (time, 2.0 * self.settings.tick);
+            let leaves = ticks > IDLE && {
+                // What a long step has not written yet is as old as the step.
+                self.write_flight(&state, time);
+                !self.nears_member(&stepping, index, ahead, Among::All)
+            };
+            if leaves {
+                gone.push(index);
             } else {
                 idle.push((index, ticks.min(IDLE)));
             }
         }
         idle.sort_unstable();
         self.joins.idle = idle;
-        gone.sort_unstable_by_key(super::place);
+        gone.sort_unstable();
         self.stepping = Some(stepping);
+        for &index in &gone {
+            // What it touched is told below.
+            self.leave_engine(index, time);
+            self.take_woken(time);
+            self.end_membership(index, time);
+            self.take_off(index, time);
+        }
         if !gone.is_empty() {
-            for state in gone {
-                self.release_member(&state, time);
-            }
             self.tell_touches(time);
         }
     }
 
-    /// A member leaves the engine into free flight; what it touched is for the caller to tell.
-    fn release_member(&mut self, state: &State, time: SimTime) {
+    /// The motion of a member from `time` on if nothing meets it.
+    fn write_flight(&mut self, state: &State, time: SimTime) {
         let index = super::place(state);
         let (pull, twist) = self.pull_on(index, state.pose.position);
         let motion = Motion {
@@ -315,10 +318,6 @@ impl World {
             ..Motion::resting(state.pose.position)
         };
         self.bodies.go_on_as(index, &motion, state.turned);
-        self.leave_engine(index, time);
-        self.take_woken(time);
-        self.end_membership(index, time);
-        self.take_off(index, time);
     }
 
     /// Potential energy of all members, in J.
