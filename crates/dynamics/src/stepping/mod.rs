@@ -177,8 +177,10 @@ impl World {
             first = false;
             self.clock.begin();
             self.report.substeps += 1;
+            let before = self.report.handed_over;
             stepping.note_places(self.settings.history > 0 || self.clock.is_within(end));
             self.substep_engine(stepping);
+            self.handed_over = self.report.handed_over - before;
             let reached = self.clock.next();
             self.tell_sleep(stepping, reached.min(end));
             self.tell_impacts(stepping, reached.min(end));
