@@ -49,8 +49,7 @@ impl World {
         if dt > 0.0 {
             self.begin_forces();
             // What the solver gave them lasts to the end of its sub-step, in whichever step that is.
-            let goes_on = self.settings.mode == Mode::Stepped || self.is_substepping();
-            if goes_on && self.clock.next() - start > 1e-9 * self.clock.h {
+            if self.is_substepping() && self.clock.next() - start > 1e-9 * self.clock.h {
                 self.report.handed_over += self.handed_over;
             }
         }

@@ -165,6 +165,10 @@ impl World {
 
     fn step_all(&mut self, stepping: &mut Stepping, end: SimTime, stop_at_event: bool) -> SimTime {
         self.enter_within(stepping);
+        if end > self.clock.now && self.clock.is_within(self.clock.now) {
+            // What the engine did lasts to the end of its sub-step, and what came meanwhile knows of no contact before.
+            self.report.handed_over += stepping.engine.awake_count() as u64;
+        }
         let mut first = true;
         while self.clock.is_due(end) {
             let time = self.clock.next();
@@ -177,10 +181,8 @@ impl World {
             first = false;
             self.clock.begin();
             self.report.substeps += 1;
-            let before = self.report.handed_over;
             stepping.note_places(self.settings.history > 0 || self.clock.is_within(end));
             self.substep_engine(stepping);
-            self.handed_over = self.report.handed_over - before;
             let reached = self.clock.next();
             self.tell_sleep(stepping, reached.min(end));
             self.tell_impacts(stepping, reached.min(end));
