@@ -279,6 +279,37 @@ fn a_tall_heap_of_concave_bodies_comes_to_rest() {
     }
 }
 
+/// What drifts slowly in space fell asleep there: half the momentum of three bodies of a centimetre was gone.
+#[test]
+fn what_nothing_holds_sleeps_only_if_it_does_not_move() {
+    let mut engine = Engine::new(Settings {
+        gravity: Vec2::ZERO,
+        ..Settings::default()
+    })
+    .unwrap();
+    let mut put = |x: f64, speed: f64, damping: f64| {
+        let mut body = BodyInput::dynamic(1.0, 1.0 / 6.0).at(vec2(x, 0.0));
+        body.velocity = vec2(0.0, speed);
+        body.damping = [damping; 2];
+        engine.insert(body, &[unit_box()]).unwrap()
+    };
+    let drifts = put(0.0, 1e-4, 0.0);
+    let rests = put(5.0, 0.0, 0.0);
+    let stops = put(10.0, 1e-4, 1.0);
+    // Two that touch each other alone.
+    let pair = [put(15.0, 1e-4, 0.0), put(16.0, 1e-4, 0.0)];
+    for _ in 0..120 {
+        engine.tick();
+    }
+    for id in [drifts, pair[0], pair[1]] {
+        assert!(!engine.is_asleep(id).unwrap());
+        assert_eq!(engine.velocity(id).unwrap().0, vec2(0.0, 1e-4));
+    }
+    for id in [rests, stops] {
+        assert!(engine.is_asleep(id).unwrap());
+    }
+}
+
 /// What leans on a kinematic body that stands still falls asleep, and goes on to sleep: it was woken at the next tick.
 #[test]
 fn what_leans_on_a_kinematic_body_at_rest_sleeps() {
