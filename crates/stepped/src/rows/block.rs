@@ -136,6 +136,20 @@ impl Block {
         ]
     }
 
+    /// Has impulses act at one point, midway between where either body took the one of the base poses, so that they change no angular
+    /// momentum: `b1 − a1 = (c_A − c_B) × n`, and likewise along the normal. Gaps stay. Of bodies that can be moved, with these
+    /// base positions.
+    pub(crate) fn meet(&mut self, lane: usize, [a, b]: [(&Line, Vec2); 2]) {
+        let n = self.normal(lane);
+        let away = (a.1 + a.0.d()) - (b.1 + b.0.d());
+        let lever = 0.5 * (away.perp_dot(n) - (self.b1[lane] - self.a1[lane]));
+        let height = 0.5 * (away.dot(n) - (self.bt[lane] - self.at[lane]));
+        (self.a1[lane], self.b1[lane]) = (self.a1[lane] - lever, self.b1[lane] + lever);
+        (self.at[lane], self.bt[lane]) = (self.at[lane] - height, self.bt[lane] + height);
+        let turned = lever * (a.0.turn() + b.0.turn());
+        (self.s1[lane], self.s2[lane]) = (self.s1[lane] - turned, self.s2[lane] - turned);
+    }
+
     pub(crate) const fn points(&self, lane: usize) -> usize {
         if self.s2[lane] < OPEN { 2 } else { 1 }
     }

@@ -89,6 +89,11 @@ pub(crate) fn arrivals(
             }
         }
     }
+    for arrival in &*found {
+        // It has no impulses yet: no warm start changes.
+        let (block, lane) = graph.block_mut(arrival.contact);
+        meet(block, lane, bodies);
+    }
     if !found.is_empty() {
         let lines: Vec<_> = found.iter().map(|arrival| arrival.lines).collect();
         note(bodies, &lines, law.h, before);
@@ -140,6 +145,17 @@ fn motion(bodies: &Bodies, block: &Block, lane: usize) -> [[f64; 2]; 3] {
     [block.opening(lane, a, b), block.gaps(lane, a, b), [pull; 2]]
 }
 
+/// See [`Block::meet`].
+fn meet(block: &mut Block, lane: usize, bodies: &Bodies) {
+    let ends = [block.a[lane], block.b[lane]].map(|line| {
+        let at = line as usize;
+        (&bodies.lines[at], bodies.base[at].position)
+    });
+    if ends.iter().all(|(line, _)| line.inverse_mass() > 0.0) {
+        block.meet(lane, ends);
+    }
+}
+
 /// Lets what arrived leave again; v and start change alike, and the rows start cold.
 pub(crate) fn bounce(
     bodies: &mut Bodies,
@@ -164,9 +180,9 @@ pub(crate) fn bounce(
         for (arrival, pushed) in arrived.iter_mut().zip(&mut pushes) {
             let (block, _, lane) = graph.lane(arrival.contact);
             let (a, b) = (block.a[lane] as usize, block.b[lane] as usize);
-            let v = block.opening(lane, &bodies.lines[a], &bodies.lines[b])[arrival.point];
             let mut only = *block;
-            only.set_impulses(lane, [0.0; 3]);
+            meet(&mut only, lane, bodies);
+            let v = only.opening(lane, &bodies.lines[a], &bodies.lines[b])[arrival.point];
             let unit = if arrival.point == 0 {
                 [1.0, 0.0, 0.0]
             } else {
