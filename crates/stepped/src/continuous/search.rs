@@ -184,7 +184,7 @@ impl Engine {
                     let against = (own.velocity - other.velocity).dot(hit.normal);
                     body.carried && against * (to - from) > depth(piece_of_mine)
                 };
-                let met = match time_of_impact(core, &own, target, &other, left) {
+                let met = match time_of_impact(&core, &own, target, &other, left) {
                     TimeOfImpact::Hit(hit) => (hit.time, Some(hit.normal)),
                     TimeOfImpact::Unresolved { safe_until } => (safe_until, None),
                     TimeOfImpact::Touching(hit) if drives(&hit) => (0.0, Some(hit.normal)),
