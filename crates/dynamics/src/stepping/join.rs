@@ -21,7 +21,7 @@ use crate::sleep::neighbours;
 use crate::state::BodyState;
 use crate::{BodyKind, EnergyLedger, Mode, World};
 
-/// Islands of more bodies than this join the engine whether it resolves them or not; so many wake, or land, at once.
+/// Islands of more bodies than this join the engine even if nothing bears them; so many wake, or land, at once.
 pub(crate) const FEW: usize = 16;
 
 /// Groups of more bodies in touch than this have more than [`crate::modes::ROWS`] rows: no closed form is tried.
