@@ -192,7 +192,7 @@ impl Default for Softness {
     }
 }
 
-/// When groups at rest fall asleep.
+/// When groups at rest fall asleep. What nothing fixed or kinematic holds does so only if it does not move at all, or is damped.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde",

@@ -35,7 +35,7 @@ pub struct Softness {
     pub push_out: f64,
 }
 
-/// When islands fall asleep.
+/// When islands fall asleep. What nothing fixed or kinematic holds does so only if it does not move at all, or is damped.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sleep {
     /// A body rests while no point of it is faster, in its own extents per second.
