@@ -1,7 +1,7 @@
 //! Whether impulses are an answer: those of the last sub-step are at rest, and in even motion.
 
 use carom_impact::ImpactBody;
-use carom_math::{Vec2, perp};
+use carom_math::Vec2;
 
 use super::solve::{Island, lane_of};
 use crate::bodies::Bodies;
@@ -60,25 +60,6 @@ pub(super) fn answers(
     })
 }
 
-/// A rigid motion.
-struct Carrier {
-    centre: Vec2,
-    velocity: Vec2,
-    spin: f64,
-}
-
-impl Carrier {
-    const STILL: Self = Self {
-        centre: Vec2::ZERO,
-        velocity: Vec2::ZERO,
-        spin: 0.0,
-    };
-
-    fn at(&self, point: Vec2) -> Vec2 {
-        self.velocity + perp(point - self.centre) * self.spin
-    }
-}
-
 /// Whether what was before, and what drives the island, can give such velocities. Bodies that are squeezed so that nothing holds them
 /// seem held by impulses so large that their rounding is more than the speeds that were asked for, or leave a wedge of 1e-12 rad at
 /// 1e12 times the speed that closes it.
@@ -93,47 +74,62 @@ impl Carrier {
 pub(super) fn justified(island: &Island, bodies: &Bodies) -> bool {
     let belts = island.contacts.iter().map(|contact| contact.belt.abs());
     let belt = belts.fold(0.0, f64::max);
-    let carrier = carrier(island, bodies).filter(|_| belt <= 0.0);
-    let still = Carrier::STILL;
-    let from = carrier.as_ref().unwrap_or(&still);
-    let (mut before, mut after, mut carried) = (0.0, 0.0, 0.0);
-    let (mut fastest, mut fastest_after) = (0.0_f64, 0.0_f64);
-    let mut drives = 0.0_f64;
-    for (&line, body) in island.lines.iter().zip(&island.bodies) {
-        if body.inverse_mass > 0.0 {
-            let (mass, now) = (body.inverse_mass.recip(), &bodies.lines[line as usize]);
-            let along = from.at(centre(bodies, line));
-            let was = square(body, body.velocity - along, body.spin - from.spin);
-            let is = square(body, now.v() - along, now.w() - from.spin);
-            (before, after) = (before + mass * was, after + mass * is);
-            carried += mass * square(body, along, from.spin);
-            (fastest, fastest_after) = (fastest.max(was), fastest_after.max(is));
-        } else if body.velocity != Vec2::ZERO || body.spin.abs() > 0.0 {
-            drives = drives.max(carries(island, bodies, (line, body)));
-        }
-    }
-    if carrier.is_some() {
-        after <= (1.0 + ANSWERED) * before + ROUNDINGS * ROUNDINGS * carried
-    } else {
-        let most = fastest.max(drives).sqrt() + belt + island.pulled;
-        fastest_after.sqrt() <= (1.0 + ANSWERED) * most
+    match carrier(island, bodies) {
+        Some(carrier) if belt <= 0.0 => gains_nothing(island, bodies, &carrier),
+        _ => none_is_faster(island, bodies, belt),
     }
 }
 
-/// The motion of all bodies of an island that cannot be moved, if they have one in common.
-fn carrier(island: &Island, bodies: &Bodies) -> Option<Carrier> {
+/// Whether the kinetic energy is no more than before, seen from a body.
+fn gains_nothing(island: &Island, bodies: &Bodies, from: &ImpactBody) -> bool {
+    let (mut before, mut after, mut carried) = (0.0, 0.0, 0.0);
+    for (line, body) in island.moved() {
+        let (mass, now) = (body.inverse_mass.recip(), &bodies.lines[line as usize]);
+        let along = from.velocity_of(centre(bodies, line));
+        let was = square(body, body.velocity - along, body.spin - from.spin);
+        let is = square(body, now.v() - along, now.w() - from.spin);
+        (before, after) = (before + mass * was, after + mass * is);
+        carried += mass * square(body, along, from.spin);
+    }
+    after <= (1.0 + ANSWERED) * before + ROUNDINGS * ROUNDINGS * carried
+}
+
+/// Whether no body is faster than the fastest one was, or would be along with what moves it.
+fn none_is_faster(island: &Island, bodies: &Bodies, belt: f64) -> bool {
+    let (mut fastest, mut fastest_after) = (0.0_f64, 0.0_f64);
+    for (line, body) in island.moved() {
+        let now = &bodies.lines[line as usize];
+        fastest = fastest.max(square(body, body.velocity, body.spin));
+        fastest_after = fastest_after.max(square(body, now.v(), now.w()));
+    }
+    for driver in unmoved(island, bodies) {
+        let along = |(line, body): (u32, &ImpactBody)| {
+            let velocity = driver.velocity_of(centre(bodies, line));
+            square(body, velocity, driver.spin)
+        };
+        fastest = island.moved().map(along).fold(fastest, f64::max);
+    }
+    let most = fastest.sqrt() + belt + island.pulled;
+    fastest_after.sqrt() <= (1.0 + ANSWERED) * most
+}
+
+/// The bodies of an island that cannot be moved, where they are.
+fn unmoved<'i>(island: &'i Island, bodies: &'i Bodies) -> impl Iterator<Item = ImpactBody> + 'i {
     let lines = island.lines.iter().zip(&island.bodies);
     let unmoved = lines.filter(|(_, body)| body.inverse_mass <= 0.0);
-    let mut motions = unmoved.map(|(&line, body)| Carrier {
-        centre: centre(bodies, line),
-        velocity: body.velocity,
-        spin: body.spin,
-    });
-    let first = motions.next().unwrap_or(Carrier::STILL);
-    let is_same = |other: Carrier| {
-        (other.spin - first.spin).abs() <= 0.0 && other.velocity == first.at(other.centre)
+    unmoved
+        .map(|(&line, body)| ImpactBody::immovable(centre(bodies, line), body.velocity, body.spin))
+}
+
+/// A body that moves as all do that cannot be moved, if these have one motion in common.
+fn carrier(island: &Island, bodies: &Bodies) -> Option<ImpactBody> {
+    let mut unmoved = unmoved(island, bodies);
+    let still = ImpactBody::immovable(Vec2::ZERO, Vec2::ZERO, 0.0);
+    let first = unmoved.next().unwrap_or(still);
+    let is_same = |other: ImpactBody| {
+        (other.spin - first.spin).abs() <= 0.0 && other.velocity == first.velocity_of(other.centre)
     };
-    motions.all(is_same).then_some(first)
+    unmoved.all(is_same).then_some(first)
 }
 
 /// Where the centre of mass of a body is.
@@ -149,26 +145,4 @@ fn square(body: &ImpactBody, velocity: Vec2, spin: f64) -> f64 {
         0.0
     };
     velocity.length_squared() + turns
-}
-
-/// The largest [`square`] of a body of the island that moves along with a kinematic one.
-fn carries(island: &Island, bodies: &Bodies, (line, driver): (u32, &ImpactBody)) -> f64 {
-    let driver = Carrier {
-        centre: centre(bodies, line),
-        velocity: driver.velocity,
-        spin: driver.spin,
-    };
-    let of = |(&other, body): (&u32, &ImpactBody)| {
-        if body.inverse_mass > 0.0 {
-            square(body, driver.at(centre(bodies, other)), driver.spin)
-        } else {
-            0.0
-        }
-    };
-    island
-        .lines
-        .iter()
-        .zip(&island.bodies)
-        .map(of)
-        .fold(0.0, f64::max)
 }

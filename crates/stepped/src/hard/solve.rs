@@ -99,6 +99,12 @@ impl Island {
         self.lines.len() - 1
     }
 
+    /// Lines and states before contacts act of the bodies that these can move.
+    pub(super) fn moved(&self) -> impl Iterator<Item = (u32, &ImpactBody)> {
+        let lines = self.lines.iter().copied().zip(&self.bodies);
+        lines.filter(|(_, body)| body.inverse_mass > 0.0)
+    }
+
     pub(super) fn ends<'b>(&self, bodies: &'b Bodies, contact: &HardContact) -> [&'b Line; 2] {
         contact
             .ends
