@@ -321,6 +321,16 @@ impl Bodies {
         v.x.abs().max(v.y.abs()) + turns - self.pull[at].v().length() * tick
     }
 
+    /// Slots of the bodies that go far within `h` seconds.
+    pub(crate) fn fast(&self, h: f64) -> impl Iterator<Item = u32> + '_ {
+        let lines = self.lines.iter().zip(&self.limits).zip(&self.slot_of);
+        let is_fast = move |(line, limit): (&Line, &Limit)| {
+            limit.is_far((line.v() * h).length_squared(), line.w() * h)
+        };
+        let fast = lines.skip(2).filter(move |(both, _)| is_fast(*both));
+        fast.map(|(_, slot)| *slot)
+    }
+
     /// Rebases bodies that may be a margin off their predicted motion `rest` seconds later, since their velocities changed.
     pub(crate) fn rebase_deviating(&mut self, settings: &Settings, rest: f64) -> bool {
         if !self.may_deviate {

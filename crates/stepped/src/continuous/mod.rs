@@ -141,12 +141,8 @@ impl Engine {
 
     /// Fast bodies.
     pub fn fast(&self) -> impl Iterator<Item = BodyId> + '_ {
-        let (bodies, h) = (&self.bodies, self.law.h);
-        let far = (2..bodies.lines.len()).filter(move |at| {
-            let line = &bodies.lines[*at];
-            bodies.limits[*at].is_far((line.v() * h).length_squared(), line.w() * h)
-        });
-        far.map(|at| bodies.id(bodies.slot_of[at]))
+        let bodies = &self.bodies;
+        bodies.fast(self.law.h).map(|slot| bodies.id(slot))
     }
 
     /// Stops fast bodies that would pass through others within the `left` seconds of their motions; which ones it stopped.

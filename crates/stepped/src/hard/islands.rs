@@ -3,12 +3,12 @@
 //!
 //! Whether an island does is a pure function of its bodies and contacts.
 
-use crate::bodies::{Bodies, Limit};
-use crate::rows::{Graph, Line};
+use crate::bodies::Bodies;
+use crate::rows::Graph;
 
 /// Points of contact of an island, at most: its matrices are dense.
 #[derive(Clone, Copy)]
-struct Most {
+struct MostPoints {
     /// As it comes into hard rows.
     comes: usize,
     /// While it is in them: points come and go where bodies rock.
@@ -16,14 +16,14 @@ struct Most {
 }
 
 /// Of islands with a load that sweeps cannot carry.
-const LOADED: Most = Most {
+const UNDER_LOAD: MostPoints = MostPoints {
     comes: 64,
     stays: 80,
 };
 
 /// Of islands with a fast body: turning presses what a ring carries at 14.7 rad/s by 35 g, and soft rows let it sink in by 28 mm, hard
 /// ones by 0.7. 64: the debris of a wall takes them, too.
-const FAST: Most = Most {
+const WITH_FAST: MostPoints = MostPoints {
     comes: 16,
     stays: 20,
 };
@@ -67,7 +67,7 @@ pub(super) fn find(
         if known[first as usize] != Known::Nothing {
             continue;
         }
-        if let Some(contacts) = component(graph, bodies, (first, LOADED), known)
+        if let Some(contacts) = component(graph, bodies, (first, UNDER_LOAD), known)
             && contacts.iter().any(|id| is_borne(graph, bodies, *id))
         {
             found.push(contacts);
@@ -89,11 +89,7 @@ fn find_fast(
     known: &mut Vec<Known>,
     found: &mut Vec<Vec<u32>>,
 ) {
-    let lines = bodies.lines.iter().zip(&bodies.limits).zip(0..).skip(2);
-    let is_fast = |(line, limit): (&Line, &Limit)| {
-        limit.is_far((line.v() * h).length_squared(), line.w() * h)
-    };
-    let mut fast = lines.filter(|(both, _)| is_fast(*both)).peekable();
+    let mut fast = bodies.fast(h).peekable();
     if fast.peek().is_none() {
         return;
     }
@@ -106,14 +102,13 @@ fn find_fast(
     {
         known[slot as usize] = Known::Asked;
     }
-    for (_, line) in fast {
-        let slot: u32 = bodies.slot_of[line];
+    for slot in fast {
         for (id, side) in graph.of_body(bodies, slot) {
             let other = graph.contacts[id as usize].bodies[1 - side];
             let first = if bodies.is_dynamic(slot) { slot } else { other };
             if bodies.is_dynamic(first)
                 && known[first as usize] == Known::Nothing
-                && let Some(contacts) = component(graph, bodies, (first, FAST), known)
+                && let Some(contacts) = component(graph, bodies, (first, WITH_FAST), known)
             {
                 found.push(contacts);
             }
@@ -126,7 +121,7 @@ fn find_fast(
 fn component(
     graph: &Graph,
     bodies: &Bodies,
-    (first, most): (u32, Most),
+    (first, most): (u32, MostPoints),
     known: &mut [Known],
 ) -> Option<Vec<u32>> {
     let (mut slots, mut contacts) = (vec![first], Vec::new());
