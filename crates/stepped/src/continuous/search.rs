@@ -191,15 +191,15 @@ impl Engine {
                     // In touch from the start: its rows hold it.
                     TimeOfImpact::Clear | TimeOfImpact::Touching(_) => continue,
                 };
-                let (wait, normal) = match time_of_impact(&part.whole, &own, target, &other, met.0)
-                {
-                    TimeOfImpact::Hit(hit) => {
-                        let wait = hit.time + SHORT * mine.reach / hit.gap_rate;
-                        (wait.max(0.0), Some(hit.normal))
-                    }
-                    TimeOfImpact::Touching(hit) if drives(&hit) => (0.0, Some(hit.normal)),
-                    _ => met,
-                };
+                let (wait, normal) =
+                    match time_of_impact(&part.whole(), &own, target, &other, met.0) {
+                        TimeOfImpact::Hit(hit) => {
+                            let wait = hit.time + SHORT * mine.reach / hit.gap_rate;
+                            (wait.max(0.0), Some(hit.normal))
+                        }
+                        TimeOfImpact::Touching(hit) if drives(&hit) => (0.0, Some(hit.normal)),
+                        _ => met,
+                    };
                 first = Some((from + wait, normal));
             }
         }
