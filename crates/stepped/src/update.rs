@@ -47,7 +47,7 @@ pub(crate) fn update(
                 pieces,
                 settings,
             };
-            let eight_used = manifolds(level, &scene, block, cold, moved, &mut found);
+            manifolds(level, &scene, block, cold, moved, &mut found);
             let near = moved & found.near;
             renew(level, &bodies.lines, &mut bodies.start, block, &found, near);
             for lane in lanes(near) {
@@ -72,7 +72,7 @@ pub(crate) fn update(
             }
             // Soft rows that are short may be ghosts, and go; hard ones are discs on faces, too.
             let short = if is_hard { 0 } else { found.short };
-            for lane in lanes(near & (found.of_a | found.of_b) & !short & eight_used) {
+            for lane in lanes(near & (found.of_a | found.of_b) & !short) {
                 let pair = cold.pieces[lane];
                 let [a, b] = pair.map(|piece| &pieces.outlines[piece as usize]);
                 let of_b = found.of_b >> lane & 1 == 1;
@@ -82,7 +82,7 @@ pub(crate) fn update(
                         (block, lane),
                         (cold.contact[lane], pair),
                         (bodies, Side { of_b, radius }),
-                        (settings.tick, a.extent().min(b.extent()), is_hard),
+                        (settings.tick, a.extent().min(b.extent())),
                     );
                 }
             }
@@ -106,7 +106,7 @@ fn lanes(bits: u8) -> impl Iterator<Item = usize> {
     (0..LANES).filter(move |lane| bits >> lane & 1 == 1)
 }
 
-/// Manifolds of the lanes of a block that have a bit in `moved`: pieces without outlines one by one. A bit for each that has them.
+/// Manifolds of the lanes of a block that have a bit in `moved`: pieces without outlines one by one.
 fn manifolds(
     level: Level,
     scene: &Scene<'_>,
@@ -114,7 +114,7 @@ fn manifolds(
     cold: &Cold,
     moved: u8,
     found: &mut Found,
-) -> u8 {
+) {
     let mut eight = Eight::new(scene.pieces, [block.a, block.b]);
     for lane in lanes(moved) {
         eight.set_pieces(scene.pieces, lane, cold.pieces[lane]);
@@ -125,7 +125,6 @@ fn manifolds(
             found.set(lane, &manifold);
         }
     }
-    eight.used
 }
 
 /// Islands asleep that some candidate reaches before the next tick: its gap may come below 0 until then.

@@ -37,6 +37,8 @@ pub(crate) fn collide_eight(
         dispatch!(level, simd => halves(simd, scene, factor, eight, found));
     }
     found.near &= eight.used;
+    found.of_a &= eight.used;
+    found.of_b &= eight.used;
 }
 
 #[inline(always)]

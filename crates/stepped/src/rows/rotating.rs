@@ -1,8 +1,8 @@
 //! Rotating rows: contacts of a corner that slides along a turning face.
 //!
 //! Normals are those of the tick. A corner that slides at 5 m/s along a face that turns at 4 rad/s would penetrate it by
-//! v ω T²/2 = 3 mm a tick, tick after tick. Such a row is rotated with its face once bodies moved, in every sub-step: the features stay, the
-//! corner is fixed to its body, and the face to the other one.
+//! v ω T²/2 = 3 mm a tick, tick after tick. Such a row is rotated with its face once bodies moved, in every sub-step: the features
+//! stay, the corner is fixed to its body, and the face to the other one.
 
 use carom_math::{Rot, Vec2, perp, vec2};
 
@@ -14,9 +14,6 @@ use crate::bodies::Bodies;
 /// Change of gap to second order within a tick from which on a row is rotated, as a part of the smaller extent. With 1e-3 the
 /// thesis scene has the same deepest overlap (3.5 mm; 15.5 without rotating rows), a smash and a drum no less.
 const SECOND_ORDER: f64 = 3e-3;
-
-/// The same of hard rows, which have no springs: what is off is all of their overlap.
-const OF_HARD: f64 = 1e-4;
 
 /// The rows that are rotated within the tick.
 #[derive(Clone, Debug, Default)]
@@ -66,7 +63,7 @@ impl RotatingRows {
         (block, lane): (&Block, usize),
         (contact, pieces): (u32, [u32; 2]),
         (bodies, side): (&Bodies, Side),
-        (tick, extent, is_hard): (f64, f64, bool),
+        (tick, extent): (f64, f64),
     ) {
         let [a, b] = [block.a[lane], block.b[lane]].map(|line| &bodies.lines[line as usize]);
         let seen = Seen::of(block, lane);
@@ -75,8 +72,7 @@ impl RotatingRows {
             .map(|rate| (-rate * tick).max(0.0));
         let change = seen.second_order(side, [a, b].map(|line| (line.v() * tick, line.w() * tick)));
         let pushes = |k: usize| seen.gaps[k] < closes[k] + 2.0 * change;
-        let least = if is_hard { OF_HARD } else { SECOND_ORDER };
-        if change > least * extent && (pushes(0) || pushes(1)) {
+        if change > SECOND_ORDER * extent && (pushes(0) || pushes(1)) {
             self.rows.push(Row {
                 contact,
                 pieces,
