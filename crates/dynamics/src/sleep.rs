@@ -20,7 +20,7 @@ pub(crate) fn settle(
 ) -> Vec<u32> {
     // Groups by places in the list, which is in order.
     let mut tree = Tree::new(stepped.len());
-    let (mut restless, mut standing) = (Vec::new(), Vec::new());
+    let (mut restless, mut on_ground) = (Vec::new(), Vec::new());
     #[expect(clippy::cast_possible_truncation, reason = "fewer than bodies")]
     let place = |index: u32| stepped.binary_search(&index).ok().map(|at| at as u32);
     for (a, b) in groups.links() {
@@ -32,14 +32,14 @@ pub(crate) fn settle(
             }
             (BodyKind::Kinematic, _) if moves(bodies, a) => restless.extend(place(b)),
             (_, BodyKind::Kinematic) if moves(bodies, b) => restless.extend(place(a)),
-            (BodyKind::Dynamic, _) => standing.extend(place(a)),
-            _ => standing.extend(place(b)),
+            (BodyKind::Dynamic, _) => on_ground.extend(place(a)),
+            _ => on_ground.extend(place(b)),
         }
     }
     // What drifts in space is not at rest, however slow: it would lose its momentum.
-    let mut stands = vec![false; stepped.len()];
-    for at in standing {
-        stands[tree.root(at) as usize] = true;
+    let mut supported = vec![false; stepped.len()];
+    for at in on_ground {
+        supported[tree.root(at) as usize] = true;
     }
     // Least time of rest in each group, kept at its root.
     let mut least = vec![f64::INFINITY; stepped.len()];
@@ -66,7 +66,7 @@ pub(crate) fn settle(
     let enough = sleep.time.max(h);
     for (&index, at) in stepped.iter().zip(0..) {
         let root = tree.root(at) as usize;
-        if least[root] < enough || !stands[root] {
+        if least[root] < enough || !supported[root] {
             continue;
         }
         let (kinetic, _) = bodies.energy_of(index, time);

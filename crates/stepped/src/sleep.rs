@@ -97,13 +97,13 @@ impl Engine {
     /// The island of a body that is awake, and whether all of it has rested for so long and nothing that moves touches it. What drifts
     /// in space is not at rest, however slow: it would lose its momentum.
     fn island(&self, slot: u32, after: f64, seen: &mut [bool]) -> (Vec<u32>, bool) {
-        let (mut island, mut rests, mut stands) = (vec![slot], true, false);
+        let (mut island, mut rests, mut supported) = (vec![slot], true, false);
         seen[slot as usize] = true;
         let mut next = 0;
         while let Some(&slot) = island.get(next) {
             next += 1;
             rests &= self.bodies.rest[self.bodies.line_of(slot)] >= after;
-            stands |= self.stands_alone(slot);
+            supported |= self.rests_unsupported(slot);
             for (id, side) in self.graph.of_body(&self.bodies, slot) {
                 let other = self.graph.contacts[id as usize].bodies[1 - side];
                 if !self.hold_together(id) {
@@ -118,16 +118,16 @@ impl Engine {
                     BodyKind::Kinematic | BodyKind::Fixed => {
                         let (v, w) = self.bodies.velocity_of(other);
                         rests &= v == Vec2::ZERO && w.abs() <= 0.0;
-                        stands = true;
+                        supported = true;
                     }
                 }
             }
         }
-        (island, rests && stands)
+        (island, rests && supported)
     }
 
-    /// Whether a body is at rest though nothing holds it: it does not move at all, or damping stops it.
-    fn stands_alone(&self, slot: u32) -> bool {
+    /// Whether a body may rest in space: it does not move at all, or damping stops it.
+    fn rests_unsupported(&self, slot: u32) -> bool {
         let (v, w) = self.bodies.velocity_of(slot);
         let record = &self.bodies.records[slot as usize];
         v == Vec2::ZERO && w.abs() <= 0.0 || record.damping.into_iter().any(|rate| rate > 0.0)
