@@ -3,6 +3,7 @@
 use carom_dynamics::{BodyDef, EventKind, Material, Mode, Refusal, Settings, World};
 use carom_geometry::{Circle, ConvexPolygon, HalfPlane, Shape};
 use carom_math::{SimTime, Vec2, vec2};
+use carom_tests::scenes::{block, floor, put};
 
 fn thesis() -> World {
     let scene = carom_scenes::find("thesis").expect("a built-in scene");
@@ -34,24 +35,7 @@ fn the_caller_s_dt_does_not_change_the_motion() {
 #[test]
 fn a_part_of_a_sub_step_is_no_more_exact_than_the_whole() {
     for mode in [Mode::Stepped, Mode::Hybrid, Mode::Exact] {
-        let mut world = World::new(Settings {
-            mode,
-            sleep: None,
-            ..Settings::default()
-        })
-        .expect("valid");
-        let floor = HalfPlane::new(Vec2::ZERO, Vec2::Y).expect("a floor");
-        world
-            .insert(BodyDef::fixed(), floor, Material::default())
-            .expect("valid");
-        for k in 0..80_u32 {
-            let at = vec2(1.05 * f64::from(k % 20), 0.4 + 0.8 * f64::from(k / 20));
-            let def = BodyDef::dynamic().at(at).turned(0.01 * f64::from(k % 7));
-            let block = ConvexPolygon::rectangle(1.0, 0.8).expect("a block");
-            world
-                .insert(def, block, Material::default())
-                .expect("valid");
-        }
+        let mut world = heap(mode, Material::default());
         world.step(0.5);
         for _ in 0..8 {
             let report = world.step(1.0 / 1440.0);
@@ -64,29 +48,13 @@ fn a_part_of_a_sub_step_is_no_more_exact_than_the_whole() {
 /// they had been seconds ago.
 #[test]
 fn a_long_step_lets_members_fly_as_short_ones_do() {
-    let heap = || {
-        let mut world = World::new(Settings {
-            sleep: None,
-            ..Settings::default()
-        })
-        .expect("valid");
-        let floor = HalfPlane::new(Vec2::ZERO, Vec2::Y).expect("a floor");
+    let [mut coarse, mut fine] = [0.7; 2].map(|e| {
         let lively = Material {
-            restitution: 0.7,
+            restitution: e,
             ..Material::default()
         };
-        world
-            .insert(BodyDef::fixed(), floor, lively)
-            .expect("valid");
-        for k in 0..40_u32 {
-            let at = vec2(1.1 * f64::from(k % 8), 0.6 + 1.1 * f64::from(k / 8));
-            let def = BodyDef::dynamic().at(at).turned(0.3 * f64::from(k));
-            let block = ConvexPolygon::rectangle(1.0, 0.7).expect("a block");
-            world.insert(def, block, lively).expect("valid");
-        }
-        world
-    };
-    let (mut coarse, mut fine) = (heap(), heap());
+        heap(Mode::Hybrid, lively)
+    });
     coarse.step(4.0);
     for _ in 0..1024 {
         fine.step(1.0 / 256.0);
@@ -94,6 +62,23 @@ fn a_long_step_lets_members_fly_as_short_ones_do() {
     for (a, b) in coarse.bodies().zip(fine.bodies()) {
         assert_eq!(a.motion(), b.motion(), "{}", a.id());
     }
+}
+
+/// Forty blocks, turned this way and that, over a floor; none falls asleep.
+fn heap(mode: Mode, material: Material) -> World {
+    let mut world = World::new(Settings {
+        mode,
+        sleep: None,
+        ..Settings::default()
+    })
+    .expect("valid");
+    floor(&mut world, material);
+    for k in 0..40_u32 {
+        let at = vec2(1.1 * f64::from(k % 8), 0.6 + 1.1 * f64::from(k / 8));
+        let def = BodyDef::dynamic().at(at).turned(0.3 * f64::from(k));
+        put(&mut world, def, block(1.0, 0.7), material);
+    }
+    world
 }
 
 #[test]
