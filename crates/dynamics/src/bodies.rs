@@ -7,12 +7,12 @@ use carom_math::{SimTime, Sum, Vec2};
 
 use crate::few::Few;
 use crate::history::History;
-use crate::ledger::damping_loss;
 use crate::left_paths::LeftPaths;
 use crate::moved::{Moved, moves};
 use crate::regime::Members;
 use crate::state::BodyState;
 use crate::uncommon::Lag;
+use crate::values::ledger::damping_loss;
 use crate::{BodyError, BodyId, EnergyLedger, Field};
 
 /// Running sums of the energy ledger's columns, with twice the digits.

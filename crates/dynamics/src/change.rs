@@ -9,10 +9,10 @@ use carom_collision::contacts;
 use carom_math::{Pose, SimTime, Vec2};
 
 use crate::bodies::Pull;
-use crate::error::{check_finite, check_vec2};
 use crate::flight::fly;
 use crate::free::{Course, FreeBodies};
 use crate::state::BodyState;
+use crate::values::error::{check_finite, check_vec2};
 use crate::{BodyDef, BodyError, BodyId, BodyKind, Field, Filter, Force, Impulse, Mode, World};
 
 impl World {

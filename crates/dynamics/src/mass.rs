@@ -3,7 +3,7 @@
 use carom_geometry::{Aabb, AreaProperties, MassProperties, Shape};
 use carom_math::{Pose, Vec2};
 
-use crate::error::BodyError;
+use crate::values::error::BodyError;
 use crate::{BodyDef, BodyKind, Material};
 
 /// A centre of mass nearer to the origin of its shapes than this, as a fraction of how far they reach from there, is there: two

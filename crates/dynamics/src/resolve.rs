@@ -3,7 +3,6 @@
 use carom_math::SimTime;
 
 use crate::bodies::Bodies;
-use crate::event::EventKind;
 use crate::event_queue::Entry;
 use crate::impact::{ImpactContact, resolve};
 use crate::narrow::{NOISE, Narrow, RestSpeed, opening_speed, pace};
@@ -11,6 +10,7 @@ use crate::pairs::{Pair, Pairs};
 use crate::predict::{BUDGET, price};
 use crate::shock::Shock;
 use crate::state::Collider;
+use crate::values::event::EventKind;
 use crate::{Events, Settings, StepReport};
 
 /// What an entry that came up did.

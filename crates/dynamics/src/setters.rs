@@ -6,11 +6,11 @@
 use carom_geometry::Shape;
 use carom_math::Vec2;
 
-use crate::error::{check_finite, check_vec2};
 use crate::groups::Law;
 use crate::mass::mass_of;
 use crate::state::{BodyState, Surface};
 use crate::threads::Threads;
+use crate::values::error::{check_finite, check_vec2};
 use crate::{BodyDef, BodyError, BodyId, BodyKind, Material, Settings, SettingsError, World};
 
 impl World {

@@ -3,9 +3,9 @@
 use carom_math::{SimTime, Vec2};
 
 use crate::bodies::Bodies;
-use crate::event::EventKind;
 use crate::groups::Groups;
 use crate::pairs::Pairs;
+use crate::values::event::EventKind;
 use crate::{BodyKind, Events, Sleep};
 
 /// Puts every island to sleep once all its bodies have been slow for long enough; returns these bodies.

@@ -7,7 +7,6 @@ use carom_geometry::{Aabb, MassProperties, Shape};
 use carom_math::{Pose, Rot, SimTime, StateHash, Vec2};
 
 use crate::closed::Membership;
-use crate::error::BodyError;
 use crate::few::Few;
 use crate::flight::Flight;
 use crate::free::Course;
@@ -15,6 +14,7 @@ use crate::impact::ImpactBody;
 use crate::mass::mass_of;
 use crate::regime::Regime;
 use crate::uncommon::{Lag, Uncommon};
+use crate::values::error::BodyError;
 use crate::{BodyDef, BodyId, BodyKind, Filter, Material, Mode};
 use carom_collision::NodeId;
 

@@ -1,6 +1,6 @@
 //! Threads that a step may use: with the cargo feature `parallel`, a pool of the world's own.
 
-use crate::error::SettingsError;
+use crate::values::error::SettingsError;
 
 /// A pool, if there is more than one thread to use. Copies of a world share it.
 #[derive(Clone, Debug, Default)]

@@ -15,10 +15,10 @@ use crate::groups::Groups;
 use crate::groups::Law;
 use crate::narrow::Narrow;
 use crate::pairs::{Pair, Pairs};
-use crate::profile::Stopwatch;
 use crate::state::{BodyState, Collider, Surface, drawn_at};
 use crate::stepping::{Joins, Stepping};
 use crate::threads::Threads;
+use crate::values::profile::Stopwatch;
 use crate::work::Work;
 use crate::{
     Body, BodyDef, BodyError, BodyId, BodyKind, Contact, EnergyLedger, Events, Material, Mode,

@@ -25,7 +25,7 @@ use std::collections::BTreeMap;
 use carom_math::{Pose, SimTime};
 use carom_stepped::{Engine, Impact, Relaxation, Softness, State, Touch};
 
-use crate::error::SettingsError;
+use crate::values::error::SettingsError;
 use crate::{Mode, Settings, World};
 
 pub(crate) use heap::Seen;

@@ -1,6 +1,6 @@
 //! What a surface is made of.
 
-use crate::error::{BodyError, check_finite};
+use super::error::{BodyError, check_finite};
 
 /// Density and surface of a shape.
 ///

@@ -2,8 +2,8 @@
 
 use carom_math::{Vec2, vec2};
 
+use super::error::{BodyError, check_finite, check_mass, check_vec2};
 use crate::Filter;
-use crate::error::{BodyError, check_finite, check_mass, check_vec2};
 
 /// What moves a body.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -2,7 +2,7 @@
 
 use carom_math::{Vec2, cross};
 
-use crate::error::{BodyError, check_finite, check_vec2};
+use super::error::{BodyError, check_finite, check_vec2};
 
 /// A change of momentum, acting at once.
 #[derive(Clone, Copy, Debug, PartialEq)]

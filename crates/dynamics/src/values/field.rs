@@ -4,7 +4,7 @@ use core::fmt;
 
 use carom_math::Vec2;
 
-use crate::error::{BodyError, check_finite, check_vec2};
+use super::error::{BodyError, check_finite, check_vec2};
 
 /// A conservative field: every body feels its acceleration at its centre of mass.
 ///

@@ -2,7 +2,7 @@
 
 use carom_math::{Vec2, vec2};
 
-use crate::error::{SettingsError, WORLD_LIMIT};
+use super::error::{SettingsError, WORLD_LIMIT};
 use crate::impact::{ImpactLaw, Several};
 
 /// All that a world can be told before it starts.
