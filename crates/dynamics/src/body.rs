@@ -4,7 +4,7 @@ use carom_collision::Motion;
 use carom_geometry::{Aabb, Shape};
 use carom_math::{Pose, SimTime, Vec2};
 
-use crate::state::{BodyState, Collider};
+use crate::store::state::{BodyState, Collider};
 use crate::{BodyId, BodyKind, Filter, Material};
 
 /// A body of a world, read at the world's time.

@@ -6,10 +6,10 @@ use carom_collision::{BoxTree, Motion, roundable};
 use carom_geometry::Aabb;
 use carom_math::{SimTime, Vec2};
 
-use crate::bodies::Bodies;
 use crate::free::FreeBodies;
-use crate::pairs::{Pair, Pairs};
-use crate::state::Collider;
+use crate::store::bodies::Bodies;
+use crate::store::pairs::{Pair, Pairs};
+use crate::store::state::Collider;
 use crate::{BodyId, BodyKind, PairMaterial, PairSearch};
 
 /// Boxes are stretched along the motion over this many sub-steps, so that a body that keeps its
@@ -335,7 +335,7 @@ pub(crate) fn swept_box(collider: &Collider, motion: &Motion, time: SimTime, h: 
 mod tests {
     use super::*;
     use crate::Material;
-    use crate::state::Surface;
+    use crate::store::state::Surface;
     use carom_geometry::{ConvexPolygon, Shape};
     use std::sync::Arc;
 

@@ -15,9 +15,9 @@ use std::sync::Arc;
 use carom_collision::Motion;
 use carom_math::{SimTime, Vec2};
 
-use crate::bodies::Bodies;
-use crate::state::BodyState;
-use crate::uncommon::Lag;
+use crate::store::bodies::Bodies;
+use crate::store::state::BodyState;
+use crate::store::uncommon::Lag;
 pub(crate) use contact::{first_touch, first_touch_of_parts};
 use damped::damped;
 pub(crate) use integrate::{NODES, ROUNDS};

@@ -12,10 +12,10 @@
 use carom_collision::{Hull, contacts, part};
 use carom_math::{Pose, SimTime, Vec2, cross};
 
-use crate::bodies::Bodies;
 use crate::narrow::{Narrow, TOUCH, note_touch};
-use crate::pairs::{Pair, Pairs};
-use crate::state::{BodyState, Collider};
+use crate::store::bodies::Bodies;
+use crate::store::pairs::{Pair, Pairs};
+use crate::store::state::{BodyState, Collider};
 
 /// Sine of the angle up to which two normals are one.
 const ALONG: f64 = 1e-6;

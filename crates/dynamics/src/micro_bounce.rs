@@ -8,10 +8,10 @@ use arrayvec::ArrayVec;
 use carom_collision::{AxisFeature, Impact, ImpactFeature};
 use carom_math::SimTime;
 
-use crate::bodies::Bodies;
 use crate::narrow::TOUCH;
-use crate::pairs::{Pair, PairContact};
-use crate::state::Collider;
+use crate::store::bodies::Bodies;
+use crate::store::pairs::{Pair, PairContact};
+use crate::store::state::Collider;
 use crate::touching::{Approach, approach_at};
 
 /// When a contact closes that opens now, if that is by `horizon` seconds from `time` and it does not come out of touch.

@@ -4,9 +4,9 @@ use arrayvec::ArrayVec;
 use carom_collision::{PartManifold, contacts};
 use carom_math::{Pose, SimTime, Vec2, cross_scalar};
 
-use crate::bodies::Bodies;
-use crate::pairs::{Pair, PairContact, PairPoint};
-use crate::state::{BodyState, Collider};
+use crate::store::bodies::Bodies;
+use crate::store::pairs::{Pair, PairContact, PairPoint};
+use crate::store::state::{BodyState, Collider};
 
 /// Contacts are looked for this far beyond a sub-step's travel, as a fraction of the smaller reach.
 const MARGIN: f64 = 1.0 / 1024.0;

@@ -7,16 +7,16 @@ use carom_collision::{
 };
 use carom_math::{SimTime, Vec2};
 
-use crate::bodies::Bodies;
 use crate::event_queue::{Entry, EventQueue};
 use crate::flight::{first_touch_of_parts, motion_along};
 use crate::ghost::Meeting;
 use crate::micro_bounce::micro_bounce;
 use crate::modes::CLOSED;
 use crate::narrow::{NOISE, Narrow, RestSpeed, TOUCH, opening_speed, pace};
-use crate::pairs::{PairContact, PairPoint, Pairs};
 use crate::sink::sinks_in;
-use crate::state::{BodyState, Collider};
+use crate::store::bodies::Bodies;
+use crate::store::pairs::{PairContact, PairPoint, Pairs};
+use crate::store::state::{BodyState, Collider};
 use crate::touching::stays;
 use crate::{BodyKind, PairMaterial, StepReport};
 

@@ -4,12 +4,12 @@ use carom_collision::{Motion, Side, part};
 use carom_geometry::Shape;
 use carom_math::{SimTime, Vec2, cross_scalar, perp};
 
-use crate::bodies::Bodies;
 use crate::edges::feature;
 use crate::flight::motion_along;
 use crate::free::{Touching, gap_acceleration};
 use crate::modes::Feature;
-use crate::state::BodyState;
+use crate::store::bodies::Bodies;
+use crate::store::state::BodyState;
 
 /// Stretch of a law that its acceleration is read from, in s.
 const STRETCH: f64 = 1e-5;

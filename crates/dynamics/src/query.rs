@@ -7,7 +7,7 @@ use carom_collision::{cast, roundable, shape_distance};
 use carom_geometry::{Aabb, Shape};
 use carom_math::{Pose, Vec2};
 
-use crate::state::{BodyState, Collider};
+use crate::store::state::{BodyState, Collider};
 use crate::{BodyId, Filter, Mode, World};
 
 /// What a ray met first.

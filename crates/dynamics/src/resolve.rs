@@ -2,14 +2,14 @@
 
 use carom_math::SimTime;
 
-use crate::bodies::Bodies;
 use crate::event_queue::Entry;
 use crate::impact::{ImpactContact, resolve};
 use crate::narrow::{NOISE, Narrow, RestSpeed, opening_speed, pace};
-use crate::pairs::{Pair, Pairs};
 use crate::predict::{BUDGET, price};
 use crate::shock::Shock;
-use crate::state::Collider;
+use crate::store::bodies::Bodies;
+use crate::store::pairs::{Pair, Pairs};
+use crate::store::state::Collider;
 use crate::values::event::EventKind;
 use crate::{Events, Settings, StepReport};
 

@@ -26,11 +26,11 @@
 
 use carom_math::Vec2;
 
-use crate::bodies::Bodies;
 use crate::groups::{Row, SolverBody, warm_start};
 use crate::impact::{Moving, Sweeper, Swept};
-use crate::pairs::Pair;
-use crate::state::{BodyState, Collider};
+use crate::store::bodies::Bodies;
+use crate::store::pairs::Pair;
+use crate::store::state::{BodyState, Collider};
 
 /// Sweeps before what is left stays.
 const SWEEPS: usize = 1024;

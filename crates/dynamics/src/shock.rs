@@ -14,13 +14,13 @@ mod loss;
 use carom_math::{SimTime, Vec2, perp};
 
 use crate::Settings;
-use crate::bodies::Bodies;
 use crate::impact::{
     Growth, ImpactBody, ImpactContact, SharedContact, Sweeper, is_driven, several,
 };
 use crate::narrow::{Narrow, RestSpeed, TOUCH};
-use crate::pairs::Pairs;
-use crate::state::Collider;
+use crate::store::bodies::Bodies;
+use crate::store::pairs::Pairs;
+use crate::store::state::Collider;
 
 /// Sweeps before the rest is left to the next look: what still closes then is struck again.
 const SWEEPS: usize = 300;

@@ -12,11 +12,11 @@ use arrayvec::ArrayVec;
 use carom_collision::Impact;
 use carom_math::{SimTime, Vec2};
 
-use crate::bodies::Bodies;
 use crate::narrow::{Narrow, opening_speed};
-use crate::pairs::{Pair, PairContact};
 use crate::predict::strikes_with;
-use crate::state::{BodyState, Collider};
+use crate::store::bodies::Bodies;
+use crate::store::pairs::{Pair, PairContact};
+use crate::store::state::{BodyState, Collider};
 
 /// How far a held pair may sink in within a sub-step, as a part of the smaller reach: the linear plan is off by as much
 /// where a body turns by 1/11 rad, which is 32 rad/s at 1/360 s.

@@ -2,9 +2,9 @@
 
 use carom_math::{SimTime, Vec2};
 
-use crate::bodies::Bodies;
 use crate::groups::Groups;
-use crate::pairs::Pairs;
+use crate::store::bodies::Bodies;
+use crate::store::pairs::Pairs;
 use crate::values::event::EventKind;
 use crate::{BodyKind, Events, Sleep};
 

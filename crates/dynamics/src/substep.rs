@@ -6,10 +6,10 @@ use crate::World;
 use crate::event_queue::Entry;
 use crate::flight::fly;
 use crate::narrow::{TOUCH, opening_speed, rest_speed};
-use crate::pairs::PairContact;
 use crate::predict::BUDGET;
 use crate::sleep::settle;
 use crate::stepping::{FEW, Seen};
+use crate::store::pairs::PairContact;
 
 /// Sub-steps with nothing near after which a body flies: fewer, and what rattles changes sides all the time.
 const IDLE: u8 = 4;

@@ -5,13 +5,13 @@ use carom_collision::part;
 use carom_math::{SimTime, Vec2, cross_scalar};
 
 use crate::World;
-use crate::bodies::Bodies;
 use crate::edges::{at_the_end, feature};
 use crate::heavy::{BEARS, mass_ratio};
 use crate::modes::{CLOSED, Feature, ModeBody, ROWS, Touch, hold, stand};
 use crate::narrow::{RestSpeed, TOUCH};
-use crate::pairs::PairContact;
-use crate::state::BodyState;
+use crate::store::bodies::Bodies;
+use crate::store::pairs::PairContact;
+use crate::store::state::BodyState;
 
 /// Overlap beyond which a pair is pushed apart first, as a part of the smaller reach: closed forms keep what
 /// overlap there is.

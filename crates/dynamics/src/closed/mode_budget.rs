@@ -9,7 +9,7 @@ use super::store::Closed;
 use crate::World;
 use crate::modes::BodyMove;
 use crate::sleep::neighbours;
-use crate::state::BodyState;
+use crate::store::state::BodyState;
 use crate::touching::Gathered;
 
 /// Size of a budget, in mode solves of one body. 16: boxes that rock to rest (`tests/it/rocking.rs`) join before, and part from the

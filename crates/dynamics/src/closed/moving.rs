@@ -17,7 +17,7 @@ use super::tips::Tipping;
 use crate::flight::{Flight, begin_held_piece};
 use crate::free::Cause;
 use crate::narrow::Narrow;
-use crate::pairs::Pair;
+use crate::store::pairs::Pair;
 use crate::{ContactMode, World};
 
 /// Sub-steps to its next change that a group has at least: what ends sooner stays.

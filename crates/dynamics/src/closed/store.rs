@@ -7,10 +7,10 @@ use carom_math::{SimTime, Vec2};
 
 use super::mode_budget::ModeBudget;
 use super::tips::Tipping;
-use crate::bodies::Bodies;
 use crate::modes::TouchMove;
 use crate::narrow::TOUCH;
-use crate::pairs::Pair;
+use crate::store::bodies::Bodies;
+use crate::store::pairs::Pair;
 use crate::tipping::Ends;
 use crate::{ContactMode, Mode};
 

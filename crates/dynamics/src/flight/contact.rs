@@ -13,7 +13,7 @@ use carom_geometry::Shape;
 use carom_math::SimTime;
 
 use super::osculating::Osculating;
-use crate::state::BodyState;
+use crate::store::state::BodyState;
 
 /// A parabola that is nearer to its law than this, as a part of the smaller reach, is the law but for rounding.
 const EXACT: f64 = 1.0 / (1_u64 << 46) as f64;

@@ -6,8 +6,8 @@ use super::FreeBodies;
 use super::frame::{Frame, Track};
 use super::window::{self, Window};
 use crate::Filter;
-use crate::bodies::Bodies;
-use crate::state::{BodyState, Collider};
+use crate::store::bodies::Bodies;
+use crate::store::state::{BodyState, Collider};
 
 /// The bounding circle of a body at an instant, in motion.
 #[derive(Clone, Copy, Debug)]

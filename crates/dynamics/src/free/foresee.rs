@@ -8,7 +8,7 @@ use super::frame::Track;
 use super::queue::{Ahead, Entry};
 use super::window::{self, Window};
 use super::{Foreseen, Sides, SweptBox, drift};
-use crate::state::BodyState;
+use crate::store::state::BodyState;
 use crate::{BodyKind, PairSearch, World};
 
 /// Part of a cell that a free body travels within its horizon.

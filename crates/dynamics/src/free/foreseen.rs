@@ -7,8 +7,8 @@ use carom_math::{SimTime, Vec2};
 use super::FreeBodies;
 use super::queue::{Ahead, Entry};
 use crate::BodyId;
-use crate::bodies::Bodies;
-use crate::state::Collider;
+use crate::store::bodies::Bodies;
+use crate::store::state::Collider;
 
 /// An impact ahead: all that its response needs.
 #[derive(Clone, Debug)]

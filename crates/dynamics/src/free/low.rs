@@ -6,8 +6,8 @@ use super::Foreseen;
 use super::gap::{Touching, gap_acceleration};
 use super::strike::approach_speed;
 use crate::World;
-use crate::mass::CENTRED;
-use crate::state::BodyState;
+use crate::store::mass::CENTRED;
+use crate::store::state::BodyState;
 
 /// Height of a bounce below which it is timed by its speeds, as a fraction of the smaller reach, where
 /// the normal turns: rounding of the gap is 1e-6 of it.

@@ -32,8 +32,8 @@ use std::collections::BTreeSet;
 use carom_collision::{BoxTree, ImpactFeature, NodeId};
 use carom_math::{SimTime, Vec2};
 
-use crate::bodies::Bodies;
-use crate::state::{BodyState, Collider};
+use crate::store::bodies::Bodies;
+use crate::store::state::{BodyState, Collider};
 use aside::Aside;
 use circle::Registered;
 pub(crate) use foresee::{Cause, box_ahead};

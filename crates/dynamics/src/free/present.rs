@@ -5,7 +5,7 @@ use carom_geometry::Aabb;
 use carom_math::SimTime;
 
 use super::{Cells, Course, FreeBodies, Sides, SweptBox};
-use crate::bodies::Bodies;
+use crate::store::bodies::Bodies;
 
 impl FreeBodies {
     /// Bodies of the grid with boxes that overlap a swept box, some more than once: see [`Self::has_met`].

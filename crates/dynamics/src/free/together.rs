@@ -11,7 +11,7 @@ use crate::World;
 use crate::free::Cause;
 use crate::impact::{ImpactBody, ImpactContact};
 use crate::shock::Shock;
-use crate::state::BodyState;
+use crate::store::state::BodyState;
 
 /// Instants that differ by less are one, as a fraction of the way to them over the speed: impacts make
 /// differences of roundings larger, by a decade each.

@@ -4,13 +4,13 @@ use carom_math::SimTime;
 
 use super::{Groups, NOT_HERE, Source, key_of};
 use crate::apart::Method;
-use crate::bodies::Bodies;
 use crate::flight::driven;
 use crate::groups::{Row, SolverBody};
 use crate::narrow::{RestSpeed, TOUCH, opening_speed};
-use crate::pairs::{PairPoint, Pairs};
 use crate::round::{Speed, Way, is_round};
-use crate::state::Collider;
+use crate::store::bodies::Bodies;
+use crate::store::pairs::{PairPoint, Pairs};
+use crate::store::state::Collider;
 
 impl Groups {
     /// Rows of all contacts that do not bounce, and the bodies they join.

@@ -9,11 +9,11 @@ use carom_math::SimTime;
 use super::gather::pulled;
 use super::{Groups, NOT_HERE};
 use crate::StepReport;
-use crate::bodies::Bodies;
 use crate::flight::fly;
 use crate::groups::Row;
-use crate::pairs::Pairs;
 use crate::round::{Way, hold};
+use crate::store::bodies::Bodies;
+use crate::store::pairs::Pairs;
 
 impl Groups {
     /// Solves for the islands of bodies that an impact has `changed`, once each; returns all with a new motion.

@@ -11,11 +11,11 @@ use core::ops::Range;
 use carom_math::SimTime;
 
 use crate::apart::{Method, set_apart};
-use crate::bodies::Bodies;
 use crate::heavy::{Place, solve_heavy};
-use crate::pairs::{Pair, Pairs};
 use crate::round::{Way, hold, members_of};
-use crate::state::Collider;
+use crate::store::bodies::Bodies;
+use crate::store::pairs::{Pair, Pairs};
+use crate::store::state::Collider;
 use crate::{BodyId, StepReport};
 pub(crate) use row::{Row, SolverBody};
 pub(crate) use soft::{Law, sweep, warm_start};

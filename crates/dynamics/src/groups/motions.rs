@@ -4,10 +4,10 @@ use carom_math::SimTime;
 
 use super::Groups;
 use crate::apart::Method;
-use crate::bodies::{Bodies, Booked};
 use crate::groups::SolverBody;
-use crate::pairs::Pairs;
-use crate::uncommon::Lag;
+use crate::store::bodies::{Bodies, Booked};
+use crate::store::pairs::Pairs;
+use crate::store::uncommon::Lag;
 
 impl Groups {
     /// Has the body at a place of the solver go its way from `time` on, for `h` seconds.

@@ -7,7 +7,7 @@ use carom_math::{Pose, SimTime, Vec2};
 use carom_stepped::{BodyInput, PieceInput};
 
 use super::{Stepping, place};
-use crate::state::BodyState;
+use crate::store::state::BodyState;
 use crate::{BodyKind, Mode, World};
 
 /// A place that differs by less, as a part of the reach, is the same but for rounding: what was only looked at stays.

@@ -9,7 +9,7 @@ use carom_math::{Pose, SimTime, Vec2, cross_scalar};
 use super::{FEW, MANY};
 use crate::modes::ROWS;
 use crate::narrow::{TOUCH, rest_speed_between};
-use crate::state::BodyState;
+use crate::store::state::BodyState;
 use crate::{PairSearch, World};
 
 /// What the search for heaps knows of the bodies of a world.

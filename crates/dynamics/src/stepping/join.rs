@@ -18,7 +18,7 @@ use super::Shapes;
 use super::near::Among;
 use super::rush::Rush;
 use crate::sleep::neighbours;
-use crate::state::BodyState;
+use crate::store::state::BodyState;
 use crate::{BodyKind, EnergyLedger, Mode, World};
 
 /// Islands of more bodies than this join the engine even if nothing bears them; so many wake, or land, at once.

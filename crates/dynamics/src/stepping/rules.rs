@@ -2,9 +2,9 @@
 
 use carom_stepped::{Material, PairRules, Surface};
 
-use crate::bodies::Bodies;
 use crate::broad::Broad;
-use crate::state::Collider;
+use crate::store::bodies::Bodies;
+use crate::store::state::Collider;
 use crate::{PairSearch, World};
 
 /// What a caller said of filters, materials and pairs of bodies.

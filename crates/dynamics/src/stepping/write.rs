@@ -6,7 +6,7 @@ use carom_stepped::State;
 
 use super::{Stepping, place};
 use crate::World;
-use crate::uncommon::Lag;
+use crate::store::uncommon::Lag;
 
 /// Places that differ by less, as a part of the reach and the way, are one but for rounding.
 const SAME: f64 = 1e-12;

@@ -3,8 +3,8 @@
 use carom_math::Vec2;
 
 use crate::BodyId;
-use crate::bodies::Bodies;
-use crate::pairs::Pair;
+use crate::store::bodies::Bodies;
+use crate::store::pairs::Pair;
 
 /// Where two bodies touch: one normal, up to two points.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,8 +3,8 @@
 use carom_math::{SimTime, Vec2};
 
 use crate::BodyId;
-use crate::bodies::Bodies;
-use crate::pairs::Pair;
+use crate::store::bodies::Bodies;
+use crate::store::pairs::Pair;
 
 /// Something that happened to one or two bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,7 +2,7 @@
 
 use carom_math::SimTime;
 
-use crate::state::BodyState;
+use crate::store::state::BodyState;
 
 /// The energy of a world and every way it came or went since the start, in J.
 ///

@@ -2,7 +2,7 @@
 
 use carom_math::Vec2;
 
-use crate::state::BodyState;
+use super::state::BodyState;
 use crate::{Body, World};
 
 /// No place in the list.

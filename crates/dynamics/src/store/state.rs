@@ -6,14 +6,14 @@ use carom_collision::{Hull, Motion, hulls};
 use carom_geometry::{Aabb, MassProperties, Shape};
 use carom_math::{Pose, Rot, SimTime, StateHash, Vec2};
 
+use super::few::Few;
+use super::mass::mass_of;
+use super::regime::Regime;
+use super::uncommon::{Lag, Uncommon};
 use crate::closed::Membership;
-use crate::few::Few;
 use crate::flight::Flight;
 use crate::free::Course;
 use crate::impact::ImpactBody;
-use crate::mass::mass_of;
-use crate::regime::Regime;
-use crate::uncommon::{Lag, Uncommon};
 use crate::values::error::BodyError;
 use crate::{BodyDef, BodyId, BodyKind, Filter, Material, Mode};
 use carom_collision::NodeId;

@@ -4,10 +4,10 @@ use arrayvec::ArrayVec;
 use carom_collision::FeatureId;
 use carom_math::Vec2;
 
-use crate::bodies::Bodies;
+use super::bodies::Bodies;
+use super::state::Collider;
 use crate::event_queue::Entry;
 use crate::press::Spot;
-use crate::state::Collider;
 use crate::{ContactMode, PairMaterial};
 
 /// Two colliders of different bodies with overlapping boxes; the lower body comes first.

@@ -28,10 +28,10 @@
 //! - Under another gravity bodies arrive one after the other. One that is in an island with earlier ones has left it when its
 //!   arrival is over.
 
-use crate::bodies::Bodies;
+use super::bodies::Bodies;
+use super::state::BodyState;
 use crate::closed::Membership;
 use crate::free::Course;
-use crate::state::BodyState;
 use crate::{BodyKind, Mode, World};
 
 /// What moves a body.

@@ -5,13 +5,13 @@ use std::sync::Arc;
 use carom_collision::Motion;
 use carom_math::{SimTime, Sum, Vec2};
 
-use crate::few::Few;
-use crate::history::History;
-use crate::left_paths::LeftPaths;
-use crate::moved::{Moved, moves};
-use crate::regime::Members;
-use crate::state::BodyState;
-use crate::uncommon::Lag;
+use super::few::Few;
+use super::history::History;
+use super::left_paths::LeftPaths;
+use super::moved::{Moved, moves};
+use super::regime::Members;
+use super::state::BodyState;
+use super::uncommon::Lag;
 use crate::values::ledger::damping_loss;
 use crate::{BodyError, BodyId, EnergyLedger, Field};
 

@@ -3,7 +3,7 @@
 
 use carom_math::{SimTime, Vec2};
 
-use crate::state::BodyState;
+use super::state::BodyState;
 
 /// The bodies that left a path in the present sub-step.
 #[derive(Clone, Debug, Default)]
