@@ -8,8 +8,8 @@ use std::sync::Arc;
 use carom_collision::contacts;
 use carom_math::{Pose, SimTime, Vec2};
 
-use crate::flight::fly;
 use crate::free::{Course, FreeBodies};
+use crate::motion::flight::fly;
 use crate::store::bodies::Pull;
 use crate::store::state::BodyState;
 use crate::values::error::{check_finite, check_vec2};

@@ -8,10 +8,11 @@ use carom_collision::{
 use carom_math::{SimTime, Vec2};
 
 use crate::event_queue::{Entry, EventQueue};
-use crate::flight::{first_touch_of_parts, motion_along};
 use crate::ghost::Meeting;
 use crate::micro_bounce::micro_bounce;
 use crate::modes::CLOSED;
+use crate::motion::first_touch::first_touch_of_parts;
+use crate::motion::flight::motion_along;
 use crate::narrow::{NOISE, Narrow, RestSpeed, TOUCH, opening_speed, pace};
 use crate::sink::sinks_in;
 use crate::store::bodies::Bodies;

@@ -5,9 +5,9 @@ use carom_geometry::Shape;
 use carom_math::{SimTime, Vec2, cross_scalar, perp};
 
 use crate::edges::feature;
-use crate::flight::motion_along;
 use crate::free::{Touching, gap_acceleration};
 use crate::modes::Feature;
+use crate::motion::flight::motion_along;
 use crate::store::bodies::Bodies;
 use crate::store::state::BodyState;
 

@@ -3,8 +3,8 @@
 use carom_math::SimTime;
 
 use crate::event_queue::Entry;
-use crate::flight::fly;
 use crate::free::Cause;
+use crate::motion::flight::fly;
 use crate::predict::{predict, price};
 use crate::resolve::{Slow, Struck, strike};
 use crate::sleep::{wake, wake_around};

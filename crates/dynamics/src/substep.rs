@@ -4,7 +4,7 @@ use carom_math::SimTime;
 
 use crate::World;
 use crate::event_queue::Entry;
-use crate::flight::fly;
+use crate::motion::flight::fly;
 use crate::narrow::{TOUCH, opening_speed, rest_speed};
 use crate::predict::BUDGET;
 use crate::sleep::settle;

@@ -4,7 +4,7 @@ use carom_math::SimTime;
 
 use super::store::Group;
 use crate::World;
-use crate::flight::fly;
+use crate::motion::flight::fly;
 
 impl World {
     /// Whether a body feels forces of an analytic island that is no more.

@@ -17,8 +17,8 @@ use arrayvec::ArrayVec;
 use carom_math::{SimTime, Vec2, cross_scalar, perp};
 
 use crate::event_queue::Entry;
-use crate::flight::fly;
 use crate::modes::{BodyMove, GroupMove, NotMine, TouchMove, land, solve_modes};
+use crate::motion::flight::fly;
 use crate::touching::{Gathered, Looks, Refused};
 use crate::{BodyKind, ContactMode, Mode, World};
 pub(crate) use store::{Closed, Membership};

@@ -8,8 +8,9 @@ use carom_math::SimTime;
 
 use super::joints::{Held, joint};
 use super::store::{Group, Kept, Membership};
-use crate::flight::{Flight, fly, follow};
 use crate::modes::{NotMine, TouchMove};
+use crate::motion::flight::{fly, follow};
+use crate::motion::law::Flight;
 use crate::narrow::{TOUCH, rest_speed};
 use crate::tipping::{Contact, Ends, Joint, Place, Tip, tip};
 use crate::touching::{Approach, Gathered, approach_at};

@@ -3,7 +3,7 @@
 use carom_math::SimTime;
 
 use super::{Cause, Foreseen};
-use crate::flight::fly;
+use crate::motion::flight::fly;
 use crate::narrow::{NOISE, opening_speed, pace};
 use crate::store::pairs::PairContact;
 use crate::{BodyKind, Mode, World};

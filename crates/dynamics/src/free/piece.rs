@@ -3,7 +3,7 @@
 use carom_math::SimTime;
 
 use crate::World;
-use crate::flight::begin_piece;
+use crate::motion::flight::begin_piece;
 
 impl World {
     /// Gives a free body in a field or with damping the piece of its law that begins at `time`, if it has none that goes on.

@@ -8,8 +8,8 @@ use super::circle::Circle;
 use super::foresee::{Cause, both_in_grid};
 use super::window::Window;
 use crate::World;
-use crate::flight::first_touch;
 use crate::ghost::Meeting;
+use crate::motion::first_touch::first_touch;
 use crate::narrow::{TOUCH, opening_speed, rest_speed_between};
 
 /// How far a search goes beyond its end, as a fraction.

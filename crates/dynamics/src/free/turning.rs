@@ -11,7 +11,7 @@ use carom_geometry::{Circle, Shape};
 use carom_math::SimTime;
 
 use crate::World;
-use crate::flight::first_touch;
+use crate::motion::first_touch::first_touch;
 
 /// Largest turn that one search for a time of impact goes through, in rad.
 const TURN: f64 = 8.0;

@@ -4,8 +4,8 @@ use carom_math::SimTime;
 
 use super::{Groups, NOT_HERE, Source, key_of};
 use crate::apart::Method;
-use crate::flight::driven;
 use crate::groups::{Row, SolverBody};
+use crate::motion::flight::driven;
 use crate::narrow::{RestSpeed, TOUCH, opening_speed};
 use crate::round::{Speed, Way, is_round};
 use crate::store::bodies::Bodies;

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use carom_collision::Motion;
 use carom_math::{Pose, SimTime};
 
-use crate::flight::Flight;
+use crate::motion::law::Flight;
 
 /// A motion, and the law that it stood for.
 pub(crate) type Followed = (Motion, Option<Arc<Flight>>);

@@ -1,11 +1,11 @@
-//! Paths of several bodies at once, `y″ = f(y, y′)`: the collocation of [`crate::flight`] for any number of coordinates.
+//! Paths of several bodies at once, `y″ = f(y, y′)`: the collocation of [`crate::motion`] for any number of coordinates.
 //!
 //! Three coordinates a body: both of its centre in m, and the angle since the start of the path in rad.
 
 use carom_math::{Rot, SimTime, Vec2, vec2};
 
 use super::joint::Place;
-use crate::flight::{NODES, ROUNDS};
+use crate::motion::integrate::{NODES, ROUNDS};
 
 /// First guess of how far a body turns in a stretch, in rad.
 const TURN: f64 = 1.0 / 12.0;

@@ -1,28 +1,16 @@
-//! Free flight: closed form in a uniform field, with damping and about a Newtonian centre; an
-//! integrator of order 15 in any other field.
-
-mod contact;
-mod damped;
-mod integrate;
-mod kepler;
-mod law;
-mod osculating;
-#[cfg(test)]
-mod tests;
+//! Gives bodies their motions by the laws that they fly by: whole parabolas, pieces of a law, paths of an island that turns.
 
 use std::sync::Arc;
 
 use carom_collision::Motion;
 use carom_math::{SimTime, Vec2};
 
+use super::damped::damped;
+use super::kepler::Conic;
+use super::law::{Flight, Turn};
 use crate::store::bodies::Bodies;
 use crate::store::state::BodyState;
 use crate::store::uncommon::Lag;
-pub(crate) use contact::{first_touch, first_touch_of_parts};
-use damped::damped;
-pub(crate) use integrate::{NODES, ROUNDS};
-use kepler::Conic;
-pub(crate) use law::{Flight, Turn};
 
 /// Longest stretch of the integrator, in s.
 const LONGEST: f64 = 1024.0;
