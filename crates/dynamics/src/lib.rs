@@ -26,20 +26,18 @@
 
 #![cfg_attr(test, allow(clippy::float_cmp, reason = "tests compare exact results"))]
 
+mod analytic;
 mod apart;
 mod body;
 mod broad;
 mod change;
 mod clock;
-mod closed;
-mod edges;
 mod event_queue;
 mod free;
 mod ghost;
 mod groups;
 mod heavy;
 mod micro_bounce;
-mod modes;
 mod motion;
 mod narrow;
 mod pair_rules;
@@ -57,8 +55,6 @@ mod stepping;
 mod store;
 mod substep;
 mod threads;
-mod tipping;
-mod touching;
 mod values;
 mod work;
 mod world;

@@ -8,11 +8,11 @@ use arrayvec::ArrayVec;
 use carom_collision::{AxisFeature, Impact, ImpactFeature};
 use carom_math::SimTime;
 
+use crate::analytic::touching::{Approach, approach_at};
 use crate::narrow::TOUCH;
 use crate::store::bodies::Bodies;
 use crate::store::pairs::{Pair, PairContact};
 use crate::store::state::Collider;
-use crate::touching::{Approach, approach_at};
 
 /// When a contact closes that opens now, if that is by `horizon` seconds from `time` and it does not come out of touch.
 pub(crate) fn micro_bounce(

@@ -7,10 +7,11 @@ use carom_collision::{
 };
 use carom_math::{SimTime, Vec2};
 
+use crate::analytic::modes::CLOSED;
+use crate::analytic::touching::stays;
 use crate::event_queue::{Entry, EventQueue};
 use crate::ghost::Meeting;
 use crate::micro_bounce::micro_bounce;
-use crate::modes::CLOSED;
 use crate::motion::first_touch::first_touch_of_parts;
 use crate::motion::flight::motion_along;
 use crate::narrow::{NOISE, Narrow, RestSpeed, TOUCH, opening_speed, pace};
@@ -18,7 +19,6 @@ use crate::sink::sinks_in;
 use crate::store::bodies::Bodies;
 use crate::store::pairs::{PairContact, PairPoint, Pairs};
 use crate::store::state::{BodyState, Collider};
-use crate::touching::stays;
 use crate::{BodyKind, PairMaterial, StepReport};
 
 /// What the impacts of one pair may spend in one sub-step before the solver takes the rest: bodies that

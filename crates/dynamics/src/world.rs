@@ -5,9 +5,9 @@ use std::sync::Arc;
 use carom_geometry::{Aabb, Shape};
 use carom_math::{Pose, SimTime, StateHash, Sum, Vec2, cross};
 
+use crate::analytic::islands::Closed;
 use crate::broad::{Broad, part};
 use crate::clock::Clock;
-use crate::closed::Closed;
 use crate::event_queue::EventQueue;
 use crate::free::FreeBodies;
 use crate::groups::Groups;

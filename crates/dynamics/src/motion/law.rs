@@ -9,7 +9,7 @@ use super::damped::damped;
 use super::integrate::{Rim, Stretch};
 use super::kepler::Conic;
 use super::osculating::{Jerk, Osculating};
-use crate::tipping::Tip;
+use crate::analytic::tipping::Tip;
 
 /// Where a flying body is from `start` on, to rounding or to the world's error for fields.
 #[derive(Clone, Debug)]

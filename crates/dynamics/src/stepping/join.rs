@@ -24,7 +24,7 @@ use crate::{BodyKind, EnergyLedger, Mode, World};
 /// Islands of more bodies than this join the engine even if nothing bears them; so many wake, or land, at once.
 pub(crate) const FEW: usize = 16;
 
-/// Groups of more bodies in touch than this have more than [`crate::modes::ROWS`] rows: no closed form is tried.
+/// Groups of more bodies in touch than this have more than [`crate::analytic::modes::ROWS`] rows: no closed form is tried.
 pub(crate) const MANY: usize = 64;
 
 /// A member flies after more ticks than these without a contact.

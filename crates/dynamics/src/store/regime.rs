@@ -30,7 +30,7 @@
 
 use super::bodies::Bodies;
 use super::state::BodyState;
-use crate::closed::Membership;
+use crate::analytic::islands::Membership;
 use crate::free::Course;
 use crate::{BodyKind, Mode, World};
 

@@ -10,7 +10,7 @@ use super::few::Few;
 use super::mass::mass_of;
 use super::regime::Regime;
 use super::uncommon::{Lag, Uncommon};
-use crate::closed::Membership;
+use crate::analytic::islands::Membership;
 use crate::free::Course;
 use crate::impact::ImpactBody;
 use crate::motion::law::Flight;

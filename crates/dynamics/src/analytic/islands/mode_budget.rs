@@ -7,10 +7,10 @@ use carom_math::{SimTime, Vec2};
 
 use super::store::Closed;
 use crate::World;
-use crate::modes::BodyMove;
+use crate::analytic::modes::BodyMove;
+use crate::analytic::touching::Gathered;
 use crate::sleep::neighbours;
 use crate::store::state::BodyState;
-use crate::touching::Gathered;
 
 /// Size of a budget, in mode solves of one body. 16: boxes that rock to rest (`tests/it/rocking.rs`) join before, and part from the
 /// exact motion by 1.5e-5 m.

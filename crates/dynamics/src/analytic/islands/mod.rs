@@ -16,10 +16,10 @@ mod tips;
 use arrayvec::ArrayVec;
 use carom_math::{SimTime, Vec2, cross_scalar, perp};
 
+use crate::analytic::modes::{BodyMove, GroupMove, NotMine, TouchMove, land, solve_modes};
+use crate::analytic::touching::{Gathered, Looks, Refused};
 use crate::event_queue::Entry;
-use crate::modes::{BodyMove, GroupMove, NotMine, TouchMove, land, solve_modes};
 use crate::motion::flight::fly;
-use crate::touching::{Gathered, Looks, Refused};
 use crate::{BodyKind, ContactMode, Mode, World};
 pub(crate) use store::{Closed, Membership};
 use store::{Group, Kept};

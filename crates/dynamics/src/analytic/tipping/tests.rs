@@ -4,7 +4,7 @@ use arrayvec::ArrayVec;
 use carom_math::{Rot, SimTime, Vec2, cross, perp, vec2};
 
 use super::*;
-use crate::modes::ModeBody;
+use crate::analytic::modes::ModeBody;
 
 const G: f64 = 9.81;
 

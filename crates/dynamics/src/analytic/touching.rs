@@ -5,9 +5,9 @@ use carom_collision::part;
 use carom_math::{SimTime, Vec2, cross_scalar};
 
 use crate::World;
-use crate::edges::{at_the_end, feature};
+use crate::analytic::edges::{at_the_end, feature};
+use crate::analytic::modes::{CLOSED, Feature, ModeBody, ROWS, Touch, hold, stand};
 use crate::heavy::{BEARS, mass_ratio};
-use crate::modes::{CLOSED, Feature, ModeBody, ROWS, Touch, hold, stand};
 use crate::narrow::{RestSpeed, TOUCH};
 use crate::store::bodies::Bodies;
 use crate::store::pairs::PairContact;

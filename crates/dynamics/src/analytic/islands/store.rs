@@ -7,11 +7,11 @@ use carom_math::{SimTime, Vec2};
 
 use super::mode_budget::ModeBudget;
 use super::tips::Tipping;
-use crate::modes::TouchMove;
+use crate::analytic::modes::TouchMove;
+use crate::analytic::tipping::Ends;
 use crate::narrow::TOUCH;
 use crate::store::bodies::Bodies;
 use crate::store::pairs::Pair;
-use crate::tipping::Ends;
 use crate::{ContactMode, Mode};
 
 /// What is no longer than this is one instant, in s.

@@ -5,8 +5,8 @@
 
 use carom_math::{SimTime, perp};
 
+use crate::analytic::touching::Gathered;
 use crate::impact::{ImpactContact, resolve};
-use crate::touching::Gathered;
 use crate::{EventKind, World};
 
 /// Approach that the impulse begins with, as a part of the slip.

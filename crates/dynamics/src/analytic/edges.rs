@@ -3,7 +3,7 @@
 use carom_collision::Hull;
 use carom_math::{Pose, Vec2, perp};
 
-use crate::modes::{Feature, ModeBody};
+use crate::analytic::modes::{Feature, ModeBody};
 
 /// Sine of the angle up to which an edge lies along a contact: far above rounding.
 const FLUSH: f64 = 1e-9;
