@@ -6,7 +6,7 @@ use carom_collision::{BoxTree, Motion, roundable};
 use carom_geometry::Aabb;
 use carom_math::{SimTime, Vec2};
 
-use crate::free::FreeBodies;
+use crate::events::free::FreeBodies;
 use crate::store::bodies::Bodies;
 use crate::store::pairs::{Pair, Pairs};
 use crate::store::state::Collider;

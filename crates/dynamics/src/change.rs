@@ -8,7 +8,7 @@ use std::sync::Arc;
 use carom_collision::contacts;
 use carom_math::{Pose, SimTime, Vec2};
 
-use crate::free::{Course, FreeBodies};
+use crate::events::free::{Course, FreeBodies};
 use crate::motion::flight::fly;
 use crate::store::bodies::Pull;
 use crate::store::state::BodyState;

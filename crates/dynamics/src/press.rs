@@ -6,7 +6,7 @@ use carom_math::{SimTime, Vec2, cross_scalar, perp};
 
 use crate::analytic::edges::feature;
 use crate::analytic::modes::Feature;
-use crate::free::{Touching, gap_acceleration};
+use crate::events::free::{Touching, gap_acceleration};
 use crate::motion::flight::motion_along;
 use crate::store::bodies::Bodies;
 use crate::store::state::BodyState;

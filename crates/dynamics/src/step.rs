@@ -2,11 +2,11 @@
 
 use carom_math::SimTime;
 
-use crate::event_queue::Entry;
-use crate::free::Cause;
+use crate::events::event_queue::Entry;
+use crate::events::free::Cause;
+use crate::events::predict::{predict, price};
+use crate::events::resolve::{Slow, Struck, strike};
 use crate::motion::flight::fly;
-use crate::predict::{predict, price};
-use crate::resolve::{Slow, Struck, strike};
 use crate::sleep::{wake, wake_around};
 use crate::{Mode, Refusal, StepReport, World};
 

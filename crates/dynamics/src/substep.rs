@@ -3,10 +3,10 @@
 use carom_math::SimTime;
 
 use crate::World;
-use crate::event_queue::Entry;
+use crate::events::event_queue::Entry;
+use crate::events::predict::BUDGET;
 use crate::motion::flight::fly;
 use crate::narrow::{TOUCH, opening_speed, rest_speed};
-use crate::predict::BUDGET;
 use crate::sleep::settle;
 use crate::stepping::{FEW, Seen};
 use crate::store::pairs::PairContact;

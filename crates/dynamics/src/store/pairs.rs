@@ -6,7 +6,7 @@ use carom_math::Vec2;
 
 use super::bodies::Bodies;
 use super::state::Collider;
-use crate::event_queue::Entry;
+use crate::events::event_queue::Entry;
 use crate::press::Spot;
 use crate::{ContactMode, PairMaterial};
 

@@ -31,7 +31,7 @@
 use super::bodies::Bodies;
 use super::state::BodyState;
 use crate::analytic::islands::Membership;
-use crate::free::Course;
+use crate::events::free::Course;
 use crate::{BodyKind, Mode, World};
 
 /// What moves a body.

@@ -11,7 +11,7 @@ use super::mass::mass_of;
 use super::regime::Regime;
 use super::uncommon::{Lag, Uncommon};
 use crate::analytic::islands::Membership;
-use crate::free::Course;
+use crate::events::free::Course;
 use crate::impact::ImpactBody;
 use crate::motion::law::Flight;
 use crate::values::error::BodyError;

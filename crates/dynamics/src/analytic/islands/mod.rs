@@ -18,7 +18,7 @@ use carom_math::{SimTime, Vec2, cross_scalar, perp};
 
 use crate::analytic::modes::{BodyMove, GroupMove, NotMine, TouchMove, land, solve_modes};
 use crate::analytic::touching::{Gathered, Looks, Refused};
-use crate::event_queue::Entry;
+use crate::events::event_queue::Entry;
 use crate::motion::flight::fly;
 use crate::{BodyKind, ContactMode, Mode, World};
 pub(crate) use store::{Closed, Membership};

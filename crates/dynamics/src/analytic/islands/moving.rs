@@ -14,7 +14,7 @@ use carom_math::SimTime;
 
 use super::store::Kept;
 use super::tips::Tipping;
-use crate::free::Cause;
+use crate::events::free::Cause;
 use crate::motion::flight::begin_held_piece;
 use crate::motion::law::Flight;
 use crate::narrow::Narrow;

@@ -8,9 +8,9 @@ use super::Foreseen;
 use super::queue::{Ahead, Entry};
 use super::strike::{approach_speed, opening, pace};
 use crate::World;
-use crate::free::Cause;
+use crate::events::free::Cause;
+use crate::events::shock::Shock;
 use crate::impact::{ImpactBody, ImpactContact};
-use crate::shock::Shock;
 use crate::store::state::BodyState;
 
 /// Instants that differ by less are one, as a fraction of the way to them over the speed: impacts make

@@ -9,9 +9,9 @@ use carom_math::{SimTime, Vec2};
 
 use crate::analytic::modes::CLOSED;
 use crate::analytic::touching::stays;
-use crate::event_queue::{Entry, EventQueue};
+use crate::events::event_queue::{Entry, EventQueue};
+use crate::events::micro_bounce::micro_bounce;
 use crate::ghost::Meeting;
-use crate::micro_bounce::micro_bounce;
 use crate::motion::first_touch::first_touch_of_parts;
 use crate::motion::flight::motion_along;
 use crate::narrow::{NOISE, Narrow, RestSpeed, TOUCH, opening_speed, pace};
