@@ -6,7 +6,7 @@ use carom_geometry::{Aabb, Shape};
 use carom_math::{Pose, SimTime, StateHash, Sum, Vec2, cross};
 
 use crate::analytic::islands::Closed;
-use crate::broad::{Broad, part};
+use crate::broad::tree::{Broad, part};
 use crate::clock::Clock;
 use crate::events::event_queue::EventQueue;
 use crate::events::free::FreeBodies;

@@ -2,7 +2,7 @@
 
 use carom_stepped::{Material, PairRules, Surface};
 
-use crate::broad::Broad;
+use crate::broad::tree::Broad;
 use crate::store::bodies::Bodies;
 use crate::store::state::Collider;
 use crate::{PairSearch, World};

@@ -3,9 +3,9 @@
 use carom_math::{SimTime, Vec2};
 
 use super::FreeBodies;
-use super::frame::{Frame, Track};
-use super::window::{self, Window};
 use crate::Filter;
+use crate::broad::free_fall_frame::{Frame, Track};
+use crate::broad::window::{self, Window};
 use crate::store::bodies::Bodies;
 use crate::store::state::{BodyState, Collider};
 

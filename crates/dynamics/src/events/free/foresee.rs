@@ -4,10 +4,11 @@ use carom_geometry::Aabb;
 use carom_math::SimTime;
 
 use super::foreseen::is_stale;
-use super::frame::Track;
 use super::queue::{Ahead, Entry};
-use super::window::{self, Window};
-use super::{Foreseen, Sides, SweptBox, drift};
+use super::{Foreseen, drift};
+use crate::broad::free_fall_frame::Track;
+use crate::broad::grid::{Sides, SweptBox};
+use crate::broad::window::{self, Window};
 use crate::store::state::BodyState;
 use crate::{BodyKind, PairSearch, World};
 

@@ -5,9 +5,10 @@ use carom_math::SimTime;
 
 use super::circle::Circle;
 use super::foresee::{Cause, at_most, room_about, swept};
-use super::frame::Track;
 use super::queue::Ahead;
-use super::{Sides, window};
+use crate::broad::free_fall_frame::Track;
+use crate::broad::grid::Sides;
+use crate::broad::window;
 use crate::{BodyKind, World};
 
 /// Way, in cells, that a free body looks down for first.

@@ -11,9 +11,7 @@ mod circle;
 mod days;
 mod foresee;
 mod foreseen;
-mod frame;
 mod gap;
-mod grid;
 mod ground;
 mod held;
 mod low;
@@ -24,7 +22,6 @@ mod seek;
 mod strike;
 mod together;
 mod turning;
-mod window;
 mod zeno;
 
 use std::collections::BTreeSet;
@@ -32,15 +29,15 @@ use std::collections::BTreeSet;
 use carom_collision::{BoxTree, ImpactFeature, NodeId};
 use carom_math::{SimTime, Vec2};
 
+use crate::broad::free_fall_frame::{Frame, Track};
+use crate::broad::grid::{Cells, Grid, Sides, SweptBox};
 use crate::store::bodies::Bodies;
 use crate::store::state::{BodyState, Collider};
 use aside::Aside;
 use circle::Registered;
 pub(crate) use foresee::{Cause, box_ahead};
 pub(crate) use foreseen::Foreseen;
-use frame::{Frame, Track};
 pub(crate) use gap::{Touching, gap_acceleration};
-pub(crate) use grid::{Cells, Grid, Sides, SweptBox};
 use queue::{Ahead, Queue};
 use zeno::ZenoSeries;
 

@@ -4,7 +4,8 @@ use carom_collision::{BoxTree, roundable};
 use carom_geometry::Aabb;
 use carom_math::SimTime;
 
-use super::{Cells, Course, FreeBodies, Sides, SweptBox};
+use super::{Course, FreeBodies};
+use crate::broad::grid::{Cells, Sides, SweptBox};
 use crate::store::bodies::Bodies;
 
 impl FreeBodies {

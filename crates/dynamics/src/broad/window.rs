@@ -5,7 +5,7 @@ use carom_math::Vec2;
 
 /// Reaches are taken this much larger, so that no rounding at a rim loses a pair, and the search for the
 /// time of impact begins before it, where the gap is above its tolerance.
-pub(super) const ROOM: f64 = 1.0 + 1.0 / 1024.0;
+pub(crate) const ROOM: f64 = 1.0 + 1.0 / 1024.0;
 
 /// Circles that accelerate against each other count as met this much sooner, as a factor: a bound on when they meet is
 /// short of it by a part, again and again, and two that pass each other nearly in touch would be looked at for ever.
@@ -22,7 +22,7 @@ pub(crate) struct Window {
 
 impl Window {
     /// The same where its end is not known.
-    pub(super) const fn until_its_horizon(self) -> Self {
+    pub(crate) const fn until_its_horizon(self) -> Self {
         Self {
             to: f64::INFINITY,
             ..self
@@ -58,7 +58,7 @@ pub(crate) fn of_circles(d: Vec2, v: Vec2, a: Vec2, reach: f64) -> Option<Window
 
 /// [`of_circles`] without relative acceleration.
 #[inline]
-pub(super) fn of_even_circles(d: Vec2, v: Vec2, reach: f64) -> Option<Window> {
+pub(crate) fn of_even_circles(d: Vec2, v: Vec2, reach: f64) -> Option<Window> {
     of_even(d, v, reach * ROOM)
 }
 
