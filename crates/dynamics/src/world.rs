@@ -12,7 +12,7 @@ use crate::events::event_queue::EventQueue;
 use crate::events::free::FreeBodies;
 use crate::groups::Groups;
 use crate::groups::Law;
-use crate::narrow::Narrow;
+use crate::model::narrow::Narrow;
 use crate::stepping::{Joins, Stepping};
 use crate::store::bodies::Bodies;
 use crate::store::pairs::{Pair, Pairs};

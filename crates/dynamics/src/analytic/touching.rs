@@ -8,7 +8,7 @@ use crate::World;
 use crate::analytic::edges::{at_the_end, feature};
 use crate::analytic::modes::{CLOSED, Feature, ModeBody, ROWS, Touch, hold, stand};
 use crate::heavy::{BEARS, mass_ratio};
-use crate::narrow::{RestSpeed, TOUCH};
+use crate::model::narrow::{RestSpeed, TOUCH};
 use crate::store::bodies::Bodies;
 use crate::store::pairs::PairContact;
 use crate::store::state::BodyState;

@@ -9,7 +9,7 @@ use carom_collision::{AxisFeature, Impact, ImpactFeature};
 use carom_math::SimTime;
 
 use crate::analytic::touching::{Approach, approach_at};
-use crate::narrow::TOUCH;
+use crate::model::narrow::TOUCH;
 use crate::store::bodies::Bodies;
 use crate::store::pairs::{Pair, PairContact};
 use crate::store::state::Collider;

@@ -6,7 +6,7 @@ use crate::events::event_queue::Entry;
 use crate::events::predict::{BUDGET, price};
 use crate::events::shock::Shock;
 use crate::impact::{ImpactContact, resolve};
-use crate::narrow::{NOISE, Narrow, RestSpeed, opening_speed, pace};
+use crate::model::narrow::{NOISE, Narrow, RestSpeed, opening_speed, pace};
 use crate::store::bodies::Bodies;
 use crate::store::pairs::{Pair, Pairs};
 use crate::store::state::Collider;

@@ -17,7 +17,7 @@ use crate::Settings;
 use crate::impact::{
     Growth, ImpactBody, ImpactContact, SharedContact, Sweeper, is_driven, several,
 };
-use crate::narrow::{Narrow, RestSpeed, TOUCH};
+use crate::model::narrow::{Narrow, RestSpeed, TOUCH};
 use crate::store::bodies::Bodies;
 use crate::store::pairs::Pairs;
 use crate::store::state::Collider;

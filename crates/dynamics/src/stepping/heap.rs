@@ -8,7 +8,7 @@ use carom_math::{Pose, SimTime, Vec2, cross_scalar};
 
 use super::{FEW, MANY};
 use crate::analytic::modes::ROWS;
-use crate::narrow::{TOUCH, rest_speed_between};
+use crate::model::narrow::{TOUCH, rest_speed_between};
 use crate::store::state::BodyState;
 use crate::{PairSearch, World};
 

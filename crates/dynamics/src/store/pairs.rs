@@ -7,7 +7,7 @@ use carom_math::Vec2;
 use super::bodies::Bodies;
 use super::state::Collider;
 use crate::events::event_queue::Entry;
-use crate::press::Spot;
+use crate::model::press::Spot;
 use crate::{ContactMode, PairMaterial};
 
 /// Two colliders of different bodies with overlapping boxes; the lower body comes first.

@@ -15,9 +15,9 @@ use carom_math::SimTime;
 use super::store::Kept;
 use super::tips::Tipping;
 use crate::events::free::Cause;
+use crate::model::narrow::Narrow;
 use crate::motion::flight::begin_held_piece;
 use crate::motion::law::Flight;
-use crate::narrow::Narrow;
 use crate::store::pairs::Pair;
 use crate::{ContactMode, World};
 

@@ -9,7 +9,7 @@ use super::mode_budget::ModeBudget;
 use super::tips::Tipping;
 use crate::analytic::modes::TouchMove;
 use crate::analytic::tipping::Ends;
-use crate::narrow::TOUCH;
+use crate::model::narrow::TOUCH;
 use crate::store::bodies::Bodies;
 use crate::store::pairs::Pair;
 use crate::{ContactMode, Mode};

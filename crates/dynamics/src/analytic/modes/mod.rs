@@ -271,7 +271,7 @@ pub(crate) fn land(bodies: &[ModeBody], touches: &[Touch]) -> Result<Vec<(Vec2, 
 ///
 /// What a blow opens a little, where turning presses it together again, comes back, and what comes back opens another one:
 /// a disc in an obtuse corner goes from wall to wall, each time `cos` of the angle between them slower. All of it takes no
-/// more than [`crate::press`] lets it, and no more energy than these bounces had.
+/// more than [`crate::model::press`] lets it, and no more energy than these bounces had.
 pub(crate) fn hold(bodies: &[ModeBody], touches: &[&Touch]) -> Vec<(Vec2, f64)> {
     if bodies.iter().any(faces::is_driven) {
         return bodies

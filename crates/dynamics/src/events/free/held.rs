@@ -3,8 +3,8 @@
 use carom_math::SimTime;
 
 use super::{Cause, Foreseen};
+use crate::model::narrow::{NOISE, opening_speed, pace};
 use crate::motion::flight::fly;
-use crate::narrow::{NOISE, opening_speed, pace};
 use crate::store::pairs::PairContact;
 use crate::{BodyKind, Mode, World};
 

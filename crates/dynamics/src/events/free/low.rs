@@ -3,9 +3,9 @@
 use carom_math::SimTime;
 
 use super::Foreseen;
-use super::gap::{Touching, gap_acceleration};
 use super::strike::approach_speed;
 use crate::World;
+use crate::model::gap::{Touching, gap_acceleration};
 use crate::store::mass::CENTRED;
 use crate::store::state::BodyState;
 

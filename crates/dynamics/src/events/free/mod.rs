@@ -11,7 +11,6 @@ mod circle;
 mod days;
 mod foresee;
 mod foreseen;
-mod gap;
 mod ground;
 mod held;
 mod low;
@@ -37,7 +36,7 @@ use aside::Aside;
 use circle::Registered;
 pub(crate) use foresee::{Cause, box_ahead};
 pub(crate) use foreseen::Foreseen;
-pub(crate) use gap::{Touching, gap_acceleration};
+
 use queue::{Ahead, Queue};
 use zeno::ZenoSeries;
 

@@ -8,9 +8,9 @@ use super::circle::Circle;
 use super::foresee::{Cause, both_in_grid};
 use crate::World;
 use crate::broad::window::Window;
-use crate::ghost::Meeting;
+use crate::model::ghost::Meeting;
+use crate::model::narrow::{TOUCH, opening_speed, rest_speed_between};
 use crate::motion::first_touch::first_touch;
-use crate::narrow::{TOUCH, opening_speed, rest_speed_between};
 
 /// How far a search goes beyond its end, as a fraction.
 const BEYOND: f64 = 1e-6;

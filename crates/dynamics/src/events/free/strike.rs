@@ -9,7 +9,7 @@ use crate::events::predict::price;
 use crate::events::resolve::apply;
 use crate::events::shock::Shock;
 use crate::impact::{ImpactBody, ImpactContact, resolve};
-use crate::narrow::opening_speed;
+use crate::model::narrow::opening_speed;
 use crate::{BodyKind, EventKind, Mode, PairMaterial, World};
 
 /// What the impacts of one free body may spend in a tick before the solver takes the rest, in losses of

@@ -12,7 +12,7 @@
 use carom_collision::{Hull, contacts, part};
 use carom_math::{Pose, SimTime, Vec2, cross};
 
-use crate::narrow::{Narrow, TOUCH, note_touch};
+use super::narrow::{Narrow, TOUCH, note_touch};
 use crate::store::bodies::Bodies;
 use crate::store::pairs::{Pair, Pairs};
 use crate::store::state::{BodyState, Collider};

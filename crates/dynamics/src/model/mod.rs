@@ -1,0 +1,10 @@
+//! Plain data and pure functions of two bodies: where they touch, how their gap changes, how hard they press.
+//!
+//! To read in this order: [`narrow`] (contacts of a pair at an instant, and what counts as touch, rest and rounding), [`ghost`]
+//! (contacts with hidden sides of flush fixed pieces, which do not exist), [`gap`] (the second derivative of a gap), [`press`]
+//! (how hard two bodies press, by turning too).
+
+pub(crate) mod gap;
+pub(crate) mod ghost;
+pub(crate) mod narrow;
+pub(crate) mod press;
