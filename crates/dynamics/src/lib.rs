@@ -27,21 +27,17 @@
 #![cfg_attr(test, allow(clippy::float_cmp, reason = "tests compare exact results"))]
 
 mod analytic;
-mod apart;
 mod body;
 mod broad;
 mod change;
 mod clock;
 mod events;
 mod groups;
-mod heavy;
 mod model;
 mod motion;
 mod pair_rules;
 mod query;
-mod round;
 mod setters;
-mod sink;
 mod sleep;
 mod step;
 mod stepping;

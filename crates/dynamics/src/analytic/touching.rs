@@ -7,7 +7,7 @@ use carom_math::{SimTime, Vec2, cross_scalar};
 use crate::World;
 use crate::analytic::edges::{at_the_end, feature};
 use crate::analytic::modes::{CLOSED, Feature, ModeBody, ROWS, Touch, hold, stand};
-use crate::heavy::{BEARS, mass_ratio};
+use crate::groups::heavy::{BEARS, mass_ratio};
 use crate::model::narrow::{RestSpeed, TOUCH};
 use crate::store::bodies::Bodies;
 use crate::store::pairs::PairContact;

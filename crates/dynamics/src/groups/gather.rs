@@ -2,12 +2,12 @@
 
 use carom_math::SimTime;
 
+use super::apart::Method;
+use super::round::{Speed, Way, is_round};
 use super::{Groups, NOT_HERE, Source, key_of};
-use crate::apart::Method;
-use crate::groups::{Row, SolverBody};
+use super::{Row, SolverBody};
 use crate::model::narrow::{RestSpeed, TOUCH, opening_speed};
 use crate::motion::flight::driven;
-use crate::round::{Speed, Way, is_round};
 use crate::store::bodies::Bodies;
 use crate::store::pairs::{PairPoint, Pairs};
 use crate::store::state::Collider;

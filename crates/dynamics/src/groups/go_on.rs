@@ -1,17 +1,17 @@
 //! Groups of discs after an impact in the midst of a sub-step: they are held anew for what is left of it.
 //!
-//! At no instant of their ways have they more energy than they began with, all together (see [`crate::round`]); but they might
+//! At no instant of their ways have they more energy than they began with, all together (see [`crate::groups::round`]); but they might
 //! where one of them moves otherwise and the rest goes on as before. So all of the group go on from the velocities that they have
 //! at that instant, with the rows of the sub-step's beginning.
 
 use carom_math::SimTime;
 
+use super::Row;
 use super::gather::pulled;
+use super::round::{Way, hold};
 use super::{Groups, NOT_HERE};
 use crate::StepReport;
-use crate::groups::Row;
 use crate::motion::flight::fly;
-use crate::round::{Way, hold};
 use crate::store::bodies::Bodies;
 use crate::store::pairs::Pairs;
 

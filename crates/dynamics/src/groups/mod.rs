@@ -1,22 +1,33 @@
-//! Contact groups: what pushes what, lasting, in one sub-step.
+//! Contact groups: what pushes what, lasting, in one sub-step, pair by pair.
+//!
+//! To read in this order: this file (the groups of a sub-step), [`gather`] (rows of contacts that last), [`row`] and [`soft`]
+//! (what is solved for, and the soft law), [`apart`] (which contacts hang together, and how each group is solved for: by sweeps,
+//! as discs in [`round`], at once in [`heavy`]), [`motions`] and [`go_on`] (what becomes of it), [`sink`] (held pairs that turn
+//! out of what was planned for them).
+//!
+//! It is for bodies in contact that have no closed form and are not in the engine.
 
+mod apart;
 mod gather;
 mod go_on;
+pub(crate) mod heavy;
 mod motions;
+mod round;
 mod row;
+pub(crate) mod sink;
 mod soft;
 
 use core::ops::Range;
 
 use carom_math::SimTime;
 
-use crate::apart::{Method, set_apart};
-use crate::heavy::{Place, solve_heavy};
-use crate::round::{Way, hold, members_of};
 use crate::store::bodies::Bodies;
 use crate::store::pairs::{Pair, Pairs};
 use crate::store::state::Collider;
 use crate::{BodyId, StepReport};
+use apart::{Method, set_apart};
+use heavy::{Place, solve_heavy};
+use round::{Way, hold, members_of};
 pub(crate) use row::{Row, SolverBody};
 pub(crate) use soft::{Law, sweep, warm_start};
 

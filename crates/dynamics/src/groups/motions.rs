@@ -3,8 +3,8 @@
 use carom_math::SimTime;
 
 use super::Groups;
-use crate::apart::Method;
-use crate::groups::SolverBody;
+use super::SolverBody;
+use super::apart::Method;
 use crate::store::bodies::{Bodies, Booked};
 use crate::store::pairs::Pairs;
 use crate::store::uncommon::Lag;

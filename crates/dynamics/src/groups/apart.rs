@@ -2,8 +2,8 @@
 
 use core::ops::Range;
 
-use crate::groups::{Row, SolverBody};
-use crate::heavy::{BEARS, mass_ratio};
+use super::heavy::{BEARS, mass_ratio};
+use super::{Row, SolverBody};
 use crate::sleep::Tree;
 
 /// Points of a group that are solved for at once; what has more is swept. A common stop takes the cube of its rows, of
@@ -15,9 +15,9 @@ const POINTS: usize = 48;
 pub(crate) enum Method {
     /// By one sweep of soft rows.
     Swept,
-    /// Without springs: see [`crate::round`].
+    /// Without springs: see [`crate::groups::round`].
     Round,
-    /// By equations: see [`crate::heavy`].
+    /// By equations: see [`crate::groups::heavy`].
     AtOnce,
 }
 

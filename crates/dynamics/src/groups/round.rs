@@ -26,7 +26,7 @@
 
 use carom_math::Vec2;
 
-use crate::groups::{Row, SolverBody, warm_start};
+use super::{Row, SolverBody, warm_start};
 use crate::impact::{Moving, Sweeper, Swept};
 use crate::store::bodies::Bodies;
 use crate::store::pairs::Pair;

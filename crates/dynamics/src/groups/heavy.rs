@@ -6,7 +6,7 @@
 
 use carom_math::Vec2;
 
-use crate::groups::{Law, Row, SolverBody};
+use super::{Law, Row, SolverBody};
 use crate::impact::{ImpactBody, ImpactContact, SharedContact, held};
 
 /// A body so many times as heavy as the one that gives way to it is a load that one sweep does not carry.
