@@ -27,34 +27,29 @@
 #![cfg_attr(test, allow(clippy::float_cmp, reason = "tests compare exact results"))]
 
 mod analytic;
-mod body;
+mod api;
 mod broad;
-mod change;
 mod clock;
 mod events;
 mod groups;
 mod model;
 mod motion;
-mod pair_rules;
-mod query;
-mod setters;
 mod sleep;
 mod step;
 mod stepping;
 mod store;
 mod substep;
-mod threads;
 mod values;
 mod work;
-mod world;
 
-pub use body::Body;
+pub use api::body::Body;
+pub use api::query::{Filtered, Nearest, RayHit, ShapeHit};
+pub use api::world::World;
 pub use carom_collision::Motion;
 pub use carom_geometry as geometry;
 pub use carom_impact as impact;
 pub use carom_impact::{ImpactLaw, Several};
 pub use carom_math as math;
-pub use query::{Filtered, Nearest, RayHit, ShapeHit};
 pub use values::body_def::{BodyDef, BodyKind};
 pub use values::contact::{Contact, ContactPoint};
 pub use values::error::{BodyError, SettingsError, WORLD_LIMIT};
@@ -68,7 +63,6 @@ pub use values::material::{Material, PairMaterial};
 pub use values::profile::StepProfile;
 pub use values::report::{Refusal, StepReport};
 pub use values::settings::{Mode, PairSearch, Settings, Sleep, Softness};
-pub use world::World;
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -7,6 +7,9 @@
 //! ```
 //! The engine knows bodies by slots of its own. It is told what a caller changed before the sub-step that follows, and
 //! motions are written once at the end of a step, or of each sub-step for a log.
+//!
+//! To read in this order: this file, [`enter`], [`rules`], [`write`], [`touch`], [`rest`]; then, for hybrid mode, [`join`] (which bodies
+//! the engine moves: [`near`], [`rush`] and [`heap`] say which join), [`members`] (a sub-step of them) and [`within`].
 
 mod enter;
 mod heap;
@@ -16,6 +19,7 @@ mod near;
 mod rest;
 mod rules;
 mod rush;
+pub(crate) mod threads;
 mod touch;
 mod within;
 mod write;

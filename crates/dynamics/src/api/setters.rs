@@ -7,9 +7,9 @@ use carom_geometry::Shape;
 use carom_math::Vec2;
 
 use crate::groups::Law;
+use crate::stepping::threads::Threads;
 use crate::store::mass::mass_of;
 use crate::store::state::{BodyState, Surface};
-use crate::threads::Threads;
 use crate::values::error::{check_finite, check_vec2};
 use crate::{BodyDef, BodyError, BodyId, BodyKind, Material, Settings, SettingsError, World};
 

@@ -13,11 +13,11 @@ use crate::events::free::FreeBodies;
 use crate::groups::Groups;
 use crate::groups::Law;
 use crate::model::narrow::Narrow;
+use crate::stepping::threads::Threads;
 use crate::stepping::{Joins, Stepping};
 use crate::store::bodies::Bodies;
 use crate::store::pairs::{Pair, Pairs};
 use crate::store::state::{BodyState, Collider, Surface, drawn_at};
-use crate::threads::Threads;
 use crate::values::profile::Stopwatch;
 use crate::work::Work;
 use crate::{
