@@ -34,7 +34,6 @@ mod events;
 mod groups;
 mod model;
 mod motion;
-mod sleep;
 mod step;
 mod stepping;
 mod store;

@@ -6,8 +6,8 @@ use crate::events::event_queue::Entry;
 use crate::events::free::Cause;
 use crate::events::predict::{predict, price};
 use crate::events::resolve::{Slow, Struck, strike};
+use crate::events::wake::{wake, wake_around};
 use crate::motion::flight::fly;
-use crate::sleep::{wake, wake_around};
 use crate::{Mode, Refusal, StepReport, World};
 
 /// More ticks than this in one step are refused.

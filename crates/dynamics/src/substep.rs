@@ -5,9 +5,9 @@ use carom_math::SimTime;
 use crate::World;
 use crate::events::event_queue::Entry;
 use crate::events::predict::BUDGET;
+use crate::groups::settle::settle;
 use crate::model::narrow::{TOUCH, opening_speed, rest_speed};
 use crate::motion::flight::fly;
-use crate::sleep::settle;
 use crate::stepping::{FEW, Seen};
 use crate::store::pairs::PairContact;
 

@@ -4,7 +4,7 @@ use core::ops::Range;
 
 use super::heavy::{BEARS, mass_ratio};
 use super::{Row, SolverBody};
-use crate::sleep::Tree;
+use crate::model::graph::Tree;
 
 /// Points of a group that are solved for at once; what has more is swept. A common stop takes the cube of its rows, of
 /// which a point with friction has two.

@@ -3,7 +3,7 @@
 //! To read in this order: this file (the groups of a sub-step), [`gather`] (rows of contacts that last), [`row`] and [`soft`]
 //! (what is solved for, and the soft law), [`apart`] (which contacts hang together, and how each group is solved for: by sweeps,
 //! as discs in [`round`], at once in [`heavy`]), [`motions`] and [`go_on`] (what becomes of it), [`sink`] (held pairs that turn
-//! out of what was planned for them).
+//! out of what was planned for them), [`settle`] (groups at rest fall asleep).
 //!
 //! It is for bodies in contact that have no closed form and are not in the engine.
 
@@ -14,6 +14,7 @@ pub(crate) mod heavy;
 mod motions;
 mod round;
 mod row;
+pub(crate) mod settle;
 pub(crate) mod sink;
 mod soft;
 

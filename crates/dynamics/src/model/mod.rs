@@ -2,9 +2,10 @@
 //!
 //! To read in this order: [`narrow`] (contacts of a pair at an instant, and what counts as touch, rest and rounding), [`ghost`]
 //! (contacts with hidden sides of flush fixed pieces, which do not exist), [`gap`] (the second derivative of a gap), [`press`]
-//! (how hard two bodies press, by turning too).
+//! (how hard two bodies press, by turning too), [`graph`] (which bodies touch, and which hang together).
 
 pub(crate) mod gap;
 pub(crate) mod ghost;
+pub(crate) mod graph;
 pub(crate) mod narrow;
 pub(crate) mod press;

@@ -17,7 +17,7 @@ use carom_stepped::State;
 use super::Shapes;
 use super::near::Among;
 use super::rush::Rush;
-use crate::sleep::neighbours;
+use crate::model::graph::neighbours;
 use crate::store::state::BodyState;
 use crate::{BodyKind, EnergyLedger, Mode, World};
 

@@ -9,7 +9,7 @@ use super::store::Closed;
 use crate::World;
 use crate::analytic::modes::BodyMove;
 use crate::analytic::touching::Gathered;
-use crate::sleep::neighbours;
+use crate::model::graph::neighbours;
 use crate::store::state::BodyState;
 
 /// Size of a budget, in mode solves of one body. 16: boxes that rock to rest (`tests/it/rocking.rs`) join before, and part from the

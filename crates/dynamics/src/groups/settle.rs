@@ -1,10 +1,10 @@
-//! Groups at rest: they fall asleep together and wake together.
+//! Groups at rest fall asleep together.
 
 use carom_math::{SimTime, Vec2};
 
-use crate::groups::Groups;
+use super::Groups;
+use crate::model::graph::Tree;
 use crate::store::bodies::Bodies;
-use crate::store::pairs::Pairs;
 use crate::values::event::EventKind;
 use crate::{BodyKind, Events, Sleep};
 
@@ -84,91 +84,7 @@ pub(crate) fn settle(
     asleep
 }
 
-/// Wakes a body and all sleepers that it touches, and so on; those that the engine has are for the engine to wake.
-pub(crate) fn wake(
-    bodies: &mut Bodies,
-    pairs: &Pairs,
-    index: u32,
-    time: SimTime,
-    events: &mut Events,
-    woken: &mut Vec<u32>,
-) {
-    let mut waking = vec![index];
-    while let Some(index) = waking.pop() {
-        let state = bodies.get_mut(index);
-        if !state.is_asleep() {
-            continue;
-        }
-        woken.push(index);
-        if state.in_engine() {
-            continue;
-        }
-        state.slow_for = 0.0;
-        let id = state.id;
-        if bodies.wake(index) {
-            events.push(time, EventKind::Awake(id));
-        }
-        waking.extend(neighbours(bodies, pairs, index));
-    }
-}
-
-/// Wakes all sleepers that touch a body: what held them has changed.
-pub(crate) fn wake_around(
-    bodies: &mut Bodies,
-    pairs: &Pairs,
-    index: u32,
-    time: SimTime,
-    events: &mut Events,
-    woken: &mut Vec<u32>,
-) {
-    wake(bodies, pairs, index, time, events, woken);
-    let around: Vec<u32> = neighbours(bodies, pairs, index).collect();
-    for other in around {
-        wake(bodies, pairs, other, time, events, woken);
-    }
-}
-
-/// Bodies that touch a body.
-pub(crate) fn neighbours<'a>(
-    bodies: &'a Bodies,
-    pairs: &'a Pairs,
-    index: u32,
-) -> impl Iterator<Item = u32> + use<'a> {
-    bodies.get(index).pairs.iter().filter_map(move |&place| {
-        let pair = pairs.get(place);
-        pair.touching.then(|| pair.other(index))
-    })
-}
-
 fn moves(bodies: &Bodies, index: u32) -> bool {
     let motion = &bodies.get(index).motion;
     motion.velocity != Vec2::ZERO || motion.spin != 0.0
-}
-
-/// Union by index: the smaller root wins, so that groups do not depend on the order of links.
-pub(crate) struct Tree {
-    parents: Vec<u32>,
-}
-
-impl Tree {
-    pub(crate) fn new(count: usize) -> Self {
-        Self {
-            parents: (0u32..).take(count).collect(),
-        }
-    }
-
-    pub(crate) fn root(&mut self, mut i: u32) -> u32 {
-        while self.parents[i as usize] != i {
-            let up = self.parents[self.parents[i as usize] as usize];
-            self.parents[i as usize] = up;
-            i = up;
-        }
-        i
-    }
-
-    pub(crate) fn join(&mut self, a: u32, b: u32) {
-        let (a, b) = (self.root(a), self.root(b));
-        let (low, high) = if a < b { (a, b) } else { (b, a) };
-        self.parents[high as usize] = low;
-    }
 }
