@@ -15,6 +15,7 @@ mod fields;
 mod filters;
 mod forces;
 mod gases;
+mod house;
 mod impacts;
 mod large_islands;
 mod large_piles;
