@@ -70,7 +70,7 @@ impl World {
         if dt > 0.0 {
             self.end_forces();
         }
-        self.check_regimes();
+        self.bodies.check_regimes(self.settings.mode);
         self.events.end_step();
         self.bodies.end_step();
         self.report_left_paths(self.clock.now);

@@ -5,7 +5,7 @@ use carom_geometry::{Aabb, Shape};
 use carom_math::{Pose, SimTime, Vec2};
 
 use crate::store::state::{BodyState, Collider};
-use crate::{BodyId, BodyKind, Filter, Material};
+use crate::{BodyId, BodyKind, Filter, Material, World};
 
 /// A body of a world, read at the world's time.
 #[derive(Clone, Copy, Debug)]
@@ -152,5 +152,16 @@ impl<'w> Body<'w> {
         let pose = self.pose();
         self.shapes()
             .fold(Aabb::EMPTY, |all, (shape, _)| all.union(shape.aabb(pose)))
+    }
+}
+
+impl World {
+    /// Bodies that the last step may have left elsewhere than the one before did: all that move, and those that came to rest
+    /// in it or were put elsewhere since that one; every other body has the pose that it had. In an order that is the same after the
+    /// same calls; none before the first step. A body that was removed since is not among them.
+    ///
+    /// A viewer that knows all poses after one step needs to read only these after the next.
+    pub fn moved(&self) -> impl Iterator<Item = Body<'_>> {
+        self.bodies.moved().map(|state| self.view(state))
     }
 }

@@ -273,7 +273,7 @@ impl World {
     pub(crate) fn disturb(&mut self, index: u32, change: impl FnOnce(&mut BodyState)) {
         self.alter(index, change);
         self.unsettle_on(index, self.clock.now);
-        self.check_regime(index);
+        self.bodies.check_regime(index, self.settings.mode);
     }
 
     /// [`Self::disturb`], but for what rests on the body: it is not yet where its pairs are made.

@@ -6,6 +6,7 @@
 
 pub(crate) mod body;
 mod change;
+mod contact;
 mod pair_rules;
 pub(crate) mod query;
 mod setters;

@@ -235,7 +235,7 @@ impl World {
         self.forget_boxes(index);
         self.arrive(index);
         self.unsettle_on(index, self.clock.now);
-        self.check_regime(index);
+        self.bodies.check_regime(index, self.settings.mode);
     }
 
     /// Takes a body out of the engine and all its pairs.

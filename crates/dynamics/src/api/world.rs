@@ -222,7 +222,7 @@ impl World {
             self.arrive(id.index);
             self.unsettle_on(id.index, now);
         }
-        self.check_regime(id.index);
+        self.bodies.check_regime(id.index, self.settings.mode);
         Ok(id)
     }
 

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use carom_collision::Motion;
 use carom_math::{SimTime, Sum, Vec2};
 
+use super::damping::damping_loss;
 use super::few::Few;
 use super::history::History;
 use super::left_paths::LeftPaths;
@@ -12,7 +13,6 @@ use super::moved::{Moved, moves};
 use super::regime::Members;
 use super::state::BodyState;
 use super::uncommon::Lag;
-use crate::values::ledger::damping_loss;
 use crate::{BodyError, BodyId, EnergyLedger, Field};
 
 /// Running sums of the energy ledger's columns, with twice the digits.

@@ -5,6 +5,7 @@
 //! [`pairs`] (pairs of shapes, and what they remember from sub-step to sub-step). The others are parts of these.
 
 pub(crate) mod bodies;
+mod damping;
 mod few;
 mod history;
 mod left_paths;
@@ -13,4 +14,5 @@ mod moved;
 pub(crate) mod pairs;
 pub(crate) mod regime;
 pub(crate) mod state;
+mod tell;
 pub(crate) mod uncommon;

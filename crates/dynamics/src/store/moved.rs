@@ -3,7 +3,6 @@
 use carom_math::Vec2;
 
 use super::state::BodyState;
-use crate::{Body, World};
 
 /// No place in the list.
 const NONE: u32 = u32::MAX;
@@ -19,17 +18,6 @@ pub(crate) struct Moved {
     place: Vec<u32>,
     /// Bodies at rest with a motion changed in the last step.
     stopped: Vec<u32>,
-}
-
-impl World {
-    /// Bodies that the last step may have left elsewhere than the one before did: all that move, and those that came to rest
-    /// in it or were put elsewhere since that one; every other body has the pose that it had. In an order that is the same after the
-    /// same calls; none before the first step. A body that was removed since is not among them.
-    ///
-    /// A viewer that knows all poses after one step needs to read only these after the next.
-    pub fn moved(&self) -> impl Iterator<Item = Body<'_>> {
-        self.bodies.moved().map(|state| self.view(state))
-    }
 }
 
 impl Moved {

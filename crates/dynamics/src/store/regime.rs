@@ -32,7 +32,7 @@ use super::bodies::Bodies;
 use super::state::BodyState;
 use crate::analytic::islands::Membership;
 use crate::events::free::Course;
-use crate::{BodyKind, Mode, World};
+use crate::{BodyKind, Mode};
 
 /// What moves a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -355,24 +355,25 @@ impl Bodies {
     }
 }
 
-impl World {
-    /// Whether what every body has goes together, in builds that check so.
-    pub(crate) fn check_regimes(&self) {
+/// What goes together, in builds that check so.
+impl Bodies {
+    /// Whether what every body has goes together.
+    pub(crate) fn check_regimes(&self, mode: Mode) {
         if cfg!(debug_assertions) {
             let mut members = 0;
-            for state in self.bodies.iter() {
-                self.check_regime(state.id.index);
+            for state in self.iter() {
+                self.check_regime(state.id.index, mode);
                 members += usize::from(state.is_member());
             }
-            assert_eq!(members, self.bodies.member_count(), "members are counted");
+            assert_eq!(members, self.member_count(), "members are counted");
         }
     }
 
-    /// Whether what a body has goes together, in builds that check so.
-    pub(crate) fn check_regime(&self, index: u32) {
+    /// Whether what a body has goes together.
+    pub(crate) fn check_regime(&self, index: u32, mode: Mode) {
         if cfg!(debug_assertions) {
-            let state = self.bodies.get(index);
-            if let Err(why) = Regime::check(state, self.settings.mode) {
+            let state = self.get(index);
+            if let Err(why) = Regime::check(state, mode) {
                 panic!("{}: {why}", state.id);
             }
         }

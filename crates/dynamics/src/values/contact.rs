@@ -3,8 +3,6 @@
 use carom_math::Vec2;
 
 use crate::BodyId;
-use crate::store::bodies::Bodies;
-use crate::store::pairs::Pair;
 
 /// Where two bodies touch: one normal, up to two points.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,27 +30,4 @@ pub struct ContactPoint {
     pub separation: f64,
     /// Normal impulse of the last sub-step on B, in N·s.
     pub normal_impulse: f64,
-}
-
-impl Contact {
-    pub(crate) fn of<'a>(
-        bodies: &'a Bodies,
-        pair: &'a Pair,
-    ) -> impl Iterator<Item = Self> + use<'a> {
-        pair.contacts.iter().map(|contact| Self {
-            a: bodies.get(pair.bodies.0).id,
-            b: bodies.get(pair.bodies.1).id,
-            normal: contact.normal,
-            points: contact
-                .points
-                .iter()
-                .map(|point| ContactPoint {
-                    position: point.position,
-                    separation: point.separation,
-                    normal_impulse: point.impulse,
-                })
-                .collect(),
-            tangent_impulse: contact.tangent_impulse,
-        })
-    }
 }

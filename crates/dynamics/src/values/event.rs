@@ -3,8 +3,6 @@
 use carom_math::{SimTime, Vec2};
 
 use crate::BodyId;
-use crate::store::bodies::Bodies;
-use crate::store::pairs::Pair;
 
 /// Something that happened to one or two bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -166,56 +164,6 @@ impl Events {
     /// Puts what was told after later events among them.
     pub(crate) fn sort(&mut self) {
         self.list[self.delivered.0..].sort_by_key(|event| event.time);
-    }
-
-    /// Tells that a pair began or ceased to touch, if that is new: so begins and ends of a pair come in turns.
-    pub(crate) fn tell_touch(&mut self, bodies: &Bodies, pair: &mut Pair, time: SimTime) {
-        if pair.touching == pair.told {
-            return;
-        }
-        pair.told = pair.touching;
-        let ends = [pair.bodies.0, pair.bodies.1];
-        // Torn off, or left at the very end of a path, it opened without a mode solve; and what lands again begins a mode anew.
-        if !pair.touching && pair.mode.is_some() {
-            self.tell_mode(bodies, pair, ContactMode::Open, time);
-        }
-        let colliders = [pair.colliders.0, pair.colliders.1];
-        self.push_touch(bodies, ends, colliders, pair.touching, time);
-    }
-
-    /// Tells how a contact in closed form moves from now on, if that is new.
-    pub(crate) fn tell_mode(
-        &mut self,
-        bodies: &Bodies,
-        pair: &mut Pair,
-        mode: ContactMode,
-        time: SimTime,
-    ) {
-        if pair.mode != Some(mode) {
-            pair.mode = Some(mode);
-            let (a, b) = (bodies.get(pair.bodies.0).id, bodies.get(pair.bodies.1).id);
-            self.push(time, EventKind::Mode { a, b, mode });
-        }
-    }
-
-    /// Tells that two colliders of two bodies began or ceased to touch.
-    pub(crate) fn push_touch(
-        &mut self,
-        bodies: &Bodies,
-        ends: [u32; 2],
-        colliders: [u32; 2],
-        begins: bool,
-        time: SimTime,
-    ) {
-        let [one, other] = ends.map(|index| bodies.get(index));
-        let (a, b) = (one.id, other.id);
-        let shapes = (one.shape_of(colliders[0]), other.shape_of(colliders[1]));
-        let kind = if begins {
-            EventKind::Begin { a, b, shapes }
-        } else {
-            EventKind::End { a, b, shapes }
-        };
-        self.push(time, kind);
     }
 
     /// Makes room for the events of a step. What happened since the last one, by what the caller
