@@ -55,9 +55,6 @@ const BACK: &[(&str, &str, usize)] = &[
     ("stepping", "api", 14),
     ("stepping", "events", 6),
     ("stepping", "step", 4),
-    ("store", "analytic", 2),
-    ("store", "events", 3),
-    ("store", "model", 1),
     ("store", "motion", 2),
 ];
 

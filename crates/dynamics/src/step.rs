@@ -151,7 +151,7 @@ impl World {
 
     /// An impact that is due, unless its bodies have other motions by now.
     pub(crate) fn strike_entry(&mut self, entry: &Entry) {
-        let Some(pair) = self.pairs.of_entry(entry) else {
+        let Some(pair) = self.pairs.find_same(entry.pair, entry.key) else {
             return;
         };
         let (a, b) = pair.bodies;
@@ -168,7 +168,7 @@ impl World {
         let held = closed(a) || closed(b);
         let turns = self
             .pairs
-            .of_entry(entry)
+            .find_same(entry.pair, entry.key)
             .is_some_and(|pair| pair.turning_rest > 0.0);
         if rests && turns && now == entry.versions && !held {
             rests = self.strike_or_rest(entry, Slow::Stops);

@@ -101,7 +101,7 @@ impl World {
     pub(crate) fn give_up(&mut self, entry: Entry) {
         let mut due = Some(entry);
         while let Some(entry) = due {
-            if let Some(pair) = self.pairs.of_entry(&entry)
+            if let Some(pair) = self.pairs.find_same(entry.pair, entry.key)
                 && !pair.given_up
             {
                 pair.given_up = true;
@@ -373,7 +373,7 @@ mod tests {
             };
             if world
                 .pairs
-                .of_entry(&entry)
+                .find_same(entry.pair, entry.key)
                 .is_none_or(|pair| pair.given_up)
             {
                 continue;

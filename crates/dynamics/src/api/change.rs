@@ -8,9 +8,10 @@ use std::sync::Arc;
 use carom_collision::contacts;
 use carom_math::{Pose, SimTime, Vec2};
 
-use crate::events::free::{Course, FreeBodies};
+use crate::events::free::FreeBodies;
 use crate::motion::flight::fly;
 use crate::store::bodies::Pull;
+use crate::store::course::Course;
 use crate::store::state::BodyState;
 use crate::values::error::{check_finite, check_vec2};
 use crate::{BodyDef, BodyError, BodyId, BodyKind, Field, Filter, Force, Impulse, Mode, World};

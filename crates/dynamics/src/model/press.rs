@@ -9,7 +9,8 @@ use crate::analytic::edges::feature;
 use crate::analytic::modes::Feature;
 use crate::motion::flight::motion_along;
 use crate::store::bodies::Bodies;
-use crate::store::state::BodyState;
+use crate::store::pairs::{Pair, PairContact};
+use crate::store::state::{BodyState, Collider};
 
 /// Stretch of a law that its acceleration is read from, in s.
 const STRETCH: f64 = 1e-5;
@@ -27,6 +28,39 @@ pub(crate) struct Spot<'a> {
     pub(crate) point: Vec2,
     /// From A to B.
     pub(crate) normal: Vec2,
+}
+
+/// Where a pair touches.
+impl Pair {
+    /// A point of one of its contacts.
+    pub(crate) fn spot<'a>(
+        &self,
+        bodies: &'a Bodies,
+        colliders: &'a [Collider],
+        contact: &PairContact,
+        point: Vec2,
+    ) -> Spot<'a> {
+        self.spot_of(bodies, colliders, contact.parts, point, contact.normal)
+    }
+
+    /// A place where convex parts of the pair touch, with the normal there from A to B.
+    pub(crate) fn spot_of<'a>(
+        &self,
+        bodies: &'a Bodies,
+        colliders: &'a [Collider],
+        parts: (u32, u32),
+        point: Vec2,
+        normal: Vec2,
+    ) -> Spot<'a> {
+        let solid = |at: u32| &*colliders[at as usize].solid;
+        Spot {
+            bodies: (bodies.get(self.bodies.0), bodies.get(self.bodies.1)),
+            solids: [solid(self.colliders.0), solid(self.colliders.1)],
+            parts,
+            point,
+            normal,
+        }
+    }
 }
 
 impl Spot<'_> {

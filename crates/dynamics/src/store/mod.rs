@@ -2,17 +2,23 @@
 //!
 //! To read in this order: [`state`] (a body, and the colliders that carry its shapes), [`bodies`] (all of them; its `change` is
 //! the one door through which a motion changes), [`regime`] (which method moves a body, and which transitions there are),
-//! [`pairs`] (pairs of shapes, and what they remember from sub-step to sub-step). The others are parts of these.
+//! [`pairs`] (pairs of shapes, and what they remember from sub-step to sub-step). The others are parts of these: of a body
+//! [`mass`], [`membership`] in an island, the [`course`] of a free one ([`swept`], [`zeno`]), what is [`uncommon`]; of all bodies
+//! [`history`], [`moved`] and [`left_paths`]. [`tell`] has the events that follow from a pair.
 
 pub(crate) mod bodies;
+pub(crate) mod course;
 mod damping;
 mod few;
 mod history;
 mod left_paths;
 pub(crate) mod mass;
+pub(crate) mod membership;
 mod moved;
 pub(crate) mod pairs;
 pub(crate) mod regime;
 pub(crate) mod state;
+pub(crate) mod swept;
 mod tell;
 pub(crate) mod uncommon;
+pub(crate) mod zeno;

@@ -5,9 +5,6 @@ use carom_collision::FeatureId;
 use carom_math::Vec2;
 
 use super::bodies::Bodies;
-use super::state::Collider;
-use crate::events::event_queue::Entry;
-use crate::model::press::Spot;
 use crate::{ContactMode, PairMaterial};
 
 /// Two colliders of different bodies with overlapping boxes; the lower body comes first.
@@ -75,36 +72,6 @@ impl Pair {
             (first, second)
         } else {
             (second, first)
-        }
-    }
-
-    /// A point of one of its contacts.
-    pub(crate) fn spot<'a>(
-        &self,
-        bodies: &'a Bodies,
-        colliders: &'a [Collider],
-        contact: &PairContact,
-        point: Vec2,
-    ) -> Spot<'a> {
-        self.spot_of(bodies, colliders, contact.parts, point, contact.normal)
-    }
-
-    /// A place where convex parts of the pair touch, with the normal there from A to B.
-    pub(crate) fn spot_of<'a>(
-        &self,
-        bodies: &'a Bodies,
-        colliders: &'a [Collider],
-        parts: (u32, u32),
-        point: Vec2,
-        normal: Vec2,
-    ) -> Spot<'a> {
-        let solid = |at: u32| &*colliders[at as usize].solid;
-        Spot {
-            bodies: (bodies.get(self.bodies.0), bodies.get(self.bodies.1)),
-            solids: [solid(self.colliders.0), solid(self.colliders.1)],
-            parts,
-            point,
-            normal,
         }
     }
 }
@@ -178,10 +145,10 @@ impl Pairs {
         pair
     }
 
-    /// The pair that an impact was foreseen for, if its place is still its own.
-    pub(crate) fn of_entry(&mut self, entry: &Entry) -> Option<&mut Pair> {
-        let pair = self.list.get_mut(entry.pair as usize)?.as_mut()?;
-        (pair.colliders == entry.key).then_some(pair)
+    /// The pair of these colliders, if this place is still its own.
+    pub(crate) fn find_same(&mut self, place: u32, colliders: (u32, u32)) -> Option<&mut Pair> {
+        let pair = self.list.get_mut(place as usize)?.as_mut()?;
+        (pair.colliders == colliders).then_some(pair)
     }
 
     /// The pair of a place, if there is one.

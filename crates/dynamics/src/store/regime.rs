@@ -29,9 +29,9 @@
 //!   arrival is over.
 
 use super::bodies::Bodies;
+use super::course::Course;
+use super::membership::Membership;
 use super::state::BodyState;
-use crate::analytic::islands::Membership;
-use crate::events::free::Course;
 use crate::{BodyKind, Mode};
 
 /// What moves a body.

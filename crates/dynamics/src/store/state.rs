@@ -6,12 +6,12 @@ use carom_collision::{Hull, Motion, hulls};
 use carom_geometry::{Aabb, MassProperties, Shape};
 use carom_math::{Pose, Rot, SimTime, StateHash, Vec2};
 
+use super::course::Course;
 use super::few::Few;
 use super::mass::mass_of;
+use super::membership::Membership;
 use super::regime::Regime;
 use super::uncommon::{Lag, Uncommon};
-use crate::analytic::islands::Membership;
-use crate::events::free::Course;
 use crate::impact::ImpactBody;
 use crate::motion::law::Flight;
 use crate::values::error::BodyError;

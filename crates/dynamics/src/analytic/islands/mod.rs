@@ -20,8 +20,9 @@ use crate::analytic::modes::{BodyMove, GroupMove, NotMine, TouchMove, land, solv
 use crate::analytic::touching::{Gathered, Looks, Refused};
 use crate::events::event_queue::Entry;
 use crate::motion::flight::fly;
+use crate::store::membership::Membership;
 use crate::{BodyKind, ContactMode, Mode, World};
-pub(crate) use store::{Closed, Membership};
+pub(crate) use store::Closed;
 use store::{Group, Kept};
 
 impl World {

@@ -7,13 +7,14 @@ use carom_collision::part;
 use carom_math::SimTime;
 
 use super::joints::{Held, joint};
-use super::store::{Group, Kept, Membership};
+use super::store::{Group, Kept};
 use crate::analytic::modes::{NotMine, TouchMove};
 use crate::analytic::tipping::{Contact, Ends, Joint, Place, Tip, tip};
 use crate::analytic::touching::{Approach, Gathered, approach_at};
 use crate::model::narrow::{TOUCH, rest_speed};
 use crate::motion::flight::{fly, follow};
 use crate::motion::law::Flight;
+use crate::store::membership::Membership;
 use crate::{Mode, World};
 
 /// A corner this near to a point of contact is what touches there, as a part of the smaller reach.

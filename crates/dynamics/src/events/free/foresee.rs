@@ -7,9 +7,10 @@ use super::foreseen::is_stale;
 use super::queue::{Ahead, Entry};
 use super::{Foreseen, drift};
 use crate::broad::free_fall_frame::Track;
-use crate::broad::grid::{Sides, SweptBox};
+use crate::broad::grid::SweptBox;
 use crate::broad::window::{self, Window};
 use crate::store::state::BodyState;
+use crate::store::swept::Sides;
 use crate::{BodyKind, PairSearch, World};
 
 /// Part of a cell that a free body travels within its horizon.

@@ -7,8 +7,8 @@ use super::circle::Circle;
 use super::foresee::{Cause, at_most, room_about, swept};
 use super::queue::Ahead;
 use crate::broad::free_fall_frame::Track;
-use crate::broad::grid::Sides;
 use crate::broad::window;
+use crate::store::swept::Sides;
 use crate::{BodyKind, World};
 
 /// Way, in cells, that a free body looks down for first.

@@ -21,7 +21,6 @@ mod seek;
 mod strike;
 mod together;
 mod turning;
-mod zeno;
 
 use std::collections::BTreeSet;
 
@@ -29,8 +28,9 @@ use carom_collision::{BoxTree, ImpactFeature, NodeId};
 use carom_math::{SimTime, Vec2};
 
 use crate::broad::free_fall_frame::{Frame, Track};
-use crate::broad::grid::{Cells, Grid, Sides, SweptBox};
+use crate::broad::grid::{Grid, SweptBox};
 use crate::store::bodies::Bodies;
+use crate::store::course::Course;
 use crate::store::state::{BodyState, Collider};
 use aside::Aside;
 use circle::Registered;
@@ -38,59 +38,8 @@ pub(crate) use foresee::{Cause, box_ahead};
 pub(crate) use foreseen::Foreseen;
 
 use queue::{Ahead, Queue};
-use zeno::ZenoSeries;
-
-/// How a free body moves, and what was searched for around it.
-#[derive(Clone, Copy, Debug)]
-#[repr(C)]
-pub(crate) struct Course {
-    /// Until when what does not fly has been looked for.
-    pub(crate) ground: SimTime,
-    /// Where it is in the grid; none for what is too large for it, and is in the tree of boxes.
-    pub(crate) cells: Option<Cells>,
-    /// Nothing was found where it looked down, but for half-planes.
-    pub(crate) alone: bool,
-    /// Box of its bounding circle up to the horizon, in the frame that falls.
-    pub(crate) swept: Sides,
-    /// Box of its bounding circle up to the end of its look at what does not fly, in the world.
-    pub(crate) reached: Sides,
-    /// The earliest entries for the ends of both searches.
-    pub(crate) entered: (SimTime, SimTime),
-    /// How long it looked down for, in s.
-    pub(crate) span: f64,
-    /// When it found nothing there; never, if there was something.
-    pub(crate) clear_at: SimTime,
-    /// The tick in which it last struck, and what its impacts spent in it.
-    pub(crate) tick: i64,
-    pub(crate) spent: f64,
-    /// Its last impacts, while they come ever faster.
-    pub(crate) series: ZenoSeries,
-}
-
-impl Default for Course {
-    fn default() -> Self {
-        Self {
-            swept: Sides::NOTHING,
-            cells: None,
-            ground: SimTime::ZERO,
-            reached: Sides::NOTHING,
-            span: 0.0,
-            alone: false,
-            clear_at: SimTime::NEVER,
-            entered: (SimTime::NEVER, SimTime::NEVER),
-            tick: 0,
-            spent: 0.0,
-            series: ZenoSeries::default(),
-        }
-    }
-}
 
 impl Course {
-    /// Ends of its searches that are entered are stale: a pile that landed leaves nothing in the calendar.
-    pub(crate) const fn void_searches(&mut self) {
-        self.entered = (SimTime::NEVER, SimTime::NEVER);
-    }
-
     /// The earliest entry for the end of a search.
     fn entered(&mut self, ahead: Ahead) -> &mut SimTime {
         match ahead {

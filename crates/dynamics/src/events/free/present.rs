@@ -4,9 +4,11 @@ use carom_collision::{BoxTree, roundable};
 use carom_geometry::Aabb;
 use carom_math::SimTime;
 
-use super::{Course, FreeBodies};
-use crate::broad::grid::{Cells, Sides, SweptBox};
+use super::FreeBodies;
+use crate::broad::grid::SweptBox;
 use crate::store::bodies::Bodies;
+use crate::store::course::Course;
+use crate::store::swept::{Cells, Sides};
 
 impl FreeBodies {
     /// Bodies of the grid with boxes that overlap a swept box, some more than once: see [`Self::has_met`].

@@ -3,13 +3,13 @@
 use arrayvec::ArrayVec;
 use carom_math::{SimTime, Vec2};
 
-use super::zeno::ZenoSeries;
 use super::{Cause, Foreseen};
 use crate::events::predict::price;
 use crate::events::resolve::apply;
 use crate::events::shock::Shock;
 use crate::impact::{ImpactBody, ImpactContact, resolve};
 use crate::model::narrow::opening_speed;
+use crate::store::zeno::ZenoSeries;
 use crate::{BodyKind, EventKind, Mode, PairMaterial, World};
 
 /// What the impacts of one free body may spend in a tick before the solver takes the rest, in losses of
