@@ -1,13 +1,16 @@
 //! The story of a step: impacts in order of time, sub-steps on their grid, then the caller's look.
 
+use carom_geometry::Aabb;
 use carom_math::SimTime;
 
+use crate::broad::tree::Overlapping;
 use crate::events::event_queue::Entry;
 use crate::events::free::Cause;
 use crate::events::predict::{predict, price};
 use crate::events::resolve::{Slow, Struck, strike};
 use crate::events::wake::{wake, wake_around};
 use crate::motion::flight::fly;
+use crate::store::bodies::Bodies;
 use crate::{Mode, Refusal, StepReport, World};
 
 /// More ticks than this in one step are refused.
@@ -416,6 +419,9 @@ impl World {
 
     /// Makes the pairs of a body's boxes in the tree with what is near them, free bodies too.
     pub(crate) fn meet_near(&mut self, index: u32) {
+        let free = |bodies: &Bodies, bounds: Aabb, near: &mut Vec<u32>| {
+            self.free.overlapping(bodies, bounds, near);
+        };
         for slot in 0..self.bodies.get(index).colliders.len() {
             let at = self.bodies.get(index).colliders[slot];
             if self.colliders[at as usize].node.is_some() {
@@ -424,7 +430,7 @@ impl World {
                     &self.colliders,
                     &mut self.pairs,
                     at,
-                    Some(&self.free),
+                    Some(&free),
                 );
             }
         }
@@ -445,6 +451,10 @@ impl World {
 
     /// [`Self::refit`]; `meets`: free bodies in the new boxes are found.
     pub(crate) fn refit_among(&mut self, index: u32, time: SimTime, h: f64, meets: bool) {
+        let free = |bodies: &Bodies, bounds: Aabb, near: &mut Vec<u32>| {
+            self.free.overlapping(bodies, bounds, near);
+        };
+        let free: &Overlapping<'_> = &free;
         self.broad.refit(
             &mut self.bodies,
             &mut self.colliders,
@@ -452,7 +462,7 @@ impl World {
             index,
             time,
             h,
-            meets.then_some(&self.free),
+            meets.then_some(free),
         );
         self.look_down_first(time);
     }

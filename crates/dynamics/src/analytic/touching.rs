@@ -2,12 +2,13 @@
 
 use arrayvec::ArrayVec;
 use carom_collision::part;
-use carom_math::{SimTime, Vec2, cross_scalar};
+use carom_math::{SimTime, Vec2};
 
 use crate::World;
-use crate::analytic::edges::{at_the_end, feature};
-use crate::analytic::modes::{CLOSED, Feature, ModeBody, ROWS, Touch, hold, stand};
-use crate::groups::heavy::{BEARS, mass_ratio};
+use crate::analytic::modes::{ModeBody, ROWS, Touch, hold, stand};
+use crate::model::approach::{Approach, RigidState, approach, opening};
+use crate::model::edges::{Feature, at_the_end, feature};
+use crate::model::mass_ratio::{BEARS, mass_ratio};
 use crate::model::narrow::{RestSpeed, TOUCH};
 use crate::store::bodies::Bodies;
 use crate::store::pairs::PairContact;
@@ -83,7 +84,10 @@ impl Gathered {
         self.end_series();
         let (bodies, rest) = (&self.bodies, self.rest);
         for touch in &mut self.touches {
-            let ends = (&bodies[touch.bodies.0], &bodies[touch.bodies.1]);
+            let ends = (
+                bodies[touch.bodies.0].state(),
+                bodies[touch.bodies.1].state(),
+            );
             let normal = touch.normal;
             let leaves =
                 |point: &Vec2| matches!(approach(ends, *point, normal, rest), Approach::Leaves(_));
@@ -125,7 +129,10 @@ impl Gathered {
     fn end_series(&mut self) {
         let (bodies, rest) = (&self.bodies, self.rest);
         let opens = |touch: &Touch| {
-            let ends = (&bodies[touch.bodies.0], &bodies[touch.bodies.1]);
+            let ends = (
+                bodies[touch.bodies.0].state(),
+                bodies[touch.bodies.1].state(),
+            );
             let rate = |point: &Vec2| match approach(ends, *point, touch.normal, rest) {
                 Approach::Leaves(rate) => rate,
                 _ => 0.0,
@@ -273,11 +280,7 @@ impl World {
             return None;
         }
         let RestSpeed { all: rest, pulled } = RestSpeed::of(&self.bodies, pair, h);
-        let (mode_a, mode_b) = (
-            mode_body(&self.bodies, a, time),
-            mode_body(&self.bodies, b, time),
-        );
-        let ends = (&mode_a, &mode_b);
+        let ends = (RigidState::of(a, time), RigidState::of(b, time));
         // What the soft solver holds across a gap is no free surface.
         let hovers = |contact: &PairContact| {
             contact.points.iter().any(|point| {
@@ -364,70 +367,4 @@ impl World {
         }
         Some(rows)
     }
-}
-
-fn approach(ends: (&ModeBody, &ModeBody), point: Vec2, normal: Vec2, rest: f64) -> Approach {
-    let (rate, size) = opening(ends, point, normal);
-    let rounding = CLOSED * (size + rest);
-    if rate > rounding {
-        Approach::Leaves(rate)
-    } else if rate < -rounding {
-        Approach::Closes(-rate)
-    } else {
-        Approach::Stays
-    }
-}
-
-/// How a point of two bodies moves along the normal.
-pub(crate) fn approach_at(
-    bodies: &Bodies,
-    (a, b): (&BodyState, &BodyState),
-    (point, normal): (Vec2, Vec2),
-    time: SimTime,
-    rest: f64,
-) -> Approach {
-    let ends = (mode_body(bodies, a, time), mode_body(bodies, b, time));
-    approach((&ends.0, &ends.1), point, normal, rest)
-}
-
-/// Whether a touch neither opens nor closes: a group in closed form may hold it.
-pub(crate) fn stays(
-    bodies: &Bodies,
-    (a, b): (&BodyState, &BodyState),
-    contact: &PairContact,
-    time: SimTime,
-    rest: f64,
-) -> bool {
-    let ends = (mode_body(bodies, a, time), mode_body(bodies, b, time));
-    let touch = TOUCH * a.reach.min(b.reach);
-    let mut stays = false;
-    for point in contact.points.iter().filter(|p| p.separation <= touch) {
-        match approach((&ends.0, &ends.1), point.position, contact.normal, rest) {
-            Approach::Stays => stays = true,
-            Approach::Closes(_) => return false,
-            Approach::Leaves(_) => {}
-        }
-    }
-    stays
-}
-
-/// Speed at which a point opens, and the sum of the speeds that it is made of, in m/s.
-fn opening(ends: (&ModeBody, &ModeBody), point: Vec2, normal: Vec2) -> (f64, f64) {
-    let of = |body: &ModeBody| {
-        let turning = cross_scalar(body.spin, point - body.centre);
-        (
-            body.velocity + turning,
-            body.velocity.length() + turning.length(),
-        )
-    };
-    let ((v_a, size_a), (v_b, size_b)) = (of(ends.0), of(ends.1));
-    ((v_b - v_a).dot(normal), size_a + size_b)
-}
-
-/// What a touch does, by more than rounding; at which speed, in m/s.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Approach {
-    Leaves(f64),
-    Stays,
-    Closes(f64),
 }

@@ -6,7 +6,6 @@ use carom_collision::{BoxTree, Motion, roundable};
 use carom_geometry::Aabb;
 use carom_math::{SimTime, Vec2};
 
-use crate::events::free::FreeBodies;
 use crate::store::bodies::Bodies;
 use crate::store::pairs::{Pair, Pairs};
 use crate::store::state::Collider;
@@ -18,6 +17,9 @@ pub(crate) const LOOK_AHEAD: f64 = 8.0;
 
 /// Boxes are padded by this fraction of the body's reach, so that a body that jitters stays inside.
 pub(crate) const PADDING: f64 = 0.05;
+
+/// Finds the free bodies whose boxes overlap one, and writes them into a list.
+pub(crate) type Overlapping<'a> = dyn Fn(&Bodies, Aabb, &mut Vec<u32>) + 'a;
 
 /// Everything a search for pairs reads and writes.
 #[derive(Clone, Debug)]
@@ -61,7 +63,7 @@ impl Broad {
         index: u32,
         time: SimTime,
         h: f64,
-        free: Option<&FreeBodies>,
+        free: Option<&Overlapping<'_>>,
     ) {
         for slot in 0..bodies.get(index).colliders.len() {
             let body = bodies.get(index);
@@ -145,7 +147,7 @@ impl Broad {
         colliders: &[Collider],
         pairs: &mut Pairs,
         at: u32,
-        free: Option<&FreeBodies>,
+        free: Option<&Overlapping<'_>>,
     ) {
         let mine = &colliders[at as usize];
         let mut near = core::mem::take(&mut self.near);
@@ -164,7 +166,7 @@ impl Broad {
             PairSearch::Indexed => {
                 self.tree.query(mine.fat, |other| near.push(other));
                 if let Some(free) = free {
-                    free.overlapping(bodies, mine.fat, &mut self.free);
+                    free(bodies, mine.fat, &mut self.free);
                     let shapes = |body: &u32| &bodies.get(*body).colliders;
                     near.extend(self.free.iter().flat_map(shapes));
                 }

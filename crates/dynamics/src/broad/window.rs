@@ -1,7 +1,10 @@
 //! From when to when two things are near enough to meet: bounding circles and boxes along motions.
 
 use carom_geometry::Aabb;
-use carom_math::Vec2;
+use carom_math::{SimTime, Vec2};
+
+use super::free_fall_frame::Track;
+use crate::store::state::BodyState;
 
 /// Reaches are taken this much larger, so that no rounding at a rim loses a pair, and the search for the
 /// time of impact begins before it, where the gap is above its tolerance.
@@ -121,6 +124,30 @@ fn first_rise(way: f64, v: f64, a: f64) -> f64 {
     } else {
         f64::INFINITY
     }
+}
+
+/// Box of a body's bounding circle along its motion from `time` on for `seconds`.
+pub(crate) fn box_ahead(state: &BodyState, time: SimTime, seconds: f64) -> Aabb {
+    swept(state, &Track::of(&state.motion, time), seconds)
+}
+
+/// Box of a body's bounding circle along a track for `seconds`: both ends, and where it turns.
+pub(crate) fn swept(state: &BodyState, track: &Track, seconds: f64) -> Aabb {
+    let (from, to) = (track.centre, track.centre_after(seconds));
+    let mut bounds = Aabb::from_points([from, to]);
+    let turns = (-track.velocity / track.acceleration).to_array();
+    for turn in turns {
+        if turn > 0.0 && turn < seconds {
+            bounds = bounds.union(Aabb::from_points([track.centre_after(turn)]));
+        }
+    }
+    bounds.grown(state.reach * ROOM + room_about(state, bounds))
+}
+
+/// Rounding of where a body is within a box, and how far its motion is from its true path, in m.
+pub(crate) fn room_about(state: &BodyState, bounds: Aabb) -> f64 {
+    let largest = bounds.min.abs().max(bounds.max.abs()).max_element();
+    1e-9 * state.reach + 1e-14 * largest + state.motion.left_out
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ use arrayvec::ArrayVec;
 use carom_collision::{AxisFeature, Impact, ImpactFeature};
 use carom_math::SimTime;
 
-use crate::analytic::touching::{Approach, approach_at};
+use crate::model::approach::{Approach, approach_at};
 use crate::model::narrow::TOUCH;
 use crate::store::bodies::Bodies;
 use crate::store::pairs::{Pair, PairContact};
@@ -30,7 +30,7 @@ pub(crate) fn micro_bounce(
             continue;
         }
         let at = (point.position, contact.normal);
-        let Approach::Leaves(speed) = approach_at(bodies, (a, b), at, time, rest) else {
+        let Approach::Leaves(speed) = approach_at((a, b), at, time, rest) else {
             continue;
         };
         let press = pair

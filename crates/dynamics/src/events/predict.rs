@@ -2,22 +2,20 @@
 
 use arrayvec::ArrayVec;
 use carom_collision::{
-    AxisFeature, Hull, Impact, ImpactFeature, TimeOfImpact, earlier, part, part_count,
-    time_of_impact_of_parts,
+    Hull, Impact, TimeOfImpact, earlier, part, part_count, time_of_impact_of_parts,
 };
 use carom_math::{SimTime, Vec2};
 
-use crate::analytic::modes::CLOSED;
-use crate::analytic::touching::stays;
 use crate::events::event_queue::{Entry, EventQueue};
 use crate::events::micro_bounce::micro_bounce;
 use crate::groups::sink::sinks_in;
+use crate::model::approach::{CLOSED, stays};
 use crate::model::ghost::Meeting;
-use crate::model::narrow::{NOISE, Narrow, RestSpeed, TOUCH, opening_speed, pace};
+use crate::model::narrow::{NOISE, Narrow, RestSpeed, TOUCH, opening_speed, pace, strikes_with};
 use crate::motion::first_touch::first_touch_of_parts;
 use crate::motion::flight::motion_along;
 use crate::store::bodies::Bodies;
-use crate::store::pairs::{PairContact, PairPoint, Pairs};
+use crate::store::pairs::{PairContact, Pairs};
 use crate::store::state::{BodyState, Collider};
 use crate::{BodyKind, PairMaterial, StepReport};
 
@@ -113,7 +111,7 @@ pub(crate) fn predict(
     let holds = |contact: &PairContact| {
         if closed {
             // A touch that opens is none of a group's: it may come back before the group changes.
-            stays(bodies, (a, b), contact, time, group_rest)
+            stays((a, b), contact, time, group_rest)
         } else {
             is_the_solvers((a, b), contact, time, touch, pulled)
         }
@@ -308,15 +306,6 @@ fn polished(
         left = left_out(span);
     }
     best
-}
-
-/// What touches at a contact point: the corners that the contact is named after.
-pub(crate) fn strikes_with(parts: (u32, u32), point: &PairPoint) -> ImpactFeature {
-    let (a, b) = point.feature.vertices();
-    ImpactFeature {
-        parts,
-        feature: AxisFeature::Vertices { a, b },
-    }
 }
 
 /// How fast a contact point wanders: with the two bodies' mean.

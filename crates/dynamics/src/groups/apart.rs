@@ -2,9 +2,9 @@
 
 use core::ops::Range;
 
-use super::heavy::{BEARS, mass_ratio};
 use super::{Row, SolverBody};
 use crate::model::graph::Tree;
+use crate::model::mass_ratio::{BEARS, mass_ratio};
 
 /// Points of a group that are solved for at once; what has more is swept. A common stop takes the cube of its rows, of
 /// which a point with friction has two.

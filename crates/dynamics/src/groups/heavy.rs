@@ -9,20 +9,11 @@ use carom_math::Vec2;
 use super::{Law, Row, SolverBody};
 use crate::impact::{ImpactBody, ImpactContact, SharedContact, held};
 
-/// A body so many times as heavy as the one that gives way to it is a load that one sweep does not carry.
-pub(crate) const BEARS: f64 = 16.0;
-
 /// Where a row pushes: its points, and the centres of mass of both bodies, in m.
 #[derive(Clone, Debug)]
 pub(crate) struct Place {
     pub(crate) points: arrayvec::ArrayVec<Vec2, 2>,
     pub(crate) centres: (Vec2, Vec2),
-}
-
-/// How many times as heavy the heavier of two bodies is; 1 beside what cannot be moved. From their inverse masses.
-pub(crate) fn mass_ratio(masses: [f64; 2]) -> f64 {
-    let [light, heavy] = [masses[0].max(masses[1]), masses[0].min(masses[1])];
-    if heavy > 0.0 { light / heavy } else { 1.0 }
 }
 
 /// Velocities and displacements of the bodies of a heavy group, and the impulses of its rows; whether there are such:

@@ -12,8 +12,7 @@ use arrayvec::ArrayVec;
 use carom_collision::Impact;
 use carom_math::{SimTime, Vec2};
 
-use crate::events::predict::strikes_with;
-use crate::model::narrow::{Narrow, opening_speed};
+use crate::model::narrow::{Narrow, opening_speed, strikes_with};
 use crate::store::bodies::Bodies;
 use crate::store::pairs::{Pair, PairContact};
 use crate::store::state::{BodyState, Collider};

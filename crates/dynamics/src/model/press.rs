@@ -4,9 +4,8 @@ use carom_collision::{Motion, Side, part};
 use carom_geometry::Shape;
 use carom_math::{SimTime, Vec2, cross_scalar, perp};
 
+use super::edges::{Feature, feature};
 use super::gap::{Touching, gap_acceleration};
-use crate::analytic::edges::feature;
-use crate::analytic::modes::Feature;
 use crate::motion::flight::motion_along;
 use crate::store::bodies::Bodies;
 use crate::store::pairs::{Pair, PairContact};

@@ -6,7 +6,7 @@ use carom_math::SimTime;
 
 use super::Stepping;
 use crate::World;
-use crate::events::free::box_ahead;
+use crate::broad::window::box_ahead;
 
 /// Which members are asked about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,8 +4,8 @@ use arrayvec::ArrayVec;
 use carom_collision::Hull;
 use carom_math::{Pose, Vec2, cross_scalar, perp};
 
-use crate::analytic::edges::end_room;
 use crate::analytic::tipping::{End, Joint};
+use crate::model::edges::end_room;
 
 /// Sine of the angle up to which an edge lies along a contact: far above rounding.
 const FLUSH: f64 = 1e-9;

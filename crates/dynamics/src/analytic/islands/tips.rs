@@ -10,7 +10,8 @@ use super::joints::{Held, joint};
 use super::store::{Group, Kept};
 use crate::analytic::modes::{NotMine, TouchMove};
 use crate::analytic::tipping::{Contact, Ends, Joint, Place, Tip, tip};
-use crate::analytic::touching::{Approach, Gathered, approach_at};
+use crate::analytic::touching::Gathered;
+use crate::model::approach::{Approach, approach_at};
 use crate::model::narrow::{TOUCH, rest_speed};
 use crate::motion::flight::{fly, follow};
 use crate::motion::law::Flight;
@@ -291,7 +292,7 @@ impl World {
                 contact.points.iter().any(|point| {
                     let at = (point.position, contact.normal);
                     point.separation <= touch
-                        && match approach_at(bodies, (a, b), at, time, rest) {
+                        && match approach_at((a, b), at, time, rest) {
                             Approach::Leaves(_) => false,
                             Approach::Closes(_) => true,
                             Approach::Stays => {

@@ -20,6 +20,8 @@ use arrayvec::ArrayVec;
 use carom_math::{Vec2, cross_scalar, perp};
 
 use crate::ContactMode;
+use crate::model::approach::{CLOSED, RigidState};
+use crate::model::edges::Feature;
 use balance::{Balance, Tangent, balance};
 use faces::Faces;
 
@@ -28,9 +30,6 @@ pub(crate) const ROWS: usize = 64;
 
 /// Slip below this part of the speeds that it is the difference of is none.
 const STILL: f64 = 1e-12;
-
-/// Opening speed below which a touch neither opens nor closes, as a part of the speeds it is made of.
-pub(crate) const CLOSED: f64 = 1e-9;
 
 /// A body of a group at the instant of the mode solve; one of infinite mass moves uniformly.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,20 +50,14 @@ pub(crate) struct ModeBody {
     pub(crate) twist: f64,
 }
 
-/// What a body touches with.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Feature {
-    /// A straight edge along the tangent, from `low` to `high` in m from the touch's first point.
-    Edge {
-        /// Lower end; −∞ for a line.
-        low: f64,
-        /// Upper end; +∞ for a line.
-        high: f64,
-    },
-    /// A corner.
-    Corner,
-    /// A circle about the centre of mass.
-    Round,
+impl ModeBody {
+    pub(crate) const fn state(&self) -> RigidState {
+        RigidState {
+            centre: self.centre,
+            velocity: self.velocity,
+            spin: self.spin,
+        }
+    }
 }
 
 /// A lasting contact of two bodies: one point, or both ends of a stretch.

@@ -16,7 +16,8 @@ use arrayvec::ArrayVec;
 use carom_math::{SimTime, Vec2};
 
 use crate::ContactMode;
-use crate::analytic::modes::{BodyMove, Feature, ModeBody, NotMine, ROWS, Touch, TouchMove, begin};
+use crate::analytic::modes::{BodyMove, ModeBody, NotMine, ROWS, Touch, TouchMove, begin};
+use crate::model::edges::Feature;
 pub(crate) use equations::{Equations, Forces, Workspace};
 pub(crate) use joint::{End, Joint, Place};
 pub(crate) use path::Path;

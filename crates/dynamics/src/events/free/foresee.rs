@@ -1,6 +1,5 @@
 //! Prediction: the bodies that a free body may meet up to its horizon, from when on, and the times of impact.
 
-use carom_geometry::Aabb;
 use carom_math::SimTime;
 
 use super::foreseen::is_stale;
@@ -8,7 +7,7 @@ use super::queue::{Ahead, Entry};
 use super::{Foreseen, drift};
 use crate::broad::free_fall_frame::Track;
 use crate::broad::grid::SweptBox;
-use crate::broad::window::{self, Window};
+use crate::broad::window::{Window, swept};
 use crate::store::state::BodyState;
 use crate::store::swept::Sides;
 use crate::{BodyKind, PairSearch, World};
@@ -371,28 +370,4 @@ pub(super) const fn both_in_grid(a: &BodyState, b: &BodyState) -> bool {
 
 pub(super) fn at_most(seconds: f64) -> f64 {
     if seconds < LONGEST { seconds } else { LONGEST }
-}
-
-/// Box of a body's bounding circle along its motion from `time` on for `seconds`.
-pub(crate) fn box_ahead(state: &BodyState, time: SimTime, seconds: f64) -> Aabb {
-    swept(state, &Track::of(&state.motion, time), seconds)
-}
-
-/// Box of a body's bounding circle along a track for `seconds`: both ends, and where it turns.
-pub(super) fn swept(state: &BodyState, track: &Track, seconds: f64) -> Aabb {
-    let (from, to) = (track.centre, track.centre_after(seconds));
-    let mut bounds = Aabb::from_points([from, to]);
-    let turns = (-track.velocity / track.acceleration).to_array();
-    for turn in turns {
-        if turn > 0.0 && turn < seconds {
-            bounds = bounds.union(Aabb::from_points([track.centre_after(turn)]));
-        }
-    }
-    bounds.grown(state.reach * window::ROOM + room_about(state, bounds))
-}
-
-/// Rounding of where a body is within a box, and how far its motion is from its true path, in m.
-pub(super) fn room_about(state: &BodyState, bounds: Aabb) -> f64 {
-    let largest = bounds.min.abs().max(bounds.max.abs()).max_element();
-    1e-9 * state.reach + 1e-14 * largest + state.motion.left_out
 }

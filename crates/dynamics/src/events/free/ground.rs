@@ -4,10 +4,10 @@ use carom_geometry::Aabb;
 use carom_math::SimTime;
 
 use super::circle::Circle;
-use super::foresee::{Cause, at_most, room_about, swept};
+use super::foresee::{Cause, at_most};
 use super::queue::Ahead;
 use crate::broad::free_fall_frame::Track;
-use crate::broad::window;
+use crate::broad::window::{self, room_about, swept};
 use crate::store::swept::Sides;
 use crate::{BodyKind, World};
 

@@ -34,7 +34,7 @@ use crate::store::course::Course;
 use crate::store::state::{BodyState, Collider};
 use aside::Aside;
 use circle::Registered;
-pub(crate) use foresee::{Cause, box_ahead};
+pub(crate) use foresee::Cause;
 pub(crate) use foreseen::Foreseen;
 
 use queue::{Ahead, Queue};

@@ -3,7 +3,23 @@
 use carom_collision::Hull;
 use carom_math::{Pose, Vec2, perp};
 
-use crate::analytic::modes::{Feature, ModeBody};
+use super::approach::RigidState;
+
+/// What a body touches with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Feature {
+    /// A straight edge along the tangent, from `low` to `high` in m from the touch's first point.
+    Edge {
+        /// Lower end; −∞ for a line.
+        low: f64,
+        /// Upper end; +∞ for a line.
+        high: f64,
+    },
+    /// A corner.
+    Corner,
+    /// A circle about the centre of mass.
+    Round,
+}
 
 /// Sine of the angle up to which an edge lies along a contact: far above rounding.
 const FLUSH: f64 = 1e-9;
@@ -12,7 +28,7 @@ const FLUSH: f64 = 1e-9;
 /// corner, and a common stretch of two edges that is over is no contact. Otherwise they would leave it a rounding later.
 pub(crate) fn at_the_end(
     features: (Feature, Feature),
-    (a, b): (&ModeBody, &ModeBody),
+    (a, b): (RigidState, RigidState),
     normal: Vec2,
 ) -> Option<(Feature, Feature)> {
     let slip = (b.velocity - a.velocity).dot(perp(normal));
