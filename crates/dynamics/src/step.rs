@@ -121,14 +121,14 @@ impl World {
                 && before(change, impact)
             {
                 self.change_group();
-                if self.uses_up() || stop_at_event && self.events.are_due() {
+                if self.work.uses_up(self.report.pairs) || stop_at_event && self.events.are_due() {
                     return time;
                 }
             } else if let Some(time) = flight
                 && before(flight, impact)
             {
                 self.run_free_bodies();
-                if self.uses_up() || stop_at_event && self.events.are_due() {
+                if self.work.uses_up(self.report.pairs) || stop_at_event && self.events.are_due() {
                     return time;
                 }
             } else if let Some(entry) = self.event_queue.next_until(grid) {
@@ -137,13 +137,13 @@ impl World {
                     continue;
                 }
                 self.strike_entry(&entry);
-                if self.uses_up() || stop_at_event && self.events.are_due() {
+                if self.work.uses_up(self.report.pairs) || stop_at_event && self.events.are_due() {
                     return entry.time;
                 }
             } else if self.is_substepping() && self.clock.is_due(end) {
                 let time = self.clock.next();
                 self.begin_substep();
-                if self.uses_up() || stop_at_event && self.events.are_due() {
+                if self.work.uses_up(self.report.pairs) || stop_at_event && self.events.are_due() {
                     return time;
                 }
             } else {

@@ -116,7 +116,7 @@ impl World {
         for index in self.stepped.clone() {
             if !self.bodies.get(index).motion.is_finite() {
                 self.report.stopped += 1;
-                self.stop(index, time);
+                self.bodies.stop(&self.colliders, index, time);
             }
         }
     }

@@ -37,6 +37,15 @@ impl Work {
     pub(crate) const fn is_used_up(&self) -> bool {
         self.used_up
     }
+
+    /// Counts an event; whether the step stops after it, since its work is used up. `pairs`: those that were looked at so far.
+    ///
+    /// Sub-steps that are made ahead cannot be looked into.
+    pub(crate) const fn uses_up(&mut self, pairs: u64) -> bool {
+        self.done += 1;
+        self.used_up = (self.done + pairs) as f64 >= self.most;
+        self.used_up
+    }
 }
 
 impl World {
@@ -48,14 +57,5 @@ impl World {
             most: self.settings.work as f64 * ticks * shares,
             ..Work::default()
         };
-    }
-
-    /// Counts an event; whether the step stops after it, since its work is used up.
-    ///
-    /// Sub-steps that are made ahead cannot be looked into.
-    pub(crate) fn uses_up(&mut self) -> bool {
-        self.work.done += 1;
-        self.work.used_up = (self.work.done + self.report.pairs) as f64 >= self.work.most;
-        self.work.used_up
     }
 }

@@ -4,15 +4,14 @@ use arrayvec::ArrayVec;
 use carom_collision::part;
 use carom_math::{SimTime, Vec2};
 
-use crate::World;
 use crate::analytic::modes::{ModeBody, ROWS, Touch, hold, stand};
 use crate::model::approach::{Approach, RigidState, approach, opening};
 use crate::model::edges::{Feature, at_the_end, feature};
 use crate::model::mass_ratio::{BEARS, mass_ratio};
-use crate::model::narrow::{RestSpeed, TOUCH};
+use crate::model::narrow::{Narrow, RestSpeed, TOUCH};
 use crate::store::bodies::Bodies;
-use crate::store::pairs::PairContact;
-use crate::store::state::BodyState;
+use crate::store::pairs::{PairContact, Pairs};
+use crate::store::state::{BodyState, Collider};
 
 /// Overlap beyond which a pair is pushed apart first, as a part of the smaller reach: closed forms keep what
 /// overlap there is.
@@ -186,20 +185,30 @@ fn mode_body(bodies: &Bodies, state: &BodyState, time: SimTime) -> ModeBody {
     }
 }
 
-impl World {
+/// What the contacts around a body are read of, and looked at anew with.
+pub(crate) struct Around<'a> {
+    pub(crate) bodies: &'a Bodies,
+    pub(crate) colliders: &'a [Collider],
+    pub(crate) pairs: &'a mut Pairs,
+    pub(crate) narrow: &'a mut Narrow,
+    /// Of a sub-step, in s.
+    pub(crate) h: f64,
+}
+
+impl Around<'_> {
     /// All that hangs together by touch around a dynamic body.
     ///
     /// # Errors
     /// If these are too many for closed forms, or a body is asleep, penetrates another by more than
     /// rounding, or waits after a mode solve that failed.
-    pub(crate) fn gather_touching(
+    pub(crate) fn gather(
         &mut self,
         index: u32,
         time: SimTime,
         looks: Looks,
     ) -> Result<Gathered, Refused> {
         let mut found = Gathered::default();
-        found.place_of(&self.bodies, index, time);
+        found.place_of(self.bodies, index, time);
         let (mut next, mut rows) = (0, 0);
         let mut looked = Vec::new();
         while next < found.places.len() {
@@ -254,17 +263,12 @@ impl World {
         time: SimTime,
         looks: Looks,
     ) -> Option<usize> {
-        let h = self.clock.h;
+        let h = self.h;
         let mut touching = self.pairs.get(place).touching;
         if looks == Looks::Old {
-            let pair = self.narrow.look_at(
-                &self.bodies,
-                &self.colliders,
-                &mut self.pairs,
-                place,
-                time,
-                h,
-            );
+            let pair = self
+                .narrow
+                .look_at(self.bodies, self.colliders, self.pairs, place, time, h);
             // Begins and ends of touch are reported by the sub-steps.
             core::mem::swap(&mut touching, &mut pair.touching);
         }
@@ -279,7 +283,7 @@ impl World {
         if points.any(|point| point.separation < -SUNK * size) {
             return None;
         }
-        let RestSpeed { all: rest, pulled } = RestSpeed::of(&self.bodies, pair, h);
+        let RestSpeed { all: rest, pulled } = RestSpeed::of(self.bodies, pair, h);
         let ends = (RigidState::of(a, time), RigidState::of(b, time));
         // What the soft solver holds across a gap is no free surface.
         let hovers = |contact: &PairContact| {
@@ -346,8 +350,8 @@ impl World {
             }
             rows += points.len() + usize::from(pair.material.friction > 0.0);
             let ends = (
-                found.place_of(&self.bodies, pair.bodies.0, time),
-                found.place_of(&self.bodies, pair.bodies.1, time),
+                found.place_of(self.bodies, pair.bodies.0, time),
+                found.place_of(self.bodies, pair.bodies.1, time),
             );
             let points_of = points.clone();
             found.touches.push(Touch {
@@ -359,7 +363,7 @@ impl World {
             });
             found.pairs.push((place, number));
             let press_at = |point: &Vec2| {
-                pair.spot(&self.bodies, &self.colliders, contact, *point)
+                pair.spot(self.bodies, self.colliders, contact, *point)
                     .turning_rest(time, h)
             };
             let presses = points_of.iter().map(press_at);

@@ -10,8 +10,8 @@ use carom_math::{Pose, SimTime, Vec2};
 
 use crate::events::free::FreeBodies;
 use crate::motion::flight::fly;
-use crate::store::bodies::Pull;
 use crate::store::course::Course;
+use crate::store::pull::Pull;
 use crate::store::state::BodyState;
 use crate::values::error::{check_finite, check_vec2};
 use crate::{BodyDef, BodyError, BodyId, BodyKind, Field, Filter, Force, Impulse, Mode, World};
@@ -373,7 +373,8 @@ impl World {
         }
         let (moves, is_dynamic) = (state.kind != BodyKind::Fixed, state.is_dynamic());
         if moves {
-            self.note_flight(index);
+            self.joins
+                .note_flight(&self.bodies, self.settings.mode, index);
         }
         if is_dynamic && !self.bodies.bends(index) {
             fly(&mut self.bodies, index, now, self.clock.h);
@@ -386,40 +387,6 @@ impl World {
             self.resume_woken(&woken, now);
         }
         self.deflected(index, now);
-    }
-
-    /// Takes the boxes of a body out of the trees.
-    pub(crate) fn forget_boxes(&mut self, index: u32) {
-        for &at in &self.bodies.get(index).colliders.clone() {
-            if let Some(node) = self.colliders[at as usize].node.take() {
-                self.broad.tree.remove(node);
-            }
-        }
-    }
-
-    /// Stops a body with numbers that are no longer finite at its last known place.
-    pub(crate) fn stop(&mut self, index: u32, time: SimTime) {
-        // Its last box is the only record of where it was.
-        let colliders = self.bodies.get(index).colliders.iter();
-        let mut boxes = colliders.map(|at| self.colliders[*at as usize].fat.centre());
-        let last = boxes.find(|centre| centre.is_finite());
-        let state = self.bodies.get_mut(index);
-        let motion = &mut state.motion;
-        motion.start = time;
-        motion.velocity = Vec2::ZERO;
-        motion.acceleration = Vec2::ZERO;
-        motion.spin = 0.0;
-        motion.angular_acceleration = 0.0;
-        if !motion.centre.is_finite() {
-            motion.centre = last.unwrap_or(Vec2::ZERO);
-        }
-        if !motion.rotation.x_axis().is_finite() {
-            motion.rotation = carom_math::Rot::IDENTITY;
-        }
-        state.float();
-        state.flight = None;
-        state.set_piece(SimTime::NEVER);
-        self.bodies.renew(index);
     }
 
     /// Forces of the step that begins.

@@ -134,7 +134,7 @@ impl World {
         let reach = reaches.fold(0.0, f64::max);
         let filter = self.colliders[state.colliders[0] as usize].surface.filter;
         self.leave_all(index);
-        self.forget_boxes(index);
+        self.broad.forget(&self.bodies, &mut self.colliders, index);
         self.free_shapes(index);
         let add = |(shape, material)| {
             let surface = Surface { material, filter };
@@ -232,7 +232,7 @@ impl World {
         self.leave_all(index);
         self.alter(index, change);
         // Pairs are made by kind and surface: boxes that are new find them anew.
-        self.forget_boxes(index);
+        self.broad.forget(&self.bodies, &mut self.colliders, index);
         self.arrive(index);
         self.unsettle_on(index, self.clock.now);
         self.bodies.check_regime(index, self.settings.mode);

@@ -247,7 +247,7 @@ impl World {
         }
         self.free.vanish(&mut self.bodies, index);
         self.end_substepping(index);
-        self.forget_boxes(index);
+        self.broad.forget(&self.bodies, &mut self.colliders, index);
         self.free_shapes(index);
         self.forced.retain(|i| *i != index);
         self.broad

@@ -86,6 +86,15 @@ impl Broad {
         }
     }
 
+    /// Takes the boxes of a body out of the trees.
+    pub(crate) fn forget(&mut self, bodies: &Bodies, colliders: &mut [Collider], index: u32) {
+        for &at in &bodies.get(index).colliders {
+            if let Some(node) = colliders[at as usize].node.take() {
+                self.tree.remove(node);
+            }
+        }
+    }
+
     /// Gives a collider a new box.
     pub(crate) fn put(&mut self, colliders: &mut [Collider], at: u32, fat: Aabb, time: SimTime) {
         let collider = &mut colliders[at as usize];

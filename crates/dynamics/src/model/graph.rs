@@ -15,6 +15,26 @@ pub(crate) fn neighbours<'a>(
     })
 }
 
+/// Whether two shapes touch in an island in analytic motion: their contact changes with the island's mode alone.
+pub(crate) fn touch_in_moving_island(
+    bodies: &Bodies,
+    pairs: &Pairs,
+    (a, b): (u32, u32),
+    shapes: (u32, u32),
+) -> bool {
+    let moves_analytically = |index: &u32| bodies.get(*index).moves_analytically();
+    let Some(index) = [a, b].into_iter().find(moves_analytically) else {
+        return false;
+    };
+    // Other pairs it has with bodies that are stepped alone.
+    let (first, second) = shapes;
+    let mut places = bodies.get(index).pairs.iter();
+    places.any(|place| {
+        let colliders = pairs.get(*place).colliders;
+        colliders == (first, second) || colliders == (second, first)
+    })
+}
+
 /// Union by index: the smaller root wins, so that groups do not depend on the order of links.
 pub(crate) struct Tree {
     parents: Vec<u32>,

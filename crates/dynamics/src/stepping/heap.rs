@@ -72,7 +72,7 @@ impl World {
         }
         joining.sort_unstable();
         lands.retain(|index| joining.binary_search(index).is_err());
-        self.end_substepping_all(&joining);
+        self.pairs.end_substepping_all(&mut self.stepped, &joining);
         // No body is free any more when the first one joins: pairs are found once, as those of members.
         for &index in &joining {
             let state = self.bodies.get_mut(index);

@@ -18,6 +18,7 @@ use super::Shapes;
 use super::near::Among;
 use super::rush::Rush;
 use crate::model::graph::neighbours;
+use crate::store::bodies::Bodies;
 use crate::store::state::BodyState;
 use crate::{BodyKind, EnergyLedger, Mode, World};
 
@@ -60,6 +61,21 @@ pub(crate) struct Joins {
 }
 
 impl Joins {
+    /// Notes that a body flies.
+    pub(crate) fn note_flight(&mut self, bodies: &Bodies, mode: Mode, index: u32) {
+        let most = 2 * bodies.places() + 64;
+        if bodies.member_count() > 0 {
+            self.restless.push(index);
+        }
+        if mode == Mode::Hybrid {
+            self.aloft.push(index);
+            if self.aloft.len() > most {
+                self.aloft.sort_unstable();
+                self.aloft.dedup();
+            }
+        }
+    }
+
     /// Whether a body outside has a motion that is newer than the last search for bodies that join.
     pub(super) const fn is_restless(&self) -> bool {
         !self.restless.is_empty()
@@ -132,7 +148,7 @@ impl World {
             return;
         }
         joining.sort_unstable();
-        self.end_substepping_all(&joining);
+        self.pairs.end_substepping_all(&mut self.stepped, &joining);
         for index in joining {
             self.join(index, time);
         }
@@ -216,7 +232,7 @@ impl World {
                 self.joins.told.push(shapes);
             }
         }
-        self.forget_boxes(index);
+        self.broad.forget(&self.bodies, &mut self.colliders, index);
         for &at in &self.bodies.get(index).colliders {
             self.colliders[at as usize].fat = Aabb::EMPTY;
         }
@@ -243,22 +259,6 @@ impl World {
         let state = self.bodies.get_mut(index);
         (state.member, state.idle) = (false, 0);
         self.bodies.renew(index);
-    }
-
-    /// Notes that a body flies.
-    pub(crate) fn note_flight(&mut self, index: u32) {
-        let most = 2 * self.bodies.places() + 64;
-        if self.bodies.member_count() > 0 {
-            self.joins.restless.push(index);
-        }
-        let aloft = &mut self.joins.aloft;
-        if self.settings.mode == Mode::Hybrid {
-            aloft.push(index);
-            if aloft.len() > most {
-                aloft.sort_unstable();
-                aloft.dedup();
-            }
-        }
     }
 
     /// Members that nothing touches or nears for a while fly from here on. At the start of a tick.

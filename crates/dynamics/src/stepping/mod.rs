@@ -193,7 +193,9 @@ impl World {
             if stepping.engine.is_at_tick() || stop_at_event {
                 self.tell_changed_touches(stepping, reached.min(end));
             }
-            if self.clock.is_due(end) && self.uses_up() || stop_at_event && self.events.are_due() {
+            if self.clock.is_due(end) && self.work.uses_up(self.report.pairs)
+                || stop_at_event && self.events.are_due()
+            {
                 self.tell_changed_touches(stepping, reached.min(end));
                 self.write_all(stepping);
                 return reached.min(end);

@@ -1,7 +1,5 @@
 //! The store of bodies, and the one door through which a motion changes.
 
-use std::sync::Arc;
-
 use carom_collision::Motion;
 use carom_math::{SimTime, Sum, Vec2};
 
@@ -10,10 +8,11 @@ use super::few::Few;
 use super::history::History;
 use super::left_paths::LeftPaths;
 use super::moved::{Moved, moves};
+use super::pull::Pull;
 use super::regime::Members;
-use super::state::BodyState;
+use super::state::{BodyState, Collider};
 use super::uncommon::Lag;
-use crate::{BodyError, BodyId, EnergyLedger, Field};
+use crate::{BodyError, BodyId, EnergyLedger};
 
 /// Running sums of the energy ledger's columns, with twice the digits.
 #[derive(Clone, Copy, Debug, Default)]
@@ -25,41 +24,6 @@ pub(crate) struct EnergyBook {
     pub(crate) scheme: Sum,
     /// Given to members of the engine by impacts, which have booked it.
     pub(crate) struck: Sum,
-}
-
-/// What pulls on every body.
-#[derive(Clone, Debug)]
-pub(crate) struct Pull {
-    pub(crate) gravity: Vec2,
-    pub(crate) fields: Vec<Arc<dyn Field>>,
-    /// What a flight in a field may leave out, in m/s.
-    pub(crate) error: f64,
-}
-
-impl Pull {
-    /// Acceleration by gravity and fields at `position`, before the body's own scale.
-    pub(crate) fn at(&self, position: Vec2) -> Vec2 {
-        let fields = self.fields.iter();
-        fields.fold(self.gravity, |sum, field| {
-            sum + field.acceleration(position)
-        })
-    }
-
-    /// Potential of gravity and fields, in J/kg.
-    pub(crate) fn potential(&self, position: Vec2) -> f64 {
-        let fields = self.fields.iter();
-        fields.fold(-self.gravity.dot(position), |sum, field| {
-            sum + field.potential(position)
-        })
-    }
-
-    /// Bound on the gradient of all fields, in 1/s².
-    pub(crate) fn gradient_bound(&self, position: Vec2, radius: f64) -> f64 {
-        let fields = self.fields.iter();
-        fields
-            .map(|field| field.gradient_bound(position, radius))
-            .sum()
-    }
 }
 
 /// All bodies of a world, with the places that removed ones left.
@@ -247,6 +211,31 @@ impl Bodies {
         let version = &mut self.versions[index as usize];
         *version = version.wrapping_add(1);
         self.moved.note(index);
+    }
+
+    /// Stops a body with numbers that are no longer finite at its last known place.
+    pub(crate) fn stop(&mut self, colliders: &[Collider], index: u32, time: SimTime) {
+        // Its last box is the only record of where it was.
+        let known = self.get(index).colliders.iter();
+        let mut boxes = known.map(|at| colliders[*at as usize].fat.centre());
+        let last = boxes.find(|centre| centre.is_finite());
+        let state = self.get_mut(index);
+        let motion = &mut state.motion;
+        motion.start = time;
+        motion.velocity = Vec2::ZERO;
+        motion.acceleration = Vec2::ZERO;
+        motion.spin = 0.0;
+        motion.angular_acceleration = 0.0;
+        if !motion.centre.is_finite() {
+            motion.centre = last.unwrap_or(Vec2::ZERO);
+        }
+        if !motion.rotation.x_axis().is_finite() {
+            motion.rotation = carom_math::Rot::IDENTITY;
+        }
+        state.float();
+        state.flight = None;
+        state.set_piece(SimTime::NEVER);
+        self.renew(index);
     }
 
     /// A step is over: from now on [`Self::moved`] tells of it.

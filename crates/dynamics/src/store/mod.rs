@@ -4,7 +4,7 @@
 //! the one door through which a motion changes), [`regime`] (which method moves a body, and which transitions there are),
 //! [`pairs`] (pairs of shapes, and what they remember from sub-step to sub-step). The others are parts of these: of a body
 //! [`mass`], [`membership`] in an island, the [`course`] of a free one ([`swept`], [`zeno`]), what is [`uncommon`]; of all bodies
-//! [`history`], [`moved`] and [`left_paths`]. [`tell`] has the events that follow from a pair.
+//! [`pull`], [`history`], [`moved`] and [`left_paths`]. [`tell`] has the events that follow from a pair.
 
 pub(crate) mod bodies;
 pub(crate) mod course;
@@ -16,6 +16,7 @@ pub(crate) mod mass;
 pub(crate) mod membership;
 mod moved;
 pub(crate) mod pairs;
+pub(crate) mod pull;
 pub(crate) mod regime;
 pub(crate) mod state;
 pub(crate) mod swept;

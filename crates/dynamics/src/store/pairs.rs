@@ -214,6 +214,12 @@ impl Pairs {
         keyed.into_iter().map(|(_, place)| place).collect()
     }
 
+    /// Ends the sub-stepping of bodies, which are given in order; boxes of free bodies in the world are for the caller.
+    pub(crate) fn end_substepping_all(&mut self, stepped: &mut Vec<u32>, gone: &[u32]) {
+        stepped.retain(|index| gone.binary_search(index).is_err());
+        self.reorder();
+    }
+
     /// The list of sub-stepped bodies has changed.
     pub(crate) const fn reorder(&mut self) {
         self.dirty = true;

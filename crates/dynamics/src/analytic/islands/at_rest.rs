@@ -25,7 +25,7 @@ impl World {
             }
         }
         lying.sort_unstable();
-        self.end_substepping_all(&lying);
+        self.pairs.end_substepping_all(&mut self.stepped, &lying);
         for index in lying {
             self.lie_down(index, time);
         }

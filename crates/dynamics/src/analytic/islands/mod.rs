@@ -17,7 +17,7 @@ use arrayvec::ArrayVec;
 use carom_math::{SimTime, Vec2, cross_scalar, perp};
 
 use crate::analytic::modes::{BodyMove, GroupMove, NotMine, TouchMove, land, solve_modes};
-use crate::analytic::touching::{Gathered, Looks, Refused};
+use crate::analytic::touching::{Around, Gathered, Looks, Refused};
 use crate::events::event_queue::Entry;
 use crate::motion::flight::fly;
 use crate::store::membership::Membership;
@@ -203,6 +203,23 @@ impl World {
         let bodies = u32::try_from(members.len()).unwrap_or(u32::MAX);
         let stalls = |index: &&u32| self.closed.stalls(**index, bodies, time, limits);
         members.iter().filter(stalls).count() > 0
+    }
+
+    /// The contacts around a body, as they are at `time`.
+    fn gather_touching(
+        &mut self,
+        index: u32,
+        time: SimTime,
+        looks: Looks,
+    ) -> Result<Gathered, Refused> {
+        let mut around = Around {
+            bodies: &self.bodies,
+            colliders: &self.colliders,
+            pairs: &mut self.pairs,
+            narrow: &mut self.narrow,
+            h: self.clock.h,
+        };
+        around.gather(index, time, looks)
     }
 
     /// Solves for the modes of the island around a body.

@@ -100,7 +100,8 @@ impl World {
             let state = self.bodies.get_mut(index);
             state.begin_analytic_motion();
             state.set_piece(until);
-            self.note_flight(index);
+            self.joins
+                .note_flight(&self.bodies, self.settings.mode, index);
         }
         self.begin_next_pieces(place, time);
         true
@@ -219,21 +220,6 @@ impl World {
             let pair = self.pairs.get(self.bodies.get(index).pairs[slot]);
             self.hand_back_of(pair.other(index), time);
         }
-    }
-
-    /// Whether two shapes touch in an island in analytic motion: their contact changes with the island's mode alone.
-    pub(crate) fn touch_in_moving_island(&self, (a, b): (u32, u32), shapes: (u32, u32)) -> bool {
-        let moves_analytically = |index: &u32| self.bodies.get(*index).moves_analytically();
-        let Some(index) = [a, b].into_iter().find(moves_analytically) else {
-            return false;
-        };
-        // Other pairs it has with bodies that are stepped alone.
-        let (first, second) = shapes;
-        let mut pairs = self.bodies.get(index).pairs.iter();
-        pairs.any(|place| {
-            let colliders = self.pairs.get(*place).colliders;
-            colliders == (first, second) || colliders == (second, first)
-        })
     }
 
     /// A pair of an island in analytic motion, with its contacts where they are at the world's time.

@@ -39,7 +39,7 @@ impl World {
         self.follow_law(index, time);
         if !self.bodies.get(index).motion.is_finite() {
             self.report.stopped += 1;
-            self.stop(index, time);
+            self.bodies.stop(&self.colliders, index, time);
         }
         self.free.resize(&mut self.bodies, time);
         // A body that does not fall leaves the free-fall frame ever faster.
@@ -50,7 +50,7 @@ impl World {
             self.predict_pairs(index, time);
             return self.meet_members(index, time);
         } else {
-            self.forget_boxes(index);
+            self.broad.forget(&self.bodies, &mut self.colliders, index);
             self.look_down(index, time, self.first_span(index, time));
         }
         self.meet_free_bodies(index, time, cause, but);

@@ -8,6 +8,7 @@ use super::foresee::{Cause, at_most};
 use super::queue::Ahead;
 use crate::broad::free_fall_frame::Track;
 use crate::broad::window::{self, room_about, swept};
+use crate::model::graph::touch_in_moving_island;
 use crate::store::swept::Sides;
 use crate::{BodyKind, World};
 
@@ -164,7 +165,12 @@ impl World {
             return;
         }
         if let [one] = *body.colliders
-            && self.touch_in_moving_island((index, owner.id.index), (one, at))
+            && touch_in_moving_island(
+                &self.bodies,
+                &self.pairs,
+                (index, owner.id.index),
+                (one, at),
+            )
         {
             return;
         }

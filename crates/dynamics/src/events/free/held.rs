@@ -93,7 +93,8 @@ impl World {
         // What a sub-step gave it is no piece of its own.
         state.set_piece(if bends { time } else { SimTime::NEVER });
         self.bodies.renew(index);
-        self.note_flight(index);
+        self.joins
+            .note_flight(&self.bodies, self.settings.mode, index);
         self.foresee(index, time, Cause::Deflected, None);
     }
 
@@ -191,13 +192,6 @@ impl World {
             self.pairs.reorder();
             self.lower_free_boxes_later();
         }
-    }
-
-    /// Ends the sub-stepping of bodies, which are given in order; [`Self::lower_free_boxes_later`] is for the caller.
-    pub(crate) fn end_substepping_all(&mut self, gone: &[u32]) {
-        self.stepped
-            .retain(|index| gone.binary_search(index).is_err());
-        self.pairs.reorder();
     }
 
     /// If no body is sub-stepped pair by pair any more, free bodies need no boxes in the world: after a tick, since an analytic

@@ -4,10 +4,10 @@ use carom_math::SimTime;
 
 use super::Foreseen;
 use super::strike::approach_speed;
-use crate::World;
 use crate::model::gap::{Touching, gap_acceleration};
+use crate::store::bodies::Bodies;
 use crate::store::mass::CENTRED;
-use crate::store::state::BodyState;
+use crate::store::state::{BodyState, Collider};
 
 /// Height of a bounce below which it is timed by its speeds, as a fraction of the smaller reach, where
 /// the normal turns: rounding of the gap is 1e-6 of it.
@@ -16,89 +16,97 @@ const LOW: f64 = 1e-9;
 /// The same where the normal stands.
 const FLAT: f64 = 1e-4;
 
-impl World {
-    /// A bounce so low that the search for its end would see rounding: it lasts 2 u⁺/a.
-    ///
-    /// The gap is `u t − a t²/2` but for what the normal turns by: nothing where neither turns or the
-    /// one that does is a disc about its centre of mass, else less than the spin times the bounce, which is why that must be lower.
-    pub(super) fn micro_bounce(&mut self, impact: &Foreseen, time: SimTime) {
-        let (a, b) = impact.bodies;
-        let after = [a, b].map(|index| self.bodies.get(index).in_impact(time));
-        let (rise, press) = (-approach_speed(impact, &after), self.press(impact, time));
-        let (one, two) = (self.bodies.get(a), self.bodies.get(b));
-        let steady = |state: &BodyState, at: u32| {
-            let vertices = self.colliders[at as usize].solid.vertices();
-            let round = matches!(vertices, [centre] if centre.length() <= CENTRED * state.reach);
-            state.motion.spin == 0.0 || round
-        };
-        let turns = !(steady(one, impact.colliders.0) && steady(two, impact.colliders.1));
-        let bends = self.bodies.bends(a) || self.bodies.bends(b);
-        let low = if turns || bends { LOW } else { FLAT };
-        if rise <= 0.0 || press <= 0.0 || rise * rise > 2.0 * press * low * one.reach.min(two.reach)
-        {
-            return;
-        }
-        let wait = 2.0 * rise / press;
-        let drift = 0.5 * (one.motion.velocity_at(time) + two.motion.velocity_at(time)) * wait;
-        let mut next = impact.clone();
-        for point in &mut next.points {
-            *point += drift;
-        }
-        self.free.micro_bounce = Some((wait, next));
+/// A bounce so low that the search for its end would see rounding: it lasts 2 u⁺/a. Its seconds, and its end.
+///
+/// The gap is `u t − a t²/2` but for what the normal turns by: nothing where neither turns or the
+/// one that does is a disc about its centre of mass, else less than the spin times the bounce, which is why that must be lower.
+pub(super) fn micro_bounce(
+    bodies: &Bodies,
+    colliders: &[Collider],
+    impact: &Foreseen,
+    time: SimTime,
+) -> Option<(f64, Foreseen)> {
+    let (a, b) = impact.bodies;
+    let after = [a, b].map(|index| bodies.get(index).in_impact(time));
+    let (rise, pressed) = (
+        -approach_speed(impact, &after),
+        press(bodies, colliders, impact, time),
+    );
+    let (one, two) = (bodies.get(a), bodies.get(b));
+    let steady = |state: &BodyState, at: u32| {
+        let vertices = colliders[at as usize].solid.vertices();
+        let round = matches!(vertices, [centre] if centre.length() <= CENTRED * state.reach);
+        state.motion.spin == 0.0 || round
+    };
+    let turns = !(steady(one, impact.colliders.0) && steady(two, impact.colliders.1));
+    let bends = bodies.bends(a) || bodies.bends(b);
+    let low = if turns || bends { LOW } else { FLAT };
+    if rise <= 0.0 || pressed <= 0.0 || rise * rise > 2.0 * pressed * low * one.reach.min(two.reach)
+    {
+        return None;
     }
+    let wait = 2.0 * rise / pressed;
+    let drift = 0.5 * (one.motion.velocity_at(time) + two.motion.velocity_at(time)) * wait;
+    let mut next = impact.clone();
+    for point in &mut next.points {
+        *point += drift;
+    }
+    Some((wait, next))
+}
 
-    /// Whether two bodies part from an impact without loss, at `speed`, so fast that nothing that presses them together makes
-    /// a low bounce of it: they need no [`Self::micro_bounce`].
-    ///
-    /// With w the faster spin, and R the reach of what turns, on a face (see [`gap_acceleration`])
-    /// ```text
-    /// |g″| ≤ |a_b − a_a| + 2 w (|v_b − v_a| + w R) + 2 w² R
-    /// ```
-    pub(super) fn bounces_high(&self, impact: &Foreseen, time: SimTime, speed: f64) -> bool {
-        if impact.points.len() > 1 || impact.face().is_none() {
-            return false;
-        }
-        let (one, two) = (
-            self.bodies.get(impact.bodies.0),
-            self.bodies.get(impact.bodies.1),
-        );
-        let (a, b) = (&one.motion, &two.motion);
-        if a.angular_acceleration != 0.0 || b.angular_acceleration != 0.0 {
-            return false;
-        }
-        let turning = |state: &BodyState| {
-            if state.motion.spin == 0.0 {
-                0.0
-            } else {
-                state.reach
-            }
-        };
-        let far = turning(one) + turning(two);
-        let w = a.spin.abs().max(b.spin.abs());
-        let slip = (b.velocity_at(time) - a.velocity_at(time)).length() + w * far;
-        let press = (b.acceleration - a.acceleration).length() + 2.0 * w * (slip + w * far);
-        // Twice what a low bounce may have: the two speeds differ by rounding.
-        speed * speed > 4.0 * press * FLAT * one.reach.min(two.reach)
+/// Whether two bodies part from an impact without loss, at `speed`, so fast that nothing that presses them together makes
+/// a low bounce of it: they need no [`micro_bounce`].
+///
+/// With w the faster spin, and R the reach of what turns, on a face (see [`gap_acceleration`])
+/// ```text
+/// |g″| ≤ |a_b − a_a| + 2 w (|v_b − v_a| + w R) + 2 w² R
+/// ```
+pub(super) fn bounces_high(bodies: &Bodies, impact: &Foreseen, time: SimTime, speed: f64) -> bool {
+    if impact.points.len() > 1 || impact.face().is_none() {
+        return false;
     }
+    let (one, two) = (bodies.get(impact.bodies.0), bodies.get(impact.bodies.1));
+    let (a, b) = (&one.motion, &two.motion);
+    if a.angular_acceleration != 0.0 || b.angular_acceleration != 0.0 {
+        return false;
+    }
+    let turning = |state: &BodyState| {
+        if state.motion.spin == 0.0 {
+            0.0
+        } else {
+            state.reach
+        }
+    };
+    let far = turning(one) + turning(two);
+    let w = a.spin.abs().max(b.spin.abs());
+    let slip = (b.velocity_at(time) - a.velocity_at(time)).length() + w * far;
+    let press = (b.acceleration - a.acceleration).length() + 2.0 * w * (slip + w * far);
+    // Twice what a low bounce may have: the two speeds differ by rounding.
+    speed * speed > 4.0 * press * FLAT * one.reach.min(two.reach)
+}
 
-    /// How fast two bodies are pressed together where they touch, in m/s²; negative: pulled apart.
-    pub(super) fn press(&self, impact: &Foreseen, time: SimTime) -> f64 {
-        let feature = |index: u32, at: u32| {
-            let mut motion = self.bodies.get(index).motion;
-            if self.bodies.bends(index) {
-                motion = self.bodies.get(index).at(time);
-                let freely = self.bodies.freely(index, time);
-                (motion.acceleration, motion.angular_acceleration) = freely;
-            }
-            Touching::of(
-                &motion,
-                &self.colliders[at as usize].solid,
-                impact.points[0],
-                time,
-            )
-        };
-        let a = feature(impact.bodies.0, impact.colliders.0);
-        let b = feature(impact.bodies.1, impact.colliders.1);
-        -gap_acceleration(&a, &b, impact.normal, impact.face())
-    }
+/// How fast two bodies are pressed together where they touch, in m/s²; negative: pulled apart.
+pub(super) fn press(
+    bodies: &Bodies,
+    colliders: &[Collider],
+    impact: &Foreseen,
+    time: SimTime,
+) -> f64 {
+    let feature = |index: u32, at: u32| {
+        let mut motion = bodies.get(index).motion;
+        if bodies.bends(index) {
+            motion = bodies.get(index).at(time);
+            let freely = bodies.freely(index, time);
+            (motion.acceleration, motion.angular_acceleration) = freely;
+        }
+        Touching::of(
+            &motion,
+            &colliders[at as usize].solid,
+            impact.points[0],
+            time,
+        )
+    };
+    let a = feature(impact.bodies.0, impact.colliders.0);
+    let b = feature(impact.bodies.1, impact.colliders.1);
+    -gap_acceleration(&a, &b, impact.normal, impact.face())
 }

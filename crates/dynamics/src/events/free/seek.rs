@@ -6,9 +6,11 @@ use carom_math::SimTime;
 use super::Foreseen;
 use super::circle::Circle;
 use super::foresee::{Cause, both_in_grid};
+use super::turning::first_piece;
 use crate::World;
 use crate::broad::window::Window;
 use crate::model::ghost::Meeting;
+use crate::model::graph::touch_in_moving_island;
 use crate::model::narrow::{TOUCH, opening_speed, rest_speed_between};
 use crate::motion::first_touch::first_touch;
 
@@ -49,7 +51,7 @@ impl World {
             window.to.min(self.free.common_horizon_of(one, two) - time)
         };
         let ends = (one.colliders.len(), two.colliders.len());
-        let (apart, length) = self.first_piece((a, b), time, end);
+        let (apart, length) = first_piece(&self.bodies, &self.colliders, (a, b), time, end);
         if apart > 0.0 {
             if apart < end {
                 self.queue_near(a, b, time + apart);
@@ -82,7 +84,7 @@ impl World {
     pub(super) fn seek_shape(&mut self, index: u32, at: u32, time: SimTime, cause: Cause) {
         let owner = self.colliders[at as usize].body;
         let end = self.bodies.get(index).course.ground - time;
-        let (apart, length) = self.first_piece((index, owner), time, end);
+        let (apart, length) = first_piece(&self.bodies, &self.colliders, (index, owner), time, end);
         if apart > 0.0 {
             if apart < end {
                 self.queue_near_shape(index, at, time + apart);
@@ -113,7 +115,9 @@ impl World {
         length: f64,
         cause: Cause,
     ) -> bool {
-        if !self.may_touch(shapes) || self.touch_in_moving_island((a, b), shapes) {
+        if !self.may_touch(shapes)
+            || touch_in_moving_island(&self.bodies, &self.pairs, (a, b), shapes)
+        {
             return false;
         }
         self.report.pairs += 1;

@@ -3,7 +3,7 @@
 use arrayvec::ArrayVec;
 use carom_math::{SimTime, Vec2};
 
-use super::{Cause, Foreseen};
+use super::{Cause, Foreseen, low};
 use crate::events::predict::price;
 use crate::events::resolve::apply;
 use crate::events::shock::Shock;
@@ -66,7 +66,7 @@ impl World {
         let press = if keeps && speed > rounding {
             0.0
         } else {
-            self.press(impact, time)
+            low::press(&self.bodies, &self.colliders, impact, time)
         };
         // What is pressed together gains as much as the rounding of instants hides of each bounce: it would bounce for ever.
         if speed <= rounding + NOISE * SimTime::UNIT * press.max(0.0) {
@@ -99,8 +99,9 @@ impl World {
             return;
         }
         if keeps {
-            if !self.bounces_high(impact, time, speed) {
-                self.micro_bounce(impact, time);
+            if !low::bounces_high(&self.bodies, impact, time, speed) {
+                self.free.micro_bounce =
+                    low::micro_bounce(&self.bodies, &self.colliders, impact, time);
             }
             self.deflect_both(impact, time);
             self.free.micro_bounce = None;
@@ -113,7 +114,7 @@ impl World {
             }
             self.begins_to_last(impact, time);
         } else {
-            self.micro_bounce(impact, time);
+            self.free.micro_bounce = low::micro_bounce(&self.bodies, &self.colliders, impact, time);
             self.deflect_both(impact, time);
             self.free.micro_bounce = None;
         }

@@ -10,8 +10,9 @@ use carom_collision::{TimeOfImpact, shape_distance, time_of_impact_from};
 use carom_geometry::{Circle, Shape};
 use carom_math::SimTime;
 
-use crate::World;
 use crate::motion::first_touch::first_touch;
+use crate::store::bodies::Bodies;
+use crate::store::state::Collider;
 
 /// Largest turn that one search for a time of impact goes through, in rad.
 const TURN: f64 = 8.0;
@@ -22,92 +23,114 @@ const PIECES: f64 = 8.0;
 /// Circles about bodies are this much larger, so that rounding is outside of them.
 const RIM: f64 = 1.0 + 1.0 / (1_u64 << 20) as f64;
 
-impl World {
-    /// What a search of `length` seconds for a pair begins with, in seconds from `time`: up to the first value nothing
-    /// touches; where that is 0, the search goes up to the second.
-    pub(super) fn first_piece(&self, pair: (u32, u32), time: SimTime, length: f64) -> (f64, f64) {
-        let piece = self.length_by_turn(pair, time, length);
-        if length / piece >= PIECES {
-            let apart = self.apart_however_turned(pair, time, length);
-            if apart > piece {
-                return (apart, piece);
-            }
+/// What a search of `length` seconds for a pair begins with, in seconds from `time`: up to the first value nothing
+/// touches; where that is 0, the search goes up to the second.
+pub(super) fn first_piece(
+    bodies: &Bodies,
+    colliders: &[Collider],
+    pair: (u32, u32),
+    time: SimTime,
+    length: f64,
+) -> (f64, f64) {
+    let piece = length_by_turn(bodies, colliders, pair, time, length);
+    if length / piece >= PIECES {
+        let apart = apart_however_turned(bodies, colliders, pair, time, length);
+        if apart > piece {
+            return (apart, piece);
         }
-        (0.0, piece)
     }
+    (0.0, piece)
+}
 
-    /// As much of `length` seconds as the bodies of a pair turn by at most [`TURN`] in.
-    fn length_by_turn(&self, (a, b): (u32, u32), time: SimTime, length: f64) -> f64 {
-        let spin = |index: u32| {
-            let motion = &self.bodies.get(index).motion;
-            motion.spin_at(time).abs() + motion.angular_acceleration.abs() * length
-        };
-        if length * (spin(a) + spin(b)) <= TURN {
-            return length;
+/// As much of `length` seconds as the bodies of a pair turn by at most [`TURN`] in.
+fn length_by_turn(
+    bodies: &Bodies,
+    colliders: &[Collider],
+    (a, b): (u32, u32),
+    time: SimTime,
+    length: f64,
+) -> f64 {
+    let spin = |index: u32| {
+        let motion = &bodies.get(index).motion;
+        motion.spin_at(time).abs() + motion.angular_acceleration.abs() * length
+    };
+    if length * (spin(a) + spin(b)) <= TURN {
+        return length;
+    }
+    let seen = |index: u32| {
+        if bodies.get(index).turns_in_place(colliders) {
+            0.0
+        } else {
+            spin(index)
         }
-        let seen = |index: u32| {
-            if self.bodies.get(index).turns_in_place(&self.colliders) {
-                0.0
+    };
+    length.min(TURN / (seen(a) + seen(b)))
+}
+
+/// How long two bodies surely do not touch, at most `length` seconds, whatever those of them turn by that turn by more
+/// than [`TURN`] in it: the circles about these have not met the other one by then.
+fn apart_however_turned(
+    bodies: &Bodies,
+    colliders: &[Collider],
+    (a, b): (u32, u32),
+    time: SimTime,
+    length: f64,
+) -> f64 {
+    let (one, two) = (bodies.get(a), bodies.get(b));
+    let (of_one, of_two) = (
+        shapes_however_turned(bodies, colliders, a, time, length),
+        shapes_however_turned(bodies, colliders, b, time, length),
+    );
+    let seen = two.centre_pose(time).seen_from(one.centre_pose(time));
+    let mut first = length;
+    for first_shape in &of_one {
+        for second_shape in &of_two {
+            // Circles that overlap may part, and their bodies strike all the same.
+            if shape_distance(first_shape, second_shape, seen).distance <= 0.0 {
+                return 0.0;
+            }
+            let next = if one.flight.is_some() || two.flight.is_some() {
+                first_touch([one, two], [first_shape, second_shape], time, first, None)
             } else {
-                spin(index)
-            }
-        };
-        length.min(TURN / (seen(a) + seen(b)))
-    }
-
-    /// How long two bodies surely do not touch, at most `length` seconds, whatever those of them turn by that turn by more
-    /// than [`TURN`] in it: the circles about these have not met the other one by then.
-    fn apart_however_turned(&self, (a, b): (u32, u32), time: SimTime, length: f64) -> f64 {
-        let (one, two) = (self.bodies.get(a), self.bodies.get(b));
-        let (of_one, of_two) = (
-            self.shapes_however_turned(a, time, length),
-            self.shapes_however_turned(b, time, length),
-        );
-        let seen = two.centre_pose(time).seen_from(one.centre_pose(time));
-        let mut first = length;
-        for first_shape in &of_one {
-            for second_shape in &of_two {
-                // Circles that overlap may part, and their bodies strike all the same.
-                if shape_distance(first_shape, second_shape, seen).distance <= 0.0 {
-                    return 0.0;
-                }
-                let next = if one.flight.is_some() || two.flight.is_some() {
-                    first_touch([one, two], [first_shape, second_shape], time, first, None)
-                } else {
-                    let motions = (&one.motion, &two.motion);
-                    time_of_impact_from(
-                        time,
-                        None,
-                        first_shape,
-                        motions.0,
-                        second_shape,
-                        motions.1,
-                        first,
-                    )
-                };
-                first = match next {
-                    TimeOfImpact::Clear => first,
-                    TimeOfImpact::Hit(impact) => first.min(impact.time),
-                    TimeOfImpact::Touching(_) => return 0.0,
-                    TimeOfImpact::Unresolved { safe_until } => first.min(safe_until),
-                };
-            }
+                let motions = (&one.motion, &two.motion);
+                time_of_impact_from(
+                    time,
+                    None,
+                    first_shape,
+                    motions.0,
+                    second_shape,
+                    motions.1,
+                    first,
+                )
+            };
+            first = match next {
+                TimeOfImpact::Clear => first,
+                TimeOfImpact::Hit(impact) => first.min(impact.time),
+                TimeOfImpact::Touching(_) => return 0.0,
+                TimeOfImpact::Unresolved { safe_until } => first.min(safe_until),
+            };
         }
-        first
     }
+    first
+}
 
-    /// The shapes of a body about its centre; the one circle about them, where it turns by more than [`TURN`].
-    fn shapes_however_turned(&self, index: u32, time: SimTime, length: f64) -> Vec<Arc<Shape>> {
-        let state = self.bodies.get(index);
-        let motion = &state.motion;
-        let spin = motion.spin_at(time).abs() + motion.angular_acceleration.abs() * length;
-        let about = state.reach * RIM + motion.left_out;
-        match Circle::new(about) {
-            Ok(circle) if spin * length > TURN => vec![Arc::new(circle.into())],
-            _ => {
-                let solid = |at: &u32| Arc::clone(&self.colliders[*at as usize].solid);
-                state.colliders.iter().map(solid).collect()
-            }
+/// The shapes of a body about its centre; the one circle about them, where it turns by more than [`TURN`].
+fn shapes_however_turned(
+    bodies: &Bodies,
+    colliders: &[Collider],
+    index: u32,
+    time: SimTime,
+    length: f64,
+) -> Vec<Arc<Shape>> {
+    let state = bodies.get(index);
+    let motion = &state.motion;
+    let spin = motion.spin_at(time).abs() + motion.angular_acceleration.abs() * length;
+    let about = state.reach * RIM + motion.left_out;
+    match Circle::new(about) {
+        Ok(circle) if spin * length > TURN => vec![Arc::new(circle.into())],
+        _ => {
+            let solid = |at: &u32| Arc::clone(&colliders[*at as usize].solid);
+            state.colliders.iter().map(solid).collect()
         }
     }
 }
