@@ -29,8 +29,10 @@
 mod analytic;
 mod api;
 mod broad;
+mod changed;
 mod clock;
 mod events;
+mod forces;
 mod groups;
 mod model;
 mod motion;

@@ -6,7 +6,7 @@ use carom_geometry::{Aabb, Shape};
 use carom_math::{Pose, SimTime, StateHash, Sum, Vec2, cross};
 
 use crate::analytic::islands::Closed;
-use crate::broad::tree::{Broad, part};
+use crate::broad::tree::Broad;
 use crate::clock::Clock;
 use crate::events::event_queue::EventQueue;
 use crate::events::free::FreeBodies;
@@ -16,7 +16,7 @@ use crate::model::narrow::Narrow;
 use crate::stepping::threads::Threads;
 use crate::stepping::{Joins, Stepping};
 use crate::store::bodies::Bodies;
-use crate::store::pairs::{Pair, Pairs};
+use crate::store::pairs::Pairs;
 use crate::store::state::{BodyState, Collider, Surface, drawn_at};
 use crate::values::profile::Stopwatch;
 use crate::work::Work;
@@ -480,21 +480,5 @@ impl World {
     /// The shapes that came last: many bodies are alike.
     fn latest(&self) -> impl Iterator<Item = &Collider> {
         self.colliders.iter().rev().take(LATEST)
-    }
-
-    /// Takes a pair out and says so if it touched.
-    pub(crate) fn part(&mut self, place: u32, time: SimTime) {
-        if let Some(mut pair) = self.take_pair(place, time) {
-            pair.touching = false;
-            self.events.tell_touch(&self.bodies, &mut pair, time);
-        }
-    }
-
-    /// Takes a pair out; a group that it held together is taken apart.
-    pub(crate) fn take_pair(&mut self, place: u32, time: SimTime) -> Option<Pair> {
-        self.hand_back_by(place, time);
-        let pair = part(&mut self.bodies, &mut self.pairs, place)?;
-        self.loosen(place, pair.bodies, time);
-        Some(pair)
     }
 }

@@ -1,0 +1,264 @@
+//! What follows from a changed motion: boxes, pairs, predictions, and sleepers that wake.
+
+use carom_geometry::Aabb;
+use carom_math::SimTime;
+
+use crate::broad::tree::{Overlapping, part};
+use crate::events::free::Cause;
+use crate::events::predict::predict;
+use crate::events::wake::{wake, wake_around};
+use crate::motion::flight::fly;
+use crate::store::bodies::Bodies;
+use crate::store::pairs::Pair;
+use crate::{Mode, World};
+
+impl World {
+    /// A body with a new motion in the middle of a sub-step: its pairs are predicted again, and so
+    /// are those of the contact group that it was or is in.
+    pub(crate) fn deflected(&mut self, index: u32, time: SimTime) {
+        if self.settings.mode == Mode::Stepped {
+            // The next sub-step takes it from here.
+            return self.bodies.touch(index);
+        }
+        self.hand_back_of(index, time);
+        self.redirect(index, time);
+        self.regroup(index, time);
+    }
+
+    /// A body with a new motion in the middle of a sub-step: it may leave its boxes, and all its
+    /// pairs are predicted again.
+    pub(crate) fn redirect(&mut self, index: u32, time: SimTime) {
+        if self.steer(index, time) {
+            for slot in 0..self.bodies.get(index).pairs.len() {
+                self.predict(self.bodies.get(index).pairs[slot], time);
+            }
+        }
+    }
+
+    /// As [`Self::redirect`], but for predictions; whether there are any to make.
+    pub(crate) fn steer(&mut self, index: u32, time: SimTime) -> bool {
+        if self.bodies.get(index).is_asleep() {
+            self.wake(index, time);
+        }
+        let state = self.bodies.get(index);
+        if state.in_engine() {
+            return false;
+        }
+        if state.goes_by_events() {
+            self.foresee(index, time, Cause::Arrived, None);
+            return false;
+        }
+        let left = (self.clock.next() - time).max(0.0);
+        let state = self.bodies.get(index);
+        if left > 0.0 && state.is_stepped() && !state.member && self.bodies.bends(index) {
+            fly(&mut self.bodies, index, time, left);
+        }
+        self.refit(index, time, left);
+        // What rests from now on may lie in the way of what is sub-stepped, too.
+        if !self.bodies.get(index).is_stepped() {
+            self.show(index, time);
+        }
+        true
+    }
+
+    /// Predicts impacts of all free bodies near a body that rests with it.
+    pub(crate) fn show(&mut self, index: u32, time: SimTime) {
+        let mut free = Vec::new();
+        for &at in &self.bodies.get(index).colliders.clone() {
+            let bounds = self.colliders[at as usize].fat;
+            self.free.overlapping(&self.bodies, bounds, &mut free);
+            for &body in &free {
+                self.approach_shape(body, at, time, Cause::Arrived);
+            }
+            // Those in the tree are few and large.
+            for other in self.broad.in_tree(&self.colliders, bounds) {
+                let owner = self.colliders[other as usize].body;
+                if self.bodies.get(owner).goes_by_events() {
+                    self.approach_shape(owner, at, time, Cause::Arrived);
+                }
+            }
+        }
+    }
+
+    /// What lies beside a body that started asleep must be known before either is struck.
+    pub(crate) fn look_at_fresh(&mut self, time: SimTime) {
+        for place in core::mem::take(&mut self.pairs.fresh) {
+            let Some(pair) = self.pairs.find(place).filter(|pair| pair.fresh) else {
+                continue;
+            };
+            let (a, b) = pair.bodies;
+            if self.bodies.get(a).is_stepped() || self.bodies.get(b).is_stepped() {
+                continue;
+            }
+            let pair = self.pairs.get_mut(place);
+            pair.fresh = false;
+            self.narrow
+                .look(&self.bodies, &self.colliders, pair, time, self.clock.h);
+        }
+    }
+
+    /// Wakes a body and all sleepers that it touches, and so on.
+    pub(crate) fn wake(&mut self, index: u32, time: SimTime) {
+        let woken = self.woken_with(index, time);
+        self.resume_woken(&woken, time);
+    }
+
+    /// Ends the sleep of a body and all sleepers that it touches, and so on; returns them.
+    pub(crate) fn woken_with(&mut self, index: u32, time: SimTime) -> Vec<u32> {
+        if self.is_engines(index) {
+            self.wake_in_engine(index, time);
+            return Vec::new();
+        }
+        self.look_at_fresh(time);
+        let mut woken = Vec::new();
+        wake(
+            &mut self.bodies,
+            &self.pairs,
+            index,
+            time,
+            &mut self.events,
+            &mut woken,
+        );
+        self.wake_members(&mut woken, time);
+        woken
+    }
+
+    /// Takes those out of bodies that wake which the engine has: it wakes them.
+    fn wake_members(&mut self, woken: &mut Vec<u32>, time: SimTime) {
+        let has = |index: &u32| self.bodies.get(*index).in_engine();
+        let (members, others) = core::mem::take(woken)
+            .into_iter()
+            .partition::<Vec<_>, _>(has);
+        *woken = others;
+        for index in members {
+            self.wake_in_engine(index, time);
+        }
+    }
+
+    /// Wakes all sleepers that touch a body, and itself: what held them has changed.
+    pub(crate) fn wake_around(&mut self, index: u32, time: SimTime) {
+        if self.is_engines(index) {
+            return self.wake_in_engine(index, time);
+        }
+        self.hand_back_around(index, time);
+        self.look_at_fresh(time);
+        let mut woken = Vec::new();
+        wake_around(
+            &mut self.bodies,
+            &self.pairs,
+            index,
+            time,
+            &mut self.events,
+            &mut woken,
+        );
+        self.wake_members(&mut woken, time);
+        self.resume_woken(&woken, time);
+    }
+
+    /// Begins to sub-step bodies that woke, and makes their pairs with the free bodies near them.
+    pub(crate) fn resume_woken(&mut self, woken: &[u32], time: SimTime) {
+        if self.settings.mode == Mode::Stepped {
+            return;
+        }
+        let mut were_analytic = false;
+        for &index in woken {
+            let membership = self.bodies.get(index).membership;
+            were_analytic |= membership.is_closed();
+            self.dissolve(membership.group, time);
+        }
+        if !were_analytic && self.many_woke(woken, time) {
+            return;
+        }
+        for &index in woken {
+            self.begin_substepping(index, time);
+        }
+        for &index in woken {
+            self.meet_near(index);
+            for slot in 0..self.bodies.get(index).pairs.len() {
+                self.predict(self.bodies.get(index).pairs[slot], time);
+            }
+        }
+        self.drop_unheld(woken, time);
+    }
+
+    /// Makes the pairs of a body's boxes in the tree with what is near them, free bodies too.
+    pub(crate) fn meet_near(&mut self, index: u32) {
+        let free = |bodies: &Bodies, bounds: Aabb, near: &mut Vec<u32>| {
+            self.free.overlapping(bodies, bounds, near);
+        };
+        for slot in 0..self.bodies.get(index).colliders.len() {
+            let at = self.bodies.get(index).colliders[slot];
+            if self.colliders[at as usize].node.is_some() {
+                self.broad.meet(
+                    &mut self.bodies,
+                    &self.colliders,
+                    &mut self.pairs,
+                    at,
+                    Some(&free),
+                );
+            }
+        }
+    }
+
+    /// A pair of a free body and a shape of a body that is sub-stepped.
+    pub(crate) fn pair_free_body(&mut self, index: u32, at: u32) {
+        for slot in 0..self.bodies.get(index).colliders.len() {
+            let mine = self.bodies.get(index).colliders[slot];
+            self.broad
+                .pair_up(&mut self.bodies, &self.colliders, &mut self.pairs, mine, at);
+        }
+    }
+
+    pub(crate) fn refit(&mut self, index: u32, time: SimTime, h: f64) {
+        self.refit_among(index, time, h, true);
+    }
+
+    /// [`Self::refit`]; `meets`: free bodies in the new boxes are found.
+    pub(crate) fn refit_among(&mut self, index: u32, time: SimTime, h: f64, meets: bool) {
+        let free = |bodies: &Bodies, bounds: Aabb, near: &mut Vec<u32>| {
+            self.free.overlapping(bodies, bounds, near);
+        };
+        let free: &Overlapping<'_> = &free;
+        self.broad.refit(
+            &mut self.bodies,
+            &mut self.colliders,
+            &mut self.pairs,
+            index,
+            time,
+            h,
+            meets.then_some(free),
+        );
+        self.look_down_first(time);
+    }
+
+    pub(crate) fn predict(&mut self, place: u32, time: SimTime) {
+        predict(
+            &self.bodies,
+            &self.colliders,
+            &mut self.pairs,
+            &mut self.narrow,
+            &mut self.event_queue,
+            &mut self.report,
+            place,
+            time,
+            self.clock.next(),
+            self.clock.h,
+        );
+    }
+
+    /// Takes a pair out and says so if it touched.
+    pub(crate) fn part(&mut self, place: u32, time: SimTime) {
+        if let Some(mut pair) = self.take_pair(place, time) {
+            pair.touching = false;
+            self.events.tell_touch(&self.bodies, &mut pair, time);
+        }
+    }
+
+    /// Takes a pair out; a group that it held together is taken apart.
+    pub(crate) fn take_pair(&mut self, place: u32, time: SimTime) -> Option<Pair> {
+        self.hand_back_by(place, time);
+        let pair = part(&mut self.bodies, &mut self.pairs, place)?;
+        self.loosen(place, pair.bodies, time);
+        Some(pair)
+    }
+}
