@@ -24,11 +24,12 @@ const CRATES: [&[&str]; 12] = [
 ];
 
 /// Folders of `dynamics`. Each knows only those of rows below it. `step`: the files beside the folders.
-const FOLDERS: [&[&str]; 6] = [
+const FOLDERS: [&[&str]; 7] = [
     &["api"],
     &["step"],
     &["events", "analytic", "stepping", "groups"],
-    &["broad", "motion", "model"],
+    &["broad", "model"],
+    &["motion"],
     &["store"],
     &["values"],
 ];
@@ -44,7 +45,6 @@ const BACK: &[(&str, &str, usize)] = &[
     ("events", "groups", 1),
     ("events", "step", 9),
     ("events", "stepping", 4),
-    ("model", "motion", 1),
     ("motion", "analytic", 1),
     ("step", "api", 5),
     ("stepping", "analytic", 3),
