@@ -18,7 +18,7 @@ pub(crate) const LOOK_AHEAD: f64 = 8.0;
 /// Boxes are padded by this fraction of the body's reach, so that a body that jitters stays inside.
 pub(crate) const PADDING: f64 = 0.05;
 
-/// Finds the free bodies whose boxes overlap one, and writes them into a list.
+/// Finds the free bodies with boxes that overlap one, and writes them into a list.
 pub(crate) type Overlapping<'a> = dyn Fn(&Bodies, Aabb, &mut Vec<u32>) + 'a;
 
 /// Everything a search for pairs reads and writes.
