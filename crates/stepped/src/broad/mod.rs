@@ -14,7 +14,7 @@ pub(crate) use pairs::Pairs;
 use sweep::Sweep;
 
 /// The sweep is sorted anew if more than one of so many movers came or got another box.
-const FEW: usize = 16;
+const FEW: usize = 8;
 
 /// Movers in a sweep, what stands in a tree, half-planes in a list.
 #[derive(Clone, Debug)]
@@ -80,9 +80,9 @@ impl Broad {
         self.woken.push(piece);
     }
 
-    /// Whether the sweep had better be sorted anew.
-    const fn is_stale(&self) -> bool {
-        FEW * self.few.len() > self.sweep.len()
+    /// Whether the sweep had better be sorted anew, once so many more pieces got other boxes.
+    const fn is_stale(&self, more: usize) -> bool {
+        FEW * (self.few.len() + more) > self.sweep.len()
     }
 
     /// It stands no more, or never did.
@@ -99,17 +99,21 @@ impl Broad {
         !self.arrived.is_empty() || !self.woken.is_empty()
     }
 
-    /// Finds the pairs of which one piece moved, arrived or woke.
+    /// Finds the pairs of which one piece moved, arrived or woke: at a tick.
     pub(crate) fn find(&mut self, level: Level, bodies: &Bodies, pieces: &Pieces, tick: f64) {
+        let moved = bodies.moved[2..].iter().filter(|moved| **moved).count();
+        if moved == 0 && !self.has_arrivals() {
+            self.found.clear();
+        } else if self.is_stale(moved) {
+            self.find_all(level, bodies, pieces, tick);
+        } else {
+            self.find_few(level, bodies, pieces, tick);
+        }
         self.news.clear();
-        self.find_all(level, bodies, pieces, tick);
     }
 
     fn find_all(&mut self, level: Level, bodies: &Bodies, pieces: &Pieces, tick: f64) {
         self.found.clear();
-        if !self.has_arrivals() && !bodies.moved[2..].contains(&true) {
-            return;
-        }
         self.sort(bodies, pieces);
         let found = &mut self.found;
         self.sweep
@@ -140,7 +144,7 @@ impl Broad {
 
     /// Queries are answered by the sweep, though many movers came since it was sorted.
     pub(crate) fn prepare_queries(&mut self, bodies: &Bodies, pieces: &Pieces) {
-        if self.is_stale() {
+        if self.is_stale(0) {
             self.sort(bodies, pieces);
         }
         self.news.sort_unstable();
@@ -205,14 +209,14 @@ impl Broad {
         self.news.clear();
     }
 
-    /// Finds the pairs of the few that moved since [`Self::find`] in the same tick.
+    /// The same within a tick, of the few that moved since.
     pub(crate) fn find_few(&mut self, level: Level, bodies: &Bodies, pieces: &Pieces, tick: f64) {
         for line in (2..bodies.lines.len()).filter(|line| bodies.moved[*line]) {
             for piece in bodies.pieces_of_line(line) {
                 self.enter(piece);
             }
         }
-        if self.is_stale() || !self.arrived.is_empty() {
+        if self.is_stale(0) || !self.arrived.is_empty() {
             return self.find_all(level, bodies, pieces, tick);
         }
         let mut few = core::mem::take(&mut self.few);
