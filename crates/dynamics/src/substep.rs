@@ -8,7 +8,7 @@ use crate::events::predict::BUDGET;
 use crate::groups::settle::settle;
 use crate::model::narrow::{TOUCH, opening_speed, rest_speed};
 use crate::motion::flight::fly;
-use crate::stepping::{FEW, Seen};
+use crate::stepping::Seen;
 use crate::store::pairs::PairContact;
 
 /// Sub-steps with nothing near after which a body flies: fewer, and what rattles changes sides all the time.
@@ -42,7 +42,7 @@ impl World {
         self.gather_members(time);
         self.stopwatch.lap(|p| &mut p.contacts);
         self.groups.step(
-            &self.law,
+            (h, self.settings.contact.push_out),
             &mut self.bodies,
             &self.colliders,
             &mut self.pairs,
@@ -154,7 +154,7 @@ impl World {
             let mut lands: Vec<u32> = landings
                 .filter_map(|place| self.landing(*place, time, h))
                 .collect();
-            if landed.len() + lands.len() > FEW {
+            if landed.len() + lands.len() > self.few() {
                 self.gather_heaps(&mut lands, &mut seen, time, h);
                 landed.retain(|index| !self.bodies.get(*index).in_engine());
             }

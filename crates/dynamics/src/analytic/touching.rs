@@ -7,7 +7,6 @@ use carom_math::{SimTime, Vec2};
 use crate::analytic::modes::{ModeBody, ROWS, Touch, hold, stand};
 use crate::model::approach::{Approach, RigidState, approach, opening};
 use crate::model::edges::{Feature, at_the_end, feature};
-use crate::model::mass_ratio::{BEARS, mass_ratio};
 use crate::model::narrow::{Narrow, RestSpeed, TOUCH};
 use crate::store::bodies::Bodies;
 use crate::store::pairs::{PairContact, Pairs};
@@ -59,15 +58,6 @@ impl Gathered {
         all.filter(|(_, body)| body.inverse_mass > 0.0)
             .map(|(index, _)| *index)
             .collect()
-    }
-
-    /// Whether one of them bears another that one sweep of the solver does not carry.
-    pub(crate) fn is_heavy(&self) -> bool {
-        let ratio = |touch: &Touch| {
-            let (a, b) = touch.bodies;
-            mass_ratio([a, b].map(|place| self.bodies[place].inverse_mass))
-        };
-        self.touches.iter().any(|touch| ratio(touch) > BEARS)
     }
 
     fn refused(&self) -> Refused {

@@ -6,7 +6,6 @@
 use carom_geometry::Shape;
 use carom_math::Vec2;
 
-use crate::groups::Law;
 use crate::stepping::threads::Threads;
 use crate::store::mass::mass_of;
 use crate::store::state::{BodyState, Surface};
@@ -190,7 +189,6 @@ impl World {
                 .history
                 .set_capacity(settings.history, self.clock.now);
         }
-        self.law = Law::new(&settings.contact, self.clock.h);
         if !settings.moves_as(&old) {
             self.change_pull(|pull| {
                 pull.gravity = settings.gravity;

@@ -11,7 +11,6 @@ use crate::clock::Clock;
 use crate::events::event_queue::EventQueue;
 use crate::events::free::FreeBodies;
 use crate::groups::Groups;
-use crate::groups::Law;
 use crate::model::narrow::Narrow;
 use crate::stepping::threads::Threads;
 use crate::stepping::{Joins, Stepping};
@@ -54,7 +53,6 @@ const LATEST: usize = 8;
 #[derive(Clone, Debug)]
 pub struct World {
     pub(crate) settings: Settings,
-    pub(crate) law: Law,
     pub(crate) clock: Clock,
     pub(crate) bodies: Bodies,
     pub(crate) colliders: Vec<Collider>,
@@ -80,9 +78,9 @@ pub struct World {
     /// Bodies with a force that waits for a step or acts during this one.
     pub(crate) forced: Vec<u32>,
     pub(crate) stopwatch: Stopwatch,
-    /// The engine of bodies in contact; none in [`Mode::Exact`].
+    /// The engine of bodies in contact.
     pub(crate) stepping: Option<Box<Stepping>>,
-    /// Bodies that it moves in [`Mode::Hybrid`].
+    /// Bodies that it moves in [`Mode::Hybrid`] and [`Mode::Exact`].
     pub(crate) joins: Joins,
     pub(crate) threads: Threads,
 }
@@ -97,7 +95,6 @@ impl World {
         let threads = Threads::new(settings.threads)?;
         let h = settings.h();
         Ok(Self {
-            law: Law::new(&settings.contact, h),
             clock: Clock::new(h),
             bodies: Bodies::new(
                 settings.gravity,
@@ -123,7 +120,7 @@ impl World {
             handed_over: 0,
             forced: Vec::new(),
             stopwatch: Stopwatch::default(),
-            stepping: Stepping::of(&settings)?,
+            stepping: Some(Stepping::of(&settings)?),
             joins: Joins::default(),
             threads,
             settings,

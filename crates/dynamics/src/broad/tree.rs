@@ -256,7 +256,6 @@ impl Broad {
             impacts: 0,
             spent: 0.0,
             given_up: false,
-            at_once: false,
             round: false,
         });
         bodies.get_mut(ends.0).pairs.push(place);

@@ -6,9 +6,9 @@ use carom_collision::{
 };
 use carom_math::{SimTime, Vec2};
 
+use super::sink::sinks_in;
 use crate::events::event_queue::{Entry, EventQueue};
 use crate::events::micro_bounce::micro_bounce;
-use crate::groups::sink::sinks_in;
 use crate::model::approach::{CLOSED, stays};
 use crate::model::ghost::Meeting;
 use crate::model::narrow::{NOISE, Narrow, RestSpeed, TOUCH, opening_speed, pace, strikes_with};

@@ -2,10 +2,10 @@
 
 use carom_math::SimTime;
 
-use super::apart::Method;
-use super::round::{Speed, Way, is_round};
+use super::round::{Speed, Way};
 use super::{Groups, NOT_HERE, Source, key_of};
 use super::{Row, SolverBody};
+use crate::model::gap::is_round;
 use crate::model::narrow::{RestSpeed, TOUCH, opening_speed};
 use crate::motion::flight::driven;
 use crate::store::bodies::Bodies;
@@ -24,7 +24,6 @@ impl Groups {
     ) {
         self.rows.clear();
         self.sources.clear();
-        self.buried = false;
         self.bodies.clear();
         self.ways.clear();
         for &index in &self.members {
@@ -57,13 +56,8 @@ impl Groups {
                 {
                     continue;
                 }
-                self.buried |= pair.buried;
                 let touch = TOUCH * a.reach.min(b.reach);
-                let method = if is_round(bodies, colliders, pair) {
-                    Method::Round
-                } else {
-                    Method::Swept
-                };
+                let is_round = !pair.sunk && is_round(bodies, colliders, pair);
                 // What turning presses comes down within a sub-step: it rests where it touches, and not before.
                 let rest = if pair.given_up || pair.buried {
                     RestSpeed::ANY
@@ -100,24 +94,18 @@ impl Groups {
                     for (k, point) in contact.points.iter().enumerate() {
                         if lasts(point) {
                             row.gap[k] = point.separation;
-                            // What stopped a heavy body is too much to begin with once that has gone.
                             // What a closed form says of no force may be below 0 by rounding.
-                            row.j[k] = if pair.at_once {
-                                0.0
-                            } else {
-                                point.impulse.max(0.0)
-                            };
+                            row.j[k] = point.impulse.max(0.0);
                         }
                     }
                     let limit = row.mu * (row.j[0] + row.j[1]);
                     row.jt = contact.tangent_impulse.clamp(-limit, limit);
-                    row.ground = ground;
                     self.rows.push(row);
                     self.sources.push(Source {
                         pair: place,
                         key: key_of(bodies, pair),
                         contact: index,
-                        method,
+                        is_round,
                         touch,
                         rest: rest.all,
                         closes: row.gap[0].max(0.0) / h,

@@ -1,22 +1,20 @@
 //! Contact groups: what pushes what, lasting, in one sub-step, pair by pair.
 //!
-//! To read in this order: this file (the groups of a sub-step), [`gather`] (rows of contacts that last), [`row`] and [`soft`]
-//! (what is solved for, and the soft law), [`apart`] (which contacts hang together, and how each group is solved for: by sweeps,
-//! as discs in [`round`], at once in [`heavy`]), [`motions`] and [`go_on`] (what becomes of it), [`sink`] (held pairs that turn
-//! out of what was planned for them), [`settle`] (groups at rest fall asleep).
+//! To read in this order: this file (the groups of a sub-step), [`gather`] (rows of contacts that last), [`row`] (what is solved
+//! for), [`apart`] (which contacts hang together), [`round`] and [`at_once`] (the solves: of discs, and of all others), [`motions`]
+//! and [`go_on`] (what becomes of it), [`settle`] (groups at rest fall asleep).
 //!
-//! It is for bodies in contact that have no closed form and are not in the engine.
+//! It is for bodies in contact that have no closed form and would lose in the engine what they keep here: few that nothing bears
+//! their angular momentum, few discs in exact mode their energy.
 
 mod apart;
+mod at_once;
 mod gather;
 mod go_on;
-pub(crate) mod heavy;
 mod motions;
 mod round;
 mod row;
 pub(crate) mod settle;
-pub(crate) mod sink;
-mod soft;
 
 use core::ops::Range;
 
@@ -26,11 +24,10 @@ use crate::store::bodies::Bodies;
 use crate::store::pairs::{Pair, Pairs};
 use crate::store::state::Collider;
 use crate::{BodyId, StepReport};
-use apart::{Method, set_apart};
-use heavy::{Place, solve_heavy};
+use apart::set_apart;
+use at_once::{Place, solve_at_once};
 use round::{Way, hold, members_of};
 pub(crate) use row::{Row, SolverBody};
-pub(crate) use soft::{Law, sweep, warm_start};
 
 /// Contact groups of a sub-step, and the scratch of its solve.
 #[derive(Clone, Debug, Default)]
@@ -51,8 +48,6 @@ pub(crate) struct Groups {
     rounds: Vec<Round>,
     /// Number of its group in `rounds` for each body of the solver, or [`NOT_HERE`].
     round_of: Vec<u32>,
-    /// Some pair of this sub-step is buried.
-    buried: bool,
     /// Place in the solver of each body, or [`NOT_HERE`].
     places: Vec<u32>,
 }
@@ -65,8 +60,8 @@ struct Source {
     key: Key,
     /// Contact within it.
     contact: usize,
-    /// How it is solved for; before groups are known, how it may be.
-    method: Method,
+    /// It is held as discs are; before groups are known, it may be.
+    is_round: bool,
     /// Gap below which they touch, in m.
     touch: f64,
     /// Speed of approach beyond which it bounces, in m/s.
@@ -118,22 +113,18 @@ impl Source {
 
 const NOT_HERE: u32 = u32::MAX;
 
-/// Sweeps without bias while a pair is buried.
-const BURIED_SWEEPS: usize = 30;
-
 impl Groups {
-    /// Solves all contacts that last from `time` on for one sub-step, and gives every body
-    /// that is pushed its motion. Bodies that nothing pushes are left to flight.
+    /// Solves all contacts that last from `time` on for a sub-step of `h` seconds, and gives every body that is pushed its motion.
+    /// Bodies that nothing pushes are left to flight. `push_out`: of overlaps, in m/s.
     pub(crate) fn step(
         &mut self,
-        law: &Law,
+        (h, push_out): (f64, f64),
         bodies: &mut Bodies,
         colliders: &[Collider],
         pairs: &mut Pairs,
         time: SimTime,
         report: &mut StepReport,
     ) {
-        let h = law.h();
         (self.h, self.until) = (h, time + h);
         self.gather(bodies, colliders, pairs, time, h);
         if self.rows.is_empty() {
@@ -142,37 +133,25 @@ impl Groups {
         report.rows += self.rows.len() as u64;
         self.round_of.resize(self.bodies.len(), NOT_HERE);
         let groups = set_apart(&self.bodies, &mut self.rows, &mut self.sources, |source| {
-            source.method == Method::Round
+            source.is_round
         });
-        for (mut method, group) in groups {
+        for (is_round, group) in groups {
             let (rows, sources) = (
                 &mut self.rows[group.clone()],
                 &mut self.sources[group.clone()],
             );
-            match method {
-                Method::Swept => {
-                    // What was put deep into each other is pushed by many at once: one sweep would leave a
-                    // part of the push in the velocities.
-                    let sweeps = if self.buried { BURIED_SWEEPS } else { 1 };
-                    sweep(law, &mut self.bodies, rows, sweeps);
-                }
-                Method::Round => {
-                    let touch = sources.iter().map(|at| at.touch);
-                    let touch = touch.fold(f64::INFINITY, f64::min);
-                    hold(h, &mut self.bodies, &mut self.ways, rows, touch);
-                    self.note_round(group.clone(), touch, h);
-                }
-                Method::AtOnce => {
-                    let places = sources.iter().map(|at| at.place(bodies, pairs, time));
-                    let places: Vec<Place> = places.collect();
-                    if !solve_heavy(law, &mut self.bodies, rows, &places) {
-                        method = Method::Swept;
-                        sweep(law, &mut self.bodies, rows, BURIED_SWEEPS);
-                    }
-                }
+            for source in &mut *sources {
+                source.is_round = is_round;
             }
-            for source in &mut self.sources[group] {
-                source.method = method;
+            if is_round {
+                let touch = sources.iter().map(|at| at.touch);
+                let touch = touch.fold(f64::INFINITY, f64::min);
+                hold(h, &mut self.bodies, &mut self.ways, rows, touch);
+                self.note_round(group, touch, h);
+            } else {
+                let places = sources.iter().map(|at| at.place(bodies, pairs, time));
+                let places: Vec<Place> = places.collect();
+                solve_at_once((h, push_out), &mut self.bodies, rows, &places);
             }
         }
         bodies.booked.clear();

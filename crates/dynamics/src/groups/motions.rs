@@ -4,7 +4,6 @@ use carom_math::SimTime;
 
 use super::Groups;
 use super::SolverBody;
-use super::apart::Method;
 use crate::store::bodies::{Bodies, Booked};
 use crate::store::pairs::Pairs;
 use crate::store::uncommon::Lag;
@@ -53,8 +52,7 @@ impl Groups {
     ) {
         let (row, source) = (&self.rows[k], &self.sources[k]);
         let pair = pairs.get_mut(source.pair);
-        pair.at_once = source.method == Method::AtOnce;
-        pair.round = source.method == Method::Round;
+        pair.round = source.is_round;
         // A contact update since the sub-step began may have found the pair apart.
         if let Some(contact) = pair.contacts.get_mut(source.contact) {
             // The next sub-step begins with what a whole one asks for.

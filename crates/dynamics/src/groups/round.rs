@@ -26,11 +26,8 @@
 
 use carom_math::Vec2;
 
-use super::{Row, SolverBody, warm_start};
+use super::{Row, SolverBody};
 use crate::impact::{Moving, Sweeper, Swept};
-use crate::store::bodies::Bodies;
-use crate::store::pairs::Pair;
-use crate::store::state::{BodyState, Collider};
 
 /// Sweeps before what is left stays.
 const SWEEPS: usize = 1024;
@@ -58,14 +55,6 @@ pub(crate) struct Way {
     pub(crate) start: Speed,
     /// How it goes while its velocity changes evenly; `None` if as the velocity says.
     pub(crate) even: Option<Speed>,
-}
-
-/// Whether a pair is one of two discs, or of a disc and what does not turn, and nothing pushes it apart.
-pub(crate) fn is_round(bodies: &Bodies, colliders: &[Collider], pair: &Pair) -> bool {
-    let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
-    let is_disc = |body: &BodyState| body.turns_in_place(colliders);
-    let stands = |body: &BodyState| !body.is_dynamic() && body.motion.spin == 0.0;
-    !pair.sunk && (is_disc(a) || stands(a)) && (is_disc(b) || stands(b))
 }
 
 /// Velocities of the bodies of a group after `h` seconds in which no row closes by more than its gap, from the impulses that the
@@ -115,6 +104,16 @@ pub(crate) fn hold(
         let even = is_even.then_some(mean);
         *way = Way { start, even };
         (body.d, body.turn) = (body.v * h, body.w * h);
+    }
+}
+
+/// Velocities that the impulses of rows make.
+fn warm_start(bodies: &mut [SolverBody], rows: &[Row]) {
+    for row in rows {
+        let (i, j) = (row.bodies.0 as usize, row.bodies.1 as usize);
+        let (mut a, mut b) = (bodies[i], bodies[j]);
+        row.push(&mut a, &mut b, row.j, row.jt);
+        (bodies[i], bodies[j]) = (a, b);
     }
 }
 

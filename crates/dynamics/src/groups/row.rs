@@ -43,8 +43,6 @@ pub(crate) struct Row {
     pub(crate) j: [f64; 2],
     /// Tangential impulse, in N·s.
     pub(crate) jt: f64,
-    /// One of the two cannot be moved: pushed out at twice the frequency.
-    pub(crate) ground: bool,
 }
 
 impl Row {
@@ -76,14 +74,7 @@ impl Row {
             gap: [Self::OPEN; 2],
             j: [0.0; 2],
             jt: 0.0,
-            ground: false,
         }
-    }
-
-    /// Normal velocities of both points.
-    pub(crate) fn normal_velocity(&self, a: &SolverBody, b: &SolverBody) -> [f64; 2] {
-        let [first, last, _] = self.seen((a.v, a.w), (b.v, b.w));
-        [first, last]
     }
 
     /// Slip of the bodies at the face; of its surfaces, with their belts left out.
@@ -105,15 +96,6 @@ impl Row {
         perp(self.n).dot(vb - va) + self.bt * wb - self.at * wa
     }
 
-    /// Gaps after the bodies moved by their displacements.
-    pub(crate) fn moved_gap(&self, a: &SolverBody, b: &SolverBody) -> [f64; 2] {
-        let d = self.n.dot(b.d - a.d);
-        [
-            self.gap[0] + d + self.b[0] * b.turn - self.a[0] * a.turn,
-            self.gap[1] + d + self.b[1] * b.turn - self.a[1] * a.turn,
-        ]
-    }
-
     /// Applies ±(j₁ + j₂) n ± `j_t` t.
     pub(crate) fn push(&self, a: &mut SolverBody, b: &mut SolverBody, j: [f64; 2], jt: f64) {
         let impulse = self.n * (j[0] + j[1]) + perp(self.n) * jt;
@@ -121,11 +103,6 @@ impl Row {
         b.v += impulse * b.inverse_mass;
         a.w -= (self.a[0] * j[0] + self.a[1] * j[1] + self.at * jt) * a.inverse_inertia;
         b.w += (self.b[0] * j[0] + self.b[1] * j[1] + self.bt * jt) * b.inverse_inertia;
-    }
-
-    /// How many points may act.
-    pub(crate) fn points(&self) -> usize {
-        self.gap.iter().filter(|gap| **gap < Self::OPEN).count()
     }
 
     /// Whether it pushes at all.
@@ -179,8 +156,8 @@ mod tests {
             .map(|p| (*p - centres[0], *p - centres[1]))
             .collect();
         let row = Row::new((0, 1), n, &arms, 0.5);
-        let velocities = row.normal_velocity(&a, &b);
-        for (arm, got) in arms.iter().zip(velocities) {
+        let [first, last, _] = row.seen((a.v, a.w), (b.v, b.w));
+        for (arm, got) in arms.iter().zip([first, last]) {
             let u = (b.v + cross_scalar(b.w, arm.1)) - (a.v + cross_scalar(a.w, arm.0));
             assert!((got - u.dot(n)).abs() < 1e-15);
             assert!((row.slip(&a, &b) - u.dot(perp(n))).abs() < 1e-15);

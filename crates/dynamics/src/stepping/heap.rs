@@ -6,7 +6,7 @@
 use carom_collision::{PartManifold, contacts};
 use carom_math::{Pose, SimTime, Vec2, cross_scalar};
 
-use super::{FEW, MANY};
+use super::MANY;
 use crate::analytic::modes::ROWS;
 use crate::model::narrow::{TOUCH, rest_speed_between};
 use crate::store::state::BodyState;
@@ -38,9 +38,9 @@ struct Heap {
 
 impl Heap {
     /// Whether the engine takes it before closed forms are tried, or after these were tried in vain.
-    fn is_for_engine(&self) -> bool {
+    fn is_for_engine(&self, few: usize) -> bool {
         let count = self.bodies.len();
-        self.fits && (count > MANY || count > FEW && self.points > ROWS)
+        self.fits && (count > MANY || count > few && self.points > ROWS)
     }
 }
 
@@ -62,7 +62,7 @@ impl World {
         for &index in &*lands {
             if seen.of[index as usize] == Step::Unseen {
                 let heap = self.heap_around(index, seen, time, h);
-                if heap.is_for_engine() {
+                if heap.is_for_engine(self.few()) {
                     joining.extend(heap.bodies);
                 }
             }

@@ -1,4 +1,4 @@
-//! Joins and leaves in [`crate::Mode::Hybrid`]: which bodies the engine moves.
+//! Joins and leaves in [`crate::Mode::Hybrid`] and [`crate::Mode::Exact`]: which bodies the engine moves.
 //!
 //! ```text
 //! free, analytic, held ─► near a member within the tick, or in an island without a closed form ─► member
@@ -17,6 +17,7 @@ use carom_stepped::State;
 use super::Shapes;
 use super::near::Among;
 use super::rush::Rush;
+use crate::model::gap::is_round;
 use crate::model::graph::neighbours;
 use crate::store::bodies::Bodies;
 use crate::store::state::BodyState;
@@ -67,7 +68,7 @@ impl Joins {
         if bodies.member_count() > 0 {
             self.restless.push(index);
         }
-        if mode == Mode::Hybrid {
+        if mode != Mode::Stepped {
             self.aloft.push(index);
             if self.aloft.len() > most {
                 self.aloft.sort_unstable();
@@ -93,7 +94,15 @@ impl World {
 
     /// Whether bodies may join the engine.
     pub(crate) const fn may_join(&self) -> bool {
-        matches!(self.settings.mode, Mode::Hybrid)
+        !matches!(self.settings.mode, Mode::Stepped)
+    }
+
+    /// Islands of more bodies join even if nothing bears them; so many wake, or land, at once.
+    pub(crate) const fn few(&self) -> usize {
+        match self.settings.mode {
+            Mode::Exact => MANY,
+            Mode::Hybrid | Mode::Stepped => FEW,
+        }
     }
 
     /// Islands of more than [`MANY`] bodies join: their contact modes are not solved for.
@@ -110,9 +119,26 @@ impl World {
         let mut stepped = self.stepped.iter();
         if self.may_join() && stepped.any(|index| self.is_unsolved(*index)) {
             let mut islands = self.unsolved_islands();
-            islands.retain(|island| island.len() > FEW || self.is_borne(island));
+            islands.retain(|island| !self.stays_out(island));
             self.join_islands(islands, time);
         }
+    }
+
+    /// Whether an island without a solution of its contact modes is sub-stepped pair by pair: a small one that nothing bears, as the
+    /// engine does not keep its angular momentum, or of discs in exact mode, as they gain energy there.
+    fn stays_out(&self, island: &[u32]) -> bool {
+        let round = self.settings.mode == Mode::Exact && self.is_round_island(island);
+        let most = if round { MANY } else { FEW };
+        island.len() <= most && (round || !self.is_borne(island))
+    }
+
+    /// Whether all that the bodies of an island touch is held as discs are.
+    fn is_round_island(&self, island: &[u32]) -> bool {
+        let places = island
+            .iter()
+            .flat_map(|index| &self.bodies.get(*index).pairs);
+        let mut pairs = places.map(|place| self.pairs.get(*place));
+        pairs.all(|pair| pair.contacts.is_empty() || is_round(&self.bodies, &self.colliders, pair))
     }
 
     /// Whether a body is sub-stepped pair by pair, and in no closed form.
@@ -157,7 +183,7 @@ impl World {
 
     /// Bodies that woke together join if they are many; whether they did.
     pub(crate) fn many_woke(&mut self, woken: &[u32], time: SimTime) -> bool {
-        if woken.len() <= FEW || !self.may_join() {
+        if woken.len() <= self.few() || !self.may_join() {
             return false;
         }
         for &index in woken {

@@ -1,4 +1,4 @@
-//! A sub-step of the members of the engine in [`crate::Mode::Hybrid`].
+//! A sub-step of the members of the engine in [`crate::Mode::Hybrid`] and [`crate::Mode::Exact`].
 
 use carom_math::{SimTime, Vec2};
 

@@ -1,5 +1,5 @@
 //! The boundary to the engine of `carom-stepped`: of all awake bodies in [`crate::Mode::Stepped`], of its members in
-//! [`crate::Mode::Hybrid`].
+//! [`crate::Mode::Hybrid`] and [`crate::Mode::Exact`].
 //!
 //! ```text
 //! changes ─► engine ─► sub-steps of the engine ─► motions, begins and ends of touch, sleep
@@ -8,7 +8,7 @@
 //! The engine knows bodies by slots of its own. It is told what a caller changed before the sub-step that follows, and
 //! motions are written once at the end of a step, or of each sub-step for a log.
 //!
-//! To read in this order: this file, [`enter`], [`rules`], [`write`], [`touch`], [`rest`]; then, for hybrid mode, [`join`] (which bodies
+//! To read in this order: this file, [`enter`], [`rules`], [`write`], [`touch`], [`rest`]; then, for members, [`join`] (which bodies
 //! the engine moves: [`near`], [`rush`] and [`heap`] say which join), [`members`] (a sub-step of them) and [`within`].
 
 mod enter;
@@ -30,10 +30,10 @@ use carom_math::{Pose, SimTime};
 use carom_stepped::{Engine, Impact, Relaxation, Softness, State, Touch};
 
 use crate::values::error::SettingsError;
-use crate::{Mode, Settings, World};
+use crate::{Settings, World};
 
 pub(crate) use heap::Seen;
-pub(crate) use join::{FEW, Joins, MANY};
+pub(crate) use join::{Joins, MANY};
 
 /// The engine, and which bodies of the world its bodies are.
 #[derive(Clone, Debug)]
@@ -58,11 +58,8 @@ pub(crate) struct Stepping {
 type Shapes = [(u32, u32); 2];
 
 impl Stepping {
-    /// The engine of a world with these settings, if something may be stepped there.
-    pub(crate) fn of(settings: &Settings) -> Result<Option<Box<Self>>, SettingsError> {
-        if settings.mode == Mode::Exact {
-            return Ok(None);
-        }
+    /// The engine of a world with these settings.
+    pub(crate) fn of(settings: &Settings) -> Result<Box<Self>, SettingsError> {
         let engine = Engine::new(carom_stepped::Settings {
             gravity: settings.gravity,
             tick: settings.tick,
@@ -75,7 +72,7 @@ impl Stepping {
         match engine {
             Ok(mut engine) => {
                 engine.note_impacts(settings.events > 0);
-                Ok(Some(Box::new(Self {
+                Ok(Box::new(Self {
                     engine,
                     ids: Vec::new(),
                     widest: 0.0,
@@ -84,7 +81,7 @@ impl Stepping {
                     changes: Vec::new(),
                     impacts: Vec::new(),
                     places: Vec::new(),
-                })))
+                }))
             }
             Err(refused) => Err(SettingsError::Stepped { refused }),
         }

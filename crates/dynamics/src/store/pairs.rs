@@ -34,8 +34,6 @@ pub(crate) struct Pair {
     pub(crate) buried: bool,
     /// It was deep in each other, and still overlaps: it may not be held without springs.
     pub(crate) sunk: bool,
-    /// Its impulses come from [`crate::groups::heavy`], or from such a group in closed form, not from sweeps.
-    pub(crate) at_once: bool,
     /// It was held without springs in the last sub-step in which it lasted: see [`crate::groups::round`].
     pub(crate) round: bool,
     /// Impacts in this sub-step.

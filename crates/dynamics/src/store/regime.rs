@@ -69,7 +69,7 @@ pub(crate) enum Form {
 pub(crate) enum Scope {
     /// All of a world, in [`Mode::Stepped`].
     All,
-    /// Those that joined it, in [`Mode::Hybrid`].
+    /// Those that joined it, in [`Mode::Hybrid`] and [`Mode::Exact`].
     Members,
 }
 

@@ -9,7 +9,7 @@
 /// kinetic + potential + impacts + friction = external + forces + scheme
 /// ```
 /// In [`crate::Mode::Stepped`] `friction` is the heat of rows, `impacts` is 0 (bounces are not told apart from other rows),
-/// `scheme` is what the other columns do not explain, and the balance checks nothing; in [`crate::Mode::Hybrid`] that is so for the part of it that large groups in touch have.
+/// `scheme` is what the other columns do not explain, and the balance checks nothing; otherwise that is so for the part of it that bodies moved by the engine have.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct EnergyLedger {

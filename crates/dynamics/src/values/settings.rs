@@ -127,7 +127,8 @@ pub enum Mode {
     /// succession, are moved by a solver of their own in sub-steps; what strikes them joins them.
     #[default]
     Hybrid,
-    /// Closed forms only; what they cannot finish is sub-stepped and marks the run as not exact. So does a body that
+    /// Closed forms wherever there are some, however often islands change; what they cannot finish is sub-stepped as in hybrid mode,
+    /// but small heaps of discs without gain of energy, and marks the run as not exact. So does a body that
     /// spends more than 4,096 losses of relative speed in impacts within a tick; elastic ones without friction spend
     /// nothing.
     Exact,
@@ -155,7 +156,8 @@ pub enum PairSearch {
     None,
 }
 
-/// The soft law of lasting contacts: a damped spring that is solved implicitly. Groups of at most 16 discs have none.
+/// The soft law of lasting contacts that are sub-stepped: a damped spring that is solved implicitly. Up to 16 bodies that touch each
+/// other alone have none, nor have up to 64 discs in [`Mode::Exact`].
 ///
 /// At rest a contact sinks in by `compliance · load / (m ω²)` with ω = 2π `frequency` and m the
 /// pair's reduced mass; a fixed partner doubles the frequency.

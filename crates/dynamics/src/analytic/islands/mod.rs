@@ -410,7 +410,6 @@ impl World {
     }
 
     fn kept(&self, gathered: &Gathered, moves: &GroupMove) -> Vec<Kept> {
-        let heavy = gathered.is_heavy();
         let sources = gathered
             .pairs
             .iter()
@@ -442,7 +441,6 @@ impl World {
                     moved: *moved,
                     slip_rate: rate(b) - rate(a),
                     driven: drive(a, force) + drive(b, -force),
-                    heavy,
                 }
             })
             .collect()

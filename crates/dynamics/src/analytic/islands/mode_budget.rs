@@ -6,11 +6,11 @@
 use carom_math::{SimTime, Vec2};
 
 use super::store::Closed;
-use crate::World;
 use crate::analytic::modes::BodyMove;
 use crate::analytic::touching::Gathered;
 use crate::model::graph::neighbours;
 use crate::store::state::BodyState;
+use crate::{Mode, World};
 
 /// Size of a budget, in mode solves of one body. 16: boxes that rock to rest (`tests/it/rocking.rs`) join before, and part from the
 /// exact motion by 1.5e-5 m.
@@ -90,7 +90,7 @@ fn changes(state: &BodyState, moved: &BodyMove, time: SimTime) -> bool {
 impl World {
     /// Charges an island for a new mode, unless its motion is as before: over a seam of tiles, or in the next stretch of a path.
     pub(super) fn charge_change(&mut self, gathered: &Gathered, moves: &[BodyMove], time: SimTime) {
-        if !self.may_join() {
+        if self.settings.mode != Mode::Hybrid {
             return;
         }
         let mut both = gathered.places.iter().zip(moves);
@@ -101,7 +101,7 @@ impl World {
 
     /// Charges each body of an island for a mode solve.
     pub(super) fn charge(&mut self, members: &[u32], time: SimTime) {
-        if !self.may_join() {
+        if self.settings.mode != Mode::Hybrid {
             return;
         }
         let (cost, tick) = (members.len() as f64, self.settings.tick);

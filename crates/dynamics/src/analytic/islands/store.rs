@@ -130,8 +130,6 @@ pub(super) struct Kept {
     pub(super) slip_rate: f64,
     /// Power that a driven partner puts in, in W.
     pub(super) driven: f64,
-    /// Its group has a load that one sweep of the solver does not carry.
-    pub(super) heavy: bool,
 }
 
 impl Kept {
@@ -140,7 +138,6 @@ impl Kept {
         let reach = |index| bodies.get(index).reach;
         let gap = TOUCH * reach(pair.bodies.0).min(reach(pair.bodies.1));
         pair.lasting = self.moved.mode != ContactMode::Open;
-        pair.at_once = self.heavy;
         if let Some(contact) = pair.contacts.get_mut(self.contact) {
             contact.tangent_impulse = self.moved.tangential * h;
             let mut forces = self.moved.normal.iter();

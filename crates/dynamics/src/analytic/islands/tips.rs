@@ -108,14 +108,12 @@ impl World {
                 fastest = if fast > fastest { fast } else { fastest };
             }
         }
-        let heavy = gathered.is_heavy();
         let kept = |(&(pair, contact), moved): (&(u32, usize), &TouchMove)| Kept {
             pair,
             contact,
             moved: *moved,
             slip_rate: 0.0,
             driven: 0.0,
-            heavy,
         };
         let change = time + tip.after;
         let group = Group {
@@ -150,7 +148,8 @@ impl World {
     fn is_too_large(&self, gathered: &Gathered) -> bool {
         let moving = gathered.dynamic();
         let is_borne = moving.len() < gathered.places.len();
-        moving.len() > MOST || moving.len() > MOST_BESIDE_ENGINE && self.may_join() && is_borne
+        moving.len() > MOST
+            || moving.len() > MOST_BESIDE_ENGINE && self.settings.mode == Mode::Hybrid && is_borne
     }
 
     /// A group that turns goes on with the next stretch of its path; whether it does.

@@ -1,29 +1,26 @@
-//! Groups in which a body is much heavier than what gives way to it: solved for at once, not by sweeps.
-//!
-//! A light body between a heavy one and the floor stops the heavy one by its own weight in a sweep: with r times the mass
-//! it takes r sweeps, and long before the light one is in it and has been pushed through the floor. So these groups get
-//! what sweeps without end would lead to: velocities that close no contact, and a displacement that pushes overlaps out.
+//! Groups of other bodies than discs, and of discs that overlap: velocities that close no contact by more than its gap, and a
+//! displacement that pushes overlaps out.
 
 use carom_math::Vec2;
 
-use super::{Law, Row, SolverBody};
+use super::{Row, SolverBody};
 use crate::impact::{ImpactBody, ImpactContact, SharedContact, held};
 
 /// Where a row pushes: its points, and the centres of mass of both bodies, in m.
 #[derive(Clone, Debug)]
-pub(crate) struct Place {
-    pub(crate) points: arrayvec::ArrayVec<Vec2, 2>,
-    pub(crate) centres: (Vec2, Vec2),
+pub(super) struct Place {
+    pub(super) points: arrayvec::ArrayVec<Vec2, 2>,
+    pub(super) centres: (Vec2, Vec2),
 }
 
-/// Velocities and displacements of the bodies of a heavy group, and the impulses of its rows; whether there are such:
-/// bodies may be squeezed so that no velocities close no contact.
-pub(crate) fn solve_heavy(
-    law: &Law,
+/// Velocities and displacements of the bodies of a group after `h` seconds, and the impulses of its rows. No overlap is pushed out
+/// faster than at `push_out` m/s. Bodies that are squeezed so that no velocities close no contact get what sweeps come to.
+pub(super) fn solve_at_once(
+    (h, push_out): (f64, f64),
     bodies: &mut [SolverBody],
     rows: &mut [Row],
     places: &[Place],
-) -> bool {
+) {
     let mut members: Vec<u32> = Vec::new();
     let mut before: Vec<ImpactBody> = Vec::new();
     let mut contacts = Vec::new();
@@ -61,15 +58,12 @@ pub(crate) fn solve_heavy(
                 friction: row.mu,
             };
             contacts.push(SharedContact { a, b, contact });
-            kept.push((-row.gap[i].max(0.0) * law.inverse_h(), row.belt));
-            pushed.push((-law.bias(row.gap[i], row.ground), 0.0));
+            kept.push((-row.gap[i].max(0.0) / h, row.belt));
+            pushed.push(((-row.gap[i] / h).min(push_out), 0.0));
             of.push((k, i));
         }
     }
     let relaxed = held(&before, &contacts, &kept);
-    if !relaxed.sure {
-        return false;
-    }
     for row in rows.iter_mut() {
         (row.j, row.jt) = ([0.0; 2], 0.0);
     }
@@ -90,11 +84,7 @@ pub(crate) fn solve_heavy(
         .iter()
         .map(|shared| extra(shared, shared.a).max(extra(shared, shared.b)));
     let most = extras.fold(0.0, f64::max);
-    let share = if most > law.push_out() {
-        law.push_out() / most
-    } else {
-        1.0
-    };
+    let share = (push_out / most).min(1.0);
     for (&(k, _), (normal, _)) in of.iter().zip(out.impulses) {
         if normal > 0.0 || rows[k].acts() {
             let (i, j) = rows[k].bodies;
@@ -107,7 +97,6 @@ pub(crate) fn solve_heavy(
         (body.v, body.w) = (relaxed.velocity, relaxed.spin);
         let v = relaxed.velocity + (out.velocity - relaxed.velocity) * share;
         let w = relaxed.spin + (out.spin - relaxed.spin) * share;
-        (body.d, body.turn) = (v * law.h(), w * law.h());
+        (body.d, body.turn) = (v * h, w * h);
     }
-    true
 }
