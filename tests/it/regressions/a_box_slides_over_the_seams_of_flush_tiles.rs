@@ -82,6 +82,45 @@ fn a_box_that_landed_passes_every_seam() {
     }
 }
 
+/// With friction, in both directions: whichever tile bears the box, it goes as it does on one slab, and stops there.
+#[test]
+fn tiles_bear_a_box_as_one_slab_does() {
+    let rough = Material {
+        friction: 0.2,
+        ..smooth(0.0)
+    };
+    for mode in MODES {
+        for speed in [3.0, -3.0] {
+            let [tiled, slab] = [(60, 1.0), (1, 60.0)].map(|(count, width)| {
+                let mut world = empty(mode);
+                for k in 0..count {
+                    let at = vec2((f64::from(k) + 0.5) * width - 30.0, -0.5);
+                    put(
+                        &mut world,
+                        BodyDef::fixed().at(at),
+                        block(width, 1.0),
+                        rough,
+                    );
+                }
+                let def = BodyDef::dynamic()
+                    .at(vec2(0.1, 0.25))
+                    .moving(vec2(speed, 0.0));
+                let id = put(&mut world, def, block(0.7, 0.5), rough);
+                let mut way = Vec::new();
+                for _ in 0..120 {
+                    world.step(1.0 / 60.0);
+                    way.push((place(&world, id), velocity(&world, id)));
+                }
+                way
+            });
+            for (step, (one, other)) in tiled.iter().zip(&slab).enumerate() {
+                let off = (one.0 - other.0).length() + (one.1 - other.1).length();
+                assert!(off < 1e-11, "{mode:?}, {speed} m/s, step {step}: {off}");
+            }
+        }
+    }
+}
+
 /// However little a tile stands out: what is not flush is a step.
 #[test]
 fn a_step_of_a_micrometre_stops_a_box() {

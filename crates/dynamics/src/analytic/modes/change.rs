@@ -1,9 +1,9 @@
 //! The next change of a mode, from roots of quadratics.
 
+use super::alone;
 use super::balance::{Balance, Basic, Problem, Tangent, balance};
 use super::faces::Faces;
 use super::{BodyMove, Cause, Change, Feature, ModeBody, NotMine, Touch, slip_rate, tangents};
-use arrayvec::ArrayVec;
 use carom_math::{falling_root, perp};
 
 /// How far ahead a load that shifts is looked at where nothing else ends the mode, in s.
@@ -12,11 +12,8 @@ const LOOK: f64 = 64.0;
 /// Instants within a mode at which a load that shifts is looked at.
 const LOOKS: u32 = 8;
 
-/// Unit normals that differ by no more are those of parallel edges, as edges are flush.
-const PARALLEL: f64 = 1e-9;
-
 /// Accelerations that differ by more than this part belong to another motion.
-const SAME: f64 = 1e-12;
+pub(super) const SAME: f64 = 1e-12;
 
 /// A force or an opening below this part of the largest one is rounding.
 const NOTHING: f64 = 1e-12;
@@ -83,7 +80,7 @@ pub(super) fn next(
             found,
             tangents: tangents(touches, slips),
         };
-        if let Some(after) = load.first_other_motion(load.looks(end)) {
+        if let Some(after) = load.tips(end) {
             first = Some(Change {
                 after,
                 touch,
@@ -101,15 +98,15 @@ pub(super) fn next(
 }
 
 /// How B slides along A: `speed τ + ½ rate τ²` along the tangent, and the stretches that each touches with.
-struct Slide {
-    speed: f64,
-    rate: f64,
+pub(super) struct Slide {
+    pub(super) speed: f64,
+    pub(super) rate: f64,
     a: [f64; 2],
     b: [f64; 2],
 }
 
 impl Slide {
-    fn of(touch: &Touch, moves: &[BodyMove]) -> Self {
+    pub(super) fn of(touch: &Touch, moves: &[BodyMove]) -> Self {
         let (a, b) = (&moves[touch.bodies.0], &moves[touch.bodies.1]);
         let t = perp(touch.normal);
         Self {
@@ -129,7 +126,7 @@ impl Slide {
     }
 
     /// When the stretches part: `a_high − b_low − d` or `b_high − a_low + d` comes to 0.
-    fn ends(&self) -> Option<f64> {
+    pub(super) fn ends(&self) -> Option<f64> {
         let up = falls_to_zero(self.a[1] - self.b[0], -self.speed, -self.rate);
         let down = falls_to_zero(self.b[1] - self.a[0], self.speed, self.rate);
         match (up, down) {
@@ -150,7 +147,7 @@ impl Slide {
     }
 }
 
-fn stretch(feature: Feature) -> [f64; 2] {
+pub(super) fn stretch(feature: Feature) -> [f64; 2] {
     match feature {
         Feature::Edge { low, high } => [low, high],
         Feature::Corner | Feature::Round => [0.0; 2],
@@ -161,7 +158,7 @@ fn stretch(feature: Feature) -> [f64; 2] {
 ///
 /// From a positive gap the first root is the falling one; in the form without cancellation
 /// τ = 2 gap / (−speed + √(speed² − 2 rate gap)).
-fn falls_to_zero(gap: f64, speed: f64, rate: f64) -> Option<f64> {
+pub(super) fn falls_to_zero(gap: f64, speed: f64, rate: f64) -> Option<f64> {
     if gap.is_infinite() || (speed >= 0.0 && rate >= 0.0) {
         return None;
     }
@@ -180,17 +177,25 @@ fn falls_to_zero(gap: f64, speed: f64, rate: f64) -> Option<f64> {
 }
 
 /// A load that shifts on what bears it.
-struct Load<'a> {
-    bodies: &'a [ModeBody],
-    touches: &'a [Touch],
-    moves: &'a [BodyMove],
-    found: &'a Balance,
-    tangents: Vec<Tangent>,
+pub(super) struct Load<'a> {
+    pub(super) bodies: &'a [ModeBody],
+    pub(super) touches: &'a [Touch],
+    pub(super) moves: &'a [BodyMove],
+    pub(super) found: &'a Balance,
+    pub(super) tangents: Vec<Tangent>,
 }
 
 impl Load<'_> {
+    /// The first instant before `end` from which on the forces need another motion.
+    fn tips(&self, end: f64) -> Option<f64> {
+        if let Some(ways) = alone::ways(self) {
+            return alone::tips(self, ways, end);
+        }
+        self.first_other_motion((1..=LOOKS).map(|k| end * f64::from(k) / f64::from(LOOKS)))
+    }
+
     /// The first instant from which on the forces need another motion, seen at these `looks`.
-    fn first_other_motion(&self, looks: impl IntoIterator<Item = f64>) -> Option<f64> {
+    pub(super) fn first_other_motion(&self, looks: impl IntoIterator<Item = f64>) -> Option<f64> {
         let mut good = 0.0;
         let mut basis = self.found.basic.clone();
         for look in looks {
@@ -253,46 +258,6 @@ impl Load<'_> {
         Some(problem.with_basis(basis)?.margins)
     }
 
-    /// Instants at which the load is looked at.
-    ///
-    /// What slides alone has its motion while some N ≥ 0 at the ends of its touches add up to what presses it, and their moments
-    /// to none. Seen from the body each end is where it was or falls back as the body goes on by d, so the lowest of them and
-    /// the highest only fall with d: the ways that bear it are one stretch, and both ends of the way tell of all between.
-    fn looks(&self, end: f64) -> ArrayVec<f64, { LOOKS as usize }> {
-        if !self.slides_alone() {
-            let part = |k| end * f64::from(k) / f64::from(LOOKS);
-            return (1..=LOOKS).map(part).collect();
-        }
-        let turns = self.touches.iter().filter_map(|touch| {
-            let slide = Slide::of(touch, self.moves);
-            let after = -slide.speed / slide.rate;
-            (after > 0.0 && after < end).then_some(after)
-        });
-        turns.take(1).chain([end]).collect()
-    }
-
-    /// Whether one body slides, and touches only what is at rest, on one side.
-    fn slides_alone(&self) -> bool {
-        let mut moving = (0..self.bodies.len()).filter(|at| self.bodies[*at].inverse_mass > 0.0);
-        let (Some(alone), None) = (moving.next(), moving.next()) else {
-            return false;
-        };
-        let rests = |(at, body): (usize, &BodyMove)| at == alone || *body == BodyMove::default();
-        let up = |touch: &Touch| {
-            if touch.bodies.1 == alone {
-                touch.normal
-            } else {
-                -touch.normal
-            }
-        };
-        let side = up(&self.touches[0]);
-        self.moves.iter().enumerate().all(rests)
-            && self
-                .touches
-                .iter()
-                .all(|touch| (up(touch) - side).length() <= PARALLEL)
-    }
-
     /// Whether the accelerations are the same where the load is then: with this basis, or with the one that takes its place.
     fn goes_on(&self, after: f64, basis: &mut Vec<bool>) -> bool {
         let faces = self.faces_at(after);
@@ -340,7 +305,7 @@ impl Load<'_> {
         both.map(|(x, y)| (x - y).abs()).fold(0.0, f64::max) / size
     }
 
-    fn faces_at(&self, after: f64) -> Faces {
+    pub(super) fn faces_at(&self, after: f64) -> Faces {
         let (bodies, touches) = self.at(after);
         Faces::new(&bodies, &touches)
     }
@@ -374,97 +339,4 @@ fn fallen(margins: &[f64]) -> Option<usize> {
     let size = margins.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
     let least = (0..margins.len()).min_by(|&i, &j| margins[i].total_cmp(&margins[j]))?;
     (margins[least] < -NOTHING * size).then_some(least)
-}
-
-#[cfg(test)]
-mod tests {
-    use arrayvec::ArrayVec;
-    use carom_math::{Vec2, vec2};
-    use proptest::prelude::*;
-
-    use super::super::faces;
-    use super::*;
-
-    /// A box 1 m wide slides on two floors at rest, at these heights and up to and from these ends.
-    fn slider(
-        speed: f64,
-        pull: Vec2,
-        ends: [f64; 2],
-        step: f64,
-        friction: f64,
-    ) -> (Vec<ModeBody>, Vec<Touch>) {
-        let body = |inverse_mass: f64, centre: Vec2, velocity: Vec2, pull: Vec2| ModeBody {
-            inverse_mass,
-            inverse_inertia: 3.0 * inverse_mass,
-            centre,
-            velocity,
-            spin: 0.0,
-            pull,
-            twist: 0.0,
-        };
-        let ground = body(0.0, Vec2::ZERO, Vec2::ZERO, Vec2::ZERO);
-        let slides = body(1.0, vec2(0.0, 1.0), vec2(speed, 0.0), pull);
-        let touch = |a: usize, (low, high): (f64, f64), y: f64, foot: (f64, f64)| {
-            let (from, to) = (low.max(foot.0), high.min(foot.1));
-            Touch {
-                bodies: (a, 2),
-                normal: Vec2::Y,
-                points: ArrayVec::from_iter([vec2(from, y), vec2(to, y)]),
-                features: (
-                    Feature::Edge {
-                        low: low - from,
-                        high: high - from,
-                    },
-                    Feature::Edge {
-                        low: foot.0 - from,
-                        high: foot.1 - from,
-                    },
-                ),
-                friction,
-            }
-        };
-        let touches = vec![
-            touch(0, (-9.0, ends[0]), 0.0, (-0.5, 0.0)),
-            touch(1, (ends[1], 9.0), step, (0.0, 0.5)),
-        ];
-        (vec![ground, ground, slides], touches)
-    }
-
-    proptest! {
-        #[test]
-        fn two_looks_at_what_slides_alone_see_what_many_see(
-            speed in -3.0..3.0,
-            pull in (-3.0..3.0, -12.0..-1.0),
-            ends in (-0.4..0.5, -0.5..0.4),
-            step in -0.3..0.3,
-            friction in prop_oneof![Just(0.0), 0.0..0.6],
-            end in 0.01..1.0,
-        ) {
-            let ends = [ends.0, ends.1];
-            let (bodies, touches) = slider(speed, vec2(pull.0, pull.1), ends, step, friction);
-            let faces = Faces::new(&bodies, &touches);
-            let slips = faces::slips(&bodies, &touches, speed.abs()).expect("it slides");
-            let tangents = tangents(&touches, &slips);
-            let found = balance(&faces, &tangents);
-            prop_assume!(found.is_ok());
-            let found = found.expect("asked for");
-            let moves = faces.moves(&bodies, &found, &slips);
-            let load = Load { bodies: &bodies, touches: &touches, moves: &moves, found: &found, tangents };
-            prop_assume!(moves[2].spin == 0.0 && moves[2].angular_acceleration == 0.0);
-            prop_assume!(load.slides_alone());
-            // As far as the touches and the slip last: no look lies beyond that.
-            let ends = touches.iter().filter_map(|touch| Slide::of(touch, &moves).ends());
-            let stops = touches.iter().zip(&slips).filter_map(|(touch, slip)| {
-                let after = -slip / slip_rate(&bodies, touch, &moves);
-                (touch.friction > 0.0 && after > 0.0).then_some(after)
-            });
-            let end = ends.chain(stops).fold(end, f64::min);
-            let few = load.first_other_motion(load.looks(end));
-            let many = load.first_other_motion((1..=256).map(|k| end * f64::from(k) / 256.0));
-            match (few, many) {
-                (Some(few), Some(many)) => prop_assert!((few - many).abs() <= 1e-9, "{few} {many}"),
-                (few, many) => prop_assert_eq!(few, many),
-            }
-        }
-    }
 }

@@ -7,6 +7,7 @@
 //!
 //! Pure functions on plain data, without a world.
 
+mod alone;
 mod balance;
 mod change;
 mod faces;
