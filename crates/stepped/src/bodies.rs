@@ -107,7 +107,7 @@ impl Bodies {
             kind: input.kind,
             live: true,
             sleep_allowed: input.sleep_allowed,
-            birth: self.births,
+            birth: input.order.unwrap_or(self.births),
             pose: input.pose,
             mass: if dynamic { input.mass } else { f64::INFINITY },
             inertia: if dynamic {

@@ -4,7 +4,7 @@ use carom_geometry::Aabb;
 use carom_math::Vec2;
 use fearless_simd::Level;
 
-use crate::bodies::Bodies;
+use crate::bodies::{Bodies, BodyKind};
 use crate::broad::{Broad, Pairs};
 use crate::continuous::{FastBody, note_fast};
 use crate::ghost::hide;
@@ -50,6 +50,8 @@ pub struct Engine {
     done: u32,
     /// Contacts of the next sub-step were found.
     found: bool,
+    /// Boxes were made for the search that comes next.
+    posed: Option<Posed>,
     /// Tags of both pieces of each contact that ended while it touched.
     pub(crate) ended: Vec<[u64; 2]>,
     /// Bodies that went far in the last sub-step, or were carried by a caller since.
@@ -62,6 +64,15 @@ pub struct Engine {
     pub(crate) heat: f64,
     /// The least gap of a contact in the last sub-step that was relaxed, in m.
     pub(crate) least_gap: f64,
+}
+
+/// What the boxes of the next search were made for.
+#[derive(Clone, Copy, Debug)]
+struct Posed {
+    /// A tick begins, and all bodies are searched for.
+    at_tick: bool,
+    /// Some body came, or goes otherwise than was foreseen at the tick.
+    deviates: bool,
 }
 
 impl Engine {
@@ -91,6 +102,7 @@ impl Engine {
             impacts: Impacts::default(),
             done: 0,
             found: false,
+            posed: None,
             ended: Vec::new(),
             fast_bodies: Vec::new(),
             far: Vec::new(),
@@ -125,7 +137,8 @@ impl Engine {
     /// otherwise than was foreseen there in each.
     pub fn substep(&mut self, rules: &dyn PairRules) {
         self.find_contacts(rules);
-        self.go(rules);
+        self.advance();
+        self.finish(rules);
     }
 
     /// Says which sub-step of its tick is the next, from 0: time went by without one. Whether it did.
@@ -133,7 +146,7 @@ impl Engine {
         let done = done % self.settings.substeps;
         let passed = self.done != done;
         if passed {
-            (self.done, self.found) = (done, false);
+            (self.done, self.found, self.posed) = (done, false, None);
         }
         passed
     }
@@ -154,34 +167,85 @@ impl Engine {
     /// wakes islands that are met, and boxes are those of the sub-step; only bodies that came or were moved since are searched for
     /// again. Whether some body came, or goes otherwise than was foreseen at the tick.
     pub fn find_contacts(&mut self, rules: &dyn PairRules) -> bool {
-        let again = core::mem::replace(&mut self.found, true);
-        if again && !self.broad.has_arrivals() && !self.bodies.moved[2..].contains(&true) {
+        self.pose_boxes();
+        let Some(posed) = self.posed.take() else {
+            return false;
+        };
+        self.found = true;
+        let Self {
+            level,
+            bodies,
+            pieces,
+            broad,
+            settings,
+            ..
+        } = self;
+        if posed.at_tick {
+            broad.find(*level, bodies, pieces, settings.tick);
+        } else if posed.deviates || broad.has_arrivals() {
+            broad.find_few(*level, bodies, pieces, settings.tick);
+        } else {
             return false;
         }
-        let at_tick = self.done == 0 && !again;
+        self.update_contacts(rules);
+        !posed.at_tick
+    }
+
+    /// Makes the boxes in which [`Self::find_contacts`] searches next, which else makes them itself: fixed bodies and sleepers that
+    /// come between the two are met as if they had been there before. See [`Self::new_boxes`].
+    pub fn pose_boxes(&mut self) {
+        let is_known = self.found && !self.broad.has_arrivals();
+        if self.posed.is_some() || is_known && !self.bodies.moved[2..].contains(&true) {
+            return;
+        }
+        let at_tick = self.done == 0 && !self.found;
         let mut deviates = false;
         if at_tick {
             self.rebase();
-            self.broad
-                .find(self.level, &self.bodies, &self.pieces, self.settings.tick);
-            self.update_contacts(rules);
         } else {
-            deviates = self.update_deviating(rules);
+            let rest = self.left();
+            deviates = self.bodies.rebase_deviating(&self.settings, rest);
+            if deviates || self.broad.has_arrivals() {
+                self.pose_moved();
+            }
         }
-        deviates
+        self.posed = Some(Posed { at_tick, deviates });
     }
 
-    /// One sub-step with the contacts that are known.
-    fn go(&mut self, rules: &dyn PairRules) {
-        (self.done, self.found) = (self.done + 1, false);
+    /// Calls `found` with the tag and the box of each dynamic body, or of a piece of it, that the next search is about, after
+    /// [`Self::pose_boxes`].
+    pub fn new_boxes(&self, mut found: impl FnMut(u64, Aabb)) {
+        let mut tell = |slot: u32, pieces: core::ops::Range<u32>| {
+            let record = &self.bodies.records[slot as usize];
+            if record.kind == BodyKind::Dynamic {
+                let boxes = pieces.map(|piece| self.pieces.boxes[piece as usize]);
+                found(record.tag, boxes.fold(Aabb::EMPTY, Aabb::union));
+            }
+        };
+        for line in (2..self.bodies.lines.len()).filter(|line| self.bodies.moved[*line]) {
+            tell(self.bodies.slot_of[line], self.bodies.pieces_of_line(line));
+        }
+        for &piece in self.broad.woken() {
+            tell(self.pieces.list[piece as usize].body, piece..piece + 1);
+        }
+    }
+
+    /// What [`Self::substep`] does between [`Self::find_contacts`] and [`Self::finish`].
+    pub fn advance(&mut self) {
+        (self.done, self.found, self.posed) = (self.done + 1, false, None);
         self.hard
             .gather(self.law.h, &mut self.graph, &mut self.bodies);
         self.extra.gather(&mut self.graph, &self.bodies);
         self.deep.gather(&mut self.graph, &self.bodies);
         let last = self.done == self.settings.substeps;
         self.move_bodies(last);
+    }
+
+    /// What [`Self::substep`] ends with: continuous collision for what [`Self::advance`] moved far, which is searched for in
+    /// [`Self::fast_boxes`]; and sleep, where a tick ends.
+    pub fn finish(&mut self, rules: &dyn PairRules) {
         self.stop_fast(self.law.h, rules);
-        if last {
+        if self.done == self.settings.substeps {
             self.done = 0;
             self.settle();
         }
@@ -190,25 +254,11 @@ impl Engine {
     /// The rest of a tick, once its contacts are known.
     #[cfg(test)]
     pub(crate) fn substeps(&mut self) {
-        self.go(&Mixed);
+        self.advance();
+        self.finish(&Mixed);
         while self.done > 0 {
             self.substep(&Mixed);
         }
-    }
-
-    /// Finds the contacts of bodies that came, or deviate from the motion predicted at the tick, for the rest of it; whether
-    /// there are any.
-    fn update_deviating(&mut self, rules: &dyn PairRules) -> bool {
-        let rest = self.left();
-        let deviates = self.bodies.rebase_deviating(&self.settings, rest);
-        if deviates || self.broad.has_arrivals() {
-            self.pose_moved();
-            self.broad
-                .find_few(self.level, &self.bodies, &self.pieces, self.settings.tick);
-            self.update_contacts(rules);
-            return true;
-        }
-        false
     }
 
     /// Makes where bodies are their base poses, if that is far from these, and their boxes anew.

@@ -48,6 +48,9 @@ pub struct BodyInput {
     pub sleep_allowed: bool,
     /// The caller's own: [`State`](crate::State) names bodies by it.
     pub tag: u64,
+    /// Its place among all bodies, where these may be inserted in any order with equal bits: all have one then, and no two the same.
+    /// `None`: by the order of insertion.
+    pub order: Option<u64>,
 }
 
 impl BodyInput {
@@ -66,6 +69,7 @@ impl BodyInput {
             damping: [0.0; 2],
             sleep_allowed: true,
             tag: 0,
+            order: None,
         }
     }
 

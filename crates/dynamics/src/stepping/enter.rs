@@ -42,12 +42,11 @@ impl World {
     /// Whether the engine is to know a body; one that does not belong to it any more is no guest.
     fn belongs(&mut self, index: u32) -> bool {
         let state = self.bodies.get_mut(index);
-        let rests = state.is_asleep() || !state.is_dynamic();
-        state.is_guest &= rests && !state.in_engine();
+        state.is_guest &= state.rests_or_drives() && !state.in_engine();
         self.settings.mode == Mode::Stepped || state.in_engine() || state.is_guest
     }
 
-    fn enter(&mut self, stepping: &mut Stepping, index: u32, time: SimTime) {
+    pub(super) fn enter(&mut self, stepping: &mut Stepping, index: u32, time: SimTime) {
         let state = self.bodies.get(index);
         // A body that joined within a sub-step waited there.
         let at = if state.in_engine() {
@@ -213,5 +212,7 @@ fn input_of(state: &BodyState, time: SimTime) -> BodyInput {
     input.gravity_scale = state.gravity_scale();
     input.sleep_allowed = state.sleep_allowed();
     input.tag = u64::from(state.id.index);
+    // Bodies join, and guests are invited, when they are near.
+    input.order = Some(input.tag);
     input
 }

@@ -4,8 +4,8 @@
 //! free, analytic, held ─► near a member within the tick, or in an island without a closed form ─► member
 //! member ─► no contact for three ticks, and no body near ─► free
 //! ```
-//! Fixed and kinematic bodies, and bodies that sleep outside of the engine, are its guests: it knows them, and moves only
-//! members that meet them.
+//! Kinematic bodies are its guests, and so are fixed ones and those that sleep outside of the engine where members are near
+//! (`guests`): it knows them, and moves only members that meet them.
 
 use std::collections::BTreeSet;
 
@@ -21,7 +21,7 @@ use crate::model::gap::is_round;
 use crate::model::graph::neighbours;
 use crate::store::bodies::Bodies;
 use crate::store::state::BodyState;
-use crate::{BodyKind, EnergyLedger, Mode, World};
+use crate::{EnergyLedger, Mode, World};
 
 /// Islands of more bodies than this join the engine even if nothing bears them; so many wake, or land, at once.
 pub(crate) const FEW: usize = 16;
@@ -35,10 +35,10 @@ const IDLE: u8 = 2;
 /// What the boundary to the engine keeps of its members.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Joins {
-    /// Guests have entered, and are told of from now on.
+    /// The engine had a member: bodies that come to rest are guests from now on.
     pub(super) has_guests: bool,
-    /// Kinematic guests, and some that were.
-    pub(super) drivers: Vec<u32>,
+    /// Kinematic bodies, and some that were.
+    pub(super) drivers: BTreeSet<u32>,
     /// Bodies that woke in the engine.
     pub(super) woken: Vec<u32>,
     /// Shapes that touched when one of their bodies joined: the caller was told.
@@ -207,7 +207,7 @@ impl World {
         if !self.is_substepping() {
             self.clock.catch_up(time);
         }
-        self.invite();
+        self.invite_drivers();
         if self.bodies.get(index).goes_by_events() {
             self.bodies.get_mut(index).land();
             self.free.vanish(&mut self.bodies, index);
@@ -222,28 +222,6 @@ impl World {
         (state.member, state.idle) = (false, 0);
         self.bodies.touch(index);
         self.leave_pairs(index, time);
-    }
-
-    /// Fixed and kinematic bodies and sleepers are known to the engine from its first member on.
-    fn invite(&mut self) {
-        if !core::mem::replace(&mut self.joins.has_guests, true) {
-            for index in self.bodies.indices().collect::<Vec<_>>() {
-                self.show_engine(index);
-            }
-        }
-    }
-
-    /// Has the engine know a body that rests or drives.
-    pub(crate) fn show_engine(&mut self, index: u32) {
-        let state = self.bodies.get_mut(index);
-        if !self.joins.has_guests || state.in_engine() || !state.is_asleep() && state.is_dynamic() {
-            return;
-        }
-        state.is_guest = true;
-        if state.kind == BodyKind::Kinematic {
-            self.joins.drivers.push(index);
-        }
-        self.bodies.touch(index);
     }
 
     /// Takes a body's boxes and pairs from the world: the engine has its own. What touches goes on to touch.

@@ -42,8 +42,6 @@ impl World {
         let slept = stepping.engine.set_phase(phase);
         if slept || phase == 0 {
             let mut drivers = core::mem::take(&mut self.joins.drivers);
-            drivers.sort_unstable();
-            drivers.dedup();
             let bodies = &self.bodies;
             drivers.retain(|index| {
                 bodies.is_alive(*index) && bodies.get(*index).kind == BodyKind::Kinematic
@@ -65,7 +63,7 @@ impl World {
         if !self.bodies.touched.is_empty() {
             self.enter_changed(&mut stepping, time, time);
         }
-        let deviates = stepping.engine.find_contacts(&self.rules());
+        let deviates = self.search_contacts(&mut stepping);
         self.tell_sleep(&mut stepping, time);
         self.tell_impacts(&mut stepping, time);
         self.stepping = Some(stepping);
@@ -100,7 +98,7 @@ impl World {
         self.end_motions(&mut stepping);
         if !self.bodies.touched.is_empty() {
             self.enter_changed(&mut stepping, time, time);
-            stepping.engine.find_contacts(&self.rules());
+            self.search_contacts(&mut stepping);
             self.tell_sleep(&mut stepping, time);
         }
         self.pull_members(&mut stepping);

@@ -12,6 +12,7 @@
 //! the engine moves: [`near`], [`rush`] and [`heap`] say which join), [`members`] (a sub-step of them) and [`within`].
 
 mod enter;
+mod guests;
 mod heap;
 mod join;
 mod members;
@@ -26,6 +27,7 @@ mod write;
 
 use std::collections::BTreeMap;
 
+use carom_geometry::Aabb;
 use carom_math::{Pose, SimTime};
 use carom_stepped::{Engine, Impact, Relaxation, Softness, State, Touch};
 
@@ -41,6 +43,8 @@ pub(crate) struct Stepping {
     pub(crate) engine: Engine,
     /// The engine's name of each body, by place in the world.
     ids: Vec<Option<carom_stepped::BodyId>>,
+    /// Where each member was searched around: all that rests there is a guest. By place in the world.
+    covered: Vec<Aabb>,
     /// Greatest width of a shape of several convex pieces that the engine was given, in m: its box may be where no piece is.
     widest: f64,
     /// Shapes of several convex pieces that touch: how many pairs of theirs.
@@ -75,6 +79,7 @@ impl Stepping {
                 Ok(Box::new(Self {
                     engine,
                     ids: Vec::new(),
+                    covered: Vec::new(),
                     widest: 0.0,
                     touching: BTreeMap::new(),
                     slept: Vec::new(),
@@ -210,7 +215,10 @@ impl World {
 
     fn substep_engine(&mut self, stepping: &mut Stepping) {
         let looks = stepping.engine.looks();
-        stepping.engine.substep(&self.rules());
+        self.search_contacts(stepping);
+        stepping.engine.advance();
+        self.invite_ahead(stepping, self.clock.h);
+        stepping.engine.finish(&self.rules());
         self.report.pairs += stepping.engine.looks() - looks;
         let deepest = stepping.engine.deepest_overlap();
         self.report.deepest_overlap = self.report.deepest_overlap.max(deepest);

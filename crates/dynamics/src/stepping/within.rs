@@ -28,6 +28,7 @@ impl World {
             }
         }
         let left = end - now;
+        self.invite_ahead(stepping, left);
         for id in stepping.engine.stop_fast(left, &self.rules()) {
             let Ok(there) = stepping.engine.state(id) else {
                 continue;

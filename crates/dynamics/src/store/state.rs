@@ -299,6 +299,11 @@ impl BodyState {
         self.kind == BodyKind::Dynamic
     }
 
+    /// No contact moves it now.
+    pub(crate) fn rests_or_drives(&self) -> bool {
+        self.is_asleep() || !self.is_dynamic()
+    }
+
     /// It may sleep, and does not move.
     pub(crate) fn can_sleep(&self) -> bool {
         self.is_dynamic()

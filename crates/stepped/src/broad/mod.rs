@@ -99,6 +99,11 @@ impl Broad {
         !self.arrived.is_empty() || !self.woken.is_empty()
     }
 
+    /// Pieces that woke since the last search, and perhaps sleep again.
+    pub(crate) fn woken(&self) -> &[u32] {
+        &self.woken
+    }
+
     /// Finds the pairs of which one piece moved, arrived or woke: at a tick.
     pub(crate) fn find(&mut self, level: Level, bodies: &Bodies, pieces: &Pieces, tick: f64) {
         let moved = bodies.moved[2..].iter().filter(|moved| **moved).count();

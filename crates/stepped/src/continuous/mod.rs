@@ -145,13 +145,37 @@ impl Engine {
         bodies.fast(self.law.h).map(|slot| bodies.id(slot))
     }
 
+    /// Calls `found` with the tag of each fast body that [`Self::stop_fast`] may search for beyond the box of the tick, and where.
+    pub fn fast_boxes(&self, left: f64, mut found: impl FnMut(u64, Aabb)) {
+        let noted = self.fast_bodies.iter();
+        let noted = noted.filter(|body| self.is_searched(body));
+        let fast: Vec<Moving> = noted.map(|body| self.moving(body, left)).collect();
+        // What one of them passes on to another one takes that elsewhere, no faster.
+        let passed = if fast.len() > 1 {
+            let speeds = fast.iter().map(|body| body.motion.velocity.length());
+            speeds.fold(0.0, f64::max) * left
+        } else {
+            0.0
+        };
+        for body in fast {
+            let record = &self.bodies.records[body.slot as usize];
+            found(
+                record.tag,
+                bounds_of(&body.motion, record.reach + passed, left),
+            );
+        }
+    }
+
+    /// A body may have been removed, fixed or put to sleep since it was noted.
+    fn is_searched(&self, body: &FastBody) -> bool {
+        self.bodies.is_dynamic(body.slot) && self.bodies.line_of(body.slot) >= 2
+    }
+
     /// Stops fast bodies that would pass through others within the `left` seconds of their motions; which ones it stopped.
     pub fn stop_fast(&mut self, left: f64, rules: &dyn PairRules) -> Vec<BodyId> {
-        // Each motion is searched once; a body may have been removed, fixed or put to sleep since it was noted.
+        // Each motion is searched once.
         let mut noted = core::mem::take(&mut self.fast_bodies);
-        noted.retain(|body| {
-            self.bodies.is_dynamic(body.slot) && self.bodies.line_of(body.slot) >= 2
-        });
+        noted.retain(|body| self.is_searched(body));
         if noted.is_empty() {
             return Vec::new();
         }
