@@ -97,7 +97,7 @@ impl World {
         !matches!(self.settings.mode, Mode::Stepped)
     }
 
-    /// Islands of more bodies join even if nothing bears them; so many wake, or land, at once.
+    /// If more bodies wake together, or land, they join before closed forms are tried.
     pub(crate) const fn few(&self) -> usize {
         match self.settings.mode {
             Mode::Exact => MANY,
