@@ -2,7 +2,7 @@
 
 use core::ops::Range;
 
-use super::{Row, SolverBody};
+use super::{Row, SolverBody, Source};
 use crate::model::graph::Tree;
 
 /// What is known of the group that one body stands for.
@@ -14,11 +14,10 @@ struct Known {
 }
 
 /// Puts the rows of each group one after the other, with where they came from; whether all of them are round, and where they lie.
-pub(super) fn set_apart<S: Copy>(
+pub(super) fn set_apart(
     bodies: &[SolverBody],
     rows: &mut Vec<Row>,
-    sources: &mut Vec<S>,
-    is_round: impl Fn(&S) -> bool,
+    sources: &mut Vec<Source>,
 ) -> Vec<(bool, Range<usize>)> {
     let moves = |place: u32| bodies[place as usize].inverse_mass > 0.0;
     let mut groups = Tree::new(bodies.len());
@@ -40,14 +39,14 @@ pub(super) fn set_apart<S: Copy>(
     let mut first = Vec::new();
     for (source, root) in sources.iter().zip(&roots) {
         let group = &mut known[*root];
-        group.is_round &= is_round(source);
+        group.is_round &= source.is_round;
         if group.number == 0 {
             first.push(*root);
             group.number = first.len();
         }
     }
     // The sort is stable: rows of one number stay in their order.
-    let mut all: Vec<(usize, Row, S)> = (0..rows.len())
+    let mut all: Vec<(usize, Row, Source)> = (0..rows.len())
         .map(|k| (known[roots[k]].number, rows[k], sources[k]))
         .collect();
     all.sort_by_key(|(number, ..)| *number);

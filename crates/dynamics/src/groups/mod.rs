@@ -132,9 +132,7 @@ impl Groups {
         }
         report.rows += self.rows.len() as u64;
         self.round_of.resize(self.bodies.len(), NOT_HERE);
-        let groups = set_apart(&self.bodies, &mut self.rows, &mut self.sources, |source| {
-            source.is_round
-        });
+        let groups = set_apart(&self.bodies, &mut self.rows, &mut self.sources);
         for (is_round, group) in groups {
             let (rows, sources) = (
                 &mut self.rows[group.clone()],

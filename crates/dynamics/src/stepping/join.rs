@@ -114,7 +114,7 @@ impl World {
         }
     }
 
-    /// Islands without a solution of their contact modes join, unless they are small and borne by nothing.
+    /// Islands without a solution of their contact modes join, but for those that stay out.
     pub(crate) fn join_unsolved(&mut self, time: SimTime) {
         let mut stepped = self.stepped.iter();
         if self.may_join() && stepped.any(|index| self.is_unsolved(*index)) {

@@ -32,7 +32,7 @@ impl World {
             if known.is_asleep() == asleep {
                 continue;
             }
-            if self.settings.mode != Mode::Stepped && !asleep {
+            if self.may_join() && !asleep {
                 self.joins.woken.push(index);
                 if !known.in_engine() {
                     // A guest wakes with all that sleeps in touch with it.
