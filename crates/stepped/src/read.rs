@@ -22,7 +22,7 @@ pub struct State {
     pub turned: f64,
     /// Velocity of the centre of mass, in m/s, and spin, in rad/s.
     pub velocity: (Vec2, f64),
-    /// The same before the last sub-step.
+    /// The same before the last sub-step; of bodies that nothing bears or pulls, once contacts acted as it began.
     pub before: (Vec2, f64),
 }
 
@@ -125,16 +125,20 @@ impl Engine {
         let slot = bodies.slot_of[at];
         let record = &bodies.records[slot as usize];
         let line = &bodies.lines[at];
-        let (start, pull, drag) = (&bodies.start[at], &bodies.pull[at], &bodies.drag[at]);
-        let [x, y, w] = velocity_before(start, pull, drag, self.law.h);
+        let velocity = (line.v() + Vec2::ZERO, line.w() + 0.0);
+        let before = self.hard.straight(slot).unwrap_or_else(|| {
+            let (start, pull, drag) = (&bodies.start[at], &bodies.pull[at], &bodies.drag[at]);
+            let [x, y, w] = velocity_before(start, pull, drag, self.law.h);
+            (Vec2::new(x, y), w)
+        });
         State {
             id: bodies.id(slot),
             tag: record.tag,
             kind: record.kind,
             pose: bodies.pose_of(slot),
             turned: bodies.turned[at] + line.turn(),
-            velocity: (line.v() + Vec2::ZERO, line.w() + 0.0),
-            before: (Vec2::new(x, y), w),
+            velocity,
+            before,
         }
     }
 

@@ -85,6 +85,13 @@ impl Default for Softness {
     }
 }
 
+impl Sleep {
+    /// Speed up to which a body of this extent, in m, counts as at rest, in m/s.
+    pub(crate) const fn least(&self, extent: f64) -> f64 {
+        (self.speed * extent).max(self.slow)
+    }
+}
+
 impl Default for Sleep {
     fn default() -> Self {
         Self {

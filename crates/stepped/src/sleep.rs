@@ -57,8 +57,7 @@ impl Engine {
         for ((line, limit), rest) in lines.iter().zip(limits).zip(rest).skip(2) {
             let v = line.v();
             let speed = v.x.abs().max(v.y.abs()) + line.w().abs() * limit.reach;
-            let least = (sleep.speed * limit.extent).max(sleep.slow);
-            let rests = speed <= least && line.inverse_mass() > 0.0;
+            let rests = speed <= sleep.least(limit.extent) && line.inverse_mass() > 0.0;
             *rest = if rests {
                 *rest + self.settings.tick
             } else {

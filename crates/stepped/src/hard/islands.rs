@@ -1,8 +1,9 @@
-//! Which islands take hard rows: where a body bears one of more than 16 times its mass, or goes far in a sub-step, and all rows are
-//! few enough.
+//! Which islands take hard rows: where a body bears one of more than 16 times its mass, or goes far in a sub-step, or where nothing
+//! bears or pulls any, and all rows are few enough.
 //!
 //! Whether an island does is a pure function of its bodies and contacts.
 
+use super::free::is_free;
 use crate::bodies::Bodies;
 use crate::rows::Graph;
 
@@ -13,12 +14,15 @@ struct MostPoints {
     comes: usize,
     /// While it is in them: points come and go where bodies rock.
     stays: usize,
+    /// Nothing may bear or pull it.
+    free: bool,
 }
 
 /// Of islands with a load that sweeps cannot carry.
 const UNDER_LOAD: MostPoints = MostPoints {
     comes: 64,
     stays: 80,
+    free: false,
 };
 
 /// Of islands with a fast body: turning presses what a ring carries at 14.7 rad/s by 35 g, and soft rows let it sink in by 28 mm, hard
@@ -26,6 +30,14 @@ const UNDER_LOAD: MostPoints = MostPoints {
 const WITH_FAST: MostPoints = MostPoints {
     comes: 16,
     stays: 20,
+    free: false,
+};
+
+/// Of islands that nothing bears or pulls: they keep their angular momentum.
+const FREE: MostPoints = MostPoints {
+    comes: 64,
+    stays: 80,
+    free: true,
 };
 
 /// Cosine of the angle between a load and what may bear it, at least.
@@ -74,6 +86,7 @@ pub(super) fn find(
         }
     }
     find_fast(graph, bodies, h, known, &mut found);
+    find_free(graph, bodies, known, &mut found);
     for contacts in &mut found {
         graph.sort(bodies, contacts);
     }
@@ -116,6 +129,29 @@ fn find_fast(
     }
 }
 
+/// Adds the islands that nothing bears or pulls which are not there yet.
+fn find_free(graph: &Graph, bodies: &Bodies, known: &mut Vec<Known>, found: &mut Vec<Vec<u32>>) {
+    known.clear();
+    known.resize(bodies.records.len(), Known::Nothing);
+    for slot in found
+        .iter()
+        .flatten()
+        .flat_map(|id| graph.contacts[*id as usize].bodies)
+    {
+        known[slot as usize] = Known::Asked;
+    }
+    for line in 2..bodies.lines.len() {
+        let slot = bodies.slot_of[line];
+        if known[slot as usize] == Known::Nothing
+            && bodies.records[slot as usize].contacts != Bodies::NONE
+            && is_free(bodies, line)
+            && let Some(contacts) = component(graph, bodies, (slot, FREE), known)
+        {
+            found.push(contacts);
+        }
+    }
+}
+
 /// Contacts of the component of a body: what hangs together by rows, whether these push or not, as hard and soft rows share no body
 /// that moves. None if it is too large, or a contact of it is in the overflow colour.
 fn component(
@@ -141,7 +177,7 @@ fn component(
                 contacts.push(id);
             }
             hard |= contact.is_hard();
-            fits &= contact.mask() != 0;
+            fits &= contact.mask() != 0 && (!most.free || is_free(bodies, bodies.line_of(other)));
             if moves && known[other as usize] != Known::Asked {
                 fits &= known[other as usize] != Known::Large;
                 known[other as usize] = Known::Asked;

@@ -4,6 +4,7 @@ use carom_impact::{Friction, HeldFace, HeldPoint, ImpactBody, held_faces};
 use carom_math::{Vec2, perp};
 
 use super::conditions::{answers, justified, rest};
+use super::free::is_free;
 use crate::Settings;
 use crate::bodies::Bodies;
 use crate::rows::{Block, Graph, Law, Line, OPEN, Quad};
@@ -40,6 +41,8 @@ pub(super) struct Island {
     pub(super) contacts: Vec<HardContact>,
     /// The most that pull adds to a speed in the sub-step, in m/s.
     pub(super) pulled: f64,
+    /// Displacements of its bodies as the sub-step begins, if they are free; see [`super::free`].
+    pub(super) from: Vec<Quad>,
 }
 
 /// The lane of a contact.
@@ -49,12 +52,13 @@ pub(super) fn lane_of(graph: &Graph, id: u32) -> (&Block, usize) {
 }
 
 impl Island {
-    pub(super) fn of(law: &Law, graph: &Graph, bodies: &Bodies, ids: &[u32]) -> Self {
+    pub(super) fn of(law: &Law, graph: &mut Graph, bodies: &Bodies, ids: &[u32]) -> Self {
         let mut island = Self {
             lines: Vec::new(),
             bodies: Vec::new(),
             contacts: Vec::with_capacity(ids.len()),
             pulled: 0.0,
+            from: Vec::new(),
         };
         for &id in ids {
             let (block, cold, lane) = graph.lane(id);
@@ -79,6 +83,13 @@ impl Island {
             .iter()
             .map(|line| bodies.pull[*line as usize].v().length());
         island.pulled = law.h * pulls.fold(0.0, f64::max);
+        if island
+            .lines
+            .iter()
+            .all(|line| is_free(bodies, *line as usize))
+        {
+            island.begin_free(bodies, graph);
+        }
         island
     }
 
@@ -243,6 +254,7 @@ impl Island {
         graph: &Graph,
         settings: &Settings,
     ) -> f64 {
+        self.go_straight(law, bodies);
         let mut least = self.least_gap(bodies, graph);
         if least < -self.touches(law) {
             let faces = self.faces(
@@ -253,7 +265,8 @@ impl Island {
             for body in &mut self.bodies {
                 (body.velocity, body.spin) = (Vec2::ZERO, 0.0);
             }
-            let parted = held_faces(&self.bodies, &faces).bodies;
+            let held = held_faces(&self.bodies, &faces);
+            let parted = held.bodies;
             // What is wedged in goes a long way for a little room: no body is pushed faster than any overlap.
             let speeds = parted.iter().map(|to| to.velocity.length());
             let fastest = speeds.fold(0.0, f64::max);
@@ -263,6 +276,8 @@ impl Island {
                 let (d, turn) = (line.d() + to.velocity * way, line.turn() + to.spin * way);
                 line.set_displacement(d, turn);
             }
+            self.note_parted(bodies, settings, &parted, way * law.inverse_h);
+            self.turn_back(bodies, graph, (&held.impulses, way));
             least = self.least_gap(bodies, graph);
         }
         for &line in &self.lines {
@@ -272,6 +287,25 @@ impl Island {
             bodies.moved[line as usize] |= is_stale;
         }
         least
+    }
+
+    /// What is parted faster than at a speed that counts as slow is not at rest, though displacements are no velocities.
+    fn note_parted(
+        &self,
+        bodies: &mut Bodies,
+        settings: &Settings,
+        parted: &[ImpactBody],
+        share: f64,
+    ) {
+        let Some(sleep) = settings.sleep else {
+            return;
+        };
+        for (&line, to) in self.lines.iter().zip(parted) {
+            let at = line as usize;
+            if share * to.velocity.length() > sleep.least(bodies.limits[at].extent) {
+                bodies.rest[at] = bodies.rest[at].min(0.0);
+            }
+        }
     }
 
     /// The least gap where the bodies are now, in m; gaps are those there.

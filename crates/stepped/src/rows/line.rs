@@ -41,6 +41,11 @@ impl Line {
         self.0[6]
     }
 
+    /// Displacement and turn since the base pose.
+    pub(crate) const fn displacement(&self) -> Quad {
+        Quad::new(self.d(), self.turn())
+    }
+
     pub(crate) const fn inverse_mass(&self) -> f64 {
         self.0[3]
     }

@@ -4,6 +4,7 @@ mod bouncing;
 mod calls;
 mod composition;
 mod fast;
+mod free;
 mod geometry;
 mod ghosts;
 mod hard;
