@@ -1,5 +1,6 @@
 //! Broad phase: which pieces may touch within the tick.
 
+mod keys;
 mod pairs;
 mod sweep;
 mod table;
@@ -164,8 +165,11 @@ impl Broad {
         self.few.clear();
         self.woken.sort_unstable();
         let woken = &self.woken;
-        let movers = (2..bodies.lines.len()).flat_map(|line| bodies.pieces_of_line(line));
-        let movers = movers.map(|piece| (piece, asks(bodies, pieces, woken, piece)));
+        let movers = (2..bodies.lines.len()).flat_map(|line| {
+            let moved = bodies.moved[line];
+            let pieces = bodies.pieces_of_line(line);
+            pieces.map(move |piece| (piece, moved || woken.binary_search(&piece).is_ok()))
+        });
         self.sweep.sort(movers, pieces);
     }
 

@@ -11,23 +11,22 @@ use carom_geometry::Aabb;
 use carom_math::vec2;
 use fearless_simd::{Level, Simd, SimdBase, SimdMask, dispatch, f64x4};
 
+use super::keys::{Key, ordered, put_in_order, rounded};
 use crate::pieces::{Disc, Pieces};
 
 /// A box more than so many times the median is unusual. Less: many boxes ask one by one; more: strips so high that
 /// everything in them is compared.
 const UNUSUAL: f64 = 2.0;
 
+/// Strips are so many times as high as the highest of the usual boxes, so that they stay while boxes grow: all keys change with them.
+/// 1: what falls gets new strips in each tick.
+const ROOM: f64 = 1.05;
+
+/// Strips get lower once no usual box is this part as high.
+const LOW: f64 = 0.8;
+
 /// Boxes tested at once.
 const LANES: usize = 4;
-
-/// A mover and its place in the sweep.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-struct Key {
-    /// Strip above the order of the left end, rounded down to f32.
-    place: u64,
-    piece: u32,
-    moved: bool,
-}
 
 /// A mover as the sweep asks about it.
 #[derive(Clone, Copy, Debug)]
@@ -76,8 +75,12 @@ pub(crate) struct Sweep {
     boxes: Boxes,
     movers: Vec<Mover>,
     height: f64,
-    widest: f64,
-    scratch: Vec<f64>,
+    /// How many movers were too high for the strips when these were made.
+    too_high: usize,
+    sizes: Vec<f64>,
+    /// Keys in the order of the movers, and the place of each piece there while the order is made: scratch.
+    fresh: Vec<Key>,
+    places: Vec<u32>,
 }
 
 impl Sweep {
@@ -88,44 +91,36 @@ impl Sweep {
         pieces: &Pieces,
     ) {
         let boxes = &pieces.boxes;
-        let longest = |piece: u32| {
-            let size = boxes[piece as usize].max - boxes[piece as usize].min;
+        self.fresh.clear();
+        self.fresh.extend(movers.map(|(piece, moved)| Key {
+            place: 0,
+            piece,
+            moved,
+        }));
+        self.sizes.clear();
+        self.sizes.extend(self.fresh.iter().map(|key| {
+            let size = boxes[key.piece as usize].max - boxes[key.piece as usize].min;
             if size.x > size.y { size.x } else { size.y }
-        };
-        self.scratch.clear();
-        self.scratch
-            .extend(movers.clone().map(|(piece, _)| longest(piece)));
-        if self.scratch.is_empty() {
-            self.keys.clear();
-            self.unusual.clear();
-            self.strips.clear();
-            self.fill(pieces);
-            return;
-        }
-        let middle = self.scratch.len() / 2;
-        let (_, median, _) = self.scratch.select_nth_unstable_by(middle, f64::total_cmp);
-        let usual = UNUSUAL * *median;
-        let sizes = self.scratch.iter().filter(|size| **size <= usual);
-        self.height = sizes
-            .fold(0.0, |most: f64, size| most.max(*size))
-            .max(f64::MIN_POSITIVE);
-        self.widest = self.height;
-        self.keys.clear();
+        }));
+        self.choose_height();
         self.unusual.clear();
-        for (piece, moved) in movers {
-            let min = boxes[piece as usize].min;
-            if longest(piece) <= self.height {
-                let place = u64::from(self.strip(min.y)) << 32 | u64::from(ordered(min.x));
-                self.keys.push(Key {
-                    place,
-                    piece,
-                    moved,
-                });
+        let (mut fresh, sizes) = (
+            core::mem::take(&mut self.fresh),
+            core::mem::take(&mut self.sizes),
+        );
+        let mut each = sizes.iter();
+        fresh.retain_mut(|key| {
+            let is_usual = each.next().is_some_and(|size| *size <= self.height);
+            if is_usual {
+                let min = boxes[key.piece as usize].min;
+                key.place = u64::from(self.strip(min.y)) << 32 | u64::from(ordered(min.x));
             } else {
-                self.unusual.push(Mover::new(pieces, piece, moved));
+                self.unusual.push(Mover::new(pieces, key.piece, key.moved));
             }
-        }
-        self.keys.sort_unstable();
+            is_usual
+        });
+        (self.fresh, self.sizes) = (fresh, sizes);
+        put_in_order(&mut self.keys, &self.fresh, &mut self.places);
         self.strips.clear();
         for (k, key) in self.keys.iter().enumerate() {
             let strip = key.strip();
@@ -141,6 +136,35 @@ impl Sweep {
         });
     }
 
+    /// How high strips are for boxes of these sizes: as before, if the highest box that fits is nearly so high, no more boxes are higher,
+    /// and half of them are not so low that it would be unusual.
+    fn choose_height(&mut self) {
+        let (mut highest, mut too_high, mut low) = (0.0_f64, 0, 0);
+        let lowest = self.height / (ROOM * UNUSUAL);
+        for size in &self.sizes {
+            if *size <= self.height {
+                highest = highest.max(*size);
+            } else {
+                too_high += 1;
+            }
+            low += usize::from(*size < lowest);
+        }
+        let stays =
+            too_high <= self.too_high && highest > LOW * self.height && 2 * low <= self.sizes.len();
+        if stays || self.sizes.is_empty() {
+            return;
+        }
+        let middle = self.sizes.len() / 2;
+        let mut sizes = self.sizes.clone();
+        let (_, median, _) = sizes.select_nth_unstable_by(middle, f64::total_cmp);
+        let usual = UNUSUAL * *median;
+        let usual = self.sizes.iter().filter(|size| **size <= usual);
+        let highest = usual.fold(0.0, |most: f64, size| most.max(*size));
+        self.height = (ROOM * highest).max(f64::MIN_POSITIVE);
+        let too_high = self.sizes.iter().filter(|size| **size > self.height);
+        self.too_high = too_high.count();
+    }
+
     /// How many movers it knows.
     pub(crate) const fn len(&self) -> usize {
         self.keys.len() + self.unusual.len()
@@ -153,17 +177,28 @@ impl Sweep {
         let movers = keys.iter();
         self.movers
             .extend(movers.map(|key| Mover::new(pieces, key.piece, key.moved)));
-        let bounds = |key: &Key| pieces.boxes[key.piece as usize];
+        let Boxes {
+            left,
+            right,
+            low,
+            high,
+        } = boxes;
         let last = Aabb::EMPTY;
-        for (column, of) in [
-            (&mut boxes.left, (|b| b.min.x) as fn(Aabb) -> f64),
-            (&mut boxes.right, |b| b.max.x),
-            (&mut boxes.low, |b| b.min.y),
-            (&mut boxes.high, |b| b.max.y),
+        for (column, end) in [
+            (&mut *left, last.min.x),
+            (&mut *right, last.max.x),
+            (&mut *low, last.min.y),
+            (&mut *high, last.max.y),
         ] {
-            column.clear();
-            column.extend(keys.iter().map(|key| of(bounds(key))));
-            column.extend([of(last); LANES]);
+            column.truncate(keys.len());
+            column.resize(keys.len() + LANES, end);
+            column[keys.len()..].fill(end);
+        }
+        let columns = left.iter_mut().zip(right).zip(low.iter_mut().zip(high));
+        for (key, ((left, right), (low, high))) in keys.iter().zip(columns) {
+            let bounds = pieces.boxes[key.piece as usize];
+            (*left, *right) = (bounds.min.x, bounds.max.x);
+            (*low, *high) = (bounds.min.y, bounds.max.y);
         }
     }
 
@@ -227,7 +262,7 @@ impl Sweep {
                 };
                 self.forward(simd, k + 1, end, bounds, &mut tell);
                 // In order with the keys, and no farther right than what rounding left of the box.
-                let left = f64::from(rounded(bounds.min.x).next_down()) - self.widest;
+                let left = f64::from(rounded(bounds.min.x).next_down()) - self.height;
                 while finger < beyond && self.boxes.left[finger] < left {
                     finger += 1;
                 }
@@ -262,7 +297,7 @@ impl Sweep {
                 break;
             }
             let end = self.end(n);
-            let left = bounds.min.x - self.widest;
+            let left = bounds.min.x - self.height;
             let begin = self.boxes.left[strip.1..end]
                 .partition_point(|theirs| ordered(*theirs) < ordered(left));
             let right = ordered(bounds.max.x);
@@ -325,33 +360,6 @@ impl Sweep {
     }
 }
 
-impl Key {
-    const fn strip(self) -> u32 {
-        (self.place >> 32) as u32
-    }
-
-    #[expect(clippy::cast_possible_truncation, reason = "the lower half")]
-    const fn left(self) -> u32 {
-        self.place as u32
-    }
-}
-
-/// Bits that are in the order of the numbers, rounded to f32: equal numbers may get equal bits, and none change places.
-fn ordered(x: f64) -> u32 {
-    let bits = rounded(x).to_bits();
-    if bits >> 31 == 0 {
-        bits | 1 << 31
-    } else {
-        !bits
-    }
-}
-
-fn rounded(x: f64) -> f32 {
-    #[expect(clippy::cast_possible_truncation, reason = "rounding is monotone")]
-    let rounded = x as f32;
-    rounded
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -364,17 +372,25 @@ mod tests {
             random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
             f64::from(random >> 8) / f64::from(1u32 << 24)
         };
-        for round in 0..40 {
-            let spread = [5.0, 20.0, 1e3, 1e7][round % 4];
-            let boxes: Vec<_> = (0..200)
-                .map(|k| {
+        let mut sweep = Sweep::default();
+        let mut boxes: Vec<Aabb> = Vec::new();
+        for round in 0..80 {
+            let spread = [5.0, 20.0, 1e3, 1e7][round / 2 % 4];
+            if round % 2 == 0 {
+                let anywhere = |k| {
                     let min = vec2(next() - 0.5, next() - 0.5) * spread;
                     let long = if k % 17 == 0 { 20.0 } else { 1.0 };
                     Aabb::new(min, min + vec2(next() * long, next()))
-                })
-                .collect();
+                };
+                boxes = (0..200).map(anywhere).collect();
+            } else {
+                // The order of before nearly is that of now.
+                for bounds in &mut boxes {
+                    let by = vec2(next() - 0.5, next() - 0.5) * 0.1;
+                    *bounds = Aabb::new(bounds.min + by, bounds.max + by);
+                }
+            }
             let moved = |piece: u32| piece.is_multiple_of(3);
-            let mut sweep = Sweep::default();
             let mut pieces = Pieces::default();
             pieces.discs = vec![Disc::ENDLESS; 200];
             pieces.owners = (0..200)
