@@ -56,7 +56,7 @@ pub(super) fn keys(graph: &Graph, bodies: &Bodies, ids: &[u32]) -> Vec<Key> {
 
 /// What is known of a body's component.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Known {
+enum Known {
     Nothing,
     /// It is too large.
     Large,
@@ -64,29 +64,35 @@ pub(super) enum Known {
     Asked,
 }
 
-/// Contacts of each island that takes hard rows in a sub-step of `h` seconds, in the order of their bodies. `known` is scratch, by slot.
-pub(super) fn find(
-    graph: &Graph,
-    bodies: &Bodies,
-    h: f64,
-    known: &mut Vec<Known>,
-) -> Vec<Vec<u32>> {
+/// What a search uses: scratch.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Search {
+    /// By slot.
+    known: Vec<Known>,
+    /// Bodies and contacts of a component.
+    slots: Vec<u32>,
+    contacts: Vec<u32>,
+}
+
+/// Contacts of each island that takes hard rows in a sub-step of `h` seconds, in the order of their bodies.
+pub(super) fn find(graph: &Graph, bodies: &Bodies, h: f64, search: &mut Search) -> Vec<Vec<u32>> {
     let mut found = Vec::new();
-    known.clear();
+    search.known.clear();
     for id in graph.unequal_awake(bodies) {
-        known.resize(bodies.records.len(), Known::Nothing);
+        search.known.resize(bodies.records.len(), Known::Nothing);
         let first = graph.contacts[id as usize].bodies[0];
-        if known[first as usize] != Known::Nothing {
-            continue;
-        }
-        if let Some(contacts) = component(graph, bodies, (first, UNDER_LOAD), known)
-            && contacts.iter().any(|id| is_borne(graph, bodies, *id))
+        if search.known[first as usize] == Known::Nothing
+            && search.component(graph, bodies, first, UNDER_LOAD)
+            && search
+                .contacts
+                .iter()
+                .any(|id| is_borne(graph, bodies, *id))
         {
-            found.push(contacts);
+            found.push(search.contacts.clone());
         }
     }
-    find_fast(graph, bodies, h, known, &mut found);
-    find_free(graph, bodies, known, &mut found);
+    find_fast(graph, bodies, h, search, &mut found);
+    find_free(graph, bodies, search, &mut found);
     for contacts in &mut found {
         graph.sort(bodies, contacts);
     }
@@ -99,13 +105,14 @@ fn find_fast(
     graph: &Graph,
     bodies: &Bodies,
     h: f64,
-    known: &mut Vec<Known>,
+    search: &mut Search,
     found: &mut Vec<Vec<u32>>,
 ) {
     let mut fast = bodies.fast(h).peekable();
     if fast.peek().is_none() {
         return;
     }
+    let known = &mut search.known;
     known.clear();
     known.resize(bodies.records.len(), Known::Nothing);
     for slot in found
@@ -115,88 +122,101 @@ fn find_fast(
     {
         known[slot as usize] = Known::Asked;
     }
+    let mut ask = |first: u32| {
+        if search.known[first as usize] == Known::Nothing
+            && search.component(graph, bodies, first, WITH_FAST)
+        {
+            found.push(search.contacts.clone());
+        }
+    };
     for slot in fast {
-        for (id, side) in graph.of_body(bodies, slot) {
-            let other = graph.contacts[id as usize].bodies[1 - side];
-            let first = if bodies.is_dynamic(slot) { slot } else { other };
-            if bodies.is_dynamic(first)
-                && known[first as usize] == Known::Nothing
-                && let Some(contacts) = component(graph, bodies, (first, WITH_FAST), known)
-            {
-                found.push(contacts);
+        let mut contacts = graph.of_body(bodies, slot);
+        if bodies.is_dynamic(slot) {
+            if contacts.next().is_some() {
+                ask(slot);
             }
+        } else {
+            let others = contacts.map(|(id, side)| graph.contacts[id as usize].bodies[1 - side]);
+            others
+                .filter(|other| bodies.is_dynamic(*other))
+                .for_each(&mut ask);
         }
     }
 }
 
 /// Adds the islands that nothing bears or pulls which are not there yet.
-fn find_free(graph: &Graph, bodies: &Bodies, known: &mut Vec<Known>, found: &mut Vec<Vec<u32>>) {
-    known.clear();
-    known.resize(bodies.records.len(), Known::Nothing);
+fn find_free(graph: &Graph, bodies: &Bodies, search: &mut Search, found: &mut Vec<Vec<u32>>) {
+    search.known.clear();
+    search.known.resize(bodies.records.len(), Known::Nothing);
     for slot in found
         .iter()
         .flatten()
         .flat_map(|id| graph.contacts[*id as usize].bodies)
     {
-        known[slot as usize] = Known::Asked;
+        search.known[slot as usize] = Known::Asked;
     }
     for line in 2..bodies.lines.len() {
         let slot = bodies.slot_of[line];
-        if known[slot as usize] == Known::Nothing
+        if search.known[slot as usize] == Known::Nothing
             && bodies.records[slot as usize].contacts != Bodies::NONE
             && is_free(bodies, line)
-            && let Some(contacts) = component(graph, bodies, (slot, FREE), known)
+            && search.component(graph, bodies, slot, FREE)
         {
-            found.push(contacts);
+            found.push(search.contacts.clone());
         }
     }
 }
 
-/// Contacts of the component of a body: what hangs together by rows, whether these push or not, as hard and soft rows share no body
-/// that moves. None if it is too large, or a contact of it is in the overflow colour.
-fn component(
-    graph: &Graph,
-    bodies: &Bodies,
-    (first, most): (u32, MostPoints),
-    known: &mut [Known],
-) -> Option<Vec<u32>> {
-    let (mut slots, mut contacts) = (vec![first], Vec::new());
-    let (mut next, mut points, mut hard) = (0, 0, false);
-    let mut fits = true;
-    known[first as usize] = Known::Asked;
-    while let Some(&slot) = slots.get(next).filter(|_| fits) {
-        next += 1;
-        for (id, side) in graph.of_body(bodies, slot) {
-            let contact = &graph.contacts[id as usize];
-            let other = contact.bodies[1 - side];
-            let moves = bodies.is_dynamic(other);
-            // Once for both of its bodies.
-            if !moves || side == 0 {
-                let (block, _, lane) = graph.lane(id);
-                points += block.points(lane);
-                contacts.push(id);
-            }
-            hard |= contact.is_hard();
-            fits &= contact.mask() != 0 && (!most.free || is_free(bodies, bodies.line_of(other)));
-            if moves && known[other as usize] != Known::Asked {
-                fits &= known[other as usize] != Known::Large;
-                known[other as usize] = Known::Asked;
-                slots.push(other);
-            }
-            // All but the first body have a contact each.
-            fits &= points.max(slots.len() - 1) <= most.stays;
-            if !fits {
-                break;
+impl Search {
+    /// Finds the contacts of the component of a body: what hangs together by rows, whether these push or not, as hard and soft rows
+    /// share no body that moves. False if it is too large, or a contact of it is in the overflow colour.
+    fn component(&mut self, graph: &Graph, bodies: &Bodies, first: u32, most: MostPoints) -> bool {
+        let Self {
+            known,
+            slots,
+            contacts,
+        } = self;
+        slots.clear();
+        slots.push(first);
+        contacts.clear();
+        let (mut next, mut points, mut hard) = (0, 0, false);
+        let mut fits = true;
+        known[first as usize] = Known::Asked;
+        while let Some(&slot) = slots.get(next).filter(|_| fits) {
+            next += 1;
+            for (id, side) in graph.of_body(bodies, slot) {
+                let contact = &graph.contacts[id as usize];
+                let other = contact.bodies[1 - side];
+                let moves = bodies.is_dynamic(other);
+                // Once for both of its bodies.
+                if !moves || side == 0 {
+                    let (block, _, lane) = graph.lane(id);
+                    points += block.points(lane);
+                    contacts.push(id);
+                }
+                hard |= contact.is_hard();
+                fits &=
+                    contact.mask() != 0 && (!most.free || is_free(bodies, bodies.line_of(other)));
+                if moves && known[other as usize] != Known::Asked {
+                    fits &= known[other as usize] != Known::Large;
+                    known[other as usize] = Known::Asked;
+                    slots.push(other);
+                }
+                // All but the first body have a contact each.
+                fits &= points.max(slots.len() - 1) <= most.stays;
+                if !fits {
+                    break;
+                }
             }
         }
+        let fits = fits && (hard || points <= most.comes);
+        if !fits {
+            for slot in slots {
+                known[*slot as usize] = Known::Large;
+            }
+        }
+        fits
     }
-    if fits && (hard || points <= most.comes) {
-        return Some(contacts);
-    }
-    for slot in slots {
-        known[slot as usize] = Known::Large;
-    }
-    None
 }
 
 /// Whether a contact is one of a heavy body with a light one that bears it: pressed along the normal the light one leans on what

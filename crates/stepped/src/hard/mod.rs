@@ -17,7 +17,7 @@ use carom_math::Vec2;
 use crate::Settings;
 use crate::bodies::Bodies;
 use crate::rows::{Graph, Law, OPEN, Quad};
-use islands::{Key, Known};
+use islands::{Key, Search};
 use solve::Island;
 
 /// Islands in hard rows.
@@ -31,8 +31,7 @@ pub(crate) struct HardRows {
     straight: Vec<(u32, Quad)>,
     /// Contacts of each island that had no answer: it takes soft rows until it has other contacts.
     unanswered: Vec<Vec<Key>>,
-    /// What is known of each body's component while islands are gathered.
-    known: Vec<Known>,
+    search: Search,
     /// Solves that met no answer.
     pub(crate) failed: u64,
     /// What friction turned to heat in the last sub-step, in J.
@@ -44,7 +43,7 @@ impl HardRows {
     /// contacts of another one changed. What goes back begins with no impulses: the impulses that held a column which buckled are up to
     /// 1e6 N·s, and sweeps cannot take them back.
     pub(crate) fn gather(&mut self, h: f64, graph: &mut Graph, bodies: &mut Bodies) {
-        let mut found = islands::find(graph, bodies, h, &mut self.known);
+        let mut found = islands::find(graph, bodies, h, &mut self.search);
         if !self.unanswered.is_empty() {
             let keys: Vec<Vec<Key>> = found
                 .iter()
