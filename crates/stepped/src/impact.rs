@@ -64,6 +64,8 @@ pub(crate) struct Impacts {
     /// The caller asks for them.
     asked: bool,
     runs: Vec<Run>,
+    /// Where the run of each contact is, if it has one: by number.
+    of_contact: Vec<u32>,
     ended: Vec<Impact>,
     /// Scratch.
     new: Vec<u32>,
@@ -109,6 +111,11 @@ impl Impacts {
     fn meet(&mut self, id: u32, [speed, met]: [f64; 2], graph: &mut Graph) {
         let contact = graph.contacts[id as usize];
         if graph.begin_run(id) {
+            let at = id as usize;
+            if self.of_contact.len() <= at {
+                self.of_contact.resize(at + 1, 0);
+            }
+            self.of_contact[at] = number(self.runs.len());
             self.runs.push(Run {
                 contact: id,
                 slots: contact.bodies,
@@ -121,13 +128,19 @@ impl Impacts {
                 normal: Vec2::ZERO,
                 moment: Vec2::ZERO,
             });
-        } else if let Some(run) = self.runs.iter_mut().rev().find(|run| run.contact == id) {
+        } else if let Some(run) = self.run_of(id) {
             // Its other point, or both ways found it.
             run.speed = run.speed.max(speed);
             if run.age == 0 {
                 run.met = run.met.min(met);
             }
         }
+    }
+
+    fn run_of(&mut self, id: u32) -> Option<&mut Run> {
+        let at = *self.of_contact.get(id as usize)?;
+        let run = self.runs.get_mut(at as usize);
+        run.filter(|run| run.contact == id)
     }
 
     /// Adds what the rows of all runs did in this sub-step.
@@ -154,21 +167,16 @@ impl Impacts {
         if self.runs.is_empty() {
             return;
         }
-        if !arrived.is_empty() {
-            self.runs.sort_unstable_by_key(|run| run.contact);
-            for arrival in arrived {
-                let run = self
-                    .runs
-                    .binary_search_by_key(&arrival.contact, |run| run.contact);
-                if let Ok(k) = run {
-                    let mut j = [0.0; 2];
-                    j[arrival.point] = arrival.impulse;
-                    self.runs[k].add(bodies, graph, j);
-                }
+        for arrival in arrived {
+            if let Some(run) = self.run_of(arrival.contact) {
+                let mut j = [0.0; 2];
+                j[arrival.point] = arrival.impulse;
+                run.add(bodies, graph, j);
             }
         }
         let least = REST * law.h * law.gravity;
         let mut over = Vec::new();
+        let (of_contact, mut stay) = (&mut self.of_contact, 0);
         self.runs.retain_mut(|run| {
             run.age += 1;
             let there = graph.has(run.contact, run.pieces);
@@ -180,7 +188,10 @@ impl Impacts {
                 (0..block.points(lane)).any(|k| v[k] < -least && gaps[k] + 2.0 * v[k] * law.h < 0.0)
             };
             let goes_on = closes && run.age < LONGEST;
-            if !goes_on {
+            if goes_on {
+                of_contact[run.contact as usize] = stay;
+                stay += 1;
+            } else {
                 graph.end_run(run.contact, run.pieces);
                 over.push(*run);
             }
@@ -216,6 +227,9 @@ impl Impacts {
     /// Forgets the impacts of a body that is taken out.
     pub(crate) fn forget(&mut self, slot: u32) {
         self.runs.retain(|run| !run.slots.contains(&slot));
+        for (run, k) in self.runs.iter().zip(0..) {
+            self.of_contact[run.contact as usize] = k;
+        }
         self.ended
             .retain(|impact| impact.bodies.iter().all(|body| body.slot != slot));
     }
@@ -242,6 +256,11 @@ impl Run {
         self.impulse += normal * sum;
         self.moment += first * sum - perp(normal) * (block.l[lane] * j[1]);
     }
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "fewer than 2^32 contacts")]
+const fn number(at: usize) -> u32 {
+    at as u32
 }
 
 /// Numbers of contacts that push and did not when this was last asked.
