@@ -9,7 +9,7 @@ use crate::broad::Pairs;
 use crate::narrow::{Eight, Found, Manifold, Scene, collide_eight};
 use crate::pieces::Pieces;
 use crate::rows::{Block, Cold, Graph, HARD, LANES, Law, RotatingRows, Side, renew};
-use crate::{PairRules, Settings};
+use crate::{PairRules, Settings, Surface};
 
 /// A kept contact may be so many margins wide, so that pairs do not come and go each tick.
 const KEPT: f64 = 1.5;
@@ -217,27 +217,18 @@ pub(crate) fn create(
     };
     graph.suspects.cover(bodies.lines.len());
     let unknown = candidates.iter().filter(|pair| !known.contains(**pair));
-    let news: Vec<_> = unknown
-        .filter_map(|pair| {
-            let new = New::of(bodies, pieces, *pair)?;
-            Some((new, pieces.surface(new.pieces, rules)?))
-        })
-        .collect();
-    let mut fresh = Vec::new();
-    let mut found = Found::NONE;
-    for news in news.chunks(LANES) {
-        let mut eight = Eight::new(pieces, [[0; LANES]; 2]);
-        for (lane, (new, surface)) in news.iter().enumerate() {
-            if eight.set_pieces(pieces, lane, new.pieces) {
-                (eight.lines[0][lane], eight.lines[1][lane]) = (new.lines[0], new.lines[1]);
-                eight.least[lane] = scene.seen(new.lines.map(|line| line as usize));
-            } else if let Some(manifold) = scene.contact(new.pieces, 1.0) {
-                fresh.push((*new, *surface, manifold));
-            }
+    let mut news = unknown.filter_map(|pair| {
+        let new = New::of(bodies, pieces, *pair)?;
+        Some((new, pieces.surface(new.pieces, rules)?))
+    });
+    let (mut eight_news, mut fresh) = (Vec::with_capacity(LANES), Vec::new());
+    loop {
+        eight_news.clear();
+        eight_news.extend(news.by_ref().take(LANES));
+        if eight_news.is_empty() {
+            break;
         }
-        collide_eight(level, &scene, 1.0, &eight, &mut found);
-        let near = lanes(found.near);
-        fresh.extend(near.map(|lane| (news[lane].0, news[lane].1, found.manifold(lane))));
+        add_near(level, &scene, &eight_news, &mut fresh);
     }
     fresh.sort_unstable_by_key(|new| new.0);
     for (New { pieces: pair, .. }, surface, manifold) in fresh {
@@ -256,6 +247,29 @@ pub(crate) fn create(
         graph.suspects.add_seam(lines);
         narrow_tolerances(bodies, settings, ends, a.extent.min(b.extent));
     }
+}
+
+/// Adds those of at most eight pairs that are near enough, with their manifolds.
+fn add_near(
+    level: Level,
+    scene: &Scene<'_>,
+    news: &[(New, Surface)],
+    fresh: &mut Vec<(New, Surface, Manifold)>,
+) {
+    let pieces = scene.pieces;
+    let mut eight = Eight::new(pieces, [[0; LANES]; 2]);
+    for (lane, (new, surface)) in news.iter().enumerate() {
+        if eight.set_pieces(pieces, lane, new.pieces) {
+            (eight.lines[0][lane], eight.lines[1][lane]) = (new.lines[0], new.lines[1]);
+            eight.least[lane] = scene.seen(new.lines.map(|line| line as usize));
+        } else if let Some(manifold) = scene.contact(new.pieces, 1.0) {
+            fresh.push((*new, *surface, manifold));
+        }
+    }
+    let mut found = Found::NONE;
+    collide_eight(level, scene, 1.0, &eight, &mut found);
+    let near = lanes(found.near);
+    fresh.extend(near.map(|lane| (news[lane].0, news[lane].1, found.manifold(lane))));
 }
 
 /// A pair that may become a contact: it begins with what was inserted first.
