@@ -5,9 +5,9 @@ use core::ops::Range;
 use carom_math::{Pose, Vec2};
 
 pub(crate) use crate::input::{BodyId, BodyInput, BodyKind};
-pub(crate) use crate::record::{Limit, Record, Sleeper};
+pub(crate) use crate::record::{BEND, FAST, Limit, Record, Sleeper};
 use crate::record::{UNDAMPED, drag};
-use crate::rows::{Line, Quad};
+use crate::rows::{Line, Quad, velocity_before};
 use crate::{EngineError, Settings};
 
 /// All bodies. The lists by line hold awake bodies only.
@@ -38,8 +38,12 @@ pub(crate) struct Bodies {
     pub(crate) drag: Vec<[Quad; 2]>,
     /// How many of them are damped.
     pub(crate) damped: usize,
-    /// Whether a body may deviate from its predicted motion: see [`Self::rebase_deviating`].
+    /// Lines of bodies that may deviate from their predicted motions, perhaps more than once: see [`Self::rebase_deviating`].
+    pub(crate) deviating: Vec<u32>,
+    /// Others may as well: lines came or went, or some body was changed.
     pub(crate) may_deviate: bool,
+    /// Lines of bodies that may go far in the next sub-step, perhaps more than once, if not all may: see [`Self::fast`].
+    pub(crate) speedy: Option<Vec<u32>>,
     /// How far beyond their boxes bodies may have come in the last sub-step, in m.
     pub(crate) beyond_boxes: f64,
 }
@@ -73,7 +77,9 @@ impl Bodies {
             foreseen: vec![Quad::default(); 2],
             drag: vec![UNDAMPED; 2],
             damped: 0,
+            deviating: Vec::new(),
             may_deviate: false,
+            speedy: None,
             beyond_boxes: 0.0,
         }
     }
@@ -162,7 +168,7 @@ impl Bodies {
         let drag = drag(record.damping, settings.substep());
         self.damped += usize::from(drag != UNDAMPED);
         self.drag.push(drag);
-        self.may_deviate = true;
+        (self.may_deviate, self.speedy) = (true, None);
     }
 
     /// Takes the line of a body out, to be put back as it is but for a velocity of 0; which body moved to its place.
@@ -224,6 +230,8 @@ impl Bodies {
         let drag = self.drag.swap_remove(at);
         self.damped -= usize::from(drag != UNDAMPED);
         self.records[slot as usize].line = Self::NONE;
+        // What is noted of lines is so by their numbers.
+        (self.may_deviate, self.speedy) = (true, None);
         let moved = *self.slot_of.get(at)?;
         self.records[moved as usize].line = line;
         Some(moved)
@@ -262,14 +270,29 @@ impl Bodies {
         let record = &self.records[slot as usize];
         match record.line {
             Self::GROUND | Self::NONE => record.pose,
-            line => {
-                let (base, line) = (self.base[line as usize], &self.lines[line as usize]);
-                Pose::new(
-                    base.position + line.d(),
-                    base.rotation.turned_slightly(line.turn()),
-                )
-            }
+            line => self.pose_at(line as usize),
         }
+    }
+
+    /// Where the body of a line is, which is not fixed.
+    #[inline]
+    pub(crate) fn pose_at(&self, at: usize) -> Pose {
+        let (base, line) = (self.base[at], &self.lines[at]);
+        Pose::new(
+            base.position + line.d(),
+            base.rotation.turned_slightly(line.turn()),
+        )
+    }
+
+    /// The velocity of the body of a line before the last sub-step, of `h` seconds.
+    #[inline]
+    pub(crate) fn velocity_before(&self, at: usize, h: f64) -> [f64; 3] {
+        let drag = if self.damped > 0 {
+            &self.drag[at]
+        } else {
+            &UNDAMPED
+        };
+        velocity_before(&self.start[at], &self.pull[at], drag, h)
     }
 
     /// Velocity of the centre of mass and spin.
@@ -323,29 +346,60 @@ impl Bodies {
 
     /// Slots of the bodies that go far within `h` seconds.
     pub(crate) fn fast(&self, h: f64) -> impl Iterator<Item = u32> + '_ {
-        let lines = self.lines.iter().zip(&self.limits).zip(&self.slot_of);
-        let is_fast = move |(line, limit): (&Line, &Limit)| {
-            limit.is_far((line.v() * h).length_squared(), line.w() * h)
+        let noted = self.speedy.as_deref();
+        let all = if noted.is_none() {
+            2..self.lines.len()
+        } else {
+            0..0
         };
-        let fast = lines.skip(2).filter(move |(both, _)| is_fast(*both));
-        fast.map(|(_, slot)| *slot)
+        let noted = noted.unwrap_or_default().iter().map(|at| *at as usize);
+        let fast = noted.chain(all).filter(move |at| self.is_fast(*at, h));
+        fast.map(|at| self.slot_of[at])
+    }
+
+    /// Whether the body of a line goes far within `h` seconds.
+    fn is_fast(&self, at: usize, h: f64) -> bool {
+        let (line, limit) = (&self.lines[at], &self.limits[at]);
+        limit.is_far((line.v() * h).length_squared(), line.w() * h)
+    }
+
+    /// The body of a line has another velocity than the last sub-step left it with.
+    pub(crate) fn note_change(&mut self, line: u32) {
+        self.deviating.push(line);
+        if let Some(speedy) = &mut self.speedy {
+            speedy.push(line);
+        }
     }
 
     /// Rebases bodies that may be a margin off their predicted motion `rest` seconds later, since their velocities changed.
     pub(crate) fn rebase_deviating(&mut self, settings: &Settings, rest: f64) -> bool {
-        if !self.may_deviate {
-            return false;
-        }
-        let mut deviates = false;
-        for at in 2..self.lines.len() {
-            let (line, limit) = (&self.lines[at], &self.limits[at]);
-            let off = self.change(at, settings.tick) * rest;
-            // What came, or was put elsewhere, since the tick is off as well.
-            if self.moved[at] || limit.deviates(settings.margin, off, line.turn()) {
-                (self.moved[at], deviates) = (true, true);
-                self.foreseen[at] = Quad::new(line.v(), line.w());
-                self.rebase_one(at);
+        if self.may_deviate {
+            let mut deviates = false;
+            for at in 2..self.lines.len() {
+                deviates |= self.rebase_if_deviating(at, settings, rest);
             }
+            return deviates;
+        }
+        let mut deviating = core::mem::take(&mut self.deviating);
+        deviating.sort_unstable();
+        deviating.dedup();
+        let mut deviates = false;
+        for &at in deviating.iter().filter(|at| **at > Self::GROUND) {
+            deviates |= self.rebase_if_deviating(at as usize, settings, rest);
+        }
+        self.deviating = deviating;
+        deviates
+    }
+
+    fn rebase_if_deviating(&mut self, at: usize, settings: &Settings, rest: f64) -> bool {
+        let (line, limit) = (&self.lines[at], &self.limits[at]);
+        let off = self.change(at, settings.tick) * rest;
+        // What came, or was put elsewhere, since the tick is off as well.
+        let deviates = self.moved[at] || limit.deviates(settings.margin, off, line.turn());
+        if deviates {
+            self.moved[at] = true;
+            self.foreseen[at] = Quad::new(line.v(), line.w());
+            self.rebase_one(at);
         }
         deviates
     }

@@ -31,8 +31,8 @@ impl Engine {
             let (v, w) = (line.v(), line.w());
             let change = Quad::new(velocity - v, spin - w);
             start.add(&change);
-            self.bodies.may_deviate = true;
             line.set_velocity(velocity, spin);
+            self.bodies.note_change(record.line);
         }
         Ok(())
     }

@@ -147,6 +147,8 @@ impl Engine {
         let passed = self.done != done;
         if passed {
             (self.done, self.found, self.posed) = (done, false, None);
+            // More time is left for them than was when they were noted.
+            self.bodies.may_deviate |= !self.bodies.deviating.is_empty();
         }
         passed
     }

@@ -4,7 +4,6 @@ use carom_geometry::Aabb;
 use carom_math::{Pose, Vec2};
 
 use crate::bodies::Bodies;
-use crate::rows::velocity_before;
 use crate::{BodyId, BodyKind, Engine, EngineError, Settings};
 
 /// A body as the last sub-step left it.
@@ -127,15 +126,14 @@ impl Engine {
         let line = &bodies.lines[at];
         let velocity = (line.v() + Vec2::ZERO, line.w() + 0.0);
         let before = self.hard.straight(slot).unwrap_or_else(|| {
-            let (start, pull, drag) = (&bodies.start[at], &bodies.pull[at], &bodies.drag[at]);
-            let [x, y, w] = velocity_before(start, pull, drag, self.law.h);
+            let [x, y, w] = bodies.velocity_before(at, self.law.h);
             (Vec2::new(x, y), w)
         });
         State {
             id: bodies.id(slot),
             tag: record.tag,
             kind: record.kind,
-            pose: bodies.pose_of(slot),
+            pose: bodies.pose_at(at),
             turned: bodies.turned[at] + line.turn(),
             velocity,
             before,

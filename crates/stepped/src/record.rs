@@ -73,11 +73,11 @@ pub(crate) struct Limit {
 
 /// A body that moves by less than this part of its least half width is not fast: rows hold it. 0.1: a drum takes twice the time;
 /// 0.5: no difference in time, but a body may move by half of itself unsearched.
-const FAST: f64 = 0.25;
+pub(crate) const FAST: f64 = 0.25;
 
 /// Contacts of a body are computed anew within a tick once its turn bends the path of a point by this part of a margin. A box of
 /// 1 m by 0.5 m that lands on its edge at 20 m/s sinks in by 0.30 mm; 1: by 0.43; 0.06: by 0.25. Times do not differ.
-const BEND: f64 = 0.25;
+pub(crate) const BEND: f64 = 0.25;
 
 impl Limit {
     /// Whether a displacement, squared, or a turn is so large that the body may pass through another one.
@@ -94,17 +94,6 @@ impl Limit {
         let most = margin * self.extent;
         // Rows are straight: what turned by θ is off them by r θ²/2.
         off > most || 0.5 * turn * turn * self.reach > BEND * most
-    }
-
-    /// Distance beyond its box that a body may have come to by deviating `off` m from its predicted motion in one sub-step, in m:
-    /// before, it deviated by a margin at most, and its box has half of one to spare. 0 of fixed bodies.
-    #[inline]
-    pub(crate) fn beyond_box(&self, margin: f64, off: f64) -> f64 {
-        if self.extent < f64::INFINITY {
-            off + 0.5 * margin * self.extent
-        } else {
-            0.0
-        }
     }
 }
 

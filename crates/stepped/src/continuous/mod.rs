@@ -234,7 +234,10 @@ impl Engine {
         let turn = (body.motion.rotation * base.rotation.inverse()).angle();
         let centre = body.motion.centre + body.motion.velocity * left;
         self.bodies.lines[at].set_displacement(centre - base.position, turn);
-        (self.bodies.moved[at], self.bodies.may_deviate) = (true, true);
+        self.bodies.moved[at] = true;
+        self.bodies
+            .deviating
+            .push(self.bodies.records[body.slot as usize].line);
     }
 
     /// The motion that brings a body to its pose within `left` seconds: from a displacement, or at its velocity.

@@ -1,14 +1,17 @@
-//! What happens to bodies between the sweeps, four numbers at a time.
+//! What happens to bodies between the sweeps, four numbers or four bodies at a time.
 //!
 //! Behind three velocities stands the inverse mass in a line and in a start, and 0 in a pull: so that it stays what it is.
 
 #![allow(clippy::inline_always, reason = "the wide instructions end at a call")]
 
-use fearless_simd::{Level, Select, Simd, SimdBase, dispatch, f64x4};
+use fearless_simd::{
+    ExtractToken, Level, Select, Simd, SimdBase, SimdMask, dispatch, f64x4, mask64x4,
+};
 
-use super::line::Quad;
+use super::line::{Line, Quad};
+use super::transpose::{Numbers, Wide, rows_of};
 use crate::Settings;
-use crate::bodies::Bodies;
+use crate::bodies::{BEND, Bodies, FAST, Limit};
 
 /// Damping that leaves less than this of a velocity in a sub-step makes its change no smooth one. From 1/32 on the velocity at the end
 /// tells the way better than the trapezoid: of `v h` it tells f, the trapezoid `(1 + f)/2`, and the truth is `(1 − f)/(−ln f)`.
@@ -51,29 +54,79 @@ pub(crate) fn displace(level: Level, bodies: &mut Bodies, h: f64, far: &mut Vec<
 
 #[inline(always)]
 fn displace_all<S: Simd>(simd: S, bodies: &mut Bodies, h: f64, far: &mut Vec<(u32, Quad)>) {
-    let h = f64x4::from_slice(simd, &[h, h, h, 0.0]);
-    for ((line, limit), at) in bodies.lines.iter_mut().zip(&bodies.limits).zip(0..) {
+    let steps = f64x4::from_slice(simd, &[h, h, h, 0.0]);
+    let (limits, last_limits) = bodies.limits.as_chunks::<4>();
+    let (lines, last) = bodies.lines.as_chunks_mut::<4>();
+    let mut at = 0;
+    for (lines, limits) in lines.iter_mut().zip(limits) {
+        let [vx, vy, w, _] = columns(simd, lines, 0);
+        let mut bits = goes_far([vx * h, vy * h, w * h], &Limits::of(simd, limits)).to_bitmask();
+        while bits != 0 {
+            let k = bits.trailing_zeros();
+            bits &= bits - 1;
+            let line = &lines[k as usize];
+            far.push((at + k, Quad::new(line.d(), line.turn())));
+        }
+        for line in lines {
+            let d = f64x4::from_slice(simd, &line.0[4..]);
+            let step = steps * f64x4::from_slice(simd, &line.0[..4]);
+            (d + step).store_slice(&mut line.0[4..]);
+        }
+        at += 4;
+    }
+    for ((line, limit), at) in last.iter_mut().zip(last_limits).zip(at..) {
         let d = f64x4::from_slice(simd, &line.0[4..]);
-        let step = h * f64x4::from_slice(simd, &line.0[..4]);
+        let step = steps * f64x4::from_slice(simd, &line.0[..4]);
         if limit.is_far(step[0] * step[0] + step[1] * step[1], step[2]) {
-            far.push((at, Quad([line.0[4], line.0[5], line.0[6], 0.0])));
+            far.push((at, Quad::new(line.d(), line.turn())));
         }
         (d + step).store_slice(&mut line.0[4..]);
     }
 }
 
-/// Makes displacements of second order where velocities change smoothly: `d −= ½ h Δv`. Notes whether a body may
-/// deviate from its predicted motion in the `rest` of the tick.
+/// Four columns of four rows, from number `from` of each on.
+#[inline(always)]
+fn columns<S: Simd, L: Numbers>(simd: S, [p, q, r, s]: &[L; 4], from: usize) -> [f64x4<S>; 4] {
+    f64x4::columns_of(simd, &[p, q, r, s], from)
+}
+
+/// [`Limit`] of four bodies.
+struct Limits<S: Simd> {
+    reach: f64x4<S>,
+    extent: f64x4<S>,
+}
+
+impl<S: Simd> Limits<S> {
+    #[inline(always)]
+    fn of(simd: S, [p, q, r, s]: &[Limit; 4]) -> Self {
+        Self {
+            reach: f64x4::from_slice(simd, &[p.reach, q.reach, r.reach, s.reach]),
+            extent: f64x4::from_slice(simd, &[p.extent, q.extent, r.extent, s.extent]),
+        }
+    }
+}
+
+/// [`Limit::is_far`] of four bodies.
+#[inline(always)]
+fn goes_far<S: Simd>([x, y, turn]: [f64x4<S>; 3], limits: &Limits<S>) -> mask64x4<S> {
+    let least = limits.extent * (FAST * 0.5);
+    (x * x + y * y).simd_gt(least * least) | (turn.abs() * limits.reach).simd_gt(least)
+}
+
+/// Makes displacements of second order where velocities change smoothly: `d −= ½ h Δv`. Notes which bodies may
+/// deviate from their predicted motions in the `rest` of the tick, and which go far in the next sub-step.
 ///
 /// `h v` with the velocity at the end overshoots the trapezoid by h/2 Δv: g h²/2 in free flight,
 /// and likewise where friction brakes. Where a contact stopped the body at its surface there is
 /// nothing to take back; a stop is what changes the velocity by more than four times the pull.
 pub(crate) fn correct(level: Level, bodies: &mut Bodies, settings: &Settings, h: f64, rest: f64) {
+    bodies.deviating.clear();
     if bodies.damped > 0 {
         dispatch!(level, simd => correct_all::<_, true>(simd, bodies, settings, h, rest));
     } else {
         dispatch!(level, simd => correct_all::<_, false>(simd, bodies, settings, h, rest));
     }
+    bodies.may_deviate = false;
 }
 
 #[inline(always)]
@@ -84,45 +137,180 @@ fn correct_all<S: Simd, const DAMPED: bool>(
     h: f64,
     rest: f64,
 ) {
-    let (h, half) = (f64x4::splat(simd, h), f64x4::splat(simd, 0.5 * h));
-    let (mut deviates, mut beyond) = (false, 0.0_f64);
-    let lines = bodies.lines.iter_mut().zip(&bodies.start).zip(&bodies.pull);
-    let more = bodies.drag.iter().zip(&bodies.foreseen).zip(&bodies.limits);
-    for (((line, start), pull), (([left, added], foreseen), limit)) in lines.zip(more) {
-        let v = f64x4::from_slice(simd, &line.0[..4]);
-        let start = f64x4::from_slice(simd, &start.0);
-        // What pull and damping did: `start − v` with the v before, and exactly `h g` without damping (f = φ = 1), so that no
-        // body depends on whether another one is damped: `start − (start − φ h g)/f = (φ h g − (1 − f) start)/f`.
-        let pulled = h * f64x4::from_slice(simd, &pull.0);
-        let (own, change) = if DAMPED {
-            let added = f64x4::from_slice(simd, &added.0) * pulled;
-            let left = f64x4::from_slice(simd, &left.0);
-            let own = (added - (1.0 - left) * start) / left;
-            let smooth = left.simd_gt(f64x4::splat(simd, LEFT));
-            let none = f64x4::splat(simd, 0.0);
-            (
-                smooth.select(own, none),
-                smooth.select(v - start + own, none),
-            )
-        } else {
-            (pulled, v - start + pulled)
+    let span = Span {
+        h,
+        rest,
+        margin: settings.margin,
+    };
+    let mut seen = Seen {
+        deviating: core::mem::take(&mut bodies.deviating),
+        speedy: bodies.speedy.take().unwrap_or_default(),
+        beyond: f64x4::splat(simd, 0.0),
+    };
+    seen.speedy.clear();
+    let (lines, last) = bodies.lines.as_chunks_mut::<4>();
+    let first_of_last = 4 * lines.len();
+    let more = bodies
+        .start
+        .as_chunks()
+        .0
+        .iter()
+        .zip(bodies.pull.as_chunks().0);
+    let foreseen = bodies.foreseen.as_chunks().0.iter();
+    let more = more.zip(foreseen.zip(bodies.limits.as_chunks().0));
+    let more = more.zip(bodies.drag.as_chunks().0);
+    for ((lines, (((start, pull), (foreseen, limits)), drag)), k) in
+        lines.iter_mut().zip(more).zip(0u32..)
+    {
+        let four = Four {
+            start,
+            pull,
+            foreseen,
+            drag,
+            limits,
         };
-        let square = change[0] * change[0] + change[1] * change[1];
-        if square <= 16.0 * (own[0] * own[0] + own[1] * own[1]) {
-            let d = f64x4::from_slice(simd, &line.0[4..]);
-            (d - half * change).store_slice(&mut line.0[4..]);
-        }
-        let off = (v - f64x4::from_slice(simd, &foreseen.0)).abs();
-        let off = off[0].max(off[1]) + off[2] * limit.reach;
-        deviates |= limit.deviates(settings.margin, off * rest, line.turn());
-        beyond = beyond.max(limit.beyond_box(settings.margin, off * h[0]));
+        correct_four::<_, DAMPED>(simd, (lines, &four), 4 * k, &span, &mut seen);
     }
-    bodies.may_deviate = deviates;
-    bodies.beyond_boxes = beyond;
+    if !last.is_empty() {
+        // Filled up with what empty lanes name.
+        let mut lines = [Line::EMPTY; 4];
+        lines[..last.len()].copy_from_slice(last);
+        let four = Four {
+            start: &filled(&bodies.start, first_of_last),
+            pull: &filled(&bodies.pull, first_of_last),
+            foreseen: &filled(&bodies.foreseen, first_of_last),
+            drag: &filled(&bodies.drag, first_of_last),
+            limits: &filled(&bodies.limits, first_of_last),
+        };
+        #[expect(clippy::cast_possible_truncation, reason = "hundreds of bytes each")]
+        let first = first_of_last as u32;
+        correct_four::<_, DAMPED>(simd, (&mut lines, &four), first, &span, &mut seen);
+        last.copy_from_slice(&lines[..last.len()]);
+    }
+    let beyond = seen.beyond;
+    bodies.beyond_boxes = [0, 1, 2, 3]
+        .map(|lane| beyond[lane])
+        .into_iter()
+        .fold(0.0, f64::max);
+    (bodies.deviating, bodies.speedy) = (seen.deviating, Some(seen.speedy));
+}
+
+/// The last of a list, and its first, which is that of empty lanes.
+fn filled<T: Copy>(list: &[T], from: usize) -> [T; 4] {
+    [0, 1, 2, 3].map(|k| list.get(from + k).copied().unwrap_or(list[0]))
+}
+
+/// What belongs to four lines.
+struct Four<'b> {
+    start: &'b [Quad; 4],
+    pull: &'b [Quad; 4],
+    foreseen: &'b [Quad; 4],
+    drag: &'b [[Quad; 2]; 4],
+    limits: &'b [Limit; 4],
+}
+
+/// A sub-step, and what is left of its tick, in s; the margin of contacts.
+struct Span {
+    h: f64,
+    rest: f64,
+    margin: f64,
+}
+
+/// Lines of bodies that may deviate, and that go far; how far beyond their boxes they may be.
+struct Seen<S: Simd> {
+    deviating: Vec<u32>,
+    speedy: Vec<u32>,
+    beyond: f64x4<S>,
+}
+
+/// Four lines from `first` on.
+#[inline(always)]
+fn correct_four<S: Simd, const DAMPED: bool>(
+    simd: S,
+    (lines, four): (&mut [Line; 4], &Four<'_>),
+    first: u32,
+    span: &Span,
+    seen: &mut Seen<S>,
+) {
+    let h = span.h;
+    let [vx, vy, w, _] = columns(simd, lines, 0);
+    let [dx, dy, turn, inertia] = columns(simd, lines, 4);
+    let [x, y, spin, _] = columns(simd, four.start, 0);
+    let [pull_x, pull_y, twist, _] = columns(simd, four.pull, 0);
+    // What pull and damping did: `start − v` with the v before, and exactly `h g` without damping (f = φ = 1), so that no
+    // body depends on whether another one is damped: `start − (start − φ h g)/f = (φ h g − (1 − f) start)/f`.
+    let pulled = [pull_x * h, pull_y * h, twist * h];
+    let (own, change) = if DAMPED {
+        let [p, q, r, s] = four.drag;
+        let [f, _, f_spin, _] = columns(simd, &[p[0], q[0], r[0], s[0]], 0);
+        let [part, _, part_spin, _] = columns(simd, &[p[1], q[1], r[1], s[1]], 0);
+        let [own_x, change_x] = damped([f, part], [x, vx, pulled[0]]);
+        let [own_y, change_y] = damped([f, part], [y, vy, pulled[1]]);
+        let [_, change_w] = damped([f_spin, part_spin], [spin, w, pulled[2]]);
+        ([own_x, own_y], [change_x, change_y, change_w])
+    } else {
+        let change = [vx - x + pulled[0], vy - y + pulled[1], w - spin + pulled[2]];
+        ([pulled[0], pulled[1]], change)
+    };
+    let square = change[0] * change[0] + change[1] * change[1];
+    let smooth = square.simd_le((own[0] * own[0] + own[1] * own[1]) * 16.0);
+    let half = f64x4::splat(simd, 0.5 * h);
+    let turn = smooth.select(turn - half * change[2], turn);
+    let d = [
+        smooth.select(dx - half * change[0], dx),
+        smooth.select(dy - half * change[1], dy),
+        turn,
+        inertia,
+    ];
+    for (line, d) in lines.iter_mut().zip(rows_of(d)) {
+        d.store_slice(&mut line.0[4..]);
+    }
+    let [then_x, then_y, then_w, _] = columns(simd, four.foreseen, 0);
+    let limits = Limits::of(simd, four.limits);
+    let off = (vx - then_x).abs().max((vy - then_y).abs()) + (w - then_w).abs() * limits.reach;
+    // [`Limit::deviates`].
+    let most = limits.extent * span.margin;
+    let bends = (turn * 0.5 * turn * limits.reach).simd_gt(most * BEND);
+    note(
+        (off * span.rest).simd_gt(most) | bends,
+        first,
+        &mut seen.deviating,
+    );
+    let far = goes_far([vx * h, vy * h, w * h], &limits);
+    note(far, first, &mut seen.speedy);
+    // Before, a body deviated by a margin at most, and its box has half of one to spare. 0 of empty lanes.
+    let moves = limits.extent.simd_lt(f64x4::splat(simd, f64::INFINITY));
+    let out = off * h + limits.extent * (0.5 * span.margin);
+    let out = moves.select(out, f64x4::splat(simd, 0.0));
+    seen.beyond = out.max(seen.beyond);
+}
+
+/// Of one component: what damping by f and φ and the pull did to a velocity, and by how much contacts changed it.
+#[inline(always)]
+fn damped<S: Simd>([f, part]: [f64x4<S>; 2], [start, v, pulled]: [f64x4<S>; 3]) -> [f64x4<S>; 2] {
+    let simd = f.token();
+    let none = f64x4::splat(simd, 0.0);
+    let own = (part * pulled - (1.0 - f) * start) / f;
+    let smooth = f.simd_gt(f64x4::splat(simd, LEFT));
+    [
+        smooth.select(own, none),
+        smooth.select(v - start + own, none),
+    ]
+}
+
+/// Adds those of the lines from `first` on that have a bit.
+#[inline(always)]
+fn note<S: Simd>(lanes: mask64x4<S>, first: u32, to: &mut Vec<u32>) {
+    let mut bits = lanes.to_bitmask();
+    while bits != 0 {
+        to.push(first + bits.trailing_zeros());
+        bits &= bits - 1;
+    }
 }
 
 /// The velocity at the beginning of a sub-step, which `start` comes from by pull and damping; where damping left nearly nothing of it
 /// that is unknown, and `start` stands for it.
+#[inline]
 pub(crate) fn velocity_before(
     start: &Quad,
     pull: &Quad,

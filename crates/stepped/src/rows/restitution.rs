@@ -166,7 +166,9 @@ pub(crate) fn bounce(
     if arrived.is_empty() {
         return;
     }
-    bodies.may_deviate = true;
+    for line in arrived.iter().flat_map(|arrival| arrival.lines) {
+        bodies.note_change(line);
+    }
     let mut pushes = vec![[Quad::default(); 2]; arrived.len()];
     for arrival in &mut *arrived {
         graph.clear_warm_start(bodies, arrival.contact);

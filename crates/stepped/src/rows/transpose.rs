@@ -98,6 +98,12 @@ impl<S: Simd> Wide<S> for f64x8<S> {
     }
 }
 
+/// Four columns as rows.
+#[inline(always)]
+pub(crate) fn rows_of<S: Simd>(columns: [f64x4<S>; 4]) -> [f64x4<S>; 4] {
+    turned(columns[0].token(), columns)
+}
+
 /// Rows as columns.
 #[inline(always)]
 fn turned<S: Simd>(simd: S, [l0, l1, l2, l3]: [f64x4<S>; 4]) -> [f64x4<S>; 4] {
