@@ -176,7 +176,7 @@ impl Engine {
         // Each motion is searched once.
         let mut noted = core::mem::take(&mut self.fast_bodies);
         noted.retain(|body| self.is_searched(body));
-        if noted.is_empty() {
+        if !noted.iter().any(|body| self.may_touch(body, left)) {
             return Vec::new();
         }
         noted.sort_unstable_by_key(|body| self.bodies.records[body.slot as usize].birth);
@@ -243,14 +243,14 @@ impl Engine {
     /// The motion that brings a body to its pose within `left` seconds: from a displacement, or at its velocity.
     fn motion(&self, slot: u32, from: Option<(Vec2, f64)>, left: f64) -> Motion {
         let at = self.bodies.line_of(slot);
-        let pose = self.bodies.pose_of(slot);
-        let (line, base) = (&self.bodies.lines[at], self.bodies.base_of(slot));
         if self.bodies.records[slot as usize].line == Bodies::NONE || at < 2 {
+            let pose = self.bodies.pose_of(slot);
             return Motion {
                 rotation: pose.rotation,
                 ..Motion::resting(pose.position)
             };
         }
+        let (line, base) = (&self.bodies.lines[at], self.bodies.base_of(slot));
         let (displacement, turn) = match from {
             Some((d, turn)) => (line.d() - d, line.turn() - turn),
             None => (line.v() * left, line.w() * left),
@@ -266,23 +266,56 @@ impl Engine {
     fn moving(&self, body: &FastBody, left: f64) -> Moving {
         let record = &self.bodies.records[body.slot as usize];
         let motion = self.motion(body.slot, Some(body.from), left);
-        let boxes = record.first_piece..record.first_piece + record.pieces;
-        let boxes = boxes.map(|piece| self.pieces.boxes[piece as usize]);
-        let known = boxes.fold(Aabb::EMPTY, Aabb::union);
         Moving {
             slot: body.slot,
             birth: record.birth,
             motion,
             unforeseen: body.unforeseen,
             carried: body.carried,
-            leaves_boxes: !known.contains(bounds_of(&motion, 0.0, left)),
+            leaves_boxes: self.leaves_boxes(body.slot, bounds_of(&motion, 0.0, left)),
             touches: 0,
         }
     }
+
+    /// Whether a way leads out of the boxes of a body.
+    fn leaves_boxes(&self, slot: u32, way: Aabb) -> bool {
+        let record = &self.bodies.records[slot as usize];
+        let boxes = record.first_piece..record.first_piece + record.pieces;
+        let boxes = boxes.map(|piece| self.pieces.boxes[piece as usize]);
+        !boxes.fold(Aabb::EMPTY, Aabb::union).contains(way)
+    }
+
+    /// Whether a search for the touches of a fast body may find something, or that of another one may find it where no box is.
+    fn may_touch(&self, body: &FastBody, left: f64) -> bool {
+        if body.unforeseen {
+            return true;
+        }
+        let record = &self.bodies.records[body.slot as usize];
+        let (line, base) = (
+            &self.bodies.lines[record.line as usize],
+            self.bodies.base[record.line as usize].position,
+        );
+        let (centre, velocity) = way(base, line.d(), body.from.0, left);
+        let way = way_box(centre, velocity, left);
+        let mut stands = false;
+        self.broad
+            .standing_in(way.grown(record.reach), |_| stands = true);
+        stands || self.leaves_boxes(body.slot, way)
+    }
+}
+
+/// Where what is displaced from `base` by `d`, and was by `from` `left` seconds before, came from, and its velocity.
+fn way(base: Vec2, d: Vec2, from: Vec2, left: f64) -> (Vec2, Vec2) {
+    let went = d - from;
+    (base + d - went, went / left)
 }
 
 /// The box that a body stays in for so long.
 fn bounds_of(motion: &Motion, reach: f64, left: f64) -> Aabb {
-    let ends = [motion.centre, motion.centre + motion.velocity * left];
-    Aabb::from_points(ends).grown(reach)
+    way_box(motion.centre, motion.velocity, left).grown(reach)
+}
+
+/// The box around a straight way.
+fn way_box(from: Vec2, velocity: Vec2, left: f64) -> Aabb {
+    Aabb::from_points([from, from + velocity * left])
 }
