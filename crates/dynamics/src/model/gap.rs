@@ -1,7 +1,6 @@
 //! How the gap at a point of contact bends: the second derivative that tells press from pull.
 
-use carom_collision::{Motion, Side};
-use carom_geometry::Shape;
+use carom_collision::{Hull, Motion, Side};
 use carom_math::{SimTime, Vec2, cross_scalar, perp};
 
 use crate::store::bodies::Bodies;
@@ -24,13 +23,13 @@ pub(crate) struct Touching {
 }
 
 impl Touching {
-    /// What touches at `point`.
-    pub(crate) fn of(motion: &Motion, solid: &Shape, point: Vec2, time: SimTime) -> Self {
+    /// What of a convex part touches at `point`.
+    pub(crate) fn of(motion: &Motion, part: &Hull<'_>, point: Vec2, time: SimTime) -> Self {
         let centre = motion.centre_at(time);
-        let at = match solid {
-            // A disc rolls about its centre: its own spin does not move its rim.
-            Shape::Circle(disc) if disc.centre() == Vec2::ZERO => centre,
-            Shape::Circle(disc) => motion.pose_at(time).point(disc.centre()),
+        // A disc, and one that is a part of something too, rolls about its centre: its own spin does not move its rim.
+        let at = match (part.normals, part.vertices) {
+            ([], [hub]) if *hub == Vec2::ZERO => centre,
+            ([], [hub]) => motion.pose_at(time).point(*hub),
             _ => point,
         };
         let (arm, spin, turning) = (
@@ -99,8 +98,9 @@ pub(crate) fn is_round(bodies: &Bodies, colliders: &[Collider], pair: &Pair) -> 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use carom_geometry::{Circle, ConvexPolygon};
-    use carom_math::vec2;
+    use carom_collision::part;
+    use carom_geometry::{Circle, Compound, ConvexPolygon, Shape};
+    use carom_math::{Pose, vec2};
 
     fn motion(at: Vec2, velocity: Vec2, acceleration: Vec2, spin: f64, turning: f64) -> Motion {
         Motion {
@@ -129,8 +129,8 @@ mod tests {
         let at = SimTime::from_secs(2.0 * h);
         let normal = below.rotation_at(at) * Vec2::Y;
         let point = above.centre_at(at) - normal * 0.5;
-        let a = Touching::of(&below, &plate, point, at);
-        let b = Touching::of(&above, &disc, point, at);
+        let a = Touching::of(&below, &part(&plate, 0), point, at);
+        let b = Touching::of(&above, &part(&disc, 0), point, at);
         let bends = gap_acceleration(&a, &b, normal, Some(Side::A));
         assert!(
             (bends - difference).abs() < 1e-5,
@@ -141,11 +141,35 @@ mod tests {
     }
 
     #[test]
+    fn a_disc_that_is_a_part_turns_about_its_own_centre() {
+        let plate = Shape::from(ConvexPolygon::rectangle(9.0, 2.0).expect("a plate"));
+        let hub = vec2(-0.3, 0.2);
+        let disc = Circle::new(0.5).expect("a disc").into();
+        let weight = Circle::new(0.1).expect("a weight").into();
+        let parts = [(weight, Pose::IDENTITY), (disc, Pose::at(hub))];
+        let both = Shape::from(Compound::new(parts).expect("a compound"));
+        let below = Motion::resting(Vec2::ZERO);
+        let above = motion(vec2(0.6, 1.3), vec2(-0.4, 0.5), vec2(0.2, -3.0), 5.0, 2.0);
+        let at = |t: f64| above.pose_at(SimTime::from_secs(t)).point(hub);
+        let h = 1e-3;
+        let difference = (at(3.0 * h).y - 2.0 * at(2.0 * h).y + at(h).y) / (h * h);
+        let now = SimTime::from_secs(2.0 * h);
+        let point = at(2.0 * h) - 0.5 * Vec2::Y;
+        let a = Touching::of(&below, &part(&plate, 0), point, now);
+        let b = Touching::of(&above, &part(&both, 1), point, now);
+        let bends = gap_acceleration(&a, &b, Vec2::Y, Some(Side::A));
+        assert!(
+            (bends - difference).abs() < 1e-3,
+            "{bends} and {difference}"
+        );
+    }
+
+    #[test]
     fn discs_that_pass_each_other_part_faster() {
         let disc = Shape::from(Circle::new(0.5).expect("a disc"));
         let a = motion(Vec2::ZERO, Vec2::ZERO, Vec2::ZERO, 3.0, 0.0);
         let b = motion(Vec2::X, vec2(0.0, 2.0), Vec2::ZERO, -4.0, 1.0);
-        let of = |motion| Touching::of(motion, &disc, vec2(0.5, 0.0), SimTime::ZERO);
+        let of = |motion| Touching::of(motion, &part(&disc, 0), vec2(0.5, 0.0), SimTime::ZERO);
         // |d| = √(1 + 4 t²), so |d|″ = 4 at the start.
         assert_eq!(gap_acceleration(&of(&a), &of(&b), Vec2::X, None), 4.0);
     }

@@ -1,6 +1,6 @@
 //! How hard two bodies press where they touch: by what moves them, and by turning alone.
 
-use carom_collision::{Motion, Side, part};
+use carom_collision::{Hull, Motion, Side, part};
 use carom_geometry::Shape;
 use carom_math::{SimTime, Vec2, cross_scalar, perp};
 
@@ -117,20 +117,24 @@ impl Spot<'_> {
         } else {
             None
         };
-        let of = |k: usize| Touching::of(&motions[k], self.solids[k], self.point, time);
+        let of = |k: usize| Touching::of(&motions[k], &self.hull(k), self.point, time);
         let (a, b) = (of(0), of(1));
         -gap_acceleration(&a, &b, self.normal, face)
     }
 
+    fn hull(&self, k: usize) -> Hull<'_> {
+        let at = if k == 0 { self.parts.0 } else { self.parts.1 };
+        part(self.solids[k], at as usize)
+    }
+
     /// Whether an edge of one of the two lies along the contact.
     fn is_edge(&self, k: usize, time: SimTime) -> bool {
-        let (state, at, outward) = match k {
-            0 => (self.bodies.0, self.parts.0, self.normal),
-            _ => (self.bodies.1, self.parts.1, -self.normal),
+        let (state, outward) = match k {
+            0 => (self.bodies.0, self.normal),
+            _ => (self.bodies.1, -self.normal),
         };
-        let hull = part(self.solids[k], at as usize);
         let found = feature(
-            &hull,
+            &self.hull(k),
             state.centre_pose(time),
             outward,
             self.normal,

@@ -1,5 +1,6 @@
 //! Micro-bounces: the contact acceleration brings two bodies back before a search could tell when.
 
+use carom_collision::part;
 use carom_math::SimTime;
 
 use super::Foreseen;
@@ -92,7 +93,7 @@ pub(super) fn press(
     impact: &Foreseen,
     time: SimTime,
 ) -> f64 {
-    let feature = |index: u32, at: u32| {
+    let feature = |index: u32, at: u32, number: u32| {
         let mut motion = bodies.get(index).motion;
         if bodies.bends(index) {
             motion = bodies.get(index).at(time);
@@ -101,12 +102,13 @@ pub(super) fn press(
         }
         Touching::of(
             &motion,
-            &colliders[at as usize].solid,
+            &part(&colliders[at as usize].solid, number as usize),
             impact.points[0],
             time,
         )
     };
-    let a = feature(impact.bodies.0, impact.colliders.0);
-    let b = feature(impact.bodies.1, impact.colliders.1);
+    let parts = impact.feature.parts;
+    let a = feature(impact.bodies.0, impact.colliders.0, parts.0);
+    let b = feature(impact.bodies.1, impact.colliders.1, parts.1);
     -gap_acceleration(&a, &b, impact.normal, impact.face())
 }
