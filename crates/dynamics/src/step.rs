@@ -71,6 +71,9 @@ impl World {
         self.events.end_step();
         self.bodies.end_step();
         self.report_left_paths(self.clock.now);
+        if dt > 0.0 {
+            self.report_waiting(self.clock.now);
+        }
         self.tell_overlaps(self.clock.now);
         self.report.inaccurate += core::mem::take(&mut self.bodies.inaccurate);
         self.report.advanced = if stop_at_event || self.work.is_used_up() {

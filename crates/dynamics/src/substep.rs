@@ -20,6 +20,7 @@ impl World {
     pub(crate) fn begin_substep(&mut self) {
         let (time, h) = (self.clock.next(), self.clock.h);
         self.stopwatch.lap(|p| &mut p.impacts);
+        self.report_waiting(time);
         self.clock.begin();
         self.event_queue.clear();
         self.spent = 0.0;

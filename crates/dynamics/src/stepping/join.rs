@@ -41,6 +41,8 @@ pub(crate) struct Joins {
     pub(super) drivers: BTreeSet<u32>,
     /// Bodies that woke in the engine.
     pub(super) woken: Vec<u32>,
+    /// Bodies that came to the sub-steps in the midst of one, and lie where they are until it ends.
+    waiting: Vec<u32>,
     /// Shapes that touched when one of their bodies joined: the caller was told.
     pub(super) told: Vec<Shapes>,
     /// Members that had no contact at the last ticks, and at how many; in order of bodies.
@@ -222,6 +224,28 @@ impl World {
         (state.member, state.idle) = (false, 0);
         self.bodies.touch(index);
         self.leave_pairs(index, time);
+        self.wait(index, time);
+    }
+
+    /// A body comes to the sub-steps: in the midst of one it lies where it is until that ends.
+    pub(crate) fn wait(&mut self, index: u32, time: SimTime) {
+        if time > self.clock.last() && self.clock.is_within(time) {
+            self.joins.waiting.push(index);
+        }
+    }
+
+    /// Counts what waits for the next sub-step, unless a closed form or a flight took it: nothing else says that it lies still, and what
+    /// touches it goes on meanwhile.
+    pub(crate) fn report_waiting(&mut self, time: SimTime) {
+        let waits = |index: &&u32| {
+            let state = self.bodies.get(**index);
+            let alive = self.bodies.is_alive(**index);
+            alive && (state.in_engine() || state.is_held() && !state.membership.is_closed())
+        };
+        self.report.handed_over += self.joins.waiting.iter().filter(waits).count() as u64;
+        if !self.clock.is_within(time) {
+            self.joins.waiting.clear();
+        }
     }
 
     /// Takes a body's boxes and pairs from the world: the engine has its own. What touches goes on to touch.

@@ -98,6 +98,9 @@ impl World {
             let told = stepping.engine.wake(id);
             debug_assert!(told.is_ok(), "{told:?}");
             self.tell_sleep(&mut stepping, time);
+            for woken in self.joins.woken.clone() {
+                self.wait(woken, time);
+            }
         }
         self.stepping = Some(stepping);
         self.take_woken(time);
