@@ -6,9 +6,9 @@
 //!
 //! | broken law | hybrid | exact | stepped |
 //! |---|---|---|---|
-//! | a centre ends behind a surface, deeper than the report says | 3: 10000, 11589, 14724 | 0 | 5 |
-//! | an overlap is missed and called exact | 2: 9564, 19091 | 4: 301, 1751, 14682, 19091 | 3 |
-//! | energy rises by more than the ledger says that sub-steps put in | 34, three in steps called exact: 2856, 5689, 18421 | 72, one in a step called exact: 18421 | 4 |
+//! | a centre ends behind a surface, deeper than the report says | 3, which pass now: 10000, 11589, 14724 | 0 | 5 |
+//! | an overlap is missed and called exact | 2, which pass now: 9564, 19091 | 4, which pass now: 301, 1751, 14682, 19091 | 3 |
+//! | energy rises by more than the ledger says that sub-steps put in | 34, three in steps called exact, which pass now: 2856, 5689, 18421 | 72, one in a step called exact, which passes now: 18421 | 4 |
 //! | momentum of a free system is lost | 268 | 106 | 5,133 |
 //! | over 20 s, or a panic | 0 | 0 | 0 |
 //!
@@ -112,10 +112,14 @@ fn scripts_that_broke_a_law_once_keep_it() {
     // 7703: a body that joined the engine while its group was taken apart was sub-stepped as well.
     let exact = [
         1, 156, 235, 280, 301, 332, 379, 391, 1501, 3051, 4657, 10177, 11539, 14010, 14255, 16210,
+        19091,
     ];
     let exact = exact.map(|seed| (Mode::Exact, seed));
+    // 19091: a touch that approached by rounding alone hid all others of its pair.
     // 622, 884, 10608: bodies that had left a path were given another motion before a report told of them.
-    let hybrid = [1, 193, 202, 379, 622, 884, 4657, 7703, 10177, 10608, 14255];
+    let hybrid = [
+        1, 193, 202, 379, 622, 884, 2856, 4657, 7703, 10177, 10608, 14255, 19091,
+    ];
     let hybrid = hybrid.map(|seed| (Mode::Hybrid, seed));
     let stop = AtomicBool::new(false);
     for (mode, seed) in exact.into_iter().chain(hybrid) {

@@ -62,8 +62,8 @@ pub use overlap::{intersection, overlap_area};
 pub use sat::{Axis, AxisFeature, Side, minimum_push, separating_axis};
 pub use shape_tree::{ShapeTree, roundable};
 pub use toi::{
-    Impact, ImpactFeature, TimeOfImpact, earlier, time_of_impact, time_of_impact_from,
-    time_of_impact_of_parts,
+    Impact, ImpactFeature, TimeOfImpact, earlier, time_of_impact, time_of_impact_beside,
+    time_of_impact_from, time_of_impact_of_parts,
 };
 pub use tree::{BoxTree, NodeId};
 pub use vertex_edge::{VertexEdge, VertexEdgeKind, vertex_edge_contacts};

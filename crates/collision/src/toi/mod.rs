@@ -144,7 +144,7 @@ pub fn time_of_impact(
     if is_single(a) && is_single(b) {
         return time_of_impact_of_parts(&part(a, 0), motion_a, &part(b, 0), motion_b, horizon);
     }
-    first_of_parts(a, motion_a, b, motion_b, horizon)
+    first_of_parts(a, motion_a, b, motion_b, (horizon, f64::NEG_INFINITY))
 }
 
 /// [`time_of_impact`] from `start` on: [`Impact::time`] is in seconds after `start`, and neither motion begins later than that.
@@ -169,9 +169,29 @@ pub fn time_of_impact_from(
         }
         None => {
             let motions = [motion_a.rebased(start), motion_b.rebased(start)];
-            first_of_parts(a, &motions[0], b, &motions[1], horizon)
+            first_of_parts(a, &motions[0], b, &motions[1], (horizon, f64::NEG_INFINITY))
         }
     }
+}
+
+/// [`time_of_impact_from`] of shapes that touch and approach by rounding alone: the first contact of two of their parts that approach
+/// faster than `slow` m/s. Any other touch may last, and a search for the first one of all sees nothing beyond it.
+///
+/// Shapes of one part each have no other place to touch.
+#[must_use]
+pub fn time_of_impact_beside(
+    (start, slow): (SimTime, f64),
+    a: &Shape,
+    motion_a: &Motion,
+    b: &Shape,
+    motion_b: &Motion,
+    horizon: f64,
+) -> TimeOfImpact {
+    if is_single(a) && is_single(b) {
+        return TimeOfImpact::Clear;
+    }
+    let motions = [motion_a.rebased(start), motion_b.rebased(start)];
+    first_of_parts(a, &motions[0], b, &motions[1], (horizon, slow))
 }
 
 /// [`time_of_impact`] of two convex parts, which count as part 0 of their shapes in

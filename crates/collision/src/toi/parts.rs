@@ -8,13 +8,13 @@ use super::{FLUSH, TimeOfImpact, earlier, time_of_impact_of_parts};
 use crate::parts::{Node, Nodes};
 use crate::{Motion, part};
 
-/// The first contact over all parts; the same bits as a look at every pair of parts.
+/// The first contact over all parts that approach faster than `slow` there; the same bits as a look at every pair of parts.
 pub(super) fn first_of_parts(
     a: &Shape,
     motion_a: &Motion,
     b: &Shape,
     motion_b: &Motion,
-    horizon: f64,
+    (horizon, slow): (f64, f64),
 ) -> TimeOfImpact {
     let sweep = Sweep::new(motion_a, motion_b, horizon);
     let mut near = sweep.near_parts(&Nodes::of(a), &Nodes::of(b));
@@ -31,6 +31,9 @@ pub(super) fn first_of_parts(
         let next = time_of_impact_of_parts(&part_a, motion_a, &part_b, motion_b, horizon);
         let matters = match &next {
             TimeOfImpact::Clear => continue,
+            TimeOfImpact::Touching(hit) | TimeOfImpact::Hit(hit) if -hit.gap_rate <= slow => {
+                continue;
+            }
             TimeOfImpact::Touching(_) => 0.0,
             // Flush contacts are one if less than FLUSH of their stretch lies between them.
             TimeOfImpact::Hit(hit) => hit.time + FLUSH * size / hit.gap_rate.abs(),

@@ -1,8 +1,11 @@
 //! Concave shapes: contact on the true outline only, and no seam is felt.
 
-use carom_collision::{PartManifold, contacts, shape_distance, shape_push};
+use carom_collision::{
+    Motion, PartManifold, TimeOfImpact, contacts, shape_distance, shape_push,
+    time_of_impact_beside, time_of_impact_from,
+};
 use carom_geometry::{Circle, ConvexPolygon, Polygon, Shape};
-use carom_math::{Pose, Rot, Vec2, vec2};
+use carom_math::{Pose, Rot, SimTime, Vec2, vec2};
 use proptest::prelude::*;
 
 use crate::shapes::{concave, convex, from_outline, placed};
@@ -333,4 +336,43 @@ fn nothing_is_felt_in_the_hollow_of_a_u() {
             "felt at {y}"
         );
     }
+}
+
+/// A table slides on its feet, and sinks by rounding, to the step of a floor: whatever its feet do hides no step.
+#[test]
+fn a_touch_by_rounding_hides_no_other() {
+    let floor = polygon(&[
+        (-9.0, -1.0),
+        (9.0, -1.0),
+        (9.0, 3.0),
+        (2.0, 3.0),
+        (2.0, 0.0),
+        (-9.0, 0.0),
+    ]);
+    let table = polygon(&[
+        (-0.5, 0.0),
+        (-0.3, 0.0),
+        (-0.3, 0.4),
+        (0.3, 0.4),
+        (0.3, 0.0),
+        (0.5, 0.0),
+        (0.5, 0.6),
+        (-0.5, 0.6),
+    ]);
+    let still = Motion::resting(Vec2::ZERO);
+    let slides = Motion {
+        velocity: vec2(2.0, -1e-11),
+        ..Motion::resting(Vec2::ZERO)
+    };
+    let from = (SimTime::ZERO, 1e-10);
+    let found = time_of_impact_beside(from, &floor, &still, &table, &slides, 5.0);
+    let TimeOfImpact::Hit(hit) = found else {
+        panic!("it meets the step: {found:?}");
+    };
+    assert!((hit.time - 0.75).abs() < 1e-12, "{hit:?}");
+    let first = time_of_impact_from(SimTime::ZERO, None, &floor, &still, &table, &slides, 5.0);
+    let (TimeOfImpact::Hit(feet) | TimeOfImpact::Touching(feet)) = first else {
+        panic!("its feet sink: {first:?}");
+    };
+    assert!(feet.time < 0.75, "{feet:?}");
 }

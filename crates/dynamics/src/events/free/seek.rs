@@ -1,6 +1,6 @@
 //! When two bodies touch that are near enough to meet, and what is already in contact.
 
-use carom_collision::{Impact, TimeOfImpact, contacts, time_of_impact_from};
+use carom_collision::{Impact, TimeOfImpact, contacts, time_of_impact_beside, time_of_impact_from};
 use carom_math::SimTime;
 
 use super::Foreseen;
@@ -183,6 +183,40 @@ impl World {
         };
         self.free.push_impact(time + wait, stamp, foreseen);
         true
+    }
+
+    /// Other parts of two shapes may meet while some of them touch and approach by rounding alone, at `slow` m/s at most: the search
+    /// that ended with this touch did not look beyond it.
+    pub(super) fn seek_beside(&mut self, touch: &Foreseen, time: SimTime, length: f64, slow: f64) {
+        let (a, b) = touch.bodies;
+        let (one, two) = (self.bodies.get(a), self.bodies.get(b));
+        if one.flight.is_some() || two.flight.is_some() {
+            return;
+        }
+        let (first, second) = (
+            &self.colliders[touch.colliders.0 as usize].solid,
+            &self.colliders[touch.colliders.1 as usize].solid,
+        );
+        let from = (time, slow);
+        let next = time_of_impact_beside(from, first, &one.motion, second, &two.motion, length);
+        match next {
+            TimeOfImpact::Clear => {}
+            TimeOfImpact::Hit(impact) | TimeOfImpact::Touching(impact) => {
+                let foreseen = Foreseen {
+                    normal: impact.normal,
+                    feature: impact.features[0],
+                    points: impact.points,
+                    ..*touch
+                };
+                let stamp = self.stamp(a, b);
+                self.free.push_impact(time + impact.time, stamp, foreseen);
+            }
+            TimeOfImpact::Unresolved { .. } => {
+                self.report.unresolved += 1;
+                self.land(a, time);
+                self.land(b, time);
+            }
+        }
     }
 
     /// Whether one of two bodies slides over the side of the other that the impact is on: the side that bears it is flush with that.

@@ -69,8 +69,9 @@ impl World {
             low::press(&self.bodies, &self.colliders, impact, time)
         };
         // What is pressed together gains as much as the rounding of instants hides of each bounce: it would bounce for ever.
-        if speed <= rounding + NOISE * SimTime::UNIT * press.max(0.0) {
-            return self.touches(impact, time, speed, -press);
+        let slow = rounding + NOISE * SimTime::UNIT * press.max(0.0);
+        if speed <= slow {
+            return self.touches(impact, time, (speed, slow), -press);
         }
         let e = material.restitution;
         let lost = price(&material);
@@ -258,7 +259,7 @@ impl World {
 
     /// They touch, and approach by rounding alone: what is pressed together lasts; what opens with
     /// an acceleration of `pull` m/s² has come to the end of ever faster impacts, or grazes.
-    fn touches(&mut self, impact: &Foreseen, time: SimTime, speed: f64, pull: f64) {
+    fn touches(&mut self, impact: &Foreseen, time: SimTime, (speed, slow): (f64, f64), pull: f64) {
         if pull < 0.0 {
             return self.begins_to_last(impact, time);
         }
@@ -270,8 +271,7 @@ impl World {
         if ends {
             self.report_collapse(impact.bodies, 0.5 * speed * speed, time);
         }
-        // Another look when the approach may have gone deeper than impacts leave, or when the touch is
-        // open: other parts of the two may meet then, which no search sees while these touch.
+        // Another look when the approach may have gone deeper than impacts leave, or when the touch is open.
         let (one, two) = (self.bodies.get(a), self.bodies.get(b));
         let slack = SLACK * one.reach.min(two.reach);
         let left = self
@@ -281,7 +281,9 @@ impl World {
         let left = (left - time).max(1e-9);
         let deeper = if speed > 0.0 { slack / speed } else { left };
         let wait = deeper.min(time_to_open(slack, -speed, pull).unwrap_or(left));
-        self.look_again(impact, time + wait.clamp(1e-9 * left, left));
+        let wait = wait.clamp(1e-9 * left, left);
+        self.look_again(impact, time + wait);
+        self.seek_beside(impact, time, wait, 4.0 * slow);
     }
 
     /// Says that infinitely many impacts of two bodies have ended, with their energy per kg of reduced
