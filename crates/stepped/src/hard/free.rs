@@ -11,7 +11,7 @@ use carom_math::{Vec2, perp};
 
 use super::solve::Island;
 use crate::bodies::Bodies;
-use crate::rows::{Graph, Law, Quad, velocity_before};
+use crate::rows::{Graph, Law, Quad};
 
 /// Whether a body can be moved, and no force acts on it but those of contacts.
 pub(super) fn is_free(bodies: &Bodies, line: usize) -> bool {
@@ -32,9 +32,8 @@ impl Island {
     pub(super) fn go_straight(&self, law: &Law, bodies: &mut Bodies) {
         for (&line, from) in self.lines.iter().zip(&self.from) {
             let at = line as usize;
-            let (start, pull) = (&bodies.start[at], &bodies.pull[at]);
-            let before = velocity_before(start, pull, &bodies.drag[at], law.h);
-            let body = &bodies.lines[at];
+            let before = bodies.velocity_before(at, law.h);
+            let (body, start) = (&bodies.lines[at], &bodies.start[at]);
             let velocity = [body.v().x, body.v().y, body.w()];
             let [x, y, turn] = [0, 1, 2].map(|k| {
                 let damped = start.0[k] - before[k];
@@ -65,6 +64,9 @@ impl Island {
         for (contact, lost) in self.contacts.iter().zip(lost) {
             let [a, b] = contact.ends.map(|end| self.lines[end] as usize);
             turn_pair(bodies, [a, b], -lost);
+            for end in contact.ends {
+                bodies.note_change(self.lines[end]);
+            }
         }
     }
 }

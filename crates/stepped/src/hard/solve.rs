@@ -283,7 +283,9 @@ impl Island {
         for &line in &self.lines {
             let (body, limit) = (&bodies.lines[line as usize], &bodies.limits[line as usize]);
             let is_stale = body.turn().abs() > STALE;
-            bodies.may_deviate |= is_stale || limit.deviates(settings.margin, 0.0, body.turn());
+            if is_stale || limit.deviates(settings.margin, 0.0, body.turn()) {
+                bodies.deviating.push(line);
+            }
             bodies.moved[line as usize] |= is_stale;
         }
         least
