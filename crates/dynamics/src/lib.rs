@@ -27,25 +27,31 @@
 #![cfg_attr(test, allow(clippy::float_cmp, reason = "tests compare exact results"))]
 
 mod analytic;
+mod analytic_motion;
 mod api;
 mod broad;
 mod changed;
-mod clock;
+mod engine;
 mod events;
 mod forces;
 mod groups;
+mod island_ends;
+mod islands;
+mod law;
+mod members;
 mod model;
 mod motion;
+mod paths;
 mod step;
 mod stepping;
 mod store;
 mod substep;
 mod values;
 mod work;
+mod world;
 
 pub use api::body::Body;
 pub use api::query::{Filtered, Nearest, RayHit, ShapeHit};
-pub use api::world::World;
 pub use carom_collision::Motion;
 pub use carom_geometry as geometry;
 pub use carom_impact as impact;
@@ -64,6 +70,7 @@ pub use values::material::{Material, PairMaterial};
 pub use values::profile::StepProfile;
 pub use values::report::{Refusal, StepReport};
 pub use values::settings::{Mode, PairSearch, Settings, Sleep, Softness};
+pub use world::World;
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

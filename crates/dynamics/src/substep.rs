@@ -8,7 +8,7 @@ use crate::events::predict::BUDGET;
 use crate::groups::settle::settle;
 use crate::model::narrow::{TOUCH, opening_speed, rest_speed};
 use crate::motion::flight::fly;
-use crate::stepping::Seen;
+use crate::stepping::heap::Seen;
 use crate::store::pairs::PairContact;
 
 /// Sub-steps with nothing near after which a body flies: fewer, and what rattles changes sides all the time.
@@ -156,7 +156,7 @@ impl World {
                 .filter_map(|place| self.landing(*place, time, h))
                 .collect();
             if landed.len() + lands.len() > self.few() {
-                self.gather_heaps(&mut lands, &mut seen, time, h);
+                self.gather_heaps(&mut lands, &mut seen, time);
                 landed.retain(|index| !self.bodies.get(*index).in_engine());
             }
             if lands.is_empty() && landed.is_empty() {

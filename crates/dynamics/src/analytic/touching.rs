@@ -4,9 +4,10 @@ use arrayvec::ArrayVec;
 use carom_collision::part;
 use carom_math::{SimTime, Vec2};
 
-use crate::analytic::modes::{ModeBody, ROWS, Touch, hold, stand};
+use crate::analytic::modes::{ModeBody, Touch, hold, stand};
 use crate::model::approach::{Approach, RigidState, approach, opening};
 use crate::model::edges::{Feature, at_the_end, feature};
+use crate::model::graph::ROWS;
 use crate::model::narrow::{Narrow, RestSpeed, TOUCH};
 use crate::store::bodies::Bodies;
 use crate::store::pairs::{PairContact, Pairs};

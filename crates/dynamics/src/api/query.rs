@@ -270,7 +270,8 @@ impl Filtered<'_> {
     #[must_use]
     pub fn bodies_in(&self, bounds: Aabb) -> Vec<BodyId> {
         // The engine has boxes of convex pieces: a corner of a star's box is in none of them.
-        let near = bounds.grown(self.world.beyond_pieces());
+        let engine = self.world.stepping.as_ref();
+        let near = bounds.grown(engine.map_or(0.0, |stepping| stepping.widest));
         self.bodies_with(near, |pose, collider| {
             collider.solid.aabb(pose).overlaps(bounds)
         })
@@ -355,8 +356,11 @@ impl Filtered<'_> {
     /// Shapes that are in no tree and have a piece that may be in `bounds`: of free bodies in the grid, or of the engine where it moves
     /// everything.
     fn shapes_outside_trees(&self, bounds: Aabb) -> Vec<u32> {
+        let engine = self.world.stepping.as_ref();
+        let in_engine = engine.map(|stepping| stepping.shapes_in(&self.world.bodies, bounds));
+        let in_engine = in_engine.unwrap_or_default();
         if self.world.settings.mode == Mode::Stepped {
-            return self.world.shapes_in_engine(bounds);
+            return in_engine;
         }
         let bodies = self
             .world
@@ -365,7 +369,7 @@ impl Filtered<'_> {
         let shapes = bodies
             .iter()
             .flat_map(|body| &self.world.bodies.get(*body).colliders);
-        let members = self.world.shapes_in_engine(bounds).into_iter();
+        let members = in_engine.into_iter();
         let is_member = |at: &u32| {
             let owner = self.world.colliders[*at as usize].body;
             let state = self.world.bodies.get(owner);

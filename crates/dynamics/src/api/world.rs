@@ -1,13 +1,12 @@
-//! The world: bodies in, bodies out, what the caller changes and reads. No mechanics here.
+//! Bodies in, bodies out, what the caller changes and reads. No mechanics here.
 
 use std::sync::Arc;
 
 use carom_geometry::{Aabb, Shape};
 use carom_math::{Pose, SimTime, StateHash, Sum, Vec2, cross};
 
-use crate::analytic::islands::Closed;
+use crate::analytic::islands::store::Closed;
 use crate::broad::tree::Broad;
-use crate::clock::Clock;
 use crate::events::event_queue::EventQueue;
 use crate::events::free::FreeBodies;
 use crate::groups::Groups;
@@ -15,75 +14,18 @@ use crate::model::narrow::Narrow;
 use crate::stepping::threads::Threads;
 use crate::stepping::{Joins, Stepping};
 use crate::store::bodies::Bodies;
+use crate::store::clock::Clock;
 use crate::store::pairs::Pairs;
 use crate::store::state::{BodyState, Collider, Surface, drawn_at};
 use crate::values::profile::Stopwatch;
 use crate::work::Work;
 use crate::{
     Body, BodyDef, BodyError, BodyId, BodyKind, Contact, EnergyLedger, Events, Material, Mode,
-    Momentum, Settings, SettingsError, StepProfile, StepReport,
+    Momentum, Settings, SettingsError, StepProfile, StepReport, World,
 };
 
 /// So many of the shapes that came last are looked through for one that is alike.
 const LATEST: usize = 8;
-
-/// Rigid bodies and the time that passes for them.
-///
-/// # Examples
-/// A ball dropped from 5 m is at half g t² after half a second, whatever the steps.
-/// ```
-/// use carom_dynamics::{BodyDef, Material, Settings, World};
-/// use carom_geometry::Circle;
-/// use carom_math::vec2;
-/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
-/// let mut world = World::new(Settings { gravity: vec2(0.0, -10.0), ..Settings::default() })?;
-/// let ball = world.insert(
-///     BodyDef::dynamic().at(vec2(0.0, 5.0)),
-///     Circle::new(0.1)?,
-///     Material::default(),
-/// )?;
-/// for _ in 0..30 {
-///     world.step(1.0 / 60.0);
-/// }
-/// let height = world.body(ball).ok_or("it is there")?.centre().y;
-/// assert!((height - 3.75).abs() < 1e-14);                      // 5 − 10 · 0.5² / 2 m
-/// # Ok(())
-/// # }
-/// ```
-#[derive(Clone, Debug)]
-pub struct World {
-    pub(crate) settings: Settings,
-    pub(crate) clock: Clock,
-    pub(crate) bodies: Bodies,
-    pub(crate) colliders: Vec<Collider>,
-    free_colliders: Vec<u32>,
-    pub(crate) pairs: Pairs,
-    pub(crate) broad: Broad,
-    pub(crate) narrow: Narrow,
-    pub(crate) groups: Groups,
-    pub(crate) closed: Closed,
-    pub(crate) event_queue: EventQueue,
-    pub(crate) free: FreeBodies,
-    /// Bodies that the sub-steps move, in order.
-    pub(crate) stepped: Vec<u32>,
-    pub(crate) events: Events,
-    pub(crate) report: StepReport,
-    pub(crate) work: Work,
-    /// No pose is read before this instant.
-    pub(crate) unseen_until: SimTime,
-    /// What the impacts of the present sub-step spent of its budget.
-    pub(crate) spent: f64,
-    /// Bodies that the solver moves until the present sub-step ends.
-    pub(crate) handed_over: u64,
-    /// Bodies with a force that waits for a step or acts during this one.
-    pub(crate) forced: Vec<u32>,
-    pub(crate) stopwatch: Stopwatch,
-    /// The engine of bodies in contact.
-    pub(crate) stepping: Option<Box<Stepping>>,
-    /// Bodies that it moves in [`Mode::Hybrid`] and [`Mode::Exact`].
-    pub(crate) joins: Joins,
-    pub(crate) threads: Threads,
-}
 
 impl World {
     /// An empty world.
@@ -273,7 +215,8 @@ impl World {
         let places = self.pairs.in_order().into_iter();
         let touching = places.filter(|place| self.pairs.get(*place).told);
         let stepped = self.stepping.iter();
-        let stepped = stepped.flat_map(|stepping| self.contacts_in(stepping, None));
+        let stepped =
+            stepped.flat_map(|stepping| stepping.contacts(&self.bodies, &self.colliders, None));
         touching
             .flat_map(|place| self.contacts_at(place))
             .chain(stepped)
@@ -290,7 +233,9 @@ impl World {
         touching.sort_unstable_by_key(|place| self.pairs.shapes(*place));
         let index = self.bodies.find(id).ok();
         let stepped = self.stepping.iter().zip(index);
-        let stepped = stepped.flat_map(|(stepping, index)| self.contacts_in(stepping, Some(index)));
+        let stepped = stepped.flat_map(|(stepping, index)| {
+            stepping.contacts(&self.bodies, &self.colliders, Some(index))
+        });
         touching
             .into_iter()
             .flat_map(|place| self.contacts_at(place))
@@ -298,8 +243,12 @@ impl World {
     }
 
     fn contacts_at(&self, place: u32) -> Vec<Contact> {
-        let now = self.moving_pair_now(place);
-        let pair = now.as_ref().unwrap_or_else(|| self.pairs.get(place));
+        let pair = self.pairs.get(place);
+        let at = (self.clock.now, self.clock.h);
+        let now = self
+            .closed
+            .moving_pair_at(&self.bodies, &self.colliders, pair, place, at);
+        let pair = now.as_ref().unwrap_or(pair);
         Contact::of(&self.bodies, pair).collect()
     }
 

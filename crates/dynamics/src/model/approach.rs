@@ -28,6 +28,11 @@ impl RigidState {
             spin: state.spin_at(time),
         }
     }
+
+    /// Velocity of the body's point at `point`, in m/s.
+    pub(crate) fn velocity_of(&self, point: Vec2) -> Vec2 {
+        self.velocity + cross_scalar(self.spin, point - self.centre)
+    }
 }
 
 /// What a touch does, by more than rounding; at which speed, in m/s.

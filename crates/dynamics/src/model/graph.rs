@@ -3,6 +3,9 @@
 use crate::store::bodies::Bodies;
 use crate::store::pairs::Pairs;
 
+/// An island of more rows (points, and a friction for each touch) than this has no closed form: it is the engine's.
+pub(crate) const ROWS: usize = 64;
+
 /// Bodies that touch a body.
 pub(crate) fn neighbours<'a>(
     bodies: &'a Bodies,
@@ -13,6 +16,17 @@ pub(crate) fn neighbours<'a>(
         let pair = pairs.get(place);
         pair.touching.then(|| pair.other(index))
     })
+}
+
+/// Whether an island is held by what it does not move: of bodies that touch each other alone the engine does not keep the angular
+/// momentum.
+pub(crate) fn is_borne(bodies: &Bodies, pairs: &Pairs, members: &[u32]) -> bool {
+    let bears = |index: u32| {
+        let other = bodies.get(index);
+        !other.is_dynamic() || other.is_asleep() || other.in_engine()
+    };
+    let mut members = members.iter();
+    members.any(|&index| neighbours(bodies, pairs, index).any(bears))
 }
 
 /// Whether two shapes touch in an island in analytic motion: their contact changes with the island's mode alone.

@@ -2,8 +2,9 @@
 
 use arrayvec::ArrayVec;
 use carom_collision::{AxisFeature, ImpactFeature, PartManifold, contacts};
-use carom_math::{Pose, SimTime, Vec2, cross_scalar};
+use carom_math::{Pose, SimTime, Vec2};
 
+use super::approach::RigidState;
 use crate::store::bodies::Bodies;
 use crate::store::pairs::{Pair, PairContact, PairPoint};
 use crate::store::state::{BodyState, Collider};
@@ -196,9 +197,7 @@ pub(crate) fn opening_speed(
     point: Vec2,
     normal: Vec2,
 ) -> f64 {
-    let of = |body: &BodyState| {
-        body.velocity_at(time) + cross_scalar(body.spin_at(time), point - body.centre_at(time))
-    };
+    let of = |body: &BodyState| RigidState::of(body, time).velocity_of(point);
     (of(b) - of(a)).dot(normal)
 }
 

@@ -12,7 +12,7 @@ use carom_collision::{
 use carom_geometry::Shape;
 use carom_math::SimTime;
 
-use super::osculating::Osculating;
+use crate::law::osculating::Osculating;
 use crate::store::state::BodyState;
 
 /// A parabola that is nearer to its law than this, as a part of the smaller reach, is the law but for rounding.

@@ -5,9 +5,9 @@ use std::sync::Arc;
 use carom_collision::Motion;
 use carom_math::{SimTime, Vec2};
 
-use super::damped::damped;
-use super::kepler::Conic;
-use super::law::{Flight, Turn};
+use crate::law::damped::damped;
+use crate::law::flight::{Flight, Turn};
+use crate::law::kepler::Conic;
 use crate::store::bodies::Bodies;
 use crate::store::state::BodyState;
 use crate::store::uncommon::Lag;

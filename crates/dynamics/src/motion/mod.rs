@@ -1,16 +1,9 @@
-//! Where a body is by its law: free flight in closed form in a uniform field, with damping and about a Newtonian centre; by an
-//! integrator of order 15 in any other field.
+//! Gives bodies their motions by the laws that they fly by.
 //!
-//! To read in this order: [`law`] (the law that is kept beside a motion, whichever it is), [`damped`], [`kepler`] and
-//! [`integrate`] (the laws themselves), [`osculating`] (the parabola that touches a law, and how far it is off), [`flight`] (what
-//! a body is given of it), [`first_touch`] (impacts of what flies by a law).
+//! To read in this order: [`flight`] (what a body is given of its flight: the parabola itself, or a piece of a law),
+//! [`first_touch`] (impacts of what flies by laws, found by such parabolas).
 
-mod damped;
 pub(crate) mod first_touch;
 pub(crate) mod flight;
-pub(crate) mod integrate;
-mod kepler;
-pub(crate) mod law;
-mod osculating;
 #[cfg(test)]
 mod tests;

@@ -5,10 +5,15 @@
 //! contacts are in the order of the world's bodies.
 
 use carom_geometry::Aabb;
+use carom_math::SimTime;
 use carom_stepped::Engine;
 
 use super::Stepping;
-use crate::{BodyKind, World};
+use super::rules::Rules;
+use crate::broad::tree::Broad;
+use crate::store::bodies::Bodies;
+use crate::store::state::Collider;
+use crate::{BodyKind, Mode};
 
 /// Members are searched around this far beyond their boxes, as a part of these: what moves on is not searched around each tick. 0.5:
 /// a drum takes 0.8 % longer.
@@ -26,104 +31,95 @@ impl Stepping {
         });
         boxes
     }
-}
-
-impl World {
-    /// Kinematic bodies are known to the engine from its first member on.
-    pub(super) fn invite_drivers(&mut self) {
-        if !core::mem::replace(&mut self.joins.has_guests, true) {
-            for index in self.joins.drivers.clone() {
-                if self.bodies.is_alive(index) {
-                    self.show_engine(index);
-                }
-            }
-        }
-    }
-
-    /// Has the engine know a body that rests or drives.
-    pub(crate) fn show_engine(&mut self, index: u32) {
-        let may_join = self.may_join();
-        let state = self.bodies.get_mut(index);
-        if may_join && state.kind == BodyKind::Kinematic {
-            self.joins.drivers.insert(index);
-        }
-        if !self.joins.has_guests || state.in_engine() || !state.rests_or_drives() {
-            return;
-        }
-        state.is_guest = true;
-        self.bodies.touch(index);
-    }
 
     /// Contacts of the sub-step that begins, also with what rests near members; whether some body came, or deviates from its predicted
     /// motion.
-    pub(super) fn search_contacts(&mut self, stepping: &mut Stepping) -> bool {
-        if self.may_join() {
-            stepping.engine.pose_boxes();
-            let boxes = stepping.uncovered(|engine, found| engine.new_boxes(found));
-            self.invite_in(stepping, boxes);
+    pub(crate) fn search_contacts(
+        &mut self,
+        bodies: &mut Bodies,
+        colliders: &[Collider],
+        broad: &Broad,
+        mode: Mode,
+        time: SimTime,
+    ) -> bool {
+        if mode != Mode::Stepped {
+            self.engine.pose_boxes();
+            let boxes = self.uncovered(|engine, found| engine.new_boxes(found));
+            self.invite_in(bodies, colliders, broad, boxes, time);
         }
-        stepping.engine.find_contacts(&self.rules())
+        self.engine.find_contacts(&Rules {
+            bodies,
+            colliders,
+            broad,
+        })
     }
 
     /// What rests where fast members go within the `left` seconds of a sub-step is known to the engine.
-    pub(super) fn invite_ahead(&mut self, stepping: &mut Stepping, left: f64) {
-        if self.may_join() {
-            let boxes = stepping.uncovered(|engine, found| engine.fast_boxes(left, found));
-            self.invite_in(stepping, boxes);
-        }
+    pub(crate) fn invite_ahead(
+        &mut self,
+        bodies: &mut Bodies,
+        colliders: &[Collider],
+        broad: &Broad,
+        time: SimTime,
+        left: f64,
+    ) {
+        let boxes = self.uncovered(|engine, found| engine.fast_boxes(left, found));
+        self.invite_in(bodies, colliders, broad, boxes, time);
     }
 
     /// Bodies at rest in these boxes of members, and fixed bodies beside such that sleep, enter the engine.
-    fn invite_in(&mut self, stepping: &mut Stepping, boxes: Vec<(u64, Aabb)>) {
+    fn invite_in(
+        &mut self,
+        bodies: &mut Bodies,
+        colliders: &[Collider],
+        broad: &Broad,
+        boxes: Vec<(u64, Aabb)>,
+        time: SimTime,
+    ) {
         let (mut guests, mut near) = (Vec::new(), Vec::new());
+        // Bodies of these kinds at rest in a box become guests.
+        let mut note = |bounds: Aabb,
+                        is_asked: fn(BodyKind) -> bool,
+                        guests: &mut Vec<u32>,
+                        bodies: &mut Bodies| {
+            broad.search_tree(colliders, bounds, &mut near);
+            for at in &near {
+                let index = colliders[*at as usize].body;
+                let state = bodies.get_mut(index);
+                let is_new = !state.is_guest && !state.in_engine() && state.rests_or_drives();
+                if is_new && is_asked(state.kind) {
+                    state.is_guest = true;
+                    guests.push(index);
+                }
+            }
+        };
         for (tag, bounds) in boxes {
             let at = super::collider(tag) as usize;
-            if stepping.covered.len() <= at {
-                stepping.covered.resize(at + 1, Aabb::EMPTY);
+            if self.covered.len() <= at {
+                self.covered.resize(at + 1, Aabb::EMPTY);
             }
             let size = bounds.extents();
             let around = bounds.grown(AROUND * size.x.max(size.y));
-            stepping.covered[at] = around;
-            self.note_guests(around, |_| true, &mut near, &mut guests);
+            self.covered[at] = around;
+            note(around, |_| true, &mut guests, bodies);
         }
         // The engine wakes sleepers that a fixed body is put into: one that always was there comes first.
         let mut sleeper = 0;
         while let Some(&index) = guests.get(sleeper) {
             sleeper += 1;
-            if self.bodies.get(index).kind == BodyKind::Dynamic {
-                for &at in &self.bodies.get(index).colliders.clone() {
-                    let bounds = self.colliders[at as usize].fat;
-                    let is_fixed = |kind: BodyKind| kind == BodyKind::Fixed;
-                    self.note_guests(bounds, is_fixed, &mut near, &mut guests);
+            if bodies.get(index).kind == BodyKind::Dynamic {
+                for &at in &bodies.get(index).colliders.clone() {
+                    let is_fixed = |kind| kind == BodyKind::Fixed;
+                    note(colliders[at as usize].fat, is_fixed, &mut guests, bodies);
                 }
             }
         }
         guests.sort_unstable_by_key(|index| {
-            let kind = self.bodies.get(*index).kind;
+            let kind = bodies.get(*index).kind;
             (kind != BodyKind::Fixed, *index)
         });
         for index in guests {
-            self.enter(stepping, index, self.clock.now);
-        }
-    }
-
-    /// Bodies of these kinds at rest in a box become guests.
-    fn note_guests(
-        &mut self,
-        bounds: Aabb,
-        is_asked: impl Fn(BodyKind) -> bool,
-        near: &mut Vec<u32>,
-        guests: &mut Vec<u32>,
-    ) {
-        self.broad.search_tree(&self.colliders, bounds, near);
-        for at in near {
-            let index = self.colliders[*at as usize].body;
-            let state = self.bodies.get_mut(index);
-            let is_new = !state.is_guest && !state.in_engine() && state.rests_or_drives();
-            if is_new && is_asked(state.kind) {
-                state.is_guest = true;
-                guests.push(index);
-            }
+            self.enter(bodies, colliders, index, time);
         }
     }
 }

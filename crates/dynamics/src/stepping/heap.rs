@@ -4,13 +4,15 @@
 //! handed to the engine, which pairs it and looks at it once more.
 
 use carom_collision::{PartManifold, contacts};
-use carom_math::{Pose, SimTime, Vec2, cross_scalar};
+use carom_math::{Pose, SimTime};
 
 use super::MANY;
-use crate::analytic::modes::ROWS;
+use super::rules::Rules;
+use crate::broad::tree::Overlapping;
+use crate::model::approach::RigidState;
+use crate::model::graph::ROWS;
 use crate::model::narrow::{TOUCH, rest_speed_between};
 use crate::store::state::BodyState;
-use crate::{PairSearch, World};
 
 /// What the search for heaps knows of the bodies of a world.
 #[derive(Clone, Debug, Default)]
@@ -44,50 +46,39 @@ impl Heap {
     }
 }
 
-impl World {
-    /// At the start of a sub-step: bodies of `lands`, which begin to rest, join with all of their heap if it is for the engine;
-    /// the others stay.
-    pub(crate) fn gather_heaps(
-        &mut self,
-        lands: &mut Vec<u32>,
-        seen: &mut Seen,
-        time: SimTime,
-        h: f64,
-    ) {
-        if !self.may_join() || self.broad.search != PairSearch::Indexed {
-            return;
-        }
-        seen.of.resize(self.bodies.places(), Step::Unseen);
+/// What a search for heaps reads, at the start of a sub-step.
+pub(crate) struct Heaps<'a> {
+    pub(crate) rules: Rules<'a>,
+    /// Finds free bodies.
+    pub(crate) free: &'a Overlapping<'a>,
+    /// So many bodies may be in closed form.
+    pub(crate) few: usize,
+    pub(crate) time: SimTime,
+    pub(crate) h: f64,
+}
+
+impl Heaps<'_> {
+    /// Bodies of `lands`, which begin to rest, with all of their heaps that are for the engine, in order.
+    pub(crate) fn joining(&self, lands: &[u32], seen: &mut Seen) -> Vec<u32> {
+        seen.of.resize(self.rules.bodies.places(), Step::Unseen);
         let mut joining = Vec::new();
-        for &index in &*lands {
+        for &index in lands {
             if seen.of[index as usize] == Step::Unseen {
-                let heap = self.heap_around(index, seen, time, h);
-                if heap.is_for_engine(self.few()) {
+                let heap = self.heap_around(index, seen);
+                if heap.is_for_engine(self.few) {
                     joining.extend(heap.bodies);
                 }
             }
         }
-        if joining.is_empty() {
-            return;
-        }
         joining.sort_unstable();
-        lands.retain(|index| joining.binary_search(index).is_err());
-        self.pairs.end_substepping_all(&mut self.stepped, &joining);
-        // No body is free any more when the first one joins: pairs are found once, as those of members.
-        for &index in &joining {
-            let state = self.bodies.get_mut(index);
-            if state.goes_by_events() {
-                state.land();
-                self.free.vanish(&mut self.bodies, index);
-            }
-        }
-        for index in joining {
-            self.join(index, time);
-        }
+        joining
     }
 
     /// All that hangs together by touch with a body that begins to rest.
-    fn heap_around(&self, first: u32, seen: &mut Seen, time: SimTime, h: f64) -> Heap {
+    fn heap_around(&self, first: u32, seen: &mut Seen) -> Heap {
+        let Rules {
+            bodies, colliders, ..
+        } = self.rules;
         let mut heap = Heap {
             bodies: vec![first],
             points: 0,
@@ -99,23 +90,23 @@ impl World {
         while let Some(&index) = heap.bodies.get(next) {
             next += 1;
             seen.of[index as usize] = Step::Asked;
-            let state = self.bodies.get(index);
+            let state = bodies.get(index);
             heap.fits &= !state.membership.is_closed();
-            let here = Here::of(state, time);
+            let here = Here::of(state, self.time);
             for &mine in &state.colliders {
                 self.near_at(mine, &here, &mut scratch);
                 for &other in &scratch.near {
-                    let owner = self.colliders[other as usize].body;
+                    let owner = colliders[other as usize].body;
                     if seen.of[owner as usize] == Step::Asked {
                         continue;
                     }
                     let shapes = (mine, other);
-                    let points = self.rest_between(shapes, &here, time, h, &mut scratch.found);
+                    let points = self.rest_between(shapes, &here, &mut scratch.found);
                     if points == 0 {
                         continue;
                     }
                     heap.points += points;
-                    let state = self.bodies.get(owner);
+                    let state = bodies.get(owner);
                     let belongs = state.is_dynamic() && !state.is_asleep() && !state.in_engine();
                     if belongs && seen.of[owner as usize] == Step::Unseen {
                         seen.of[owner as usize] = Step::Found;
@@ -129,13 +120,16 @@ impl World {
 
     /// Shapes that may touch one where it is, those of free bodies too.
     fn near_at(&self, mine: u32, here: &Here, scratch: &mut Scratch) {
-        let collider = &self.colliders[mine as usize];
+        let Rules {
+            bodies,
+            colliders,
+            broad,
+        } = self.rules;
+        let collider = &colliders[mine as usize];
         let bounds = collider.solid.aabb(here.pose).grown(here.touch);
-        self.broad
-            .search_tree(&self.colliders, bounds, &mut scratch.near);
-        self.free
-            .overlapping(&self.bodies, bounds, &mut scratch.free);
-        let shapes = |body: &u32| &self.bodies.get(*body).colliders;
+        broad.search_tree(colliders, bounds, &mut scratch.near);
+        (self.free)(bodies, bounds, &mut scratch.free);
+        let shapes = |body: &u32| &bodies.get(*body).colliders;
         scratch.near.extend(scratch.free.iter().flat_map(shapes));
     }
 
@@ -144,32 +138,35 @@ impl World {
         &self,
         (mine, other): (u32, u32),
         here: &Here,
-        time: SimTime,
-        h: f64,
         found: &mut Vec<PartManifold>,
     ) -> usize {
-        let [mine, other] = [mine, other].map(|at| &self.colliders[at as usize]);
-        let (a, b) = (self.bodies.get(mine.body), self.bodies.get(other.body));
-        let apart = b.centre_at(time) - here.pose.position;
+        let Rules {
+            bodies,
+            colliders,
+            broad,
+        } = self.rules;
+        let [mine, other] = [mine, other].map(|at| &colliders[at as usize]);
+        let (a, b) = (bodies.get(mine.body), bodies.get(other.body));
+        let apart = b.centre_at(self.time) - here.pose.position;
         let touch = TOUCH * a.reach.min(b.reach);
         let near = a.reach + b.reach + touch;
         if mine.body == other.body
             || apart.length_squared() > near * near
-            || !self.broad.may_touch(&self.bodies, mine, other)
+            || !broad.may_touch(bodies, mine, other)
         {
             return 0;
         }
-        let there = Here::of(b, time);
+        let there = Here::of(b, self.time);
         let b_in_a = there.pose.seen_from(here.pose);
         found.clear();
         contacts(&mine.solid, &other.solid, b_in_a, touch, found);
-        let slowest = -rest_speed_between(&self.bodies, (mine.body, other.body), h);
+        let slowest = -rest_speed_between(bodies, (mine.body, other.body), self.h);
         let mut points = 0;
         for contact in &*found {
             let normal = here.pose.vector(contact.manifold.normal);
             for point in &contact.manifold.points {
                 let at = here.pose.point(point.point);
-                let rate = (there.velocity_of(at) - here.velocity_of(at)).dot(normal);
+                let rate = (there.moves.velocity_of(at) - here.moves.velocity_of(at)).dot(normal);
                 points += usize::from(point.separation <= touch && rate >= slowest);
             }
         }
@@ -180,8 +177,7 @@ impl World {
 /// A body at an instant.
 struct Here {
     pose: Pose,
-    velocity: Vec2,
-    spin: f64,
+    moves: RigidState,
     /// What touches it is nearer than this, in m.
     touch: f64,
 }
@@ -190,15 +186,9 @@ impl Here {
     fn of(state: &BodyState, time: SimTime) -> Self {
         Self {
             pose: state.centre_pose(time),
-            velocity: state.velocity_at(time),
-            spin: state.spin_at(time),
+            moves: RigidState::of(state, time),
             touch: TOUCH * state.reach,
         }
-    }
-
-    /// Velocity of its point at `point`, in m/s.
-    fn velocity_of(&self, point: Vec2) -> Vec2 {
-        self.velocity + cross_scalar(self.spin, point - self.pose.position)
     }
 }
 
@@ -212,8 +202,7 @@ struct Scratch {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
-    use crate::{BodyDef, BodyId, Material, Settings};
+    use crate::{BodyDef, BodyId, Material, PairSearch, Settings, World};
     use carom_geometry::ConvexPolygon;
     use carom_math::vec2;
 

@@ -26,7 +26,7 @@ use crate::{EnergyLedger, Mode, World};
 /// Islands of more bodies than this join the engine even if nothing bears them; so many wake, or land, at once.
 pub(crate) const FEW: usize = 16;
 
-/// Groups of more bodies in touch than this have more than [`crate::analytic::modes::ROWS`] rows: no closed form is tried.
+/// Groups of more bodies in touch than this have more than [`crate::model::graph::ROWS`] rows: no closed form is tried.
 pub(crate) const MANY: usize = 64;
 
 /// A member flies after more ticks than these without a contact.
@@ -36,31 +36,31 @@ const IDLE: u8 = 2;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Joins {
     /// The engine had a member: bodies that come to rest are guests from now on.
-    pub(super) has_guests: bool,
+    pub(crate) has_guests: bool,
     /// Kinematic bodies, and some that were.
-    pub(super) drivers: BTreeSet<u32>,
+    pub(crate) drivers: BTreeSet<u32>,
     /// Bodies that woke in the engine.
-    pub(super) woken: Vec<u32>,
+    pub(crate) woken: Vec<u32>,
     /// Bodies that came to the sub-steps in the midst of one, and lie where they are until it ends.
     waiting: Vec<u32>,
     /// Shapes that touched when one of their bodies joined: the caller was told.
-    pub(super) told: Vec<Shapes>,
+    pub(crate) told: Vec<Shapes>,
     /// Members that had no contact at the last ticks, and at how many; in order of bodies.
     idle: Vec<(u32, u8)>,
     /// Bodies that took to flight, and some that landed since.
     pub(crate) aloft: Vec<u32>,
     /// Bodies outside with motions that are newer than the last search for bodies that join.
-    pub(super) restless: Vec<u32>,
+    pub(crate) restless: Vec<u32>,
     /// Motions are older than the engine.
-    pub(super) unwritten: bool,
+    pub(crate) unwritten: bool,
     /// Where the engine's last sub-step ended.
-    pub(super) reached: SimTime,
+    pub(crate) reached: SimTime,
     pub(crate) rush: Rush,
     /// Energy of all bodies that left less that of all that joined, in J.
     pub(crate) balance: Sum,
     /// Work of kinematic bodies, and of the caller's forces, in J.
-    pub(super) driven: Sum,
-    pub(super) forced: Sum,
+    pub(crate) driven: Sum,
+    pub(crate) forced: Sum,
 }
 
 impl Joins {
@@ -80,7 +80,7 @@ impl Joins {
     }
 
     /// Whether a body outside has a motion that is newer than the last search for bodies that join.
-    pub(super) const fn is_restless(&self) -> bool {
+    pub(crate) const fn is_restless(&self) -> bool {
         !self.restless.is_empty()
     }
 }
@@ -249,7 +249,7 @@ impl World {
     }
 
     /// Takes a body's boxes and pairs from the world: the engine has its own. What touches goes on to touch.
-    pub(super) fn leave_pairs(&mut self, index: u32, time: SimTime) {
+    pub(crate) fn leave_pairs(&mut self, index: u32, time: SimTime) {
         for place in self.bodies.get(index).pairs.clone() {
             let Some(pair) = self.take_pair(place, time) else {
                 continue;
@@ -269,7 +269,7 @@ impl World {
     /// A member leaves, with the motion that it has at `time`: its next regime is for the caller to choose.
     pub(crate) fn leave(&mut self, index: u32, time: SimTime) {
         if self.leave_engine(index, time) {
-            self.tell_touches(time);
+            self.tell_members_touches(time);
         }
         self.take_woken(time);
         self.end_membership(index, time);
@@ -290,7 +290,7 @@ impl World {
     }
 
     /// Members that nothing touches or nears for a while fly from here on. At the start of a tick.
-    pub(super) fn disperse(&mut self, time: SimTime) {
+    pub(crate) fn disperse(&mut self, time: SimTime) {
         let Some(mut stepping) = self.stepping.take() else {
             return;
         };
@@ -328,14 +328,14 @@ impl World {
             self.take_off(index, time);
         }
         if !gone.is_empty() {
-            self.tell_touches(time);
+            self.tell_members_touches(time);
         }
     }
 
     /// The motion of a member from `time` on if nothing meets it.
     fn write_flight(&mut self, state: &State, time: SimTime) {
         let index = super::place(state);
-        let (pull, twist) = self.pull_on(index, state.pose.position);
+        let (pull, twist) = self.bodies.pull_on(index, state.pose.position);
         let motion = Motion {
             start: time,
             velocity: state.velocity.0,

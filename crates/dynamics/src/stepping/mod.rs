@@ -8,18 +8,18 @@
 //! The engine knows bodies by slots of its own. It is told what a caller changed before the sub-step that follows, and
 //! motions are written once at the end of a step, or of each sub-step for a log.
 //!
-//! To read in this order: this file, [`enter`], [`rules`], [`write`], [`touch`], [`rest`]; then, for members, [`join`] (which bodies
-//! the engine moves: [`near`], [`rush`] and [`heap`] say which join), [`members`] (a sub-step of them) and [`within`].
+//! A world goes through its sub-steps in [`crate::engine`] and [`crate::members`]. To read in this order: this file, [`enter`], [`rules`],
+//! [`write`], [`touch`], [`rest`]; then, for members, [`join`] (which bodies the engine moves: [`near`], [`rush`] and [`heap`] say which
+//! join) and [`guests`] (which others it knows).
 
 mod enter;
 mod guests;
-mod heap;
+pub(crate) mod heap;
 mod join;
-mod members;
-mod near;
+pub(crate) mod near;
 mod rest;
-mod rules;
-mod rush;
+pub(crate) mod rules;
+pub(crate) mod rush;
 pub(crate) mod threads;
 mod touch;
 mod within;
@@ -28,13 +28,12 @@ mod write;
 use std::collections::BTreeMap;
 
 use carom_geometry::Aabb;
-use carom_math::{Pose, SimTime};
+use carom_math::Pose;
 use carom_stepped::{Engine, Impact, Relaxation, Softness, State, Touch};
 
+use crate::Settings;
 use crate::values::error::SettingsError;
-use crate::{Settings, World};
 
-pub(crate) use heap::Seen;
 pub(crate) use join::{Joins, MANY};
 
 /// The engine, and which bodies of the world its bodies are.
@@ -46,7 +45,7 @@ pub(crate) struct Stepping {
     /// Where each member was searched around: all that rests there is a guest. By place in the world.
     covered: Vec<Aabb>,
     /// Greatest width of a shape of several convex pieces that the engine was given, in m: its box may be where no piece is.
-    widest: f64,
+    pub(crate) widest: f64,
     /// Shapes of several convex pieces that touch: how many pairs of theirs.
     touching: BTreeMap<Shapes, u32>,
     /// Bodies that fell asleep or woke since that was told.
@@ -114,7 +113,7 @@ impl Stepping {
     }
 
     /// Takes a body out of the engine.
-    fn remove(&mut self, index: u32) {
+    pub(crate) fn remove(&mut self, index: u32) {
         if let Some(id) = self.id(index) {
             let told = self.engine.remove(id);
             debug_assert!(told.is_ok(), "{told:?}");
@@ -123,12 +122,12 @@ impl Stepping {
     }
 
     /// The engine's name of a body.
-    fn id(&self, index: u32) -> Option<carom_stepped::BodyId> {
+    pub(crate) fn id(&self, index: u32) -> Option<carom_stepped::BodyId> {
         self.ids.get(index as usize).copied().flatten()
     }
 
     /// The engine's state of a body.
-    fn state(&self, index: u32) -> Option<State> {
+    pub(crate) fn state(&self, index: u32) -> Option<State> {
         self.engine.state(self.id(index)?).ok()
     }
 }
@@ -154,78 +153,8 @@ fn sleep_of(settings: &Settings) -> Option<carom_stepped::Sleep> {
 
 /// The world's place of a body of the engine.
 #[expect(clippy::cast_possible_truncation, reason = "tags are places")]
-const fn place(state: &State) -> u32 {
+pub(crate) const fn place(state: &State) -> u32 {
     state.tag as u32
-}
-
-impl World {
-    /// Sub-steps up to `end`.
-    pub(crate) fn advance_stepping(&mut self, end: SimTime, stop_at_event: bool) -> SimTime {
-        let Some(mut stepping) = self.stepping.take() else {
-            return end;
-        };
-        let reached = self.step_all(&mut stepping, end, stop_at_event);
-        self.stepping = Some(stepping);
-        reached
-    }
-
-    fn step_all(&mut self, stepping: &mut Stepping, end: SimTime, stop_at_event: bool) -> SimTime {
-        self.enter_within(stepping);
-        if end > self.clock.now && self.clock.is_within(self.clock.now) {
-            // What the engine did lasts to the end of its sub-step, and what came meanwhile knows of no contact before.
-            self.report.handed_over += stepping.engine.awake_count() as u64;
-        }
-        let mut first = true;
-        while self.clock.is_due(end) {
-            let time = self.clock.next();
-            if first {
-                self.enter_changed(stepping, time, self.clock.now);
-            } else if self.settings.history > 0 {
-                self.write_all(stepping);
-            }
-            self.book_pulls(stepping, time, first);
-            first = false;
-            self.clock.begin();
-            self.report.substeps += 1;
-            stepping.note_places(self.settings.history > 0 || self.clock.is_within(end));
-            self.substep_engine(stepping);
-            let reached = self.clock.next();
-            self.tell_sleep(stepping, reached.min(end));
-            self.tell_impacts(stepping, reached.min(end));
-            if stepping.engine.is_at_tick() || stop_at_event {
-                self.tell_changed_touches(stepping, reached.min(end));
-            }
-            if self.clock.is_due(end) && self.work.uses_up(self.report.pairs)
-                || stop_at_event && self.events.are_due()
-            {
-                self.tell_changed_touches(stepping, reached.min(end));
-                self.write_all(stepping);
-                return reached.min(end);
-            }
-        }
-        if !first {
-            self.tell_changed_touches(stepping, self.clock.next().min(end));
-            self.write_all(stepping);
-            self.stopwatch.lap(|p| &mut p.flight);
-        } else if !self.clock.is_within(end) {
-            self.end_motions(stepping);
-        }
-        end
-    }
-
-    fn substep_engine(&mut self, stepping: &mut Stepping) {
-        let looks = stepping.engine.looks();
-        self.search_contacts(stepping);
-        stepping.engine.advance();
-        self.invite_ahead(stepping, self.clock.h);
-        stepping.engine.finish(&self.rules());
-        self.report.pairs += stepping.engine.looks() - looks;
-        let deepest = stepping.engine.deepest_overlap();
-        self.report.deepest_overlap = self.report.deepest_overlap.max(deepest);
-        self.report.rows += stepping.engine.awake_contact_count() as u64;
-        self.report.handed_over += stepping.engine.awake_count() as u64;
-        self.stopwatch.lap(|p| &mut p.solver);
-    }
 }
 
 /// The world's shape that a piece of the engine is, or is a part of.

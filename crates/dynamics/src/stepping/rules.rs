@@ -2,38 +2,26 @@
 
 use carom_stepped::{Material, PairRules, Surface};
 
+use super::Stepping;
+use crate::PairSearch;
 use crate::broad::tree::Broad;
 use crate::store::bodies::Bodies;
 use crate::store::state::Collider;
-use crate::{PairSearch, World};
 
-/// What a caller said of filters, materials and pairs of bodies.
-pub(super) struct Rules<'a> {
-    pub(super) bodies: &'a Bodies,
-    pub(super) colliders: &'a [Collider],
-    pub(super) broad: &'a Broad,
-    pub(super) search: PairSearch,
+/// Bodies and their shapes, and what a caller said of filters, materials and pairs of bodies.
+#[derive(Clone, Copy)]
+pub(crate) struct Rules<'a> {
+    pub(crate) bodies: &'a Bodies,
+    pub(crate) colliders: &'a [Collider],
+    pub(crate) broad: &'a Broad,
 }
 
-impl World {
-    /// Asks anew how the contacts of a body meet, in the engine.
-    pub(crate) fn resurface(&mut self, index: u32) {
-        let Some(mut stepping) = self.stepping.take() else {
-            return;
-        };
-        if let Some(id) = stepping.id(index) {
-            let told = stepping.engine.resurface(id, &self.rules());
+impl Stepping {
+    /// Asks anew how the contacts of a body meet.
+    pub(crate) fn resurface(&mut self, index: u32, rules: Rules<'_>) {
+        if let Some(id) = self.id(index) {
+            let told = self.engine.resurface(id, &rules);
             debug_assert!(told.is_ok(), "{told:?}");
-        }
-        self.stepping = Some(stepping);
-    }
-
-    pub(super) fn rules(&self) -> Rules<'_> {
-        Rules {
-            bodies: &self.bodies,
-            colliders: &self.colliders,
-            broad: &self.broad,
-            search: self.settings.pair_search,
         }
     }
 }
@@ -41,7 +29,7 @@ impl World {
 impl PairRules for Rules<'_> {
     fn surface(&self, tags: [u64; 2], _: [Material; 2]) -> Option<Surface> {
         let [a, b] = tags.map(|tag| &self.colliders[super::collider(tag) as usize]);
-        if self.search == PairSearch::None || !self.broad.may_touch(self.bodies, a, b) {
+        if self.broad.search == PairSearch::None || !self.broad.may_touch(self.bodies, a, b) {
             return None;
         }
         let [one, other] = [a, b].map(|collider| self.bodies.get(collider.body).id);

@@ -1,9 +1,5 @@
 //! Impacts within a tick: bodies that strike each other too often join the engine.
 
-use carom_math::SimTime;
-
-use crate::{Mode, World};
-
 /// So many bodies that strike each other stay with their exact impacts, however many these are.
 const HANDFUL: f64 = 6.0;
 
@@ -96,71 +92,56 @@ impl Rush {
         node.spent += lost.spent;
         low
     }
-}
 
-impl World {
-    /// Counts an impact that changed the motions of `bodies`, at the price of `lost`.
-    pub(crate) fn rush(&mut self, bodies: &[u32], lost: f64, time: SimTime) {
-        let Some(&first) = bodies.first() else {
-            return;
+    /// Whether impacts of an earlier tick were counted last.
+    pub(crate) const fn is_before(&self, tick: i64) -> bool {
+        self.tick != tick
+    }
+
+    /// Counts an impact in a tick that changed the motions of `bodies`, at the price of `lost`: whether there are too many now among
+    /// the bodies that struck each other.
+    pub(crate) fn count(&mut self, bodies: &[u32], lost: f64, tick: i64) -> Haste {
+        let Some((&first, others)) = bodies.split_first() else {
+            return Haste::None;
         };
-        if self.settings.mode != Mode::Hybrid {
-            return;
+        self.turn_to(tick);
+        let mut root = self.root(first);
+        for &other in others {
+            root = self.join(root, other);
         }
-        #[expect(
-            clippy::cast_possible_truncation,
-            reason = "the cast saturates; a tick more or less in a budget is no matter"
-        )]
-        let tick = (time.as_secs() / self.settings.tick) as i64;
-        if self.joins.rush.tick != tick {
-            self.end_rush(time);
-        }
-        let rush = &mut self.joins.rush;
-        rush.turn_to(tick);
-        let mut root = rush.root(first);
-        for &other in &bodies[1..] {
-            root = rush.join(root, other);
-        }
-        let node = &mut rush.nodes[root as usize];
+        let node = &mut self.nodes[root as usize];
         node.spent += lost;
         let (size, spent) = (f64::from(node.size), node.spent);
         let losses = if size > MANY { LOSSES } else { RATTLE };
         if size <= HANDFUL || spent <= losses * size {
-            return;
+            return Haste::None;
         }
-        let was = self.is_substepping();
-        if !self.joins.rush.due.contains(&root) {
-            self.joins.rush.due.push(root);
-        }
-        if !was {
-            self.clock.catch_up(time);
+        if !self.due.contains(&root) {
+            self.due.push(root);
         }
         if spent > AT_ONCE * size {
-            self.end_rush(time);
+            Haste::AtOnce
+        } else {
+            Haste::Due
         }
     }
 
-    /// Bodies that struck each other too often join the engine.
-    pub(crate) fn end_rush(&mut self, time: SimTime) {
-        let rush = &mut self.joins.rush;
-        if rush.due.is_empty() {
-            return;
-        }
-        let due = core::mem::take(&mut rush.due);
-        let roots: Vec<u32> = due.into_iter().map(|index| rush.root(index)).collect();
-        let known = rush.known.clone();
-        let mut members: Vec<u32> = Vec::new();
-        for index in known {
-            if roots.contains(&rush.root(index)) {
-                members.push(index);
-            }
-        }
+    /// Takes out the bodies that struck each other too often, in order.
+    pub(crate) fn take_due(&mut self) -> Vec<u32> {
+        let due = core::mem::take(&mut self.due);
+        let roots: Vec<u32> = due.into_iter().map(|index| self.root(index)).collect();
+        let mut members = self.known.clone();
+        members.retain(|index| roots.contains(&self.root(*index)));
         members.sort_unstable();
-        for index in members {
-            if self.bodies.is_alive(index) {
-                self.join(index, time);
-            }
-        }
-        self.lower_free_boxes_later();
+        members
     }
+}
+
+/// When bodies that strike each other join the engine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Haste {
+    None,
+    /// With the next sub-step.
+    Due,
+    AtOnce,
 }

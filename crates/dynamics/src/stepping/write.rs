@@ -5,7 +5,8 @@ use carom_math::{Pose, SimTime, Vec2};
 use carom_stepped::State;
 
 use super::{Stepping, place};
-use crate::World;
+use crate::store::bodies::Bodies;
+use crate::store::clock::Clock;
 use crate::store::uncommon::Lag;
 
 /// Places that differ by less, as a part of the reach and the way, are one but for rounding.
@@ -13,7 +14,7 @@ const SAME: f64 = 1e-12;
 
 impl Stepping {
     /// Notes all poses before a sub-step within which a pose may be read, and forgets them before any other.
-    pub(super) fn note_places(&mut self, asked: bool) {
+    pub(crate) fn note_places(&mut self, asked: bool) {
         self.places.clear();
         if asked {
             let states = self.engine.awake();
@@ -22,41 +23,37 @@ impl Stepping {
             self.places.sort_unstable_by_key(|noted| noted.0);
         }
     }
-}
 
-impl World {
     /// Motions of the last sub-step for all that moved in it.
-    pub(super) fn write_all(&mut self, stepping: &Stepping) {
-        let start = self.clock.last();
-        for state in stepping.engine.awake() {
-            self.write_one(stepping, &state, start);
+    pub(crate) fn write_all(&self, bodies: &mut Bodies, clock: &Clock) {
+        for state in self.engine.awake() {
+            self.write_one(bodies, &state, clock);
         }
     }
 
     /// Writes the end of a sub-step within which poses were read: with the bits that it has if none was.
-    pub(super) fn end_motions(&mut self, stepping: &mut Stepping) {
-        if stepping.places.is_empty() || self.settings.history > 0 {
+    pub(crate) fn end_motions(&mut self, bodies: &mut Bodies, clock: &Clock) {
+        if self.places.is_empty() || bodies.history.is_kept() {
             return;
         }
-        stepping.note_places(false);
+        self.note_places(false);
         // Bodies that were changed meanwhile go on from there.
-        let mut changed = self.bodies.touched.clone();
+        let mut changed = bodies.touched.clone();
         changed.sort_unstable();
-        let start = self.clock.last();
-        for state in stepping.engine.awake() {
+        for state in self.engine.awake() {
             if changed.binary_search(&place(&state)).is_err() {
-                self.write_one(stepping, &state, start);
+                self.write_one(bodies, &state, clock);
             }
         }
     }
 
-    /// A body's motion of the last sub-step, which began at `start`: from the velocity before to the one after, to where it is.
+    /// A body's motion of the last sub-step: from the velocity before to the one after, to where it is.
     ///
     /// That is where it came from, too, unless a contact stopped it or pushed it out within the sub-step. Such a body goes
     /// evenly from place to place: a path between two that are free, and no faster than it was.
-    pub(super) fn write_one(&mut self, stepping: &Stepping, state: &State, start: SimTime) {
-        let (index, h) = (place(state), self.clock.h);
-        if self.bodies.get(index).is_guest {
+    pub(super) fn write_one(&self, bodies: &mut Bodies, state: &State, clock: &Clock) {
+        let (index, start, h) = (place(state), clock.last(), clock.h);
+        if bodies.get(index).is_guest {
             // Another method moves it, and what that predicted stands.
             return;
         }
@@ -74,62 +71,62 @@ impl World {
         let (way, turn) = (motion.travel(h), motion.turn(h));
         motion.centre -= way;
         motion.rotation = motion.rotation.turned_slightly(-turn);
-        let noted = stepping
+        let noted = self
             .places
             .binary_search_by_key(&index, |noted| noted.0)
-            .map(|k| stepping.places[k]);
+            .map(|k| self.places[k]);
         if let Ok((_, from, turned)) = noted {
-            let reach = self.bodies.get(index).reach;
+            let reach = bodies.get(index).reach;
             let left = state.turned - turned;
             let off = (motion.centre - from.position).length() + (left - turn).abs() * reach;
             if off > SAME * (reach + way.length()) {
-                self.go_evenly(index, start, (from, turned, (u, s)), state, h);
+                go_evenly(bodies, start, (from, turned, (u, s)), state, h);
                 return;
             }
         }
-        self.bodies.go_on_as(index, &motion, state.turned - turn);
-        self.bodies.renew(index);
+        bodies.go_on_as(index, &motion, state.turned - turn);
+        bodies.renew(index);
     }
+}
 
-    /// A body goes evenly from a pose, an angle, and a velocity and spin, to those of the engine within `span` seconds.
-    pub(super) fn go_evenly(
-        &mut self,
-        index: u32,
-        start: SimTime,
-        (from, turned, before): (Pose, f64, (Vec2, f64)),
-        to: &State,
-        span: f64,
-    ) {
-        let even = (
-            (to.pose.position - from.position) / span,
-            (to.turned - turned) / span,
-        );
-        let motion = Motion {
-            start,
-            velocity: even.0,
-            rotation: from.rotation,
-            spin: even.1,
-            ..Motion::resting(from.position)
-        };
-        self.bodies.go_on_as(index, &motion, turned);
-        let lag = Lag::of_even(even, before, to.velocity, span);
-        self.bodies.get_mut(index).set_lag(lag);
-        self.bodies.renew(index);
-    }
+/// A body goes evenly from a pose, an angle, and a velocity and spin, to those of the engine within `span` seconds.
+pub(super) fn go_evenly(
+    bodies: &mut Bodies,
+    start: SimTime,
+    (from, turned, before): (Pose, f64, (Vec2, f64)),
+    to: &State,
+    span: f64,
+) {
+    let index = place(to);
+    let even = (
+        (to.pose.position - from.position) / span,
+        (to.turned - turned) / span,
+    );
+    let motion = Motion {
+        start,
+        velocity: even.0,
+        rotation: from.rotation,
+        spin: even.1,
+        ..Motion::resting(from.position)
+    };
+    bodies.go_on_as(index, &motion, turned);
+    let lag = Lag::of_even(even, before, to.velocity, span);
+    bodies.get_mut(index).set_lag(lag);
+    bodies.renew(index);
+}
 
-    /// A body that fell asleep lies where the engine has it.
-    pub(super) fn write_rest(&mut self, state: &State, time: SimTime) {
-        let index = place(state);
-        let turned = {
-            let known = self.bodies.get(index);
-            known.turned + known.turn_by(time)
-        };
-        let motion = Motion {
-            start: time,
-            rotation: state.pose.rotation,
-            ..Motion::resting(state.pose.position)
-        };
-        self.bodies.go_on_as(index, &motion, turned);
-        self.bodies.renew(index);
-    }
+/// A body that fell asleep lies where the engine has it.
+pub(super) fn write_rest(bodies: &mut Bodies, state: &State, time: SimTime) {
+    let index = place(state);
+    let turned = {
+        let known = bodies.get(index);
+        known.turned + known.turn_by(time)
+    };
+    let motion = Motion {
+        start: time,
+        rotation: state.pose.rotation,
+        ..Motion::resting(state.pose.position)
+    };
+    bodies.go_on_as(index, &motion, turned);
+    bodies.renew(index);
 }

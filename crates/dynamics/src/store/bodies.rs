@@ -273,6 +273,19 @@ impl Bodies {
         (acceleration, turning)
     }
 
+    /// What accelerates a body at a place besides contacts and damping, in m/s² and rad/s²; a field that is not finite there
+    /// accelerates nothing.
+    pub(crate) fn pull_on(&self, index: u32, centre: Vec2) -> (Vec2, f64) {
+        let state = self.get(index);
+        if !state.is_dynamic() {
+            return (Vec2::ZERO, 0.0);
+        }
+        let pull =
+            state.gravity_scale() * self.pull.at(centre) + state.force() * state.inverse_mass;
+        let pull = if pull.is_finite() { pull } else { Vec2::ZERO };
+        (pull, state.torque() * state.inverse_inertia)
+    }
+
     /// The one door for changes of a motion: closes the piece that ends at `time`, books its
     /// energy, logs it, and opens the next one with a new version.
     pub(crate) fn change(&mut self, index: u32, time: SimTime, change: impl FnOnce(&mut Motion)) {

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use carom_collision::Motion;
 use carom_math::{Pose, SimTime};
 
-use crate::motion::law::Flight;
+use crate::law::flight::Flight;
 
 /// A motion, and the law that it stood for.
 pub(crate) type Followed = (Motion, Option<Arc<Flight>>);
@@ -27,6 +27,11 @@ impl History {
             capacity,
             complete_since: SimTime::ZERO,
         }
+    }
+
+    /// Whether replaced motions are kept at all.
+    pub(crate) const fn is_kept(&self) -> bool {
+        self.capacity > 0
     }
 
     /// Keeps so many from now on; the oldest of those beyond go.

@@ -4,9 +4,11 @@
 //! the one door through which a motion changes), [`regime`] (which method moves a body, and which transitions there are),
 //! [`pairs`] (pairs of shapes, and what they remember from sub-step to sub-step). The others are parts of these: of a body
 //! [`mass`], [`membership`] in an island, the [`course`] of a free one ([`swept`], [`zeno`]), what is [`uncommon`]; of all bodies
-//! [`pull`], [`history`], [`moved`] and [`left_paths`]. [`tell`] has the events that follow from a pair.
+//! [`pull`], [`history`], [`moved`] and [`left_paths`]. [`tell`] has the events that follow from a pair, [`clock`] the grid of
+//! sub-steps.
 
 pub(crate) mod bodies;
+pub(crate) mod clock;
 pub(crate) mod course;
 mod damping;
 mod few;

@@ -13,7 +13,7 @@ use super::membership::Membership;
 use super::regime::Regime;
 use super::uncommon::{Lag, Uncommon};
 use crate::impact::ImpactBody;
-use crate::motion::law::Flight;
+use crate::law::flight::Flight;
 use crate::values::error::BodyError;
 use crate::{BodyDef, BodyId, BodyKind, Filter, Material, Mode};
 use carom_collision::NodeId;

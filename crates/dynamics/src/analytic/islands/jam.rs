@@ -7,7 +7,9 @@ use carom_math::{SimTime, perp};
 
 use crate::analytic::touching::Gathered;
 use crate::impact::{ImpactContact, resolve};
-use crate::{EventKind, World};
+use crate::store::bodies::Bodies;
+use crate::store::pairs::Pairs;
+use crate::{EventKind, ImpactLaw};
 
 /// Approach that the impulse begins with, as a part of the slip.
 const NUDGE: f64 = 1e-13;
@@ -15,69 +17,70 @@ const NUDGE: f64 = 1e-13;
 /// A slip that loses less than this part by the impulse did not jam.
 const JAMS: f64 = 1e-6;
 
-impl World {
-    /// Gives a group of one point the impulse of a jam; whether it jams.
-    pub(super) fn jams(&mut self, gathered: &Gathered, time: SimTime) -> bool {
-        let ([touch], [(place, _)]) = (&*gathered.touches, &*gathered.pairs) else {
-            return false;
-        };
-        let [point] = *touch.points else {
-            return false;
-        };
-        let ends = [touch.bodies.0, touch.bodies.1].map(|slot| gathered.places[slot]);
-        let mut before = ends.map(|index| self.bodies.get(index).in_impact(time));
-        let tangent = perp(touch.normal);
-        let relative = before[1].velocity_of(point) - before[0].velocity_of(point);
-        let (slip, opening) = (relative.dot(tangent), relative.dot(touch.normal));
-        // From exactly the nudge on, whatever rounding left.
-        let moves = usize::from(before[0].inverse_mass < before[1].inverse_mass);
-        let excess = touch.normal * (opening + NUDGE * slip.abs());
-        before[moves].velocity += if moves == 1 { -excess } else { excess };
-        let contact = ImpactContact {
-            point,
-            normal: touch.normal,
-            restitution: self.pairs.get(*place).material.restitution,
-            friction: touch.friction,
-        };
-        let outcome = resolve(self.settings.impact_law, &before[0], &before[1], &contact);
-        let after = [outcome.a, outcome.b];
-        let left = (after[1].velocity_of(point) - after[0].velocity_of(point)).dot(tangent);
-        if (left - slip).abs() <= JAMS * slip.abs() {
-            return false;
-        }
-        let energy = |world: &Self| -> f64 {
-            let each = ends.iter();
-            each.map(|index| world.bodies.energy_of(*index, time).0)
-                .sum()
-        };
-        let had = energy(self);
-        for (index, body) in ends.into_iter().zip(after) {
-            if body.inverse_mass > 0.0 {
-                self.bodies.change(index, time, |motion| {
-                    motion.velocity = body.velocity;
-                    motion.spin = body.spin;
-                });
-            }
-        }
-        self.bodies.book.impacts.add(had - energy(self));
-        self.report.impacts += 1;
-        self.events.push(
-            time,
-            EventKind::Impact {
-                a: self.bodies.get(ends[0]).id,
-                b: self.bodies.get(ends[1]).id,
-                point,
-                normal: touch.normal,
-                normal_impulse: outcome.normal_impulse,
-                tangential_impulse: outcome.tangential_impulse,
-                speed: 0.0,
-            },
-        );
-        for index in ends {
-            if self.bodies.get(index).inverse_mass > 0.0 {
-                self.deflected(index, time);
-            }
-        }
-        true
+/// A jam: the bodies that it gave other motions, and how it is told.
+pub(crate) struct Jam {
+    pub(crate) ends: [u32; 2],
+    pub(crate) told: EventKind,
+}
+
+/// Gives the bodies of a group of one point the impulse of a jam; `None` if it does not jam.
+pub(crate) fn jam(
+    bodies: &mut Bodies,
+    pairs: &Pairs,
+    gathered: &Gathered,
+    law: ImpactLaw,
+    time: SimTime,
+) -> Option<Jam> {
+    let ([touch], [(place, _)]) = (&*gathered.touches, &*gathered.pairs) else {
+        return None;
+    };
+    let [point] = *touch.points else {
+        return None;
+    };
+    let ends = [touch.bodies.0, touch.bodies.1].map(|slot| gathered.places[slot]);
+    let mut before = ends.map(|index| bodies.get(index).in_impact(time));
+    let tangent = perp(touch.normal);
+    let relative = before[1].velocity_of(point) - before[0].velocity_of(point);
+    let (slip, opening) = (relative.dot(tangent), relative.dot(touch.normal));
+    // From exactly the nudge on, whatever rounding left.
+    let moves = usize::from(before[0].inverse_mass < before[1].inverse_mass);
+    let excess = touch.normal * (opening + NUDGE * slip.abs());
+    before[moves].velocity += if moves == 1 { -excess } else { excess };
+    let contact = ImpactContact {
+        point,
+        normal: touch.normal,
+        restitution: pairs.get(*place).material.restitution,
+        friction: touch.friction,
+    };
+    let outcome = resolve(law, &before[0], &before[1], &contact);
+    let after = [outcome.a, outcome.b];
+    let left = (after[1].velocity_of(point) - after[0].velocity_of(point)).dot(tangent);
+    if (left - slip).abs() <= JAMS * slip.abs() {
+        return None;
     }
+    let energy = |bodies: &Bodies| -> f64 {
+        let each = ends.iter();
+        each.map(|index| bodies.energy_of(*index, time).0).sum()
+    };
+    let had = energy(bodies);
+    for (index, body) in ends.into_iter().zip(after) {
+        if body.inverse_mass > 0.0 {
+            bodies.change(index, time, |motion| {
+                motion.velocity = body.velocity;
+                motion.spin = body.spin;
+            });
+        }
+    }
+    let lost = had - energy(bodies);
+    bodies.book.impacts.add(lost);
+    let told = EventKind::Impact {
+        a: bodies.get(ends[0]).id,
+        b: bodies.get(ends[1]).id,
+        point,
+        normal: touch.normal,
+        normal_impulse: outcome.normal_impulse,
+        tangential_impulse: outcome.tangential_impulse,
+        speed: 0.0,
+    };
+    Some(Jam { ends, told })
 }

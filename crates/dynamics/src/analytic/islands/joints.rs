@@ -2,9 +2,10 @@
 
 use arrayvec::ArrayVec;
 use carom_collision::Hull;
-use carom_math::{Pose, Vec2, cross_scalar, perp};
+use carom_math::{Pose, Vec2, perp};
 
 use crate::analytic::tipping::{End, Joint};
+use crate::model::approach::RigidState;
 use crate::model::edges::end_room;
 
 /// Sine of the angle up to which an edge lies along a contact: far above rounding.
@@ -14,17 +15,12 @@ const FLUSH: f64 = 1e-9;
 pub(super) struct Held<'a> {
     pub(super) hull: Hull<'a>,
     pub(super) pose: Pose,
-    pub(super) velocity: Vec2,
-    pub(super) spin: f64,
+    pub(super) moves: RigidState,
 }
 
 impl Held<'_> {
     fn is_disc(&self) -> bool {
         self.hull.normals.is_empty()
-    }
-
-    fn velocity_of(&self, point: Vec2) -> Vec2 {
-        self.velocity + cross_scalar(self.spin, point - self.pose.position)
     }
 
     /// The edge that lies along a contact; the normal `outward` points out of the part.
@@ -89,7 +85,7 @@ fn disc_on(own: &Held<'_>, disc: &Held<'_>, owner: End, outward: Vec2, near: f64
         let along = t.dot(local);
         let slip = own
             .pose
-            .inverse_vector(disc.velocity_of(centre) - own.velocity_of(centre))
+            .inverse_vector(disc.moves.velocity_of(centre) - own.moves.velocity_of(centre))
             .dot(t);
         // At the very end it is the way it goes that tells edge from corner.
         let room = near * FLUSH + end_room(own.pose.position, disc.pose.position);

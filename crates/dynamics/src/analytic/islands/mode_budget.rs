@@ -8,9 +8,8 @@ use carom_math::{SimTime, Vec2};
 use super::store::Closed;
 use crate::analytic::modes::BodyMove;
 use crate::analytic::touching::Gathered;
-use crate::model::graph::neighbours;
+use crate::store::bodies::Bodies;
 use crate::store::state::BodyState;
-use crate::{Mode, World};
 
 /// Size of a budget, in mode solves of one body. 16: boxes that rock to rest (`tests/it/rocking.rs`) join before, and part from the
 /// exact motion by 1.5e-5 m.
@@ -56,6 +55,31 @@ impl Closed {
         }
     }
 
+    /// Charges each body of an island for a mode solve, with ticks of `tick` seconds.
+    pub(crate) fn charge(&mut self, members: &[u32], time: SimTime, tick: f64) {
+        let cost = members.len() as f64;
+        for &index in members {
+            if self.budget(index).charge(cost, time, tick) {
+                self.exhausted.push(index);
+            }
+        }
+    }
+
+    /// Takes out the bodies with exhausted budgets, in order.
+    pub(crate) fn take_exhausted(&mut self) -> Vec<u32> {
+        let mut exhausted = core::mem::take(&mut self.exhausted);
+        exhausted.sort_unstable();
+        exhausted.dedup();
+        exhausted
+    }
+
+    /// Fills the budgets of these bodies: their island keeps its method.
+    pub(crate) fn refill(&mut self, members: &[u32]) {
+        for &index in members {
+            self.budget(index).spent = 0.0;
+        }
+    }
+
     fn budget(&mut self, index: u32) -> &mut ModeBudget {
         let at = index as usize;
         if at >= self.budgets.len() {
@@ -63,6 +87,17 @@ impl Closed {
         }
         &mut self.budgets[at]
     }
+}
+
+/// Whether a mode change at `time` changes motions: not over a seam of tiles, or in the next stretch of a path.
+pub(crate) fn changes_motion(
+    bodies: &Bodies,
+    gathered: &Gathered,
+    moves: &[BodyMove],
+    time: SimTime,
+) -> bool {
+    let mut both = gathered.places.iter().zip(moves);
+    both.any(|(&index, moved)| changes(bodies.get(index), moved, time))
 }
 
 /// Whether a mode change at `time` changes the motion of a body.
@@ -85,82 +120,4 @@ fn changes(state: &BodyState, moved: &BodyMove, time: SimTime) -> bool {
             motion.angular_acceleration,
             moved.angular_acceleration,
         ))
-}
-
-impl World {
-    /// Charges an island for a new mode, unless its motion is as before: over a seam of tiles, or in the next stretch of a path.
-    pub(super) fn charge_change(&mut self, gathered: &Gathered, moves: &[BodyMove], time: SimTime) {
-        if self.settings.mode != Mode::Hybrid {
-            return;
-        }
-        let mut both = gathered.places.iter().zip(moves);
-        if both.any(|(&index, moved)| changes(self.bodies.get(index), moved, time)) {
-            self.charge(&gathered.dynamic(), time);
-        }
-    }
-
-    /// Charges each body of an island for a mode solve.
-    pub(super) fn charge(&mut self, members: &[u32], time: SimTime) {
-        if self.settings.mode != Mode::Hybrid {
-            return;
-        }
-        let (cost, tick) = (members.len() as f64, self.settings.tick);
-        let was = self.is_substepping();
-        for &index in members {
-            if self.closed.budget(index).charge(cost, time, tick) {
-                self.closed.exhausted.push(index);
-            }
-        }
-        if !was && self.closed.has_exhausted() {
-            self.clock.catch_up(time);
-        }
-    }
-
-    /// Analytic islands with exhausted budgets join, unless they rest.
-    pub(crate) fn join_exhausted(&mut self, time: SimTime) {
-        let mut exhausted = core::mem::take(&mut self.closed.exhausted);
-        if exhausted.is_empty() {
-            return;
-        }
-        exhausted.sort_unstable();
-        exhausted.dedup();
-        for index in exhausted {
-            if !self.bodies.is_alive(index) || self.bodies.get(index).is_asleep() {
-                continue;
-            }
-            let Some(group) = self.closed.get(self.bodies.get(index).membership.group) else {
-                continue;
-            };
-            let members: Vec<u32> = group.members.iter().map(|(index, _)| *index).collect();
-            if group.sleeps || self.keeps_method(&members) {
-                continue;
-            }
-            for index in members {
-                self.join(index, time);
-            }
-        }
-        self.lower_free_boxes_later();
-    }
-
-    /// Whether an island keeps its method in spite of an exhausted budget; its budget is full again then.
-    fn keeps_method(&mut self, members: &[u32]) -> bool {
-        let keeps = !self.is_borne(members);
-        if keeps {
-            for &index in members {
-                self.closed.budget(index).spent = 0.0;
-            }
-        }
-        keeps
-    }
-
-    /// Whether an island is held by what it does not move: of bodies that touch each other alone the engine does not keep the angular
-    /// momentum.
-    pub(crate) fn is_borne(&self, members: &[u32]) -> bool {
-        let bears = |index: u32| {
-            let other = self.bodies.get(index);
-            !other.is_dynamic() || other.is_asleep() || other.in_engine()
-        };
-        let mut members = members.iter();
-        members.any(|&index| neighbours(&self.bodies, &self.pairs, index).any(bears))
-    }
 }

@@ -11,6 +11,7 @@ use crate::analytic::modes::TouchMove;
 use crate::analytic::tipping::Ends;
 use crate::model::narrow::TOUCH;
 use crate::store::bodies::Bodies;
+use crate::store::membership::Membership;
 use crate::store::pairs::Pair;
 use crate::{ContactMode, Mode};
 
@@ -53,39 +54,44 @@ pub(crate) struct Closed {
     pub(super) exhausted: Vec<u32>,
     /// No group is let go of: the slow twin.
     #[cfg(test)]
-    pub(super) stays: bool,
+    pub(crate) stays: bool,
 }
 
 #[derive(Clone, Debug)]
-pub(super) struct Group {
-    pub(super) since: SimTime,
+pub(crate) struct Group {
+    pub(crate) since: SimTime,
     /// Dynamic members, and the version that their motion has since then.
-    pub(super) members: Vec<(u32, u32)>,
-    pub(super) touches: Vec<Kept>,
+    pub(crate) members: Vec<(u32, u32)>,
+    pub(crate) touches: Vec<Kept>,
     /// Largest speed of the mode: what its roundings are measured by, in m/s.
-    pub(super) speed: f64,
-    pub(super) sleeps: bool,
+    pub(crate) speed: f64,
+    pub(crate) sleeps: bool,
     /// When it changes by itself.
-    pub(super) until: Option<SimTime>,
+    pub(crate) until: Option<SimTime>,
     /// The path of one that turns.
-    pub(super) tipping: Option<Tipping>,
+    pub(crate) tipping: Option<Tipping>,
 }
 
 impl Group {
     /// Its members are left out of sub-steps and treated as asleep, but reported awake to the caller.
-    pub(super) fn rests_analytically(&self, bodies: &Bodies) -> bool {
+    pub(crate) fn rests_analytically(&self, bodies: &Bodies) -> bool {
         let first = self.members.first();
         first.is_some_and(|(index, _)| bodies.get(*index).rests_analytically())
     }
 
     /// Its members have left the sub-steps, and move along their parabolas until its mode changes.
-    pub(super) fn moves_analytically(&self, bodies: &Bodies) -> bool {
+    pub(crate) fn moves_analytically(&self, bodies: &Bodies) -> bool {
         let first = self.members.first();
         first.is_some_and(|(index, _)| bodies.get(*index).moves_analytically())
     }
 
+    /// Its dynamic members.
+    pub(crate) fn indices(&self) -> Vec<u32> {
+        self.members.iter().map(|(index, _)| *index).collect()
+    }
+
     /// Heat by friction, and the work of driven partners, in the first `elapsed` seconds, in J.
-    pub(super) fn works(&self, elapsed: f64) -> (f64, f64) {
+    pub(crate) fn works(&self, elapsed: f64) -> (f64, f64) {
         if let Some(tipping) = &self.tipping {
             return (tipping.tip.heat(elapsed), 0.0);
         }
@@ -96,7 +102,7 @@ impl Group {
     }
 
     /// Its touches with what they do at `time`: in a group that turns forces change along its path.
-    pub(super) fn touches_at(&self, time: SimTime) -> Vec<Kept> {
+    pub(crate) fn touches_at(&self, time: SimTime) -> Vec<Kept> {
         let mut touches = self.touches.clone();
         if let Some(Tipping { tip, .. }) = &self.tipping {
             let moved = tip.touches_after(time - tip.path.start);
@@ -108,7 +114,7 @@ impl Group {
     }
 
     /// The pair with a corner that lands at the next change, the normal from A to B, and the point.
-    pub(super) fn landing(&self) -> Option<(u32, Vec2, Vec2)> {
+    pub(crate) fn landing(&self) -> Option<(u32, Vec2, Vec2)> {
         match self.tipping.as_ref()?.tip.ends {
             Ends::Known | Ends::Changes => None,
             Ends::Lands {
@@ -122,19 +128,19 @@ impl Group {
 
 /// A touch of a group while its mode lasts.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Kept {
-    pub(super) pair: u32,
-    pub(super) contact: usize,
-    pub(super) moved: TouchMove,
+pub(crate) struct Kept {
+    pub(crate) pair: u32,
+    pub(crate) contact: usize,
+    pub(crate) moved: TouchMove,
     /// How fast the slip grows, in m/s².
-    pub(super) slip_rate: f64,
+    pub(crate) slip_rate: f64,
     /// Power that a driven partner puts in, in W.
-    pub(super) driven: f64,
+    pub(crate) driven: f64,
 }
 
 impl Kept {
     /// The contact of a pair carries what the touch says, in sub-steps of `h` seconds.
-    pub(super) fn carry(&self, bodies: &Bodies, pair: &mut Pair, h: f64) {
+    pub(crate) fn carry(&self, bodies: &Bodies, pair: &mut Pair, h: f64) {
         let reach = |index| bodies.get(index).reach;
         let gap = TOUCH * reach(pair.bodies.0).min(reach(pair.bodies.1));
         pair.lasting = self.moved.mode != ContactMode::Open;
@@ -152,7 +158,7 @@ impl Kept {
     }
 
     /// Heat by friction in the first `elapsed` seconds, in J.
-    pub(super) fn heat(&self, elapsed: f64) -> f64 {
+    pub(crate) fn heat(&self, elapsed: f64) -> f64 {
         -self.moved.tangential * (self.moved.slip + 0.5 * self.slip_rate * elapsed) * elapsed
     }
 }
@@ -171,22 +177,28 @@ impl Closed {
     }
 
     /// Takes out the change that is due next: its instant, and the place of its group.
-    pub(super) fn pop(&mut self) -> Option<(SimTime, u32)> {
+    pub(crate) fn pop(&mut self) -> Option<(SimTime, u32)> {
         self.next()?;
         let Reverse((time, place, _)) = self.changes.pop()?;
         Some((time, place))
     }
 
-    pub(super) fn get(&self, place: u32) -> Option<&Group> {
+    pub(crate) fn get(&self, place: u32) -> Option<&Group> {
         let (_, group) = self.groups.get(place as usize)?.as_ref()?;
         Some(group)
     }
 
-    pub(super) fn iter(&self) -> impl Iterator<Item = &Group> {
+    pub(crate) fn iter(&self) -> impl Iterator<Item = &Group> {
         self.groups.iter().flatten().map(|(_, group)| group)
     }
 
-    pub(super) fn insert(&mut self, group: Group, change: Option<SimTime>) -> u32 {
+    /// Enters a group, and its members into it; its place.
+    pub(crate) fn insert(
+        &mut self,
+        bodies: &mut Bodies,
+        group: Group,
+        change: Option<SimTime>,
+    ) -> u32 {
         self.stamp += 1;
         let place = self.free.pop().unwrap_or_else(|| {
             self.groups.push(None);
@@ -197,6 +209,9 @@ impl Closed {
             let place = (self.groups.len() - 1) as u32;
             place
         });
+        for &(index, _) in &group.members {
+            bodies.get_mut(index).enter_island(Membership::of(place));
+        }
         self.groups[place as usize] = Some((self.stamp, group));
         if let Some(time) = change {
             self.changes_at(place, time);
@@ -205,7 +220,7 @@ impl Closed {
     }
 
     /// When a group changes next.
-    pub(super) fn changes_at(&mut self, place: u32, change: SimTime) {
+    pub(crate) fn changes_at(&mut self, place: u32, change: SimTime) {
         if let Some((stamp, group)) = &mut self.groups[place as usize] {
             group.until = Some(change);
             self.changes.push(Reverse((change, place, *stamp)));
@@ -213,7 +228,7 @@ impl Closed {
     }
 
     /// Places of the groups that turn in sub-steps.
-    pub(super) fn tipping(&self, bodies: &Bodies) -> Vec<u32> {
+    pub(crate) fn tipping(&self, bodies: &Bodies) -> Vec<u32> {
         let turns = |held: &Option<(u64, Group)>| {
             held.as_ref().is_some_and(|(_, group)| {
                 group.tipping.is_some() && !group.moves_analytically(bodies)
@@ -226,25 +241,25 @@ impl Closed {
     }
 
     /// The next sub-step lets go of a group at rest.
-    pub(super) fn stands_still(&mut self, place: u32) {
+    pub(crate) fn stands_still(&mut self, place: u32) {
         self.still.push((place, self.stamp));
     }
 
     /// Places of the groups that came to rest since the last time, and still do.
-    pub(super) fn take_still(&mut self) -> Vec<u32> {
+    pub(crate) fn take_still(&mut self) -> Vec<u32> {
         let still = core::mem::take(&mut self.still);
         self.that_are_there(still)
     }
 
     /// The sub-steps let go of a group that moves as soon as they may.
-    pub(super) fn moves(&mut self, place: u32) {
+    pub(crate) fn moves(&mut self, place: u32) {
         if let Some(Some((stamp, _))) = self.groups.get(place as usize) {
             self.moving.push((place, *stamp));
         }
     }
 
     /// Places of the groups that move and have not been let go of.
-    pub(super) fn take_moving(&mut self) -> Vec<u32> {
+    pub(crate) fn take_moving(&mut self) -> Vec<u32> {
         let moving = core::mem::take(&mut self.moving);
         self.that_are_there(moving)
     }
@@ -257,12 +272,12 @@ impl Closed {
         stamped.into_iter().filter_map(stands).collect()
     }
 
-    pub(super) fn get_mut(&mut self, place: u32) -> Option<&mut Group> {
+    pub(crate) fn get_mut(&mut self, place: u32) -> Option<&mut Group> {
         let (_, group) = self.groups.get_mut(place as usize)?.as_mut()?;
         Some(group)
     }
 
-    pub(super) fn remove(&mut self, place: u32) -> Option<Group> {
+    pub(crate) fn remove(&mut self, place: u32) -> Option<Group> {
         let (_, group) = self.groups.get_mut(place as usize)?.take()?;
         self.free.push(place);
         Some(group)
@@ -278,7 +293,7 @@ impl Closed {
 
     /// Counts a change of mode of a body in an island of `bodies`; whether such changes go round in circles here, or cost too
     /// much for a sub-step of `h` seconds.
-    pub(super) fn stalls(
+    pub(crate) fn stalls(
         &mut self,
         index: u32,
         bodies: u32,

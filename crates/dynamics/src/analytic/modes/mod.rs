@@ -23,11 +23,9 @@ use carom_math::{Vec2, cross_scalar, perp};
 use crate::ContactMode;
 use crate::model::approach::{CLOSED, RigidState};
 use crate::model::edges::Feature;
+use crate::model::graph::ROWS;
 use balance::{Balance, Tangent, balance};
 use faces::Faces;
-
-/// More rows (points, and a friction for each touch) than this are the solver's.
-pub(crate) const ROWS: usize = 64;
 
 /// Slip below this part of the speeds that it is the difference of is none.
 const STILL: f64 = 1e-12;

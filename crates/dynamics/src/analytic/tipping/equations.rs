@@ -9,10 +9,11 @@
 
 use carom_math::{Vec2, cross, perp};
 
-use super::joint::{Place, Seen};
+use super::joint::Seen;
 use super::{Contact, Hold, Rub};
 use crate::analytic::modes::ModeBody;
 use crate::impact::dense::Factored;
+use crate::law::path::Place;
 
 /// Rows that depend on each other to more than this have no forces of their own.
 const DEPENDENT: f64 = 1e-11;

@@ -8,29 +8,9 @@
 //! The rows are those of a contact that does not turn; γ is what velocities alone do to them.
 
 use arrayvec::ArrayVec;
-use carom_math::{Rot, Vec2, cross, perp};
+use carom_math::{Vec2, cross, perp};
 
-/// Where a body is and how it moves at an instant.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Place {
-    /// Centre of mass, in m.
-    pub(crate) centre: Vec2,
-    pub(crate) rotation: Rot,
-    /// In m/s.
-    pub(crate) velocity: Vec2,
-    /// In rad/s.
-    pub(crate) spin: f64,
-}
-
-impl Place {
-    fn point(&self, local: Vec2) -> Vec2 {
-        self.centre + self.rotation * local
-    }
-
-    fn velocity_of(&self, point: Vec2) -> Vec2 {
-        self.velocity + perp(point - self.centre) * self.spin
-    }
-}
+use crate::law::path::Place;
 
 /// Which of the two bodies of a contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -245,7 +225,7 @@ impl Joint {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use carom_math::vec2;
+    use carom_math::{Rot, vec2};
     use proptest::prelude::*;
 
     fn moved(place: &Place, (a, alpha): (Vec2, f64), t: f64) -> Place {

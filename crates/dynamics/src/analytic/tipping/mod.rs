@@ -1,26 +1,28 @@
 //! Contact islands with rows that turn with their bodies: a box tips about its corner, a disc rolls over a disc.
 //!
 //! While every contact keeps its mode the accelerations follow from where the bodies are ([`equations`]); they are
-//! integrated with dense output ([`path`]), and the mode ends at the first root of its margins ([`roots`]).
+//! integrated with dense output ([`crate::law::path`]), and the mode ends at the first root of its margins ([`roots`]).
 //!
 //! Pure functions on plain data, without a world.
 
 mod equations;
 mod joint;
-mod path;
 mod roots;
 #[cfg(test)]
 mod tests;
+
+use std::sync::Arc;
 
 use arrayvec::ArrayVec;
 use carom_math::{SimTime, Vec2};
 
 use crate::ContactMode;
-use crate::analytic::modes::{BodyMove, ModeBody, NotMine, ROWS, Touch, TouchMove, begin};
+use crate::analytic::modes::{BodyMove, ModeBody, NotMine, Touch, TouchMove, begin};
+use crate::law::path::{Path, Place};
 use crate::model::edges::Feature;
+use crate::model::graph::ROWS;
 pub(crate) use equations::{Equations, Forces, Workspace};
-pub(crate) use joint::{End, Joint, Place};
-pub(crate) use path::Path;
+pub(crate) use joint::{End, Joint};
 use roots::{Limit, faint, first, heat};
 
 /// Longest stretch of a path, in s.
@@ -89,7 +91,7 @@ pub(crate) enum Ends {
 /// How a group moves until its next change.
 #[derive(Clone, Debug)]
 pub(crate) struct Tip {
-    pub(crate) path: Path,
+    pub(crate) path: Arc<Path>,
     pub(crate) equations: Equations,
     /// Of the bodies, in m; 0 of those of infinite mass.
     reaches: Vec<f64>,
@@ -271,7 +273,7 @@ pub(crate) fn tip(
             None => Ends::Known,
         };
         return Ok(Tip {
-            path,
+            path: Arc::new(path),
             equations,
             reaches: reaches.to_vec(),
             after,

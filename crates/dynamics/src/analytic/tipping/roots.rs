@@ -3,9 +3,10 @@
 use carom_math::{Vec2, falling_root};
 
 use super::equations::{Equations, Workspace};
-use super::joint::{Margin, Place};
-use super::path::Path;
+use super::joint::Margin;
 use super::{AT_ONCE, Rub};
+use crate::law::path::Path;
+use crate::law::path::Place;
 
 /// Instants of a stretch at which margins are looked at.
 const LOOKS: u32 = 12;

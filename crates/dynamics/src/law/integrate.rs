@@ -10,10 +10,12 @@
 //! Source: E. Everhart 1985; H. Rein and D. S. Spiegel, *IAS15*, 2015. The last coefficient is what the next lower
 //! order would lack: h² b₇/72 bounds, generously, what a stretch leaves out, at its end and everywhere in it.
 
+use core::ops::{Add, Div, Mul, Sub};
+
 use carom_math::Vec2;
 
 /// Gauss–Radau points of (0, 1], with 0 the first: roots of `P₇(s) + P₈(s)` for s = 2 τ − 1.
-pub(crate) const NODES: [f64; 8] = [
+pub(super) const NODES: [f64; 8] = [
     0.0,
     0.056_262_560_536_922_15,
     0.180_240_691_736_892_36,
@@ -25,7 +27,7 @@ pub(crate) const NODES: [f64; 8] = [
 ];
 
 /// Rounds of correction at most; a stretch that needs more is too long.
-pub(crate) const ROUNDS: u32 = 12;
+pub(super) const ROUNDS: u32 = 12;
 
 /// Change of the polynomial, as a part of the acceleration, at which it stands.
 const STANDS: f64 = 2.0 * f64::EPSILON;
@@ -118,7 +120,7 @@ impl Stretch {
                 let (x, v) = stretch.at(node * length);
                 *value = f(x, v);
             }
-            let terms = through(values);
+            let terms = through(&values, &ALL);
             let mut change = 0.0_f64;
             for (new, old) in terms.iter().zip(&stretch.terms) {
                 change = change.max((*new - *old).length());
@@ -197,23 +199,37 @@ impl Stretch {
     }
 }
 
-/// Coefficients of the polynomial through values at the nodes: Newton's divided differences, multiplied out.
-fn through(values: [Vec2; 8]) -> [Vec2; 8] {
-    let mut differences = values;
-    for order in 1..8 {
-        for k in (order..8).rev() {
-            let span = NODES[k] - NODES[k - order];
+/// All nodes.
+pub(super) const ALL: [usize; 8] = [0, 1, 2, 3, 4, 5, 6, 7];
+
+/// Coefficients of the polynomial through the values at these nodes: Newton's divided differences, multiplied out.
+pub(super) fn through<T>(values: &[T; 8], nodes: &[usize]) -> [T; 8]
+where
+    T: Copy
+        + Default
+        + Add<Output = T>
+        + Sub<Output = T>
+        + Mul<f64, Output = T>
+        + Div<f64, Output = T>,
+{
+    let mut differences = [T::default(); 8];
+    for (difference, &node) in differences.iter_mut().zip(nodes) {
+        *difference = values[node];
+    }
+    for order in 1..nodes.len() {
+        for k in (order..nodes.len()).rev() {
+            let span = NODES[nodes[k]] - NODES[nodes[k - order]];
             differences[k] = (differences[k] - differences[k - 1]) / span;
         }
     }
-    let mut terms = [Vec2::ZERO; 8];
-    for (difference, node) in differences.iter().zip(NODES).rev() {
+    let mut terms = [T::default(); 8];
+    for (difference, &node) in differences.iter().zip(nodes).rev() {
         // p ← p (τ − node) + difference
         for k in (0..8).rev() {
-            let below = if k > 0 { terms[k - 1] } else { Vec2::ZERO };
-            terms[k] = below - terms[k] * node;
+            let below = if k > 0 { terms[k - 1] } else { T::default() };
+            terms[k] = below - terms[k] * NODES[node];
         }
-        terms[0] += *difference;
+        terms[0] = terms[0] + *difference;
     }
     terms
 }

@@ -1,11 +1,10 @@
-//! Paths of several bodies at once, `y″ = f(y, y′)`: the collocation of [`crate::motion`] for any number of coordinates.
+//! Paths of several bodies that contacts hold, `y″ = f(y, y′)`: the collocation of [`super::integrate`] for any number of coordinates.
 //!
 //! Three coordinates a body: both of its centre in m, and the angle since the start of the path in rad.
 
-use carom_math::{Rot, SimTime, Vec2, vec2};
+use carom_math::{Rot, SimTime, Vec2, perp, vec2};
 
-use super::joint::Place;
-use crate::motion::integrate::{NODES, ROUNDS};
+use super::integrate::{ALL, NODES, ROUNDS, through};
 
 /// First guess of how far a body turns in a stretch, in rad.
 const TURN: f64 = 1.0 / 12.0;
@@ -14,11 +13,30 @@ const TURN: f64 = 1.0 / 12.0;
 /// would tell no more.
 const STAGES: [&[usize]; 3] = [&[0, 5], &[0, 3, 6], &[0, 2, 4, 6, 7]];
 
-/// Nodes of the others.
-const ALL: [usize; 8] = [0, 1, 2, 3, 4, 5, 6, 7];
-
 /// Accelerations are known where what the next round would change is below this part of them: roundings of the terms are 1e-12.
 const STANDS: f64 = 1e-13;
+
+/// Where a body is and how it moves at an instant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Place {
+    /// Centre of mass, in m.
+    pub(crate) centre: Vec2,
+    pub(crate) rotation: Rot,
+    /// In m/s.
+    pub(crate) velocity: Vec2,
+    /// In rad/s.
+    pub(crate) spin: f64,
+}
+
+impl Place {
+    pub(crate) fn point(&self, local: Vec2) -> Vec2 {
+        self.centre + self.rotation * local
+    }
+
+    pub(crate) fn velocity_of(&self, point: Vec2) -> Vec2 {
+        self.velocity + perp(point - self.centre) * self.spin
+    }
+}
 
 /// Where bodies are for a while, as polynomials of degree 9.
 #[derive(Clone, Debug)]
@@ -257,27 +275,4 @@ fn integrated(terms: &[f64; 8]) -> [[f64; 2]; 8] {
         n += 1.0;
         [term / n, term / (n * (n + 1.0))]
     })
-}
-
-/// Coefficients of the polynomial through the values at these nodes: Newton's divided differences, multiplied out.
-fn through(values: &[f64; 8], nodes: &[usize]) -> [f64; 8] {
-    let mut differences = [0.0; 8];
-    for (difference, &node) in differences.iter_mut().zip(nodes) {
-        *difference = values[node];
-    }
-    for order in 1..nodes.len() {
-        for k in (order..nodes.len()).rev() {
-            let span = NODES[nodes[k]] - NODES[nodes[k - order]];
-            differences[k] = (differences[k] - differences[k - 1]) / span;
-        }
-    }
-    let mut terms = [0.0; 8];
-    for (difference, &node) in differences.iter().zip(nodes).rev() {
-        for k in (0..8).rev() {
-            let below = if k > 0 { terms[k - 1] } else { 0.0 };
-            terms[k] = below - terms[k] * NODES[node];
-        }
-        terms[0] += *difference;
-    }
-    terms
 }

@@ -9,19 +9,19 @@ use super::damped::damped;
 use super::integrate::{Rim, Stretch};
 use super::kepler::Conic;
 use super::osculating::{Jerk, Osculating};
-use crate::analytic::tipping::Tip;
+use super::path::Path;
 
 /// Where a flying body is from `start` on, to rounding or to the world's error for fields.
 #[derive(Clone, Debug)]
 pub(crate) struct Flight {
     start: SimTime,
-    path: Path,
+    law: Law,
     turn: Turn,
 }
 
-/// Path of the centre of mass.
+/// Where the centre of mass is.
 #[derive(Clone, Debug)]
-enum Path {
+enum Law {
     Damped {
         place: Vec2,
         velocity: Vec2,
@@ -32,8 +32,8 @@ enum Path {
     Conic { conic: Conic, core: Option<f64> },
     /// One after the other.
     Stretches(Vec<Stretch>),
-    /// Held by contacts: the path of a group, and which of its bodies this is.
-    Held { tip: Arc<Tip>, body: usize },
+    /// Held by contacts: the path of an island, and which of its bodies this is.
+    Held { path: Arc<Path>, body: usize },
 }
 
 /// How the body turns.
@@ -57,13 +57,13 @@ impl Flight {
         damping: f64,
         turn: Turn,
     ) -> Self {
-        let path = Path::Damped {
+        let law = Law::Damped {
             place,
             velocity,
             pull,
             damping,
         };
-        Self { start, path, turn }
+        Self { start, law, turn }
     }
 
     /// On a conic, outside a core: `None` if it may enter that within `h` seconds.
@@ -75,22 +75,22 @@ impl Flight {
         turn: Turn,
     ) -> Option<Self> {
         let core = (conic.nearest() <= core).then_some(core);
-        let path = Path::Conic { conic, core };
-        let flight = Self { start, path, turn };
+        let law = Law::Conic { conic, core };
+        let flight = Self { start, law, turn };
         flight.holds(start, h).then_some(flight)
     }
 
-    /// Of a body of a contact group.
-    pub(crate) fn held(tip: Arc<Tip>, body: usize) -> Self {
+    /// Of a body of an island that turns about its contacts.
+    pub(crate) fn held(path: Arc<Path>, body: usize) -> Self {
         let turn = Turn {
-            rotation: tip.path.rotation(body),
+            rotation: path.rotation(body),
             spin: 0.0,
             pull: 0.0,
             damping: 0.0,
         };
         Self {
-            start: tip.path.start,
-            path: Path::Held { tip, body },
+            start: path.start,
+            law: Law::Held { path, body },
             turn,
         }
     }
@@ -119,7 +119,7 @@ impl Flight {
         }
         Self {
             start,
-            path: Path::Stretches(stretches),
+            law: Law::Stretches(stretches),
             turn,
         }
     }
@@ -127,43 +127,43 @@ impl Flight {
     /// Whether the law is known from `time` on for `h` seconds.
     pub(crate) fn holds(&self, time: SimTime, h: f64) -> bool {
         let t = time - self.start;
-        match &self.path {
-            Path::Damped { .. } | Path::Conic { core: None, .. } => true,
-            Path::Conic {
+        match &self.law {
+            Law::Damped { .. } | Law::Conic { core: None, .. } => true,
+            Law::Conic {
                 conic,
                 core: Some(core),
             } => conic.time_outside(t, *core) > h,
-            Path::Stretches(stretches) => {
+            Law::Stretches(stretches) => {
                 let whole: f64 = stretches.iter().map(|stretch| stretch.length).sum();
                 t + h <= whole * (1.0 + 1e-12)
             }
-            Path::Held { tip, .. } => t + h <= tip.path.length * (1.0 + 1e-12),
+            Law::Held { path, .. } => t + h <= path.length * (1.0 + 1e-12),
         }
     }
 
     /// Seconds from `time` on for which the law is surely known, at most `longest`.
     pub(crate) fn lasts(&self, time: SimTime, longest: f64) -> f64 {
         let t = time - self.start;
-        let known = match &self.path {
-            Path::Damped { .. } | Path::Conic { core: None, .. } => longest,
-            Path::Conic {
+        let known = match &self.law {
+            Law::Damped { .. } | Law::Conic { core: None, .. } => longest,
+            Law::Conic {
                 conic,
                 core: Some(core),
             } => conic.time_outside(t, *core),
-            Path::Stretches(stretches) => stretches.iter().map(|s| s.length).sum::<f64>() - t,
-            Path::Held { tip, .. } => tip.path.length - t,
+            Law::Stretches(stretches) => stretches.iter().map(|s| s.length).sum::<f64>() - t,
+            Law::Held { path, .. } => path.length - t,
         };
         if known < longest { known } else { longest }
     }
 
     /// Whether some of it leaves out more than the world's error for fields.
     pub(crate) fn misses(&self) -> bool {
-        matches!(&self.path, Path::Stretches(all) if all.iter().any(|stretch| stretch.misses))
+        matches!(&self.law, Law::Stretches(all) if all.iter().any(|stretch| stretch.misses))
     }
 
     /// Whether nothing holds the body.
     pub(crate) const fn is_free(&self) -> bool {
-        !matches!(self.path, Path::Held { .. })
+        !matches!(self.law, Law::Held { .. })
     }
 
     /// The parabola that touches the flight at `time`, and how fast that leaves it. `reach` is that of the body.
@@ -172,14 +172,14 @@ impl Flight {
         let turn = &self.turn;
         let mut angular_acceleration = turn.pull - turn.damping * spin;
         let mut twist = turn.damping * angular_acceleration.abs();
-        let (acceleration, jerk) = match &self.path {
+        let (acceleration, jerk) = match &self.law {
             // d³x/dt³ = −c a, and a falls off.
-            Path::Damped { pull, damping, .. } => {
+            Law::Damped { pull, damping, .. } => {
                 let acceleration = *pull - v * *damping;
                 (acceleration, Jerk::Most(damping * acceleration.length()))
             }
-            Path::Conic { conic, .. } => conic.bends(x, v),
-            Path::Stretches(stretches) => {
+            Law::Conic { conic, .. } => conic.bends(x, v),
+            Law::Stretches(stretches) => {
                 let (mut t, last) = (time - self.start, stretches.len() - 1);
                 let mut k = 0;
                 while k < last && t > stretches[k].length {
@@ -189,12 +189,12 @@ impl Flight {
                 let most = stretches.iter().map(Stretch::jerk).fold(0.0, f64::max);
                 (stretches[k].acceleration(t), Jerk::Most(most))
             }
-            Path::Held { tip, body } => {
+            Law::Held { path, body } => {
                 let jerk;
-                (jerk, twist) = tip.path.jerk(*body);
+                (jerk, twist) = path.jerk(*body);
                 let acceleration;
                 (acceleration, angular_acceleration) =
-                    tip.path.acceleration_after(*body, time - self.start);
+                    path.acceleration_after(*body, time - self.start);
                 (acceleration, Jerk::Most(jerk))
             }
         };
@@ -217,8 +217,8 @@ impl Flight {
     /// Place in m and velocity in m/s of the centre of mass.
     pub(crate) fn at(&self, time: SimTime) -> (Vec2, Vec2) {
         let t = time - self.start;
-        match &self.path {
-            Path::Damped {
+        match &self.law {
+            Law::Damped {
                 place,
                 velocity,
                 pull,
@@ -228,8 +228,8 @@ impl Flight {
                 let (y, up) = damped(velocity.y, pull.y, *damping, t);
                 (*place + Vec2::new(x, y), Vec2::new(along, up))
             }
-            Path::Conic { conic, .. } => conic.at(t),
-            Path::Stretches(stretches) => {
+            Law::Conic { conic, .. } => conic.at(t),
+            Law::Stretches(stretches) => {
                 let (mut t, last) = (t, stretches.len() - 1);
                 for stretch in &stretches[..last] {
                     if t <= stretch.length {
@@ -239,8 +239,8 @@ impl Flight {
                 }
                 stretches[last].at(t)
             }
-            Path::Held { tip, body } => {
-                let (place, velocity, ..) = tip.path.body_after(*body, t);
+            Law::Held { path, body } => {
+                let (place, velocity, ..) = path.body_after(*body, t);
                 (place, velocity)
             }
         }
@@ -255,7 +255,7 @@ impl Flight {
     /// Angle that the body turns by in `h` seconds from `time` on, in rad.
     pub(crate) fn angle_over(&self, time: SimTime, h: f64) -> f64 {
         let (angle, spin) = self.angle_at(time);
-        if let Path::Held { .. } = self.path {
+        if let Law::Held { .. } = self.law {
             return self.angle_at(time + h).0 - angle;
         }
         damped(spin, self.turn.pull, self.turn.damping, h).0
@@ -264,8 +264,8 @@ impl Flight {
     /// Angle since the start, in rad, and spin in rad/s.
     pub(crate) fn angle_at(&self, time: SimTime) -> (f64, f64) {
         let (turn, t) = (&self.turn, time - self.start);
-        if let Path::Held { tip, body } = &self.path {
-            let (_, _, angle, spin) = tip.path.body_after(*body, t);
+        if let Law::Held { path, body } = &self.law {
+            let (_, _, angle, spin) = path.body_after(*body, t);
             return (angle, spin);
         }
         damped(turn.spin, turn.pull, turn.damping, t)

@@ -1,21 +1,22 @@
-//! Analytic islands that end: their members go on as they are, or without the forces of the island.
+//! Analytic islands that end, or come to rest: their members go on as they are, without the forces of the island, or leave the
+//! sub-steps at once and fall asleep after a while.
 
 use carom_math::SimTime;
 
-use super::store::Group;
-use crate::World;
+use crate::analytic::islands::store::Group;
 use crate::motion::flight::fly;
+use crate::{EventKind, World};
 
 impl World {
     /// Whether a body feels forces of an analytic island that is no more.
-    pub(super) fn feels_island(&self, index: u32) -> bool {
+    pub(crate) fn feels_island(&self, index: u32) -> bool {
         let state = self.bodies.get(index);
         state.member && !state.membership.is_closed()
     }
 
     /// Bodies of an island that is no more go on without its forces: these were equal and opposite, and what one body no longer
     /// feels must not act on another until the sub-step ends.
-    pub(super) fn drop_forces(&mut self, members: &[u32], time: SimTime) {
+    pub(crate) fn drop_forces(&mut self, members: &[u32], time: SimTime) {
         let left = self.clock.next() - time;
         for &index in members {
             let state = self.bodies.get(index);
@@ -37,7 +38,7 @@ impl World {
         self.bodies.book.friction.add(heat);
         self.bodies.book.external.add(driven);
         self.bodies.book.scheme.add(heat - driven);
-        let members: Vec<u32> = group.members.iter().map(|(index, _)| *index).collect();
+        let members = group.indices();
         for &index in &members {
             self.bodies.get_mut(index).leave_island();
         }
@@ -69,6 +70,50 @@ impl World {
                 let members = self.dissolve(place, time);
                 self.drop_forces(&members, time);
             }
+        }
+    }
+
+    /// Islands that came to rest since the last time leave the sub-steps: a body that meets one wakes it, as if it slept.
+    pub(crate) fn begin_analytic_rest(&mut self, time: SimTime) {
+        let still = self.closed.take_still();
+        if still.is_empty() {
+            return;
+        }
+        let mut lying = Vec::new();
+        for place in still {
+            let Some(group) = self.closed.get(place) else {
+                continue;
+            };
+            for touch in &group.touches {
+                touch.carry(&self.bodies, self.pairs.get_mut(touch.pair), self.clock.h);
+            }
+            for &(index, _) in &group.members {
+                self.bodies.get_mut(index).begin_analytic_rest();
+                lying.push(index);
+            }
+        }
+        lying.sort_unstable();
+        self.pairs.end_substepping_all(&mut self.stepped, &lying);
+        for index in lying {
+            self.lie_down(index, time);
+        }
+        self.lower_free_boxes_later();
+        self.pairs.sort(&self.bodies, &self.stepped);
+    }
+
+    /// An analytic island that has been at rest for long enough falls asleep.
+    pub(crate) fn fall_asleep(&mut self, place: u32, time: SimTime) {
+        let members = self.dissolve(place, time);
+        let mut lying = Vec::new();
+        for &index in &members {
+            if self.bodies.fall_asleep(index) {
+                lying.push(index);
+            }
+            let id = self.bodies.get(index).id;
+            self.events.push(time, EventKind::Asleep(id));
+        }
+        for index in lying {
+            self.lie_down(index, time);
         }
     }
 }

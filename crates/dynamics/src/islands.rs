@@ -1,0 +1,463 @@
+//! Analytic islands: when their contact modes are solved for, and what follows.
+//!
+//! A group's modes are solved for where its contacts begin to last, where one of its members changes its motion, and
+//! at the instant of its own next change. Between these it is left alone: its motions are right for
+//! as long as its mode lasts. What does not qualify is left to the sub-steps.
+
+use arrayvec::ArrayVec;
+use carom_math::{SimTime, Vec2};
+
+use crate::analytic::islands::jam::jam;
+use crate::analytic::islands::mode_budget::changes_motion;
+use crate::analytic::islands::store::Group;
+use crate::analytic::islands::{give_motions, kept};
+use crate::analytic::modes::{BodyMove, GroupMove, NotMine, TouchMove, land, solve_modes};
+use crate::analytic::touching::{Around, Gathered, Looks, Refused};
+use crate::events::event_queue::Entry;
+use crate::model::graph::is_borne;
+use crate::motion::flight::fly;
+use crate::{BodyKind, ContactMode, Mode, World};
+
+impl World {
+    /// Closed forms for all groups that allow them at the start of a sub-step.
+    pub(crate) fn close_groups(&mut self, time: SimTime) {
+        if !self.bodies.pull.fields.is_empty() {
+            return;
+        }
+        let mut i = 0;
+        while let Some(place) = self.pairs.place(i) {
+            i += 1;
+            let Some(pair) = self.pairs.find(place).filter(|pair| pair.touching) else {
+                continue;
+            };
+            let ends = [pair.bodies.0, pair.bodies.1];
+            let joins = ends.map(|index| self.bodies.get(index).membership.is_closed());
+            for index in ends {
+                let state = self.bodies.get(index);
+                if !state.is_dynamic()
+                    || state.is_asleep()
+                    || state.in_engine()
+                    || state.membership.is_closed()
+                {
+                    continue;
+                }
+                // A touch with a group is the group's alone.
+                if joins.contains(&true) || state.membership.waits(time).is_none() {
+                    self.solve_modes_around(index, time, 0.0, Looks::Fresh);
+                }
+            }
+        }
+        self.keep_closed();
+    }
+
+    /// Contacts of groups last, and carry what the group says.
+    fn keep_closed(&mut self) {
+        let (h, bodies) = (self.clock.h, &self.bodies);
+        for group in self
+            .closed
+            .iter()
+            .filter(|group| !(group.rests_analytically(bodies) || group.moves_analytically(bodies)))
+        {
+            for touch in &group.touches {
+                touch.carry(&self.bodies, self.pairs.get_mut(touch.pair), h);
+            }
+        }
+    }
+
+    /// The change of a group that is due.
+    pub(crate) fn change_group(&mut self) {
+        let Some((time, place)) = self.closed.pop() else {
+            return;
+        };
+        let Some(group) = self.closed.get(place) else {
+            return;
+        };
+        if group.sleeps {
+            return self.fall_asleep(place, time);
+        }
+        let (speed, moves_analytically, landing) = (
+            group.speed,
+            group.moves_analytically(&self.bodies),
+            group.landing(),
+        );
+        if self.continue_path(place, time) {
+            return;
+        }
+        let members = self.dissolve(place, time);
+        if let Some((pair, normal, at)) = landing {
+            self.comes_down(pair, normal, at, time);
+        }
+        self.solve_modes_of(&members, time, speed);
+        if moves_analytically {
+            // No sub-step was under way for it, and none need be.
+            self.begin_analytic_rest(time);
+            self.begin_analytic_motion(time);
+        }
+    }
+
+    /// A corner of a group that turned comes down on an edge that it touched already.
+    fn comes_down(&mut self, place: u32, normal: Vec2, at: Vec2, time: SimTime) {
+        let Some(pair) = self.pairs.find(place) else {
+            return;
+        };
+        let versions = [pair.bodies.0, pair.bodies.1].map(|index| self.bodies.version(index));
+        let entry = Entry {
+            time,
+            key: pair.colliders,
+            pair: place,
+            versions: (versions[0], versions[1]),
+            normal,
+            points: ArrayVec::from_iter([at]),
+        };
+        self.strike_entry(&entry);
+    }
+
+    /// A member of a group has another motion: the group's modes are solved for anew, with the contacts that it has now.
+    pub(crate) fn regroup(&mut self, index: u32, time: SimTime) {
+        if self.settings.mode == Mode::Stepped || !self.bodies.pull.fields.is_empty() {
+            return;
+        }
+        let state = self.bodies.get(index);
+        let place = state.membership.group;
+        let (members, speed) = match self.closed.get(place) {
+            Some(group) => {
+                if group.members.contains(&(index, self.bodies.version(index))) {
+                    return;
+                }
+                let speed = group.speed;
+                (self.dissolve(place, time), speed)
+            }
+            None if state.is_dynamic()
+                && !state.is_asleep()
+                && !state.in_engine()
+                && self.may_last(index) =>
+            {
+                self.bodies.get_mut(index).membership.forget();
+                (vec![index], 0.0)
+            }
+            None => return,
+        };
+        self.solve_modes_of(&members, time, speed);
+    }
+
+    /// Solves for the modes of a body's group anew, whether its members have other motions or not.
+    pub(crate) fn solve_modes_anew(&mut self, index: u32, time: SimTime) {
+        let place = self.bodies.get(index).membership.group;
+        if let Some(group) = self.closed.get(place) {
+            let speed = group.speed;
+            let members = self.dissolve(place, time);
+            self.solve_modes_of(&members, time, speed);
+        }
+    }
+
+    /// A body that goes on as before has one contact more: the modes of its island are solved for anew.
+    pub(crate) fn gain_contact(&mut self, index: u32, time: SimTime) {
+        if self.bodies.get(index).membership.is_closed() {
+            self.solve_modes_anew(index, time);
+        } else {
+            self.regroup(index, time);
+        }
+    }
+
+    /// Whether two bodies belong to one analytic island.
+    pub(crate) fn share_group(&self, a: u32, b: u32) -> bool {
+        let [one, other] = [a, b].map(|index| self.bodies.get(index).membership);
+        one.is_closed() && one.group == other.group
+    }
+
+    /// Whether something may hold a body that just changed its motion: what bounces off does not.
+    fn may_last(&self, index: u32) -> bool {
+        let pairs = self.bodies.get(index).pairs.iter();
+        pairs
+            .map(|place| self.pairs.get(*place))
+            .any(|pair| pair.lasting || (pair.touching && pair.material.restitution == 0.0))
+    }
+
+    pub(crate) fn solve_modes_of(&mut self, members: &[u32], time: SimTime, speed: f64) {
+        if self.stalls(members, time) {
+            self.set_free(members, time);
+        } else {
+            for &index in members {
+                if !self.bodies.get(index).membership.is_closed() {
+                    self.solve_modes_around(index, time, speed, Looks::Old);
+                }
+            }
+        }
+        let feels = |index: &u32| self.feels_island(*index);
+        if !members.iter().all(feels) {
+            self.drop_forces(members, time);
+        }
+    }
+
+    /// Counts a mode solve of an island: every one counts for some body that has not used up its number of them, so they come to an
+    /// end.
+    pub(crate) fn stalls(&mut self, members: &[u32], time: SimTime) -> bool {
+        let limits = (self.clock.h, self.settings.mode);
+        let bodies = u32::try_from(members.len()).unwrap_or(u32::MAX);
+        let stalls = |index: &&u32| self.closed.stalls(**index, bodies, time, limits);
+        members.iter().filter(stalls).count() > 0
+    }
+
+    /// The contacts around a body, as they are at `time`.
+    fn gather_touching(
+        &mut self,
+        index: u32,
+        time: SimTime,
+        looks: Looks,
+    ) -> Result<Gathered, Refused> {
+        let mut around = Around {
+            bodies: &self.bodies,
+            colliders: &self.colliders,
+            pairs: &mut self.pairs,
+            narrow: &mut self.narrow,
+            h: self.clock.h,
+        };
+        around.gather(index, time, looks)
+    }
+
+    /// Solves for the modes of the island around a body.
+    fn solve_modes_around(&mut self, index: u32, time: SimTime, speed: f64, looks: Looks) {
+        self.report.modes_solved += 1;
+        let mut found = self.gather_touching(index, time, looks);
+        while let Err(Refused { seen, .. }) = &found {
+            let leaves = |index: &u32| {
+                let state = self.bodies.get(*index);
+                state.rests_analytically() || state.moves_analytically()
+            };
+            let Some(index) = seen.iter().copied().find(leaves) else {
+                break;
+            };
+            if !self.hand_back_of(index, time) {
+                self.wake(index, time);
+            }
+            found = self.gather_touching(index, time, looks);
+        }
+        let mut gathered = match found {
+            Ok(gathered) => gathered,
+            Err(Refused { seen, until }) => {
+                for &index in &seen {
+                    self.dissolve(self.bodies.get(index).membership.group, time);
+                }
+                let Some(until) = until else {
+                    return self.wait_around(&seen, time);
+                };
+                for &index in &seen {
+                    self.bodies.get_mut(index).membership.wait_until(until);
+                }
+                return self.set_free(&seen, time);
+            }
+        };
+        let mut speed = speed;
+        for place in gathered.groups.clone() {
+            if let Some(group) = self.closed.get(place) {
+                speed = if group.speed > speed {
+                    group.speed
+                } else {
+                    speed
+                };
+            }
+            self.dissolve(place, time);
+        }
+        if gathered.touches.is_empty() {
+            // What nothing holds flies.
+            let left = self.clock.next() - time;
+            if left > 0.0 && self.bodies.get(index).member {
+                fly(&mut self.bodies, index, time, left);
+                self.redirect(index, time);
+            }
+            return;
+        }
+        if gathered.closing > gathered.rest {
+            return self.wait_around(&gathered.dynamic(), time);
+        }
+        let arrived = (gathered.closing > 0.0).then(|| gathered.clone());
+        if gathered.closing > 0.0 {
+            match land(&gathered.bodies, &gathered.touches) {
+                Ok(landed) => gathered.landed(&landed),
+                Err(_) => return self.wait_around(&gathered.dynamic(), time),
+            }
+        }
+        // What is slower than rest by all digits is still.
+        let speed = if gathered.rest > speed {
+            gathered.rest
+        } else {
+            speed
+        };
+        match solve_modes(&gathered.bodies, &gathered.touches, speed) {
+            Ok(moves) => {
+                // What flies, and touches what belongs to an island, is the island's from now on.
+                for &index in &gathered.places {
+                    if self.bodies.get(index).is_free() {
+                        self.land_first(index, time);
+                    }
+                }
+                self.close(&gathered, &moves, time, speed);
+            }
+            Err(why) => {
+                let known = match why {
+                    NotMine::Turns | NotMine::Curved => {
+                        self.tip_over(&gathered, time, speed, arrived.is_some())
+                    }
+                    why => Err(why),
+                };
+                match known {
+                    Ok(()) => {}
+                    Err(NotMine::Returns) => self.end_rocking(arrived, &gathered, time, speed),
+                    Err(NotMine::Painleve) if self.jams(&gathered, time) => {}
+                    Err(_) => self.wait_around(&gathered.dynamic(), time),
+                }
+            }
+        }
+    }
+
+    /// Gives a group of one point the impulse of a jam; whether it jams.
+    fn jams(&mut self, gathered: &Gathered, time: SimTime) -> bool {
+        let law = self.settings.impact_law;
+        let Some(jam) = jam(&mut self.bodies, &self.pairs, gathered, law, time) else {
+            return false;
+        };
+        self.report.impacts += 1;
+        self.events.push(time, jam.told);
+        for index in jam.ends {
+            if self.bodies.get(index).inverse_mass > 0.0 {
+                self.deflected(index, time);
+            }
+        }
+        true
+    }
+
+    /// Charges an island for a new mode, unless its motion is as before.
+    pub(crate) fn charge_change(&mut self, gathered: &Gathered, moves: &[BodyMove], time: SimTime) {
+        if self.settings.mode == Mode::Hybrid && changes_motion(&self.bodies, gathered, moves, time)
+        {
+            self.charge(&gathered.dynamic(), time);
+        }
+    }
+
+    /// Charges each body of an island for a mode solve.
+    fn charge(&mut self, members: &[u32], time: SimTime) {
+        if self.settings.mode != Mode::Hybrid {
+            return;
+        }
+        let was_substepping = self.is_substepping();
+        self.closed.charge(members, time, self.settings.tick);
+        if !was_substepping && self.closed.has_exhausted() {
+            self.clock.catch_up(time);
+        }
+    }
+
+    /// Analytic islands with exhausted budgets join the engine, unless they rest, or nothing bears them.
+    pub(crate) fn join_exhausted(&mut self, time: SimTime) {
+        let exhausted = self.closed.take_exhausted();
+        if exhausted.is_empty() {
+            return;
+        }
+        for index in exhausted {
+            if !self.bodies.is_alive(index) || self.bodies.get(index).is_asleep() {
+                continue;
+            }
+            let Some(group) = self.closed.get(self.bodies.get(index).membership.group) else {
+                continue;
+            };
+            if group.sleeps {
+                continue;
+            }
+            let members = group.indices();
+            if !self.is_borne(&members) {
+                self.closed.refill(&members);
+                continue;
+            }
+            for index in members {
+                self.join(index, time);
+            }
+        }
+        self.lower_free_boxes_later();
+    }
+
+    /// Whether an island is held by what it does not move.
+    pub(crate) fn is_borne(&self, members: &[u32]) -> bool {
+        is_borne(&self.bodies, &self.pairs, members)
+    }
+
+    /// The last landing of a series: every touch that it opened comes back at once, and stays closed.
+    fn end_rocking(
+        &mut self,
+        arrived: Option<Gathered>,
+        landed: &Gathered,
+        time: SimTime,
+        speed: f64,
+    ) {
+        let Some(mut gathered) = arrived else {
+            return;
+        };
+        gathered.stand(landed);
+        match solve_modes(&gathered.bodies, &gathered.touches, speed) {
+            Ok(moves) => self.close(&gathered, &moves, time, speed),
+            Err(_) => self.wait_around(&gathered.dynamic(), time),
+        }
+    }
+
+    /// A mode solve failed: the next one is later, and later each time.
+    fn wait_around(&mut self, members: &[u32], time: SimTime) {
+        self.charge(members, time);
+        for &index in members {
+            let h = self.clock.h;
+            let membership = &mut self.bodies.get_mut(index).membership;
+            if !membership.is_closed() {
+                membership.wait(time, h);
+            }
+        }
+        self.set_free(members, time);
+    }
+
+    /// Gives all members their motions, and enters the next change.
+    fn close(&mut self, gathered: &Gathered, moves: &GroupMove, time: SimTime, speed: f64) {
+        self.charge_change(gathered, &moves.bodies, time);
+        let now = (time, speed);
+        let (members, fastest) = give_motions(&mut self.bodies, gathered, &moves.bodies, now, true);
+        let still = moves.bodies.iter().all(|body| *body == BodyMove::default());
+        let may_sleep = |(index, _): &(u32, u32)| self.bodies.get(*index).sleep_allowed();
+        let sleeps = still && members.iter().all(may_sleep);
+        let sleep = self.settings.sleep.filter(|_| sleeps);
+        let change = match (moves.change, sleep) {
+            (Some(change), _) => Some(time + change.after),
+            (None, Some(sleep)) => Some(time + sleep.time),
+            (None, None) => None,
+        };
+        let group = Group {
+            since: time,
+            touches: kept(gathered, moves),
+            members: members.clone(),
+            speed: fastest,
+            sleeps: sleep.is_some(),
+            until: change,
+            tipping: None,
+        };
+        let place = self.closed.insert(&mut self.bodies, group, change);
+        // What is driven begins to move without a touch.
+        let drives = |index: &u32| self.bodies.get(*index).kind == BodyKind::Kinematic;
+        if !still {
+            self.closed.moves(place);
+        } else if !gathered.places.iter().any(drives) {
+            self.closed.stands_still(place);
+        }
+        self.tell_modes(gathered, &moves.touches, time);
+        for (index, _) in members {
+            self.redirect(index, time);
+        }
+    }
+
+    /// A mode that is new is an event.
+    pub(crate) fn tell_modes(&mut self, gathered: &Gathered, touches: &[TouchMove], time: SimTime) {
+        let pairs = &gathered.pairs;
+        for (&(place, contact), moved) in pairs.iter().zip(touches) {
+            let pair = self.pairs.get_mut(place);
+            pair.lasting = moved.mode != ContactMode::Open;
+            // A pair of several contacts moves as its first.
+            let first = pairs.iter().find(|other| other.0 == place);
+            if first == Some(&(place, contact)) {
+                self.events.tell_mode(&self.bodies, pair, moved.mode, time);
+            }
+        }
+    }
+}

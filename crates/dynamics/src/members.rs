@@ -1,0 +1,355 @@
+//! Members of the engine in [`crate::Mode::Hybrid`] and [`crate::Mode::Exact`]: their sub-steps, and which bodies join them.
+
+use std::collections::BTreeSet;
+
+use carom_geometry::Aabb;
+use carom_math::{SimTime, Vec2};
+
+use crate::stepping::Stepping;
+use crate::stepping::heap::{Heaps, Seen};
+use crate::stepping::near::Among;
+use crate::stepping::rules::Rules;
+use crate::stepping::rush::Haste;
+use crate::store::bodies::Bodies;
+use crate::{BodyKind, Mode, PairSearch, World};
+
+impl World {
+    /// Before a sub-step: changes by a caller enter the engine, islands that are met wake, and bodies that may be met join.
+    pub(crate) fn gather_members(&mut self, time: SimTime) {
+        if self.bodies.member_count() == 0 {
+            return;
+        }
+        let at_tick = self.resume(time);
+        if at_tick {
+            self.tell_members_touches(time);
+            self.disperse(time);
+            self.stopwatch.lap(|p| &mut p.sleep);
+        }
+        let mut searches = self.find_contacts(time) || at_tick || self.joins.is_restless();
+        let mut asks_all = at_tick;
+        while searches {
+            let near = self.outsiders_near(time, asks_all);
+            (searches, asks_all) = (!near.is_empty(), false);
+            for index in near {
+                self.join(index, time);
+            }
+            if searches {
+                self.find_contacts(time);
+            }
+        }
+        self.pairs.sort(&self.bodies, &self.stepped);
+        self.stopwatch.lap(|p| &mut p.contacts);
+    }
+
+    /// The engine was left alone while no body was awake in it, and kinematic bodies went on; whether a tick begins.
+    fn resume(&mut self, time: SimTime) -> bool {
+        let Some(stepping) = &mut self.stepping else {
+            return false;
+        };
+        let phase = self.clock.phase(self.settings.substeps_per_tick());
+        let slept = stepping.engine.set_phase(phase);
+        if slept || phase == 0 {
+            let bodies = &mut self.bodies;
+            self.joins.drivers.retain(|index| {
+                bodies.is_alive(*index) && bodies.get(*index).kind == BodyKind::Kinematic
+            });
+            for &index in &self.joins.drivers {
+                bodies.touch(index);
+            }
+        }
+        self.joins.reached = time;
+        phase == 0
+    }
+
+    /// Contacts of the sub-step that begins; whether some body came, or deviates from its predicted motion.
+    fn find_contacts(&mut self, time: SimTime) -> bool {
+        let deviates = self.with_engine(|world, stepping| {
+            if !world.bodies.touched.is_empty() {
+                world.enter_changed(stepping, time, time);
+            }
+            let deviates = world.search_contacts(stepping);
+            world.tell_sleep(stepping, time);
+            world.tell_impacts(stepping, time);
+            deviates
+        });
+        if deviates.is_some() {
+            self.take_woken(time);
+        }
+        deviates.unwrap_or(false)
+    }
+
+    /// Bodies that woke in the engine are its members, with all that slept in touch with them.
+    pub(crate) fn take_woken(&mut self, time: SimTime) {
+        for index in core::mem::take(&mut self.joins.woken) {
+            if !self.bodies.is_alive(index) {
+                continue;
+            }
+            if self.bodies.get(index).in_engine() {
+                self.leave_pairs(index, time);
+                continue;
+            }
+            for index in self.woken_with(index, time) {
+                self.join(index, time);
+            }
+        }
+    }
+
+    /// Moves all members on by one sub-step.
+    pub(crate) fn step_members(&mut self, time: SimTime) {
+        if self.bodies.member_count() == 0 {
+            return;
+        }
+        let Some(mut stepping) = self.stepping.take() else {
+            return;
+        };
+        stepping.end_motions(&mut self.bodies, &self.clock);
+        if !self.bodies.touched.is_empty() {
+            self.enter_changed(&mut stepping, time, time);
+            self.search_contacts(&mut stepping);
+            self.tell_sleep(&mut stepping, time);
+        }
+        stepping.pull(&self.bodies);
+        let forced = self.forced_members(&stepping);
+        // `begin` was called: the clock is at the end of this sub-step.
+        stepping
+            .note_places(self.bodies.history.is_kept() || self.clock.is_within(self.unseen_until));
+        self.substep_engine(&mut stepping);
+        self.book_work(&stepping, &forced);
+        self.joins.reached = self.clock.next();
+        self.joins.unwritten = true;
+        stepping.lay_members(&mut self.bodies, self.clock.next());
+        if self.bodies.history.is_kept() {
+            stepping.write_all(&mut self.bodies, &self.clock);
+        }
+        self.stepping = Some(stepping);
+        let woken = self.joins.woken.clone();
+        self.take_woken(time);
+        // They are where the engine has moved them.
+        self.bodies.touched.retain(|index| !woken.contains(index));
+    }
+
+    /// Members that a caller changed in the midst of a sub-step pass through nothing in the rest of it.
+    pub(crate) fn carry_members(&mut self) {
+        if self.bodies.member_count() > 0
+            && self.joins.reached == self.clock.next()
+            && let Some(mut stepping) = self.stepping.take()
+        {
+            // Bodies that joined since, or woke elsewhere, wait for the next sub-step.
+            let is_carried = |index: &u32| {
+                let state = self.bodies.get(*index);
+                stepping.id(*index).is_some() && (state.in_engine() || !state.is_dynamic())
+            };
+            let touched = self.bodies.touched.clone();
+            let (carried, mut others) = touched.into_iter().partition(is_carried);
+            self.bodies.touched = carried;
+            self.enter_within(&mut stepping);
+            self.bodies.touched.append(&mut others);
+            self.stepping = Some(stepping);
+            self.take_woken(self.clock.now);
+        }
+    }
+
+    /// Motions and touches of all members, where a caller may read them.
+    pub(crate) fn write_members(&mut self, time: SimTime) {
+        if core::mem::take(&mut self.joins.unwritten)
+            && let Some(mut stepping) = self.stepping.take()
+        {
+            if !self.bodies.history.is_kept() && !self.clock.is_within(time) {
+                // No pose is read within the last sub-step.
+                stepping.note_places(false);
+            }
+            stepping.write_all(&mut self.bodies, &self.clock);
+            if !self.clock.is_within(time) {
+                self.tell_sleep(&mut stepping, time);
+                self.tell_impacts(&mut stepping, time);
+            }
+            self.tell_touches(&mut stepping, time);
+            self.stepping = Some(stepping);
+        } else if self.joins.has_guests
+            && !self.clock.is_within(time)
+            && let Some(mut stepping) = self.stepping.take()
+        {
+            stepping.end_motions(&mut self.bodies, &self.clock);
+            self.tell_sleep(&mut stepping, time);
+            self.tell_impacts(&mut stepping, time);
+            self.stepping = Some(stepping);
+        }
+    }
+
+    /// Begins and ends of touch of members since this was last called.
+    pub(crate) fn tell_members_touches(&mut self, time: SimTime) {
+        self.with_engine(|world, stepping| world.tell_touches(stepping, time));
+    }
+
+    /// Places and turns of members that a caller's force acts on.
+    fn forced_members(&self, stepping: &Stepping) -> Vec<(u32, Vec2, f64)> {
+        let members = self
+            .forced
+            .iter()
+            .filter(|index| self.bodies.get(**index).in_engine());
+        members
+            .filter_map(|index| {
+                let state = stepping.state(*index)?;
+                Some((*index, state.pose.position, state.turned))
+            })
+            .collect()
+    }
+
+    /// What the caller's forces and kinematic bodies did in the last sub-step.
+    fn book_work(&mut self, stepping: &Stepping, forced: &[(u32, Vec2, f64)]) {
+        for &(index, from, turned) in forced {
+            if let Some(now) = stepping.state(index) {
+                let state = self.bodies.get(index);
+                let way = now.pose.position - from;
+                let work = state.force().dot(way) + state.torque() * (now.turned - turned);
+                self.joins.forced.add(work);
+            }
+        }
+        for &index in &self.joins.drivers {
+            let work = stepping.id(index).map(|id| stepping.engine.work_of(id));
+            if let Some(Ok(work)) = work {
+                self.joins.driven.add(work);
+            }
+        }
+    }
+
+    /// Bodies outside that may meet members before the next tick, in order.
+    fn outsiders_near(&mut self, time: SimTime, asks_all: bool) -> BTreeSet<u32> {
+        let rules = Rules {
+            bodies: &self.bodies,
+            colliders: &self.colliders,
+            broad: &self.broad,
+        };
+        let stepping = self.stepping.as_mut();
+        stepping.map_or_else(BTreeSet::new, |stepping| {
+            self.joins
+                .outsiders_near(stepping, rules, &self.stepped, time, asks_all)
+        })
+    }
+
+    /// A free body with a new motion joins if it may meet a member before the next sub-step begins.
+    pub(crate) fn meet_members(&mut self, index: u32, time: SimTime) {
+        // Most worlds of free bodies have no members, and the grid's instants are sums with care.
+        if self.bodies.member_count() == 0 {
+            return;
+        }
+        self.joins.restless.push(index);
+        let left = self.clock.next() - time;
+        let near = left > 0.0
+            && self.bodies.get(index).is_free()
+            && self.stepping.as_ref().is_some_and(|stepping| {
+                self.joins.reached == self.clock.next()
+                    && self.nears_member(stepping, index, (time, left), Among::All)
+            });
+        if near {
+            self.join(index, time);
+        }
+    }
+
+    /// Whether a body may meet a member within `left` seconds.
+    pub(crate) fn nears_member(
+        &self,
+        stepping: &Stepping,
+        index: u32,
+        ahead: (SimTime, f64),
+        among: Among,
+    ) -> bool {
+        stepping.nears_member(self.rules(), self.joins.reached, index, ahead, among)
+    }
+
+    /// Kinematic bodies are known to the engine from its first member on.
+    pub(crate) fn invite_drivers(&mut self) {
+        if !core::mem::replace(&mut self.joins.has_guests, true) {
+            for index in self.joins.drivers.clone() {
+                if self.bodies.is_alive(index) {
+                    self.show_engine(index);
+                }
+            }
+        }
+    }
+
+    /// Has the engine know a body that rests or drives.
+    pub(crate) fn show_engine(&mut self, index: u32) {
+        let may_join = self.may_join();
+        let state = self.bodies.get_mut(index);
+        if may_join && state.kind == BodyKind::Kinematic {
+            self.joins.drivers.insert(index);
+        }
+        if !self.joins.has_guests || state.in_engine() || !state.rests_or_drives() {
+            return;
+        }
+        state.is_guest = true;
+        self.bodies.touch(index);
+    }
+
+    /// At the start of a sub-step: bodies of `lands`, which begin to rest, join with all of their heap if it is for the engine;
+    /// the others stay.
+    pub(crate) fn gather_heaps(&mut self, lands: &mut Vec<u32>, seen: &mut Seen, time: SimTime) {
+        if !self.may_join() || self.broad.search != PairSearch::Indexed {
+            return;
+        }
+        let free = |bodies: &Bodies, bounds: Aabb, near: &mut Vec<u32>| {
+            self.free.overlapping(bodies, bounds, near);
+        };
+        let heaps = Heaps {
+            rules: self.rules(),
+            free: &free,
+            few: self.few(),
+            time,
+            h: self.clock.h,
+        };
+        let joining = heaps.joining(lands, seen);
+        if joining.is_empty() {
+            return;
+        }
+        lands.retain(|index| joining.binary_search(index).is_err());
+        self.pairs.end_substepping_all(&mut self.stepped, &joining);
+        // No body is free any more when the first one joins: pairs are found once, as those of members.
+        for &index in &joining {
+            let state = self.bodies.get_mut(index);
+            if state.goes_by_events() {
+                state.land();
+                self.free.vanish(&mut self.bodies, index);
+            }
+        }
+        for index in joining {
+            self.join(index, time);
+        }
+    }
+
+    /// Counts an impact that changed the motions of `bodies`, at the price of `lost`: bodies that strike each other too often join.
+    pub(crate) fn rush(&mut self, bodies: &[u32], lost: f64, time: SimTime) {
+        if self.settings.mode != Mode::Hybrid || bodies.is_empty() {
+            return;
+        }
+        #[expect(
+            clippy::cast_possible_truncation,
+            reason = "the cast saturates; a tick more or less in a budget is no matter"
+        )]
+        let tick = (time.as_secs() / self.settings.tick) as i64;
+        if self.joins.rush.is_before(tick) {
+            self.end_rush(time);
+        }
+        let was_substepping = self.is_substepping();
+        let haste = self.joins.rush.count(bodies, lost, tick);
+        if haste != Haste::None && !was_substepping {
+            self.clock.catch_up(time);
+        }
+        if haste == Haste::AtOnce {
+            self.end_rush(time);
+        }
+    }
+
+    /// Bodies that struck each other too often join the engine.
+    pub(crate) fn end_rush(&mut self, time: SimTime) {
+        if !self.joins.rush.is_due() {
+            return;
+        }
+        for index in self.joins.rush.take_due() {
+            if self.bodies.is_alive(index) {
+                self.join(index, time);
+            }
+        }
+        self.lower_free_boxes_later();
+    }
+}
