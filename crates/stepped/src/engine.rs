@@ -236,7 +236,7 @@ impl Engine {
     pub fn advance(&mut self) {
         (self.done, self.found, self.posed) = (self.done + 1, false, None);
         self.hard
-            .gather(self.law.h, &mut self.graph, &mut self.bodies);
+            .gather(&self.settings, &mut self.graph, &mut self.bodies);
         self.extra.gather(&mut self.graph, &self.bodies);
         self.deep.gather(&mut self.graph, &self.bodies);
         let last = self.done == self.settings.substeps;

@@ -1,9 +1,10 @@
-//! Which islands take hard rows: where a body bears one of more than 16 times its mass, or goes far in a sub-step, or where nothing
-//! bears or pulls any, and all rows are few enough.
+//! Which islands take hard rows: where a body bears one of more than 16 times its mass, or goes far in a sub-step, or, if that is asked,
+//! where nothing bears or pulls any; and all rows are few enough.
 //!
 //! Whether an island does is a pure function of its bodies and contacts.
 
 use super::free::is_free;
+use crate::Settings;
 use crate::bodies::Bodies;
 use crate::rows::Graph;
 
@@ -74,8 +75,13 @@ pub(super) struct Search {
     contacts: Vec<u32>,
 }
 
-/// Contacts of each island that takes hard rows in a sub-step of `h` seconds, in the order of their bodies.
-pub(super) fn find(graph: &Graph, bodies: &Bodies, h: f64, search: &mut Search) -> Vec<Vec<u32>> {
+/// Contacts of each island that takes hard rows in a sub-step, in the order of their bodies.
+pub(super) fn find(
+    graph: &Graph,
+    bodies: &Bodies,
+    settings: &Settings,
+    search: &mut Search,
+) -> Vec<Vec<u32>> {
     let mut found = Vec::new();
     search.known.clear();
     for id in graph.unequal_awake(bodies) {
@@ -91,8 +97,10 @@ pub(super) fn find(graph: &Graph, bodies: &Bodies, h: f64, search: &mut Search) 
             found.push(search.contacts.clone());
         }
     }
-    find_fast(graph, bodies, h, search, &mut found);
-    find_free(graph, bodies, search, &mut found);
+    find_fast(graph, bodies, settings.substep(), search, &mut found);
+    if settings.keeps_turning {
+        find_free(graph, bodies, search, &mut found);
+    }
     for contacts in &mut found {
         graph.sort(bodies, contacts);
     }

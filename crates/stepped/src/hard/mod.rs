@@ -39,11 +39,11 @@ pub(crate) struct HardRows {
 }
 
 impl HardRows {
-    /// Sends islands to hard rows, and back, for a sub-step of `h` seconds: in every one of them, so that no island depends on when
+    /// Sends islands to hard rows, and back, for a sub-step: in every one of them, so that no island depends on when
     /// contacts of another one changed. What goes back begins with no impulses: the impulses that held a column which buckled are up to
     /// 1e6 N·s, and sweeps cannot take them back.
-    pub(crate) fn gather(&mut self, h: f64, graph: &mut Graph, bodies: &mut Bodies) {
-        let mut found = islands::find(graph, bodies, h, &mut self.search);
+    pub(crate) fn gather(&mut self, settings: &Settings, graph: &mut Graph, bodies: &mut Bodies) {
+        let mut found = islands::find(graph, bodies, settings, &mut self.search);
         if !self.unanswered.is_empty() {
             let keys: Vec<Vec<Key>> = found
                 .iter()

@@ -10,6 +10,7 @@ use crate::{BodyId, BodyInput, Engine, Material, PieceInput, Settings};
 fn weightless(settings: Settings) -> Settings {
     Settings {
         gravity: Vec2::ZERO,
+        keeps_turning: true,
         ..settings
     }
 }
