@@ -45,6 +45,36 @@ fn nothing_leaves_a_spinning_ring_through_its_seams() {
     }
 }
 
+/// How far a plate that is thrown along the ring at 2000 m/s after so many frames comes out of it, in m.
+fn out_after(mode: Mode, frames: u32) -> f64 {
+    let settings = Settings {
+        mode,
+        ..Settings::default()
+    };
+    let mut world = World::new(settings).expect("valid settings");
+    let material = surface(0.0, 0.0);
+    let ring = BodyDef::kinematic().spinning(13.0);
+    put(&mut world, ring, octagon(), material);
+    let def = BodyDef::dynamic().at(vec2(0.3, -1.3)).turned(0.3);
+    let plate = block(0.43, 0.1);
+    let inside = put(&mut world, def, plate.clone(), material);
+    for _ in 0..frames {
+        world.step(1.0 / 60.0);
+    }
+    let body = world.body(inside).expect("it stays");
+    let thrown = perp(body.centre().normalize()) * 2000.0;
+    let (velocity, spin) = (body.velocity() + thrown, body.angular_velocity());
+    world
+        .set_velocity(inside, velocity, spin)
+        .expect("a velocity");
+    let mut out = 0.0_f64;
+    for _ in 0..360 {
+        world.step(1.0 / 3600.0);
+        out = out.max(out_of_the_ring(&world, inside, &plate));
+    }
+    out
+}
+
 #[test]
 fn what_is_thrown_along_a_spinning_ring_stays_in_it() {
     // A plate that is held is looked at 64 times in a sub-step at most: at 2000 m/s it had sunk 87 mm into the next piece between
@@ -52,35 +82,17 @@ fn what_is_thrown_along_a_spinning_ring_stays_in_it() {
     // so was sought no more: 84 mm out after 55 frames.
     for mode in [Mode::Hybrid, Mode::Exact] {
         for frames in [40, 45, 50, 55, 60] {
-            let settings = Settings {
-                mode,
-                ..Settings::default()
-            };
-            let mut world = World::new(settings).expect("valid settings");
-            let material = surface(0.0, 0.0);
-            let ring = BodyDef::kinematic().spinning(13.0);
-            put(&mut world, ring, octagon(), material);
-            let def = BodyDef::dynamic().at(vec2(0.3, -1.3)).turned(0.3);
-            let plate = block(0.43, 0.1);
-            let inside = put(&mut world, def, plate.clone(), material);
-            for _ in 0..frames {
-                world.step(1.0 / 60.0);
-            }
-            let body = world.body(inside).expect("it stays");
-            let thrown = perp(body.centre().normalize()) * 2000.0;
-            let (velocity, spin) = (body.velocity() + thrown, body.angular_velocity());
-            world
-                .set_velocity(inside, velocity, spin)
-                .expect("a velocity");
-            for _ in 0..360 {
-                world.step(1.0 / 3600.0);
-                let out = out_of_the_ring(&world, inside, &plate);
-                assert!(
-                    out < 0.01,
-                    "{out} m out of the ring: {:?}",
-                    (mode, frames, world.time())
-                );
-            }
+            let out = out_after(mode, frames);
+            assert!(out < 0.01, "{out} m out of the ring: {mode:?}, {frames}");
         }
+    }
+}
+
+#[test]
+#[ignore = "fails: thrown after 38 or 74 frames it lies so deep in one wall that the next one is sought no more"]
+fn what_is_thrown_along_a_spinning_ring_stays_in_it_whenever_it_is_thrown() {
+    for frames in 36..90 {
+        let out = out_after(Mode::Hybrid, frames);
+        assert!(out < 0.1, "{out} m out of the ring: {frames}");
     }
 }
