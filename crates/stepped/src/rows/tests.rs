@@ -1,7 +1,9 @@
 //! Every width gives the bits of the scalar twin.
 
+use carom_math::vec2;
+
 use super::kernel::{Pass, sweep};
-use super::plain;
+use super::{Quad, correct, plain};
 use crate::tests::{Random, floor, levels};
 use crate::{Engine, Mixed, Settings};
 
@@ -46,4 +48,63 @@ fn all_widths_have_the_bits_of_the_plain_sweep() {
         engine.substeps();
     }
     assert!(engine.contact_count() > 100);
+}
+
+/// Counts of bodies that are no multiple of four, too: the last ones share a register with empty lines.
+#[test]
+fn all_widths_note_the_bodies_that_deviate_or_go_far_one_by_one() {
+    let settings = Settings::default();
+    let (h, rest) = (settings.substep(), 3.0 * settings.substep());
+    let (mut deviate, mut far, mut all) = (0, 0, 0);
+    for count in 1..40 {
+        let mut engine = Engine::new(settings).unwrap();
+        let mut random = Random::new(count);
+        for _ in 0..count {
+            let piece = random.piece();
+            let body = random.body(&piece, 1.0);
+            engine.insert(body, &[piece]).unwrap();
+        }
+        let bodies = &mut engine.bodies;
+        for at in 2..bodies.lines.len() {
+            let speed = [0.1, 3.0, 60.0][random.below(3)];
+            let v = vec2(random.signed(), random.signed()) * speed;
+            let w = random.signed() * speed;
+            bodies.lines[at].set_velocity(v, w);
+            let pulled = bodies.pull[at].v() * h;
+            bodies.start[at] = Quad::new(v + pulled, w + 0.01 * random.signed());
+            bodies.foreseen[at] = Quad::new(v * random.next(), w * random.next());
+            let d = vec2(random.signed(), random.signed());
+            bodies.lines[at].set_displacement(d * 0.01, 0.1 * random.signed());
+        }
+        for level in levels() {
+            let mut bodies = engine.bodies.clone();
+            correct(level, &mut bodies, &settings, h, rest);
+            let lines = 2..bodies.lines.len();
+            let deviates = |at: &usize| {
+                let (line, then, limit) = (
+                    &bodies.lines[*at],
+                    &bodies.foreseen[*at],
+                    &bodies.limits[*at],
+                );
+                let off = (line.v() - then.v()).abs();
+                let off = off.x.max(off.y) + (line.w() - then.w()).abs() * limit.reach;
+                limit.deviates(settings.margin, off * rest, line.turn())
+            };
+            let goes_far = |at: &usize| {
+                let (line, limit) = (&bodies.lines[*at], &bodies.limits[*at]);
+                limit.is_far((line.v() * h).length_squared(), line.w() * h)
+            };
+            let noted = |list: &[u32]| list.iter().map(|at| *at as usize).collect::<Vec<_>>();
+            let expected: Vec<usize> = lines.clone().filter(deviates).collect();
+            assert_eq!(noted(&bodies.deviating), expected, "{count}, {level:?}");
+            let expected: Vec<usize> = lines.clone().filter(goes_far).collect();
+            let speedy = bodies.speedy.as_deref().unwrap_or_default();
+            assert_eq!(noted(speedy), expected, "{count}, {level:?}");
+            all += lines.len();
+            deviate += bodies.deviating.len();
+            far += expected.len();
+        }
+    }
+    assert!(all / 10 < deviate && deviate < all, "{deviate} of {all}");
+    assert!(all / 10 < far && far < all, "{far} of {all}");
 }
