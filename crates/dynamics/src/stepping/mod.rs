@@ -69,7 +69,7 @@ impl Stepping {
             substeps: settings.substeps_per_tick(),
             softness: softness_of(settings),
             relaxation: Relaxation::EverySubstep,
-            keeps_turning: settings.mode == Mode::Exact,
+            keeps_angular_momentum: settings.mode == Mode::Exact,
             sleep: sleep_of(settings),
             ..carom_stepped::Settings::default()
         });

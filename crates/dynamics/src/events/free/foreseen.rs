@@ -1,7 +1,7 @@
 //! Events ahead of free bodies: entries of the calendar queue with their impacts, and which of them are stale.
 
 use arrayvec::ArrayVec;
-use carom_collision::{AxisFeature, ImpactFeature, Side};
+use carom_collision::{AxisFeature, Impact, ImpactFeature, Side};
 use carom_math::{SimTime, Vec2};
 
 use super::FreeBodies;
@@ -24,6 +24,17 @@ pub(crate) struct Foreseen {
 }
 
 impl Foreseen {
+    /// What a search found for these shapes of two bodies.
+    pub(super) fn of(bodies: (u32, u32), colliders: (u32, u32), impact: &Impact) -> Self {
+        Self {
+            bodies,
+            colliders,
+            normal: impact.normal,
+            points: impact.points.clone(),
+            feature: impact.features[0],
+        }
+    }
+
     /// The side with the straight face that is struck, if one is.
     pub(super) const fn face(&self) -> Option<Side> {
         match self.feature.feature {

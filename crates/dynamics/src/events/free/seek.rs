@@ -146,9 +146,7 @@ impl World {
             TimeOfImpact::Hit(impact) => (impact.time, Some(impact)),
             TimeOfImpact::Touching(impact) => (0.0, Some(impact)),
             TimeOfImpact::Unresolved { .. } => {
-                self.report.unresolved += 1;
-                self.land(a, time);
-                self.land(b, time);
+                self.leave_unresolved((a, b), time);
                 return true;
             }
         };
@@ -169,13 +167,7 @@ impl World {
         let Some(impact) = impact.filter(|found| !self.passes((a, b), shapes, found, time)) else {
             return false;
         };
-        let foreseen = Foreseen {
-            bodies: (a, b),
-            colliders: shapes,
-            normal: impact.normal,
-            feature: impact.features[0],
-            points: impact.points,
-        };
+        let foreseen = Foreseen::of((a, b), shapes, &impact);
         let wait = if self.is_blurred(&foreseen, time, wait) {
             0.0
         } else {
@@ -202,21 +194,19 @@ impl World {
         match next {
             TimeOfImpact::Clear => {}
             TimeOfImpact::Hit(impact) | TimeOfImpact::Touching(impact) => {
-                let foreseen = Foreseen {
-                    normal: impact.normal,
-                    feature: impact.features[0],
-                    points: impact.points,
-                    ..*touch
-                };
+                let foreseen = Foreseen::of((a, b), touch.colliders, &impact);
                 let stamp = self.stamp(a, b);
                 self.free.push_impact(time + impact.time, stamp, foreseen);
             }
-            TimeOfImpact::Unresolved { .. } => {
-                self.report.unresolved += 1;
-                self.land(a, time);
-                self.land(b, time);
-            }
+            TimeOfImpact::Unresolved { .. } => self.leave_unresolved((a, b), time),
         }
+    }
+
+    /// A search that found no end leaves two bodies to sub-steps.
+    fn leave_unresolved(&mut self, (a, b): (u32, u32), time: SimTime) {
+        self.report.unresolved += 1;
+        self.land(a, time);
+        self.land(b, time);
     }
 
     /// Whether one of two bodies slides over the side of the other that the impact is on: the side that bears it is flush with that.
