@@ -21,7 +21,7 @@ pub struct State {
     pub turned: f64,
     /// Velocity of the centre of mass, in m/s, and spin, in rad/s.
     pub velocity: (Vec2, f64),
-    /// The same before the last sub-step; of bodies that nothing bears or pulls, once contacts acted as it began.
+    /// The same before the last sub-step; of bodies of a free island in hard rows, once contacts acted as it began.
     pub before: (Vec2, f64),
 }
 

@@ -1,4 +1,4 @@
-//! Free islands, which nothing bears or pulls: they keep their angular momentum `Σ m c × v + I ω` to rounding.
+//! Free islands, without supports or external forces, keep their angular momentum `Σ m c × v + I ω` to rounding.
 //!
 //! ```text
 //! impulses act at one point of both bodies, at the poses that the sub-step begins with
@@ -11,7 +11,7 @@ use carom_math::{Vec2, perp};
 
 use super::solve::Island;
 use crate::bodies::Bodies;
-use crate::rows::{Graph, Law, Quad};
+use crate::rows::{Graph, Law, Quad, quotient};
 
 /// Whether a body can be moved, and no force acts on it but those of contacts.
 pub(super) fn is_free(bodies: &Bodies, line: usize) -> bool {
@@ -92,16 +92,11 @@ fn turn_pair(bodies: &mut Bodies, [a, b]: [usize; 2], moment: f64) {
         against
     };
     let change = (turned - against) / (ma + mb);
-    let inertia = [first, second].map(|line| inverse_of(line.inverse_inertia()));
-    let spin = (wanted - reached) / (ma + mb) * inverse_of(inertia[0] + inertia[1]);
+    let inertia = [first, second].map(|line| quotient(1.0, line.inverse_inertia()));
+    let spin = (wanted - reached) / (ma + mb) * quotient(1.0, inertia[0] + inertia[1]);
     for (at, inertia, change) in [(a, inertia[0], change * -ma), (b, inertia[1], change * mb)] {
         let turn = Quad::new(change, if inertia > 0.0 { spin } else { 0.0 });
         bodies.lines[at].add(&turn);
         bodies.start[at].add(&turn);
     }
-}
-
-/// 1/x, or 0 of 0.
-fn inverse_of(x: f64) -> f64 {
-    if x > 0.0 { x.recip() } else { 0.0 }
 }

@@ -1,5 +1,5 @@
 //! Which islands take hard rows: where a body bears one of more than 16 times its mass, or goes far in a sub-step, or, if that is asked,
-//! where nothing bears or pulls any; and all rows are few enough.
+//! of free islands; and all rows are few enough.
 //!
 //! Whether an island does is a pure function of its bodies and contacts.
 
@@ -8,19 +8,19 @@ use crate::Settings;
 use crate::bodies::Bodies;
 use crate::rows::Graph;
 
-/// Points of contact of an island, at most: its matrices are dense.
+/// Which islands a rule admits: by points of contact, as matrices are dense.
 #[derive(Clone, Copy)]
-struct MostPoints {
-    /// As it comes into hard rows.
+struct Admits {
+    /// So many points as an island comes into hard rows, at most.
     comes: usize,
     /// While it is in them: points come and go where bodies rock.
     stays: usize,
-    /// Nothing may bear or pull it.
+    /// Free islands alone, without supports or external forces.
     free: bool,
 }
 
 /// Of islands with a load that sweeps cannot carry.
-const UNDER_LOAD: MostPoints = MostPoints {
+const UNDER_LOAD: Admits = Admits {
     comes: 64,
     stays: 80,
     free: false,
@@ -28,17 +28,16 @@ const UNDER_LOAD: MostPoints = MostPoints {
 
 /// Of islands with a fast body: turning presses what a ring carries at 14.7 rad/s by 35 g, and soft rows let it sink in by 28 mm, hard
 /// ones by 0.7. 64: the debris of a wall takes them, too.
-const WITH_FAST: MostPoints = MostPoints {
+const WITH_FAST: Admits = Admits {
     comes: 16,
     stays: 20,
     free: false,
 };
 
-/// Of islands that nothing bears or pulls: they keep their angular momentum.
-const FREE: MostPoints = MostPoints {
-    comes: 64,
-    stays: 80,
+/// Free islands: they keep their angular momentum.
+const FREE: Admits = Admits {
     free: true,
+    ..UNDER_LOAD
 };
 
 /// Cosine of the angle between a load and what may bear it, at least.
@@ -98,7 +97,7 @@ pub(super) fn find(
         }
     }
     find_fast(graph, bodies, settings.substep(), search, &mut found);
-    if settings.keeps_turning {
+    if settings.keeps_angular_momentum {
         find_free(graph, bodies, search, &mut found);
     }
     for contacts in &mut found {
@@ -120,16 +119,7 @@ fn find_fast(
     if fast.peek().is_none() {
         return;
     }
-    let known = &mut search.known;
-    known.clear();
-    known.resize(bodies.records.len(), Known::Nothing);
-    for slot in found
-        .iter()
-        .flatten()
-        .flat_map(|id| graph.contacts[*id as usize].bodies)
-    {
-        known[slot as usize] = Known::Asked;
-    }
+    search.begin(graph, bodies, found);
     let mut ask = |first: u32| {
         if search.known[first as usize] == Known::Nothing
             && search.component(graph, bodies, first, WITH_FAST)
@@ -152,17 +142,9 @@ fn find_fast(
     }
 }
 
-/// Adds the islands that nothing bears or pulls which are not there yet.
+/// Adds the free islands that are not there yet.
 fn find_free(graph: &Graph, bodies: &Bodies, search: &mut Search, found: &mut Vec<Vec<u32>>) {
-    search.known.clear();
-    search.known.resize(bodies.records.len(), Known::Nothing);
-    for slot in found
-        .iter()
-        .flatten()
-        .flat_map(|id| graph.contacts[*id as usize].bodies)
-    {
-        search.known[slot as usize] = Known::Asked;
-    }
+    search.begin(graph, bodies, found);
     for line in 2..bodies.lines.len() {
         let slot = bodies.slot_of[line];
         if search.known[slot as usize] == Known::Nothing
@@ -176,9 +158,19 @@ fn find_free(graph: &Graph, bodies: &Bodies, search: &mut Search, found: &mut Ve
 }
 
 impl Search {
+    /// Knows of the bodies of islands that were found, and of no others.
+    fn begin(&mut self, graph: &Graph, bodies: &Bodies, found: &[Vec<u32>]) {
+        self.known.clear();
+        self.known.resize(bodies.records.len(), Known::Nothing);
+        let contacts = found.iter().flatten();
+        for slot in contacts.flat_map(|id| graph.contacts[*id as usize].bodies) {
+            self.known[slot as usize] = Known::Asked;
+        }
+    }
+
     /// Finds the contacts of the component of a body: what hangs together by rows, whether these push or not, as hard and soft rows
     /// share no body that moves. False if it is too large, or a contact of it is in the overflow colour.
-    fn component(&mut self, graph: &Graph, bodies: &Bodies, first: u32, most: MostPoints) -> bool {
+    fn component(&mut self, graph: &Graph, bodies: &Bodies, first: u32, admits: Admits) -> bool {
         let Self {
             known,
             slots,
@@ -204,20 +196,20 @@ impl Search {
                 }
                 hard |= contact.is_hard();
                 fits &=
-                    contact.mask() != 0 && (!most.free || is_free(bodies, bodies.line_of(other)));
+                    contact.mask() != 0 && (!admits.free || is_free(bodies, bodies.line_of(other)));
                 if moves && known[other as usize] != Known::Asked {
                     fits &= known[other as usize] != Known::Large;
                     known[other as usize] = Known::Asked;
                     slots.push(other);
                 }
                 // All but the first body have a contact each.
-                fits &= points.max(slots.len() - 1) <= most.stays;
+                fits &= points.max(slots.len() - 1) <= admits.stays;
                 if !fits {
                     break;
                 }
             }
         }
-        let fits = fits && (hard || points <= most.comes);
+        let fits = fits && (hard || points <= admits.comes);
         if !fits {
             for slot in slots {
                 known[*slot as usize] = Known::Large;

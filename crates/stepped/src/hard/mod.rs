@@ -5,7 +5,7 @@
 //! v' = start + M⁻¹ Jᵀ j        0 ≤ jₙ ⟂ v'ₙ + max(gap, 0)/h ≥ 0        |jₜ| ≤ µ Σ jₙ, against the slip
 //! d += h w                     w: as of all bodies, then moved by as little as leaves no gap below 0
 //! ```
-//! Overlaps are displacement alone: they add no velocity, and no energy. What nothing bears or pulls goes straight: see [`free`].
+//! Overlaps are displacement alone: they add no velocity, and no energy. Free islands go straight: see [`free`].
 
 mod conditions;
 mod free;

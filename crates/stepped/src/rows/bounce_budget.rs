@@ -132,6 +132,6 @@ fn kinetic(body: &Line, [x, y, w]: [f64; 3]) -> f64 {
 }
 
 /// x times a mass or inertia, given its inverse; 0 of what cannot be moved.
-fn quotient(x: f64, inverse: f64) -> f64 {
+pub(crate) fn quotient(x: f64, inverse: f64) -> f64 {
     if inverse > 0.0 { x / inverse } else { 0.0 }
 }

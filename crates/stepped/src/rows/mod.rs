@@ -24,7 +24,7 @@ mod transfer;
 mod transpose;
 
 pub(crate) use block::{Block, Cold, LANES, OPEN};
-pub(crate) use bounce_budget::Before;
+pub(crate) use bounce_budget::{Before, quotient};
 pub(crate) use colour::Colour;
 pub(crate) use deep::Deep;
 pub(crate) use extra_sweeps::ExtraSweeps;

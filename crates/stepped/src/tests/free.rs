@@ -1,4 +1,4 @@
-//! Free islands: few bodies that nothing bears or pulls.
+//! Free islands: few bodies without supports or external forces.
 
 use carom_geometry::{Circle, ConvexPolygon, Shape};
 use carom_math::{Vec2, vec2};
@@ -10,7 +10,7 @@ use crate::{BodyId, BodyInput, Engine, Material, PieceInput, Settings};
 fn weightless(settings: Settings) -> Settings {
     Settings {
         gravity: Vec2::ZERO,
-        keeps_turning: true,
+        keeps_angular_momentum: true,
         ..settings
     }
 }
@@ -65,7 +65,7 @@ fn motion(engine: &Engine, bodies: &[Moves]) -> (Vec2, f64, f64, f64) {
     (linear, angular, size, kinetic)
 }
 
-/// In soft rows these swarms lost up to a hundredth of their angular momentum: arms were those of the tick, and overlaps were
+/// In soft rows these swarms lost up to a fiftieth of their angular momentum: arms were those of the tick, and overlaps were
 /// parted, once velocities had been found.
 #[test]
 fn a_free_island_keeps_its_angular_momentum() {
