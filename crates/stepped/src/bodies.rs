@@ -38,6 +38,9 @@ pub(crate) struct Bodies {
     pub(crate) drag: Vec<[Quad; 2]>,
     /// How many of them are damped.
     pub(crate) damped: usize,
+    /// Whether they can be moved, and nothing accelerates them but contacts; and of how many that is so.
+    free_lines: Vec<bool>,
+    free_count: usize,
     /// Lines of bodies that may deviate from their predicted motions, perhaps more than once: see [`Self::rebase_deviating`].
     pub(crate) deviating: Vec<u32>,
     /// Others may as well: lines came or went, or some body was changed.
@@ -77,6 +80,8 @@ impl Bodies {
             foreseen: vec![Quad::default(); 2],
             drag: vec![UNDAMPED; 2],
             damped: 0,
+            free_lines: vec![false; 2],
+            free_count: 0,
             deviating: Vec::new(),
             may_deviate: false,
             speedy: None,
@@ -168,7 +173,34 @@ impl Bodies {
         let drag = drag(record.damping, settings.substep());
         self.damped += usize::from(drag != UNDAMPED);
         self.drag.push(drag);
+        self.free_lines.push(false);
+        self.note_free(line);
         (self.may_deviate, self.speedy) = (true, None);
+    }
+
+    /// Whether a body can be moved, and nothing accelerates it but contacts.
+    #[inline]
+    pub(crate) fn is_free(&self, line: u32) -> bool {
+        self.free_lines[line as usize]
+    }
+
+    fn note_free(&mut self, line: u32) {
+        let at = line as usize;
+        let is = self.pull[at] == Quad::default() && self.lines[at].inverse_mass() > 0.0;
+        let was = core::mem::replace(&mut self.free_lines[at], is);
+        self.free_count += usize::from(is);
+        self.free_count -= usize::from(was);
+    }
+
+    /// Whether there is such a body.
+    pub(crate) const fn any_is_free(&self) -> bool {
+        self.free_count > 0
+    }
+
+    /// Sets what accelerates the body of a line besides contacts.
+    pub(crate) fn set_pull(&mut self, line: u32, pull: Quad) {
+        self.pull[line as usize] = pull;
+        self.note_free(line);
     }
 
     /// Takes the line of a body out, to be put back as it is but for a velocity of 0; which body moved to its place.
@@ -195,10 +227,11 @@ impl Bodies {
     /// Gives a body its line again.
     pub(crate) fn raise(&mut self, sleeper: &Sleeper, settings: &Settings) {
         self.give_line(sleeper.slot, Vec2::ZERO, 0.0, settings);
-        let at = self.lines.len() - 1;
+        let line = self.records[sleeper.slot as usize].line;
+        let at = line as usize;
         self.lines[at] = sleeper.line;
         self.start[at] = sleeper.start;
-        self.pull[at] = sleeper.pull;
+        self.set_pull(line, sleeper.pull);
         self.base[at] = sleeper.base;
         self.turned[at] = sleeper.turned;
         self.limits[at] = sleeper.limit;
@@ -217,6 +250,7 @@ impl Bodies {
     pub(crate) fn take_line(&mut self, slot: u32) -> Option<u32> {
         let line = self.records[slot as usize].line;
         let at = line as usize;
+        self.free_count -= usize::from(self.free_lines.swap_remove(at));
         self.lines.swap_remove(at);
         self.start.swap_remove(at);
         self.pull.swap_remove(at);

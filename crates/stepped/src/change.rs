@@ -32,6 +32,10 @@ impl Engine {
             let change = Quad::new(velocity - v, spin - w);
             start.add(&change);
             line.set_velocity(velocity, spin);
+            if record.contacts == Bodies::NONE {
+                // Free flight has no leftovers of rounding.
+                start.0[..3].copy_from_slice(&[velocity.x, velocity.y, spin]);
+            }
             self.bodies.note_change(record.line);
         }
         Ok(())
@@ -109,7 +113,7 @@ impl Engine {
         finite("pull.y", pull.y)?;
         finite("twist", twist)?;
         if record.kind == BodyKind::Dynamic && record.line != Bodies::NONE {
-            self.bodies.pull[record.line as usize] = Quad::new(pull, twist);
+            self.bodies.set_pull(record.line, Quad::new(pull, twist));
         }
         Ok(())
     }
@@ -124,9 +128,12 @@ impl Engine {
         self.settings.gravity = gravity;
         self.law = Law::new(&self.settings);
         self.wake_every();
-        for at in 2..self.bodies.lines.len() {
-            let scale = self.bodies.records[self.bodies.slot_of[at] as usize].gravity_scale;
-            self.bodies.pull[at] = Quad::new(gravity * scale, 0.0);
+        for slot in 0..self.bodies.records.len() {
+            let record = self.bodies.records[slot];
+            if record.live && !matches!(record.line, Bodies::NONE | Bodies::GROUND) {
+                let pull = Quad::new(gravity * record.gravity_scale, 0.0);
+                self.bodies.set_pull(record.line, pull);
+            }
         }
         Ok(())
     }

@@ -12,8 +12,8 @@ use crate::hard::HardRows;
 use crate::impact::Impacts;
 use crate::pieces::{Disc, Pieces};
 use crate::rows::{
-    Arrival, Before, Deep, ExtraSweeps, Graph, Law, Pass, Quad, RotatingRows, arrivals, bounce,
-    correct, displace, sweep, warm_start,
+    Arrival, Before, Deep, ExtraSweeps, FreePairs, Graph, Law, Pass, Quad, RotatingRows, Ways,
+    arrivals, bounce, correct, displace, sweep, warm_start,
 };
 use crate::sleep::Islands;
 use crate::update::{create, met_asleep, update};
@@ -43,6 +43,8 @@ pub struct Engine {
     /// Rows with extra sweeps.
     extra: ExtraSweeps,
     pub(crate) hard: HardRows,
+    free: FreePairs,
+    pub(crate) ways: Ways,
     pub(crate) deep: Deep,
     pub(crate) rotating: RotatingRows,
     pub(crate) impacts: Impacts,
@@ -97,6 +99,8 @@ impl Engine {
             before: Vec::new(),
             extra: ExtraSweeps::default(),
             hard: HardRows::default(),
+            free: FreePairs::default(),
+            ways: Ways::default(),
             deep: Deep::default(),
             rotating: RotatingRows::default(),
             impacts: Impacts::default(),
@@ -397,12 +401,15 @@ impl Engine {
             before,
             extra,
             hard,
+            free,
+            ways,
             impacts,
             fast_bodies,
             far,
             ..
         } = self;
         let every = settings.relaxation == Relaxation::EverySubstep;
+        free.meet(*level, graph, bodies);
         warm_start(*level, bodies, law.h);
         hard.free(bodies, graph);
         arrivals(*level, law, bodies, graph, arrived, before);
@@ -419,23 +426,28 @@ impl Engine {
         let mut seen = sweep(*level, solve, law, &mut bodies.lines, graph.soft());
         extra.sweep(solve, law, bodies, graph);
         impacts.note_hits((*level, law), bodies, graph, false);
+        free.note_impulses(graph);
         displace(*level, bodies, law.h, far);
+        ways.begin(bodies);
         note_fast(bodies, settings, law.h, far, fast_bodies);
-        self.deep.part(law, bodies, graph);
+        self.deep.part(law, bodies, graph, free);
         if every || last {
             seen = sweep(*level, Pass::Relax, law, &mut bodies.lines, graph.soft());
             extra.sweep(Pass::Relax, law, bodies, graph);
         }
+        free.turn_back(*level, graph, bodies, law.h);
         self.heat += seen.heat + hard.heat;
         let rest = f64::from(settings.substeps - self.done) * law.h;
         correct(*level, bodies, settings, law.h, rest);
         self.rotating.rotate(graph, bodies);
-        let gap = hard.part(law, bodies, graph, settings);
+        let gap = hard.part(law, bodies, graph, settings, free);
+        free.turn_back_late(*level, graph, bodies, law.h);
         self.least_gap = seen.least_gap.min(gap);
         impacts.note_hits((*level, law), bodies, graph, true);
         impacts.add_rows(bodies, graph);
         bounce(bodies, graph, arrived, before);
         impacts.end(law, arrived, bodies, graph, pieces);
+        ways.end(bodies, law.h);
     }
 }
 

@@ -21,8 +21,11 @@ pub struct State {
     pub turned: f64,
     /// Velocity of the centre of mass, in m/s, and spin, in rad/s.
     pub velocity: (Vec2, f64),
-    /// The same before the last sub-step; of bodies of a free island in hard rows, once contacts acted as it began.
+    /// The same before the last sub-step.
     pub before: (Vec2, f64),
+    /// What the velocity and spin on the way through the last sub-step lacked of these, if contacts alone act on the body, which goes
+    /// evenly then, and [`Engine::note_ways`] asked for it.
+    pub lack: Option<(Vec2, f64)>,
 }
 
 /// A contact of two pieces, as the last sub-step left it.
@@ -51,6 +54,11 @@ pub struct Contact {
 }
 
 impl Engine {
+    /// Notes from now on how free bodies go through each sub-step, or forgets it: see [`State::lack`].
+    pub fn note_ways(&mut self, noted: bool) {
+        self.ways.note(noted);
+    }
+
     /// What it was made with.
     #[must_use]
     pub const fn settings(&self) -> &Settings {
@@ -98,6 +106,7 @@ impl Engine {
                     turned: 0.0,
                     velocity: (Vec2::ZERO, 0.0),
                     before: (Vec2::ZERO, 0.0),
+                    lack: None,
                 }
             } else {
                 self.state_at(record.line as usize)
@@ -125,10 +134,8 @@ impl Engine {
         let record = &bodies.records[slot as usize];
         let line = &bodies.lines[at];
         let velocity = (line.v() + Vec2::ZERO, line.w() + 0.0);
-        let before = self.hard.straight(slot).unwrap_or_else(|| {
-            let [x, y, w] = bodies.velocity_before(at, self.law.h);
-            (Vec2::new(x, y), w)
-        });
+        let [x, y, w] = bodies.velocity_before(at, self.law.h);
+        let before = (Vec2::new(x, y), w);
         State {
             id: bodies.id(slot),
             tag: record.tag,
@@ -137,6 +144,7 @@ impl Engine {
             turned: bodies.turned[at] + line.turn(),
             velocity,
             before,
+            lack: self.ways.lack(slot),
         }
     }
 

@@ -69,9 +69,6 @@ pub struct Settings {
     ///
     /// Four tolerances must stay below the margin. Less: settled heaps are computed anew for nothing; more: stale normals.
     pub tolerance: f64,
-    /// Free islands, without supports or external forces, of at most 64 points keep their angular momentum to rounding: each is solved
-    /// for directly. A smash without gravity takes 1.9 times the instructions.
-    pub keeps_angular_momentum: bool,
     /// When islands fall asleep; never if `None`.
     pub sleep: Option<Sleep>,
 }
@@ -115,7 +112,6 @@ impl Default for Settings {
             relaxation: Relaxation::EverySubstep,
             margin: 0.06,
             tolerance: 0.005,
-            keeps_angular_momentum: false,
             sleep: Some(Sleep::default()),
         }
     }
@@ -146,7 +142,6 @@ impl Settings {
         Self {
             substeps: 6,
             softness,
-            keeps_angular_momentum: true,
             ..Self::default()
         }
     }

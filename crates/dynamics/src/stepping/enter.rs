@@ -105,7 +105,11 @@ impl Stepping {
             debug_assert!(told.is_ok(), "{told:?}");
         }
         let frame = state.centre_pose(time);
-        let motion = (state.velocity_at(time), state.spin_at(time));
+        let lack = known.lack.unwrap_or_default();
+        let motion = (
+            state.velocity_at(time) + lack.0,
+            state.spin_at(time) + lack.1,
+        );
         let d = frame.position - known.pose.position;
         let turn = (frame.rotation * known.pose.rotation.inverse()).angle();
         let reach = state.reach.min(1e9);

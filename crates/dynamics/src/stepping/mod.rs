@@ -31,8 +31,8 @@ use carom_geometry::Aabb;
 use carom_math::Pose;
 use carom_stepped::{Engine, Impact, Relaxation, Softness, State, Touch};
 
+use crate::Settings;
 use crate::values::error::SettingsError;
-use crate::{Mode, Settings};
 
 pub(crate) use join::{Joins, MANY};
 
@@ -69,7 +69,6 @@ impl Stepping {
             substeps: settings.substeps_per_tick(),
             softness: softness_of(settings),
             relaxation: Relaxation::EverySubstep,
-            keeps_angular_momentum: settings.mode == Mode::Exact,
             sleep: sleep_of(settings),
             ..carom_stepped::Settings::default()
         });

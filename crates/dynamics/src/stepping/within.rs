@@ -31,12 +31,9 @@ impl Stepping {
                 continue;
             };
             let state = bodies.get(place(&there));
-            let from = (
-                state.centre_pose(now),
-                state.turned + state.turn_by(now),
-                (state.velocity_at(now), state.spin_at(now)),
-            );
-            go_evenly(bodies, now, from, &there, left);
+            let from = (state.centre_pose(now), state.turned + state.turn_by(now));
+            let shown = [(state.velocity_at(now), state.spin_at(now)), there.velocity];
+            go_evenly(bodies, now, from, shown, &there, left);
         }
     }
 }

@@ -16,6 +16,7 @@ impl Stepping {
     /// Notes all poses before a sub-step within which a pose may be read, and forgets them before any other.
     pub(crate) fn note_places(&mut self, asked: bool) {
         self.places.clear();
+        self.engine.note_ways(asked);
         if asked {
             let states = self.engine.awake();
             self.places
@@ -79,8 +80,12 @@ impl Stepping {
             let reach = bodies.get(index).reach;
             let left = state.turned - turned;
             let off = (motion.centre - from.position).length() + (left - turn).abs() * reach;
-            if off > SAME * (reach + way.length()) {
-                go_evenly(bodies, start, (from, turned, (u, s)), state, h);
+            if state.lack.is_some() || off > SAME * (reach + way.length()) {
+                let shown = match state.lack {
+                    Some(lack) => [(v - lack.0, w - lack.1); 2],
+                    None => [(u, s), (v, w)],
+                };
+                go_evenly(bodies, start, (from, turned), shown, state, h);
                 return;
             }
         }
@@ -89,11 +94,13 @@ impl Stepping {
     }
 }
 
-/// A body goes evenly from a pose, an angle, and a velocity and spin, to those of the engine within `span` seconds.
+/// A body goes evenly from a pose and an angle to those of the engine within `span` seconds, while its velocity and spin are shown to
+/// change evenly between two.
 pub(super) fn go_evenly(
     bodies: &mut Bodies,
     start: SimTime,
-    (from, turned, before): (Pose, f64, (Vec2, f64)),
+    (from, turned): (Pose, f64),
+    [before, after]: [(Vec2, f64); 2],
     to: &State,
     span: f64,
 ) {
@@ -110,7 +117,7 @@ pub(super) fn go_evenly(
         ..Motion::resting(from.position)
     };
     bodies.go_on_as(index, &motion, turned);
-    let lag = Lag::of_even(even, before, to.velocity, span);
+    let lag = Lag::of_even(even, before, after, span);
     bodies.get_mut(index).set_lag(lag);
     bodies.renew(index);
 }

@@ -17,7 +17,7 @@ use carom_geometry::Aabb;
 use carom_math::{Pose, SimTime, Vec2};
 
 use crate::bodies::Bodies;
-use crate::rows::Quad;
+use crate::rows::{Quad, turn_shifted};
 use crate::{BodyId, BodyKind, Engine, EngineError, PairRules, Settings};
 use touching::Touching;
 
@@ -48,8 +48,9 @@ struct Moving {
     carried: bool,
     /// It leaves the swept boxes of the tick.
     leaves_boxes: bool,
-    /// How often it touched so far.
+    /// How often it touched so far, and the slot of the body that it touched first.
     touches: u8,
+    touched: Option<u32>,
 }
 
 impl Moving {
@@ -204,11 +205,23 @@ impl Engine {
             }
         }
         let mut stopped = Vec::new();
+        let mut shifted = Vec::new();
         for body in fast.iter().filter(|body| body.touches > 0) {
-            self.stop_at(body, left);
+            let shift = self.stop_at(body, left);
+            shifted.extend(self.free_pair(body).map(|pair| (pair, shift)));
             stopped.push(self.bodies.id(body.slot));
         }
+        turn_shifted(&mut self.bodies, &shifted);
         stopped
+    }
+
+    /// Lines of a body and of the one that it touched first, if both are free.
+    fn free_pair(&self, body: &Moving) -> Option<[u32; 2]> {
+        let lines = [Some(body.slot), body.touched].map(|slot| {
+            let line = self.bodies.records[slot? as usize].line;
+            (line != Bodies::NONE && self.bodies.is_free(line)).then_some(line)
+        });
+        Some([lines[0]?, lines[1]?])
     }
 
     /// Both bodies go on without what closes of their motions, which they share as an impact without restitution does.
@@ -222,22 +235,29 @@ impl Engine {
             a / (a + b)
         });
         let closing = touch.normal.map(|n| n * touch.against.dot(n).max(0.0));
+        let slot = fast[touch.a].slot;
+        fast[touch.a].touched.get_or_insert(touch.other);
         fast[touch.a].deflect(touch.wait, closing.map(|part| part * of_a));
         if let Some(b) = touch.b {
+            fast[b].touched.get_or_insert(slot);
             fast[b].deflect(touch.wait, closing.map(|part| part * (of_a - 1.0)));
         }
     }
 
-    fn stop_at(&mut self, body: &Moving, left: f64) {
+    /// Puts a body where its motion ends; by how much that is off where it was, in m.
+    fn stop_at(&mut self, body: &Moving, left: f64) -> Vec2 {
         let at = self.bodies.line_of(body.slot);
         let base = self.bodies.base[at];
         let turn = (body.motion.rotation * base.rotation.inverse()).angle();
         let centre = body.motion.centre + body.motion.velocity * left;
-        self.bodies.lines[at].set_displacement(centre - base.position, turn);
+        let line = &mut self.bodies.lines[at];
+        let shift = centre - base.position - line.d();
+        line.set_displacement(centre - base.position, turn);
         self.bodies.moved[at] = true;
         self.bodies
             .deviating
             .push(self.bodies.records[body.slot as usize].line);
+        shift
     }
 
     /// The motion that brings a body to its pose within `left` seconds: from a displacement, or at its velocity.
@@ -274,6 +294,7 @@ impl Engine {
             carried: body.carried,
             leaves_boxes: self.leaves_boxes(body.slot, bounds_of(&motion, 0.0, left)),
             touches: 0,
+            touched: None,
         }
     }
 

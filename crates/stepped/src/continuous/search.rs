@@ -147,6 +147,7 @@ impl Engine {
                 order: (body.birth, birth << 16 | u64::from(theirs.ordinal)),
                 a: k,
                 b: moves,
+                other: theirs.body,
                 touches: [body.touches, moves.map_or(0, |other| fast[other].touches)],
                 normal: normal.filter(|_| self.have_row(body.slot, theirs.body)),
                 against: body.motion.velocity - motion.velocity,

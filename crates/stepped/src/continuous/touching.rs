@@ -11,6 +11,8 @@ pub(super) struct Touching {
     pub(super) order: (u64, u64),
     pub(super) a: usize,
     pub(super) b: Option<usize>,
+    /// Slot of the other body, fast or not.
+    pub(super) other: u32,
     /// How often both had touched when it was found: after a later touch they go elsewhere.
     pub(super) touches: [u8; 2],
     /// Unit normal from A to the other body; none if it is not known, or they are stopped there.

@@ -1,9 +1,8 @@
-//! Which islands take hard rows: where a body bears one of more than 16 times its mass, or goes far in a sub-step, or, if that is asked,
-//! of free islands; and all rows are few enough.
+//! Which islands take hard rows: where a body bears one of more than 16 times its mass, or goes far in a sub-step, and all rows are few
+//! enough.
 //!
 //! Whether an island does is a pure function of its bodies and contacts.
 
-use super::free::is_free;
 use crate::Settings;
 use crate::bodies::Bodies;
 use crate::rows::Graph;
@@ -15,15 +14,12 @@ struct Admits {
     comes: usize,
     /// While it is in them: points come and go where bodies rock.
     stays: usize,
-    /// Free islands alone, without supports or external forces.
-    free: bool,
 }
 
 /// Of islands with a load that sweeps cannot carry.
 const UNDER_LOAD: Admits = Admits {
     comes: 64,
     stays: 80,
-    free: false,
 };
 
 /// Of islands with a fast body: turning presses what a ring carries at 14.7 rad/s by 35 g, and soft rows let it sink in by 28 mm, hard
@@ -31,13 +27,6 @@ const UNDER_LOAD: Admits = Admits {
 const WITH_FAST: Admits = Admits {
     comes: 16,
     stays: 20,
-    free: false,
-};
-
-/// Free islands: they keep their angular momentum.
-const FREE: Admits = Admits {
-    free: true,
-    ..UNDER_LOAD
 };
 
 /// Cosine of the angle between a load and what may bear it, at least.
@@ -97,9 +86,6 @@ pub(super) fn find(
         }
     }
     find_fast(graph, bodies, settings.substep(), search, &mut found);
-    if settings.keeps_angular_momentum {
-        find_free(graph, bodies, search, &mut found);
-    }
     for contacts in &mut found {
         graph.sort(bodies, contacts);
     }
@@ -142,21 +128,6 @@ fn find_fast(
     }
 }
 
-/// Adds the free islands that are not there yet.
-fn find_free(graph: &Graph, bodies: &Bodies, search: &mut Search, found: &mut Vec<Vec<u32>>) {
-    search.begin(graph, bodies, found);
-    for line in 2..bodies.lines.len() {
-        let slot = bodies.slot_of[line];
-        if search.known[slot as usize] == Known::Nothing
-            && bodies.records[slot as usize].contacts != Bodies::NONE
-            && is_free(bodies, line)
-            && search.component(graph, bodies, slot, FREE)
-        {
-            found.push(search.contacts.clone());
-        }
-    }
-}
-
 impl Search {
     /// Knows of the bodies of islands that were found, and of no others.
     fn begin(&mut self, graph: &Graph, bodies: &Bodies, found: &[Vec<u32>]) {
@@ -195,8 +166,7 @@ impl Search {
                     contacts.push(id);
                 }
                 hard |= contact.is_hard();
-                fits &=
-                    contact.mask() != 0 && (!admits.free || is_free(bodies, bodies.line_of(other)));
+                fits &= contact.mask() != 0;
                 if moves && known[other as usize] != Known::Asked {
                     fits &= known[other as usize] != Known::Large;
                     known[other as usize] = Known::Asked;

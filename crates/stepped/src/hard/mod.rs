@@ -5,18 +5,15 @@
 //! v' = start + M⁻¹ Jᵀ j        0 ≤ jₙ ⟂ v'ₙ + max(gap, 0)/h ≥ 0        |jₜ| ≤ µ Σ jₙ, against the slip
 //! d += h w                     w: as of all bodies, then moved by as little as leaves no gap below 0
 //! ```
-//! Overlaps are displacement alone: they add no velocity, and no energy. Free islands go straight: see [`free`].
+//! Overlaps are displacement alone: they add no velocity, and no energy.
 
 mod conditions;
-mod free;
 mod islands;
 mod solve;
 
-use carom_math::Vec2;
-
 use crate::Settings;
 use crate::bodies::Bodies;
-use crate::rows::{Graph, Law, OPEN, Quad};
+use crate::rows::{FreePairs, Graph, Law, OPEN};
 use islands::{Key, Search};
 use solve::Island;
 
@@ -27,8 +24,6 @@ pub(crate) struct HardRows {
     islands: Vec<Vec<u32>>,
     /// The same, as they were solved for in this sub-step.
     solved: Vec<Island>,
-    /// Slots of free bodies in the last sub-step, in order, and their velocities as it began, once contacts acted.
-    straight: Vec<(u32, Quad)>,
     /// Contacts of each island that had no answer: it takes soft rows until it has other contacts.
     unanswered: Vec<Vec<Key>>,
     search: Search,
@@ -89,7 +84,6 @@ impl HardRows {
     pub(crate) fn solve(&mut self, law: &Law, bodies: &mut Bodies, graph: &mut Graph) -> bool {
         self.heat = 0.0;
         self.solved.clear();
-        self.straight.clear();
         let mut failed = false;
         self.islands.retain(|ids| {
             let mut island = Island::of(law, graph, bodies, ids);
@@ -117,27 +111,12 @@ impl HardRows {
         bodies: &mut Bodies,
         graph: &Graph,
         settings: &Settings,
+        free: &mut FreePairs,
     ) -> f64 {
         let mut least = OPEN;
         for island in &mut self.solved {
-            if !island.from.is_empty() {
-                let began = |line: &u32| {
-                    let at = *line as usize;
-                    let body = &bodies.lines[at];
-                    (bodies.slot_of[at], Quad::new(body.v(), body.w()))
-                };
-                self.straight.extend(island.lines.iter().map(began));
-            }
-            least = least.min(island.part(law, bodies, graph, settings));
+            least = least.min(island.part(law, bodies, (graph, free), settings));
         }
-        self.straight.sort_unstable_by_key(|known| known.0);
         least
-    }
-
-    /// The velocity and spin with which a free body went through the last sub-step: all impulses acted as it began.
-    pub(crate) fn straight(&self, slot: u32) -> Option<(Vec2, f64)> {
-        let known = self.straight.binary_search_by_key(&slot, |known| known.0);
-        let began = &self.straight[known.ok()?].1;
-        Some((began.v(), began.w()))
     }
 }

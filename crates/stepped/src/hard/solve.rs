@@ -4,10 +4,9 @@ use carom_impact::{Friction, HeldFace, HeldPoint, ImpactBody, held_faces};
 use carom_math::{Vec2, perp};
 
 use super::conditions::{answers, justified, rest};
-use super::free::is_free;
 use crate::Settings;
 use crate::bodies::Bodies;
-use crate::rows::{Block, Graph, Law, Line, OPEN, Quad};
+use crate::rows::{Block, FreePairs, Graph, Law, Line, OPEN, Quad};
 
 /// Gap or overlap that counts as 0, as a part of how far pull moves a body in a sub-step: closing what rounding left open, a column
 /// at rest would be solved for in every sub-step.
@@ -41,8 +40,6 @@ pub(super) struct Island {
     pub(super) contacts: Vec<HardContact>,
     /// The most that pull adds to a speed in the sub-step, in m/s.
     pub(super) pulled: f64,
-    /// Displacements of its bodies as the sub-step begins, if they are free; see [`super::free`].
-    pub(super) from: Vec<Quad>,
 }
 
 /// The lane of a contact.
@@ -52,13 +49,12 @@ pub(super) fn lane_of(graph: &Graph, id: u32) -> (&Block, usize) {
 }
 
 impl Island {
-    pub(super) fn of(law: &Law, graph: &mut Graph, bodies: &Bodies, ids: &[u32]) -> Self {
+    pub(super) fn of(law: &Law, graph: &Graph, bodies: &Bodies, ids: &[u32]) -> Self {
         let mut island = Self {
             lines: Vec::new(),
             bodies: Vec::new(),
             contacts: Vec::with_capacity(ids.len()),
             pulled: 0.0,
-            from: Vec::new(),
         };
         for &id in ids {
             let (block, cold, lane) = graph.lane(id);
@@ -83,13 +79,6 @@ impl Island {
             .iter()
             .map(|line| bodies.pull[*line as usize].v().length());
         island.pulled = law.h * pulls.fold(0.0, f64::max);
-        if island
-            .lines
-            .iter()
-            .all(|line| is_free(bodies, *line as usize))
-        {
-            island.begin_free(bodies, graph);
-        }
         island
     }
 
@@ -251,10 +240,9 @@ impl Island {
         &mut self,
         law: &Law,
         bodies: &mut Bodies,
-        graph: &Graph,
+        (graph, free): (&Graph, &mut FreePairs),
         settings: &Settings,
     ) -> f64 {
-        self.go_straight(law, bodies);
         let mut least = self.least_gap(bodies, graph);
         if least < -self.touches(law) {
             let faces = self.faces(
@@ -277,7 +265,10 @@ impl Island {
                 line.set_displacement(d, turn);
             }
             self.note_parted(bodies, settings, &parted, way * law.inverse_h);
-            self.turn_back(bodies, graph, (&held.impulses, way));
+            // A velocity for `way` seconds is an impulse for h.
+            for (contact, [first, second, _]) in self.contacts.iter().zip(&held.impulses) {
+                free.add(graph, contact.id, (first + second) * way * law.inverse_h);
+            }
             least = self.least_gap(bodies, graph);
         }
         for &line in &self.lines {

@@ -4,23 +4,55 @@
 //! the sweeps see no overlap deeper than a part of the smaller piece, and what is deeper is undone by displacement alone:
 //! no body goes by more than the fastest push-out in a sub-step.
 
+use carom_math::Vec2;
+
+use super::free::FreePairs;
 use super::graph::Graph;
 use super::law::Law;
 use crate::bodies::Bodies;
-use crate::rows::Quad;
 
 /// Contacts that are too deep for the sweeps.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Deep {
     /// In the order of their bodies.
     contacts: Vec<u32>,
-    /// What each body of theirs is displaced by: line and displacement. Scratch.
-    moves: Vec<(u32, Quad)>,
+    /// What parts them, and the lines of their bodies with what would displace each, in m. Scratch.
+    moves: Vec<Move>,
+    sums: Vec<(u32, Vec2)>,
     /// The least of their gaps, in m.
     least_gap: f64,
 }
 
 impl Deep {
+    /// Displaces the bodies of what is parted, none by more than `most`; tells of the impulse of each contact. Both of its bodies go by
+    /// the same part, so that their common centre stays.
+    fn displace(&mut self, bodies: &mut Bodies, most: f64, mut tell: impl FnMut(u32, f64)) {
+        self.sums.clear();
+        for moved in &self.moves {
+            self.sums
+                .extend(moved.lines.into_iter().zip(moved.ways(bodies)));
+        }
+        // Line by line: a stable sort keeps the order of the contacts.
+        self.sums.sort_by_key(|sum| sum.0);
+        self.sums.dedup_by(|next, sum| {
+            let same = next.0 == sum.0;
+            sum.1 += if same { next.1 } else { Vec2::ZERO };
+            same
+        });
+        for moved in &mut self.moves {
+            let part = moved.lines.map(|line| {
+                let known = self.sums.partition_point(|sum| sum.0 < line);
+                let length = self.sums[known].1.length();
+                if length > most { most / length } else { 1.0 }
+            });
+            moved.impulse *= part[0].min(part[1]);
+            for (line, way) in moved.lines.into_iter().zip(moved.ways(bodies)) {
+                bodies.lines[line as usize].displace(way);
+            }
+            tell(moved.id, moved.impulse);
+        }
+    }
+
     /// Gathers the contacts for the sub-steps until contacts change.
     pub(crate) fn gather(&mut self, graph: &mut Graph, bodies: &Bodies) {
         let mut contacts = core::mem::take(&mut graph.deep);
@@ -35,7 +67,13 @@ impl Deep {
     }
 
     /// Displaces the bodies of all deep contacts.
-    pub(crate) fn part(&mut self, law: &Law, bodies: &mut Bodies, graph: &mut Graph) {
+    pub(crate) fn part(
+        &mut self,
+        law: &Law,
+        bodies: &mut Bodies,
+        graph: &mut Graph,
+        free: &mut FreePairs,
+    ) {
         self.least_gap = 0.0;
         if self.contacts.is_empty() {
             return;
@@ -49,7 +87,7 @@ impl Deep {
             let (block, cold, lane) = graph.lane(id);
             let (at, bt) = (block.a[lane], block.b[lane]);
             let [a, b] = [at, bt].map(|line| &bodies.lines[line as usize]);
-            let n = carom_math::vec2(block.nx[lane], block.ny[lane]);
+            let n = block.normal(lane);
             let opened = block.opened(lane, a, b);
             let gaps = cold.depths[lane];
             let first = gaps[0] + opened[0];
@@ -64,35 +102,45 @@ impl Deep {
             // Hard rows part what is deep by themselves.
             let soft = !graph.contacts[id as usize].is_hard();
             if soft && push > 0.0 && ma + mb > 0.0 {
-                self.moves
-                    .push((at, Quad::new(n * (-push * ma / (ma + mb)), 0.0)));
-                self.moves
-                    .push((bt, Quad::new(n * (push * mb / (ma + mb)), 0.0)));
+                self.moves.push(Move {
+                    id,
+                    lines: [at, bt],
+                    normal: n,
+                    impulse: push / (ma + mb),
+                });
             }
         }
-        // Line by line: a stable sort keeps the order of the contacts.
-        self.moves.sort_by_key(|moved| moved.0);
-        let mut k = 0;
-        while k < self.moves.len() {
-            let line = self.moves[k].0;
-            let mut sum = carom_math::Vec2::ZERO;
-            while k < self.moves.len() && self.moves[k].0 == line {
-                sum += self.moves[k].1.v();
-                k += 1;
-            }
-            let length = sum.length();
-            let sum = if length > most {
-                sum * (most / length)
-            } else {
-                sum
-            };
-            bodies.lines[line as usize].displace(sum);
-        }
+        self.displace(bodies, most, |id, part| {
+            free.add(graph, id, part * law.inverse_h);
+        });
         for &id in &self.contacts {
             if graph.is_deep(id) {
                 show(graph, bodies, id);
             }
         }
+    }
+}
+
+/// A contact that is parted.
+#[derive(Clone, Copy, Debug)]
+struct Move {
+    id: u32,
+    lines: [u32; 2],
+    normal: Vec2,
+    /// Mass times displacement of either body, in kg m.
+    impulse: f64,
+}
+
+impl Move {
+    /// Displacements of both bodies.
+    fn ways(&self, bodies: &Bodies) -> [Vec2; 2] {
+        let [a, b] = self
+            .lines
+            .map(|line| bodies.lines[line as usize].inverse_mass());
+        [
+            self.normal * (-self.impulse * a),
+            self.normal * (self.impulse * b),
+        ]
     }
 }
 

@@ -64,16 +64,6 @@ impl Graph {
         }
     }
 
-    /// See [`Block::meet`].
-    pub(crate) fn meet(&mut self, bodies: &Bodies, id: u32) {
-        let (block, lane) = self.block_mut(id);
-        let ends = [block.a[lane], block.b[lane]].map(|line| {
-            let at = line as usize;
-            (&bodies.lines[at], bodies.base[at].position)
-        });
-        block.meet(lane, ends);
-    }
-
     /// Both points of a contact, midway between the surfaces, in m.
     pub(crate) fn places(&self, bodies: &Bodies, id: u32) -> [Vec2; 2] {
         let (block, _, lane) = self.lane(id);

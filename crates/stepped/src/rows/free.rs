@@ -1,0 +1,430 @@
+//! Free pairs, of two bodies that contacts alone move, keep their angular momentum `Σ m c × v + I ω` to rounding.
+//!
+//! ```text
+//! impulses act at one point of both bodies, at the poses that the sub-step begins with
+//! d += h v₁,  v₁ = start + M⁻¹ Jᵀ j₁           as the pass with bias leaves them
+//! v' = start + M⁻¹ Jᵀ j'                        as the sub-step ends
+//! Σ m h v₁ × v' = h Σ (j₁ − j') × (v'_B − v'_A)  is what the displacement adds, contact by contact
+//! v'_B − v'_A turns by what gives that back      as it turns with the line between both centres on a curved way
+//! ```
+//! Displacements that part an overlap count as impulses `j₁` that do not last.
+
+#![allow(clippy::inline_always, reason = "the wide instructions end at a call")]
+
+use carom_math::{Vec2, perp};
+use fearless_simd::{Level, Select, Simd, dispatch, f64x4, f64x8};
+
+use super::block::{Block, LANES};
+use super::graph::Graph;
+use super::kernel::eight_lanes;
+use super::line::{Line, Quad};
+use super::transpose::{Wide, any};
+use crate::bodies::Bodies;
+
+/// The contacts of free pairs in a sub-step.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct FreePairs {
+    /// In the order of colours.
+    blocks: Vec<FreeBlock>,
+    /// Those with displacements that came after velocities had been found.
+    late: Vec<usize>,
+}
+
+/// Those in one block.
+#[derive(Clone, Copy, Debug)]
+struct FreeBlock {
+    /// Colour and number of the block.
+    at: (usize, usize),
+    /// A bit for each lane of a free pair.
+    lanes: u8,
+    /// From the base position of A to that of B, in m.
+    x: [f64; LANES],
+    y: [f64; LANES],
+    /// Impulses that displaced the bodies, along the normal and across, in N·s.
+    along: [f64; LANES],
+    across: [f64; LANES],
+    /// What each pair is to have more of angular momentum, in N·m·s, and whether one is.
+    moment: [f64; LANES],
+    acts: bool,
+    /// The square of the greatest speed that B may have against A, in m²/s².
+    limit: [f64; LANES],
+}
+
+/// Velocities with which free bodies went through the last sub-step: all impulses acted as it began, and what displaced the bodies and
+/// does not last counts. With them momentum and angular momentum are those of before and afterwards.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Ways {
+    noted: bool,
+    /// By line: velocities that displaced the bodies, and where these brought them.
+    displaced: Vec<(Quad, Quad)>,
+    /// By slot, in order: what these velocities lack of those at the end.
+    lack: Vec<(u32, Quad)>,
+}
+
+impl Ways {
+    /// Notes them from now on, or forgets them.
+    pub(crate) fn note(&mut self, noted: bool) {
+        self.noted = noted;
+        self.lack.clear();
+    }
+
+    /// Bodies were displaced by their velocities.
+    pub(crate) fn begin(&mut self, bodies: &Bodies) {
+        self.displaced.clear();
+        self.lack.clear();
+        if self.noted && bodies.any_is_free() {
+            let displaced = |line: &Line| (Quad::new(line.v(), line.w()), line.displacement());
+            self.displaced.extend(bodies.lines.iter().map(displaced));
+        }
+    }
+
+    /// Bodies have their velocities and displacements of the end of the sub-step, which lasts `h` seconds.
+    pub(crate) fn end(&mut self, bodies: &Bodies, h: f64) {
+        for ((line, (v, to)), at) in bodies.lines.iter().zip(&self.displaced).zip(0..) {
+            if bodies.is_free(at) {
+                let (way, turn) = (line.d() - to.v(), line.turn() - to.w());
+                let lack = Quad::new(line.v() - v.v() - way / h, line.w() - v.w() - turn / h);
+                self.lack.push((bodies.slot_of[at as usize], lack));
+            }
+        }
+        self.lack.sort_unstable_by_key(|lack| lack.0);
+    }
+
+    pub(crate) fn lack(&self, slot: u32) -> Option<(Vec2, f64)> {
+        let known = self.lack.binary_search_by_key(&slot, |lack| lack.0).ok()?;
+        let (_, lack) = &self.lack[known];
+        Some((lack.v(), lack.w()))
+    }
+}
+
+impl FreePairs {
+    /// Gathers them, and has their impulses act at one point of both bodies.
+    pub(crate) fn meet(&mut self, level: Level, graph: &mut Graph, bodies: &mut Bodies) {
+        self.blocks.clear();
+        if !bodies.any_is_free() {
+            return;
+        }
+        for (colour, c) in graph.awake().iter_mut().zip(0..) {
+            for (k, block) in colour.blocks.iter_mut().enumerate() {
+                let mut free = FreeBlock {
+                    at: (c, k),
+                    lanes: 0,
+                    x: [0.0; LANES],
+                    y: [0.0; LANES],
+                    along: [0.0; LANES],
+                    across: [0.0; LANES],
+                    moment: [0.0; LANES],
+                    acts: false,
+                    limit: [0.0; LANES],
+                };
+                if free.find(block, bodies) {
+                    if eight_lanes(level) {
+                        dispatch!(level, simd => meet::<_, f64x8<_>>(simd, block, &free, bodies));
+                    } else {
+                        dispatch!(level, simd => meet::<_, f64x4<_>>(simd, block, &free, bodies));
+                    }
+                    self.blocks.push(free);
+                }
+            }
+        }
+    }
+
+    /// Notes the impulses that bodies are displaced by.
+    pub(crate) fn note_impulses(&mut self, graph: &Graph) {
+        for free in &mut self.blocks {
+            free.note_impulses(&graph.colours[free.at.0].blocks[free.at.1]);
+        }
+    }
+
+    /// A contact displaced its bodies, besides, as by an impulse along the normal, in N·s.
+    pub(crate) fn add(&mut self, graph: &Graph, id: u32, impulse: f64) {
+        let contact = &graph.contacts[id as usize];
+        let (k, lane) = contact.place();
+        let at = (contact.colour as usize, k);
+        if let Ok(known) = self.blocks.binary_search_by_key(&at, |block| block.at) {
+            self.blocks[known].along[lane] += impulse;
+            self.late.push(known);
+        }
+    }
+
+    /// Gives back the angular momentum that displacements added within `h` seconds, before rows are rotated.
+    pub(crate) fn turn_back(&mut self, level: Level, graph: &Graph, bodies: &mut Bodies, h: f64) {
+        self.turn_blocks(0..self.blocks.len(), level, graph, bodies, h);
+        self.late.clear();
+    }
+
+    /// The same of displacements that came afterwards.
+    pub(crate) fn turn_back_late(
+        &mut self,
+        level: Level,
+        graph: &Graph,
+        bodies: &mut Bodies,
+        h: f64,
+    ) {
+        let mut late = core::mem::take(&mut self.late);
+        late.sort_unstable();
+        late.dedup();
+        self.turn_blocks(late.iter().copied(), level, graph, bodies, h);
+        for known in late {
+            let block = self.blocks[known].of(graph);
+            for line in block.a.into_iter().chain(block.b) {
+                bodies.note_change(line);
+            }
+        }
+    }
+
+    /// All moments are those of the velocities that the displacements came with.
+    fn turn_blocks(
+        &mut self,
+        which: impl Iterator<Item = usize> + Clone,
+        level: Level,
+        graph: &Graph,
+        bodies: &mut Bodies,
+        h: f64,
+    ) {
+        for known in which.clone() {
+            let free = &mut self.blocks[known];
+            let block = free.of(graph);
+            dispatch!(level, simd => moments::<_, f64x4<_>>(simd, block, free, bodies, h));
+        }
+        for known in which {
+            let free = &self.blocks[known];
+            let block = free.of(graph);
+            if !free.acts {
+                continue;
+            }
+            if eight_lanes(level) {
+                dispatch!(level, simd => turn_back::<_, f64x8<_>>(simd, block, free, bodies));
+            } else {
+                dispatch!(level, simd => turn_back::<_, f64x4<_>>(simd, block, free, bodies));
+            }
+        }
+    }
+}
+
+impl FreeBlock {
+    /// Finds the lanes of free pairs; whether there are some.
+    fn find(&mut self, block: &Block, bodies: &Bodies) -> bool {
+        for lane in 0..LANES {
+            let (a, b) = (block.a[lane], block.b[lane]);
+            if bodies.is_free(a) && bodies.is_free(b) {
+                self.lanes |= 1 << lane;
+                let [from, to] = [a, b].map(|line| bodies.base[line as usize].position);
+                (self.x[lane], self.y[lane]) = (to.x - from.x, to.y - from.y);
+            }
+        }
+        self.lanes != 0
+    }
+
+    fn note_impulses(&mut self, block: &Block) {
+        for lane in 0..LANES {
+            self.along[lane] = block.j1[lane] + block.j2[lane];
+        }
+        self.across = block.jt;
+    }
+
+    fn of<'g>(&self, graph: &'g Graph) -> &'g Block {
+        &graph.colours[self.at.0].blocks[self.at.1]
+    }
+
+    /// 1 for lanes of free pairs, else 0.
+    fn chosen(&self) -> [f64; LANES] {
+        let mut chosen = [0.0; LANES];
+        for (lane, chosen) in chosen.iter_mut().enumerate() {
+            *chosen = f64::from(self.lanes >> lane & 1);
+        }
+        chosen
+    }
+}
+
+/// [`Block::meet`] of the lanes of free pairs: v stays, and what contacts did to it changes.
+#[inline(always)]
+fn meet<S: Simd, V: Wide<S>>(simd: S, block: &mut Block, free: &FreeBlock, bodies: &mut Bodies) {
+    let chosen = free.chosen();
+    let (zero, half) = (V::splat(simd, 0.0), V::splat(simd, 0.5));
+    for at in (0..LANES).step_by(V::LANES) {
+        let end = at + V::LANES;
+        let chosen = V::from_slice(simd, &chosen[at..end]).simd_gt(zero);
+        let (a, b) = (&block.a[at..end], &block.b[at..end]);
+        let [adx, ady, aturn, ia] = V::columns(simd, &bodies.lines, a, 4);
+        let [bdx, bdy, bturn, ib] = V::columns(simd, &bodies.lines, b, 4);
+        // From B to A.
+        let x = (adx - bdx) - V::from_slice(simd, &free.x[at..end]);
+        let y = (ady - bdy) - V::from_slice(simd, &free.y[at..end]);
+        let nx = V::from_slice(simd, &block.nx[at..end]);
+        let ny = V::from_slice(simd, &block.ny[at..end]);
+        let a1 = V::from_slice(simd, &block.a1[at..end]);
+        let b1 = V::from_slice(simd, &block.b1[at..end]);
+        let at_ = V::from_slice(simd, &block.at[at..end]);
+        let bt = V::from_slice(simd, &block.bt[at..end]);
+        let lever = chosen.select(half * (x * ny - y * nx - (b1 - a1)), zero);
+        let height = chosen.select(half * (x * nx + y * ny - (bt - at_)), zero);
+        let turned = lever * (aturn + bturn);
+        let s1 = V::from_slice(simd, &block.s1[at..end]) - turned;
+        let s2 = V::from_slice(simd, &block.s2[at..end]) - turned;
+        let sum = V::from_slice(simd, &block.j1[at..end]) + V::from_slice(simd, &block.j2[at..end]);
+        let moment = lever * sum + height * V::from_slice(simd, &block.jt[at..end]);
+        (a1 - lever).store_slice(&mut block.a1[at..end]);
+        (b1 + lever).store_slice(&mut block.b1[at..end]);
+        (at_ - height).store_slice(&mut block.at[at..end]);
+        (bt + height).store_slice(&mut block.bt[at..end]);
+        s1.store_slice(&mut block.s1[at..end]);
+        s2.store_slice(&mut block.s2[at..end]);
+        if any(moment.abs().simd_gt(zero)) {
+            // One body after the other: an empty lane names one line twice.
+            for (ends, inertia) in [
+                (&block.a[at..end], moment * ia),
+                (&block.b[at..end], moment * ib),
+            ] {
+                let [x, y, w, m] = V::columns(simd, &bodies.start, ends, 0);
+                V::write(&mut bodies.start, ends, [x, y, w - inertia, m]);
+            }
+        }
+    }
+}
+
+/// What both bodies of each free pair are to have more of angular momentum. Displacements that come later count from here.
+#[inline(always)]
+fn moments<S: Simd, V: Wide<S>>(
+    simd: S,
+    block: &Block,
+    free: &mut FreeBlock,
+    bodies: &Bodies,
+    h: f64,
+) {
+    let chosen = free.chosen();
+    let zero = V::splat(simd, 0.0);
+    free.acts = false;
+    for at in (0..LANES).step_by(V::LANES) {
+        let end = at + V::LANES;
+        let chosen = V::from_slice(simd, &chosen[at..end]).simd_gt(zero);
+        let lasting =
+            V::from_slice(simd, &block.j1[at..end]) + V::from_slice(simd, &block.j2[at..end]);
+        let rubs = V::from_slice(simd, &block.jt[at..end]);
+        let along = V::from_slice(simd, &free.along[at..end]) - lasting;
+        let across = V::from_slice(simd, &free.across[at..end]) - rubs;
+        let chosen = chosen & (along.abs() + across.abs()).simd_gt(zero);
+        if !any(chosen) {
+            zero.store_slice(&mut free.moment[at..end]);
+            continue;
+        }
+        free.acts = true;
+        let [avx, avy, _, ma] = V::columns(simd, &bodies.lines, &block.a[at..end], 0);
+        let [bvx, bvy, _, mb] = V::columns(simd, &bodies.lines, &block.b[at..end], 0);
+        let nx = V::from_slice(simd, &block.nx[at..end]);
+        let ny = V::from_slice(simd, &block.ny[at..end]);
+        let (px, py) = (nx * along - ny * across, ny * along + nx * across);
+        let (vx, vy, m) = (bvx - avx, bvy - avy, ma + mb);
+        let added = (px * vy - py * vx) * V::splat(simd, h);
+        let moment = chosen.select(-added, zero);
+        let (ux, uy) = (vx + px * m, vy + py * m);
+        let limit = (vx * vx + vy * vy).max(ux * ux + uy * uy);
+        limit.store_slice(&mut free.limit[at..end]);
+        moment.store_slice(&mut free.moment[at..end]);
+        lasting.store_slice(&mut free.along[at..end]);
+        rubs.store_slice(&mut free.across[at..end]);
+    }
+}
+
+/// Turns the velocity of B against A, as long as it is, so that both have the moments more. On which side of the line between both it
+/// points stays. What no turn gives is lost: spins that gave it gained energy without bound, where continuous collision stopped a light
+/// body after a part of a long way.
+#[inline(always)]
+fn turn_back<S: Simd, V: Wide<S>>(simd: S, block: &Block, free: &FreeBlock, bodies: &mut Bodies) {
+    let (zero, one) = (V::splat(simd, 0.0), V::splat(simd, 1.0));
+    for at in (0..LANES).step_by(V::LANES) {
+        let end = at + V::LANES;
+        let moment = V::from_slice(simd, &free.moment[at..end]);
+        let chosen = moment.abs().simd_gt(zero);
+        if !any(chosen) {
+            continue;
+        }
+        let (a, b) = (&block.a[at..end], &block.b[at..end]);
+        let [avx, avy, aw, ma] = V::columns(simd, &bodies.lines, a, 0);
+        let [bvx, bvy, bw, mb] = V::columns(simd, &bodies.lines, b, 0);
+        let [adx, ady, _, ia] = V::columns(simd, &bodies.lines, a, 4);
+        let [bdx, bdy, _, ib] = V::columns(simd, &bodies.lines, b, 4);
+        let (vx, vy) = (bvx - avx, bvy - avy);
+        let m = ma + mb;
+        // By which arm × v is to change.
+        let more = moment * m;
+        let x = V::from_slice(simd, &free.x[at..end]) + (bdx - adx);
+        let y = V::from_slice(simd, &free.y[at..end]) + (bdy - ady);
+        let square = x * x + y * y;
+        let (turns, parts) = (x * vy - y * vx, x * vx + y * vy);
+        // (arm · v)² + (arm × v)² stays.
+        let left = parts * parts - more * (turns + turns + more);
+        // What displaced them may have been faster: that energy is there.
+        let limit = V::from_slice(simd, &free.limit[at..end]);
+        let most = (square * limit).max(parts * parts + turns * turns).sqrt();
+        let wanted = turns + more;
+        let most = wanted.simd_lt(zero).select(-most, most);
+        let is_within = (wanted * wanted).simd_le(most * most);
+        let change = is_within.select(more, most - turns);
+        let length = left.max(zero).sqrt();
+        let parting = parts.simd_lt(zero).select(-length, length) - parts;
+        let acts = chosen & square.simd_gt(zero);
+        let scale = acts.select(one / (square * m), zero);
+        let (cx, cy) = (
+            (x * parting - y * change) * scale,
+            (y * parting + x * change) * scale,
+        );
+        let rest = (more - acts.select(change, zero)) / m;
+        let [own_a, own_b] = [ia, ib].map(|i| i.simd_gt(zero).select(one / i, zero));
+        let spins = chosen & (own_a + own_b).simd_gt(zero);
+        let spin = spins.select(rest / (own_a + own_b), zero);
+        let [spin_a, spin_b] = [ia, ib].map(|i| i.simd_gt(zero).select(spin, zero));
+        let lines = &mut bodies.lines;
+        V::write(lines, a, [avx - cx * ma, avy - cy * ma, aw + spin_a, ma]);
+        V::write(lines, b, [bvx + cx * mb, bvy + cy * mb, bw + spin_b, mb]);
+        for (ends, [cx, cy, spin]) in [
+            (a, [-cx * ma, -cy * ma, spin_a]),
+            (b, [cx * mb, cy * mb, spin_b]),
+        ] {
+            let [x, y, w, last] = V::columns(simd, &bodies.start, ends, 0);
+            V::write(&mut bodies.start, ends, [x + cx, y + cy, w + spin, last]);
+        }
+    }
+}
+
+/// Gives back the angular momentum that shifts of the first of two free bodies each added.
+pub(crate) fn turn_shifted(bodies: &mut Bodies, shifted: &[([u32; 2], Vec2)]) {
+    let added = |([at, _], shift): &([u32; 2], Vec2)| {
+        let line = &bodies.lines[*at as usize];
+        shift.perp_dot(line.v()) / line.inverse_mass()
+    };
+    let added: Vec<f64> = shifted.iter().map(added).collect();
+    for ((pair, _), added) in shifted.iter().zip(added) {
+        turn_pair(bodies, pair.map(|line| line as usize), -added);
+        for line in pair {
+            bodies.note_change(*line);
+        }
+    }
+}
+
+/// [`turn_back`] of two bodies, which get `moment` N·m·s.
+fn turn_pair(bodies: &mut Bodies, [a, b]: [usize; 2], moment: f64) {
+    let (first, second) = (&bodies.lines[a], &bodies.lines[b]);
+    let (ma, mb) = (first.inverse_mass(), second.inverse_mass());
+    let place = |at: usize| bodies.base[at].position + bodies.lines[at].d();
+    let (arm, v) = (place(b) - place(a), second.v() - first.v());
+    let (turns, parts) = (arm.perp_dot(v), arm.dot(v));
+    let more = moment * (ma + mb);
+    let left = parts * parts - more * (turns + turns + more);
+    let most = arm.length() * v.length();
+    let change = if left >= 0.0 {
+        more
+    } else {
+        most.copysign(turns + more) - turns
+    };
+    let (square, mut push) = (arm.length_squared(), Vec2::ZERO);
+    if square > 0.0 {
+        let parting = left.max(0.0).sqrt().copysign(parts) - parts;
+        push = (arm * parting + perp(arm) * change) / (square * (ma + mb));
+    }
+    for (at, push) in [(a, push * -ma), (b, push * mb)] {
+        let turn = Quad::new(push, 0.0);
+        bodies.lines[at].add(&turn);
+        bodies.start[at].add(&turn);
+    }
+}
