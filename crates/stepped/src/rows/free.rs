@@ -15,6 +15,7 @@ use carom_math::{Vec2, perp};
 use fearless_simd::{Level, Select, Simd, dispatch, f64x4, f64x8};
 
 use super::block::{Block, LANES};
+use super::colour::Colour;
 use super::graph::Graph;
 use super::kernel::eight_lanes;
 use super::line::{Line, Quad};
@@ -104,28 +105,11 @@ impl FreePairs {
         if !bodies.any_is_free() {
             return;
         }
-        for (colour, c) in graph.awake().iter_mut().zip(0..) {
-            for (k, block) in colour.blocks.iter_mut().enumerate() {
-                let mut free = FreeBlock {
-                    at: (c, k),
-                    lanes: 0,
-                    x: [0.0; LANES],
-                    y: [0.0; LANES],
-                    along: [0.0; LANES],
-                    across: [0.0; LANES],
-                    moment: [0.0; LANES],
-                    acts: false,
-                    limit: [0.0; LANES],
-                };
-                if free.find(block, bodies) {
-                    if eight_lanes(level) {
-                        dispatch!(level, simd => meet::<_, f64x8<_>>(simd, block, &free, bodies));
-                    } else {
-                        dispatch!(level, simd => meet::<_, f64x4<_>>(simd, block, &free, bodies));
-                    }
-                    self.blocks.push(free);
-                }
-            }
+        let (colours, blocks) = (graph.awake(), &mut self.blocks);
+        if eight_lanes(level) {
+            dispatch!(level, simd => meet_all::<_, f64x8<_>>(simd, colours, bodies, blocks));
+        } else {
+            dispatch!(level, simd => meet_all::<_, f64x4<_>>(simd, colours, bodies, blocks));
         }
     }
 
@@ -182,38 +166,90 @@ impl FreePairs {
         bodies: &mut Bodies,
         h: f64,
     ) {
-        for known in which.clone() {
-            let free = &mut self.blocks[known];
-            let block = free.of(graph);
-            dispatch!(level, simd => moments::<_, f64x4<_>>(simd, block, free, bodies, h));
-        }
-        for known in which {
-            let free = &self.blocks[known];
-            let block = free.of(graph);
-            if !free.acts {
-                continue;
-            }
-            if eight_lanes(level) {
-                dispatch!(level, simd => turn_back::<_, f64x8<_>>(simd, block, free, bodies));
-            } else {
-                dispatch!(level, simd => turn_back::<_, f64x4<_>>(simd, block, free, bodies));
-            }
+        let (blocks, colours) = (&mut self.blocks, &graph.colours);
+        if eight_lanes(level) {
+            dispatch!(level, simd => turn_all::<_, f64x8<_>>(simd, colours, bodies, blocks, which, h));
+        } else {
+            dispatch!(level, simd => turn_all::<_, f64x4<_>>(simd, colours, bodies, blocks, which, h));
         }
     }
 }
 
-impl FreeBlock {
-    /// Finds the lanes of free pairs; whether there are some.
-    fn find(&mut self, block: &Block, bodies: &Bodies) -> bool {
-        for lane in 0..LANES {
-            let (a, b) = (block.a[lane], block.b[lane]);
-            if bodies.is_free(a) && bodies.is_free(b) {
-                self.lanes |= 1 << lane;
-                let [from, to] = [a, b].map(|line| bodies.base[line as usize].position);
-                (self.x[lane], self.y[lane]) = (to.x - from.x, to.y - from.y);
+#[inline(always)]
+fn meet_all<S: Simd, V: Wide<S>>(
+    simd: S,
+    colours: &mut [Colour],
+    bodies: &mut Bodies,
+    blocks: &mut Vec<FreeBlock>,
+) {
+    for (colour, c) in colours.iter_mut().zip(0..) {
+        for (block, k) in colour.blocks.iter_mut().zip(0..) {
+            let lanes = free_lanes(block, bodies);
+            if lanes == 0 {
+                continue;
             }
+            let mut free = FreeBlock {
+                at: (c, k),
+                lanes,
+                ..FreeBlock::NONE
+            };
+            free.find_arms(block, bodies);
+            meet::<S, V>(simd, block, &free, bodies);
+            blocks.push(free);
         }
-        self.lanes != 0
+    }
+}
+
+#[inline(always)]
+fn turn_all<S: Simd, V: Wide<S>>(
+    simd: S,
+    colours: &[Colour],
+    bodies: &mut Bodies,
+    blocks: &mut [FreeBlock],
+    which: impl Iterator<Item = usize> + Clone,
+    h: f64,
+) {
+    for known in which.clone() {
+        let free = &mut blocks[known];
+        let block = &colours[free.at.0].blocks[free.at.1];
+        moments::<S, V>(simd, block, free, bodies, h);
+    }
+    for known in which {
+        let free = &blocks[known];
+        if free.acts {
+            let block = &colours[free.at.0].blocks[free.at.1];
+            turn_back::<S, V>(simd, block, free, bodies);
+        }
+    }
+}
+
+/// A bit for each lane of a free pair.
+fn free_lanes(block: &Block, bodies: &Bodies) -> u8 {
+    let is = |lane: &usize| bodies.is_free(block.a[*lane]) && bodies.is_free(block.b[*lane]);
+    (0..LANES)
+        .filter(is)
+        .fold(0, |lanes, lane| lanes | 1 << lane)
+}
+
+impl FreeBlock {
+    const NONE: Self = Self {
+        at: (0, 0),
+        lanes: 0,
+        x: [0.0; LANES],
+        y: [0.0; LANES],
+        along: [0.0; LANES],
+        across: [0.0; LANES],
+        moment: [0.0; LANES],
+        acts: false,
+        limit: [0.0; LANES],
+    };
+
+    /// Finds where the base positions are against each other.
+    fn find_arms(&mut self, block: &Block, bodies: &Bodies) {
+        for lane in 0..LANES {
+            let [a, b] = [block.a[lane], block.b[lane]].map(|at| bodies.base[at as usize].position);
+            (self.x[lane], self.y[lane]) = (b.x - a.x, b.y - a.y);
+        }
     }
 
     fn note_impulses(&mut self, block: &Block) {
