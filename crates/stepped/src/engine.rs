@@ -417,6 +417,7 @@ impl Engine {
         if hard.solve(law, bodies, graph) {
             // Islands without an answer are swept instead.
             extra.gather(graph, bodies);
+            free.meet(*level, graph, bodies);
         }
         let solve = if every {
             Pass::Solve
