@@ -56,6 +56,7 @@ mod nothing_falls_through_the_wall_of_a_turning_drum;
 mod nothing_leaves_a_spinning_ring_through_its_seams;
 mod parts_that_land_together_do_not_turn;
 mod tips_that_meet_do_not_spin;
+mod what_an_impact_takes_out_of_an_island_is_not_called_exact;
 mod what_bore_a_heavy_body_is_not_pushed_when_it_has_gone;
 mod what_is_made_fixed_stands_in_the_way_at_once;
 mod what_lands_again_begins_a_mode_anew;

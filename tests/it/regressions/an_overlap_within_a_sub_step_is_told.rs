@@ -57,7 +57,7 @@ fn an_overlap_within_a_sub_step_is_told() {
     assert!(seen > 1e-3, "{seen} m");
 }
 
-/// Only the centre's velocity was asked whether a caller drives a body into what it touches.
+/// Only the centre's velocity was asked whether a caller drives a body into what it touches: 0.6 mm of 2 in stepped mode.
 #[test]
 fn a_plate_that_is_spun_within_a_sub_step_stays_on_its_floor() {
     for mode in [Mode::Stepped, Mode::Hybrid] {
@@ -65,6 +65,6 @@ fn a_plate_that_is_spun_within_a_sub_step_stays_on_its_floor() {
         world.set_velocity(plate, Vec2::ZERO, 60.0).expect("a spin");
         world.step(0.7 * H);
         let depth = deepest(&world);
-        assert!(depth < 0.01, "{mode:?}: {depth} m deep");
+        assert!(depth < 1e-4, "{mode:?}: {depth} m deep");
     }
 }
