@@ -158,9 +158,17 @@ impl World {
         }
     }
 
-    /// The members of a group that turned go on by the parabola that their path has at `time`.
+    /// The members of a group that is no more go on by their parabolas, and those of one that turned by what their path has at `time`.
     pub(crate) fn leave_path(&mut self, group: &Group, time: SimTime) {
         let Some(Tipping { tip, slots }) = &group.tipping else {
+            for (index, _) in group.members.iter().copied() {
+                let motion = self.bodies.get(index).motion;
+                let now = (motion.acceleration, motion.angular_acceleration);
+                // By its own flight each of them is where it should be.
+                if now != self.bodies.freely(index, time) {
+                    self.bodies.leave_path(index, time, false);
+                }
+            }
             return;
         };
         let accelerations = tip.accelerations_after(time - tip.path.start);
@@ -173,7 +181,7 @@ impl World {
                     motion.angular_acceleration = angular;
                 });
             }
-            self.bodies.leave_path(index, time);
+            self.bodies.leave_path(index, time, true);
             self.redirect(index, time);
         }
     }

@@ -270,6 +270,7 @@ impl World {
     /// Overlaps of sub-stepped bodies when a call ends, as the next sub-step will see them: a caller reads these poses now. One to
     /// two in a hundred instructions of a stirred box of 60 bodies (2026-11-26).
     pub(crate) fn tell_overlaps(&mut self, time: SimTime) {
+        self.tell_overlaps_between(time);
         for index in self.stepped.clone() {
             for slot in 0..self.bodies.get(index).pairs.len() {
                 let place = self.bodies.get(index).pairs[slot];
@@ -292,6 +293,16 @@ impl World {
                 self.report.deepest_overlap = self.report.deepest_overlap.max(pair.depth());
                 *self.pairs.get_mut(place) = kept;
             }
+        }
+    }
+
+    /// Overlaps in the engine when a call ends within a sub-step.
+    fn tell_overlaps_between(&mut self, time: SimTime) {
+        if self.clock.is_within(time)
+            && let Some(stepping) = &self.stepping
+        {
+            let deepest = stepping.deepest_at(self.rules(), time, self.clock.h);
+            self.report.deepest_overlap = self.report.deepest_overlap.max(deepest);
         }
     }
 

@@ -66,6 +66,8 @@ pub struct Engine {
     pub(crate) heat: f64,
     /// The least gap of a contact in the last sub-step that was relaxed, in m.
     pub(crate) least_gap: f64,
+    /// The same of those that were computed as the sub-step began, at the poses there.
+    pub(crate) least_found: f64,
 }
 
 /// What the boxes of the next search were made for.
@@ -113,6 +115,7 @@ impl Engine {
             looks: 0,
             heat: 0.0,
             least_gap: f64::INFINITY,
+            least_found: f64::INFINITY,
         })
     }
 
@@ -173,6 +176,9 @@ impl Engine {
     /// wakes islands that are met, and boxes are those of the sub-step; only bodies that came or were moved since are searched for
     /// again. Whether some body came, or goes otherwise than was foreseen at the tick.
     pub fn find_contacts(&mut self, rules: &dyn PairRules) -> bool {
+        if !self.found {
+            self.least_found = f64::INFINITY;
+        }
         self.pose_boxes();
         let Some(posed) = self.posed.take() else {
             return false;
@@ -329,7 +335,7 @@ impl Engine {
             ..
         } = self;
         parted.clear();
-        update(
+        let least = update(
             (*level, law),
             (graph, rotating),
             bodies,
@@ -337,6 +343,7 @@ impl Engine {
             settings,
             parted,
         );
+        self.least_found = self.least_found.min(least);
         if self.islands.any_asleep() {
             let met = met_asleep(bodies, pieces, settings, &broad.found, rules);
             self.wake_all(&met);
@@ -350,19 +357,21 @@ impl Engine {
             broad,
             known,
             graph,
+            rotating,
             ..
         } = self;
         let found = &broad.found;
         self.looks += found.len() as u64;
-        create(
+        let least = create(
             (*level, law),
-            graph,
+            (graph, rotating),
             bodies,
             pieces,
             settings,
             (known, found),
             rules,
         );
+        self.least_found = self.least_found.min(least);
         let parted = core::mem::take(&mut self.parted);
         for &id in &parted {
             self.part(id);

@@ -167,10 +167,11 @@ impl Engine {
         self.heat
     }
 
-    /// How deep the deepest contact overlapped in the last sub-step, in m; 0 if none did.
+    /// How deep the deepest contact overlapped in the last sub-step, as it began or ended, in m; 0 if none did.
     #[must_use]
     pub fn deepest_overlap(&self) -> f64 {
-        (-self.least_gap.min(self.deep.least_gap())).max(0.0)
+        let least = self.least_gap.min(self.deep.least_gap());
+        (-least.min(self.least_found)).max(0.0)
     }
 
     /// Pairs of pieces that were looked at by shape so far.

@@ -8,13 +8,13 @@ use crate::bodies::{Bodies, BodyKind};
 use crate::broad::Pairs;
 use crate::narrow::{Eight, Found, Manifold, Scene, collide_eight};
 use crate::pieces::Pieces;
-use crate::rows::{Block, Cold, Graph, HARD, LANES, Law, RotatingRows, Side, renew};
+use crate::rows::{Block, Cold, Graph, HARD, LANES, Law, OPEN, RotatingRows, Side, renew};
 use crate::{PairRules, Settings, Surface};
 
 /// A kept contact may be so many margins wide, so that pairs do not come and go each tick.
 const KEPT: f64 = 1.5;
 
-/// Computes the contacts of moved bodies anew; those that parted are added to `parted`.
+/// Computes the contacts of moved bodies anew; those that parted are added to `parted`. The least gap of them, in m.
 pub(crate) fn update(
     (level, law): (Level, &Law),
     (graph, rotating): (&mut Graph, &mut RotatingRows),
@@ -22,7 +22,7 @@ pub(crate) fn update(
     pieces: &Pieces,
     settings: &Settings,
     parted: &mut Vec<u32>,
-) {
+) -> f64 {
     rotating.retain(graph, &bodies.moved);
     let touched = graph.touched(bodies);
     graph.suspects.clear();
@@ -30,6 +30,7 @@ pub(crate) fn update(
     let (colours, suspects) = graph.awake_and_suspects();
     let mut found = Found::NONE;
     let mut deep = Vec::new();
+    let mut least = OPEN;
     for (c, (colour, blocks)) in colours.iter_mut().zip(touched).enumerate() {
         let is_hard = c >= HARD;
         for k in blocks {
@@ -53,7 +54,9 @@ pub(crate) fn update(
             for lane in lanes(near) {
                 cold.features[lane] = found.features(lane);
                 let gaps = [found.s1[lane], found.s2[lane]];
-                if gaps[0].min(gaps[1]) < 0.0 || cold.is_deep(lane) {
+                let gap = gaps[0].min(gaps[1]);
+                if gap < 0.0 || cold.is_deep(lane) {
+                    least = least.min(gap);
                     let deepest = deepest(law, pieces, cold.pieces[lane]);
                     if cold.note_depth(lane, gaps, deepest, false) {
                         block.show(lane, deepest);
@@ -70,19 +73,17 @@ pub(crate) fn update(
                 let lines = [block.a[lane], block.b[lane]];
                 suspects.add_short(&scene, lines, cold.pieces[lane]);
             }
-            // Soft rows that are short may be ghosts, and go; hard ones are discs on faces, too.
-            let short = if is_hard { 0 } else { found.short };
-            for lane in lanes(near & (found.of_a | found.of_b) & !short) {
+            for lane in lanes(near & (found.of_a | found.of_b)) {
                 let pair = cold.pieces[lane];
-                let [a, b] = pair.map(|piece| &pieces.outlines[piece as usize]);
-                let of_b = found.of_b >> lane & 1 == 1;
-                let radius = if of_b { a.radius() } else { b.radius() };
-                if !cold.is_deep(lane) {
+                if let Some(side) = face(&found, lane, pieces, (pair, is_hard))
+                    && !cold.is_deep(lane)
+                {
+                    let [a, b] = pair.map(|piece| pieces.outlines[piece as usize].extent());
                     rotating.add(
                         (block, lane),
                         (cold.contact[lane], pair),
-                        (bodies, Side { of_b, radius }),
-                        (settings.tick, a.extent().min(b.extent())),
+                        (bodies, side),
+                        (settings.tick, a.min(b)),
                     );
                 }
             }
@@ -93,6 +94,19 @@ pub(crate) fn update(
         }
     }
     graph.add_deep(&mut deep);
+    least
+}
+
+/// Which body of a lane has the face, if its row may be rotated.
+fn face(found: &Found, lane: usize, pieces: &Pieces, of: ([u32; 2], bool)) -> Option<Side> {
+    let (pair, is_hard) = of;
+    let has = |bits: u8| bits >> lane & 1 == 1;
+    let of_b = has(found.of_b);
+    let corner = pair[usize::from(!of_b)];
+    let radius = pieces.outlines[corner as usize].radius();
+    // Corners in short soft rows may be ghosts, and go; a disc on a face has no other rows.
+    let stays = is_hard || !has(found.short) || radius > 0.0;
+    ((of_b || has(found.of_a)) && stays).then_some(Side { of_b, radius })
 }
 
 /// The least gap of two pieces that the sweeps see, in m.
@@ -200,16 +214,17 @@ fn in_order(bodies: &Bodies, pieces: &Pieces, [a, b]: [u32; 2]) -> [u32; 2] {
     if birth(a) < birth(b) { [a, b] } else { [b, a] }
 }
 
-/// Makes contacts of those candidates that are near enough, in the order in which their bodies were inserted.
+/// Makes contacts of those candidates that are near enough, in the order in which their bodies were inserted. The least gap of
+/// them, in m.
 pub(crate) fn create(
     (level, law): (Level, &Law),
-    graph: &mut Graph,
+    (graph, rotating): (&mut Graph, &mut RotatingRows),
     bodies: &mut Bodies,
     pieces: &Pieces,
     settings: &Settings,
     (known, candidates): (&mut Pairs, &[[u32; 2]]),
     rules: &dyn PairRules,
-) {
+) -> f64 {
     let scene = Scene {
         bodies,
         pieces,
@@ -230,13 +245,28 @@ pub(crate) fn create(
         }
         add_near(level, &scene, &eight_news, &mut fresh);
     }
-    fresh.sort_unstable_by_key(|new| new.0);
-    for (New { pieces: pair, .. }, surface, manifold) in fresh {
+    fresh.sort_unstable_by_key(|fresh| fresh.new);
+    let mut least = OPEN;
+    for Fresh {
+        new: New { pieces: pair, .. },
+        surface,
+        manifold,
+        face,
+    } in fresh
+    {
         let [a, b] = pair.map(|piece| &pieces.list[piece as usize]);
         let ends = [a.body, b.body];
         let deepest = deepest(law, pieces, pair);
+        least = least.min(manifold.gaps[0]).min(manifold.gaps[1]);
         let id = graph.insert(bodies, ends, pair, (&manifold, deepest), surface);
         known.insert(pair, id);
+        if let Some(side) = face {
+            let (block, cold, lane) = graph.lane(id);
+            if !cold.is_deep(lane) {
+                let (tick, extent) = (settings.tick, a.extent.min(b.extent));
+                rotating.add((block, lane), (id, pair), (bodies, side), (tick, extent));
+            }
+        }
         let lines = ends.map(|slot| bodies.records[slot as usize].line);
         let scene = Scene {
             bodies,
@@ -247,15 +277,11 @@ pub(crate) fn create(
         graph.suspects.add_seam(lines);
         narrow_tolerances(bodies, settings, ends, a.extent.min(b.extent));
     }
+    least
 }
 
 /// Adds those of at most eight pairs that are near enough, with their manifolds.
-fn add_near(
-    level: Level,
-    scene: &Scene<'_>,
-    news: &[(New, Surface)],
-    fresh: &mut Vec<(New, Surface, Manifold)>,
-) {
+fn add_near(level: Level, scene: &Scene<'_>, news: &[(New, Surface)], fresh: &mut Vec<Fresh>) {
     let pieces = scene.pieces;
     let mut eight = Eight::new(pieces, [[0; LANES]; 2]);
     for (lane, (new, surface)) in news.iter().enumerate() {
@@ -263,13 +289,36 @@ fn add_near(
             (eight.lines[0][lane], eight.lines[1][lane]) = (new.lines[0], new.lines[1]);
             eight.least[lane] = scene.seen(new.lines.map(|line| line as usize));
         } else if let Some(manifold) = scene.contact(new.pieces, 1.0) {
-            fresh.push((*new, *surface, manifold));
+            fresh.push(Fresh {
+                new: *new,
+                surface: *surface,
+                manifold,
+                face: None,
+            });
         }
     }
     let mut found = Found::NONE;
     collide_eight(level, scene, 1.0, &eight, &mut found);
-    let near = lanes(found.near);
-    fresh.extend(near.map(|lane| (news[lane].0, news[lane].1, found.manifold(lane))));
+    fresh.extend(lanes(found.near).map(|lane| {
+        let (new, surface) = news[lane];
+        // A corner may leave its face before it comes near; a disc keeps to it.
+        let side = face(&found, lane, pieces, (new.pieces, false));
+        Fresh {
+            new,
+            surface,
+            manifold: found.manifold(lane),
+            face: side.filter(|side| side.radius > 0.0),
+        }
+    }));
+}
+
+/// A pair that is near enough.
+struct Fresh {
+    new: New,
+    surface: Surface,
+    manifold: Manifold,
+    /// Which body has the face, if its row may be rotated.
+    face: Option<Side>,
 }
 
 /// A pair that may become a contact: it begins with what was inserted first.

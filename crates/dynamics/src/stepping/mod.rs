@@ -12,6 +12,7 @@
 //! [`write`], [`touch`], [`rest`]; then, for members, [`join`] (which bodies the engine moves: [`near`], [`rush`] and [`heap`] say which
 //! join) and [`guests`] (which others it knows).
 
+mod between;
 mod enter;
 mod guests;
 pub(crate) mod heap;

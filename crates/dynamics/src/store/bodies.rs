@@ -323,9 +323,10 @@ impl Bodies {
         self.renew(index);
     }
 
-    /// A body leaves a path, and goes on by the parabola that it has.
-    pub(crate) fn leave_path(&mut self, index: u32, time: SimTime) {
-        self.left_paths.add(index, &self.list[index as usize], time);
+    /// A body leaves an island, one that `turned` or not, and goes on by the parabola that it has.
+    pub(crate) fn leave_path(&mut self, index: u32, time: SimTime, turned: bool) {
+        let state = &self.list[index as usize];
+        self.left_paths.add(index, state, time, turned);
     }
 
     /// How many parabolas of left paths moved a body before `now` that no report tells of yet.

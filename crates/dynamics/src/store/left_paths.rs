@@ -1,11 +1,11 @@
-//! Bodies that left the path of an island that turns: they go on by the parabola of that instant, with the forces along the arms of
-//! then, until the next sub-step or another motion. Neither energy nor angular momentum is kept, and reports say so.
+//! Bodies that left an analytic island: they go on by the parabola of that instant, with the forces of then along the arms of then,
+//! until the next sub-step or another motion. Neither energy nor angular momentum is kept, and reports say so.
 
 use carom_math::{SimTime, Vec2};
 
 use super::state::BodyState;
 
-/// The bodies that left a path in the present sub-step.
+/// The bodies that left an island in the present sub-step.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct LeftPaths {
     list: Vec<LeftPath>,
@@ -20,6 +20,8 @@ struct LeftPath {
     left: SimTime,
     /// Until when its parabola was counted.
     counted: SimTime,
+    /// Its island turned.
+    turned: bool,
 }
 
 impl LeftPath {
@@ -39,20 +41,21 @@ impl LeftPath {
 }
 
 impl LeftPaths {
-    /// A body leaves a path, and goes on by the parabola that it has.
-    pub(crate) fn add(&mut self, index: u32, state: &BodyState, time: SimTime) {
+    /// A body leaves an island, one that `turned` or not, and goes on by the parabola that it has.
+    pub(crate) fn add(&mut self, index: u32, state: &BodyState, time: SimTime, turned: bool) {
         self.list.push(LeftPath {
             index,
             acceleration: state.motion.acceleration,
             left: time,
             counted: time,
+            turned,
         });
     }
 
     /// Whether a body goes on by the parabola of a path that it left.
     pub(crate) fn moves(&self, index: u32, state: &BodyState) -> bool {
         let mut list = self.list.iter();
-        list.any(|left| left.index == index && left.goes_on(state))
+        list.any(|left| left.index == index && left.turned && left.goes_on(state))
     }
 
     /// A body gets another motion.

@@ -35,7 +35,7 @@ pub struct StepReport {
     pub sunken: u64,
     /// Bodies that were stopped because a number was no longer finite.
     pub stopped: u64,
-    /// Deepest overlap seen at the start of a sub-step or at the end of the call, in m, ≥ 0.
+    /// Deepest overlap seen at the start or the end of a sub-step, or at the end of the call, in m, ≥ 0.
     pub deepest_overlap: f64,
     /// Why nothing happened, if the step was refused.
     pub refused: Option<Refusal>,

@@ -182,8 +182,7 @@ impl Engine {
                 let left = first.map_or(to, |first| first.0) - from;
                 // A way into what is touched already, deeper than a core lies.
                 let drives = |hit: &Impact| {
-                    let against = (own.velocity - other.velocity).dot(hit.normal);
-                    body.carried && against * (to - from) > depth(piece_of_mine)
+                    body.carried && -hit.gap_rate * (to - from) > depth(piece_of_mine)
                 };
                 let met = match time_of_impact(&core, &own, target, &other, left) {
                     TimeOfImpact::Hit(hit) => (hit.time, Some(hit.normal)),
