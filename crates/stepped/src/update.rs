@@ -75,7 +75,7 @@ pub(crate) fn update(
             }
             for lane in lanes(near & (found.of_a | found.of_b)) {
                 let pair = cold.pieces[lane];
-                if let Some(side) = face(&found, lane, pieces, (pair, is_hard))
+                if let Some(side) = face(&found, lane, pieces, pair, is_hard)
                     && !cold.is_deep(lane)
                 {
                     let [a, b] = pair.map(|piece| pieces.outlines[piece as usize].extent());
@@ -98,8 +98,13 @@ pub(crate) fn update(
 }
 
 /// Which body of a lane has the face, if its row may be rotated.
-fn face(found: &Found, lane: usize, pieces: &Pieces, of: ([u32; 2], bool)) -> Option<Side> {
-    let (pair, is_hard) = of;
+fn face(
+    found: &Found,
+    lane: usize,
+    pieces: &Pieces,
+    pair: [u32; 2],
+    is_hard: bool,
+) -> Option<Side> {
     let has = |bits: u8| bits >> lane & 1 == 1;
     let of_b = has(found.of_b);
     let corner = pair[usize::from(!of_b)];
@@ -302,7 +307,7 @@ fn add_near(level: Level, scene: &Scene<'_>, news: &[(New, Surface)], fresh: &mu
     fresh.extend(lanes(found.near).map(|lane| {
         let (new, surface) = news[lane];
         // A corner may leave its face before it comes near; a disc keeps to it.
-        let side = face(&found, lane, pieces, (new.pieces, false));
+        let side = face(&found, lane, pieces, new.pieces, false);
         Fresh {
             new,
             surface,

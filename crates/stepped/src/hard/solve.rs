@@ -267,7 +267,7 @@ impl Island {
             self.note_parted(bodies, settings, &parted, way * law.inverse_h);
             // A velocity for `way` seconds is an impulse for h.
             for (contact, [first, second, _]) in self.contacts.iter().zip(&held.impulses) {
-                free.add(graph, contact.id, (first + second) * way * law.inverse_h);
+                free.add_late(graph, contact.id, (first + second) * way * law.inverse_h);
             }
             least = self.least_gap(bodies, graph);
         }

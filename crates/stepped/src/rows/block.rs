@@ -8,6 +8,15 @@ use crate::narrow::Manifold;
 /// Contacts in a block.
 pub(crate) const LANES: usize = 8;
 
+/// 1 for each lane that has a bit, else 0: a mask is made of it by comparison.
+pub(super) fn flags(lanes: u8) -> [f64; LANES] {
+    let mut flags = [0.0; LANES];
+    for (lane, flag) in flags.iter_mut().enumerate() {
+        *flag = f64::from(lanes >> lane & 1);
+    }
+    flags
+}
+
 /// A contact that sinks in under a load is held by the sweeps until it is so many times as deep as one that was put so. 25: a
 /// hundred bodies at one place part with 123 J; 5: with 25 J, but a smash takes a fifth longer.
 const CRUSHED: f64 = 10.0;

@@ -2,7 +2,7 @@
 //!
 //! A row that pushed them apart by an impulse would leave some of it as velocity, the more the more bodies share a place. So
 //! the sweeps see no overlap deeper than a part of the smaller piece, and what is deeper is undone by displacement alone:
-//! no body goes by more than the fastest push-out in a sub-step.
+//! what pushes a body adds up to no more than the fastest push-out in a sub-step, but where some of it balanced what became less.
 
 use carom_math::Vec2;
 
@@ -24,8 +24,8 @@ pub(crate) struct Deep {
 }
 
 impl Deep {
-    /// Displaces the bodies of what is parted, none by more than `most`; tells of the impulse of each contact. Both of its bodies go by
-    /// the same part, so that their common centre stays.
+    /// Displaces the bodies of what is parted; tells of the impulse of each contact. Where those of a body add up to more than `most`
+    /// they become less, by one factor for both bodies of a contact, so that their common centre stays.
     fn displace(&mut self, bodies: &mut Bodies, most: f64, mut tell: impl FnMut(u32, f64)) {
         self.sums.clear();
         for moved in &self.moves {

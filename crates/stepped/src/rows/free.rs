@@ -14,11 +14,11 @@
 use carom_math::{Vec2, perp};
 use fearless_simd::{Level, Select, Simd, dispatch, f64x4, f64x8};
 
-use super::block::{Block, LANES};
+use super::block::{Block, LANES, flags};
 use super::colour::Colour;
 use super::graph::Graph;
 use super::kernel::eight_lanes;
-use super::line::{Line, Quad};
+use super::line::Quad;
 use super::transpose::{Wide, any};
 use crate::bodies::Bodies;
 
@@ -51,53 +51,6 @@ struct FreeBlock {
     limit: [f64; LANES],
 }
 
-/// Velocities with which free bodies went through the last sub-step: all impulses acted as it began, and what displaced the bodies and
-/// does not last counts. With them momentum and angular momentum are those of before and afterwards.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Ways {
-    noted: bool,
-    /// By line: velocities that displaced the bodies, and where these brought them.
-    displaced: Vec<(Quad, Quad)>,
-    /// By slot, in order: what these velocities lack of those at the end.
-    lack: Vec<(u32, Quad)>,
-}
-
-impl Ways {
-    /// Notes them from now on, or forgets them.
-    pub(crate) fn note(&mut self, noted: bool) {
-        self.noted = noted;
-        self.lack.clear();
-    }
-
-    /// Bodies were displaced by their velocities.
-    pub(crate) fn begin(&mut self, bodies: &Bodies) {
-        self.displaced.clear();
-        self.lack.clear();
-        if self.noted && bodies.any_is_free() {
-            let displaced = |line: &Line| (Quad::new(line.v(), line.w()), line.displacement());
-            self.displaced.extend(bodies.lines.iter().map(displaced));
-        }
-    }
-
-    /// Bodies have their velocities and displacements of the end of the sub-step, which lasts `h` seconds.
-    pub(crate) fn end(&mut self, bodies: &Bodies, h: f64) {
-        for ((line, (v, to)), at) in bodies.lines.iter().zip(&self.displaced).zip(0..) {
-            if bodies.is_free(at) {
-                let (way, turn) = (line.d() - to.v(), line.turn() - to.w());
-                let lack = Quad::new(line.v() - v.v() - way / h, line.w() - v.w() - turn / h);
-                self.lack.push((bodies.slot_of[at as usize], lack));
-            }
-        }
-        self.lack.sort_unstable_by_key(|lack| lack.0);
-    }
-
-    pub(crate) fn lack(&self, slot: u32) -> Option<(Vec2, f64)> {
-        let known = self.lack.binary_search_by_key(&slot, |lack| lack.0).ok()?;
-        let (_, lack) = &self.lack[known];
-        Some((lack.v(), lack.w()))
-    }
-}
-
 impl FreePairs {
     /// Gathers them, and has their impulses act at one point of both bodies.
     pub(crate) fn meet(&mut self, level: Level, graph: &mut Graph, bodies: &mut Bodies) {
@@ -122,19 +75,29 @@ impl FreePairs {
 
     /// A contact displaced its bodies, besides, as by an impulse along the normal, in N·s.
     pub(crate) fn add(&mut self, graph: &Graph, id: u32, impulse: f64) {
+        if let Some((known, lane)) = self.find(graph, id) {
+            self.blocks[known].along[lane] += impulse;
+        }
+    }
+
+    /// The same once velocities have been found: see [`Self::turn_back_late`].
+    pub(crate) fn add_late(&mut self, graph: &Graph, id: u32, impulse: f64) {
+        self.add(graph, id, impulse);
+        self.late.extend(self.find(graph, id).map(|found| found.0));
+    }
+
+    /// Block and lane of a contact, if its bodies are free.
+    fn find(&self, graph: &Graph, id: u32) -> Option<(usize, usize)> {
         let contact = &graph.contacts[id as usize];
         let (k, lane) = contact.place();
         let at = (contact.colour as usize, k);
-        if let Ok(known) = self.blocks.binary_search_by_key(&at, |block| block.at) {
-            self.blocks[known].along[lane] += impulse;
-            self.late.push(known);
-        }
+        let known = self.blocks.binary_search_by_key(&at, |block| block.at);
+        Some((known.ok()?, lane))
     }
 
     /// Gives back the angular momentum that displacements added within `h` seconds, before rows are rotated.
     pub(crate) fn turn_back(&mut self, level: Level, graph: &Graph, bodies: &mut Bodies, h: f64) {
         self.turn_blocks(0..self.blocks.len(), level, graph, bodies, h);
-        self.late.clear();
     }
 
     /// The same of displacements that came afterwards.
@@ -262,21 +225,12 @@ impl FreeBlock {
     fn of<'g>(&self, graph: &'g Graph) -> &'g Block {
         &graph.colours[self.at.0].blocks[self.at.1]
     }
-
-    /// 1 for lanes of free pairs, else 0.
-    fn chosen(&self) -> [f64; LANES] {
-        let mut chosen = [0.0; LANES];
-        for (lane, chosen) in chosen.iter_mut().enumerate() {
-            *chosen = f64::from(self.lanes >> lane & 1);
-        }
-        chosen
-    }
 }
 
 /// [`Block::meet`] of the lanes of free pairs: v stays, and what contacts did to it changes.
 #[inline(always)]
 fn meet<S: Simd, V: Wide<S>>(simd: S, block: &mut Block, free: &FreeBlock, bodies: &mut Bodies) {
-    let chosen = free.chosen();
+    let chosen = flags(free.lanes);
     let (zero, half) = (V::splat(simd, 0.0), V::splat(simd, 0.5));
     for at in (0..LANES).step_by(V::LANES) {
         let end = at + V::LANES;
@@ -328,7 +282,7 @@ fn moments<S: Simd, V: Wide<S>>(
     bodies: &Bodies,
     h: f64,
 ) {
-    let chosen = free.chosen();
+    let chosen = flags(free.lanes);
     let zero = V::splat(simd, 0.0);
     free.acts = false;
     for at in (0..LANES).step_by(V::LANES) {
@@ -362,9 +316,8 @@ fn moments<S: Simd, V: Wide<S>>(
     }
 }
 
-/// Turns the velocity of B against A, as long as it is, so that both have the moments more. On which side of the line between both it
-/// points stays. What no turn gives is lost: spins that gave it gained energy without bound, where continuous collision stopped a light
-/// body after a part of a long way.
+/// Turns the velocity of B against A so that both have the moments more. It is as long as before, or as what displaced them if that was
+/// faster and no turn is enough, and on which side of the line between both it points stays. What no turn gives their spins get.
 #[inline(always)]
 fn turn_back<S: Simd, V: Wide<S>>(simd: S, block: &Block, free: &FreeBlock, bodies: &mut Bodies) {
     let (zero, one) = (V::splat(simd, 0.0), V::splat(simd, 1.0));
@@ -438,7 +391,8 @@ pub(crate) fn turn_shifted(bodies: &mut Bodies, shifted: &[([u32; 2], Vec2)]) {
     }
 }
 
-/// [`turn_back`] of two bodies, which get `moment` N·m·s.
+/// [`turn_back`] of two bodies, which get `moment` N·m·s. What no turn gives is lost: it may be that of a way at 1e5 m/s, and spins that
+/// gave it had 4e8 rad/s.
 fn turn_pair(bodies: &mut Bodies, [a, b]: [usize; 2], moment: f64) {
     let (first, second) = (&bodies.lines[a], &bodies.lines[b]);
     let (ma, mb) = (first.inverse_mass(), second.inverse_mass());

@@ -4,7 +4,7 @@
 
 use fearless_simd::{Level, Select, Simd, dispatch, f64x4, f64x8};
 
-use super::block::{Block, LANES, OPEN};
+use super::block::{Block, LANES, OPEN, flags};
 use super::kernel::eight_lanes;
 use super::line::{Line, Quad};
 use super::transpose::{Wide, any};
@@ -22,10 +22,7 @@ pub(crate) fn renew(
     new: &Found,
     lanes: u8,
 ) {
-    let mut chosen = [0.0; LANES];
-    for (lane, chosen) in chosen.iter_mut().enumerate() {
-        *chosen = f64::from(lanes >> lane & 1);
-    }
+    let chosen = flags(lanes);
     if eight_lanes(level) {
         dispatch!(level, simd => part::<_, f64x8<_>>(simd, lines, start, block, new, &chosen, 0));
     } else {

@@ -1,0 +1,53 @@
+//! How free bodies go through a sub-step: what a caller sees of them within it.
+
+use carom_math::Vec2;
+
+use super::line::{Line, Quad};
+use crate::bodies::Bodies;
+
+/// Velocities with which free bodies went through the last sub-step: all impulses acted as it began, and what displaced the bodies and
+/// does not last counts. With them momentum and angular momentum are those of before and afterwards.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Ways {
+    noted: bool,
+    /// By line: velocities that displaced the bodies, and where these brought them.
+    displaced: Vec<(Quad, Quad)>,
+    /// By slot, in order: what these velocities lack of those at the end.
+    lack: Vec<(u32, Quad)>,
+}
+
+impl Ways {
+    /// Notes them from now on, or forgets them.
+    pub(crate) fn note(&mut self, noted: bool) {
+        self.noted = noted;
+        self.lack.clear();
+    }
+
+    /// Bodies were displaced by their velocities.
+    pub(crate) fn begin(&mut self, bodies: &Bodies) {
+        self.displaced.clear();
+        self.lack.clear();
+        if self.noted && bodies.any_is_free() {
+            let displaced = |line: &Line| (Quad::new(line.v(), line.w()), line.displacement());
+            self.displaced.extend(bodies.lines.iter().map(displaced));
+        }
+    }
+
+    /// Bodies have their velocities and displacements of the end of the sub-step, which lasts `h` seconds.
+    pub(crate) fn end(&mut self, bodies: &Bodies, h: f64) {
+        for ((line, (v, to)), at) in bodies.lines.iter().zip(&self.displaced).zip(0..) {
+            if bodies.is_free(at) {
+                let (way, turn) = (line.d() - to.v(), line.turn() - to.w());
+                let lack = Quad::new(line.v() - v.v() - way / h, line.w() - v.w() - turn / h);
+                self.lack.push((bodies.slot_of[at as usize], lack));
+            }
+        }
+        self.lack.sort_unstable_by_key(|lack| lack.0);
+    }
+
+    pub(crate) fn lack(&self, slot: u32) -> Option<(Vec2, f64)> {
+        let known = self.lack.binary_search_by_key(&slot, |lack| lack.0).ok()?;
+        let (_, lack) = &self.lack[known];
+        Some((lack.v(), lack.w()))
+    }
+}
