@@ -5,6 +5,7 @@ use carom_math::{Vec2, vec2};
 
 use super::hard::without_sleep;
 use super::{Random, levels};
+use crate::rows::{FreePairs, Quad};
 use crate::{BodyId, BodyInput, Engine, Material, Mixed, PieceInput, Settings};
 
 fn weightless(settings: Settings) -> Settings {
@@ -50,18 +51,17 @@ struct Moves {
     inertia: f64,
 }
 
-/// Momentum, angular momentum about the origin, the size of the latter, and kinetic energy.
-fn motion(engine: &Engine, bodies: &[Moves]) -> (Vec2, f64, f64, f64) {
-    let (mut linear, mut angular, mut size, mut kinetic) = (Vec2::ZERO, 0.0, 0.0, 0.0);
+/// Momentum, angular momentum about the origin, and the size of the latter.
+fn motion(engine: &Engine, bodies: &[Moves]) -> (Vec2, f64, f64) {
+    let (mut linear, mut angular, mut size) = (Vec2::ZERO, 0.0, 0.0);
     for body in bodies {
         let (v, w) = engine.velocity(body.id).unwrap();
         let centre = engine.pose(body.id).unwrap().position;
         linear += v * body.mass;
         angular += body.mass * centre.perp_dot(v) + body.inertia * w;
         size += body.mass * centre.length() * v.length() + body.inertia * w.abs();
-        kinetic += 0.5 * (body.mass * v.length_squared() + body.inertia * w * w);
     }
-    (linear, angular, size, kinetic)
+    (linear, angular, size)
 }
 
 /// These swarms lost up to a fiftieth of their angular momentum: arms were those of the tick, and overlaps were parted, once velocities
@@ -71,12 +71,12 @@ fn a_free_island_keeps_its_angular_momentum() {
     let mut touched = 0;
     for (seed, count) in (0..60).zip([2, 3, 4, 5, 6, 7, 40].into_iter().cycle()) {
         let (mut engine, swarm) = swarm(without_sleep(), seed, (count, 2.0));
-        let (_, turns, size, _) = motion(&engine, &swarm);
+        let (_, turns, size) = motion(&engine, &swarm);
         for _ in 0..120 {
             engine.tick();
             engine.graph.check(&engine.bodies);
             touched += u32::from(engine.contacts().any(|at| at.impulses[0] > 0.0));
-            let (_, now, ..) = motion(&engine, &swarm);
+            let (_, now, _) = motion(&engine, &swarm);
             let off = (now - turns).abs() / size;
             assert!(off < 1e-12, "{off:e} of the angular momentum, seed {seed}");
         }
@@ -107,10 +107,11 @@ fn registers_of_all_widths_turn_free_pairs_alike() {
 /// Velocities within a sub-step are those with which bodies go through it.
 #[test]
 fn momentum_and_angular_momentum_are_kept_within_a_sub_step() {
+    let mut asked = 0;
     for seed in 0..20 {
         let (mut engine, swarm) = swarm(without_sleep(), seed, (7, 2.0));
         engine.note_ways(true);
-        let (pushes, turns, size, _) = motion(&engine, &swarm);
+        let (pushes, turns, size) = motion(&engine, &swarm);
         for _ in 0..400 {
             let from: Vec<_> = swarm
                 .iter()
@@ -129,25 +130,77 @@ fn momentum_and_angular_momentum_are_kept_within_a_sub_step() {
             let off = (linear - pushes).length() / size;
             assert!(off < 1e-12, "{off:e} of the momentum, seed {seed}");
             // What parts deep overlaps does not turn.
-            if engine.deepest_overlap() == 0.0 || engine.deep.least_gap() == 0.0 {
+            if engine.deep.least_gap() == 0.0 {
+                asked += 1;
                 let off = (angular - turns).abs() / size;
                 assert!(off < 1e-12, "{off:e} of the angular momentum, seed {seed}");
             }
         }
     }
+    assert!(asked > 7000, "{asked} of 8000");
+}
+
+/// The wide pass and [`Block::meet`], contact by contact.
+#[test]
+fn free_pairs_meet_as_they_do_one_by_one() {
+    let mut met = 0;
+    for seed in 0..10 {
+        let (mut engine, _) = swarm(without_sleep(), seed, (40, 2.0));
+        for _ in 0..40 {
+            engine.substep(&Mixed);
+        }
+        let mut plain = engine.clone();
+        let Engine {
+            level,
+            graph,
+            bodies,
+            ..
+        } = &mut engine;
+        FreePairs::default().meet(*level, graph, bodies);
+        for id in plain.graph.ids().collect::<Vec<_>>() {
+            let (block, lane) = plain.graph.block_mut(id);
+            let ends = [block.a[lane], block.b[lane]].map(|line| line as usize);
+            let lines = ends.map(|at| plain.bodies.lines[at]);
+            let [a, b] = ends.map(|at| plain.bodies.base[at].position);
+            let before = block.push(lane, &lines[0], &lines[1]);
+            block.meet(lane, [(&lines[0], a), (&lines[1], b)]);
+            let after = block.push(lane, &lines[0], &lines[1]);
+            for ((at, before), after) in ends.into_iter().zip(before).zip(after) {
+                let change = Quad::new(before.v() - after.v(), before.w() - after.w());
+                plain.bodies.start[at].add(&change);
+            }
+            let ([one, other], lane) = ([engine.graph.lane(id).0, plain.graph.lane(id).0], lane);
+            for (a, b) in [
+                (one.a1[lane], other.a1[lane]),
+                (one.b1[lane], other.b1[lane]),
+                (one.at[lane], other.at[lane]),
+                (one.bt[lane], other.bt[lane]),
+                (one.s1[lane], other.s1[lane]),
+            ] {
+                assert!((a - b).abs() < 1e-14, "{a} for {b}, seed {seed}");
+            }
+            met += 1;
+        }
+        for (one, other) in engine.bodies.start.iter().zip(&plain.bodies.start) {
+            let off = (one.v() - other.v()).length() + (one.w() - other.w()).abs();
+            assert!(off < 1e-13, "{off:e} m/s, seed {seed}");
+        }
+    }
+    assert!(met > 200, "{met} contacts");
 }
 
 /// What it lost in its contact was added again in each sub-step, to rounding: 4e-15 m/s, for ever.
 #[test]
 fn a_body_without_contacts_keeps_the_velocity_that_it_is_given_to_the_last_bit() {
-    let mut random = Random::new(1);
     let mut engine = Engine::new(weightless(without_sleep())).unwrap();
     let piece = PieceInput::new(Circle::new(0.5).unwrap());
     let id = engine
         .insert(BodyInput::dynamic(1.3, 0.1), &[piece])
         .unwrap();
-    for _ in 0..50 {
-        let (velocity, spin) = (vec2(random.signed(), random.signed()), random.signed());
+    for k in 1..50 {
+        // Large and small in turn, and no multiples of a power of two: their differences round.
+        let size = [1.0, 1e3][k % 2] * (k as f64).sqrt();
+        let (velocity, spin) = (vec2(size / 3.0, -size / 7.0), size / 9.0);
         engine.set_velocity(id, velocity, spin).unwrap();
         engine.tick();
         assert_eq!(engine.velocity(id).unwrap(), (velocity, spin));
