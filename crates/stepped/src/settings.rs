@@ -132,7 +132,7 @@ impl Settings {
         }
     }
 
-    /// Less overlap, more time: six sub-steps of a stiffer law; free islands keep their angular momentum.
+    /// Less overlap, more time: six sub-steps of a stiffer law.
     #[must_use]
     pub fn accurate() -> Self {
         let softness = Softness {

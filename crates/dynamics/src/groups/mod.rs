@@ -4,8 +4,8 @@
 //! for), [`apart`] (which contacts hang together), [`round`] and [`at_once`] (the solves: of discs, and of all others), [`motions`]
 //! and [`go_on`] (what becomes of it), [`settle`] (groups at rest fall asleep).
 //!
-//! It is for bodies in contact that have no closed form and would lose in the engine what they keep here: few that nothing bears
-//! their angular momentum, few discs in exact mode their energy.
+//! It is for bodies in contact that have no closed form and keep their energy here at each instant: few that nothing bears, whose energy
+//! the engine shows less of within a sub-step than at its ends, and few discs in exact mode, which gain some there.
 
 mod apart;
 mod at_once;

@@ -127,7 +127,7 @@ impl World {
     }
 
     /// Whether an island without a solution of its contact modes is sub-stepped pair by pair: a small one that nothing bears, as the
-    /// engine does not keep its angular momentum, or of discs in exact mode, as they gain energy there.
+    /// engine shows less of its energy within a sub-step than at its ends, or of discs in exact mode, as they gain energy there.
     fn stays_out(&self, island: &[u32]) -> bool {
         let round = self.settings.mode == Mode::Exact && self.is_round_island(island);
         let most = if round { MANY } else { FEW };
