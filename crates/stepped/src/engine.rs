@@ -383,6 +383,7 @@ impl Engine {
             &mut self.bodies,
             &self.pieces,
             &self.known,
+            self.settings.margin,
         );
         self.bodies.moved.fill(false);
     }

@@ -25,6 +25,8 @@ pub(super) struct Face<V> {
     pub(super) separation: V,
     /// The most that the other is before any face, at its nearest on its way.
     pub(super) stays: V,
+    /// The most that the other is before any cut.
+    pub(super) cut: V,
     pub(super) index: V,
     pub(super) nx: V,
     pub(super) ny: V,
@@ -109,6 +111,7 @@ pub(super) fn best<S: Simd, V: Wide<S>, const N: usize>(
     let mut face = Face {
         separation: none,
         stays: none,
+        cut: none,
         index: zero,
         nx: a.nx[0],
         ny: a.ny[0],
@@ -126,8 +129,11 @@ pub(super) fn best<S: Simd, V: Wide<S>, const N: usize>(
         let nears = (nx * wx + ny * wy).min(zero);
         let (mut stays, mut separation) = (separation + nears, separation);
         if let Some((cuts, near)) = &cuts {
+            let faceless = V::splat(simd, FACELESS);
+            let one = V::splat(simd, 1.0);
+            face.cut = (separation + (one - cuts[i]) * faceless).max(face.cut);
             stays += cuts[i] * *near;
-            separation += cuts[i] * V::splat(simd, FACELESS);
+            separation += cuts[i] * faceless;
         }
         face.stays = stays.max(face.stays);
         let better = separation.simd_gt(face.separation);
@@ -174,6 +180,7 @@ pub(super) fn choose<S: Simd, V: Wide<S>>(first: V::Mask, a: &Face<V>, b: &Face<
     Face {
         separation: first.select(a.separation, b.separation),
         stays: first.select(a.stays, b.stays),
+        cut: first.select(a.cut, b.cut),
         index: first.select(a.index, b.index),
         nx: first.select(a.nx, b.nx),
         ny: first.select(a.ny, b.ny),

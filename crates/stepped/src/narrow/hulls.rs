@@ -1,6 +1,6 @@
 //! Pieces of any kind to their manifold, by `carom-collision`: half-planes, more corners.
 
-use carom_collision::collide_within;
+use carom_collision::{Hull, collide_within};
 use carom_math::{Pose, cross, perp};
 
 use super::Manifold;
@@ -11,7 +11,16 @@ pub(crate) fn collide_any(a: (&Piece, Pose), b: (&Piece, Pose), limit: f64) -> O
     let ((a, pose_a), (b, pose_b)) = (a, b);
     let radii = a.rounding + b.rounding;
     let b_in_a = pose_b.seen_from(pose_a);
-    let found = collide_within(&a.hull(), &b.hull(), b_in_a, limit + radii);
+    let mut hulls = [a.hull(), b.hull()];
+    if hulls.iter().any(Hull::is_half_plane) {
+        // Its normal is the only one. A corner at the end of a cut belongs to both pieces: if the plane met one of them, a body
+        // that stands on that corner would change pieces as it rocks, and lose its impulse.
+        hulls = hulls.map(|hull| Hull {
+            boundary: None,
+            ..hull
+        });
+    }
+    let found = collide_within(&hulls[0], &hulls[1], b_in_a, limit + radii);
     let d = pose_b.position - pose_a.position;
     let n = pose_a.vector(found.normal);
     let arm = |k: usize| pose_a.vector(found.points[k].point);

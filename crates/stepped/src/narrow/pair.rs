@@ -20,8 +20,8 @@ pub(crate) fn collide(
 ) -> Option<Manifold> {
     let radii = a.radius() + b.radius();
     let limits = [limit + radii, limit + radii - past];
-    let (sa, ia) = best_face(a, b, d, way, limits)?;
-    let (sb, ib) = best_face(b, a, -d, -way, limits)?;
+    let (sa, ia, cut_a) = best_face(a, b, d, way, limits)?;
+    let (sb, ib, cut_b) = best_face(b, a, -d, -way, limits)?;
     if a.corners() == 1 && b.corners() == 1 {
         let ends = [a.corner(0), b.corner(0)];
         let goes = way.length();
@@ -30,24 +30,28 @@ pub(crate) fn collide(
     if sa.max(sb) == f64::NEG_INFINITY {
         return None;
     }
-    let found = if sb > sa + hysteresis {
+    let mut found = if sb > sa + hysteresis {
         face(b, a, -d, ib, true)
     } else {
         face(a, b, d, ia, false)
     };
+    // B overlaps a piece by no more than across its cuts: the rest lies in other pieces, and leaves this one without a jump.
+    let crossed = cut_a.max(cut_b) - radii;
+    found.gaps = found.gaps.map(|gap| gap.max(crossed));
     Some(found)
 }
 
-/// The edge of `a` that separates best and is no cut, and how far the nearest corner of `b` is in front of it; `None` if
-/// that of some edge stays beyond `limit` on the way, of a cut beyond `past_cut`: there `b` meets another piece.
+/// The edge of `a` that separates best and is no cut, how far the nearest corner of `b` is in front of it, and at most in front
+/// of a cut; `None` if that of some edge stays beyond `limit` on the way, of a cut beyond `past_cut`: there `b` meets another
+/// piece.
 fn best_face(
     a: Turned<'_>,
     b: Turned<'_>,
     d: Vec2,
     way: Vec2,
     [limit, past_cut]: [f64; 2],
-) -> Option<(f64, usize)> {
-    let mut best = (f64::NEG_INFINITY, 0);
+) -> Option<(f64, usize, f64)> {
+    let mut best = (f64::NEG_INFINITY, 0, f64::NEG_INFINITY);
     if a.corners() == 1 {
         return Some(best);
     }
@@ -64,8 +68,10 @@ fn best_face(
         if separation + if nears < 0.0 { nears } else { 0.0 } > limit {
             return None;
         }
-        if separation > best.0 && !a.is_cut(i) {
-            best = (separation, i);
+        if a.is_cut(i) {
+            best.2 = separation.max(best.2);
+        } else if separation > best.0 {
+            (best.0, best.1) = (separation, i);
         }
     }
     Some(best)

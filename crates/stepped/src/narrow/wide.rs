@@ -12,7 +12,7 @@ use super::{Eight, Found, Scene};
 use crate::rows::{OPEN, Wide, any, eight_lanes};
 
 /// Margins that a contact is at most long if it may be one with the side of a flush piece: a quarter of the extent.
-const SHORT: f64 = 4.0;
+pub(crate) const SHORT: f64 = 4.0;
 
 /// Margins that sides are aligned within that may be flush: 30 times what is flush.
 const SEAM: f64 = 0.05;
@@ -260,6 +260,9 @@ fn part<S: Simd, V: Wide<S>, const N: usize>(
     let went = n_x * gone_x + n_y * gone_y + b1 * bturn - a1 * aturn;
     let went = (went + twice * (bturn - aturn)).min(went);
     let closes = (-(opens + pulled)).max(zero) * tick - went;
+    // B overlaps a piece by no more than across its cuts: the rest lies in other pieces, and leaves this one without a jump.
+    let crossed = of_a.cut.max(of_b.cut) - radii;
+    let (s1, s2) = (s1.max(crossed), s2.max(crossed));
     let gap = s2.min(s1);
     let goes = (wx * wx + wy * wy).sqrt();
     // A ghost that is far, and does not come near, does nothing.

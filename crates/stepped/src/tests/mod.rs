@@ -3,6 +3,7 @@
 mod bouncing;
 mod calls;
 mod composition;
+mod concave;
 mod fast;
 mod free;
 mod geometry;

@@ -1,11 +1,11 @@
 //! Islands and their sleep.
 
-use carom_geometry::{ConvexPolygon, Polygon};
+use carom_geometry::ConvexPolygon;
 use carom_math::{Rot, Vec2, vec2};
 
 use super::{Random, floor, pyramid, unit_box};
 use crate::narrow::Scene;
-use crate::{BodyId, BodyInput, BodyKind, Engine, Material, PieceInput, Settings};
+use crate::{BodyInput, BodyKind, Engine, Material, PieceInput, Settings};
 
 #[test]
 fn a_pyramid_falls_asleep_and_wakes_as_it_was() {
@@ -219,64 +219,6 @@ fn random_calls_among_sleepers_keep_the_graph() {
         total += slept;
     }
     assert!(total > 100, "{total}");
-}
-
-/// Overlaps under a load were taken for such that a caller made, and parted under it for ever: a tall heap of soft contacts
-/// trembled. Continuous collision stopped bodies that fell along a wall whole, and those that fell onto them: they hung in the
-/// air, and their velocities grew.
-///
-/// The time to rest is chaotic: this heap took 8,000 and 3,000 ticks without rotating rows, 18,000 and 10,500 with rows rotated before
-/// each sub-step, and takes 43,000 and 2,100 with rows rotated at its end, while of 160 lower heaps as many move after 30 s as before
-/// (`--example pyramid -- heaps`).
-#[test]
-fn a_tall_heap_of_concave_bodies_comes_to_rest() {
-    for (settings, most) in [(Settings::fast(), 60_000), (Settings::default(), 16_000)] {
-        let mut engine = Engine::new(Settings {
-            sleep: None,
-            ..settings
-        })
-        .unwrap();
-        floor(&mut engine);
-        for x in [-2.5, 2.5] {
-            let wall = PieceInput::new(ConvexPolygon::rectangle(1.0, 400.0).unwrap());
-            engine
-                .insert(BodyInput::fixed().at(vec2(x, 0.0)), &[wall])
-                .unwrap();
-        }
-        // Arms of 0.1 m: what is deep is little.
-        let corners = [(-5, -5), (5, -5), (5, -4), (-4, -4), (-4, 5), (-5, 5)];
-        let ring = corners.map(|(x, y)| vec2(f64::from(x), f64::from(y)) * 0.1);
-        let letter = PieceInput::new(Polygon::new(ring).unwrap());
-        let mut random = Random::new(7);
-        let mut ids = Vec::new();
-        for k in 0..180u32 {
-            let (column, row) = (f64::from(k % 3), f64::from(k / 3));
-            let mut body = BodyInput::dynamic(0.25, 0.04);
-            body.pose = random.pose(0.0);
-            body.pose.position = vec2(1.3 * (column - 1.0), 1.0 + 1.4 * row);
-            ids.push(engine.insert(body, std::slice::from_ref(&letter)).unwrap());
-        }
-        let energy = |engine: &Engine| engine.energy().0 + engine.energy().1;
-        let first = energy(&engine);
-        let fastest = |engine: &Engine| {
-            let speed = |id: &BodyId| engine.velocity(*id).unwrap().0.length();
-            ids.iter().map(speed).fold(0.0, f64::max)
-        };
-        let mut resting = 0;
-        for _ in 0..most {
-            engine.tick();
-            assert!(energy(&engine) < 1.001 * first, "{} J", energy(&engine));
-            resting = if fastest(&engine) < 1e-5 {
-                resting + 1
-            } else {
-                0
-            };
-            if resting == 500 {
-                break;
-            }
-        }
-        assert_eq!(resting, 500, "{} m/s with {settings:?}", fastest(&engine));
-    }
 }
 
 /// What drifts slowly in space fell asleep there: half the momentum of three bodies of a centimetre was gone.

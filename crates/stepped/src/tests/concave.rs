@@ -1,0 +1,153 @@
+//! Heaps of concave bodies, and what lies against their cuts.
+
+use core::f64::consts::FRAC_PI_2;
+
+use carom_geometry::{ConvexPolygon, Polygon};
+use carom_math::{Pose, Rot, Vec2, vec2};
+
+use super::{Random, floor};
+use crate::{BodyId, BodyInput, Engine, PieceInput, Settings};
+
+/// An L with arms of 0.1 m by 1 m: its cut goes from corner to corner.
+fn letter() -> PieceInput {
+    let corners = [(-5, -5), (5, -5), (5, -4), (-4, -4), (-4, 5), (-5, 5)];
+    let ring = corners.map(|(x, y)| vec2(f64::from(x), f64::from(y)) * 0.1);
+    PieceInput::new(Polygon::new(ring).unwrap())
+}
+
+/// An L on another that is turned, so that two mitred corners lie on each other, 5 mm aside. The upright arm of the one and the hanging
+/// arm of the other are apart by their cuts, and as deep behind their faces as they are wide: they pushed each other aside, and
+/// heaps trembled for ever.
+#[test]
+fn mitred_corners_on_each_other_do_not_push_aside() {
+    for spin in [-2.0, -0.5, 0.5, 2.0] {
+        let mut engine = Engine::new(Settings::default()).unwrap();
+        let mut lower = BodyInput::fixed();
+        lower.pose = Pose::new(vec2(0.005, -0.9995), Rot::from_angle(-FRAC_PI_2));
+        engine.insert(lower, &[letter()]).unwrap();
+        let body = BodyInput::dynamic(0.25, 0.04).moving(Vec2::ZERO, spin);
+        let id = engine.insert(body, &[letter()]).unwrap();
+        engine.tick();
+        let (v, _) = engine.velocity(id).unwrap();
+        for contact in engine.contacts() {
+            let gap = contact.gaps[0].min(contact.gaps[1]);
+            assert!(gap > -0.0015, "{spin} rad/s: {contact:?}, {v}");
+        }
+    }
+}
+
+/// Of 80 heaps of bodies like a U at most one still hums after 15 s; of 160 of them there were 12.
+#[test]
+fn heaps_of_concave_bodies_come_to_rest() {
+    let lively = (0..80).filter(|k| hum(&mut heap(*k)) > 5e-3 * 9.81);
+    let lively = lively.count();
+    assert!(lively <= 1, "{lively}");
+}
+
+/// Root mean square of accelerations of a heap after 900 ticks, in m/s².
+fn hum(engine: &mut Engine) -> f64 {
+    let ids: Vec<BodyId> = engine.bodies().skip(3).collect();
+    let velocities = |engine: &Engine| {
+        let velocity = |id: &BodyId| engine.velocity(*id).unwrap().0;
+        ids.iter().map(velocity).collect::<Vec<_>>()
+    };
+    for _ in 0..900 {
+        engine.tick();
+    }
+    let before = velocities(engine);
+    engine.tick();
+    let after = velocities(engine);
+    let squares = before.iter().zip(&after);
+    let squares: f64 = squares.map(|(b, a)| (*a - *b).length_squared()).sum();
+    (squares / before.len() as f64).sqrt() / engine.settings().tick
+}
+
+/// 120 bodies like a U that fall into a bin, all different.
+fn heap(k: u32) -> Engine {
+    let mut engine = Engine::new(Settings {
+        sleep: None,
+        ..Settings::default()
+    })
+    .unwrap();
+    floor(&mut engine);
+    for x in [-6.5, 6.5] {
+        let wall = PieceInput::new(ConvexPolygon::rectangle(1.0, 100.0).unwrap());
+        let wall = engine.insert(BodyInput::fixed().at(vec2(x, 0.0)), &[wall]);
+        wall.unwrap();
+    }
+    for i in 0..120 {
+        let size = 0.9 + 0.4 * (0.618_034 * f64::from(i + 100 * k)).fract();
+        let (h, t) = (0.5 * size, 0.2 * size);
+        let ring = [
+            (-h, -h),
+            (h, -h),
+            (h, h),
+            (t, h),
+            (t, -t),
+            (-t, -t),
+            (-t, h),
+            (-h, h),
+        ];
+        let ring = Polygon::new(ring.map(|(x, y)| vec2(x, y))).unwrap();
+        let mass = ring.area_properties().with_density(1.0);
+        let at = vec2(f64::from(i % 6) * 1.9 - 4.75, 1.5 + 1.9 * f64::from(i / 6));
+        let mut body = BodyInput::dynamic(mass.mass, mass.inertia);
+        body.pose = Pose::new(at, Rot::from_angle(2.399_963 * f64::from(i + 7 * k)));
+        engine.insert(body, &[PieceInput::new(ring)]).unwrap();
+    }
+    engine
+}
+
+/// Overlaps under a load were taken for such that a caller made, and parted under it for ever: a tall heap of soft contacts
+/// trembled. Continuous collision stopped bodies that fell along a wall whole, and those that fell onto them: they hung in the
+/// air, and their velocities grew.
+///
+/// The time to rest is chaotic: 2,000 ticks and 23,000 here. Of 48 such heaps 30 move by less than 1e-6 m/s after 8,000 ticks.
+#[test]
+fn a_tall_heap_of_concave_bodies_comes_to_rest() {
+    for settings in [Settings::fast(), Settings::default()] {
+        let mut engine = Engine::new(Settings {
+            sleep: None,
+            ..settings
+        })
+        .unwrap();
+        floor(&mut engine);
+        for x in [-2.5, 2.5] {
+            let wall = PieceInput::new(ConvexPolygon::rectangle(1.0, 400.0).unwrap());
+            engine
+                .insert(BodyInput::fixed().at(vec2(x, 0.0)), &[wall])
+                .unwrap();
+        }
+        // Of thin arms: what is deep is little.
+        let letter = letter();
+        let mut random = Random::new(7);
+        let mut ids = Vec::new();
+        for k in 0..180u32 {
+            let (column, row) = (f64::from(k % 3), f64::from(k / 3));
+            let mut body = BodyInput::dynamic(0.25, 0.04);
+            body.pose = random.pose(0.0);
+            body.pose.position = vec2(1.3 * (column - 1.0), 1.0 + 1.4 * row);
+            ids.push(engine.insert(body, std::slice::from_ref(&letter)).unwrap());
+        }
+        let energy = |engine: &Engine| engine.energy().0 + engine.energy().1;
+        let first = energy(&engine);
+        let fastest = |engine: &Engine| {
+            let speed = |id: &BodyId| engine.velocity(*id).unwrap().0.length();
+            ids.iter().map(speed).fold(0.0, f64::max)
+        };
+        let mut resting = 0;
+        for _ in 0..60_000 {
+            engine.tick();
+            assert!(energy(&engine) < 1.001 * first, "{} J", energy(&engine));
+            resting = if fastest(&engine) < 1e-5 {
+                resting + 1
+            } else {
+                0
+            };
+            if resting == 500 {
+                break;
+            }
+        }
+        assert_eq!(resting, 500, "{} m/s with {settings:?}", fastest(&engine));
+    }
+}
