@@ -261,7 +261,7 @@ fn ask(faces: &mut [HeldFace], speeds: &Opens) {
     }
 }
 
-/// Has faces push at one point of both bodies, whose centres are there: no angular momentum changes.
+/// Has faces push at one point of both bodies, with their centres there: no angular momentum changes.
 fn meet(faces: &mut [HeldFace], centre: impl Fn(usize) -> Vec2) {
     for face in faces {
         let between = centre(face.bodies.1) - centre(face.bodies.0);
