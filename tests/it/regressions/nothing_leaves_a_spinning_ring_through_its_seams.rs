@@ -89,10 +89,10 @@ fn what_is_thrown_along_a_spinning_ring_stays_in_it() {
 }
 
 #[test]
-#[ignore = "fails: thrown after 38 or 74 frames it lies so deep in one wall that the next one is sought no more"]
+#[ignore = "fails: thrown after 38, 74 or 83 frames it goes out before the first sub-step begins"]
 fn what_is_thrown_along_a_spinning_ring_stays_in_it_whenever_it_is_thrown() {
     for frames in 36..90 {
         let out = out_after(Mode::Hybrid, frames);
-        assert!(out < 0.1, "{out} m out of the ring: {frames}");
+        assert!(out < 0.01, "{out} m out of the ring: {frames}");
     }
 }

@@ -4,8 +4,7 @@
 //! for), [`apart`] (which contacts hang together), [`round`] and [`at_once`] (the solves: of discs, and of all others), [`motions`]
 //! and [`go_on`] (what becomes of it), [`settle`] (groups at rest fall asleep).
 //!
-//! It is for bodies in contact that have no closed form and keep their energy here at each instant: few that nothing bears, whose energy
-//! the engine shows less of within a sub-step than at its ends, and few discs in exact mode, which gain some there.
+//! It is for few discs in exact mode that have no closed form, as they gain energy in the engine, and for what they touch meanwhile.
 
 mod apart;
 mod at_once;

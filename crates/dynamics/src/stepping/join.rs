@@ -23,7 +23,7 @@ use crate::store::bodies::Bodies;
 use crate::store::state::BodyState;
 use crate::{EnergyLedger, Mode, World};
 
-/// Islands of more bodies than this join the engine even if nothing bears them; so many wake, or land, at once.
+/// More bodies than this that wake, or land, at once join the engine.
 pub(crate) const FEW: usize = 16;
 
 /// Groups of more bodies in touch than this have more than [`crate::model::graph::ROWS`] rows: no closed form is tried.
@@ -126,12 +126,10 @@ impl World {
         }
     }
 
-    /// Whether an island without a solution of its contact modes is sub-stepped pair by pair: a small one that nothing bears, as the
-    /// engine shows less of its energy within a sub-step than at its ends, or of discs in exact mode, as they gain energy there.
+    /// Whether an island without a solution of its contact modes is sub-stepped pair by pair: of discs in exact mode, as they gain
+    /// energy in the engine.
     fn stays_out(&self, island: &[u32]) -> bool {
-        let round = self.settings.mode == Mode::Exact && self.is_round_island(island);
-        let most = if round { MANY } else { FEW };
-        island.len() <= most && (round || !self.is_borne(island))
+        self.settings.mode == Mode::Exact && island.len() <= MANY && self.is_round_island(island)
     }
 
     /// Whether all that the bodies of an island touch is held as discs are.

@@ -156,8 +156,8 @@ pub enum PairSearch {
     None,
 }
 
-/// The soft law of lasting contacts that are sub-stepped: a damped spring that is solved implicitly. Up to 16 bodies that touch each
-/// other alone have none, nor have up to 64 discs in [`Mode::Exact`].
+/// The soft law of lasting contacts that are sub-stepped: a damped spring that is solved implicitly. Up to 64 discs have none in
+/// [`Mode::Exact`].
 ///
 /// At rest a contact sinks in by `compliance · load / (m ω²)` with ω = 2π `frequency` and m the
 /// pair's reduced mass; a fixed partner doubles the frequency.

@@ -133,12 +133,12 @@ fn carrier(island: &Island, bodies: &Bodies) -> Option<ImpactBody> {
 }
 
 /// Where the centre of mass of a body is.
-fn centre(bodies: &Bodies, line: u32) -> Vec2 {
+pub(super) fn centre(bodies: &Bodies, line: u32) -> Vec2 {
     bodies.base[line as usize].position + bodies.lines[line as usize].d()
 }
 
 /// Twice the kinetic energy of a body, as a part of its mass, in m²/s².
-fn square(body: &ImpactBody, velocity: Vec2, spin: f64) -> f64 {
+pub(super) fn square(body: &ImpactBody, velocity: Vec2, spin: f64) -> f64 {
     let turns = if body.inverse_inertia > 0.0 {
         body.inverse_mass / body.inverse_inertia * spin * spin
     } else {

@@ -9,6 +9,7 @@
 
 mod conditions;
 mod islands;
+mod part;
 mod solve;
 
 use crate::Settings;

@@ -3,18 +3,13 @@
 use carom_impact::{Friction, HeldFace, HeldPoint, ImpactBody, held_faces};
 use carom_math::{Vec2, perp};
 
-use super::conditions::{answers, justified, rest};
-use crate::Settings;
+use super::conditions::{answers, centre, justified, rest};
 use crate::bodies::Bodies;
-use crate::rows::{Block, FreePairs, Graph, Law, Line, OPEN, Quad};
+use crate::rows::{Block, Graph, Law, Line, OPEN, Quad};
 
 /// Gap or overlap that counts as 0, as a part of how far pull moves a body in a sub-step: closing what rounding left open, a column
 /// at rest would be solved for in every sub-step.
 const TOUCHES: f64 = 1e-6;
-
-/// Contacts of a body are computed anew once it turned so far, in rad: rows are straight. A ring at 14.7 rad/s lets a pentagon out by
-/// 20 mm where as much may turn as in soft rows.
-const STALE: f64 = 0.02;
 
 /// Solves with given limits of friction where Coulomb's law is not solved.
 const LIMITS: usize = 4;
@@ -40,6 +35,8 @@ pub(super) struct Island {
     pub(super) contacts: Vec<HardContact>,
     /// The most that pull adds to a speed in the sub-step, in m/s.
     pub(super) pulled: f64,
+    /// Faces and centres as the sub-step begins, if all pairs are free.
+    pub(super) begun: Option<(Vec<HeldFace>, Vec<Vec2>)>,
 }
 
 /// The lane of a contact.
@@ -55,7 +52,9 @@ impl Island {
             bodies: Vec::new(),
             contacts: Vec::with_capacity(ids.len()),
             pulled: 0.0,
+            begun: None,
         };
+        let mut are_free = true;
         for &id in ids {
             let (block, cold, lane) = graph.lane(id);
             let gaps = gaps(graph, bodies, id);
@@ -65,7 +64,9 @@ impl Island {
             } else {
                 0
             };
-            let ends = [block.a[lane], block.b[lane]].map(|line| island.place(bodies, line));
+            let lines = [block.a[lane], block.b[lane]];
+            are_free &= lines.iter().all(|line| bodies.is_free(*line));
+            let ends = lines.map(|line| island.place(bodies, line));
             island.contacts.push(HardContact {
                 id,
                 belt: cold.belt[lane],
@@ -79,6 +80,11 @@ impl Island {
             .iter()
             .map(|line| bodies.pull[*line as usize].v().length());
         island.pulled = law.h * pulls.fold(0.0, f64::max);
+        if are_free {
+            let smooth = |_: usize, _: &HardContact| Friction::Coulomb(0.0);
+            let centres = island.lines.iter().map(|line| centre(bodies, *line));
+            island.begun = Some((island.faces(graph, |_| 0.0, smooth), centres.collect()));
+        }
         island
     }
 
@@ -202,7 +208,7 @@ impl Island {
     }
 
     /// What is asked of each face, from its gaps.
-    fn faces(
+    pub(super) fn faces(
         &self,
         graph: &Graph,
         opens: impl Fn(f64) -> f64,
@@ -234,75 +240,8 @@ impl Island {
         self.contacts.iter().enumerate().map(face).collect()
     }
 
-    /// Displaces the bodies by as little as leaves no gap below 0 at the end of the sub-step, or as little as the fastest push-out
-    /// does; the least gap then, in m. Where some cannot be parted the others are, as far as sweeps do.
-    pub(super) fn part(
-        &mut self,
-        law: &Law,
-        bodies: &mut Bodies,
-        (graph, free): (&Graph, &mut FreePairs),
-        settings: &Settings,
-    ) -> f64 {
-        let mut least = self.least_gap(bodies, graph);
-        if least < -self.touches(law) {
-            let faces = self.faces(
-                graph,
-                |gap| (-gap * law.inverse_h).min(law.push_out),
-                |_, _| Friction::Coulomb(0.0),
-            );
-            for body in &mut self.bodies {
-                (body.velocity, body.spin) = (Vec2::ZERO, 0.0);
-            }
-            let held = held_faces(&self.bodies, &faces);
-            let parted = held.bodies;
-            // What is wedged in goes a long way for a little room: no body is pushed faster than any overlap.
-            let speeds = parted.iter().map(|to| to.velocity.length());
-            let fastest = speeds.fold(0.0, f64::max);
-            let way = law.h * (law.push_out / fastest).min(1.0);
-            for (&line, to) in self.lines.iter().zip(&parted) {
-                let line = &mut bodies.lines[line as usize];
-                let (d, turn) = (line.d() + to.velocity * way, line.turn() + to.spin * way);
-                line.set_displacement(d, turn);
-            }
-            self.note_parted(bodies, settings, &parted, way * law.inverse_h);
-            // A velocity for `way` seconds is an impulse for h.
-            for (contact, [first, second, _]) in self.contacts.iter().zip(&held.impulses) {
-                free.add_late(graph, contact.id, (first + second) * way * law.inverse_h);
-            }
-            least = self.least_gap(bodies, graph);
-        }
-        for &line in &self.lines {
-            let (body, limit) = (&bodies.lines[line as usize], &bodies.limits[line as usize]);
-            let is_stale = body.turn().abs() > STALE;
-            if is_stale || limit.deviates(settings.margin, 0.0, body.turn()) {
-                bodies.deviating.push(line);
-            }
-            bodies.moved[line as usize] |= is_stale;
-        }
-        least
-    }
-
-    /// What is parted faster than at a speed that counts as slow is not at rest, though displacements are no velocities.
-    fn note_parted(
-        &self,
-        bodies: &mut Bodies,
-        settings: &Settings,
-        parted: &[ImpactBody],
-        share: f64,
-    ) {
-        let Some(sleep) = settings.sleep else {
-            return;
-        };
-        for (&line, to) in self.lines.iter().zip(parted) {
-            let at = line as usize;
-            if share * to.velocity.length() > sleep.least(bodies.limits[at].extent) {
-                bodies.rest[at] = bodies.rest[at].min(0.0);
-            }
-        }
-    }
-
     /// The least gap where the bodies are now, in m; gaps are those there.
-    fn least_gap(&mut self, bodies: &Bodies, graph: &Graph) -> f64 {
+    pub(super) fn least_gap(&mut self, bodies: &Bodies, graph: &Graph) -> f64 {
         let mut least = OPEN;
         for contact in &mut self.contacts {
             contact.gaps = gaps(graph, bodies, contact.id);
@@ -314,7 +253,7 @@ impl Island {
     }
 
     /// Gap or overlap that counts as 0, in m.
-    fn touches(&self, law: &Law) -> f64 {
+    pub(super) fn touches(&self, law: &Law) -> f64 {
         TOUCHES * self.pulled * law.h
     }
 

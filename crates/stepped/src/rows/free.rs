@@ -80,10 +80,13 @@ impl FreePairs {
         }
     }
 
-    /// The same once velocities have been found: see [`Self::turn_back_late`].
-    pub(crate) fn add_late(&mut self, graph: &Graph, id: u32, impulse: f64) {
-        self.add(graph, id, impulse);
-        self.late.extend(self.find(graph, id).map(|found| found.0));
+    /// The same along the normal and across once velocities have been found: see [`Self::turn_back_late`].
+    pub(crate) fn add_late(&mut self, graph: &Graph, id: u32, (along, across): (f64, f64)) {
+        if let Some((known, lane)) = self.find(graph, id) {
+            self.blocks[known].along[lane] += along;
+            self.blocks[known].across[lane] += across;
+            self.late.push(known);
+        }
     }
 
     /// Block and lane of a contact, if its bodies are free.
