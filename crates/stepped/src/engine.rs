@@ -383,7 +383,6 @@ impl Engine {
             &mut self.bodies,
             &self.pieces,
             &self.known,
-            self.settings.margin,
         );
         self.bodies.moved.fill(false);
     }

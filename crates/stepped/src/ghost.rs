@@ -1,7 +1,7 @@
 //! Ghost contacts: rows with sides of pieces that other pieces hide, as those of flush tiles are.
 //!
-//! Body by body, over all rows of the tick. A short row with piece P is hidden if some other row of the body has a plane that
-//! all of P lies behind, and its points lie in this plane or behind it, where just beyond P on the side of the row's normal
+//! Body by body, over all rows of the tick. A row with piece P is hidden if some other row of the body has a plane that all
+//! of P lies behind, and its points lie in this plane or behind it, where just beyond P on the side of the row's normal
 //! another touched piece goes on. Ends have no such piece, at convex bends it lies on the other side, and at inner corners P
 //! reaches through the plane.
 
@@ -14,7 +14,7 @@ use fearless_simd::{Level, Simd, SimdBase, SimdMask, dispatch, f64x4};
 
 use crate::bodies::{Bodies, BodyKind};
 use crate::broad::Pairs;
-use crate::narrow::{SHORT, Scene};
+use crate::narrow::Scene;
 use crate::outline::Turned;
 use crate::pieces::Pieces;
 use crate::rows::Graph;
@@ -106,9 +106,6 @@ struct Rows {
     flush: [f64; MOST],
     pieces: [u32; MOST],
     contacts: [u32; MOST],
-    /// A bit for each that is too long for a ghost. Hidden now and then, such rows kept tall heaps of concave bodies moving: of 48
-    /// heaps 19 came to rest, without them 30 do.
-    long: u32,
     len: usize,
 }
 
@@ -119,11 +116,9 @@ pub(crate) fn hide(
     bodies: &mut Bodies,
     pieces: &Pieces,
     known: &Pairs,
-    margin: f64,
 ) {
     let mut ids = Vec::new();
     let mut rows = Rows::NONE;
-    let longest = SHORT * margin;
     let mut ghosts = Vec::new();
     for line in graph.suspects.lines() {
         let line = line as usize;
@@ -144,7 +139,7 @@ pub(crate) fn hide(
             ids.extend(of_body.map(|(id, _)| id).take(MOST + 1));
         }
         if (2..=MOST).contains(&ids.len()) {
-            rows.fill(graph, pieces, &ids, &its, longest);
+            rows.fill(graph, pieces, &ids, &its);
             let mut hidden = 0;
             dispatch!(level, simd => hidden_rows(simd, &rows, pieces, &mut hidden));
             let hidden = (0..rows.len).filter(|k| hidden >> k & 1 == 1);
@@ -205,7 +200,7 @@ fn four<S: Simd>(simd: S, column: &[f64; MOST], at: usize) -> f64x4<S> {
 /// piece is.
 fn is_hidden(rows: &Rows, pieces: &Pieces, k: usize, o: usize) -> bool {
     let p = pieces.turned(rows.pieces[k]);
-    if rows.pieces[k] == rows.pieces[o] || p.corners() < 3 || rows.long >> k & 1 == 1 {
+    if rows.pieces[k] == rows.pieces[o] || p.corners() < 3 {
         return false;
     }
     let (normal, plane) = (rows.normal(k), rows.normal(o));
@@ -236,20 +231,12 @@ impl Rows {
         flush: [0.0; MOST],
         pieces: [0; MOST],
         contacts: [0; MOST],
-        long: 0,
         len: 0,
     };
 
-    /// The rows of the body that has the pieces `its`; more than `longest` extents are long.
-    fn fill(
-        &mut self,
-        graph: &Graph,
-        pieces: &Pieces,
-        ids: &[u32],
-        its: &Range<u32>,
-        longest: f64,
-    ) {
-        (self.len, self.long) = (ids.len(), 0);
+    /// The rows of the body that has the pieces `its`.
+    fn fill(&mut self, graph: &Graph, pieces: &Pieces, ids: &[u32], its: &Range<u32>) {
+        self.len = ids.len();
         for (k, id) in ids.iter().enumerate() {
             let pair = graph.contacts[*id as usize].pieces;
             let (block, _, lane) = graph.lane(*id);
@@ -266,14 +253,11 @@ impl Rows {
             let first = pieces.outlines[pair[0] as usize].centre() + arm;
             let first = first - normal * (0.5 * block.s1[lane]);
             let two = block.points(lane) == 2;
-            let length = if two { block.l[lane] } else { 0.0 };
-            let last = first - perp(n) * length;
+            let last = first - perp(n) * if two { block.l[lane] } else { 0.0 };
             (self.nx[k], self.ny[k]) = (normal.x, normal.y);
             (self.x1[k], self.y1[k]) = (first.x, first.y);
             (self.x2[k], self.y2[k]) = (last.x, last.y);
-            let extents = pair.map(|piece| pieces.outlines[piece as usize].extent());
-            self.long |= u32::from(length > longest * extents[0].min(extents[1])) << k;
-            self.flush[k] = FLUSH * extents[side];
+            self.flush[k] = FLUSH * pieces.outlines[pair[side] as usize].extent();
             (self.pieces[k], self.contacts[k]) = (pair[side], *id);
         }
         // What is beyond the last of the lanes is flush with nothing.

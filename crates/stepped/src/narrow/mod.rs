@@ -16,7 +16,7 @@ pub(crate) use hulls::collide_any;
 pub(crate) use pair::collide;
 use scene::HYSTERESIS;
 pub(crate) use scene::Scene;
-pub(crate) use wide::{SHORT, collide_eight};
+pub(crate) use wide::collide_eight;
 
 /// Where two pieces meet, in the letters of [`crate::rows::Block`].
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -12,7 +12,7 @@ use super::{Eight, Found, Scene};
 use crate::rows::{OPEN, Wide, any, eight_lanes};
 
 /// Margins that a contact is at most long if it may be one with the side of a flush piece: a quarter of the extent.
-pub(crate) const SHORT: f64 = 4.0;
+const SHORT: f64 = 4.0;
 
 /// Margins that sides are aligned within that may be flush: 30 times what is flush.
 const SEAM: f64 = 0.05;
