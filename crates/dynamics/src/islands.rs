@@ -14,7 +14,6 @@ use crate::analytic::islands::{give_motions, kept};
 use crate::analytic::modes::{BodyMove, GroupMove, NotMine, TouchMove, land, solve_modes};
 use crate::analytic::touching::{Around, Gathered, Looks, Refused};
 use crate::events::event_queue::Entry;
-use crate::model::graph::is_borne;
 use crate::motion::flight::fly;
 use crate::{BodyKind, ContactMode, Mode, World};
 
@@ -346,7 +345,7 @@ impl World {
         }
     }
 
-    /// Analytic islands with exhausted budgets join the engine, unless they rest, or nothing bears them.
+    /// Analytic islands with exhausted budgets join the engine, unless they rest.
     pub(crate) fn join_exhausted(&mut self, time: SimTime) {
         let exhausted = self.closed.take_exhausted();
         if exhausted.is_empty() {
@@ -362,21 +361,11 @@ impl World {
             if group.sleeps {
                 continue;
             }
-            let members = group.indices();
-            if !self.is_borne(&members) {
-                self.closed.refill(&members);
-                continue;
-            }
-            for index in members {
+            for index in group.indices() {
                 self.join(index, time);
             }
         }
         self.lower_free_boxes_later();
-    }
-
-    /// Whether an island is held by what it does not move.
-    pub(crate) fn is_borne(&self, members: &[u32]) -> bool {
-        is_borne(&self.bodies, &self.pairs, members)
     }
 
     /// The last landing of a series: every touch that it opened comes back at once, and stays closed.

@@ -18,17 +18,6 @@ pub(crate) fn neighbours<'a>(
     })
 }
 
-/// Whether an island is held by what it does not move: of bodies that touch each other alone the engine does not keep the angular
-/// momentum.
-pub(crate) fn is_borne(bodies: &Bodies, pairs: &Pairs, members: &[u32]) -> bool {
-    let bears = |index: u32| {
-        let other = bodies.get(index);
-        !other.is_dynamic() || other.is_asleep() || other.in_engine()
-    };
-    let mut members = members.iter();
-    members.any(|&index| neighbours(bodies, pairs, index).any(bears))
-}
-
 /// Whether two shapes touch in an island in analytic motion: their contact changes with the island's mode alone.
 pub(crate) fn touch_in_moving_island(
     bodies: &Bodies,

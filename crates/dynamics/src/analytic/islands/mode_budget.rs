@@ -73,13 +73,6 @@ impl Closed {
         exhausted
     }
 
-    /// Fills the budgets of these bodies: their island keeps its method.
-    pub(crate) fn refill(&mut self, members: &[u32]) {
-        for &index in members {
-            self.budget(index).spent = 0.0;
-        }
-    }
-
     fn budget(&mut self, index: u32) -> &mut ModeBudget {
         let at = index as usize;
         if at >= self.budgets.len() {
