@@ -196,7 +196,7 @@ fn overlapping() -> World {
         .insert(BodyDef::dynamic().at(vec2(-1.0, -1.2)), square, ELASTIC)
         .unwrap();
     let before: Vec<Vec2> = world.bodies().map(|body| body.centre()).collect();
-    world.step(1e-9);
+    world.step(1.0 / 60.0);
     assert!(world.bodies().map(|body| body.centre()).eq(before));
     world
 }

@@ -299,9 +299,16 @@ impl Engine {
 
     fn contact(&self, id: u32) -> Contact {
         let contact = &self.graph.contacts[id as usize];
-        let (block, _, lane) = self.graph.lane(id);
+        let (block, cold, lane) = self.graph.lane(id);
         let [a, b] = [block.a[lane], block.b[lane]].map(|line| &self.bodies.lines[line as usize]);
         let [j1, j2, friction] = block.impulses(lane);
+        // The sweeps see deep overlaps as less.
+        let gaps = if cold.is_deep(lane) {
+            let opened = block.opened(lane, a, b);
+            [0, 1].map(|point| cold.depths[lane][point] + opened[point])
+        } else {
+            block.gaps(lane, a, b)
+        };
         let normal = block.normal(lane);
         Contact {
             bodies: contact.bodies.map(|slot| self.bodies.id(slot)),
@@ -313,7 +320,7 @@ impl Engine {
             places: self.graph.places(&self.bodies, id),
             normal,
             points: block.points(lane),
-            gaps: block.gaps(lane, a, b),
+            gaps,
             impulses: [j1, j2],
             friction,
         }

@@ -14,7 +14,7 @@ pub struct Touch {
 
 impl Engine {
     /// Adds what began and ceased to touch since this was last asked, in no order that means anything; pieces touch
-    /// while a point of theirs pushes. Contacts of what sleeps stay as they are.
+    /// while a point of theirs pushes, or they are deep in each other. Contacts of what sleeps stay as they are.
     pub fn touches(&mut self, found: &mut Vec<Touch>) {
         found.extend(self.ended.drain(..).map(|tags| Touch {
             tags,
@@ -39,11 +39,11 @@ impl Engine {
     }
 }
 
-/// A bit for each lane that pushed in the last sub-step.
+/// A bit for each lane that pushed in the last sub-step, or that is too deep for the sweeps: hard rows part it without impulses.
 fn pushing(block: &Block, cold: &Cold) -> u8 {
     let mut pushing = 0;
     for (lane, (j1, j2)) in block.j1.iter().zip(&block.j2).enumerate() {
-        pushing |= u8::from(j1 + j2 > 0.0) << lane;
+        pushing |= u8::from(j1 + j2 > 0.0 || cold.is_deep(lane)) << lane;
     }
     pushing & cold.used
 }
