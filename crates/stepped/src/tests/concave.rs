@@ -8,11 +8,47 @@ use carom_math::{Pose, Rot, Vec2, vec2};
 use super::{Random, floor};
 use crate::{BodyId, BodyInput, Engine, PieceInput, Settings};
 
-/// An L with arms of 0.1 m by 1 m: its cut goes from corner to corner.
-fn letter() -> PieceInput {
-    let corners = [(-5, -5), (5, -5), (5, -4), (-4, -4), (-4, 5), (-5, 5)];
-    let ring = corners.map(|(x, y)| vec2(f64::from(x), f64::from(y)) * 0.1);
-    PieceInput::new(Polygon::new(ring).unwrap())
+/// Corners of an L with arms a tenth as wide as long: its cut goes from corner to corner.
+const L: [(f64, f64); 6] = [
+    (-0.5, -0.5),
+    (0.5, -0.5),
+    (0.5, -0.4),
+    (-0.4, -0.4),
+    (-0.4, 0.5),
+    (-0.5, 0.5),
+];
+
+/// Corners of a U as wide as it is high.
+const U: [(f64, f64); 8] = [
+    (-0.5, -0.5),
+    (0.5, -0.5),
+    (0.5, 0.5),
+    (0.2, 0.5),
+    (0.2, -0.2),
+    (-0.2, -0.2),
+    (-0.2, 0.5),
+    (-0.5, 0.5),
+];
+
+fn polygon(corners: &[(f64, f64)], size: f64) -> Polygon {
+    let corner = |&(x, y): &(f64, f64)| vec2(x, y) * size;
+    Polygon::new(corners.iter().map(corner).collect::<Vec<_>>()).unwrap()
+}
+
+/// A half-plane between two walls of 1 m whose middles are at ±`x`.
+fn bin(settings: Settings, x: f64, height: f64) -> Engine {
+    let mut engine = Engine::new(Settings {
+        sleep: None,
+        ..settings
+    })
+    .unwrap();
+    floor(&mut engine);
+    for x in [-x, x] {
+        let wall = PieceInput::new(ConvexPolygon::rectangle(1.0, height).unwrap());
+        let wall = engine.insert(BodyInput::fixed().at(vec2(x, 0.0)), &[wall]);
+        wall.unwrap();
+    }
+    engine
 }
 
 /// An L on another that is turned, so that two mitred corners lie on each other, 5 mm aside. The upright arm of the one and the hanging
@@ -24,9 +60,10 @@ fn mitred_corners_on_each_other_do_not_push_aside() {
         let mut engine = Engine::new(Settings::default()).unwrap();
         let mut lower = BodyInput::fixed();
         lower.pose = Pose::new(vec2(0.005, -0.9995), Rot::from_angle(-FRAC_PI_2));
-        engine.insert(lower, &[letter()]).unwrap();
+        let letter = PieceInput::new(polygon(&L, 1.0));
+        engine.insert(lower, std::slice::from_ref(&letter)).unwrap();
         let body = BodyInput::dynamic(0.25, 0.04).moving(Vec2::ZERO, spin);
-        let id = engine.insert(body, &[letter()]).unwrap();
+        let id = engine.insert(body, &[letter]).unwrap();
         engine.tick();
         let (v, _) = engine.velocity(id).unwrap();
         for contact in engine.contacts() {
@@ -64,31 +101,10 @@ fn hum(engine: &mut Engine) -> f64 {
 
 /// 120 bodies like a U that fall into a bin, all different.
 fn heap(k: u32) -> Engine {
-    let mut engine = Engine::new(Settings {
-        sleep: None,
-        ..Settings::default()
-    })
-    .unwrap();
-    floor(&mut engine);
-    for x in [-6.5, 6.5] {
-        let wall = PieceInput::new(ConvexPolygon::rectangle(1.0, 100.0).unwrap());
-        let wall = engine.insert(BodyInput::fixed().at(vec2(x, 0.0)), &[wall]);
-        wall.unwrap();
-    }
+    let mut engine = bin(Settings::default(), 6.5, 100.0);
     for i in 0..120 {
         let size = 0.9 + 0.4 * (0.618_034 * f64::from(i + 100 * k)).fract();
-        let (h, t) = (0.5 * size, 0.2 * size);
-        let ring = [
-            (-h, -h),
-            (h, -h),
-            (h, h),
-            (t, h),
-            (t, -t),
-            (-t, -t),
-            (-t, h),
-            (-h, h),
-        ];
-        let ring = Polygon::new(ring.map(|(x, y)| vec2(x, y))).unwrap();
+        let ring = polygon(&U, size);
         let mass = ring.area_properties().with_density(1.0);
         let at = vec2(f64::from(i % 6) * 1.9 - 4.75, 1.5 + 1.9 * f64::from(i / 6));
         let mut body = BodyInput::dynamic(mass.mass, mass.inertia);
@@ -103,7 +119,7 @@ fn heap(k: u32) -> Engine {
 /// air, and their velocities grew.
 ///
 /// When a heap that crushes its lowest bodies comes to rest is chaotic, from 2,000 ticks to more than 60,000: of 48 heaps 28 move by less
-/// than 1 mm/s after 8,000 ticks. If they tremble none does.
+/// than 1 mm/s after 8,000 ticks. If overlaps under a load are parted none of these twelve does: 0.3 to 0.6 m/s.
 #[test]
 fn tall_heaps_of_concave_bodies_come_to_rest() {
     let fastest: Vec<f64> = (0..6).flat_map(fastest_of_tall).collect();
@@ -114,19 +130,9 @@ fn tall_heaps_of_concave_bodies_come_to_rest() {
 /// Speeds of the fastest of a tall heap after 8,000 ticks of two presets, in m/s.
 fn fastest_of_tall(seed: u64) -> [f64; 2] {
     [Settings::fast(), Settings::default()].map(|settings| {
-        let mut engine = Engine::new(Settings {
-            sleep: None,
-            ..settings
-        })
-        .unwrap();
-        floor(&mut engine);
-        for x in [-2.5, 2.5] {
-            let wall = PieceInput::new(ConvexPolygon::rectangle(1.0, 400.0).unwrap());
-            let wall = engine.insert(BodyInput::fixed().at(vec2(x, 0.0)), &[wall]);
-            wall.unwrap();
-        }
+        let mut engine = bin(settings, 2.5, 400.0);
         // Of thin arms: what is deep is little.
-        let letter = letter();
+        let letter = PieceInput::new(polygon(&L, 1.0));
         let mut random = Random::new(7 + seed);
         let mut ids = Vec::new();
         for k in 0..180u32 {
