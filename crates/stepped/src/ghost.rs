@@ -198,6 +198,7 @@ fn four<S: Simd>(simd: S, column: &[f64; MOST], at: usize) -> f64x4<S> {
 
 /// Whether all of the piece P of row k lies behind the plane of row o, and where its side goes on beyond the points another
 /// piece is.
+#[inline(always)]
 fn is_hidden(rows: &Rows, pieces: &Pieces, k: usize, o: usize) -> bool {
     let p = pieces.turned(rows.pieces[k]);
     if rows.pieces[k] == rows.pieces[o] || p.corners() < 3 {

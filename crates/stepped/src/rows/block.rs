@@ -262,6 +262,12 @@ impl Cold {
         self.depths[lane].iter().any(|gap| *gap < 0.0)
     }
 
+    /// Whether some lane is: by the sign bits of all depths at once.
+    pub(crate) fn some_is_deep(&self) -> bool {
+        let depths = self.depths.as_flattened().iter();
+        depths.fold(0, |bits, gap| bits | gap.to_bits()) >> 63 == 1
+    }
+
     /// Notes how deep a contact is, if it is too deep for the sweeps, and whether that is so: from the first on if it is `fresh`
     /// and deeper than `deepest`, else if it was so or is [`CRUSHED`] times as deep.
     pub(crate) fn note_depth(
