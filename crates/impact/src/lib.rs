@@ -47,6 +47,7 @@ mod several;
 #[cfg(test)]
 mod several_tests;
 mod sweeps;
+mod swept_faces;
 #[cfg(test)]
 mod tests;
 
@@ -57,6 +58,7 @@ pub use several::{
     Several, SharedContact, SharedOutcome, blend, generalised_reflections, newton_lcp, several,
 };
 pub use sweeps::{Growth, Moving, Sweeper, Swept};
+pub use swept_faces::swept_faces;
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

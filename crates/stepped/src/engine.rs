@@ -64,6 +64,8 @@ pub struct Engine {
     pub(crate) looks: u64,
     /// What friction turned to heat, in J.
     pub(crate) heat: f64,
+    /// What belts gave, in J.
+    pub(crate) belts: f64,
     /// The least gap of a contact in the last sub-step that was relaxed, in m.
     pub(crate) least_gap: f64,
     /// The same of those that were computed as the sub-step began, at the poses there.
@@ -114,6 +116,7 @@ impl Engine {
             far: Vec::new(),
             looks: 0,
             heat: 0.0,
+            belts: 0.0,
             least_gap: f64::INFINITY,
             least_found: f64::INFINITY,
         })
@@ -418,6 +421,7 @@ impl Engine {
             ..
         } = self;
         let every = settings.relaxation == Relaxation::EverySubstep;
+        ways.start(bodies);
         free.meet(*level, graph, bodies);
         warm_start(*level, bodies, law.h);
         hard.free(bodies, graph);
@@ -447,16 +451,18 @@ impl Engine {
         }
         free.turn_back(*level, graph, bodies, law.h);
         self.heat += seen.heat + hard.heat;
+        self.belts += graph.belt_work();
         let rest = f64::from(settings.substeps - self.done) * law.h;
         correct(*level, bodies, settings, law.h, rest);
         self.rotating.rotate(graph, bodies);
-        let gap = hard.part(law, bodies, graph, settings, free);
+        let gap = hard.part(law, bodies, (graph, free), settings, true);
         free.turn_back_late(*level, graph, bodies, law.h);
-        self.least_gap = seen.least_gap.min(gap);
         impacts.note_hits((*level, law), bodies, graph, true);
         impacts.add_rows(bodies, graph);
         bounce(bodies, graph, arrived, before);
         impacts.end(law, arrived, bodies, graph, pieces);
+        let borne = hard.part(law, bodies, (graph, free), settings, false);
+        self.least_gap = seen.least_gap.min(gap).min(borne);
         ways.end(bodies, law.h);
     }
 }

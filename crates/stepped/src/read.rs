@@ -134,8 +134,10 @@ impl Engine {
         let record = &bodies.records[slot as usize];
         let line = &bodies.lines[at];
         let velocity = (line.v() + Vec2::ZERO, line.w() + 0.0);
-        let [x, y, w] = bodies.velocity_before(at, self.law.h);
-        let before = (Vec2::new(x, y), w);
+        let before = self.ways.came(slot).unwrap_or_else(|| {
+            let [x, y, w] = bodies.velocity_before(at, self.law.h);
+            (Vec2::new(x, y), w)
+        });
         State {
             id: bodies.id(slot),
             tag: record.tag,
@@ -165,6 +167,12 @@ impl Engine {
     #[must_use]
     pub const fn friction_heat(&self) -> f64 {
         self.heat
+    }
+
+    /// What belts have given so far, to bodies and as heat, in J.
+    #[must_use]
+    pub const fn belt_work(&self) -> f64 {
+        self.belts
     }
 
     /// How deep the deepest contact overlapped in the last sub-step, as it began or ended, in m; 0 if none did.

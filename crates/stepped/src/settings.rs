@@ -71,6 +71,9 @@ pub struct Settings {
     pub tolerance: f64,
     /// When islands fall asleep; never if `None`.
     pub sleep: Option<Sleep>,
+    /// Islands of up to so many bodies have no springs, and gain no energy by their contacts, for several times the time. All others
+    /// do if they bear loads that sweeps cannot carry.
+    pub hard_bodies: usize,
 }
 
 impl Default for Softness {
@@ -113,6 +116,7 @@ impl Default for Settings {
             margin: 0.06,
             tolerance: 0.005,
             sleep: Some(Sleep::default()),
+            hard_bodies: 0,
         }
     }
 }

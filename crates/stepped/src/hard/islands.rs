@@ -7,27 +7,40 @@ use crate::Settings;
 use crate::bodies::Bodies;
 use crate::rows::Graph;
 
-/// Which islands a rule admits: by points of contact, as matrices are dense.
+/// Which islands a rule admits: by points of contact, as matrices are dense, and by bodies.
 #[derive(Clone, Copy)]
 struct Admits {
     /// So many points as an island comes into hard rows, at most.
     comes: usize,
     /// While it is in them: points come and go where bodies rock.
     stays: usize,
+    bodies: usize,
+}
+
+impl Admits {
+    const fn points(comes: usize, stays: usize) -> Self {
+        Self {
+            comes,
+            stays,
+            bodies: usize::MAX,
+        }
+    }
+
+    const fn bodies(most: usize) -> Self {
+        Self {
+            comes: usize::MAX,
+            stays: usize::MAX,
+            bodies: most,
+        }
+    }
 }
 
 /// Of islands with a load that sweeps cannot carry.
-const UNDER_LOAD: Admits = Admits {
-    comes: 64,
-    stays: 80,
-};
+const UNDER_LOAD: Admits = Admits::points(64, 80);
 
 /// Of islands with a fast body: turning presses what a ring carries at 14.7 rad/s by 35 g, and soft rows let it sink in by 28 mm, hard
 /// ones by 0.7. 64: the debris of a wall takes them, too.
-const WITH_FAST: Admits = Admits {
-    comes: 16,
-    stays: 20,
-};
+const WITH_FAST: Admits = Admits::points(16, 20);
 
 /// Cosine of the angle between a load and what may bear it, at least.
 const ALONG: f64 = 1e-3;
@@ -41,6 +54,15 @@ pub(super) fn keys(graph: &Graph, bodies: &Bodies, ids: &[u32]) -> Vec<Key> {
         (births, pieces)
     };
     ids.iter().map(key).collect()
+}
+
+/// An island that takes hard rows.
+#[derive(Clone, Debug)]
+pub(super) struct Found {
+    /// In the order of their bodies.
+    pub(super) contacts: Vec<u32>,
+    /// It is swept: it bears no load that sweeps cannot carry.
+    pub(super) is_swept: bool,
 }
 
 /// What is known of a body's component.
@@ -63,14 +85,14 @@ pub(super) struct Search {
     contacts: Vec<u32>,
 }
 
-/// Contacts of each island that takes hard rows in a sub-step, in the order of their bodies.
+/// The islands that take hard rows in a sub-step, in the order of their bodies.
 pub(super) fn find(
     graph: &Graph,
     bodies: &Bodies,
     settings: &Settings,
     search: &mut Search,
-) -> Vec<Vec<u32>> {
-    let mut found = Vec::new();
+) -> Vec<Found> {
+    let mut found: Vec<Found> = Vec::new();
     search.known.clear();
     for id in graph.unequal_awake(bodies) {
         search.known.resize(bodies.records.len(), Known::Nothing);
@@ -82,25 +104,20 @@ pub(super) fn find(
                 .iter()
                 .any(|id| is_borne(graph, bodies, *id))
         {
-            found.push(search.contacts.clone());
+            found.push(search.found(false));
         }
     }
     find_fast(graph, bodies, settings.substep(), search, &mut found);
-    for contacts in &mut found {
-        graph.sort(bodies, contacts);
+    find_small(graph, bodies, settings.hard_bodies, search, &mut found);
+    for island in &mut found {
+        graph.sort(bodies, &mut island.contacts);
     }
-    found.sort_unstable_by_key(|contacts| graph.order(bodies, contacts[0]));
+    found.sort_unstable_by_key(|island| graph.order(bodies, island.contacts[0]));
     found
 }
 
 /// Adds the islands with a fast body that are not there yet.
-fn find_fast(
-    graph: &Graph,
-    bodies: &Bodies,
-    h: f64,
-    search: &mut Search,
-    found: &mut Vec<Vec<u32>>,
-) {
+fn find_fast(graph: &Graph, bodies: &Bodies, h: f64, search: &mut Search, found: &mut Vec<Found>) {
     let mut fast = bodies.fast(h).peekable();
     if fast.peek().is_none() {
         return;
@@ -110,7 +127,7 @@ fn find_fast(
         if search.known[first as usize] == Known::Nothing
             && search.component(graph, bodies, first, WITH_FAST)
         {
-            found.push(search.contacts.clone());
+            found.push(search.found(false));
         }
     };
     for slot in fast {
@@ -128,12 +145,44 @@ fn find_fast(
     }
 }
 
+/// Adds the islands of up to so many bodies that are not there yet.
+fn find_small(
+    graph: &Graph,
+    bodies: &Bodies,
+    most: usize,
+    search: &mut Search,
+    found: &mut Vec<Found>,
+) {
+    if most == 0 {
+        return;
+    }
+    search.begin(graph, bodies, found);
+    for &slot in &bodies.slot_of {
+        let is_asked = slot != Bodies::NONE
+            && search.known[slot as usize] == Known::Nothing
+            && bodies.is_dynamic(slot);
+        if is_asked
+            && graph.of_body(bodies, slot).next().is_some()
+            && search.component(graph, bodies, slot, Admits::bodies(most))
+        {
+            found.push(search.found(true));
+        }
+    }
+}
+
 impl Search {
+    fn found(&self, is_swept: bool) -> Found {
+        Found {
+            contacts: self.contacts.clone(),
+            is_swept,
+        }
+    }
+
     /// Knows of the bodies of islands that were found, and of no others.
-    fn begin(&mut self, graph: &Graph, bodies: &Bodies, found: &[Vec<u32>]) {
+    fn begin(&mut self, graph: &Graph, bodies: &Bodies, found: &[Found]) {
         self.known.clear();
         self.known.resize(bodies.records.len(), Known::Nothing);
-        let contacts = found.iter().flatten();
+        let contacts = found.iter().flat_map(|island| &island.contacts);
         for slot in contacts.flat_map(|id| graph.contacts[*id as usize].bodies) {
             self.known[slot as usize] = Known::Asked;
         }
@@ -173,7 +222,7 @@ impl Search {
                     slots.push(other);
                 }
                 // All but the first body have a contact each.
-                fits &= points.max(slots.len() - 1) <= admits.stays;
+                fits &= points.max(slots.len() - 1) <= admits.stays && slots.len() <= admits.bodies;
                 if !fits {
                     break;
                 }

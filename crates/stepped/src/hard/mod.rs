@@ -5,9 +5,11 @@
 //! v' = start + M⁻¹ Jᵀ j        0 ≤ jₙ ⟂ v'ₙ + max(gap, 0)/h ≥ 0        |jₜ| ≤ µ Σ jₙ, against the slip
 //! d += h w                     w: as of all bodies, then moved by as little as leaves no gap below 0
 //! ```
-//! Overlaps are displacement alone: they add no velocity, and no energy.
+//! Overlaps are displacement alone: they add no velocity, and no energy. All islands of few bodies obey the same conditions where
+//! [`crate::Settings::hard_bodies`] asks for it: swept, as near as few sweeps come.
 
 mod conditions;
+mod energy;
 mod islands;
 mod part;
 mod solve;
@@ -15,14 +17,13 @@ mod solve;
 use crate::Settings;
 use crate::bodies::Bodies;
 use crate::rows::{FreePairs, Graph, Law, OPEN};
-use islands::{Key, Search};
+use islands::{Found, Key, Search};
 use solve::Island;
 
 /// Islands in hard rows.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct HardRows {
-    /// Contacts of each island, in the order of their bodies.
-    islands: Vec<Vec<u32>>,
+    islands: Vec<Found>,
     /// The same, as they were solved for in this sub-step.
     solved: Vec<Island>,
     /// Contacts of each island that had no answer: it takes soft rows until it has other contacts.
@@ -43,7 +44,7 @@ impl HardRows {
         if !self.unanswered.is_empty() {
             let keys: Vec<Vec<Key>> = found
                 .iter()
-                .map(|ids| islands::keys(graph, bodies, ids))
+                .map(|island| islands::keys(graph, bodies, &island.contacts))
                 .collect();
             self.unanswered.retain(|island| keys.contains(island));
             let mut keys = keys.iter();
@@ -53,16 +54,16 @@ impl HardRows {
             });
         }
         if graph.has_hard() {
-            let mut hard: Vec<u32> = found.iter().flatten().copied().collect();
+            let mut hard: Vec<u32> = contacts_of(&found).collect();
             hard.sort_unstable();
-            for &id in self.islands.iter().flatten() {
+            for id in contacts_of(&self.islands) {
                 if hard.binary_search(&id).is_err() && graph.is_hard(id) {
                     graph.clear_warm_start(bodies, id);
                     graph.set_hard(id, false);
                 }
             }
         }
-        for &id in found.iter().flatten() {
+        for id in contacts_of(&found) {
             graph.set_hard(id, true);
         }
         self.islands = found;
@@ -71,7 +72,7 @@ impl HardRows {
     /// Takes what contacts did in the last sub-step from the velocities: a light body that bears a heavy one would seem to arrive
     /// wherever rows changed since.
     pub(crate) fn free(&self, bodies: &mut Bodies, graph: &Graph) {
-        for &id in self.islands.iter().flatten() {
+        for id in contacts_of(&self.islands) {
             let (block, _, lane) = graph.lane(id);
             for line in [block.a[lane], block.b[lane]] {
                 let start = bodies.start[line as usize];
@@ -86,8 +87,9 @@ impl HardRows {
         self.heat = 0.0;
         self.solved.clear();
         let mut failed = false;
-        self.islands.retain(|ids| {
-            let mut island = Island::of(law, graph, bodies, ids);
+        self.islands.retain(|found| {
+            let ids = &found.contacts;
+            let mut island = Island::of(law, graph, bodies, found);
             let answered = island.solve(law, bodies, graph);
             if answered {
                 self.heat += island.heat(bodies, graph);
@@ -105,19 +107,26 @@ impl HardRows {
         failed
     }
 
-    /// Parts what overlaps once the bodies moved; the least gap that is left, in m.
+    /// Parts what overlaps once the bodies moved, in islands with free pairs, which give back what they are parted by, or in all others,
+    /// which are parted by what bounces left of the energy; the least gap there, in m.
     pub(crate) fn part(
         &mut self,
         law: &Law,
         bodies: &mut Bodies,
-        graph: &Graph,
+        (graph, free): (&Graph, &mut FreePairs),
         settings: &Settings,
-        free: &mut FreePairs,
+        gives_back: bool,
     ) -> f64 {
         let mut least = OPEN;
         for island in &mut self.solved {
-            least = least.min(island.part(law, bodies, (graph, free), settings));
+            if island.gives_back == gives_back {
+                least = least.min(island.part(law, bodies, (graph, free), settings));
+            }
         }
         least
     }
+}
+
+fn contacts_of(islands: &[Found]) -> impl Iterator<Item = u32> {
+    islands.iter().flat_map(|island| &island.contacts).copied()
 }

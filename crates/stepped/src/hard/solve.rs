@@ -1,9 +1,10 @@
 //! One island in hard rows: its velocities, and where they lead.
 
-use carom_impact::{Friction, HeldFace, HeldPoint, ImpactBody, held_faces};
-use carom_math::{Vec2, perp};
+use carom_impact::{Friction, HeldFace, HeldFaces, HeldPoint, ImpactBody, held_faces, swept_faces};
+use carom_math::{Vec2, perp, vec2};
 
 use super::conditions::{answers, centre, justified, rest};
+use super::islands::Found;
 use crate::bodies::Bodies;
 use crate::rows::{Block, Graph, Law, Line, OPEN, Quad};
 
@@ -30,13 +31,23 @@ pub(super) struct HardContact {
 #[derive(Clone, Debug)]
 pub(super) struct Island {
     pub(super) lines: Vec<u32>,
-    /// With centres at 0: arms are told from there.
+    /// With centres at 0: arms are told from there. Pulled, before contacts act.
     pub(super) bodies: Vec<ImpactBody>,
+    /// Velocities and spins as the sub-step begins.
+    pub(super) came: Vec<(Vec2, f64)>,
     pub(super) contacts: Vec<HardContact>,
     /// The most that pull adds to a speed in the sub-step, in m/s.
     pub(super) pulled: f64,
     /// Faces and centres as the sub-step begins, if all pairs are free.
     pub(super) begun: Option<(Vec<HeldFace>, Vec<Vec2>)>,
+    /// It has free pairs: these give back what they are parted by.
+    pub(super) gives_back: bool,
+    /// Sweeps come near enough: it bears no load that these cannot carry.
+    pub(super) is_swept: bool,
+    /// Energy as the sub-step begins, in J, with potentials from where the bodies are then, if no driver can add to it.
+    pub(super) energy: Option<f64>,
+    /// Where they are then, from their bases.
+    pub(super) ways: Vec<Quad>,
 }
 
 /// The lane of a contact.
@@ -46,16 +57,21 @@ pub(super) fn lane_of(graph: &Graph, id: u32) -> (&Block, usize) {
 }
 
 impl Island {
-    pub(super) fn of(law: &Law, graph: &Graph, bodies: &Bodies, ids: &[u32]) -> Self {
+    pub(super) fn of(law: &Law, graph: &Graph, bodies: &Bodies, found: &Found) -> Self {
         let mut island = Self {
             lines: Vec::new(),
             bodies: Vec::new(),
-            contacts: Vec::with_capacity(ids.len()),
+            came: Vec::new(),
+            contacts: Vec::with_capacity(found.contacts.len()),
             pulled: 0.0,
             begun: None,
+            gives_back: false,
+            is_swept: found.is_swept,
+            energy: None,
+            ways: Vec::new(),
         };
         let mut are_free = true;
-        for &id in ids {
+        for &id in &found.contacts {
             let (block, cold, lane) = graph.lane(id);
             let gaps = gaps(graph, bodies, id);
             // Hidden ones push nothing.
@@ -65,8 +81,10 @@ impl Island {
                 0
             };
             let lines = [block.a[lane], block.b[lane]];
-            are_free &= lines.iter().all(|line| bodies.is_free(*line));
-            let ends = lines.map(|line| island.place(bodies, line));
+            let is_free = lines.iter().all(|line| bodies.is_free(*line));
+            are_free &= is_free;
+            island.gives_back |= is_free;
+            let ends = lines.map(|line| island.place(law, bodies, line));
             island.contacts.push(HardContact {
                 id,
                 belt: cold.belt[lane],
@@ -75,25 +93,32 @@ impl Island {
                 points,
             });
         }
+        let way = |line: &u32| {
+            let line = &bodies.lines[*line as usize];
+            Quad::new(line.d(), line.turn())
+        };
+        island.ways = island.lines.iter().map(way).collect();
+        island.energy = island.energy_before(graph);
         let pulls = island
             .lines
             .iter()
             .map(|line| bodies.pull[*line as usize].v().length());
         island.pulled = law.h * pulls.fold(0.0, f64::max);
         if are_free {
-            let smooth = |_: usize, _: &HardContact| Friction::Coulomb(0.0);
             let centres = island.lines.iter().map(|line| centre(bodies, *line));
-            island.begun = Some((island.faces(graph, |_| 0.0, smooth), centres.collect()));
+            island.begun = Some((island.smooth_faces(graph), centres.collect()));
         }
         island
     }
 
     /// The place of a line, which is new to the island or not.
-    fn place(&mut self, bodies: &Bodies, line: u32) -> usize {
+    fn place(&mut self, law: &Law, bodies: &Bodies, line: u32) -> usize {
         if let Some(known) = self.lines.iter().position(|known| *known == line) {
             return known;
         }
         let (body, start) = (&bodies.lines[line as usize], &bodies.start[line as usize]);
+        let [x, y, w] = bodies.velocity_before(line as usize, law.h);
+        self.came.push((vec2(x, y), w));
         self.lines.push(line);
         self.bodies.push(ImpactBody {
             inverse_mass: body.inverse_mass(),
@@ -188,7 +213,7 @@ impl Island {
         };
         let opens = |gap: f64| self.closes(law, gap);
         let coulomb = |_: usize, contact: &HardContact| Friction::Coulomb(mu(contact));
-        let held = held_faces(&self.bodies, &self.faces(graph, opens, coulomb));
+        let held = self.held(&self.bodies, &self.faces(graph, opens, coulomb));
         if held.sure {
             return Some(held.impulses);
         }
@@ -205,6 +230,15 @@ impl Island {
             found = Some(held.impulses);
         }
         found
+    }
+
+    /// What holds these faces of the island's bodies.
+    pub(super) fn held(&self, bodies: &[ImpactBody], faces: &[HeldFace]) -> HeldFaces {
+        if self.is_swept {
+            swept_faces(bodies, faces)
+        } else {
+            held_faces(bodies, faces)
+        }
     }
 
     /// What is asked of each face, from its gaps.
@@ -266,21 +300,20 @@ impl Island {
         }
     }
 
-    /// What friction turned to heat, in J: by the mean slip of the sub-step.
+    /// What friction turned to heat, in J: by the mean slip of the sub-step, as far as friction opposes it. What only pull or other
+    /// contacts would have made slip makes none.
     pub(super) fn heat(&self, bodies: &Bodies, graph: &Graph) -> f64 {
-        let mut heat = 0.0;
-        for contact in &self.contacts {
+        let of = |contact: &HardContact| {
             let (block, lane) = lane_of(graph, contact.id);
-            let jt = block.jt[lane];
-            if jt.abs() > 0.0 {
-                let slip = block.slip(lane, self.ends(bodies, contact)) - contact.belt;
-                let before = slip - block.tangent_response(lane, self.ends(bodies, contact)) * jt;
-                // What sticks makes no heat, whatever it was pulled by.
-                let half = 0.5 * (slip - before);
-                heat -= jt * (slip - half.clamp(-slip.abs(), slip.abs()));
-            }
-        }
-        heat
+            let [a, b] = contact.ends.map(|end| self.came[end]);
+            let slips = [
+                block.across(lane, a, b),
+                block.slip(lane, self.ends(bodies, contact)),
+            ];
+            let rubbed = slips.map(|slip| (block.jt[lane] * (slip - contact.belt)).min(0.0));
+            -0.5 * (rubbed[0] + rubbed[1])
+        };
+        self.contacts.iter().map(of).sum()
     }
 }
 

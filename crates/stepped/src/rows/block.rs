@@ -183,13 +183,6 @@ impl Block {
         perp(self.normal(lane)).dot(b.0 - a.0) + self.bt[lane] * b.1 - self.at[lane] * a.1
     }
 
-    /// What an impulse of 1 N·s along t changes it by.
-    pub(crate) fn tangent_response(&self, lane: usize, [a, b]: [&Line; 2]) -> f64 {
-        let (at, bt) = (self.at[lane], self.bt[lane]);
-        let turns = at * at * a.inverse_inertia() + bt * bt * b.inverse_inertia();
-        a.inverse_mass() + b.inverse_mass() + turns
-    }
-
     /// What two motions open both points by.
     pub(crate) fn along(&self, lane: usize, a: (Vec2, f64), b: (Vec2, f64)) -> [f64; 2] {
         let n = Vec2::new(self.nx[lane], self.ny[lane]);

@@ -105,7 +105,7 @@ impl Graph {
         &mut self.colours[..HARD]
     }
 
-    const fn awake_end(&self) -> usize {
+    pub(super) const fn awake_end(&self) -> usize {
         if self.hard > 0 { ASLEEP } else { HARD }
     }
 

@@ -122,6 +122,15 @@ impl Graph {
         self.unequal.iter().copied().filter(is)
     }
 
+    /// What belts gave in the last sub-step, to bodies and as heat, in J: impulse × speed of the belt.
+    pub(crate) fn belt_work(&self) -> f64 {
+        let colours = &self.colours[..self.awake_end()];
+        let running = colours.iter().filter(|colour| colour.belts > 0);
+        let blocks = running.flat_map(|colour| colour.blocks.iter().zip(&colour.cold));
+        let lanes = blocks.flat_map(|(block, cold)| block.jt.iter().zip(&cold.belt));
+        lanes.map(|(jt, belt)| jt * belt).sum()
+    }
+
     /// Whether a contact touched when it was last asked.
     pub(crate) fn is_touching(&self, id: u32) -> bool {
         let (_, cold, lane) = self.lane(id);

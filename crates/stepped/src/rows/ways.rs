@@ -10,6 +10,8 @@ use crate::bodies::Bodies;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Ways {
     noted: bool,
+    /// By slot, in order: velocities with which bodies came to it. What `start` tells of them lacks impulses of impacts.
+    came: Vec<(u32, Quad)>,
     /// By line: velocities that displaced the bodies, and where these brought them.
     displaced: Vec<(Quad, Quad)>,
     /// By slot, in order: what these velocities lack of those at the end.
@@ -20,7 +22,19 @@ impl Ways {
     /// Notes them from now on, or forgets them.
     pub(crate) fn note(&mut self, noted: bool) {
         self.noted = noted;
+        self.came.clear();
         self.lack.clear();
+    }
+
+    /// A sub-step begins.
+    pub(crate) fn start(&mut self, bodies: &Bodies) {
+        self.came.clear();
+        if self.noted {
+            let came = |(line, slot): (&Line, &u32)| (*slot, Quad::new(line.v(), line.w()));
+            let lines = bodies.lines.iter().zip(&bodies.slot_of).skip(2);
+            self.came.extend(lines.map(came));
+            self.came.sort_unstable_by_key(|came| came.0);
+        }
     }
 
     /// Bodies were displaced by their velocities.
@@ -45,9 +59,17 @@ impl Ways {
         self.lack.sort_unstable_by_key(|lack| lack.0);
     }
 
-    pub(crate) fn lack(&self, slot: u32) -> Option<(Vec2, f64)> {
-        let known = self.lack.binary_search_by_key(&slot, |lack| lack.0).ok()?;
-        let (_, lack) = &self.lack[known];
-        Some((lack.v(), lack.w()))
+    pub(crate) fn came(&self, slot: u32) -> Option<(Vec2, f64)> {
+        of_slot(&self.came, slot)
     }
+
+    pub(crate) fn lack(&self, slot: u32) -> Option<(Vec2, f64)> {
+        of_slot(&self.lack, slot)
+    }
+}
+
+fn of_slot(all: &[(u32, Quad)], slot: u32) -> Option<(Vec2, f64)> {
+    let known = all.binary_search_by_key(&slot, |one| one.0).ok()?;
+    let (_, one) = &all[known];
+    Some((one.v(), one.w()))
 }

@@ -13,6 +13,7 @@ mod impacts;
 mod laws;
 mod scales;
 mod sleeping;
+mod springless;
 mod squeezed;
 mod twin;
 mod wide;
