@@ -63,7 +63,8 @@ proptest! {
         let mut before = kinetic(&world);
         for _ in 0..3 {
             watch.next(&mut world, 3.0);
-            if world.events().iter().any(|event| matches!(event.kind, EventKind::Begin { .. })) {
+            let mut events = world.events().iter();
+            if watch.report.handed_over > 0 || events.any(|event| matches!(event.kind, EventKind::Begin { .. })) {
                 break; // They stay in touch, and are not free any more.
             }
             let now = kinetic(&world);
