@@ -27,7 +27,7 @@ const CRATES: [&[&str]; 12] = [
 const FOLDERS: [&[&str]; 8] = [
     &["api"],
     &["step"],
-    &["events", "analytic", "stepping", "groups"],
+    &["events", "analytic", "stepping"],
     &["broad", "model"],
     &["motion"],
     &["store"],

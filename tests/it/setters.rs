@@ -277,7 +277,7 @@ fn a_sleeper_is_woken_by_hand_and_its_contacts_are_its_own() {
     }
 }
 
-/// Boxes on a floor, on each other or as a pyramid: a tower of three is moved in closed form or pair by pair (damped), a pyramid
+/// Boxes on a floor, on each other or as a pyramid: a tower of three is moved in closed form or by the engine (damped), a pyramid
 /// of 21 by the engine.
 pub(crate) fn boxes(world: &mut World, rows: u32, is_pyramid: bool, damping: f64) -> Vec<BodyId> {
     let floor = HalfPlane::new(Vec2::ZERO, Vec2::Y).expect("a unit normal");

@@ -34,7 +34,6 @@ mod changed;
 mod engine;
 mod events;
 mod forces;
-mod groups;
 mod island_ends;
 mod islands;
 mod law;

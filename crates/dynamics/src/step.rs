@@ -221,28 +221,11 @@ impl World {
                         self.wake(index, entry.time);
                     }
                 }
-                self.go_on(&changed, entry.time);
                 for index in changed {
                     self.deflected(index, entry.time);
                 }
             }
         }
         false
-    }
-
-    /// Solves for the islands of bodies that an impact `changed`: their other members get new motions, too.
-    fn go_on(&mut self, changed: &[u32], time: SimTime) {
-        let moved = self.groups.go_on(
-            &mut self.bodies,
-            &mut self.pairs,
-            changed,
-            time,
-            &mut self.report,
-        );
-        for index in moved {
-            if !changed.contains(&index) {
-                self.redirect(index, time);
-            }
-        }
     }
 }

@@ -1,13 +1,11 @@
-//! The pipeline of a sub-step: for bodies in persistent contact, and bodies near them.
+//! The pipeline of a sub-step: what begins to touch gets the method that holds it, and the engine moves its members.
 
 use carom_math::SimTime;
 
 use crate::World;
 use crate::events::event_queue::Entry;
 use crate::events::predict::BUDGET;
-use crate::groups::settle::settle;
 use crate::model::narrow::{TOUCH, opening_speed, rest_speed};
-use crate::motion::flight::fly;
 use crate::stepping::heap::Seen;
 use crate::store::pairs::PairContact;
 
@@ -15,8 +13,8 @@ use crate::store::pairs::PairContact;
 const IDLE: u8 = 4;
 
 impl World {
-    /// One sub-step: what touches is looked at, what lasts is solved for, the rest flies, and
-    /// what will strike is entered into the event queue.
+    /// One sub-step: what touches is looked at, rests or moves in closed form or joins the engine, and what will strike is entered into
+    /// the event queue.
     pub(crate) fn begin_substep(&mut self) {
         let (time, h) = (self.clock.next(), self.clock.h);
         self.stopwatch.lap(|p| &mut p.impacts);
@@ -37,51 +35,18 @@ impl World {
         self.join_large(time);
         self.close_groups(time);
         self.join_exhausted(time);
+        self.stopwatch.lap(|p| &mut p.contacts);
         self.begin_analytic_rest(time);
+        self.stopwatch.lap(|p| &mut p.sleep);
         self.begin_analytic_motion(time);
         self.join_unsolved(time);
         self.gather_members(time);
-        self.stopwatch.lap(|p| &mut p.contacts);
-        self.groups.step(
-            (h, self.settings.contact.push_out),
-            &mut self.bodies,
-            &self.colliders,
-            &mut self.pairs,
-            time,
-            &mut self.report,
-        );
         self.pairs_are_new();
-        self.stopwatch.lap(|p| &mut p.solver);
-        for index in self.stepped.clone() {
-            let pushed = self.groups.pushed(index);
-            if !pushed && self.bodies.get(index).membership.is_closed() {
-                continue;
-            }
-            if !pushed {
-                fly(&mut self.bodies, index, time, h);
-            }
-            // The new motion may lead out of the boxes, and what the solver pushes out has been displaced already.
-            self.refit(index, time, h);
-        }
-        self.stopwatch.lap(|p| &mut p.flight);
-        if let Some(sleep) = self.settings.sleep {
-            let asleep = settle(
-                sleep,
-                &mut self.bodies,
-                &self.stepped,
-                &self.groups,
-                time,
-                h,
-                &mut self.events,
-            );
-            for index in asleep {
-                self.lie_down(index, time);
-            }
-        }
+        self.stopwatch.lap(|p| &mut p.contacts);
         self.release(time);
-        self.groups.stamp(&self.bodies);
-        self.stopwatch.lap(|p| &mut p.sleep);
+        self.stopwatch.lap(|p| &mut p.flight);
         self.step_members(time);
+        self.stopwatch.lap(|p| &mut p.solver);
         self.pairs.sort(&self.bodies, &self.stepped);
         let mut i = 0;
         while let Some(place) = self.pairs.place(i) {
@@ -234,7 +199,6 @@ impl World {
                 self.bodies.get(a).is_stepped(),
                 self.bodies.get(b).is_stepped(),
             );
-            pair.held = pair.lasting || pair.impacts > 0 || pair.material.restitution == 0.0;
             pair.lasting = false;
             (pair.impacts, pair.spent) = (0, 0.0);
             if active == (false, false) && !pair.fresh {
@@ -326,7 +290,7 @@ impl World {
                 self.part(place, time);
             } else if !state.is_stepped() {
                 // No contact update before one of the two wakes.
-                (pair.lasting, pair.held, pair.given_up) = (false, pair.lasting, false);
+                (pair.lasting, pair.given_up) = (false, false);
                 (pair.impacts, pair.spent) = (0, 0.0);
             }
         }
@@ -338,7 +302,7 @@ impl World {
     fn release(&mut self, time: SimTime) {
         for index in self.stepped.clone() {
             let near = |place: &u32| !self.pairs.get(*place).contacts.is_empty();
-            let held = self.groups.pushed(index) || self.bodies.get(index).pairs.iter().any(near);
+            let held = self.bodies.get(index).pairs.iter().any(near);
             let state = self.bodies.get_mut(index);
             state.idle = if held { 0 } else { state.idle + 1 };
             if state.idle >= IDLE {
@@ -350,54 +314,38 @@ impl World {
 
 #[cfg(test)]
 mod tests {
-    use carom_geometry::{Circle, HalfPlane};
+    use carom_geometry::ConvexPolygon;
     use carom_math::{Vec2, vec2};
 
-    use crate::{BodyDef, Material, Mode, Settings, World};
+    use crate::events::event_queue::Entry;
+    use crate::{BodyDef, Material, Settings, World};
 
     #[test]
     fn the_impact_at_which_a_budget_ends_is_left_to_the_solver_and_counted() {
-        let mut world = World::new(Settings {
-            gravity: vec2(0.0, -10.0),
-            sleep: None,
-            mode: Mode::Exact,
-            ..Settings::default()
-        })
-        .expect("settings");
-        let floor = HalfPlane::new(Vec2::ZERO, Vec2::Y).expect("a floor");
-        let material = Material::default();
-        world
-            .insert(BodyDef::fixed(), floor, material)
-            .expect("valid");
-        for k in 0..20 {
-            let x = 0.55 * f64::from(k % 5) + 0.1 * f64::from(k / 5);
-            let def = BodyDef::dynamic().at(vec2(x, 0.25 + 0.6 * f64::from(k / 5)));
-            let disc = Circle::new(0.25).expect("a disc");
-            world.insert(def, disc, material).expect("valid");
-        }
-        for _ in 0..3000 {
-            world.step(world.clock.h / 3.0);
-            let (now, end) = (world.clock.now, world.clock.next());
-            // An impact of this sub-step, well before it ends.
-            let last = now + 0.9 * (end - now);
-            let Some(entry) = world.event_queue.next_until(last) else {
-                continue;
-            };
-            if world
-                .pairs
-                .find_same(entry.pair, entry.key)
-                .is_none_or(|pair| pair.given_up)
-            {
-                continue;
-            }
-            let place = entry.pair;
-            world.event_queue.push(entry);
-            world.spent = world.impact_budget() + 1.0;
-            let report = world.step(0.95 * (end - now));
-            assert!(world.pairs.get(place).given_up, "it got lost");
-            assert!(report.collapsed > 0, "{report:?}");
-            return;
-        }
-        panic!("nothing strikes within a sub-step");
+        let mut world = World::new(Settings::default()).expect("settings");
+        let mut put = |def: BodyDef, width: f64| {
+            let block = ConvexPolygon::rectangle(width, 1.0).expect("a block");
+            let id = world.insert(def, block, Material::default());
+            id.expect("valid").index
+        };
+        put(BodyDef::fixed().at(vec2(0.0, -0.5)), 10.0);
+        let index = put(BodyDef::dynamic().at(vec2(0.0, 0.5)), 1.0);
+        world.step(0.1);
+        let place = world.bodies.get(index).pairs[0];
+        let pair = world.pairs.get(place);
+        let (a, b) = pair.bodies;
+        let entry = Entry {
+            time: world.clock.now + 0.005,
+            key: pair.colliders,
+            pair: place,
+            versions: (world.bodies.version(a), world.bodies.version(b)),
+            normal: Vec2::Y,
+            points: [vec2(0.5, 0.0)].into_iter().collect(),
+        };
+        world.event_queue.push(entry);
+        world.spent = world.impact_budget() + 1.0;
+        let report = world.step(0.01);
+        assert!(world.pairs.get(place).given_up, "it got lost");
+        assert!(report.collapsed > 0, "{report:?}");
     }
 }

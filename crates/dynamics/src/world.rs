@@ -7,7 +7,6 @@ use crate::analytic::islands::store::Closed;
 use crate::broad::tree::Broad;
 use crate::events::event_queue::EventQueue;
 use crate::events::free::FreeBodies;
-use crate::groups::Groups;
 use crate::model::narrow::Narrow;
 use crate::stepping::threads::Threads;
 use crate::stepping::{Joins, Stepping};
@@ -52,7 +51,6 @@ pub struct World {
     pub(crate) pairs: Pairs,
     pub(crate) broad: Broad,
     pub(crate) narrow: Narrow,
-    pub(crate) groups: Groups,
     pub(crate) closed: Closed,
     pub(crate) event_queue: EventQueue,
     pub(crate) free: FreeBodies,

@@ -8,7 +8,7 @@ use carom_tests::scenes::{any_disc, heap};
 #[test]
 fn an_impact_approaches() {
     for mode in [Mode::Hybrid, Mode::Exact] {
-        let (mut impacts, mut resting) = (0, 0);
+        let mut impacts = 0;
         for seed in 1..=4 {
             let settings = Settings {
                 mode,
@@ -21,16 +21,10 @@ fn an_impact_approaches() {
                     if let EventKind::Impact { speed, .. } = event.kind {
                         assert!(speed >= 0.0, "{speed:e} m/s, {mode:?}, seed {seed}");
                         impacts += 1;
-                        resting += u32::from(speed == 0.0);
                     }
                 }
             });
         }
         assert!(impacts > 1000, "{impacts}, {mode:?}");
-        // In hybrid mode the engine has all that touch and have no closed form.
-        assert!(
-            resting > 0 || mode == Mode::Hybrid,
-            "all approached, {mode:?}"
-        );
     }
 }

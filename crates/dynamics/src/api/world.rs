@@ -9,7 +9,6 @@ use crate::analytic::islands::store::Closed;
 use crate::broad::tree::Broad;
 use crate::events::event_queue::EventQueue;
 use crate::events::free::FreeBodies;
-use crate::groups::Groups;
 use crate::model::narrow::Narrow;
 use crate::stepping::threads::Threads;
 use crate::stepping::{Joins, Stepping};
@@ -49,7 +48,6 @@ impl World {
             pairs: Pairs::default(),
             broad: Broad::new(settings.pair_search),
             narrow: Narrow::default(),
-            groups: Groups::default(),
             closed: Closed::default(),
             event_queue: EventQueue::default(),
             free: FreeBodies::under(settings.gravity),
@@ -176,7 +174,6 @@ impl World {
         self.wake_around(index, now);
         self.leave(index, now);
         self.bodies.change(index, now, |_| {});
-        self.bodies.take_back(|other| other == index, now);
         let (kinetic, potential) = self.bodies.energy_of(index, now);
         self.bodies.book.external.add(-(kinetic + potential));
         let mut around = Vec::new();
@@ -295,8 +292,10 @@ impl World {
     pub fn energy(&self) -> EnergyLedger {
         let mut ledger = self.bodies.ledger(self.clock.now);
         if self.settings.mode == Mode::Stepped {
-            let heat = self.stepping.as_ref().map(|s| s.engine.friction_heat());
-            ledger.friction += heat.unwrap_or(0.0);
+            if let Some(stepping) = &self.stepping {
+                ledger.friction += stepping.engine.friction_heat();
+                ledger.external += stepping.engine.belt_work();
+            }
             // One sum for all rows and push-outs: what they did is what the energies tell.
             ledger.scheme += ledger.residual();
             return ledger;

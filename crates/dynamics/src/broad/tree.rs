@@ -250,13 +250,10 @@ impl Broad {
             turning_rest: 0.0,
             lasting: false,
             mode: None,
-            held: false,
             buried: false,
-            sunk: false,
             impacts: 0,
             spent: 0.0,
             given_up: false,
-            round: false,
         });
         bodies.get_mut(ends.0).pairs.push(place);
         bodies.get_mut(ends.1).pairs.push(place);

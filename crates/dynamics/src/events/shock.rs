@@ -46,10 +46,6 @@ const TURN: u64 = 64;
 /// The same of a look at a pair by shape.
 const LOOK: u64 = 512;
 
-/// Part of the speed of rest below which a contact without springs does not close either: in boxes full of sixty balls these
-/// overlap by 1 to 3 mm with 1, 0.5 to 1 mm with 0.3, 0.3 mm with 0.1 and 0.03; that takes a quarter more time (2026-11-23).
-const SLOW: f64 = 1.0 / 16.0;
-
 /// Part of the fastest approach from which on a contact goes on closing, and not by what the sweeps have left.
 const CLOSES: f64 = 1.0 / 64.0;
 
@@ -249,8 +245,7 @@ impl Shock {
             self.looked.push((place, rest));
             rest
         };
-        // What a sub-step may sink in by is not pushed out again where there are no springs.
-        let least = rest.pulled * if pair.round { SLOW } else { 1.0 };
+        let least = rest.pulled;
         let size = bodies
             .get(pair.bodies.0)
             .reach

@@ -27,7 +27,6 @@ pub(crate) fn wake(
         if state.in_engine() {
             continue;
         }
-        state.slow_for = 0.0;
         let id = state.id;
         if bodies.wake(index) {
             events.push(time, EventKind::Awake(id));

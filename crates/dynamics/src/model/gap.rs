@@ -3,10 +3,6 @@
 use carom_collision::{Hull, Motion, Side};
 use carom_math::{SimTime, Vec2, cross_scalar, perp};
 
-use crate::store::bodies::Bodies;
-use crate::store::pairs::Pair;
-use crate::store::state::{BodyState, Collider};
-
 /// What of a body touches: a corner, or the centre of a disc; and how it moves.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Touching {
@@ -84,15 +80,6 @@ pub(crate) fn gap_acceleration(
         + 2.0 * own.spin * t.dot(other.velocity - own.centre_velocity)
         + own.turning * t.dot(d)
         - own.spin * own.spin * n.dot(d)
-}
-
-/// Whether a pair is one of two discs, or of a disc and what does not turn: surfaces that curve away from each other, so that no gap is
-/// less after a while than its rate says.
-pub(crate) fn is_round(bodies: &Bodies, colliders: &[Collider], pair: &Pair) -> bool {
-    let ends = [pair.bodies.0, pair.bodies.1].map(|index| bodies.get(index));
-    let stands = |body: &BodyState| !body.is_dynamic() && body.motion.spin == 0.0;
-    ends.iter()
-        .all(|body| body.turns_in_place(colliders) || stands(body))
 }
 
 #[cfg(test)]

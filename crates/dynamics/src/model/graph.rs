@@ -37,31 +37,3 @@ pub(crate) fn touch_in_moving_island(
         colliders == (first, second) || colliders == (second, first)
     })
 }
-
-/// Union by index: the smaller root wins, so that groups do not depend on the order of links.
-pub(crate) struct Tree {
-    parents: Vec<u32>,
-}
-
-impl Tree {
-    pub(crate) fn new(count: usize) -> Self {
-        Self {
-            parents: (0u32..).take(count).collect(),
-        }
-    }
-
-    pub(crate) fn root(&mut self, mut i: u32) -> u32 {
-        while self.parents[i as usize] != i {
-            let up = self.parents[self.parents[i as usize] as usize];
-            self.parents[i as usize] = up;
-            i = up;
-        }
-        i
-    }
-
-    pub(crate) fn join(&mut self, a: u32, b: u32) {
-        let (a, b) = (self.root(a), self.root(b));
-        let (low, high) = if a < b { (a, b) } else { (b, a) };
-        self.parents[high as usize] = low;
-    }
-}

@@ -20,10 +20,6 @@ pub(crate) const TOUCH: f64 = 1e-9;
 /// Impacts leave none, and the lowest contact of a stack of ten such boxes 0.8 mm.
 pub(crate) const BURIED: f64 = 1.0 / 16.0;
 
-/// Overlap beyond which springs push a pair apart until it is, as a fraction of the smaller reach: it comes of what is put or pressed
-/// into each other, and nothing but springs takes it back.
-const SUNK: f64 = 1.0 / 128.0;
-
 /// Scratch of the narrow phase, kept between pairs.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Narrow {
@@ -46,7 +42,7 @@ impl Narrow {
         if apart.length_squared() > near * near {
             pair.contacts = Vec::new();
             pair.touching = false;
-            (pair.buried, pair.sunk) = (false, false);
+            pair.buried = false;
             return;
         }
         pair.contacts = self.contacts(bodies, colliders, pair, time, h);
@@ -92,7 +88,6 @@ pub(crate) fn note_touch(
     let points = pair.contacts.iter().flat_map(|contact| &contact.points);
     let deepest = points.map(|p| p.separation).fold(0.0, f64::min);
     pair.buried = deepest < -BURIED * size;
-    pair.sunk = deepest < -size * if pair.sunk { TOUCH } else { SUNK };
     pair.touching = pair
         .contacts
         .iter()
@@ -219,12 +214,6 @@ pub(crate) struct RestSpeed {
 }
 
 impl RestSpeed {
-    /// Whatever approaches rests.
-    pub(crate) const ANY: Self = Self {
-        all: f64::INFINITY,
-        pulled: f64::INFINITY,
-    };
-
     pub(crate) fn of(bodies: &Bodies, pair: &Pair, h: f64) -> Self {
         let pulled = rest_speed_between(bodies, pair.bodies, h);
         let all = pulled + pair.turning_rest;

@@ -5,7 +5,6 @@ use std::sync::Arc;
 use carom_collision::Motion;
 use carom_math::{SimTime, Vec2};
 
-use crate::law::damped::damped;
 use crate::law::flight::{Flight, Turn};
 use crate::law::kepler::Conic;
 use crate::store::bodies::Bodies;
@@ -246,21 +245,4 @@ pub(crate) fn motion_along(state: &BodyState, time: SimTime, h: f64) -> Motion {
         angular_acceleration: (flight.angle_over(time, h) - spin * h) * per,
         left_out: 0.0,
     }
-}
-
-/// Velocity in m/s and spin in rad/s that a body has after `h` seconds of a constant pull, in m/s² and rad/s²,
-/// and of its damping.
-pub(crate) fn driven(
-    state: &BodyState,
-    (v, w): (Vec2, f64),
-    (pull, twist): (Vec2, f64),
-    h: f64,
-) -> (Vec2, f64) {
-    if !state.is_damped() {
-        return (v + pull * h, w + twist * h);
-    }
-    let (linear, angular) = state.damping();
-    let along = |v: f64, a: f64| damped(v, a, linear, h).1;
-    let velocity = Vec2::new(along(v.x, pull.x), along(v.y, pull.y));
-    (velocity, damped(w, twist, angular, h).1)
 }

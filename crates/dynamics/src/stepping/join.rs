@@ -17,7 +17,6 @@ use carom_stepped::State;
 use super::Shapes;
 use super::near::Among;
 use super::rush::Rush;
-use crate::model::gap::is_round;
 use crate::model::graph::neighbours;
 use crate::store::bodies::Bodies;
 use crate::store::state::BodyState;
@@ -116,38 +115,22 @@ impl World {
         }
     }
 
-    /// Islands without a solution of their contact modes join, but for those that stay out.
+    /// Bodies in touch of which one has no solution of its contact modes join.
     pub(crate) fn join_unsolved(&mut self, time: SimTime) {
         let mut stepped = self.stepped.iter();
         if self.may_join() && stepped.any(|index| self.is_unsolved(*index)) {
-            let mut islands = self.unsolved_islands();
-            islands.retain(|island| !self.stays_out(island));
+            let islands = self.unsolved_islands();
             self.join_islands(islands, time);
         }
     }
 
-    /// Whether an island without a solution of its contact modes is sub-stepped pair by pair: of discs in exact mode, as they gain
-    /// energy in the engine.
-    fn stays_out(&self, island: &[u32]) -> bool {
-        self.settings.mode == Mode::Exact && island.len() <= MANY && self.is_round_island(island)
-    }
-
-    /// Whether all that the bodies of an island touch is held as discs are.
-    fn is_round_island(&self, island: &[u32]) -> bool {
-        let places = island
-            .iter()
-            .flat_map(|index| &self.bodies.get(*index).pairs);
-        let mut pairs = places.map(|place| self.pairs.get(*place));
-        pairs.all(|pair| pair.contacts.is_empty() || is_round(&self.bodies, &self.colliders, pair))
-    }
-
-    /// Whether a body is sub-stepped pair by pair, and in no closed form.
+    /// Whether a body touches something, and is in no closed form.
     fn is_unsolved(&self, index: u32) -> bool {
         let state = self.bodies.get(index);
         state.is_held() && !state.membership.is_closed()
     }
 
-    /// Islands of sub-stepped bodies in touch of which none moves in closed form.
+    /// Islands of bodies in touch in sub-steps of which one has no closed form.
     fn unsolved_islands(&self) -> Vec<Vec<u32>> {
         let (mut seen, mut islands) = (BTreeSet::new(), Vec::new());
         for &index in &self.stepped {
@@ -161,9 +144,7 @@ impl World {
                 let held = others.filter(|other| self.bodies.get(*other).is_held());
                 island.extend(held.filter(|other| seen.insert(*other)));
             }
-            if island.iter().all(|index| self.is_unsolved(*index)) {
-                islands.push(island);
-            }
+            islands.push(island);
         }
         islands
     }
@@ -362,9 +343,10 @@ impl World {
             gained.add(potential);
         }
         gained.add(-self.bodies.book.struck.value());
-        let heat = self.stepping.as_ref().map(|s| s.engine.friction_heat());
-        let heat = heat.unwrap_or(0.0);
-        let (driven, forced) = (self.joins.driven.value(), self.joins.forced.value());
+        let engine = self.stepping.as_ref().map(|stepping| &stepping.engine);
+        let heat = engine.map_or(0.0, carom_stepped::Engine::friction_heat);
+        let belts = engine.map_or(0.0, carom_stepped::Engine::belt_work);
+        let (driven, forced) = (self.joins.driven.value() + belts, self.joins.forced.value());
         ledger.friction += heat;
         ledger.external += driven;
         ledger.forces += forced;

@@ -32,8 +32,8 @@ use carom_geometry::Aabb;
 use carom_math::Pose;
 use carom_stepped::{Engine, Impact, Relaxation, Softness, State, Touch};
 
-use crate::Settings;
 use crate::values::error::SettingsError;
+use crate::{Mode, Settings};
 
 pub(crate) use join::{Joins, MANY};
 
@@ -71,6 +71,11 @@ impl Stepping {
             softness: softness_of(settings),
             relaxation: Relaxation::EverySubstep,
             sleep: sleep_of(settings),
+            hard_bodies: if settings.mode == Mode::Exact {
+                MANY
+            } else {
+                0
+            },
             ..carom_stepped::Settings::default()
         });
         match engine {

@@ -45,8 +45,6 @@ impl Stepping {
                 }
                 slept.wakes_member = true;
             }
-            let known = bodies.get_mut(index);
-            known.slow_for = 0.0;
             let id = known.id;
             let kind = if asleep {
                 bodies.fall_asleep(index);

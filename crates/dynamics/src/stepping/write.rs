@@ -80,7 +80,10 @@ impl Stepping {
             let reach = bodies.get(index).reach;
             let left = state.turned - turned;
             let off = (motion.centre - from.position).length() + (left - turn).abs() * reach;
-            if state.lack.is_some() || off > SAME * (reach + way.length()) {
+            // What contacts push on a parabola may have more energy on the way than at both ends.
+            let (pull, _) = bodies.pull_on(index, from.position);
+            let pushed = (v - u - pull * h).length() > SAME * (v.length() + u.length());
+            if state.lack.is_some() || pushed || off > SAME * (reach + way.length()) {
                 let shown = match state.lack {
                     Some(lack) => [(v - lack.0, w - lack.1); 2],
                     None => [(u, s), (v, w)],

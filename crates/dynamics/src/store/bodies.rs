@@ -36,8 +36,6 @@ pub(crate) struct Bodies {
     alive: Vec<bool>,
     free: Vec<u32>,
     pub(crate) history: History,
-    /// What contacts of the present sub-step do to bodies that nothing else pushes there.
-    pub(crate) booked: Vec<Booked>,
     pub(crate) book: EnergyBook,
     pub(crate) pull: Pull,
     /// Flights since the last report that leave out more than [`Pull::error`], as short as their stretches are.
@@ -59,7 +57,6 @@ impl Bodies {
             alive: Vec::new(),
             free: Vec::new(),
             history: History::new(history),
-            booked: Vec::new(),
             book: EnergyBook::default(),
             pull: Pull {
                 gravity,
@@ -304,7 +301,6 @@ impl Bodies {
         state.turned += state.turn_by(time);
         let after = flies_by_law.then(|| (state.velocity_at(time), state.spin_at(time)));
         state.motion = old.rebased(time);
-        let pushed = (old.acceleration, old.angular_acceleration);
         if let Some((velocity, spin)) = after {
             state.close(time, velocity, spin);
         }
@@ -315,10 +311,6 @@ impl Bodies {
             self.book.struck.add(after - before);
         } else {
             change(&mut state.motion);
-        }
-        let now = (state.motion.acceleration, state.motion.angular_acceleration);
-        if !self.booked.is_empty() && now != pushed {
-            self.take_back(|other| other == index, time);
         }
         self.renew(index);
     }
@@ -332,16 +324,6 @@ impl Bodies {
     /// How many parabolas of left paths moved a body before `now` that no report tells of yet.
     pub(crate) fn tell_left_paths(&mut self, now: SimTime) -> u64 {
         self.left_paths.tell(&self.list, now)
-    }
-
-    /// Contacts that were booked for the whole sub-step push some bodies no longer: they have other motions from `time` on.
-    pub(crate) fn take_back(&mut self, is_one: impl Fn(u32) -> bool, time: SimTime) {
-        for booked in self.booked.extract_if(.., |booked| is_one(booked.index)) {
-            let left = (booked.until - time).max(0.0);
-            self.book.external.add(-booked.driven * left);
-            self.book.friction.add(-booked.heat * left);
-            self.book.scheme.add((booked.driven - booked.heat) * left);
-        }
     }
 
     /// What forces and the scheme did along the present piece of a motion up to `time`.
@@ -433,58 +415,9 @@ impl Bodies {
     }
 }
 
-/// What a contact with something of infinite mass was booked for, until the end of its sub-step.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Booked {
-    /// The body that it pushes.
-    pub(crate) index: u32,
-    pub(crate) until: SimTime,
-    /// What the driven body puts in, and what friction takes, in W.
-    pub(crate) driven: f64,
-    pub(crate) heat: f64,
-}
-
 /// Work along a piece of a motion, in J.
 #[derive(Clone, Copy, Debug)]
 struct Piece {
     forces: f64,
     scheme: f64,
-}
-
-#[cfg(test)]
-mod tests {
-    use carom_geometry::Circle;
-    use carom_math::Vec2;
-
-    use super::Booked;
-    use crate::{BodyDef, Material, Settings, World};
-
-    /// What a closed form takes in the middle of a sub-step was booked for all of it: by that alone bodies in a spinning
-    /// ring gained up to 6e-3 of their energy in a step.
-    #[test]
-    fn contacts_are_booked_until_they_push_no_more() {
-        let mut world = World::new(Settings::default()).expect("valid settings");
-        let disc = Circle::new(0.5).expect("a disc");
-        let id = world
-            .insert(BodyDef::dynamic(), disc, Material::default())
-            .expect("a body");
-        let start = world.time();
-        world.bodies.booked.push(Booked {
-            index: id.index,
-            until: start + 1.0,
-            driven: 6.0,
-            heat: 2.0,
-        });
-        let before = world.energy();
-        let bodies = &mut world.bodies;
-        // Struck, it is pushed on.
-        bodies.change(id.index, start + 0.125, |motion| motion.velocity = Vec2::X);
-        assert_eq!(bodies.book.external.value(), before.external);
-        for later in [0.25, 0.5] {
-            bodies.change(id.index, start + later, |motion| motion.acceleration *= 0.5);
-            let book = &bodies.book;
-            assert_eq!(book.external.value() - before.external, -0.75 * 6.0);
-            assert_eq!(book.friction.value() - before.friction, -0.75 * 2.0);
-        }
-    }
 }

@@ -27,15 +27,8 @@ pub(crate) struct Pair {
     pub(crate) lasting: bool,
     /// How its bodies last moved against each other in a contact in closed form.
     pub(crate) mode: Option<ContactMode>,
-    /// A touch is held by the solver, however fast it closes: the pair lasted or was struck in the
-    /// last sub-step and yet closes again, or has no restitution that a strike would give back.
-    pub(crate) held: bool,
     /// So deep in each other that no strike makes sense: the solver pushes them apart.
     pub(crate) buried: bool,
-    /// It was deep in each other, and still overlaps: it may not be held without springs.
-    pub(crate) sunk: bool,
-    /// It was held without springs in the last sub-step in which it lasted: see [`crate::groups::round`].
-    pub(crate) round: bool,
     /// Impacts in this sub-step.
     pub(crate) impacts: u32,
     /// What they spent of the pair's budget in this sub-step.
@@ -101,8 +94,8 @@ pub(crate) struct Pairs {
     /// By place: shapes of pairs, to be read without the rest.
     shapes: Vec<(u32, u32)>,
     free: Vec<u32>,
-    /// Places of pairs with a body that is sub-stepped pair by pair, in order of colliders: rows and
-    /// searches go through pairs in this order.
+    /// Places of pairs with a body that the sub-steps follow, in order of colliders:
+    /// searches go through them in this order.
     order: Vec<u32>,
     dirty: bool,
     /// Places of pairs that have not been looked at yet.

@@ -45,7 +45,7 @@ pub(crate) enum Regime {
     Free,
     /// The closed form of its contact island, until its contact mode changes.
     Analytic(Form),
-    /// Sub-steps, pair by pair.
+    /// Nothing yet: it touches something, and goes on as it did until the next sub-step finds the method that holds it.
     Held,
     /// Sub-steps of the engine.
     Stepped(Scope),
@@ -204,7 +204,7 @@ impl BodyState {
         self.is_active() && !self.goes_by_events()
     }
 
-    /// Dynamic, and sub-stepped pair by pair.
+    /// Dynamic, and followed by the sub-steps, but not in the engine.
     pub(crate) fn is_held(&self) -> bool {
         self.is_dynamic() && self.is_stepped() && !self.in_engine()
     }
@@ -304,7 +304,7 @@ impl BodyState {
         !rested
     }
 
-    /// Of a body that the sub-steps follow pair by pair: in an island, or outside.
+    /// Of a body that the sub-steps follow: in an island, or outside.
     const fn held(&self) -> Regime {
         if self.membership.is_closed() {
             Regime::Analytic(Form::SubStepped)

@@ -56,8 +56,6 @@ pub(crate) struct BodyState {
     pub(crate) tag: u64,
     /// The contact group in closed form that it belongs to.
     pub(crate) membership: Membership,
-    /// How long the body has been slow, in s.
-    pub(crate) slow_for: f64,
     /// Pairs of its colliders with others.
     pub(crate) pairs: Vec<u32>,
 }
@@ -164,7 +162,6 @@ impl BodyState {
             membership: Membership::default(),
             course: Course::default(),
             idle: 0,
-            slow_for: 0.0,
             reach: shapes
                 .iter()
                 .map(|(shape, _)| shape.reach_about(mass.centroid))

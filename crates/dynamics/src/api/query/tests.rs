@@ -232,7 +232,7 @@ fn bodies_are_found_by_the_boxes_of_whole_shapes_in_every_mode() {
             .insert(BodyDef::fixed(), floor, material)
             .expect("a body");
         let star = Polygon::star(4, 1.0, 0.4).expect("a star");
-        // More than are moved pair by pair.
+        // No closed form is tried for so many.
         for k in 0..24 {
             let def = BodyDef::dynamic().at(vec2(0.5 * f64::from(k), 1.5));
             world.insert(def, star.clone(), material).expect("a body");

@@ -194,7 +194,7 @@ impl World {
         }
     }
 
-    /// If no body is sub-stepped pair by pair any more, free bodies need no boxes in the world: after a tick, since an analytic
+    /// If the sub-steps follow no body any more, free bodies need no boxes in the world: after a tick, since an analytic
     /// island that changes its mode lands and is let go of at one instant.
     pub(crate) fn lower_free_boxes_later(&mut self) {
         if self.stepped.is_empty() {
