@@ -69,9 +69,7 @@ impl World {
         };
         let place = self.closed.insert(&mut self.bodies, group, Some(change));
         self.lay_pieces(place, time);
-        if self.settings.mode == Mode::Hybrid {
-            self.closed.moves(place);
-        }
+        self.closed.moves(place);
         self.tell_modes(gathered, &touches, time);
         for (index, _) in members {
             self.redirect(index, time);
