@@ -342,6 +342,12 @@ impl Bodies {
         }
     }
 
+    /// Whether a body that is awake is a disc about its centre of mass.
+    pub(crate) fn is_disc(&self, slot: u32) -> bool {
+        let limit = &self.limits[self.line_of(slot)];
+        limit.reach <= 0.5 * limit.extent * (1.0 + 1e-12)
+    }
+
     /// Whether contacts move it.
     pub(crate) fn is_dynamic(&self, slot: u32) -> bool {
         self.records[slot as usize].kind == BodyKind::Dynamic

@@ -71,9 +71,11 @@ pub struct Settings {
     pub tolerance: f64,
     /// When islands fall asleep; never if `None`.
     pub sleep: Option<Sleep>,
-    /// Islands of up to so many bodies have no springs, and gain no energy by their contacts, for several times the time. All others
-    /// do if they bear loads that sweeps cannot carry.
+    /// Islands of up to so many bodies have no springs, and gain no energy by their contacts, for up to forty times the time. All others
+    /// have none if they bear loads that sweeps cannot carry.
     pub hard_bodies: usize,
+    /// The same of islands of discs that turn about their centres: one point a contact, which turns about nothing, is soon held.
+    pub hard_discs: usize,
 }
 
 impl Default for Softness {
@@ -117,6 +119,7 @@ impl Default for Settings {
             tolerance: 0.005,
             sleep: Some(Sleep::default()),
             hard_bodies: 0,
+            hard_discs: 0,
         }
     }
 }

@@ -71,7 +71,7 @@ impl Stepping {
             softness: softness_of(settings),
             relaxation: Relaxation::EverySubstep,
             sleep: sleep_of(settings),
-            hard_bodies: if settings.mode == Mode::Exact {
+            hard_discs: if settings.mode == Mode::Exact {
                 MANY
             } else {
                 0

@@ -15,6 +15,8 @@ struct Admits {
     /// While it is in them: points come and go where bodies rock.
     stays: usize,
     bodies: usize,
+    /// So many if all of them are discs about their centres.
+    discs: usize,
 }
 
 impl Admits {
@@ -23,14 +25,16 @@ impl Admits {
             comes,
             stays,
             bodies: usize::MAX,
+            discs: usize::MAX,
         }
     }
 
-    const fn bodies(most: usize) -> Self {
+    fn bodies(settings: &Settings) -> Self {
         Self {
             comes: usize::MAX,
             stays: usize::MAX,
-            bodies: most,
+            bodies: settings.hard_bodies,
+            discs: settings.hard_discs.max(settings.hard_bodies),
         }
     }
 }
@@ -108,7 +112,7 @@ pub(super) fn find(
         }
     }
     find_fast(graph, bodies, settings.substep(), search, &mut found);
-    find_small(graph, bodies, settings.hard_bodies, search, &mut found);
+    find_small(graph, bodies, Admits::bodies(settings), search, &mut found);
     for island in &mut found {
         graph.sort(bodies, &mut island.contacts);
     }
@@ -145,15 +149,15 @@ fn find_fast(graph: &Graph, bodies: &Bodies, h: f64, search: &mut Search, found:
     }
 }
 
-/// Adds the islands of up to so many bodies that are not there yet.
+/// Adds the islands of few bodies that are not there yet.
 fn find_small(
     graph: &Graph,
     bodies: &Bodies,
-    most: usize,
+    admits: Admits,
     search: &mut Search,
     found: &mut Vec<Found>,
 ) {
-    if most == 0 {
+    if admits.bodies.max(admits.discs) == 0 {
         return;
     }
     search.begin(graph, bodies, found);
@@ -163,7 +167,7 @@ fn find_small(
             && bodies.is_dynamic(slot);
         if is_asked
             && graph.of_body(bodies, slot).next().is_some()
-            && search.component(graph, bodies, slot, Admits::bodies(most))
+            && search.component(graph, bodies, slot, admits)
         {
             found.push(search.found(true));
         }
@@ -199,11 +203,12 @@ impl Search {
         slots.clear();
         slots.push(first);
         contacts.clear();
-        let (mut next, mut points, mut hard) = (0, 0, false);
+        let (mut next, mut points, mut hard, mut discs) = (0, 0, false, true);
         let mut fits = true;
         known[first as usize] = Known::Asked;
         while let Some(&slot) = slots.get(next).filter(|_| fits) {
             next += 1;
+            discs &= bodies.is_disc(slot);
             for (id, side) in graph.of_body(bodies, slot) {
                 let contact = &graph.contacts[id as usize];
                 let other = contact.bodies[1 - side];
@@ -222,7 +227,8 @@ impl Search {
                     slots.push(other);
                 }
                 // All but the first body have a contact each.
-                fits &= points.max(slots.len() - 1) <= admits.stays && slots.len() <= admits.bodies;
+                fits &= points.max(slots.len() - 1) <= admits.stays;
+                fits &= slots.len() <= if discs { admits.discs } else { admits.bodies };
                 if !fits {
                     break;
                 }

@@ -1,4 +1,4 @@
-//! Islands without springs: [`crate::Settings::hard_bodies`].
+//! Islands without springs: [`crate::Settings::hard_bodies`] and [`crate::Settings::hard_discs`].
 
 use carom_geometry::{Circle, ConvexPolygon, HalfPlane, Shape};
 use carom_math::{Vec2, vec2};
@@ -84,6 +84,44 @@ fn no_tick_gains_energy() {
             assert!(left < 1e-4, "{case}: {left} m left");
         }
     }
+}
+
+/// Discs alone are asked for: heaps of polygons go on with springs, and one polygon among discs is enough for that.
+#[test]
+fn islands_of_discs_are_told_from_others() {
+    let places = |settings: Settings, discs: bool, mixed: bool| -> Vec<Vec2> {
+        let mut engine = heap(settings, discs, material(0.0), 3);
+        if mixed {
+            let body = BodyInput::dynamic(1.0, 0.1).at(vec2(0.0, 9.0));
+            let square = ConvexPolygon::square(0.5).unwrap();
+            engine.insert(body, &[PieceInput::new(square)]).unwrap();
+        }
+        for _ in 0..120 {
+            engine.tick();
+        }
+        let all = engine.bodies();
+        all.map(|id| engine.pose(id).unwrap().position).collect()
+    };
+    let of_discs = || Settings {
+        hard_discs: 64,
+        ..springless(0)
+    };
+    assert_eq!(
+        places(of_discs(), true, false),
+        places(springless(64), true, false)
+    );
+    assert_ne!(
+        places(of_discs(), true, false),
+        places(springless(0), true, false)
+    );
+    assert_eq!(
+        places(of_discs(), false, false),
+        places(springless(0), false, false)
+    );
+    assert_ne!(
+        places(of_discs(), true, true),
+        places(springless(64), true, true)
+    );
 }
 
 /// What bounced within a sub-step was told with the impulse of the bounce.
