@@ -175,8 +175,8 @@ pub struct Softness {
     /// Factor on the compliance that the frequency implies. Below 0.3 piles chatter.
     pub compliance: f64,
     /// Over-relaxation of the sweeps that push overlaps out, 0.1..=1.9; below 1 it is under-relaxation. Those that
-    /// relax have none: friction acts at once by what pushes, and jammed columns would hum. Groups of a few bodies,
-    /// and sweeps that are repeated, have 0.6 of what it differs from 1 by in both.
+    /// relax have none: friction acts at once by what pushes, and jammed columns would hum. Sweeps that are repeated have
+    /// 0.6 of what it differs from 1 by in both.
     pub over_relaxation: f64,
     /// Fastest push-out of an overlap, in m/s.
     pub push_out: f64,

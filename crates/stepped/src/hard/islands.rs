@@ -164,7 +164,8 @@ fn find_small(
     for &slot in &bodies.slot_of {
         let is_asked = slot != Bodies::NONE
             && search.known[slot as usize] == Known::Nothing
-            && bodies.is_dynamic(slot);
+            && bodies.is_dynamic(slot)
+            && (admits.bodies > 0 || bodies.is_disc(slot));
         if is_asked
             && graph.of_body(bodies, slot).next().is_some()
             && search.component(graph, bodies, slot, admits)
