@@ -256,15 +256,7 @@ impl<'a> Solver<'a> {
         self.along(impulses, &mut after);
         let power =
             |speeds: &[f64]| -> f64 { impulses.iter().zip(speeds).map(|(j, u)| j * u).sum() };
-        let (before, after) = (power(&self.start), power(&after));
-        if before >= 0.0 {
-            return 0.0;
-        }
-        if after <= 0.0 {
-            1.0
-        } else {
-            before / (before - after)
-        }
+        dissipating(power(&self.start), power(&after))
     }
 
     /// Impulses near an answer, to rounding: what they leave is taken away until it is no smaller; `solved`: by the equations
@@ -336,6 +328,18 @@ impl<'a> Solver<'a> {
                 }
             }
         })
+    }
+}
+
+/// The part of impulses, at most 1, up to which energy only falls: from their power on the speeds `before` them, and on those `after` all
+/// of them, `j·(u₀ + s K j) ≤ 0`.
+pub(super) fn dissipating(before: f64, after: f64) -> f64 {
+    if before >= 0.0 {
+        0.0
+    } else if after <= 0.0 {
+        1.0
+    } else {
+        before / (before - after)
     }
 }
 

@@ -264,6 +264,19 @@ impl Sweeper {
         (self.contacts[k].j_n, self.contacts[k].j_t)
     }
 
+    /// Gives bodies the impulses that contacts begin with.
+    pub(super) fn warm_start(&mut self) {
+        for contact in &self.contacts {
+            let (n, t) = (contact.normal, perp(contact.normal));
+            let a = &mut self.bodies[contact.a];
+            a.push(n, contact.arms_n.0, -contact.j_n);
+            a.push(t, contact.arms_t.0, -contact.j_t);
+            let b = &mut self.bodies[contact.b];
+            b.push(n, contact.arms_n.1, contact.j_n);
+            b.push(t, contact.arms_t.1, contact.j_t);
+        }
+    }
+
     /// Every contact's turn; the largest speed that one had still to take away, or to yield, in m/s.
     pub fn sweep(&mut self) -> f64 {
         let Self {

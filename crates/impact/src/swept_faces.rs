@@ -3,8 +3,9 @@
 use carom_math::{Vec2, cross, perp};
 
 use super::body::ImpactBody;
+use super::coulomb::dissipating;
 use super::held::{Friction, HeldFace, HeldFaces};
-use super::sweeps::{Moving, Sweeper, Swept};
+use super::sweeps::{Sweeper, Swept};
 
 /// Discs with a restitution of 0.7 that fall into a box overlap by up to 5.1, 1.3, 0.06, 0.04 mm with 16, 32, 64, 128 of them, in 1, 1.4,
 /// 2.7, and 3.5 times the time (2026-11-27).
@@ -28,7 +29,7 @@ pub fn swept_faces(bodies: &[ImpactBody], faces: &[HeldFace]) -> HeldFaces {
         let points = (0..face.points.len()).map(|k| contact(bodies, face, k));
         sweeper.contacts.extend(points);
     }
-    warm_start(&mut sweeper);
+    sweeper.warm_start();
     sweep(&mut sweeper, bodies);
     let part = losing(&sweeper, bodies);
     let mut contacts = sweeper.contacts.iter();
@@ -103,25 +104,7 @@ fn contact(bodies: &[ImpactBody], face: &HeldFace, k: usize) -> Swept {
     }
 }
 
-/// Gives bodies the impulses that contacts begin with.
-fn warm_start(sweeper: &mut Sweeper) {
-    for contact in &sweeper.contacts {
-        let (n, t) = (contact.normal, perp(contact.normal));
-        let along = n * contact.j_n + t * contact.j_t;
-        let turns = |arm_n: f64, arm_t: f64| arm_n * contact.j_n + arm_t * contact.j_t;
-        let of_a = turns(contact.arms_n.0, contact.arms_t.0);
-        let of_b = turns(contact.arms_n.1, contact.arms_t.1);
-        push(&mut sweeper.bodies[contact.a], -along, -of_a);
-        push(&mut sweeper.bodies[contact.b], along, of_b);
-    }
-}
-
-fn push(body: &mut Moving, impulse: Vec2, turning: f64) {
-    body.velocity += impulse * body.inverse_mass;
-    body.spin += turning * body.inverse_inertia;
-}
-
-/// The greatest part of impulses, at most 1, that gains nothing: `s j·(b + s K j) ≤ 0`, with b the speeds before less those asked for.
+/// The greatest part of impulses, at most 1, that gains nothing beyond what is asked for.
 fn losing(sweeper: &Sweeper, bodies: &[ImpactBody]) -> f64 {
     let (mut before, mut after) = (0.0, 0.0);
     for contact in &sweeper.contacts {
@@ -133,13 +116,7 @@ fn losing(sweeper: &Sweeper, bodies: &[ImpactBody]) -> f64 {
         before += work(began(contact.a), began(contact.b));
         after += work(sweeper.velocity(contact.a), sweeper.velocity(contact.b));
     }
-    if after <= 0.0 {
-        1.0
-    } else if before >= 0.0 {
-        0.0
-    } else {
-        before / (before - after)
-    }
+    dissipating(before, after)
 }
 
 #[cfg(test)]
@@ -147,7 +124,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::heaps::heap;
+    use crate::heaps::{energy, heap};
     use crate::{HeldPoint, SharedContact, held_faces};
 
     /// Faces of one point each, which open at `opens` m/s at least.
@@ -166,24 +143,11 @@ mod tests {
         contacts.iter().map(face).collect()
     }
 
-    fn kinetic(bodies: &[ImpactBody]) -> f64 {
-        let of = |body: &ImpactBody| {
-            let turning = if body.inverse_inertia > 0.0 {
-                body.spin * body.spin / body.inverse_inertia
-            } else {
-                0.0
-            };
-            body.velocity.length_squared() / body.inverse_mass + turning
-        };
-        let moving = bodies.iter().filter(|body| body.inverse_mass > 0.0);
-        0.5 * moving.map(of).sum::<f64>()
-    }
-
     proptest! {
         #[test]
         fn no_impulses_gain_energy((bodies, contacts) in heap(3.0, 12, (Just(0.0), 0.0..2.0_f64)), opens in -1.0..0.0_f64) {
             let swept = swept_faces(&bodies, &faces(&contacts, opens));
-            let (before, after) = (kinetic(&bodies), kinetic(&swept.bodies));
+            let (before, after) = (energy(&bodies), energy(&swept.bodies));
             prop_assert!(after <= before * (1.0 + 1e-12), "{after} J of {before} J");
             for ([normal, _, along], shared) in swept.impulses.iter().zip(&contacts) {
                 prop_assert!(*normal >= 0.0);
@@ -220,7 +184,7 @@ mod tests {
         assert_eq!(swept.bodies, bodies);
     }
 
-    /// A column of discs on a floor that slides: what sweeps leave falls with their number, not with a choice of theirs.
+    /// A column of discs that slides on a floor.
     #[test]
     fn a_column_is_held_as_by_pivots() {
         let mut bodies = vec![ImpactBody::immovable(Vec2::ZERO, Vec2::ZERO, 0.0)];

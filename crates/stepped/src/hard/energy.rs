@@ -8,7 +8,6 @@
 use carom_impact::ImpactBody;
 use carom_math::Vec2;
 
-use super::conditions::square;
 use super::solve::Island;
 use crate::bodies::Bodies;
 use crate::rows::{Graph, Law, Quad};
@@ -27,14 +26,10 @@ impl Island {
         if adds || self.bodies.iter().any(drives) {
             return None;
         }
-        let kinetic = |(body, came): (&ImpactBody, &(Vec2, f64))| {
-            if body.inverse_mass > 0.0 {
-                0.5 * square(body, came.0, came.1) / body.inverse_mass
-            } else {
-                0.0
-            }
-        };
-        Some(self.bodies.iter().zip(&self.came).map(kinetic).sum())
+        let came = self.bodies.iter().zip(&self.came);
+        let kinetic =
+            |(body, came): (&ImpactBody, &(Vec2, f64))| moving(body, *came).kinetic_energy();
+        Some(came.map(kinetic).sum())
     }
 
     /// What it has lost since, in J.
@@ -42,7 +37,7 @@ impl Island {
         let before = self.energy?;
         let now = |(line, body): (u32, &ImpactBody)| {
             let now = &bodies.lines[line as usize];
-            0.5 * square(body, now.v(), now.w()) / body.inverse_mass
+            moving(body, (now.v(), now.w())).kinetic_energy()
         };
         let kinetic: f64 = self.moved().map(now).sum();
         let went = |(line, from): (&u32, &Quad)| {
@@ -54,7 +49,7 @@ impl Island {
     }
 
     /// Ways of second order may gain energy: they become ways by the velocities at the end, which do not, as far as that takes.
-    pub(super) fn lose(&self, law: &Law, bodies: &mut Bodies) {
+    pub(super) fn dissipate(&self, law: &Law, bodies: &mut Bodies) {
         let Some(lost) = self.lost(bodies).filter(|lost| *lost < 0.0) else {
             return;
         };
@@ -75,6 +70,15 @@ impl Island {
                 line.set_displacement(line.d() + way * part, line.turn() + turn * part);
             }
         }
+    }
+}
+
+/// A body with another motion.
+fn moving(body: &ImpactBody, (velocity, spin): (Vec2, f64)) -> ImpactBody {
+    ImpactBody {
+        velocity,
+        spin,
+        ..*body
     }
 }
 

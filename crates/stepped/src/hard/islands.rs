@@ -157,7 +157,7 @@ fn find_small(
     search: &mut Search,
     found: &mut Vec<Found>,
 ) {
-    if admits.bodies.max(admits.discs) == 0 {
+    if admits.discs == 0 {
         return;
     }
     search.begin(graph, bodies, found);

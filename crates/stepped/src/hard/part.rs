@@ -12,7 +12,7 @@
 use carom_impact::{Friction, HeldFace, HeldFaces, ImpactBody};
 use carom_math::{Vec2, perp};
 
-use super::conditions::{centre, square};
+use super::conditions::centre;
 use super::energy::work;
 use super::solve::{HardContact, Island, lane_of};
 use crate::Settings;
@@ -57,7 +57,7 @@ impl Island {
         settings: &Settings,
     ) -> f64 {
         let begun: Vec<[f64; 2]> = self.contacts.iter().map(|at| at.gaps).collect();
-        self.lose(law, bodies);
+        self.dissipate(law, bodies);
         let mut least = self.least_gap(bodies, graph);
         let slop = self.slop(bodies);
         if least < -slop - self.touches(law) {
@@ -91,7 +91,7 @@ impl Island {
         let mut faces = begun.clone();
         ask(&mut faces, &parts.opens);
         let (held, part) = self.parted(parts, &faces);
-        let before: f64 = self.bodies.iter().map(energy).sum();
+        let before: f64 = self.bodies.iter().map(ImpactBody::kinetic_energy).sum();
         let pushed = |part: f64| {
             let pushed = self.pushed(part, &held.bodies, bodies);
             let mut faces = self.smooth_faces(graph);
@@ -100,7 +100,12 @@ impl Island {
                 centre(bodies, self.lines[k]) + held.bodies[k].velocity * (part * law.h)
             });
             let stopped = self.held(&pushed, &faces);
-            let gained = stopped.bodies.iter().map(energy).sum::<f64>() - before;
+            let gained = stopped
+                .bodies
+                .iter()
+                .map(ImpactBody::kinetic_energy)
+                .sum::<f64>()
+                - before;
             stopped.sure.then_some((stopped.bodies, gained))
         };
         if !held.sure {
@@ -312,9 +317,4 @@ fn meet(faces: &mut [HeldFace], centre: impl Fn(usize) -> Vec2) {
             point.on = (point.on.0 + off, point.on.1 - off);
         }
     }
-}
-
-/// Kinetic energy of a body, twice.
-fn energy(body: &ImpactBody) -> f64 {
-    square(body, body.velocity, body.spin) / body.inverse_mass
 }

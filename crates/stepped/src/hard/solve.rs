@@ -93,11 +93,11 @@ impl Island {
                 points,
             });
         }
-        let way = |line: &u32| {
-            let line = &bodies.lines[*line as usize];
-            Quad::new(line.d(), line.turn())
-        };
-        island.ways = island.lines.iter().map(way).collect();
+        let ways = island
+            .lines
+            .iter()
+            .map(|line| bodies.lines[*line as usize].displacement());
+        island.ways = ways.collect();
         island.energy = island.energy_before(graph);
         let pulls = island
             .lines

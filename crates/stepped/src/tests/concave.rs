@@ -35,7 +35,7 @@ fn polygon(corners: &[(f64, f64)], size: f64) -> Polygon {
     Polygon::new(corners.iter().map(corner).collect::<Vec<_>>()).unwrap()
 }
 
-/// A half-plane between two walls of 1 m whose middles are at ±`x`.
+/// A half-plane between two walls of 1 m with their middles at ±`x`.
 fn bin(settings: Settings, x: f64, height: f64) -> Engine {
     let mut engine = Engine::new(Settings {
         sleep: None,
