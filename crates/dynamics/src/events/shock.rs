@@ -245,7 +245,6 @@ impl Shock {
             self.looked.push((place, rest));
             rest
         };
-        let least = rest.pulled;
         let size = bodies
             .get(pair.bodies.0)
             .reach
@@ -270,7 +269,7 @@ impl Shock {
                 let (a, b) = (&self.bodies[ends.0].after, &self.bodies[ends.1].after);
                 let closing = (a.velocity_of(point.position) - b.velocity_of(point.position))
                     .dot(contact.normal);
-                if closing > least {
+                if closing > rest.pulled {
                     let contact = ImpactContact {
                         point: point.position,
                         normal: contact.normal,

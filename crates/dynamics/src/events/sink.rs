@@ -1,8 +1,7 @@
-//! Held pairs that turn out of what the solver planned for them, and pairs that overlap.
+//! Pairs that last, of bodies that wait within a sub-step for the method that holds them, and pairs that overlap.
 //!
-//! The solver holds a contact along the normal and about the arms that it has when a sub-step begins. A body that turns by
-//! half a radian until the sub-step ends stands on another corner then, and what was struck on its way has another motion
-//! than was planned. So a pair that is held is followed through its sub-step, and struck where it sinks in.
+//! What waits goes on as it did: it may turn or be struck into what it touches. So such a pair is followed until the sub-step ends, and
+//! struck where it sinks in.
 //!
 //! So is one that is let go while it still overlaps: the search for its next impact begins within both shapes. Where the
 //! nearest way out of a piece is a cut, what comes in there has touched another piece before, by that search; but it began

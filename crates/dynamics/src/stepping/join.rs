@@ -117,10 +117,8 @@ impl World {
 
     /// Bodies in touch of which one has no solution of its contact modes join.
     pub(crate) fn join_unsolved(&mut self, time: SimTime) {
-        let mut stepped = self.stepped.iter();
-        if self.may_join() && stepped.any(|index| self.is_unsolved(*index)) {
-            let islands = self.unsolved_islands();
-            self.join_islands(islands, time);
+        if self.may_join() {
+            self.join_islands(self.unsolved_islands(), time);
         }
     }
 
