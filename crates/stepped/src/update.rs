@@ -9,7 +9,7 @@ use crate::broad::Pairs;
 use crate::narrow::{Eight, Found, Manifold, Scene, collide_eight};
 use crate::pieces::Pieces;
 use crate::rows::{Block, Cold, Graph, HARD, LANES, Law, OPEN, RotatingRows, Side, renew};
-use crate::{PairRules, Settings, Surface};
+use crate::{PairRules, Settings};
 
 /// A kept contact may be so many margins wide, so that pairs do not come and go each tick.
 const KEPT: f64 = 1.5;
@@ -237,10 +237,7 @@ pub(crate) fn create(
     };
     graph.suspects.cover(bodies.lines.len());
     let unknown = candidates.iter().filter(|pair| !known.contains(**pair));
-    let mut news = unknown.filter_map(|pair| {
-        let new = New::of(bodies, pieces, *pair)?;
-        Some((new, pieces.surface(new.pieces, rules)?))
-    });
+    let mut news = unknown.filter_map(|pair| New::of(bodies, pieces, *pair));
     let (mut eight_news, mut fresh) = (Vec::with_capacity(LANES), Vec::new());
     loop {
         eight_news.clear();
@@ -254,11 +251,14 @@ pub(crate) fn create(
     let mut least = OPEN;
     for Fresh {
         new: New { pieces: pair, .. },
-        surface,
         manifold,
         face,
     } in fresh
     {
+        // Few of the candidates are near: so the rules are asked about these alone.
+        let Some(surface) = pieces.surface(pair, rules) else {
+            continue;
+        };
         let [a, b] = pair.map(|piece| &pieces.list[piece as usize]);
         let ends = [a.body, b.body];
         let deepest = deepest(law, pieces, pair);
@@ -286,17 +286,16 @@ pub(crate) fn create(
 }
 
 /// Adds those of at most eight pairs that are near enough, with their manifolds.
-fn add_near(level: Level, scene: &Scene<'_>, news: &[(New, Surface)], fresh: &mut Vec<Fresh>) {
+fn add_near(level: Level, scene: &Scene<'_>, news: &[New], fresh: &mut Vec<Fresh>) {
     let pieces = scene.pieces;
     let mut eight = Eight::new(pieces, [[0; LANES]; 2]);
-    for (lane, (new, surface)) in news.iter().enumerate() {
+    for (lane, new) in news.iter().enumerate() {
         if eight.set_pieces(pieces, lane, new.pieces) {
             (eight.lines[0][lane], eight.lines[1][lane]) = (new.lines[0], new.lines[1]);
             eight.least[lane] = scene.seen(new.lines.map(|line| line as usize));
         } else if let Some(manifold) = scene.contact(new.pieces, 1.0) {
             fresh.push(Fresh {
                 new: *new,
-                surface: *surface,
                 manifold,
                 face: None,
             });
@@ -305,12 +304,11 @@ fn add_near(level: Level, scene: &Scene<'_>, news: &[(New, Surface)], fresh: &mu
     let mut found = Found::NONE;
     collide_eight(level, scene, 1.0, &eight, &mut found);
     fresh.extend(lanes(found.near).map(|lane| {
-        let (new, surface) = news[lane];
+        let new = news[lane];
         // A corner may leave its face before it comes near; a disc keeps to it.
         let side = face(&found, lane, pieces, new.pieces, false);
         Fresh {
             new,
-            surface,
             manifold: found.manifold(lane),
             face: side.filter(|side| side.radius > 0.0),
         }
@@ -320,7 +318,6 @@ fn add_near(level: Level, scene: &Scene<'_>, news: &[(New, Surface)], fresh: &mu
 /// A pair that is near enough.
 struct Fresh {
     new: New,
-    surface: Surface,
     manifold: Manifold,
     /// Which body has the face, if its row may be rotated.
     face: Option<Side>,

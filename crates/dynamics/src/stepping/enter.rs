@@ -145,7 +145,7 @@ impl Stepping {
     ) {
         for &index in forced {
             if !first && let Some(state) = self.state(index) {
-                self.write_one(bodies, &state, clock);
+                self.write_one(bodies, &state, (clock.last(), clock.h));
             }
             bodies.change(index, clock.next(), |_| {});
         }

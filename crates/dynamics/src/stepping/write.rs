@@ -27,8 +27,9 @@ impl Stepping {
 
     /// Motions of the last sub-step for all that moved in it.
     pub(crate) fn write_all(&self, bodies: &mut Bodies, clock: &Clock) {
+        let span = (clock.last(), clock.h);
         for state in self.engine.awake() {
-            self.write_one(bodies, &state, clock);
+            self.write_one(bodies, &state, span);
         }
     }
 
@@ -41,19 +42,25 @@ impl Stepping {
         // Bodies that were changed meanwhile go on from there.
         let mut changed = bodies.touched.clone();
         changed.sort_unstable();
+        let span = (clock.last(), clock.h);
         for state in self.engine.awake() {
             if changed.binary_search(&place(&state)).is_err() {
-                self.write_one(bodies, &state, clock);
+                self.write_one(bodies, &state, span);
             }
         }
     }
 
-    /// A body's motion of the last sub-step: from the velocity before to the one after, to where it is.
+    /// A body's motion of the sub-step from `start` on, `h` seconds long: from the velocity before to the one after, to where it is.
     ///
     /// That is where it came from, too, unless a contact stopped it or pushed it out within the sub-step. Such a body goes
     /// evenly from place to place: a path between two that are free, and no faster than it was.
-    pub(super) fn write_one(&self, bodies: &mut Bodies, state: &State, clock: &Clock) {
-        let (index, start, h) = (place(state), clock.last(), clock.h);
+    pub(super) fn write_one(
+        &self,
+        bodies: &mut Bodies,
+        state: &State,
+        (start, h): (SimTime, f64),
+    ) {
+        let index = place(state);
         if bodies.get(index).is_guest {
             // Another method moves it, and what that predicted stands.
             return;

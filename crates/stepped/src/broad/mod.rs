@@ -22,8 +22,9 @@ const FEW: usize = 8;
 pub(crate) struct Broad {
     sweep: Sweep,
     standing: BoxTree,
-    /// Node of each piece that stands.
+    /// Node of each piece that stands, and how many have one.
     nodes: Vec<Option<NodeId>>,
+    stands: usize,
     endless: Vec<u32>,
     /// Pieces that stand since the last tick: movers that rest have not met them.
     arrived: Vec<u32>,
@@ -44,6 +45,7 @@ impl Broad {
             sweep: Sweep::default(),
             standing: BoxTree::new(),
             nodes: Vec::new(),
+            stands: 0,
             endless: Vec::new(),
             arrived: Vec::new(),
             woken: Vec::new(),
@@ -62,6 +64,7 @@ impl Broad {
                 self.nodes.resize(k + 1, None);
             }
             self.nodes[k] = Some(self.standing.insert(bounds, piece));
+            self.stands += 1;
         } else {
             self.endless.push(piece);
         }
@@ -90,6 +93,7 @@ impl Broad {
     pub(crate) fn leave(&mut self, piece: u32) {
         if let Some(node) = self.nodes.get_mut(piece as usize).and_then(Option::take) {
             self.standing.remove(node);
+            self.stands -= 1;
         }
         self.endless.retain(|other| *other != piece);
         self.arrived.retain(|other| *other != piece);
@@ -107,7 +111,7 @@ impl Broad {
 
     /// Finds the pairs of which one piece moved, arrived or woke: at a tick.
     pub(crate) fn find(&mut self, level: Level, bodies: &Bodies, pieces: &Pieces, tick: f64) {
-        let moved = bodies.moved[2..].iter().filter(|moved| **moved).count();
+        let moved = moved(bodies);
         if moved == 0 && !self.has_arrivals() {
             self.found.clear();
         } else if self.is_stale(moved) {
@@ -127,23 +131,33 @@ impl Broad {
         let woken = &self.woken;
         let asks = |piece: u32| asks(bodies, pieces, woken, piece);
         let movers = (2..bodies.lines.len()).flat_map(|line| bodies.pieces_of_line(line));
-        for piece in movers.filter(|piece| asks(*piece)) {
-            let bounds = pieces.boxes[piece as usize];
-            self.standing.query(bounds, |other| {
-                if may_touch(pieces, [piece, other], tick) {
-                    found.push([piece, other]);
+        // The fewer ask the more: what stands asks all movers of unusual size one by one.
+        let ask_sweep = self.stands * (1 + self.sweep.unusual()) < moved(bodies);
+        if !ask_sweep || !self.endless.is_empty() {
+            for piece in movers.filter(|piece| asks(*piece)) {
+                if !ask_sweep {
+                    self.standing.query(pieces.boxes[piece as usize], |other| {
+                        if may_touch(pieces, [piece, other], tick) {
+                            found.push([piece, other]);
+                        }
+                    });
                 }
-            });
-            found.extend(self.endless.iter().map(|other| [piece, *other]));
+                found.extend(self.endless.iter().map(|other| [piece, *other]));
+            }
         }
-        for &piece in &self.arrived {
+        let mut meet = |piece: u32, asked: bool| {
             let bounds = pieces.boxes[piece as usize];
             self.sweep.all_in(pieces, bounds, |other| {
-                if !asks(other) && may_touch(pieces, [other, piece], tick) {
+                if asks(other) == asked && may_touch(pieces, [other, piece], tick) {
                     found.push([other, piece]);
                 }
             });
+        };
+        if ask_sweep {
+            let standing = (0u32..).zip(&self.nodes).filter(|(_, node)| node.is_some());
+            standing.for_each(|(piece, _)| meet(piece, true));
         }
+        self.arrived.iter().for_each(|piece| meet(*piece, false));
         self.arrived.clear();
         self.woken.clear();
     }
@@ -270,6 +284,11 @@ impl Broad {
             a.overlaps(b) && may_touch(pieces, *pair, tick)
         });
     }
+}
+
+/// How many bodies moved.
+fn moved(bodies: &Bodies) -> usize {
+    bodies.moved[2..].iter().filter(|moved| **moved).count()
 }
 
 /// Whether a mover is asked about: its body moved, or it is one of these that `woken` holds in order.

@@ -170,6 +170,11 @@ impl Sweep {
         self.keys.len() + self.unusual.len()
     }
 
+    /// How many of them have an unusual size.
+    pub(crate) const fn unusual(&self) -> usize {
+        self.unusual.len()
+    }
+
     /// Copies what is asked about into the order of the keys.
     fn fill(&mut self, pieces: &Pieces) {
         let (keys, boxes) = (&self.keys, &mut self.boxes);

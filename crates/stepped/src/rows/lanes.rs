@@ -161,6 +161,12 @@ impl Graph {
         block.set_impulses(lane, [0.0; 3]);
     }
 
+    /// Whether a contact has impulses.
+    pub(crate) fn acts(&self, id: u32) -> bool {
+        let (block, _, lane) = self.lane(id);
+        block.impulses(lane) != [0.0; 3]
+    }
+
     /// Lets a contact do nothing until it is computed anew.
     pub(crate) fn hide(&mut self, bodies: &mut Bodies, id: u32) {
         self.clear_warm_start(bodies, id);
