@@ -439,7 +439,7 @@ impl Engine {
         };
         let mut seen = sweep(*level, solve, law, &mut bodies.lines, graph.soft());
         extra.sweep(solve, law, bodies, graph);
-        impacts.note_hits((*level, law), bodies, graph, false);
+        impacts.note_hits(law, bodies, graph, false);
         free.note_impulses(graph);
         displace(*level, bodies, law.h, far);
         ways.begin(bodies);
@@ -457,7 +457,7 @@ impl Engine {
         self.rotating.rotate(graph, bodies);
         let gap = hard.part(law, bodies, (graph, free), settings, true);
         free.turn_back_late(*level, graph, bodies, law.h);
-        impacts.note_hits((*level, law), bodies, graph, true);
+        impacts.note_hits(law, bodies, graph, true);
         impacts.add_rows(bodies, graph);
         bounce(bodies, graph, arrived, before);
         impacts.end(law, arrived, bodies, graph, pieces);

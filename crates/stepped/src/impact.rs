@@ -6,14 +6,11 @@
 //! The impact of two pieces' shapes is that run of sub-steps: its speed is that of arrival, its impulse the sum over sub-steps,
 //! points and pieces, its time when the gap was closed. For sub-steps of no length it is the event of exact motion.
 
-#![allow(clippy::inline_always, reason = "the wide instructions end at a call")]
-
 use carom_math::{Vec2, perp};
-use fearless_simd::{Level, Simd, SimdBase, SimdMask, dispatch, f64x4};
 
 use crate::bodies::Bodies;
 use crate::pieces::Pieces;
-use crate::rows::{Arrival, Block, Colour, Graph, LANES, Law, REST};
+use crate::rows::{Arrival, Block, Colour, Graph, Law, REST};
 use crate::{BodyId, Engine};
 
 /// A run goes on for so many sub-steps at most: what is pressed on for longer lies there.
@@ -86,7 +83,7 @@ impl Impacts {
     /// short of what they would meet in the next sub-step.
     pub(crate) fn note_hits(
         &mut self,
-        (level, law): (Level, &Law),
+        law: &Law,
         bodies: &Bodies,
         graph: &mut Graph,
         moved: bool,
@@ -96,8 +93,9 @@ impl Impacts {
         }
         let mut new = core::mem::take(&mut self.new);
         new.clear();
+        graph.note_hard_pushing();
         for colour in graph.awake() {
-            dispatch!(level, simd => pushing(simd, colour, &mut new));
+            begins(colour, &mut new);
         }
         for &id in &new {
             let (block, _, lane) = graph.lane(id);
@@ -263,22 +261,12 @@ const fn number(at: usize) -> u32 {
     at as u32
 }
 
-/// Numbers of contacts that push and did not when this was last asked.
-#[inline(always)]
-fn pushing<S: Simd>(simd: S, colour: &mut Colour, new: &mut Vec<u32>) {
-    let zero = f64x4::splat(simd, 0.0);
-    for (block, cold) in colour.blocks.iter().zip(&mut colour.cold) {
-        let mut pushes = 0u8;
-        for at in [0, LANES / 2] {
-            let j1 = f64x4::from_slice(simd, &block.j1[at..at + 4]);
-            let j2 = f64x4::from_slice(simd, &block.j2[at..at + 4]);
-            #[expect(clippy::cast_possible_truncation, reason = "four lanes")]
-            let bits = (j1 + j2).simd_gt(zero).to_bitmask() as u8;
-            pushes |= bits << at;
-        }
-        let pushes = pushes & cold.used;
-        let mut begins = pushes & !cold.pushed;
-        cold.pushed = pushes;
+/// Adds numbers of contacts that push and did not when this was last asked.
+fn begins(colour: &mut Colour, new: &mut Vec<u32>) {
+    let pairs = colour.pushes.iter().zip(&mut colour.pushed);
+    for ((now, before), cold) in pairs.zip(&colour.cold) {
+        let mut begins = now & !*before;
+        *before = *now;
         while begins != 0 {
             new.push(cold.contact[begins.trailing_zeros() as usize]);
             begins &= begins - 1;

@@ -41,10 +41,5 @@ impl Engine {
 
 /// A bit for each lane that pushed in the last sub-step, or that is too deep for the sweeps: hard rows part it without impulses.
 fn pushing(block: &Block, cold: &Cold) -> u8 {
-    let mut pushing = 0;
-    let some_is_deep = cold.some_is_deep();
-    for (lane, (j1, j2)) in block.j1.iter().zip(&block.j2).enumerate() {
-        pushing |= u8::from(j1 + j2 > 0.0 || some_is_deep && cold.is_deep(lane)) << lane;
-    }
-    pushing & cold.used
+    (block.pushing() | cold.deep()) & cold.used
 }

@@ -66,15 +66,16 @@ pub(crate) struct Cold {
     pub(crate) restitution: [f64; LANES],
     /// How fast the surfaces run, together, in m/s.
     pub(crate) belt: [f64; LANES],
-    /// Gaps at the base poses of what is too deep for the sweeps, in m; 0: it is not.
+    /// Gaps at the base poses of what is too deep for the sweeps, in m.
     pub(crate) depths: [[f64; 2]; LANES],
     /// The least gap that the sweeps see of it, in m.
     pub(crate) deepest: [f64; LANES],
     /// A bit for each lane that pushed when it was last asked.
     pub(crate) touching: u8,
-    /// A bit for each lane that pushed in the last sub-step, if impacts are noted, and for each that an impact goes on in.
-    pub(crate) pushed: u8,
+    /// A bit for each lane that an impact goes on in.
     pub(super) runs: u8,
+    /// A bit for each lane that was too deep for the sweeps when it was last computed.
+    pub(super) deep: u8,
     /// A bit for each lane that holds a contact.
     pub(crate) used: u8,
 }
@@ -115,6 +116,14 @@ impl Block {
         let two = manifold.points == 2;
         self.l[lane] = if two { manifold.length } else { 1.0 };
         self.s2[lane] = if two { manifold.gaps[1] } else { OPEN };
+    }
+
+    /// A bit for each lane that pushes.
+    pub(crate) fn pushing(&self) -> u8 {
+        let each = self.j1.iter().zip(&self.j2).zip(0..);
+        each.fold(0, |bits, ((j1, j2), lane)| {
+            bits | u8::from(j1 + j2 > 0.0) << lane
+        })
     }
 
     /// Unit normal from A to B.
@@ -245,20 +254,19 @@ impl Cold {
         depths: [[0.0; 2]; LANES],
         deepest: [0.0; LANES],
         touching: 0,
-        pushed: 0,
         runs: 0,
+        deep: 0,
         used: 0,
     };
 
     /// Whether a contact was too deep for the sweeps when it was last computed.
-    pub(crate) fn is_deep(&self, lane: usize) -> bool {
-        self.depths[lane].iter().any(|gap| *gap < 0.0)
+    pub(crate) const fn is_deep(&self, lane: usize) -> bool {
+        self.deep >> lane & 1 == 1
     }
 
-    /// Whether some lane is: by the sign bits of all depths at once.
-    pub(crate) fn some_is_deep(&self) -> bool {
-        let depths = self.depths.as_flattened().iter();
-        depths.fold(0, |bits, gap| bits | gap.to_bits()) >> 63 == 1
+    /// A bit for each lane that is.
+    pub(crate) const fn deep(&self) -> u8 {
+        self.deep
     }
 
     /// Notes how deep a contact is, if it is too deep for the sweeps, and whether that is so: from the first on if it is `fresh`
@@ -277,8 +285,8 @@ impl Cold {
             CRUSHED * deepest
         };
         let deep = gaps[0].min(gaps[1]) < least;
-        self.depths[lane] = if deep { gaps } else { [0.0; 2] };
-        self.deepest[lane] = deepest;
+        self.deep = self.deep & !(1 << lane) | u8::from(deep) << lane;
+        (self.depths[lane], self.deepest[lane]) = (gaps, deepest);
         deep
     }
 
@@ -292,7 +300,7 @@ impl Cold {
         self.deepest[to] = other.deepest[from];
         let bit = |mine: u8, theirs: u8| mine & !(1 << to) | (theirs >> from & 1) << to;
         self.touching = bit(self.touching, other.touching);
-        self.pushed = bit(self.pushed, other.pushed);
         self.runs = bit(self.runs, other.runs);
+        self.deep = bit(self.deep, other.deep);
     }
 }

@@ -7,6 +7,9 @@ use super::block::{Block, Cold, LANES};
 pub(crate) struct Colour {
     pub(crate) blocks: Vec<Block>,
     pub(crate) cold: Vec<Cold>,
+    /// A bit for each lane that pushes, as sweeps leave them, and as they were when impacts were last looked for.
+    pub(crate) pushes: Vec<u8>,
+    pub(crate) pushed: Vec<u8>,
     /// How many contacts of each block have restitution, and all of them.
     pub(crate) bounces: Vec<u8>,
     pub(crate) bouncing: usize,
@@ -16,6 +19,23 @@ pub(crate) struct Colour {
     len: usize,
     /// Blocks without a contact, among those that have one each.
     holes: usize,
+}
+
+/// A lane that is copied.
+pub(super) struct Lane {
+    block: Block,
+    cold: Cold,
+    pushed: bool,
+    lane: usize,
+}
+
+impl Lane {
+    const EMPTY: Self = Self {
+        block: Block::EMPTY,
+        cold: Cold::EMPTY,
+        pushed: false,
+        lane: 0,
+    };
 }
 
 impl Colour {
@@ -35,6 +55,8 @@ impl Colour {
         if k == self.blocks.len() {
             self.blocks.push(Block::EMPTY);
             self.cold.push(Cold::EMPTY);
+            self.pushes.push(0);
+            self.pushed.push(0);
             self.bounces.push(0);
         }
         let cold = &mut self.cold[k];
@@ -60,6 +82,24 @@ impl Colour {
         self.belts -= usize::from(self.cold[k].belt[lane].abs() > 0.0);
     }
 
+    /// A lane of this or another colour, with all its fields.
+    pub(super) fn copy(&self, k: usize, lane: usize) -> Lane {
+        Lane {
+            block: self.blocks[k],
+            cold: self.cold[k],
+            pushed: self.pushed[k] >> lane & 1 == 1,
+            lane,
+        }
+    }
+
+    /// Puts it into a lane.
+    pub(super) fn paste(&mut self, k: usize, lane: usize, from: &Lane) {
+        self.blocks[k].copy_lane(lane, &from.block, from.lane);
+        self.cold[k].copy_lane(lane, &from.cold, from.lane);
+        self.pushed[k] = self.pushed[k] & !(1 << lane) | u8::from(from.pushed) << lane;
+        self.count(k, lane);
+    }
+
     /// Empties a block that had one contact; whether a quarter of all are empty, and should go.
     ///
     /// An empty block moves nothing. Closing up at each removal took time by the square of the contacts: 400 discs at one
@@ -68,6 +108,7 @@ impl Colour {
         self.discount(k, 0);
         self.blocks[k] = Block::EMPTY;
         self.cold[k] = Cold::EMPTY;
+        self.pushed[k] = 0;
         self.holes += 1;
         4 * self.holes > self.blocks.len()
     }
@@ -82,6 +123,7 @@ impl Colour {
             if count < k {
                 self.blocks[count] = self.blocks[k];
                 self.cold[count] = self.cold[k];
+                self.pushed[count] = self.pushed[k];
                 self.bounces[count] = self.bounces[k];
                 moved(self.cold[count].contact[0], count);
             }
@@ -89,6 +131,8 @@ impl Colour {
         }
         self.blocks.truncate(count);
         self.cold.truncate(count);
+        self.pushes.truncate(count);
+        self.pushed.truncate(count);
         self.bounces.truncate(count);
         self.holes = 0;
     }
@@ -100,18 +144,17 @@ impl Colour {
         let (last, from) = (self.len / LANES, self.len % LANES);
         let moves = (last, from) != (k, lane);
         if moves {
-            let (block, cold) = (self.blocks[last], self.cold[last]);
+            let last_lane = self.copy(last, from);
             self.discount(last, from);
-            self.blocks[k].copy_lane(lane, &block, from);
-            self.cold[k].copy_lane(lane, &cold, from);
-            self.count(k, lane);
+            self.paste(k, lane, &last_lane);
         }
-        self.blocks[last].copy_lane(from, &Block::EMPTY, 0);
-        self.cold[last].copy_lane(from, &Cold::EMPTY, 0);
+        self.paste(last, from, &Lane::EMPTY);
         self.cold[last].used &= !(1 << from);
         if from == 0 {
             self.blocks.pop();
             self.cold.pop();
+            self.pushes.pop();
+            self.pushed.pop();
             self.bounces.pop();
         }
         moves.then(|| self.cold[k].contact[lane])

@@ -148,6 +148,9 @@ impl ExtraSweeps {
                     );
                 }
             }
+            for id in rows {
+                graph.note_pushing(*id);
+            }
         }
     }
 }

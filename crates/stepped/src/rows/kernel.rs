@@ -6,7 +6,7 @@
 
 #![allow(clippy::inline_always, reason = "the wide instructions end at a call")]
 
-use fearless_simd::{Level, Select, Simd, dispatch, f64x4, f64x8};
+use fearless_simd::{Level, Select, Simd, SimdMask, dispatch, f64x4, f64x8};
 
 use super::block::{Block, LANES, OPEN};
 use super::colour::Colour;
@@ -108,22 +108,24 @@ fn blocks<S: Simd, V: Wide<S>, const BIAS: bool, const FRICTION: bool>(
     let still = V::splat(simd, 0.0);
     for colour in colours {
         let belts = FRICTION && colour.belts > 0;
-        for (block, cold) in colour.blocks.iter_mut().zip(&colour.cold) {
+        let pushes = colour.pushes.iter_mut();
+        for ((block, cold), pushes) in colour.blocks.iter_mut().zip(&colour.cold).zip(pushes) {
             let mut at = 0;
+            *pushes = 0;
             while at < LANES {
                 let belt = if belts {
                     V::from_slice(simd, &cold.belt[at..at + V::LANES])
                 } else {
                     still
                 };
-                part::<S, V, BIAS, FRICTION>(simd, law, lines, block, at, belt, seen);
+                *pushes |= part::<S, V, BIAS, FRICTION>(simd, law, lines, block, at, belt, seen) << at;
                 at += V::LANES;
             }
         }
     }
 }
 
-/// The lanes of a block from `at` on that fill a register.
+/// The lanes of a block from `at` on that fill a register; a bit for each that pushes.
 #[inline(always)]
 fn part<S: Simd, V: Wide<S>, const BIAS: bool, const FRICTION: bool>(
     simd: S,
@@ -133,7 +135,7 @@ fn part<S: Simd, V: Wide<S>, const BIAS: bool, const FRICTION: bool>(
     at: usize,
     belt: V,
     seen: &mut SeenBy,
-) {
+) -> u8 {
     let end = at + V::LANES;
     let zero = V::splat(simd, 0.0);
     let one = V::splat(simd, 1.0);
@@ -176,7 +178,7 @@ fn part<S: Simd, V: Wide<S>, const BIAS: bool, const FRICTION: bool>(
         pushes += V::from_slice(simd, &block.jt[at..end]).abs();
     }
     if !any(closes | pushes.simd_gt(zero)) {
-        return;
+        return 0;
     }
 
     // The matrix of the points: computed where it is needed, since a large pile would wait for it longer.
@@ -281,4 +283,7 @@ fn part<S: Simd, V: Wide<S>, const BIAS: bool, const FRICTION: bool>(
     }
     V::write(lines, &block.a[at..end], [avx, avy, aw, ma]);
     V::write(lines, &block.b[at..end], [bvx, bvy, bw, mb]);
+    #[expect(clippy::cast_possible_truncation, reason = "eight lanes")]
+    let pushes = (new1 + new2).simd_gt(zero).to_bitmask() as u8;
+    pushes
 }

@@ -3,7 +3,7 @@
 use carom_math::{Vec2, perp};
 
 use super::block::{Block, Cold, LANES, OPEN};
-use super::graph::Graph;
+use super::graph::{Graph, HARD};
 use crate::Surface;
 use crate::bodies::Bodies;
 
@@ -161,6 +161,26 @@ impl Graph {
         block.set_impulses(lane, [0.0; 3]);
     }
 
+    /// Notes whether a contact pushes that other than the last sweep changed.
+    pub(super) fn note_pushing(&mut self, id: u32) {
+        if self.cold(id).is_some() {
+            let contact = &self.contacts[id as usize];
+            let (k, _) = contact.place();
+            let colour = &mut self.colours[contact.colour as usize];
+            colour.pushes[k] = colour.blocks[k].pushing();
+        }
+    }
+
+    /// The same of all in hard rows, which no sweep sees.
+    pub(crate) fn note_hard_pushing(&mut self) {
+        let end = self.awake_end();
+        for colour in &mut self.colours[HARD..end] {
+            for (pushes, block) in colour.pushes.iter_mut().zip(&colour.blocks) {
+                *pushes = block.pushing();
+            }
+        }
+    }
+
     /// Whether a contact has impulses.
     pub(crate) fn acts(&self, id: u32) -> bool {
         let (block, _, lane) = self.lane(id);
@@ -174,6 +194,6 @@ impl Graph {
         let (k, lane) = contact.place();
         let block = &mut self.colours[contact.colour as usize].blocks[k];
         (block.s1[lane], block.s2[lane]) = (OPEN, OPEN);
-        self.colours[contact.colour as usize].cold[k].depths[lane] = [0.0; 2];
+        self.colours[contact.colour as usize].cold[k].deep &= !(1 << lane);
     }
 }

@@ -38,6 +38,10 @@ fn all_widths_have_the_bits_of_the_plain_sweep() {
                     let bits = |line: &super::Line| line.0.map(|x| (x + 0.0).to_bits());
                     assert_eq!(bits(x), bits(y), "tick {tick}, {pass:?}, {level:?}");
                 }
+                for colour in wide.graph.soft() {
+                    let pushing = colour.blocks.iter().map(super::Block::pushing);
+                    assert!(colour.pushes.iter().copied().eq(pushing));
+                }
                 for id in wide.graph.ids() {
                     let ((x, _, lane), (y, ..)) = (wide.graph.lane(id), slow.graph.lane(id));
                     let bits = |j: [f64; 3]| j.map(|j| (j + 0.0).to_bits());

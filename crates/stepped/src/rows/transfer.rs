@@ -83,13 +83,11 @@ impl Graph {
     fn transfer(&mut self, id: u32, to: usize, lines: [u32; 2]) {
         let contact = self.contacts[id as usize];
         let (from, (k, lane)) = (contact.colour as usize, contact.place());
-        let (block, cold) = (self.colours[from].blocks[k], self.colours[from].cold[k]);
+        let row = self.colours[from].copy(k, lane);
         self.vacate(from, k, lane);
         let index = self.colours[to].push(to == COLOURS, id, contact.pieces);
         let (other, place) = (&mut self.colours[to], (index / LANES, index % LANES));
-        other.blocks[place.0].copy_lane(place.1, &block, lane);
-        other.cold[place.0].copy_lane(place.1, &cold, lane);
-        other.count(place.0, place.1);
+        other.paste(place.0, place.1, &row);
         let block = &mut other.blocks[place.0];
         (block.a[place.1], block.b[place.1]) = (lines[0], lines[1]);
         let contact = &mut self.contacts[id as usize];
