@@ -61,8 +61,7 @@ impl Engine {
             self.wake_overlapped(id.slot);
         } else {
             let at = record.line as usize;
-            self.bodies.base[at] = pose;
-            self.bodies.lines[at].clear_displacement();
+            self.bodies.set_base(at, pose);
             (self.bodies.moved[at], self.bodies.may_deviate) = (true, true);
         }
         Ok(())

@@ -14,7 +14,7 @@
 use carom_math::{Vec2, perp};
 use fearless_simd::{Level, Select, Simd, dispatch, f64x4, f64x8};
 
-use super::block::{Block, LANES, flags};
+use super::block::{Block, LANES};
 use super::colour::Colour;
 use super::graph::Graph;
 use super::kernel::eight_lanes;
@@ -36,9 +36,7 @@ pub(crate) struct FreePairs {
 struct FreeBlock {
     /// Colour and number of the block.
     at: (usize, usize),
-    /// A bit for each lane of a free pair.
-    lanes: u8,
-    /// From the base position of A to that of B, in m.
+    /// From the base position of A to that of B, in m; x is infinite where the pair is not free.
     x: [f64; LANES],
     y: [f64; LANES],
     /// Impulses that displaced the bodies, along the normal and across, in N·s.
@@ -150,18 +148,11 @@ fn meet_all<S: Simd, V: Wide<S>>(
 ) {
     for (colour, c) in colours.iter_mut().zip(0..) {
         for (block, k) in colour.blocks.iter_mut().zip(0..) {
-            let lanes = free_lanes(block, bodies);
-            if lanes == 0 {
-                continue;
+            let mut free = FreeBlock::NONE;
+            if meet::<S, V>(simd, block, &mut free, bodies) {
+                free.at = (c, k);
+                blocks.push(free);
             }
-            let mut free = FreeBlock {
-                at: (c, k),
-                lanes,
-                ..FreeBlock::NONE
-            };
-            free.find_arms(block, bodies);
-            meet::<S, V>(simd, block, &free, bodies);
-            blocks.push(free);
         }
     }
 }
@@ -189,19 +180,10 @@ fn turn_all<S: Simd, V: Wide<S>>(
     }
 }
 
-/// A bit for each lane of a free pair.
-fn free_lanes(block: &Block, bodies: &Bodies) -> u8 {
-    let is = |lane: &usize| bodies.is_free(block.a[*lane]) && bodies.is_free(block.b[*lane]);
-    (0..LANES)
-        .filter(is)
-        .fold(0, |lanes, lane| lanes | 1 << lane)
-}
-
 impl FreeBlock {
     const NONE: Self = Self {
         at: (0, 0),
-        lanes: 0,
-        x: [0.0; LANES],
+        x: [f64::INFINITY; LANES],
         y: [0.0; LANES],
         along: [0.0; LANES],
         across: [0.0; LANES],
@@ -209,14 +191,6 @@ impl FreeBlock {
         acts: false,
         limit: [0.0; LANES],
     };
-
-    /// Finds where the base positions are against each other.
-    fn find_arms(&mut self, block: &Block, bodies: &Bodies) {
-        for lane in 0..LANES {
-            let [a, b] = [block.a[lane], block.b[lane]].map(|at| bodies.base[at as usize].position);
-            (self.x[lane], self.y[lane]) = (b.x - a.x, b.y - a.y);
-        }
-    }
 
     fn note_impulses(&mut self, block: &Block) {
         for lane in 0..LANES {
@@ -230,20 +204,35 @@ impl FreeBlock {
     }
 }
 
-/// [`Block::meet`] of the lanes of free pairs: v stays, and what contacts did to it changes.
+/// [`Block::meet`] of the lanes of free pairs, and where their bodies are against each other; whether there are such lanes. v
+/// stays, and what contacts did to it changes.
 #[inline(always)]
-fn meet<S: Simd, V: Wide<S>>(simd: S, block: &mut Block, free: &FreeBlock, bodies: &mut Bodies) {
-    let chosen = flags(free.lanes);
+fn meet<S: Simd, V: Wide<S>>(
+    simd: S,
+    block: &mut Block,
+    free: &mut FreeBlock,
+    bodies: &mut Bodies,
+) -> bool {
     let (zero, half) = (V::splat(simd, 0.0), V::splat(simd, 0.5));
+    let mut some = false;
     for at in (0..LANES).step_by(V::LANES) {
         let end = at + V::LANES;
-        let chosen = V::from_slice(simd, &chosen[at..end]).simd_gt(zero);
         let (a, b) = (&block.a[at..end], &block.b[at..end]);
+        let [ax, ay, a_free, _] = V::columns(simd, &bodies.places, a, 0);
+        let [bx, by, b_free, _] = V::columns(simd, &bodies.places, b, 0);
+        let chosen = a_free.min(b_free).simd_gt(zero);
+        if !any(chosen) {
+            continue;
+        }
+        some = true;
+        let (base_x, base_y) = (bx - ax, by - ay);
+        let shown = chosen.select(base_x, V::splat(simd, f64::INFINITY));
+        shown.store_slice(&mut free.x[at..end]);
+        base_y.store_slice(&mut free.y[at..end]);
         let [adx, ady, aturn, ia] = V::columns(simd, &bodies.lines, a, 4);
         let [bdx, bdy, bturn, ib] = V::columns(simd, &bodies.lines, b, 4);
         // From B to A.
-        let x = (adx - bdx) - V::from_slice(simd, &free.x[at..end]);
-        let y = (ady - bdy) - V::from_slice(simd, &free.y[at..end]);
+        let (x, y) = ((adx - bdx) - base_x, (ady - bdy) - base_y);
         let nx = V::from_slice(simd, &block.nx[at..end]);
         let ny = V::from_slice(simd, &block.ny[at..end]);
         let a1 = V::from_slice(simd, &block.a1[at..end]);
@@ -274,6 +263,7 @@ fn meet<S: Simd, V: Wide<S>>(simd: S, block: &mut Block, free: &FreeBlock, bodie
             }
         }
     }
+    some
 }
 
 /// What both bodies of each free pair are to have more of angular momentum. Displacements that come later count from here.
@@ -285,12 +275,11 @@ fn moments<S: Simd, V: Wide<S>>(
     bodies: &Bodies,
     h: f64,
 ) {
-    let chosen = flags(free.lanes);
-    let zero = V::splat(simd, 0.0);
+    let (zero, endless) = (V::splat(simd, 0.0), V::splat(simd, f64::INFINITY));
     free.acts = false;
     for at in (0..LANES).step_by(V::LANES) {
         let end = at + V::LANES;
-        let chosen = V::from_slice(simd, &chosen[at..end]).simd_gt(zero);
+        let chosen = V::from_slice(simd, &free.x[at..end]).simd_lt(endless);
         let lasting =
             V::from_slice(simd, &block.j1[at..end]) + V::from_slice(simd, &block.j2[at..end]);
         let rubs = V::from_slice(simd, &block.jt[at..end]);
@@ -340,7 +329,7 @@ fn turn_back<S: Simd, V: Wide<S>>(simd: S, block: &Block, free: &FreeBlock, bodi
         let m = ma + mb;
         // By which arm × v is to change.
         let more = moment * m;
-        let x = V::from_slice(simd, &free.x[at..end]) + (bdx - adx);
+        let x = chosen.select(V::from_slice(simd, &free.x[at..end]), zero) + (bdx - adx);
         let y = V::from_slice(simd, &free.y[at..end]) + (bdy - ady);
         let square = x * x + y * y;
         let (turns, parts) = (x * vy - y * vx, x * vx + y * vy);
