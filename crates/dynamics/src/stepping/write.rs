@@ -12,6 +12,9 @@ use crate::store::uncommon::Lag;
 /// Places that differ by less, as a part of the reach and the way, are one but for rounding.
 const SAME: f64 = 1e-12;
 
+/// Motions computed before these are written.
+const AT_ONCE: usize = 64;
+
 impl Stepping {
     /// Notes all poses before a sub-step within which a pose may be read, and forgets them before any other.
     pub(crate) fn note_places(&mut self, asked: bool) {
@@ -28,8 +31,26 @@ impl Stepping {
     /// Motions of the last sub-step for all that moved in it.
     pub(crate) fn write_all(&self, bodies: &mut Bodies, clock: &Clock) {
         let span = (clock.last(), clock.h);
-        for state in self.engine.awake() {
-            self.write_one(bodies, &state, span);
+        if !self.places.is_empty() {
+            for state in self.engine.awake() {
+                self.write_one(bodies, &state, span);
+            }
+            return;
+        }
+        // Motions of some, then where they go: so that many bodies are on their way from memory at once.
+        let mut states = self.engine.awake();
+        let mut motions = Vec::with_capacity(AT_ONCE);
+        loop {
+            let some = states.by_ref().take(AT_ONCE);
+            motions.extend(some.map(|state| (place(&state), Ending::of(&state, span))));
+            if motions.is_empty() {
+                return;
+            }
+            for (index, ending) in motions.drain(..) {
+                if !bodies.get(index).is_guest {
+                    ending.write(bodies, index);
+                }
+            }
         }
     }
 
@@ -66,6 +87,44 @@ impl Stepping {
             return;
         }
         let ((v, w), (u, s)) = (state.velocity, state.before);
+        let ending = Ending::of(state, (start, h));
+        let noted = self
+            .places
+            .binary_search_by_key(&index, |noted| noted.0)
+            .map(|k| self.places[k]);
+        if let Ok((_, from, turned)) = noted {
+            let reach = bodies.get(index).reach;
+            let left = state.turned - turned;
+            let (motion, way) = (&ending.motion, ending.way);
+            let off = (motion.centre - from.position).length() + (left - ending.turn).abs() * reach;
+            // What contacts push on a parabola may have more energy on the way than at both ends.
+            let (pull, _) = bodies.pull_on(index, from.position);
+            let pushed = (v - u - pull * h).length() > SAME * (v.length() + u.length());
+            if state.lack.is_some() || pushed || off > SAME * (reach + way.length()) {
+                let shown = match state.lack {
+                    Some(lack) => [(v - lack.0, w - lack.1); 2],
+                    None => [(u, s), (v, w)],
+                };
+                go_evenly(bodies, start, (from, turned), shown, state, h);
+                return;
+            }
+        }
+        ending.write(bodies, index);
+    }
+}
+
+/// A motion that ends as a sub-step does: from the velocity before to the one after, to where the body is.
+struct Ending {
+    motion: Motion,
+    way: Vec2,
+    turn: f64,
+    /// The angle it ends with, in rad.
+    turned: f64,
+}
+
+impl Ending {
+    fn of(state: &State, (start, h): (SimTime, f64)) -> Self {
+        let ((v, w), (u, s)) = (state.velocity, state.before);
         let mut motion = Motion {
             start,
             centre: state.pose.position,
@@ -79,28 +138,17 @@ impl Stepping {
         let (way, turn) = (motion.travel(h), motion.turn(h));
         motion.centre -= way;
         motion.rotation = motion.rotation.turned_slightly(-turn);
-        let noted = self
-            .places
-            .binary_search_by_key(&index, |noted| noted.0)
-            .map(|k| self.places[k]);
-        if let Ok((_, from, turned)) = noted {
-            let reach = bodies.get(index).reach;
-            let left = state.turned - turned;
-            let off = (motion.centre - from.position).length() + (left - turn).abs() * reach;
-            // What contacts push on a parabola may have more energy on the way than at both ends.
-            let (pull, _) = bodies.pull_on(index, from.position);
-            let pushed = (v - u - pull * h).length() > SAME * (v.length() + u.length());
-            if state.lack.is_some() || pushed || off > SAME * (reach + way.length()) {
-                let shown = match state.lack {
-                    Some(lack) => [(v - lack.0, w - lack.1); 2],
-                    None => [(u, s), (v, w)],
-                };
-                go_evenly(bodies, start, (from, turned), shown, state, h);
-                return;
-            }
+        Self {
+            motion,
+            way,
+            turn,
+            turned: state.turned,
         }
-        bodies.go_on_as(index, &motion, state.turned - turn);
-        bodies.renew(index);
+    }
+
+    fn write(&self, bodies: &mut Bodies, index: u32) {
+        bodies.go_on_as(index, &self.motion, self.turned - self.turn);
+        bodies.renew_written(index);
     }
 }
 
