@@ -52,7 +52,6 @@ pub(crate) fn update(
             let near = moved & found.near;
             renew(level, &bodies.lines, &mut bodies.start, block, &found, near);
             for lane in lanes(near) {
-                cold.features[lane] = found.features(lane);
                 let gaps = [found.s1[lane], found.s2[lane]];
                 let gap = gaps[0].min(gaps[1]);
                 if gap < 0.0 || cold.is_deep(lane) {
@@ -121,8 +120,12 @@ fn deepest(law: &Law, pieces: &Pieces, pair: [u32; 2]) -> f64 {
 }
 
 /// Those lanes that have a bit.
-fn lanes(bits: u8) -> impl Iterator<Item = usize> {
-    (0..LANES).filter(move |lane| bits >> lane & 1 == 1)
+fn lanes(mut bits: u8) -> impl Iterator<Item = usize> {
+    core::iter::from_fn(move || {
+        let lane = bits.trailing_zeros() as usize;
+        bits &= bits.wrapping_sub(1);
+        (lane < LANES).then_some(lane)
+    })
 }
 
 /// Manifolds of the lanes of a block that have a bit in `moved`: pieces without outlines one by one.
@@ -247,7 +250,7 @@ pub(crate) fn create(
         }
         add_near(level, &scene, &eight_news, &mut fresh);
     }
-    fresh.sort_unstable_by_key(|fresh| fresh.new);
+    fresh.sort_by_cached_key(|fresh| fresh.new.pieces.map(|piece| place(bodies, pieces, piece)));
     let mut least = OPEN;
     for Fresh {
         new: New { pieces: pair, .. },
@@ -324,10 +327,8 @@ struct Fresh {
 }
 
 /// A pair that may become a contact: it begins with what was inserted first.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug)]
 struct New {
-    /// Birth of the body, and index of the piece.
-    order: [(u64, u32); 2],
     pieces: [u32; 2],
     lines: [u32; 2],
 }
@@ -335,39 +336,32 @@ struct New {
 impl New {
     /// Two pieces of bodies that are awake or fixed, and that contacts move at least one of.
     fn of(bodies: &Bodies, pieces: &Pieces, [a, b]: [u32; 2]) -> Option<Self> {
-        let (of_a, of_b) = (pieces.owners[a as usize], pieces.owners[b as usize]);
-        let (body_a, body_b) = (
-            &bodies.records[of_a.body as usize],
-            &bodies.records[of_b.body as usize],
-        );
+        let [body_a, body_b] = [a, b].map(|piece| {
+            let slot = pieces.owners[piece as usize].body;
+            &bodies.records[slot as usize]
+        });
         let dynamic = body_a.kind == BodyKind::Dynamic || body_b.kind == BodyKind::Dynamic;
         if !dynamic || body_a.line == Bodies::NONE || body_b.line == Bodies::NONE {
             return None;
         }
-        let new = Self {
-            order: [(body_a.birth, of_a.ordinal), (body_b.birth, of_b.ordinal)],
-            pieces: [a, b],
-            lines: [body_a.line, body_b.line],
-        };
-        Some(if new.order[0] < new.order[1] {
-            new
+        Some(if body_a.birth < body_b.birth {
+            Self {
+                pieces: [a, b],
+                lines: [body_a.line, body_b.line],
+            }
         } else {
-            new.swapped()
+            Self {
+                pieces: [b, a],
+                lines: [body_b.line, body_a.line],
+            }
         })
     }
+}
 
-    const fn swapped(self) -> Self {
-        let Self {
-            order: [p, q],
-            pieces: [a, b],
-            lines: [k, l],
-        } = self;
-        Self {
-            order: [q, p],
-            pieces: [b, a],
-            lines: [l, k],
-        }
-    }
+/// Place of a piece in an order that memory does not change: birth of its body, and index of the piece.
+fn place(bodies: &Bodies, pieces: &Pieces, piece: u32) -> (u64, u32) {
+    let owner = pieces.owners[piece as usize];
+    (bodies.records[owner.body as usize].birth, owner.ordinal)
 }
 
 /// What is little to a body must be little to the smallest piece that it has a contact with.

@@ -65,8 +65,6 @@ pub(crate) struct Found {
     pub(crate) s2: [f64; LANES],
     pub(crate) at: [f64; LANES],
     pub(crate) bt: [f64; LANES],
-    /// Features of both points.
-    pub(super) features: [[f64; LANES]; 2],
     /// A bit for each pair that is near.
     pub(crate) near: u8,
     /// A bit for each of these that is so short that it may be a ghost.
@@ -89,7 +87,6 @@ impl Found {
         s2: [0.0; LANES],
         at: [0.0; LANES],
         bt: [0.0; LANES],
-        features: [[0.0; LANES]; 2],
         near: 0,
         short: 0,
         seam: 0,
@@ -106,21 +103,9 @@ impl Found {
         self.l[lane] = if two { manifold.length } else { 1.0 };
         self.s1[lane] = manifold.gaps[0];
         self.s2[lane] = if two { manifold.gaps[1] } else { OPEN };
-        for (mine, theirs) in self.features.iter_mut().zip(manifold.features) {
-            mine[lane] = f64::from(theirs);
-        }
         self.near |= 1 << lane;
         self.short |= 1 << lane;
         self.seam |= 1 << lane;
-    }
-
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "two corners"
-    )]
-    pub(crate) fn features(&self, lane: usize) -> [u32; 2] {
-        [self.features[0][lane] as u32, self.features[1][lane] as u32]
     }
 
     pub(crate) fn manifold(&self, lane: usize) -> Manifold {
@@ -135,7 +120,6 @@ impl Found {
             tangent_a: self.at[lane],
             tangent_b: self.bt[lane],
             gaps: [self.s1[lane], second],
-            features: self.features(lane),
         }
     }
 }

@@ -27,7 +27,6 @@ pub(super) struct Face<V> {
     pub(super) stays: V,
     /// The most that the other is before any cut.
     pub(super) cut: V,
-    pub(super) index: V,
     pub(super) nx: V,
     pub(super) ny: V,
     /// Its two ends.
@@ -112,7 +111,6 @@ pub(super) fn best<S: Simd, V: Wide<S>, const N: usize>(
         separation: none,
         stays: none,
         cut: none,
-        index: zero,
         nx: a.nx[0],
         ny: a.ny[0],
         x: a.x[0],
@@ -138,7 +136,6 @@ pub(super) fn best<S: Simd, V: Wide<S>, const N: usize>(
         face.stays = stays.max(face.stays);
         let better = separation.simd_gt(face.separation);
         face.separation = better.select(separation, face.separation);
-        face.index = better.select(V::splat(simd, i as f64), face.index);
         face.nx = better.select(nx, face.nx);
         face.ny = better.select(ny, face.ny);
         face.x = better.select(a.x[i], face.x);
@@ -181,7 +178,6 @@ pub(super) fn choose<S: Simd, V: Wide<S>>(first: V::Mask, a: &Face<V>, b: &Face<
         separation: first.select(a.separation, b.separation),
         stays: first.select(a.stays, b.stays),
         cut: first.select(a.cut, b.cut),
-        index: first.select(a.index, b.index),
         nx: first.select(a.nx, b.nx),
         ny: first.select(a.ny, b.ny),
         x: first.select(a.x, b.x),

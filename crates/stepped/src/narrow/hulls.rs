@@ -25,15 +25,9 @@ pub(crate) fn collide_any(a: (&Piece, Pose), b: (&Piece, Pose), limit: f64) -> O
     let n = pose_a.vector(found.normal);
     let arm = |k: usize| pose_a.vector(found.points[k].point);
     let gap = |k: usize| found.points[k].separation - radii;
-    let feature = |k: usize| found.points[k].feature.0;
     match found.points.len() {
         0 => None,
-        1 => Some(Manifold::single(
-            n,
-            [arm(0), arm(0) - d],
-            gap(0),
-            feature(0),
-        )),
+        1 => Some(Manifold::single(n, [arm(0), arm(0) - d], gap(0))),
         _ => {
             let along = |k: usize| perp(n).dot(arm(k));
             let (first, second) = if along(0) >= along(1) { (0, 1) } else { (1, 0) };
@@ -48,7 +42,6 @@ pub(crate) fn collide_any(a: (&Piece, Pose), b: (&Piece, Pose), limit: f64) -> O
                 tangent_a: height,
                 tangent_b: height - d.dot(n),
                 gaps: [gap(first), gap(second)],
-                features: [feature(first), feature(second)],
             })
         }
     }

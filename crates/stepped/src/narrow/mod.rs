@@ -35,8 +35,6 @@ pub(crate) struct Manifold {
     pub(crate) tangent_b: f64,
     /// Gaps at the poses given, in m; below zero the pieces overlap.
     pub(crate) gaps: [f64; 2],
-    /// What touches: corner of A × 2¹⁶ + corner of B.
-    pub(crate) features: [u32; 2],
 }
 
 impl Manifold {
@@ -49,7 +47,7 @@ impl Manifold {
         }
     }
 
-    pub(super) fn single(normal: Vec2, arms: [Vec2; 2], gap: f64, feature: u32) -> Self {
+    pub(super) fn single(normal: Vec2, arms: [Vec2; 2], gap: f64) -> Self {
         Self {
             normal,
             arm_a: cross(arms[0], normal),
@@ -59,7 +57,6 @@ impl Manifold {
             tangent_a: arms[0].dot(normal),
             tangent_b: arms[1].dot(normal),
             gaps: [gap; 2],
-            features: [feature; 2],
         }
     }
 }

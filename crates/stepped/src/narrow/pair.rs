@@ -25,7 +25,7 @@ pub(crate) fn collide(
     if a.corners() == 1 && b.corners() == 1 {
         let ends = [a.corner(0), b.corner(0)];
         let goes = way.length();
-        return corners(a, b, d, ends, 0).filter(|found| found.gap() <= limit + goes);
+        return corners(a, b, d, ends).filter(|found| found.gap() <= limit + goes);
     }
     if sa.max(sb) == f64::NEG_INFINITY {
         return None;
@@ -89,13 +89,6 @@ fn face(owner: Turned<'_>, other: Turned<'_>, d: Vec2, i: usize, flipped: bool) 
     let (x_low, x_high) = (t.dot(low), t.dot(high));
     let (z_low, z_high) = (n.dot(low) - owner.off(i), n.dot(high) - owner.off(i));
     let radii = owner.radius() + other.radius();
-    let feature = |mine: usize, theirs: usize| {
-        if flipped {
-            id(theirs, mine)
-        } else {
-            id(mine, theirs)
-        }
-    };
     let start = if x_low > face_low { x_low } else { face_low };
     let end = if x_high < face_high {
         x_high
@@ -105,12 +98,11 @@ fn face(owner: Turned<'_>, other: Turned<'_>, d: Vec2, i: usize, flipped: bool) 
     let flat = owner.corners() > 2 && other.corners() > 2 && z_low.min(z_high) <= 0.0;
     // Beyond one end of the face: corner on corner.
     let meet = |mine: usize, theirs: usize| {
-        let id = feature(mine, theirs);
         let (mine, theirs) = (owner.corner(mine), other.corner(theirs));
         if flipped {
-            corners(other, owner, -d, [theirs, mine], id)
+            corners(other, owner, -d, [theirs, mine])
         } else {
-            corners(owner, other, d, [mine, theirs], id)
+            corners(owner, other, d, [mine, theirs])
         }
     };
     if start > end && !flat {
@@ -136,7 +128,6 @@ fn face(owner: Turned<'_>, other: Turned<'_>, d: Vec2, i: usize, flipped: bool) 
     };
     let gap = |x: f64| z_low + (x - x_low) * slope - radii;
     let (gap_low, gap_high) = (gap(start), gap(end));
-    let (low_id, high_id) = (feature(i, j_next), feature(i_next, j));
     // Points closer than rounding of their places are one.
     let single = end - start <= 1e-9 * (face_high - face_low);
     let nearest = if single || gap_low < gap_high {
@@ -173,7 +164,6 @@ fn face(owner: Turned<'_>, other: Turned<'_>, d: Vec2, i: usize, flipped: bool) 
             tangent_a: -beyond,
             tangent_b: -height,
             gaps: [gap_low, gap_high],
-            features: [low_id, high_id],
         }
     } else {
         Manifold {
@@ -185,7 +175,6 @@ fn face(owner: Turned<'_>, other: Turned<'_>, d: Vec2, i: usize, flipped: bool) 
             tangent_a: height,
             tangent_b: beyond,
             gaps: [gap_high, gap_low],
-            features: [high_id, low_id],
         }
     }
 }
@@ -211,7 +200,6 @@ fn corners(
     b: Turned<'_>,
     d: Vec2,
     [of_a, of_b]: [Vec2; 2],
-    feature: u32,
 ) -> Option<Manifold> {
     let way = of_b + d - of_a;
     let distance = way.length();
@@ -225,11 +213,5 @@ fn corners(
     };
     let gap = distance - a.radius() - b.radius();
     let arm = of_a + normal * (a.radius() + 0.5 * gap);
-    Some(Manifold::single(normal, [arm, arm - d], gap, feature))
-}
-
-fn id(a: usize, b: usize) -> u32 {
-    #[expect(clippy::cast_possible_truncation, reason = "at most eight corners")]
-    let id = (a << 16 | b) as u32;
-    id
+    Some(Manifold::single(normal, [arm, arm - d], gap))
 }

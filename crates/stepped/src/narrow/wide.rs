@@ -135,23 +135,19 @@ fn part<S: Simd, V: Wide<S>, const N: usize>(
     let (tx, ty) = (-ny, nx);
     let (dx_o, dy_o) = (flip.select(-dx, dx), flip.select(-dy, dy));
     let mut least = V::splat(simd, f64::INFINITY);
-    let (mut j, mut high_x, mut high_y, mut low_x, mut low_y) = (zero, zero, zero, zero, zero);
+    let (mut high_x, mut high_y, mut low_x, mut low_y) = (zero, zero, zero, zero);
     for k in 0..N {
         let next = (k + 1) % N;
         let (kx, ky) = (flip.select(a.nx[k], b.nx[k]), flip.select(a.ny[k], b.ny[k]));
         let along = nx * kx + ny * ky;
         let less = along.simd_lt(least);
         least = less.select(along, least);
-        j = less.select(V::splat(simd, k as f64), j);
         high_x = less.select(flip.select(a.x[k], b.x[k]), high_x);
         high_y = less.select(flip.select(a.y[k], b.y[k]), high_y);
         low_x = less.select(flip.select(a.x[next], b.x[next]), low_x);
         low_y = less.select(flip.select(a.y[next], b.y[next]), low_y);
     }
     let (own_count, other_count) = (flip.select(b_count, a_count), flip.select(a_count, b_count));
-    let i = owner.index;
-    let i_next = (i + one).simd_lt(own_count).select(i + one, zero);
-    let j_next = (j + one).simd_lt(other_count).select(j + one, zero);
 
     // Clipped to the face, along t.
     let off = nx * owner.x + ny * owner.y;
@@ -184,7 +180,6 @@ fn part<S: Simd, V: Wide<S>, const N: usize>(
     let height = off + flip.select(b_radius, a_radius) + half * nearest;
     let beyond_height = height - (nx * dx_o + ny * dy_o);
     let t_d = tx * dx_o + ty * dy_o;
-    let code = V::splat(simd, 65536.0);
     // Where B owns the face the normal from A to B is −n, and the lower end is farther along it turned by +90°.
     let mut n_x = flip.select(-nx, nx);
     let mut n_y = flip.select(-ny, ny);
@@ -195,8 +190,6 @@ fn part<S: Simd, V: Wide<S>, const N: usize>(
     let mut bt = flip.select(-height, beyond_height);
     let mut s1 = flip.select(gap_low, gap_high);
     let mut s2 = single.select(V::splat(simd, OPEN), flip.select(gap_high, gap_low));
-    let mut f1 = flip.select(j_next * code + i, i_next * code + j);
-    let mut f2 = flip.select(j * code + i_next, i * code + j_next);
     let mut twice = single.select(zero, length);
 
     let mut on_face = one.simd_gt(zero);
@@ -233,10 +226,6 @@ fn part<S: Simd, V: Wide<S>, const N: usize>(
         let out = a_radius + half * gap;
         let (arm_x, arm_y) = (corner_x + m_x * out, corner_y + m_y * out);
         let (other_arm_x, other_arm_y) = (arm_x - dx, arm_y - dy);
-        let own_index = own_next.select(i_next, i);
-        let other_index = other_next.select(j_next, j);
-        let feature =
-            flip.select(other_index, own_index) * code + flip.select(own_index, other_index);
         n_x = instead.select(m_x, n_x);
         n_y = instead.select(m_y, n_y);
         a1 = instead.select(arm_x * m_y - arm_y * m_x, a1);
@@ -246,8 +235,6 @@ fn part<S: Simd, V: Wide<S>, const N: usize>(
         bt = instead.select(other_arm_x * m_x + other_arm_y * m_y, bt);
         s1 = instead.select(gap, s1);
         s2 = instead.select(V::splat(simd, OPEN), s2);
-        f1 = instead.select(feature, f1);
-        f2 = instead.select(feature, f2);
         twice = instead.select(zero, twice);
         short |= instead;
         on_face = !instead;
@@ -278,8 +265,6 @@ fn part<S: Simd, V: Wide<S>, const N: usize>(
     s2.store_slice(&mut found.s2[at..end]);
     at_.store_slice(&mut found.at[at..end]);
     bt.store_slice(&mut found.bt[at..end]);
-    f1.store_slice(&mut found.features[0][at..end]);
-    f2.store_slice(&mut found.features[1][at..end]);
     #[expect(clippy::cast_possible_truncation, reason = "eight lanes")]
     let (near, short, seam, of_a, of_b) = (
         kept.to_bitmask() as u8,

@@ -61,7 +61,6 @@ pub(crate) struct Cold {
     /// Numbers of the contacts.
     pub(crate) contact: [u32; LANES],
     pub(crate) pieces: [[u32; 2]; LANES],
-    pub(crate) features: [[u32; 2]; LANES],
     /// Coefficients of restitution.
     pub(crate) restitution: [f64; LANES],
     /// How fast the surfaces run, together, in m/s.
@@ -248,7 +247,6 @@ impl Cold {
     pub(crate) const EMPTY: Self = Self {
         contact: [u32::MAX; LANES],
         pieces: [[u32::MAX; 2]; LANES],
-        features: [[0; 2]; LANES],
         restitution: [0.0; LANES],
         belt: [0.0; LANES],
         depths: [[0.0; 2]; LANES],
@@ -293,7 +291,6 @@ impl Cold {
     pub(crate) fn copy_lane(&mut self, to: usize, other: &Self, from: usize) {
         self.contact[to] = other.contact[from];
         self.pieces[to] = other.pieces[from];
-        self.features[to] = other.features[from];
         self.restitution[to] = other.restitution[from];
         self.belt[to] = other.belt[from];
         self.depths[to] = other.depths[from];

@@ -224,7 +224,6 @@ impl Graph {
         if deep {
             self.deep.push(id);
         }
-        colour.cold[k].features[lane] = manifold.features;
         colour.cold[k].restitution[lane] = surface.restitution;
         colour.cold[k].belt[lane] = surface.tangent_speed;
         colour.count(k, lane);
