@@ -25,8 +25,9 @@ use crate::bodies::Bodies;
 /// The contacts of free pairs in a sub-step.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct FreePairs {
-    /// In the order of colours.
+    /// The first [`Self::len`] are those of this sub-step, in the order of colours; what is behind them is memory for others.
     blocks: Vec<FreeBlock>,
+    len: usize,
     /// Those with displacements that came after velocities had been found.
     late: Vec<usize>,
 }
@@ -52,21 +53,21 @@ struct FreeBlock {
 impl FreePairs {
     /// Gathers them, and has their impulses act at one point of both bodies.
     pub(crate) fn meet(&mut self, level: Level, graph: &mut Graph, bodies: &mut Bodies) {
-        self.blocks.clear();
+        self.len = 0;
         if !bodies.any_is_free() {
             return;
         }
-        let (colours, blocks) = (graph.awake(), &mut self.blocks);
+        let colours = graph.awake();
         if eight_lanes(level) {
-            dispatch!(level, simd => meet_all::<_, f64x8<_>>(simd, colours, bodies, blocks));
+            dispatch!(level, simd => meet_all::<_, f64x8<_>>(simd, colours, bodies, self));
         } else {
-            dispatch!(level, simd => meet_all::<_, f64x4<_>>(simd, colours, bodies, blocks));
+            dispatch!(level, simd => meet_all::<_, f64x4<_>>(simd, colours, bodies, self));
         }
     }
 
     /// Notes the impulses that bodies are displaced by.
     pub(crate) fn note_impulses(&mut self, graph: &Graph) {
-        for free in &mut self.blocks {
+        for free in &mut self.blocks[..self.len] {
             free.note_impulses(&graph.colours[free.at.0].blocks[free.at.1]);
         }
     }
@@ -92,13 +93,13 @@ impl FreePairs {
         let contact = &graph.contacts[id as usize];
         let (k, lane) = contact.place();
         let at = (contact.colour as usize, k);
-        let known = self.blocks.binary_search_by_key(&at, |block| block.at);
+        let known = self.blocks[..self.len].binary_search_by_key(&at, |block| block.at);
         Some((known.ok()?, lane))
     }
 
     /// Gives back the angular momentum that displacements added within `h` seconds, before rows are rotated.
     pub(crate) fn turn_back(&mut self, level: Level, graph: &Graph, bodies: &mut Bodies, h: f64) {
-        self.turn_blocks(0..self.blocks.len(), level, graph, bodies, h);
+        self.turn_blocks(0..self.len, level, graph, bodies, h);
     }
 
     /// The same of displacements that came afterwards.
@@ -144,14 +145,17 @@ fn meet_all<S: Simd, V: Wide<S>>(
     simd: S,
     colours: &mut [Colour],
     bodies: &mut Bodies,
-    blocks: &mut Vec<FreeBlock>,
+    free: &mut FreePairs,
 ) {
     for (colour, c) in colours.iter_mut().zip(0..) {
         for (block, k) in colour.blocks.iter_mut().zip(0..) {
-            let mut free = FreeBlock::NONE;
-            if meet::<S, V>(simd, block, &mut free, bodies) {
-                free.at = (c, k);
-                blocks.push(free);
+            if free.len == free.blocks.len() {
+                free.blocks.push(FreeBlock::NONE);
+            }
+            let next = &mut free.blocks[free.len];
+            if meet::<S, V>(simd, block, next, bodies) {
+                next.at = (c, k);
+                free.len += 1;
             }
         }
     }
@@ -214,6 +218,7 @@ fn meet<S: Simd, V: Wide<S>>(
     bodies: &mut Bodies,
 ) -> bool {
     let (zero, half) = (V::splat(simd, 0.0), V::splat(simd, 0.5));
+    let endless = V::splat(simd, f64::INFINITY);
     let mut some = false;
     for at in (0..LANES).step_by(V::LANES) {
         let end = at + V::LANES;
@@ -222,11 +227,12 @@ fn meet<S: Simd, V: Wide<S>>(
         let [bx, by, b_free, _] = V::columns(simd, &bodies.places, b, 0);
         let chosen = a_free.min(b_free).simd_gt(zero);
         if !any(chosen) {
+            endless.store_slice(&mut free.x[at..end]);
             continue;
         }
         some = true;
         let (base_x, base_y) = (bx - ax, by - ay);
-        let shown = chosen.select(base_x, V::splat(simd, f64::INFINITY));
+        let shown = chosen.select(base_x, endless);
         shown.store_slice(&mut free.x[at..end]);
         base_y.store_slice(&mut free.y[at..end]);
         let [adx, ady, aturn, ia] = V::columns(simd, &bodies.lines, a, 4);
