@@ -81,13 +81,7 @@ impl Impacts {
     /// Contacts that push, and did not when this was last called, begin runs if a point of theirs that was apart closed faster
     /// than what counts as rest. To be called before the bodies move, and once more when they `moved`: relaxing stops them
     /// short of what they would meet in the next sub-step.
-    pub(crate) fn note_hits(
-        &mut self,
-        law: &Law,
-        bodies: &Bodies,
-        graph: &mut Graph,
-        moved: bool,
-    ) {
+    pub(crate) fn note_hits(&mut self, law: &Law, bodies: &Bodies, graph: &mut Graph, moved: bool) {
         if !self.asked {
             return;
         }
@@ -288,22 +282,22 @@ fn arrival(
         let [a, b] = ends.map(|line| &bodies.lines[line]);
         block.gaps(lane, a, b)
     };
+    let (points, j) = (block.points(lane), block.impulses(lane));
+    let is_apart = |gaps: [f64; 2], point: &usize| j[*point] > 0.0 && gaps[*point] > 0.0;
+    if !moved && !(0..points).any(|point| is_apart(gaps, &point)) {
+        return None;
+    }
     // Before contacts acted.
-    let [a, b] = ends.map(|line| {
-        let mut free = bodies.lines[line];
-        free.set_velocity(bodies.start[line].v(), bodies.start[line].w());
-        free
-    });
-    let opening = block.opening(lane, &a, &b);
+    let [a, b] = ends.map(|line| (bodies.start[line].v(), bodies.start[line].w()));
+    let opening = block.along(lane, a, b);
     if moved {
         // No row held it: it went as it came.
         gaps = [0, 1].map(|point| gaps[point] - opening[point] * law.h);
     }
     let pull = bodies.pull[ends[1]].v() - bodies.pull[ends[0]].v();
     let pull = block.normal(lane).dot(pull).min(0.0);
-    let j = block.impulses(lane);
     let mut first: Option<[f64; 2]> = None;
-    for point in (0..block.points(lane)).filter(|point| j[*point] > 0.0 && gaps[*point] > 0.0) {
+    for point in (0..points).filter(|point| is_apart(gaps, point)) {
         let before = opening[point] - pull * law.h;
         let speed = (before * before - 2.0 * pull * gaps[point]).sqrt();
         let faster = first.is_none_or(|[known, _]| speed > known);

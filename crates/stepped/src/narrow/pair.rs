@@ -195,12 +195,7 @@ fn facing(outline: Turned<'_>, n: Vec2) -> (usize, usize) {
 }
 
 /// Two corners, or centres of discs; where they coincide there is no normal.
-fn corners(
-    a: Turned<'_>,
-    b: Turned<'_>,
-    d: Vec2,
-    [of_a, of_b]: [Vec2; 2],
-) -> Option<Manifold> {
+fn corners(a: Turned<'_>, b: Turned<'_>, d: Vec2, [of_a, of_b]: [Vec2; 2]) -> Option<Manifold> {
     let way = of_b + d - of_a;
     let distance = way.length();
     let normal = if distance > 0.0 {

@@ -12,9 +12,9 @@
 #![allow(clippy::inline_always, reason = "the wide instructions end at a call")]
 
 use carom_math::{Vec2, perp};
-use fearless_simd::{Level, Select, Simd, dispatch, f64x4, f64x8};
+use fearless_simd::{Level, Select, Simd, SimdMask, dispatch, f64x4, f64x8};
 
-use super::block::{Block, LANES};
+use super::block::{Block, LANES, flags};
 use super::colour::Colour;
 use super::graph::Graph;
 use super::kernel::eight_lanes;
@@ -37,9 +37,8 @@ pub(crate) struct FreePairs {
 struct FreeBlock {
     /// Colour and number of the block.
     at: (usize, usize),
-    /// From the base position of A to that of B, in m; x is infinite where the pair is not free.
-    x: [f64; LANES],
-    y: [f64; LANES],
+    /// A bit for each lane of a free pair.
+    lanes: u8,
     /// Impulses that displaced the bodies, along the normal and across, in N·s.
     along: [f64; LANES],
     across: [f64; LANES],
@@ -152,9 +151,10 @@ fn meet_all<S: Simd, V: Wide<S>>(
             if free.len == free.blocks.len() {
                 free.blocks.push(FreeBlock::NONE);
             }
-            let next = &mut free.blocks[free.len];
-            if meet::<S, V>(simd, block, next, bodies) {
-                next.at = (c, k);
+            let lanes = meet::<S, V>(simd, block, bodies);
+            if lanes != 0 {
+                let next = &mut free.blocks[free.len];
+                (next.at, next.lanes) = ((c, k), lanes);
                 free.len += 1;
             }
         }
@@ -187,8 +187,7 @@ fn turn_all<S: Simd, V: Wide<S>>(
 impl FreeBlock {
     const NONE: Self = Self {
         at: (0, 0),
-        x: [f64::INFINITY; LANES],
-        y: [0.0; LANES],
+        lanes: 0,
         along: [0.0; LANES],
         across: [0.0; LANES],
         moment: [0.0; LANES],
@@ -208,37 +207,27 @@ impl FreeBlock {
     }
 }
 
-/// [`Block::meet`] of the lanes of free pairs, and where their bodies are against each other; whether there are such lanes. v
-/// stays, and what contacts did to it changes.
+/// [`Block::meet`] of the lanes of free pairs, which have a bit each. v stays, and what contacts did to it changes.
 #[inline(always)]
-fn meet<S: Simd, V: Wide<S>>(
-    simd: S,
-    block: &mut Block,
-    free: &mut FreeBlock,
-    bodies: &mut Bodies,
-) -> bool {
+fn meet<S: Simd, V: Wide<S>>(simd: S, block: &mut Block, bodies: &mut Bodies) -> u8 {
     let (zero, half) = (V::splat(simd, 0.0), V::splat(simd, 0.5));
-    let endless = V::splat(simd, f64::INFINITY);
-    let mut some = false;
+    let mut lanes = 0;
     for at in (0..LANES).step_by(V::LANES) {
         let end = at + V::LANES;
         let (a, b) = (&block.a[at..end], &block.b[at..end]);
         let [ax, ay, a_free, _] = V::columns(simd, &bodies.places, a, 0);
         let [bx, by, b_free, _] = V::columns(simd, &bodies.places, b, 0);
         let chosen = a_free.min(b_free).simd_gt(zero);
-        if !any(chosen) {
-            endless.store_slice(&mut free.x[at..end]);
+        #[expect(clippy::cast_possible_truncation, reason = "eight lanes")]
+        let bits = chosen.to_bitmask() as u8;
+        if bits == 0 {
             continue;
         }
-        some = true;
-        let (base_x, base_y) = (bx - ax, by - ay);
-        let shown = chosen.select(base_x, endless);
-        shown.store_slice(&mut free.x[at..end]);
-        base_y.store_slice(&mut free.y[at..end]);
+        lanes |= bits << at;
         let [adx, ady, aturn, ia] = V::columns(simd, &bodies.lines, a, 4);
         let [bdx, bdy, bturn, ib] = V::columns(simd, &bodies.lines, b, 4);
         // From B to A.
-        let (x, y) = ((adx - bdx) - base_x, (ady - bdy) - base_y);
+        let (x, y) = ((adx - bdx) - (bx - ax), (ady - bdy) - (by - ay));
         let nx = V::from_slice(simd, &block.nx[at..end]);
         let ny = V::from_slice(simd, &block.ny[at..end]);
         let a1 = V::from_slice(simd, &block.a1[at..end]);
@@ -269,7 +258,7 @@ fn meet<S: Simd, V: Wide<S>>(
             }
         }
     }
-    some
+    lanes
 }
 
 /// What both bodies of each free pair are to have more of angular momentum. Displacements that come later count from here.
@@ -281,11 +270,12 @@ fn moments<S: Simd, V: Wide<S>>(
     bodies: &Bodies,
     h: f64,
 ) {
-    let (zero, endless) = (V::splat(simd, 0.0), V::splat(simd, f64::INFINITY));
+    let chosen = flags(free.lanes);
+    let zero = V::splat(simd, 0.0);
     free.acts = false;
     for at in (0..LANES).step_by(V::LANES) {
         let end = at + V::LANES;
-        let chosen = V::from_slice(simd, &free.x[at..end]).simd_lt(endless);
+        let chosen = V::from_slice(simd, &chosen[at..end]).simd_gt(zero);
         let lasting =
             V::from_slice(simd, &block.j1[at..end]) + V::from_slice(simd, &block.j2[at..end]);
         let rubs = V::from_slice(simd, &block.jt[at..end]);
@@ -335,8 +325,9 @@ fn turn_back<S: Simd, V: Wide<S>>(simd: S, block: &Block, free: &FreeBlock, bodi
         let m = ma + mb;
         // By which arm × v is to change.
         let more = moment * m;
-        let x = chosen.select(V::from_slice(simd, &free.x[at..end]), zero) + (bdx - adx);
-        let y = V::from_slice(simd, &free.y[at..end]) + (bdy - ady);
+        let [ax, ay, _, _] = V::columns(simd, &bodies.places, a, 0);
+        let [bx, by, _, _] = V::columns(simd, &bodies.places, b, 0);
+        let (x, y) = ((bx - ax) + (bdx - adx), (by - ay) + (bdy - ady));
         let square = x * x + y * y;
         let (turns, parts) = (x * vy - y * vx, x * vx + y * vy);
         // (arm · v)² + (arm × v)² stays.

@@ -118,7 +118,8 @@ fn blocks<S: Simd, V: Wide<S>, const BIAS: bool, const FRICTION: bool>(
                 } else {
                     still
                 };
-                *pushes |= part::<S, V, BIAS, FRICTION>(simd, law, lines, block, at, belt, seen) << at;
+                *pushes |=
+                    part::<S, V, BIAS, FRICTION>(simd, law, lines, block, at, belt, seen) << at;
                 at += V::LANES;
             }
         }

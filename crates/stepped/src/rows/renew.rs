@@ -24,9 +24,9 @@ pub(crate) fn renew(
 ) {
     let chosen = flags(lanes);
     if eight_lanes(level) {
-        dispatch!(level, simd => part::<_, f64x8<_>>(simd, lines, start, block, new, &chosen, 0));
+        dispatch!(level, simd => part::<_, f64x8<_>>(simd, lines, start, block, new, chosen, 0));
     } else {
-        dispatch!(level, simd => parts(simd, lines, start, block, new, &chosen));
+        dispatch!(level, simd => parts(simd, lines, start, block, new, chosen));
     }
 }
 
