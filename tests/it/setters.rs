@@ -1,7 +1,7 @@
 //! What a caller changes of a body after it was inserted acts as if it had been inserted so, in each mode.
 
 use carom_dynamics::{
-    BodyDef, BodyError, BodyId, EventKind, Material, Mode, PairMaterial, Settings, World,
+    BodyDef, BodyError, BodyId, BodyKind, EventKind, Material, Mode, PairMaterial, Settings, World,
 };
 use carom_geometry::{Circle, ConvexPolygon, HalfPlane, Shape};
 use carom_math::{Pose, Vec2, vec2};
@@ -349,11 +349,37 @@ fn a_body_that_may_not_sleep_does_not_start_asleep_nor_lets_others() {
         run(&mut world, 120);
         assert_eq!([lower, upper].map(|id| sleeps(&world, id)), [false; 2]);
         // What is not dynamic holds no island together, and keeps none awake.
-        world
-            .set_kind(lower, carom_dynamics::BodyKind::Fixed)
-            .expect("it is there");
+        world.set_kind(lower, BodyKind::Fixed).expect("it is there");
         run(&mut world, 120);
         assert!(sleeps(&world, upper), "{mode:?}");
+    }
+}
+
+#[test]
+fn the_kind_that_a_body_has_changes_nothing() {
+    for mode in MODES {
+        let [asked, other] = [true, false].map(|asks| {
+            let mut world = world(mode, vec2(0.0, -10.0));
+            let floor = HalfPlane::new(Vec2::ZERO, Vec2::Y).expect("a unit normal");
+            let floor = put(&mut world, BodyDef::fixed(), floor, surface(0.0, 0.5));
+            // They land askew, one on the other.
+            let ids = [0.7, 1.9, 3.1].map(|y| {
+                let def = BodyDef::dynamic().at(vec2(0.1 * y, y)).turned(0.1 * y);
+                put(&mut world, def, block(1.0, 1.0), surface(0.0, 0.5))
+            });
+            for _ in 0..200 {
+                world.step(1.0 / 500.0);
+                if asks {
+                    let kinds = [
+                        world.set_kind(floor, BodyKind::Fixed),
+                        world.set_kind(ids[1], BodyKind::Dynamic),
+                    ];
+                    assert_eq!(kinds, [Ok(()), Ok(())]);
+                }
+            }
+            world.state_hash()
+        });
+        assert_eq!(asked, other, "{mode:?}");
     }
 }
 

@@ -90,7 +90,7 @@ impl World {
         self.set_velocity(id, velocity, spin)
     }
 
-    /// Changes what moves a body.
+    /// Changes what moves a body; one of that kind already goes on as it does.
     ///
     /// # Errors
     /// If the body is not there, it would move by forces but has no mass, or it would move and has a
@@ -98,6 +98,9 @@ impl World {
     pub fn set_kind(&mut self, id: BodyId, kind: BodyKind) -> Result<(), BodyError> {
         let index = self.bodies.find(id)?;
         let state = self.bodies.get(index);
+        if kind == state.kind {
+            return Ok(());
+        }
         if kind != BodyKind::Fixed {
             let shapes = state.colliders.iter();
             let mut solids = shapes.map(|at| &self.colliders[*at as usize].solid);

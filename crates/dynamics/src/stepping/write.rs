@@ -75,12 +75,7 @@ impl Stepping {
     ///
     /// That is where it came from, too, unless a contact stopped it or pushed it out within the sub-step. Such a body goes
     /// evenly from place to place: a path between two that are free, and no faster than it was.
-    pub(super) fn write_one(
-        &self,
-        bodies: &mut Bodies,
-        state: &State,
-        (start, h): (SimTime, f64),
-    ) {
+    pub(super) fn write_one(&self, bodies: &mut Bodies, state: &State, (start, h): (SimTime, f64)) {
         let index = place(state);
         if bodies.get(index).is_guest {
             // Another method moves it, and what that predicted stands.
