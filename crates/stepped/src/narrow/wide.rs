@@ -5,11 +5,11 @@
 
 #![allow(clippy::inline_always, reason = "the wide instructions end at a call")]
 
-use fearless_simd::{Level, Select, Simd, SimdMask, dispatch, f64x4, f64x8};
+use fearless_simd::{Level, Select, Simd, SimdMask};
 
 use super::faces::{FACELESS, best, choose, corners, cuts};
 use super::{Eight, Found, Scene};
-use crate::rows::{OPEN, Wide, any, eight_lanes};
+use crate::rows::{LANES, OPEN, Wide, any, widest};
 
 /// Margins that a contact is at most long if it may be one with the side of a flush piece: a quarter of the extent.
 const SHORT: f64 = 4.0;
@@ -30,33 +30,25 @@ pub(crate) fn collide_eight(
 ) {
     (found.near, found.short, found.seam) = (0, 0, 0);
     (found.of_a, found.of_b) = (0, 0);
-    if eight_lanes(level) {
-        dispatch!(level, simd => whole(simd, scene, factor, eight, found));
-    } else {
-        // Eight lanes would be two registers each, more than there are.
-        dispatch!(level, simd => halves(simd, scene, factor, eight, found));
-    }
+    widest!(level => parts(scene, factor, eight, found));
     found.near &= eight.used;
     found.of_a &= eight.used;
     found.of_b &= eight.used;
 }
 
 #[inline(always)]
-fn whole<S: Simd>(simd: S, scene: &Scene<'_>, factor: f64, eight: &Eight<'_>, found: &mut Found) {
-    if eight.boxes {
-        part::<S, f64x8<S>, 4>(simd, scene, factor, eight, found, 0);
-    } else {
-        part::<S, f64x8<S>, 8>(simd, scene, factor, eight, found, 0);
-    }
-}
-
-#[inline(always)]
-fn halves<S: Simd>(simd: S, scene: &Scene<'_>, factor: f64, eight: &Eight<'_>, found: &mut Found) {
-    for at in [0, 4] {
+fn parts<S: Simd, V: Wide<S>>(
+    simd: S,
+    scene: &Scene<'_>,
+    factor: f64,
+    eight: &Eight<'_>,
+    found: &mut Found,
+) {
+    for at in (0..LANES).step_by(V::LANES) {
         if eight.boxes {
-            part::<S, f64x4<S>, 4>(simd, scene, factor, eight, found, at);
+            part::<S, V, 4>(simd, scene, factor, eight, found, at);
         } else {
-            part::<S, f64x4<S>, 8>(simd, scene, factor, eight, found, at);
+            part::<S, V, 8>(simd, scene, factor, eight, found, at);
         }
     }
 }

@@ -15,7 +15,7 @@ pub(super) const fn flags(lanes: u8) -> &'static [f64; LANES] {
         let mut flags = [[0.0; LANES]; 256];
         let mut at = 0;
         while at < 256 * LANES {
-            if at / LANES >> (at % LANES) & 1 == 1 {
+            if (at / LANES) >> (at % LANES) & 1 == 1 {
                 flags[at / LANES][at % LANES] = 1.0;
             }
             at += 1;

@@ -12,14 +12,14 @@
 #![allow(clippy::inline_always, reason = "the wide instructions end at a call")]
 
 use carom_math::{Vec2, perp};
-use fearless_simd::{Level, Select, Simd, SimdMask, dispatch, f64x4, f64x8};
+use fearless_simd::{Level, Select, Simd, SimdMask};
 
 use super::block::{Block, LANES, flags};
 use super::colour::Colour;
 use super::graph::Graph;
-use super::kernel::eight_lanes;
 use super::line::Quad;
 use super::transpose::{Wide, any};
+use super::widest::widest;
 use crate::bodies::Bodies;
 
 /// The contacts of free pairs in a sub-step.
@@ -57,11 +57,7 @@ impl FreePairs {
             return;
         }
         let colours = graph.awake();
-        if eight_lanes(level) {
-            dispatch!(level, simd => meet_all::<_, f64x8<_>>(simd, colours, bodies, self));
-        } else {
-            dispatch!(level, simd => meet_all::<_, f64x4<_>>(simd, colours, bodies, self));
-        }
+        widest!(level => meet_all(colours, bodies, self));
     }
 
     /// Notes the impulses that bodies are displaced by.
@@ -98,7 +94,8 @@ impl FreePairs {
 
     /// Gives back the angular momentum that displacements added within `h` seconds, before rows are rotated.
     pub(crate) fn turn_back(&mut self, level: Level, graph: &Graph, bodies: &mut Bodies, h: f64) {
-        self.turn_blocks(0..self.len, level, graph, bodies, h);
+        let (blocks, colours) = (&mut self.blocks[..self.len], &graph.colours);
+        widest!(level => turn_all(colours, bodies, blocks, None, h));
     }
 
     /// The same of displacements that came afterwards.
@@ -112,29 +109,13 @@ impl FreePairs {
         let mut late = core::mem::take(&mut self.late);
         late.sort_unstable();
         late.dedup();
-        self.turn_blocks(late.iter().copied(), level, graph, bodies, h);
+        let (blocks, colours) = (&mut self.blocks[..], &graph.colours);
+        widest!(level => turn_all(colours, bodies, blocks, Some(&late), h));
         for known in late {
             let block = self.blocks[known].of(graph);
             for line in block.a.into_iter().chain(block.b) {
                 bodies.note_change(line);
             }
-        }
-    }
-
-    /// All moments are those of the velocities that the displacements came with.
-    fn turn_blocks(
-        &mut self,
-        which: impl Iterator<Item = usize> + Clone,
-        level: Level,
-        graph: &Graph,
-        bodies: &mut Bodies,
-        h: f64,
-    ) {
-        let (blocks, colours) = (&mut self.blocks, &graph.colours);
-        if eight_lanes(level) {
-            dispatch!(level, simd => turn_all::<_, f64x8<_>>(simd, colours, bodies, blocks, which, h));
-        } else {
-            dispatch!(level, simd => turn_all::<_, f64x4<_>>(simd, colours, bodies, blocks, which, h));
         }
     }
 }
@@ -161,22 +142,25 @@ fn meet_all<S: Simd, V: Wide<S>>(
     }
 }
 
+/// All blocks, or those of these numbers. All moments are those of the velocities that the displacements came with.
 #[inline(always)]
 fn turn_all<S: Simd, V: Wide<S>>(
     simd: S,
     colours: &[Colour],
     bodies: &mut Bodies,
     blocks: &mut [FreeBlock],
-    which: impl Iterator<Item = usize> + Clone,
+    which: Option<&[usize]>,
     h: f64,
 ) {
-    for known in which.clone() {
+    let count = which.map_or(blocks.len(), <[usize]>::len);
+    for n in 0..count {
+        let known = which.map_or(n, |which| which[n]);
         let free = &mut blocks[known];
         let block = &colours[free.at.0].blocks[free.at.1];
         moments::<S, V>(simd, block, free, bodies, h);
     }
-    for known in which {
-        let free = &blocks[known];
+    for n in 0..count {
+        let free = &blocks[which.map_or(n, |which| which[n])];
         if free.acts {
             let block = &colours[free.at.0].blocks[free.at.1];
             turn_back::<S, V>(simd, block, free, bodies);

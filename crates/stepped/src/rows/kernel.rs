@@ -6,13 +6,14 @@
 
 #![allow(clippy::inline_always, reason = "the wide instructions end at a call")]
 
-use fearless_simd::{Level, Select, Simd, SimdMask, dispatch, f64x4, f64x8};
+use fearless_simd::{Level, Select, Simd, SimdMask};
 
 use super::block::{Block, LANES, OPEN};
 use super::colour::Colour;
 use super::law::Law;
 use super::line::Line;
 use super::transpose::{Wide, any};
+use super::widest::widest;
 
 /// What is left of k₁₂: where no body can turn both points are one, and may share the load as they like. As its
 /// determinant the matrix has 2e-12 of the product of its diagonal then.
@@ -56,29 +57,12 @@ pub(crate) fn sweep(
         heat: [0.0; LANES],
         least_gap: [OPEN; LANES],
     };
-    if eight_lanes(level) {
-        dispatch!(level, simd => all::<_, f64x8<_>>(simd, pass, law, lines, colours, &mut seen));
-    } else {
-        // Eight lanes would be two registers each, more than there are.
-        dispatch!(level, simd => all::<_, f64x4<_>>(simd, pass, law, lines, colours, &mut seen));
-    }
+    widest!(level => all(pass, law, lines, colours, &mut seen));
     let least = |least: f64, gap: &f64| if *gap < least { *gap } else { least };
     Seen {
         heat: seen.heat.iter().fold(0.0, |sum, heat| sum + heat),
         least_gap: seen.least_gap.iter().fold(OPEN, least),
     }
-}
-
-/// Whether the processor has registers of eight lanes.
-pub(crate) fn eight_lanes(level: Level) -> bool {
-    #[cfg(target_arch = "x86_64")]
-    let has = level.as_avx512().is_some();
-    #[cfg(not(target_arch = "x86_64"))]
-    let has = {
-        let _ = level;
-        false
-    };
-    has
 }
 
 #[inline(always)]

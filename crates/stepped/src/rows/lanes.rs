@@ -185,7 +185,7 @@ impl Graph {
     /// Whether a contact has impulses.
     pub(crate) fn acts(&self, id: u32) -> bool {
         let (block, _, lane) = self.lane(id);
-        block.impulses(lane) != [0.0; 3]
+        block.impulses(lane).iter().any(|j| j.abs() > 0.0)
     }
 
     /// Lets a contact do nothing until it is computed anew.

@@ -2,12 +2,12 @@
 
 #![allow(clippy::inline_always, reason = "the wide instructions end at a call")]
 
-use fearless_simd::{Level, Select, Simd, dispatch, f64x4, f64x8};
+use fearless_simd::{Level, Select, Simd};
 
 use super::block::{Block, LANES, OPEN, flags};
-use super::kernel::eight_lanes;
 use super::line::{Line, Quad};
 use super::transpose::{Wide, any};
+use super::widest::widest;
 use crate::narrow::Found;
 
 /// Cosine of 25°: beyond it what pushed along the old normal is no guess for what will along the new one.
@@ -23,15 +23,11 @@ pub(crate) fn renew(
     lanes: u8,
 ) {
     let chosen = flags(lanes);
-    if eight_lanes(level) {
-        dispatch!(level, simd => part::<_, f64x8<_>>(simd, lines, start, block, new, chosen, 0));
-    } else {
-        dispatch!(level, simd => parts(simd, lines, start, block, new, chosen));
-    }
+    widest!(level => parts(lines, start, block, new, chosen));
 }
 
 #[inline(always)]
-fn parts<S: Simd>(
+fn parts<S: Simd, V: Wide<S>>(
     simd: S,
     lines: &[Line],
     start: &mut [Quad],
@@ -39,8 +35,8 @@ fn parts<S: Simd>(
     new: &Found,
     chosen: &[f64; LANES],
 ) {
-    for at in [0, 4] {
-        part::<S, f64x4<S>>(simd, lines, start, block, new, chosen, at);
+    for at in (0..LANES).step_by(V::LANES) {
+        part::<S, V>(simd, lines, start, block, new, chosen, at);
     }
 }
 
