@@ -146,7 +146,7 @@ pub(crate) fn hide(
             ghosts.extend(hidden.map(|k| rows.contacts[k]));
         }
     }
-    // Impulses of several are taken out of one body in an order that other islands do not change.
+    // Impulses of several are taken out of one body in an order that other islands do not change; most have none.
     let (mut acting, idle): (Vec<_>, Vec<_>) = ghosts.into_iter().partition(|id| graph.acts(*id));
     graph.sort(bodies, &mut acting);
     for id in acting.into_iter().chain(idle) {
