@@ -143,7 +143,7 @@ impl Ending {
 
     fn write(&self, bodies: &mut Bodies, index: u32) {
         bodies.go_on_as(index, &self.motion, self.turned - self.turn);
-        bodies.renew_written(index);
+        bodies.renew(index);
     }
 }
 

@@ -7,7 +7,7 @@ use super::damping::damping_loss;
 use super::few::Few;
 use super::history::History;
 use super::left_paths::LeftPaths;
-use super::moved::Moved;
+use super::moved::{Moved, moves};
 use super::pull::Pull;
 use super::regime::Members;
 use super::state::{BodyState, Collider};
@@ -205,19 +205,9 @@ impl Bodies {
 
     /// What was predicted with a body's motion is stale from now on.
     pub(crate) fn renew(&mut self, index: u32) {
-        self.raise_version(index);
-        self.moved.note(index);
-    }
-
-    /// The same of a motion that is written already.
-    pub(crate) fn renew_written(&mut self, index: u32) {
-        self.raise_version(index);
-        self.moved.note_known(index, &self.list[index as usize]);
-    }
-
-    fn raise_version(&mut self, index: u32) {
         let version = &mut self.versions[index as usize];
         *version = version.wrapping_add(1);
+        self.moved.note(index);
     }
 
     /// Stops a body with numbers that are no longer finite at its last known place.
@@ -247,7 +237,10 @@ impl Bodies {
 
     /// A step is over: from now on [`Self::moved`] tells of it.
     pub(crate) fn end_step(&mut self) {
-        self.moved.end_step(&self.list, &self.alive);
+        let Self {
+            list, alive, moved, ..
+        } = self;
+        moved.end_step(|index| alive[index as usize].then(|| moves(&list[index as usize])));
     }
 
     /// Bodies that moved in the last step, and are there.

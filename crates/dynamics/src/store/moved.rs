@@ -12,7 +12,7 @@ const NONE: u32 = u32::MAX;
 pub(crate) struct Moved {
     /// Bodies with a motion changed since the last step ended, each once.
     changed: Vec<u32>,
-    is_changed: Vec<Change>,
+    is_changed: Vec<bool>,
     /// Bodies that move, and where each body is in this list.
     moving: Vec<u32>,
     place: Vec<u32>,
@@ -20,62 +20,32 @@ pub(crate) struct Moved {
     stopped: Vec<u32>,
 }
 
-/// What a body's motion did since the last step ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Change {
-    None,
-    /// It changed, to one that is looked at when the step ends.
-    Some,
-    /// To one that moves the body, or does not: it need not be fetched again.
-    Known {
-        moves: bool,
-    },
-}
-
 impl Moved {
     /// A body has another motion.
     pub(crate) fn note(&mut self, index: u32) {
-        self.note_as(index, Change::Some);
-    }
-
-    /// A body has this motion, unless another one is noted.
-    pub(crate) fn note_known(&mut self, index: u32, state: &BodyState) {
-        let moves = moves(state);
-        self.note_as(index, Change::Known { moves });
-    }
-
-    fn note_as(&mut self, index: u32, change: Change) {
         let at = index as usize;
         if at >= self.place.len() {
             self.place.resize(at + 1, NONE);
-            self.is_changed.resize(at + 1, Change::None);
+            self.is_changed.resize(at + 1, false);
         }
-        if core::mem::replace(&mut self.is_changed[at], change) == Change::None {
+        if !core::mem::replace(&mut self.is_changed[at], true) {
             self.changed.push(index);
         }
     }
 
-    /// A step is over; which bodies are there.
-    pub(crate) fn end_step(&mut self, list: &[BodyState], alive: &[bool]) {
+    /// A step is over: `moves` tells whether a body moves, or that it is not there any more.
+    pub(crate) fn end_step(&mut self, moves: impl Fn(u32) -> Option<bool>) {
         self.stopped.clear();
         let mut changed = core::mem::take(&mut self.changed);
         for index in changed.drain(..) {
-            let at = index as usize;
-            let change = core::mem::replace(&mut self.is_changed[at], Change::None);
-            if !alive[at] {
-                self.leave(index);
-                continue;
-            }
-            let is_moving = match change {
-                Change::Known { moves } => moves,
-                Change::None | Change::Some => moves(&list[at]),
-            };
-            debug_assert_eq!(is_moving, moves(&list[at]), "{index}");
-            if is_moving {
-                self.enter(index);
-            } else {
-                self.leave(index);
-                self.stopped.push(index);
+            self.is_changed[index as usize] = false;
+            match moves(index) {
+                Some(true) => self.enter(index),
+                Some(false) => {
+                    self.leave(index);
+                    self.stopped.push(index);
+                }
+                None => self.leave(index),
             }
         }
         self.changed = changed;
