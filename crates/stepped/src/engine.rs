@@ -248,7 +248,6 @@ impl Engine {
     /// What [`Self::substep`] does between [`Self::find_contacts`] and [`Self::finish`].
     pub fn advance(&mut self) {
         (self.done, self.found, self.posed) = (self.done + 1, false, None);
-        self.graph.may_have_changed = true;
         self.hard
             .gather(&self.settings, &mut self.graph, &mut self.bodies);
         self.extra.gather(&mut self.graph, &self.bodies);
@@ -339,7 +338,6 @@ impl Engine {
             ..
         } = self;
         parted.clear();
-        graph.may_have_changed = true;
         let least = update(
             (*level, law),
             (graph, rotating),

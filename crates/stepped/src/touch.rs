@@ -20,9 +20,6 @@ impl Engine {
             tags,
             begins: false,
         }));
-        if !core::mem::take(&mut self.graph.may_have_changed) {
-            return;
-        }
         let pieces = &self.pieces;
         for colour in self.graph.awake() {
             for (block, cold) in colour.blocks.iter().zip(&mut colour.cold) {

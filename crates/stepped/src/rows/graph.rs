@@ -62,8 +62,6 @@ pub(crate) struct Graph {
     pub(super) colours: Vec<Colour>,
     /// Contacts in hard rows.
     pub(super) hard: usize,
-    /// Some contact may push otherwise than when it was last asked for touches.
-    pub(crate) may_have_changed: bool,
 }
 
 impl Contact {
@@ -83,7 +81,6 @@ impl Graph {
             unequal: Vec::new(),
             colours: vec![Colour::default(); ASLEEP + 1],
             hard: 0,
-            may_have_changed: false,
         }
     }
 

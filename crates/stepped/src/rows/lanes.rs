@@ -151,7 +151,6 @@ impl Graph {
 
     /// Lets a contact start the next sub-step without impulses; velocities stay.
     pub(crate) fn clear_warm_start(&mut self, bodies: &mut Bodies, id: u32) {
-        self.may_have_changed = true;
         let contact = &self.contacts[id as usize];
         let (k, lane) = contact.place();
         let block = &mut self.colours[contact.colour as usize].blocks[k];
