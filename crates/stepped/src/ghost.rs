@@ -146,10 +146,9 @@ pub(crate) fn hide(
             ghosts.extend(hidden.map(|k| rows.contacts[k]));
         }
     }
-    // Impulses of several are taken out of one body in an order that other islands do not change; most have none.
-    let (mut acting, idle): (Vec<_>, Vec<_>) = ghosts.into_iter().partition(|id| graph.acts(*id));
-    graph.sort(bodies, &mut acting);
-    for id in acting.into_iter().chain(idle) {
+    // Impulses of several are taken out of one body in an order that other islands do not change.
+    graph.sort(bodies, &mut ghosts);
+    for id in ghosts {
         graph.hide(bodies, id);
     }
 }
@@ -160,33 +159,29 @@ pub(crate) fn hide(
 fn hidden_rows<S: Simd>(simd: S, rows: &Rows, pieces: &Pieces, hidden: &mut u32) {
     let parallel = f64x4::splat(simd, 1.0 - LEANS * LEANS);
     let leans = f64x4::splat(simd, -LEANS);
-    for k in 0..rows.len {
-        let (nx, ny) = (
-            f64x4::splat(simd, rows.nx[k]),
-            f64x4::splat(simd, rows.ny[k]),
+    for o in 0..rows.len {
+        let (ox, oy) = (
+            f64x4::splat(simd, rows.nx[o]),
+            f64x4::splat(simd, rows.ny[o]),
         );
-        let (x1, y1) = (
-            f64x4::splat(simd, rows.x1[k]),
-            f64x4::splat(simd, rows.y1[k]),
+        let (px, py) = (
+            f64x4::splat(simd, rows.x1[o]),
+            f64x4::splat(simd, rows.y1[o]),
         );
-        let (x2, y2) = (
-            f64x4::splat(simd, rows.x2[k]),
-            f64x4::splat(simd, rows.y2[k]),
-        );
-        let flush = f64x4::splat(simd, rows.flush[k]);
+        let flush = f64x4::splat(simd, rows.flush[o]);
         for at in (0..rows.len).step_by(4) {
-            let (ox, oy) = (four(simd, &rows.nx, at), four(simd, &rows.ny, at));
-            let (px, py) = (four(simd, &rows.x1, at), four(simd, &rows.y1, at));
-            let along = nx * ox + ny * oy;
-            let first = (x1 - px) * ox + (y1 - py) * oy;
-            let second = (x2 - px) * ox + (y2 - py) * oy;
+            let along = four(simd, &rows.nx, at) * ox + four(simd, &rows.ny, at) * oy;
+            let (x, y) = (four(simd, &rows.x1, at) - px, four(simd, &rows.y1, at) - py);
+            let first = x * ox + y * oy;
+            let (x, y) = (four(simd, &rows.x2, at) - px, four(simd, &rows.y2, at) - py);
+            let second = x * ox + y * oy;
             let low = first
                 .max(second)
                 .simd_le(four(simd, &rows.flush, at).min(flush));
             let side = (along * along).simd_le(parallel) & along.simd_ge(leans);
             let mut bits = (low & side).to_bitmask();
             while bits != 0 {
-                let o = at + bits.trailing_zeros() as usize;
+                let k = at + bits.trailing_zeros() as usize;
                 bits &= bits - 1;
                 if *hidden >> k & 1 == 0 && is_hidden(rows, pieces, k, o) {
                     *hidden |= 1 << k;

@@ -181,12 +181,6 @@ impl Graph {
         }
     }
 
-    /// Whether a contact has impulses.
-    pub(crate) fn acts(&self, id: u32) -> bool {
-        let (block, _, lane) = self.lane(id);
-        block.impulses(lane).iter().any(|j| j.abs() > 0.0)
-    }
-
     /// Lets a contact do nothing until it is computed anew.
     pub(crate) fn hide(&mut self, bodies: &mut Bodies, id: u32) {
         self.clear_warm_start(bodies, id);
