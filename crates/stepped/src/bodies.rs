@@ -38,8 +38,9 @@ pub(crate) struct Bodies {
     pub(crate) drag: Vec<[Quad; 2]>,
     /// How many of them are damped.
     pub(crate) damped: usize,
-    /// x and y of their base poses, and 1 if they are free: [`Self::is_free`]. And how many are. Each row asks for it in each sub-step.
-    pub(crate) places: Vec<Quad>,
+    /// Whether they can be moved, and nothing accelerates them but contacts; and of how many that is so. Each row is asked for it in each
+    /// sub-step: told from pull and mass it took 5 % of a weightless smash.
+    free_lines: Vec<bool>,
     free_count: usize,
     /// Lines of bodies that may deviate from their predicted motions, perhaps more than once: see [`Self::rebase_deviating`].
     pub(crate) deviating: Vec<u32>,
@@ -80,7 +81,7 @@ impl Bodies {
             foreseen: vec![Quad::default(); 2],
             drag: vec![UNDAMPED; 2],
             damped: 0,
-            places: vec![Quad::default(); 2],
+            free_lines: vec![false; 2],
             free_count: 0,
             deviating: Vec::new(),
             may_deviate: false,
@@ -173,8 +174,7 @@ impl Bodies {
         let drag = drag(record.damping, settings.substep());
         self.damped += usize::from(drag != UNDAMPED);
         self.drag.push(drag);
-        self.places.push(Quad::default());
-        self.note_base(line as usize);
+        self.free_lines.push(false);
         self.note_free(line);
         (self.may_deviate, self.speedy) = (true, None);
     }
@@ -182,28 +182,15 @@ impl Bodies {
     /// Whether a body can be moved, and nothing accelerates it but contacts.
     #[inline]
     pub(crate) fn is_free(&self, line: u32) -> bool {
-        self.places[line as usize].0[2] > 0.0
-    }
-
-    /// The body of a line has another base pose.
-    fn note_base(&mut self, at: usize) {
-        let place = self.base[at].position;
-        (self.places[at].0[0], self.places[at].0[1]) = (place.x, place.y);
-    }
-
-    /// Gives the body of a line a base pose, where it is from now on.
-    pub(crate) fn set_base(&mut self, at: usize, pose: Pose) {
-        self.base[at] = pose;
-        self.note_base(at);
-        self.lines[at].clear_displacement();
+        self.free_lines[line as usize]
     }
 
     fn note_free(&mut self, line: u32) {
         let at = line as usize;
         let is = self.pull[at] == Quad::default() && self.lines[at].inverse_mass() > 0.0;
+        let was = core::mem::replace(&mut self.free_lines[at], is);
         self.free_count += usize::from(is);
-        self.free_count -= usize::from(self.is_free(line));
-        self.places[at].0[2] = f64::from(is);
+        self.free_count -= usize::from(was);
     }
 
     /// Whether there is such a body.
@@ -247,7 +234,6 @@ impl Bodies {
         self.start[at] = sleeper.start;
         self.set_pull(line, sleeper.pull);
         self.base[at] = sleeper.base;
-        self.note_base(at);
         self.turned[at] = sleeper.turned;
         self.limits[at] = sleeper.limit;
         self.moved[at] = sleeper.moved;
@@ -265,8 +251,7 @@ impl Bodies {
     pub(crate) fn take_line(&mut self, slot: u32) -> Option<u32> {
         let line = self.records[slot as usize].line;
         let at = line as usize;
-        self.free_count -= usize::from(self.is_free(line));
-        self.places.swap_remove(at);
+        self.free_count -= usize::from(self.free_lines.swap_remove(at));
         self.lines.swap_remove(at);
         self.start.swap_remove(at);
         self.pull.swap_remove(at);
@@ -390,7 +375,6 @@ impl Bodies {
         base.position += line.d();
         base.rotation = base.rotation.turned_slightly(line.turn());
         line.clear_displacement();
-        self.note_base(at);
     }
 
     /// By how much a point of a body goes otherwise than was foreseen, in m/s; what gravity adds within a tick is foreseen.

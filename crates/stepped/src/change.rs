@@ -61,7 +61,8 @@ impl Engine {
             self.wake_overlapped(id.slot);
         } else {
             let at = record.line as usize;
-            self.bodies.set_base(at, pose);
+            self.bodies.base[at] = pose;
+            self.bodies.lines[at].clear_displacement();
             (self.bodies.moved[at], self.bodies.may_deviate) = (true, true);
         }
         Ok(())

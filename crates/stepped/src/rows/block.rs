@@ -9,20 +9,12 @@ use crate::narrow::Manifold;
 pub(crate) const LANES: usize = 8;
 
 /// 1 for each lane that has a bit, else 0: a mask is made of it by comparison.
-pub(super) const fn flags(lanes: u8) -> &'static [f64; LANES] {
-    /// Of all bytes.
-    static FLAGS: [[f64; LANES]; 256] = {
-        let mut flags = [[0.0; LANES]; 256];
-        let mut at = 0;
-        while at < 256 * LANES {
-            if (at / LANES) >> (at % LANES) & 1 == 1 {
-                flags[at / LANES][at % LANES] = 1.0;
-            }
-            at += 1;
-        }
-        flags
-    };
-    &FLAGS[lanes as usize]
+pub(super) fn flags(lanes: u8) -> [f64; LANES] {
+    let mut flags = [0.0; LANES];
+    for (lane, flag) in flags.iter_mut().enumerate() {
+        *flag = f64::from(lanes >> lane & 1);
+    }
+    flags
 }
 
 /// A contact that sinks in under a load is held by the sweeps until it is so many times as deep as one that was put so. 25: a

@@ -12,7 +12,7 @@
 #![allow(clippy::inline_always, reason = "the wide instructions end at a call")]
 
 use carom_math::{Vec2, perp};
-use fearless_simd::{Level, Select, Simd, SimdMask};
+use fearless_simd::{Level, Select, Simd};
 
 use super::block::{Block, LANES, flags};
 use super::colour::Colour;
@@ -25,9 +25,8 @@ use crate::bodies::Bodies;
 /// The contacts of free pairs in a sub-step.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct FreePairs {
-    /// The first [`Self::len`] are those of this sub-step, in the order of colours; what is behind them is memory for others.
+    /// In the order of colours.
     blocks: Vec<FreeBlock>,
-    len: usize,
     /// Those with displacements that came after velocities had been found.
     late: Vec<usize>,
 }
@@ -39,6 +38,9 @@ struct FreeBlock {
     at: (usize, usize),
     /// A bit for each lane of a free pair.
     lanes: u8,
+    /// From the base position of A to that of B, in m.
+    x: [f64; LANES],
+    y: [f64; LANES],
     /// Impulses that displaced the bodies, along the normal and across, in N·s.
     along: [f64; LANES],
     across: [f64; LANES],
@@ -52,17 +54,17 @@ struct FreeBlock {
 impl FreePairs {
     /// Gathers them, and has their impulses act at one point of both bodies.
     pub(crate) fn meet(&mut self, level: Level, graph: &mut Graph, bodies: &mut Bodies) {
-        self.len = 0;
+        self.blocks.clear();
         if !bodies.any_is_free() {
             return;
         }
-        let colours = graph.awake();
-        widest!(level => meet_all(colours, bodies, self));
+        let (colours, blocks) = (graph.awake(), &mut self.blocks);
+        widest!(level => meet_all(colours, bodies, blocks));
     }
 
     /// Notes the impulses that bodies are displaced by.
     pub(crate) fn note_impulses(&mut self, graph: &Graph) {
-        for free in &mut self.blocks[..self.len] {
+        for free in &mut self.blocks {
             free.note_impulses(&graph.colours[free.at.0].blocks[free.at.1]);
         }
     }
@@ -88,13 +90,13 @@ impl FreePairs {
         let contact = &graph.contacts[id as usize];
         let (k, lane) = contact.place();
         let at = (contact.colour as usize, k);
-        let known = self.blocks[..self.len].binary_search_by_key(&at, |block| block.at);
+        let known = self.blocks.binary_search_by_key(&at, |block| block.at);
         Some((known.ok()?, lane))
     }
 
     /// Gives back the angular momentum that displacements added within `h` seconds, before rows are rotated.
     pub(crate) fn turn_back(&mut self, level: Level, graph: &Graph, bodies: &mut Bodies, h: f64) {
-        let (blocks, colours) = (&mut self.blocks[..self.len], &graph.colours);
+        let (blocks, colours) = (&mut self.blocks[..], &graph.colours);
         widest!(level => turn_all(colours, bodies, blocks, None, h));
     }
 
@@ -125,19 +127,22 @@ fn meet_all<S: Simd, V: Wide<S>>(
     simd: S,
     colours: &mut [Colour],
     bodies: &mut Bodies,
-    free: &mut FreePairs,
+    blocks: &mut Vec<FreeBlock>,
 ) {
     for (colour, c) in colours.iter_mut().zip(0..) {
         for (block, k) in colour.blocks.iter_mut().zip(0..) {
-            if free.len == free.blocks.len() {
-                free.blocks.push(FreeBlock::NONE);
+            let lanes = free_lanes(block, bodies);
+            if lanes == 0 {
+                continue;
             }
-            let lanes = meet::<S, V>(simd, block, bodies);
-            if lanes != 0 {
-                let next = &mut free.blocks[free.len];
-                (next.at, next.lanes) = ((c, k), lanes);
-                free.len += 1;
-            }
+            let mut free = FreeBlock {
+                at: (c, k),
+                lanes,
+                ..FreeBlock::NONE
+            };
+            free.find_arms(block, bodies);
+            meet::<S, V>(simd, block, &free, bodies);
+            blocks.push(free);
         }
     }
 }
@@ -168,16 +173,34 @@ fn turn_all<S: Simd, V: Wide<S>>(
     }
 }
 
+/// A bit for each lane of a free pair.
+fn free_lanes(block: &Block, bodies: &Bodies) -> u8 {
+    let is = |lane: &usize| bodies.is_free(block.a[*lane]) && bodies.is_free(block.b[*lane]);
+    (0..LANES)
+        .filter(is)
+        .fold(0, |lanes, lane| lanes | 1 << lane)
+}
+
 impl FreeBlock {
     const NONE: Self = Self {
         at: (0, 0),
         lanes: 0,
+        x: [0.0; LANES],
+        y: [0.0; LANES],
         along: [0.0; LANES],
         across: [0.0; LANES],
         moment: [0.0; LANES],
         acts: false,
         limit: [0.0; LANES],
     };
+
+    /// Finds where the base positions are against each other.
+    fn find_arms(&mut self, block: &Block, bodies: &Bodies) {
+        for lane in 0..LANES {
+            let [a, b] = [block.a[lane], block.b[lane]].map(|at| bodies.base[at as usize].position);
+            (self.x[lane], self.y[lane]) = (b.x - a.x, b.y - a.y);
+        }
+    }
 
     fn note_impulses(&mut self, block: &Block) {
         for lane in 0..LANES {
@@ -191,27 +214,20 @@ impl FreeBlock {
     }
 }
 
-/// [`Block::meet`] of the lanes of free pairs, which have a bit each. v stays, and what contacts did to it changes.
+/// [`Block::meet`] of the lanes of free pairs: v stays, and what contacts did to it changes.
 #[inline(always)]
-fn meet<S: Simd, V: Wide<S>>(simd: S, block: &mut Block, bodies: &mut Bodies) -> u8 {
+fn meet<S: Simd, V: Wide<S>>(simd: S, block: &mut Block, free: &FreeBlock, bodies: &mut Bodies) {
+    let chosen = flags(free.lanes);
     let (zero, half) = (V::splat(simd, 0.0), V::splat(simd, 0.5));
-    let mut lanes = 0;
     for at in (0..LANES).step_by(V::LANES) {
         let end = at + V::LANES;
+        let chosen = V::from_slice(simd, &chosen[at..end]).simd_gt(zero);
         let (a, b) = (&block.a[at..end], &block.b[at..end]);
-        let [ax, ay, a_free, _] = V::columns(simd, &bodies.places, a, 0);
-        let [bx, by, b_free, _] = V::columns(simd, &bodies.places, b, 0);
-        let chosen = a_free.min(b_free).simd_gt(zero);
-        #[expect(clippy::cast_possible_truncation, reason = "eight lanes")]
-        let bits = chosen.to_bitmask() as u8;
-        if bits == 0 {
-            continue;
-        }
-        lanes |= bits << at;
         let [adx, ady, aturn, ia] = V::columns(simd, &bodies.lines, a, 4);
         let [bdx, bdy, bturn, ib] = V::columns(simd, &bodies.lines, b, 4);
         // From B to A.
-        let (x, y) = ((adx - bdx) - (bx - ax), (ady - bdy) - (by - ay));
+        let x = (adx - bdx) - V::from_slice(simd, &free.x[at..end]);
+        let y = (ady - bdy) - V::from_slice(simd, &free.y[at..end]);
         let nx = V::from_slice(simd, &block.nx[at..end]);
         let ny = V::from_slice(simd, &block.ny[at..end]);
         let a1 = V::from_slice(simd, &block.a1[at..end]);
@@ -242,7 +258,6 @@ fn meet<S: Simd, V: Wide<S>>(simd: S, block: &mut Block, bodies: &mut Bodies) ->
             }
         }
     }
-    lanes
 }
 
 /// What both bodies of each free pair are to have more of angular momentum. Displacements that come later count from here.
@@ -309,9 +324,8 @@ fn turn_back<S: Simd, V: Wide<S>>(simd: S, block: &Block, free: &FreeBlock, bodi
         let m = ma + mb;
         // By which arm × v is to change.
         let more = moment * m;
-        let [ax, ay, _, _] = V::columns(simd, &bodies.places, a, 0);
-        let [bx, by, _, _] = V::columns(simd, &bodies.places, b, 0);
-        let (x, y) = ((bx - ax) + (bdx - adx), (by - ay) + (bdy - ady));
+        let x = V::from_slice(simd, &free.x[at..end]) + (bdx - adx);
+        let y = V::from_slice(simd, &free.y[at..end]) + (bdy - ady);
         let square = x * x + y * y;
         let (turns, parts) = (x * vy - y * vx, x * vx + y * vy);
         // (arm · v)² + (arm × v)² stays.

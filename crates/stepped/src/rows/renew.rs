@@ -23,7 +23,7 @@ pub(crate) fn renew(
     lanes: u8,
 ) {
     let chosen = flags(lanes);
-    widest!(level => parts(lines, start, block, new, chosen));
+    widest!(level => parts(lines, start, block, new, &chosen));
 }
 
 #[inline(always)]
