@@ -179,6 +179,11 @@ impl Bodies {
         (self.may_deviate, self.speedy) = (true, None);
     }
 
+    /// How many were rebased in this tick.
+    pub(crate) fn moved_count(&self) -> usize {
+        self.moved.iter().filter(|moved| **moved).count()
+    }
+
     /// Whether a body can be moved, and nothing accelerates it but contacts.
     #[inline]
     pub(crate) fn is_free(&self, line: u32) -> bool {

@@ -335,25 +335,20 @@ struct New {
 
 impl New {
     /// Two pieces of bodies that are awake or fixed, and that contacts move at least one of.
-    fn of(bodies: &Bodies, pieces: &Pieces, [a, b]: [u32; 2]) -> Option<Self> {
-        let [body_a, body_b] = [a, b].map(|piece| {
+    fn of(bodies: &Bodies, pieces: &Pieces, pair: [u32; 2]) -> Option<Self> {
+        let pair = in_order(bodies, pieces, pair);
+        let records = pair.map(|piece| {
             let slot = pieces.owners[piece as usize].body;
             &bodies.records[slot as usize]
         });
-        let dynamic = body_a.kind == BodyKind::Dynamic || body_b.kind == BodyKind::Dynamic;
-        if !dynamic || body_a.line == Bodies::NONE || body_b.line == Bodies::NONE {
-            return None;
-        }
-        Some(if body_a.birth < body_b.birth {
-            Self {
-                pieces: [a, b],
-                lines: [body_a.line, body_b.line],
-            }
-        } else {
-            Self {
-                pieces: [b, a],
-                lines: [body_b.line, body_a.line],
-            }
+        let lines = records.map(|record| record.line);
+        let is_moved = records
+            .iter()
+            .any(|record| record.kind == BodyKind::Dynamic);
+        let are_here = !lines.contains(&Bodies::NONE);
+        (is_moved && are_here).then_some(Self {
+            pieces: pair,
+            lines,
         })
     }
 }

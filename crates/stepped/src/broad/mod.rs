@@ -22,9 +22,8 @@ const FEW: usize = 8;
 pub(crate) struct Broad {
     sweep: Sweep,
     standing: BoxTree,
-    /// Node of each piece that stands, and how many have one.
+    /// Node of each piece that stands.
     nodes: Vec<Option<NodeId>>,
-    stands: usize,
     endless: Vec<u32>,
     /// Pieces that stand since the last tick: movers that rest have not met them.
     arrived: Vec<u32>,
@@ -45,7 +44,6 @@ impl Broad {
             sweep: Sweep::default(),
             standing: BoxTree::new(),
             nodes: Vec::new(),
-            stands: 0,
             endless: Vec::new(),
             arrived: Vec::new(),
             woken: Vec::new(),
@@ -64,7 +62,6 @@ impl Broad {
                 self.nodes.resize(k + 1, None);
             }
             self.nodes[k] = Some(self.standing.insert(bounds, piece));
-            self.stands += 1;
         } else {
             self.endless.push(piece);
         }
@@ -93,7 +90,6 @@ impl Broad {
     pub(crate) fn leave(&mut self, piece: u32) {
         if let Some(node) = self.nodes.get_mut(piece as usize).and_then(Option::take) {
             self.standing.remove(node);
-            self.stands -= 1;
         }
         self.endless.retain(|other| *other != piece);
         self.arrived.retain(|other| *other != piece);
@@ -111,7 +107,7 @@ impl Broad {
 
     /// Finds the pairs of which one piece moved, arrived or woke: at a tick.
     pub(crate) fn find(&mut self, level: Level, bodies: &Bodies, pieces: &Pieces, tick: f64) {
-        let moved = moved(bodies);
+        let moved = bodies.moved_count();
         if moved == 0 && !self.has_arrivals() {
             self.found.clear();
         } else if self.is_stale(moved) {
@@ -130,32 +126,36 @@ impl Broad {
             .pairs(level, pieces, tick, |a, b| found.push([a, b]));
         let woken = &self.woken;
         let asks = |piece: u32| asks(bodies, pieces, woken, piece);
-        let movers = (2..bodies.lines.len()).flat_map(|line| bodies.pieces_of_line(line));
+        let asked = || {
+            let movers = (2..bodies.lines.len()).flat_map(|line| bodies.pieces_of_line(line));
+            movers.filter(|piece| asks(*piece))
+        };
+        for endless in &self.endless {
+            found.extend(asked().map(|piece| [piece, *endless]));
+        }
         // The fewer ask the more: what stands asks all movers of unusual size one by one.
-        let ask_sweep = self.stands * (1 + self.sweep.unusual()) < moved(bodies);
-        if !ask_sweep || !self.endless.is_empty() {
-            for piece in movers.filter(|piece| asks(*piece)) {
-                if !ask_sweep {
-                    self.standing.query(pieces.boxes[piece as usize], |other| {
-                        if may_touch(pieces, [piece, other], tick) {
-                            found.push([piece, other]);
-                        }
-                    });
-                }
-                found.extend(self.endless.iter().map(|other| [piece, *other]));
+        let few_stand = self.standing.len() * (1 + self.sweep.unusual()) < bodies.moved_count();
+        if !few_stand {
+            for piece in asked() {
+                self.standing.query(pieces.boxes[piece as usize], |other| {
+                    if may_touch(pieces, [piece, other], tick) {
+                        found.push([piece, other]);
+                    }
+                });
             }
         }
-        let mut meet = |piece: u32, asked: bool| {
+        let mut meet = |piece: u32, are_asked: bool| {
             let bounds = pieces.boxes[piece as usize];
             self.sweep.all_in(pieces, bounds, |other| {
-                if asks(other) == asked && may_touch(pieces, [other, piece], tick) {
+                if asks(other) == are_asked && may_touch(pieces, [other, piece], tick) {
                     found.push([other, piece]);
                 }
             });
         };
-        if ask_sweep {
-            let standing = (0u32..).zip(&self.nodes).filter(|(_, node)| node.is_some());
-            standing.for_each(|(piece, _)| meet(piece, true));
+        if few_stand {
+            let standing = self.standing.ids();
+            let standing = standing.filter_map(|id| self.standing.data(id));
+            standing.for_each(|piece| meet(piece, true));
         }
         self.arrived.iter().for_each(|piece| meet(*piece, false));
         self.arrived.clear();
@@ -284,11 +284,6 @@ impl Broad {
             a.overlaps(b) && may_touch(pieces, *pair, tick)
         });
     }
-}
-
-/// How many bodies moved.
-fn moved(bodies: &Bodies) -> usize {
-    bodies.moved[2..].iter().filter(|moved| **moved).count()
 }
 
 /// Whether a mover is asked about: its body moved, or it is one of these that `woken` holds in order.

@@ -111,9 +111,8 @@ impl Graph {
 
     /// Blocks in which a contact of a moved body may be, colour by colour: all, but if few moved.
     pub(crate) fn touched(&self, bodies: &Bodies) -> Vec<Vec<usize>> {
-        let moved = bodies.moved.iter().filter(|moved| **moved).count();
         let colours = &self.colours[..self.awake_end()];
-        if FEW * moved > bodies.moved.len() {
+        if FEW * bodies.moved_count() > bodies.moved.len() {
             return colours
                 .iter()
                 .map(|colour| (0..colour.blocks.len()).collect())
