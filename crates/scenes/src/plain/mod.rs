@@ -8,6 +8,7 @@ mod grow;
 mod grow_tests;
 mod harness;
 mod list;
+mod lively;
 mod nearest;
 mod pairs;
 mod piles;
