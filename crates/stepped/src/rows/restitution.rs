@@ -7,6 +7,7 @@
 
 #![allow(clippy::inline_always, reason = "the wide instructions end at a call")]
 
+use carom_math::Vec2;
 use fearless_simd::{Level, Simd, SimdBase, SimdMask, dispatch, f64x4};
 
 use super::block::{Block, LANES};
@@ -23,6 +24,9 @@ pub(crate) const REST: f64 = 2.0;
 
 /// Sweeps over all points that bounce in one sub-step: those of one face need about three.
 const SWEEPS: usize = 8;
+
+/// What may be met is looked for over so many sub-steps: those two that are asked for, and some rounding.
+const SOON: f64 = 2.001;
 
 /// A point that is met.
 #[derive(Clone, Copy, Debug)]
@@ -54,7 +58,7 @@ pub(crate) fn arrivals(
     let mut blocks = Vec::new();
     for (colour, c) in graph.awake().iter().zip(0..) {
         if colour.bouncing > 0 {
-            dispatch!(level, simd => closing(simd, least, &bodies.lines, colour, c, &mut blocks));
+            dispatch!(level, simd => closing(simd, [least, law.h], &bodies.lines, colour, c, &mut blocks));
         }
     }
     for (c, k, lanes) in blocks {
@@ -100,11 +104,12 @@ pub(crate) fn arrivals(
     }
 }
 
-/// Blocks with restitution in which a contact closes faster than `least`, and a bit for each lane that does.
+/// Blocks with restitution in which a contact closes faster than `least` and an open point of it may be met within two sub-steps of
+/// `h`, with a bit for each lane in which one may.
 #[inline(always)]
 fn closing<S: Simd>(
     simd: S,
-    least: f64,
+    [least, h]: [f64; 2],
     lines: &[Line],
     colour: &Colour,
     c: usize,
@@ -126,8 +131,21 @@ fn closing<S: Simd>(
             let l = f64x4::from_slice(simd, &block.l[at..end]);
             let v1 = nx * (bvx - avx) + ny * (bvy - avy) + b1 * bw - a1 * aw;
             let v2 = v1 + l * (bw - aw);
+            let closes_fast = v1.min(v2).simd_lt(-least);
+            if !closes_fast.any_true() {
+                continue;
+            }
+            let [adx, ady, aturn, _] = f64x4::columns(simd, lines, &block.a[at..end], 4);
+            let [bdx, bdy, bturn, _] = f64x4::columns(simd, lines, &block.b[at..end], 4);
+            let moved1 = nx * (bdx - adx) + ny * (bdy - ady) + b1 * bturn - a1 * aturn;
+            let moved2 = moved1 + l * (bturn - aturn);
+            let met = |v: f64x4<S>, gap: f64x4<S>| {
+                gap.simd_gt(0.0) & (gap + v * (SOON * h)).simd_lt(0.0)
+            };
+            let gap1 = f64x4::from_slice(simd, &block.s1[at..end]) + moved1;
+            let gap2 = f64x4::from_slice(simd, &block.s2[at..end]) + moved2;
             #[expect(clippy::cast_possible_truncation, reason = "four lanes")]
-            let bits = v1.min(v2).simd_lt(-least).to_bitmask() as u8;
+            let bits = (closes_fast & (met(v1, gap1) | met(v2, gap2))).to_bitmask() as u8;
             closes |= bits << at;
         }
         if closes != 0 {
@@ -139,7 +157,7 @@ fn closing<S: Simd>(
 /// Normal velocity and gap of both points, and the acceleration along the normal.
 fn motion(bodies: &Bodies, block: &Block, lane: usize) -> [[f64; 2]; 3] {
     let (a, b) = (block.a[lane] as usize, block.b[lane] as usize);
-    let n = carom_math::vec2(block.nx[lane], block.ny[lane]);
+    let n = block.normal(lane);
     let pull = n.dot(bodies.pull[b].v() - bodies.pull[a].v());
     let (a, b) = (&bodies.lines[a], &bodies.lines[b]);
     [block.opening(lane, a, b), block.gaps(lane, a, b), [pull; 2]]
@@ -170,6 +188,7 @@ pub(crate) fn bounce(
         bodies.note_change(line);
     }
     let mut pushes = vec![[Quad::default(); 2]; arrived.len()];
+    let mut points = Vec::with_capacity(arrived.len());
     for arrival in &mut *arrived {
         graph.clear_warm_start(bodies, arrival.contact);
         let (block, _, lane) = graph.lane(arrival.contact);
@@ -177,32 +196,60 @@ pub(crate) fn bounce(
         let height = block.gaps(lane, a, b)[arrival.point].max(0.0);
         let square = arrival.leaves * arrival.leaves + 2.0 * arrival.pull.min(0.0) * height;
         arrival.leaves = square.max(0.0).sqrt();
+        points.push(Point::new(block, lane, arrival.point, bodies));
     }
     for _ in 0..SWEEPS {
-        for (arrival, pushed) in arrived.iter_mut().zip(&mut pushes) {
-            let (block, _, lane) = graph.lane(arrival.contact);
-            let (a, b) = (block.a[lane] as usize, block.b[lane] as usize);
-            let mut only = *block;
-            meet(&mut only, lane, bodies);
-            let v = only.opening(lane, &bodies.lines[a], &bodies.lines[b])[arrival.point];
-            let unit = if arrival.point == 0 {
-                [1.0, 0.0, 0.0]
-            } else {
-                [0.0, 1.0, 0.0]
-            };
-            only.set_impulses(lane, unit);
-            let [push_a, push_b] = only.push(lane, &bodies.lines[a], &bodies.lines[b]);
-            let k = only.response(lane, arrival.point, &push_a, &push_b);
-            let impulse = (arrival.impulse + (arrival.leaves - v) / k).max(0.0);
+        for ((arrival, point), pushed) in arrived.iter_mut().zip(&points).zip(&mut pushes) {
+            let v = point.opening(&bodies.lines);
+            let impulse = (arrival.impulse + (arrival.leaves - v) / point.response).max(0.0);
             let change = impulse - arrival.impulse;
             arrival.impulse = impulse;
-            for (k, (line, push)) in [(a, push_a), (b, push_b)].into_iter().enumerate() {
+            for ((line, push), pushed) in point.lines.iter().zip(&point.push).zip(pushed) {
                 let push = Quad(push.0.map(|x| x * change));
-                bodies.start[line].add(&push);
-                bodies.lines[line].add(&push);
-                pushed[k].add(&push);
+                bodies.start[*line].add(&push);
+                bodies.lines[*line].add(&push);
+                pushed.add(&push);
             }
         }
     }
     keep(bodies, arrived, &pushes, before);
+}
+
+/// A point that bounces, where its bodies are.
+#[derive(Clone, Copy, Debug)]
+struct Point {
+    lines: [usize; 2],
+    n: Vec2,
+    /// Levers of both bodies about the normal, to the first point, and how much longer they are to this one.
+    arms: [f64; 2],
+    longer: f64,
+    /// What an impulse of 1 N s adds to the velocities of A and of B, and what it opens the point by.
+    push: [Quad; 2],
+    response: f64,
+}
+
+impl Point {
+    fn new(block: &Block, lane: usize, point: usize, bodies: &Bodies) -> Self {
+        let mut met = *block;
+        meet(&mut met, lane, bodies);
+        let lines = [met.a[lane], met.b[lane]].map(|line| line as usize);
+        let [a, b] = lines.map(|line| &bodies.lines[line]);
+        met.set_impulses(lane, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]][point]);
+        let push = met.push(lane, a, b);
+        Self {
+            lines,
+            n: met.normal(lane),
+            arms: [met.a1[lane], met.b1[lane]],
+            longer: if point == 0 { 0.0 } else { met.l[lane] },
+            push,
+            response: met.response(lane, point, &push[0], &push[1]),
+        }
+    }
+
+    /// Normal velocity, in m/s.
+    fn opening(&self, lines: &[Line]) -> f64 {
+        let [a, b] = self.lines.map(|line| &lines[line]);
+        let first = self.n.dot(b.v() - a.v()) + self.arms[1] * b.w() - self.arms[0] * a.w();
+        first + self.longer * (b.w() - a.w())
+    }
 }
