@@ -4,8 +4,6 @@
 //! (Kane's example: a rod that strikes the ground aslant). Then the impulses of all points that hang together by bodies are
 //! made smaller by one factor.
 
-use std::collections::BTreeMap;
-
 use super::integrate::velocity_before;
 use super::line::{Line, Quad};
 use super::restitution::Arrival;
@@ -51,45 +49,78 @@ pub(super) fn keep(
 ) {
     // Points are one group that share a body which can be moved.
     let mut groups = Groups::new(arrived.len());
-    let mut owner = BTreeMap::new();
+    let mut first = vec![usize::MAX; before.len()];
     for (k, arrival) in arrived.iter().enumerate() {
         for line in arrival.lines {
-            if bodies.lines[line as usize].inverse_mass() > 0.0 {
-                let first = *owner.entry(line).or_insert(k);
-                groups.join(first, k);
+            if bodies.lines[line as usize].inverse_mass() > 0.0
+                && let Some(at) = place(before, line)
+            {
+                if first[at] == usize::MAX {
+                    first[at] = k;
+                }
+                groups.join(first[at], k);
             }
         }
     }
-    let mut pushed: BTreeMap<usize, BTreeMap<(u64, u32), Quad>> = BTreeMap::new();
+    let mut pushed = Vec::with_capacity(2 * arrived.len());
     for (k, (arrival, pushes)) in arrived.iter().zip(pushes).enumerate() {
-        let group = pushed.entry(groups.find(k)).or_default();
-        for (line, push) in arrival.lines.iter().zip(pushes) {
-            let key = (bodies.birth_of_line(*line), *line);
-            group.entry(key).or_default().add(push);
+        let group = groups.find(k);
+        for (line, push) in arrival.lines.into_iter().zip(*pushes) {
+            let birth = bodies.birth_of_line(line);
+            pushed.push(Pushed {
+                group,
+                birth,
+                line,
+                push,
+            });
         }
     }
-    for (first, group) in &pushed {
+    // A body's pushes are added up in the order of the arrivals.
+    pushed.sort_by_key(|pushed| (pushed.group, pushed.birth, pushed.line));
+    pushed.dedup_by(|next, pushed| {
+        let same = (next.group, next.line) == (pushed.group, pushed.line);
+        if same {
+            pushed.push.add(&next.push);
+        }
+        same
+    });
+    let mut back = vec![0.0; arrived.len()];
+    for group in pushed.chunk_by(|a, b| a.group == b.group) {
         let r = excess(bodies, group, before);
         if r > 0.0 {
-            for (k, arrival) in arrived.iter_mut().enumerate() {
-                if groups.find(k) == *first {
-                    arrival.impulse *= 1.0 - r;
-                }
-            }
-            for ((_, line), push) in group {
-                let back = Quad(push.0.map(|x| -r * x));
-                bodies.lines[*line as usize].add(&back);
-                bodies.start[*line as usize].add(&back);
+            back[group[0].group] = r;
+            for pushed in group {
+                let back = Quad(pushed.push.0.map(|x| -r * x));
+                bodies.lines[pushed.line as usize].add(&back);
+                bodies.start[pushed.line as usize].add(&back);
             }
         }
     }
+    for (k, arrival) in arrived.iter_mut().enumerate() {
+        arrival.impulse *= 1.0 - back[groups.find(k)];
+    }
+}
+
+/// What the bounces of a group add to the velocity of a body.
+#[derive(Clone, Copy, Debug)]
+struct Pushed {
+    group: usize,
+    birth: u64,
+    line: u32,
+    push: Quad,
+}
+
+fn place(before: &[Before], line: u32) -> Option<usize> {
+    before
+        .binary_search_by_key(&line, |before| before.line)
+        .ok()
 }
 
 /// What part of its bounces a group must give back: sums over its bodies in the order of their births, since lines depend on
 /// other islands.
-fn excess(bodies: &Bodies, group: &BTreeMap<(u64, u32), Quad>, before: &[Before]) -> f64 {
+fn excess(bodies: &Bodies, group: &[Pushed], before: &[Before]) -> f64 {
     let (mut had, mut has, mut mixed, mut square) = (0.0, 0.0, 0.0, 0.0);
-    for ((_, line), push) in group {
+    for Pushed { line, push, .. } in group {
         let at = *line as usize;
         let body = &bodies.lines[at];
         if body.inverse_mass() <= 0.0 {
@@ -99,7 +130,7 @@ fn excess(bodies: &Bodies, group: &BTreeMap<(u64, u32), Quad>, before: &[Before]
             }
             continue;
         }
-        let Ok(known) = before.binary_search_by_key(line, |before| before.line) else {
+        let Some(known) = place(before, *line) else {
             return 0.0;
         };
         let came = &before[known];

@@ -139,9 +139,8 @@ fn closing<S: Simd>(
             let [bdx, bdy, bturn, _] = f64x4::columns(simd, lines, &block.b[at..end], 4);
             let moved1 = nx * (bdx - adx) + ny * (bdy - ady) + b1 * bturn - a1 * aturn;
             let moved2 = moved1 + l * (bturn - aturn);
-            let met = |v: f64x4<S>, gap: f64x4<S>| {
-                gap.simd_gt(0.0) & (gap + v * (SOON * h)).simd_lt(0.0)
-            };
+            let met =
+                |v: f64x4<S>, gap: f64x4<S>| gap.simd_gt(0.0) & (gap + v * (SOON * h)).simd_lt(0.0);
             let gap1 = f64x4::from_slice(simd, &block.s1[at..end]) + moved1;
             let gap2 = f64x4::from_slice(simd, &block.s2[at..end]) + moved2;
             #[expect(clippy::cast_possible_truncation, reason = "four lanes")]
