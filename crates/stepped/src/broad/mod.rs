@@ -34,6 +34,8 @@ pub(crate) struct Broad {
     /// Those since the last tick that a caller has not looked at, and a sweep of these alone.
     news: Vec<u32>,
     newcomers: Sweep,
+    /// Whether something may stand in the box of a piece, by its number: true unless the last search of it found nothing.
+    by_standing: Vec<bool>,
     /// Pairs of pieces with overlapping boxes, one of which moved.
     pub(crate) found: Vec<[u32; 2]>,
 }
@@ -50,6 +52,7 @@ impl Broad {
             few: Vec::new(),
             news: Vec::new(),
             newcomers: Sweep::default(),
+            by_standing: Vec::new(),
             found: Vec::new(),
         }
     }
@@ -72,6 +75,16 @@ impl Broad {
     pub(crate) fn enter(&mut self, piece: u32) {
         self.few.push(piece);
         self.news.push(piece);
+        let k = piece as usize;
+        if self.by_standing.len() <= k {
+            self.by_standing.resize(k + 1, true);
+        }
+        self.by_standing[k] = true;
+    }
+
+    /// Whether something may stand where a piece is until the tick ends, unless it leaves its box.
+    pub(crate) fn is_by_standing(&self, piece: u32) -> bool {
+        !self.endless.is_empty() || self.by_standing[piece as usize]
     }
 
     /// A piece that stood moves from now on, where it stood.
@@ -133,11 +146,16 @@ impl Broad {
         for endless in &self.endless {
             found.extend(asked().map(|piece| [piece, *endless]));
         }
+        let by_standing = &mut self.by_standing;
+        for piece in asked() {
+            by_standing[piece as usize] = false;
+        }
         // The fewer ask the more: what stands asks all movers of unusual size one by one.
         let few_stand = self.standing.len() * (1 + self.sweep.unusual()) < bodies.moved_count();
         if !few_stand {
             for piece in asked() {
                 self.standing.query(pieces.boxes[piece as usize], |other| {
+                    by_standing[piece as usize] = true;
                     if may_touch(pieces, [piece, other], tick) {
                         found.push([piece, other]);
                     }
@@ -147,6 +165,7 @@ impl Broad {
         let mut meet = |piece: u32, are_asked: bool| {
             let bounds = pieces.boxes[piece as usize];
             self.sweep.all_in(pieces, bounds, |other| {
+                by_standing[other as usize] = true;
                 if asks(other) == are_asked && may_touch(pieces, [other, piece], tick) {
                     found.push([other, piece]);
                 }
@@ -256,8 +275,10 @@ impl Broad {
             let bounds = pieces.boxes[piece as usize];
             self.sweep
                 .all_in(pieces, bounds, |other| found.push([piece, other]));
+            let before = found.len();
             self.standing
                 .query(bounds, |other| found.push([piece, other]));
+            self.by_standing[piece as usize] = found.len() > before;
             found.extend(self.endless.iter().map(|other| [piece, *other]));
         }
         for (k, &piece) in few.iter().enumerate() {

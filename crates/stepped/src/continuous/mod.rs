@@ -177,14 +177,18 @@ impl Engine {
         // Each motion is searched once.
         let mut noted = core::mem::take(&mut self.fast_bodies);
         noted.retain(|body| self.is_searched(body));
-        if !noted.iter().any(|body| self.may_touch(body, left)) {
+        noted.sort_unstable_by_key(|body| self.bodies.records[body.slot as usize].birth);
+        let may_touch: Vec<bool> = noted
+            .iter()
+            .map(|body| self.may_touch(body, left))
+            .collect();
+        if !may_touch.contains(&true) {
             return Vec::new();
         }
-        noted.sort_unstable_by_key(|body| self.bodies.records[body.slot as usize].birth);
         let mut fast: Vec<_> = noted.iter().map(|body| self.moving(body, left)).collect();
         let leaving: Vec<usize> = (0..fast.len()).filter(|k| fast[*k].leaves_boxes).collect();
         let mut touches = BinaryHeap::new();
-        for k in 0..fast.len() {
+        for k in (0..fast.len()).filter(|k| may_touch[*k] || !leaving.is_empty()) {
             self.search(&fast, k, (0.0, left), &leaving, rules, &mut touches);
         }
         while let Some(touch) = touches.pop() {
@@ -317,11 +321,9 @@ impl Engine {
             self.bodies.base[record.line as usize].position,
         );
         let (centre, velocity) = way(base, line.d(), body.from.0, left);
-        let way = way_box(centre, velocity, left);
-        let mut stands = false;
-        self.broad
-            .standing_in(way.grown(record.reach), |_| stands = true);
-        stands || self.leaves_boxes(body.slot, way)
+        let mut pieces = record.first_piece..record.first_piece + record.pieces;
+        pieces.any(|piece| self.broad.is_by_standing(piece))
+            || self.leaves_boxes(body.slot, way_box(centre, velocity, left))
     }
 }
 

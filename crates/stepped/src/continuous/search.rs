@@ -139,6 +139,13 @@ impl Engine {
         if !limit.is_far(against.length_squared(), turns.0) && !other.is_far(0.0, turns.1) {
             return;
         }
+        let [mine, of_theirs] =
+            [body.slot, theirs.body].map(|slot| &self.bodies.records[slot as usize]);
+        let apart = body.motion.centre - motion.centre;
+        let passes = nearest(apart, body.motion.velocity - motion.velocity, span);
+        if of_theirs.line != Bodies::GROUND && passes > mine.reach + of_theirs.reach {
+            return;
+        }
         if let Some((wait, normal)) = self.first_touch(body, (piece, &motion), span, rules) {
             let birth = self.bodies.records[theirs.body as usize].birth;
             let moves = partner.filter(|other| !fast[*other].is_stopped());
@@ -221,6 +228,17 @@ impl Engine {
             == Bodies::GROUND;
         !stands && self.known.contains(pair) && !self.bodies.limits[at].is_far(0.0, turn)
     }
+}
+
+/// How near two centres come that are `apart` at 0 and move `against` each other, from `span.0` to `span.1`.
+fn nearest(apart: Vec2, against: Vec2, span: (f64, f64)) -> f64 {
+    let square = against.length_squared();
+    let at = if square > 0.0 {
+        -apart.dot(against) / square
+    } else {
+        0.0
+    };
+    (apart + against * at.clamp(span.0, span.1)).length()
 }
 
 /// The fast body of a birth.
