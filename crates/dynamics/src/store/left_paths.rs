@@ -1,6 +1,8 @@
 //! Bodies that left an analytic island: they go on by the parabola of that instant, with the forces of then along the arms of then,
 //! until the next sub-step or another motion. Neither energy nor angular momentum is kept, and reports say so.
 
+use std::collections::BTreeMap;
+
 use carom_math::{SimTime, Vec2};
 
 use super::state::BodyState;
@@ -8,14 +10,14 @@ use super::state::BodyState;
 /// The bodies that left an island in the present sub-step.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct LeftPaths {
-    list: Vec<LeftPath>,
+    /// By body: one may leave several in a sub-step.
+    list: BTreeMap<u32, Vec<LeftPath>>,
     /// Parabolas that no report tells of yet.
     untold: u64,
 }
 
 #[derive(Clone, Copy, Debug)]
 struct LeftPath {
-    index: u32,
     acceleration: Vec2,
     left: SimTime,
     /// Until when its parabola was counted.
@@ -43,8 +45,7 @@ impl LeftPath {
 impl LeftPaths {
     /// A body leaves an island, one that `turned` or not, and goes on by the parabola that it has.
     pub(crate) fn add(&mut self, index: u32, state: &BodyState, time: SimTime, turned: bool) {
-        self.list.push(LeftPath {
-            index,
+        self.list.entry(index).or_default().push(LeftPath {
             acceleration: state.motion.acceleration,
             left: time,
             counted: time,
@@ -54,13 +55,13 @@ impl LeftPaths {
 
     /// Whether a body goes on by the parabola of a path that it left.
     pub(crate) fn moves(&self, index: u32, state: &BodyState) -> bool {
-        let mut list = self.list.iter();
-        list.any(|left| left.index == index && left.turned && left.goes_on(state))
+        let mut list = self.list.get(&index).into_iter().flatten();
+        list.any(|left| left.turned && left.goes_on(state))
     }
 
     /// A body gets another motion.
     pub(crate) fn end(&mut self, index: u32, state: &BodyState, time: SimTime) {
-        for left in self.list.iter_mut().filter(|left| left.index == index) {
+        for left in self.list.get_mut(&index).into_iter().flatten() {
             self.untold += left.count(state, time);
         }
     }
@@ -68,16 +69,22 @@ impl LeftPaths {
     /// How many parabolas moved a body before `now` that no report tells of yet. Bodies that do not go on so are forgotten, but where
     /// their motions depend on it: when this is asked changes no motion.
     pub(crate) fn tell(&mut self, bodies: &[BodyState], now: SimTime) -> u64 {
-        self.list.retain_mut(|left| {
-            let state = &bodies[left.index as usize];
-            self.untold += left.count(state, now);
-            left.turned || left.goes_on(state)
+        self.list.retain(|index, list| {
+            let state = &bodies[*index as usize];
+            list.retain_mut(|left| {
+                self.untold += left.count(state, now);
+                left.turned || left.goes_on(state)
+            });
+            !list.is_empty()
         });
         core::mem::take(&mut self.untold)
     }
 
     /// A sub-step begins: what left a path before has another motion in it.
     pub(crate) fn begin_substep(&mut self, time: SimTime) {
-        self.list.retain(|left| left.left == time);
+        self.list.retain(|_, list| {
+            list.retain(|left| left.left == time);
+            !list.is_empty()
+        });
     }
 }
