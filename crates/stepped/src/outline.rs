@@ -66,7 +66,9 @@ pub(crate) fn outline_of(
     let (mut outline, mut rest) = (Outline([0.0; 16]), Rest([0.0; 24]));
     let head = [reach, extent, radius, vertices.len() as f64];
     outline.0[2..6].copy_from_slice(&head);
-    outline.0[7] = f64::from(cuts);
+    // What repeats a cut is one, too.
+    let repeats = (vertices.len()..CORNERS).fold(0, |repeats, i| repeats | 1 << i);
+    outline.0[7] = f64::from(if cuts & 1 == 1 { cuts | repeats } else { cuts });
     if let [p, q, r, s] = vertices
         && cuts == 0
     {

@@ -86,11 +86,14 @@ pub(super) fn cuts<S: Simd, V: Wide<S>, const N: usize>(simd: S, [l, m]: [V; 2])
     let (zero, one) = (V::splat(simd, 0.0), V::splat(simd, 1.0));
     let mut left = l.simd_gt(zero).select(zero, m);
     let mut cuts = [zero; N];
-    for i in (0..N).rev() {
+    // Edges beyond the last corner count as the first one.
+    for i in (0..8).rev() {
         let bit = V::splat(simd, f64::from(1u32 << i));
         let cut = left.simd_ge(bit);
         left = cut.select(left - bit, left);
-        cuts[i] = cut.select(one, zero);
+        if i < N {
+            cuts[i] = cut.select(one, zero);
+        }
     }
     cuts
 }

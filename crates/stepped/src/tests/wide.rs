@@ -1,7 +1,7 @@
 //! Eight pairs at once are what they are one by one.
 
 use carom_geometry::Polygon;
-use carom_math::vec2;
+use carom_math::{Vec2, vec2};
 use fearless_simd::Level;
 
 use super::{Random, levels};
@@ -26,9 +26,12 @@ fn random_bodies(seed: u64, spread: f64) -> Engine {
 
 /// An L, which has pieces with cuts.
 pub(super) fn letter() -> PieceInput {
+    PieceInput::new(Polygon::new(letter_ring()).unwrap())
+}
+
+fn letter_ring() -> [Vec2; 6] {
     let corners = [(-2, -2), (2, -2), (2, -1), (-1, -1), (-1, 2), (-2, 2)];
-    let ring = corners.map(|(x, y)| vec2(f64::from(x), f64::from(y)) * 0.25);
-    PieceInput::new(Polygon::new(ring).unwrap())
+    corners.map(|(x, y)| vec2(f64::from(x), f64::from(y)) * 0.25)
 }
 
 /// All pairs of pieces of two bodies.
@@ -125,5 +128,50 @@ fn all_widths_find_the_same_bits() {
                 assert_eq!(bits(&first), bits(&found), "{level:?}");
             }
         }
+    }
+}
+
+/// What repeats an edge is one as little as the edge itself, and how many corners the others in a register have decides nothing: cuts that
+/// come first in their pieces were faces.
+#[test]
+fn a_pair_has_the_bits_that_it_has_alone_whatever_its_first_edge_is() {
+    let ring = letter_ring();
+    for first in 0..ring.len() {
+        let mut engine = Engine::new(Settings::default()).unwrap();
+        let mut ring = ring;
+        ring.rotate_left(first);
+        let mut random = Random::new(7);
+        for k in 0..60 {
+            let any = random.piece();
+            let body = random.body(&any, 1.0);
+            let letter = PieceInput::new(Polygon::new(ring).unwrap());
+            engine
+                .insert(body, &[if k % 3 == 0 { any } else { letter }])
+                .unwrap();
+        }
+        engine.pose_boxes();
+        let scene = Scene {
+            bodies: &engine.bodies,
+            pieces: &engine.pieces,
+            settings: &engine.settings,
+        };
+        let (mut near, mut ties) = (0, 0);
+        for pairs in pairs(&scene).chunks(LANES) {
+            let all = found(engine.level, &scene, &eight(&scene, pairs));
+            for (lane, pair) in pairs.iter().enumerate() {
+                let alone = found(engine.level, &scene, &eight(&scene, &[*pair]));
+                let ours = (all.near >> lane & 1 == 1).then(|| all.manifold(lane));
+                let its = (alone.near & 1 == 1).then(|| alone.manifold(0));
+                assert_eq!(format!("{ours:?}"), format!("{its:?}"), "{pair:?}");
+                let theirs = scene.contact(*pair, 1.0);
+                near += usize::from(theirs.is_some());
+                let same = match (&ours, &theirs) {
+                    (Some(ours), Some(theirs)) => agree(ours, theirs),
+                    (ours, theirs) => ours.is_none() && theirs.is_none(),
+                };
+                ties += usize::from(!same);
+            }
+        }
+        assert!(ties * 1000 <= near, "{ties} of {near} differ, from {first}");
     }
 }
