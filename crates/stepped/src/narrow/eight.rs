@@ -19,6 +19,8 @@ pub(crate) struct Eight<'a> {
     pub(crate) used: u8,
     /// All outlines are boxes.
     pub(super) boxes: bool,
+    /// No outline has more than four corners.
+    pub(super) four: bool,
     /// Some outline has a cut.
     pub(super) cuts: bool,
 }
@@ -33,6 +35,7 @@ impl<'a> Eight<'a> {
             least: [0.0; LANES],
             used: 0,
             boxes: true,
+            four: true,
             cuts: false,
         }
     }
@@ -46,6 +49,7 @@ impl<'a> Eight<'a> {
             (self.rests[0][lane], self.rests[1][lane]) = (a.rest, b.rest);
             self.used |= 1 << lane;
             self.boxes &= a.outline.is_box() && b.outline.is_box();
+            self.four &= a.outline.count().max(b.outline.count()) <= 4.0;
             self.cuts |= a.outline.has_cuts() || b.outline.has_cuts();
         }
         all

@@ -36,9 +36,9 @@ pub(super) struct Face<V> {
     pub(super) y_next: V,
 }
 
-/// The corners of boxes if N is 4, of any outlines if it is 8.
+/// The corners of boxes, or of any outlines with at most N corners: 4 or 8.
 #[inline(always)]
-pub(super) fn corners<S: Simd, V: Wide<S>, const N: usize>(
+pub(super) fn corners<S: Simd, V: Wide<S>, const N: usize, const BOXES: bool>(
     simd: S,
     outlines: &[&Outline],
     rests: &[&Rest],
@@ -58,18 +58,20 @@ pub(super) fn corners<S: Simd, V: Wide<S>, const N: usize>(
     let (qx, qy) = ((y[2] - y[1]) * m, (x[1] - x[2]) * m);
     (found.nx[0], found.nx[1], found.nx[2], found.nx[3]) = (px, qx, -px, -qx);
     (found.ny[0], found.ny[1], found.ny[2], found.ny[3]) = (py, qy, -py, -qy);
-    if N == 4 {
+    if BOXES {
         return found;
     }
     // Among others boxes have no rest in memory: their first corner is repeated.
     let boxes = l.simd_gt(zero);
-    let (mut nx, mut ny) = ([zero; 8], [zero; 8]);
+    let (mut nx, mut ny) = ([zero; N], [zero; N]);
     nx[..4].copy_from_slice(&V::columns_of(simd, rests, 0));
     ny[..4].copy_from_slice(&V::columns_of(simd, rests, 4));
-    found.x[4..].copy_from_slice(&V::columns_of(simd, rests, 8));
-    found.y[4..].copy_from_slice(&V::columns_of(simd, rests, 12));
-    nx[4..].copy_from_slice(&V::columns_of(simd, rests, 16));
-    ny[4..].copy_from_slice(&V::columns_of(simd, rests, 20));
+    if N > 4 {
+        found.x[4..].copy_from_slice(&V::columns_of(simd, rests, 8));
+        found.y[4..].copy_from_slice(&V::columns_of(simd, rests, 12));
+        nx[4..].copy_from_slice(&V::columns_of(simd, rests, 16));
+        ny[4..].copy_from_slice(&V::columns_of(simd, rests, 20));
+    }
     for k in 0..N {
         let its = if k < 4 { k } else { 0 };
         found.x[k] = boxes.select(found.x[its], found.x[k]);
@@ -101,7 +103,7 @@ pub(super) fn cuts<S: Simd, V: Wide<S>, const N: usize>(simd: S, [l, m]: [V; 2])
 /// The edge of A that separates best, with the centre of B at d, going w against A. A cut is no face, but it separates: what
 /// stays beyond it is met by another piece, however `near`.
 #[inline(always)]
-pub(super) fn best<S: Simd, V: Wide<S>, const N: usize>(
+pub(super) fn best<S: Simd, V: Wide<S>, const N: usize, const BOXES: bool>(
     simd: S,
     a: &Corners<V, N>,
     b: &Corners<V, N>,
@@ -121,7 +123,7 @@ pub(super) fn best<S: Simd, V: Wide<S>, const N: usize>(
         x_next: a.x[1],
         y_next: a.y[1],
     };
-    let least = nearest(simd, a, b);
+    let least = nearest::<S, V, N, BOXES>(simd, a, b);
     for i in 0..N {
         let next = (i + 1) % N;
         let (nx, ny) = (a.nx[i], a.ny[i]);
@@ -151,14 +153,14 @@ pub(super) fn best<S: Simd, V: Wide<S>, const N: usize>(
 
 /// How far the nearest corner of B is along each normal of A, from the centre of mass of B.
 #[inline(always)]
-fn nearest<S: Simd, V: Wide<S>, const N: usize>(
+fn nearest<S: Simd, V: Wide<S>, const N: usize, const BOXES: bool>(
     simd: S,
     a: &Corners<V, N>,
     b: &Corners<V, N>,
 ) -> [V; N] {
     let mut least = [V::splat(simd, 0.0); N];
     // Normals of a box are two and their opposites.
-    let normals = if N == 4 { 2 } else { N };
+    let normals = if BOXES { 2 } else { N };
     for i in 0..normals {
         let mut low = a.nx[i] * b.x[0] + a.ny[i] * b.y[0];
         let mut high = low;
@@ -168,7 +170,7 @@ fn nearest<S: Simd, V: Wide<S>, const N: usize>(
             high = along.max(high);
         }
         least[i] = low;
-        if N == 4 {
+        if BOXES {
             least[i + 2] = -high;
         }
     }

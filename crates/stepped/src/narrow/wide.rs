@@ -46,16 +46,18 @@ fn parts<S: Simd, V: Wide<S>>(
 ) {
     for at in (0..LANES).step_by(V::LANES) {
         if eight.boxes {
-            part::<S, V, 4>(simd, scene, factor, eight, found, at);
+            part::<S, V, 4, true>(simd, scene, factor, eight, found, at);
+        } else if eight.four {
+            part::<S, V, 4, false>(simd, scene, factor, eight, found, at);
         } else {
-            part::<S, V, 8>(simd, scene, factor, eight, found, at);
+            part::<S, V, 8, false>(simd, scene, factor, eight, found, at);
         }
     }
 }
 
-/// The pairs from `at` on that fill a register.
+/// The pairs from `at` on that fill a register: of outlines with at most N corners, or of boxes alone.
 #[inline(always)]
-fn part<S: Simd, V: Wide<S>, const N: usize>(
+fn part<S: Simd, V: Wide<S>, const N: usize, const BOXES: bool>(
     simd: S,
     scene: &Scene<'_>,
     factor: f64,
@@ -99,12 +101,12 @@ fn part<S: Simd, V: Wide<S>, const N: usize>(
     let radii = a_radius + b_radius;
 
     let (rest_a, rest_b) = (&eight.rests[0][at..end], &eight.rests[1][at..end]);
-    let a = corners::<S, V, N>(simd, out_a, rest_a, [a_l, a_m]);
-    let b = corners::<S, V, N>(simd, out_b, rest_b, [b_l, b_m]);
+    let a = corners::<S, V, N, BOXES>(simd, out_a, rest_a, [a_l, a_m]);
+    let b = corners::<S, V, N, BOXES>(simd, out_b, rest_b, [b_l, b_m]);
     // Boxes have no cuts.
-    let cuts = |lengths| (N > 4 && eight.cuts).then(|| (cuts(simd, lengths), near));
-    let mut of_a = best(simd, &a, &b, [dx, dy, wx, wy], cuts([a_l, a_m]));
-    let mut of_b = best(simd, &b, &a, [-dx, -dy, -wx, -wy], cuts([b_l, b_m]));
+    let cuts = |lengths| (!BOXES && eight.cuts).then(|| (cuts(simd, lengths), near));
+    let mut of_a = best::<S, V, N, BOXES>(simd, &a, &b, [dx, dy, wx, wy], cuts([a_l, a_m]));
+    let mut of_b = best::<S, V, N, BOXES>(simd, &b, &a, [-dx, -dy, -wx, -wy], cuts([b_l, b_m]));
     let faceless = V::splat(simd, FACELESS);
     of_a.separation = a_count.simd_gt(one).select(of_a.separation, faceless);
     of_b.separation = b_count.simd_gt(one).select(of_b.separation, faceless);
