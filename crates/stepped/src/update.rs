@@ -8,7 +8,7 @@ use crate::bodies::{Bodies, BodyKind};
 use crate::broad::Pairs;
 use crate::narrow::{Eight, Found, Manifold, Scene, collide_eight};
 use crate::pieces::Pieces;
-use crate::rows::{Block, Cold, Graph, HARD, LANES, Law, OPEN, RotatingRows, Side, renew};
+use crate::rows::{Block, Cold, Colour, Graph, HARD, LANES, Law, OPEN, RotatingRows, Side, renew};
 use crate::{PairRules, Settings};
 
 /// A kept contact may be so many margins wide, so that pairs do not come and go each tick.
@@ -28,72 +28,140 @@ pub(crate) fn update(
     graph.suspects.clear();
     graph.suspects.cover(bodies.lines.len());
     let (colours, suspects) = graph.awake_and_suspects();
-    let mut found = Found::NONE;
+    let touched = moved_lanes(colours, &touched, bodies);
+    let scene = Scene {
+        bodies,
+        pieces,
+        settings,
+    };
+    let count: u32 = touched.iter().map(|block| block.moved.count_ones()).sum();
+    let packed = (0 < count && 2 * count as usize <= LANES * touched.len())
+        .then(|| packed(level, &scene, colours, &touched));
+    let mut own = Found::NONE;
     let mut deep = Vec::new();
     let mut least = OPEN;
-    for (c, (colour, blocks)) in colours.iter_mut().zip(touched).enumerate() {
+    for (at, &Touched { c, k, moved }) in touched.iter().enumerate() {
         let is_hard = c >= HARD;
-        for k in blocks {
-            let (block, cold) = (&mut colour.blocks[k], &mut colour.cold[k]);
+        let colour = &mut colours[c];
+        let (block, cold) = (&mut colour.blocks[k], &mut colour.cold[k]);
+        let found = if let Some(packed) = &packed {
+            &packed[at]
+        } else {
+            let scene = Scene {
+                bodies,
+                pieces,
+                settings,
+            };
+            manifolds(level, &scene, block, cold, moved, &mut own);
+            &own
+        };
+        let near = moved & found.near;
+        renew(level, &bodies.lines, &mut bodies.start, block, found, near);
+        for lane in lanes(near) {
+            let gaps = [found.s1[lane], found.s2[lane]];
+            let gap = gaps[0].min(gaps[1]);
+            if gap < 0.0 || cold.is_deep(lane) {
+                least = least.min(gap);
+                let deepest = deepest(law, pieces, cold.pieces[lane]);
+                if cold.note_depth(lane, gaps, deepest, false) {
+                    block.show(lane, deepest);
+                    deep.push(cold.contact[lane]);
+                }
+            }
+        }
+        let scene = Scene {
+            bodies,
+            pieces,
+            settings,
+        };
+        for lane in lanes(near & found.short) {
+            let lines = [block.a[lane], block.b[lane]];
+            suspects.add_short(&scene, lines, cold.pieces[lane]);
+        }
+        for lane in lanes(near & (found.of_a | found.of_b)) {
+            let pair = cold.pieces[lane];
+            if let Some(side) = face(found, lane, pieces, pair, is_hard)
+                && !cold.is_deep(lane)
+            {
+                let [a, b] = pair.map(|piece| pieces.outlines[piece as usize].extent());
+                rotating.add(
+                    (block, lane),
+                    (cold.contact[lane], pair),
+                    (bodies, side),
+                    (settings.tick, a.min(b)),
+                );
+            }
+        }
+        for lane in lanes(near & found.seam) {
+            suspects.add_seam([block.a[lane], block.b[lane]]);
+        }
+        parted.extend(lanes(moved & !near).map(|lane| cold.contact[lane]));
+    }
+    graph.add_deep(&mut deep);
+    least
+}
+
+/// A block with contacts of bodies that moved.
+struct Touched {
+    c: usize,
+    k: usize,
+    /// A bit for each lane with such a contact.
+    moved: u8,
+}
+
+/// Those of some blocks, colour by colour, that have contacts of bodies that moved.
+fn moved_lanes(colours: &[Colour], blocks: &[Vec<usize>], bodies: &Bodies) -> Vec<Touched> {
+    let mut touched = Vec::new();
+    for (c, (colour, blocks)) in colours.iter().zip(blocks).enumerate() {
+        for &k in blocks {
+            let block = &colour.blocks[k];
             let mut moved = 0u8;
             for lane in 0..LANES {
                 let (a, b) = (block.a[lane] as usize, block.b[lane] as usize);
                 moved |= u8::from(bodies.moved[a] | bodies.moved[b]) << lane;
             }
-            if moved == 0 {
-                continue;
+            if moved != 0 {
+                touched.push(Touched { c, k, moved });
             }
-            let scene = Scene {
-                bodies,
-                pieces,
-                settings,
-            };
-            manifolds(level, &scene, block, cold, moved, &mut found);
-            let near = moved & found.near;
-            renew(level, &bodies.lines, &mut bodies.start, block, &found, near);
-            for lane in lanes(near) {
-                let gaps = [found.s1[lane], found.s2[lane]];
-                let gap = gaps[0].min(gaps[1]);
-                if gap < 0.0 || cold.is_deep(lane) {
-                    least = least.min(gap);
-                    let deepest = deepest(law, pieces, cold.pieces[lane]);
-                    if cold.note_depth(lane, gaps, deepest, false) {
-                        block.show(lane, deepest);
-                        deep.push(cold.contact[lane]);
-                    }
-                }
-            }
-            let scene = Scene {
-                bodies,
-                pieces,
-                settings,
-            };
-            for lane in lanes(near & found.short) {
-                let lines = [block.a[lane], block.b[lane]];
-                suspects.add_short(&scene, lines, cold.pieces[lane]);
-            }
-            for lane in lanes(near & (found.of_a | found.of_b)) {
-                let pair = cold.pieces[lane];
-                if let Some(side) = face(&found, lane, pieces, pair, is_hard)
-                    && !cold.is_deep(lane)
-                {
-                    let [a, b] = pair.map(|piece| pieces.outlines[piece as usize].extent());
-                    rotating.add(
-                        (block, lane),
-                        (cold.contact[lane], pair),
-                        (bodies, side),
-                        (settings.tick, a.min(b)),
-                    );
-                }
-            }
-            for lane in lanes(near & found.seam) {
-                suspects.add_seam([block.a[lane], block.b[lane]]);
-            }
-            parted.extend(lanes(moved & !near).map(|lane| cold.contact[lane]));
         }
     }
-    graph.add_deep(&mut deep);
-    least
+    touched
+}
+
+/// [`manifolds`] of blocks in which few lanes moved: the pairs of several fill a register.
+fn packed(level: Level, scene: &Scene<'_>, colours: &[Colour], touched: &[Touched]) -> Vec<Found> {
+    let mut all = vec![Found::NONE; touched.len()];
+    let mut found = Found::NONE;
+    let mut places = Vec::with_capacity(LANES);
+    let each = |(at, block): (usize, &Touched)| lanes(block.moved).map(move |lane| (at, lane));
+    let mut pairs = touched.iter().enumerate().flat_map(each);
+    loop {
+        let mut eight = Eight::new(scene.pieces, [[0; LANES]; 2]);
+        places.clear();
+        while places.len() < LANES
+            && let Some((at, lane)) = pairs.next()
+        {
+            let colour = &colours[touched[at].c];
+            let (block, pair) = (
+                &colour.blocks[touched[at].k],
+                colour.cold[touched[at].k].pieces[lane],
+            );
+            let free = places.len();
+            if eight.set_pieces(scene.pieces, free, pair) {
+                (eight.lines[0][free], eight.lines[1][free]) = (block.a[lane], block.b[lane]);
+                places.push((at, lane));
+            } else if let Some(manifold) = scene.contact(pair, KEPT) {
+                all[at].set(lane, &manifold);
+            }
+        }
+        if places.is_empty() {
+            return all;
+        }
+        collide_eight(level, scene, KEPT, &eight, &mut found);
+        for (from, &(at, lane)) in places.iter().enumerate() {
+            all[at].copy_lane(lane, &found, from);
+        }
+    }
 }
 
 /// Which body of a lane has the face, if its row may be rotated.

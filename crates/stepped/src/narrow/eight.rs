@@ -112,6 +112,21 @@ impl Found {
         self.seam |= 1 << lane;
     }
 
+    /// Copies a lane of another one, into one that has no manifold yet.
+    pub(crate) fn copy_lane(&mut self, to: usize, other: &Self, from: usize) {
+        (self.nx[to], self.ny[to]) = (other.nx[from], other.ny[from]);
+        (self.a1[to], self.b1[to]) = (other.a1[from], other.b1[from]);
+        (self.at[to], self.bt[to]) = (other.at[from], other.bt[from]);
+        (self.s1[to], self.s2[to]) = (other.s1[from], other.s2[from]);
+        self.l[to] = other.l[from];
+        let bit = |bits: u8| (bits >> from & 1) << to;
+        self.near |= bit(other.near);
+        self.short |= bit(other.short);
+        self.seam |= bit(other.seam);
+        self.of_a |= bit(other.of_a);
+        self.of_b |= bit(other.of_b);
+    }
+
     pub(crate) fn manifold(&self, lane: usize) -> Manifold {
         let two = self.s2[lane] < OPEN;
         let second = if two { self.s2[lane] } else { self.s1[lane] };
