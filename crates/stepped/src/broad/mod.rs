@@ -270,16 +270,25 @@ impl Broad {
         self.woken.sort_unstable();
         let (found, woken) = (&mut self.found, &self.woken);
         let asks = |piece: u32| asks(bodies, pieces, woken, piece);
+        // What the sweep knows may have gone elsewhere.
+        let mut note = |piece: u32, other: u32| {
+            let [a, b] = [piece, other].map(|piece| pieces.boxes[piece as usize]);
+            if a.overlaps(b) && may_touch(pieces, [piece, other], tick) {
+                found.push([piece.min(other), piece.max(other)]);
+            }
+        };
         // The sweep knows where the others' boxes are, and of these where they were: so these are compared as well.
         for &piece in few.iter().filter(|piece| asks(**piece)) {
             let bounds = pieces.boxes[piece as usize];
             self.sweep
-                .all_in(pieces, bounds, |other| found.push([piece, other]));
-            let before = found.len();
-            self.standing
-                .query(bounds, |other| found.push([piece, other]));
-            self.by_standing[piece as usize] = found.len() > before;
-            found.extend(self.endless.iter().map(|other| [piece, *other]));
+                .all_in(pieces, bounds, |other| note(piece, other));
+            let mut by_standing = false;
+            self.standing.query(bounds, |other| {
+                by_standing = true;
+                note(piece, other);
+            });
+            self.by_standing[piece as usize] = by_standing;
+            self.endless.iter().for_each(|other| note(piece, *other));
         }
         for (k, &piece) in few.iter().enumerate() {
             let (bounds, moves) = (pieces.boxes[piece as usize], asks(piece));
@@ -287,23 +296,16 @@ impl Broad {
                 .iter()
                 .take_while(|other| left(other) <= bounds.max.x)
             {
-                if (moves || asks(other)) && pieces.boxes[other as usize].overlaps(bounds) {
-                    found.push([piece, other]);
+                if moves || asks(other) {
+                    note(piece, other);
                 }
             }
         }
         self.few = few;
         self.woken.clear();
-        // A pair may have been found from both sides, and by both ways; what the sweep knows may have gone elsewhere.
-        for pair in &mut *found {
-            pair.sort_unstable();
-        }
-        found.sort_unstable();
-        found.dedup();
-        found.retain(|pair| {
-            let [a, b] = pair.map(|piece| pieces.boxes[piece as usize]);
-            a.overlaps(b) && may_touch(pieces, *pair, tick)
-        });
+        // A pair may have been found from both sides, and by both ways.
+        self.found.sort_unstable();
+        self.found.dedup();
     }
 }
 
