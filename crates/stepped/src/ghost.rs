@@ -59,7 +59,7 @@ impl Suspects {
     /// Adds a short contact of two pieces of the bodies of two lines.
     pub(crate) fn add_short(&mut self, scene: &Scene<'_>, [a, b]: [u32; 2], pieces: [u32; 2]) {
         for (body, other, piece) in [(a, b, pieces[1]), (b, a, pieces[0])] {
-            if scene.bodies.moved[body as usize] {
+            if scene.bodies.moved[body as usize] && has_sides(scene.pieces.turned(piece)) {
                 let driven = scene.bodies.lines[other as usize].inverse_mass() == 0.0;
                 // The seams of what did not move are those of before.
                 let stays = !scene.bodies.moved[other as usize];
@@ -201,7 +201,7 @@ fn four<S: Simd>(simd: S, column: &[f64; MOST], at: usize) -> f64x4<S> {
 #[inline(always)]
 fn is_hidden(rows: &Rows, pieces: &Pieces, k: usize, o: usize) -> bool {
     let p = pieces.turned(rows.pieces[k]);
-    if rows.pieces[k] == rows.pieces[o] || p.corners() < 3 {
+    if rows.pieces[k] == rows.pieces[o] || !has_sides(p) {
         return false;
     }
     let (normal, plane) = (rows.normal(k), rows.normal(o));
@@ -219,6 +219,11 @@ fn is_hidden(rows: &Rows, pieces: &Pieces, k: usize, o: usize) -> bool {
                     && holds(pieces.turned(q), point, flush)
             })
         })
+}
+
+/// Whether other pieces may hide sides of a piece: of discs and segments they hide none.
+const fn has_sides(piece: Turned<'_>) -> bool {
+    piece.corners() >= 3
 }
 
 impl Rows {
