@@ -58,7 +58,7 @@ pub use document::{MAX_BYTES, VERSION};
 pub use error::{Place, Problem, SceneError};
 pub use plain::{
     GrowthKind, MAX_GROWTH, PlainBody, PlainError, PlainInfo, PlainKind, PlainMaterial, PlainScene,
-    PlainShape, growth_scene, plain_scene, plain_scenes, spaced_scene,
+    PlainShape, growth_scene, lively_scenes, plain_scene, plain_scenes, spaced_scene,
 };
 pub use scene::Scene;
 

@@ -3,7 +3,9 @@
 use carom_dynamics::{BodyKind, Mode, Settings, World};
 use carom_geometry::Aabb;
 
-use super::{GrowthKind, PlainKind, PlainScene, growth_scene, plain_scene, plain_scenes};
+use super::{
+    GrowthKind, PlainKind, PlainScene, growth_scene, lively_scenes, plain_scene, plain_scenes,
+};
 
 fn world(scene: &PlainScene) -> World {
     world_with(scene, scene.settings())
@@ -52,8 +54,9 @@ fn density_and_number_are_as_asked_for() {
 }
 
 #[test]
-fn published_and_growing_scenes_start_apart() {
-    let published = plain_scenes().iter().filter(|info| {
+fn scenes_start_apart() {
+    let listed = plain_scenes().iter().chain(lively_scenes());
+    let published = listed.filter(|info| {
         // Every pair of case 19 lies at the same place.
         info.name != "case19_polygon_pairs"
     });

@@ -1,7 +1,7 @@
 //! The plain scenes by name.
 
 use super::grow::{growth_of, growth_scene};
-use super::{PlainScene, gas, lively, pairs, piles, resting, sparse};
+use super::{PlainScene, gas, lively_scenes, pairs, piles, resting, sparse};
 
 /// A plain scene, as a list shows it.
 #[derive(Clone, Copy, Debug)]
@@ -23,7 +23,7 @@ impl PlainInfo {
     }
 }
 
-const fn info(
+pub(super) const fn info(
     name: &'static str,
     title: &'static str,
     about: &'static str,
@@ -37,7 +37,7 @@ const fn info(
     }
 }
 
-static SCENES: [PlainInfo; 38] = [
+static SCENES: [PlainInfo; 14] = [
     info(
         "a_large_pyramid",
         "5,050 boxes in a pyramid",
@@ -105,150 +105,6 @@ static SCENES: [PlainInfo; 38] = [
         sparse::mostly_empty,
     ),
     info(
-        "lively_hourglass",
-        "hourglass",
-        "2,000 discs and polygons run through the neck of a funnel into a bin.",
-        lively::hourglass,
-    ),
-    info(
-        "lively_wall",
-        "wall",
-        "A wall of 2,000 bricks, hit by a heavy ball.",
-        lively::wall,
-    ),
-    info(
-        "lively_explosion",
-        "explosion",
-        "2,000 bodies fly apart from one place in a closed box.",
-        lively::explosion,
-    ),
-    info(
-        "lively_stirred",
-        "stirred",
-        "Three crosses turn in a bin of 2,000 bodies.",
-        lively::stirred,
-    ),
-    info(
-        "lively_falling",
-        "falling",
-        "4,000 bodies fall onto a heap.",
-        lively::falling,
-    ),
-    info(
-        "lively_sizes",
-        "sizes",
-        "Sizes of 1 to 20 in one heap.",
-        lively::sizes,
-    ),
-    info(
-        "lively_drum_mixed",
-        "drum_mixed",
-        "A drum of mixed bodies.",
-        lively::drum_mixed,
-    ),
-    info(
-        "lively_drum_letters",
-        "drum_letters",
-        "A drum of L shapes: two boxes each.",
-        lively::drum_letters,
-    ),
-    info(
-        "lively_junkyard",
-        "junkyard",
-        "A plate is driven through a heap of 2,000 bodies, without end.",
-        lively::junkyard,
-    ),
-    info(
-        "lively_compounds",
-        "compounds",
-        "Compound bodies of three triangles fall onto steps.",
-        lively::compounds,
-    ),
-    info(
-        "lively_pins",
-        "pins",
-        "Discs fall through pins.",
-        lively::pins,
-    ),
-    info(
-        "lively_rods",
-        "rods",
-        "Long thin rods fall into a bin.",
-        lively::rods,
-    ),
-    info(
-        "lively_bouncing",
-        "bouncing",
-        "Balls that bounce on each other in a bin.",
-        lively::bouncing,
-    ),
-    info(
-        "lively_rack",
-        "rack",
-        "Discs without gravity that lose speed when they meet: a broken rack of 1,275.",
-        lively::rack,
-    ),
-    info(
-        "lively_slopes",
-        "slopes",
-        "Bodies roll and slide down a stair of slopes of segments.",
-        lively::slopes,
-    ),
-    info(
-        "lively_landing_stacks",
-        "landing_stacks",
-        "A thousand stacks of five land one after the other.",
-        lively::landing_stacks,
-    ),
-    info(
-        "lively_rocking",
-        "rocking",
-        "A thousand boxes rock on their corners.",
-        lively::rocking,
-    ),
-    info(
-        "lively_seesaws",
-        "seesaws",
-        "A thousand seesaws with two loads.",
-        lively::seesaws,
-    ),
-    info(
-        "lively_platforms",
-        "platforms",
-        "A hundred platforms go to and fro with five boxes each: to, in this scene.",
-        lively::platforms,
-    ),
-    info(
-        "lively_dominoes",
-        "dominoes",
-        "Rows of dominoes, the first of each pushed.",
-        lively::dominoes,
-    ),
-    info(
-        "lively_tiles",
-        "tiles",
-        "Five hundred bodies slide over tiles without friction.",
-        lively::tiles,
-    ),
-    info(
-        "lively_lively_pyramid",
-        "lively_pyramid",
-        "A pyramid of forty rows with restitution, hit by falling balls.",
-        lively::lively_pyramid,
-    ),
-    info(
-        "lively_disc_heap",
-        "disc_heap",
-        "Discs alone: 4,000 in a bin.",
-        lively::disc_heap,
-    ),
-    info(
-        "lively_clouds",
-        "clouds",
-        "A cloud of 3,000 bodies without gravity runs into another.",
-        lively::clouds,
-    ),
-    info(
         "case12_polygon_gas",
         "100 elastic polygons",
         "100 elastic polygons in a closed box: energy over a minute",
@@ -275,7 +131,7 @@ pub fn plain_scenes() -> &'static [PlainInfo] {
 }
 
 /// The plain scene of a name, or of a letter: `a` is `a_large_pyramid`, `e` is `e_flying_polygons`;
-/// or a [growth scene](super::growth_scene) of any size: `grow_pile_2000`; or a [gas](super::spaced_scene) of any
+/// or a [lively scene](super::lively_scenes): `lively_wall`; or a [growth scene](super::growth_scene) of any size: `grow_pile_2000`; or a [gas](super::spaced_scene) of any
 /// density: `gas_spaced_1300`.
 ///
 /// # Examples
@@ -288,7 +144,8 @@ pub fn plain_scenes() -> &'static [PlainInfo] {
 #[must_use]
 pub fn plain_scene(name: &str) -> Option<PlainScene> {
     let full = full_name(name).unwrap_or(name);
-    let found = SCENES.iter().find(|info| info.name == full);
+    let mut known = SCENES.iter().chain(lively_scenes());
+    let found = known.find(|info| info.name == full);
     found
         .map(PlainInfo::scene)
         .or_else(|| growth_of(name).map(|(kind, bodies)| growth_scene(kind, bodies)))

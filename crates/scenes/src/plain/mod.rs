@@ -19,6 +19,7 @@ mod world;
 pub use gas::spaced_scene;
 pub use grow::{GrowthKind, MAX_GROWTH, growth_scene};
 pub use list::{PlainInfo, plain_scene, plain_scenes};
+pub use lively::lively_scenes;
 pub use world::PlainError;
 pub(crate) use {grow::growth_of, list::full_name};
 

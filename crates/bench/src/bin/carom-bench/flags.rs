@@ -62,6 +62,7 @@ pub(crate) struct AccuracyArgs {
 #[command(after_help = "Examples:\n  \
     cargo xtask speed --scene e --scene a\n  \
     cargo xtask speed --peers --out out/speed\n  \
+    cargo xtask speed --lively --engine carom --engine box2d-avx2\n  \
     cargo xtask speed --peers --growth\n  \
     cargo xtask speed --peers --crossing\n  \
     cargo xtask speed --engine carom --engine box2d-sse2 --threads 1,2\n  \
@@ -75,7 +76,7 @@ pub(crate) struct AccuracyArgs {
 pub(crate) struct SpeedArgs {
     #[command(flatten)]
     pub(crate) chosen: Chosen,
-    /// Only this scene, by name or letter (a to i); may be repeated
+    /// Only this scene, by name or letter (a to i, lively_wall, …); may be repeated
     #[arg(long, value_name = "NAME")]
     pub(crate) scene: Vec<String>,
     /// Repetitions; the tables have their median
@@ -84,6 +85,9 @@ pub(crate) struct SpeedArgs {
     /// Numbers of threads
     #[arg(long, value_name = "N,…", value_delimiter = ',', default_value = "1", value_parser = clap::value_parser!(u32).range(1..=64))]
     pub(crate) threads: Vec<u32>,
+    /// Scenes in which much moves instead: what falls, is stirred, driven or thrown, and many small islands
+    #[arg(long, conflicts_with_all = ["scene", "growth", "crossing"])]
+    pub(crate) lively: bool,
     /// Growth curves instead: a pile, a gas and free bodies from 200 to 200,000; an engine goes no further once a step takes 250 ms
     #[arg(long, conflicts_with_all = ["scene", "repeat", "threads"])]
     pub(crate) growth: bool,
@@ -105,7 +109,7 @@ pub(crate) struct SpeedArgs {
     /// Built as for development, in seconds: not for comparing times
     #[arg(long)]
     pub(crate) quick: bool,
-    /// Folder for tables and charts [default: out/speed, out/growth, out/crossing, out/instructions or out/profile]
+    /// Folder for tables and charts [default: out/speed, out/lively, out/growth, out/crossing, out/instructions or out/profile]
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
     #[command(flatten)]

@@ -102,7 +102,8 @@ fn ratios(mut dots: Vec<Dot>) -> Option<Chart> {
 
 /// A scene in words; one of a run of growing scenes keeps its name.
 fn title(scene: &str) -> &str {
-    let mut known = carom_scenes::plain_scenes().iter();
+    let published = carom_scenes::plain_scenes().iter();
+    let mut known = published.chain(carom_scenes::lively_scenes());
     let found = known.find(|info| info.name == scene);
     found.map_or(scene, |info| info.title)
 }

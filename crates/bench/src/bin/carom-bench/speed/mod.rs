@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 
 use carom_bench::{EngineName, Job, Limits, Reading};
 use carom_render::write_file;
-use carom_scenes::plain_scenes;
+use carom_scenes::{PlainInfo, lively_scenes, plain_scenes};
 
 use crate::builds::{self, Profile};
 use crate::exit::{End, Failure, Outcome, fail};
@@ -28,6 +28,7 @@ pub(crate) fn run(args: &SpeedArgs) -> Outcome {
     let what = What::of(args);
     let scenes = match what {
         What::Crossing => crossing::scenes(),
+        _ if args.lively => lively_scenes().iter().map(name).collect(),
         _ => scenes(&args.scene)?,
     };
     if what == What::Instructions && !builds::answers("valgrind", &["--version"]) {
@@ -42,7 +43,8 @@ pub(crate) fn run(args: &SpeedArgs) -> Outcome {
             );
         }
     }
-    let folder = || PathBuf::from("out").join(what.name());
+    let folder = if args.lively { "lively" } else { what.name() };
+    let folder = || PathBuf::from("out").join(folder);
     let out = args.out.clone().unwrap_or_else(folder);
     let run = Run {
         command: what.name(),
@@ -199,27 +201,29 @@ fn failed_before(rows: &[Row], planned: &Planned) -> bool {
         .any(|row| row.job == planned.job && matches!(row.reading, Reading::Failed { .. }))
 }
 
+fn name(info: &PlainInfo) -> String {
+    info.name.to_owned()
+}
+
 /// The scenes asked for, or the nine and the two thinner ones.
 fn scenes(asked: &[String]) -> Result<Vec<String>, Failure> {
-    let names: Vec<&str> = plain_scenes()
-        .iter()
-        .map(|info| info.name)
-        .filter(|name| !name.starts_with("case"))
-        .collect();
+    let published = plain_scenes().iter().map(name);
+    let mut names: Vec<String> = published.filter(|name| !name.starts_with("case")).collect();
     if asked.is_empty() {
-        return Ok(names.into_iter().map(str::to_owned).collect());
+        return Ok(names);
     }
+    names.extend(lively_scenes().iter().map(name));
     let mut found = Vec::new();
     for name in asked {
         // A letter alone is the first scene that begins with it: e is the peers' own, not a thinner one.
-        let letter = |scene: &&&str| name.len() == 1 && scene.starts_with(&format!("{name}_"));
-        let own = names.iter().find(|scene| **scene == name);
-        let mut lettered: Vec<&&str> = names.iter().filter(letter).collect();
-        lettered.sort_by_key(|scene| matches!(**scene, "e_medium" | "e_dilute"));
+        let letter = |scene: &&String| name.len() == 1 && scene.starts_with(&format!("{name}_"));
+        let own = names.iter().find(|scene| *scene == name);
+        let mut lettered: Vec<&String> = names.iter().filter(letter).collect();
+        lettered.sort_by_key(|scene| matches!(scene.as_str(), "e_medium" | "e_dilute"));
         let Some(scene) = own.or(lettered.first().copied()) else {
             fail!("{name}: unknown scene; there are {}", names.join(", "));
         };
-        found.push((*scene).to_owned());
+        found.push(scene.clone());
     }
     Ok(found)
 }
@@ -242,6 +246,7 @@ mod tests {
         assert_eq!(found("a").unwrap(), "a_large_pyramid");
         assert_eq!(found("e").unwrap(), "e_flying_polygons");
         assert_eq!(found("e_medium").unwrap(), "e_medium");
+        assert_eq!(found("lively_wall").unwrap(), "lively_wall");
         assert_eq!(scenes(&[]).unwrap().len(), 11);
         for name in ["z", "", "e_", "pyramid"] {
             let error = found(name).unwrap_err().line();
