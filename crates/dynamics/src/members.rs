@@ -7,7 +7,6 @@ use carom_math::{SimTime, Vec2};
 
 use crate::stepping::Stepping;
 use crate::stepping::heap::{Heaps, Seen};
-use crate::stepping::near::Among;
 use crate::stepping::rules::Rules;
 use crate::stepping::rush::Haste;
 use crate::store::bodies::Bodies;
@@ -239,7 +238,7 @@ impl World {
             && self.bodies.get(index).is_free()
             && self.stepping.as_ref().is_some_and(|stepping| {
                 self.joins.reached == self.clock.next()
-                    && self.nears_member(stepping, index, (time, left), Among::All)
+                    && self.nears_member(stepping, index, (time, left))
             });
         if near {
             self.join(index, time);
@@ -252,9 +251,8 @@ impl World {
         stepping: &Stepping,
         index: u32,
         ahead: (SimTime, f64),
-        among: Among,
     ) -> bool {
-        stepping.nears_member(self.rules(), self.joins.reached, index, ahead, among)
+        stepping.nears_member(self.rules(), self.joins.reached, index, ahead)
     }
 
     /// Kinematic bodies are known to the engine from its first member on.

@@ -216,15 +216,15 @@ impl Engine {
             .movers_in(&self.pieces, bounds, |piece| found(tag(piece)));
     }
 
-    /// [`Self::query_awake`] of those alone that came, or go otherwise than was foreseen, since contacts were last found at the begin
-    /// of a tick, or since [`Self::forget_news`]. Only after [`Self::prepare_queries`].
-    pub fn query_news(&self, bounds: Aabb, mut found: impl FnMut(u64)) {
-        let tag = |piece: u32| self.pieces.list[piece as usize].tag;
-        self.broad
-            .news_in(&self.pieces, bounds, |piece| found(tag(piece)));
+    /// Calls `found` with the tag and the box of each of these that came, or goes otherwise than was foreseen, since contacts were last
+    /// found at the begin of a tick, or since [`Self::forget_news`]. Only after [`Self::prepare_queries`].
+    pub fn news(&self, mut found: impl FnMut(u64, Aabb)) {
+        for (piece, bounds) in self.broad.news(&self.pieces) {
+            found(self.pieces.list[piece as usize].tag, bounds);
+        }
     }
 
-    /// See [`Self::query_news`].
+    /// See [`Self::news`].
     pub fn forget_news(&mut self) {
         self.broad.forget_news();
     }

@@ -15,7 +15,7 @@ use carom_math::{SimTime, Sum};
 use carom_stepped::State;
 
 use super::Shapes;
-use super::near::Among;
+use super::near::Ahead;
 use super::rush::Rush;
 use crate::model::graph::neighbours;
 use crate::store::bodies::Bodies;
@@ -50,6 +50,7 @@ pub(crate) struct Joins {
     pub(crate) aloft: Vec<u32>,
     /// Bodies outside with motions that are newer than the last search for bodies that join.
     pub(crate) restless: Vec<u32>,
+    pub(super) ahead: Ahead,
     /// Motions are older than the engine.
     pub(crate) unwritten: bool,
     /// Where the engine's last sub-step ended.
@@ -68,6 +69,8 @@ impl Joins {
         let most = 2 * bodies.places() + 64;
         if bodies.member_count() > 0 {
             self.restless.push(index);
+        } else {
+            self.ahead.forget();
         }
         if mode != Mode::Stepped {
             self.aloft.push(index);
@@ -285,7 +288,7 @@ impl World {
             let leaves = ticks > IDLE && {
                 // What a long step has not written yet is as old as the step.
                 self.write_flight(&state, time);
-                !self.nears_member(&stepping, index, ahead, Among::All)
+                !self.nears_member(&stepping, index, ahead)
             };
             if leaves {
                 gone.push(index);

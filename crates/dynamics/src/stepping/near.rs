@@ -2,18 +2,65 @@
 
 use std::collections::BTreeSet;
 
+use carom_geometry::Aabb;
 use carom_math::SimTime;
 
 use super::rules::Rules;
 use super::{Joins, Stepping};
 use crate::broad::window::box_ahead;
+use crate::store::bodies::Bodies;
 
-/// Which members are asked about.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Among {
-    All,
-    /// Those that came or go otherwise since they were last asked about.
-    News,
+/// Where bodies outside go until a tick ends: so what comes to the engine in it, or goes elsewhere, asks for them.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Ahead {
+    /// When the tick ends; none before the first one, or if bodies took to flight that are not in it.
+    until: Option<SimTime>,
+    /// In the order of their left ends.
+    boxes: Vec<(Aabb, u32)>,
+    /// The width of the widest of them, in m.
+    widest: f64,
+    /// Of those that have newer motions.
+    newer: Vec<(Aabb, u32)>,
+}
+
+impl Ahead {
+    /// A body took to flight, and is not in it.
+    pub(crate) const fn forget(&mut self) {
+        self.until = None;
+    }
+
+    /// Whether it was made for the tick that ends then.
+    fn holds_for(&self, (time, left): (SimTime, f64)) -> bool {
+        let off = self.until.map(|until| until - (time + left));
+        off.is_some_and(|off| off.abs() < 0.25 * left)
+    }
+
+    fn fill(&mut self, bodies: &Bodies, aloft: &[u32], (time, left): (SimTime, f64)) {
+        self.until = Some(time + left);
+        self.newer.clear();
+        self.boxes.clear();
+        let ahead = |index: &u32| (box_ahead(bodies.get(*index), time, left), *index);
+        self.boxes.extend(aloft.iter().map(ahead));
+        let by_left = |a: &(Aabb, u32), b: &(Aabb, u32)| a.0.min.x.total_cmp(&b.0.min.x);
+        self.boxes.sort_unstable_by(by_left);
+        let widths = self.boxes.iter().map(|(bounds, _)| bounds.extents().x);
+        self.widest = widths.fold(0.0, f64::max);
+    }
+
+    fn add(&mut self, bodies: &Bodies, index: u32, (time, left): (SimTime, f64)) {
+        let bounds = box_ahead(bodies.get(index), time, left);
+        self.newer.push((bounds, index));
+    }
+
+    /// Bodies that may go through `bounds`.
+    fn overlapping(&self, bounds: Aabb) -> impl Iterator<Item = u32> {
+        let left = bounds.min.x - self.widest;
+        let first = self.boxes.partition_point(|(its, _)| its.min.x < left);
+        let some = self.boxes[first..].iter();
+        let some = some.take_while(move |(its, _)| its.min.x <= bounds.max.x);
+        let all = some.chain(&self.newer);
+        all.filter_map(move |(its, index)| its.overlaps(bounds).then_some(*index))
+    }
 }
 
 impl Joins {
@@ -32,27 +79,42 @@ impl Joins {
         self.aloft.dedup();
         self.aloft
             .retain(|&index| bodies.is_alive(index) && bodies.get(index).is_free());
-        let mut restless = core::mem::take(&mut self.restless);
-        restless.sort_unstable();
+        let restless = core::mem::take(&mut self.restless);
         if self.aloft.is_empty() && held.is_empty() {
             stepping.engine.forget_news();
             return BTreeSet::new();
         }
         stepping.engine.prepare_queries();
-        let left = stepping.engine.left();
-        let free = self.aloft.iter().map(|&index| {
-            let asks = asks_all || restless.binary_search(&index).is_ok();
-            (index, if asks { Among::All } else { Among::News })
-        });
-        let held = held.iter().map(|&index| (index, Among::All));
-        let near = free
-            .chain(held)
-            .filter(|(index, _)| bodies.get(*index).is_dynamic())
-            .filter(|(index, among)| {
-                stepping.nears_member(rules, self.reached, *index, (time, left), *among)
-            })
-            .map(|(index, _)| index)
-            .collect();
+        let ahead = (time, stepping.engine.left());
+        let mut near = BTreeSet::new();
+        let mut asked: Vec<u32> = held.to_vec();
+        if asks_all {
+            self.ahead.fill(bodies, &self.aloft, ahead);
+            asked.extend(&self.aloft);
+        } else {
+            if !self.ahead.holds_for(ahead) {
+                self.ahead.fill(bodies, &self.aloft, ahead);
+            }
+            let is_aloft = |index: &u32| {
+                self.aloft.binary_search(index).is_ok() && bodies.get(*index).is_dynamic()
+            };
+            stepping.engine.news(|tag, bounds| {
+                let at = super::collider(tag);
+                let found = self.ahead.overlapping(bounds);
+                near.extend(found.filter(is_aloft).filter(|index| {
+                    box_ahead(bodies.get(*index), ahead.0, ahead.1).overlaps(bounds)
+                        && stepping.nears(rules, self.reached, *index, at, ahead)
+                }));
+            });
+            for index in restless.into_iter().filter(is_aloft) {
+                self.ahead.add(bodies, index, ahead);
+                asked.push(index);
+            }
+        }
+        near.extend(asked.into_iter().filter(|index| {
+            bodies.get(*index).is_dynamic()
+                && stepping.nears_member(rules, self.reached, *index, ahead)
+        }));
         stepping.engine.forget_news();
         near
     }
@@ -68,21 +130,14 @@ impl Stepping {
         reached: SimTime,
         index: u32,
         (time, left): (SimTime, f64),
-        among: Among,
     ) -> bool {
         let mut shapes = Vec::new();
         let ahead = box_ahead(rules.bodies.get(index), time, left);
-        let found = |tag| shapes.push(super::collider(tag));
-        match among {
-            Among::All => self.engine.query_awake(ahead, found),
-            Among::News => self.engine.query_news(ahead, found),
-        }
-        shapes.into_iter().any(|at| {
-            let owner = rules.colliders[at as usize].body;
-            owner != index
-                && rules.bodies.get(owner).in_engine()
-                && self.nears(rules, reached, (index, owner), at, (time, left))
-        })
+        self.engine
+            .query_awake(ahead, |tag| shapes.push(super::collider(tag)));
+        shapes
+            .into_iter()
+            .any(|at| self.nears(rules, reached, index, at, (time, left)))
     }
 
     /// Whether a shape of a member may be met by a body within `left` seconds: by their circles, then by their shapes.
@@ -90,16 +145,20 @@ impl Stepping {
         &self,
         rules: Rules<'_>,
         reached: SimTime,
-        (index, owner): (u32, u32),
+        index: u32,
         at: u32,
         (time, left): (SimTime, f64),
     ) -> bool {
         /// What is nearer than this joins however it moves, as a fraction of the smaller reach.
         const MARGIN: f64 = 1.0 / 128.0;
+        let bodies = rules.bodies;
+        let owner = rules.colliders[at as usize].body;
+        if owner == index || !bodies.get(owner).in_engine() {
+            return false;
+        }
         let Some(theirs) = self.state(owner) else {
             return false;
         };
-        let bodies = rules.bodies;
         let (state, other) = (bodies.get(index), bodies.get(owner));
         let mut pose = theirs.pose;
         pose.position -= theirs.velocity.0 * (reached - time).max(0.0);

@@ -31,9 +31,8 @@ pub(crate) struct Broad {
     woken: Vec<u32>,
     /// Movers that came or got other boxes since the sweep was sorted, and some that are none any more.
     few: Vec<u32>,
-    /// Those since the last tick that a caller has not looked at, and a sweep of these alone.
+    /// Those since the last tick that a caller has not looked at.
     news: Vec<u32>,
-    newcomers: Sweep,
     /// Whether something may stand in the box of a piece, by its number: true unless the last search of it found nothing.
     by_standing: Vec<bool>,
     /// Pairs of pieces with overlapping boxes, one of which moved.
@@ -51,7 +50,6 @@ impl Broad {
             woken: Vec::new(),
             few: Vec::new(),
             news: Vec::new(),
-            newcomers: Sweep::default(),
             by_standing: Vec::new(),
             found: Vec::new(),
         }
@@ -190,8 +188,6 @@ impl Broad {
         self.news.dedup();
         self.news
             .retain(|piece| pieces.boxes[*piece as usize].is_valid());
-        let news = self.news.iter().map(|piece| (*piece, true));
-        self.newcomers.sort(news, pieces);
     }
 
     fn sort(&mut self, bodies: &Bodies, pieces: &Pieces) {
@@ -238,13 +234,13 @@ impl Broad {
         self.few.iter().copied().for_each(tell);
     }
 
-    /// The same of movers that came or got other boxes since the last tick, or since [`Self::forget_news`].
-    pub(crate) fn news_in(&self, pieces: &Pieces, bounds: Aabb, mut tell: impl FnMut(u32)) {
-        self.newcomers.all_in(pieces, bounds, |piece| {
-            if self.moves_in(pieces, piece, bounds) {
-                tell(piece);
-            }
-        });
+    /// Movers that came or got other boxes since the last tick, or since [`Self::forget_news`], and these.
+    pub(crate) fn news(&self, pieces: &Pieces) -> impl Iterator<Item = (u32, Aabb)> {
+        let news = self
+            .news
+            .iter()
+            .map(|piece| (*piece, pieces.boxes[*piece as usize]));
+        news.filter(|(piece, bounds)| self.moves_in(pieces, *piece, *bounds))
     }
 
     pub(crate) fn forget_news(&mut self) {
