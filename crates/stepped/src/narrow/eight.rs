@@ -48,9 +48,12 @@ impl<'a> Eight<'a> {
             (self.outlines[0][lane], self.outlines[1][lane]) = (a.outline, b.outline);
             (self.rests[0][lane], self.rests[1][lane]) = (a.rest, b.rest);
             self.used |= 1 << lane;
-            self.boxes &= a.outline.is_box() && b.outline.is_box();
-            self.four &= a.outline.count().max(b.outline.count()) <= 4.0;
-            self.cuts |= a.outline.has_cuts() || b.outline.has_cuts();
+            // Boxes have four corners and no cuts.
+            if !(a.outline.is_box() && b.outline.is_box()) {
+                self.boxes = false;
+                self.four &= a.outline.count().max(b.outline.count()) <= 4.0;
+                self.cuts |= a.outline.has_cuts() || b.outline.has_cuts();
+            }
         }
         all
     }
