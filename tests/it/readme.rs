@@ -141,8 +141,10 @@ const BOX2D: Run = ("box2d-avx2", "stock");
 const RAPIER: Run = ("rapier", "stock");
 
 impl Speed {
-    fn read() -> Self {
-        Self(Table::read("crates/bench/results/speed/speed.csv"))
+    /// Of the scenes of `folder`.
+    fn read(folder: &str) -> Self {
+        let path = format!("crates/bench/results/{folder}/speed.csv");
+        Self(Table::read(&path))
     }
 
     /// A column of one thread that only steps, or reads all poses as well.
@@ -169,8 +171,9 @@ impl Speed {
     }
 
     fn title(scene: &str) -> &'static str {
-        let mut known = carom_scenes::plain_scenes().iter();
-        known
+        let published = carom_scenes::plain_scenes().iter();
+        published
+            .chain(carom_scenes::lively_scenes())
             .find(|info| info.name == scene)
             .expect("a scene")
             .title
@@ -274,6 +277,35 @@ impl Speed {
         text
     }
 
+    /// Scenes in which much moves: mean and worst step, and mean overlap, in parts of Box2D's.
+    fn lively(&self) -> String {
+        let mut text = "| scene | Box2D AVX2, ms | **carom** | worst step | overlap | `Mode::Stepped` | worst step | overlap |\n|---|---:|---:|---:|---:|---:|---:|---:|\n".to_owned();
+        for info in carom_scenes::lively_scenes() {
+            let of = |column, run| self.of(column, info.name, run);
+            let ms = digits(of("ms_mean", BOX2D), 3);
+            let _ = write!(text, "| {} | {ms} |", info.title);
+            for run in [OWN, STEPPED] {
+                for column in ["ms_mean", "ms_p99", "overlap_mean"] {
+                    let (own, peer) = (of(column, run), of(column, BOX2D));
+                    let part = own / peer;
+                    let part = if part < 1e-3 {
+                        "< 0.001".to_owned()
+                    } else {
+                        digits(part, 2)
+                    };
+                    let mark = if run == OWN && column == "ms_mean" {
+                        "**"
+                    } else {
+                        ""
+                    };
+                    let _ = write!(text, " {mark}{part}{mark} |");
+                }
+            }
+            text.push('\n');
+        }
+        text
+    }
+
     /// Presets: time and mean overlap, in parts of Box2D's.
     fn presets(&self) -> String {
         let modes = [
@@ -326,12 +358,13 @@ fn with_table(text: &str, mark: &str, table: &str) -> String {
 
 #[test]
 fn the_tables_are_those_of_the_measurements() {
-    let speed = Speed::read();
+    let [speed, lively] = ["speed", "lively"].map(Speed::read);
     let tables = [
         ("README.md", "<!-- accuracy", accuracy()),
         ("README.md", "<!-- speed", speed.short()),
         ("docs/measurements.md", "<!-- speed", speed.long()),
         ("docs/measurements.md", "<!-- presets", speed.presets()),
+        ("docs/measurements.md", "<!-- lively", lively.lively()),
     ];
     for (name, mark, table) in tables {
         let path = root().join(name);

@@ -76,7 +76,7 @@ pub(crate) struct AccuracyArgs {
 pub(crate) struct SpeedArgs {
     #[command(flatten)]
     pub(crate) chosen: Chosen,
-    /// Only this scene, by name or letter (a to i, lively_wall, …); may be repeated
+    /// Only this scene, by name or letter (a to i); may be repeated
     #[arg(long, value_name = "NAME")]
     pub(crate) scene: Vec<String>,
     /// Repetitions; the tables have their median
