@@ -216,8 +216,8 @@ impl Engine {
             .movers_in(&self.pieces, bounds, |piece| found(tag(piece)));
     }
 
-    /// Calls `found` with the tag and the box of each of these that came, or goes otherwise than was foreseen, since contacts were last
-    /// found at the begin of a tick, or since [`Self::forget_news`]. Only after [`Self::prepare_queries`].
+    /// Calls `found` with the tag and the box of each awake piece that came, or goes otherwise than was foreseen, since contacts were
+    /// last found at the begin of a tick, or since [`Self::forget_news`]. Only after [`Self::prepare_queries`].
     pub fn news(&self, mut found: impl FnMut(u64, Aabb)) {
         for (piece, bounds) in self.broad.news(&self.pieces) {
             found(self.pieces.list[piece as usize].tag, bounds);

@@ -82,7 +82,9 @@ impl Broad {
 
     /// Whether something may stand where a piece is until the tick ends, unless it leaves its box.
     pub(crate) fn is_by_standing(&self, piece: u32) -> bool {
-        !self.endless.is_empty() || self.by_standing[piece as usize]
+        // What arrived since has asked for no piece yet.
+        let unasked = !self.arrived.is_empty() || !self.endless.is_empty();
+        unasked || self.by_standing[piece as usize]
     }
 
     /// A piece that stood moves from now on, where it stood.

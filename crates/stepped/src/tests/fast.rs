@@ -116,3 +116,22 @@ fn a_free_ring_gains_no_energy_and_keeps_its_angular_momentum() {
         assert!(pressed > 500, "{pressed} sub-steps in touch, case {case}");
     }
 }
+
+/// A thin wall comes once contacts were found, into the box in which nothing stood then.
+#[test]
+fn a_fast_body_meets_what_comes_to_stand_before_it_is_stopped() {
+    let mut engine = Engine::new(without_sleep()).unwrap();
+    let ball = PieceInput::new(Circle::new(0.1).unwrap());
+    let mass = core::f64::consts::PI * 0.01;
+    let mut body = BodyInput::dynamic(mass, 0.5 * mass * 0.01);
+    body.velocity = vec2(200.0, 0.0);
+    let id = engine.insert(body, &[ball]).unwrap();
+    engine.find_contacts(&Mixed);
+    engine.advance();
+    let wall = PieceInput::new(ConvexPolygon::rectangle(0.02, 4.0).unwrap());
+    let at = BodyInput::fixed().at(vec2(0.3, 0.0));
+    engine.insert(at, &[wall]).unwrap();
+    engine.finish(&Mixed);
+    let x = engine.pose(id).unwrap().position.x;
+    assert!(x < 0.2, "through the wall, to {x} m");
+}
