@@ -2,7 +2,7 @@
 
 use carom_math::{Vec2, vec2};
 
-use super::{GRAVITY, bin, body, crowd, moving, scene, slab};
+use super::{GRAVITY, bin, body, mixed_rows, moving, scene, slab};
 use crate::plain::harness::Harness;
 use crate::plain::{PlainKind, PlainScene, PlainShape};
 
@@ -21,7 +21,7 @@ pub(super) fn stirred(name: &str) -> PlainScene {
         scene.bodies.push(cross);
     }
     let mut random = Harness::new(3, &[]);
-    crowd(&mut scene, &mut random, 2000, 50, 0.55, vec2(-13.5, 10.0));
+    mixed_rows(&mut scene, &mut random, 2000, 50, 0.55, vec2(-13.5, 10.0));
     scene
 }
 
@@ -30,7 +30,7 @@ pub(super) fn drum_mixed(name: &str) -> PlainScene {
     let mut scene = scene(name, GRAVITY, [0.6, 0.0], 400);
     drum(&mut scene, 10.0, 0.6);
     let mut random = Harness::new(6, &[]);
-    crowd(&mut scene, &mut random, 1600, 40, 0.42, vec2(-8.2, -8.5));
+    mixed_rows(&mut scene, &mut random, 1600, 40, 0.42, vec2(-8.2, -8.5));
     scene
 }
 
@@ -84,7 +84,7 @@ pub(super) fn junkyard(name: &str) -> PlainScene {
     let pusher = body(PlainKind::Kinematic, -30.0, 4.0).moving(vec2(6.0, 0.0));
     scene.add(pusher, PlainShape::rectangle(0.5, 3.9));
     let mut random = Harness::new(8, &[]);
-    crowd(&mut scene, &mut random, 2000, 80, 0.5, vec2(-20.0, 0.5));
+    mixed_rows(&mut scene, &mut random, 2000, 80, 0.5, vec2(-20.0, 0.5));
     scene
 }
 
@@ -96,7 +96,7 @@ pub(super) fn hourglass(name: &str) -> PlainScene {
         slab(&mut scene, [side * 7.2, 20.0], [8.5, 0.3], side * 0.7);
     }
     let mut random = Harness::new(1, &[]);
-    crowd(&mut scene, &mut random, 2000, 40, 0.5, vec2(-9.75, 28.0));
+    mixed_rows(&mut scene, &mut random, 2000, 40, 0.5, vec2(-9.75, 28.0));
     scene
 }
 

@@ -4,7 +4,7 @@ use core::f64::consts::PI;
 
 use carom_math::{trig, vec2};
 
-use super::{GRAVITY, bin, crowd, mixed, moving, scene, slab};
+use super::{GRAVITY, bin, mixed, mixed_rows, moving, scene, slab};
 use crate::plain::harness::Harness;
 use crate::plain::{PlainScene, PlainShape};
 
@@ -32,7 +32,7 @@ pub(super) fn falling(name: &str) -> PlainScene {
     let mut scene = scene(name, GRAVITY, [0.5, 0.0], 240);
     bin(&mut scene, 30.0, 80.0);
     let mut random = Harness::new(4, &[]);
-    crowd(&mut scene, &mut random, 4000, 80, 0.7, vec2(-28.0, 1.0));
+    mixed_rows(&mut scene, &mut random, 4000, 80, 0.7, vec2(-28.0, 1.0));
     scene
 }
 
@@ -49,7 +49,7 @@ pub(super) fn sizes(name: &str) -> PlainScene {
         let shape = mixed(&mut random, 2.0);
         scene.add(moving(at.x, at.y), shape);
     }
-    crowd(&mut scene, &mut random, 3000, 120, 0.4, vec2(-23.8, 34.0));
+    mixed_rows(&mut scene, &mut random, 3000, 120, 0.4, vec2(-23.8, 34.0));
     scene
 }
 

@@ -2,7 +2,7 @@
 
 use carom_math::{Vec2, vec2};
 
-use super::{GRAVITY, bin, body, crowd, moving, scene, slab};
+use super::{GRAVITY, bin, body, mixed_rows, moving, scene, slab};
 use crate::plain::harness::Harness;
 use crate::plain::{PlainKind, PlainScene, PlainShape};
 
@@ -13,7 +13,7 @@ pub(super) fn explosion(name: &str) -> PlainScene {
     slab(&mut scene, [0.0, 81.0], [42.0, 1.0], 0.0);
     let mut random = Harness::new(2, &[]);
     let first = scene.bodies.len();
-    crowd(&mut scene, &mut random, 2000, 45, 0.5, vec2(-11.0, 25.0));
+    mixed_rows(&mut scene, &mut random, 2000, 45, 0.5, vec2(-11.0, 25.0));
     for body in &mut scene.bodies[first..] {
         body.velocity = 1.5 * (body.position - vec2(0.0, 36.0));
     }
@@ -65,7 +65,7 @@ pub(super) fn clouds(name: &str) -> PlainScene {
     let mut random = Harness::new(16, &[]);
     for side in [-1.0, 1.0] {
         let first = scene.bodies.len();
-        crowd(
+        mixed_rows(
             &mut scene,
             &mut random,
             1500,
@@ -115,6 +115,6 @@ pub(super) fn slopes(name: &str) -> PlainScene {
         }
     }
     let mut random = Harness::new(13, &[]);
-    crowd(&mut scene, &mut random, 1500, 30, 0.6, vec2(-19.0, 44.0));
+    mixed_rows(&mut scene, &mut random, 1500, 30, 0.6, vec2(-19.0, 44.0));
     scene
 }

@@ -225,7 +225,7 @@ pub(super) fn mixed(random: &mut Harness, radius: f64) -> PlainShape {
 }
 
 /// `count` mixed bodies in rows of `columns`, `pitch` apart, the lowest left one at `corner`.
-pub(super) fn crowd(
+pub(super) fn mixed_rows(
     scene: &mut PlainScene,
     random: &mut Harness,
     count: u32,
