@@ -120,6 +120,22 @@ fn circle() -> impl Strategy<Value = (Vec2, f64)> {
         .prop_map(|(rim, r, angle)| (rim + r * Rot::from_angle(angle).x_axis(), r))
 }
 
+/// Segments of its quadrants come together in one pixel: each lacked 1e-3 of itself, and the pixel more than one part in 255.
+#[test]
+fn a_disc_little_larger_than_a_pixel_covers_each_by_its_area() {
+    let (centre, radius) = (
+        vec2(19.218_955_532_450_15, 46.016_871_361_139_096),
+        0.680_696_595_123_692_5,
+    );
+    let picture = painted(Op::Dot {
+        centre,
+        radius,
+        ink: WHITE,
+    });
+    let error = worst(&picture, |corner| disc_area(centre, radius, corner));
+    assert!(error <= 1.0, "{error} of 255");
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(400))]
 
