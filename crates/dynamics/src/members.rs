@@ -219,10 +219,11 @@ impl World {
             colliders: &self.colliders,
             broad: &self.broad,
         };
+        let tick = self.clock.tick(self.settings.substeps_per_tick());
         let stepping = self.stepping.as_mut();
         stepping.map_or_else(BTreeSet::new, |stepping| {
             self.joins
-                .outsiders_near(stepping, rules, &self.stepped, time, asks_all)
+                .outsiders_near(stepping, rules, &self.stepped, (time, tick), asks_all)
         })
     }
 

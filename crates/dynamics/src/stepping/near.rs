@@ -2,76 +2,39 @@
 
 use std::collections::BTreeSet;
 
-use carom_geometry::Aabb;
+use carom_collision::BoxTree;
 use carom_math::SimTime;
 
 use super::rules::Rules;
 use super::{Joins, Stepping};
 use crate::broad::window::box_ahead;
-use crate::store::bodies::Bodies;
 
-/// Where bodies outside go until a tick ends: so what comes to the engine in it, or goes elsewhere, asks for them.
+/// Where bodies outside go until a tick ends: what comes to the engine in it, or goes elsewhere, asks for them there.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Ahead {
-    /// When the tick ends; none before the first one, or if bodies took to flight that are not in it.
-    until: Option<SimTime>,
-    /// In the order of their left ends.
-    boxes: Vec<(Aabb, u32)>,
-    /// The width of the widest of them, in m.
-    widest: f64,
-    /// Of those that have newer motions.
-    newer: Vec<(Aabb, u32)>,
+    /// Number of the tick; none before the first one, or if bodies took to flight that are not in it.
+    tick: Option<u64>,
+    /// Of those with newer motions there are boxes of the older ones, too.
+    boxes: BoxTree,
 }
 
 impl Ahead {
     /// A body took to flight, and is not in it.
     pub(crate) const fn forget(&mut self) {
-        self.until = None;
-    }
-
-    /// Whether it was made for the tick that ends then.
-    fn holds_for(&self, (time, left): (SimTime, f64)) -> bool {
-        let off = self.until.map(|until| until - (time + left));
-        off.is_some_and(|off| off.abs() < 0.25 * left)
-    }
-
-    fn fill(&mut self, bodies: &Bodies, aloft: &[u32], (time, left): (SimTime, f64)) {
-        self.until = Some(time + left);
-        self.newer.clear();
-        self.boxes.clear();
-        let ahead = |index: &u32| (box_ahead(bodies.get(*index), time, left), *index);
-        self.boxes.extend(aloft.iter().map(ahead));
-        let by_left = |a: &(Aabb, u32), b: &(Aabb, u32)| a.0.min.x.total_cmp(&b.0.min.x);
-        self.boxes.sort_unstable_by(by_left);
-        let widths = self.boxes.iter().map(|(bounds, _)| bounds.extents().x);
-        self.widest = widths.fold(0.0, f64::max);
-    }
-
-    fn add(&mut self, bodies: &Bodies, index: u32, (time, left): (SimTime, f64)) {
-        let bounds = box_ahead(bodies.get(index), time, left);
-        self.newer.push((bounds, index));
-    }
-
-    /// Bodies that may go through `bounds`.
-    fn overlapping(&self, bounds: Aabb) -> impl Iterator<Item = u32> {
-        let left = bounds.min.x - self.widest;
-        let first = self.boxes.partition_point(|(its, _)| its.min.x < left);
-        let some = self.boxes[first..].iter();
-        let some = some.take_while(move |(its, _)| its.min.x <= bounds.max.x);
-        let all = some.chain(&self.newer);
-        all.filter_map(move |(its, index)| its.overlaps(bounds).then_some(*index))
+        self.tick = None;
     }
 }
 
 impl Joins {
     /// Bodies outside that may meet members before the next tick, in order: of what flies as it did when this was last called only
-    /// those that may meet members that came or go otherwise since, but for the first time in a tick. `held`: those in sub-steps.
+    /// those that may meet members that came or go otherwise since, but for the first time in tick number `tick`. `held`: those in
+    /// sub-steps.
     pub(crate) fn outsiders_near(
         &mut self,
         stepping: &mut Stepping,
         rules: Rules<'_>,
         held: &[u32],
-        time: SimTime,
+        (time, tick): (SimTime, u64),
         asks_all: bool,
     ) -> BTreeSet<u32> {
         let bodies = rules.bodies;
@@ -86,34 +49,38 @@ impl Joins {
         }
         stepping.engine.prepare_queries();
         let ahead = (time, stepping.engine.left());
+        let with_box = |index: u32| (box_ahead(bodies.get(index), ahead.0, ahead.1), index);
+        let known = self.ahead.tick == Some(tick);
+        if asks_all || !known {
+            self.ahead.boxes = self.aloft.iter().copied().map(with_box).collect();
+            self.ahead.tick = Some(tick);
+        }
         let mut near = BTreeSet::new();
         let mut asked: Vec<u32> = held.to_vec();
         if asks_all {
-            self.ahead.fill(bodies, &self.aloft, ahead);
             asked.extend(&self.aloft);
         } else {
-            if !self.ahead.holds_for(ahead) {
-                self.ahead.fill(bodies, &self.aloft, ahead);
-            }
-            let is_aloft = |index: &u32| {
-                self.aloft.binary_search(index).is_ok() && bodies.get(*index).is_dynamic()
-            };
+            let is_aloft = |index: &u32| self.aloft.binary_search(index).is_ok();
             stepping.engine.news(|tag, bounds| {
                 let at = super::collider(tag);
-                let found = self.ahead.overlapping(bounds);
-                near.extend(found.filter(is_aloft).filter(|index| {
-                    box_ahead(bodies.get(*index), ahead.0, ahead.1).overlaps(bounds)
-                        && stepping.nears(rules, self.reached, *index, at, ahead)
-                }));
+                self.ahead.boxes.query(bounds, |index| {
+                    if is_aloft(&index)
+                        && with_box(index).0.overlaps(bounds)
+                        && stepping.nears(rules, self.reached, index, at, ahead)
+                    {
+                        near.insert(index);
+                    }
+                });
             });
-            for index in restless.into_iter().filter(is_aloft) {
-                self.ahead.add(bodies, index, ahead);
-                asked.push(index);
-            }
+            let restless: Vec<u32> = restless.into_iter().filter(is_aloft).collect();
+            self.ahead
+                .boxes
+                .extend(restless.iter().copied().map(with_box));
+            asked.extend(restless);
         }
         near.extend(asked.into_iter().filter(|index| {
-            bodies.get(*index).is_dynamic()
-                && stepping.nears_member(rules, self.reached, *index, ahead)
+            let is_dynamic = bodies.get(*index).is_dynamic();
+            is_dynamic && stepping.nears_member(rules, self.reached, *index, ahead)
         }));
         stepping.engine.forget_news();
         near

@@ -72,6 +72,11 @@ impl Clock {
         phase
     }
 
+    /// In which tick the next sub-step lies, of so many sub-steps each.
+    pub(crate) fn tick(&self, substeps: u32) -> u64 {
+        self.begun / u64::from(substeps)
+    }
+
     pub(crate) fn begin(&mut self) {
         self.begun += 1;
     }
