@@ -8,7 +8,9 @@ use crate::bodies::{Bodies, BodyKind};
 use crate::broad::Pairs;
 use crate::narrow::{Eight, Found, Manifold, Scene, collide_eight};
 use crate::pieces::Pieces;
-use crate::rows::{Block, Cold, Colour, Graph, HARD, LANES, Law, OPEN, RotatingRows, Side, renew};
+use crate::rows::{
+    Block, Cold, Colour, Graph, HARD, LANES, Law, OPEN, RotatingRows, Side, Touched, renew,
+};
 use crate::{PairRules, Settings};
 
 /// A kept contact may be so many margins wide, so that pairs do not come and go each tick.
@@ -28,35 +30,36 @@ pub(crate) fn update(
     graph.suspects.clear();
     graph.suspects.cover(bodies.lines.len());
     let (colours, suspects) = graph.awake_and_suspects();
-    let touched = moved_lanes(colours, &touched, bodies);
+    // Rows are renewed, and all else of the bodies stays.
+    let mut start = core::mem::take(&mut bodies.start);
     let scene = Scene {
         bodies,
         pieces,
         settings,
     };
-    let count: u32 = touched.iter().map(|block| block.moved.count_ones()).sum();
+    // To pack all blocks takes 1.04 of the instructions of a drum; to pack none 1.06 of those of a bin that is stirred.
+    let count: u32 = touched.iter().map(|block| block.lanes.count_ones()).sum();
     let packed = (0 < count && 2 * count as usize <= LANES * touched.len())
         .then(|| packed(level, &scene, colours, &touched));
     let mut own = Found::NONE;
     let mut deep = Vec::new();
     let mut least = OPEN;
-    for (at, &Touched { c, k, moved }) in touched.iter().enumerate() {
-        let is_hard = c >= HARD;
-        let colour = &mut colours[c];
-        let (block, cold) = (&mut colour.blocks[k], &mut colour.cold[k]);
+    for (at, touched) in touched.iter().enumerate() {
+        let is_hard = touched.colour >= HARD;
+        let colour = &mut colours[touched.colour];
+        let (block, cold) = (
+            &mut colour.blocks[touched.block],
+            &mut colour.cold[touched.block],
+        );
+        let moved = touched.lanes;
         let found = if let Some(packed) = &packed {
             &packed[at]
         } else {
-            let scene = Scene {
-                bodies,
-                pieces,
-                settings,
-            };
             manifolds(level, &scene, block, cold, moved, &mut own);
             &own
         };
         let near = moved & found.near;
-        renew(level, &bodies.lines, &mut bodies.start, block, found, near);
+        renew(level, &scene.bodies.lines, &mut start, block, found, near);
         for lane in lanes(near) {
             let gaps = [found.s1[lane], found.s2[lane]];
             let gap = gaps[0].min(gaps[1]);
@@ -69,11 +72,6 @@ pub(crate) fn update(
                 }
             }
         }
-        let scene = Scene {
-            bodies,
-            pieces,
-            settings,
-        };
         for lane in lanes(near & found.short) {
             let lines = [block.a[lane], block.b[lane]];
             suspects.add_short(&scene, lines, cold.pieces[lane]);
@@ -87,7 +85,7 @@ pub(crate) fn update(
                 rotating.add(
                     (block, lane),
                     (cold.contact[lane], pair),
-                    (bodies, side),
+                    (scene.bodies, side),
                     (settings.tick, a.min(b)),
                 );
             }
@@ -97,35 +95,9 @@ pub(crate) fn update(
         }
         parted.extend(lanes(moved & !near).map(|lane| cold.contact[lane]));
     }
+    bodies.start = start;
     graph.add_deep(&mut deep);
     least
-}
-
-/// A block with contacts of bodies that moved.
-struct Touched {
-    c: usize,
-    k: usize,
-    /// A bit for each lane with such a contact.
-    moved: u8,
-}
-
-/// Those of some blocks, colour by colour, that have contacts of bodies that moved.
-fn moved_lanes(colours: &[Colour], blocks: &[Vec<usize>], bodies: &Bodies) -> Vec<Touched> {
-    let mut touched = Vec::new();
-    for (c, (colour, blocks)) in colours.iter().zip(blocks).enumerate() {
-        for &k in blocks {
-            let block = &colour.blocks[k];
-            let mut moved = 0u8;
-            for lane in 0..LANES {
-                let (a, b) = (block.a[lane] as usize, block.b[lane] as usize);
-                moved |= u8::from(bodies.moved[a] | bodies.moved[b]) << lane;
-            }
-            if moved != 0 {
-                touched.push(Touched { c, k, moved });
-            }
-        }
-    }
-    touched
 }
 
 /// [`manifolds`] of blocks in which few lanes moved: the pairs of several fill a register.
@@ -133,7 +105,7 @@ fn packed(level: Level, scene: &Scene<'_>, colours: &[Colour], touched: &[Touche
     let mut all = vec![Found::NONE; touched.len()];
     let mut found = Found::NONE;
     let mut places = Vec::with_capacity(LANES);
-    let each = |(at, block): (usize, &Touched)| lanes(block.moved).map(move |lane| (at, lane));
+    let each = |(at, block): (usize, &Touched)| lanes(block.lanes).map(move |lane| (at, lane));
     let mut pairs = touched.iter().enumerate().flat_map(each);
     loop {
         let mut eight = Eight::new(scene.pieces, [[0; LANES]; 2]);
@@ -141,10 +113,10 @@ fn packed(level: Level, scene: &Scene<'_>, colours: &[Colour], touched: &[Touche
         while places.len() < LANES
             && let Some((at, lane)) = pairs.next()
         {
-            let colour = &colours[touched[at].c];
+            let colour = &colours[touched[at].colour];
             let (block, pair) = (
-                &colour.blocks[touched[at].k],
-                colour.cold[touched[at].k].pieces[lane],
+                &colour.blocks[touched[at].block],
+                colour.cold[touched[at].block].pieces[lane],
             );
             let free = places.len();
             if eight.set_pieces(scene.pieces, free, pair) {

@@ -9,6 +9,7 @@ use super::cores::{depth, parts};
 use super::touching::Touching;
 use super::{Moving, SHORT, bounds_of};
 use crate::bodies::Bodies;
+use crate::pieces::Disc;
 use crate::{Engine, PairRules};
 
 impl Engine {
@@ -139,11 +140,14 @@ impl Engine {
         if !limit.is_far(against.length_squared(), turns.0) && !other.is_far(0.0, turns.1) {
             return;
         }
-        let [mine, of_theirs] =
-            [body.slot, theirs.body].map(|slot| &self.bodies.records[slot as usize]);
-        let apart = body.motion.centre - motion.centre;
-        let passes = nearest(apart, body.motion.velocity - motion.velocity, span);
-        if of_theirs.line != Bodies::GROUND && passes > mine.reach + of_theirs.reach {
+        let disc = |slot: u32, motion: &Motion| Disc {
+            centre: motion.centre,
+            velocity: motion.velocity,
+            radius: self.bodies.records[slot as usize].reach,
+        };
+        let stands = self.bodies.records[theirs.body as usize].line == Bodies::GROUND;
+        let its = disc(theirs.body, &motion);
+        if !stands && !disc(body.slot, &body.motion).may_meet(&its, span.1) {
             return;
         }
         if let Some((wait, normal)) = self.first_touch(body, (piece, &motion), span, rules) {
@@ -228,17 +232,6 @@ impl Engine {
             == Bodies::GROUND;
         !stands && self.known.contains(pair) && !self.bodies.limits[at].is_far(0.0, turn)
     }
-}
-
-/// How near two centres come that are `apart` at 0 and move `against` each other, from `span.0` to `span.1`.
-fn nearest(apart: Vec2, against: Vec2, span: (f64, f64)) -> f64 {
-    let square = against.length_squared();
-    let at = if square > 0.0 {
-        -apart.dot(against) / square
-    } else {
-        0.0
-    };
-    (apart + against * at.clamp(span.0, span.1)).length()
 }
 
 /// The fast body of a birth.

@@ -1,5 +1,6 @@
 //! The constraint graph: contacts, the colour and lane of each, and the list of each body's contacts.
 
+use super::block::Block;
 use super::block::LANES;
 use super::colour::Colour;
 use crate::Surface;
@@ -64,6 +65,15 @@ pub(crate) struct Graph {
     pub(super) hard: usize,
 }
 
+/// A block with contacts of moved bodies.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Touched {
+    pub(crate) colour: usize,
+    pub(crate) block: usize,
+    /// A bit for each lane with such a contact.
+    pub(crate) lanes: u8,
+}
+
 impl Contact {
     /// Block and lane.
     pub(crate) const fn place(&self) -> (usize, usize) {
@@ -109,29 +119,38 @@ impl Graph {
         if self.hard > 0 { ASLEEP } else { HARD }
     }
 
-    /// Blocks in which a contact of a moved body may be, colour by colour: all, but if few moved.
-    pub(crate) fn touched(&self, bodies: &Bodies) -> Vec<Vec<usize>> {
+    /// Blocks that have contacts of moved bodies, colour by colour.
+    pub(crate) fn touched(&self, bodies: &Bodies) -> Vec<Touched> {
         let colours = &self.colours[..self.awake_end()];
+        let mut blocks: Vec<(usize, usize)> = Vec::new();
         if FEW * bodies.moved_count() > bodies.moved.len() {
-            return colours
-                .iter()
-                .map(|colour| (0..colour.blocks.len()).collect())
-                .collect();
-        }
-        let mut touched = vec![Vec::new(); colours.len()];
-        for line in (2..bodies.lines.len()).filter(|line| bodies.moved[*line]) {
-            for (id, _) in self.of_body(bodies, bodies.slot_of[line]) {
-                let contact = &self.contacts[id as usize];
-                if !contact.sleeps() {
-                    touched[contact.colour as usize].push(contact.place().0);
+            let all = |(c, colour): (usize, &Colour)| (0..colour.blocks.len()).map(move |k| (c, k));
+            blocks.extend(colours.iter().enumerate().flat_map(all));
+        } else {
+            for line in (2..bodies.lines.len()).filter(|line| bodies.moved[*line]) {
+                for (id, _) in self.of_body(bodies, bodies.slot_of[line]) {
+                    let contact = &self.contacts[id as usize];
+                    if !contact.sleeps() {
+                        blocks.push((contact.colour as usize, contact.place().0));
+                    }
                 }
             }
-        }
-        for blocks in &mut touched {
             blocks.sort_unstable();
             blocks.dedup();
         }
-        touched
+        let with_lanes = |(colour, block): (usize, usize)| {
+            let Block { a, b, .. } = &colours[colour].blocks[block];
+            let moved = |line: u32| bodies.moved[line as usize];
+            let lanes = a.iter().zip(b).zip(0..).fold(0, |lanes, ((a, b), lane)| {
+                lanes | u8::from(moved(*a) | moved(*b)) << lane
+            });
+            (lanes != 0).then_some(Touched {
+                colour,
+                block,
+                lanes,
+            })
+        };
+        blocks.into_iter().filter_map(with_lanes).collect()
     }
 
     /// The colours of what is awake, and the bodies that may have ghosts.
