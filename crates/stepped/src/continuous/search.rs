@@ -9,7 +9,6 @@ use super::cores::{depth, parts};
 use super::touching::Touching;
 use super::{Moving, SHORT, bounds_of};
 use crate::bodies::Bodies;
-use crate::pieces::Disc;
 use crate::{Engine, PairRules};
 
 impl Engine {
@@ -138,16 +137,6 @@ impl Engine {
         let against = (body.motion.velocity - motion.velocity) * left;
         let turns = (body.motion.spin * left, motion.spin * left);
         if !limit.is_far(against.length_squared(), turns.0) && !other.is_far(0.0, turns.1) {
-            return;
-        }
-        let disc = |slot: u32, motion: &Motion| Disc {
-            centre: motion.centre,
-            velocity: motion.velocity,
-            radius: self.bodies.records[slot as usize].reach,
-        };
-        let stands = self.bodies.records[theirs.body as usize].line == Bodies::GROUND;
-        let its = disc(theirs.body, &motion);
-        if !stands && !disc(body.slot, &body.motion).may_meet(&its, span.1) {
             return;
         }
         if let Some((wait, normal)) = self.first_touch(body, (piece, &motion), span, rules) {

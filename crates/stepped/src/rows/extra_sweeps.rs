@@ -25,7 +25,8 @@ const SWEEPS: usize = 30;
 /// column throws a box; 0: a smash is twice as deep.
 const MOST: usize = 750;
 
-/// Sweeps end that change the impulses of a group by less than this part of their sum.
+/// Sweeps end that change the impulses of a group by less than this part of their sum. Without an end a heap of sizes of 1 to 20 takes
+/// 1.07 of the instructions.
 const SETTLED: f64 = 1e-4;
 
 /// Over-relaxation of repeated sweeps, as a part of that of single ones beyond 1.
