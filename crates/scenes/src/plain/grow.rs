@@ -102,15 +102,7 @@ fn pile(name: &str, bodies: u32) -> PlainScene {
     let half = 0.5 * f64::from(of_course);
     let high = f64::from(COURSES) * (COURSE + BED);
     scene.region = Some([vec2(-half - 0.5, -0.5), vec2(half + 0.5, high + 0.5)]);
-    let floor = scene.shape(PlainShape::rectangle(half + 1.0, 0.5));
-    let side = scene.shape(PlainShape::rectangle(0.5, 0.5 * high));
-    for (x, y, wall) in [
-        (0.0, -0.5, floor),
-        (-half - 0.5, 0.5 * high, side),
-        (half + 0.5, 0.5 * high, side),
-    ] {
-        scene.place(PlainBody::new(PlainKind::Fixed, vec2(x, y), 0), wall);
-    }
+    scene.bin(half, 0.5, high);
     let mut random = Harness::new(42, &[]);
     // Where the present joint meets the bottom and the top of its course: straight along the sides of the bin.
     let mut left = (-half, -half);

@@ -181,6 +181,19 @@ impl PlainScene {
         self.bodies.len() - 1
     }
 
+    /// Adds a bin of the first material: inner faces at ±`inner` and y = 0, walls `height` high, and all twice `half` thick, in m.
+    fn bin(&mut self, inner: f64, half: f64, height: f64) {
+        let floor = self.shape(PlainShape::rectangle(inner + 2.0 * half, half));
+        let side = self.shape(PlainShape::rectangle(half, 0.5 * height));
+        for (x, y, wall) in [
+            (0.0, -half, floor),
+            (-inner - half, 0.5 * height, side),
+            (inner + half, 0.5 * height, side),
+        ] {
+            self.place(PlainBody::new(PlainKind::Fixed, vec2(x, y), 0), wall);
+        }
+    }
+
     /// A fingerprint of every bit but those of the name: equal scenes are equal for every engine.
     #[must_use]
     pub fn digest(&self) -> u64 {

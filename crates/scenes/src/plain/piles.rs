@@ -10,16 +10,8 @@ use super::{PlainBody, PlainKind, PlainScene, PlainShape};
 fn bin(name: &str, inner: f64) -> PlainScene {
     let mut scene = PlainScene::empty(name, vec2(0.0, -10.0)).steps(300, 200);
     scene.region = Some([vec2(-inner - 0.5, -0.5), vec2(inner + 0.5, 200.0)]);
-    let material = scene.material(1.0, 0.5, 0.0);
-    let floor = scene.shape(PlainShape::rectangle(inner + 4.0, 2.0));
-    let side = scene.shape(PlainShape::rectangle(2.0, 60.0));
-    for (x, y, wall) in [
-        (0.0, -2.0, floor),
-        (-inner - 2.0, 60.0, side),
-        (inner + 2.0, 60.0, side),
-    ] {
-        scene.place(PlainBody::new(PlainKind::Fixed, vec2(x, y), material), wall);
-    }
+    scene.material(1.0, 0.5, 0.0);
+    scene.bin(inner, 2.0, 120.0);
     scene
 }
 

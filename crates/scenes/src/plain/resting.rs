@@ -17,7 +17,7 @@ fn fixed(x: f64, y: f64) -> PlainBody {
 }
 
 /// Rows of unit boxes on each other, each one box shorter than the one below.
-fn pyramid(scene: &mut PlainScene, unit: usize, rows: u32, left: f64, ground: f64) {
+pub(super) fn pyramid(scene: &mut PlainScene, unit: usize, rows: u32, left: f64, ground: f64) {
     for row in 0..rows {
         for column in 0..rows - row {
             let x = left + 0.5 * f64::from(row) + f64::from(column);
@@ -77,18 +77,9 @@ pub(super) fn tumbler(name: &str) -> PlainScene {
     scene.sleeping = true;
     scene.region = Some([vec2(-15.0, -5.0), vec2(15.0, 25.0)]);
     scene.material(1.0, 0.6, 0.0);
-    let wall = |half: Vec2, offset: Vec2| PlainShape::Box { half, offset };
-    let walls = [
-        wall(vec2(0.5, 10.0), vec2(10.0, 0.0)),
-        wall(vec2(0.5, 10.0), vec2(-10.0, 0.0)),
-        wall(vec2(10.0, 0.5), vec2(0.0, 10.0)),
-        wall(vec2(10.0, 0.5), vec2(0.0, -10.0)),
-    ];
     let degrees = 25.0;
-    let mut drum = PlainBody::new(PlainKind::Kinematic, vec2(0.0, 10.0), 0)
-        .spinning(degrees * core::f64::consts::PI / 180.0);
-    drum.shapes = walls.map(|wall| scene.shape(wall)).to_vec();
-    scene.bodies.push(drum);
+    let spin = degrees * core::f64::consts::PI / 180.0;
+    drum(&mut scene, vec2(0.0, 10.0), 10.0, spin);
     let small = scene.shape(PlainShape::rectangle(0.125, 0.125));
     for row in 0..45 {
         for column in 0..45 {
@@ -97,6 +88,20 @@ pub(super) fn tumbler(name: &str) -> PlainScene {
         }
     }
     scene
+}
+
+/// A square drum that turns about its centre, of half the width `half` in m.
+pub(super) fn drum(scene: &mut PlainScene, centre: Vec2, half: f64, spin: f64) {
+    let wall = |half: Vec2, offset: Vec2| PlainShape::Box { half, offset };
+    let walls = [
+        wall(vec2(0.5, half), vec2(half, 0.0)),
+        wall(vec2(0.5, half), vec2(-half, 0.0)),
+        wall(vec2(half, 0.5), vec2(0.0, half)),
+        wall(vec2(half, 0.5), vec2(0.0, -half)),
+    ];
+    let mut drum = PlainBody::new(PlainKind::Kinematic, centre, 0).spinning(spin);
+    drum.shapes = walls.map(|wall| scene.shape(wall)).to_vec();
+    scene.bodies.push(drum);
 }
 
 pub(super) fn mostly_sleeping(name: &str) -> PlainScene {

@@ -61,7 +61,10 @@ fn found(level: Level, scene: &Scene<'_>, eight: &Eight<'_>) -> Found {
     found
 }
 
-fn agree(ours: &Manifold, theirs: &Manifold) -> bool {
+fn agree(ours: Option<&Manifold>, theirs: Option<&Manifold>) -> bool {
+    let (Some(ours), Some(theirs)) = (ours, theirs) else {
+        return ours.is_none() && theirs.is_none();
+    };
     let same = |x: f64, y: f64| (x - y).abs() < 1e-9;
     ours.points == theirs.points
         && (ours.normal - theirs.normal).length() < 1e-9
@@ -92,11 +95,7 @@ fn eight_at_once_agree_with_one_by_one() {
                 let ours = (found.near >> lane & 1 == 1).then(|| found.manifold(lane));
                 let theirs = scene.contact(*pair, 1.0);
                 near += usize::from(theirs.is_some());
-                let same = match (&ours, &theirs) {
-                    (Some(ours), Some(theirs)) => agree(ours, theirs),
-                    (ours, theirs) => ours.is_none() && theirs.is_none(),
-                };
-                ties += usize::from(!same);
+                ties += usize::from(!agree(ours.as_ref(), theirs.as_ref()));
             }
         }
     }
@@ -165,11 +164,7 @@ fn a_pair_has_the_bits_that_it_has_alone_whatever_its_first_edge_is() {
                 assert_eq!(format!("{ours:?}"), format!("{its:?}"), "{pair:?}");
                 let theirs = scene.contact(*pair, 1.0);
                 near += usize::from(theirs.is_some());
-                let same = match (&ours, &theirs) {
-                    (Some(ours), Some(theirs)) => agree(ours, theirs),
-                    (ours, theirs) => ours.is_none() && theirs.is_none(),
-                };
-                ties += usize::from(!same);
+                ties += usize::from(!agree(ours.as_ref(), theirs.as_ref()));
             }
         }
         assert!(ties * 1000 <= near, "{ties} of {near} differ, from {first}");

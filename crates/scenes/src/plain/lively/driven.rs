@@ -2,8 +2,9 @@
 
 use carom_math::{Vec2, vec2};
 
-use super::{GRAVITY, bin, body, mixed_rows, moving, scene, slab};
+use super::{GRAVITY, bin, body, grid, mixed_rows, moving, scene, slab};
 use crate::plain::harness::Harness;
+use crate::plain::resting::drum;
 use crate::plain::{PlainKind, PlainScene, PlainShape};
 
 /// Three crosses turn in a bin of 2,000 bodies.
@@ -28,7 +29,8 @@ pub(super) fn stirred(name: &str) -> PlainScene {
 /// A drum of mixed bodies.
 pub(super) fn drum_mixed(name: &str) -> PlainScene {
     let mut scene = scene(name, GRAVITY, [0.6, 0.0], 400);
-    drum(&mut scene, 10.0, 0.6);
+    drum(&mut scene, Vec2::ZERO, 10.0, 0.6);
+    scene.region = Some([Vec2::splat(-16.0), Vec2::splat(16.0)]);
     let mut random = Harness::new(6, &[]);
     mixed_rows(&mut scene, &mut random, 1600, 40, 0.42, vec2(-8.2, -8.5));
     scene
@@ -37,41 +39,24 @@ pub(super) fn drum_mixed(name: &str) -> PlainScene {
 /// A drum of L shapes: two boxes each.
 pub(super) fn drum_letters(name: &str) -> PlainScene {
     let mut scene = scene(name, GRAVITY, [0.6, 0.0], 400);
-    drum(&mut scene, 10.0, 0.6);
+    drum(&mut scene, Vec2::ZERO, 10.0, 0.6);
+    scene.region = Some([Vec2::splat(-16.0), Vec2::splat(16.0)]);
     let mut random = Harness::new(7, &[]);
-    let offset = vec2(-0.14, 0.0);
     let parts = [
-        PlainShape::Box {
-            half: vec2(0.07, 0.23),
-            offset,
-        },
-        PlainShape::Box {
-            half: vec2(0.11, 0.07),
-            offset: vec2(0.04, -0.16),
-        },
+        (vec2(0.07, 0.23), vec2(-0.14, 0.0)),
+        (vec2(0.11, 0.07), vec2(0.04, -0.16)),
     ];
     // About their common centroid.
-    let areas = parts.clone().map(|part| match part {
-        PlainShape::Box { half, offset } => (4.0 * half.x * half.y, offset),
-        _ => (0.0, Vec2::ZERO),
+    let areas = parts.map(|(half, _)| 4.0 * half.x * half.y);
+    let centroid = (areas[0] * parts[0].1 + areas[1] * parts[1].1) / (areas[0] + areas[1]);
+    let parts = parts.map(|(half, offset)| {
+        let offset = offset - centroid;
+        scene.shape(PlainShape::Box { half, offset })
     });
-    let whole = areas[0].0 + areas[1].0;
-    let centroid = (areas[0].0 * areas[0].1 + areas[1].0 * areas[1].1) / whole;
-    let parts = parts.map(|part| match part {
-        PlainShape::Box { half, offset } => PlainShape::Box {
-            half,
-            offset: offset - centroid,
-        },
-        other => other,
-    });
-    let parts = parts.map(|part| scene.shape(part)).to_vec();
     for i in 0..900 {
-        let at = vec2(
-            -9.0 + 0.62 * f64::from(i % 30),
-            -9.0 + 0.62 * f64::from(i / 30),
-        );
-        let mut letter = moving(at.x, at.y).turned(random.between(0.0, 6.2));
-        letter.shapes.clone_from(&parts);
+        let mut letter = moving(grid(i, 30, [0.62, 0.62], vec2(-9.0, -9.0)));
+        letter = letter.turned(random.between(0.0, 6.2));
+        letter.shapes = parts.to_vec();
         scene.bodies.push(letter);
     }
     scene
@@ -98,19 +83,4 @@ pub(super) fn hourglass(name: &str) -> PlainScene {
     let mut random = Harness::new(1, &[]);
     mixed_rows(&mut scene, &mut random, 2000, 40, 0.5, vec2(-9.75, 28.0));
     scene
-}
-
-/// A square drum about the origin that turns, by half its width.
-fn drum(scene: &mut PlainScene, half: f64, spin: f64) {
-    let wall = |half: Vec2, offset: Vec2| PlainShape::Box { half, offset };
-    let walls = [
-        wall(vec2(0.5, half), vec2(half, 0.0)),
-        wall(vec2(0.5, half), vec2(-half, 0.0)),
-        wall(vec2(half, 0.5), vec2(0.0, half)),
-        wall(vec2(half, 0.5), vec2(0.0, -half)),
-    ];
-    let mut drum = body(PlainKind::Kinematic, 0.0, 0.0).spinning(spin);
-    drum.shapes = walls.map(|wall| scene.shape(wall)).to_vec();
-    scene.bodies.push(drum);
-    scene.region = Some([vec2(-1.6 * half, -1.6 * half), vec2(1.6 * half, 1.6 * half)]);
 }

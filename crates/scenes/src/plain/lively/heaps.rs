@@ -4,9 +4,9 @@ use core::f64::consts::PI;
 
 use carom_math::{trig, vec2};
 
-use super::{GRAVITY, bin, mixed, mixed_rows, moving, scene, slab};
+use super::{GRAVITY, bin, grid, mixed, mixed_rows, moving, scene, slab};
 use crate::plain::harness::Harness;
-use crate::plain::{PlainScene, PlainShape};
+use crate::plain::{PlainScene, PlainShape, resting};
 
 /// A wall of 2,000 bricks, hit by a heavy ball.
 pub(super) fn wall(name: &str) -> PlainScene {
@@ -16,13 +16,11 @@ pub(super) fn wall(name: &str) -> PlainScene {
     for row in 0..40 {
         for column in 0..50 {
             let shift = 0.5 * f64::from(row % 2);
-            scene.place(
-                moving(f64::from(column) + shift, 0.25 + 0.5 * f64::from(row)),
-                brick,
-            );
+            let at = vec2(f64::from(column) + shift, 0.25 + 0.5 * f64::from(row));
+            scene.place(moving(at), brick);
         }
     }
-    let ball = moving(-10.0, 8.0).moving(vec2(30.0, 3.0));
+    let ball = moving(vec2(-10.0, 8.0)).moving(vec2(30.0, 3.0));
     scene.add(ball, PlainShape::Circle { radius: 2.0 });
     scene
 }
@@ -42,12 +40,8 @@ pub(super) fn sizes(name: &str) -> PlainScene {
     bin(&mut scene, 25.0, 80.0);
     let mut random = Harness::new(5, &[]);
     for i in 0..60 {
-        let at = vec2(
-            -22.0 + 4.4 * f64::from(i % 11),
-            5.0 + 4.4 * f64::from(i / 11),
-        );
         let shape = mixed(&mut random, 2.0);
-        scene.add(moving(at.x, at.y), shape);
+        scene.add(moving(grid(i, 11, [4.4, 4.4], vec2(-22.0, 5.0))), shape);
     }
     mixed_rows(&mut scene, &mut random, 3000, 120, 0.4, vec2(-23.8, 34.0));
     scene
@@ -75,11 +69,8 @@ pub(super) fn compounds(name: &str) -> PlainScene {
         .to_vec();
     let mut random = Harness::new(9, &[]);
     for i in 0..1000 {
-        let at = vec2(
-            -18.0 + 1.1 * f64::from(i % 33),
-            2.0 + 1.1 * f64::from(i / 33),
-        );
-        let mut star = moving(at.x, at.y).turned(random.between(0.0, 6.2));
+        let mut star = moving(grid(i, 33, [1.1, 1.1], vec2(-18.0, 2.0)));
+        star = star.turned(random.between(0.0, 6.2));
         star.shapes.clone_from(&parts);
         scene.bodies.push(star);
     }
@@ -93,12 +84,9 @@ pub(super) fn rods(name: &str) -> PlainScene {
     let rod = scene.shape(PlainShape::rectangle(1.0, 0.05));
     let mut random = Harness::new(11, &[]);
     for i in 0..1000 {
-        let at = vec2(
-            -13.0 + 2.1 * f64::from(i % 13),
-            1.5 + 1.0 * f64::from(i / 13),
-        );
+        let at = grid(i, 13, [2.1, 1.0], vec2(-13.0, 1.5));
         let angle = random.between(-0.2, 0.2);
-        scene.place(moving(at.x, at.y).turned(angle), rod);
+        scene.place(moving(at).turned(angle), rod);
     }
     scene
 }
@@ -108,18 +96,11 @@ pub(super) fn pyramid(name: &str) -> PlainScene {
     let mut scene = scene(name, GRAVITY, [0.6, 0.3], 300);
     slab(&mut scene, [0.0, -1.0], [100.0, 1.0], 0.0);
     let unit = scene.shape(PlainShape::rectangle(0.5, 0.5));
-    for row in 0..40 {
-        for column in 0..40 - row {
-            let x = -19.5 + 0.5 * f64::from(row) + f64::from(column);
-            scene.place(moving(x, 0.5 + f64::from(row)), unit);
-        }
-    }
+    resting::pyramid(&mut scene, unit, 40, -19.5, 0.0);
     let ball = scene.shape(PlainShape::Circle { radius: 0.4 });
     for i in 0..40 {
-        scene.place(
-            moving(-19.5 + f64::from(i), 45.0 + 2.0 * f64::from(i % 7)),
-            ball,
-        );
+        let at = vec2(-19.5 + f64::from(i), 45.0 + 2.0 * f64::from(i % 7));
+        scene.place(moving(at), ball);
     }
     scene
 }
@@ -130,14 +111,11 @@ pub(super) fn disc_heap(name: &str) -> PlainScene {
     bin(&mut scene, 20.0, 80.0);
     let mut random = Harness::new(15, &[]);
     for i in 0..4000 {
-        let at = vec2(
-            -19.0 + 0.76 * f64::from(i % 50),
-            1.0 + 0.76 * f64::from(i / 50),
-        );
         let radius = random.between(0.2, 0.35);
+        // Else discs stand on each other in columns.
         let aside = vec2(random.between(-0.02, 0.02), 0.0);
-        let at = at + aside;
-        scene.add(moving(at.x, at.y), PlainShape::Circle { radius });
+        let at = grid(i, 50, [0.76, 0.76], vec2(-19.0, 1.0)) + aside;
+        scene.add(moving(at), PlainShape::Circle { radius });
     }
     scene
 }

@@ -2,7 +2,7 @@
 
 use carom_math::{Vec2, vec2};
 
-use super::{GRAVITY, bin, body, mixed_rows, moving, scene, slab};
+use super::{GRAVITY, bin, body, grid, mixed_rows, moving, scene, slab};
 use crate::plain::harness::Harness;
 use crate::plain::{PlainKind, PlainScene, PlainShape};
 
@@ -26,16 +26,10 @@ pub(super) fn bouncing(name: &str) -> PlainScene {
     bin(&mut scene, 25.0, 120.0);
     let mut random = Harness::new(12, &[]);
     for i in 0..2000 {
-        let at = vec2(
-            -24.0 + 1.2 * f64::from(i % 40),
-            3.0 + 1.2 * f64::from(i / 40),
-        );
+        let at = grid(i, 40, [1.2, 1.2], vec2(-24.0, 3.0));
         let radius = random.between(0.2, 0.5);
         let velocity = random.within(3.0);
-        scene.add(
-            moving(at.x, at.y).moving(velocity),
-            PlainShape::Circle { radius },
-        );
+        scene.add(moving(at).moving(velocity), PlainShape::Circle { radius });
     }
     scene
 }
@@ -48,18 +42,15 @@ pub(super) fn rack(name: &str) -> PlainScene {
     let disc = scene.shape(PlainShape::Circle { radius: 0.4 });
     for row in 0..50 {
         for column in 0..=row {
-            let x = 0.7 * f64::from(row);
-            scene.place(
-                moving(x, 40.0 + 0.81 * (f64::from(column) - 0.5 * f64::from(row))),
-                disc,
-            );
+            let y = 40.0 + 0.81 * (f64::from(column) - 0.5 * f64::from(row));
+            scene.place(moving(vec2(0.7 * f64::from(row), y)), disc);
         }
     }
-    scene.place(moving(-30.0, 40.1).moving(vec2(60.0, 0.0)), disc);
+    scene.place(moving(vec2(-30.0, 40.1)).moving(vec2(60.0, 0.0)), disc);
     scene
 }
 
-/// A cloud of 3,000 bodies without gravity runs into another.
+/// A cloud of 1,500 bodies without gravity runs into another.
 pub(super) fn clouds(name: &str) -> PlainScene {
     let mut scene = scene(name, Vec2::ZERO, [0.4, 0.1], 300);
     let mut random = Harness::new(16, &[]);
@@ -79,6 +70,7 @@ pub(super) fn clouds(name: &str) -> PlainScene {
     }
     scene
 }
+
 /// Discs fall through pins.
 pub(super) fn pins(name: &str) -> PlainScene {
     let mut scene = scene(name, GRAVITY, [0.1, 0.4], 600);
@@ -93,8 +85,9 @@ pub(super) fn pins(name: &str) -> PlainScene {
     let disc = scene.shape(PlainShape::Circle { radius: 0.2 });
     let mut random = Harness::new(10, &[]);
     for i in 0..1500 {
-        let x = -12.5 + 0.5 * f64::from(i % 50) + random.between(-0.02, 0.02);
-        scene.place(moving(x, 40.0 + 0.6 * f64::from(i / 50)), disc);
+        let aside = vec2(random.between(-0.02, 0.02), 0.0);
+        let at = grid(i, 50, [0.5, 0.6], vec2(-12.5, 40.0)) + aside;
+        scene.place(moving(at), disc);
     }
     scene
 }

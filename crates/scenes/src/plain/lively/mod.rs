@@ -108,7 +108,7 @@ static SCENES: [PlainInfo; 24] = [
     info(
         "lively_clouds",
         "two clouds of 1,500 run into each other",
-        "a cloud of 3,000 bodies without gravity runs into another",
+        "a cloud of 1,500 bodies without gravity runs into another",
         loose::clouds,
     ),
     info(
@@ -144,7 +144,7 @@ static SCENES: [PlainInfo; 24] = [
     info(
         "lively_platforms",
         "100 driven platforms with five boxes",
-        "a hundred platforms go to and fro with five boxes each: to, in this scene",
+        "a hundred platforms carry five boxes each",
         small::platforms,
     ),
     info(
@@ -185,8 +185,13 @@ pub(super) fn body(kind: PlainKind, x: f64, y: f64) -> PlainBody {
     PlainBody::new(kind, vec2(x, y), 0)
 }
 
-pub(super) fn moving(x: f64, y: f64) -> PlainBody {
-    body(PlainKind::Dynamic, x, y)
+pub(super) fn moving(at: Vec2) -> PlainBody {
+    body(PlainKind::Dynamic, at.x, at.y)
+}
+
+/// Place `i` in rows of `columns`, `pitch` apart along x and y, the lowest left one at `corner`.
+pub(super) fn grid(i: u32, columns: u32, pitch: [f64; 2], corner: Vec2) -> Vec2 {
+    corner + Vec2::from(pitch) * vec2(f64::from(i % columns), f64::from(i / columns))
 }
 
 /// A fixed rectangle by its centre, its half extents and its angle.
@@ -197,15 +202,7 @@ pub(super) fn slab(scene: &mut PlainScene, [x, y]: [f64; 2], [w, h]: [f64; 2], a
 
 /// Floor at y = 0 and walls at ±`inner`, `height` high.
 pub(super) fn bin(scene: &mut PlainScene, inner: f64, height: f64) {
-    slab(scene, [0.0, -1.0], [inner + 2.0, 1.0], 0.0);
-    for side in [-1.0, 1.0] {
-        slab(
-            scene,
-            [side * (inner + 1.0), 0.5 * height],
-            [1.0, 0.5 * height],
-            0.0,
-        );
-    }
+    scene.bin(inner, 1.0, height);
     scene.region = Some([vec2(-inner - 0.5, -0.5), vec2(inner + 0.5, 1e4)]);
 }
 
@@ -234,10 +231,10 @@ pub(super) fn mixed_rows(
     corner: Vec2,
 ) {
     for i in 0..count {
-        let at = corner + pitch * vec2(f64::from(i % columns), f64::from(i / columns));
+        let at = grid(i, columns, [pitch; 2], corner);
         let radius = pitch * random.between(0.25, 0.45);
         let shape = mixed(random, radius);
         let angle = random.between(0.0, 6.2);
-        scene.add(moving(at.x, at.y).turned(angle), shape);
+        scene.add(moving(at).turned(angle), shape);
     }
 }

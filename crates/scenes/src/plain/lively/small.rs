@@ -14,13 +14,8 @@ pub(super) fn landing_stacks(name: &str) -> PlainScene {
     for i in 0..1000 {
         for row in 0..5 {
             let lift = 0.5 + 0.01 * f64::from(i % 200);
-            scene.place(
-                moving(
-                    -1500.0 + 3.0 * f64::from(i),
-                    lift + 0.5 + 1.02 * f64::from(row),
-                ),
-                unit,
-            );
+            let y = lift + 0.5 + 1.02 * f64::from(row);
+            scene.place(moving(vec2(-1500.0 + 3.0 * f64::from(i), y)), unit);
         }
     }
     scene
@@ -35,10 +30,8 @@ pub(super) fn rocking(name: &str) -> PlainScene {
         let tilt = 0.02 + 0.0003 * f64::from(i);
         let (sin, cos) = trig::sin_cos(tilt);
         let height = 0.3 * sin + 0.6 * cos;
-        scene.place(
-            moving(-1500.0 + 3.0 * f64::from(i), height).turned(tilt),
-            tall,
-        );
+        let at = vec2(-1500.0 + 3.0 * f64::from(i), height);
+        scene.place(moving(at).turned(tilt), tall);
     }
     scene
 }
@@ -53,14 +46,15 @@ pub(super) fn seesaws(name: &str) -> PlainScene {
     for i in 0..1000 {
         let x = -2500.0 + 5.0 * f64::from(i);
         scene.place(body(PlainKind::Fixed, x, 0.5), pivot);
-        scene.place(moving(x, 1.1), plank);
-        scene.place(moving(x - 1.5, 1.5), load);
-        scene.place(moving(x + 1.2, 1.6 + 0.002 * f64::from(i)), load);
+        scene.place(moving(vec2(x, 1.1)), plank);
+        scene.place(moving(vec2(x - 1.5, 1.5)), load);
+        let falls = vec2(x + 1.2, 1.6 + 0.002 * f64::from(i));
+        scene.place(moving(falls), load);
     }
     scene
 }
 
-/// A hundred platforms go to and fro with five boxes each: to, in this scene.
+/// A hundred platforms carry five boxes each.
 pub(super) fn platforms(name: &str) -> PlainScene {
     let mut scene = scene(name, GRAVITY, [0.6, 0.0], 300);
     let plate = scene.shape(PlainShape::rectangle(4.0, 0.25));
@@ -71,7 +65,8 @@ pub(super) fn platforms(name: &str) -> PlainScene {
             body(PlainKind::Kinematic, 0.0, y).moving(vec2(1.0 + 0.03 * f64::from(i), 0.0));
         scene.place(plate_at, plate);
         for k in 0..5 {
-            scene.place(moving(0.1 * f64::from(k), y + 0.75 + f64::from(k)), unit);
+            let at = vec2(0.1 * f64::from(k), y + 0.75 + f64::from(k));
+            scene.place(moving(at), unit);
         }
     }
     scene
@@ -85,7 +80,7 @@ pub(super) fn dominoes(name: &str) -> PlainScene {
         let y = 5.0 * f64::from(row);
         slab(&mut scene, [50.0, y - 0.5], [60.0, 0.5], 0.0);
         for i in 0..150 {
-            let mut stone = moving(0.6 * f64::from(i), y + 0.5);
+            let mut stone = moving(vec2(0.6 * f64::from(i), y + 0.5));
             if i == 0 {
                 stone = stone.spinning(-2.0).moving(vec2(1.0, 0.0));
             }
@@ -110,10 +105,8 @@ pub(super) fn tiles(name: &str) -> PlainScene {
         let (w, h) = (random.between(0.2, 0.4), random.between(0.2, 0.4));
         let at = vec2(2.0 + 2.0 * f64::from(i % 50), 4.0 * f64::from(i / 50) + h);
         let speed = random.between(1.0, 5.0);
-        scene.add(
-            moving(at.x, at.y).moving(vec2(speed, 0.0)),
-            PlainShape::rectangle(w, h),
-        );
+        let slides = moving(at).moving(vec2(speed, 0.0));
+        scene.add(slides, PlainShape::rectangle(w, h));
     }
     scene
 }
