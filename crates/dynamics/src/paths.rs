@@ -169,7 +169,7 @@ impl World {
             }
             return;
         };
-        let accelerations = tip.accelerations_after(time - tip.path.start);
+        let accelerations = tip.accelerations_after(time - tip.path.start());
         for (&(index, _), &slot) in group.members.iter().zip(slots) {
             // A body that was given another velocity has left the path already, and still has the parabola of its last piece.
             if self.bodies.get(index).flight.is_some() {

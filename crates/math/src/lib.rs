@@ -1,6 +1,6 @@
 //! Answers where a point of one frame lies in another, and on which side of a line it lies.
 //!
-//! Vectors, rotations, poses, instants, exact predicates, roots and compensated sums.
+//! Vectors, rotations, poses, instants, exact predicates, roots, elliptic functions and compensated sums.
 //! Everything is `f64`, SI and radians; x points right, y up, and counter-clockwise is positive.
 //! The same input gives the same bits on every platform: trigonometry goes through [`trig`],
 //! nothing fuses a multiplication with an addition.
@@ -17,6 +17,7 @@
 #![cfg_attr(test, allow(clippy::float_cmp, reason = "tests compare exact results"))]
 
 mod cross;
+mod elliptic;
 mod hash;
 mod pose;
 mod predicate;
@@ -29,6 +30,7 @@ pub mod trig;
 mod wire;
 
 pub use cross::{cross, cross_scalar, perp};
+pub use elliptic::Elliptic;
 pub use glam;
 pub use glam::{DVec2 as Vec2, dvec2 as vec2};
 pub use hash::StateHash;

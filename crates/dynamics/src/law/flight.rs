@@ -89,7 +89,7 @@ impl Flight {
             damping: 0.0,
         };
         Self {
-            start: path.start,
+            start: path.start(),
             law: Law::Held { path, body },
             turn,
         }
@@ -137,7 +137,7 @@ impl Flight {
                 let whole: f64 = stretches.iter().map(|stretch| stretch.length).sum();
                 t + h <= whole * (1.0 + 1e-12)
             }
-            Law::Held { path, .. } => t + h <= path.length * (1.0 + 1e-12),
+            Law::Held { path, .. } => t + h <= path.length() * (1.0 + 1e-12),
         }
     }
 
@@ -151,7 +151,7 @@ impl Flight {
                 core: Some(core),
             } => conic.time_outside(t, *core),
             Law::Stretches(stretches) => stretches.iter().map(|s| s.length).sum::<f64>() - t,
-            Law::Held { path, .. } => path.length - t,
+            Law::Held { path, .. } => path.length() - t,
         };
         if known < longest { known } else { longest }
     }

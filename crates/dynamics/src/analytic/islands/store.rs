@@ -105,7 +105,7 @@ impl Group {
     pub(crate) fn touches_at(&self, time: SimTime) -> Vec<Kept> {
         let mut touches = self.touches.clone();
         if let Some(Tipping { tip, .. }) = &self.tipping {
-            let moved = tip.touches_after(time - tip.path.start);
+            let moved = tip.touches_after(time - tip.path.start());
             for (kept, moved) in touches.iter_mut().zip(moved.into_iter().flatten()) {
                 kept.moved = moved;
             }

@@ -58,10 +58,10 @@ impl Closed {
             return;
         };
         let members = group.members.clone();
-        let passed = time - tip.path.start;
+        let passed = time - tip.path.start();
         let h = if left > 0.0 { left } else { h };
-        let known = tip.path.length - passed;
-        let h = h.min(known).max(PIECE.min(tip.path.length));
+        let known = tip.path.length() - passed;
+        let h = h.min(known).max(PIECE.min(tip.path.length()));
         let mut renewed = Vec::with_capacity(members.len());
         for (&(index, _), &slot) in members.iter().zip(&slots) {
             let flight = Arc::new(Flight::held(tip.path.clone(), slot));

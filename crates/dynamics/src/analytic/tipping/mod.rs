@@ -8,8 +8,10 @@
 mod equations;
 mod joint;
 mod roots;
+mod swing;
 #[cfg(test)]
 mod tests;
+mod wave;
 
 use std::sync::Arc;
 
@@ -18,12 +20,14 @@ use carom_math::{SimTime, Vec2};
 
 use crate::ContactMode;
 use crate::analytic::modes::{BodyMove, ModeBody, NotMine, Touch, TouchMove, begin};
+use crate::law::collocated::Collocated;
 use crate::law::path::{Path, Place};
 use crate::model::edges::Feature;
 use crate::model::graph::ROWS;
 pub(crate) use equations::{Equations, Forces, Workspace};
 pub(crate) use joint::{End, Joint};
 use roots::{Limit, faint, first, heat};
+use swing::swing;
 
 /// Longest stretch of a path, in s.
 const LONGEST: f64 = 0.25;
@@ -112,7 +116,7 @@ impl Tip {
             (body.centre, body.velocity, body.spin) = (place.centre, place.velocity, place.spin);
         }
         let contacts = self.equations.contacts.clone();
-        let start = self.path.start + self.after;
+        let start = self.path.start() + self.after;
         let next = tip(&bodies, &places, &self.reaches, contacts, start, speed).ok()?;
         (next.equations.holds == self.equations.holds).then_some(next)
     }
@@ -225,28 +229,20 @@ pub(crate) fn tip(
         contacts,
         holds,
     };
-    let mut workspace = Workspace::default();
     for _ in 0..TRIES {
-        let accelerations = |places: &[Place], to: &mut Vec<f64>| {
-            let Some(forces) = equations.forces(places, &mut workspace) else {
-                return false;
-            };
-            let all = forces.accelerations.iter();
-            to.clear();
-            to.extend(all.flat_map(|(a, alpha)| [a.x, a.y, *alpha]));
-            true
+        let swing = swing(&equations, &places, reaches, start, size);
+        let found = match swing {
+            Some(found) => Some(found),
+            None => follow(&equations, &places, reaches, start, (size, fastest)),
         };
-        let lengths = (LONGEST, SHORTEST);
-        let error = ERROR * size;
-        let path = Path::follow(accelerations, start, &places, reaches, lengths, error);
-        let Some(path) = path else {
+        let Some((path, end)) = found else {
             // A touch that fades while it slides has no path of its own: it opens.
             let limit = faint(&equations, &places).ok_or(NotMine::Unsolved)?;
             amend(&mut equations, limit)?;
             continue;
         };
-        let (after, limit) = match first(&equations, &path, (size, fastest)) {
-            roots::End::Open => (path.length, None),
+        let (after, limit) = match end {
+            roots::End::Open => (path.length(), None),
             roots::End::After(after, limit)
                 if after > AT_ONCE || matches!(limit, Limit::Corner { .. }) =>
             {
@@ -281,6 +277,33 @@ pub(crate) fn tip(
         });
     }
     Err(NotMine::Unsolved)
+}
+
+/// Path and end of any island by collocation; `None` where there are no forces. `sizes`: a length in m and a speed in m/s that
+/// roundings are measured by.
+fn follow(
+    equations: &Equations,
+    places: &[Place],
+    reaches: &[f64],
+    start: SimTime,
+    sizes: (f64, f64),
+) -> Option<(Path, roots::End)> {
+    let mut workspace = Workspace::default();
+    let accelerations = |places: &[Place], to: &mut Vec<f64>| {
+        let Some(forces) = equations.forces(places, &mut workspace) else {
+            return false;
+        };
+        let all = forces.accelerations.iter();
+        to.clear();
+        to.extend(all.flat_map(|(a, alpha)| [a.x, a.y, *alpha]));
+        true
+    };
+    let lengths = (LONGEST, SHORTEST);
+    let error = ERROR * sizes.0;
+    let path = Collocated::follow(accelerations, start, places, reaches, lengths, error)?;
+    let path = Path::Collocated(path);
+    let end = first(equations, &path, sizes);
+    Some((path, end))
 }
 
 /// A contact is in the next mode already if its margin is 0 and falls.

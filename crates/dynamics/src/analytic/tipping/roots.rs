@@ -12,7 +12,7 @@ use crate::law::path::Place;
 const LOOKS: u32 = 12;
 
 /// A margin below this part of what it is the difference of is 0.
-const NOTHING: f64 = 1e-12;
+pub(super) const NOTHING: f64 = 1e-12;
 
 /// A force below this part of the largest weight is rounding, where no path is found for it: a disc that leaves a corner has 9e-17,
 /// all others without a path in the tests 2e-3 or more, or a pull.
@@ -187,7 +187,7 @@ pub(super) fn first(equations: &Equations, path: &Path, sizes: (f64, f64)) -> En
     let mut armed: Vec<bool> = before.iter().map(|m| m.value > m.nothing).collect();
     let (mut now, mut from) = (Vec::new(), 0.0);
     for k in 1..=LOOKS {
-        let to = path.length * f64::from(k) / f64::from(LOOKS);
+        let to = path.length() * f64::from(k) / f64::from(LOOKS);
         now.clear();
         match margins.at(to) {
             Some(list) => now.extend_from_slice(list),

@@ -227,7 +227,7 @@ fn a_disc_leaves_a_disc_where_the_textbook_says() {
         let height = place.centre.y;
         let kinetic = 0.5 * place.velocity.length_squared();
         assert!((kinetic - G * (start - height)).abs() < 1e-12);
-        if tip.after < tip.path.length {
+        if tip.after < tip.path.length() {
             let cos = height / 1.5;
             let wanted = 2.0 / 3.0 * start / 1.5;
             assert!((cos - wanted).abs() < 1e-12, "{cos} not {wanted}");
@@ -250,4 +250,110 @@ fn a_path_turned_as_a_whole_is_the_same_path() {
     let turned = cross(other.centre, other.velocity) + other.spin / 3.0;
     assert!((angular + turned).abs() < 1e-13);
     assert!((place.centre.x + other.centre.x).abs() < 1e-13);
+}
+
+mod swings {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// A box on one of its lower corners, on a slope: about its middle, and where its corner is.
+    fn stood(
+        half: Vec2,
+        angle: f64,
+        spin: f64,
+        slope: f64,
+        friction: f64,
+    ) -> ([Place; 2], Contact) {
+        let (_, mut ground) = floor();
+        ground.rotation = Rot::from_angle(slope);
+        let low = if angle > 0.0 { -1.0 } else { 1.0 };
+        let tip = vec2(low * half.x, -half.y);
+        let rotation = Rot::from_angle(slope + angle);
+        let centre = -(rotation * tip);
+        let place = Place {
+            centre,
+            rotation,
+            velocity: perp(centre) * spin,
+            spin,
+        };
+        let mut contact = on_floor(tip, friction);
+        let Joint::Line { beside, .. } = &mut contact.joints[0] else {
+            unreachable!("it is a line");
+        };
+        beside.push(vec2(-tip.x, tip.y));
+        beside.push(vec2(tip.x, -tip.y));
+        ([ground, place], contact)
+    }
+
+    proptest! {
+        /// The closed form against the collocation, which shares nothing with it but the forces of its last instant.
+        #[test]
+        fn a_swing_is_the_collocated_path(
+            half in (0.1..1.0_f64, 0.1..1.0_f64), angle in -0.7..0.7_f64, spin in -3.0..3.0_f64, slope in -0.2..0.2_f64,
+            friction in 0.3..3.0_f64, mass in 0.1..10.0_f64, above in any::<bool>(),
+        ) {
+            let half = vec2(half.0, half.1);
+            let (places, mut contact) = stood(half, angle, spin, slope, friction);
+            let (floor_body, _) = floor();
+            let inertia = mass * half.length_squared() / 3.0;
+            let mut bodies = vec![floor_body, body(mass, inertia, &places[1])];
+            let (mut places, mut reaches) = (places.to_vec(), vec![0.0, half.length()]);
+            if !above {
+                // The same seen from the other side: the box is A, and the edge B's.
+                contact.bodies = (1, 0);
+                let Joint::Line { owner, .. } = &mut contact.joints[0] else {
+                    unreachable!("it is a line");
+                };
+                *owner = End::B;
+            }
+            if friction > 1.5 {
+                bodies.reverse();
+                places.reverse();
+                reaches.reverse();
+                contact.bodies = (1 - contact.bodies.0, 1 - contact.bodies.1);
+            }
+            let holds = modes(&bodies, &places, std::slice::from_ref(&contact), 1.0);
+            prop_assume!(holds.is_ok());
+            let (holds, _) = holds.expect("it is");
+            let equations = Equations { bodies, contacts: vec![contact], holds };
+            let start = SimTime::from_secs(1.0);
+            let size = half.length();
+            let found = swing(&equations, &places, &reaches, start, size);
+            // Of all that sticks and stays closed.
+            prop_assume!(found.is_some());
+            let (swing, end) = found.expect("it is");
+            let (path, wanted) = follow(&equations, &places, &reaches, start, (size, 1.0)).expect("forces");
+            let after = |end: &roots::End| match end {
+                roots::End::After(after, _) => Some(*after),
+                _ => None,
+            };
+            match (&end, &wanted) {
+                (roots::End::After(found, limit), roots::End::After(wanted, other)) => {
+                    prop_assert!((found - wanted).abs() < 1e-10, "{found} s, not {wanted}");
+                    prop_assert_eq!(core::mem::discriminant(limit), core::mem::discriminant(other));
+                    if let (Limit::Corner { normal, at, .. }, Limit::Corner { normal: n, at: there, .. }) = (limit, other) {
+                        prop_assert!((*normal - *n).length() + (*at - *there).length() < 1e-9);
+                    }
+                }
+                (roots::End::Never(limit), roots::End::Never(other)) => {
+                    prop_assert_eq!(core::mem::discriminant(limit), core::mem::discriminant(other));
+                }
+                (found, roots::End::Open) => {
+                    prop_assert!(after(found).is_none_or(|after| after > path.length() - 1e-10), "{found:?}");
+                }
+                (found, wanted) => prop_assert!(false, "{found:?} not {wanted:?}"),
+            }
+            let length = after(&wanted).unwrap_or_else(|| path.length());
+            let moving = usize::from(reaches[0] == 0.0);
+            for k in 0..=8 {
+                let t = length * f64::from(k) / 8.0;
+                let (found, wanted) = (swing.places_after(t)[moving], path.places_after(t)[moving]);
+                prop_assert!((found.centre - wanted.centre).length() < 1e-11 * (1.0 + length));
+                prop_assert!((found.velocity - wanted.velocity).length() < 1e-10);
+                prop_assert!((found.rotation.x_axis() - wanted.rotation.x_axis()).length() < 1e-10);
+                let (there, here) = (swing.acceleration_after(moving, t), path.acceleration_after(moving, t));
+                prop_assert!((there.0 - here.0).length() + (there.1 - here.1).abs() < 1e-7);
+            }
+        }
+    }
 }
