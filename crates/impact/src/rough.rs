@@ -39,7 +39,8 @@ pub(super) fn is_large(contacts: &[SharedContact]) -> bool {
 
 /// Newton's law with Coulomb's friction against what slip is left: `0 ≤ u_n⁺ + e u_n⁻ ⟂ j_n ≥ 0`.
 ///
-/// Each contact has its own e. At e = 0 for all it never gains energy.
+/// Each contact has its own e. At e = 0 for all it never gains energy. All contacts are asked to open as slowly as numbers can tell
+/// ([`Rows::opens`]): rounding of their own solution would leave two in three closing, and those to be stopped once more.
 pub(super) fn newton_rough(bodies: &[ImpactBody], contacts: &[SharedContact]) -> SharedOutcome {
     let large = is_large(contacts);
     let all = contact_rows(bodies, contacts);
@@ -48,12 +49,13 @@ pub(super) fn newton_rough(bodies: &[ImpactBody], contacts: &[SharedContact]) ->
     } else {
         Rows::new(bodies, all)
     };
+    let opens = rows.opens(bodies);
     let mut wanted = Vec::with_capacity(rows.len());
     let mut restitutions = contacts.iter().map(|shared| shared.contact.restitution);
     for row in &rows.rows {
         let approach = -row.speed(bodies);
         wanted.push(match row.bound {
-            Bound::Push => restitutions.next().unwrap_or(0.0) * approach.max(0.0),
+            Bound::Push => restitutions.next().unwrap_or(0.0) * approach.max(0.0) + opens,
             Bound::Friction(..) | Bound::Limit(_) => 0.0,
         });
     }
@@ -248,9 +250,6 @@ fn outcome(
     }
 }
 
-/// Speed with which a contact opens that rounding has left closing, as a part of its points' speeds.
-const OPENS: f64 = 4.0 * f64::EPSILON;
-
 /// Takes away what rounding has left of an approach, so that what is resolved is not struck at once.
 ///
 /// Such contacts are stopped once more, and open as slowly as numbers can tell. Where no impulses stop all of them, because
@@ -276,12 +275,7 @@ pub(super) fn opened(mut found: SharedOutcome, contacts: &[SharedContact]) -> Sh
             Row::new(&found.bodies, &contacts[k], normal, Bound::Push)
         };
         let mut rows = Rows::new(&found.bodies, places.iter().map(row).collect());
-        let asked = |&k: &usize| {
-            let (shared, point) = (&contacts[k], contacts[k].contact.point);
-            let speed = |body: usize| found.bodies[body].velocity_of(point).length();
-            OPENS * (speed(shared.a) + speed(shared.b))
-        };
-        rows.ask(&places.iter().map(asked).collect::<Vec<_>>());
+        rows.ask(&vec![rows.opens(&found.bodies); places.len()]);
         let stopped = stop(&rows);
         found.operations += stopped.operations;
         for (k, impulse) in places.into_iter().zip(stopped.impulses) {

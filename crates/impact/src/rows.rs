@@ -12,6 +12,9 @@ use carom_math::{Vec2, cross, perp};
 use super::body::{ImpactBody, is_driven};
 use super::several::SharedContact;
 
+/// Speed with which contacts open that rounding could leave closing, as a part of their points' speeds.
+const OPENS: f64 = 4.0 * f64::EPSILON;
+
 /// What an impulse along a row may be.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Bound {
@@ -194,6 +197,13 @@ impl Rows {
         for (before, asked) in self.before.iter_mut().zip(speeds) {
             *before -= asked;
         }
+    }
+
+    /// Speed with which contacts open so that rounding leaves none closing, in m/s.
+    pub(super) fn opens(&self, bodies: &[ImpactBody]) -> f64 {
+        let speed = |body: usize, point: Vec2| bodies[body].velocity_of(point).length();
+        let of = |row: &Row| speed(row.a, row.points.0) + speed(row.b, row.points.1);
+        OPENS * self.rows.iter().map(of).fold(0.0, f64::max)
     }
 
     pub(super) fn len(&self) -> usize {
