@@ -285,9 +285,10 @@ impl Basis {
     }
 
     /// Of rows that may depend on each other those that add a direction, in their order.
-    pub fn independent(rows: &[Vec<f64>], dependent: f64) -> Self {
+    pub fn independent(rows: &[impl AsRef<[f64]>], dependent: f64) -> Self {
         let mut basis = Self::new();
         for row in rows {
+            let row = row.as_ref();
             let (column, own) = basis.reduce(row);
             if dot(&own, &own).sqrt() > dependent * dot(row, row).sqrt() {
                 basis.add(column, own);

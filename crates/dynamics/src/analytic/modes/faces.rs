@@ -63,26 +63,30 @@ impl Faces {
         found: &Balance,
         slips: &[f64],
     ) -> Vec<BodyMove> {
-        let (mut held, mut still) = (Vec::new(), Vec::new());
-        for (i, face) in self.list.iter().enumerate() {
-            for (row, closed) in face.normals.iter().zip(found.closed[i]) {
-                if closed {
-                    held.push(row.unit.clone());
-                    still.push(row.unit.clone());
-                }
-            }
-        }
+        let normals = self
+            .list
+            .iter()
+            .zip(&found.closed)
+            .flat_map(|(face, closed)| {
+                let both = face.normals.iter().zip(closed);
+                both.filter_map(|(row, closed)| closed.then_some(&row.unit))
+            });
+        let mut held: Vec<&[f64]> = normals.map(Vec::as_slice).collect();
+        let mut still = held.clone();
         for (i, face) in self.list.iter().enumerate() {
             if face.friction == 0.0 || !found.closed[i].contains(&true) {
                 continue;
             }
             if found.sticks[i] {
-                held.push(face.tangent.unit.clone());
+                held.push(&face.tangent.unit);
             }
             if slips[i] == 0.0 {
-                still.push(face.tangent.unit.clone());
+                still.push(&face.tangent.unit);
             }
         }
+        // They differ only where a slip begins.
+        let begins = (still.len() != held.len()).then(|| Stops::of(&still));
+        let stops = Stops::of(&held);
         // What closed rows and held friction do is what they stop, so only slipping friction is summed.
         let mut accelerations = self.free.clone();
         for (i, face) in self.list.iter().enumerate() {
@@ -93,12 +97,12 @@ impl Faces {
                 }
             }
         }
-        Stops::of(held).apply(&mut accelerations);
+        stops.apply(&mut accelerations);
         let velocities = if bodies.iter().any(is_driven) {
             None
         } else {
             let mut velocities = scaled(bodies, |body| (body.velocity, body.spin));
-            Stops::of(still).apply(&mut velocities);
+            begins.as_ref().unwrap_or(&stops).apply(&mut velocities);
             Some(velocities)
         };
         let unscaled = |state: &[f64], k: usize, body: &ModeBody| {
@@ -210,17 +214,21 @@ pub(super) fn held(
     touches: &[&Touch],
     sticks: impl Fn(&Touch) -> bool,
 ) -> Vec<(Vec2, f64)> {
-    let rows = touches.iter().flat_map(|touch| {
-        let row = |point: &Vec2, along| Row::new(bodies, touch.bodies, *point, along).unit;
-        let normals = touch
-            .points
-            .iter()
-            .map(move |point| row(point, touch.normal));
-        let held = touch.points.iter().take(usize::from(sticks(touch)));
-        normals.chain(held.map(move |point| row(point, perp(touch.normal))))
-    });
+    let rows: Vec<Vec<f64>> = touches
+        .iter()
+        .flat_map(|touch| {
+            let row = |point: &Vec2, along| Row::new(bodies, touch.bodies, *point, along).unit;
+            let normals = touch
+                .points
+                .iter()
+                .map(move |point| row(point, touch.normal));
+            let held = touch.points.iter().take(usize::from(sticks(touch)));
+            normals.chain(held.map(move |point| row(point, perp(touch.normal))))
+        })
+        .collect();
+    let rows: Vec<&[f64]> = rows.iter().map(Vec::as_slice).collect();
     let mut state = scaled(bodies, |body| (body.velocity, body.spin));
-    Stops::of(rows.collect()).apply(&mut state);
+    Stops::of(&rows).apply(&mut state);
     let unscaled = |(k, body): (usize, &ModeBody)| {
         let (m, i) = (body.inverse_mass.sqrt(), body.inverse_inertia.sqrt());
         let velocity = vec2(state[3 * k] * m, state[3 * k + 1] * m);
@@ -230,22 +238,32 @@ pub(super) fn held(
 }
 
 /// Rows that are held at 0.
-struct Stops(Basis);
+struct Stops {
+    basis: Basis,
+    /// Of each coordinate: whether the rows say all of it; `None` where they have no part in it.
+    determined: Vec<Option<bool>>,
+}
 
 impl Stops {
-    fn of(rows: Vec<Vec<f64>>) -> Self {
-        Self(Basis::independent(&rows, DEPENDENT))
+    fn of(rows: &[&[f64]]) -> Self {
+        let basis = Basis::independent(rows, DEPENDENT);
+        let size = rows.first().map_or(0, |row| row.len());
+        let determined = (0..size).map(|k| basis.touches(k).then(|| basis.determines(k)));
+        Self {
+            determined: determined.collect(),
+            basis,
+        }
     }
 
     /// Takes out what the rows stop; a coordinate that nothing is left of is exactly 0, and so is one with less than
     /// the rounding of a rounding.
     fn apply(&self, state: &mut [f64]) {
-        let (_, rest) = self.0.reduce(state);
+        let (_, rest) = self.basis.reduce(state);
         let size = state.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
         let none = f64::EPSILON * f64::EPSILON * size;
-        for (k, (to, rest)) in state.iter_mut().zip(rest).enumerate() {
-            if self.0.touches(k) {
-                let stopped = self.0.determines(k) || rest.abs() <= none;
+        for ((to, rest), determined) in state.iter_mut().zip(rest).zip(&self.determined) {
+            if let Some(determined) = determined {
+                let stopped = *determined || rest.abs() <= none;
                 *to = if stopped { 0.0 } else { rest };
             }
         }
