@@ -10,6 +10,7 @@ use carom_geometry::Aabb;
 use carom_math::SimTime;
 
 use crate::World;
+use crate::analytic::islands::tips::Tipping;
 use crate::events::free::Cause;
 
 /// Sub-steps to its next change that a group has at least: what ends sooner stays.
@@ -109,15 +110,18 @@ impl World {
         else {
             return;
         };
-        let leaves = ends && group.tipping.is_some();
         let h = self.clock.h;
-        for touch in group.touches_at(time) {
+        let (members, touches) = (group.indices(), group.touches_at(time));
+        let left = group.tipping.clone().filter(|_| ends);
+        if let Some(Tipping { tip, slots }) = &left {
+            self.leave_curves(tip, &members, slots, time);
+        }
+        for touch in touches {
             let pair = self.pairs.get_mut(touch.pair);
             self.narrow
                 .look(&self.bodies, &self.colliders, pair, time, h);
             touch.carry(&self.bodies, pair, h);
         }
-        let members = group.indices();
         for &index in &members {
             let state = self.bodies.get_mut(index);
             state.land();
@@ -128,7 +132,9 @@ impl World {
         for &index in &members {
             self.begin_substepping(index, time);
         }
-        self.lay_pieces(place, time);
+        if left.is_none() {
+            self.lay_pieces(place, time);
+        }
         // Their boxes are as long as their way was: narrow ones meet what a sub-step meets.
         for &index in &members {
             for slot in 0..self.bodies.get(index).colliders.len() {
@@ -137,7 +143,7 @@ impl World {
             }
         }
         self.closed.moves(place);
-        if !leaves {
+        if left.is_none() {
             for index in members {
                 self.redirect(index, time);
             }

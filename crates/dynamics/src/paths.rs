@@ -8,7 +8,7 @@ use crate::analytic::islands::give_motions;
 use crate::analytic::islands::store::{Group, Kept};
 use crate::analytic::islands::tips::{Tipping, is_touched, path_of};
 use crate::analytic::modes::{NotMine, TouchMove};
-use crate::analytic::tipping::Ends;
+use crate::analytic::tipping::{Ends, Tip};
 use crate::analytic::touching::Gathered;
 use crate::motion::flight::fly;
 use crate::{Mode, World};
@@ -169,8 +169,23 @@ impl World {
             }
             return;
         };
+        self.leave_curves(tip, &group.indices(), slots, time);
+        for index in group.indices() {
+            self.bodies.leave_path(index, time, true);
+            self.redirect(index, time);
+        }
+    }
+
+    /// The members of a group that turned go on by what their path has at `time`.
+    pub(crate) fn leave_curves(
+        &mut self,
+        tip: &Tip,
+        members: &[u32],
+        slots: &[usize],
+        time: SimTime,
+    ) {
         let accelerations = tip.accelerations_after(time - tip.path.start());
-        for (&(index, _), &slot) in group.members.iter().zip(slots) {
+        for (&index, &slot) in members.iter().zip(slots) {
             // A body that was given another velocity has left the path already, and still has the parabola of its last piece.
             if self.bodies.get(index).flight.is_some() {
                 let (acceleration, angular) = accelerations[slot];
@@ -179,8 +194,6 @@ impl World {
                     motion.angular_acceleration = angular;
                 });
             }
-            self.bodies.leave_path(index, time, true);
-            self.redirect(index, time);
         }
     }
 
