@@ -23,6 +23,8 @@ pub(crate) struct Course {
     pub(crate) entered: (SimTime, SimTime),
     /// How long it looked down for, in s.
     pub(crate) span: f64,
+    /// Way of its first look down, as a part of the longest: less where it found much.
+    pub(crate) look: f64,
     /// When it found nothing there; never, if there was something.
     pub(crate) clear_at: SimTime,
     /// The tick in which it last struck, and what its impacts spent in it.
@@ -40,6 +42,7 @@ impl Default for Course {
             ground: SimTime::ZERO,
             reached: Sides::NOTHING,
             span: 0.0,
+            look: 1.0,
             alone: false,
             clear_at: SimTime::NEVER,
             entered: (SimTime::NEVER, SimTime::NEVER),

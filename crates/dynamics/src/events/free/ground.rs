@@ -12,8 +12,14 @@ use crate::model::graph::touch_in_moving_island;
 use crate::store::swept::Sides;
 use crate::{BodyKind, World};
 
-/// Way, in cells, that a free body looks down for first.
+/// Longest way, in cells, that a free body looks down for first, and the shortest, as a part of it. Cells are as wide as free bodies
+/// are apart: what does not fly may lie far closer.
 const SPAN: f64 = 2.0;
+const SHORTEST: f64 = 1.0 / 16.0;
+
+/// Shapes found in a look beyond which the next first one goes so much less far, and up to which it goes twice as far.
+const MANY: usize = 8;
+const FEW: usize = 2;
 
 /// How much farther it looks about that way, in cells, where it remembers.
 const CLEARING: f64 = 0.75;
@@ -32,7 +38,7 @@ impl World {
         }
         let span = at_most(span);
         let room = if self.clears() {
-            CLEARING * self.free.grid.side()
+            CLEARING * self.bodies.get(index).course.look * self.free.grid.side()
         } else {
             0.0
         };
@@ -110,7 +116,8 @@ impl World {
     /// How long a free body with a new motion looks down for, in s.
     pub(super) fn first_span(&self, index: u32, time: SimTime) -> f64 {
         let track = Track::of(&self.bodies.get(index).motion, time);
-        track.seconds_for(SPAN * self.free.grid.side())
+        let way = SPAN * self.bodies.get(index).course.look;
+        track.seconds_for(way * self.free.grid.side())
     }
 
     /// Shapes in the tree that `index` may meet before it looks down again: of bodies that do not fly,
@@ -127,7 +134,13 @@ impl World {
         let clear = !near.iter().any(overlaps);
         // The box of a half-plane that leans is all of the plane: it is there however short a free body looks.
         let bounded = |at: &u32| self.colliders[*at as usize].solid.is_bounded();
-        course.alone = clear || !near.iter().any(|at| overlaps(at) && bounded(at));
+        let found = near.iter().filter(|at| overlaps(at) && bounded(at)).count();
+        course.alone = found == 0;
+        if found > MANY {
+            course.look = (course.look * MANY as f64 / found as f64).max(SHORTEST);
+        } else if found <= FEW {
+            course.look = (2.0 * course.look).min(1.0);
+        }
         course.clear_at = if clear { time } else { SimTime::NEVER };
         for &at in &near {
             let owner = self.colliders[at as usize].body;
