@@ -171,7 +171,6 @@ impl World {
         }
         for &index in woken {
             self.begin_substepping(index, time);
-            self.wait(index, time);
         }
         for &index in woken {
             self.meet_near(index);

@@ -303,6 +303,13 @@ impl World {
                     Ok(()) => {}
                     Err(NotMine::Returns) => self.end_rocking(arrived, &gathered, time, speed),
                     Err(NotMine::Painleve) if self.jams(&gathered, time) => {}
+                    Err(NotMine::Unsolved)
+                        if arrived
+                            .as_ref()
+                            .is_some_and(|before| before.opens_slowly(&gathered)) =>
+                    {
+                        self.end_rocking(arrived, &gathered, time, speed);
+                    }
                     Err(_) => self.wait_around(&gathered.dynamic(), time),
                 }
             }

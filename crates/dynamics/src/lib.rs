@@ -46,6 +46,7 @@ mod stepping;
 mod store;
 mod substep;
 mod values;
+mod waiting;
 mod work;
 mod world;
 

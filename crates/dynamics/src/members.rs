@@ -237,10 +237,11 @@ impl World {
         let left = self.clock.next() - time;
         let near = left > 0.0
             && self.bodies.get(index).is_free()
-            && self.stepping.as_ref().is_some_and(|stepping| {
-                self.joins.reached == self.clock.next()
-                    && self.nears_member(stepping, index, (time, left))
-            });
+            && (self.meets_waiting(index, (time, left))
+                || self.stepping.as_ref().is_some_and(|stepping| {
+                    self.joins.reached == self.clock.next()
+                        && self.nears_member(stepping, index, (time, left))
+                }));
         if near {
             self.join(index, time);
         }

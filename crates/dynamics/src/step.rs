@@ -99,6 +99,7 @@ impl World {
 
     /// Impacts of the event queue and sub-steps, whichever comes first, up to `end`.
     fn advance(&mut self, end: SimTime, stop_at_event: bool) -> SimTime {
+        let mut reached = self.clock.now;
         loop {
             let grid = if self.is_substepping() {
                 end.min(self.clock.next())
@@ -113,6 +114,12 @@ impl World {
                 (Some(one), Some(other)) => one <= other,
                 (one, _) => one.is_some(),
             };
+            let next = [change, flight, impact].into_iter().flatten().min();
+            let next = next.unwrap_or(grid).min(grid);
+            if next > reached && self.settle(reached) {
+                continue;
+            }
+            reached = next.max(reached);
             if let Some(time) = change
                 && before(change, flight)
                 && before(change, impact)

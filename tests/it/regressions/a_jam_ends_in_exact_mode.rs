@@ -18,7 +18,7 @@ fn world(gravity: Vec2) -> World {
 #[test]
 fn a_jam_ends_in_exact_mode() {
     let mut collapsed = 0;
-    for e in [0.3, 0.5, 0.7, 0.9] {
+    for e in [0.3, 0.5, 0.7, 0.8, 0.88, 0.9] {
         for round in [true, false] {
             let mut world = world(vec2(0.0, -10.0));
             for side in [-1.0, 1.0] {

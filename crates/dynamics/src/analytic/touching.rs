@@ -109,6 +109,16 @@ impl Gathered {
         self.move_by(&held);
     }
 
+    /// Whether a landing opens none of its touches faster than rest.
+    pub(crate) fn opens_slowly(&self, landed: &Self) -> bool {
+        let opens = |touch: &Touch| {
+            let ends = [touch.bodies.0, touch.bodies.1].map(|place| landed.bodies[place].state());
+            let rate = |point: &Vec2| opening((ends[0], ends[1]), *point, touch.normal).0;
+            touch.points.iter().map(rate).fold(0.0, f64::max)
+        };
+        self.touches.iter().all(|touch| opens(touch) <= self.rest)
+    }
+
     fn move_by(&mut self, velocities: &[(Vec2, f64)]) {
         for (body, &(velocity, spin)) in self.bodies.iter_mut().zip(velocities) {
             (body.velocity, body.spin) = (velocity, spin);

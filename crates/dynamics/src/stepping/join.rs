@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 
 use carom_collision::Motion;
 use carom_geometry::Aabb;
-use carom_math::{SimTime, Sum};
+use carom_math::{SimTime, Sum, Vec2};
 use carom_stepped::State;
 
 use super::Shapes;
@@ -20,6 +20,7 @@ use super::rush::Rush;
 use crate::model::graph::neighbours;
 use crate::store::bodies::Bodies;
 use crate::store::state::BodyState;
+use crate::store::uncommon::Lag;
 use crate::{EnergyLedger, Mode, World};
 
 /// More bodies than this that wake, or land, at once join the engine.
@@ -40,8 +41,10 @@ pub(crate) struct Joins {
     pub(crate) drivers: BTreeSet<u32>,
     /// Bodies that woke in the engine.
     pub(crate) woken: Vec<u32>,
-    /// Bodies that came to the sub-steps in the midst of one, and lie where they are until it ends.
-    waiting: Vec<u32>,
+    /// Bodies that joined in the midst of a sub-step, and stand where they are until it ends.
+    pub(crate) waiting: Vec<u32>,
+    /// How many of them are known to those that would meet them.
+    pub(crate) known: usize,
     /// Shapes that touched when one of their bodies joined: the caller was told.
     pub(crate) told: Vec<Shapes>,
     /// Members that had no contact at the last ticks, and at how many; in order of bodies.
@@ -131,8 +134,14 @@ impl World {
         state.is_held() && !state.membership.is_closed()
     }
 
+    /// Bodies in sub-steps that no method moves yet.
+    pub(crate) fn unsolved(&self) -> Vec<u32> {
+        let all = self.stepped.iter().copied();
+        all.filter(|index| self.is_unsolved(*index)).collect()
+    }
+
     /// Islands of bodies in touch in sub-steps of which one has no closed form.
-    fn unsolved_islands(&self) -> Vec<Vec<u32>> {
+    pub(crate) fn unsolved_islands(&self) -> Vec<Vec<u32>> {
         let (mut seen, mut islands) = (BTreeSet::new(), Vec::new());
         for &index in &self.stepped {
             if !self.is_unsolved(index) || !seen.insert(index) {
@@ -174,7 +183,7 @@ impl World {
         true
     }
 
-    /// From now on the engine moves this body. In the middle of a sub-step it waits where it is for the next.
+    /// From now on the engine moves this body. In the middle of a sub-step it stands where it is until the next.
     pub(crate) fn join(&mut self, index: u32, time: SimTime) {
         let state = self.bodies.get(index);
         if !state.is_dynamic() || state.is_asleep() || state.in_engine() {
@@ -207,24 +216,35 @@ impl World {
         self.wait(index, time);
     }
 
-    /// A body comes to the sub-steps: in the midst of one it lies where it is until that ends.
+    /// A body that joins in the midst of a sub-step stands where it is until that ends: so the engine takes it, and so it is shown, with
+    /// the velocity that it keeps.
     pub(crate) fn wait(&mut self, index: u32, time: SimTime) {
-        if time > self.clock.last() && self.clock.is_within(time) {
-            self.joins.waiting.push(index);
+        if time <= self.clock.last() || !self.clock.is_within(time) {
+            return;
         }
+        self.joins.waiting.push(index);
+        let state = self.bodies.get(index);
+        let velocity = (state.velocity_at(time), state.spin_at(time));
+        let motion = Motion {
+            start: time,
+            rotation: state.rotation_at(time),
+            ..Motion::resting(state.centre_at(time))
+        };
+        let turned = state.turned + state.turn_by(time);
+        self.bodies.go_on_as(index, &motion, turned);
+        let lag = Lag::of_even((Vec2::ZERO, 0.0), velocity, velocity, self.clock.h);
+        self.bodies.get_mut(index).set_lag(lag);
+        self.bodies.renew(index);
     }
 
-    /// Counts what waits for the next sub-step, unless a closed form or a flight took it: nothing else says that it lies still, and what
-    /// touches it goes on meanwhile.
+    /// Counts what stands until the next sub-step: nothing else says so, and what touches it goes on meanwhile.
     pub(crate) fn report_waiting(&mut self, time: SimTime) {
-        let waits = |index: &&u32| {
-            let state = self.bodies.get(**index);
-            let alive = self.bodies.is_alive(**index);
-            alive && (state.in_engine() || state.is_held() && !state.membership.is_closed())
-        };
+        let waits =
+            |index: &&u32| self.bodies.is_alive(**index) && self.bodies.get(**index).in_engine();
         self.report.handed_over += self.joins.waiting.iter().filter(waits).count() as u64;
         if !self.clock.is_within(time) {
             self.joins.waiting.clear();
+            self.joins.known = 0;
         }
     }
 

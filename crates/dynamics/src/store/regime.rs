@@ -45,7 +45,7 @@ pub(crate) enum Regime {
     Free,
     /// The closed form of its contact island, until its contact mode changes.
     Analytic(Form),
-    /// Nothing yet: it touches something, and goes on as it did until the next sub-step finds the method that holds it.
+    /// Nothing yet: it touches something, and gets its method before time goes on.
     Held,
     /// Sub-steps of the engine.
     Stepped(Scope),

@@ -3,6 +3,8 @@
 use carom_math::SimTime;
 
 use super::{Cause, Foreseen};
+use crate::events::event_queue::Entry;
+use crate::events::predict::BUDGET;
 use crate::model::narrow::{NOISE, opening_speed, pace};
 use crate::motion::flight::fly;
 use crate::store::pairs::PairContact;
@@ -29,6 +31,42 @@ impl World {
             self.regroup(impact.bodies.0, time);
             self.regroup(impact.bodies.1, time);
         }
+    }
+
+    /// Impacts that outrun their budget have come to their limit: a common stop of all that touches, at this instant.
+    pub(super) fn collapse(&mut self, impact: &Foreseen, time: SimTime) {
+        let (a, b) = impact.bodies;
+        self.land(a, time);
+        self.land(b, time);
+        let (first, second) = impact.colliders;
+        let mut places = self.bodies.get(a).pairs.iter().copied();
+        let place = places.find(|place| {
+            let known = self.pairs.get(*place).colliders;
+            known == (first, second) || known == (second, first)
+        });
+        let Some(place) = place else {
+            let (one, two) = (self.bodies.get(a), self.bodies.get(b));
+            let speed = opening_speed(one, two, time, impact.points[0], impact.normal);
+            self.report_collapse((a, b), 0.5 * speed * speed, time);
+            self.report.collapsed += 1;
+            return;
+        };
+        let pair = self.pairs.get_mut(place);
+        // Its budget in the sub-step is used up by this one.
+        (pair.impacts, pair.spent) = (1, BUDGET);
+        let ends = [pair.bodies.0, pair.bodies.1].map(|index| self.bodies.version(index));
+        self.event_queue.push(Entry {
+            time,
+            key: pair.colliders,
+            pair: place,
+            versions: (ends[0], ends[1]),
+            normal: if pair.colliders == impact.colliders {
+                impact.normal
+            } else {
+                -impact.normal
+            },
+            points: impact.points.clone(),
+        });
     }
 
     /// From now on the sub-steps move this body: something holds it, or is too near to tell.
@@ -174,14 +212,18 @@ impl World {
         if !self.is_substepping() {
             self.clock.catch_up(time);
         }
-        if !self.free.is_raised() {
-            // Bodies look for free bodies by boxes in the world from now on.
-            self.narrow(time);
-            self.free.raise(&self.bodies);
-        }
+        self.raise_free(time);
         if let Err(at) = self.stepped.binary_search(&index) {
             self.stepped.insert(at, index);
             self.pairs.reorder();
+        }
+    }
+
+    /// Bodies look for free bodies by boxes in the world from now on.
+    pub(crate) fn raise_free(&mut self, time: SimTime) {
+        if !self.free.is_raised() {
+            self.narrow(time);
+            self.free.raise(&self.bodies);
         }
     }
 

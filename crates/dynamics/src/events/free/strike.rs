@@ -8,7 +8,6 @@ use crate::events::predict::price;
 use crate::events::resolve::apply;
 use crate::events::shock::Shock;
 use crate::impact::{ImpactBody, ImpactContact, resolve};
-use crate::model::narrow::opening_speed;
 use crate::store::zeno::ZenoSeries;
 use crate::{BodyKind, EventKind, Mode, PairMaterial, World};
 
@@ -415,15 +414,7 @@ impl World {
             spent |= course.spent > budget;
         }
         if spent {
-            let (one, two) = (
-                self.bodies.get(impact.bodies.0),
-                self.bodies.get(impact.bodies.1),
-            );
-            let speed = opening_speed(one, two, time, impact.points[0], impact.normal);
-            self.report_collapse(impact.bodies, 0.5 * speed * speed, time);
-            self.report.collapsed += 1;
-            self.land(impact.bodies.0, time);
-            self.land(impact.bodies.1, time);
+            self.collapse(impact, time);
         }
         spent
     }

@@ -1,0 +1,113 @@
+//! What comes to the sub-steps in the midst of one gets its method at that instant: a closed form, flight, or the engine, where it
+//! stands until the sub-step ends.
+
+use carom_collision::{TimeOfImpact, time_of_impact};
+use carom_math::SimTime;
+
+use crate::World;
+
+impl World {
+    /// Gives all that waits at an instant within a sub-step its method, once all that happens at that instant has happened; whether
+    /// something waited.
+    pub(crate) fn settle(&mut self, time: SimTime) -> bool {
+        if !self.may_join() || !self.clock.is_within(time) {
+            return false;
+        }
+        let waiting = self.unsolved();
+        if waiting.is_empty() && self.joins.known == self.joins.waiting.len() {
+            return false;
+        }
+        let (bodies, colliders) = (&self.bodies, &self.colliders);
+        for &index in &waiting {
+            for &place in &bodies.get(index).pairs {
+                let (pairs, h) = (&mut self.pairs, self.clock.h);
+                let pair = self
+                    .narrow
+                    .look_at(bodies, colliders, pairs, place, time, h);
+                self.events.tell_touch(bodies, pair, time);
+            }
+        }
+        self.pairs.sort(&self.bodies, &self.stepped);
+        self.close_groups(time);
+        self.drop_alone(time);
+        self.join_unsolved(time);
+        self.tell_waiting(time);
+        true
+    }
+
+    /// Bodies with nothing near fly.
+    fn drop_alone(&mut self, time: SimTime) {
+        for island in self.unsolved_islands() {
+            let alone = |index: &u32| {
+                let mut pairs = self.bodies.get(*index).pairs.iter();
+                pairs.all(|place| self.pairs.get(*place).contacts.is_empty())
+            };
+            if island.iter().all(alone) {
+                self.drop_unheld(&island, time);
+            }
+        }
+    }
+
+    /// What meets a body that stands until the sub-step ends joins with it: neither the calendar queue nor the engine knows that
+    /// body.
+    fn tell_waiting(&mut self, time: SimTime) {
+        let left = self.clock.next() - time;
+        while let Some(&standing) = self.joins.waiting.get(self.joins.known) {
+            self.joins.known += 1;
+            if !self.stands(standing) {
+                continue;
+            }
+            self.raise_free(time);
+            let pose = self.bodies.get(standing).motion.pose_at(time);
+            let (mut near, mut found) = (Vec::new(), Vec::new());
+            for &at in &self.bodies.get(standing).colliders {
+                let bounds = self.colliders[at as usize].solid.aabb(pose);
+                self.free.overlapping(&self.bodies, bounds, &mut found);
+                near.extend(&found);
+                let shapes = self.broad.in_tree(&self.colliders, bounds).into_iter();
+                near.extend(shapes.map(|at| self.colliders[at as usize].body));
+            }
+            near.sort_unstable();
+            near.dedup();
+            for index in near {
+                if self.meets_standing(index, standing, (time, left)) {
+                    self.join(index, time);
+                }
+            }
+        }
+    }
+
+    /// Whether a body outside of the engine meets one that stands for the `left` seconds to the end of the sub-step.
+    pub(crate) fn meets_waiting(&self, index: u32, ahead: (SimTime, f64)) -> bool {
+        let mut waiting = self.joins.waiting.iter();
+        waiting.any(|at| self.stands(*at) && self.meets_standing(index, *at, ahead))
+    }
+
+    fn stands(&self, index: u32) -> bool {
+        self.bodies.is_alive(index) && self.bodies.get(index).in_engine()
+    }
+
+    fn meets_standing(&self, index: u32, standing: u32, (time, left): (SimTime, f64)) -> bool {
+        let (state, other) = (self.bodies.get(index), self.bodies.get(standing));
+        if !state.is_dynamic() || state.is_asleep() || state.in_engine() {
+            return false;
+        }
+        let motion = &state.motion;
+        let speed = motion.velocity_at(time).length();
+        let way = (speed + 0.5 * motion.acceleration.length() * left) * left + motion.left_out;
+        let near = state.reach + other.reach + way;
+        let apart = state.centre_at(time) - other.centre_at(time);
+        if apart.length_squared() > near * near {
+            return false;
+        }
+        let motions = [motion.rebased(time), other.motion.rebased(time)];
+        let all = state.colliders.iter();
+        let mut shapes = all.flat_map(|mine| other.colliders.iter().map(move |at| [*mine, *at]));
+        shapes.any(|shapes| {
+            let [mine, theirs] = shapes.map(|at| &self.colliders[at as usize]);
+            let (one, two) = (&mine.solid, &theirs.solid);
+            self.broad.may_touch(&self.bodies, mine, theirs)
+                && time_of_impact(one, &motions[0], two, &motions[1], left) != TimeOfImpact::Clear
+        })
+    }
+}
