@@ -4,7 +4,7 @@ use carom_math::SimTime;
 
 use crate::events::event_queue::Entry;
 use crate::events::predict::price;
-use crate::events::resolve::{Slow, Struck, strike};
+use crate::events::resolve::{Struck, strike};
 use crate::{Mode, Refusal, StepReport, World};
 
 /// More ticks than this in one step are refused.
@@ -169,23 +169,14 @@ impl World {
         {
             return;
         }
-        let mut rests = self.strike_or_rest(entry, Slow::Rests);
-        let now = (self.bodies.version(a), self.bodies.version(b));
+        let rests = self.strike_or_rest(entry);
         let closed = |index: u32| self.bodies.get(index).membership.is_closed();
-        let held = closed(a) || closed(b);
-        let turns = self
-            .pairs
-            .find_same(entry.pair, entry.key)
-            .is_some_and(|pair| pair.turning_rest > 0.0);
-        if rests && turns && now == entry.versions && !held {
-            rests = self.strike_or_rest(entry, Slow::Stops);
-        }
-        // It goes on closing until the solver holds it with the next sub-step.
-        self.report.handed_over += u64::from(rests && !held);
+        // What has no closed form is the engine's.
+        self.report.handed_over += u64::from(rests && !closed(a) && !closed(b));
     }
 
     /// The same; what is too slow to bounce rests, if nothing else is asked of it. Whether it does.
-    fn strike_or_rest(&mut self, entry: &Entry, slow: Slow) -> bool {
+    fn strike_or_rest(&mut self, entry: &Entry) -> bool {
         let struck = strike(
             &self.settings,
             &mut self.bodies,
@@ -194,16 +185,12 @@ impl World {
             &mut self.narrow,
             entry,
             self.clock.h,
-            slow,
             &mut self.events,
             &mut self.report,
         );
         match struck {
             Struck::Nothing => {}
             Struck::Rests => {
-                if slow == Slow::Stops {
-                    return true;
-                }
                 self.predict(entry.pair, entry.time);
                 let (a, b) = self.pairs.get(entry.pair).bodies;
                 // No motion has changed, but an island has one contact more: its modes are solved for once.

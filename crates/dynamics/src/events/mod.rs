@@ -2,7 +2,7 @@
 //!
 //! To read in this order: [`free`] (free bodies, with a calendar queue that lives across steps: searches, impacts, landings),
 //! [`event_queue`] and [`predict`] (impacts within a sub-step: of bodies that it moves, in order of time and pair; what closes
-//! again by a [`micro_bounce`], or turns out of what was planned for it: [`sink`]), [`resolve`] (an impact that is due), [`shock`] (one on a body that others hold), [`wake`]
+//! again by a [`micro_bounce`]), [`resolve`] (an impact that is due), [`shock`] (one on a body that others hold), [`wake`]
 //! (what it wakes).
 
 pub(crate) mod event_queue;
@@ -11,5 +11,4 @@ mod micro_bounce;
 pub(crate) mod predict;
 pub(crate) mod resolve;
 pub(crate) mod shock;
-mod sink;
 pub(crate) mod wake;

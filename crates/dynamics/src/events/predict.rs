@@ -6,12 +6,11 @@ use carom_collision::{
 };
 use carom_math::{SimTime, Vec2};
 
-use super::sink::sinks_in;
 use crate::events::event_queue::{Entry, EventQueue};
 use crate::events::micro_bounce::micro_bounce;
 use crate::model::approach::{CLOSED, stays};
 use crate::model::ghost::Meeting;
-use crate::model::narrow::{NOISE, Narrow, RestSpeed, TOUCH, opening_speed, pace, strikes_with};
+use crate::model::narrow::{NOISE, Narrow, RestSpeed, TOUCH, opening_speed, pace};
 use crate::motion::first_touch::first_touch_of_parts;
 use crate::motion::flight::motion_along;
 use crate::store::bodies::Bodies;
@@ -108,49 +107,9 @@ pub(crate) fn predict(
             }
         }
     }
-    let holds = |contact: &PairContact| {
-        if closed {
-            // A touch that opens is none of a group's: it may come back before the group changes.
-            stays((a, b), contact, time, group_rest)
-        } else {
-            is_the_solvers((a, b), contact, time, touch, pulled)
-        }
-    };
-    // What becomes of the contacts of a group in closed form is that group's next change.
-    if let Some(rest) = rest.filter(|_| !closed) {
-        for contact in pair.contacts.iter().filter(|contact| holds(contact)) {
-            for point in &contact.points {
-                let rate = opening_speed(a, b, time, point.position, contact.normal);
-                // The solver holds what closes slowly.
-                if rate >= -rest {
-                    continue;
-                }
-                let wait = if point.separation <= touch {
-                    0.0
-                } else {
-                    -point.separation / rate
-                };
-                if wait <= horizon {
-                    let strikes = Impact {
-                        time: wait,
-                        normal: contact.normal,
-                        points: ArrayVec::from_iter(
-                            [point.position + both_move(a, b, time) * wait],
-                        ),
-                        features: ArrayVec::from_iter([strikes_with(contact.parts, point)]),
-                        gap_rate: rate,
-                    };
-                    first = earlier(first, TimeOfImpact::Hit(strikes));
-                }
-            }
-        }
-    }
-    if (pair.lasting || sunken) && !closed {
-        let now = (time, horizon, pulled);
-        if let Some(sunk) = sinks_in(bodies, colliders, narrow, pair, now) {
-            first = earlier(first, TimeOfImpact::Hit(sunk));
-        }
-    }
+    // What becomes of the contacts of a group in closed form is that group's next change. A touch that opens is none of them: it may
+    // come back before the group changes.
+    let holds = |contact: &PairContact| closed && stays((a, b), contact, time, group_rest);
     for i in 0..part_count(shapes.0) {
         for j in 0..part_count(shapes.1) {
             let is_here = |&(x, y): &(u32, u32)| x as usize == i && y as usize == j;
@@ -222,31 +181,6 @@ pub(crate) fn predict(
     });
 }
 
-/// Whether the solver holds a contact: one that touches, unless it opens faster than what pulls brings it back within a
-/// few sub-steps, `pulled` m/s, or is one that comes down; of others those that close no faster.
-fn is_the_solvers(
-    (a, b): (&BodyState, &BodyState),
-    contact: &PairContact,
-    time: SimTime,
-    touch: f64,
-    pulled: f64,
-) -> bool {
-    let (mut touching, mut apart) = (f64::INFINITY, f64::INFINITY);
-    for point in &contact.points {
-        let rate = opening_speed(a, b, time, point.position, contact.normal);
-        if point.separation <= touch {
-            touching = touching.min(rate);
-        } else {
-            apart = apart.min(rate);
-        }
-    }
-    if touching < f64::INFINITY {
-        touching <= pulled || apart < -pulled
-    } else {
-        apart >= -pulled
-    }
-}
-
 /// An impact that was found for the parabolas of two bodies, found again for what they fly by near that instant.
 ///
 /// A parabola through both ends of s seconds leaves out as much as its cube, so that every round looks at a shorter
@@ -306,11 +240,6 @@ fn polished(
         left = left_out(span);
     }
     best
-}
-
-/// How fast a contact point wanders: with the two bodies' mean.
-fn both_move(a: &BodyState, b: &BodyState, time: SimTime) -> Vec2 {
-    0.5 * (a.motion.velocity_at(time) + b.motion.velocity_at(time))
 }
 
 /// Bounding circles that cannot meet within `horizon`.

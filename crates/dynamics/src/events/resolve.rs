@@ -6,7 +6,7 @@ use crate::events::event_queue::Entry;
 use crate::events::predict::{BUDGET, price};
 use crate::events::shock::Shock;
 use crate::impact::{ImpactContact, resolve};
-use crate::model::narrow::{NOISE, Narrow, RestSpeed, opening_speed, pace};
+use crate::model::narrow::{NOISE, Narrow, opening_speed, pace, rest_speed};
 use crate::store::bodies::Bodies;
 use crate::store::pairs::{Pair, Pairs};
 use crate::store::state::Collider;
@@ -29,15 +29,6 @@ pub(crate) enum Struck {
     },
 }
 
-/// What becomes of an approach that turning brings back at once.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Slow {
-    /// It rests, for a group in closed form to take in.
-    Rests,
-    /// There is none: it is stopped, since it would sink in before the solver looks.
-    Stops,
-}
-
 /// Resolves one impact of the event queue.
 ///
 /// A single contact follows the impact law; one that runs into others is resolved with them.
@@ -53,7 +44,6 @@ pub(crate) fn strike(
     narrow: &mut Narrow,
     entry: &Entry,
     h: f64,
-    slow: Slow,
     events: &mut Events,
     report: &mut StepReport,
 ) -> Struck {
@@ -63,25 +53,18 @@ pub(crate) fn strike(
         return Struck::Nothing;
     }
     touch(bodies, pairs, entry, events);
-    let RestSpeed { all: rest, pulled } = RestSpeed::of(bodies, pairs.get(entry.pair), h);
-    let held = match slow {
-        Slow::Rests => rest,
-        Slow::Stops => pulled,
-    };
+    let rest = rest_speed(bodies, pairs.get(entry.pair), h);
     let rounding = NOISE * pace(a, b, entry.time);
-    let mut stays = false;
     let mut shock = Shock::new(entry.time, h);
     for &point in &entry.points {
         let speed = -opening_speed(a, b, entry.time, point, entry.normal);
         // At exactly zero pull there is no rest: an approach is an approach, unless rounding made it.
-        if speed > held && speed > rounding {
+        if speed > rest && speed > rounding {
             let material = pairs.get(entry.pair).material;
-            let stops = speed <= rest;
-            stays |= stops;
             let contact = ImpactContact {
                 point,
                 normal: entry.normal,
-                restitution: if stops { 0.0 } else { material.restitution },
+                restitution: material.restitution,
                 friction: material.friction,
             };
             let struck = (contact, material.tangent_speed);
@@ -100,7 +83,6 @@ pub(crate) fn strike(
         Budget::Outrun => shock.collapse(),
         Budget::Gone => return Struck::Nothing,
     }
-    pairs.get_mut(entry.pair).lasting |= stays;
     let single = shock.strikes.len() == 1;
     if single {
         let before = shock.ends_of_single();

@@ -1,7 +1,7 @@
 //! A look at every near pair: where its parts touch, and which contacts the solver takes.
 
 use arrayvec::ArrayVec;
-use carom_collision::{AxisFeature, ImpactFeature, PartManifold, contacts};
+use carom_collision::{PartManifold, contacts};
 use carom_math::{Pose, SimTime, Vec2};
 
 use super::approach::RigidState;
@@ -151,15 +151,6 @@ pub(crate) fn carried(new: &PartManifold, pose_a: Pose, old: &[PairContact]) -> 
         normal,
         points,
         tangent_impulse: kept.map_or(0.0, |contact| contact.tangent_impulse),
-    }
-}
-
-/// What touches at a contact point: the corners that the contact is named after.
-pub(crate) fn strikes_with(parts: (u32, u32), point: &PairPoint) -> ImpactFeature {
-    let (a, b) = point.feature.vertices();
-    ImpactFeature {
-        parts,
-        feature: AxisFeature::Vertices { a, b },
     }
 }
 
