@@ -195,13 +195,10 @@ impl Engine {
             settings,
             ..
         } = self;
-        if posed.at_tick {
-            broad.find(*level, bodies, pieces, settings.tick);
-        } else if posed.deviates || broad.has_arrivals() {
-            broad.find_few(*level, bodies, pieces, settings.tick);
-        } else {
+        if !(posed.at_tick || posed.deviates || broad.has_arrivals()) {
             return false;
         }
+        broad.find(*level, bodies, pieces, settings.tick, posed.at_tick);
         self.update_contacts(rules);
         !posed.at_tick
     }

@@ -203,6 +203,11 @@ impl Pieces {
         rules.surface([a.tag, b.tag], [a.material, b.material])
     }
 
+    /// Whether they belong to two bodies.
+    pub(crate) fn are_of_two(&self, a: u32, b: u32) -> bool {
+        self.owners[a as usize].body != self.owners[b as usize].body
+    }
+
     /// Tags of two pieces.
     pub(crate) fn tags(&self, pair: [u32; 2]) -> [u64; 2] {
         pair.map(|piece| self.list[piece as usize].tag)

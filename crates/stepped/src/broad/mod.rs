@@ -1,6 +1,7 @@
 //! Broad phase: which pieces may touch within the tick.
 
 mod keys;
+mod lists;
 mod pairs;
 mod sweep;
 mod table;
@@ -11,16 +12,22 @@ use fearless_simd::Level;
 
 use crate::bodies::Bodies;
 use crate::pieces::Pieces;
+use lists::{ASKED, KNOWN, LATE, LISTED, Lists, NEW, STANDS, is_mover};
 pub(crate) use pairs::Pairs;
 use sweep::Sweep;
 
-/// The sweep is sorted anew if more than one of so many movers came or got another box.
+/// The sweep is sorted anew if more than one of so many movers came or left its fat box.
 const FEW: usize = 8;
+
+/// To ask the sweep for the pairs of a piece takes as long as to read so many pairs off the lists.
+const QUERY: usize = 64;
 
 /// Movers in a sweep, what stands in a tree, half-planes in a list.
 #[derive(Clone, Debug)]
 pub(crate) struct Broad {
+    /// Fat boxes of movers.
     sweep: Sweep,
+    lists: Lists,
     standing: BoxTree,
     /// Node of each piece that stands.
     nodes: Vec<Option<NodeId>>,
@@ -29,29 +36,30 @@ pub(crate) struct Broad {
     arrived: Vec<u32>,
     /// Pieces that woke since the last search, and perhaps sleep again: bodies at rest came near them while they slept.
     woken: Vec<u32>,
-    /// Movers that came or got other boxes since the sweep was sorted, and some that are none any more.
-    few: Vec<u32>,
-    /// Those since the last tick that a caller has not looked at.
+    /// Movers that came or got other boxes since the last tick, and that a caller has not looked at.
     news: Vec<u32>,
     /// Whether something may stand in the box of a piece, by its number: true unless the last search of it found nothing.
     by_standing: Vec<bool>,
     /// Pairs of pieces with overlapping boxes, one of which moved.
     pub(crate) found: Vec<[u32; 2]>,
+    /// Pieces that a search is about: scratch.
+    asked: Vec<u32>,
 }
 
 impl Broad {
     pub(crate) fn new() -> Self {
         Self {
             sweep: Sweep::default(),
+            lists: Lists::default(),
             standing: BoxTree::new(),
             nodes: Vec::new(),
             endless: Vec::new(),
             arrived: Vec::new(),
             woken: Vec::new(),
-            few: Vec::new(),
             news: Vec::new(),
             by_standing: Vec::new(),
             found: Vec::new(),
+            asked: Vec::new(),
         }
     }
 
@@ -63,7 +71,9 @@ impl Broad {
                 self.nodes.resize(k + 1, None);
             }
             self.nodes[k] = Some(self.standing.insert(bounds, piece));
+            self.lists.stand(piece, bounds);
         } else {
+            self.lists.leave(piece);
             self.endless.push(piece);
         }
         self.arrived.push(piece);
@@ -71,7 +81,7 @@ impl Broad {
 
     /// A mover came, or has a larger box than the sweep knows.
     pub(crate) fn enter(&mut self, piece: u32) {
-        self.few.push(piece);
+        self.lists.enter(piece);
         self.news.push(piece);
         let k = piece as usize;
         if self.by_standing.len() <= k {
@@ -94,9 +104,10 @@ impl Broad {
         self.woken.push(piece);
     }
 
-    /// Whether the sweep had better be sorted anew, once so many more pieces got other boxes.
-    const fn is_stale(&self, more: usize) -> bool {
-        FEW * (self.few.len() + more) > self.sweep.len()
+    /// Whether the sweep had better be sorted anew.
+    const fn is_stale(&self) -> bool {
+        let [movers, standing] = &self.lists.late;
+        FEW * (movers.len() + standing.len()) > self.sweep.len()
     }
 
     /// It stands no more, or never did.
@@ -104,6 +115,7 @@ impl Broad {
         if let Some(node) = self.nodes.get_mut(piece as usize).and_then(Option::take) {
             self.standing.remove(node);
         }
+        self.lists.leave(piece);
         self.endless.retain(|other| *other != piece);
         self.arrived.retain(|other| *other != piece);
     }
@@ -118,90 +130,302 @@ impl Broad {
         &self.woken
     }
 
-    /// Finds the pairs of which one piece moved, arrived or woke: at a tick.
-    pub(crate) fn find(&mut self, level: Level, bodies: &Bodies, pieces: &Pieces, tick: f64) {
-        let moved = bodies.moved_count();
-        if moved == 0 && !self.has_arrivals() {
-            self.found.clear();
-        } else if self.is_stale(moved) {
-            self.find_all(level, bodies, pieces, tick);
-        } else {
-            self.find_few(level, bodies, pieces, tick);
-        }
-        self.news.clear();
-    }
-
-    fn find_all(&mut self, level: Level, bodies: &Bodies, pieces: &Pieces, tick: f64) {
+    /// Finds the pairs of which one piece moved, arrived or woke.
+    pub(crate) fn find(
+        &mut self,
+        level: Level,
+        bodies: &Bodies,
+        pieces: &Pieces,
+        tick: f64,
+        at_tick: bool,
+    ) {
         self.found.clear();
-        self.sort(bodies, pieces);
-        let found = &mut self.found;
-        self.sweep
-            .pairs(level, pieces, tick, |a, b| found.push([a, b]));
-        let woken = &self.woken;
-        let asks = |piece: u32| asks(bodies, pieces, woken, piece);
-        let asked = || {
-            let movers = (2..bodies.lines.len()).flat_map(|line| bodies.pieces_of_line(line));
-            movers.filter(|piece| asks(*piece))
-        };
-        for endless in &self.endless {
-            found.extend(asked().map(|piece| [piece, *endless]));
+        self.ask(bodies, pieces);
+        if at_tick {
+            self.news.clear();
+        } else {
+            let lists = &self.lists;
+            let movers = self.asked.iter().copied();
+            self.news
+                .extend(movers.filter(|piece| is_mover(lists.states[*piece as usize])));
         }
-        let by_standing = &mut self.by_standing;
-        for piece in asked() {
-            by_standing[piece as usize] = false;
+        if self.is_stale() {
+            self.sort(level, bodies, pieces, tick);
+        } else {
+            self.add_new(pieces, tick);
         }
-        // The fewer ask the more: what stands asks all movers of unusual size one by one.
-        let few_stand = self.standing.len() * (1 + self.sweep.unusual()) < bodies.moved_count();
-        if !few_stand {
-            for piece in asked() {
-                self.standing.query(pieces.boxes[piece as usize], |other| {
-                    by_standing[piece as usize] = true;
-                    if may_touch(pieces, [piece, other], tick) {
-                        found.push([piece, other]);
-                    }
-                });
-            }
+        self.read(pieces, tick);
+        for piece in self.asked.drain(..) {
+            self.lists.states[piece as usize] &= !(ASKED);
         }
-        let mut meet = |piece: u32, are_asked: bool| {
-            let bounds = pieces.boxes[piece as usize];
-            self.sweep.all_in(pieces, bounds, |other| {
-                by_standing[other as usize] = true;
-                if asks(other) == are_asked && may_touch(pieces, [other, piece], tick) {
-                    found.push([other, piece]);
-                }
-            });
-        };
-        if few_stand {
-            let standing = self.standing.ids();
-            let standing = standing.filter_map(|id| self.standing.data(id));
-            standing.for_each(|piece| meet(piece, true));
-        }
-        self.arrived.iter().for_each(|piece| meet(*piece, false));
         self.arrived.clear();
         self.woken.clear();
     }
 
+    /// Notes which pieces a search is about, and which of them left their fat boxes.
+    fn ask(&mut self, bodies: &Bodies, pieces: &Pieces) {
+        let Self {
+            lists,
+            asked,
+            by_standing,
+            ..
+        } = self;
+        let mut ask = |piece: u32| {
+            let (k, state) = (piece as usize, lists.states[piece as usize]);
+            if state & KNOWN != 0 && state & ASKED == 0 {
+                lists.states[piece as usize] |= ASKED;
+                asked.push(piece);
+                if is_mover(state) {
+                    by_standing[k] = false;
+                    if !lists.fat[k].contains(pieces.boxes[k]) {
+                        lists.enter(piece);
+                    }
+                }
+            }
+        };
+        for line in 2..bodies.lines.len() {
+            if bodies.moved[line] {
+                bodies.pieces_of_line(line).for_each(&mut ask);
+            }
+        }
+        let others = self.woken.iter().chain(&self.arrived);
+        others.copied().for_each(ask);
+    }
+
+    /// Finds all pairs of fat boxes anew.
+    fn sort(&mut self, level: Level, bodies: &Bodies, pieces: &Pieces, tick: f64) {
+        let Self {
+            sweep,
+            lists,
+            standing,
+            ..
+        } = self;
+        let [_, late_standing] = core::mem::take(&mut lists.late);
+        for piece in late_standing {
+            if lists.states[piece as usize] & STANDS != 0 {
+                lists.list(piece);
+            }
+        }
+        lists.new.clear();
+        let movers = (2..bodies.lines.len()).flat_map(|line| bodies.pieces_of_line(line));
+        for piece in movers.clone() {
+            let k = piece as usize;
+            lists.states[piece as usize] &= !(KNOWN | NEW);
+            if pieces.boxes[k].is_valid() {
+                lists.fatten(piece, pieces.boxes[k], pieces.discs[k].velocity, tick);
+                lists.list(piece);
+            } else {
+                lists.enter(piece);
+            }
+        }
+        let mut pairs = core::mem::take(&mut lists.pairs);
+        pairs.clear();
+        let movers = movers.filter(|piece| lists.states[*piece as usize] & LISTED != 0);
+        sweep.sort(movers.clone(), &lists.fat);
+        sweep.pairs(level, |a, b| {
+            if pieces.are_of_two(a, b) {
+                pairs.push([a, b]);
+            }
+        });
+        for piece in movers {
+            let bounds = lists.fat[piece as usize];
+            standing.query(bounds, |other| pairs.push([piece, other]));
+        }
+        lists.pairs = pairs;
+        lists.apart.clear();
+    }
+
+    /// Finds the pairs of new pieces.
+    fn add_new(&mut self, pieces: &Pieces, tick: f64) {
+        let Self {
+            sweep,
+            lists,
+            standing,
+            arrived,
+            ..
+        } = self;
+        let mut new = core::mem::take(&mut lists.new);
+        new.retain(|piece| lists.states[*piece as usize] & (NEW | STANDS) == NEW);
+        if new.is_empty() && arrived.is_empty() {
+            return;
+        }
+        new.sort_unstable();
+        new.dedup();
+        for &piece in &new {
+            let k = piece as usize;
+            lists.fatten(piece, pieces.boxes[k], pieces.discs[k].velocity, tick);
+        }
+        let mut apart = core::mem::take(&mut lists.apart);
+        let mut late = core::mem::take(&mut lists.late);
+        let lists = &mut self.lists;
+        let state = |piece: u32| lists.states[piece as usize];
+        let fat = |piece: u32| lists.fat[piece as usize];
+        apart.retain(|pair| !pair.iter().any(|piece| state(*piece) & NEW != 0));
+        let mut add = |a: u32, b: u32| {
+            if pieces.are_of_two(a, b) {
+                apart.push([a, b]);
+            }
+        };
+        let listed = |piece: u32| state(piece) & (LISTED | STANDS) == LISTED;
+        for &piece in &new {
+            sweep.all_in(fat(piece), |other| {
+                if listed(other) {
+                    add(piece, other);
+                }
+            });
+            standing.query(fat(piece), |other| add(piece, other));
+        }
+        let late_movers = &mut late[0];
+        late_movers.retain(|piece| state(*piece) & (LATE | STANDS) == LATE);
+        let left = |piece: u32| fat(piece).min.x;
+        late_movers.sort_unstable_by(|a, b| left(*a).total_cmp(&left(*b)).then(a.cmp(b)));
+        late_movers.dedup();
+        for (k, &piece) in late_movers.iter().enumerate() {
+            let (bounds, is_new) = (fat(piece), state(piece) & NEW != 0);
+            let others = late_movers[k + 1..].iter();
+            for &other in others.take_while(|other| left(**other) <= bounds.max.x) {
+                if (is_new || state(other) & NEW != 0) && fat(other).overlaps(bounds) {
+                    add(piece, other);
+                }
+            }
+        }
+        let arrived = arrived.iter().filter(|piece| state(**piece) & NEW != 0);
+        for &piece in arrived.clone() {
+            sweep.all_in(fat(piece), |other| {
+                if listed(other) {
+                    add(other, piece);
+                }
+            });
+            for &other in late_movers.iter() {
+                if state(other) & NEW == 0 && fat(other).overlaps(fat(piece)) {
+                    add(other, piece);
+                }
+            }
+        }
+        let arrived: Vec<u32> = arrived.copied().collect();
+        for piece in new.into_iter().chain(arrived) {
+            lists.states[piece as usize] &= !NEW;
+        }
+        (lists.apart, lists.late) = (apart, late);
+    }
+
+    /// Finds the pairs that a search is about: they are read off the lists, or, of few pieces, asked for in the sweep.
+    fn read(&mut self, pieces: &Pieces, tick: f64) {
+        let Self {
+            sweep,
+            standing,
+            lists,
+            found,
+            by_standing,
+            ..
+        } = self;
+        let (states, boxes, discs) = (&lists.states[..], &pieces.boxes[..], &pieces.discs[..]);
+        // What stands is the second.
+        let mut note = |pair: [u32; 2]| {
+            let [a, b] = pair.map(|piece| piece as usize);
+            if boxes[a].overlaps(boxes[b]) {
+                if states[b] & STANDS != 0 {
+                    by_standing[a] = true;
+                }
+                if discs[a].may_meet(&discs[b], tick) {
+                    found.push(pair);
+                }
+            }
+        };
+        let state = |piece: u32| states[piece as usize];
+        let is_asked = |pair: [u32; 2], known: u8| {
+            let [a, b] = pair.map(state);
+            (a | b) & ASKED != 0 && a & known != 0 && b & known != 0
+        };
+        if QUERY * self.asked.len() < lists.pairs.len() {
+            let listed = self.asked.iter().copied();
+            for piece in listed.filter(|piece| state(*piece) & LISTED != 0) {
+                let bounds = boxes[piece as usize];
+                let moves = is_mover(state(piece));
+                sweep.all_in(bounds, |other| {
+                    let theirs = state(other);
+                    let again = moves && theirs & ASKED != 0 && other < piece;
+                    if theirs & (LISTED | STANDS) == LISTED && !again {
+                        if !moves {
+                            note([other, piece]);
+                        } else if pieces.are_of_two(piece, other) {
+                            note([piece, other]);
+                        }
+                    }
+                });
+                if moves {
+                    standing.query(bounds, |other| {
+                        if state(other) & (LISTED | ASKED) == LISTED {
+                            note([piece, other]);
+                        }
+                    });
+                }
+            }
+        } else {
+            let listed = lists.pairs.iter().copied();
+            listed
+                .filter(|pair| is_asked(*pair, LISTED))
+                .for_each(&mut note);
+        }
+        let late = lists.apart.iter().copied();
+        late.filter(|pair| is_asked(*pair, KNOWN)).for_each(note);
+        for &endless in &self.endless {
+            let movers = self.asked.iter().copied();
+            let movers = movers.filter(|piece| is_mover(lists.states[*piece as usize]));
+            found.extend(movers.map(|piece| [piece, endless]));
+            if self.arrived.contains(&endless) {
+                let others = (0u32..).zip(&lists.states);
+                let others = others.filter(|(_, state)| is_mover(**state) && *state & ASKED == 0);
+                found.extend(others.map(|(piece, _)| [piece, endless]));
+            }
+        }
+    }
+
+    /// The slow twin of [`Self::find`]: all pairs, in order.
+    #[cfg(test)]
+    pub(crate) fn all_pairs(&self, bodies: &Bodies, pieces: &Pieces, tick: f64) -> Vec<[u32; 2]> {
+        let line = |piece: u32| bodies.line_of(pieces.owners[piece as usize].body);
+        let asks = |piece: u32| {
+            let came = self.woken.contains(&piece) || self.arrived.contains(&piece);
+            came || line(piece) >= 2 && bodies.moved[line(piece)]
+        };
+        let movers = (2..bodies.lines.len()).flat_map(|line| bodies.pieces_of_line(line));
+        let stands = (0u32..).zip(&self.nodes).filter(|(_, node)| node.is_some());
+        let stands = stands.map(|(piece, _)| piece).chain(self.endless.clone());
+        let stands: Vec<u32> = stands.collect();
+        let mut all = Vec::new();
+        for a in movers.clone() {
+            let others = movers
+                .clone()
+                .filter(|b| a < *b && pieces.are_of_two(a, *b));
+            for b in others.chain(stands.iter().copied()) {
+                let [of_a, of_b] = [a, b].map(|piece| piece as usize);
+                let overlap = pieces.boxes[of_a].overlaps(pieces.boxes[of_b]);
+                let meet = pieces.discs[of_a].may_meet(&pieces.discs[of_b], tick);
+                if (asks(a) || asks(b)) && (self.endless.contains(&b) || overlap && meet) {
+                    all.push([a.min(b), a.max(b)]);
+                }
+            }
+        }
+        all.sort_unstable();
+        all
+    }
+
     /// Queries are answered by the sweep, though many movers came since it was sorted.
-    pub(crate) fn prepare_queries(&mut self, bodies: &Bodies, pieces: &Pieces) {
-        if self.is_stale(0) {
-            self.sort(bodies, pieces);
+    pub(crate) fn prepare_queries(
+        &mut self,
+        level: Level,
+        bodies: &Bodies,
+        pieces: &Pieces,
+        tick: f64,
+    ) {
+        if self.is_stale() {
+            self.sort(level, bodies, pieces, tick);
         }
         self.news.sort_unstable();
         self.news.dedup();
         self.news
             .retain(|piece| pieces.boxes[*piece as usize].is_valid());
-    }
-
-    fn sort(&mut self, bodies: &Bodies, pieces: &Pieces) {
-        self.few.clear();
-        self.woken.sort_unstable();
-        let woken = &self.woken;
-        let movers = (2..bodies.lines.len()).flat_map(|line| {
-            let moved = bodies.moved[line];
-            let pieces = bodies.pieces_of_line(line);
-            pieces.map(move |piece| (piece, moved || woken.binary_search(&piece).is_ok()))
-        });
-        self.sweep.sort(movers, pieces);
     }
 
     /// Whether a piece is one of those that move, in `bounds`: the sweep may know it as another one, that was there before.
@@ -231,9 +455,9 @@ impl Broad {
                 tell(piece);
             }
         };
-        self.sweep.all_in(pieces, bounds, &mut tell);
+        self.sweep.all_in(bounds, &mut tell);
         // Their boxes are newer than the sweep.
-        self.few.iter().copied().for_each(tell);
+        self.lists.late[0].iter().copied().for_each(tell);
     }
 
     /// Movers that came or got other boxes since the last tick, or since [`Self::forget_news`], and these.
@@ -248,74 +472,4 @@ impl Broad {
     pub(crate) fn forget_news(&mut self) {
         self.news.clear();
     }
-
-    /// The same within a tick, of the few that moved since.
-    pub(crate) fn find_few(&mut self, level: Level, bodies: &Bodies, pieces: &Pieces, tick: f64) {
-        for line in (2..bodies.lines.len()).filter(|line| bodies.moved[*line]) {
-            for piece in bodies.pieces_of_line(line) {
-                self.enter(piece);
-            }
-        }
-        if self.is_stale(0) || !self.arrived.is_empty() {
-            return self.find_all(level, bodies, pieces, tick);
-        }
-        let mut few = core::mem::take(&mut self.few);
-        few.retain(|piece| self.moves_in(pieces, *piece, pieces.boxes[*piece as usize]));
-        let left = |piece: &u32| pieces.boxes[*piece as usize].min.x;
-        few.sort_unstable_by(|a, b| left(a).total_cmp(&left(b)).then(a.cmp(b)));
-        few.dedup();
-        self.found.clear();
-        self.woken.sort_unstable();
-        let (found, woken) = (&mut self.found, &self.woken);
-        let asks = |piece: u32| asks(bodies, pieces, woken, piece);
-        // What the sweep knows may have gone elsewhere.
-        let mut note = |piece: u32, other: u32| {
-            let [a, b] = [piece, other].map(|piece| pieces.boxes[piece as usize]);
-            if a.overlaps(b) && may_touch(pieces, [piece, other], tick) {
-                found.push([piece.min(other), piece.max(other)]);
-            }
-        };
-        // The sweep knows where the others' boxes are, and of these where they were: so these are compared as well.
-        for &piece in few.iter().filter(|piece| asks(**piece)) {
-            let bounds = pieces.boxes[piece as usize];
-            self.sweep
-                .all_in(pieces, bounds, |other| note(piece, other));
-            let mut by_standing = false;
-            self.standing.query(bounds, |other| {
-                by_standing = true;
-                note(piece, other);
-            });
-            self.by_standing[piece as usize] = by_standing;
-            self.endless.iter().for_each(|other| note(piece, *other));
-        }
-        for (k, &piece) in few.iter().enumerate() {
-            let (bounds, moves) = (pieces.boxes[piece as usize], asks(piece));
-            for &other in few[k + 1..]
-                .iter()
-                .take_while(|other| left(other) <= bounds.max.x)
-            {
-                if moves || asks(other) {
-                    note(piece, other);
-                }
-            }
-        }
-        self.few = few;
-        self.woken.clear();
-        // A pair may have been found from both sides, and by both ways.
-        self.found.sort_unstable();
-        self.found.dedup();
-    }
-}
-
-/// Whether a mover is asked about: its body moved, or it is one of these that `woken` holds in order.
-fn asks(bodies: &Bodies, pieces: &Pieces, woken: &[u32], piece: u32) -> bool {
-    let slot = pieces.owners[piece as usize].body;
-    bodies.moved[bodies.records[slot as usize].line as usize] || woken.binary_search(&piece).is_ok()
-}
-
-/// Pieces of two bodies that may meet within the tick.
-fn may_touch(pieces: &Pieces, pair: [u32; 2], tick: f64) -> bool {
-    let [a, b] = pair.map(|piece| &pieces.discs[piece as usize]);
-    let [of_a, of_b] = pair.map(|piece| pieces.owners[piece as usize].body);
-    of_a != of_b && a.may_meet(b, tick)
 }

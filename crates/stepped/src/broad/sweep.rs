@@ -11,8 +11,7 @@ use carom_geometry::Aabb;
 use carom_math::vec2;
 use fearless_simd::{Level, Simd, SimdBase, SimdMask, dispatch, f64x4};
 
-use super::keys::{Key, ordered, put_in_order, rounded};
-use crate::pieces::{Disc, Pieces};
+use super::keys::{Key, ordered, rounded};
 
 /// A box more than so many times the median is unusual. Less: many boxes ask one by one; more: strips so high that
 /// everything in them is compared.
@@ -28,33 +27,6 @@ const LOW: f64 = 0.8;
 /// Boxes tested at once.
 const LANES: usize = 4;
 
-/// A mover as the sweep asks about it.
-#[derive(Clone, Copy, Debug)]
-struct Mover {
-    disc: Disc,
-    piece: u32,
-    body: u32,
-    moved: bool,
-}
-
-impl Mover {
-    fn new(pieces: &Pieces, piece: u32, moved: bool) -> Self {
-        Self {
-            disc: pieces.discs[piece as usize],
-            piece,
-            body: pieces.owners[piece as usize].body,
-            moved,
-        }
-    }
-
-    /// Whether contacts of two are to be looked for.
-    fn may_meet(&self, other: &Self, tick: f64) -> bool {
-        (self.moved || other.moved)
-            && self.body != other.body
-            && self.disc.may_meet(&other.disc, tick)
-    }
-}
-
 /// Boxes side by side, and as many more at the end as fill a register: these overlap nothing.
 #[derive(Clone, Debug, Default)]
 struct Boxes {
@@ -68,59 +40,40 @@ struct Boxes {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Sweep {
     keys: Vec<Key>,
-    unusual: Vec<Mover>,
+    /// Movers of unusual size in order of their left ends.
+    unusual: Vec<(Aabb, u32)>,
     /// Number of each strip that is not empty, and where it begins.
     strips: Vec<(u32, usize)>,
-    /// Boxes and movers in the order of the keys.
+    /// In the order of the keys.
     boxes: Boxes,
-    movers: Vec<Mover>,
     height: f64,
     /// How many movers were too high for the strips when these were made.
     too_high: usize,
     sizes: Vec<f64>,
-    /// Keys in the order of the movers, and the place of each piece there while the order is made: scratch.
-    fresh: Vec<Key>,
-    places: Vec<u32>,
 }
 
 impl Sweep {
-    /// Makes the order anew for these movers, each piece once, and whether it moved.
-    pub(crate) fn sort(
-        &mut self,
-        movers: impl Iterator<Item = (u32, bool)> + Clone,
-        pieces: &Pieces,
-    ) {
-        let boxes = &pieces.boxes;
-        self.fresh.clear();
-        self.fresh.extend(movers.map(|(piece, moved)| Key {
-            place: 0,
-            piece,
-            moved,
-        }));
-        self.sizes.clear();
-        self.sizes.extend(self.fresh.iter().map(|key| {
-            let size = boxes[key.piece as usize].max - boxes[key.piece as usize].min;
+    /// Makes the order of these movers, each piece once, with boxes by piece.
+    pub(crate) fn sort(&mut self, movers: impl Iterator<Item = u32> + Clone, boxes: &[Aabb]) {
+        let size = |piece: u32| {
+            let size = boxes[piece as usize].max - boxes[piece as usize].min;
             if size.x > size.y { size.x } else { size.y }
-        }));
+        };
+        self.sizes.clear();
+        self.sizes.extend(movers.clone().map(size));
         self.choose_height();
         self.unusual.clear();
-        let (mut fresh, sizes) = (
-            core::mem::take(&mut self.fresh),
-            core::mem::take(&mut self.sizes),
-        );
-        let mut each = sizes.iter();
-        fresh.retain_mut(|key| {
-            let is_usual = each.next().is_some_and(|size| *size <= self.height);
-            if is_usual {
-                let min = boxes[key.piece as usize].min;
-                key.place = u64::from(self.strip(min.y)) << 32 | u64::from(ordered(min.x));
+        self.keys.clear();
+        for piece in movers {
+            let bounds = boxes[piece as usize];
+            if size(piece) <= self.height {
+                let strip = self.strip(bounds.min.y);
+                self.keys.push(Key::new(strip, bounds.min.x, piece));
             } else {
-                self.unusual.push(Mover::new(pieces, key.piece, key.moved));
+                self.unusual.push((bounds, piece));
             }
-            is_usual
-        });
-        (self.fresh, self.sizes) = (fresh, sizes);
-        put_in_order(&mut self.keys, &self.fresh, &mut self.places);
+        }
+        self.keys.sort_unstable();
         self.strips.clear();
         for (k, key) in self.keys.iter().enumerate() {
             let strip = key.strip();
@@ -128,11 +81,10 @@ impl Sweep {
                 self.strips.push((strip, k));
             }
         }
-        self.fill(pieces);
+        self.fill(boxes);
         self.unusual.sort_unstable_by(|a, b| {
-            let left = |piece: u32| boxes[piece as usize].min.x;
-            let order = left(a.piece).total_cmp(&left(b.piece));
-            order.then(a.piece.cmp(&b.piece))
+            let order = a.0.min.x.total_cmp(&b.0.min.x);
+            order.then(a.1.cmp(&b.1))
         });
     }
 
@@ -170,24 +122,15 @@ impl Sweep {
         self.keys.len() + self.unusual.len()
     }
 
-    /// How many of them have an unusual size.
-    pub(crate) const fn unusual(&self) -> usize {
-        self.unusual.len()
-    }
-
-    /// Copies what is asked about into the order of the keys.
-    fn fill(&mut self, pieces: &Pieces) {
-        let (keys, boxes) = (&self.keys, &mut self.boxes);
-        self.movers.clear();
-        let movers = keys.iter();
-        self.movers
-            .extend(movers.map(|key| Mover::new(pieces, key.piece, key.moved)));
+    /// Copies the boxes into the order of the keys.
+    fn fill(&mut self, boxes: &[Aabb]) {
+        let keys = &self.keys;
         let Boxes {
             left,
             right,
             low,
             high,
-        } = boxes;
+        } = &mut self.boxes;
         let last = Aabb::EMPTY;
         for (column, end) in [
             (&mut *left, last.min.x),
@@ -201,7 +144,7 @@ impl Sweep {
         }
         let columns = left.iter_mut().zip(right).zip(low.iter_mut().zip(high));
         for (key, ((left, right), (low, high))) in keys.iter().zip(columns) {
-            let bounds = pieces.boxes[key.piece as usize];
+            let bounds = boxes[key.piece as usize];
             (*left, *right) = (bounds.min.x, bounds.max.x);
             (*low, *high) = (bounds.min.y, bounds.max.y);
         }
@@ -219,36 +162,24 @@ impl Sweep {
         strip
     }
 
-    /// Finds all pairs that may meet within the tick, and of which at least one piece moved.
-    pub(crate) fn pairs(
-        &self,
-        level: Level,
-        pieces: &Pieces,
-        tick: f64,
-        mut found: impl FnMut(u32, u32),
-    ) {
-        dispatch!(level, simd => self.usual_pairs(simd, tick, &mut found));
-        for (k, mover) in self.unusual.iter().enumerate() {
-            let bounds = pieces.boxes[mover.piece as usize];
-            self.query(bounds, |other| {
-                if mover.may_meet(other, tick) {
-                    found(mover.piece, other.piece);
-                }
-            });
-            for other in &self.unusual[k + 1..] {
-                let theirs = pieces.boxes[other.piece as usize];
+    /// Finds all pairs with boxes that overlap.
+    pub(crate) fn pairs(&self, level: Level, mut found: impl FnMut(u32, u32)) {
+        dispatch!(level, simd => self.usual_pairs(simd, &mut found));
+        for (k, &(bounds, piece)) in self.unusual.iter().enumerate() {
+            self.query(bounds, |other| found(piece, other));
+            for &(theirs, other) in &self.unusual[k + 1..] {
                 if theirs.min.x > bounds.max.x {
                     break;
                 }
-                if theirs.overlaps(bounds) && mover.may_meet(other, tick) {
-                    found(mover.piece, other.piece);
+                if theirs.overlaps(bounds) {
+                    found(piece, other);
                 }
             }
         }
     }
 
     #[inline(always)]
-    fn usual_pairs<S: Simd>(&self, simd: S, tick: f64, found: &mut impl FnMut(u32, u32)) {
+    fn usual_pairs<S: Simd>(&self, simd: S, found: &mut impl FnMut(u32, u32)) {
         for (n, &(strip, first)) in self.strips.iter().enumerate() {
             let end = self.end(n);
             // The next strip is swept by a second finger, which only goes forward.
@@ -258,13 +189,8 @@ impl Sweep {
                 .filter(|next| next.0 == strip.wrapping_add(1));
             let (mut finger, beyond) = next.map_or((0, 0), |next| (next.1, self.end(n + 1)));
             for k in first..end {
-                let mover = &self.movers[k];
-                let bounds = self.bounds(k);
-                let mut tell = |other: &Mover| {
-                    if mover.may_meet(other, tick) {
-                        found(mover.piece, other.piece);
-                    }
-                };
+                let (piece, bounds) = (self.keys[k].piece, self.bounds(k));
+                let mut tell = |other: u32| found(piece, other);
                 self.forward(simd, k + 1, end, bounds, &mut tell);
                 // In order with the keys, and no farther right than what rounding left of the box.
                 let left = f64::from(rounded(bounds.min.x).next_down()) - self.height;
@@ -283,17 +209,17 @@ impl Sweep {
     }
 
     /// Finds all movers with a box that overlaps `bounds`.
-    pub(crate) fn all_in(&self, pieces: &Pieces, bounds: Aabb, mut found: impl FnMut(u32)) {
-        self.query(bounds, |mover| found(mover.piece));
-        for mover in &self.unusual {
-            if pieces.boxes[mover.piece as usize].overlaps(bounds) {
-                found(mover.piece);
+    pub(crate) fn all_in(&self, bounds: Aabb, mut found: impl FnMut(u32)) {
+        self.query(bounds, &mut found);
+        for (theirs, piece) in &self.unusual {
+            if theirs.overlaps(bounds) {
+                found(*piece);
             }
         }
     }
 
     /// Finds what lies in the strips.
-    fn query(&self, bounds: Aabb, mut found: impl FnMut(&Mover)) {
+    fn query(&self, bounds: Aabb, mut found: impl FnMut(u32)) {
         let lowest = self.strip(bounds.min.y).saturating_sub(1);
         let highest = self.strip(bounds.max.y);
         let first = self.strips.partition_point(|strip| strip.0 < lowest);
@@ -311,7 +237,7 @@ impl Sweep {
                     break;
                 }
                 if self.bounds(k).overlaps(bounds) {
-                    found(&self.movers[k]);
+                    found(self.keys[k].piece);
                 }
             }
         }
@@ -325,7 +251,7 @@ impl Sweep {
         from: usize,
         end: usize,
         bounds: Aabb,
-        found: &mut impl FnMut(&Mover),
+        found: &mut impl FnMut(u32),
     ) {
         let boxes = &self.boxes;
         // Order is that of left ends rounded down: what is beyond the right end so rounded is beyond it.
@@ -351,7 +277,7 @@ impl Sweep {
                 let other = k + bits.trailing_zeros() as usize;
                 bits &= bits - 1;
                 if other < end {
-                    found(&self.movers[other]);
+                    found(self.keys[other].piece);
                 }
             }
         }
@@ -368,7 +294,6 @@ impl Sweep {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pieces::Owner;
 
     #[test]
     fn finds_the_pairs_that_asking_all_finds() {
@@ -395,33 +320,21 @@ mod tests {
                     *bounds = Aabb::new(bounds.min + by, bounds.max + by);
                 }
             }
-            let moved = |piece: u32| piece.is_multiple_of(3);
-            let mut pieces = Pieces::default();
-            pieces.discs = vec![Disc::ENDLESS; 200];
-            pieces.owners = (0..200)
-                .map(|body| Owner {
-                    body,
-                    ordinal: 0,
-                    several: false,
-                })
-                .collect();
-            pieces.boxes.clone_from(&boxes);
-            sweep.sort((0..200).map(|piece| (piece, moved(piece))), &pieces);
+            sweep.sort(0..200, &boxes);
             let mut found = Vec::new();
-            sweep.pairs(Level::new(), &pieces, 1.0, |a, b| {
+            sweep.pairs(Level::new(), |a, b| {
                 found.push((a.min(b), a.max(b)));
             });
             found.sort_unstable();
             let mut all = Vec::new();
             for a in 0..200u32 {
                 for b in a + 1..200 {
-                    let meet = boxes[a as usize].overlaps(boxes[b as usize]);
-                    if (moved(a) || moved(b)) && meet {
+                    if boxes[a as usize].overlaps(boxes[b as usize]) {
                         all.push((a, b));
                     }
                 }
                 let mut near = Vec::new();
-                sweep.all_in(&pieces, boxes[a as usize], |b| near.push(b));
+                sweep.all_in(boxes[a as usize], |b| near.push(b));
                 near.sort_unstable();
                 let meets = |b: &u32| boxes[*b as usize].overlaps(boxes[a as usize]);
                 assert_eq!(near, (0..200).filter(meets).collect::<Vec<_>>());

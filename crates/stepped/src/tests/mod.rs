@@ -1,6 +1,7 @@
 //! Laws that hold whatever is simulated.
 
 mod bouncing;
+mod broad;
 mod calls;
 mod composition;
 mod concave;
