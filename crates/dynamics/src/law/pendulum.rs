@@ -209,7 +209,8 @@ mod tests {
             let [spin, ..] = pendulum.bounds(there, leg);
             for k in 0..20 {
                 let (_, rate) = pendulum.after(time * f64::from(k) / 20.0);
-                prop_assert!(rate.abs() <= spin * (1.0 + 1e-12), "{rate} above {spin}");
+                // Near a turning point the squares are small differences.
+                prop_assert!(rate * rate <= spin * spin + 1e-13 * (pull + spin * spin), "{rate} above {spin}");
             }
         }
 
