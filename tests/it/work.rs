@@ -169,7 +169,16 @@ fn an_impact_of_many_contacts_is_charged_by_its_operations() {
         calls += 1;
     }
     assert!(calls > 1, "it took a single call");
-    assert_eq!(whole.state_hash(), cut.state_hash());
+    // The instants at which calls end are sums of others, and these two differ by their rounding.
+    let late = (whole.time() - cut.time()).abs();
+    assert!(late < 1e-17, "{late:e} s");
+    for (one, other) in whole.bodies().zip(cut.bodies()) {
+        let (off, speed) = (
+            (one.centre() - other.centre()).length(),
+            one.velocity().length(),
+        );
+        assert!(off <= 2.0 * late * speed, "{off:e} m at {speed:e} m/s");
+    }
 }
 
 #[test]
