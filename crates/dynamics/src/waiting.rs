@@ -10,11 +10,12 @@ impl World {
     /// Gives all that waits at an instant within a sub-step its method, once all that happens at that instant has happened; whether
     /// something waited.
     pub(crate) fn settle(&mut self, time: SimTime) -> bool {
-        if !self.may_join() || !self.clock.is_within(time) {
+        let are_known = self.joins.known == self.joins.waiting.len();
+        if self.stepped.is_empty() && are_known || !self.may_join() || !self.clock.is_within(time) {
             return false;
         }
         let waiting = self.unsolved();
-        if waiting.is_empty() && self.joins.known == self.joins.waiting.len() {
+        if waiting.is_empty() && are_known {
             return false;
         }
         let (bodies, colliders) = (&self.bodies, &self.colliders);

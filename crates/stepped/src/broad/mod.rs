@@ -430,10 +430,11 @@ impl Broad {
 
     /// Whether a piece is one of those that move, in `bounds`: the sweep may know it as another one, that was there before.
     fn moves_in(&self, pieces: &Pieces, piece: u32, bounds: Aabb) -> bool {
+        // Most are elsewhere.
         let its = pieces.boxes[piece as usize];
-        let is_endless = !its.is_finite() && self.endless.contains(&piece);
-        let stands = self.nodes.get(piece as usize).is_some_and(Option::is_some);
-        its.overlaps(bounds) && !stands && !is_endless
+        its.overlaps(bounds)
+            && self.nodes.get(piece as usize).is_none_or(Option::is_none)
+            && (its.is_finite() || !self.endless.contains(&piece))
     }
 
     /// Calls `found` with the pieces that stand in `bounds`.

@@ -225,6 +225,7 @@ impl World {
             self.narrow(time);
             self.free.raise(&self.bodies);
         }
+        self.lower_free_boxes_later();
     }
 
     /// Ends the sub-stepping of a body.

@@ -88,10 +88,19 @@ impl FreeBodies {
 
     /// From now on bodies look for free bodies by boxes in the world.
     pub(crate) fn raise(&mut self, bodies: &Bodies) {
-        self.aloft = Some(BoxTree::new());
-        for index in self.in_order() {
-            self.lift(&bodies.get(index).course, index);
+        let all = self.in_order();
+        let boxes = all.iter().map(|&index| {
+            let bounds = bodies.get(index).course.reached.bounds();
+            (bounds.grown(roundable(bounds)), index)
+        });
+        let mut tree = BoxTree::new();
+        let nodes = tree.extend(boxes);
+        self.nodes.clear();
+        self.nodes.resize(bodies.places(), None);
+        for (index, node) in all.into_iter().zip(nodes) {
+            self.nodes[index as usize] = Some(node);
         }
+        self.aloft = Some(tree);
     }
 
     /// Whether bodies look for free bodies by boxes in the world.
