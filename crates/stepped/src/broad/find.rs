@@ -1,0 +1,303 @@
+//! A search: fat boxes of what moved, their pairs, and which of these pairs of boxes overlap now.
+
+use fearless_simd::Level;
+
+use super::Broad;
+use super::lists::{ASKED, KNOWN, LATE, LISTED, NEW, STANDS, is_mover};
+use crate::bodies::Bodies;
+use crate::pieces::Pieces;
+
+/// The sweep is sorted anew if more than one of so many movers came or left its fat box.
+const FEW: usize = 8;
+
+/// To ask the sweep for the pairs of a piece takes as long as to read so many pairs off the lists.
+const QUERY: usize = 64;
+
+impl Broad {
+    /// Whether the sweep had better be sorted anew.
+    pub(super) const fn is_stale(&self) -> bool {
+        let [movers, standing] = &self.lists.late;
+        FEW * (movers.len() + standing.len()) > self.sweep.len()
+    }
+
+    /// Finds the pairs of which one piece moved, arrived or woke.
+    pub(crate) fn find(
+        &mut self,
+        level: Level,
+        bodies: &Bodies,
+        pieces: &Pieces,
+        tick: f64,
+        at_tick: bool,
+    ) {
+        self.found.clear();
+        self.ask(bodies, pieces);
+        if at_tick {
+            self.news.clear();
+        } else {
+            let lists = &self.lists;
+            let movers = self.asked.iter().copied();
+            self.news
+                .extend(movers.filter(|piece| is_mover(lists.states[*piece as usize])));
+        }
+        if self.is_stale() {
+            self.sort(level, bodies, pieces, tick);
+        } else {
+            self.add_new(pieces, tick);
+        }
+        self.read(pieces, tick);
+        for piece in self.asked.drain(..) {
+            self.lists.states[piece as usize] &= !(ASKED);
+        }
+        self.arrived.clear();
+        self.woken.clear();
+    }
+
+    /// Notes which pieces a search is about, and which of them left their fat boxes.
+    fn ask(&mut self, bodies: &Bodies, pieces: &Pieces) {
+        let Self {
+            lists,
+            asked,
+            by_standing,
+            ..
+        } = self;
+        let mut ask = |piece: u32| {
+            let (k, state) = (piece as usize, lists.states[piece as usize]);
+            if state & KNOWN != 0 && state & ASKED == 0 {
+                lists.states[piece as usize] |= ASKED;
+                asked.push(piece);
+                if is_mover(state) {
+                    by_standing[k] = false;
+                    if !lists.fat[k].contains(pieces.boxes[k]) {
+                        lists.enter(piece);
+                    }
+                }
+            }
+        };
+        for line in 2..bodies.lines.len() {
+            if bodies.moved[line] {
+                bodies.pieces_of_line(line).for_each(&mut ask);
+            }
+        }
+        let others = self.woken.iter().chain(&self.arrived);
+        others.copied().for_each(ask);
+    }
+
+    /// Finds all pairs of fat boxes anew.
+    pub(super) fn sort(&mut self, level: Level, bodies: &Bodies, pieces: &Pieces, tick: f64) {
+        let Self {
+            sweep,
+            lists,
+            standing,
+            ..
+        } = self;
+        let [_, late_standing] = core::mem::take(&mut lists.late);
+        for piece in late_standing {
+            if lists.states[piece as usize] & STANDS != 0 {
+                lists.list(piece);
+            }
+        }
+        lists.new.clear();
+        let movers = (2..bodies.lines.len()).flat_map(|line| bodies.pieces_of_line(line));
+        for piece in movers.clone() {
+            let k = piece as usize;
+            lists.states[piece as usize] &= !(KNOWN | NEW);
+            if pieces.boxes[k].is_valid() {
+                lists.fatten(piece, pieces.boxes[k], pieces.discs[k].velocity, tick);
+                lists.list(piece);
+            } else {
+                lists.enter(piece);
+            }
+        }
+        let mut pairs = core::mem::take(&mut lists.pairs);
+        pairs.clear();
+        let movers = movers.filter(|piece| lists.states[*piece as usize] & LISTED != 0);
+        sweep.sort(movers.clone(), &lists.fat);
+        sweep.pairs(level, |a, b| {
+            if pieces.are_of_two(a, b) {
+                pairs.push([a, b]);
+            }
+        });
+        for piece in movers {
+            let bounds = lists.fat[piece as usize];
+            standing.query(bounds, |other| pairs.push([piece, other]));
+        }
+        lists.pairs = pairs;
+        lists.apart.clear();
+    }
+
+    /// Finds the pairs of new pieces.
+    fn add_new(&mut self, pieces: &Pieces, tick: f64) {
+        let Self {
+            sweep,
+            lists,
+            standing,
+            arrived,
+            ..
+        } = self;
+        let mut new = core::mem::take(&mut lists.new);
+        new.retain(|piece| lists.states[*piece as usize] & (NEW | STANDS) == NEW);
+        if new.is_empty() && arrived.is_empty() {
+            return;
+        }
+        new.sort_unstable();
+        new.dedup();
+        for &piece in &new {
+            let k = piece as usize;
+            lists.fatten(piece, pieces.boxes[k], pieces.discs[k].velocity, tick);
+        }
+        let mut apart = core::mem::take(&mut lists.apart);
+        let mut late = core::mem::take(&mut lists.late);
+        let lists = &mut self.lists;
+        let state = |piece: u32| lists.states[piece as usize];
+        let fat = |piece: u32| lists.fat[piece as usize];
+        apart.retain(|pair| !pair.iter().any(|piece| state(*piece) & NEW != 0));
+        let mut add = |a: u32, b: u32| {
+            if pieces.are_of_two(a, b) {
+                apart.push([a, b]);
+            }
+        };
+        let listed = |piece: u32| state(piece) & (LISTED | STANDS) == LISTED;
+        for &piece in &new {
+            sweep.all_in(fat(piece), |other| {
+                if listed(other) {
+                    add(piece, other);
+                }
+            });
+            standing.query(fat(piece), |other| add(piece, other));
+        }
+        let late_movers = &mut late[0];
+        late_movers.retain(|piece| state(*piece) & (LATE | STANDS) == LATE);
+        let left = |piece: u32| fat(piece).min.x;
+        late_movers.sort_unstable_by(|a, b| left(*a).total_cmp(&left(*b)).then(a.cmp(b)));
+        late_movers.dedup();
+        for (k, &piece) in late_movers.iter().enumerate() {
+            let (bounds, is_new) = (fat(piece), state(piece) & NEW != 0);
+            let others = late_movers[k + 1..].iter();
+            for &other in others.take_while(|other| left(**other) <= bounds.max.x) {
+                if (is_new || state(other) & NEW != 0) && fat(other).overlaps(bounds) {
+                    add(piece, other);
+                }
+            }
+        }
+        let arrived = arrived.iter().filter(|piece| state(**piece) & NEW != 0);
+        for &piece in arrived.clone() {
+            sweep.all_in(fat(piece), |other| {
+                if listed(other) {
+                    add(other, piece);
+                }
+            });
+            for &other in late_movers.iter() {
+                if state(other) & NEW == 0 && fat(other).overlaps(fat(piece)) {
+                    add(other, piece);
+                }
+            }
+        }
+        let arrived: Vec<u32> = arrived.copied().collect();
+        for piece in new.into_iter().chain(arrived) {
+            lists.states[piece as usize] &= !NEW;
+        }
+        (lists.apart, lists.late) = (apart, late);
+    }
+
+    /// Finds the pairs that a search is about: they are read off the lists, or, of few pieces, asked for in the sweep.
+    fn read(&mut self, pieces: &Pieces, tick: f64) {
+        let Self {
+            sweep,
+            standing,
+            lists,
+            found,
+            by_standing,
+            ..
+        } = self;
+        let (states, boxes, discs) = (&lists.states[..], &pieces.boxes[..], &pieces.discs[..]);
+        // What stands is the second.
+        let mut note = |pair: [u32; 2]| {
+            let [a, b] = pair.map(|piece| piece as usize);
+            if boxes[a].overlaps(boxes[b]) {
+                if states[b] & STANDS != 0 {
+                    by_standing[a] = true;
+                }
+                if discs[a].may_meet(&discs[b], tick) {
+                    found.push(pair);
+                }
+            }
+        };
+        let state = |piece: u32| states[piece as usize];
+        let is_asked = |pair: [u32; 2], known: u8| {
+            let [a, b] = pair.map(state);
+            (a | b) & ASKED != 0 && a & known != 0 && b & known != 0
+        };
+        if QUERY * self.asked.len() < lists.pairs.len() {
+            let listed = self.asked.iter().copied();
+            for piece in listed.filter(|piece| state(*piece) & LISTED != 0) {
+                let bounds = boxes[piece as usize];
+                let moves = is_mover(state(piece));
+                sweep.all_in(bounds, |other| {
+                    let theirs = state(other);
+                    let again = moves && theirs & ASKED != 0 && other < piece;
+                    if theirs & (LISTED | STANDS) == LISTED && !again {
+                        if !moves {
+                            note([other, piece]);
+                        } else if pieces.are_of_two(piece, other) {
+                            note([piece, other]);
+                        }
+                    }
+                });
+                if moves {
+                    standing.query(bounds, |other| {
+                        if state(other) & (LISTED | ASKED) == LISTED {
+                            note([piece, other]);
+                        }
+                    });
+                }
+            }
+        } else {
+            let listed = lists.pairs.iter().copied();
+            listed
+                .filter(|pair| is_asked(*pair, LISTED))
+                .for_each(&mut note);
+        }
+        let late = lists.apart.iter().copied();
+        late.filter(|pair| is_asked(*pair, KNOWN)).for_each(note);
+        for &endless in &self.endless {
+            let movers = self.asked.iter().copied();
+            let movers = movers.filter(|piece| is_mover(lists.states[*piece as usize]));
+            found.extend(movers.map(|piece| [piece, endless]));
+            if self.arrived.contains(&endless) {
+                let others = (0u32..).zip(&lists.states);
+                let others = others.filter(|(_, state)| is_mover(**state) && *state & ASKED == 0);
+                found.extend(others.map(|(piece, _)| [piece, endless]));
+            }
+        }
+    }
+
+    /// The slow twin of [`Self::find`]: all pairs, in order.
+    #[cfg(test)]
+    pub(crate) fn all_pairs(&self, bodies: &Bodies, pieces: &Pieces, tick: f64) -> Vec<[u32; 2]> {
+        let line = |piece: u32| bodies.line_of(pieces.owners[piece as usize].body);
+        let asks = |piece: u32| {
+            let came = self.woken.contains(&piece) || self.arrived.contains(&piece);
+            came || line(piece) >= 2 && bodies.moved[line(piece)]
+        };
+        let movers = (2..bodies.lines.len()).flat_map(|line| bodies.pieces_of_line(line));
+        let stands = (0u32..).zip(&self.nodes).filter(|(_, node)| node.is_some());
+        let stands = stands.map(|(piece, _)| piece).chain(self.endless.clone());
+        let stands: Vec<u32> = stands.collect();
+        let mut all = Vec::new();
+        for a in movers.clone() {
+            let others = movers
+                .clone()
+                .filter(|b| a < *b && pieces.are_of_two(a, *b));
+            for b in others.chain(stands.iter().copied()) {
+                let [of_a, of_b] = [a, b].map(|piece| piece as usize);
+                let overlap = pieces.boxes[of_a].overlaps(pieces.boxes[of_b]);
+                let meet = pieces.discs[of_a].may_meet(&pieces.discs[of_b], tick);
+                if (asks(a) || asks(b)) && (self.endless.contains(&b) || overlap && meet) {
+                    all.push([a.min(b), a.max(b)]);
+                }
+            }
+        }
+        all.sort_unstable();
+        all
+    }
+}
