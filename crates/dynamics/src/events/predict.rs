@@ -55,6 +55,13 @@ pub(crate) fn predict(
     let mut pair = pairs.get(place);
     let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
     let end = end.min(a.stands_until()).min(b.stands_until());
+    // A body that no method moves yet gets one before time goes on.
+    let unsolved = |state: &BodyState| state.is_held() && !state.membership.is_closed();
+    let end = if unsolved(a) || unsolved(b) {
+        end.min(time + INSTANT)
+    } else {
+        end
+    };
     let horizon = end - time;
     let by_law = |state: &BodyState| state.is_free() && state.flight.is_some();
     let by_law = by_law(a) || by_law(b);
