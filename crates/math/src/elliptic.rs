@@ -41,7 +41,7 @@ pub struct Elliptic {
 }
 
 impl Elliptic {
-    /// Of the parameter whose complement `1 − m`, in 0 to 1, is given: near m = 1 that is what has the digits.
+    /// By the complement `1 − m` of the parameter, in 0 to 1: near m = 1 that is what has the digits.
     #[must_use]
     pub fn new(complement: f64) -> Self {
         let (mut a, mut b) = (1.0_f64, complement.clamp(LEAST, 1.0).sqrt());
