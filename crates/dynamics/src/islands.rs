@@ -99,15 +99,8 @@ impl World {
         let Some(pair) = self.pairs.find(place) else {
             return;
         };
-        let versions = [pair.bodies.0, pair.bodies.1].map(|index| self.bodies.version(index));
-        let entry = Entry {
-            time,
-            key: pair.colliders,
-            pair: place,
-            versions: (versions[0], versions[1]),
-            normal,
-            points: ArrayVec::from_iter([at]),
-        };
+        let points = ArrayVec::from_iter([at]);
+        let entry = Entry::of(&self.bodies, (place, pair), time, normal, points);
         self.strike_entry(&entry);
     }
 
@@ -303,6 +296,7 @@ impl World {
                     Ok(()) => {}
                     Err(NotMine::Returns) => self.end_rocking(arrived, &gathered, time, speed),
                     Err(NotMine::Painleve) if self.jams(&gathered, time) => {}
+                    // No path leads on from a landing that opens nothing faster than rest.
                     Err(NotMine::Unsolved)
                         if arrived
                             .as_ref()

@@ -333,15 +333,9 @@ mod tests {
         world.step(0.1);
         let place = world.bodies.get(index).pairs[0];
         let pair = world.pairs.get(place);
-        let (a, b) = pair.bodies;
-        let entry = Entry {
-            time: world.clock.now + 0.005,
-            key: pair.colliders,
-            pair: place,
-            versions: (world.bodies.version(a), world.bodies.version(b)),
-            normal: Vec2::Y,
-            points: [vec2(0.5, 0.0)].into_iter().collect(),
-        };
+        let (later, points) = (world.clock.now + 0.005, [vec2(0.5, 0.0)]);
+        let points = points.into_iter().collect();
+        let entry = Entry::of(&world.bodies, (place, pair), later, Vec2::Y, points);
         world.event_queue.push(entry);
         world.spent = world.impact_budget() + 1.0;
         let report = world.step(0.01);

@@ -5,6 +5,7 @@ use carom_collision::{TimeOfImpact, time_of_impact};
 use carom_math::SimTime;
 
 use crate::World;
+use crate::broad::window::box_ahead;
 
 impl World {
     /// Gives all that waits at an instant within a sub-step its method, once all that happens at that instant has happened; whether
@@ -93,15 +94,11 @@ impl World {
         if !state.is_dynamic() || state.is_asleep() || state.in_engine() {
             return false;
         }
-        let motion = &state.motion;
-        let speed = motion.velocity_at(time).length();
-        let way = (speed + 0.5 * motion.acceleration.length() * left) * left + motion.left_out;
-        let near = state.reach + other.reach + way;
-        let apart = state.centre_at(time) - other.centre_at(time);
-        if apart.length_squared() > near * near {
+        let [way, stays] = [state, other].map(|state| box_ahead(state, time, left));
+        if !way.overlaps(stays) {
             return false;
         }
-        let motions = [motion.rebased(time), other.motion.rebased(time)];
+        let motions = [state, other].map(|state| state.motion.rebased(time));
         let all = state.colliders.iter();
         let mut shapes = all.flat_map(|mine| other.colliders.iter().map(move |at| [*mine, *at]));
         shapes.any(|shapes| {

@@ -305,24 +305,10 @@ fn blend_by(
     contacts: &[SharedContact],
     stop: Option<SharedOutcome>,
 ) -> SharedOutcome {
-    let mixed = mixed(law, bodies, contacts, stop);
-    if is_rough(contacts) {
-        opened(mixed, contacts)
-    } else {
-        mixed
-    }
-}
-
-fn mixed(
-    law: ImpactLaw,
-    bodies: &[ImpactBody],
-    contacts: &[SharedContact],
-    known: Option<SharedOutcome>,
-) -> SharedOutcome {
     let still = with_restitution(contacts, 0.0);
     let rough = is_rough(contacts);
     // Reflections begin with the same stop, before it is opened.
-    let stop = rough.then(|| known.unwrap_or_else(|| newton_rough(bodies, &still)));
+    let stop = rough.then(|| stop.unwrap_or_else(|| newton_rough(bodies, &still)));
     let stuck = match &stop {
         Some(stop) => opened(stop.clone(), &still),
         None => newton_lcp(bodies, &still),
@@ -337,29 +323,36 @@ fn mixed(
     } else {
         generalised_reflections(bodies, contacts)
     };
-    if e >= 1.0 {
-        return SharedOutcome {
-            operations: stuck.operations + thrown.operations,
-            ..thrown
-        };
-    }
     let mix = |at_0: f64, at_1: f64| (1.0 - e) * at_0 + e * at_1;
     let mix_all = |at_0: &[f64], at_1: &[f64]| -> Vec<f64> {
         at_0.iter().zip(at_1).map(|(s, t)| mix(*s, *t)).collect()
     };
-    let both = stuck.bodies.iter().zip(&thrown.bodies);
-    SharedOutcome {
-        normal_impulses: mix_all(&stuck.normal_impulses, &thrown.normal_impulses),
-        tangential_impulses: mix_all(&stuck.tangential_impulses, &thrown.tangential_impulses),
-        bodies: both
-            .map(|(s, t)| ImpactBody {
-                velocity: s.velocity * (1.0 - e) + t.velocity * e,
-                spin: mix(s.spin, t.spin),
-                ..*s
-            })
-            .collect(),
-        exhausted: stuck.exhausted || thrown.exhausted,
-        operations: stuck.operations + thrown.operations,
+    let operations = stuck.operations + thrown.operations;
+    let mixed = if e >= 1.0 {
+        SharedOutcome {
+            operations,
+            ..thrown
+        }
+    } else {
+        let both = stuck.bodies.iter().zip(&thrown.bodies);
+        SharedOutcome {
+            normal_impulses: mix_all(&stuck.normal_impulses, &thrown.normal_impulses),
+            tangential_impulses: mix_all(&stuck.tangential_impulses, &thrown.tangential_impulses),
+            bodies: both
+                .map(|(s, t)| ImpactBody {
+                    velocity: s.velocity * (1.0 - e) + t.velocity * e,
+                    spin: mix(s.spin, t.spin),
+                    ..*s
+                })
+                .collect(),
+            exhausted: stuck.exhausted || thrown.exhausted,
+            operations,
+        }
+    };
+    if rough {
+        opened(mixed, contacts)
+    } else {
+        mixed
     }
 }
 

@@ -6,6 +6,9 @@ use std::collections::BinaryHeap;
 use arrayvec::ArrayVec;
 use carom_math::{SimTime, Vec2};
 
+use crate::store::bodies::Bodies;
+use crate::store::pairs::Pair;
+
 /// An impact that takes place unless one of the two motions changes before.
 #[derive(Clone, Debug)]
 pub(crate) struct Entry {
@@ -20,6 +23,27 @@ pub(crate) struct Entry {
     pub(crate) normal: Vec2,
     /// One point, or both ends of a common stretch, in m.
     pub(crate) points: ArrayVec<Vec2, 2>,
+}
+
+impl Entry {
+    /// An impact of the pair at a place, by the motions that its bodies have now.
+    pub(crate) fn of(
+        bodies: &Bodies,
+        (place, pair): (u32, &Pair),
+        time: SimTime,
+        normal: Vec2,
+        points: ArrayVec<Vec2, 2>,
+    ) -> Self {
+        let (a, b) = pair.bodies;
+        Self {
+            time,
+            key: pair.colliders,
+            pair: place,
+            versions: (bodies.version(a), bodies.version(b)),
+            normal,
+            points,
+        }
+    }
 }
 
 impl PartialEq for Entry {

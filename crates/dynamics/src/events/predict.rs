@@ -56,8 +56,7 @@ pub(crate) fn predict(
     let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
     let end = end.min(a.stands_until()).min(b.stands_until());
     // A body that no method moves yet gets one before time goes on.
-    let unsolved = |state: &BodyState| state.is_held() && !state.membership.is_closed();
-    let end = if unsolved(a) || unsolved(b) {
+    let end = if a.is_unsolved() || b.is_unsolved() {
         end.min(time + INSTANT)
     } else {
         end
@@ -178,14 +177,8 @@ pub(crate) fn predict(
     };
     let pair = pairs.get_mut(place);
     pair.turning_rest = turning_rest;
-    event_queue.push(Entry {
-        time: at,
-        key: pair.colliders,
-        pair: place,
-        versions: (bodies.version(pair.bodies.0), bodies.version(pair.bodies.1)),
-        normal: impact.normal,
-        points: impact.points,
-    });
+    let entry = Entry::of(bodies, (place, pair), at, impact.normal, impact.points);
+    event_queue.push(entry);
 }
 
 /// An impact that was found for the parabolas of two bodies, found again for what they fly by near that instant.

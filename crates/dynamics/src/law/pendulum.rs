@@ -86,10 +86,23 @@ impl Pendulum {
             (2.0 * trig::atan2(sine, dn) - self.angle, fastest * cn)
         } else {
             // Within a turn: the amplitude grows by π in one.
-            let passed = trig::atan2(sn, cn) - self.amplitude;
-            let passed = if passed < -ONE { passed + TAU } else { passed };
+            let passed = self.next(trig::atan2(sn, cn)) - self.amplitude;
             (2.0 * self.way * passed, self.way * fastest * dn)
         }
+    }
+
+    /// The same amplitude, or one turn later if it was passed before the start.
+    fn next(&self, amplitude: f64) -> f64 {
+        if amplitude < self.amplitude - ONE {
+            amplitude + TAU
+        } else {
+            amplitude
+        }
+    }
+
+    /// φ at the start in rad, and k in 1/s².
+    pub(crate) const fn start(&self) -> (f64, f64) {
+        (self.angle, self.pull)
     }
 
     /// φ″ after it turned by `angle`, in rad/s².
@@ -123,12 +136,7 @@ impl Pendulum {
             // φ′²/4, without the difference of what is nearly equal at the top.
             let rest = (self.pull * cos * cos - self.short).max(0.0).sqrt();
             let way = if leg == 0 { self.way } else { -self.way };
-            let found = trig::atan2(self.pull.sqrt() * sin, way * rest);
-            if found < self.amplitude - ONE {
-                found + TAU
-            } else {
-                found
-            }
+            self.next(trig::atan2(self.pull.sqrt() * sin, way * rest))
         } else {
             self.amplitude + 0.5 * self.way * angle
         };
@@ -164,12 +172,12 @@ impl Pendulum {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
     use proptest::prelude::*;
 
     /// φ″ = −k sin φ by the classic method of order 4.
-    fn integrate(pull: f64, mut angle: f64, mut spin: f64, t: f64) -> (f64, f64) {
+    pub(crate) fn integrate(pull: f64, mut angle: f64, mut spin: f64, t: f64) -> (f64, f64) {
         let steps = 4000_u32;
         let h = t / f64::from(steps);
         let f = |angle: f64| -pull * trig::sin_cos(angle).0;

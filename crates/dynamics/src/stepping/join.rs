@@ -128,23 +128,18 @@ impl World {
         }
     }
 
-    /// Whether a body touches something, and is in no closed form.
-    fn is_unsolved(&self, index: u32) -> bool {
-        let state = self.bodies.get(index);
-        state.is_held() && !state.membership.is_closed()
-    }
-
     /// Bodies in sub-steps that no method moves yet.
     pub(crate) fn unsolved(&self) -> Vec<u32> {
         let all = self.stepped.iter().copied();
-        all.filter(|index| self.is_unsolved(*index)).collect()
+        all.filter(|index| self.bodies.get(*index).is_unsolved())
+            .collect()
     }
 
     /// Islands of bodies in touch in sub-steps of which one has no closed form.
     pub(crate) fn unsolved_islands(&self) -> Vec<Vec<u32>> {
         let (mut seen, mut islands) = (BTreeSet::new(), Vec::new());
         for &index in &self.stepped {
-            if !self.is_unsolved(index) || !seen.insert(index) {
+            if !self.bodies.get(index).is_unsolved() || !seen.insert(index) {
                 continue;
             }
             let (mut island, mut next) = (vec![index], 0);

@@ -208,6 +208,11 @@ impl BodyState {
     pub(crate) fn is_held(&self) -> bool {
         self.is_dynamic() && self.is_stepped() && !self.in_engine()
     }
+
+    /// Held, and in no closed form: no method moves it yet.
+    pub(crate) fn is_unsolved(&self) -> bool {
+        self.is_held() && !self.membership.is_closed()
+    }
 }
 
 /// What begins to move it.

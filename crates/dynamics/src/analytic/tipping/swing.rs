@@ -117,17 +117,12 @@ impl<'a> Pivot<'a> {
         self.places[self.body].centre - self.at
     }
 
-    /// φ₀ and k.
-    fn angle_and_pull(&self) -> (f64, f64) {
+    fn pendulum(&self) -> Option<Pendulum> {
         let (arm, of) = (self.arm(), &self.equations.bodies[self.body]);
         let square = arm.length_squared() + of.inverse_mass / of.inverse_inertia;
         let angle = trig::atan2(cross(of.pull, arm), of.pull.dot(arm));
-        (angle, of.pull.length() * arm.length() / square)
-    }
-
-    fn pendulum(&self) -> Option<Pendulum> {
-        let (angle, pull) = self.angle_and_pull();
-        Pendulum::new(pull, angle, self.places[self.body].spin)
+        let k = of.pull.length() * arm.length() / square;
+        Pendulum::new(k, angle, self.places[self.body].spin)
     }
 
     /// Whether the edge of a joint is the body's own.
@@ -184,7 +179,7 @@ impl<'a> Pivot<'a> {
     fn force_along(&self, along: Vec2, turns: bool, pendulum: &Pendulum) -> Wave {
         let (arm, of) = (self.arm(), &self.equations.bodies[self.body]);
         let (length, g) = (arm.length(), of.pull.length());
-        let (angle, k) = self.angle_and_pull();
+        let (angle, k) = pendulum.start();
         let (sin, cos) = trig::sin_cos(angle);
         let mass = of.inverse_mass.recip();
         // cos φ and sin φ for φ = φ₀ + δ.

@@ -21,7 +21,7 @@ const SHORTEST: f64 = 1.0 / 16.0;
 const MANY: usize = 8;
 const FEW: usize = 2;
 
-/// How much farther it looks about that way, in cells, where it remembers.
+/// How much farther it looks about that way, in cells, where it remembers: as much less as it looks less far.
 const CLEARING: f64 = 0.75;
 
 impl World {

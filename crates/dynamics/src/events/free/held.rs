@@ -16,14 +16,7 @@ impl World {
         let (a, b) = impact.bodies;
         self.land(a, time);
         self.land(b, time);
-        let found = self
-            .bodies
-            .get(a)
-            .pairs
-            .iter()
-            .copied()
-            .find(|&place| self.pairs.get(place).colliders == impact.colliders);
-        if let Some(place) = found {
+        if let Some(place) = self.pair_of(impact).filter(|place| self.pairs.shapes(*place) == impact.colliders) {
             let pair = self.pairs.get_mut(place);
             (pair.lasting, pair.touching) = (true, true);
             self.events.tell_touch(&self.bodies, pair, time);
@@ -38,13 +31,7 @@ impl World {
         let (a, b) = impact.bodies;
         self.land(a, time);
         self.land(b, time);
-        let (first, second) = impact.colliders;
-        let mut places = self.bodies.get(a).pairs.iter().copied();
-        let place = places.find(|place| {
-            let known = self.pairs.get(*place).colliders;
-            known == (first, second) || known == (second, first)
-        });
-        let Some(place) = place else {
+        let Some(place) = self.pair_of(impact) else {
             let (one, two) = (self.bodies.get(a), self.bodies.get(b));
             let speed = opening_speed(one, two, time, impact.points[0], impact.normal);
             self.report_collapse((a, b), 0.5 * speed * speed, time);
@@ -54,19 +41,24 @@ impl World {
         let pair = self.pairs.get_mut(place);
         // Its budget in the sub-step is used up by this one.
         (pair.impacts, pair.spent) = (1, BUDGET);
-        let ends = [pair.bodies.0, pair.bodies.1].map(|index| self.bodies.version(index));
-        self.event_queue.push(Entry {
-            time,
-            key: pair.colliders,
-            pair: place,
-            versions: (ends[0], ends[1]),
-            normal: if pair.colliders == impact.colliders {
-                impact.normal
-            } else {
-                -impact.normal
-            },
-            points: impact.points.clone(),
-        });
+        let normal = if pair.colliders == impact.colliders {
+            impact.normal
+        } else {
+            -impact.normal
+        };
+        let points = impact.points.clone();
+        let entry = Entry::of(&self.bodies, (place, pair), time, normal, points);
+        self.event_queue.push(entry);
+    }
+
+    /// The pair of two shapes that are to strike, whichever comes first in it.
+    fn pair_of(&self, impact: &Foreseen) -> Option<u32> {
+        let (first, second) = impact.colliders;
+        let mut places = self.bodies.get(impact.bodies.0).pairs.iter().copied();
+        places.find(|place| {
+            let known = self.pairs.shapes(*place);
+            known == (first, second) || known == (second, first)
+        })
     }
 
     /// From now on the sub-steps move this body: something holds it, or is too near to tell.
@@ -154,7 +146,7 @@ impl World {
     fn hangs(&mut self, index: u32, time: SimTime) -> bool {
         let state = self.bodies.get(index);
         let stepped = self.settings.mode == Mode::Stepped;
-        if stepped || !state.is_held() || state.membership.is_closed() {
+        if stepped || !state.is_unsolved() {
             return false;
         }
         for k in 0..self.bodies.get(index).pairs.len() {

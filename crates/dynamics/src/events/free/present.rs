@@ -89,10 +89,9 @@ impl FreeBodies {
     /// From now on bodies look for free bodies by boxes in the world.
     pub(crate) fn raise(&mut self, bodies: &Bodies) {
         let all = self.in_order();
-        let boxes = all.iter().map(|&index| {
-            let bounds = bodies.get(index).course.reached.bounds();
-            (bounds.grown(roundable(bounds)), index)
-        });
+        let boxes = all
+            .iter()
+            .map(|&index| (box_aloft(&bodies.get(index).course), index));
         let mut tree = BoxTree::new();
         let nodes = tree.extend(boxes);
         self.nodes.clear();
@@ -122,8 +121,7 @@ impl FreeBodies {
         let Some(tree) = &mut self.aloft else {
             return;
         };
-        let bounds = course.reached.bounds();
-        let bounds = bounds.grown(roundable(bounds));
+        let bounds = box_aloft(course);
         let at = index as usize;
         if self.nodes.len() <= at {
             self.nodes.resize(at + 1, None);
@@ -144,4 +142,10 @@ impl FreeBodies {
             tree.remove(node);
         }
     }
+}
+
+/// Box in the world of a free body until it looks down again.
+fn box_aloft(course: &Course) -> Aabb {
+    let bounds = course.reached.bounds();
+    bounds.grown(roundable(bounds))
 }
