@@ -16,14 +16,6 @@ impl World {
         let (a, b) = impact.bodies;
         self.land(a, time);
         self.land(b, time);
-        if let Some(place) = self.pair_of(impact).filter(|place| self.pairs.shapes(*place) == impact.colliders) {
-            let pair = self.pairs.get_mut(place);
-            (pair.lasting, pair.touching) = (true, true);
-            self.events.tell_touch(&self.bodies, pair, time);
-            self.predict(place, time);
-            self.regroup(impact.bodies.0, time);
-            self.regroup(impact.bodies.1, time);
-        }
     }
 
     /// Impacts that outrun their budget have come to their limit: a common stop of all that touches, at this instant.
