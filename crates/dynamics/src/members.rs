@@ -96,6 +96,7 @@ impl World {
     /// Moves all members on by one sub-step.
     pub(crate) fn step_members(&mut self, time: SimTime) {
         if self.bodies.member_count() == 0 {
+            self.joins.reached = self.clock.next();
             return;
         }
         let Some(mut stepping) = self.stepping.take() else {

@@ -109,3 +109,32 @@ impl World {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use carom_geometry::Circle;
+    use carom_math::{Vec2, vec2};
+
+    use crate::{BodyDef, Material, Settings, World};
+
+    /// It went on as it did, unknown to the engine and to the calendar queue, and no report said so.
+    #[test]
+    fn what_joins_at_the_beginning_of_a_sub_step_that_was_made_stands() {
+        let mut world = World::new(Settings {
+            gravity: Vec2::ZERO,
+            ..Settings::default()
+        })
+        .expect("settings");
+        let def = BodyDef::dynamic().moving(vec2(5.0, 0.0));
+        let disc = Circle::new(0.5).expect("a disc");
+        let id = world.insert(def, disc, Material::default());
+        let index = id.expect("valid").index;
+        world.begin_substep();
+        world.join(index, world.clock.last());
+        assert_eq!(world.joins.waiting, [index]);
+        let state = world.bodies.get(index);
+        assert_eq!(state.centre_at(world.clock.next()), Vec2::ZERO);
+        assert_eq!(state.velocity_at(world.clock.last()), vec2(5.0, 0.0));
+        assert!(!world.step(1e-3).is_exact(), "it stands");
+    }
+}

@@ -211,10 +211,11 @@ impl World {
         self.wait(index, time);
     }
 
-    /// A body that joins in the midst of a sub-step stands where it is until that ends: so the engine takes it, and so it is shown, with
-    /// the velocity that it keeps.
+    /// A body that joins once the engine has made a sub-step, or in the midst of one, stands where it is until that ends: so the engine
+    /// takes it, and so it is shown, with the velocity that it keeps.
     pub(crate) fn wait(&mut self, index: u32, time: SimTime) {
-        if time <= self.clock.last() || !self.clock.is_within(time) {
+        let begins = time <= self.clock.last() && self.joins.reached < self.clock.next();
+        if begins || !self.clock.is_within(time) {
             return;
         }
         self.joins.waiting.push(index);
