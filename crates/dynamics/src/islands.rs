@@ -167,7 +167,8 @@ impl World {
 
     pub(crate) fn solve_modes_of(&mut self, members: &[u32], time: SimTime, speed: f64) {
         if self.stalls(members, time) {
-            self.set_free(members, time);
+            // Solved for again at this instant it would go on in circles.
+            self.wait_around(members, time);
         } else {
             for &index in members {
                 if !self.bodies.get(index).membership.is_closed() {
