@@ -68,12 +68,13 @@ impl World {
     }
 
     pub(crate) fn substep_engine(&mut self, stepping: &mut Stepping) {
-        let looks = stepping.engine.looks();
+        let (looks, stopped) = (stepping.engine.looks(), stepping.engine.stopped_count());
         self.search_contacts(stepping);
         stepping.engine.advance();
         self.invite_ahead(stepping, self.clock.h);
         stepping.engine.finish(&self.rules());
         self.report.pairs += stepping.engine.looks() - looks;
+        self.report.stopped += stepping.engine.stopped_count() - stopped;
         let deepest = stepping.engine.deepest_overlap();
         self.report.deepest_overlap = self.report.deepest_overlap.max(deepest);
         self.report.rows += stepping.engine.awake_contact_count() as u64;

@@ -320,6 +320,30 @@ mod tests {
     use crate::events::event_queue::Entry;
     use crate::{BodyDef, Material, Settings, World};
 
+    /// It turned by no number, so that the engine did not take it: it fell through the floor.
+    #[test]
+    fn what_was_stopped_lands_on_the_floor() {
+        let mut world = World::new(Settings::default()).expect("settings");
+        let mut put = |def: BodyDef, width: f64| {
+            let block = ConvexPolygon::rectangle(width, 1.0).expect("a block");
+            world
+                .insert(def, block, Material::default())
+                .expect("valid")
+        };
+        put(BodyDef::fixed().at(vec2(0.0, -0.5)), 10.0);
+        let id = put(BodyDef::dynamic().at(vec2(0.0, 2.0)).turned(0.3), 1.0);
+        world.step(0.1);
+        let state = world.bodies.get_mut(id.index);
+        (state.motion.spin, state.turned) = (f64::NAN, f64::NAN);
+        let now = world.clock.now;
+        world.bodies.stop(&world.colliders, id.index, now);
+        let told = world.set_velocity(id, vec2(0.0, -5.0), 0.0);
+        assert!(told.is_ok(), "{told:?}");
+        world.step(2.0);
+        let body = world.body(id).expect("there");
+        assert!(body.centre().y > 0.4 && body.angle().is_finite());
+    }
+
     #[test]
     fn the_impact_at_which_a_budget_ends_is_left_to_the_solver_and_counted() {
         let mut world = World::new(Settings::default()).expect("settings");

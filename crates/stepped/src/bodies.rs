@@ -373,9 +373,12 @@ impl Bodies {
         }
     }
 
-    /// The base pose of the body of a line is where it is, from now on.
+    /// The base pose of the body of a line is where it is, from now on, if that is a place.
     fn rebase_one(&mut self, at: usize) {
         let (line, base) = (&mut self.lines[at], &mut self.base[at]);
+        if !line.is_finite() {
+            return;
+        }
         self.turned[at] += line.turn();
         base.position += line.d();
         base.rotation = base.rotation.turned_slightly(line.turn());

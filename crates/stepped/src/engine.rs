@@ -62,6 +62,8 @@ pub struct Engine {
     far: Vec<(u32, Quad)>,
     /// Pairs of pieces that were looked at by shape.
     pub(crate) looks: u64,
+    /// Bodies that were stopped since a number was no longer finite.
+    pub(crate) stopped: u64,
     /// What friction turned to heat, in J.
     pub(crate) heat: f64,
     /// What belts gave, in J.
@@ -115,6 +117,7 @@ impl Engine {
             fast_bodies: Vec::new(),
             far: Vec::new(),
             looks: 0,
+            stopped: 0,
             heat: 0.0,
             belts: 0.0,
             least_gap: f64::INFINITY,
@@ -259,6 +262,7 @@ impl Engine {
         self.stop_fast(self.law.h, rules);
         if self.done == self.settings.substeps {
             self.done = 0;
+            self.stop_infinite();
             self.settle();
         }
     }

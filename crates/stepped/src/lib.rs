@@ -29,6 +29,7 @@ mod change;
 mod continuous;
 mod engine;
 mod error;
+mod finite;
 mod ghost;
 mod groups;
 mod hard;

@@ -163,6 +163,12 @@ impl Engine {
         lines.filter(|line| line.inverse_mass() > 0.0).count()
     }
 
+    /// How often a body was stopped because a number of its was no longer finite, at the end of a tick: where it last was, without contacts.
+    #[must_use]
+    pub const fn stopped_count(&self) -> u64 {
+        self.stopped
+    }
+
     /// What friction has turned to heat so far, in J, to first order in the sub-step.
     #[must_use]
     pub const fn friction_heat(&self) -> f64 {

@@ -229,6 +229,9 @@ impl Bodies {
         if !motion.rotation.x_axis().is_finite() {
             motion.rotation = carom_math::Rot::IDENTITY;
         }
+        if !state.turned.is_finite() {
+            state.turned = 0.0;
+        }
         state.float();
         state.flight = None;
         state.set_piece(SimTime::NEVER);

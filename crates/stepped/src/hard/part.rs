@@ -73,7 +73,7 @@ impl Island {
                 self.displace(law.h * part, bodies, &held.bodies);
                 self.note_parted(bodies, settings, &held.bodies, part);
                 if self.gives_back {
-                    self.give_back(graph, free, &held.impulses, part);
+                    self.give_back(graph, free, (&held.impulses, part), parts.fastest);
                 }
             }
             least = self.least_gap(bodies, graph);
@@ -221,9 +221,15 @@ impl Island {
         }
     }
 
-    /// Tells of a part of these impulses, pair by pair: those that hold a squeezed body from several sides are up to 1e11 N·s, and each of
-    /// them given back alone would be a speed of 1e13 m/s.
-    fn give_back(&self, graph: &Graph, free: &mut FreePairs, impulses: &[[f64; 3]], part: f64) {
+    /// Tells of a part of these impulses, pair by pair. Those that hold a squeezed body from several sides are up to 1e12 N·s: one that
+    /// alone would displace the heavier of a pair faster than the fastest push-out is not what displaced it, and not told.
+    fn give_back(
+        &self,
+        graph: &Graph,
+        free: &mut FreePairs,
+        (impulses, part): (&[[f64; 3]], f64),
+        fastest: f64,
+    ) {
         for (k, contact) in self.contacts.iter().enumerate() {
             let of_pair = |other: &HardContact| other.ends == contact.ends;
             if self.contacts[..k].iter().any(of_pair) {
@@ -235,6 +241,10 @@ impl Island {
                 block.normal(lane) * ((j[0] + j[1]) * part)
             });
             let push: Vec2 = pushes.sum();
+            let [a, b] = contact.ends.map(|k| self.bodies[k].inverse_mass);
+            if push.length() * a.min(b) > fastest {
+                continue;
+            }
             let (block, lane) = lane_of(graph, contact.id);
             let n = block.normal(lane);
             free.add_late(graph, contact.id, (n.dot(push), perp(n).dot(push)));

@@ -46,6 +46,12 @@ impl Line {
         Quad::new(self.d(), self.turn())
     }
 
+    /// Whether velocity and displacement are: what is not times 0 is no number.
+    pub(crate) fn is_finite(&self) -> bool {
+        let [vx, vy, w, _, dx, dy, turn, _] = self.0;
+        (vx + vy + w + dx + dy + turn) * 0.0 == 0.0
+    }
+
     pub(crate) const fn inverse_mass(&self) -> f64 {
         self.0[3]
     }

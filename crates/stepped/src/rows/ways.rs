@@ -59,6 +59,11 @@ impl Ways {
         self.lack.sort_unstable_by_key(|lack| lack.0);
     }
 
+    /// Forgets how bodies went through the last sub-step.
+    pub(crate) fn forget(&mut self) {
+        self.note(self.noted);
+    }
+
     pub(crate) fn came(&self, slot: u32) -> Option<(Vec2, f64)> {
         of_slot(&self.came, slot)
     }

@@ -109,14 +109,14 @@ pub(super) fn weightless() -> Settings {
     }
 }
 
-pub(super) fn floor(engine: &mut Engine) -> BodyId {
+pub(crate) fn floor(engine: &mut Engine) -> BodyId {
     let plane = HalfPlane::new(Vec2::ZERO, Vec2::Y).unwrap();
     engine
         .insert(BodyInput::fixed(), &[PieceInput::new(plane)])
         .unwrap()
 }
 
-pub(super) fn unit_box() -> PieceInput {
+pub(crate) fn unit_box() -> PieceInput {
     PieceInput::new(ConvexPolygon::square(1.0).unwrap())
 }
 
