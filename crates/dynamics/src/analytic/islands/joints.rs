@@ -69,28 +69,41 @@ pub(super) fn joint(
         }),
         (false, true) => disc_on(a, b, End::A, normal, near),
         (true, false) => disc_on(b, a, End::B, -normal, near),
-        (false, false) => corner_on(a, b, End::A, normal, point, points, near)
-            .or_else(|| corner_on(b, a, End::B, -normal, point, points, near)),
+        (false, false) => {
+            let of_b = corner_on(a, b, End::A, normal, point, points, near);
+            let of_a = || corner_on(b, a, End::B, -normal, point, points, near);
+            match of_b {
+                // Where two corners meet, that is on an edge which goes on to it.
+                Some((joint, true)) => Some(of_a().map_or(joint, |(other, _)| other)),
+                Some((joint, false)) => Some(joint),
+                None => of_a().map(|(joint, _)| joint),
+            }
+        }
     }
+}
+
+/// Whether a point of `other` at `point` is at an end of the edge of `own` with this normal and goes over it: there it is the way it goes
+/// that tells edge from corner.
+fn goes_over(
+    (own, other): (&Held<'_>, &Held<'_>),
+    (normal, ends): (Vec2, [f64; 2]),
+    point: Vec2,
+    near: f64,
+) -> bool {
+    let t = own.pose.vector(perp(normal));
+    let along = t.dot(point - own.pose.position);
+    let slip = t.dot(other.moves.velocity_of(point) - own.moves.velocity_of(point));
+    let room = near * FLUSH + end_room(own.pose.position, other.pose.position);
+    along <= ends[0] + room && slip < 0.0 || along >= ends[1] - room && slip > 0.0
 }
 
 /// A disc on an edge or a corner of `own`; `outward` points from `own` to the disc.
 fn disc_on(own: &Held<'_>, disc: &Held<'_>, owner: End, outward: Vec2, near: f64) -> Option<Joint> {
     let (tip, radius) = (disc.hull.vertices[0], disc.hull.radius);
     let centre = disc.pose.point(tip);
-    let local = own.pose.inverse_point(centre);
     if let Some(edge) = own.flush_edge(outward) {
         let (normal, height, ends) = own.edge_line(edge);
-        let t = perp(normal);
-        let along = t.dot(local);
-        let slip = own
-            .pose
-            .inverse_vector(disc.moves.velocity_of(centre) - own.moves.velocity_of(centre))
-            .dot(t);
-        // At the very end it is the way it goes that tells edge from corner.
-        let room = near * FLUSH + end_room(own.pose.position, disc.pose.position);
-        let leaves = along <= ends[0] + room && slip < 0.0 || along >= ends[1] - room && slip > 0.0;
-        if !leaves {
+        if !goes_over((own, disc), (normal, ends), centre, near) {
             return Some(Joint::Line {
                 owner,
                 normal,
@@ -126,7 +139,7 @@ fn disc_on(own: &Held<'_>, disc: &Held<'_>, owner: End, outward: Vec2, near: f64
     })
 }
 
-/// A corner of `other` on an edge of `own`; `outward` points from `own` to `other`.
+/// A corner of `other` on an edge of `own`, and whether it goes over its end; `outward` points from `own` to `other`.
 fn corner_on(
     own: &Held<'_>,
     other: &Held<'_>,
@@ -135,7 +148,7 @@ fn corner_on(
     point: Vec2,
     points: usize,
     near: f64,
-) -> Option<Joint> {
+) -> Option<(Joint, bool)> {
     let edge = own.flush_edge(outward)?;
     let (vertex, far) = other.vertex_near(point)?;
     if far > near {
@@ -160,13 +173,16 @@ fn corner_on(
             beside.push(corner);
         }
     }
-    Some(Joint::Line {
+    let tip = other.hull.vertices[vertex];
+    let over = goes_over((own, other), (normal, ends), other.pose.point(tip), near);
+    let joint = Joint::Line {
         owner,
         normal,
         height,
         ends,
-        tip: other.hull.vertices[vertex],
+        tip,
         radius: 0.0,
         beside,
-    })
+    };
+    Some((joint, over))
 }
