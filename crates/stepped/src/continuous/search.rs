@@ -2,13 +2,14 @@
 
 use std::collections::BinaryHeap;
 
-use carom_collision::{Impact, Motion, TimeOfImpact, time_of_impact};
+use carom_collision::{Impact, Motion, TimeOfImpact, shape_distance, time_of_impact};
 use carom_math::{SimTime, Vec2};
 
 use super::cores::{depth, parts};
 use super::touching::Touching;
 use super::{Moving, SHORT, bounds_of};
 use crate::bodies::Bodies;
+use crate::narrow::arc;
 use crate::{Engine, PairRules};
 
 impl Engine {
@@ -168,6 +169,10 @@ impl Engine {
         let (own, other) = (body.motion.rebased(start), motion.rebased(start));
         let target = self.pieces.list[piece as usize].shape();
         let between = own.pose_at(start).inverse() * other.pose_at(start);
+        // By no more than this do they come nearer.
+        let reach = self.bodies.records[self.pieces.list[piece as usize].body as usize].reach;
+        let turns = arc(own.spin, mine.reach) + arc(other.spin, reach);
+        let nearing = ((own.velocity - other.velocity).length() + turns) * (to - from);
         let mut first: Option<(f64, Option<Vec2>)> = None;
         for number in mine.first_piece..mine.first_piece + mine.pieces {
             let piece_of_mine = &self.pieces.list[number as usize];
@@ -175,6 +180,14 @@ impl Engine {
                 || self.is_held([number, piece], body.slot)
                 || self.pieces.surface([number, piece], rules).is_none()
             {
+                continue;
+            }
+            let shape = piece_of_mine.shape();
+            // Most keep apart: cores, which lie within, are made where they do not.
+            let gap = shape_distance(shape, target, between).distance;
+            let is_clear =
+                || time_of_impact(shape, &own, target, &other, to - from) == TimeOfImpact::Clear;
+            if gap > nearing || gap > 0.0 && is_clear() {
                 continue;
             }
             for part in parts(piece_of_mine) {

@@ -15,7 +15,7 @@ pub(crate) use eight::{Eight, Found};
 pub(crate) use hulls::collide_any;
 pub(crate) use pair::collide;
 use scene::HYSTERESIS;
-pub(crate) use scene::Scene;
+pub(crate) use scene::{Scene, arc};
 pub(crate) use wide::collide_eight;
 
 /// Where two pieces meet, in the letters of [`crate::rows::Block`].

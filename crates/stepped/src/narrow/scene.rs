@@ -78,16 +78,8 @@ impl Scene<'_> {
         let [a, b] = pair.map(|piece| &self.pieces.list[piece as usize]);
         let [line_a, line_b] = pair.map(|piece| self.line_of(piece));
         let (body_a, body_b) = (&self.bodies.lines[line_a], &self.bodies.lines[line_b]);
-        // Half-planes reach without end, and do not turn.
-        let times = |angle: f64, reach: f64| {
-            if angle == 0.0 {
-                0.0
-            } else {
-                angle.abs() * reach
-            }
-        };
-        let turning = times(body_a.w(), a.reach) + times(body_b.w(), b.reach);
-        let turned = times(body_a.turn(), a.reach) + times(body_b.turn(), b.reach);
+        let turning = arc(body_a.w(), a.reach) + arc(body_b.w(), b.reach);
+        let turned = arc(body_a.turn(), a.reach) + arc(body_b.turn(), b.reach);
         let margin = self.settings.margin * a.extent.min(b.extent);
         let tick = self.settings.tick;
         let pull = self.settings.gravity.length() * tick;
@@ -138,5 +130,14 @@ impl Scene<'_> {
         (1..usize::from(found.points))
             .map(ahead)
             .fold(ahead(0), f64::min)
+    }
+}
+
+/// How far a point goes that turns by an angle, in m. Half-planes reach without end, and do not turn.
+pub(crate) fn arc(angle: f64, reach: f64) -> f64 {
+    if angle == 0.0 {
+        0.0
+    } else {
+        angle.abs() * reach
     }
 }
