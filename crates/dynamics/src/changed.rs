@@ -26,13 +26,27 @@ impl World {
     }
 
     /// A body with a new motion in the middle of a sub-step: it may leave its boxes, and all its
-    /// pairs are predicted again.
+    /// pairs are predicted again, once the event is over that gave it this motion.
     pub(crate) fn redirect(&mut self, index: u32, time: SimTime) {
         if self.steer(index, time) {
-            for slot in 0..self.bodies.get(index).pairs.len() {
-                self.predict(self.bodies.get(index).pairs[slot], time);
+            self.redirected.push((index, time));
+        }
+    }
+
+    /// Predicts the pairs of bodies that the last event redirected, and left to the sub-steps.
+    pub(crate) fn predict_redirected(&mut self) {
+        let mut redirected = core::mem::take(&mut self.redirected);
+        redirected.sort_unstable_by_key(|(index, since)| (*index, core::cmp::Reverse(*since)));
+        redirected.dedup_by_key(|body| body.0);
+        for (index, time) in redirected.drain(..) {
+            let state = self.bodies.get(index);
+            if self.bodies.is_alive(index) && !state.in_engine() && !state.goes_by_events() {
+                for slot in 0..self.bodies.get(index).pairs.len() {
+                    self.predict(self.bodies.get(index).pairs[slot], time);
+                }
             }
         }
+        self.redirected = redirected;
     }
 
     /// As [`Self::redirect`], but for predictions; whether there are any to make.

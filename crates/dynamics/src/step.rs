@@ -101,6 +101,7 @@ impl World {
     fn advance(&mut self, end: SimTime, stop_at_event: bool) -> SimTime {
         let mut reached = self.clock.now;
         loop {
+            self.predict_redirected();
             let grid = if self.is_substepping() {
                 end.min(self.clock.next())
             } else {

@@ -53,6 +53,8 @@ pub struct World {
     pub(crate) narrow: Narrow,
     pub(crate) closed: Closed,
     pub(crate) event_queue: EventQueue,
+    /// Bodies with new motions whose pairs are not predicted yet, and since when.
+    pub(crate) redirected: Vec<(u32, SimTime)>,
     pub(crate) free: FreeBodies,
     /// Bodies that the sub-steps move, in order.
     pub(crate) stepped: Vec<u32>,

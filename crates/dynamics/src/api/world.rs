@@ -50,6 +50,7 @@ impl World {
             narrow: Narrow::default(),
             closed: Closed::default(),
             event_queue: EventQueue::default(),
+            redirected: Vec::new(),
             free: FreeBodies::under(settings.gravity),
             stepped: Vec::new(),
             events: Events::new(settings.events),
