@@ -30,6 +30,9 @@ use faces::Faces;
 /// Slip below this part of the speeds that it is the difference of is none.
 const STILL: f64 = 1e-12;
 
+/// What turns by less than this part of the speeds may be at rest but for rounding.
+const TURNING: f64 = 1e-9;
+
 /// A body of a group at the instant of the mode solve; one of infinite mass moves uniformly.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ModeBody {
@@ -164,8 +167,11 @@ pub(crate) fn solve_modes(
     if touches.iter().map(rows).sum::<usize>() > ROWS {
         return Err(NotMine::TooLarge);
     }
-    let faces = Faces::new(bodies, touches);
     let slips = faces::slips(bodies, touches, speed)?;
+    if turns(bodies, touches, speed) {
+        return Err(NotMine::Turns);
+    }
+    let faces = Faces::new(bodies, touches);
     if let Some(moves) = rest::rest(bodies, touches, &faces, speed) {
         return Ok(moves);
     }
@@ -295,6 +301,21 @@ fn tangents(touches: &[Touch], slips: &[f64]) -> Vec<Tangent> {
         }
     };
     touches.iter().zip(slips).map(of).collect()
+}
+
+/// Whether a body turns that has a corner or an edge in touch, by more than rounding: rows, once they turn, have other accelerations.
+fn turns(bodies: &[ModeBody], touches: &[Touch], speed: f64) -> bool {
+    touches.iter().any(|touch| {
+        let (a, b) = touch.bodies;
+        [(a, touch.features.0), (b, touch.features.1)]
+            .into_iter()
+            .any(|(place, feature)| {
+                let body = &bodies[place];
+                let turning = body.spin.abs() * (touch.points[0] - body.centre).length();
+                feature != Feature::Round
+                    && turning > TURNING * (body.velocity.length() + turning + speed)
+            })
+    })
 }
 
 /// Whether the rows of all closed touches keep their numbers, as far as accelerations feel them.
