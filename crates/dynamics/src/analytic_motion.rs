@@ -10,7 +10,6 @@ use carom_geometry::Aabb;
 use carom_math::SimTime;
 
 use crate::World;
-use crate::analytic::islands::tips::Tipping;
 use crate::events::free::Cause;
 
 /// Sub-steps to its next change that a group has at least: what ends sooner stays.
@@ -111,12 +110,21 @@ impl World {
             return;
         };
         let h = self.clock.h;
-        let (members, touches) = (group.indices(), group.touches_at(time));
+        let members = group.indices();
         let left = group.tipping.clone().filter(|_| ends);
-        if let Some(Tipping { tip, slots }) = &left {
-            self.leave_curves(tip, &members, slots, time);
-        }
-        for touch in touches {
+        let touches = match &left {
+            Some(tipping) => {
+                let moved = self.leave_curves(tipping, &members, time);
+                let group = self.closed.get(place);
+                group.map(|group| group.touches_with(moved))
+            }
+            None => {
+                self.closed.renew_touches(place, time);
+                let group = self.closed.get(place);
+                group.map(|group| group.touches.clone())
+            }
+        };
+        for touch in touches.into_iter().flatten() {
             let pair = self.pairs.get_mut(touch.pair);
             self.narrow
                 .look(&self.bodies, &self.colliders, pair, time, h);

@@ -7,8 +7,8 @@ use carom_math::SimTime;
 use crate::analytic::islands::give_motions;
 use crate::analytic::islands::store::{Group, Kept};
 use crate::analytic::islands::tips::{Tipping, is_touched, path_of};
-use crate::analytic::modes::{NotMine, TouchMove};
-use crate::analytic::tipping::{Ends, Tip};
+use crate::analytic::modes::{BodyMove, NotMine, TouchMove};
+use crate::analytic::tipping::Ends;
 use crate::analytic::touching::Gathered;
 use crate::motion::flight::fly;
 use crate::{Mode, World};
@@ -40,7 +40,7 @@ impl World {
         {
             return Err(NotMine::Returns);
         }
-        let (moves, touches) = tip.starts().ok_or(NotMine::Unsolved)?;
+        let (moves, touches) = tip.moves_after(0.0).ok_or(NotMine::Unsolved)?;
         self.charge_change(gathered, &moves, time);
         let now = (time, speed);
         let (members, fastest) = give_motions(&mut self.bodies, gathered, &moves, now, false);
@@ -126,6 +126,7 @@ impl World {
             self.begin_next_pieces(place, time);
         } else {
             self.lay_pieces(place, time);
+            self.closed.renew_touches(place, time);
             for index in members {
                 self.redirect(index, time);
             }
@@ -146,6 +147,7 @@ impl World {
                 Some(group) if stands(group) => {
                     self.closed
                         .lay_pieces(&mut self.bodies, place, (time, h, h));
+                    self.closed.renew_touches(place, time);
                 }
                 Some(group) => {
                     let first = group.members[0].0;
@@ -158,7 +160,7 @@ impl World {
 
     /// The members of a group that is no more go on by their parabolas, and those of one that turned by what their path has at `time`.
     pub(crate) fn leave_path(&mut self, group: &Group, time: SimTime) {
-        let Some(Tipping { tip, slots }) = &group.tipping else {
+        let Some(tipping) = &group.tipping else {
             for (index, _) in group.members.iter().copied() {
                 let motion = self.bodies.get(index).motion;
                 let now = (motion.acceleration, motion.angular_acceleration);
@@ -169,32 +171,43 @@ impl World {
             }
             return;
         };
-        self.leave_curves(tip, &group.indices(), slots, time);
-        for index in group.indices() {
+        let members = group.indices();
+        if members.iter().any(|index| self.is_on_path(*index)) {
+            self.leave_curves(tipping, &members, time);
+        }
+        for index in members {
             self.bodies.leave_path(index, time, true);
             self.redirect(index, time);
         }
     }
 
-    /// The members of a group that turned go on by what their path has at `time`.
+    /// The members of a group that turned go on by what their path has at `time`; the modes of its touches there.
     pub(crate) fn leave_curves(
         &mut self,
-        tip: &Tip,
+        Tipping { tip, slots }: &Tipping,
         members: &[u32],
-        slots: &[usize],
         time: SimTime,
-    ) {
-        let accelerations = tip.accelerations_after(time - tip.path.start());
+    ) -> Option<Vec<TouchMove>> {
+        let there = tip.moves_after(time - tip.path.start());
         for (&index, &slot) in members.iter().zip(slots) {
-            // A body that was given another velocity has left the path already, and still has the parabola of its last piece.
-            if self.bodies.get(index).flight.is_some() {
-                let (acceleration, angular) = accelerations[slot];
+            if self.is_on_path(index) {
+                let body = &tip.equations.bodies[slot];
+                let pulled = (body.pull, body.twist);
+                let of = |body: &BodyMove| (body.acceleration, body.angular_acceleration);
+                let (acceleration, angular) =
+                    there.as_ref().map_or(pulled, |(moves, _)| of(&moves[slot]));
                 self.bodies.change(index, time, |motion| {
                     motion.acceleration = acceleration;
                     motion.angular_acceleration = angular;
                 });
             }
         }
+        there.map(|(_, touches)| touches)
+    }
+
+    /// A body that was given another velocity has left its path already, and still has the parabola of its last piece.
+    fn is_on_path(&self, index: u32) -> bool {
+        self.bodies.get(index).flight.is_some()
     }
 
     /// Bodies of `members` that left a path fly from here on if all their contacts open, unless they joined the engine.

@@ -103,12 +103,18 @@ impl Group {
 
     /// Its touches with what they do at `time`: in a group that turns forces change along its path.
     pub(crate) fn touches_at(&self, time: SimTime) -> Vec<Kept> {
+        let moved = self.tipping.as_ref().and_then(|Tipping { tip, .. }| {
+            let moves = tip.moves_after(time - tip.path.start());
+            moves.map(|(_, touches)| touches)
+        });
+        self.touches_with(moved)
+    }
+
+    /// The touches of a group with these modes.
+    pub(crate) fn touches_with(&self, moved: Option<Vec<TouchMove>>) -> Vec<Kept> {
         let mut touches = self.touches.clone();
-        if let Some(Tipping { tip, .. }) = &self.tipping {
-            let moved = tip.touches_after(time - tip.path.start());
-            for (kept, moved) in touches.iter_mut().zip(moved.into_iter().flatten()) {
-                kept.moved = moved;
-            }
+        for (kept, moved) in touches.iter_mut().zip(moved.into_iter().flatten()) {
+            kept.moved = moved;
         }
         touches
     }
@@ -164,6 +170,13 @@ impl Kept {
 }
 
 impl Closed {
+    /// The touches of a group that turns have the forces of this instant.
+    pub(crate) fn renew_touches(&mut self, place: u32, time: SimTime) {
+        if let Some(group) = self.get_mut(place) {
+            group.touches = group.touches_at(time);
+        }
+    }
+
     /// When the next change is due.
     pub(crate) fn next(&mut self) -> Option<SimTime> {
         loop {

@@ -73,7 +73,6 @@ impl Closed {
         }
         if let Some(group) = self.get_mut(place) {
             group.members = renewed;
-            group.touches = group.touches_at(time);
         }
     }
 }

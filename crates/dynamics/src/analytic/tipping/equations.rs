@@ -47,13 +47,6 @@ pub(crate) struct Workspace {
     forces: Forces,
 }
 
-impl Workspace {
-    /// Accelerations of the last evaluation.
-    pub(crate) fn into_accelerations(self) -> Vec<(Vec2, f64)> {
-        self.forces.accelerations
-    }
-}
-
 /// A force of unknown size.
 #[derive(Clone, Debug)]
 struct Unknown {

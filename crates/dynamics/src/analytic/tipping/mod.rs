@@ -126,20 +126,9 @@ impl Tip {
         heat(&self.equations, &self.path, elapsed)
     }
 
-    /// Accelerations of all bodies `t` seconds after the start: those of gravity alone where forces have none.
-    pub(crate) fn accelerations_after(&self, t: f64) -> Vec<(Vec2, f64)> {
-        let mut workspace = Workspace::default();
+    /// Motions of all bodies and modes of all contacts `t` seconds after the start; `None` where there are no forces.
+    pub(crate) fn moves_after(&self, t: f64) -> Option<(Vec<BodyMove>, Vec<TouchMove>)> {
         let places = self.path.places_after(t);
-        let free = |body: &ModeBody| (body.pull, body.twist);
-        match self.equations.forces(&places, &mut workspace) {
-            Some(_) => workspace.into_accelerations(),
-            None => self.equations.bodies.iter().map(free).collect(),
-        }
-    }
-
-    /// Motions of all bodies and modes of all contacts at the start.
-    pub(crate) fn starts(&self) -> Option<(Vec<BodyMove>, Vec<TouchMove>)> {
-        let places = self.path.places_after(0.0);
         let mut workspace = Workspace::default();
         let forces = self.equations.forces(&places, &mut workspace)?;
         let touches = self.touches_at(&places, forces);
@@ -151,14 +140,6 @@ impl Tip {
             angular_acceleration,
         });
         Some((moves.collect(), touches))
-    }
-
-    /// Modes of all contacts `t` seconds after the start.
-    pub(crate) fn touches_after(&self, t: f64) -> Option<Vec<TouchMove>> {
-        let places = self.path.places_after(t);
-        let mut workspace = Workspace::default();
-        let forces = self.equations.forces(&places, &mut workspace)?;
-        Some(self.touches_at(&places, forces))
     }
 
     fn touches_at(&self, places: &[Place], forces: &Forces) -> Vec<TouchMove> {
