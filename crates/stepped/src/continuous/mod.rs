@@ -40,14 +40,13 @@ pub(crate) struct FastBody {
 }
 
 /// The same during the search.
+#[derive(Clone, Copy)]
 struct Moving {
     slot: u32,
     birth: u64,
     motion: Motion,
     unforeseen: bool,
     carried: bool,
-    /// It leaves the swept boxes of the tick.
-    leaves_boxes: bool,
     /// How often it touched so far, and the slot of the body that it touched first.
     touches: u8,
     touched: Option<u32>,
@@ -72,6 +71,48 @@ impl Moving {
             spin: 0.0,
             ..there
         };
+    }
+}
+
+/// All of them. Most meet nothing: motions are made where one is asked for.
+struct Fast {
+    /// By slot, in order.
+    noted: Vec<FastBody>,
+    moving: Vec<Option<Moving>>,
+    /// Those that may be where no box of the tick is: they leave theirs, deviate, or touched something.
+    astray: Vec<usize>,
+    /// Seconds that the motions last.
+    left: f64,
+}
+
+impl Fast {
+    fn of(&mut self, engine: &Engine, k: usize) -> &mut Moving {
+        self.moving[k].get_or_insert_with(|| engine.moving(&self.noted[k], self.left))
+    }
+
+    fn find(&self, slot: u32) -> Option<usize> {
+        self.noted
+            .binary_search_by_key(&slot, |body| body.slot)
+            .ok()
+    }
+
+    fn is_stopped(&self, k: usize) -> bool {
+        self.moving[k].as_ref().is_some_and(Moving::is_stopped)
+    }
+
+    /// How often it touched so far.
+    fn touches(&self, k: usize) -> u8 {
+        self.moving[k].as_ref().map_or(0, |body| body.touches)
+    }
+
+    /// The box that it stays in for so long.
+    fn bounds(&self, engine: &Engine, k: usize, time: f64) -> Aabb {
+        let body = &self.noted[k];
+        let (from, velocity) = self.moving[k].as_ref().map_or_else(
+            || engine.way(body, self.left),
+            |body| (body.motion.centre, body.motion.velocity),
+        );
+        way_box(from, velocity, time).grown(engine.bodies.records[body.slot as usize].reach)
     }
 }
 
@@ -150,19 +191,21 @@ impl Engine {
     pub fn fast_boxes(&self, left: f64, mut found: impl FnMut(u64, Aabb)) {
         let noted = self.fast_bodies.iter();
         let noted = noted.filter(|body| self.is_searched(body));
-        let fast: Vec<Moving> = noted.map(|body| self.moving(body, left)).collect();
+        let ways: Vec<_> = noted
+            .map(|body| (body.slot, self.way(body, left)))
+            .collect();
         // What one of them passes on to another one takes that elsewhere, no faster.
-        let passed = if fast.len() > 1 {
-            let speeds = fast.iter().map(|body| body.motion.velocity.length());
+        let passed = if ways.len() > 1 {
+            let speeds = ways.iter().map(|(_, (_, velocity))| velocity.length());
             speeds.fold(0.0, f64::max) * left
         } else {
             0.0
         };
-        for body in fast {
-            let record = &self.bodies.records[body.slot as usize];
+        for (slot, (from, velocity)) in ways {
+            let record = &self.bodies.records[slot as usize];
             found(
                 record.tag,
-                bounds_of(&body.motion, record.reach + passed, left),
+                way_box(from, velocity, left).grown(record.reach + passed),
             );
         }
     }
@@ -177,40 +220,50 @@ impl Engine {
         // Each motion is searched once.
         let mut noted = core::mem::take(&mut self.fast_bodies);
         noted.retain(|body| self.is_searched(body));
-        noted.sort_unstable_by_key(|body| self.bodies.records[body.slot as usize].birth);
-        let may_touch: Vec<bool> = noted
-            .iter()
-            .map(|body| self.may_touch(body, left))
+        noted.sort_unstable_by_key(|body| body.slot);
+        let leaves: Vec<bool> = (noted.iter())
+            .map(|body| self.leaves_boxes(body, left))
             .collect();
+        let may_touch = |(body, leaves): (&FastBody, &bool)| *leaves || self.may_touch(body);
+        let may_touch: Vec<bool> = noted.iter().zip(&leaves).map(may_touch).collect();
         if !may_touch.contains(&true) {
             return Vec::new();
         }
-        let mut fast: Vec<_> = noted.iter().map(|body| self.moving(body, left)).collect();
-        let leaving: Vec<usize> = (0..fast.len()).filter(|k| fast[*k].leaves_boxes).collect();
+        let leaving: Vec<usize> = (0..noted.len()).filter(|k| leaves[*k]).collect();
+        let is_astray = |k: &usize| leaves[*k] || noted[*k].unforeseen;
+        let mut fast = Fast {
+            moving: vec![None; noted.len()],
+            astray: (0..noted.len()).filter(is_astray).collect(),
+            noted,
+            left,
+        };
         let mut touches = BinaryHeap::new();
-        for k in (0..fast.len()).filter(|k| may_touch[*k] || !leaving.is_empty()) {
-            self.search(&fast, k, (0.0, left), &leaving, rules, &mut touches);
+        for k in (0..may_touch.len()).filter(|k| may_touch[*k] || !leaving.is_empty()) {
+            self.search(&mut fast, k, (0.0, left), &leaving, rules, &mut touches);
         }
         while let Some(touch) = touches.pop() {
             let ends = [Some(touch.a), touch.b];
             let stale =
-                |(k, touches): (&Option<usize>, u8)| k.is_some_and(|k| fast[k].touches != touches);
+                |(k, touches): (&Option<usize>, u8)| k.is_some_and(|k| fast.touches(k) != touches);
             if ends.iter().zip(touch.touches).any(stale) {
                 continue;
             }
             self.deflect(&mut fast, &touch);
             for &k in ends.iter().flatten() {
                 let rest = (touch.wait, left);
-                if !fast[k].is_stopped() {
-                    self.search_on(&fast, k, rest, rules, &mut touches);
+                if !fast.is_stopped(k) {
+                    self.search_on(&mut fast, k, rest, rules, &mut touches);
                 }
                 // A body that still moves may meet one that goes elsewhere.
-                self.search_changed(&fast, k, rest, rules, &mut touches);
+                self.search_changed(&mut fast, k, rest, rules, &mut touches);
             }
         }
         let mut stopped = Vec::new();
         let mut shifted = Vec::new();
-        for body in fast.iter().filter(|body| body.touches > 0) {
+        let mut touched: Vec<Moving> = fast.moving.into_iter().flatten().collect();
+        touched.retain(|body| body.touches > 0);
+        touched.sort_unstable_by_key(|body| body.birth);
+        for body in &touched {
             let shift = self.stop_at(body, left);
             shifted.extend(self.free_pair(body).map(|pair| (pair, shift)));
             stopped.push(self.bodies.id(body.slot));
@@ -229,9 +282,9 @@ impl Engine {
     }
 
     /// Both bodies go on without what closes of their motions, which they share as an impact without restitution does.
-    fn deflect(&self, fast: &mut [Moving], touch: &Touching) {
+    fn deflect(&self, fast: &mut Fast, touch: &Touching) {
         let inverse_mass = |k: usize| {
-            let line = self.bodies.line_of(fast[k].slot);
+            let line = self.bodies.line_of(fast.noted[k].slot);
             self.bodies.lines[line].inverse_mass()
         };
         let of_a = touch.b.map_or(1.0, |b| {
@@ -239,12 +292,16 @@ impl Engine {
             a / (a + b)
         });
         let closing = touch.normal.map(|n| n * touch.against.dot(n).max(0.0));
-        let slot = fast[touch.a].slot;
-        fast[touch.a].touched.get_or_insert(touch.other);
-        fast[touch.a].deflect(touch.wait, closing.map(|part| part * of_a));
+        fast.astray
+            .extend([Some(touch.a), touch.b].iter().flatten());
+        let a = fast.of(self, touch.a);
+        let slot = a.slot;
+        a.touched.get_or_insert(touch.other);
+        a.deflect(touch.wait, closing.map(|part| part * of_a));
         if let Some(b) = touch.b {
-            fast[b].touched.get_or_insert(slot);
-            fast[b].deflect(touch.wait, closing.map(|part| part * (of_a - 1.0)));
+            let b = fast.of(self, b);
+            b.touched.get_or_insert(slot);
+            b.deflect(touch.wait, closing.map(|part| part * (of_a - 1.0)));
         }
     }
 
@@ -296,46 +353,35 @@ impl Engine {
             motion,
             unforeseen: body.unforeseen,
             carried: body.carried,
-            leaves_boxes: self.leaves_boxes(body.slot, bounds_of(&motion, 0.0, left)),
             touches: 0,
             touched: None,
         }
     }
 
-    /// Whether a way leads out of the boxes of a body.
-    fn leaves_boxes(&self, slot: u32, way: Aabb) -> bool {
-        let record = &self.bodies.records[slot as usize];
+    /// Whether a fast body leaves the swept boxes of the tick.
+    fn leaves_boxes(&self, body: &FastBody, left: f64) -> bool {
+        let record = &self.bodies.records[body.slot as usize];
         let boxes = record.first_piece..record.first_piece + record.pieces;
         let boxes = boxes.map(|piece| self.pieces.boxes[piece as usize]);
+        let (from, velocity) = self.way(body, left);
+        let way = way_box(from, velocity, left);
         !boxes.fold(Aabb::EMPTY, Aabb::union).contains(way)
     }
 
-    /// Whether a search for the touches of a fast body may find something, or that of another one may find it where no box is.
-    fn may_touch(&self, body: &FastBody, left: f64) -> bool {
-        if body.unforeseen {
-            return true;
-        }
+    /// Whether a search for the touches of a fast body that stays in its boxes may find something.
+    fn may_touch(&self, body: &FastBody) -> bool {
         let record = &self.bodies.records[body.slot as usize];
-        let (line, base) = (
-            &self.bodies.lines[record.line as usize],
-            self.bodies.base[record.line as usize].position,
-        );
-        let (centre, velocity) = way(base, line.d(), body.from.0, left);
         let mut pieces = record.first_piece..record.first_piece + record.pieces;
-        pieces.any(|piece| self.broad.is_by_standing(piece))
-            || self.leaves_boxes(body.slot, way_box(centre, velocity, left))
+        body.unforeseen || pieces.any(|piece| self.broad.is_by_standing(piece))
     }
-}
 
-/// Where what is displaced from `base` by `d`, and was by `from` `left` seconds before, came from, and its velocity.
-fn way(base: Vec2, d: Vec2, from: Vec2, left: f64) -> (Vec2, Vec2) {
-    let went = d - from;
-    (base + d - went, went / left)
-}
-
-/// The box that a body stays in for so long.
-fn bounds_of(motion: &Motion, reach: f64, left: f64) -> Aabb {
-    way_box(motion.centre, motion.velocity, left).grown(reach)
+    /// Where a fast body came from `left` seconds before, and its velocity.
+    fn way(&self, body: &FastBody, left: f64) -> (Vec2, Vec2) {
+        let at = self.bodies.line_of(body.slot);
+        let d = self.bodies.lines[at].d();
+        let went = d - body.from.0;
+        (self.bodies.base[at].position + d - went, went / left)
+    }
 }
 
 /// The box around a straight way.

@@ -7,7 +7,7 @@ use carom_math::{SimTime, Vec2};
 
 use super::cores::{depth, parts};
 use super::touching::Touching;
-use super::{Moving, SHORT, bounds_of};
+use super::{Fast, Moving, SHORT};
 use crate::bodies::Bodies;
 use crate::narrow::arc;
 use crate::{Engine, PairRules};
@@ -17,16 +17,15 @@ impl Engine {
     /// leave their boxes.
     pub(super) fn search(
         &self,
-        fast: &[Moving],
+        fast: &mut Fast,
         k: usize,
         span: (f64, f64),
         leaving: &[usize],
         rules: &dyn PairRules,
         touches: &mut BinaryHeap<Touching>,
     ) {
-        let body = &fast[k];
-        let mine = &self.bodies.records[body.slot as usize];
-        let bounds = bounds_of(&body.motion, mine.reach, span.1);
+        let body = *fast.of(self, k);
+        let bounds = fast.bounds(self, k, span.1);
         let mut others: Vec<u32> = Vec::new();
         let found = |piece: u32| others.push(piece);
         if body.unforeseen {
@@ -35,18 +34,18 @@ impl Engine {
             self.broad.standing_in(bounds, found);
         }
         for &other in leaving {
-            let theirs = &fast[other];
-            let record = &self.bodies.records[theirs.slot as usize];
-            if bounds_of(&theirs.motion, record.reach, span.1).overlaps(bounds) {
+            let record = &self.bodies.records[fast.noted[other].slot as usize];
+            if fast.bounds(self, other, span.1).overlaps(bounds) {
                 others.extend(record.first_piece..record.first_piece + record.pieces);
             }
         }
         self.first_parts(&mut others);
         for piece in others {
             let slot = self.pieces.list[piece as usize].body;
-            let partner = fast_of(fast, self.bodies.records[slot as usize].birth);
+            let partner = fast.find(slot);
             // A pair of which both search among moving bodies is searched once.
-            let again = partner.is_some_and(|other| other < k && fast[other].unforeseen);
+            let earlier = self.bodies.records[slot as usize].birth < body.birth;
+            let again = partner.is_some_and(|other| earlier && fast.noted[other].unforeseen);
             if slot != body.slot && !again {
                 self.search_piece(fast, (k, partner), piece, span, rules, touches);
             }
@@ -56,22 +55,20 @@ impl Engine {
     /// The same of a body that goes on after a touch, with bodies that are not fast.
     pub(super) fn search_on(
         &self,
-        fast: &[Moving],
+        fast: &mut Fast,
         k: usize,
         span: (f64, f64),
         rules: &dyn PairRules,
         touches: &mut BinaryHeap<Touching>,
     ) {
-        let body = &fast[k];
-        let reach = self.bodies.records[body.slot as usize].reach;
-        let bounds = bounds_of(&body.motion, reach, span.1);
+        let bounds = fast.bounds(self, k, span.1);
         let mut others: Vec<u32> = Vec::new();
         let found = |piece: u32| others.push(piece);
         self.broad.pieces_in(&self.pieces, bounds, found);
         self.first_parts(&mut others);
         for piece in others {
             let slot = self.pieces.list[piece as usize].body;
-            if fast_of(fast, self.bodies.records[slot as usize].birth).is_none() {
+            if fast.find(slot).is_none() {
                 self.search_piece(fast, (k, None), piece, span, rules, touches);
             }
         }
@@ -80,24 +77,30 @@ impl Engine {
     /// The same of all fast bodies that still move with one that goes elsewhere, or stopped.
     pub(super) fn search_changed(
         &self,
-        fast: &[Moving],
+        fast: &mut Fast,
         changed: usize,
         span: (f64, f64),
         rules: &dyn PairRules,
         touches: &mut BinaryHeap<Touching>,
     ) {
-        let record = &self.bodies.records[fast[changed].slot as usize];
-        let bounds = bounds_of(&fast[changed].motion, record.reach, span.1);
-        let others = fast.iter().enumerate();
-        for (k, body) in others.filter(|(k, body)| *k != changed && !body.is_stopped()) {
-            let reach = self.bodies.records[body.slot as usize].reach;
-            if bounds_of(&body.motion, reach, span.1).overlaps(bounds) {
-                let mut pieces: Vec<u32> =
-                    (record.first_piece..record.first_piece + record.pieces).collect();
-                self.first_parts(&mut pieces);
-                for piece in pieces {
-                    self.search_piece(fast, (k, Some(changed)), piece, span, rules, touches);
-                }
+        let record = &self.bodies.records[fast.noted[changed].slot as usize];
+        let bounds = fast.bounds(self, changed, span.1);
+        let mut others = fast.astray.clone();
+        self.broad.pieces_in(&self.pieces, bounds, |piece| {
+            others.extend(fast.find(self.pieces.list[piece as usize].body));
+        });
+        others.sort_unstable();
+        others.dedup();
+        for k in others {
+            if k == changed || fast.is_stopped(k) || !fast.bounds(self, k, span.1).overlaps(bounds)
+            {
+                continue;
+            }
+            let mut pieces: Vec<u32> =
+                (record.first_piece..record.first_piece + record.pieces).collect();
+            self.first_parts(&mut pieces);
+            for piece in pieces {
+                self.search_piece(fast, (k, Some(changed)), piece, span, rules, touches);
             }
         }
     }
@@ -118,17 +121,17 @@ impl Engine {
     /// Enters the first touch of fast body `k` with a piece of another one, fast or not.
     fn search_piece(
         &self,
-        fast: &[Moving],
+        fast: &mut Fast,
         (k, partner): (usize, Option<usize>),
         piece: u32,
         span: (f64, f64),
         rules: &dyn PairRules,
         touches: &mut BinaryHeap<Touching>,
     ) {
-        let body = &fast[k];
+        let body = *fast.of(self, k);
         let theirs = &self.pieces.list[piece as usize];
         let motion = match partner {
-            Some(other) => fast[other].motion,
+            Some(other) => fast.of(self, other).motion,
             None => self.motion(theirs.body, None, span.1),
         };
         // Rows hold bodies that move little against each other, however fast both are.
@@ -140,16 +143,16 @@ impl Engine {
         if !limit.is_far(against.length_squared(), turns.0) && !other.is_far(0.0, turns.1) {
             return;
         }
-        if let Some((wait, normal)) = self.first_touch(body, (piece, &motion), span, rules) {
+        if let Some((wait, normal)) = self.first_touch(&body, (piece, &motion), span, rules) {
             let birth = self.bodies.records[theirs.body as usize].birth;
-            let moves = partner.filter(|other| !fast[*other].is_stopped());
+            let moves = partner.filter(|other| !fast.is_stopped(*other));
             touches.push(Touching {
                 wait,
                 order: (body.birth, birth << 16 | u64::from(theirs.ordinal)),
                 a: k,
                 b: moves,
                 other: theirs.body,
-                touches: [body.touches, moves.map_or(0, |other| fast[other].touches)],
+                touches: [body.touches, moves.map_or(0, |other| fast.touches(other))],
                 normal: normal.filter(|_| self.have_row(body.slot, theirs.body)),
                 against: body.motion.velocity - motion.velocity,
             });
@@ -234,9 +237,4 @@ impl Engine {
             == Bodies::GROUND;
         !stands && self.known.contains(pair) && !self.bodies.limits[at].is_far(0.0, turn)
     }
-}
-
-/// The fast body of a birth.
-fn fast_of(fast: &[Moving], birth: u64) -> Option<usize> {
-    fast.binary_search_by_key(&birth, |body| body.birth).ok()
 }
