@@ -223,6 +223,13 @@ impl Engine {
             .movers_in(&self.pieces, bounds, |piece| found(tag(piece)));
     }
 
+    /// Calls `found` with the tag and the box of each awake piece of a body that is not fixed: where it is until the tick ends, unless
+    /// it goes otherwise than was foreseen. Only after [`Self::prepare_queries`].
+    pub fn movers(&self, mut found: impl FnMut(u64, Aabb)) {
+        let movers = self.broad.movers(&self.bodies, &self.pieces);
+        movers.for_each(|(piece, bounds)| found(self.pieces.list[piece as usize].tag, bounds));
+    }
+
     /// Calls `found` with the tag and the box of each awake piece that came, or goes otherwise than was foreseen, since contacts were
     /// last found at the begin of a tick, or since [`Self::forget_news`]. Only after [`Self::prepare_queries`].
     pub fn news(&self, mut found: impl FnMut(u64, Aabb)) {

@@ -169,13 +169,29 @@ impl Broad {
         self.lists.late[0].iter().copied().for_each(tell);
     }
 
+    /// All movers, and their boxes.
+    pub(crate) fn movers(
+        &self,
+        bodies: &Bodies,
+        pieces: &Pieces,
+    ) -> impl Iterator<Item = (u32, Aabb)> {
+        let lines = 2..bodies.lines.len();
+        self.with_boxes(pieces, lines.flat_map(|line| bodies.pieces_of_line(line)))
+    }
+
     /// Movers that came or got other boxes since the last tick, or since [`Self::forget_news`], and these.
     pub(crate) fn news(&self, pieces: &Pieces) -> impl Iterator<Item = (u32, Aabb)> {
-        let news = self
-            .news
-            .iter()
-            .map(|piece| (*piece, pieces.boxes[*piece as usize]));
-        news.filter(|(piece, bounds)| self.moves_in(pieces, *piece, *bounds))
+        self.with_boxes(pieces, self.news.iter().copied())
+    }
+
+    /// Those that move, and their boxes.
+    fn with_boxes(
+        &self,
+        pieces: &Pieces,
+        some: impl Iterator<Item = u32>,
+    ) -> impl Iterator<Item = (u32, Aabb)> {
+        some.map(|piece| (piece, pieces.boxes[piece as usize]))
+            .filter(|(piece, bounds)| self.moves_in(pieces, *piece, *bounds))
     }
 
     pub(crate) fn forget_news(&mut self) {
