@@ -41,9 +41,7 @@ impl World {
         for (index, time) in redirected.drain(..) {
             let state = self.bodies.get(index);
             if self.bodies.is_alive(index) && !state.in_engine() && !state.goes_by_events() {
-                for slot in 0..self.bodies.get(index).pairs.len() {
-                    self.predict(self.bodies.get(index).pairs[slot], time);
-                }
+                self.predict_pairs(index, time);
             }
         }
         self.redirected = redirected;
@@ -188,9 +186,7 @@ impl World {
         }
         for &index in woken {
             self.meet_near(index);
-            for slot in 0..self.bodies.get(index).pairs.len() {
-                self.predict(self.bodies.get(index).pairs[slot], time);
-            }
+            self.redirected.push((index, time));
         }
         self.drop_unheld(woken, time);
     }

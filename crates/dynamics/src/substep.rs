@@ -48,6 +48,7 @@ impl World {
         self.step_members(time);
         self.stopwatch.lap(|p| &mut p.solver);
         self.pairs.sort(&self.bodies, &self.stepped);
+        self.redirected.clear();
         let mut i = 0;
         while let Some(place) = self.pairs.place(i) {
             self.predict(place, time);

@@ -51,9 +51,9 @@ pub fn complementary(m: &[f64], q: &[f64]) -> Option<Solution> {
     None
 }
 
-/// Columns: w, z, the covering variable, and the right side.
+/// Rows one after the other; columns: w, z, the covering variable, and the right side.
 struct Tableau {
-    rows: Vec<Vec<f64>>,
+    entries: Vec<f64>,
     basis: Vec<usize>,
     n: usize,
 }
@@ -61,21 +61,28 @@ struct Tableau {
 impl Tableau {
     fn new(m: &[f64], q: &[f64], size: f64) -> Self {
         let n = q.len();
-        let rows = (0..n).map(|i| {
-            let mut row = vec![0.0; 2 * n + 2];
+        let mut tableau = Self {
+            entries: vec![0.0; n * (2 * n + 2)],
+            basis: (0..n).collect(),
+            n,
+        };
+        for (i, row) in tableau.entries.chunks_exact_mut(2 * n + 2).enumerate() {
             row[i] = 1.0;
             for (to, from) in row[n..2 * n].iter_mut().zip(&m[i * n..]) {
                 *to = -from;
             }
             row[2 * n] = -1.0;
             row[2 * n + 1] = q[i] / size;
-            row
-        });
-        Self {
-            rows: rows.collect(),
-            basis: (0..n).collect(),
-            n,
         }
+        tableau
+    }
+
+    fn at(&self, row: usize, column: usize) -> f64 {
+        self.entries[row * (2 * self.n + 2) + column]
+    }
+
+    fn right(&self, row: usize) -> f64 {
+        self.at(row, 2 * self.n + 1)
     }
 
     /// The covering variable enters for the most violated row; its complement is next.
@@ -84,7 +91,7 @@ impl Tableau {
         let mut worst = 0;
         for i in 1..n {
             // Of equals the last: lexicographically the least.
-            if self.rows[i][2 * n + 1] <= self.rows[worst][2 * n + 1] {
+            if self.right(i) <= self.right(worst) {
                 worst = i;
             }
         }
@@ -94,14 +101,11 @@ impl Tableau {
     /// The row of the variable that first comes to 0; ties by the rows of the inverse basis.
     fn leaving(&self, entering: usize) -> Option<usize> {
         let n = self.n;
-        let most = self
-            .rows
-            .iter()
-            .map(|row| row[entering].abs())
-            .fold(0.0, f64::max);
+        let column = (0..n).map(|i| self.at(i, entering).abs());
+        let least = PIVOT * column.fold(1.0, f64::max);
         let mut best: Option<usize> = None;
         for i in 0..n {
-            if self.rows[i][entering] <= PIVOT * most.max(1.0) {
+            if self.at(i, entering) <= least {
                 continue;
             }
             if best.is_none_or(|found| self.before(i, found, entering)) {
@@ -113,7 +117,7 @@ impl Tableau {
         let cover = (0..n).find(|&i| self.basis[i] == 2 * n);
         cover
             .filter(|&i| {
-                self.rows[i][entering] > PIVOT * most.max(1.0)
+                self.at(i, entering) > least
                     && (self.ratio(i, entering, 2 * n + 1) - self.ratio(found, entering, 2 * n + 1))
                         .abs()
                         <= TIE
@@ -125,11 +129,11 @@ impl Tableau {
     /// no pivot left that would take it out.
     fn is_uncovered(&self) -> bool {
         let cover = self.basis.iter().position(|&b| b == 2 * self.n);
-        cover.is_none_or(|row| self.rows[row][2 * self.n + 1] <= UNCOVERED)
+        cover.is_none_or(|row| self.right(row) <= UNCOVERED)
     }
 
     fn ratio(&self, row: usize, entering: usize, column: usize) -> f64 {
-        self.rows[row][column] / self.rows[row][entering]
+        self.at(row, column) / self.at(row, entering)
     }
 
     fn before(&self, i: usize, j: usize, entering: usize) -> bool {
@@ -147,20 +151,22 @@ impl Tableau {
 
     /// Brings a column into the basis; returns what left.
     fn pivot(&mut self, row: usize, entering: usize) -> usize {
-        let by = self.rows[row][entering].recip();
-        self.rows[row].iter_mut().for_each(|x| *x *= by);
-        let pivot = core::mem::take(&mut self.rows[row]);
-        for other in &mut self.rows {
-            if other.is_empty() || other[entering] == 0.0 {
+        let width = 2 * self.n + 2;
+        let (above, below) = self.entries.split_at_mut(row * width);
+        let (pivot, below) = below.split_at_mut(width);
+        let by = pivot[entering].recip();
+        pivot.iter_mut().for_each(|x| *x *= by);
+        let others = above.chunks_exact_mut(width);
+        for other in others.chain(below.chunks_exact_mut(width)) {
+            let factor = other[entering];
+            if factor == 0.0 {
                 continue;
             }
-            let factor = other[entering];
-            for (x, y) in other.iter_mut().zip(&pivot) {
+            for (x, y) in other.iter_mut().zip(&*pivot) {
                 *x -= factor * y;
             }
             other[entering] = 0.0;
         }
-        self.rows[row] = pivot;
         core::mem::replace(&mut self.basis[row], entering)
     }
 
@@ -176,9 +182,7 @@ impl Tableau {
             .iter()
             .flat_map(|&(_, i)| held.iter().map(move |&(_, j)| m[i * n + j]));
         let right: Vec<f64> = held.iter().map(|&(_, i)| -q[i]).collect();
-        let rough = held
-            .iter()
-            .map(|&(row, _)| self.rows[row][2 * n + 1] * size);
+        let rough = held.iter().map(|&(row, _)| self.right(row) * size);
         let exact = Factored::of(held.len(), square.collect())
             .filter(|factored| factored.least_pivot() > f64::EPSILON);
         let found = exact.map_or_else(|| rough.collect(), |factored| factored.solve(&right));

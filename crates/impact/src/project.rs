@@ -19,6 +19,9 @@ const NEARLY: f64 = 0.01;
 /// A coordinate that the members leave less than this of, as a part of 1, is theirs alone.
 const DETERMINED: f64 = 8.0 * f64::EPSILON;
 
+/// A square that is more than one of [`DETERMINED`] whatever was rounded.
+const LEFT: f64 = 1e-9;
+
 /// The nearest point, and how it is reached.
 pub(crate) struct Nearest {
     pub(crate) point: Vec<f64>,
@@ -339,6 +342,11 @@ impl Basis {
 
     /// Whether nothing of coordinate k lies outside the directions.
     pub fn determines(&self, k: usize) -> bool {
+        // |e_k|² = 1 is that of its parts along the directions and that of the rest.
+        let along: f64 = self.directions.iter().map(|own| own[k] * own[k]).sum();
+        if along < 1.0 - LEFT {
+            return false;
+        }
         let size = self.directions.first().map_or(0, Vec::len);
         let axis: Vec<f64> = (0..size).map(|i| if i == k { 1.0 } else { 0.0 }).collect();
         let (_, rest) = self.reduce(&axis);

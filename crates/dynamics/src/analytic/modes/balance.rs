@@ -58,12 +58,13 @@ pub(super) fn balance(faces: &Faces, tangents: &[Tangent]) -> Result<Balance, No
     Problem::of(faces, tangents)?.solve()
 }
 
-/// The complementarity problem of one configuration, w = M z + q: a unit of unknown j adds `columns[j]` to the accelerations.
+/// The complementarity problem of one configuration, w = M z + q: a unit of unknown j adds column j to the accelerations.
 pub(super) struct Problem<'a> {
     faces: &'a Faces,
     tangents: &'a [Tangent],
     unknowns: Vec<Unknown>,
-    columns: Vec<Vec<f64>>,
+    /// One after the other.
+    columns: Vec<f64>,
     q: Vec<f64>,
 }
 
@@ -77,11 +78,11 @@ pub(super) struct Basic {
 impl<'a> Problem<'a> {
     pub(super) fn of(faces: &'a Faces, tangents: &'a [Tangent]) -> Result<Self, NotMine> {
         let unknowns = unknowns(faces, tangents);
-        let columns: Vec<Vec<f64>> = unknowns
-            .iter()
-            .map(|unknown| column(faces, tangents, *unknown))
-            .collect();
-        for (unknown, column) in unknowns.iter().zip(&columns) {
+        let size = faces.free.len();
+        let mut columns = Vec::with_capacity(size * unknowns.len());
+        for unknown in &unknowns {
+            add_column(faces, tangents, *unknown, &mut columns);
+            let column = &columns[columns.len() - size..];
             if let Unknown::Normal { face, point } = *unknown
                 && faces.list[face].normals[point].rate(column) <= 0.0
             {
@@ -98,13 +99,18 @@ impl<'a> Problem<'a> {
         })
     }
 
+    fn column(&self, j: usize) -> &[f64] {
+        let size = self.faces.free.len();
+        &self.columns[j * size..(j + 1) * size]
+    }
+
     /// M, row i and column j.
     fn entry(&self, i: usize, j: usize) -> f64 {
         entry(
             self.faces,
             self.unknowns[i],
             self.unknowns[j],
-            &self.columns[j],
+            self.column(j),
         )
     }
 
@@ -128,8 +134,8 @@ impl<'a> Problem<'a> {
     /// Accelerations for these unknowns, or the sum of the sizes of their parts.
     fn sum(&self, z: &[f64], part: impl Fn(f64) -> f64) -> Vec<f64> {
         let mut sum: Vec<f64> = self.faces.free.iter().map(|x| part(*x)).collect();
-        for (column, z) in self.columns.iter().zip(z) {
-            for (x, y) in sum.iter_mut().zip(column) {
+        for (j, z) in z.iter().enumerate() {
+            for (x, y) in sum.iter_mut().zip(self.column(j)) {
                 *x += part(z * y);
             }
         }
@@ -181,8 +187,8 @@ fn unknowns(faces: &Faces, tangents: &[Tangent]) -> Vec<Unknown> {
     unknowns
 }
 
-/// What one unit of an unknown adds to the scaled accelerations.
-fn column(faces: &Faces, tangents: &[Tangent], unknown: Unknown) -> Vec<f64> {
+/// Appends what one unit of an unknown adds to the scaled accelerations.
+fn add_column(faces: &Faces, tangents: &[Tangent], unknown: Unknown, columns: &mut Vec<f64>) {
     match unknown {
         Unknown::Normal { face, point } => {
             let Face {
@@ -195,15 +201,12 @@ fn column(faces: &Faces, tangents: &[Tangent], unknown: Unknown) -> Vec<f64> {
                 _ => 0.0,
             };
             let both = normals[point].unit.iter().zip(&tangent.unit);
-            both.map(|(n, t)| n + along * t).collect()
+            columns.extend(both.map(|(n, t)| n + along * t));
         }
-        Unknown::Friction { face, sign } => faces.list[face]
-            .tangent
-            .unit
-            .iter()
-            .map(|t| sign * t)
-            .collect(),
-        Unknown::Rate { .. } => vec![0.0; faces.free.len()],
+        Unknown::Friction { face, sign } => {
+            columns.extend(faces.list[face].tangent.unit.iter().map(|t| sign * t));
+        }
+        Unknown::Rate { .. } => columns.resize(columns.len() + faces.free.len(), 0.0),
     }
 }
 

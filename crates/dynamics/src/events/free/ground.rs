@@ -164,7 +164,7 @@ impl World {
         self.free.shapes = near;
     }
 
-    pub(super) fn predict_pairs(&mut self, index: u32, time: SimTime) {
+    pub(crate) fn predict_pairs(&mut self, index: u32, time: SimTime) {
         for slot in 0..self.bodies.get(index).pairs.len() {
             self.predict(self.bodies.get(index).pairs[slot], time);
         }
