@@ -168,8 +168,9 @@ impl Flight {
 
     /// The parabola that touches the flight at `time`, and how fast that leaves it. `reach` is that of the body.
     pub(crate) fn osculating(&self, time: SimTime, reach: f64) -> Osculating {
-        let ((x, v), (rotation, spin)) = (self.at(time), self.turn_at(time));
+        let (x, v, angle, spin) = self.all_at(time);
         let turn = &self.turn;
+        let rotation = self.turned_by(angle);
         let mut angular_acceleration = turn.pull - turn.damping * spin;
         let mut twist = turn.damping * angular_acceleration.abs();
         let (acceleration, jerk) = match &self.law {
@@ -249,7 +250,12 @@ impl Flight {
     /// Rotation, and spin in rad/s.
     pub(crate) fn turn_at(&self, time: SimTime) -> (Rot, f64) {
         let (angle, spin) = self.angle_at(time);
-        (self.turn.rotation.turned(angle), spin)
+        (self.turned_by(angle), spin)
+    }
+
+    /// Rotation where it turned by an angle since the start, in rad.
+    pub(crate) fn turned_by(&self, angle: f64) -> Rot {
+        self.turn.rotation.turned(angle)
     }
 
     /// Angle that the body turns by in `h` seconds from `time` on, in rad.
@@ -261,11 +267,20 @@ impl Flight {
         damped(spin, self.turn.pull, self.turn.damping, h).0
     }
 
+    /// Centre and velocity, angle since the start and spin.
+    pub(crate) fn all_at(&self, time: SimTime) -> (Vec2, Vec2, f64, f64) {
+        if let Law::Held { path, body } = &self.law {
+            return path.body_after(*body, time - self.start);
+        }
+        let ((centre, velocity), (angle, spin)) = (self.at(time), self.angle_at(time));
+        (centre, velocity, angle, spin)
+    }
+
     /// Angle since the start, in rad, and spin in rad/s.
     pub(crate) fn angle_at(&self, time: SimTime) -> (f64, f64) {
         let (turn, t) = (&self.turn, time - self.start);
-        if let Law::Held { path, body } = &self.law {
-            let (_, _, angle, spin) = path.body_after(*body, t);
+        if let Law::Held { .. } = self.law {
+            let (_, _, angle, spin) = self.all_at(time);
             return (angle, spin);
         }
         damped(turn.spin, turn.pull, turn.damping, t)

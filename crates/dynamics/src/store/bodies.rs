@@ -8,6 +8,7 @@ use super::few::Few;
 use super::history::History;
 use super::left_paths::LeftPaths;
 use super::moved::{Moved, moves};
+use super::now::Now;
 use super::pull::Pull;
 use super::regime::Members;
 use super::state::{BodyState, Collider};
@@ -292,8 +293,8 @@ impl Bodies {
         self.touch(index);
         self.left_paths.end(index, &self.list[index as usize], time);
         let state = &self.list[index as usize];
-        let flies_by_law = state.flight.is_some() || *state.lag() != Lag::NONE;
-        if let Some(piece) = self.piece(state, time) {
+        let now = state.by_law(time);
+        if let Some(piece) = self.piece(state, time, now.as_ref()) {
             self.book.forces.add(piece.forces);
             self.book.scheme.add(piece.scheme);
         }
@@ -301,11 +302,10 @@ impl Bodies {
         let old = state.motion;
         self.history
             .replaced(index, &old, state.flight.as_ref(), time);
-        state.turned += state.turn_by(time);
-        let after = flies_by_law.then(|| (state.velocity_at(time), state.spin_at(time)));
+        state.turned += now.map_or_else(|| old.turn(time - old.start), |now| now.turn);
         state.motion = old.rebased(time);
-        if let Some((velocity, spin)) = after {
-            state.close(time, velocity, spin);
+        if let Some(now) = now {
+            state.close(&now);
         }
         if state.in_engine() {
             let before = state.kinetic_energy(time);
@@ -332,7 +332,7 @@ impl Bodies {
     /// What forces and the scheme did along the present piece of a motion up to `time`.
     ///
     /// Along a quadratic piece the kinetic energy changes by exactly `m a·Δx + I α Δθ`. None where gravity is all.
-    fn piece(&self, state: &BodyState, time: SimTime) -> Option<Piece> {
+    fn piece(&self, state: &BodyState, time: SimTime, now: Option<&Now>) -> Option<Piece> {
         let motion = &state.motion;
         let free = state.gravity_scale() * self.pull.gravity;
         // The account of members is kept in `stepping::join`.
@@ -346,28 +346,27 @@ impl Bodies {
             return None;
         }
         let elapsed = time - motion.start;
-        let turn = state.turn_by(time);
-        let travel = if state.flight.is_some() {
-            state.centre_at(time) - motion.centre
-        } else {
-            motion.travel(elapsed)
-        };
-        let quadratic = state.flight.is_none() && *state.lag() == Lag::NONE;
         let mass = state.mass.mass;
-        let straight = if quadratic {
-            motion.acceleration.dot(travel)
-        } else {
-            let (from, to) = (
-                motion.velocity + state.lag().at(0.0),
-                state.velocity_at(time),
-            );
-            (to - from).dot(0.5 * (to + from))
-        };
-        let turning = if quadratic {
-            motion.angular_acceleration * turn
-        } else {
-            let (from, to) = (motion.spin + state.lag().spin_at(0.0), state.spin_at(time));
-            (to - from) * (0.5 * (to + from))
+        let (turn, travel, straight, turning) = match now {
+            None => {
+                let (turn, travel) = (motion.turn(elapsed), motion.travel(elapsed));
+                let along = motion.acceleration.dot(travel);
+                (turn, travel, along, motion.angular_acceleration * turn)
+            }
+            Some(now) => {
+                let travel = if state.flight.is_some() {
+                    now.centre - motion.centre
+                } else {
+                    motion.travel(elapsed)
+                };
+                let (velocity, spin) = (
+                    motion.velocity + state.lag().at(0.0),
+                    motion.spin + state.lag().spin_at(0.0),
+                );
+                let along = (now.velocity - velocity).dot(0.5 * (now.velocity + velocity));
+                let round = (now.spin - spin) * (0.5 * (now.spin + spin));
+                (now.turn, travel, along, round)
+            }
         };
         let kinetic = mass * straight + state.turning_inertia() * turning;
         let mut potential = -mass * free.dot(travel);
@@ -401,7 +400,8 @@ impl Bodies {
             let (k, p) = self.energy_of(index, time);
             kinetic.add(k);
             potential.add(p);
-            if let Some(piece) = self.piece(self.get(index), time) {
+            let state = self.get(index);
+            if let Some(piece) = self.piece(state, time, state.by_law(time).as_ref()) {
                 book.forces.add(piece.forces);
                 book.scheme.add(piece.scheme);
             }

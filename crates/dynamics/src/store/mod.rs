@@ -1,6 +1,6 @@
 //! What a world keeps of its bodies and pairs, and the doors through which it changes.
 //!
-//! To read in this order: [`state`] (a body, and the colliders that carry its shapes), [`bodies`] (all of them; its `change` is
+//! To read in this order: [`state`] (a body, and the colliders that carry its shapes), [`now`] (what its law of flight says), [`bodies`] (all of them; its `change` is
 //! the one door through which a motion changes), [`regime`] (which method moves a body, and which transitions there are),
 //! [`pairs`] (pairs of shapes, and what they remember from sub-step to sub-step). The others are parts of these: of a body
 //! [`mass`], [`membership`] in an island, the [`course`] of a free one ([`swept`], [`zeno`]), what is [`uncommon`]; of all bodies
@@ -17,6 +17,7 @@ mod left_paths;
 pub(crate) mod mass;
 pub(crate) mod membership;
 mod moved;
+mod now;
 pub(crate) mod pairs;
 pub(crate) mod pull;
 pub(crate) mod regime;

@@ -322,25 +322,11 @@ impl BodyState {
     /// The motion told from `time` on, by the law of its flight.
     pub(crate) fn at(&self, time: SimTime) -> Motion {
         let mut motion = self.motion.rebased(time);
-        if self.flight.is_some() {
-            motion.centre = self.centre_at(time);
-            motion.velocity = self.velocity_at(time);
-            motion.rotation = self.rotation_at(time);
-            motion.spin = self.spin_at(time);
+        if let Some(flight) = &self.flight {
+            (motion.centre, motion.velocity) = flight.at(time);
+            (motion.rotation, motion.spin) = flight.turn_at(time);
         }
         motion
-    }
-
-    /// Ends a piece of a flight in a motion that begins at `time`: from there on it is free of its law.
-    pub(crate) fn close(&mut self, time: SimTime, velocity: Vec2, spin: f64) {
-        if self.flight.is_some() {
-            self.motion.centre = self.centre_at(time);
-            self.motion.rotation = self.rotation_at(time);
-            self.motion.left_out = 0.0;
-            self.flight = None;
-        }
-        (self.motion.velocity, self.motion.spin) = (velocity, spin);
-        self.set_lag(Lag::NONE);
     }
 
     /// Angle that the body turned by since its motion's start, in rad, whole turns included.
