@@ -8,7 +8,7 @@ use crate::analytic::modes::{ModeBody, Touch, hold, stand};
 use crate::model::approach::{Approach, RigidState, approach, opening};
 use crate::model::edges::{Feature, at_the_end, feature};
 use crate::model::graph::ROWS;
-use crate::model::narrow::{Narrow, RestSpeed, TOUCH};
+use crate::model::narrow::{Narrow, TOUCH, rest_speed};
 use crate::store::bodies::Bodies;
 use crate::store::pairs::{PairContact, Pairs};
 use crate::store::state::{BodyState, Collider};
@@ -284,13 +284,13 @@ impl Around<'_> {
         if points.any(|point| point.separation < -SUNK * size) {
             return None;
         }
-        let RestSpeed { all: rest, pulled } = RestSpeed::of(self.bodies, pair, h);
+        let rest = rest_speed(self.bodies, pair, h);
         let ends = (RigidState::of(a, time), RigidState::of(b, time));
         // What the soft solver holds across a gap is no free surface.
         let hovers = |contact: &PairContact| {
             contact.points.iter().any(|point| {
                 let rate = opening(ends, point.position, contact.normal).0;
-                point.separation > gap && point.impulse > 0.0 && rate.abs() <= pulled
+                point.separation > gap && point.impulse > 0.0 && rate.abs() <= rest
             })
         };
         if pair.contacts.iter().any(hovers) {

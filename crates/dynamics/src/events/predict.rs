@@ -10,7 +10,7 @@ use crate::events::event_queue::{Entry, EventQueue};
 use crate::events::micro_bounce::micro_bounce;
 use crate::model::approach::{CLOSED, stays};
 use crate::model::ghost::Meeting;
-use crate::model::narrow::{NOISE, Narrow, RestSpeed, TOUCH, opening_speed, pace};
+use crate::model::narrow::{NOISE, Narrow, TOUCH, opening_speed, pace, rest_speed};
 use crate::motion::first_touch::first_touch_of_parts;
 use crate::motion::flight::motion_along;
 use crate::store::bodies::Bodies;
@@ -80,15 +80,9 @@ pub(crate) fn predict(
     }
     report.pairs += 1;
     let mut first = TimeOfImpact::Clear;
-    let RestSpeed {
-        all: group_rest,
-        pulled,
-    } = RestSpeed::of(bodies, pair, h);
+    let group_rest = rest_speed(bodies, pair, h);
     let noise = NOISE * pace(a, b, time);
-    let (rest, pulled) = (
-        pair.lasting.then(|| group_rest.max(noise)),
-        pulled.max(noise),
-    );
+    let rest = pair.lasting.then(|| group_rest.max(noise));
     let touch = TOUCH * a.reach.min(b.reach);
     // A search that begins within both shapes may end at a cut between pieces.
     let sunken = pair.touching && pair.overlaps(touch);
@@ -141,7 +135,7 @@ pub(crate) fn predict(
                         |point: &Vec2| opening_speed(a, b, at, *point, impact.normal) < -least;
                     !impact.points.iter().any(closes)
                 }
-                Some(_) => impact.gap_rate >= -pulled,
+                Some(rest) => impact.gap_rate >= -rest,
                 None => false,
             };
             let ghost = |impact: &Impact| {

@@ -17,7 +17,7 @@ use crate::Settings;
 use crate::impact::{
     Growth, ImpactBody, ImpactContact, SharedContact, Sweeper, is_driven, several,
 };
-use crate::model::narrow::{Narrow, RestSpeed, TOUCH};
+use crate::model::narrow::{Narrow, TOUCH, rest_speed};
 use crate::store::bodies::Bodies;
 use crate::store::pairs::Pairs;
 use crate::store::state::Collider;
@@ -92,7 +92,7 @@ pub(crate) struct Shock {
     pub(crate) strikes: Vec<Strike>,
     pub(crate) bodies: Vec<Shaken>,
     /// Pairs with contacts updated at this instant, and the speeds that count as rest there.
-    looked: Vec<(u32, RestSpeed)>,
+    looked: Vec<(u32, f64)>,
     /// Slowest rest speed of the pairs, in m/s.
     rest: f64,
     /// The limit of impacts that came ever faster: nothing is given back.
@@ -240,7 +240,7 @@ impl Shock {
             *rest
         } else {
             pair = narrow.look_at(bodies, colliders, pairs, place, self.time, self.h);
-            let rest = RestSpeed::of(bodies, pair, self.h);
+            let rest = rest_speed(bodies, pair, self.h);
             self.operations += LOOK;
             self.looked.push((place, rest));
             rest
@@ -269,7 +269,7 @@ impl Shock {
                 let (a, b) = (&self.bodies[ends.0].after, &self.bodies[ends.1].after);
                 let closing = (a.velocity_of(point.position) - b.velocity_of(point.position))
                     .dot(contact.normal);
-                if closing > rest.pulled {
+                if closing > rest {
                     let contact = ImpactContact {
                         point: point.position,
                         normal: contact.normal,
@@ -281,7 +281,7 @@ impl Shock {
                         friction: pair.material.friction,
                     };
                     let belt = pair.material.tangent_speed;
-                    self.add(bodies, place, pair.bodies, (contact, belt), rest.all);
+                    self.add(bodies, place, pair.bodies, (contact, belt), rest);
                 }
             }
         }

@@ -193,26 +193,10 @@ pub(crate) fn opening_speed(
 /// sub-steps cannot be told from rest by a scheme that looks once a sub-step. Two free bodies under one
 /// gravity press with nothing, so they always bounce but where turning presses them.
 pub(crate) fn rest_speed(bodies: &Bodies, pair: &Pair, h: f64) -> f64 {
-    RestSpeed::of(bodies, pair, h).all
+    rest_speed_between(bodies, pair.bodies, h) + pair.turning_rest
 }
 
-/// [`rest_speed`], and what is left of it where only pull counts.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct RestSpeed {
-    pub(crate) all: f64,
-    /// But for what turning adds: it would sink in before the solver looks.
-    pub(crate) pulled: f64,
-}
-
-impl RestSpeed {
-    pub(crate) fn of(bodies: &Bodies, pair: &Pair, h: f64) -> Self {
-        let pulled = rest_speed_between(bodies, pair.bodies, h);
-        let all = pulled + pair.turning_rest;
-        Self { all, pulled }
-    }
-}
-
-/// [`RestSpeed::pulled`] of two bodies.
+/// [`rest_speed`] of two bodies that turn about nothing.
 pub(crate) fn rest_speed_between(bodies: &Bodies, (a, b): (u32, u32), h: f64) -> f64 {
     let (a, b) = (bodies.get(a), bodies.get(b));
     let pull = |body: &BodyState| {
