@@ -222,7 +222,7 @@ impl Island {
     }
 
     /// Tells of a part of these impulses, pair by pair. Those that hold a squeezed body from several sides are up to 1e12 N·s: one that
-    /// alone would displace the heavier of a pair faster than the fastest push-out is not what displaced it, and not told.
+    /// alone would displace the heavier of a pair faster than the fastest push-out is not what displaced it: it counts as that much.
     fn give_back(
         &self,
         graph: &Graph,
@@ -242,9 +242,7 @@ impl Island {
             });
             let push: Vec2 = pushes.sum();
             let [a, b] = contact.ends.map(|k| self.bodies[k].inverse_mass);
-            if push.length() * a.min(b) > fastest {
-                continue;
-            }
+            let push = push * (fastest / (push.length() * a.min(b))).min(1.0);
             let (block, lane) = lane_of(graph, contact.id);
             let n = block.normal(lane);
             free.add_late(graph, contact.id, (n.dot(push), perp(n).dot(push)));
