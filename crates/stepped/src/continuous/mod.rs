@@ -80,7 +80,7 @@ struct Fast {
     noted: Vec<FastBody>,
     moving: Vec<Option<Moving>>,
     /// Those that may be where no box of the tick is: they leave theirs, deviate, or touched something.
-    astray: Vec<usize>,
+    unboxed: Vec<usize>,
     /// Seconds that the motions last.
     left: f64,
 }
@@ -230,10 +230,10 @@ impl Engine {
             return Vec::new();
         }
         let leaving: Vec<usize> = (0..noted.len()).filter(|k| leaves[*k]).collect();
-        let is_astray = |k: &usize| leaves[*k] || noted[*k].unforeseen;
+        let is_unboxed = |k: &usize| leaves[*k] || noted[*k].unforeseen;
         let mut fast = Fast {
             moving: vec![None; noted.len()],
-            astray: (0..noted.len()).filter(is_astray).collect(),
+            unboxed: (0..noted.len()).filter(is_unboxed).collect(),
             noted,
             left,
         };
@@ -292,7 +292,7 @@ impl Engine {
             a / (a + b)
         });
         let closing = touch.normal.map(|n| n * touch.against.dot(n).max(0.0));
-        fast.astray
+        fast.unboxed
             .extend([Some(touch.a), touch.b].iter().flatten());
         let a = fast.of(self, touch.a);
         let slot = a.slot;

@@ -85,7 +85,7 @@ impl Engine {
     ) {
         let record = &self.bodies.records[fast.noted[changed].slot as usize];
         let bounds = fast.bounds(self, changed, span.1);
-        let mut others = fast.astray.clone();
+        let mut others = fast.unboxed.clone();
         self.broad.pieces_in(&self.pieces, bounds, |piece| {
             others.extend(fast.find(self.pieces.list[piece as usize].body));
         });
