@@ -129,7 +129,8 @@ fn scripts_that_broke_a_law_once_keep_it() {
     let stepped = [2, 5, 10, 13, 18, 23, 31, 33, 1511];
     let stepped = stepped.map(|seed| (Mode::Stepped, seed));
     // What held two that six contacts squeeze was given back contact by contact, each of 1e11 N·s: velocities were no numbers. An
-    // island with modes of 1e-18 s was solved for without end within a sub-step. 1525: several that are wedged push each other by 1e12 N·s.
+    // island with modes of 1e-18 s was solved for without end within a sub-step. 1525: several that are wedged push each other by 1e12 N·s;
+    // 16943: left out whole, such impulses let one out of its box.
     let squeezed = [
         (Mode::Exact, 261_940_947_125),
         (Mode::Exact, 324_721_302_128),

@@ -112,19 +112,15 @@ impl World {
         let h = self.clock.h;
         let members = group.indices();
         let left = group.tipping.clone().filter(|_| ends);
-        let touches = match &left {
-            Some(tipping) => {
-                let moved = self.leave_curves(tipping, &members, time);
-                let group = self.closed.get(place);
-                group.map(|group| group.touches_with(moved))
-            }
-            None => {
-                self.closed.renew_touches(place, time);
-                let group = self.closed.get(place);
-                group.map(|group| group.touches.clone())
-            }
+        let moved = match &left {
+            Some(tipping) => self.leave_curves(tipping, &members, time),
+            None => group.moved_at(time),
         };
-        for touch in touches.into_iter().flatten() {
+        let Some(group) = self.closed.get_mut(place) else {
+            return;
+        };
+        group.move_touches(moved);
+        for touch in group.touches.clone() {
             let pair = self.pairs.get_mut(touch.pair);
             self.narrow
                 .look(&self.bodies, &self.colliders, pair, time, h);

@@ -53,7 +53,7 @@ pub struct World {
     pub(crate) narrow: Narrow,
     pub(crate) closed: Closed,
     pub(crate) event_queue: EventQueue,
-    /// Bodies with new motions whose pairs are not predicted yet, and since when.
+    /// Bodies with new motions and pairs that are not predicted yet, and since when.
     pub(crate) redirected: Vec<(u32, SimTime)>,
     pub(crate) free: FreeBodies,
     /// Bodies that the sub-steps move, in order.

@@ -19,7 +19,7 @@ const NEARLY: f64 = 0.01;
 /// A coordinate that the members leave less than this of, as a part of 1, is theirs alone.
 const DETERMINED: f64 = 8.0 * f64::EPSILON;
 
-/// A square that is more than one of [`DETERMINED`] whatever was rounded.
+/// A square of what is left, as a part of 1, that no rounding hides: its root is far above [`DETERMINED`].
 const LEFT: f64 = 1e-9;
 
 /// The nearest point, and how it is reached.

@@ -262,7 +262,7 @@ impl Engine {
         self.stop_fast(self.law.h, rules);
         if self.done == self.settings.substeps {
             self.done = 0;
-            self.stop_infinite();
+            self.stop_non_finite();
             self.settle();
         }
     }

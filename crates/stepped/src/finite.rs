@@ -7,7 +7,7 @@ use crate::bodies::Bodies;
 
 impl Engine {
     /// Stops such bodies where they were last known to be, at the end of a tick; without contacts, since impulses are no numbers either.
-    pub(crate) fn stop_infinite(&mut self) {
+    pub(crate) fn stop_non_finite(&mut self) {
         for at in 2..self.bodies.lines.len() {
             if self.bodies.lines[at].is_finite() {
                 continue;

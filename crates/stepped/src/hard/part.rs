@@ -221,8 +221,8 @@ impl Island {
         }
     }
 
-    /// Tells of a part of these impulses, pair by pair. Those that hold a squeezed body from several sides are up to 1e12 N·s: one that
-    /// alone would displace the heavier of a pair faster than the fastest push-out is not what displaced it: it counts as that much.
+    /// Tells of a part of these impulses, pair by pair. Those that hold a squeezed body from several sides are up to 1e12 N·s: what would
+    /// displace the heavier of a pair faster than the fastest push-out did not, and is not told.
     fn give_back(
         &self,
         graph: &Graph,

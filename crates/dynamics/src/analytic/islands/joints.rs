@@ -73,7 +73,7 @@ pub(super) fn joint(
             let of_b = corner_on(a, b, End::A, normal, point, points, near);
             let of_a = || corner_on(b, a, End::B, -normal, point, points, near);
             match of_b {
-                // Where two corners meet, that is on an edge which goes on to it.
+                // Of two corners that meet the one that slides inwards is on the other's edge.
                 Some((joint, true)) => Some(of_a().map_or(joint, |(other, _)| other)),
                 Some((joint, false)) => Some(joint),
                 None => of_a().map(|(joint, _)| joint),

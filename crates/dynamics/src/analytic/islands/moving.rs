@@ -87,8 +87,9 @@ impl Closed {
         let group = self.get(bodies.get(index).membership.group)?;
         let mut now = pair.clone();
         Narrow::default().look(bodies, colliders, &mut now, time, h);
-        let touches = group.touches_at(time).into_iter();
-        for touch in touches.filter(|touch| touch.pair == place) {
+        let mut group = group.clone();
+        group.move_touches(group.moved_at(time));
+        for touch in group.touches.iter().filter(|touch| touch.pair == place) {
             touch.carry(bodies, &mut now, h);
         }
         Some(now)

@@ -101,22 +101,18 @@ impl Group {
         })
     }
 
-    /// Its touches with what they do at `time`: in a group that turns forces change along its path.
-    pub(crate) fn touches_at(&self, time: SimTime) -> Vec<Kept> {
-        let moved = self.tipping.as_ref().and_then(|Tipping { tip, .. }| {
-            let moves = tip.moves_after(time - tip.path.start());
-            moves.map(|(_, touches)| touches)
-        });
-        self.touches_with(moved)
+    /// What the touches of a group that turns do at `time`: forces change along its path.
+    pub(crate) fn moved_at(&self, time: SimTime) -> Option<Vec<TouchMove>> {
+        let Tipping { tip, .. } = self.tipping.as_ref()?;
+        let (_, touches) = tip.moves_after(time - tip.path.start())?;
+        Some(touches)
     }
 
-    /// The touches of a group with these modes.
-    pub(crate) fn touches_with(&self, moved: Option<Vec<TouchMove>>) -> Vec<Kept> {
-        let mut touches = self.touches.clone();
-        for (kept, moved) in touches.iter_mut().zip(moved.into_iter().flatten()) {
+    /// Its touches do this from now on, if there is anything new.
+    pub(crate) fn move_touches(&mut self, moved: Option<Vec<TouchMove>>) {
+        for (kept, moved) in self.touches.iter_mut().zip(moved.into_iter().flatten()) {
             kept.moved = moved;
         }
-        touches
     }
 
     /// The pair with a corner that lands at the next change, the normal from A to B, and the point.
@@ -170,10 +166,10 @@ impl Kept {
 }
 
 impl Closed {
-    /// The touches of a group that turns have the forces of this instant.
+    /// The touches of a group do what they do at `time`.
     pub(crate) fn renew_touches(&mut self, place: u32, time: SimTime) {
         if let Some(group) = self.get_mut(place) {
-            group.touches = group.touches_at(time);
+            group.move_touches(group.moved_at(time));
         }
     }
 

@@ -30,9 +30,6 @@ use faces::Faces;
 /// Slip below this part of the speeds that it is the difference of is none.
 const STILL: f64 = 1e-12;
 
-/// What turns by less than this part of the speeds may be at rest but for rounding.
-const TURNING: f64 = 1e-9;
-
 /// A body of a group at the instant of the mode solve; one of infinite mass moves uniformly.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ModeBody {
@@ -313,7 +310,7 @@ fn turns(bodies: &[ModeBody], touches: &[Touch], speed: f64) -> bool {
                 let body = &bodies[place];
                 let turning = body.spin.abs() * (touch.points[0] - body.centre).length();
                 feature != Feature::Round
-                    && turning > TURNING * (body.velocity.length() + turning + speed)
+                    && turning > STILL * (body.velocity.length() + turning + speed)
             })
     })
 }
