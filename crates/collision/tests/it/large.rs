@@ -34,19 +34,26 @@ fn any_shape() -> impl Strategy<Value = Shape> {
     ]
 }
 
-fn contacts_of_all_parts(a: &Shape, b: &Shape, pose: Pose, margin: f64) -> Vec<(u32, u32)> {
+fn contacts_of_all_parts(a: &Shape, b: &Shape, pose: Pose, margin: f64) -> Vec<PartManifold> {
     let mut found = Vec::new();
-    for (i, part_a) in (0..).zip(hulls(a)) {
-        for (j, part_b) in (0..).zip(hulls(b)) {
-            if !collide_within(&part_a, &part_b, pose, margin)
-                .points
-                .is_empty()
-            {
-                found.push((i, j));
+    for (part_a, one) in (0..).zip(hulls(a)) {
+        for (part_b, other) in (0..).zip(hulls(b)) {
+            let manifold = collide_within(&one, &other, pose, margin);
+            if !manifold.points.is_empty() {
+                found.push(PartManifold {
+                    part_a,
+                    part_b,
+                    manifold,
+                });
             }
         }
     }
     found
+}
+
+fn overlaps(contact: &PartManifold) -> bool {
+    let points = &contact.manifold.points;
+    points.iter().any(|point| point.separation <= 0.0)
 }
 
 fn distance_of_all_parts(a: &Shape, b: &Shape, pose: Pose) -> Distance {
@@ -85,18 +92,14 @@ proptest! {
             let mut found: Vec<PartManifold> = Vec::new();
             contacts(a, b, pose, margin, &mut found);
             let all = contacts_of_all_parts(a, b, pose, margin);
+            // So deep that only the whole has a way out: one of two pieces that are near each other, perhaps.
+            let is_hidden = !all.iter().any(overlaps);
             for contact in &found {
-                if all.is_empty() {
-                    // So deep that only the whole has a way out.
-                    break;
-                }
                 let place = (contact.part_a, contact.part_b);
-                if !all.contains(&place) {
-                    continue;
+                let alone = all.iter().find(|alone| (alone.part_a, alone.part_b) == place);
+                if let Some(alone) = alone && !(is_hidden && overlaps(contact)) {
+                    prop_assert_eq!(alone, contact);
                 }
-                let part = |shape, i: u32| carom_collision::part(shape, i as usize);
-                let alone = collide_within(&part(a, place.0), &part(b, place.1), pose, margin);
-                prop_assert_eq!(&alone, &contact.manifold);
             }
             // Left out are contacts that a neighbour has, too: one corner of two pieces.
             prop_assert!(all.is_empty() || !found.is_empty());
