@@ -320,6 +320,7 @@ impl Engine {
                 centre: pose.position,
                 velocity: body.v(),
                 radius: reach + slack + falls.length(),
+                beyond: turn + slack + falls.length(),
             };
         }
     }

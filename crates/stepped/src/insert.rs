@@ -65,7 +65,7 @@ impl Engine {
             tight
         };
         self.pieces.boxes[number as usize] = bounds;
-        self.pieces.discs[number as usize] = Disc::ENDLESS;
+        self.pieces.discs[number as usize] = Disc::endless(slack);
         self.broad.stand(number, bounds);
     }
 

@@ -198,6 +198,17 @@ impl Turned<'_> {
         self.normal(i).dot(self.corner(i))
     }
 
+    /// Whether a point in space is more than `distance` metres beyond a side.
+    pub(crate) fn is_beyond_side(self, point: Vec2, distance: f64) -> bool {
+        let (way, far) = (point - self.centre(), distance + self.radius());
+        let sides = if self.corners() > 1 {
+            self.corners()
+        } else {
+            0
+        };
+        (0..sides).any(|i| self.normal(i).dot(way - self.corner(i)) > far)
+    }
+
     /// Whether edge `i` is a cut through a concave polygon, beyond which another piece goes on.
     #[expect(
         clippy::cast_possible_truncation,

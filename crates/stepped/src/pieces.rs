@@ -120,21 +120,31 @@ pub(crate) struct Disc {
     /// In m/s.
     pub(crate) velocity: Vec2,
     pub(crate) radius: f64,
+    /// How far from its outline the piece may reach within the tick but for its velocity, in m.
+    pub(crate) beyond: f64,
 }
 
 impl Disc {
-    /// Of what has no circle.
-    pub(crate) const ENDLESS: Self = Self {
-        centre: Vec2::ZERO,
-        velocity: Vec2::ZERO,
-        radius: f64::INFINITY,
-    };
+    /// Of what stands, and has no circle.
+    pub(crate) const fn endless(beyond: f64) -> Self {
+        Self {
+            centre: Vec2::ZERO,
+            velocity: Vec2::ZERO,
+            radius: f64::INFINITY,
+            beyond,
+        }
+    }
 
     /// Whether two may meet within `time` seconds.
     pub(crate) fn may_meet(&self, other: &Self, time: f64) -> bool {
-        let speed = other.velocity - self.velocity;
-        let reach = self.radius + other.radius + (speed.x.abs() + speed.y.abs()) * time;
+        let reach = self.radius + other.radius + self.nears(other, time);
         (other.centre - self.centre).length_squared() <= reach * reach
+    }
+
+    /// How far two go against each other in `time` seconds, at most.
+    fn nears(&self, other: &Self, time: f64) -> f64 {
+        let speed = other.velocity - self.velocity;
+        (speed.x.abs() + speed.y.abs()) * time
     }
 }
 
@@ -187,7 +197,7 @@ impl Pieces {
                 self.outlines.push(outline.0);
                 self.rests.push(outline.1);
                 self.boxes.push(Aabb::EMPTY);
-                self.discs.push(Disc::ENDLESS);
+                self.discs.push(Disc::endless(f64::INFINITY));
             } else {
                 self.of_body[number] = outline;
                 self.owners[number] = owner;
@@ -206,6 +216,25 @@ impl Pieces {
     /// Whether they belong to two bodies.
     pub(crate) fn are_of_two(&self, a: u32, b: u32) -> bool {
         self.owners[a as usize].body != self.owners[b as usize].body
+    }
+
+    /// Whether one of two pieces, whose circle is less than half as wide, stays beyond a side of the other one for `time` seconds: as
+    /// beside a plank that is askew, the circle of which is wide. Circles alone tell whether others may meet.
+    #[inline]
+    pub(crate) fn are_beside(&self, a: u32, b: u32, time: f64) -> bool {
+        let [of_a, of_b] = [a, b].map(|piece| self.discs[piece as usize].radius);
+        (of_a - of_b).abs() > of_a.min(of_b)
+            && if of_a > of_b {
+                self.is_beside(a, b, time)
+            } else {
+                self.is_beside(b, a, time)
+            }
+    }
+
+    fn is_beside(&self, large: u32, small: u32, time: f64) -> bool {
+        let [disc, small] = [large, small].map(|piece| &self.discs[piece as usize]);
+        let far = small.radius + disc.beyond + disc.nears(small, time);
+        self.turned(large).is_beyond_side(small.centre, far)
     }
 
     /// Tags of two pieces.

@@ -217,7 +217,8 @@ impl Broad {
                 if states[b] & STANDS != 0 {
                     by_standing[a] = true;
                 }
-                if discs[a].may_meet(&discs[b], tick) {
+                if discs[a].may_meet(&discs[b], tick) && !pieces.are_beside(pair[0], pair[1], tick)
+                {
                     found.push(pair);
                 }
             }
@@ -292,6 +293,7 @@ impl Broad {
                 let [of_a, of_b] = [a, b].map(|piece| piece as usize);
                 let overlap = pieces.boxes[of_a].overlaps(pieces.boxes[of_b]);
                 let meet = pieces.discs[of_a].may_meet(&pieces.discs[of_b], tick);
+                let meet = meet && !pieces.are_beside(a, b, tick);
                 if (asks(a) || asks(b)) && (self.endless.contains(&b) || overlap && meet) {
                     all.push([a.min(b), a.max(b)]);
                 }

@@ -1,10 +1,10 @@
 //! Fat boxes, late pieces and sorts decide what a search costs, and nothing of what it finds.
 
-use carom_geometry::ConvexPolygon;
-use carom_math::vec2;
+use carom_geometry::{Circle, ConvexPolygon};
+use carom_math::{Rot, Vec2, vec2};
 
-use super::{Random, floor};
-use crate::{BodyId, BodyInput, Engine, Mixed, PieceInput, Settings};
+use super::{Random, floor, weightless};
+use crate::{BodyId, BodyInput, BodyKind, Engine, Mixed, PieceInput, Settings};
 
 #[test]
 fn finds_the_pairs_that_asking_all_finds() {
@@ -67,4 +67,43 @@ fn finds_the_pairs_that_asking_all_finds() {
         }
     }
     assert!(count > 10_000, "{count}");
+}
+
+/// Where a disc is beside a plank, it stays a margin away from it in the whole tick.
+#[test]
+fn what_is_beside_a_plank_stays_off_it() {
+    let mut random = Random::new(17);
+    let (mut beside, mut overlapping) = (0, 0);
+    for _ in 0..4000 {
+        let mut engine = Engine::new(weightless()).unwrap();
+        let half = vec2(1.0 + 4.0 * random.next(), 0.1 + 0.3 * random.next());
+        let shape = ConvexPolygon::rectangle(2.0 * half.x, 2.0 * half.y).unwrap();
+        let mut plank = BodyInput::new(BodyKind::Kinematic);
+        (plank.pose, plank.spin) = (random.pose(1.0), 5.0 * random.signed());
+        plank.velocity = vec2(random.signed(), random.signed()) * 10.0;
+        engine.insert(plank, &[PieceInput::new(shape)]).unwrap();
+        let radius = 0.05 + 0.2 * random.next();
+        let piece = PieceInput::new(Circle::new(radius).unwrap());
+        let mut disc = random.body(&piece, 4.0);
+        disc.velocity *= 10.0;
+        engine.insert(disc, &[piece]).unwrap();
+        engine.pose_boxes();
+        let Settings { tick, margin, .. } = engine.settings;
+        let boxes = &engine.pieces.boxes;
+        overlapping += u32::from(boxes[0].overlaps(boxes[1]));
+        if !engine.pieces.are_beside(0, 1, tick) {
+            continue;
+        }
+        beside += u32::from(boxes[0].overlaps(boxes[1]));
+        for k in 0..=16 {
+            let time = tick * f64::from(k) / 16.0;
+            let rotation = plank.pose.rotation * Rot::from_angle(plank.spin * time);
+            let way = disc.pose.position - plank.pose.position;
+            let way = rotation.inverse() * (way + (disc.velocity - plank.velocity) * time);
+            let out = (way.abs() - half).max(Vec2::ZERO).length() - radius;
+            let extent = 2.0 * radius.min(half.y);
+            assert!(out >= margin * extent, "{out} m after {time} s");
+        }
+    }
+    assert!(10 * beside > overlapping, "{beside} of {overlapping}");
 }
