@@ -23,16 +23,12 @@ impl World {
         if self.closed.stays {
             return;
         }
-        let mut left = false;
         for place in moving {
             if self.may_move_analytically(place) {
-                left |= self.move_analytically(place, time);
+                self.move_analytically(place, time);
             } else {
                 self.closed.moves(place);
             }
-        }
-        if left {
-            self.pairs.sort(&self.bodies, &self.stepped);
         }
     }
 
@@ -47,14 +43,14 @@ impl World {
             .begin_next_piece(&mut self.bodies, index, time, self.clock.h);
     }
 
-    /// An island moves without sub-steps until its next mode change; whether that is worth it.
-    fn move_analytically(&mut self, place: u32, time: SimTime) -> bool {
+    /// An island moves without sub-steps until its next mode change, if that is worth it.
+    fn move_analytically(&mut self, place: u32, time: SimTime) {
         let Some(group) = self.closed.get(place) else {
-            return false;
+            return;
         };
         let until = group.until.unwrap_or(SimTime::NEVER);
         if until - time < WORTH * self.clock.h {
-            return false;
+            return;
         }
         for touch in &group.touches {
             touch.carry(&self.bodies, self.pairs.get_mut(touch.pair), self.clock.h);
@@ -77,7 +73,6 @@ impl World {
                 .note_flight(&self.bodies, self.settings.mode, index);
         }
         self.begin_next_pieces(place, time);
-        true
     }
 
     /// The next pieces of the members of an island in analytic motion, and their impacts.

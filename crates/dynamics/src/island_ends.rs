@@ -98,7 +98,6 @@ impl World {
             self.lie_down(index, time);
         }
         self.lower_free_boxes_later();
-        self.pairs.sort(&self.bodies, &self.stepped);
     }
 
     /// An analytic island that has been at rest for long enough falls asleep.

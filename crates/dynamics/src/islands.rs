@@ -20,12 +20,25 @@ use crate::{BodyKind, ContactMode, Mode, World};
 impl World {
     /// Closed forms for all groups that allow them at the start of a sub-step.
     pub(crate) fn close_groups(&mut self, time: SimTime) {
+        let places = self.pairs.ordered().to_vec();
+        self.close_groups_of(&places, time);
+        self.keep_closed(|_| true);
+    }
+
+    /// Closed forms for bodies that came to the sub-steps in the midst of one, and for what their groups hold.
+    pub(crate) fn close_groups_within(&mut self, waiting: &[u32], time: SimTime) {
+        let of = |index: &u32| self.bodies.get(*index).pairs.iter().copied();
+        let places = self.pairs.by_colliders(waiting.iter().flat_map(of));
+        self.close_groups_of(&places, time);
+        self.keep_closed(|group| group.since == time);
+    }
+
+    /// Closed forms for the groups of these pairs.
+    fn close_groups_of(&mut self, places: &[u32], time: SimTime) {
         if !self.bodies.pull.fields.is_empty() {
             return;
         }
-        let mut i = 0;
-        while let Some(place) = self.pairs.place(i) {
-            i += 1;
+        for &place in places {
             let Some(pair) = self.pairs.find(place).filter(|pair| pair.touching) else {
                 continue;
             };
@@ -46,17 +59,14 @@ impl World {
                 }
             }
         }
-        self.keep_closed();
     }
 
-    /// Contacts of groups last, and carry what the group says.
-    fn keep_closed(&mut self) {
+    /// Contacts of groups that are `new` last, and carry what the group says.
+    fn keep_closed(&mut self, new: impl Fn(&Group) -> bool) {
         let (h, bodies) = (self.clock.h, &self.bodies);
-        for group in self
-            .closed
-            .iter()
-            .filter(|group| !(group.rests_analytically(bodies) || group.moves_analytically(bodies)))
-        {
+        for group in self.closed.iter().filter(|group| {
+            new(group) && !(group.rests_analytically(bodies) || group.moves_analytically(bodies))
+        }) {
             for touch in &group.touches {
                 touch.carry(&self.bodies, self.pairs.get_mut(touch.pair), h);
             }

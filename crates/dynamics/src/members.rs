@@ -36,7 +36,6 @@ impl World {
                 self.find_contacts(time);
             }
         }
-        self.pairs.sort(&self.bodies, &self.stepped);
         self.stopwatch.lap(|p| &mut p.contacts);
     }
 

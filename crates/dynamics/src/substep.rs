@@ -33,6 +33,7 @@ impl World {
         self.gather_landings(time, h);
         self.look(time, h);
         self.join_large(time);
+        self.pairs.sort(&self.bodies, &self.stepped);
         self.close_groups(time);
         self.join_exhausted(time);
         self.stopwatch.lap(|p| &mut p.contacts);
@@ -41,6 +42,7 @@ impl World {
         self.begin_analytic_motion(time);
         self.join_unsolved(time);
         self.gather_members(time);
+        self.pairs.sort(&self.bodies, &self.stepped);
         self.pairs_are_new();
         self.stopwatch.lap(|p| &mut p.contacts);
         self.release(time);

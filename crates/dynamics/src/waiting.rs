@@ -29,8 +29,7 @@ impl World {
                 self.events.tell_touch(bodies, pair, time);
             }
         }
-        self.pairs.sort(&self.bodies, &self.stepped);
-        self.close_groups(time);
+        self.close_groups_within(&waiting, time);
         self.drop_alone(time);
         self.join_unsolved(time);
         self.tell_waiting(time);

@@ -164,7 +164,6 @@ impl World {
         for index in joining {
             self.join(index, time);
         }
-        self.pairs.sort(&self.bodies, &self.stepped);
     }
 
     /// Bodies that woke together join if they are many; whether they did.
