@@ -31,9 +31,14 @@ const NOISE: f64 = 8.0 * f64::EPSILON;
 /// Overlap that is looked at again, as a fraction of the smaller reach: what an impact leaves.
 const SLACK: f64 = 1e-12;
 
-/// Part of the first impact's speed at which bounces on what presses go to their limit: from 1 m/s
-/// they take 2e-14 s then.
-const FADED: f64 = 1e-13;
+/// Part of the first impact's speed at which bounces on what presses go to their limit: what presses lasts from there on, and gives
+/// the impulse of all bounces that are left out, `m u (1 + e)/(1 − e)` in the sum with the last one, in as much time. So only their
+/// instants are off, by this part of the series, and what friction does then by its square. With 1e-13 bodies that fall into 200 cups
+/// take 1.3 times as many impacts.
+const FADED: f64 = 1e-10;
+
+/// The same where nothing presses: what the last bounces would do is left out.
+const GONE: f64 = 1e-13;
 
 impl World {
     /// Resolves an impact that was foreseen for the motions as they are.
@@ -84,7 +89,7 @@ impl World {
             0.0
         };
         let series = self.count_in_series(impact, time, speed, left);
-        let ends = e < 1.0 && series.has_faded(speed, FADED);
+        let ends = e < 1.0 && series.has_faded(speed, if press > 0.0 { FADED } else { GONE });
         let e = if ends { 0.0 } else { e };
         let material = PairMaterial {
             restitution: e,
