@@ -80,8 +80,20 @@ impl World {
 
     /// Whether a body outside of the engine meets one that stands for the `left` seconds to the end of the sub-step.
     pub(crate) fn meets_waiting(&self, index: u32, ahead: (SimTime, f64)) -> bool {
-        let mut waiting = self.joins.waiting.iter();
-        waiting.any(|at| self.stands(*at) && self.meets_standing(index, *at, ahead))
+        if self.joins.waiting.is_empty() {
+            return false;
+        }
+        let state = self.bodies.get(index);
+        let way = box_ahead(state, ahead.0, ahead.1);
+        // Bounding circles of most keep off its box; twice the rooms, for rounding.
+        let near = |at: &u32| {
+            let other = self.bodies.get(*at);
+            let centre = other.motion.centre;
+            let off = centre - centre.clamp(way.min, way.max);
+            off.length() <= 2.0 * other.reach
+        };
+        let mut waiting = self.joins.waiting.iter().filter(|at| self.stands(**at));
+        waiting.any(|at| near(at) && self.meets_standing(index, *at, ahead))
     }
 
     fn stands(&self, index: u32) -> bool {
