@@ -191,7 +191,6 @@ impl Engine {
         };
         self.found = true;
         let Self {
-            level,
             bodies,
             pieces,
             broad,
@@ -201,7 +200,7 @@ impl Engine {
         if !(posed.at_tick || posed.deviates || broad.has_arrivals()) {
             return false;
         }
-        broad.find(*level, bodies, pieces, settings.tick, posed.at_tick);
+        broad.find(bodies, pieces, settings.tick, posed.at_tick);
         self.update_contacts(rules);
         !posed.at_tick
     }

@@ -213,7 +213,7 @@ impl Engine {
     /// Many queries follow: after many changes, and sub-steps in which many bodies woke, each would look at all of these.
     pub fn prepare_queries(&mut self) {
         self.broad
-            .prepare_queries(self.level, &self.bodies, &self.pieces, self.settings.tick);
+            .prepare_queries(&self.bodies, &self.pieces, self.settings.tick);
     }
 
     /// [`Self::query`] of those alone that are awake and not fixed.

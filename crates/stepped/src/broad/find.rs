@@ -1,7 +1,5 @@
 //! A search: fat boxes of what moved, their pairs, and which of these pairs of boxes overlap now.
 
-use fearless_simd::Level;
-
 use super::Broad;
 use super::lists::{ASKED, KNOWN, LATE, LISTED, NEW, STANDS, is_mover};
 use crate::bodies::Bodies;
@@ -21,14 +19,7 @@ impl Broad {
     }
 
     /// Finds the pairs of which one piece moved, arrived or woke.
-    pub(crate) fn find(
-        &mut self,
-        level: Level,
-        bodies: &Bodies,
-        pieces: &Pieces,
-        tick: f64,
-        at_tick: bool,
-    ) {
+    pub(crate) fn find(&mut self, bodies: &Bodies, pieces: &Pieces, tick: f64, at_tick: bool) {
         self.found.clear();
         self.ask(bodies, pieces);
         if at_tick {
@@ -40,7 +31,7 @@ impl Broad {
                 .extend(movers.filter(|piece| is_mover(lists.states[*piece as usize])));
         }
         if self.is_stale() {
-            self.sort(level, bodies, pieces, tick);
+            self.sort(bodies, pieces, tick);
         } else {
             self.add_new(pieces, tick);
         }
@@ -83,7 +74,7 @@ impl Broad {
     }
 
     /// Finds all pairs of fat boxes anew.
-    pub(super) fn sort(&mut self, level: Level, bodies: &Bodies, pieces: &Pieces, tick: f64) {
+    pub(super) fn sort(&mut self, bodies: &Bodies, pieces: &Pieces, tick: f64) {
         let Self {
             sweep,
             lists,
@@ -112,7 +103,7 @@ impl Broad {
         pairs.clear();
         let movers = movers.filter(|piece| lists.states[*piece as usize] & LISTED != 0);
         sweep.sort(movers.clone(), &lists.fat);
-        sweep.pairs(level, |a, b| {
+        sweep.pairs(|a, b| {
             if pieces.are_of_two(a, b) {
                 pairs.push([a, b]);
             }

@@ -17,11 +17,6 @@ impl Key {
     pub(super) const fn strip(self) -> u32 {
         (self.place >> 32) as u32
     }
-
-    #[expect(clippy::cast_possible_truncation, reason = "the lower half")]
-    pub(super) const fn left(self) -> u32 {
-        self.place as u32
-    }
 }
 
 /// Bits that are in the order of the numbers, rounded to f32: equal numbers may get equal bits, and none change places.

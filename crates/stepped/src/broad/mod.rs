@@ -9,7 +9,6 @@ mod table;
 
 use carom_collision::{BoxTree, NodeId};
 use carom_geometry::Aabb;
-use fearless_simd::Level;
 
 use crate::bodies::Bodies;
 use crate::pieces::Pieces;
@@ -44,7 +43,7 @@ pub(crate) struct Broad {
 impl Broad {
     pub(crate) fn new() -> Self {
         Self {
-            sweep: Sweep::default(),
+            sweep: Sweep::new(),
             lists: Lists::default(),
             standing: BoxTree::new(),
             nodes: Vec::new(),
@@ -120,15 +119,9 @@ impl Broad {
     }
 
     /// Queries are answered by the sweep, though many movers came since it was sorted.
-    pub(crate) fn prepare_queries(
-        &mut self,
-        level: Level,
-        bodies: &Bodies,
-        pieces: &Pieces,
-        tick: f64,
-    ) {
+    pub(crate) fn prepare_queries(&mut self, bodies: &Bodies, pieces: &Pieces, tick: f64) {
         if self.is_stale() {
-            self.sort(level, bodies, pieces, tick);
+            self.sort(bodies, pieces, tick);
         }
         self.news.sort_unstable();
         self.news.dedup();

@@ -21,6 +21,9 @@ const UNUSUAL: f64 = 2.0;
 /// 1: what falls gets new strips in each tick.
 const ROOM: f64 = 1.05;
 
+/// Of boxes of unusual size, behind all strips: there is no order from below among them.
+const NO_STRIP: u32 = u32::MAX;
+
 /// Strips get lower once no usual box is this part as high.
 const LOW: f64 = 0.8;
 
@@ -37,11 +40,12 @@ struct Boxes {
 }
 
 /// All movers in order of their strips.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(crate) struct Sweep {
+    level: Level,
     keys: Vec<Key>,
-    /// Movers of unusual size in order of their left ends.
-    unusual: Vec<(Aabb, u32)>,
+    /// Where movers of unusual size begin, in order of their left ends.
+    unusual: usize,
     /// Number of each strip that is not empty, and where it begins.
     strips: Vec<(u32, usize)>,
     /// In the order of the keys.
@@ -53,6 +57,19 @@ pub(crate) struct Sweep {
 }
 
 impl Sweep {
+    pub(crate) fn new() -> Self {
+        Self {
+            level: Level::new(),
+            keys: Vec::new(),
+            unusual: 0,
+            strips: Vec::new(),
+            boxes: Boxes::default(),
+            height: 0.0,
+            too_high: 0,
+            sizes: Vec::new(),
+        }
+    }
+
     /// Makes the order of these movers, each piece once, with boxes by piece.
     pub(crate) fn sort(&mut self, movers: impl Iterator<Item = u32> + Clone, boxes: &[Aabb]) {
         let size = |piece: u32| {
@@ -62,30 +79,26 @@ impl Sweep {
         self.sizes.clear();
         self.sizes.extend(movers.clone().map(size));
         self.choose_height();
-        self.unusual.clear();
         self.keys.clear();
         for piece in movers {
-            let bounds = boxes[piece as usize];
-            if size(piece) <= self.height {
-                let strip = self.strip(bounds.min.y);
-                self.keys.push(Key::new(strip, bounds.min.x, piece));
+            let corner = boxes[piece as usize].min;
+            let strip = if size(piece) <= self.height {
+                self.strip(corner.y)
             } else {
-                self.unusual.push((bounds, piece));
-            }
+                NO_STRIP
+            };
+            self.keys.push(Key::new(strip, corner.x, piece));
         }
         self.keys.sort_unstable();
+        self.unusual = self.keys.partition_point(|key| key.strip() < NO_STRIP);
         self.strips.clear();
-        for (k, key) in self.keys.iter().enumerate() {
+        for (k, key) in self.keys[..self.unusual].iter().enumerate() {
             let strip = key.strip();
             if self.strips.last().is_none_or(|last| last.0 != strip) {
                 self.strips.push((strip, k));
             }
         }
         self.fill(boxes);
-        self.unusual.sort_unstable_by(|a, b| {
-            let order = a.0.min.x.total_cmp(&b.0.min.x);
-            order.then(a.1.cmp(&b.1))
-        });
     }
 
     /// How high strips are for boxes of these sizes: as before, if the highest box that fits is nearly so high, no more boxes are higher,
@@ -119,7 +132,7 @@ impl Sweep {
 
     /// How many movers it knows.
     pub(crate) const fn len(&self) -> usize {
-        self.keys.len() + self.unusual.len()
+        self.keys.len()
     }
 
     /// Copies the boxes into the order of the keys.
@@ -163,23 +176,12 @@ impl Sweep {
     }
 
     /// Finds all pairs with boxes that overlap.
-    pub(crate) fn pairs(&self, level: Level, mut found: impl FnMut(u32, u32)) {
-        dispatch!(level, simd => self.usual_pairs(simd, &mut found));
-        for (k, &(bounds, piece)) in self.unusual.iter().enumerate() {
-            self.query(bounds, |other| found(piece, other));
-            for &(theirs, other) in &self.unusual[k + 1..] {
-                if theirs.min.x > bounds.max.x {
-                    break;
-                }
-                if theirs.overlaps(bounds) {
-                    found(piece, other);
-                }
-            }
-        }
+    pub(crate) fn pairs(&self, mut found: impl FnMut(u32, u32)) {
+        dispatch!(self.level, simd => self.all_pairs(simd, &mut found));
     }
 
     #[inline(always)]
-    fn usual_pairs<S: Simd>(&self, simd: S, found: &mut impl FnMut(u32, u32)) {
+    fn all_pairs<S: Simd>(&self, simd: S, found: &mut impl FnMut(u32, u32)) {
         for (n, &(strip, first)) in self.strips.iter().enumerate() {
             let end = self.end(n);
             // The next strip is swept by a second finger, which only goes forward.
@@ -200,6 +202,12 @@ impl Sweep {
                 self.forward(simd, finger, beyond, bounds, &mut tell);
             }
         }
+        for k in self.unusual..self.len() {
+            let (piece, bounds) = (self.keys[k].piece, self.bounds(k));
+            let mut tell = |other: u32| found(piece, other);
+            self.usual_in(simd, bounds, &mut tell);
+            self.forward(simd, k + 1, self.len(), bounds, &mut tell);
+        }
     }
 
     fn bounds(&self, k: usize) -> Aabb {
@@ -210,16 +218,15 @@ impl Sweep {
 
     /// Finds all movers with a box that overlaps `bounds`.
     pub(crate) fn all_in(&self, bounds: Aabb, mut found: impl FnMut(u32)) {
-        self.query(bounds, &mut found);
-        for (theirs, piece) in &self.unusual {
-            if theirs.overlaps(bounds) {
-                found(*piece);
-            }
-        }
+        dispatch!(self.level, simd => {
+            self.usual_in(simd, bounds, &mut found);
+            self.forward(simd, self.unusual, self.len(), bounds, &mut found);
+        });
     }
 
     /// Finds what lies in the strips.
-    fn query(&self, bounds: Aabb, mut found: impl FnMut(u32)) {
+    #[inline(always)]
+    fn usual_in<S: Simd>(&self, simd: S, bounds: Aabb, found: &mut impl FnMut(u32)) {
         let lowest = self.strip(bounds.min.y).saturating_sub(1);
         let highest = self.strip(bounds.max.y);
         let first = self.strips.partition_point(|strip| strip.0 < lowest);
@@ -231,15 +238,7 @@ impl Sweep {
             let left = bounds.min.x - self.height;
             let begin = self.boxes.left[strip.1..end]
                 .partition_point(|theirs| ordered(*theirs) < ordered(left));
-            let right = ordered(bounds.max.x);
-            for k in strip.1 + begin..end {
-                if self.keys[k].left() > right {
-                    break;
-                }
-                if self.bounds(k).overlaps(bounds) {
-                    found(self.keys[k].piece);
-                }
-            }
+            self.forward(simd, strip.1 + begin, end, bounds, found);
         }
     }
 
@@ -254,8 +253,10 @@ impl Sweep {
         found: &mut impl FnMut(u32),
     ) {
         let boxes = &self.boxes;
-        // Order is that of left ends rounded down: what is beyond the right end so rounded is beyond it.
-        let right = ordered(bounds.max.x);
+        let x = fours(&boxes.left, from, end).zip(fours(&boxes.right, from, end));
+        let y = fours(&boxes.low, from, end).zip(fours(&boxes.high, from, end));
+        // Order is that of left ends rounded to f32: what is beyond the right end so rounded is beyond it.
+        let last = rounded(bounds.max.x);
         let (min_x, max_x) = (
             f64x4::splat(simd, bounds.min.x),
             f64x4::splat(simd, bounds.max.x),
@@ -264,14 +265,14 @@ impl Sweep {
             f64x4::splat(simd, bounds.min.y),
             f64x4::splat(simd, bounds.max.y),
         );
-        for k in (from..end).step_by(LANES) {
-            if self.keys[k].left() > right {
+        for (k, ((left, right), (low, high))) in (from..).step_by(LANES).zip(x.zip(y)) {
+            if rounded(left[0]) > last {
                 break;
             }
-            let overlap = f64x4::from_slice(simd, &boxes.left[k..k + LANES]).simd_le(max_x)
-                & f64x4::from_slice(simd, &boxes.right[k..k + LANES]).simd_ge(min_x)
-                & f64x4::from_slice(simd, &boxes.low[k..k + LANES]).simd_le(max_y)
-                & f64x4::from_slice(simd, &boxes.high[k..k + LANES]).simd_ge(min_y);
+            let overlap = f64x4::from_slice(simd, left).simd_le(max_x)
+                & f64x4::from_slice(simd, right).simd_ge(min_x)
+                & f64x4::from_slice(simd, low).simd_le(max_y)
+                & f64x4::from_slice(simd, high).simd_ge(min_y);
             let mut bits = overlap.to_bitmask();
             while bits != 0 {
                 let other = k + bits.trailing_zeros() as usize;
@@ -285,10 +286,14 @@ impl Sweep {
 
     /// Where strip `n` of the list ends.
     fn end(&self, n: usize) -> usize {
-        self.strips
-            .get(n + 1)
-            .map_or(self.keys.len(), |next| next.1)
+        self.strips.get(n + 1).map_or(self.unusual, |next| next.1)
     }
+}
+
+/// Numbers in `from..end` of a column, four at once, and some that are behind.
+fn fours(column: &[f64], from: usize, end: usize) -> impl Iterator<Item = &[f64; LANES]> {
+    let count = (end - from).next_multiple_of(LANES);
+    column[from..from + count].as_chunks().0.iter()
 }
 
 #[cfg(test)]
@@ -302,7 +307,7 @@ mod tests {
             random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
             f64::from(random >> 8) / f64::from(1u32 << 24)
         };
-        let mut sweep = Sweep::default();
+        let mut sweep = Sweep::new();
         let mut boxes: Vec<Aabb> = Vec::new();
         for round in 0..80 {
             let spread = [5.0, 20.0, 1e3, 1e7][round / 2 % 4];
@@ -322,7 +327,7 @@ mod tests {
             }
             sweep.sort(0..200, &boxes);
             let mut found = Vec::new();
-            sweep.pairs(Level::new(), |a, b| {
+            sweep.pairs(|a, b| {
                 found.push((a.min(b), a.max(b)));
             });
             found.sort_unstable();
