@@ -14,6 +14,7 @@ mod a_flat_leg_of_an_h_is_not_pushed_sideways;
 mod a_floor_bears_any_number_of_landings;
 mod a_force_that_ends_leaves_the_acceleration_as_it_was;
 mod a_gap_that_rounds_to_the_tolerance_closes;
+mod a_grain_far_out_parts_from_what_it_touches;
 mod a_half_plane_is_no_disc;
 mod a_hundred_bodies_at_one_place_end;
 mod a_jam_ends_in_exact_mode;

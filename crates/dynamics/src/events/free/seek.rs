@@ -6,6 +6,7 @@ use carom_math::SimTime;
 use super::Foreseen;
 use super::circle::Circle;
 use super::foresee::{Cause, both_in_grid};
+use super::strike::approach_speed;
 use super::turning::first_piece;
 use crate::World;
 use crate::broad::window::Window;
@@ -195,8 +196,14 @@ impl World {
             TimeOfImpact::Clear => {}
             TimeOfImpact::Hit(impact) | TimeOfImpact::Touching(impact) => {
                 let foreseen = Foreseen::of((a, b), touch.colliders, &impact);
-                let stamp = self.stamp(a, b);
-                self.free.push_impact(time + impact.time, stamp, foreseen);
+                let at = time + impact.time;
+                // Far out the search measures an approach less exactly: of this touch it would tell at this instant again and again.
+                let again =
+                    at <= time && approach_speed(&foreseen, &self.ends_of(&foreseen, time)) <= slow;
+                if !again {
+                    let stamp = self.stamp(a, b);
+                    self.free.push_impact(at, stamp, foreseen);
+                }
             }
             TimeOfImpact::Unresolved { .. } => self.leave_unresolved((a, b), time),
         }
