@@ -216,7 +216,8 @@ fn is_hidden(rows: &Rows, pieces: &Pieces, k: usize, o: usize) -> bool {
                 let (point, bounds) = (*point + lean, pieces.boxes[q as usize]);
                 q != rows.pieces[k]
                     && bounds.grown(flush).contains_point(point)
-                    && holds(pieces.turned(q), point, flush)
+                    && has_sides(pieces.turned(q))
+                    && !pieces.turned(q).is_beyond_side(point, flush)
             })
         })
 }
@@ -278,12 +279,4 @@ impl Rows {
     const fn points(&self, k: usize) -> [Vec2; 2] {
         [vec2(self.x1[k], self.y1[k]), vec2(self.x2[k], self.y2[k])]
     }
-}
-
-/// Whether a point is in an outline with sides, or so near to it.
-fn holds(outline: Turned<'_>, point: Vec2, near: f64) -> bool {
-    let point = point - outline.centre();
-    let edge = outline.radius() + near;
-    let behind = |i: usize| outline.normal(i).dot(point) - outline.off(i) <= edge;
-    outline.corners() > 2 && (0..outline.corners()).all(behind)
 }

@@ -206,7 +206,7 @@ impl Turned<'_> {
         } else {
             0
         };
-        (0..sides).any(|i| self.normal(i).dot(way - self.corner(i)) > far)
+        (0..sides).any(|i| self.normal(i).dot(way) - self.off(i) > far)
     }
 
     /// Whether edge `i` is a cut through a concave polygon, beyond which another piece goes on.

@@ -218,17 +218,17 @@ impl Pieces {
         self.owners[a as usize].body != self.owners[b as usize].body
     }
 
-    /// Whether one of two pieces, whose circle is less than half as wide, stays beyond a side of the other one for `time` seconds: as
-    /// beside a plank that is askew, the circle of which is wide. Circles alone tell whether others may meet.
+    /// Whether one of two pieces stays beyond a side of the other one for `time` seconds, as beside a plank that is askew, the circle of
+    /// which is wide. Where no circle is more than twice as wide as the other, circles alone tell.
     #[inline]
     pub(crate) fn are_beside(&self, a: u32, b: u32, time: f64) -> bool {
-        let [of_a, of_b] = [a, b].map(|piece| self.discs[piece as usize].radius);
-        (of_a - of_b).abs() > of_a.min(of_b)
-            && if of_a > of_b {
-                self.is_beside(a, b, time)
-            } else {
-                self.is_beside(b, a, time)
-            }
+        let radius = |piece: u32| self.discs[piece as usize].radius;
+        let (large, small) = if radius(a) > radius(b) {
+            (a, b)
+        } else {
+            (b, a)
+        };
+        radius(large) > 2.0 * radius(small) && self.is_beside(large, small, time)
     }
 
     fn is_beside(&self, large: u32, small: u32, time: f64) -> bool {

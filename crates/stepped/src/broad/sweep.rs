@@ -42,6 +42,7 @@ struct Boxes {
 /// All movers in order of their strips.
 #[derive(Clone, Debug)]
 pub(crate) struct Sweep {
+    /// Instructions that the processor has: they change no bit.
     level: Level,
     keys: Vec<Key>,
     /// Where movers of unusual size begin, in order of their left ends.
