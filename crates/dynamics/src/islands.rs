@@ -20,8 +20,11 @@ use crate::{BodyKind, ContactMode, Mode, World};
 impl World {
     /// Closed forms for all groups that allow them at the start of a sub-step.
     pub(crate) fn close_groups(&mut self, time: SimTime) {
-        let places = self.pairs.ordered().to_vec();
-        self.close_groups_of(&places, time);
+        let mut i = 0;
+        while let Some(place) = self.pairs.place(i) {
+            i += 1;
+            self.close_group_of(place, time);
+        }
         self.keep_closed(|_| true);
     }
 
@@ -29,34 +32,32 @@ impl World {
     pub(crate) fn close_groups_within(&mut self, waiting: &[u32], time: SimTime) {
         let of = |index: &u32| self.bodies.get(*index).pairs.iter().copied();
         let places = self.pairs.by_colliders(waiting.iter().flat_map(of));
-        self.close_groups_of(&places, time);
+        for place in places {
+            self.close_group_of(place, time);
+        }
         self.keep_closed(|group| group.since == time);
     }
 
-    /// Closed forms for the groups of these pairs.
-    fn close_groups_of(&mut self, places: &[u32], time: SimTime) {
+    /// A closed form for the group of a pair that touches.
+    fn close_group_of(&mut self, place: u32, time: SimTime) {
         if !self.bodies.pull.fields.is_empty() {
             return;
         }
-        for &place in places {
-            let Some(pair) = self.pairs.find(place).filter(|pair| pair.touching) else {
-                continue;
-            };
-            let ends = [pair.bodies.0, pair.bodies.1];
-            let joins = ends.map(|index| self.bodies.get(index).membership.is_closed());
-            for index in ends {
-                let state = self.bodies.get(index);
-                if !state.is_dynamic()
-                    || state.is_asleep()
-                    || state.in_engine()
-                    || state.membership.is_closed()
-                {
-                    continue;
-                }
-                // A touch with a group is the group's alone.
-                if joins.contains(&true) || state.membership.waits(time).is_none() {
-                    self.solve_modes_around(index, time, 0.0, Looks::Fresh);
-                }
+        let Some(pair) = self.pairs.find(place).filter(|pair| pair.touching) else {
+            return;
+        };
+        let ends = [pair.bodies.0, pair.bodies.1];
+        let joins = ends.map(|index| self.bodies.get(index).membership.is_closed());
+        for index in ends {
+            let state = self.bodies.get(index);
+            // A touch with a group is the group's alone.
+            if state.is_dynamic()
+                && !state.is_asleep()
+                && !state.in_engine()
+                && !state.membership.is_closed()
+                && (joins.contains(&true) || state.membership.waits(time).is_none())
+            {
+                self.solve_modes_around(index, time, 0.0, Looks::Fresh);
             }
         }
     }

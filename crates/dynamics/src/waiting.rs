@@ -2,6 +2,7 @@
 //! stands until the sub-step ends.
 
 use carom_collision::{TimeOfImpact, time_of_impact};
+use carom_geometry::Aabb;
 use carom_math::SimTime;
 
 use crate::World;
@@ -71,7 +72,8 @@ impl World {
             near.sort_unstable();
             near.dedup();
             for index in near {
-                if self.meets_standing(index, standing, (time, left)) {
+                let way = box_ahead(self.bodies.get(index), time, left);
+                if self.meets_standing((index, way), standing, (time, left)) {
                     self.join(index, time);
                 }
             }
@@ -83,30 +85,25 @@ impl World {
         if self.joins.waiting.is_empty() {
             return false;
         }
-        let state = self.bodies.get(index);
-        let way = box_ahead(state, ahead.0, ahead.1);
-        // Bounding circles of most keep off its box; twice the rooms, for rounding.
-        let near = |at: &u32| {
-            let other = self.bodies.get(*at);
-            let centre = other.motion.centre;
-            let off = centre - centre.clamp(way.min, way.max);
-            off.length() <= 2.0 * other.reach
-        };
-        let mut waiting = self.joins.waiting.iter().filter(|at| self.stands(**at));
-        waiting.any(|at| near(at) && self.meets_standing(index, *at, ahead))
+        let way = box_ahead(self.bodies.get(index), ahead.0, ahead.1);
+        let mut waiting = self.joins.waiting.iter();
+        waiting.any(|at| self.stands(*at) && self.meets_standing((index, way), *at, ahead))
     }
 
     fn stands(&self, index: u32) -> bool {
         self.bodies.is_alive(index) && self.bodies.get(index).in_engine()
     }
 
-    fn meets_standing(&self, index: u32, standing: u32, (time, left): (SimTime, f64)) -> bool {
+    /// The same of one that stands, and of a body with the box of its way.
+    fn meets_standing(
+        &self,
+        (index, way): (u32, Aabb),
+        standing: u32,
+        (time, left): (SimTime, f64),
+    ) -> bool {
         let (state, other) = (self.bodies.get(index), self.bodies.get(standing));
-        if !state.is_dynamic() || state.is_asleep() || state.in_engine() {
-            return false;
-        }
-        let [way, stays] = [state, other].map(|state| box_ahead(state, time, left));
-        if !way.overlaps(stays) {
+        let goes = state.is_dynamic() && !state.is_asleep() && !state.in_engine();
+        if !goes || !way.overlaps(box_ahead(other, time, left)) {
             return false;
         }
         let motions = [state, other].map(|state| state.motion.rebased(time));

@@ -197,7 +197,8 @@ impl World {
             TimeOfImpact::Hit(impact) | TimeOfImpact::Touching(impact) => {
                 let foreseen = Foreseen::of((a, b), touch.colliders, &impact);
                 let at = time + impact.time;
-                // Far out the search measures an approach less exactly: of this touch it would tell at this instant again and again.
+                // Far out the search measures an approach less exactly: of this touch it would tell at this instant without end.
+                // What is beside it is looked at when the touch is looked at again.
                 let again =
                     at <= time && approach_speed(&foreseen, &self.ends_of(&foreseen, time)) <= slow;
                 if !again {

@@ -34,7 +34,7 @@ const SLACK: f64 = 1e-12;
 /// Part of the first impact's speed at which bounces on what presses go to their limit: what presses lasts from there on, and gives
 /// the impulse of all bounces that are left out, `m u (1 + e)/(1 − e)` in the sum with the last one, in as much time. So only their
 /// instants are off, by this part of the series, and what friction does then by its square. With 1e-13 bodies that fall into 200 cups
-/// take 1.3 times as many impacts.
+/// take 1.18 times as many impacts, and 1.21 of the instructions.
 const FADED: f64 = 1e-10;
 
 /// The same where nothing presses: what the last bounces would do is left out.
