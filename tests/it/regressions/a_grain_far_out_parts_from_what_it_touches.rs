@@ -1,9 +1,11 @@
+//! A grain of 1 mm of three parts grazed an angle 640 m out. The search for other parts found the touch itself again at the same
+//! instant, without end: no step went on any more, and all of them were called exact.
+
 use carom_dynamics::{BodyDef, Material, Mode, Settings, World};
 use carom_geometry::{Circle, ConvexPolygon, Polygon, Shape};
 use carom_math::{Vec2, vec2};
+use carom_tests::scenes::{put, surface};
 
-/// A grain of 1 mm of three parts grazed an angle 640 m out. The search for other parts found the touch itself again at the same
-/// instant, without end: no step went on any more, and all of them were called exact.
 #[test]
 fn a_grain_far_out_parts_from_what_it_touches() {
     for mode in [Mode::Hybrid, Mode::Exact] {
@@ -13,15 +15,9 @@ fn a_grain_far_out_parts_from_what_it_touches() {
             ..Settings::default()
         })
         .expect("settings");
-        let surface = Material {
-            friction: 0.6,
-            restitution: 0.0,
-            ..Material::default()
-        };
         let rough = Material {
             density: 0.007_250_909_003_292_933_5,
-            friction: 5.0,
-            ..surface
+            ..surface(0.0, 5.0)
         };
         let length = 0.000_844_839_406_691_906_7;
         let rod = ConvexPolygon::rectangle(length, 5.166_461_081_958_621_4e-5).expect("a rod");
@@ -39,8 +35,7 @@ fn a_grain_far_out_parts_from_what_it_touches() {
             .turned(0.952_071_322_760_809_7)
             .moving(vec2(-0.725_753_580_393_765_1, 0.365_663_336_682_681_34))
             .spinning(19.649_787_163_345_394);
-        let put = world.insert_compound(def, grain);
-        let grain = put.expect("valid");
+        let grain = world.insert_compound(def, grain).expect("valid");
         let (low, high, thick) = (
             -0.020_052_861_319_946_585,
             0.040_105_722_639_893_16,
@@ -61,7 +56,7 @@ fn a_grain_far_out_parts_from_what_it_touches() {
             .moving(vec2(-0.047_609_916_702_031_19, -0.002_447_073_429_008_619))
             .spinning(0.914_528_077_965_552_9)
             .with_mass(10.323_617_408_763_887);
-        world.insert(def, angle, surface).expect("valid");
+        put(&mut world, def, angle, surface(0.0, 0.6));
         for _ in 0..60 {
             let report = world.step(1.0 / 60.0);
             assert!(report.advanced > 0.0, "{mode:?}: {report:?}");
