@@ -62,6 +62,7 @@ mod what_bore_a_heavy_body_is_not_pushed_when_it_has_gone;
 mod what_is_made_fixed_stands_in_the_way_at_once;
 mod what_lands_again_begins_a_mode_anew;
 mod what_leaves_a_turning_group_is_not_called_exact;
+mod what_meets_in_months_does_not_meet_now;
 mod what_moves_does_not_fall_asleep;
 mod what_opens_under_a_ceiling_comes_back_to_it;
 mod what_waits_for_the_engine_is_not_called_exact;

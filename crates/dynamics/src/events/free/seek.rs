@@ -242,7 +242,9 @@ impl World {
         let approach = |at: SimTime| -opening_speed(one, two, at, impact.points[0], impact.normal);
         // What falls from rest approaches faster at the end of its way than now.
         let (now, then) = (approach(time), approach(time + wait));
-        let far = impact.points[0].abs().max_element() + one.reach.min(two.reach);
+        // Where the gap is now, within the smaller body's reach: the impact may be months ahead, and far off.
+        let small = if one.reach < two.reach { one } else { two };
+        let far = small.centre_at(time).abs().max_element() + small.reach;
         now > 0.0
             && now.max(then) * wait <= BLUR * far
             && self.material_of(impact).restitution < 1.0
