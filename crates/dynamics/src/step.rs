@@ -206,9 +206,9 @@ impl World {
                 operations,
             } => {
                 self.work.impact(operations);
-                let lost = price(&self.pairs.get(entry.pair).material);
-                self.spent += lost;
-                self.rush(&changed, lost, entry.time);
+                let material = self.pairs.get(entry.pair).material;
+                self.spent += price(&material);
+                self.rush(&changed, 1.0 - material.restitution, entry.time);
                 // Wake sleeping bodies first: the contact search below skips sleepers. Failed mode solves are void.
                 for &index in &changed {
                     self.bodies.get_mut(index).membership.forget();

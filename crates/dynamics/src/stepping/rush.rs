@@ -1,18 +1,24 @@
 //! Impacts within a tick: bodies that strike each other too often join the engine.
 
-/// So many bodies that strike each other stay with their exact impacts, however many these are.
+/// So many bodies that strike each other stay with their exact impacts up to [`SERIES`].
 const HANDFUL: f64 = 6.0;
 
 /// More bodies than these join beyond [`LOSSES`]; fewer join beyond [`RATTLE`].
 const MANY: f64 = 16.0;
 
-/// Losses of relative speed a body and tick: with no restitution as many impacts, with e = 0.9 ten times as many.
+/// Losses of relative speed a body and tick: with no restitution as many impacts, with e = 0.9 ten times as many. What loses nothing
+/// is none.
 const LOSSES: f64 = 1.0;
 
 /// The same for fewer bodies: they rattle.
 const RATTLE: f64 = 4.0;
 
-/// The same at which they are so at once, not with the next sub-step.
+/// The same for a [`HANDFUL`]: a Zeno series of impacts with one restitution ends within 30, since k of them leave `e^k` of the speed,
+/// which is down to 1e-13. What goes on is no such series: without this limit bodies that fall into 200 cups take 1.19 times as many
+/// instructions, and polygons that roll along a floor 1.17.
+const SERIES: f64 = 32.0;
+
+/// The same at which they join at once, not with the next sub-step.
 const AT_ONCE: f64 = 16.0;
 
 /// Bodies that struck each other within the present tick, as trees.
@@ -112,8 +118,14 @@ impl Rush {
         let node = &mut self.nodes[root as usize];
         node.spent += lost;
         let (size, spent) = (f64::from(node.size), node.spent);
-        let losses = if size > MANY { LOSSES } else { RATTLE };
-        if size <= HANDFUL || spent <= losses * size {
+        let losses = if size > MANY {
+            LOSSES
+        } else if size > HANDFUL {
+            RATTLE
+        } else {
+            SERIES
+        };
+        if spent <= losses * size {
             return Haste::None;
         }
         if !self.due.contains(&root) {

@@ -78,7 +78,7 @@ impl World {
             return self.touches(impact, time, (speed, slow), -press);
         }
         let e = material.restitution;
-        let lost = price(&material);
+        let lost = 1.0 - e;
         if self.outruns(impact, time, &material) {
             return;
         }
