@@ -323,8 +323,9 @@ impl BodyState {
     pub(crate) fn at(&self, time: SimTime) -> Motion {
         let mut motion = self.motion.rebased(time);
         if let Some(flight) = &self.flight {
-            (motion.centre, motion.velocity) = flight.at(time);
-            (motion.rotation, motion.spin) = flight.turn_at(time);
+            let angle;
+            (motion.centre, motion.velocity, angle, motion.spin) = flight.all_at(time);
+            motion.rotation = flight.turned_by(angle);
         }
         motion
     }
@@ -371,10 +372,11 @@ impl BodyState {
 
     /// Frame of the centre of mass at `time`, by the law of its flight.
     pub(crate) fn centre_pose(&self, time: SimTime) -> Pose {
-        if self.flight.is_none() {
+        let Some(flight) = &self.flight else {
             return self.motion.pose_at(time);
-        }
-        Pose::new(self.centre_at(time), self.rotation_at(time))
+        };
+        let (centre, _, angle, _) = flight.all_at(time);
+        Pose::new(centre, flight.turned_by(angle))
     }
 
     /// Frame of the shapes as drawn.

@@ -134,6 +134,10 @@ impl World {
         );
         // A little beyond: an impact at the very end is found to its last digit, too.
         let end = length * (1.0 + BEYOND);
+        // Beyond the end of a micro-bounce there is nothing to ask.
+        let back = self.free.micro_bounce.as_ref();
+        let back = back.filter(|(_, next)| next.colliders == shapes);
+        let end = back.map_or(end, |(back, _)| end.min(back * (1.0 + BEYOND)));
         let (first, second) = (&first.solid, &second.solid);
         let struck = self.free.struck.filter(|(struck, _)| *struck == shapes);
         let last = struck.map(|(_, last)| last);
