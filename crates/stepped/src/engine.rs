@@ -95,7 +95,7 @@ impl Engine {
             law: Law::new(&settings),
             level: Level::new(),
             bodies: Bodies::new(),
-            pieces: Pieces::default(),
+            pieces: Pieces::new(settings.margin),
             broad: Broad::new(),
             known: Pairs::new(),
             graph: Graph::new(),

@@ -174,9 +174,28 @@ pub(crate) struct Pieces {
     pub(crate) discs: Vec<Disc>,
     /// First and count of numbers in use no more.
     free: Vec<(u32, u32)>,
+    /// Of contacts, as a part of the smaller piece's extent.
+    margin: f64,
 }
 
 impl Pieces {
+    pub(crate) fn new(margin: f64) -> Self {
+        Self {
+            margin,
+            ..Self::default()
+        }
+    }
+
+    /// Whether a piece comes nearer to one that stands than its own margin. Boxes have half of their own each, and that of a long floor
+    /// is tens of metres.
+    #[inline]
+    pub(crate) fn is_near(&self, piece: u32, stands: u32) -> bool {
+        let [own, theirs] = [piece, stands].map(|piece| self.outlines[piece as usize].extent());
+        let spare = 0.5 * self.margin * (theirs - own);
+        let bounds = self.boxes[piece as usize].grown(-spare);
+        bounds.overlaps(self.boxes[stands as usize])
+    }
+
     /// Numbers the pieces of a body; gives the first number.
     pub(crate) fn insert(&mut self, pieces: Vec<Piece>) -> u32 {
         #[expect(clippy::cast_possible_truncation, reason = "hundreds of bytes each")]

@@ -49,6 +49,7 @@ impl Broad {
             lists,
             asked,
             by_standing,
+            by_moving,
             ..
         } = self;
         let mut ask = |piece: u32| {
@@ -57,7 +58,7 @@ impl Broad {
                 lists.states[piece as usize] |= ASKED;
                 asked.push(piece);
                 if is_mover(state) {
-                    by_standing[k] = false;
+                    (by_standing[k], by_moving[k]) = (false, false);
                     if !lists.fat[k].contains(pieces.boxes[k]) {
                         lists.enter(piece);
                     }
@@ -198,6 +199,7 @@ impl Broad {
             lists,
             found,
             by_standing,
+            by_moving,
             ..
         } = self;
         let (states, boxes, discs) = (&lists.states[..], &pieces.boxes[..], &pieces.discs[..]);
@@ -205,10 +207,10 @@ impl Broad {
         let mut note = |pair: [u32; 2]| {
             let [a, b] = pair.map(|piece| piece as usize);
             if boxes[a].overlaps(boxes[b]) {
-                if states[b] & STANDS != 0 {
-                    by_standing[a] = true;
-                }
-                if discs[a].may_meet(&discs[b], tick) && !pieces.are_beside(pair[0], pair[1], tick)
+                let near = states[b] & STANDS == 0 || pieces.is_near(pair[0], pair[1]);
+                if near
+                    && discs[a].may_meet(&discs[b], tick)
+                    && !pieces.are_beside(pair[0], pair[1], tick)
                 {
                     found.push(pair);
                 }
@@ -251,6 +253,14 @@ impl Broad {
         }
         let late = lists.apart.iter().copied();
         late.filter(|pair| is_asked(*pair, KNOWN)).for_each(note);
+        for pair in &*found {
+            let [a, b] = pair.map(|piece| piece as usize);
+            if states[b] & STANDS != 0 {
+                by_standing[a] = true;
+            } else {
+                (by_moving[a], by_moving[b]) = (true, true);
+            }
+        }
         for &endless in &self.endless {
             let movers = self.asked.iter().copied();
             let movers = movers.filter(|piece| is_mover(lists.states[*piece as usize]));
@@ -282,7 +292,8 @@ impl Broad {
                 .filter(|b| a < *b && pieces.are_of_two(a, *b));
             for b in others.chain(stands.iter().copied()) {
                 let [of_a, of_b] = [a, b].map(|piece| piece as usize);
-                let overlap = pieces.boxes[of_a].overlaps(pieces.boxes[of_b]);
+                let overlap = pieces.boxes[of_a].overlaps(pieces.boxes[of_b])
+                    && (!stands.contains(&b) || pieces.is_near(a, b));
                 let meet = pieces.discs[of_a].may_meet(&pieces.discs[of_b], tick);
                 let meet = meet && !pieces.are_beside(a, b, tick);
                 if (asks(a) || asks(b)) && (self.endless.contains(&b) || overlap && meet) {

@@ -34,6 +34,8 @@ pub(crate) struct Broad {
     news: Vec<u32>,
     /// Whether something may stand in the box of a piece, by its number: true unless the last search of it found nothing.
     by_standing: Vec<bool>,
+    /// The same of what moves.
+    by_moving: Vec<bool>,
     /// Pairs of pieces with overlapping boxes, one of which moved.
     pub(crate) found: Vec<[u32; 2]>,
     /// Pieces that a search is about: scratch.
@@ -52,6 +54,7 @@ impl Broad {
             woken: Vec::new(),
             news: Vec::new(),
             by_standing: Vec::new(),
+            by_moving: Vec::new(),
             found: Vec::new(),
             asked: Vec::new(),
         }
@@ -78,10 +81,12 @@ impl Broad {
         self.lists.enter(piece);
         self.news.push(piece);
         let k = piece as usize;
-        if self.by_standing.len() <= k {
-            self.by_standing.resize(k + 1, true);
+        for by in [&mut self.by_standing, &mut self.by_moving] {
+            if by.len() <= k {
+                by.resize(k + 1, true);
+            }
+            by[k] = true;
         }
-        self.by_standing[k] = true;
     }
 
     /// Whether something may stand where a piece is until the tick ends, unless it leaves its box.
@@ -89,6 +94,11 @@ impl Broad {
         // What arrived since has asked for no piece yet.
         let unasked = !self.arrived.is_empty() || !self.endless.is_empty();
         unasked || self.by_standing[piece as usize]
+    }
+
+    /// Whether another body may move where a piece is until the tick ends, unless one of them leaves its box.
+    pub(crate) fn is_by_moving(&self, piece: u32) -> bool {
+        self.by_moving[piece as usize]
     }
 
     /// A piece that stood moves from now on, where it stood.

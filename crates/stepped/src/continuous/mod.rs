@@ -33,10 +33,19 @@ pub(crate) struct FastBody {
     slot: u32,
     /// Displacement and turn at its start, since the base pose.
     from: (Vec2, f64),
-    /// Rows do not know of it: touches with moving bodies are searched for, too.
-    unforeseen: bool,
+    /// Rows do not hold moving bodies off what turns so far.
+    turns: bool,
+    /// It goes otherwise than was foreseen when its rows were found.
+    deviates: bool,
     /// A caller moves it: no rows were solved for, and what it touches does not hold it.
     carried: bool,
+}
+
+impl FastBody {
+    /// Rows do not know of it: touches with moving bodies are searched for, too.
+    const fn is_unforeseen(&self) -> bool {
+        self.turns || self.deviates
+    }
 }
 
 /// The same during the search.
@@ -116,8 +125,7 @@ impl Fast {
     }
 }
 
-/// Notes the bodies that a displacement moved far, and where from. Rows do not hold moving bodies off a body that turns far, or
-/// that an impact sent elsewhere than was foreseen when its rows were found.
+/// Notes the bodies that a displacement moved far, and where from.
 pub(crate) fn note_fast(
     bodies: &Bodies,
     settings: &Settings,
@@ -130,12 +138,11 @@ pub(crate) fn note_fast(
         let at = *at as usize;
         let (line, limit) = (&bodies.lines[at], &bodies.limits[at]);
         if line.inverse_mass() > 0.0 {
-            let turns = limit.is_far(0.0, line.w() * h);
-            let deviates = bodies.change(at, settings.tick) * h > settings.margin * limit.extent;
             fast.push(FastBody {
                 slot: bodies.slot_of[at],
                 from: (from.v(), from.w()),
-                unforeseen: turns || deviates,
+                turns: limit.is_far(0.0, line.w() * h),
+                deviates: bodies.change(at, settings.tick) * h > settings.margin * limit.extent,
                 carried: false,
             });
         }
@@ -174,7 +181,8 @@ impl Engine {
             self.fast_bodies.push(FastBody {
                 slot: id.slot,
                 from: (d, turn),
-                unforeseen: true,
+                turns: false,
+                deviates: true,
                 carried: true,
             });
         }
@@ -230,7 +238,7 @@ impl Engine {
             return Vec::new();
         }
         let leaving: Vec<usize> = (0..noted.len()).filter(|k| leaves[*k]).collect();
-        let is_unboxed = |k: &usize| leaves[*k] || noted[*k].unforeseen;
+        let is_unboxed = |k: &usize| leaves[*k] || noted[*k].is_unforeseen();
         let mut fast = Fast {
             moving: vec![None; noted.len()],
             unboxed: (0..noted.len()).filter(is_unboxed).collect(),
@@ -238,7 +246,7 @@ impl Engine {
             left,
         };
         let mut touches = BinaryHeap::new();
-        for k in (0..may_touch.len()).filter(|k| may_touch[*k] || !leaving.is_empty()) {
+        for k in self.searched(&fast, may_touch, &leaving) {
             self.search(&mut fast, k, (0.0, left), &leaving, rules, &mut touches);
         }
         while let Some(touch) = touches.pop() {
@@ -351,7 +359,7 @@ impl Engine {
             slot: body.slot,
             birth: record.birth,
             motion,
-            unforeseen: body.unforeseen,
+            unforeseen: body.is_unforeseen(),
             carried: body.carried,
             touches: 0,
             touched: None,
@@ -372,7 +380,23 @@ impl Engine {
     fn may_touch(&self, body: &FastBody) -> bool {
         let record = &self.bodies.records[body.slot as usize];
         let mut pieces = record.first_piece..record.first_piece + record.pieces;
-        body.unforeseen || pieces.any(|piece| self.broad.is_by_standing(piece))
+        let beside = |piece: u32| {
+            self.broad.is_by_standing(piece) || body.turns && self.broad.is_by_moving(piece)
+        };
+        body.deviates || pieces.any(beside)
+    }
+
+    /// Fast bodies that may touch something: in their boxes, or one of those that leave theirs.
+    fn searched(&self, fast: &Fast, mut may_touch: Vec<bool>, leaving: &[usize]) -> Vec<usize> {
+        for &k in leaving {
+            let bounds = fast.bounds(self, k, fast.left);
+            self.broad.movers_in(&self.pieces, bounds, |piece| {
+                if let Some(beside) = fast.find(self.pieces.list[piece as usize].body) {
+                    may_touch[beside] = true;
+                }
+            });
+        }
+        (0..may_touch.len()).filter(|k| may_touch[*k]).collect()
     }
 
     /// Where a fast body came from `left` seconds before, and its velocity.
