@@ -1,8 +1,8 @@
 //! Bodies that strike each other in the air, or in space.
 
-use carom_math::{Vec2, vec2};
+use carom_math::{Vec2, trig, vec2};
 
-use super::{GRAVITY, bin, body, grid, mixed_rows, moving, scene, slab};
+use super::{GRAVITY, bin, body, grid, mixed, mixed_rows, moving, scene, slab};
 use crate::plain::harness::Harness;
 use crate::plain::{PlainKind, PlainScene, PlainShape};
 
@@ -109,5 +109,25 @@ pub(super) fn slopes(name: &str) -> PlainScene {
     }
     let mut random = Harness::new(13, &[]);
     mixed_rows(&mut scene, &mut random, 1500, 30, 0.6, vec2(-19.0, 44.0));
+    scene
+}
+
+/// 1,500 bodies rain on hills of 400 segments, and roll into the valleys.
+pub(super) fn hills(name: &str) -> PlainScene {
+    let mut scene = scene(name, GRAVITY, [0.4, 0.2], 300);
+    let at = |k: f64| {
+        let height = 3.0 * trig::sin_cos(0.1 * k).0 + 0.4 * trig::sin_cos(0.73 * k).0;
+        vec2(k, height)
+    };
+    for k in 0..400 {
+        let ends = [at(f64::from(k)), at(f64::from(k + 1))];
+        scene.add(body(PlainKind::Fixed, 0.0, 0.0), PlainShape::Segment(ends));
+    }
+    let mut random = Harness::new(26, &[]);
+    for i in 0..1500 {
+        let at = grid(i, 300, [1.3, 0.9], vec2(2.0, 6.0));
+        let shape = mixed(&mut random, 0.35);
+        scene.add(moving(at).turned(random.between(0.0, 6.0)), shape);
+    }
     scene
 }

@@ -2,6 +2,7 @@
 //! engine does in them, and the peers of the published scenes were measured in none.
 
 mod driven;
+mod groups;
 mod heaps;
 mod loose;
 mod small;
@@ -14,7 +15,7 @@ use super::{PlainBody, PlainKind, PlainScene, PlainShape};
 
 const GRAVITY: Vec2 = vec2(0.0, -10.0);
 
-static SCENES: [PlainInfo; 24] = [
+static SCENES: [PlainInfo; 32] = [
     info(
         "lively_wall",
         "2,000 bricks in a wall, hit",
@@ -158,6 +159,54 @@ static SCENES: [PlainInfo; 24] = [
         "500 boxes slide over tiles",
         "five hundred bodies slide over tiles without friction",
         small::tiles,
+    ),
+    info(
+        "lively_cups",
+        "200 cups, ten bodies fall into each",
+        "cups into each of which ten bodies fall",
+        groups::cups,
+    ),
+    info(
+        "lively_tumblers",
+        "100 frames turn, ten bodies in each",
+        "a hundred frames that turn, with ten bodies in each",
+        groups::tumblers,
+    ),
+    info(
+        "lively_towers",
+        "100 towers of twelve, a ball hits each",
+        "a hundred towers of twelve boxes, hit by a ball each",
+        groups::towers,
+    ),
+    info(
+        "lively_cards",
+        "300 houses of seven cards fall down",
+        "three hundred houses of cards that fall down",
+        groups::cards,
+    ),
+    info(
+        "lively_tossed",
+        "1,000 polygons roll along a floor",
+        "polygons thrown along a floor, which roll",
+        groups::tossed,
+    ),
+    info(
+        "lively_spun_bars",
+        "1,000 bars come down spinning",
+        "bars that come down spinning at up to 40 rad/s",
+        groups::spun_bars,
+    ),
+    info(
+        "lively_bullets",
+        "500 bullets hit 100 walls of ten",
+        "bullets of 100 m/s that hit walls of ten bricks",
+        groups::bullets,
+    ),
+    info(
+        "lively_hills",
+        "1,500 bodies fall on hills",
+        "bodies that rain on hills of 400 segments",
+        loose::hills,
     ),
 ];
 
