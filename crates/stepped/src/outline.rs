@@ -95,6 +95,11 @@ pub(crate) fn outline_of(
 }
 
 impl Outline {
+    /// Leaves a half-plane no sides: its corner and normal turn with its body.
+    pub(crate) const fn leave_no_sides(&mut self) {
+        self.0[5] = 0.0;
+    }
+
     /// Becomes that of a body with this pose.
     pub(crate) fn pose(&mut self, of_body: &Self, pose: Pose) {
         self.0[2..8].copy_from_slice(&of_body.0[2..8]);
@@ -207,6 +212,12 @@ impl Turned<'_> {
             0
         };
         (0..sides).any(|i| self.normal(i).dot(way) - self.off(i) > far)
+    }
+
+    /// Whether a point in space is more than `distance` metres beyond a half-plane, which has no sides.
+    pub(crate) fn is_beyond_plane(self, point: Vec2, distance: f64) -> bool {
+        let height = self.normal(0).dot(point - self.centre()) - self.off(0);
+        height > distance + self.radius()
     }
 
     /// Whether edge `i` is a cut through a concave polygon, beyond which another piece goes on.

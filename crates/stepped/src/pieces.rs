@@ -146,6 +146,11 @@ impl Disc {
         let speed = other.velocity - self.velocity;
         (speed.x.abs() + speed.y.abs()) * time
     }
+
+    /// The same against what stands.
+    fn way(&self, time: f64) -> f64 {
+        (self.velocity.x.abs() + self.velocity.y.abs()) * time
+    }
 }
 
 /// Slot of the body of a piece, and the index that it has there.
@@ -194,6 +199,14 @@ impl Pieces {
         let spare = 0.5 * self.margin * (theirs - own);
         let bounds = self.boxes[piece as usize].grown(-spare);
         bounds.overlaps(self.boxes[stands as usize])
+    }
+
+    /// Whether a piece that moves stays beyond a half-plane that stands, by more than the margin, for `time` seconds.
+    pub(crate) fn is_beyond_plane(&self, piece: u32, plane: u32, time: f64) -> bool {
+        let disc = &self.discs[piece as usize];
+        let half_margin = 0.5 * self.margin * self.outlines[piece as usize].extent();
+        let far = disc.radius + half_margin + disc.way(time);
+        self.turned(plane).is_beyond_plane(disc.centre, far)
     }
 
     /// Numbers the pieces of a body; gives the first number.
@@ -297,8 +310,7 @@ impl Pieces {
 /// The outline of a piece; without corners if it has none: a half-plane, too many corners.
 fn outline(piece: &Piece) -> (Outline, Rest) {
     let hull = piece.hull();
-    let none = hull.is_half_plane() || hull.vertices.len() > CORNERS;
-    let (vertices, normals) = if none {
+    let (vertices, normals) = if hull.vertices.len() > CORNERS {
         (&[][..], &[][..])
     } else {
         (hull.vertices, hull.normals)
@@ -306,7 +318,12 @@ fn outline(piece: &Piece) -> (Outline, Rest) {
     let cuts = (0..normals.len()).filter(|i| !hull.is_boundary(*i));
     let cuts = cuts.fold(0, |cuts, i| cuts | 1 << i);
     let radius = hull.radius + piece.rounding;
-    outline_of(vertices, normals, cuts, [piece.reach, piece.extent, radius])
+    let (mut outline, rest) =
+        outline_of(vertices, normals, cuts, [piece.reach, piece.extent, radius]);
+    if hull.is_half_plane() {
+        outline.leave_no_sides();
+    }
+    (outline, rest)
 }
 
 impl Piece {

@@ -262,13 +262,20 @@ impl Broad {
             }
         }
         for &endless in &self.endless {
+            let mut note = |piece: u32| {
+                if !pieces.is_beyond_plane(piece, endless, tick) {
+                    by_standing[piece as usize] = true;
+                    found.push([piece, endless]);
+                }
+            };
             let movers = self.asked.iter().copied();
-            let movers = movers.filter(|piece| is_mover(lists.states[*piece as usize]));
-            found.extend(movers.map(|piece| [piece, endless]));
+            movers
+                .filter(|piece| is_mover(state(*piece)))
+                .for_each(&mut note);
             if self.arrived.contains(&endless) {
-                let others = (0u32..).zip(&lists.states);
+                let others = (0u32..).zip(states);
                 let others = others.filter(|(_, state)| is_mover(**state) && *state & ASKED == 0);
-                found.extend(others.map(|(piece, _)| [piece, endless]));
+                others.for_each(|(piece, _)| note(piece));
             }
         }
     }
@@ -296,7 +303,12 @@ impl Broad {
                     && (!stands.contains(&b) || pieces.is_near(a, b));
                 let meet = pieces.discs[of_a].may_meet(&pieces.discs[of_b], tick);
                 let meet = meet && !pieces.are_beside(a, b, tick);
-                if (asks(a) || asks(b)) && (self.endless.contains(&b) || overlap && meet) {
+                let near = if self.endless.contains(&b) {
+                    !pieces.is_beyond_plane(a, b, tick)
+                } else {
+                    overlap && meet
+                };
+                if (asks(a) || asks(b)) && near {
                     all.push([a.min(b), a.max(b)]);
                 }
             }

@@ -92,8 +92,7 @@ impl Broad {
     /// Whether something may stand where a piece is until the tick ends, unless it leaves its box.
     pub(crate) fn is_by_standing(&self, piece: u32) -> bool {
         // What arrived since has asked for no piece yet.
-        let unasked = !self.arrived.is_empty() || !self.endless.is_empty();
-        unasked || self.by_standing[piece as usize]
+        !self.arrived.is_empty() || self.by_standing[piece as usize]
     }
 
     /// Whether another body may move where a piece is until the tick ends, unless one of them leaves its box.
