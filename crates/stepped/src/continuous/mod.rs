@@ -88,6 +88,8 @@ struct Fast {
     /// By slot, in order.
     noted: Vec<FastBody>,
     moving: Vec<Option<Moving>>,
+    /// Which of them are searched from.
+    searched: Vec<bool>,
     /// Those that may be where no box of the tick is: they leave theirs, deviate, or touched something.
     unboxed: Vec<usize>,
     /// Seconds that the motions last.
@@ -241,13 +243,19 @@ impl Engine {
         let is_unboxed = |k: &usize| leaves[*k] || noted[*k].is_unforeseen();
         let mut fast = Fast {
             moving: vec![None; noted.len()],
+            searched: may_touch,
             unboxed: (0..noted.len()).filter(is_unboxed).collect(),
             noted,
             left,
         };
         let mut touches = BinaryHeap::new();
-        for k in self.searched(&fast, may_touch, &leaving) {
-            self.search(&mut fast, k, (0.0, left), &leaving, rules, &mut touches);
+        for &k in &leaving {
+            self.note_beside(&mut fast, k);
+        }
+        for k in 0..fast.noted.len() {
+            if fast.searched[k] {
+                self.search(&mut fast, k, (0.0, left), &leaving, rules, &mut touches);
+            }
         }
         while let Some(touch) = touches.pop() {
             let ends = [Some(touch.a), touch.b];
@@ -386,17 +394,14 @@ impl Engine {
         body.deviates || pieces.any(beside)
     }
 
-    /// Fast bodies that may touch something: in their boxes, or one of those that leave theirs.
-    fn searched(&self, fast: &Fast, mut may_touch: Vec<bool>, leaving: &[usize]) -> Vec<usize> {
-        for &k in leaving {
-            let bounds = fast.bounds(self, k, fast.left);
-            self.broad.movers_in(&self.pieces, bounds, |piece| {
-                if let Some(beside) = fast.find(self.pieces.list[piece as usize].body) {
-                    may_touch[beside] = true;
-                }
-            });
-        }
-        (0..may_touch.len()).filter(|k| may_touch[*k]).collect()
+    /// Fast bodies beside one that leaves its boxes may touch it.
+    fn note_beside(&self, fast: &mut Fast, leaving: usize) {
+        let bounds = fast.bounds(self, leaving, fast.left);
+        self.broad.movers_in(&self.pieces, bounds, |piece| {
+            if let Some(beside) = fast.find(self.pieces.list[piece as usize].body) {
+                fast.searched[beside] = true;
+            }
+        });
     }
 
     /// Where a fast body came from `left` seconds before, and its velocity.
