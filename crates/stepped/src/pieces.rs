@@ -146,11 +146,6 @@ impl Disc {
         let speed = other.velocity - self.velocity;
         (speed.x.abs() + speed.y.abs()) * time
     }
-
-    /// The same against what stands.
-    fn way(&self, time: f64) -> f64 {
-        (self.velocity.x.abs() + self.velocity.y.abs()) * time
-    }
 }
 
 /// Slot of the body of a piece, and the index that it has there.
@@ -203,9 +198,9 @@ impl Pieces {
 
     /// Whether a piece that moves stays beyond a half-plane that stands, by more than the margin, for `time` seconds.
     pub(crate) fn is_beyond_plane(&self, piece: u32, plane: u32, time: f64) -> bool {
-        let disc = &self.discs[piece as usize];
+        let [disc, standing] = [piece, plane].map(|piece| &self.discs[piece as usize]);
         let half_margin = 0.5 * self.margin * self.outlines[piece as usize].extent();
-        let far = disc.radius + half_margin + disc.way(time);
+        let far = disc.radius + half_margin + disc.nears(standing, time);
         self.turned(plane).is_beyond_plane(disc.centre, far)
     }
 

@@ -51,7 +51,7 @@ fn few_bodies_that_rattle_join_the_engine() {
         }
         most = struck[1..].iter().copied().fold(most, u32::max);
     }
-    // 32 losses of 1 − e.
+    // 32 losses of 1 − e, and the one that exceeds them.
     assert!(most > 8, "{most}: nothing bounced");
     assert!(most <= 41, "{most} impacts of one body in a tick");
 }

@@ -18,7 +18,7 @@ const RATTLE: f64 = 4.0;
 /// instructions, and polygons that roll along a floor 1.17.
 const SERIES: f64 = 32.0;
 
-/// The same at which they join at once, not with the next sub-step.
+/// The same at which they join at once, not with the next sub-step; a handful always does.
 const AT_ONCE: f64 = 16.0;
 
 /// Bodies that struck each other within the present tick, as trees.

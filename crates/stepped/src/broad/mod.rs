@@ -32,7 +32,7 @@ pub(crate) struct Broad {
     woken: Vec<u32>,
     /// Movers that came or got other boxes since the last tick, and that a caller has not looked at.
     news: Vec<u32>,
-    /// Whether something may stand in the box of a piece, by its number: true unless the last search of it found nothing.
+    /// Whether the last search of a piece found something that stands, by its number: true before the first one.
     by_standing: Vec<bool>,
     /// The same of what moves.
     by_moving: Vec<bool>,
@@ -89,13 +89,13 @@ impl Broad {
         }
     }
 
-    /// Whether something may stand where a piece is until the tick ends, unless it leaves its box.
+    /// Whether something may stand where a piece is until the tick ends, unless it goes otherwise than was foreseen.
     pub(crate) fn is_by_standing(&self, piece: u32) -> bool {
         // What arrived since has asked for no piece yet.
         !self.arrived.is_empty() || self.by_standing[piece as usize]
     }
 
-    /// Whether another body may move where a piece is until the tick ends, unless one of them leaves its box.
+    /// Whether another body may move where a piece is until the tick ends, unless one of them goes otherwise than was foreseen.
     pub(crate) fn is_by_moving(&self, piece: u32) -> bool {
         self.by_moving[piece as usize]
     }

@@ -54,7 +54,6 @@ struct Moving {
     slot: u32,
     birth: u64,
     motion: Motion,
-    unforeseen: bool,
     carried: bool,
     /// How often it touched so far, and the slot of the body that it touched first.
     touches: u8,
@@ -367,7 +366,6 @@ impl Engine {
             slot: body.slot,
             birth: record.birth,
             motion,
-            unforeseen: body.is_unforeseen(),
             carried: body.carried,
             touches: 0,
             touched: None,

@@ -28,7 +28,7 @@ impl Engine {
         let bounds = fast.bounds(self, k, span.1);
         let mut others: Vec<u32> = Vec::new();
         let found = |piece: u32| others.push(piece);
-        if body.unforeseen {
+        if fast.noted[k].is_unforeseen() {
             self.broad.pieces_in(&self.pieces, bounds, found);
         } else {
             self.broad.standing_in(bounds, found);
