@@ -179,13 +179,15 @@ proptest! {
         let (first, last) = (energies[0], energies[energies.len() - 1]);
         let (lost, rounding) = (first - last, 1e-12 * first);
         prop_assert!(lost >= -rounding, "{last} J of {first} are left");
-        // A light body that is struck between others sinks in, is pushed out, and lifts what lies on it: by up to 1.3 % of
-        // what was lost in 800 piles, of which two steps keep 0.07 %.
-        let step = energies.windows(2).map(|some| some[1] - some[0]).fold(0.0, f64::max);
-        prop_assert!(step <= 0.03 * lost + rounding, "energy rose by {step:.1e} of {lost} J in a step");
-        let rise = |some: &[f64]| some[2] - some[0].max(some[1]);
-        let most = energies.windows(3).map(rise).fold(0.0, f64::max);
-        prop_assert!(most <= 0.01 * lost + rounding, "energy rose by {most:.1e} of {lost} J in two steps");
+        // A light body that is struck between others sinks in, and is pushed out in the next step: it gives back up to 0.23 of what
+        // the step before lost, and beyond that 6e-4 of what all of them lost, in 4,000 piles.
+        for some in energies.windows(3) {
+            let (sunk, rise) = ((some[0] - some[1]).max(0.0), some[2] - some[1]);
+            prop_assert!(
+                rise <= 0.5 * sunk + 0.003 * lost + rounding,
+                "energy rose by {rise:.1e} J after {sunk:.1e} J were lost in a step, of {lost} J"
+            );
+        }
     }
 
     #[test]
