@@ -459,7 +459,8 @@ proptest! {
             }
             let times = (one.change.map(|c| c.after), other.change.map(|c| c.after));
             if let (Some(x), Some(y)) = times {
-                prop_assert!((x - y).abs() <= 1e-9 * x, "{x} {y}");
+                // The rounding of a place, 1e-15 m, over a slip that ends at 0.1 mm/s.
+                prop_assert!((x - y).abs() <= 1e-9 * x + 1e-11, "{x} {y}");
             }
         }
     }
