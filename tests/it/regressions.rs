@@ -25,6 +25,7 @@ mod a_long_flight_costs_no_more_than_what_it_meets;
 mod a_nudged_stack_has_its_contact_modes_solved_a_few_times;
 mod a_place_used_again_inherits_nothing;
 mod a_plank_that_rolls_on_a_disc_stays_on_it;
+mod a_plate_is_not_pressed_through_a_segment;
 mod a_refused_step_takes_no_events;
 mod a_removed_body_strikes_nothing;
 mod a_ring_that_spins_adds_nothing_to_what_it_carries;

@@ -1,7 +1,7 @@
 //! The contact update, once a tick: contacts of bodies that moved are computed anew, straight into their rows; new pairs
 //! get a contact, pairs that parted lose theirs.
 
-use carom_math::Vec2;
+use carom_math::{Vec2, vec2};
 use fearless_simd::Level;
 
 use crate::bodies::{Bodies, BodyKind};
@@ -15,6 +15,9 @@ use crate::{PairRules, Settings};
 
 /// A kept contact may be so many margins wide, so that pairs do not come and go each tick.
 const KEPT: f64 = 1.5;
+
+/// Cosine of the angle by which a normal turned that is of the other side.
+const TURNED_OVER: f64 = -0.5;
 
 /// Computes the contacts of moved bodies anew; those that parted are added to `parted`. The least gap of them, in m.
 pub(crate) fn update(
@@ -39,7 +42,7 @@ pub(crate) fn update(
     };
     // To pack all blocks takes 1.04 of the instructions of a drum; to pack none 1.06 of those of a bin that is stirred.
     let count: u32 = touched.iter().map(|block| block.lanes.count_ones()).sum();
-    let packed = (0 < count && 2 * count as usize <= LANES * touched.len())
+    let mut packed = (0 < count && 2 * count as usize <= LANES * touched.len())
         .then(|| packed(level, &scene, colours, &touched));
     let mut own = Found::NONE;
     let mut deep = Vec::new();
@@ -52,13 +55,16 @@ pub(crate) fn update(
             &mut colour.cold[touched.block],
         );
         let moved = touched.lanes;
-        let found = if let Some(packed) = &packed {
-            &packed[at]
+        let found = if let Some(packed) = &mut packed {
+            &mut packed[at]
         } else {
             manifolds(level, &scene, block, cold, moved, &mut own);
-            &own
+            &mut own
         };
         let near = moved & found.near;
+        for lane in lanes(near) {
+            keep_side(&scene, block, cold.pieces[lane], lane, found);
+        }
         renew(level, &scene.bodies.lines, &mut start, block, found, near);
         for lane in lanes(near) {
             let gaps = [found.s1[lane], found.s2[lane]];
@@ -98,6 +104,20 @@ pub(crate) fn update(
     bodies.start = start;
     graph.add_deep(&mut deep);
     least
+}
+
+/// What overlaps, or was pushed in the last sub-step, stays on the side on which it came: a thin body that is pressed into a wall
+/// without thickness by more than half of its own would go through.
+fn keep_side(scene: &Scene<'_>, block: &Block, pair: [u32; 2], lane: usize, found: &mut Found) {
+    let overlaps = found.s1[lane].min(found.s2[lane]) < 0.0;
+    let pushes = block.j1[lane] + block.j2[lane] > 0.0;
+    let came = block.normal(lane);
+    if (overlaps || pushes)
+        && came.dot(vec2(found.nx[lane], found.ny[lane])) < TURNED_OVER
+        && let Some(manifold) = scene.contact_on(came, pair, KEPT)
+    {
+        found.set(lane, &manifold);
+    }
 }
 
 /// [`manifolds`] of blocks in which few lanes moved: the pairs of several fill a register.

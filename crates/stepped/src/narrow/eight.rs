@@ -110,9 +110,12 @@ impl Found {
         self.l[lane] = if two { manifold.length } else { 1.0 };
         self.s1[lane] = manifold.gaps[0];
         self.s2[lane] = if two { manifold.gaps[1] } else { OPEN };
-        self.near |= 1 << lane;
-        self.short |= 1 << lane;
-        self.seam |= 1 << lane;
+        let bit = 1 << lane;
+        self.near |= bit;
+        self.short |= bit;
+        self.seam |= bit;
+        self.of_a &= !bit;
+        self.of_b &= !bit;
     }
 
     /// Copies a lane of another one, into one that has no manifold yet.

@@ -9,19 +9,19 @@ use crate::outline::Turned;
 /// Two outlines, both turned, with the centre of mass of B at `d` from that of A; `None` if they stay farther apart than
 /// `limit` while B goes `way` against A.
 ///
-/// A's face is preferred unless B's separates by `hysteresis` more. Beyond a cut they may be by `past` less. All in m.
+/// A's face is preferred unless B's separates by `hysteresis` more. Beyond a cut they may be by `past` less. All in m. Faces
+/// that separate them against `side`, if that is not zero, are none.
 pub(crate) fn collide(
     a: Turned<'_>,
     b: Turned<'_>,
-    d: Vec2,
-    way: Vec2,
+    [d, way, side]: [Vec2; 3],
     [limit, past]: [f64; 2],
     hysteresis: f64,
 ) -> Option<Manifold> {
     let radii = a.radius() + b.radius();
     let limits = [limit + radii, limit + radii - past];
-    let (sa, ia, cut_a) = best_face(a, b, d, way, limits)?;
-    let (sb, ib, cut_b) = best_face(b, a, -d, -way, limits)?;
+    let (sa, ia, cut_a) = best_face(a, b, [d, way, side], limits)?;
+    let (sb, ib, cut_b) = best_face(b, a, [-d, -way, -side], limits)?;
     if a.corners() == 1 && b.corners() == 1 {
         let ends = [a.corner(0), b.corner(0)];
         let goes = way.length();
@@ -47,8 +47,7 @@ pub(crate) fn collide(
 fn best_face(
     a: Turned<'_>,
     b: Turned<'_>,
-    d: Vec2,
-    way: Vec2,
+    [d, way, side]: [Vec2; 3],
     [limit, past_cut]: [f64; 2],
 ) -> Option<(f64, usize, f64)> {
     let mut best = (f64::NEG_INFINITY, 0, f64::NEG_INFINITY);
@@ -70,7 +69,7 @@ fn best_face(
         }
         if a.is_cut(i) {
             best.2 = separation.max(best.2);
-        } else if separation > best.0 {
+        } else if separation > best.0 && n.dot(side) >= 0.0 {
             (best.0, best.1) = (separation, i);
         }
     }

@@ -32,6 +32,11 @@ pub(crate) struct Meeting {
 impl Scene<'_> {
     /// The contact of two pieces if their gap is below `factor` margins, or may be until the next tick.
     pub(crate) fn contact(&self, pair: [u32; 2], factor: f64) -> Option<Manifold> {
+        self.contact_on(Vec2::ZERO, pair, factor)
+    }
+
+    /// The same with B on that `side` of A, as a normal from A to B; zero: on any.
+    pub(crate) fn contact_on(&self, side: Vec2, pair: [u32; 2], factor: f64) -> Option<Manifold> {
         let meeting = self.meeting(pair);
         let margin = factor * meeting.margin;
         let [a, b] = pair.map(|piece| &self.pieces.list[piece as usize]);
@@ -41,14 +46,8 @@ impl Scene<'_> {
         let found = if turned_a.corners() > 0 && turned_b.corners() > 0 {
             let d = pose_b.position - pose_a.position;
             let hysteresis = HYSTERESIS * meeting.margin;
-            collide(
-                turned_a,
-                turned_b,
-                d,
-                meeting.way,
-                [limit, margin],
-                hysteresis,
-            )
+            let ways = [d, meeting.way, side];
+            collide(turned_a, turned_b, ways, [limit, margin], hysteresis)
         } else {
             collide_any((a, pose_a), (b, pose_b), limit + meeting.way.length())
         }?;

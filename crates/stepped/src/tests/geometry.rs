@@ -33,8 +33,14 @@ fn outlines_that_touch_agree_with_hulls() {
         });
         let [turned_a, turned_b] = posed.each_ref().map(|pieces| pieces.turned(0));
         let d = pose_b.position - pose_a.position;
-        let ours = collide(turned_a, turned_b, d, Vec2::ZERO, [0.0; 2], 0.0)
-            .filter(|ours| ours.gap() <= 0.0);
+        let ours = collide(
+            turned_a,
+            turned_b,
+            [d, Vec2::ZERO, Vec2::ZERO],
+            [0.0; 2],
+            0.0,
+        )
+        .filter(|ours| ours.gap() <= 0.0);
         let theirs = collide_any((&a, pose_a), (&b, pose_b), 0.0);
         // Cores apart, roundings in touch: there the hulls' normal is that of the nearest points.
         let cores = a.rounding + b.rounding == 0.0;
@@ -91,7 +97,7 @@ fn no_cut_is_touched() {
             let (turned, other) = (a.turned(0), b.turned(0));
             let d = pose_b.position - pose_a.position;
             let none = [0.0; 2];
-            let Some(found) = collide(turned, other, d, Vec2::ZERO, none, 0.0) else {
+            let Some(found) = collide(turned, other, [d, Vec2::ZERO, Vec2::ZERO], none, 0.0) else {
                 continue;
             };
             touching += 1;
