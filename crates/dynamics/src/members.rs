@@ -127,25 +127,34 @@ impl World {
         self.bodies.touched.retain(|index| !woken.contains(index));
     }
 
-    /// Members that a caller changed in the midst of a sub-step pass through nothing in the rest of it.
+    /// Members that a caller changed in the midst of a sub-step pass through nothing in the rest of it: the engine goes on with those
+    /// that it moved through the sub-step, and all others stand.
     pub(crate) fn carry_members(&mut self) {
-        if self.bodies.member_count() > 0
-            && self.joins.reached == self.clock.next()
-            && let Some(mut stepping) = self.stepping.take()
-        {
-            // Bodies that joined since, or woke elsewhere, wait for the next sub-step.
-            let is_carried = |index: &u32| {
-                let state = self.bodies.get(*index);
-                stepping.id(*index).is_some() && (state.in_engine() || !state.is_dynamic())
-            };
-            let touched = self.bodies.touched.clone();
-            let (carried, mut others) = touched.into_iter().partition(is_carried);
-            self.bodies.touched = carried;
-            self.enter_within(&mut stepping);
-            self.bodies.touched.append(&mut others);
-            self.stepping = Some(stepping);
-            self.take_woken(self.clock.now);
+        if self.bodies.member_count() == 0 || self.bodies.touched.is_empty() {
+            return;
         }
+        let Some(mut stepping) = self.stepping.take() else {
+            return;
+        };
+        let was_made = self.joins.reached == self.clock.next();
+        let touched = core::mem::take(&mut self.bodies.touched);
+        let is_carried = |index: &u32| {
+            let state = self.bodies.get(*index);
+            was_made && stepping.id(*index).is_some() && (state.in_engine() || !state.is_dynamic())
+        };
+        let (carried, mut others) = touched.into_iter().partition(is_carried);
+        self.bodies.touched = carried;
+        self.enter_within(&mut stepping);
+        self.stepping = Some(stepping);
+        for &index in &others {
+            let state = self.bodies.get(index);
+            let goes = state.motion.velocity != Vec2::ZERO || state.motion.spin != 0.0;
+            if self.bodies.is_alive(index) && state.in_engine() && goes {
+                self.wait(index, self.clock.now);
+            }
+        }
+        self.bodies.touched.append(&mut others);
+        self.take_woken(self.clock.now);
     }
 
     /// Motions and touches of all members, where a caller may read them.

@@ -234,9 +234,12 @@ impl World {
 
     /// Counts what stands until the next sub-step: nothing else says so, and what touches it goes on meanwhile.
     pub(crate) fn report_waiting(&mut self, time: SimTime) {
-        let waits =
-            |index: &&u32| self.bodies.is_alive(**index) && self.bodies.get(**index).in_engine();
-        self.report.handed_over += self.joins.waiting.iter().filter(waits).count() as u64;
+        let mut waiting = self.joins.waiting.clone();
+        waiting.retain(|index| self.bodies.is_alive(*index) && self.bodies.get(*index).in_engine());
+        // Some began to stand more than once.
+        waiting.sort_unstable();
+        waiting.dedup();
+        self.report.handed_over += waiting.len() as u64;
         if !self.clock.is_within(time) {
             self.joins.waiting.clear();
             self.joins.known = 0;
