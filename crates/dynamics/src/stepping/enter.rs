@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use carom_collision::part_count;
-use carom_math::{Pose, SimTime};
+use carom_math::{Pose, SimTime, Vec2};
 use carom_stepped::{BodyInput, PieceInput};
 
 use super::{Stepping, place};
@@ -113,7 +113,10 @@ impl Stepping {
         let d = frame.position - known.pose.position;
         let turn = (frame.rotation * known.pose.rotation.inverse()).angle();
         let reach = state.reach.min(1e9);
-        let off = d.length() + turn.abs() * reach;
+        let size = |(way, turn): (Vec2, f64)| way.length() + turn.abs() * reach;
+        let off = size((d, turn));
+        // Changed within a sub-step it goes elsewhere in the rest of that.
+        let goes = (size(motion) + size(known.velocity)) * self.engine.settings().substep();
         let engine = &mut self.engine;
         let mut told = Ok(());
         if state.kind == BodyKind::Fixed {
@@ -121,7 +124,7 @@ impl Stepping {
             if frame != known.pose {
                 told = told.and(engine.set_pose(id, frame));
             }
-        } else if off > FAR * reach {
+        } else if off > FAR * reach + goes {
             told = told.and(engine.set_pose(id, frame));
         } else if off > SAME * (reach + frame.position.length()) {
             told = told.and(engine.shift(id, frame));
