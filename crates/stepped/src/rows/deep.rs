@@ -16,9 +16,10 @@ use crate::bodies::Bodies;
 pub(crate) struct Deep {
     /// In the order of their bodies.
     contacts: Vec<u32>,
-    /// What parts them, and the lines of their bodies with what would displace each, in m. Scratch.
+    /// What parts them: scratch.
     moves: Vec<Move>,
-    sums: Vec<(u32, Vec2)>,
+    /// By line, what would displace a body, in m: zero but while bodies are displaced.
+    sums: Vec<Vec2>,
     /// The least of their gaps, in m.
     least_gap: f64,
 }
@@ -27,22 +28,15 @@ impl Deep {
     /// Displaces the bodies of what is parted; tells of the impulse of each contact. Where those of a body add up to more than `most`
     /// they become less, by one factor for both bodies of a contact, so that their common centre stays.
     fn displace(&mut self, bodies: &mut Bodies, most: f64, mut tell: impl FnMut(u32, f64)) {
-        self.sums.clear();
+        self.sums.resize(bodies.lines.len(), Vec2::ZERO);
         for moved in &self.moves {
-            self.sums
-                .extend(moved.lines.into_iter().zip(moved.ways(bodies)));
+            for (line, way) in moved.lines.into_iter().zip(moved.ways(bodies)) {
+                self.sums[line as usize] += way;
+            }
         }
-        // Line by line: a stable sort keeps the order of the contacts.
-        self.sums.sort_by_key(|sum| sum.0);
-        self.sums.dedup_by(|next, sum| {
-            let same = next.0 == sum.0;
-            sum.1 += if same { next.1 } else { Vec2::ZERO };
-            same
-        });
         for moved in &mut self.moves {
             let part = moved.lines.map(|line| {
-                let known = self.sums.partition_point(|sum| sum.0 < line);
-                let length = self.sums[known].1.length();
+                let length = self.sums[line as usize].length();
                 if length > most { most / length } else { 1.0 }
             });
             moved.impulse *= part[0].min(part[1]);
@@ -50,6 +44,9 @@ impl Deep {
                 bodies.lines[line as usize].displace(way);
             }
             tell(moved.id, moved.impulse);
+        }
+        for line in self.moves.iter().flat_map(|moved| moved.lines) {
+            self.sums[line as usize] = Vec2::ZERO;
         }
     }
 
