@@ -28,46 +28,58 @@ const LEANS: f64 = 0.02;
 /// A body with more rows is a floor itself: all pairs of its rows would be too many.
 const MOST: usize = 32;
 
-/// Contacts that may be ghosts, by the lines of their bodies.
+/// Contacts that may be ghosts.
 ///
 /// A ghost's body has all of its piece behind a plane that the body itself is in front of: the contact is as long as the
 /// body is deep in the plane at most. Its piece is flush with another one: it stands, is driven, is one of several, or has
 /// a seam.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Suspects {
-    /// Moved bodies with a short contact with what may be flush, as far as they moved.
-    asked: Vec<bool>,
-    /// Moved bodies with a short contact with another body, and that.
-    pairs: Vec<[u32; 2]>,
+    short: Vec<Short>,
     /// Bodies with a side that may go on in that of another body, as far as they moved.
     seamed: Vec<bool>,
 }
 
+/// A short contact of a moved body with a piece that may be flush.
+#[derive(Clone, Copy, Debug)]
+struct Short {
+    /// Line of the body.
+    body: u32,
+    contact: u32,
+    /// Line of the other body, if only a seam makes its piece flush.
+    seam_of: Option<u32>,
+}
+
 impl Suspects {
     pub(crate) fn clear(&mut self) {
-        self.asked.clear();
-        self.pairs.clear();
+        self.short.clear();
         self.seamed.clear();
     }
 
     /// There are so many lines now.
     pub(crate) fn cover(&mut self, lines: usize) {
-        self.asked.resize(lines, false);
         self.seamed.resize(lines, false);
     }
 
     /// Adds a short contact of two pieces of the bodies of two lines.
-    pub(crate) fn add_short(&mut self, scene: &Scene<'_>, [a, b]: [u32; 2], pieces: [u32; 2]) {
+    pub(crate) fn add_short(
+        &mut self,
+        scene: &Scene<'_>,
+        [a, b]: [u32; 2],
+        pieces: [u32; 2],
+        contact: u32,
+    ) {
         for (body, other, piece) in [(a, b, pieces[1]), (b, a, pieces[0])] {
             if scene.bodies.moved[body as usize] && has_sides(scene.pieces.turned(piece)) {
                 let driven = scene.bodies.lines[other as usize].inverse_mass() == 0.0;
                 // The seams of what did not move are those of before.
                 let stays = !scene.bodies.moved[other as usize];
-                if stays || driven || scene.pieces.owners[piece as usize].several {
-                    self.asked[body as usize] = true;
-                } else {
-                    self.pairs.push([body, other]);
-                }
+                let is_flush = stays || driven || scene.pieces.owners[piece as usize].several;
+                self.short.push(Short {
+                    body,
+                    contact,
+                    seam_of: (!is_flush).then_some(other),
+                });
             }
         }
     }
@@ -78,16 +90,13 @@ impl Suspects {
         }
     }
 
-    /// Lines of bodies that may have ghosts, in order.
-    fn lines(&self) -> Vec<u32> {
-        let mut asked = self.asked.clone();
-        for &[body, other] in &self.pairs {
-            asked[body as usize] |= self.seamed[other as usize];
-        }
-        let lines = (0u32..).zip(asked);
-        lines
-            .filter_map(|(line, asked)| asked.then_some(line))
-            .collect()
+    /// Lines of bodies, in order, with their contacts that may be ghosts.
+    fn contacts(&self) -> Vec<(u32, u32)> {
+        let seams = |short: &&Short| short.seam_of.is_none_or(|line| self.seamed[line as usize]);
+        let asked = self.short.iter().filter(seams);
+        let mut asked: Vec<(u32, u32)> = asked.map(|short| (short.body, short.contact)).collect();
+        asked.sort_unstable();
+        asked
     }
 }
 
@@ -120,8 +129,9 @@ pub(crate) fn hide(
     let mut ids = Vec::new();
     let mut rows = Rows::NONE;
     let mut ghosts = Vec::new();
-    for line in graph.suspects.lines() {
-        let line = line as usize;
+    let suspects = graph.suspects.contacts();
+    for asked in suspects.chunk_by(|a, b| a.0 == b.0) {
+        let line = asked[0].0 as usize;
         let record = &bodies.records[bodies.slot_of[line] as usize];
         if record.kind != BodyKind::Dynamic {
             continue;
@@ -140,10 +150,14 @@ pub(crate) fn hide(
         }
         if (2..=MOST).contains(&ids.len()) {
             rows.fill(graph, pieces, &ids, &its);
-            let mut hidden = 0;
-            dispatch!(level, simd => hidden_rows(simd, &rows, pieces, &mut hidden));
-            let hidden = (0..rows.len).filter(|k| hidden >> k & 1 == 1);
-            ghosts.extend(hidden.map(|k| rows.contacts[k]));
+            let hides = |k: usize| dispatch!(level, simd => is_row_hidden(simd, &rows, pieces, k));
+            let asked = asked.iter().filter(|(_, contact)| {
+                let place = rows.contacts[..rows.len]
+                    .iter()
+                    .position(|id| id == contact);
+                place.is_some_and(hides)
+            });
+            ghosts.extend(asked.map(|(_, contact)| *contact));
         }
     }
     // Impulses of several are taken out of one body in an order that other islands do not change.
@@ -153,42 +167,31 @@ pub(crate) fn hide(
     }
 }
 
-/// Sets a bit for each row that some other one hides. Few rows come past the tests of normals and heights: most pairs are
-/// two sides of a heap.
+/// Whether some other row hides row k. Few rows come past the tests of normals and heights: most pairs are two sides of a heap.
 #[inline(always)]
-fn hidden_rows<S: Simd>(simd: S, rows: &Rows, pieces: &Pieces, hidden: &mut u32) {
-    let parallel = f64x4::splat(simd, 1.0 - LEANS * LEANS);
-    let leans = f64x4::splat(simd, -LEANS);
-    for o in 0..rows.len {
-        let (ox, oy) = (
-            f64x4::splat(simd, rows.nx[o]),
-            f64x4::splat(simd, rows.ny[o]),
-        );
-        let (px, py) = (
-            f64x4::splat(simd, rows.x1[o]),
-            f64x4::splat(simd, rows.y1[o]),
-        );
-        let flush = f64x4::splat(simd, rows.flush[o]);
-        for at in (0..rows.len).step_by(4) {
-            let along = four(simd, &rows.nx, at) * ox + four(simd, &rows.ny, at) * oy;
-            let (x, y) = (four(simd, &rows.x1, at) - px, four(simd, &rows.y1, at) - py);
-            let first = x * ox + y * oy;
-            let (x, y) = (four(simd, &rows.x2, at) - px, four(simd, &rows.y2, at) - py);
-            let second = x * ox + y * oy;
-            let low = first
-                .max(second)
-                .simd_le(four(simd, &rows.flush, at).min(flush));
-            let side = (along * along).simd_le(parallel) & along.simd_ge(leans);
-            let mut bits = (low & side).to_bitmask();
-            while bits != 0 {
-                let k = at + bits.trailing_zeros() as usize;
-                bits &= bits - 1;
-                if *hidden >> k & 1 == 0 && is_hidden(rows, pieces, k, o) {
-                    *hidden |= 1 << k;
-                }
-            }
-        }
-    }
+fn is_row_hidden<S: Simd>(simd: S, rows: &Rows, pieces: &Pieces, k: usize) -> bool {
+    let splat = |number: f64| f64x4::splat(simd, number);
+    let (nx, ny) = (splat(rows.nx[k]), splat(rows.ny[k]));
+    let (x1, y1) = (splat(rows.x1[k]), splat(rows.y1[k]));
+    let (x2, y2) = (splat(rows.x2[k]), splat(rows.y2[k]));
+    (0..rows.len).step_by(4).any(|at| {
+        let (ox, oy) = (four(simd, &rows.nx, at), four(simd, &rows.ny, at));
+        let (px, py) = (four(simd, &rows.x1, at), four(simd, &rows.y1, at));
+        let along = nx * ox + ny * oy;
+        let first = (x1 - px) * ox + (y1 - py) * oy;
+        let second = (x2 - px) * ox + (y2 - py) * oy;
+        let flush = splat(rows.flush[k]).min(four(simd, &rows.flush, at));
+        let low = first.max(second).simd_le(flush);
+        let side =
+            (along * along).simd_le(splat(1.0 - LEANS * LEANS)) & along.simd_ge(splat(-LEANS));
+        let mut bits = (low & side).to_bitmask();
+        core::iter::from_fn(|| {
+            let lane = bits.trailing_zeros() as usize;
+            bits &= bits.wrapping_sub(1);
+            (lane < 4).then_some(at + lane)
+        })
+        .any(|o| is_hidden(rows, pieces, k, o))
+    })
 }
 
 #[inline(always)]

@@ -80,7 +80,7 @@ pub(crate) fn update(
         }
         for lane in lanes(near & found.short) {
             let lines = [block.a[lane], block.b[lane]];
-            suspects.add_short(&scene, lines, cold.pieces[lane]);
+            suspects.add_short(&scene, lines, cold.pieces[lane], cold.contact[lane]);
         }
         for lane in lanes(near & (found.of_a | found.of_b)) {
             let pair = cold.pieces[lane];
@@ -341,7 +341,7 @@ pub(crate) fn create(
             pieces,
             settings,
         };
-        graph.suspects.add_short(&scene, lines, pair);
+        graph.suspects.add_short(&scene, lines, pair, id);
         graph.suspects.add_seam(lines);
         narrow_tolerances(bodies, settings, ends, a.extent.min(b.extent));
     }
