@@ -180,7 +180,7 @@ proptest! {
         let (lost, rounding) = (first - last, 1e-12 * first);
         prop_assert!(lost >= -rounding, "{last} J of {first} are left");
         // A light body that is struck between others sinks in, and is pushed out in the next step: it gives back up to 0.23 of what
-        // the step before lost, and beyond that 6e-4 of what all of them lost, in 4,000 piles.
+        // the step before lost, and beyond that 6e-4 of all that is lost, in 4,000 piles.
         for some in energies.windows(3) {
             let (sunk, rise) = ((some[0] - some[1]).max(0.0), some[2] - some[1]);
             prop_assert!(

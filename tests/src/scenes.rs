@@ -1,7 +1,7 @@
 //! Small worlds that many tests begin with.
 
 use carom_dynamics::{BodyDef, BodyId, Material, Mode, Settings, World};
-use carom_geometry::{Circle, Compound, ConvexPolygon, HalfPlane, Polygon, Shape};
+use carom_geometry::{Circle, Compound, ConvexPolygon, HalfPlane, Polygon, Segment, Shape};
 use carom_math::{Pose, Vec2, trig, vec2};
 
 use crate::gas::numbers;
@@ -46,6 +46,22 @@ pub fn stepped(settings: Settings) -> World {
 pub fn floor(world: &mut World, material: Material) -> BodyId {
     let def = BodyDef::fixed().at(vec2(0.0, -1.0));
     put(world, def, block(40.0, 2.0), material)
+}
+
+/// A world with a fixed floor of 6 m at y = 0 that has no thickness.
+///
+/// # Panics
+/// If a setting is out of its range.
+#[must_use]
+pub fn on_a_segment(mode: Mode, material: Material) -> World {
+    let mut world = World::new(Settings {
+        mode,
+        ..Settings::default()
+    })
+    .expect("valid settings");
+    let floor = Segment::new(vec2(-3.0, 0.0), vec2(3.0, 0.0)).expect("a segment");
+    put(&mut world, BodyDef::fixed(), floor, material);
+    world
 }
 
 /// A box of 1 m.

@@ -1,24 +1,17 @@
-//! A body of the engine that slept, or had joined within the sub-step, and that a caller threw at the wall it lay on.
+//! A body that slept in the engine, and that a caller threw at the wall it lay on within a sub-step.
 //!
 //! It stood when it woke, but went on with the velocity that it got, known to neither the engine nor the calendar queue, up to
 //! 4 cm until the sub-step ended: through a segment.
 
-use carom_dynamics::{BodyDef, Mode, Settings, World};
-use carom_geometry::Segment;
+use carom_dynamics::{BodyDef, Mode};
 use carom_math::vec2;
-use carom_tests::scenes::{block, put, surface};
+use carom_tests::scenes::{block, on_a_segment, put, surface};
 
 #[test]
 fn what_is_changed_within_a_sub_step_stands_until_it_ends() {
     for mode in [Mode::Hybrid, Mode::Exact, Mode::Stepped] {
         for rest in [3, 150] {
-            let mut world = World::new(Settings {
-                mode,
-                ..Settings::default()
-            })
-            .expect("valid settings");
-            let floor = Segment::new(vec2(-3.0, 0.0), vec2(3.0, 0.0)).expect("a segment");
-            put(&mut world, BodyDef::fixed(), floor, surface(0.0, 0.5));
+            let mut world = on_a_segment(mode, surface(0.0, 0.5));
             // What overlaps is the engine's.
             let def = BodyDef::dynamic().at(vec2(0.0, 0.009));
             let id = put(&mut world, def, block(0.1, 0.02), surface(0.0, 0.5));

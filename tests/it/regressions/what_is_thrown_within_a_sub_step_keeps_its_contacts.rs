@@ -3,23 +3,16 @@
 //! Where it would be at the end of the sub-step was farther off than a body goes that was not put there by hand: its contacts
 //! were dropped, and made anew on the other side of the segment.
 
-use carom_dynamics::{BodyDef, Mode, Settings, World};
-use carom_geometry::Segment;
+use carom_dynamics::{BodyDef, Mode};
 use carom_math::vec2;
-use carom_tests::scenes::{block, put, surface};
+use carom_tests::scenes::{block, on_a_segment, put, surface};
 
 #[test]
 fn what_is_thrown_within_a_sub_step_keeps_its_contacts() {
     for mode in [Mode::Hybrid, Mode::Stepped] {
         for passed in [0.0005, 0.001, 0.0015, 0.002] {
             for spin in [-10.6, -3.0, 0.0, 3.0, 10.6] {
-                let mut world = World::new(Settings {
-                    mode,
-                    ..Settings::default()
-                })
-                .expect("valid settings");
-                let floor = Segment::new(vec2(-3.0, 0.0), vec2(3.0, 0.0)).expect("a segment");
-                put(&mut world, BodyDef::fixed(), floor, surface(0.3, 0.5));
+                let mut world = on_a_segment(mode, surface(0.3, 0.5));
                 let def = BodyDef::dynamic().at(vec2(0.0, 0.0068));
                 let id = put(&mut world, def, block(1.95, 0.014), surface(0.0, 0.8));
                 let def = BodyDef::dynamic().at(vec2(0.4, 0.016));
