@@ -16,7 +16,8 @@ use crate::{PairRules, Settings};
 /// A kept contact may be so many margins wide, so that pairs do not come and go each tick.
 const KEPT: f64 = 1.5;
 
-/// Cosine of the angle by which a normal turned that is of the other side.
+/// Cosine of the angle by which a normal turned that is of the other side: 120°, as two sides of a regular triangle are apart. Those of
+/// more corners are nearer, opposite ones 180° apart.
 const TURNED_OVER: f64 = -0.5;
 
 /// Computes the contacts of moved bodies anew; those that parted are added to `parted`. The least gap of them, in m.

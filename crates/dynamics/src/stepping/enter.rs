@@ -15,7 +15,7 @@ use crate::{BodyKind, Mode};
 /// A place that differs by less, as a part of the reach, is the same but for rounding: what was only looked at stays.
 const SAME: f64 = 1e-12;
 
-/// A body that was put farther away than this part of its reach leaves its contacts behind.
+/// A body that was put farther away than this part of its reach, and than it goes within a sub-step, leaves its contacts behind.
 const FAR: f64 = 0.05;
 
 impl Stepping {
@@ -115,7 +115,6 @@ impl Stepping {
         let reach = state.reach.min(1e9);
         let size = |(way, turn): (Vec2, f64)| way.length() + turn.abs() * reach;
         let off = size((d, turn));
-        // Changed within a sub-step it goes elsewhere in the rest of that.
         let goes = (size(motion) + size(known.velocity)) * self.engine.settings().substep();
         let engine = &mut self.engine;
         let mut told = Ok(());

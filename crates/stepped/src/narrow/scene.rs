@@ -35,7 +35,7 @@ impl Scene<'_> {
         self.contact_on(Vec2::ZERO, pair, factor)
     }
 
-    /// The same with B on that `side` of A, as a normal from A to B; zero: on any.
+    /// The same with B on that `side` of A, as a normal from A to B. On any if it is zero, or a piece has no outline.
     pub(crate) fn contact_on(&self, side: Vec2, pair: [u32; 2], factor: f64) -> Option<Manifold> {
         let meeting = self.meeting(pair);
         let margin = factor * meeting.margin;
