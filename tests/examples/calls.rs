@@ -41,7 +41,7 @@ fn run() -> Result<bool, Box<dyn Error>> {
     while let Some(name) = arguments.next() {
         let value = arguments.next().ok_or("each option has a value")?;
         match name.as_str() {
-            "--mode" => modes.push(mode(&value)?),
+            "--mode" => modes.push(carom_tests::mode(&value)?),
             "--first" => first = value.parse()?,
             "--count" => count = value.parse()?,
             "--limit" => limit = value.parse()?,
@@ -71,15 +71,6 @@ fn run() -> Result<bool, Box<dyn Error>> {
         sound &= broken.iter().all(Vec::is_empty);
     }
     Ok(sound)
-}
-
-fn mode(name: &str) -> Result<Mode, String> {
-    match name {
-        "hybrid" => Ok(Mode::Hybrid),
-        "exact" => Ok(Mode::Exact),
-        "stepped" => Ok(Mode::Stepped),
-        _ => Err(format!("no mode '{name}': hybrid, exact or stepped")),
-    }
 }
 
 /// Plays a script on a thread of its own; `None`: it passed. One that does not end is left to itself.

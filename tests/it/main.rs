@@ -4,6 +4,7 @@
 
 mod asleep;
 mod belts;
+mod boxes;
 mod break_shot;
 mod calls;
 mod conservation;

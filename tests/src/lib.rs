@@ -1,7 +1,8 @@
 //! Shared helpers of the integration tests.
 
-use carom_dynamics::{BodyKind, Material, World};
+use carom_dynamics::{BodyKind, Material, Mode, World};
 
+pub mod boxes;
 pub mod checks;
 mod draw;
 pub mod flights;
@@ -21,6 +22,19 @@ pub fn run(world: &mut World, seconds: f64, mut look: impl FnMut(&World)) {
         let report = world.step(1.0 / 60.0);
         assert_eq!(report.refused, None);
         look(world);
+    }
+}
+
+/// A mode by its name.
+///
+/// # Errors
+/// There is none of that name.
+pub fn mode(name: &str) -> Result<Mode, String> {
+    match name {
+        "hybrid" => Ok(Mode::Hybrid),
+        "exact" => Ok(Mode::Exact),
+        "stepped" => Ok(Mode::Stepped),
+        _ => Err(format!("no mode '{name}': hybrid, exact or stepped")),
     }
 }
 
