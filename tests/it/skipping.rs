@@ -1,7 +1,7 @@
 //! What a scene lacks costs nothing: shown by counters.
 
-use carom_dynamics::{BodyDef, BodyKind, Material, PairSearch, Settings, World};
-use carom_geometry::{Circle, ConvexPolygon, HalfPlane};
+use carom_dynamics::{BodyDef, BodyKind, Event, EventKind, Material, PairSearch, Settings, World};
+use carom_geometry::{Circle, ConvexPolygon, HalfPlane, Polygon};
 use carom_math::{Vec2, vec2};
 use carom_tests::run;
 use carom_tests::scenes::{block, disc, put, surface};
@@ -144,6 +144,45 @@ fn a_stack_that_stands_needs_no_sub_steps() {
     let top = world.bodies().last().expect("the ball").centre();
     assert!((top - vec2(0.0, 3.25)).length() < 1e-9, "{top}");
     assert_eq!(world.step(10.0).substeps, 0);
+}
+
+/// The mode of a slide holds the foot of a hook on its floor; its arm is searched for. Shapes of several parts were followed with
+/// sub-steps.
+#[test]
+fn a_hook_that_slides_strikes_with_its_arm_and_needs_no_sub_steps() {
+    let mut world = World::new(Settings::default()).expect("valid");
+    let smooth = surface(1.0, 0.0);
+    for (at, outward) in [(Vec2::ZERO, Vec2::Y), (vec2(3.0, 0.0), -Vec2::X)] {
+        let wall = HalfPlane::new(at, outward).expect("a wall");
+        put(&mut world, BodyDef::fixed(), wall, smooth);
+    }
+    let corners = [
+        vec2(-0.5, 0.0),
+        vec2(0.5, 0.0),
+        vec2(0.5, 0.2),
+        vec2(1.0, 0.2),
+        vec2(1.0, 0.4),
+        vec2(0.3, 0.4),
+        vec2(0.3, 0.2),
+        vec2(-0.5, 0.2),
+    ];
+    let hook = Polygon::new(corners.to_vec()).expect("a hook");
+    let def = BodyDef::dynamic().at(vec2(1.0, 0.0)).moving(vec2(2.0, 0.0));
+    let id = put(&mut world, def, hook, smooth);
+    world.step(0.1);
+    let report = world.step(0.39);
+    assert_eq!((report.substeps, report.impacts), (0, 0), "{report:?}");
+    assert!(report.is_exact());
+    world.step(0.1);
+    let strikes = |event: &&Event| matches!(event.kind, EventKind::Impact { .. });
+    let at = world
+        .events()
+        .iter()
+        .find(strikes)
+        .expect("it strikes")
+        .time;
+    assert!((at.as_secs() - 0.5).abs() < 1e-12, "{at:?}");
+    assert!(world.body(id).expect("there").velocity().x < 0.0);
 }
 
 /// A landing solves for the modes of the group that it joins anew, and what that does to the others' pairs is asked too: boxes that were

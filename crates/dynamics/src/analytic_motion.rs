@@ -1,10 +1,10 @@
-//! Analytic islands that slide, roll or tip leave the sub-steps: they move analytically until their next mode change.
+//! Analytic islands that slide, roll or tip move by events until their next mode change.
 //!
 //! A member of an island that slides or rolls has one parabola until its mode changes, just as a free body has one until
 //! its next impact. So it is treated as a free body is: swept boxes, impacts in the calendar queue, and a search that ends
 //! with its mode. Only bodies that it touches are not searched for: the island has these contacts already. A body that
-//! meets it, or a call that changes it, gives the whole island back to the sub-steps at that instant, until the next
-//! sub-step.
+//! meets it, or a call that changes it, gives the whole island back: at that instant it gets its
+//! method anew.
 
 use carom_geometry::Aabb;
 use carom_math::SimTime;
@@ -12,29 +12,25 @@ use carom_math::SimTime;
 use crate::World;
 use crate::events::free::Cause;
 
-/// Sub-steps to its next change that a group has at least: what ends sooner stays.
-const WORTH: f64 = 2.0;
-
 impl World {
-    /// Islands that came to move since the last time leave the sub-steps, where they may.
+    /// Islands that came to move since the last time begin their motion; what goes otherwise than they say joins the engine.
     pub(crate) fn begin_analytic_motion(&mut self, time: SimTime) {
         let moving = self.closed.take_moving();
-        #[cfg(test)]
-        if self.closed.stays {
-            return;
-        }
         for place in moving {
             if self.may_move_analytically(place) {
                 self.move_analytically(place, time);
-            } else {
-                self.closed.moves(place);
+            } else if let Some(group) = self.closed.get(place) {
+                let members = group.indices();
+                for index in members {
+                    self.join(index, time);
+                }
             }
         }
     }
 
     fn may_move_analytically(&self, place: u32) -> bool {
         let group = self.closed.get(place);
-        group.is_some_and(|group| group.may_move(&self.bodies, &self.pairs, &self.colliders))
+        group.is_some_and(|group| group.may_move(&self.bodies, &self.pairs))
     }
 
     /// The next piece of the path of a member of a group that turns.
@@ -43,22 +39,19 @@ impl World {
             .begin_next_piece(&mut self.bodies, index, time, self.clock.h);
     }
 
-    /// An island moves without sub-steps until its next mode change, if that is worth it.
+    /// An island moves by events until its next mode change.
     fn move_analytically(&mut self, place: u32, time: SimTime) {
         let Some(group) = self.closed.get(place) else {
             return;
         };
         let until = group.until.unwrap_or(SimTime::NEVER);
-        if until - time < WORTH * self.clock.h {
-            return;
-        }
         for touch in &group.touches {
             touch.carry(&self.bodies, self.pairs.get_mut(touch.pair), self.clock.h);
         }
         let members = group.indices();
         let touches: Vec<u32> = group.touches.iter().map(|touch| touch.pair).collect();
         for &index in &members {
-            self.end_substepping(index);
+            self.end_unsettled(index);
             for pair in self.bodies.get(index).pairs.clone() {
                 let other = self.pairs.get(pair).other(index);
                 // Sub-stepped bodies go on to meet it by pairs.
@@ -90,7 +83,7 @@ impl World {
         }
     }
 
-    /// Gives an island in analytic motion back to the sub-steps: its motions stand, and its mode.
+    /// Gives an island in analytic motion back: its motions stand, and its mode.
     pub(crate) fn hand_back(&mut self, place: u32, time: SimTime) {
         self.land_group(place, time, false);
     }
@@ -124,17 +117,13 @@ impl World {
         for &index in &members {
             let state = self.bodies.get_mut(index);
             state.land();
-            state.idle = 0;
             self.free.vanish(&mut self.bodies, index);
         }
         self.closed.renew_members(&mut self.bodies, place);
         for &index in &members {
-            self.begin_substepping(index, time);
+            self.unsettle(index, time);
         }
-        if left.is_none() {
-            self.lay_pieces(place, time);
-        }
-        // Their boxes are as long as their way was: narrow ones meet what a sub-step meets.
+        // Their boxes are as long as their way was: narrow ones meet what is here.
         for &index in &members {
             for slot in 0..self.bodies.get(index).colliders.len() {
                 let at = self.bodies.get(index).colliders[slot];
@@ -149,7 +138,7 @@ impl World {
         }
     }
 
-    /// Gives the island of a body back to the sub-steps, if it is in analytic motion; whether it was.
+    /// Gives the island of a body back, if it is in analytic motion; whether it was.
     pub(crate) fn hand_back_of(&mut self, index: u32, time: SimTime) -> bool {
         let moves_analytically = self.bodies.get(index).moves_analytically();
         if moves_analytically {
@@ -158,7 +147,7 @@ impl World {
         moves_analytically
     }
 
-    /// Gives an island in analytic motion that a pair holds together back to the sub-steps, before the pair goes: all that
+    /// Gives an island in analytic motion that a pair holds together back, before the pair goes: all that
     /// it touches is looked at then.
     pub(crate) fn hand_back_by(&mut self, pair: u32, time: SimTime) {
         let Some(ends) = self.pairs.find(pair).map(|pair| pair.bodies) else {
@@ -172,7 +161,7 @@ impl World {
         }
     }
 
-    /// Gives all groups that touch a body back to the sub-steps.
+    /// Gives all groups that touch a body back.
     pub(crate) fn hand_back_around(&mut self, index: u32, time: SimTime) {
         self.hand_back_of(index, time);
         for slot in 0..self.bodies.get(index).pairs.len() {
@@ -211,7 +200,7 @@ mod tests {
     }
 
     /// A floor that ends, a wall, a belt, and blocks and discs that slide, roll and drop.
-    fn scene(seed: u64, stays: bool) -> (World, Vec<BodyId>) {
+    fn scene(seed: u64) -> (World, Vec<BodyId>) {
         let mut next = numbers(seed);
         let mut world = World::new(Settings {
             gravity: vec2(0.0, -10.0),
@@ -219,7 +208,6 @@ mod tests {
             ..Settings::default()
         })
         .expect("settings");
-        world.closed.stays = stays;
         let floor = ConvexPolygon::rectangle(60.0, 1.0).expect("a floor");
         let friction = 0.1 + 0.3 * next();
         let surface = material(0.0, friction);
@@ -262,48 +250,11 @@ mod tests {
         (world, ids)
     }
 
-    /// Until a contact without closed form takes soft rows: they begin from forces that are as old as a sub-step, or as new as
-    /// the end of an analytic motion. Roundings decide what becomes of bodies that touch just so: a few runs part there.
-    #[test]
-    fn analytic_bodies_move_as_stepped_ones() {
-        let (mut analytic, mut stepped, mut parted) = (0, 0, Vec::new());
-        let mut ticks = 0;
-        for seed in 1..40 {
-            let (mut fast, ids) = scene(seed, false);
-            let (mut slow, _) = scene(seed, true);
-            for tick in 0..180 {
-                let reports = [&mut fast, &mut slow].map(|world| world.step(1.0 / 60.0));
-                analytic += reports[0].substeps;
-                stepped += reports[1].substeps;
-                let off = |id: &BodyId| {
-                    let [a, b] = [&fast, &slow].map(|world| world.body(*id).expect("there").pose());
-                    (a.position - b.position).length()
-                        + (a.rotation.x_axis() - b.rotation.x_axis()).length()
-                };
-                if reports.iter().any(|report| report.rows > 0) {
-                    break;
-                }
-                ticks += 1;
-                let worst = ids.iter().map(off).fold(0.0, f64::max);
-                if worst > 1e-9 {
-                    parted.push((seed, tick));
-                    break;
-                }
-            }
-        }
-        assert!(ticks > 2000, "{ticks} ticks compared");
-        assert!(parted.len() < 4, "seeds and ticks: {parted:?}");
-        assert!(
-            4 * analytic < 3 * stepped,
-            "{analytic} sub-steps instead of {stepped}"
-        );
-    }
-
     #[test]
     fn cutting_steps_changes_no_bit_of_an_analytic_island() {
         for seed in 1..10 {
-            let (mut whole, _) = scene(seed, false);
-            let (mut cut, _) = scene(seed, false);
+            let (mut whole, _) = scene(seed);
+            let (mut cut, _) = scene(seed);
             let mut next = numbers(seed + 100);
             whole.step(2.0);
             while cut.time() < whole.time() {
@@ -318,7 +269,7 @@ mod tests {
     #[test]
     fn a_caller_may_change_anything_about_an_analytic_body() {
         for seed in 1..60 {
-            let (mut world, ids) = scene(seed, false);
+            let (mut world, ids) = scene(seed);
             let mut next = numbers(seed + 200);
             for _ in 0..30 {
                 world.step(0.05 * next());

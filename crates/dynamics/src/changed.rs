@@ -5,16 +5,13 @@ use carom_math::SimTime;
 
 use crate::broad::tree::{Overlapping, part};
 use crate::events::free::Cause;
-use crate::events::predict::predict;
 use crate::events::wake::{wake, wake_around};
-use crate::motion::flight::fly;
 use crate::store::bodies::Bodies;
 use crate::store::pairs::Pair;
 use crate::{Mode, World};
 
 impl World {
-    /// A body with a new motion in the middle of a sub-step: its pairs are predicted again, and so
-    /// are those of the contact group that it was or is in.
+    /// A body with a new motion: its events are predicted again, and so are those of the contact group that it was or is in.
     pub(crate) fn deflected(&mut self, index: u32, time: SimTime) {
         if self.settings.mode == Mode::Stepped {
             // The next sub-step takes it from here.
@@ -25,52 +22,24 @@ impl World {
         self.regroup(index, time);
     }
 
-    /// A body with a new motion in the middle of a sub-step: it may leave its boxes, and all its
-    /// pairs are predicted again, once the event is over that gave it this motion.
+    /// A body with a new motion: its events are predicted anew, or it has another box.
     pub(crate) fn redirect(&mut self, index: u32, time: SimTime) {
-        if self.steer(index, time) {
-            self.redirected.push((index, time));
-        }
-    }
-
-    /// Predicts the pairs of bodies that the last event redirected, and left to the sub-steps.
-    pub(crate) fn predict_redirected(&mut self) {
-        let mut redirected = core::mem::take(&mut self.redirected);
-        redirected.sort_unstable_by_key(|(index, since)| (*index, core::cmp::Reverse(*since)));
-        redirected.dedup_by_key(|body| body.0);
-        for (index, time) in redirected.drain(..) {
-            let state = self.bodies.get(index);
-            if self.bodies.is_alive(index) && !state.in_engine() && !state.goes_by_events() {
-                self.predict_pairs(index, time);
-            }
-        }
-        self.redirected = redirected;
-    }
-
-    /// As [`Self::redirect`], but for predictions; whether there are any to make.
-    pub(crate) fn steer(&mut self, index: u32, time: SimTime) -> bool {
         if self.bodies.get(index).is_asleep() {
             self.wake(index, time);
         }
         let state = self.bodies.get(index);
         if state.in_engine() {
-            return false;
+            return;
         }
         if state.goes_by_events() {
-            self.foresee(index, time, Cause::Arrived, None);
-            return false;
+            return self.foresee(index, time, Cause::Arrived, None);
         }
         let left = (self.clock.next() - time).max(0.0);
-        let state = self.bodies.get(index);
-        if left > 0.0 && state.is_stepped() && !state.member && self.bodies.bends(index) {
-            fly(&mut self.bodies, index, time, left);
-        }
         self.refit(index, time, left);
-        // What rests from now on may lie in the way of what is sub-stepped, too.
+        // What rests from now on may lie in the way of what flies.
         if !self.bodies.get(index).is_stepped() {
             self.show(index, time);
         }
-        true
     }
 
     /// Predicts impacts of all free bodies near a body that rests with it.
@@ -167,7 +136,7 @@ impl World {
         self.resume_woken(&woken, time);
     }
 
-    /// Begins to sub-step bodies that woke, and makes their pairs with the free bodies near them.
+    /// Bodies that woke get their method anew; their pairs with the free bodies near them are made.
     pub(crate) fn resume_woken(&mut self, woken: &[u32], time: SimTime) {
         if self.settings.mode == Mode::Stepped {
             return;
@@ -182,11 +151,10 @@ impl World {
             return;
         }
         for &index in woken {
-            self.begin_substepping(index, time);
+            self.unsettle(index, time);
         }
         for &index in woken {
             self.meet_near(index);
-            self.redirected.push((index, time));
         }
         self.drop_unheld(woken, time);
     }
@@ -210,7 +178,7 @@ impl World {
         }
     }
 
-    /// A pair of a free body and a shape of a body that is sub-stepped.
+    /// A pair of a free body and a shape of a body that waits for its method.
     pub(crate) fn pair_free_body(&mut self, index: u32, at: u32) {
         for slot in 0..self.bodies.get(index).colliders.len() {
             let mine = self.bodies.get(index).colliders[slot];
@@ -239,21 +207,6 @@ impl World {
             meets.then_some(free),
         );
         self.look_down_first(time);
-    }
-
-    pub(crate) fn predict(&mut self, place: u32, time: SimTime) {
-        predict(
-            &self.bodies,
-            &self.colliders,
-            &mut self.pairs,
-            &mut self.narrow,
-            &mut self.event_queue,
-            &mut self.report,
-            place,
-            time,
-            self.clock.next(),
-            self.clock.h,
-        );
     }
 
     /// Takes a pair out and says so if it touched.

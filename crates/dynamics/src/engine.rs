@@ -60,7 +60,7 @@ impl World {
         if !first {
             self.tell_touches(stepping, self.clock.next().min(end));
             stepping.write_all(&mut self.bodies, &self.clock);
-            self.stopwatch.lap(|p| &mut p.flight);
+            self.stopwatch.lap(|p| &mut p.contacts);
         } else if !self.clock.is_within(end) {
             stepping.end_motions(&mut self.bodies, &self.clock);
         }
@@ -112,7 +112,7 @@ impl World {
     pub(crate) fn enter_changed(&mut self, stepping: &mut Stepping, time: SimTime, told: SimTime) {
         stepping.enter_changed(&mut self.bodies, &self.colliders, self.settings.mode, time);
         self.tell_sleep(stepping, told);
-        self.stopwatch.lap(|p| &mut p.pairs);
+        self.stopwatch.lap(|p| &mut p.contacts);
     }
 
     /// Before time goes on within a sub-step in which a caller changed bodies: continuous collision for its rest.

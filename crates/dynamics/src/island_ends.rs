@@ -1,33 +1,12 @@
-//! Analytic islands that end, or come to rest: their members go on as they are, without the forces of the island, or leave the
-//! sub-steps at once and fall asleep after a while.
+//! Analytic islands that end, or come to rest: their members go on as they are, without the forces of the island, or rest
+//! at once and fall asleep after a while.
 
 use carom_math::SimTime;
 
 use crate::analytic::islands::store::Group;
-use crate::motion::flight::fly;
 use crate::{EventKind, World};
 
 impl World {
-    /// Whether a body feels forces of an analytic island that is no more.
-    pub(crate) fn feels_island(&self, index: u32) -> bool {
-        let state = self.bodies.get(index);
-        state.member && !state.membership.is_closed()
-    }
-
-    /// Bodies of an island that is no more go on without its forces: these were equal and opposite, and what one body no longer
-    /// feels must not act on another until the sub-step ends.
-    pub(crate) fn drop_forces(&mut self, members: &[u32], time: SimTime) {
-        let left = self.clock.next() - time;
-        for &index in members {
-            let state = self.bodies.get(index);
-            let moves = state.is_stepped() && !state.in_engine();
-            if left > 0.0 && moves && self.feels_island(index) {
-                fly(&mut self.bodies, index, time, left);
-                self.redirect(index, time);
-            }
-        }
-    }
-
     /// Takes a group apart; its members keep their motions until they are given others.
     pub(crate) fn dissolve(&mut self, place: u32, time: SimTime) -> Vec<u32> {
         self.land_group(place, time, true);
@@ -67,13 +46,12 @@ impl World {
                 if self.bodies.get(index).is_asleep() {
                     self.wake(index, time);
                 }
-                let members = self.dissolve(place, time);
-                self.drop_forces(&members, time);
+                self.dissolve(place, time);
             }
         }
     }
 
-    /// Islands that came to rest since the last time leave the sub-steps: a body that meets one wakes it, as if it slept.
+    /// Islands that came to rest since the last time: a body that meets one wakes it, as if it slept.
     pub(crate) fn begin_analytic_rest(&mut self, time: SimTime) {
         let still = self.closed.take_still();
         if still.is_empty() {
@@ -93,7 +71,8 @@ impl World {
             }
         }
         lying.sort_unstable();
-        self.pairs.end_substepping_all(&mut self.stepped, &lying);
+        self.unsettled
+            .retain(|index| lying.binary_search(index).is_err());
         for index in lying {
             self.lie_down(index, time);
         }

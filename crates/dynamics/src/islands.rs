@@ -2,7 +2,7 @@
 //!
 //! A group's modes are solved for where its contacts begin to last, where one of its members changes its motion, and
 //! at the instant of its own next change. Between these it is left alone: its motions are right for
-//! as long as its mode lasts. What does not qualify is left to the sub-steps.
+//! as long as its mode lasts. What does not qualify is the engine's.
 
 use arrayvec::ArrayVec;
 use carom_math::{SimTime, Vec2};
@@ -13,22 +13,11 @@ use crate::analytic::islands::store::Group;
 use crate::analytic::islands::{give_motions, kept};
 use crate::analytic::modes::{BodyMove, GroupMove, NotMine, TouchMove, land, solve_modes};
 use crate::analytic::touching::{Around, Gathered, Looks, Refused};
-use crate::events::event_queue::Entry;
-use crate::motion::flight::fly;
+use crate::events::resolve::PairImpact;
 use crate::{BodyKind, ContactMode, Mode, World};
 
 impl World {
-    /// Closed forms for all groups that allow them at the start of a sub-step.
-    pub(crate) fn close_groups(&mut self, time: SimTime) {
-        let mut i = 0;
-        while let Some(place) = self.pairs.place(i) {
-            i += 1;
-            self.close_group_of(place, time);
-        }
-        self.keep_closed(|_| true);
-    }
-
-    /// Closed forms for bodies that came to the sub-steps in the midst of one, and for what their groups hold.
+    /// Closed forms for bodies that wait for their method, and for what their groups hold.
     pub(crate) fn close_groups_within(&mut self, waiting: &[u32], time: SimTime) {
         let of = |index: &u32| self.bodies.get(*index).pairs.iter().copied();
         let places = self.pairs.by_colliders(waiting.iter().flat_map(of));
@@ -99,7 +88,7 @@ impl World {
         }
         self.solve_modes_of(&members, time, speed);
         if moves_analytically {
-            // No sub-step was under way for it, and none need be.
+            // Within an instant that others come from, too, it goes on at once.
             self.begin_analytic_rest(time);
             self.begin_analytic_motion(time);
         }
@@ -107,12 +96,15 @@ impl World {
 
     /// A corner of a group that turned comes down on an edge that it touched already.
     fn comes_down(&mut self, place: u32, normal: Vec2, at: Vec2, time: SimTime) {
-        let Some(pair) = self.pairs.find(place) else {
+        if self.pairs.find(place).is_none() {
             return;
-        };
-        let points = ArrayVec::from_iter([at]);
-        let entry = Entry::of(&self.bodies, (place, pair), time, normal, points);
-        self.strike_entry(&entry);
+        }
+        self.strike_pair(&PairImpact {
+            time,
+            pair: place,
+            normal,
+            points: ArrayVec::from_iter([at]),
+        });
     }
 
     /// A member of a group has another motion: the group's modes are solved for anew, with the contacts that it has now.
@@ -187,10 +179,6 @@ impl World {
                 }
             }
         }
-        let feels = |index: &u32| self.feels_island(*index);
-        if !members.iter().all(feels) {
-            self.drop_forces(members, time);
-        }
     }
 
     /// Counts a mode solve of an island: every one counts for some body that has not used up its number of them, so they come to an
@@ -248,7 +236,7 @@ impl World {
                 for &index in &seen {
                     self.bodies.get_mut(index).membership.wait_until(until);
                 }
-                return self.set_free(&seen, time);
+                return;
             }
         };
         let mut speed = speed;
@@ -263,12 +251,6 @@ impl World {
             self.dissolve(place, time);
         }
         if gathered.touches.is_empty() {
-            // What nothing holds flies.
-            let left = self.clock.next() - time;
-            if left > 0.0 && self.bodies.get(index).member {
-                fly(&mut self.bodies, index, time, left);
-                self.redirect(index, time);
-            }
             return;
         }
         if gathered.closing > gathered.rest {
@@ -409,7 +391,6 @@ impl World {
                 membership.wait(time, h);
             }
         }
-        self.set_free(members, time);
     }
 
     /// Gives all members their motions, and enters the next change.
@@ -438,10 +419,10 @@ impl World {
         let place = self.closed.insert(&mut self.bodies, group, change);
         // What is driven begins to move without a touch.
         let drives = |index: &u32| self.bodies.get(*index).kind == BodyKind::Kinematic;
-        if !still {
-            self.closed.moves(place);
-        } else if !gathered.places.iter().any(drives) {
+        if still && !gathered.places.iter().any(drives) {
             self.closed.stands_still(place);
+        } else {
+            self.closed.moves(place);
         }
         self.tell_modes(gathered, &moves.touches, time);
         for (index, _) in members {

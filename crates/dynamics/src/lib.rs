@@ -2,7 +2,7 @@
 //!
 //! A body's state is a [`Motion`]: a closed form in time. Free flight is evaluated from it and never
 //! stepped; impacts happen at their instants, by one of the laws in [`impact`]; lasting contacts
-//! move in closed form while their contact modes allow it, else they are solved for in sub-steps.
+//! move in closed form while their contact modes allow it, else the engine moves them in sub-steps.
 //! [`World::step`] asks where everything is `dt` later: `dt` only observes.
 //!
 //! # Examples

@@ -2,15 +2,12 @@
 
 use std::collections::BTreeSet;
 
-use carom_geometry::Aabb;
 use carom_math::{SimTime, Vec2};
 
 use crate::stepping::Stepping;
-use crate::stepping::heap::{Heaps, Seen};
 use crate::stepping::rules::Rules;
 use crate::stepping::rush::Haste;
-use crate::store::bodies::Bodies;
-use crate::{BodyKind, Mode, PairSearch, World};
+use crate::{BodyKind, Mode, World};
 
 impl World {
     /// Before a sub-step: changes by a caller enter the engine, islands that are met wake, and bodies that may be met join.
@@ -22,7 +19,6 @@ impl World {
         if at_tick {
             self.tell_members_touches(time);
             self.disperse(time);
-            self.stopwatch.lap(|p| &mut p.sleep);
         }
         let mut searches = self.find_contacts(time) || at_tick || self.joins.is_restless();
         let mut asks_all = at_tick;
@@ -232,7 +228,7 @@ impl World {
         let stepping = self.stepping.as_mut();
         stepping.map_or_else(BTreeSet::new, |stepping| {
             self.joins
-                .outsiders_near(stepping, rules, &self.stepped, (time, tick), asks_all)
+                .outsiders_near(stepping, rules, &self.unsettled, (time, tick), asks_all)
         })
     }
 
@@ -289,41 +285,6 @@ impl World {
         }
         state.is_guest = true;
         self.bodies.touch(index);
-    }
-
-    /// At the start of a sub-step: bodies of `lands`, which begin to rest, join with all of their heap if it is for the engine;
-    /// the others stay.
-    pub(crate) fn gather_heaps(&mut self, lands: &mut Vec<u32>, seen: &mut Seen, time: SimTime) {
-        if !self.may_join() || self.broad.search != PairSearch::Indexed {
-            return;
-        }
-        let free = |bodies: &Bodies, bounds: Aabb, near: &mut Vec<u32>| {
-            self.free.overlapping(bodies, bounds, near);
-        };
-        let heaps = Heaps {
-            rules: self.rules(),
-            free: &free,
-            few: self.few(),
-            time,
-            h: self.clock.h,
-        };
-        let joining = heaps.joining(lands, seen);
-        if joining.is_empty() {
-            return;
-        }
-        lands.retain(|index| joining.binary_search(index).is_err());
-        self.pairs.end_substepping_all(&mut self.stepped, &joining);
-        // No body is free any more when the first one joins: pairs are found once, as those of members.
-        for &index in &joining {
-            let state = self.bodies.get_mut(index);
-            if state.goes_by_events() {
-                state.land();
-                self.free.vanish(&mut self.bodies, index);
-            }
-        }
-        for index in joining {
-            self.join(index, time);
-        }
     }
 
     /// Counts an impact that changed the motions of `bodies`, at the price of `lost`: bodies that strike each other too often join.

@@ -6,11 +6,10 @@ use carom_math::SimTime;
 
 use crate::analytic::islands::give_motions;
 use crate::analytic::islands::store::{Group, Kept};
-use crate::analytic::islands::tips::{Tipping, is_touched, path_of};
+use crate::analytic::islands::tips::{Tipping, path_of};
 use crate::analytic::modes::{BodyMove, NotMine, TouchMove};
 use crate::analytic::tipping::Ends;
 use crate::analytic::touching::Gathered;
-use crate::motion::flight::fly;
 use crate::{Mode, World};
 
 /// Sub-steps within which what a landing opens comes back, if it counts as closed. With 1 boxes that rock take 1.2 of the time.
@@ -68,7 +67,6 @@ impl World {
             }),
         };
         let place = self.closed.insert(&mut self.bodies, group, Some(change));
-        self.lay_pieces(place, time);
         self.closed.moves(place);
         self.tell_modes(gathered, &touches, time);
         for (index, _) in members {
@@ -124,51 +122,13 @@ impl World {
         self.closed.changes_at(place, change);
         if moves_analytically {
             self.begin_next_pieces(place, time);
-        } else {
-            self.lay_pieces(place, time);
-            self.closed.renew_touches(place, time);
-            for index in members {
-                self.redirect(index, time);
-            }
         }
         true
-    }
-
-    /// Pieces of motion for the coming sub-step of all groups that turn.
-    pub(crate) fn follow_tips(&mut self, time: SimTime, h: f64) {
-        self.report_left_paths(time);
-        self.bodies.left_paths.begin_substep(time);
-        for place in self.closed.tipping(&self.bodies) {
-            let stands = |group: &Group| {
-                let mut members = group.members.iter();
-                members.all(|&(index, version)| self.bodies.version(index) == version)
-            };
-            match self.closed.get(place) {
-                Some(group) if stands(group) => {
-                    self.closed
-                        .lay_pieces(&mut self.bodies, place, (time, h, h));
-                    self.closed.renew_touches(place, time);
-                }
-                Some(group) => {
-                    let first = group.members[0].0;
-                    self.solve_modes_anew(first, time);
-                }
-                None => {}
-            }
-        }
     }
 
     /// The members of a group that is no more go on by their parabolas, and those of one that turned by what their path has at `time`.
     pub(crate) fn leave_path(&mut self, group: &Group, time: SimTime) {
         let Some(tipping) = &group.tipping else {
-            for (index, _) in group.members.iter().copied() {
-                let motion = self.bodies.get(index).motion;
-                let now = (motion.acceleration, motion.angular_acceleration);
-                // By its own flight each of them is where it should be.
-                if now != self.bodies.freely(index, time) {
-                    self.bodies.leave_path(index, time, false);
-                }
-            }
             return;
         };
         let members = group.indices();
@@ -176,7 +136,6 @@ impl World {
             self.leave_curves(tipping, &members, time);
         }
         for index in members {
-            self.bodies.leave_path(index, time, true);
             self.redirect(index, time);
         }
     }
@@ -208,87 +167,5 @@ impl World {
     /// A body that was given another velocity has left its path already, and still has the parabola of its last piece.
     fn is_on_path(&self, index: u32) -> bool {
         self.bodies.get(index).flight.is_some()
-    }
-
-    /// Bodies of `members` that left a path fly from here on if all their contacts open, unless they joined the engine.
-    pub(crate) fn set_free(&mut self, members: &[u32], time: SimTime) {
-        let left = self.clock.next() - time;
-        for &index in members {
-            if left <= 0.0
-                || self.bodies.get(index).in_engine()
-                || !self.bodies.left_paths.moves(index, self.bodies.get(index))
-                || is_touched(
-                    &self.bodies,
-                    &self.colliders,
-                    &mut self.pairs,
-                    &mut self.narrow,
-                    index,
-                    (time, self.clock.h),
-                )
-            {
-                continue;
-            }
-            fly(&mut self.bodies, index, time, left);
-            self.redirect(index, time);
-        }
-    }
-
-    /// Reports bodies that left a path and went on by its parabola, which pushes along the arms of that instant, until a group
-    /// that took them in, or their own flight, gave them another one.
-    pub(crate) fn report_left_paths(&mut self, now: SimTime) {
-        self.report.handed_over += self.bodies.tell_left_paths(now);
-    }
-
-    /// The next pieces of the paths of a group that turns, for what is left of the sub-step.
-    pub(crate) fn lay_pieces(&mut self, place: u32, time: SimTime) {
-        let (left, h) = (self.clock.next() - time, self.clock.h);
-        self.closed
-            .lay_pieces(&mut self.bodies, place, (time, left, h));
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use carom_geometry::{ConvexPolygon, HalfPlane};
-    use carom_math::{Rot, Vec2, vec2};
-
-    use crate::{BodyDef, Material, Settings, StepReport, World};
-
-    #[test]
-    fn a_parabola_of_a_path_that_ends_within_a_sub_step_is_reported() {
-        let mut world = World::new(Settings {
-            gravity: vec2(0.0, -10.0),
-            ..Settings::default()
-        })
-        .expect("settings");
-        let material = Material {
-            restitution: 0.0,
-            friction: 2.0,
-            ..Material::default()
-        };
-        let floor = HalfPlane::new(Vec2::ZERO, Vec2::Y).expect("a floor");
-        let put = world.insert(BodyDef::fixed(), floor, material);
-        put.expect("valid");
-        let tilted = BodyDef::dynamic().at(Rot::from_angle(-0.3) * vec2(-0.5, 1.0));
-        let solid = ConvexPolygon::rectangle(1.0, 2.0).expect("a box");
-        let id = world
-            .insert(tilted.turned(-0.3), solid, material)
-            .expect("valid");
-        assert!(world.step(0.1).is_exact(), "it turns about its corner");
-        let (index, now) = (id.index, world.clock.now);
-        let place = world.bodies.get(index).membership.group;
-        world.report = StepReport::default();
-        world.dissolve(place, now);
-        world.report_left_paths(now);
-        assert!(world.report.is_exact(), "it has just left its path");
-        let later = now + 1e-4;
-        world.bodies.change(index, later, |motion| {
-            motion.acceleration = vec2(0.0, -10.0);
-        });
-        world.report_left_paths(now + 2e-4);
-        assert_eq!(
-            world.report.handed_over, 1,
-            "it was off its path for 0.1 ms"
-        );
     }
 }

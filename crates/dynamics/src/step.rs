@@ -2,9 +2,7 @@
 
 use carom_math::SimTime;
 
-use crate::events::event_queue::Entry;
-use crate::events::predict::price;
-use crate::events::resolve::{Struck, strike};
+use crate::events::resolve::{PairImpact, Struck, strike};
 use crate::{Mode, Refusal, StepReport, World};
 
 /// More ticks than this in one step are refused.
@@ -70,7 +68,6 @@ impl World {
         self.bodies.check_regimes(self.settings.mode);
         self.events.end_step();
         self.bodies.end_step();
-        self.report_left_paths(self.clock.now);
         if dt > 0.0 {
             self.report_waiting(self.clock.now);
         }
@@ -97,11 +94,10 @@ impl World {
         }
     }
 
-    /// Impacts of the event queue and sub-steps, whichever comes first, up to `end`.
+    /// Events and sub-steps, whichever comes first, up to `end`.
     fn advance(&mut self, end: SimTime, stop_at_event: bool) -> SimTime {
         let mut reached = self.clock.now;
         loop {
-            self.predict_redirected();
             let grid = if self.is_substepping() {
                 end.min(self.clock.next())
             } else {
@@ -110,117 +106,85 @@ impl World {
             let due = |time: &SimTime| *time <= grid;
             let change = self.closed.next().filter(due);
             let flight = self.free.next(&self.bodies, &self.colliders, grid);
-            let impact = self.event_queue.next().filter(due);
-            let before = |one: Option<SimTime>, other: Option<SimTime>| match (one, other) {
-                (Some(one), Some(other)) => one <= other,
-                (one, _) => one.is_some(),
-            };
-            let next = [change, flight, impact].into_iter().flatten().min();
+            let next = [change, flight].into_iter().flatten().min();
             let next = next.unwrap_or(grid).min(grid);
             if next > reached && self.settle(reached) {
+                if stop_at_event && self.events.are_due() {
+                    return reached;
+                }
                 continue;
             }
             reached = next.max(reached);
-            if let Some(time) = change
-                && before(change, flight)
-                && before(change, impact)
+            let time = if let Some(time) = change
+                && flight.is_none_or(|flight| time <= flight)
             {
                 self.change_group();
-                if self.work.uses_up(self.report.pairs) || stop_at_event && self.events.are_due() {
-                    return time;
-                }
-            } else if let Some(time) = flight
-                && before(flight, impact)
-            {
+                time
+            } else if let Some(time) = flight {
                 self.run_free_bodies();
-                if self.work.uses_up(self.report.pairs) || stop_at_event && self.events.are_due() {
-                    return time;
-                }
-            } else if let Some(entry) = self.event_queue.next_until(grid) {
-                if self.spent > self.impact_budget() {
-                    self.give_up(entry);
-                    continue;
-                }
-                self.strike_entry(&entry);
-                if self.work.uses_up(self.report.pairs) || stop_at_event && self.events.are_due() {
-                    return entry.time;
-                }
+                time
             } else if self.is_substepping() && self.clock.is_due(end) {
                 let time = self.clock.next();
                 self.begin_substep();
-                if self.work.uses_up(self.report.pairs) || stop_at_event && self.events.are_due() {
-                    return time;
-                }
+                time
             } else {
                 return end;
+            };
+            if self.work.uses_up(self.report.pairs) || stop_at_event && self.events.are_due() {
+                return time;
             }
         }
     }
 
-    /// An impact that is due, unless its bodies have other motions by now.
-    pub(crate) fn strike_entry(&mut self, entry: &Entry) {
-        let Some(pair) = self.pairs.find_same(entry.pair, entry.key) else {
-            return;
-        };
-        let (a, b) = pair.bodies;
-        let now = (self.bodies.version(a), self.bodies.version(b));
-        // An analytic body is struck with all that holds it: by the impact that is foreseen once it has landed.
-        if now == entry.versions
-            && (self.hand_back_of(a, entry.time) | self.hand_back_of(b, entry.time))
-        {
-            return;
-        }
-        let rests = self.strike_or_rest(entry);
-        let closed = |index: u32| self.bodies.get(index).membership.is_closed();
-        // What has no closed form is the engine's.
-        self.report.handed_over += u64::from(rests && !closed(a) && !closed(b));
-    }
-
-    /// The same; what is too slow to bounce rests, if nothing else is asked of it. Whether it does.
-    fn strike_or_rest(&mut self, entry: &Entry) -> bool {
+    /// An impact of a pair of which one body may be in an island that was just given back.
+    pub(crate) fn strike_pair(&mut self, impact: &PairImpact) {
+        let time = impact.time;
+        let (a, b) = self.pairs.get(impact.pair).bodies;
         let struck = strike(
             &self.settings,
             &mut self.bodies,
             &self.colliders,
             &mut self.pairs,
             &mut self.narrow,
-            entry,
+            impact,
             self.clock.h,
             &mut self.events,
             &mut self.report,
         );
         match struck {
-            Struck::Nothing => {}
-            Struck::Rests => {
-                self.predict(entry.pair, entry.time);
-                let (a, b) = self.pairs.get(entry.pair).bodies;
-                // No motion has changed, but an island has one contact more: its modes are solved for once.
-                self.gain_contact(a, entry.time);
-                if !self.share_group(a, b) {
-                    self.gain_contact(b, entry.time);
+            Struck::Nothing => {
+                for index in [a, b] {
+                    self.join(index, time);
                 }
-                return true;
+            }
+            Struck::Rests => {
+                // No motion has changed, but an island has one contact more: its modes are solved for once.
+                for index in [a, b] {
+                    self.land(index, time);
+                }
+                self.gain_contact(a, time);
+                if !self.share_group(a, b) {
+                    self.gain_contact(b, time);
+                }
             }
             Struck::Impact {
                 changed,
                 operations,
             } => {
                 self.work.impact(operations);
-                let material = self.pairs.get(entry.pair).material;
-                self.spent += price(&material);
-                self.rush(&changed, 1.0 - material.restitution, entry.time);
+                let material = self.pairs.get(impact.pair).material;
+                self.rush(&changed, 1.0 - material.restitution, time);
                 // Wake sleeping bodies first: the contact search below skips sleepers. Failed mode solves are void.
                 for &index in &changed {
                     self.bodies.get_mut(index).membership.forget();
                     if self.bodies.get(index).is_asleep() {
-                        self.wake(index, entry.time);
+                        self.wake(index, time);
                     }
                 }
                 for index in changed {
-                    self.deflected(index, entry.time);
+                    self.deflected(index, time);
                 }
             }
         }
-        false
     }
 }

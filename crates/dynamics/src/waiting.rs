@@ -1,40 +1,96 @@
-//! What comes to the sub-steps in the midst of one gets its method at that instant: a closed form, flight, or the engine, where it
-//! stands until the sub-step ends.
+//! What touches gets its method at that instant: a closed form, flight, or the engine, where it stands until the sub-step ends.
 
+use arrayvec::ArrayVec;
 use carom_collision::{TimeOfImpact, time_of_impact};
 use carom_geometry::Aabb;
-use carom_math::SimTime;
+use carom_math::{SimTime, Vec2};
 
 use crate::World;
 use crate::broad::window::box_ahead;
+use crate::events::resolve::PairImpact;
+use crate::model::narrow::{NOISE, TOUCH, opening_speed, pace, rest_speed};
+use crate::store::pairs::PairPoint;
 
 impl World {
-    /// Gives all that waits at an instant within a sub-step its method, once all that happens at that instant has happened; whether
-    /// something waited.
+    /// Gives all that waits at an instant its method, once all that happens at that instant has happened; whether something waited.
     pub(crate) fn settle(&mut self, time: SimTime) -> bool {
         let are_known = self.joins.known == self.joins.waiting.len();
-        if self.stepped.is_empty() && are_known || !self.may_join() || !self.clock.is_within(time) {
+        if self.unsettled.is_empty() && are_known || !self.may_join() {
             return false;
+        }
+        let before = self.unsettled.len();
+        let places = self.look_at_held(time);
+        if self.strike_held_pairs(places, time) {
+            return true;
         }
         let waiting = self.unsolved();
-        if waiting.is_empty() && are_known {
-            return false;
-        }
-        let (bodies, colliders) = (&self.bodies, &self.colliders);
-        for &index in &waiting {
-            for &place in &bodies.get(index).pairs {
-                let (pairs, h) = (&mut self.pairs, self.clock.h);
-                let pair = self
-                    .narrow
-                    .look_at(bodies, colliders, pairs, place, time, h);
-                self.events.tell_touch(bodies, pair, time);
-            }
-        }
         self.close_groups_within(&waiting, time);
         self.drop_alone(time);
         self.join_unsolved(time);
+        self.begin_analytic_rest(time);
+        self.begin_analytic_motion(time);
         self.tell_waiting(time);
-        true
+        !waiting.is_empty() || !are_known || self.unsettled.len() < before
+    }
+
+    /// Contacts of all that waits for its method; begins and ends of touch, and overlaps. Places of the pairs.
+    fn look_at_held(&mut self, time: SimTime) -> Vec<u32> {
+        let (bodies, colliders, h) = (&self.bodies, &self.colliders, self.clock.h);
+        let all = self.unsettled.iter();
+        let all = all.flat_map(|index| &bodies.get(*index).pairs);
+        let places = self.pairs.by_colliders(all.copied());
+        for &place in &places {
+            let pairs = &mut self.pairs;
+            let pair = self
+                .narrow
+                .look_at(bodies, colliders, pairs, place, time, h);
+            pair.fresh = false;
+            let reach = |index: u32| bodies.get(index).reach;
+            let (a, b) = pair.bodies;
+            let sunken = pair.overlaps(TOUCH * reach(a).min(reach(b)));
+            self.report.sunken += u64::from(sunken);
+            self.report.deepest_overlap = self.report.deepest_overlap.max(pair.depth());
+            self.events.tell_touch(bodies, pair, time);
+        }
+        places
+    }
+
+    /// Strikes pairs that close faster than rest where they touch: a body that landed on one side may strike another one. Whether
+    /// some do.
+    fn strike_held_pairs(&mut self, places: Vec<u32>, time: SimTime) -> bool {
+        let mut strikes = false;
+        for place in places {
+            if let Some(impact) = self.approach_of(place, time) {
+                self.strike_pair(&impact);
+                strikes = true;
+            }
+        }
+        strikes
+    }
+
+    /// The first contact of a pair that closes faster than rest where it touches.
+    fn approach_of(&self, place: u32, time: SimTime) -> Option<PairImpact> {
+        let pair = self.pairs.find(place)?;
+        let [a, b] = [pair.bodies.0, pair.bodies.1].map(|index| self.bodies.get(index));
+        if pair.buried || a.in_engine() || b.in_engine() {
+            return None;
+        }
+        let touch = TOUCH * a.reach.min(b.reach);
+        let rest = rest_speed(&self.bodies, pair, self.clock.h).max(NOISE * pace(a, b, time));
+        pair.contacts.iter().find_map(|contact| {
+            let closes = |point: &&PairPoint| {
+                point.separation <= touch
+                    && opening_speed(a, b, time, point.position, contact.normal) < -rest
+            };
+            let points = contact.points.iter().filter(closes);
+            let points: ArrayVec<Vec2, 2> = points.map(|point| point.position).collect();
+            (!points.is_empty()).then_some(PairImpact {
+                time,
+                pair: place,
+                normal: contact.normal,
+                points,
+            })
+        })
     }
 
     /// Bodies with nothing near fly.

@@ -5,7 +5,6 @@ use carom_math::SimTime;
 
 use crate::analytic::islands::store::Closed;
 use crate::broad::tree::Broad;
-use crate::events::event_queue::EventQueue;
 use crate::events::free::FreeBodies;
 use crate::model::narrow::Narrow;
 use crate::stepping::threads::Threads;
@@ -52,20 +51,15 @@ pub struct World {
     pub(crate) broad: Broad,
     pub(crate) narrow: Narrow,
     pub(crate) closed: Closed,
-    pub(crate) event_queue: EventQueue,
-    /// Bodies with new motions and pairs that are not predicted yet, and since when.
-    pub(crate) redirected: Vec<(u32, SimTime)>,
     pub(crate) free: FreeBodies,
-    /// Bodies that the sub-steps move, in order.
-    pub(crate) stepped: Vec<u32>,
+    /// Bodies that get their method before time goes on, in order.
+    pub(crate) unsettled: Vec<u32>,
     pub(crate) events: Events,
     pub(crate) report: StepReport,
     pub(crate) work: Work,
     /// No pose is read before this instant.
     pub(crate) unseen_until: SimTime,
-    /// What the impacts of the present sub-step spent of its budget.
-    pub(crate) spent: f64,
-    /// Bodies that the solver moves until the present sub-step ends.
+    /// Bodies that the engine moves until the present sub-step ends.
     pub(crate) handed_over: u64,
     /// Bodies with a force that waits for a step or acts during this one.
     pub(crate) forced: Vec<u32>,

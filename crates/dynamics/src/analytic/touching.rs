@@ -270,7 +270,7 @@ impl Around<'_> {
             let pair = self
                 .narrow
                 .look_at(self.bodies, self.colliders, self.pairs, place, time, h);
-            // Begins and ends of touch are reported by the sub-steps.
+            // Begins and ends of touch are told once all has its method.
             core::mem::swap(&mut touching, &mut pair.touching);
         }
         let pair = self.pairs.get(place);

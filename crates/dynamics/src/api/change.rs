@@ -364,7 +364,7 @@ impl World {
         self.show_engine(index);
         self.hand_back_of(index, now);
         self.free.vanish(&mut self.bodies, index);
-        self.end_substepping(index);
+        self.end_unsettled(index);
         let state = self.bodies.get_mut(index);
         state.course = Course::default();
         // A law goes on from piece to piece: without a piece there is none.
@@ -380,7 +380,7 @@ impl World {
                 .note_flight(&self.bodies, self.settings.mode, index);
         }
         if is_dynamic && !self.bodies.bends(index) {
-            fly(&mut self.bodies, index, now, self.clock.h);
+            fly(&mut self.bodies, index, now);
         }
         // It flies once all that sleeps with it is awake.
         if sleeps {

@@ -7,7 +7,6 @@ use carom_math::{Pose, SimTime, StateHash, Sum, Vec2, cross};
 
 use crate::analytic::islands::store::Closed;
 use crate::broad::tree::Broad;
-use crate::events::event_queue::EventQueue;
 use crate::events::free::FreeBodies;
 use crate::model::narrow::Narrow;
 use crate::stepping::threads::Threads;
@@ -49,15 +48,12 @@ impl World {
             broad: Broad::new(settings.pair_search),
             narrow: Narrow::default(),
             closed: Closed::default(),
-            event_queue: EventQueue::default(),
-            redirected: Vec::new(),
             free: FreeBodies::under(settings.gravity),
-            stepped: Vec::new(),
+            unsettled: Vec::new(),
             events: Events::new(settings.events),
             report: StepReport::default(),
             work: Work::default(),
             unseen_until: SimTime::ZERO,
-            spent: 0.0,
             handed_over: 0,
             forced: Vec::new(),
             stopwatch: Stopwatch::default(),
@@ -183,7 +179,7 @@ impl World {
             self.part(place, now);
         }
         self.free.vanish(&mut self.bodies, index);
-        self.end_substepping(index);
+        self.end_unsettled(index);
         self.broad.forget(&self.bodies, &mut self.colliders, index);
         self.free_shapes(index);
         self.forced.retain(|i| *i != index);

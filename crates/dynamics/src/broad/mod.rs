@@ -1,6 +1,6 @@
 //! Broad phase: which bodies may meet, by boxes and circles swept over their motions.
 //!
-//! To read in this order: [`tree`] (bodies that stand, and pairs of those that are sub-stepped), [`grid`] (free bodies over the
+//! To read in this order: [`tree`] (bodies that stand, and pairs of those in contact), [`grid`] (free bodies over the
 //! cells that they sweep), [`free_fall_frame`] (the frame in which these have constant velocities), [`window`] (from when to when
 //! two things are near enough to meet).
 

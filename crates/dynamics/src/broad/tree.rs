@@ -253,7 +253,7 @@ impl Broad {
             buried: false,
             impacts: 0,
             spent: 0.0,
-            given_up: false,
+            struck_in: 0,
         });
         bodies.get_mut(ends.0).pairs.push(place);
         bodies.get_mut(ends.1).pairs.push(place);

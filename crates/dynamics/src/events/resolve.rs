@@ -1,9 +1,8 @@
 //! An impact that is due: velocities before become velocities after.
 
-use carom_math::SimTime;
+use arrayvec::ArrayVec;
+use carom_math::{SimTime, Vec2};
 
-use crate::events::event_queue::Entry;
-use crate::events::predict::{BUDGET, price};
 use crate::events::shock::Shock;
 use crate::impact::{ImpactContact, resolve};
 use crate::model::narrow::{NOISE, Narrow, opening_speed, pace, rest_speed};
@@ -11,15 +10,37 @@ use crate::store::bodies::Bodies;
 use crate::store::pairs::{Pair, Pairs};
 use crate::store::state::Collider;
 use crate::values::event::EventKind;
-use crate::{Events, Settings, StepReport};
+use crate::{Events, PairMaterial, Settings, StepReport};
 
-/// What an entry that came up did.
+/// What the impacts of one pair may spend in a sub-step before the engine takes its bodies: what rattles with e = 0 faster than a
+/// thirtieth of a sub-step is closer to rest than to flight.
+pub(crate) const BUDGET: f64 = 32.0;
+
+/// What an impact spends: the loss of relative speed, since k impacts leave `e^k` of it.
+///
+/// At least 1/1024, so that a pair without any loss ends, too: after 32,768 impacts in a sub-step.
+pub(crate) fn price(material: &PairMaterial) -> f64 {
+    (1.0 - material.restitution).max(1.0 / 1024.0)
+}
+
+/// An impact of a pair.
+#[derive(Clone, Debug)]
+pub(crate) struct PairImpact {
+    pub(crate) time: SimTime,
+    /// Place of the pair.
+    pub(crate) pair: u32,
+    /// Unit normal from A to B.
+    pub(crate) normal: Vec2,
+    /// One point, or both ends of a common stretch, in m.
+    pub(crate) points: ArrayVec<Vec2, 2>,
+}
+
+/// What an impact did.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Struck {
-    /// One of the two had changed its motion since, or the pair has used up its impacts.
+    /// The pair has used up its impacts.
     Nothing,
-    /// They met too gently to bounce. The contact lasts: the next sub-step's solver holds it, and
-    /// what else the pair may strike with in this one is to be looked for beside it.
+    /// They met too gently to bounce: the contact lasts.
     Rests,
     /// These bodies have new motions.
     Impact {
@@ -29,7 +50,7 @@ pub(crate) enum Struck {
     },
 }
 
-/// Resolves one impact of the event queue.
+/// Resolves an impact of a pair.
 ///
 /// A single contact follows the impact law; one that runs into others is resolved with them.
 #[expect(
@@ -42,16 +63,13 @@ pub(crate) fn strike(
     colliders: &[Collider],
     pairs: &mut Pairs,
     narrow: &mut Narrow,
-    entry: &Entry,
+    entry: &PairImpact,
     h: f64,
     events: &mut Events,
     report: &mut StepReport,
 ) -> Struck {
     let ends = pairs.get(entry.pair).bodies;
     let (a, b) = (bodies.get(ends.0), bodies.get(ends.1));
-    if (bodies.version(ends.0), bodies.version(ends.1)) != entry.versions {
-        return Struck::Nothing;
-    }
     touch(bodies, pairs, entry, events);
     let rest = rest_speed(bodies, pairs.get(entry.pair), h);
     let rounding = NOISE * pace(a, b, entry.time);
@@ -74,10 +92,16 @@ pub(crate) fn strike(
     if shock.strikes.is_empty() {
         let pair = pairs.get_mut(entry.pair);
         pair.lasting = true;
+        pair.begin_budget(entry.time, h);
         // A group with modes that are solved for anew each time comes to an end, too.
-        pair.given_up |= outruns(pair, 1.0);
-        return Struck::Rests;
+        return if outruns(pair, 1.0) {
+            report.collapsed += 1;
+            Struck::Nothing
+        } else {
+            Struck::Rests
+        };
     }
+    pairs.get_mut(entry.pair).begin_budget(entry.time, h);
     match spend(bodies, pairs, entry, &shock, events, report) {
         Budget::Left => {}
         Budget::Outrun => shock.collapse(),
@@ -103,9 +127,8 @@ pub(crate) fn strike(
     }
     shock.hold(pairs);
     for strike in shock.squeezed() {
-        let pair = pairs.get_mut(strike.pair);
-        report.collapsed += u64::from(!pair.given_up);
-        (pair.given_up, pair.lasting) = (true, true);
+        report.collapsed += 1;
+        pairs.get_mut(strike.pair).lasting = true;
     }
     Struck::Impact {
         changed: apply(bodies, entry.time, &shock, events, report),
@@ -114,7 +137,7 @@ pub(crate) fn strike(
 }
 
 /// A touch that begins here is an event.
-fn touch(bodies: &Bodies, pairs: &mut Pairs, entry: &Entry, events: &mut Events) {
+fn touch(bodies: &Bodies, pairs: &mut Pairs, entry: &PairImpact, events: &mut Events) {
     let pair = pairs.get_mut(entry.pair);
     pair.touching = true;
     events.tell_touch(bodies, pair, entry.time);
@@ -126,7 +149,7 @@ enum Budget {
     Left,
     /// The impacts come ever faster: this one is their limit.
     Outrun,
-    /// Not even limits bring the pair to rest: the next sub-step's solver takes it.
+    /// Not even limits bring the pair to rest: the engine takes it.
     Gone,
 }
 
@@ -146,7 +169,7 @@ fn outruns(pair: &mut Pair, losses: f64) -> bool {
 fn spend(
     bodies: &Bodies,
     pairs: &mut Pairs,
-    entry: &Entry,
+    entry: &PairImpact,
     shock: &Shock,
     events: &mut Events,
     report: &mut StepReport,
@@ -163,7 +186,7 @@ fn spend(
         (false, false) => return Budget::Left,
         (true, false) => return Budget::Outrun,
         (true, true) => {
-            pair.given_up = true;
+            report.collapsed += 1;
             return Budget::Gone;
         }
         (false, true) => {}

@@ -258,15 +258,6 @@ impl Flight {
         self.turn.rotation.turned(angle)
     }
 
-    /// Angle that the body turns by in `h` seconds from `time` on, in rad.
-    pub(crate) fn angle_over(&self, time: SimTime, h: f64) -> f64 {
-        let (angle, spin) = self.angle_at(time);
-        if let Law::Held { .. } = self.law {
-            return self.angle_at(time + h).0 - angle;
-        }
-        damped(spin, self.turn.pull, self.turn.damping, h).0
-    }
-
     /// Centre and velocity, angle since the start and spin.
     pub(crate) fn all_at(&self, time: SimTime) -> (Vec2, Vec2, f64, f64) {
         if let Law::Held { path, body } = &self.law {

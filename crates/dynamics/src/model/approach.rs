@@ -2,8 +2,6 @@
 
 use carom_math::{SimTime, Vec2, cross_scalar};
 
-use super::narrow::TOUCH;
-use crate::store::pairs::PairContact;
 use crate::store::state::BodyState;
 
 /// Opening speed below which a touch neither opens nor closes, as a part of the speeds it is made of.
@@ -59,37 +57,6 @@ pub(crate) fn approach(
     } else {
         Approach::Stays
     }
-}
-
-/// How a point of two bodies moves along the normal.
-pub(crate) fn approach_at(
-    (a, b): (&BodyState, &BodyState),
-    (point, normal): (Vec2, Vec2),
-    time: SimTime,
-    rest: f64,
-) -> Approach {
-    let ends = (RigidState::of(a, time), RigidState::of(b, time));
-    approach(ends, point, normal, rest)
-}
-
-/// Whether a touch neither opens nor closes: a group in closed form may hold it.
-pub(crate) fn stays(
-    (a, b): (&BodyState, &BodyState),
-    contact: &PairContact,
-    time: SimTime,
-    rest: f64,
-) -> bool {
-    let ends = (RigidState::of(a, time), RigidState::of(b, time));
-    let touch = TOUCH * a.reach.min(b.reach);
-    let mut stays = false;
-    for point in contact.points.iter().filter(|p| p.separation <= touch) {
-        match approach(ends, point.position, contact.normal, rest) {
-            Approach::Stays => stays = true,
-            Approach::Closes(_) => return false,
-            Approach::Leaves(_) => {}
-        }
-    }
-    stays
 }
 
 /// Speed at which a point opens, and the sum of the speeds that it is made of, in m/s.

@@ -18,22 +18,16 @@ pub(crate) fn neighbours<'a>(
     })
 }
 
-/// Whether two shapes touch in an island in analytic motion: their contact changes with the island's mode alone.
-pub(crate) fn touch_in_moving_island(
+/// The pair of two shapes, of which the first body has one, whichever comes first in it.
+pub(crate) fn pair_of(
     bodies: &Bodies,
     pairs: &Pairs,
-    (a, b): (u32, u32),
-    shapes: (u32, u32),
-) -> bool {
-    let moves_analytically = |index: &u32| bodies.get(*index).moves_analytically();
-    let Some(index) = [a, b].into_iter().find(moves_analytically) else {
-        return false;
-    };
-    // Other pairs it has with bodies that are stepped alone.
-    let (first, second) = shapes;
-    let mut places = bodies.get(index).pairs.iter();
-    places.any(|place| {
-        let colliders = pairs.get(*place).colliders;
-        colliders == (first, second) || colliders == (second, first)
+    index: u32,
+    (first, second): (u32, u32),
+) -> Option<u32> {
+    let mut places = bodies.get(index).pairs.iter().copied();
+    places.find(|place| {
+        let known = pairs.shapes(*place);
+        known == (first, second) || known == (second, first)
     })
 }

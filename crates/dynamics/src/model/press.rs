@@ -6,13 +6,9 @@ use carom_math::{SimTime, Vec2, cross_scalar, perp};
 
 use super::edges::{Feature, feature};
 use super::gap::{Touching, gap_acceleration};
-use crate::motion::flight::motion_along;
 use crate::store::bodies::Bodies;
 use crate::store::pairs::{Pair, PairContact};
 use crate::store::state::{BodyState, Collider};
-
-/// Stretch of a law that its acceleration is read from, in s.
-const STRETCH: f64 = 1e-5;
 
 /// What two bodies turn or slide by, in rad or sizes, while a bounce lasts that counts as over: half of it there and half
 /// of it back. It is then no higher than 2^-17 of its distance from what it turns about.
@@ -63,25 +59,6 @@ impl Pair {
 }
 
 impl Spot<'_> {
-    /// How fast the two are pressed together, in m/s², by the laws that they move by.
-    pub(crate) fn press(&self, time: SimTime) -> f64 {
-        let (a, b) = self.bodies;
-        self.press_of([a, b].map(|state| motion_along(state, time, STRETCH)), time)
-    }
-
-    /// The same if nothing touched them: by fields and forces alone. `ends`: their indices in `bodies`.
-    pub(crate) fn free_press(&self, bodies: &Bodies, ends: (u32, u32), time: SimTime) -> f64 {
-        let freely = |index: u32| {
-            let state = bodies.get(index);
-            let mut motion = state.at(time);
-            if state.is_dynamic() {
-                (motion.acceleration, motion.angular_acceleration) = bodies.freely(index, time);
-            }
-            motion
-        };
-        self.press_of([freely(ends.0), freely(ends.1)], time)
-    }
-
     /// Speed of an approach that turning brings back, were it given back, before its bodies have turned or slid by more
     /// than [`STEADY`], and in less than four sub-steps of `h` seconds, in m/s; 0 where turning does not press.
     pub(crate) fn turning_rest(&self, time: SimTime, h: f64) -> f64 {

@@ -34,10 +34,8 @@ const BEYOND: f64 = 1e-6;
 /// The parabola that touches the flight of a body at `time`.
 fn near(state: &BodyState, time: SimTime) -> Osculating {
     match &state.flight {
-        Some(flight) if flight.is_free() || state.moves_analytically() => {
-            flight.osculating(time, state.reach)
-        }
-        _ => Osculating::of(state.motion.rebased(time)),
+        Some(flight) => flight.osculating(time, state.reach),
+        None => Osculating::of(state.motion.rebased(time)),
     }
 }
 

@@ -2,13 +2,11 @@
 
 use std::sync::Arc;
 
-use carom_collision::Motion;
 use carom_math::{SimTime, Vec2};
 
 use crate::law::flight::{Flight, Turn};
 use crate::law::kepler::Conic;
 use crate::store::bodies::Bodies;
-use crate::store::state::BodyState;
 use crate::store::uncommon::Lag;
 
 /// Longest stretch of the integrator, in s.
@@ -21,17 +19,15 @@ const BENT: f64 = 2.0;
 /// count as near; smaller, and pieces are shorter.
 const APART: f64 = 1.0 / 32.0;
 
-/// Gives a flying body its motion from `time` to `time + h`.
+/// Gives a body that nothing holds any more its motion from `time` on.
 ///
-/// Under uniform gravity and a constant force that is the parabola itself, and a body that is on
-/// it already is not touched. In a field and with damping its law is kept beside the motion from the
-/// instant on at which the flight began, and says where the body is; the motion is the parabola through
-/// both ends of the piece, for prediction.
+/// Under uniform gravity and a constant force that is the parabola itself, and a body that is on it already is not touched. In a
+/// field and with damping its pieces are laid when it takes off.
 #[expect(
     clippy::float_cmp,
     reason = "a body that is on its parabola has these very numbers"
 )]
-pub(crate) fn fly(bodies: &mut Bodies, index: u32, time: SimTime, h: f64) {
+pub(crate) fn fly(bodies: &mut Bodies, index: u32, time: SimTime) {
     let state = bodies.get(index);
     let free = if state.inverse_mass > 0.0 {
         state.gravity_scale() * bodies.pull.gravity + state.force() * state.inverse_mass
@@ -51,14 +47,7 @@ pub(crate) fn fly(bodies: &mut Bodies, index: u32, time: SimTime, h: f64) {
         let state = bodies.get_mut(index);
         state.member = false;
         state.set_lag(Lag::NONE);
-        return;
     }
-    let known = bodies.get(index).flight.clone();
-    let flight = match known {
-        Some(flight) if flight.holds(time, h) => flight,
-        _ => Arc::new(new_law(bodies, index, time, h, h)),
-    };
-    follow(bodies, index, flight, time, h, 0.0);
 }
 
 /// Gives a free body in a field or with damping the next piece of its flight: the parabola that touches its law at `time`, for as
@@ -181,68 +170,4 @@ fn longest(bodies: &Bodies, index: u32, (x, v): (Vec2, Vec2), h: f64) -> f64 {
         span *= 0.5;
     }
     h
-}
-
-/// Gives a body the piece of its flight from `time` to `time + h`: the parabola through both ends for
-/// prediction, and what its velocity lacks. `jerk` bounds what contacts add to the third derivative, in m/s³.
-pub(crate) fn follow(
-    bodies: &mut Bodies,
-    index: u32,
-    flight: Arc<Flight>,
-    time: SimTime,
-    h: f64,
-    jerk: f64,
-) {
-    let ((x, v), (rotation, spin)) = (flight.at(time), flight.turn_at(time));
-    let ((x_end, v_end), (_, spin_end)) = (flight.at(time + h), flight.turn_at(time + h));
-    let acceleration = (x_end - x - v * h) * (2.0 / (h * h));
-    let state = bodies.get(index);
-    let (linear, angular) = state.damping();
-    let angle = flight.angle_over(time, h);
-    let angular_acceleration = (angle - spin * h) * (2.0 / (h * h));
-    let lag = Lag {
-        rate: (v_end - (v + acceleration * h)) / h,
-        angular: (spin_end - (spin + angular_acceleration * h)) / h,
-        length: h,
-        ..Lag::NONE
-    };
-    // Path and parabola share both ends and the first velocity, so they part by at most 2/81 h³ times the
-    // largest third derivative: |∇f| |v| + c |a|. A turn parts by the same, times the reach.
-    let reach = (v.length() + acceleration.length() * h) * h;
-    let gradient = state.gravity_scale().abs() * bodies.pull.gradient_bound(x, reach);
-    let bend = gradient * reach / h + linear * (acceleration.length() + linear * v.length() * h);
-    let twist = angular * (angular_acceleration.abs() + angular * spin.abs() * h) * state.reach;
-    let left_out = 2.0 / 81.0 * (bend + twist + jerk) * h * h * h;
-    bodies.change(index, time, |motion| {
-        motion.centre = x;
-        motion.velocity = v;
-        motion.acceleration = acceleration;
-        motion.rotation = rotation;
-        motion.spin = spin;
-        motion.angular_acceleration = angular_acceleration;
-        motion.left_out = left_out;
-    });
-    let state = bodies.get_mut(index);
-    state.member = false;
-    state.set_lag(lag);
-    state.flight = Some(flight);
-}
-
-/// The parabola through both ends of `h` seconds of a body's flight from `time` on.
-pub(crate) fn motion_along(state: &BodyState, time: SimTime, h: f64) -> Motion {
-    let Some(flight) = &state.flight else {
-        return state.motion.rebased(time);
-    };
-    let ((x, v), (rotation, spin)) = (flight.at(time), flight.turn_at(time));
-    let per = 2.0 / (h * h);
-    Motion {
-        start: time,
-        centre: x,
-        velocity: v,
-        acceleration: (flight.at(time + h).0 - x - v * h) * per,
-        rotation,
-        spin,
-        angular_acceleration: (flight.angle_over(time, h) - spin * h) * per,
-        left_out: 0.0,
-    }
 }

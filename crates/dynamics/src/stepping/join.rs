@@ -91,12 +91,9 @@ impl Joins {
 }
 
 impl World {
-    /// Whether a body needs sub-steps.
+    /// Whether the engine has members, or will with its next sub-step.
     pub(crate) const fn is_substepping(&self) -> bool {
-        !self.stepped.is_empty()
-            || self.bodies.member_count() > 0
-            || self.joins.rush.is_due()
-            || self.closed.has_exhausted()
+        self.bodies.member_count() > 0 || self.joins.rush.is_due() || self.closed.has_exhausted()
     }
 
     /// Whether bodies may join the engine.
@@ -112,15 +109,6 @@ impl World {
         }
     }
 
-    /// Islands of more than [`MANY`] bodies join: their contact modes are not solved for.
-    pub(crate) fn join_large(&mut self, time: SimTime) {
-        if self.may_join() && self.stepped.len() > MANY {
-            let mut islands = self.unsolved_islands();
-            islands.retain(|island| island.len() > MANY);
-            self.join_islands(islands, time);
-        }
-    }
-
     /// Bodies in touch of which one has no solution of its contact modes join.
     pub(crate) fn join_unsolved(&mut self, time: SimTime) {
         if self.may_join() {
@@ -130,7 +118,7 @@ impl World {
 
     /// Bodies in sub-steps that no method moves yet.
     pub(crate) fn unsolved(&self) -> Vec<u32> {
-        let all = self.stepped.iter().copied();
+        let all = self.unsettled.iter().copied();
         all.filter(|index| self.bodies.get(*index).is_unsolved())
             .collect()
     }
@@ -138,7 +126,7 @@ impl World {
     /// Islands of bodies in touch in sub-steps of which one has no closed form.
     pub(crate) fn unsolved_islands(&self) -> Vec<Vec<u32>> {
         let (mut seen, mut islands) = (BTreeSet::new(), Vec::new());
-        for &index in &self.stepped {
+        for &index in &self.unsettled {
             if !self.bodies.get(index).is_unsolved() || !seen.insert(index) {
                 continue;
             }
@@ -160,7 +148,8 @@ impl World {
             return;
         }
         joining.sort_unstable();
-        self.pairs.end_substepping_all(&mut self.stepped, &joining);
+        self.unsettled
+            .retain(|index| joining.binary_search(index).is_err());
         for index in joining {
             self.join(index, time);
         }
@@ -197,14 +186,14 @@ impl World {
             self.bodies.get_mut(index).land();
             self.free.vanish(&mut self.bodies, index);
         } else {
-            self.end_substepping(index);
+            self.end_unsettled(index);
         }
         self.bodies.change(index, time, |_| {});
         let (kinetic, potential) = self.bodies.energy_of(index, time);
         self.joins.balance.add(-(kinetic + potential));
         self.bodies.join(index);
         let state = self.bodies.get_mut(index);
-        (state.member, state.idle) = (false, 0);
+        state.member = false;
         self.bodies.touch(index);
         self.leave_pairs(index, time);
         self.wait(index, time);
@@ -283,7 +272,7 @@ impl World {
         self.joins.balance.add(kinetic + potential);
         self.bodies.leave(index);
         let state = self.bodies.get_mut(index);
-        (state.member, state.idle) = (false, 0);
+        state.member = false;
         self.bodies.renew(index);
     }
 

@@ -15,7 +15,6 @@
 mod between;
 mod enter;
 mod guests;
-pub(crate) mod heap;
 mod join;
 pub(crate) mod near;
 mod rest;

@@ -6,7 +6,6 @@ use carom_math::{SimTime, Sum, Vec2};
 use super::damping::damping_loss;
 use super::few::Few;
 use super::history::History;
-use super::left_paths::LeftPaths;
 use super::moved::{Moved, moves};
 use super::now::Now;
 use super::pull::Pull;
@@ -41,7 +40,6 @@ pub(crate) struct Bodies {
     pub(crate) pull: Pull,
     /// Flights since the last report that leave out more than [`Pull::error`], as short as their stretches are.
     pub(crate) inaccurate: u64,
-    pub(crate) left_paths: LeftPaths,
     /// Bodies that came, went, woke or were changed since the last sub-step; only where the list is
     /// read.
     pub(crate) touched: Vec<u32>,
@@ -65,7 +63,6 @@ impl Bodies {
                 error,
             },
             inaccurate: 0,
-            left_paths: LeftPaths::default(),
             touched: Vec::new(),
             notes_touched,
             moved: Moved::default(),
@@ -190,11 +187,6 @@ impl Bodies {
         self.versions[index as usize]
     }
 
-    /// [`Self::version`] of every place.
-    pub(crate) fn versions(&self) -> &[u32] {
-        &self.versions
-    }
-
     /// The motion of a body from `motion.start` on, turned by `angle` in all; the log keeps what it did till then.
     pub(crate) fn go_on_as(&mut self, index: u32, motion: &Motion, angle: f64) {
         let state = &mut self.list[index as usize];
@@ -291,7 +283,6 @@ impl Bodies {
     /// energy, logs it, and opens the next one with a new version.
     pub(crate) fn change(&mut self, index: u32, time: SimTime, change: impl FnOnce(&mut Motion)) {
         self.touch(index);
-        self.left_paths.end(index, &self.list[index as usize], time);
         let state = &self.list[index as usize];
         let now = state.by_law(time);
         if let Some(piece) = self.piece(state, time, now.as_ref()) {
@@ -316,17 +307,6 @@ impl Bodies {
             change(&mut state.motion);
         }
         self.renew(index);
-    }
-
-    /// A body leaves an island, one that `turned` or not, and goes on by the parabola that it has.
-    pub(crate) fn leave_path(&mut self, index: u32, time: SimTime, turned: bool) {
-        let state = &self.list[index as usize];
-        self.left_paths.add(index, state, time, turned);
-    }
-
-    /// How many parabolas of left paths moved a body before `now` that no report tells of yet.
-    pub(crate) fn tell_left_paths(&mut self, now: SimTime) -> u64 {
-        self.left_paths.tell(&self.list, now)
     }
 
     /// What forces and the scheme did along the present piece of a motion up to `time`.

@@ -2,9 +2,9 @@
 //!
 //! To read in this order: [`state`] (a body, and the colliders that carry its shapes), [`now`] (what its law of flight says), [`bodies`] (all of them; its `change` is
 //! the one door through which a motion changes), [`regime`] (which method moves a body, and which transitions there are),
-//! [`pairs`] (pairs of shapes, and what they remember from sub-step to sub-step). The others are parts of these: of a body
+//! [`pairs`] (pairs of shapes, and what they remember). The others are parts of these: of a body
 //! [`mass`], [`membership`] in an island, the [`course`] of a free one ([`swept`], [`zeno`]), what is [`uncommon`]; of all bodies
-//! [`pull`], [`history`], [`moved`] and [`left_paths`]. [`tell`] has the events that follow from a pair, [`clock`] the grid of
+//! [`pull`], [`history`] and [`moved`]. [`tell`] has the events that follow from a pair, [`clock`] the grid of
 //! sub-steps.
 
 pub(crate) mod bodies;
@@ -13,7 +13,6 @@ pub(crate) mod course;
 mod damping;
 mod few;
 mod history;
-mod left_paths;
 pub(crate) mod mass;
 pub(crate) mod membership;
 mod moved;

@@ -1,10 +1,9 @@
-//! Pairs of shapes that are near each other, and what they remember from sub-step to sub-step.
+//! Pairs of shapes that are near each other, and what they remember.
 
 use arrayvec::ArrayVec;
 use carom_collision::FeatureId;
-use carom_math::Vec2;
+use carom_math::{SimTime, Vec2};
 
-use super::bodies::Bodies;
 use crate::{ContactMode, PairMaterial};
 
 /// Two colliders of different bodies with overlapping boxes; the lower body comes first.
@@ -29,15 +28,28 @@ pub(crate) struct Pair {
     pub(crate) mode: Option<ContactMode>,
     /// So deep in each other that no strike makes sense: the solver pushes them apart.
     pub(crate) buried: bool,
-    /// Impacts in this sub-step.
+    /// The sub-step, on their grid, of its last impact.
+    pub(crate) struck_in: u64,
+    /// Impacts in that sub-step.
     pub(crate) impacts: u32,
-    /// What they spent of the pair's budget in this sub-step.
+    /// What they spent of the pair's budget in it.
     pub(crate) spent: f64,
-    /// The impacts of this sub-step outran the budget.
-    pub(crate) given_up: bool,
 }
 
 impl Pair {
+    /// An impact in another sub-step of `h` seconds than the last one has a new budget.
+    pub(crate) fn begin_budget(&mut self, time: SimTime, h: f64) {
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "the cast saturates; time is not negative"
+        )]
+        let substep = (time.as_secs() / h) as u64;
+        if self.struck_in != substep {
+            (self.struck_in, self.impacts, self.spent) = (substep, 0, 0.0);
+        }
+    }
+
     /// Whether its shapes were more than `touch` m deep in each other at the last look.
     pub(crate) fn overlaps(&self, touch: f64) -> bool {
         let mut points = self.contacts.iter().flat_map(|contact| &contact.points);
@@ -94,17 +106,12 @@ pub(crate) struct Pairs {
     /// By place: shapes of pairs, to be read without the rest.
     shapes: Vec<(u32, u32)>,
     free: Vec<u32>,
-    /// Places of pairs with a body that the sub-steps follow, in order of colliders:
-    /// searches go through them in this order.
-    order: Vec<u32>,
-    dirty: bool,
     /// Places of pairs that have not been looked at yet.
     pub(crate) fresh: Vec<u32>,
 }
 
 impl Pairs {
     pub(crate) fn insert(&mut self, pair: Pair) -> u32 {
-        self.dirty = true;
         let place = self.place_for(pair);
         self.fresh.push(place);
         place
@@ -128,7 +135,6 @@ impl Pairs {
     }
 
     pub(crate) fn remove(&mut self, place: u32) -> Option<Pair> {
-        self.dirty = true;
         let pair = self.list[place as usize].take();
         if pair.is_some() {
             self.free.push(place);
@@ -136,20 +142,9 @@ impl Pairs {
         pair
     }
 
-    /// The pair of these colliders, if this place is still its own.
-    pub(crate) fn find_same(&mut self, place: u32, colliders: (u32, u32)) -> Option<&mut Pair> {
-        let pair = self.list.get_mut(place as usize)?.as_mut()?;
-        (pair.colliders == colliders).then_some(pair)
-    }
-
     /// The pair of a place, if there is one.
     pub(crate) fn find(&self, place: u32) -> Option<&Pair> {
         self.list[place as usize].as_ref()
-    }
-
-    /// The same, to change it.
-    pub(crate) fn find_mut(&mut self, place: u32) -> Option<&mut Pair> {
-        self.list[place as usize].as_mut()
     }
 
     /// # Panics
@@ -173,27 +168,6 @@ impl Pairs {
         self.shapes[place as usize]
     }
 
-    /// Collects the pairs of these bodies, in order of colliders.
-    pub(crate) fn sort(&mut self, bodies: &Bodies, stepped: &[u32]) {
-        if !core::mem::take(&mut self.dirty) {
-            return;
-        }
-        let mut found = core::mem::take(&mut self.order);
-        found.clear();
-        for &index in stepped {
-            for &place in &bodies.get(index).pairs {
-                let other = self.get(place).other(index);
-                let state = bodies.get(other);
-                // A pair of two of them is listed by the lower one.
-                let twice = state.is_held() && other < index;
-                if !twice {
-                    found.push(place);
-                }
-            }
-        }
-        self.order = self.by_colliders(found);
-    }
-
     /// These places in order of colliders, each once.
     pub(crate) fn by_colliders(&self, places: impl IntoIterator<Item = u32>) -> Vec<u32> {
         let keyed = places
@@ -205,32 +179,10 @@ impl Pairs {
         keyed.into_iter().map(|(_, place)| place).collect()
     }
 
-    /// Ends the sub-stepping of bodies, which are given in order; boxes of free bodies in the world are for the caller.
-    pub(crate) fn end_substepping_all(&mut self, stepped: &mut Vec<u32>, gone: &[u32]) {
-        stepped.retain(|index| gone.binary_search(index).is_err());
-        self.reorder();
-    }
-
-    /// The list of sub-stepped bodies has changed.
-    pub(crate) const fn reorder(&mut self) {
-        self.dirty = true;
-    }
-
     /// Places of all pairs in order of colliders.
     pub(crate) fn in_order(&self) -> Vec<u32> {
         let places = (0u32..).zip(&self.list);
         let alive = places.filter_map(|(place, pair)| pair.as_ref().map(|_| place));
         self.by_colliders(alive)
-    }
-
-    /// The places of the last [`Self::sort`].
-    pub(crate) fn ordered(&self) -> &[u32] {
-        &self.order
-    }
-
-    /// Place number `i` in the order of the last [`Self::sort`]: empty, if its pair was taken since. What wakes in the engine takes its
-    /// pairs from here.
-    pub(crate) fn place(&self, i: usize) -> Option<u32> {
-        self.order.get(i).copied()
     }
 }

@@ -6,20 +6,20 @@
 //! from                                to                                  by
 //! Fixed, Kinematic, Free, Held        Fixed, Kinematic, Free              arrive, vanish
 //! Fixed, Kinematic, Stepped(All)      Fixed, Kinematic, Stepped(All)      arrive, vanish
-//! Analytic(SubStepped)                Free                                arrive
+//! Analytic(Pending)                Free                                arrive
 //! Held                                Free                                take_off
-//! Free                                Held, Analytic(SubStepped)          land
-//! Held                                Analytic(SubStepped)                enter_island
-//! Analytic(SubStepped)                Held                                leave_island
-//! Analytic(SubStepped)                Analytic(Moves)                     begin_analytic_motion
-//! Analytic(Moves)                     Analytic(SubStepped)                land
-//! Analytic(SubStepped)                Analytic(Rests)                     begin_analytic_rest
+//! Free                                Held, Analytic(Pending)          land
+//! Held                                Analytic(Pending)                enter_island
+//! Analytic(Pending)                Held                                leave_island
+//! Analytic(Pending)                Analytic(Moves)                     begin_analytic_motion
+//! Analytic(Moves)                     Analytic(Pending)                land
+//! Analytic(Pending)                Analytic(Rests)                     begin_analytic_rest
 //! Held                                Stepped(Members)                    join
 //! Stepped(Members)                    Held                                leave
 //! Held, Analytic(Rests)               Asleep(None)                        fall_asleep
 //! Stepped(scope)                      Asleep(Some(scope))                 fall_asleep
 //! Asleep(None), Analytic(Rests)       Held                                wake
-//! Analytic(Rests)                     Analytic(SubStepped)                wake
+//! Analytic(Rests)                     Analytic(Pending)                wake
 //! Asleep(Some(scope))                 Stepped(scope)                      wake
 //! Asleep(Some(Members))               Asleep(None)                        leave
 //! ```
@@ -56,8 +56,8 @@ pub(crate) enum Regime {
 /// How an analytic island is followed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Form {
-    /// With the sub-steps, which meet what comes near.
-    SubStepped,
+    /// Not yet: it moves or rests before time goes on.
+    Pending,
     /// From event to event.
     Moves,
     /// Not at all: it is treated as asleep, but reported awake to the caller until its time.
@@ -95,25 +95,22 @@ impl Regime {
 
     /// The table of transitions.
     const fn may_pass_to(self, next: Self) -> bool {
-        use Form::{Moves, Rests, SubStepped};
+        use Form::{Moves, Pending, Rests};
         use Regime::{Analytic, Asleep, Fixed, Free, Held, Kinematic, Stepped};
         use Scope::{All, Members};
         match self {
             Fixed => matches!(next, Kinematic | Free | Stepped(All)),
-            Kinematic => matches!(
-                next,
-                Fixed | Free | Held | Analytic(SubStepped) | Stepped(All)
-            ),
-            Free => matches!(next, Fixed | Kinematic | Held | Analytic(SubStepped)),
+            Kinematic => matches!(next, Fixed | Free | Held | Analytic(Pending) | Stepped(All)),
+            Free => matches!(next, Fixed | Kinematic | Held | Analytic(Pending)),
             Held => matches!(
                 next,
-                Fixed | Kinematic | Free | Analytic(SubStepped) | Stepped(Members) | Asleep(None)
+                Fixed | Kinematic | Free | Analytic(Pending) | Stepped(Members) | Asleep(None)
             ),
-            Analytic(SubStepped) => {
+            Analytic(Pending) => {
                 matches!(next, Free | Held | Analytic(Moves | Rests))
             }
-            Analytic(Moves) => matches!(next, Analytic(SubStepped)),
-            Analytic(Rests) => matches!(next, Held | Analytic(SubStepped) | Asleep(None)),
+            Analytic(Moves) => matches!(next, Analytic(Pending)),
+            Analytic(Rests) => matches!(next, Held | Analytic(Pending) | Asleep(None)),
             Stepped(Members) => matches!(next, Held | Asleep(Some(Members))),
             Stepped(All) => matches!(next, Fixed | Kinematic | Asleep(Some(All))),
             Asleep(None) => matches!(next, Held),
@@ -163,7 +160,7 @@ impl BodyState {
         matches!(self.regime(), Regime::Analytic(Form::Rests))
     }
 
-    /// Moves with its analytic island, without sub-steps, until the island's mode changes.
+    /// Moves with its analytic island until the island's mode changes.
     pub(crate) const fn moves_analytically(&self) -> bool {
         matches!(self.regime(), Regime::Analytic(Form::Moves))
     }
@@ -199,12 +196,12 @@ impl BodyState {
         self.is_dynamic() && self.goes_by_events()
     }
 
-    /// Moved by the sub-steps.
+    /// Moved by the engine, or without a method until time goes on.
     pub(crate) fn is_stepped(&self) -> bool {
         self.is_active() && !self.goes_by_events()
     }
 
-    /// Dynamic, and followed by the sub-steps, but not in the engine.
+    /// Dynamic, and gets its method before time goes on.
     pub(crate) fn is_held(&self) -> bool {
         self.is_dynamic() && self.is_stepped() && !self.in_engine()
     }
@@ -241,11 +238,11 @@ impl BodyState {
         self.pass_to(Regime::Free);
     }
 
-    /// Something holds it from now on, or its analytic island is given back to the sub-steps.
+    /// Something holds it from now on, or its analytic island is given back.
     pub(crate) fn land(&mut self) {
         match self.regime() {
             Regime::Free | Regime::Kinematic => self.pass_to(self.held()),
-            Regime::Analytic(Form::Moves) => self.pass_to(Regime::Analytic(Form::SubStepped)),
+            Regime::Analytic(Form::Moves) => self.pass_to(Regime::Analytic(Form::Pending)),
             _ => {}
         }
         self.course.void_searches();
@@ -254,23 +251,23 @@ impl BodyState {
     /// It belongs to an analytic island.
     pub(crate) fn enter_island(&mut self, membership: Membership) {
         self.membership = membership;
-        self.pass_to(Regime::Analytic(Form::SubStepped));
+        self.pass_to(Regime::Analytic(Form::Pending));
     }
 
     /// Its analytic island is no more. One at rest is treated as asleep until it wakes.
     pub(crate) fn leave_island(&mut self) {
         self.membership = Membership::default();
-        if self.regime() == Regime::Analytic(Form::SubStepped) {
+        if self.regime() == Regime::Analytic(Form::Pending) {
             self.pass_to(Regime::Held);
         }
     }
 
-    /// Its analytic island leaves the sub-steps, and moves.
+    /// Its analytic island moves from now on.
     pub(crate) fn begin_analytic_motion(&mut self) {
         self.pass_to(Regime::Analytic(Form::Moves));
     }
 
-    /// Its analytic island leaves the sub-steps, and rests.
+    /// Its analytic island rests from now on.
     pub(crate) fn begin_analytic_rest(&mut self) {
         self.pass_to(Regime::Analytic(Form::Rests));
     }
@@ -289,7 +286,7 @@ impl BodyState {
         });
     }
 
-    /// It sleeps from now on, where it is; whether it left the sub-steps by that.
+    /// It sleeps from now on, where it is; whether something moved it before.
     fn fall_asleep(&mut self) -> bool {
         let rested = self.rests_analytically();
         self.pass_to(match self.regime() {
@@ -309,10 +306,10 @@ impl BodyState {
         !rested
     }
 
-    /// Of a body that the sub-steps follow: in an island, or outside.
+    /// Of a body that gets its method before time goes on: in an island, or outside.
     const fn held(&self) -> Regime {
         if self.membership.is_closed() {
-            Regime::Analytic(Form::SubStepped)
+            Regime::Analytic(Form::Pending)
         } else {
             Regime::Held
         }
@@ -340,7 +337,7 @@ impl Bodies {
         self.count(index, BodyState::leave);
     }
 
-    /// A body sleeps from now on, where it is; whether it left the sub-steps by that.
+    /// A body sleeps from now on, where it is; whether something moved it before.
     pub(crate) fn fall_asleep(&mut self, index: u32) -> bool {
         self.count(index, BodyState::fall_asleep)
     }
@@ -393,7 +390,7 @@ mod tests {
         Regime::Fixed,
         Regime::Kinematic,
         Regime::Free,
-        Regime::Analytic(Form::SubStepped),
+        Regime::Analytic(Form::Pending),
         Regime::Analytic(Form::Moves),
         Regime::Analytic(Form::Rests),
         Regime::Held,
@@ -427,7 +424,7 @@ mod tests {
     #[test]
     fn the_engine_gives_no_member_to_a_closed_form_at_once() {
         for from in [Regime::Stepped(Scope::Members), Regime::Stepped(Scope::All)] {
-            for form in [Form::SubStepped, Form::Moves, Form::Rests] {
+            for form in [Form::Pending, Form::Moves, Form::Rests] {
                 assert!(!from.may_pass_to(Regime::Analytic(form)));
             }
         }

@@ -34,14 +34,12 @@ pub(crate) struct BodyState {
     pub(crate) id: BodyId,
     pub(crate) kind: BodyKind,
     pub(crate) locked_rotation: bool,
-    /// Solved for as part of a group in this sub-step.
+    /// A contact island gave it its motion.
     pub(crate) member: bool,
     /// What moves it: [`Self::pass_to`] alone changes it.
     regime: Regime,
     /// Known to the engine in hybrid mode, and moved by something else.
     pub(crate) is_guest: bool,
-    /// Sub-steps in which nothing was near.
-    pub(crate) idle: u8,
     /// The law of a flight in a field or with damping, since anything else changed the motion.
     pub(crate) flight: Option<Arc<Flight>>,
     /// Largest distance of a point of its shapes from the centre of mass, in m.
@@ -161,7 +159,6 @@ impl BodyState {
             is_guest: false,
             membership: Membership::default(),
             course: Course::default(),
-            idle: 0,
             reach: shapes
                 .iter()
                 .map(|(shape, _)| shape.reach_about(mass.centroid))
@@ -221,15 +218,6 @@ impl BodyState {
     pub(crate) fn set_piece(&mut self, end: SimTime) {
         if self.uncommon.is_some() || end != SimTime::NEVER {
             self.uncommon_mut().piece = end;
-        }
-    }
-
-    /// Until when the motion stands, if nothing changes it.
-    pub(crate) fn stands_until(&self) -> SimTime {
-        if self.goes_by_events() {
-            self.piece()
-        } else {
-            SimTime::NEVER
         }
     }
 

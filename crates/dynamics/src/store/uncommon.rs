@@ -37,12 +37,11 @@ impl Uncommon {
 
 /// What a velocity has beyond that of the motion, which tells the place.
 ///
-/// Of a flight in a field: the difference of the cubic through both ends of a piece, in place and velocity, and the
-/// parabola that serves for prediction and meets the end in place alone. Of a body that was stopped within a
-/// sub-step: what it had before and has afterwards, less the mean that brings it to where it stopped.
+/// Of a body that was stopped within a sub-step: what it had before and has afterwards, less the mean that brings it to where it
+/// stopped.
 ///
 /// ```text
-/// v(u) = v₀ + A u + K + B u + L u (3 u/h − 2)         L h: what the parabola's velocity lacks at the end
+/// v(u) = v₀ + A u + K + B u
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Lag {
@@ -50,21 +49,12 @@ pub(crate) struct Lag {
     pub(crate) mean: (Vec2, Vec2),
     /// The same for the spin, in rad/s and rad/s².
     pub(crate) mean_spin: (f64, f64),
-    /// L, in m/s².
-    pub(crate) rate: Vec2,
-    /// The same for the spin, in rad/s².
-    pub(crate) angular: f64,
-    /// h, in s.
-    pub(crate) length: f64,
 }
 
 impl Lag {
     pub(crate) const NONE: Self = Self {
         mean: (Vec2::ZERO, Vec2::ZERO),
         mean_spin: (0.0, 0.0),
-        rate: Vec2::ZERO,
-        angular: 0.0,
-        length: 0.0,
     };
 
     /// Of a body that goes evenly while its velocity changes from one to another within `h`: in m/s and in rad/s.
@@ -72,21 +62,14 @@ impl Lag {
         Self {
             mean: (from.0 - even.0, (to.0 - from.0) / h),
             mean_spin: (from.1 - even.1, (to.1 - from.1) / h),
-            ..Self::NONE
         }
     }
 
     pub(crate) fn at(self, u: f64) -> Vec2 {
-        if self.length == 0.0 {
-            return self.mean.0 + self.mean.1 * u;
-        }
-        self.rate * (u * (3.0 * u / self.length - 2.0))
+        self.mean.0 + self.mean.1 * u
     }
 
     pub(crate) fn spin_at(self, u: f64) -> f64 {
-        if self.length == 0.0 {
-            return self.mean_spin.0 + self.mean_spin.1 * u;
-        }
-        self.angular * (u * (3.0 * u / self.length - 2.0))
+        self.mean_spin.0 + self.mean_spin.1 * u
     }
 }

@@ -4,33 +4,21 @@
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct StepProfile {
-    /// Boxes over motions, and the pairs that they give.
-    pub pairs: f64,
-    /// Updates of near pairs: contacts, persistence, waking.
+    /// What enters and leaves the engine, and which bodies may meet its members.
     pub contacts: f64,
-    /// Lasting contacts.
+    /// Sub-steps of the engine.
     pub solver: f64,
-    /// Flights.
-    pub flight: f64,
-    /// Falling asleep.
-    pub sleep: f64,
-    /// Times of impact.
-    pub prediction: f64,
-    /// Events of free bodies, impacts, and the predictions that follow from each.
+    /// Events: impacts, modes of contact islands, and the searches for the next ones.
     pub impacts: f64,
 }
 
 impl StepProfile {
     /// The stages in order, by name.
     #[must_use]
-    pub const fn stages(&self) -> [(&'static str, f64); 7] {
+    pub const fn stages(&self) -> [(&'static str, f64); 3] {
         [
-            ("pairs", self.pairs),
             ("contacts", self.contacts),
             ("solver", self.solver),
-            ("flight", self.flight),
-            ("sleep", self.sleep),
-            ("prediction", self.prediction),
             ("impacts", self.impacts),
         ]
     }

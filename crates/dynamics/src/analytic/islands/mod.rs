@@ -2,7 +2,7 @@
 //!
 //! A group's modes are solved for where its contacts begin to last, where one of its members changes its motion, and
 //! at the instant of its own next change ([`crate::islands`]). Between these it is left alone: its motions are right for
-//! as long as its mode lasts. What does not qualify is left to the sub-steps.
+//! as long as its mode lasts. What does not qualify is the engine's.
 
 pub(crate) mod jam;
 mod joints;

@@ -2,10 +2,9 @@
 
 use std::sync::Arc;
 
-use carom_collision::part_count;
 use carom_math::SimTime;
 
-use super::store::{Closed, Group, Kept};
+use super::store::{Closed, Group};
 use super::tips::Tipping;
 use crate::ContactMode;
 use crate::law::flight::Flight;
@@ -16,30 +15,23 @@ use crate::store::pairs::{Pair, Pairs};
 use crate::store::state::Collider;
 
 impl Group {
-    /// Whether nothing touches a group but itself, and nothing of what touches in it opens, or can touch elsewhere.
-    pub(crate) fn may_move(&self, bodies: &Bodies, pairs: &Pairs, colliders: &[Collider]) -> bool {
-        // A contact that opens may close again, at an instant that the mode does not give.
-        let opens = |touch: &Kept| touch.moved.mode == ContactMode::Open;
-        if self.touches.iter().any(opens) {
-            return false;
-        }
-        let held = |pair: u32| self.touches.iter().any(|touch| touch.pair == pair);
-        let one_part = |collider: u32| part_count(&colliders[collider as usize].solid) == 1;
+    /// Whether its members go on as its mode says, and nothing lies deep in one of them.
+    pub(crate) fn may_move(&self, bodies: &Bodies, pairs: &Pairs) -> bool {
         self.members.iter().all(|&(index, version)| {
             let state = bodies.get(index);
             let mut places = state.pairs.iter();
             bodies.version(index) == version
                 && state.is_held()
-                && places.all(|place| {
-                    let pair = pairs.get(*place);
-                    let (a, b) = pair.colliders;
-                    if held(*place) {
-                        one_part(a) && one_part(b)
-                    } else {
-                        !(pair.touching || pair.lasting || pair.buried)
-                    }
-                })
+                && !places.any(|place| pairs.get(*place).buried)
         })
+    }
+
+    /// Parts of a pair in contacts that its mode holds.
+    pub(crate) fn held_parts(&self, place: u32, pair: &Pair) -> impl Iterator<Item = (u32, u32)> {
+        let touches = self.touches.iter();
+        touches
+            .filter(move |touch| touch.pair == place && touch.moved.mode != ContactMode::Open)
+            .filter_map(|touch| Some(pair.contacts.get(touch.contact)?.parts))
     }
 }
 

@@ -41,9 +41,9 @@ pub(crate) struct Closed {
     /// Stale entries are dropped when they come up: a group's stamp tells.
     changes: BinaryHeap<Reverse<(SimTime, u32, u64)>>,
     stamp: u64,
-    /// Groups at rest that the sub-steps still look after, with their stamps.
+    /// Groups that came to rest at this instant, with their stamps.
     still: Vec<(u32, u64)>,
-    /// Groups that move, and that the sub-steps still look after, with their stamps.
+    /// Groups that are to begin their motion, with their stamps.
     moving: Vec<(u32, u64)>,
     /// By place of a body: when its mode solves of one instant began, and how many they were; the same of those
     /// in the time of a sub-step.
@@ -52,9 +52,6 @@ pub(crate) struct Closed {
     pub(super) budgets: Vec<ModeBudget>,
     /// Bodies with an exhausted budget: their islands join with the next sub-step.
     pub(super) exhausted: Vec<u32>,
-    /// No group is let go of: the slow twin.
-    #[cfg(test)]
-    pub(crate) stays: bool,
 }
 
 #[derive(Clone, Debug)]
@@ -73,13 +70,13 @@ pub(crate) struct Group {
 }
 
 impl Group {
-    /// Its members are left out of sub-steps and treated as asleep, but reported awake to the caller.
+    /// Its members are treated as asleep, but reported awake to the caller.
     pub(crate) fn rests_analytically(&self, bodies: &Bodies) -> bool {
         let first = self.members.first();
         first.is_some_and(|(index, _)| bodies.get(*index).rests_analytically())
     }
 
-    /// Its members have left the sub-steps, and move along their parabolas until its mode changes.
+    /// Its members move along their parabolas until its mode changes.
     pub(crate) fn moves_analytically(&self, bodies: &Bodies) -> bool {
         let first = self.members.first();
         first.is_some_and(|(index, _)| bodies.get(*index).moves_analytically())
@@ -166,13 +163,6 @@ impl Kept {
 }
 
 impl Closed {
-    /// The touches of a group do what they do at `time`.
-    pub(crate) fn renew_touches(&mut self, place: u32, time: SimTime) {
-        if let Some(group) = self.get_mut(place) {
-            group.move_touches(group.moved_at(time));
-        }
-    }
-
     /// When the next change is due.
     pub(crate) fn next(&mut self) -> Option<SimTime> {
         loop {
@@ -236,20 +226,7 @@ impl Closed {
         }
     }
 
-    /// Places of the groups that turn in sub-steps.
-    pub(crate) fn tipping(&self, bodies: &Bodies) -> Vec<u32> {
-        let turns = |held: &Option<(u64, Group)>| {
-            held.as_ref().is_some_and(|(_, group)| {
-                group.tipping.is_some() && !group.moves_analytically(bodies)
-            })
-        };
-        let all = (0_u32..).zip(&self.groups);
-        all.filter(|(_, held)| turns(held))
-            .map(|(place, _)| place)
-            .collect()
-    }
-
-    /// The next sub-step lets go of a group at rest.
+    /// A group rests before time goes on.
     pub(crate) fn stands_still(&mut self, place: u32) {
         self.still.push((place, self.stamp));
     }
@@ -260,14 +237,14 @@ impl Closed {
         self.that_are_there(still)
     }
 
-    /// The sub-steps let go of a group that moves as soon as they may.
+    /// A group begins its motion before time goes on.
     pub(crate) fn moves(&mut self, place: u32) {
         if let Some(Some((stamp, _))) = self.groups.get(place as usize) {
             self.moving.push((place, *stamp));
         }
     }
 
-    /// Places of the groups that move and have not been let go of.
+    /// Places of the groups that are to begin their motion, and are still there.
     pub(crate) fn take_moving(&mut self) -> Vec<u32> {
         let moving = core::mem::take(&mut self.moving);
         self.that_are_there(moving)

@@ -12,11 +12,7 @@ use crate::Mode;
 use crate::analytic::modes::NotMine;
 use crate::analytic::tipping::{Contact, Joint, Tip, tip};
 use crate::analytic::touching::Gathered;
-use crate::law::flight::Flight;
 use crate::law::path::Place;
-use crate::model::approach::{Approach, approach_at};
-use crate::model::narrow::{Narrow, TOUCH, rest_speed};
-use crate::motion::flight::follow;
 use crate::store::bodies::Bodies;
 use crate::store::pairs::Pairs;
 use crate::store::state::Collider;
@@ -31,9 +27,6 @@ const MOST: usize = 4;
 /// (1,000 seesaws: 15.8 and 4.5 ms a step, and 255 and 8 the worst one).
 const MOST_BESIDE_ENGINE: usize = 1;
 
-/// Shortest piece that a parabola is laid through, in s.
-const PIECE: f64 = 1e-4;
-
 /// A group that turns.
 #[derive(Clone, Debug)]
 pub(crate) struct Tipping {
@@ -42,40 +35,7 @@ pub(crate) struct Tipping {
     pub(crate) slots: Vec<usize>,
 }
 
-impl Closed {
-    /// Gives every member of a group that turns the parabola through both ends of its path's next piece: the `left` seconds of the
-    /// sub-step, or one of `h` seconds.
-    pub(crate) fn lay_pieces(
-        &mut self,
-        bodies: &mut Bodies,
-        place: u32,
-        (time, left, h): (SimTime, f64, f64),
-    ) {
-        let Some(group) = self.get(place) else {
-            return;
-        };
-        let Some(Tipping { tip, slots }) = group.tipping.clone() else {
-            return;
-        };
-        let members = group.members.clone();
-        let passed = time - tip.path.start();
-        let h = if left > 0.0 { left } else { h };
-        let known = tip.path.length() - passed;
-        let h = h.min(known).max(PIECE.min(tip.path.length()));
-        let mut renewed = Vec::with_capacity(members.len());
-        for (&(index, _), &slot) in members.iter().zip(&slots) {
-            let flight = Arc::new(Flight::held(tip.path.clone(), slot));
-            let (bend, twist) = tip.path.jerk(slot);
-            let jerk = bend + twist * bodies.get(index).reach;
-            follow(bodies, index, flight, time, h, jerk);
-            bodies.get_mut(index).member = true;
-            renewed.push((index, bodies.version(index)));
-        }
-        if let Some(group) = self.get_mut(place) {
-            group.members = renewed;
-        }
-    }
-}
+impl Closed {}
 
 /// The path that its contacts leave a group.
 pub(crate) fn path_of(
@@ -173,39 +133,4 @@ fn joints(
         })
     })
     .collect()
-}
-
-/// Whether a body touches something that it does not part from, nor would if nothing pushed it.
-pub(crate) fn is_touched(
-    bodies: &Bodies,
-    colliders: &[Collider],
-    pairs: &mut Pairs,
-    narrow: &mut Narrow,
-    index: u32,
-    (time, h): (SimTime, f64),
-) -> bool {
-    bodies.get(index).pairs.clone().iter().any(|&place| {
-        let pair = pairs.get(place);
-        if !pair.touching && !pair.lasting {
-            return false;
-        }
-        let pair = narrow.look_at(bodies, colliders, pairs, place, time, h);
-        let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
-        let touch = TOUCH * a.reach.min(b.reach);
-        let rest = rest_speed(bodies, pair, h);
-        pair.contacts.iter().any(|contact| {
-            contact.points.iter().any(|point| {
-                let at = (point.position, contact.normal);
-                point.separation <= touch
-                    && match approach_at((a, b), at, time, rest) {
-                        Approach::Leaves(_) => false,
-                        Approach::Closes(_) => true,
-                        Approach::Stays => {
-                            let spot = pair.spot(bodies, colliders, contact, at.0);
-                            spot.free_press(bodies, pair.bodies, time) > 0.0
-                        }
-                    }
-            })
-        })
-    })
 }

@@ -47,7 +47,6 @@ impl World {
             self.follow(index, time, 0.0);
         } else if cause == Cause::Deflected && self.is_clear(index, time) {
             self.meet_free_bodies(index, time, cause, but);
-            self.predict_pairs(index, time);
             return self.meet_members(index, time);
         } else {
             self.broad.forget(&self.bodies, &mut self.colliders, index);
@@ -254,13 +253,16 @@ impl World {
 
     /// Another look at a pair of bodies that a free body belongs to, at `time`.
     pub(super) fn look_again(&mut self, impact: &Foreseen, time: SimTime) {
-        let (a, b) = impact.bodies;
+        self.look_again_at(impact.bodies, impact.colliders, time);
+    }
+
+    pub(super) fn look_again_at(&mut self, (a, b): (u32, u32), shapes: (u32, u32), time: SimTime) {
         if self.both_fly(a, b) {
             self.queue_near(a, b, time);
         } else if self.bodies.get(a).goes_by_events() {
-            self.queue_near_shape(a, impact.colliders.1, time);
+            self.queue_near_shape(a, shapes.1, time);
         } else {
-            self.queue_near_shape(b, impact.colliders.0, time);
+            self.queue_near_shape(b, shapes.0, time);
         }
     }
 
@@ -276,9 +278,12 @@ impl World {
         if self.free.drifts {
             self.retune(entry.time);
         }
-        if self.stamp(entry.a, entry.b) == entry.stamp
-            && !self.strikes_moving_island(&impact, entry.time)
-        {
+        if self.stamp(entry.a, entry.b) != entry.stamp {
+            return;
+        }
+        if self.strikes_moving_island(&impact, entry.time) {
+            self.strike_held(&impact, entry.time);
+        } else {
             self.strike_with_others((entry, impact));
         }
     }

@@ -8,7 +8,6 @@ use super::foresee::{Cause, at_most};
 use super::queue::Ahead;
 use crate::broad::free_fall_frame::Track;
 use crate::broad::window::{self, room_about, swept};
-use crate::model::graph::touch_in_moving_island;
 use crate::store::swept::Sides;
 use crate::{BodyKind, World};
 
@@ -160,14 +159,7 @@ impl World {
                 self.approach_shape(index, at, time, cause);
             }
         }
-        self.predict_pairs(index, time);
         self.free.shapes = near;
-    }
-
-    pub(crate) fn predict_pairs(&mut self, index: u32, time: SimTime) {
-        for slot in 0..self.bodies.get(index).pairs.len() {
-            self.predict(self.bodies.get(index).pairs[slot], time);
-        }
     }
 
     /// A free body and a shape that rests.
@@ -178,12 +170,8 @@ impl World {
             return;
         }
         if let [one] = *body.colliders
-            && touch_in_moving_island(
-                &self.bodies,
-                &self.pairs,
-                (index, owner.id.index),
-                (one, at),
-            )
+            && let Some(place) = self.moving_pair((index, owner.id.index), (one, at))
+            && self.is_held_by_mode(place)
         {
             return;
         }

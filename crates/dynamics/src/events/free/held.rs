@@ -1,10 +1,10 @@
-//! Free bodies that land, and stepped ones that take off.
+//! Free bodies that land, and held ones that take off.
 
 use carom_math::SimTime;
 
 use super::{Cause, Foreseen};
-use crate::events::event_queue::Entry;
-use crate::events::predict::BUDGET;
+use crate::events::resolve::{BUDGET, PairImpact};
+use crate::model::graph::pair_of;
 use crate::model::narrow::{NOISE, opening_speed, pace};
 use crate::motion::flight::fly;
 use crate::store::pairs::PairContact;
@@ -32,44 +32,79 @@ impl World {
         };
         let pair = self.pairs.get_mut(place);
         // Its budget in the sub-step is used up by this one.
+        pair.begin_budget(time, self.clock.h);
         (pair.impacts, pair.spent) = (1, BUDGET);
-        let normal = if pair.colliders == impact.colliders {
+        self.strike_held(impact, time);
+    }
+
+    /// An impact on a body that a contact island held until now: with all that holds it. What strikes a member of the engine waits at
+    /// its surface for the next sub-step.
+    pub(super) fn strike_held(&mut self, impact: &Foreseen, time: SimTime) {
+        let (a, b) = impact.bodies;
+        let mut woke = false;
+        for index in [a, b] {
+            if self.bodies.get(index).is_asleep() {
+                self.wake(index, time);
+                woke = true;
+            }
+            self.hand_back_of(index, time);
+        }
+        let is_stepped = |index: u32| self.bodies.get(index).is_stepped();
+        if woke && !is_stepped(a) && !is_stepped(b) {
+            // Nothing held it.
+            return self.strike_free_body(impact, time);
+        }
+        if [a, b]
+            .iter()
+            .any(|index| self.bodies.get(*index).in_engine())
+        {
+            self.join(a, time);
+            return self.join(b, time);
+        }
+        let (first, second) = impact.colliders;
+        self.broad.pair_up(
+            &mut self.bodies,
+            &self.colliders,
+            &mut self.pairs,
+            first,
+            second,
+        );
+        let Some(place) = self.pair_of(impact) else {
+            return;
+        };
+        let normal = if self.pairs.shapes(place) == impact.colliders {
             impact.normal
         } else {
             -impact.normal
         };
-        let points = impact.points.clone();
-        let entry = Entry::of(&self.bodies, (place, pair), time, normal, points);
-        self.event_queue.push(entry);
+        self.strike_pair(&PairImpact {
+            time,
+            pair: place,
+            normal,
+            points: impact.points.clone(),
+        });
     }
 
-    /// The pair of two shapes that are to strike, whichever comes first in it.
     fn pair_of(&self, impact: &Foreseen) -> Option<u32> {
-        let (first, second) = impact.colliders;
-        let mut places = self.bodies.get(impact.bodies.0).pairs.iter().copied();
-        places.find(|place| {
-            let known = self.pairs.shapes(*place);
-            known == (first, second) || known == (second, first)
-        })
+        pair_of(&self.bodies, &self.pairs, impact.bodies.0, impact.colliders)
     }
 
-    /// From now on the sub-steps move this body: something holds it, or is too near to tell.
+    /// Something holds this body from now on, or is too near to tell: it gets its method before time goes on.
     pub(crate) fn land(&mut self, index: u32, time: SimTime) {
         if self.leave_flight(index, time) {
             self.deflected(index, time);
         }
     }
 
-    /// As [`Self::land`], at the start of a sub-step, which predicts all pairs when it is over, and solves for the
-    /// modes of the groups that it touches once all have landed.
+    /// As [`Self::land`], of a body that is about to be solved for with the island that it touches.
     pub(crate) fn land_first(&mut self, index: u32, time: SimTime) {
         if self.leave_flight(index, time) {
-            self.steer(index, time);
+            self.redirect(index, time);
             self.part_far(index, time);
         }
     }
 
-    /// Forgets the pairs of a body that its boxes have left: a free body's reach farther than those of a sub-step.
+    /// Forgets the pairs of a body that its boxes have left: a free body's reach farther.
     fn part_far(&mut self, index: u32, time: SimTime) {
         let keeps = |place: &u32| self.broad.keeps(&self.colliders, self.pairs.shapes(*place));
         let pairs = self.bodies.get(index).pairs.iter();
@@ -79,7 +114,7 @@ impl World {
         }
     }
 
-    /// A free body leaves flight and begins to be sub-stepped; whether it was free.
+    /// A free body leaves flight; whether it was free.
     fn leave_flight(&mut self, index: u32, time: SimTime) -> bool {
         if self.hand_back_of(index, time) {
             return true;
@@ -89,11 +124,10 @@ impl World {
             return false;
         }
         state.land();
-        state.idle = 0;
         // Events predicted for a free body are stale.
         self.bodies.renew(index);
         self.free.vanish(&mut self.bodies, index);
-        self.begin_substepping(index, time);
+        self.unsettle(index, time);
         // What was too large for the grid keeps its box, and has met no pairs with it.
         self.meet_near(index);
         true
@@ -102,7 +136,7 @@ impl World {
     /// A body that nothing holds any more flies from event to event.
     pub(crate) fn take_off(&mut self, index: u32, time: SimTime) {
         self.leave_group(index, time);
-        self.end_substepping(index);
+        self.end_unsettled(index);
         for place in self.bodies.get(index).pairs.clone() {
             let other = self.pairs.get(place).other(index);
             if !self.bodies.get(other).is_held() {
@@ -112,7 +146,6 @@ impl World {
         let bends = self.bodies.bends(index);
         let state = self.bodies.get_mut(index);
         state.take_off();
-        // What a sub-step gave it is no piece of its own.
         state.set_piece(if bends { time } else { SimTime::NEVER });
         self.bodies.renew(index);
         self.joins
@@ -120,21 +153,20 @@ impl World {
         self.foresee(index, time, Cause::Deflected, None);
     }
 
-    /// Bodies that woke, lost their support, or have another velocity fly at once if nothing holds them: until the next sub-step
-    /// begins they would hang in the air, or rise without weight.
+    /// Bodies that woke, lost their support, or have another velocity fly at once if nothing holds them.
     pub(crate) fn drop_unheld(&mut self, bodies: &[u32], time: SimTime) {
         for &index in bodies {
             if !self.hangs(index, time) {
                 continue;
             }
             if !self.bodies.bends(index) {
-                fly(&mut self.bodies, index, time, self.clock.h);
+                fly(&mut self.bodies, index, time);
             }
             self.take_off(index, time);
         }
     }
 
-    /// Whether a body is sub-stepped with nothing near that does not fly.
+    /// Whether a body has no method yet, and nothing near that does not fly.
     fn hangs(&mut self, index: u32, time: SimTime) -> bool {
         let state = self.bodies.get(index);
         let stepped = self.settings.mode == Mode::Stepped;
@@ -170,25 +202,19 @@ impl World {
         true
     }
 
-    /// Whether an impact is on an island in analytic motion, which lands then: it is struck with all that holds it.
-    pub(super) fn strikes_moving_island(&mut self, impact: &Foreseen, time: SimTime) -> bool {
+    /// Whether an impact is on an island in analytic motion.
+    pub(super) fn strikes_moving_island(&self, impact: &Foreseen, time: SimTime) -> bool {
         let ends = [impact.bodies.0, impact.bodies.1];
         let moves_analytically = |index: u32| self.bodies.get(index).moves_analytically();
         if !ends.iter().any(|index| moves_analytically(*index)) {
             return false;
         }
         let before = ends.map(|index| self.bodies.get(index).in_impact(time));
-        let strikes = self.approaches(impact, &before);
-        if strikes {
-            for index in ends {
-                self.hand_back_of(index, time);
-            }
-        }
-        strikes
+        self.approaches(impact, &before)
     }
 
-    /// Begins to sub-step a body.
-    pub(crate) fn begin_substepping(&mut self, index: u32, time: SimTime) {
+    /// A body gets its method before time goes on.
+    pub(crate) fn unsettle(&mut self, index: u32, time: SimTime) {
         // A group that is taken apart may have met a member, and joined.
         if self.bodies.get(index).in_engine() {
             return;
@@ -197,9 +223,8 @@ impl World {
             self.clock.catch_up(time);
         }
         self.raise_free(time);
-        if let Err(at) = self.stepped.binary_search(&index) {
-            self.stepped.insert(at, index);
-            self.pairs.reorder();
+        if let Err(at) = self.unsettled.binary_search(&index) {
+            self.unsettled.insert(at, index);
         }
     }
 
@@ -212,26 +237,25 @@ impl World {
         self.lower_free_boxes_later();
     }
 
-    /// Ends the sub-stepping of a body.
-    pub(crate) fn end_substepping(&mut self, index: u32) {
-        if let Ok(at) = self.stepped.binary_search(&index) {
-            self.stepped.remove(at);
-            self.pairs.reorder();
+    /// A body has its method.
+    pub(crate) fn end_unsettled(&mut self, index: u32) {
+        if let Ok(at) = self.unsettled.binary_search(&index) {
+            self.unsettled.remove(at);
             self.lower_free_boxes_later();
         }
     }
 
-    /// If the sub-steps follow no body any more, free bodies need no boxes in the world: after a tick, since an analytic
+    /// If no body waits for its method, free bodies need no boxes in the world: after a tick, since an analytic
     /// island that changes its mode lands and is let go of at one instant.
     pub(crate) fn lower_free_boxes_later(&mut self) {
-        if self.stepped.is_empty() {
+        if self.unsettled.is_empty() {
             self.free.raised_until = self.clock.next() + self.settings.tick;
         }
     }
 
     /// Takes the boxes of free bodies from the world once no search has needed them for a tick.
     pub(crate) fn lower_idle(&mut self, time: SimTime) {
-        if self.free.is_raised() && self.stepped.is_empty() && self.free.raised_until <= time {
+        if self.free.is_raised() && self.unsettled.is_empty() && self.free.raised_until <= time {
             self.free.lower();
         }
     }

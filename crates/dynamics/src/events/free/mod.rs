@@ -70,7 +70,7 @@ pub(crate) struct FreeBodies {
     grounded: bool,
     /// Boxes of the grid's free bodies in the world, while other bodies need to find them there.
     aloft: Option<BoxTree>,
-    /// When they go, if no body is sub-stepped then.
+    /// When they go, if no body waits for its method then.
     raised_until: SimTime,
     /// Their nodes there, by body.
     nodes: Vec<Option<NodeId>>,

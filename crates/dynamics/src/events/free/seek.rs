@@ -1,7 +1,13 @@
 //! When two bodies touch that are near enough to meet, and what is already in contact.
 
-use carom_collision::{Impact, TimeOfImpact, contacts, time_of_impact_beside, time_of_impact_from};
-use carom_math::SimTime;
+use std::sync::Arc;
+
+use carom_collision::{
+    Impact, TimeOfImpact, contacts, earlier, part, part_count, time_of_impact_beside,
+    time_of_impact_from, time_of_impact_of_parts,
+};
+use carom_geometry::Shape;
+use carom_math::{SimTime, Vec2};
 
 use super::Foreseen;
 use super::circle::Circle;
@@ -10,10 +16,11 @@ use super::strike::approach_speed;
 use super::turning::first_piece;
 use crate::World;
 use crate::broad::window::Window;
+use crate::model::approach::CLOSED;
 use crate::model::ghost::Meeting;
-use crate::model::graph::touch_in_moving_island;
-use crate::model::narrow::{TOUCH, opening_speed, rest_speed_between};
-use crate::motion::first_touch::first_touch;
+use crate::model::graph::pair_of;
+use crate::model::narrow::{TOUCH, opening_speed, pace, rest_speed, rest_speed_between};
+use crate::motion::first_touch::{first_touch, first_touch_of_parts};
 
 /// How far a search goes beyond its end, as a fraction.
 const BEYOND: f64 = 1e-6;
@@ -116,10 +123,11 @@ impl World {
         length: f64,
         cause: Cause,
     ) -> bool {
-        if !self.may_touch(shapes)
-            || touch_in_moving_island(&self.bodies, &self.pairs, (a, b), shapes)
-        {
+        if !self.may_touch(shapes) {
             return false;
+        }
+        if let Some(place) = self.moving_pair((a, b), shapes) {
+            return self.seek_beside_mode(place, time, length);
         }
         self.report.pairs += 1;
         if cause == Cause::Arrived && self.holds((a, b), shapes, time) {
@@ -214,7 +222,7 @@ impl World {
         }
     }
 
-    /// A search that found no end leaves two bodies to sub-steps.
+    /// A search that found no end leaves two bodies to the engine.
     fn leave_unresolved(&mut self, (a, b): (u32, u32), time: SimTime) {
         self.report.unresolved += 1;
         self.land(a, time);
@@ -282,5 +290,103 @@ impl World {
                 point.separation < -touch || rest > 0.0 && rate.abs() <= rest
             })
         })
+    }
+
+    /// The pair of two shapes that an island in analytic motion has: that of a contact, or of one that is just over.
+    pub(super) fn moving_pair(&self, (a, b): (u32, u32), shapes: (u32, u32)) -> Option<u32> {
+        let moves = |index: &u32| self.bodies.get(*index).moves_analytically();
+        let index = [a, b].into_iter().find(moves)?;
+        pair_of(&self.bodies, &self.pairs, index, shapes)
+    }
+
+    /// Whether all of two shapes that may touch does so in a mode.
+    pub(super) fn is_held_by_mode(&self, place: u32) -> bool {
+        let one_part = |solid: &Arc<Shape>| part_count(solid) == 1;
+        self.solids_of(place).iter().all(one_part) && !self.held_parts(place).is_empty()
+    }
+
+    fn solids_of(&self, place: u32) -> [Arc<Shape>; 2] {
+        let (first, second) = self.pairs.shapes(place);
+        [first, second].map(|at| Arc::clone(&self.colliders[at as usize].solid))
+    }
+
+    /// Parts of a pair in contacts that change with the mode of an island alone.
+    fn held_parts(&self, place: u32) -> Vec<(u32, u32)> {
+        let pair = self.pairs.get(place);
+        let mut held = Vec::new();
+        for index in [pair.bodies.0, pair.bodies.1] {
+            if let Some(group) = self.closed.get(self.bodies.get(index).membership.group) {
+                held.extend(group.held_parts(place, pair));
+            }
+        }
+        held
+    }
+
+    /// Time of impact of what an island's mode does not hold of a pair, within `length` seconds; whether there is one.
+    ///
+    /// What closes by rounding alone, or is a hidden side of what bears it, is none. A search that ends with it is made again a sub-step
+    /// later.
+    fn seek_beside_mode(&mut self, place: u32, time: SimTime, length: f64) -> bool {
+        if self.is_held_by_mode(place) {
+            return false;
+        }
+        self.report.pairs += 1;
+        let held = self.held_parts(place);
+        let solids = self.solids_of(place);
+        let pair = self.pairs.get(place);
+        let (ends, shapes) = (pair.bodies, pair.colliders);
+        let (one, two) = (self.bodies.get(ends.0), self.bodies.get(ends.1));
+        let motions = [one, two].map(|state| state.motion.rebased(time));
+        let rest = rest_speed(&self.bodies, pair, self.clock.h);
+        let is_slow = |impact: &Impact| {
+            let at = time + impact.time;
+            let least = CLOSED * (pace(one, two, at) + rest);
+            let closes = |point: &Vec2| opening_speed(one, two, at, *point, impact.normal) < -least;
+            !impact.points.iter().any(closes)
+        };
+        let (mut first, mut is_over) = (TimeOfImpact::Clear, false);
+        for i in 0..part_count(&solids[0]) {
+            for j in 0..part_count(&solids[1]) {
+                if held
+                    .iter()
+                    .any(|&(x, y)| (x as usize, y as usize) == (i, j))
+                {
+                    continue;
+                }
+                let parts = [part(&solids[0], i), part(&solids[1], j)];
+                let next = if one.flight.is_some() || two.flight.is_some() {
+                    first_touch_of_parts([one, two], parts, time, length)
+                } else {
+                    let [a, b] = &motions;
+                    time_of_impact_of_parts(&parts[0], a, &parts[1], b, length)
+                };
+                match next {
+                    TimeOfImpact::Hit(found) | TimeOfImpact::Touching(found)
+                        if is_slow(&found) || self.passes(ends, shapes, &found, time) =>
+                    {
+                        is_over = true;
+                    }
+                    next => first = earlier(first, next),
+                }
+            }
+        }
+        let (wait, impact) = match first {
+            TimeOfImpact::Clear => {
+                if is_over && self.clock.h < length {
+                    self.look_again_at(ends, shapes, time + self.clock.h);
+                }
+                return false;
+            }
+            TimeOfImpact::Unresolved { .. } => {
+                self.leave_unresolved(ends, time);
+                return true;
+            }
+            TimeOfImpact::Hit(impact) => (impact.time, impact),
+            TimeOfImpact::Touching(impact) => (0.0, impact),
+        };
+        let stamp = self.stamp(ends.0, ends.1);
+        let foreseen = Foreseen::of(ends, shapes, &impact);
+        self.free.push_impact(time + wait, stamp, foreseen);
+        true
     }
 }

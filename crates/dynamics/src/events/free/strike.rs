@@ -4,8 +4,7 @@ use arrayvec::ArrayVec;
 use carom_math::{SimTime, Vec2};
 
 use super::{Cause, Foreseen, low};
-use crate::events::predict::price;
-use crate::events::resolve::apply;
+use crate::events::resolve::{apply, price};
 use crate::events::shock::Shock;
 use crate::impact::{ImpactBody, ImpactContact, resolve};
 use crate::store::zeno::ZenoSeries;
@@ -44,22 +43,12 @@ impl World {
     /// Resolves an impact that was foreseen for the motions as they are.
     pub(super) fn strike_free_body(&mut self, impact: &Foreseen, time: SimTime) {
         let (a, b) = impact.bodies;
-        for index in [a, b] {
-            if self.bodies.get(index).is_asleep() {
-                // Awake it is in the hands of the solver, which is struck with all that it holds.
-                self.wake(index, time);
-                if self.bodies.get(index).in_engine() {
-                    let other = if index == a { b } else { a };
-                    // It waits at the surface of the woken bodies for the next sub-step.
-                    self.join(other, time);
-                }
-                if !self.bodies.get(index).goes_by_events() {
-                    return;
-                }
-            }
-            if self.bodies.get(index).is_stepped() {
-                return;
-            }
+        let is_held = |index: u32| {
+            let state = self.bodies.get(index);
+            state.is_asleep() || state.is_stepped()
+        };
+        if is_held(a) || is_held(b) {
+            return self.strike_held(impact, time);
         }
         let material = self.material_of(impact);
         let before = self.ends_of(impact, time);
