@@ -2,9 +2,8 @@
 //!
 //! A member of an island that slides or rolls has one parabola until its mode changes, just as a free body has one until
 //! its next impact. So it is treated as a free body is: swept boxes, impacts in the calendar queue, and a search that ends
-//! with its mode. Only bodies that it touches are not searched for: the island has these contacts already. A body that
-//! meets it, or a call that changes it, gives the whole island back: at that instant it gets its
-//! method anew.
+//! with its mode. Only the parts that its mode holds in contact are not searched for. A body that meets it, or a call that
+//! changes it, gives the whole island back: it gets its method anew before time goes on.
 
 use carom_geometry::Aabb;
 use carom_math::SimTime;
@@ -15,8 +14,7 @@ use crate::events::free::Cause;
 impl World {
     /// Islands that came to move since the last time begin their motion; what goes otherwise than they say joins the engine.
     pub(crate) fn begin_analytic_motion(&mut self, time: SimTime) {
-        let moving = self.closed.take_moving();
-        for place in moving {
+        for place in self.closed.take_moving() {
             if self.may_move_analytically(place) {
                 self.move_analytically(place, time);
             } else if let Some(group) = self.closed.get(place) {
@@ -54,7 +52,7 @@ impl World {
             self.end_unsettled(index);
             for pair in self.bodies.get(index).pairs.clone() {
                 let other = self.pairs.get(pair).other(index);
-                // Sub-stepped bodies go on to meet it by pairs.
+                // What waits for its method, too, is about to look at its pairs.
                 if !touches.contains(&pair) && !self.bodies.get(other).is_held() {
                     self.part(pair, time);
                 }
@@ -85,38 +83,29 @@ impl World {
 
     /// Gives an island in analytic motion back: its motions stand, and its mode.
     pub(crate) fn hand_back(&mut self, place: u32, time: SimTime) {
-        self.land_group(place, time, false);
+        for index in self.land_group(place, time) {
+            self.redirect(index, time);
+        }
     }
 
-    /// The same. A group that turns, and `ends` now, leaves its path: its impacts are searched for from there.
-    pub(crate) fn land_group(&mut self, place: u32, time: SimTime, ends: bool) {
+    /// Ends the analytic motion of an island; its members, if it was in motion.
+    pub(crate) fn land_group(&mut self, place: u32, time: SimTime) -> Vec<u32> {
         let Some(group) = self
             .closed
             .get(place)
             .filter(|group| group.moves_analytically(&self.bodies))
         else {
-            return;
+            return Vec::new();
         };
-        let h = self.clock.h;
         let members = group.indices();
-        let left = group.tipping.clone().filter(|_| ends);
-        let moved = match &left {
-            Some(tipping) => self.leave_curves(tipping, &members, time),
-            None => group.moved_at(time),
-        };
-        let Some(group) = self.closed.get_mut(place) else {
-            return;
-        };
-        group.move_touches(moved);
-        for touch in group.touches.clone() {
+        // Which sides its contacts hide is asked of where they are now.
+        for touch in &group.touches {
             let pair = self.pairs.get_mut(touch.pair);
             self.narrow
-                .look(&self.bodies, &self.colliders, pair, time, h);
-            touch.carry(&self.bodies, pair, h);
+                .look(&self.bodies, &self.colliders, pair, time, self.clock.h);
         }
         for &index in &members {
-            let state = self.bodies.get_mut(index);
-            state.land();
+            self.bodies.get_mut(index).land();
             self.free.vanish(&mut self.bodies, index);
         }
         self.closed.renew_members(&mut self.bodies, place);
@@ -131,11 +120,7 @@ impl World {
             }
         }
         self.closed.moves(place);
-        if left.is_none() {
-            for index in members {
-                self.redirect(index, time);
-            }
-        }
+        members
     }
 
     /// Gives the island of a body back, if it is in analytic motion; whether it was.

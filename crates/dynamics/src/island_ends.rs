@@ -9,7 +9,7 @@ use crate::{EventKind, World};
 impl World {
     /// Takes a group apart; its members keep their motions until they are given others.
     pub(crate) fn dissolve(&mut self, place: u32, time: SimTime) -> Vec<u32> {
-        self.land_group(place, time, true);
+        let landed = self.land_group(place, time);
         let Some(group) = self.closed.remove(place) else {
             return Vec::new();
         };
@@ -21,7 +21,13 @@ impl World {
         for &index in &members {
             self.bodies.get_mut(index).leave_island();
         }
-        self.leave_path(&group, time);
+        for index in landed {
+            // It leaves its path, if it has one.
+            if self.bodies.get(index).flight.is_some() {
+                self.bodies.change(index, time, |_| {});
+            }
+            self.redirect(index, time);
+        }
         members
     }
 

@@ -7,7 +7,7 @@ use carom_math::SimTime;
 use crate::analytic::islands::give_motions;
 use crate::analytic::islands::store::{Group, Kept};
 use crate::analytic::islands::tips::{Tipping, path_of};
-use crate::analytic::modes::{BodyMove, NotMine, TouchMove};
+use crate::analytic::modes::{NotMine, TouchMove};
 use crate::analytic::tipping::Ends;
 use crate::analytic::touching::Gathered;
 use crate::{Mode, World};
@@ -124,48 +124,5 @@ impl World {
             self.begin_next_pieces(place, time);
         }
         true
-    }
-
-    /// The members of a group that is no more go on by their parabolas, and those of one that turned by what their path has at `time`.
-    pub(crate) fn leave_path(&mut self, group: &Group, time: SimTime) {
-        let Some(tipping) = &group.tipping else {
-            return;
-        };
-        let members = group.indices();
-        if members.iter().any(|index| self.is_on_path(*index)) {
-            self.leave_curves(tipping, &members, time);
-        }
-        for index in members {
-            self.redirect(index, time);
-        }
-    }
-
-    /// The members of a group that turned go on by what their path has at `time`; the modes of its touches there.
-    pub(crate) fn leave_curves(
-        &mut self,
-        Tipping { tip, slots }: &Tipping,
-        members: &[u32],
-        time: SimTime,
-    ) -> Option<Vec<TouchMove>> {
-        let there = tip.moves_after(time - tip.path.start());
-        for (&index, &slot) in members.iter().zip(slots) {
-            if self.is_on_path(index) {
-                let body = &tip.equations.bodies[slot];
-                let pulled = (body.pull, body.twist);
-                let of = |body: &BodyMove| (body.acceleration, body.angular_acceleration);
-                let (acceleration, angular) =
-                    there.as_ref().map_or(pulled, |(moves, _)| of(&moves[slot]));
-                self.bodies.change(index, time, |motion| {
-                    motion.acceleration = acceleration;
-                    motion.angular_acceleration = angular;
-                });
-            }
-        }
-        there.map(|(_, touches)| touches)
-    }
-
-    /// A body that was given another velocity has left its path already, and still has the parabola of its last piece.
-    fn is_on_path(&self, index: u32) -> bool {
-        self.bodies.get(index).flight.is_some()
     }
 }

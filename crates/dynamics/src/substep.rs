@@ -12,7 +12,6 @@ impl World {
         self.report_waiting(time);
         self.clock.begin();
         self.report.substeps += 1;
-        self.look_at_fresh(time);
         let before = self.report.handed_over;
         self.end_rush(time);
         self.join_exhausted(time);

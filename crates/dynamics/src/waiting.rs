@@ -19,6 +19,7 @@ impl World {
             return false;
         }
         let before = self.unsettled.len();
+        self.look_at_fresh(time);
         let places = self.look_at_held(time);
         if self.strike_held_pairs(places, time) {
             return true;

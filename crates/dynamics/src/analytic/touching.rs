@@ -10,7 +10,7 @@ use crate::model::edges::{Feature, at_the_end, feature};
 use crate::model::graph::ROWS;
 use crate::model::narrow::{Narrow, TOUCH, rest_speed};
 use crate::store::bodies::Bodies;
-use crate::store::pairs::{PairContact, Pairs};
+use crate::store::pairs::Pairs;
 use crate::store::state::{BodyState, Collider};
 
 /// Overlap beyond which a pair is pushed apart first, as a part of the smaller reach: closed forms keep what
@@ -286,16 +286,6 @@ impl Around<'_> {
         }
         let rest = rest_speed(self.bodies, pair, h);
         let ends = (RigidState::of(a, time), RigidState::of(b, time));
-        // What the soft solver holds across a gap is no free surface.
-        let hovers = |contact: &PairContact| {
-            contact.points.iter().any(|point| {
-                let rate = opening(ends, point.position, contact.normal).0;
-                point.separation > gap && point.impulse > 0.0 && rate.abs() <= rest
-            })
-        };
-        if pair.contacts.iter().any(hovers) {
-            return None;
-        }
         if !touching {
             return Some(0);
         }
