@@ -1,6 +1,6 @@
 //! Random closed boxes: bodies of 3 mm to 2 m are thrown about between walls without a gap, and no centre may leave.
 //!
-//! Where centres are is all that is judged, so the judgement shares nothing with the library. It finds what went through a wall, by
+//! Where centres are is all that is checked, so the check shares nothing with the library. It finds what went through a wall, by
 //! whatever way; overlaps are for [`checks`](crate::checks).
 //!
 //! Some kinds still lose bodies, though none in a run that was called exact:

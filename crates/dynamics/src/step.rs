@@ -152,7 +152,7 @@ impl World {
             &mut self.report,
         );
         match struck {
-            Struck::Nothing => {
+            Struck::Exhausted => {
                 for index in [a, b] {
                     self.join(index, time);
                 }

@@ -39,7 +39,7 @@ pub(crate) struct PairImpact {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Struck {
     /// The pair has used up its impacts.
-    Nothing,
+    Exhausted,
     /// They met too gently to bounce: the contact lasts.
     Rests,
     /// These bodies have new motions.
@@ -63,49 +63,48 @@ pub(crate) fn strike(
     colliders: &[Collider],
     pairs: &mut Pairs,
     narrow: &mut Narrow,
-    entry: &PairImpact,
+    due: &PairImpact,
     h: f64,
     events: &mut Events,
     report: &mut StepReport,
 ) -> Struck {
-    let ends = pairs.get(entry.pair).bodies;
+    let ends = pairs.get(due.pair).bodies;
     let (a, b) = (bodies.get(ends.0), bodies.get(ends.1));
-    touch(bodies, pairs, entry, events);
-    let rest = rest_speed(bodies, pairs.get(entry.pair), h);
-    let rounding = NOISE * pace(a, b, entry.time);
-    let mut shock = Shock::new(entry.time, h);
-    for &point in &entry.points {
-        let speed = -opening_speed(a, b, entry.time, point, entry.normal);
+    touch(bodies, pairs, due, events);
+    pairs.get_mut(due.pair).begin_budget(due.time, h);
+    let rest = rest_speed(bodies, pairs.get(due.pair), h);
+    let rounding = NOISE * pace(a, b, due.time);
+    let mut shock = Shock::new(due.time, h);
+    for &point in &due.points {
+        let speed = -opening_speed(a, b, due.time, point, due.normal);
         // At exactly zero pull there is no rest: an approach is an approach, unless rounding made it.
         if speed > rest && speed > rounding {
-            let material = pairs.get(entry.pair).material;
+            let material = pairs.get(due.pair).material;
             let contact = ImpactContact {
                 point,
-                normal: entry.normal,
+                normal: due.normal,
                 restitution: material.restitution,
                 friction: material.friction,
             };
             let struck = (contact, material.tangent_speed);
-            shock.add(bodies, entry.pair, ends, struck, rest);
+            shock.add(bodies, due.pair, ends, struck, rest);
         }
     }
     if shock.strikes.is_empty() {
-        let pair = pairs.get_mut(entry.pair);
+        let pair = pairs.get_mut(due.pair);
         pair.lasting = true;
-        pair.begin_budget(entry.time, h);
         // A group with modes that are solved for anew each time comes to an end, too.
         return if outruns(pair, 1.0) {
             report.collapsed += 1;
-            Struck::Nothing
+            Struck::Exhausted
         } else {
             Struck::Rests
         };
     }
-    pairs.get_mut(entry.pair).begin_budget(entry.time, h);
-    match spend(bodies, pairs, entry, &shock, events, report) {
+    match spend(bodies, pairs, due, &shock, events, report) {
         Budget::Left => {}
         Budget::Outrun => shock.collapse(),
-        Budget::Gone => return Struck::Nothing,
+        Budget::Gone => return Struck::Exhausted,
     }
     let single = shock.strikes.len() == 1;
     if single {
@@ -131,16 +130,16 @@ pub(crate) fn strike(
         pairs.get_mut(strike.pair).lasting = true;
     }
     Struck::Impact {
-        changed: apply(bodies, entry.time, &shock, events, report),
+        changed: apply(bodies, due.time, &shock, events, report),
         operations: shock.operations,
     }
 }
 
 /// A touch that begins here is an event.
-fn touch(bodies: &Bodies, pairs: &mut Pairs, entry: &PairImpact, events: &mut Events) {
-    let pair = pairs.get_mut(entry.pair);
+fn touch(bodies: &Bodies, pairs: &mut Pairs, due: &PairImpact, events: &mut Events) {
+    let pair = pairs.get_mut(due.pair);
     pair.touching = true;
-    events.tell_touch(bodies, pair, entry.time);
+    events.tell_touch(bodies, pair, due.time);
 }
 
 /// What is left of a pair's budget after an impact.
@@ -169,15 +168,15 @@ fn outruns(pair: &mut Pair, losses: f64) -> bool {
 fn spend(
     bodies: &Bodies,
     pairs: &mut Pairs,
-    entry: &PairImpact,
+    due: &PairImpact,
     shock: &Shock,
     events: &mut Events,
     report: &mut StepReport,
 ) -> Budget {
-    let pair = pairs.get_mut(entry.pair);
+    let pair = pairs.get_mut(due.pair);
     let ends = [pair.bodies.0, pair.bodies.1].map(|index| bodies.get(index));
     // Struck on both sides at once it goes to and fro, and time does not pass: no bounces, whatever they give back.
-    let again = pair.impacts > 0 && ends.iter().any(|body| body.motion.start == entry.time);
+    let again = pair.impacts > 0 && ends.iter().any(|body| body.motion.start == due.time);
     let losses = if again { 1.0 } else { price(&pair.material) };
     pair.impacts += 1;
     let collapsed = pair.spent > BUDGET;
@@ -199,7 +198,7 @@ fn spend(
     };
     let speed = shock.strikes[0].speed;
     events.push(
-        entry.time,
+        due.time,
         EventKind::Collapse {
             a: a.id,
             b: b.id,
