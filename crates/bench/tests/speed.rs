@@ -78,7 +78,7 @@ fn a_profile_has_the_stages_of_the_measured_steps() {
         ms("impacts").is_some_and(|(_, ms)| *ms > 0.0),
         "{reading:?}"
     );
-    for stage in ["pairs", "solver", "flight"] {
+    for stage in ["contacts", "solver"] {
         assert!(ms(stage).is_some_and(|(_, ms)| *ms == 0.0), "{reading:?}");
     }
     assert!(reading.stages.iter().all(|(_, ms)| *ms >= 0.0));
