@@ -7,7 +7,6 @@ use carom_collision::part;
 use carom_math::SimTime;
 
 use super::joints::{Held, joint};
-use super::store::Closed;
 use crate::Mode;
 use crate::analytic::modes::NotMine;
 use crate::analytic::tipping::{Contact, Joint, Tip, tip};
@@ -34,8 +33,6 @@ pub(crate) struct Tipping {
     /// Place of each member in the group's list of bodies.
     pub(crate) slots: Vec<usize>,
 }
-
-impl Closed {}
 
 /// The path that its contacts leave a group.
 pub(crate) fn path_of(

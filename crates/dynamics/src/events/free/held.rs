@@ -159,9 +159,7 @@ impl World {
             if !self.hangs(index, time) {
                 continue;
             }
-            if !self.bodies.bends(index) {
-                fly(&mut self.bodies, index, time);
-            }
+            fly(&mut self.bodies, index, time);
             self.take_off(index, time);
         }
     }

@@ -299,10 +299,9 @@ impl World {
         pair_of(&self.bodies, &self.pairs, index, shapes)
     }
 
-    /// Whether all of two shapes that may touch does so in a mode.
+    /// Whether a mode holds all that may touch of the shapes of a pair.
     pub(super) fn is_held_by_mode(&self, place: u32) -> bool {
-        let one_part = |solid: &Arc<Shape>| part_count(solid) == 1;
-        self.solids_of(place).iter().all(one_part) && !self.held_parts(place).is_empty()
+        is_all_held(&self.solids_of(place), &self.held_parts(place))
     }
 
     fn solids_of(&self, place: u32) -> [Arc<Shape>; 2] {
@@ -327,12 +326,11 @@ impl World {
     /// What closes by rounding alone, or is a hidden side of what bears it, is none. A search that ends with it is made again a sub-step
     /// later.
     fn seek_beside_mode(&mut self, place: u32, time: SimTime, length: f64) -> bool {
-        if self.is_held_by_mode(place) {
+        let (solids, held) = (self.solids_of(place), self.held_parts(place));
+        if is_all_held(&solids, &held) {
             return false;
         }
         self.report.pairs += 1;
-        let held = self.held_parts(place);
-        let solids = self.solids_of(place);
         let pair = self.pairs.get(place);
         let (ends, shapes) = (pair.bodies, pair.colliders);
         let (one, two) = (self.bodies.get(ends.0), self.bodies.get(ends.1));
@@ -389,4 +387,9 @@ impl World {
         self.free.push_impact(time + wait, stamp, foreseen);
         true
     }
+}
+
+/// Whether two shapes of one part each touch in a contact that a mode holds.
+fn is_all_held(solids: &[Arc<Shape>; 2], held: &[(u32, u32)]) -> bool {
+    !held.is_empty() && solids.iter().all(|solid| part_count(solid) == 1)
 }
