@@ -25,14 +25,7 @@ const CLASSES: [&str; 6] = [
 ];
 
 fn main() -> ExitCode {
-    match run() {
-        Ok(true) => ExitCode::SUCCESS,
-        Ok(false) => ExitCode::FAILURE,
-        Err(error) => {
-            eprintln!("error: {error}");
-            ExitCode::from(2)
-        }
-    }
+    carom_tests::exit(run())
 }
 
 fn run() -> Result<bool, Box<dyn Error>> {

@@ -11,14 +11,7 @@ use carom_dynamics::Mode;
 use carom_tests::flights::play;
 
 fn main() -> ExitCode {
-    match run() {
-        Ok(true) => ExitCode::SUCCESS,
-        Ok(false) => ExitCode::FAILURE,
-        Err(error) => {
-            eprintln!("error: {error}");
-            ExitCode::from(2)
-        }
-    }
+    carom_tests::exit(run())
 }
 
 fn run() -> Result<bool, Box<dyn Error>> {

@@ -1,5 +1,8 @@
 //! Shared helpers of the integration tests.
 
+use std::error::Error;
+use std::process::ExitCode;
+
 use carom_dynamics::{BodyKind, Material, Mode, World};
 
 pub mod boxes;
@@ -22,6 +25,19 @@ pub fn run(world: &mut World, seconds: f64, mut look: impl FnMut(&World)) {
         let report = world.step(1.0 / 60.0);
         assert_eq!(report.refused, None);
         look(world);
+    }
+}
+
+/// How a program ends that plays many runs: 0 if all are sound, 1 if some are not, 2 with one line if it cannot play them.
+#[must_use]
+pub fn exit(all_sound: Result<bool, Box<dyn Error>>) -> ExitCode {
+    match all_sound {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::FAILURE,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::from(2)
+        }
     }
 }
 
