@@ -175,10 +175,9 @@ impl Engine {
         let (line, base) = (&self.bodies.lines[at], &self.bodies.base[at]);
         let d = from.position - base.position;
         let turn = (from.rotation * base.rotation.inverse()).angle();
-        let square = (line.d() - d).length_squared();
-        let far = self.bodies.limits[at].is_far(square, line.turn() - turn);
+        let goes = line.d() != d || line.turn() != turn;
         self.fast_bodies.retain(|body| body.slot != id.slot);
-        if far {
+        if goes {
             self.fast_bodies.push(FastBody {
                 slot: id.slot,
                 from: (d, turn),

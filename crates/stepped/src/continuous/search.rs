@@ -136,13 +136,15 @@ impl Engine {
             Some(other) => fast.of(self, other).motion,
             None => self.motion(theirs.body, None, span.1),
         };
-        // Rows hold bodies that move little against each other, however fast both are.
+        // Rows hold bodies that move little against each other, however fast both are, but not what a caller moves.
         let left = span.1 - span.0;
         let [limit, other] =
             [body.slot, theirs.body].map(|slot| &self.bodies.limits[self.bodies.line_of(slot)]);
         let against = (body.motion.velocity - motion.velocity) * left;
         let turns = (body.motion.spin * left, motion.spin * left);
-        if !limit.is_far(against.length_squared(), turns.0) && !other.is_far(0.0, turns.1) {
+        let moves_far =
+            limit.is_far(against.length_squared(), turns.0) || other.is_far(0.0, turns.1);
+        if !moves_far && !body.carried {
             return;
         }
         if let Some((wait, normal)) = self.first_touch(&body, (piece, &motion), span, rules) {

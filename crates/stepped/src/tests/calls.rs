@@ -1,6 +1,6 @@
 //! What a caller does between sub-steps, and what it asks for.
 
-use carom_geometry::{Circle, ConvexPolygon, HalfPlane};
+use carom_geometry::{Circle, ConvexPolygon, HalfPlane, Segment};
 use carom_math::{Pose, Vec2, vec2};
 
 use super::{floor, pyramid, unit_box};
@@ -204,6 +204,21 @@ fn what_is_carried_into_what_it_touches_stays_where_it_is() {
         let at = engine.pose(ball).unwrap().position;
         assert!((at.x - from.x).abs() < 1e-6, "{deep} m deep: {at}");
     }
+}
+
+/// A plate of 1 mm by 0.2 m that went by 2.4 mm went by less than an eighth of its extent, which is an eighth of its length.
+#[test]
+fn what_is_carried_by_more_than_it_is_thick_stops_too() {
+    let mut engine = weightless();
+    let wall = PieceInput::new(Segment::new(vec2(-1.0, 0.0), vec2(1.0, 0.0)).unwrap());
+    engine.insert(BodyInput::fixed(), &[wall]).unwrap();
+    let plate = PieceInput::new(ConvexPolygon::rectangle(0.2, 1e-3).unwrap());
+    let body = BodyInput::dynamic(1.0, 1e-2).at(vec2(0.0, -1.9e-3));
+    let plate = engine.insert(body, &[plate]).unwrap();
+    engine.carry(plate, Pose::at(vec2(0.0, 5e-4))).unwrap();
+    assert_eq!(engine.stop_fast(1e-4, &Mixed), [plate]);
+    let y = engine.pose(plate).unwrap().position.y;
+    assert!((y - 5e-4).abs() < 1e-6, "{y}");
 }
 
 /// One sweep a sub-step leaves 20/21 of the error: the load came back at 1.5 m/s of 4.4.
