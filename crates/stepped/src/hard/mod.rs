@@ -56,11 +56,12 @@ impl HardRows {
         if graph.has_hard() {
             let mut hard: Vec<u32> = contacts_of(&found).collect();
             hard.sort_unstable();
-            for id in contacts_of(&self.islands) {
-                if hard.binary_search(&id).is_err() && graph.is_hard(id) {
-                    graph.clear_warm_start(bodies, id);
-                    graph.set_hard(id, false);
-                }
+            let mut back: Vec<u32> = graph.hard_ids().collect();
+            back.retain(|id| hard.binary_search(id).is_err());
+            graph.sort(bodies, &mut back);
+            for id in back {
+                graph.clear_warm_start(bodies, id);
+                graph.set_hard(id, false);
             }
         }
         for id in contacts_of(&found) {

@@ -3,7 +3,8 @@
 use carom_math::{Vec2, perp};
 
 use super::block::{Block, Cold, LANES, OPEN};
-use super::graph::{Graph, HARD};
+use super::colour::Colour;
+use super::graph::{ASLEEP, Graph, HARD};
 use crate::Surface;
 use crate::bodies::Bodies;
 
@@ -23,11 +24,6 @@ impl Graph {
         let cold = self.colours[contact.colour as usize].cold.get(k)?;
         let there = cold.used >> lane & 1 == 1 && cold.contact[lane] == id;
         (there && !contact.sleeps()).then_some((cold, lane))
-    }
-
-    /// Whether there is a contact of this number, in hard rows.
-    pub(crate) fn is_hard(&self, id: u32) -> bool {
-        self.contacts[id as usize].is_hard() && self.cold(id).is_some()
     }
 
     /// Whether there is such a contact of these pieces, and it is awake.
@@ -82,11 +78,12 @@ impl Graph {
 
     /// Numbers of all contacts, colour by colour.
     pub(crate) fn ids(&self) -> impl Iterator<Item = u32> {
-        let cold = self.colours.iter().flat_map(|colour| &colour.cold);
-        cold.flat_map(|cold| {
-            let lanes = (0..LANES).filter(|lane| cold.used >> lane & 1 == 1);
-            lanes.map(|lane| cold.contact[lane])
-        })
+        ids_in(&self.colours)
+    }
+
+    /// Those in hard rows.
+    pub(crate) fn hard_ids(&self) -> impl Iterator<Item = u32> {
+        ids_in(&self.colours[HARD..ASLEEP])
     }
 
     /// Place of a contact in an order that memory does not change: by births of its bodies, then by pieces.
@@ -190,4 +187,12 @@ impl Graph {
         (block.s1[lane], block.s2[lane]) = (OPEN, OPEN);
         self.colours[contact.colour as usize].cold[k].deep &= !(1 << lane);
     }
+}
+
+fn ids_in(colours: &[Colour]) -> impl Iterator<Item = u32> {
+    let cold = colours.iter().flat_map(|colour| &colour.cold);
+    cold.flat_map(|cold| {
+        let lanes = (0..LANES).filter(|lane| cold.used >> lane & 1 == 1);
+        lanes.map(|lane| cold.contact[lane])
+    })
 }

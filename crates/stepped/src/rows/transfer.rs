@@ -14,34 +14,34 @@ impl Contact {
         self.colour >= FIRST_HARD && !self.sleeps()
     }
 
-    /// The colour that it has in soft rows.
-    const fn soft_colour(&self) -> u32 {
-        if self.is_hard() {
-            self.colour - FIRST_HARD
-        } else {
-            self.colour
-        }
-    }
-
     /// Its bit in the masks of its bodies: none in the overflow colour, or asleep.
     pub(crate) const fn mask(&self) -> u64 {
-        bit(self.soft_colour())
+        if self.sleeps() { 0 } else { bit(self.colour) }
+    }
+}
+
+/// The colour that a contact which is awake has in soft rows.
+const fn soft(colour: u32) -> u32 {
+    if colour >= FIRST_HARD {
+        colour - FIRST_HARD
+    } else {
+        colour
     }
 }
 
 const fn bit(colour: u32) -> u64 {
-    match 1u64.checked_shl(colour) {
+    match 1u64.checked_shl(soft(colour)) {
         Some(bit) => bit,
         None => 0,
     }
 }
 
 impl Graph {
-    /// Moves a contact between the colours and what sleeps; its bodies have their lines if it wakes. It wakes in soft rows.
+    /// Moves a contact between the colours and what sleeps; its bodies have their lines if it wakes.
     pub(crate) fn shift(&mut self, bodies: &mut Bodies, id: u32, sleeps: bool) {
         let contact = self.contacts[id as usize];
         let (to, lines, home) = if sleeps {
-            (ASLEEP, [0; 2], contact.soft_colour())
+            (ASLEEP, [0; 2], contact.colour)
         } else {
             let lines = contact
                 .bodies
@@ -74,7 +74,7 @@ impl Graph {
             let (k, lane) = contact.place();
             let block = &self.colours[contact.colour as usize].blocks[k];
             let lines = [block.a[lane], block.b[lane]];
-            let to = contact.soft_colour() as usize + if hard { HARD } else { 0 };
+            let to = soft(contact.colour) as usize + if hard { HARD } else { 0 };
             self.transfer(id, to, lines);
         }
     }
