@@ -3,6 +3,7 @@
 mod a_blow_within_a_sub_step_does_not_tunnel;
 mod a_body_taken_out_of_a_sleeping_pile_keeps_the_ledger;
 mod a_box_slides_over_the_seams_of_flush_tiles;
+mod a_box_stays_in_a_valley;
 mod a_changed_free_body_keeps_its_law;
 mod a_clamped_body_is_not_struck_for_ever;
 mod a_crushed_body_is_struck_for_a_while;

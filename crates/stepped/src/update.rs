@@ -108,12 +108,16 @@ pub(crate) fn update(
 }
 
 /// What overlaps, or was pushed in the last sub-step, stays on the side on which it came: a thin body that is pressed into a wall
-/// without thickness by more than half of its own would go through.
+/// without thickness by more than half of its own would go through. A corner beside a corner is on no side: beyond the end of a wall
+/// it may be below the one that its body then lies on.
 fn keep_side(scene: &Scene<'_>, block: &Block, pair: [u32; 2], lane: usize, found: &mut Found) {
     let overlaps = found.s1[lane].min(found.s2[lane]) < 0.0;
     let pushes = block.j1[lane] + block.j2[lane] > 0.0;
     let came = block.normal(lane);
+    let radii = pair.map(|piece| scene.pieces.outlines[piece as usize].radius());
+    let of_corners = block.s2[lane] == OPEN && radii == [0.0; 2];
     if (overlaps || pushes)
+        && !of_corners
         && came.dot(vec2(found.nx[lane], found.ny[lane])) < TURNED_OVER
         && let Some(manifold) = scene.contact_on(came, pair, KEPT)
     {
