@@ -83,8 +83,14 @@ impl Limit {
     /// Whether a displacement, squared, or a turn is so large that the body may pass through another one.
     #[inline]
     pub(crate) fn is_far(&self, square: f64, turn: f64) -> bool {
-        let least = FAST * 0.5 * self.extent;
+        let least = self.near();
         square > least * least || turn.abs() * self.reach > least
+    }
+
+    /// How far a body that is not fast goes within a sub-step, in m.
+    #[inline]
+    pub(crate) fn near(&self) -> f64 {
+        FAST * 0.5 * self.extent
     }
 
     /// Whether a body deviates from its rows by a part of a margin that counts: it will be `off` metres from its predicted

@@ -68,7 +68,7 @@ impl Island {
                 if let Some((_, centres)) = &self.begun {
                     meet(&mut faces, |k| centres[k]);
                 }
-                let (held, part) = self.parted(&parts, &faces);
+                let (held, part) = self.parted(law, bodies, &parts, &faces);
                 let part = part.min(self.covered(law, bodies, &held.bodies));
                 self.displace(law.h * part, bodies, &held.bodies);
                 self.note_parted(bodies, settings, &held.bodies, part);
@@ -90,7 +90,7 @@ impl Island {
         };
         let mut faces = begun.clone();
         ask(&mut faces, &parts.opens);
-        let (held, part) = self.parted(parts, &faces);
+        let (held, part) = self.parted(law, bodies, parts, &faces);
         let before: f64 = self.bodies.iter().map(ImpactBody::kinetic_energy).sum();
         let pushed = |part: f64| {
             let pushed = self.pushed(part, &held.bodies, bodies);
@@ -183,18 +183,30 @@ impl Island {
         parts
     }
 
-    /// The velocities, of bodies at rest, that part faces within a sub-step, and the part of them that is no faster than the fastest
-    /// push-out: what is wedged in goes a long way for a little room.
-    fn parted(&self, parts: &Parting, faces: &[HeldFace]) -> (HeldFaces, f64) {
+    /// The velocities, of bodies at rest, that part faces within a sub-step, and the part of them by which none is faster than the
+    /// fastest push-out, or than one that is not fast but for what it went in by: what is wedged in goes a long way for a little room,
+    /// past the ends of faces that it slides along.
+    fn parted(
+        &self,
+        law: &Law,
+        bodies: &Bodies,
+        parts: &Parting,
+        faces: &[HeldFace],
+    ) -> (HeldFaces, f64) {
         let at_rest = self.bodies.iter().map(|body| ImpactBody {
             velocity: Vec2::ZERO,
             spin: 0.0,
             ..*body
         });
         let held = self.held(&at_rest.collect::<Vec<_>>(), faces);
-        let speeds = held.bodies.iter().map(|by| by.velocity.length());
-        let fastest = speeds.fold(0.0, f64::max);
-        (held, (parts.fastest / fastest).min(1.0))
+        let made = parts.fastest - law.push_out;
+        let share = |(line, by): (&u32, &ImpactBody)| {
+            let slow = bodies.limits[*line as usize].near() * law.inverse_h;
+            (made + law.push_out.min(slow)) / by.velocity.length()
+        };
+        let shares = self.lines.iter().zip(&held.bodies).map(share);
+        let part = shares.fold(1.0, f64::min);
+        (held, part)
     }
 
     /// The part of a displacement that raises bodies by no more energy than the sub-step took.
