@@ -160,11 +160,10 @@ impl World {
             Struck::Rests => {
                 // No motion has changed, but an island has one contact more: its modes are solved for once.
                 for index in [a, b] {
-                    self.land(index, time);
-                }
-                self.gain_contact(a, time);
-                if !self.share_group(a, b) {
-                    self.gain_contact(b, time);
+                    let known = index == b && self.share_group(a, b);
+                    if !self.land(index, time) && !known {
+                        self.gain_contact(index, time);
+                    }
                 }
             }
             Struck::Impact {

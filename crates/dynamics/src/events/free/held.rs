@@ -11,11 +11,21 @@ use crate::store::pairs::PairContact;
 use crate::{BodyKind, Mode, World};
 
 impl World {
-    /// What is pressed together and does not bounce stays in contact from now on.
+    /// What is pressed together and does not bounce stays in contact from now on. Modes that were solved for at this instant say nothing
+    /// of it, as at the tip between two segments, which both touch there: solved for again they would go on in circles, and the engine
+    /// takes their island.
     pub(super) fn begins_to_last(&mut self, impact: &Foreseen, time: SimTime) {
         let (a, b) = impact.bodies;
-        self.land(a, time);
-        self.land(b, time);
+        for index in [a, b] {
+            let state = self.bodies.get(index);
+            let group = self.closed.get(state.membership.group);
+            let circles = state.moves_analytically() && group.is_some_and(|at| at.since == time);
+            if !circles {
+                self.land(index, time);
+            } else if self.hand_back_of(index, time) {
+                self.join(index, time);
+            }
+        }
     }
 
     /// Impacts that outrun their budget have come to their limit: a common stop of all that touches, at this instant.
@@ -89,11 +99,14 @@ impl World {
         pair_of(&self.bodies, &self.pairs, impact.bodies.0, impact.colliders)
     }
 
-    /// Something holds this body from now on, or is too near to tell: it gets its method before time goes on.
-    pub(crate) fn land(&mut self, index: u32, time: SimTime) {
-        if self.leave_flight(index, time) {
-            self.deflected(index, time);
+    /// Something holds this body from now on, or is too near to tell: it gets its method before time goes on. Whether it moved by
+    /// events.
+    pub(crate) fn land(&mut self, index: u32, time: SimTime) -> bool {
+        let lands = self.leave_flight(index, time);
+        if lands {
+            self.landed(index, time);
         }
+        lands
     }
 
     /// As [`Self::land`], of a body that is about to be solved for with the island that it touches.
