@@ -115,7 +115,7 @@ fn keep_side(scene: &Scene<'_>, block: &Block, pair: [u32; 2], lane: usize, foun
     let pushes = block.j1[lane] + block.j2[lane] > 0.0;
     let came = block.normal(lane);
     let radii = pair.map(|piece| scene.pieces.outlines[piece as usize].radius());
-    let of_corners = block.s2[lane] == OPEN && radii == [0.0; 2];
+    let of_corners = block.s2[lane] == OPEN && radii.iter().all(|radius| *radius == 0.0);
     if (overlaps || pushes)
         && !of_corners
         && came.dot(vec2(found.nx[lane], found.ny[lane])) < TURNED_OVER

@@ -5,7 +5,7 @@
 
 use carom_dynamics::{BodyDef, BodyId, Mode, Settings, World};
 use carom_geometry::Segment;
-use carom_math::{Vec2, vec2};
+use carom_math::{Vec2, trig, vec2};
 use carom_tests::run;
 use carom_tests::scenes::{block, put, surface};
 
@@ -26,7 +26,7 @@ fn valley(mode: Mode, friction: f64, size: f64, speed: f64) -> (World, BodyId) {
     }
     let down = vec2(1.0, -SLOPE).normalize();
     let at = down * -0.2 + carom_math::perp(down) * size;
-    let def = BodyDef::dynamic().at(at).turned(-SLOPE.atan());
+    let def = BodyDef::dynamic().at(at).turned(trig::atan2(-SLOPE, 1.0));
     let def = def.moving(down * speed);
     let id = put(&mut world, def, block(2.0 * size, 2.0 * size), rough);
     (world, id)

@@ -151,7 +151,7 @@ pub(crate) fn note_fast(
 }
 
 impl Engine {
-    /// Notes that a body, if it is fast, moves from this pose to its present one, as a caller moved it: see [`Self::stop_fast`].
+    /// Notes that a body moves from this pose to its present one, as a caller moved it: see [`Self::stop_fast`].
     ///
     /// # Errors
     /// [`EngineError::Stale`] if the body is not in this engine.
@@ -171,21 +171,18 @@ impl Engine {
         if record.kind != BodyKind::Dynamic {
             return Ok(());
         }
-        let at = record.line as usize;
-        let (line, base) = (&self.bodies.lines[at], &self.bodies.base[at]);
+        let base = &self.bodies.base[record.line as usize];
         let d = from.position - base.position;
         let turn = (from.rotation * base.rotation.inverse()).angle();
-        let goes = line.d() != d || line.turn() != turn;
         self.fast_bodies.retain(|body| body.slot != id.slot);
-        if goes {
-            self.fast_bodies.push(FastBody {
-                slot: id.slot,
-                from: (d, turn),
-                turns: false,
-                deviates: true,
-                carried: true,
-            });
-        }
+        // However little it goes: no rows hold it.
+        self.fast_bodies.push(FastBody {
+            slot: id.slot,
+            from: (d, turn),
+            turns: false,
+            deviates: true,
+            carried: true,
+        });
         Ok(())
     }
 
