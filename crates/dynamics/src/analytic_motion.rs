@@ -98,6 +98,12 @@ impl World {
             return Vec::new();
         };
         let members = group.indices();
+        // They leave their path first: where they are is asked many times at this instant.
+        for &index in &members {
+            if self.bodies.get(index).flight.is_some() {
+                self.bodies.change(index, time, |_| {});
+            }
+        }
         // Which sides its contacts hide is asked of where they are now.
         for touch in &group.touches {
             let pair = self.pairs.get_mut(touch.pair);

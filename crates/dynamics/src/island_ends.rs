@@ -22,10 +22,6 @@ impl World {
             self.bodies.get_mut(index).leave_island();
         }
         for index in landed {
-            // It leaves its path, if it has one.
-            if self.bodies.get(index).flight.is_some() {
-                self.bodies.change(index, time, |_| {});
-            }
             self.redirect(index, time);
         }
         members
