@@ -117,9 +117,7 @@ impl World {
         self.closed.renew_members(&mut self.bodies, place);
         for &index in &members {
             self.unsettle(index, time);
-        }
-        // Their boxes are as long as their way was: narrow ones meet what is here.
-        for &index in &members {
+            // Its boxes are as long as its way was: narrow ones meet what is here.
             for slot in 0..self.bodies.get(index).colliders.len() {
                 let at = self.bodies.get(index).colliders[slot];
                 self.colliders[at as usize].fat = Aabb::EMPTY;

@@ -12,17 +12,15 @@ pub struct Factored {
 
 impl Factored {
     /// Of a square matrix given row by row; `None` if a pivot is 0 or not finite.
-    pub fn of(size: usize, entries: Vec<f64>) -> Option<Self> {
-        let mut factored = Self {
-            entries,
-            ..Self::default()
-        };
-        factored.eliminate(size).then_some(factored)
+    pub fn of(size: usize, entries: impl Iterator<Item = f64>) -> Option<Self> {
+        let mut factored = Self::default();
+        factored.refactor(size, entries).then_some(factored)
     }
 
     /// Factors another matrix in place of this one; `false` if a pivot is 0 or not finite.
     pub fn refactor(&mut self, size: usize, entries: impl Iterator<Item = f64>) -> bool {
         self.entries.clear();
+        self.entries.reserve(size * size);
         self.entries.extend(entries);
         self.eliminate(size)
     }
@@ -119,7 +117,7 @@ mod tests {
                 rows.map(|row| row.iter().zip(x).map(|(a, x)| a * x).sum()).collect()
             };
             let right = times(&wanted);
-            let found = Factored::of(7, entries.clone()).unwrap().solve(&right);
+            let found = Factored::of(7, entries.iter().copied()).unwrap().solve(&right);
             let off = times(&found).iter().zip(&right).map(|(l, r)| (l - r).abs()).fold(0.0, f64::max);
             let size = found.iter().map(|x| x.abs()).fold(1.0, f64::max);
             prop_assert!(off < 1e-13 * size, "{off:e}");
@@ -128,6 +126,6 @@ mod tests {
 
     #[test]
     fn a_matrix_without_inverse_is_refused() {
-        assert!(Factored::of(2, vec![0.0, 0.0, 0.0, 1.0]).is_none());
+        assert!(Factored::of(2, [0.0, 0.0, 0.0, 1.0].into_iter()).is_none());
     }
 }

@@ -183,7 +183,7 @@ impl Tableau {
             .flat_map(|&(_, i)| held.iter().map(move |&(_, j)| m[i * n + j]));
         let right: Vec<f64> = held.iter().map(|&(_, i)| -q[i]).collect();
         let rough = held.iter().map(|&(row, _)| self.right(row) * size);
-        let exact = Factored::of(held.len(), square.collect())
+        let exact = Factored::of(held.len(), square)
             .filter(|factored| factored.least_pivot() > f64::EPSILON);
         let found = exact.map_or_else(|| rough.collect(), |factored| factored.solve(&right));
         let mut solution = Solution {

@@ -58,7 +58,8 @@ pub fn balance(rows: &[Vec<f64>], load: &[f64], tolerance: f64) -> (Vec<f64>, f6
     let bounds = vec![0.0; rows.len()];
     let mut set = ActiveSet::new(&[], rows, load, &bounds);
     set.settle(tolerance);
-    let (_, left) = set.basis.reduce(load);
+    let mut left = load.to_vec();
+    set.basis.reduce(&mut left);
     let largest = left.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
     (set.shares(), largest)
 }
@@ -138,7 +139,8 @@ impl<'a> ActiveSet<'a> {
         self.basis.truncate(place);
         for (row, multiplier) in later.into_iter().zip(multipliers).skip(1) {
             self.count(4 * self.members.len());
-            let (column, own) = self.basis.reduce(&self.rows[row]);
+            let mut own = self.rows[row].clone();
+            let column = self.basis.reduce(&mut own);
             self.add(row, multiplier, column, own);
         }
     }
@@ -173,7 +175,8 @@ impl<'a> ActiveSet<'a> {
         let mut multiplier = 0.0;
         loop {
             self.count(4 * self.members.len() + 4);
-            let (column, own) = self.basis.reduce(&self.rows[row]);
+            let mut own = self.rows[row].clone();
+            let column = self.basis.reduce(&mut own);
             let shares = self.basis.shares(&column);
             let (length, whole) = (dot(&own, &own), dot(&self.rows[row], &self.rows[row]));
             // A share that is rounding alone would let a row that is one of the members go a way without end.
@@ -243,7 +246,8 @@ impl<'a> ActiveSet<'a> {
     fn polished(self) -> Vec<f64> {
         let mut along: Vec<f64> = self.members.iter().map(|&row| self.bounds[row]).collect();
         self.basis.solve_lower(&mut along);
-        let (_, mut point) = self.basis.reduce(self.start);
+        let mut point = self.start.to_vec();
+        self.basis.reduce(&mut point);
         for (k, value) in point.iter_mut().enumerate() {
             if self.members.iter().all(|&row| self.rows[row][k] == 0.0) {
                 *value = self.start[k];
@@ -288,13 +292,13 @@ impl Basis {
     }
 
     /// Of rows that may depend on each other those that add a direction, in their order.
-    pub fn independent(rows: &[impl AsRef<[f64]>], dependent: f64) -> Self {
+    pub fn independent(rows: impl IntoIterator<Item = Vec<f64>>, dependent: f64) -> Self {
         let mut basis = Self::new();
-        for row in rows {
-            let row = row.as_ref();
-            let (column, own) = basis.reduce(row);
-            if dot(&own, &own).sqrt() > dependent * dot(row, row).sqrt() {
-                basis.add(column, own);
+        for mut row in rows {
+            let whole = dot(&row, &row).sqrt();
+            let column = basis.reduce(&mut row);
+            if dot(&row, &row).sqrt() > dependent * whole {
+                basis.add(column, row);
             }
         }
         basis
@@ -310,20 +314,21 @@ impl Basis {
         self.directions.iter().any(|direction| direction[k] != 0.0)
     }
 
-    /// Parts along the directions, and the rest; orthogonalised twice, which is enough (Kahan, Parlett).
-    pub fn reduce(&self, row: &[f64]) -> (Vec<f64>, Vec<f64>) {
-        let mut rest = row.to_vec();
-        let mut parts = vec![0.0; self.directions.len()];
+    /// Takes the parts along the directions, which it returns; orthogonalised twice, which is enough (Kahan, Parlett).
+    pub fn reduce(&self, row: &mut [f64]) -> Vec<f64> {
+        // One more is added where it becomes a direction.
+        let mut parts = Vec::with_capacity(self.directions.len() + 1);
+        parts.resize(self.directions.len(), 0.0);
         for _ in 0..2 {
             let directions = self.directions.iter().zip(&self.spans);
             for (part, (direction, span)) in parts.iter_mut().zip(directions) {
-                let (rest, direction) = (&mut rest[span.clone()], &direction[span.clone()]);
+                let (rest, direction) = (&mut row[span.clone()], &direction[span.clone()]);
                 let along = dot(rest, direction);
                 *part += along;
                 add_scaled(rest, direction, -along);
             }
         }
-        (parts, rest)
+        parts
     }
 
     /// The same parts as a sum of rows.
@@ -348,8 +353,9 @@ impl Basis {
             return false;
         }
         let size = self.directions.first().map_or(0, Vec::len);
-        let axis: Vec<f64> = (0..size).map(|i| if i == k { 1.0 } else { 0.0 }).collect();
-        let (_, rest) = self.reduce(&axis);
+        let axis = (0..size).map(|i| if i == k { 1.0 } else { 0.0 });
+        let mut rest: Vec<f64> = axis.collect();
+        self.reduce(&mut rest);
         dot(&rest, &rest).sqrt() <= DETERMINED
     }
 

@@ -73,7 +73,7 @@ impl Scaled {
             momenta[1].extend([0.0, m.recip(), 0.0]);
             momenta[2].extend([-arm.y / m, arm.x / m, i.recip()]);
         }
-        Basis::independent(&momenta, 0.0).into_directions()
+        Basis::independent(momenta, 0.0).into_directions()
     }
 
     /// The bodies, moved as little as lets every contact open with at least its wanted speed.

@@ -67,7 +67,14 @@ pub(crate) fn path_of(
             0.0
         });
     }
-    tip(&gathered.bodies, &places, &reaches, contacts, time, speed)
+    tip(
+        gathered.bodies.clone(),
+        places,
+        reaches,
+        contacts,
+        time,
+        speed,
+    )
 }
 
 /// Whether so many bodies turn that they have no path. Touches that are new are in `gathered` alone.

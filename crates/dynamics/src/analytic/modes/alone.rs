@@ -288,8 +288,10 @@ mod tests {
                 };
                 for normal in &face.normals {
                     let lean = -sign * face.friction * face.tangent.length / normal.length;
-                    let both = normal.unit.iter().zip(&face.tangent.unit);
-                    edges.push(both.map(|(n, t)| n + lean * t).collect::<Vec<_>>());
+                    let mut edge = vec![0.0; faces.free.len()];
+                    normal.add_to(&mut edge, 1.0);
+                    face.tangent.add_to(&mut edge, lean);
+                    edges.push(edge);
                 }
             }
             let missing = faces.free.iter().zip(&load.found.state);

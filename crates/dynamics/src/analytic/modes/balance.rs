@@ -33,16 +33,23 @@ pub(super) enum Tangent {
 pub(super) struct Balance {
     /// Scaled accelerations.
     pub(super) state: Vec<f64>,
-    /// In N, for each point.
-    pub(super) normal: Vec<[f64; 2]>,
-    /// In N.
-    pub(super) tangential: Vec<f64>,
-    /// Points that do not open.
-    pub(super) closed: Vec<[bool; 2]>,
-    /// Touches that friction holds.
-    pub(super) sticks: Vec<bool>,
+    /// Of each touch.
+    pub(super) reactions: Vec<Reaction>,
     /// Unknowns that the basis solves for.
     pub(super) basic: Vec<bool>,
+}
+
+/// Forces of a touch, and what they hold.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Reaction {
+    /// In N, for each point.
+    pub(crate) normal: [f64; 2],
+    /// In N.
+    pub(crate) tangential: f64,
+    /// Points that do not open.
+    pub(crate) closed: [bool; 2],
+    /// Whether friction holds it.
+    pub(crate) sticks: bool,
 }
 
 /// An unknown of the problem.
@@ -79,10 +86,9 @@ impl<'a> Problem<'a> {
     pub(super) fn of(faces: &'a Faces, tangents: &'a [Tangent]) -> Result<Self, NotMine> {
         let unknowns = unknowns(faces, tangents);
         let size = faces.free.len();
-        let mut columns = Vec::with_capacity(size * unknowns.len());
-        for unknown in &unknowns {
-            add_column(faces, tangents, *unknown, &mut columns);
-            let column = &columns[columns.len() - size..];
+        let mut columns = vec![0.0; size * unknowns.len()];
+        for (unknown, column) in unknowns.iter().zip(columns.chunks_exact_mut(size)) {
+            add_column(faces, tangents, *unknown, column);
             if let Unknown::Normal { face, point } = *unknown
                 && faces.list[face].normals[point].rate(column) <= 0.0
             {
@@ -116,8 +122,10 @@ impl<'a> Problem<'a> {
 
     pub(super) fn solve(&self) -> Result<Balance, NotMine> {
         let count = self.unknowns.len();
-        let places = (0..count).flat_map(|i| (0..count).map(move |j| (i, j)));
-        let m: Vec<f64> = places.map(|(i, j)| self.entry(i, j)).collect();
+        let mut m = Vec::with_capacity(count * count);
+        for i in 0..count {
+            m.extend((0..count).map(|j| self.entry(i, j)));
+        }
         let slides = |tangent: &Tangent| matches!(tangent, Tangent::Slides(_));
         let failed = if self.tangents.iter().any(slides) {
             NotMine::Painleve
@@ -147,7 +155,7 @@ impl<'a> Problem<'a> {
         let count = self.unknowns.len();
         let held: Vec<usize> = (0..count).filter(|&i| basic[i]).collect();
         let square = held.iter().flat_map(|&i| held.iter().map(move |&j| (i, j)));
-        let entries = square.map(|(i, j)| self.entry(i, j)).collect();
+        let entries = square.map(|(i, j)| self.entry(i, j));
         let factored = Factored::of(held.len(), entries)?;
         if factored.least_pivot() <= f64::EPSILON {
             return None;
@@ -187,8 +195,8 @@ fn unknowns(faces: &Faces, tangents: &[Tangent]) -> Vec<Unknown> {
     unknowns
 }
 
-/// Appends what one unit of an unknown adds to the scaled accelerations.
-fn add_column(faces: &Faces, tangents: &[Tangent], unknown: Unknown, columns: &mut Vec<f64>) {
+/// Adds what one unit of an unknown does to the scaled accelerations.
+fn add_column(faces: &Faces, tangents: &[Tangent], unknown: Unknown, column: &mut [f64]) {
     match unknown {
         Unknown::Normal { face, point } => {
             let Face {
@@ -200,13 +208,11 @@ fn add_column(faces: &Faces, tangents: &[Tangent], unknown: Unknown, columns: &m
                 Tangent::Slides(sign) => -sign * friction * tangent.length / normals[point].length,
                 _ => 0.0,
             };
-            let both = normals[point].unit.iter().zip(&tangent.unit);
-            columns.extend(both.map(|(n, t)| n + along * t));
+            normals[point].add_to(column, 1.0);
+            tangent.add_to(column, along);
         }
-        Unknown::Friction { face, sign } => {
-            columns.extend(faces.list[face].tangent.unit.iter().map(|t| sign * t));
-        }
-        Unknown::Rate { .. } => columns.resize(columns.len() + faces.free.len(), 0.0),
+        Unknown::Friction { face, sign } => faces.list[face].tangent.add_to(column, sign),
+        Unknown::Rate { .. } => {}
     }
 }
 
@@ -249,43 +255,40 @@ fn read(
     z: &[f64],
     (state, sizes): (Vec<f64>, &[f64]),
 ) -> Option<Balance> {
-    let count = faces.list.len();
     let mut found = Balance {
         state,
-        normal: vec![[0.0; 2]; count],
-        tangential: vec![0.0; count],
-        closed: vec![[false; 2]; count],
-        sticks: vec![false; count],
+        reactions: vec![Reaction::default(); faces.list.len()],
         basic: Vec::new(),
     };
     for (unknown, z) in unknowns.iter().zip(z) {
         match *unknown {
             Unknown::Normal { face, point } => {
-                found.normal[face][point] = z / faces.list[face].normals[point].length;
+                found.reactions[face].normal[point] = z / faces.list[face].normals[point].length;
             }
             Unknown::Friction { face, sign } => {
-                found.tangential[face] += sign * z / faces.list[face].tangent.length;
+                found.reactions[face].tangential += sign * z / faces.list[face].tangent.length;
             }
             Unknown::Rate { .. } => {}
         }
     }
-    for (i, face) in faces.list.iter().enumerate() {
-        let limit = face.friction * (found.normal[i][0] + found.normal[i][1]);
-        if let Tangent::Slides(sign) = tangents[i] {
-            found.tangential[i] = -sign * limit;
+    let both = faces.list.iter().zip(tangents);
+    for ((face, tangent), reaction) in both.zip(&mut found.reactions) {
+        let limit = face.friction * (reaction.normal[0] + reaction.normal[1]);
+        if let Tangent::Slides(sign) = tangent {
+            reaction.tangential = -sign * limit;
         }
         for (point, row) in face.normals.iter().enumerate() {
             let (rate, rounding) = (row.growth(&found.state), rounding(row, sizes));
-            if rate < -rounding || (found.normal[i][point] > 0.0 && rate > rounding) {
+            if rate < -rounding || (reaction.normal[point] > 0.0 && rate > rounding) {
                 return None;
             }
-            found.closed[i][point] = rate <= rounding;
+            reaction.closed[point] = rate <= rounding;
         }
-        if tangents[i] == Tangent::Holds {
+        if *tangent == Tangent::Holds {
             let seen = faces.free.iter().zip(&found.state);
             let seen: Vec<f64> = seen.map(|(a, b)| a.abs().max(b.abs())).collect();
             let rounding = rounding_of_arms(&face.tangent, &seen);
-            found.sticks[i] = face.tangent.growth(&found.state).abs() <= rounding;
+            reaction.sticks = face.tangent.growth(&found.state).abs() <= rounding;
         }
     }
     Some(found)
@@ -293,17 +296,17 @@ fn read(
 
 /// What rounding may leave of a row's rate, by the sizes of what it is summed of.
 fn rounding(row: &Row, sizes: &[f64]) -> f64 {
-    let lengths: Vec<f64> = row.unit.iter().map(|x| x.abs()).collect();
-    ROUNDING * (dot(&lengths, sizes) + row.bend.abs())
+    let unit = row.unit.map(f64::abs);
+    ROUNDING * (Row { unit, ..*row }.rate(sizes) + row.bend.abs())
 }
 
 /// The same where arms are rounded, too: a normal force a little off a disc's centre turns it, against a tangent along
 /// which nothing else pulls. A body's sizes count in any direction.
 fn rounding_of_arms(row: &Row, sizes: &[f64]) -> f64 {
     let length = |body: &[f64]| dot(body, body).sqrt();
-    let bodies = row.unit.chunks_exact(3).zip(sizes.chunks_exact(3));
+    let bodies = row.unit.chunks_exact(3).zip(row.places);
     let total: f64 = bodies
-        .map(|(unit, sizes)| length(unit) * length(sizes))
+        .map(|(unit, place)| length(unit) * length(&sizes[3 * place..3 * place + 3]))
         .sum();
     ROUNDING * (total + row.bend.abs())
 }

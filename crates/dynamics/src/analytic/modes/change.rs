@@ -41,7 +41,7 @@ pub(super) fn next(
     let mut first: Option<Change> = None;
     let mut shifts = None;
     for (i, touch) in touches.iter().enumerate() {
-        if !found.closed[i].contains(&true) {
+        if !found.reactions[i].closed.contains(&true) {
             continue;
         }
         let mut offer = |after: f64, cause: Cause| {

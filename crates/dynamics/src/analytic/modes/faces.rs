@@ -15,9 +15,12 @@ use crate::impact::project::Basis;
 const DEPENDENT: f64 = 1e-10;
 
 /// A row of unit length, and the length that it had, in 1/√kg.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Row {
-    pub(super) unit: Vec<f64>,
+    /// Of its two bodies, in the order of the list.
+    pub(super) places: [usize; 2],
+    /// Their numbers; all others are 0.
+    pub(super) unit: [f64; 6],
     pub(super) length: f64,
     /// What velocities alone add to its rate: 0 where the row does not turn.
     pub(super) bend: f64,
@@ -63,38 +66,19 @@ impl Faces {
         found: &Balance,
         slips: &[f64],
     ) -> Vec<BodyMove> {
-        let normals = self
-            .list
-            .iter()
-            .zip(&found.closed)
-            .flat_map(|(face, closed)| {
-                let both = face.normals.iter().zip(closed);
-                both.filter_map(|(row, closed)| closed.then_some(&row.unit))
-            });
-        let mut held: Vec<&[f64]> = normals.map(Vec::as_slice).collect();
-        let mut still = held.clone();
-        for (i, face) in self.list.iter().enumerate() {
-            if face.friction == 0.0 || !found.closed[i].contains(&true) {
-                continue;
-            }
-            if found.sticks[i] {
-                held.push(&face.tangent.unit);
-            }
-            if slips[i] == 0.0 {
-                still.push(&face.tangent.unit);
-            }
-        }
+        let stops = self.stops(found, |i| found.reactions[i].sticks);
         // They differ only where a slip begins.
-        let begins = (still.len() != held.len()).then(|| Stops::of(&still));
-        let stops = Stops::of(&held);
+        let mut rubbing = self.list.iter().zip(slips).zip(&found.reactions);
+        let begins = rubbing.any(|((face, slip), reaction)| {
+            face.friction > 0.0 && *slip == 0.0 && !reaction.sticks
+        });
+        let begins = begins.then(|| self.stops(found, |i| slips[i] == 0.0));
         // What closed rows and held friction do is what they stop, so only slipping friction is summed.
         let mut accelerations = self.free.clone();
-        for (i, face) in self.list.iter().enumerate() {
-            if !found.sticks[i] && found.tangential[i] != 0.0 {
-                let pull = found.tangential[i] * face.tangent.length;
-                for (x, t) in accelerations.iter_mut().zip(&face.tangent.unit) {
-                    *x += pull * t;
-                }
+        for (face, reaction) in self.list.iter().zip(&found.reactions) {
+            if !reaction.sticks && reaction.tangential != 0.0 {
+                let pull = reaction.tangential * face.tangent.length;
+                face.tangent.add_to(&mut accelerations, pull);
             }
         }
         stops.apply(&mut accelerations);
@@ -138,6 +122,20 @@ impl Faces {
         };
         bodies.iter().enumerate().map(one).collect()
     }
+
+    /// What closed points stop, and friction of the faces that it holds.
+    fn stops(&self, found: &Balance, holds: impl Fn(usize) -> bool) -> Stops {
+        let all = || self.list.iter().zip(&found.reactions);
+        let normals = all().flat_map(|(face, reaction)| {
+            let both = face.normals.iter().zip(reaction.closed);
+            both.filter_map(|(row, closed)| closed.then_some(*row))
+        });
+        let tangents = all().enumerate().filter_map(|(i, (face, reaction))| {
+            let rubs = face.friction > 0.0 && reaction.closed.contains(&true);
+            (rubs && holds(i)).then_some(face.tangent)
+        });
+        Stops::of(normals.chain(tangents), self.free.len())
+    }
 }
 
 /// Of infinite mass, and on the move.
@@ -160,27 +158,41 @@ fn kept_one(given: f64, found: f64) -> f64 {
 
 impl Row {
     fn new(bodies: &[ModeBody], ends: (usize, usize), point: Vec2, along: Vec2) -> Self {
-        let mut unit = vec![0.0; 3 * bodies.len()];
-        for (place, sign) in [(ends.0, -1.0), (ends.1, 1.0)] {
+        let mut ends = [(ends.0, -1.0), (ends.1, 1.0)];
+        ends.sort_unstable_by_key(|(place, _)| *place);
+        let mut unit = [0.0; 6];
+        for (to, (place, sign)) in unit.chunks_exact_mut(3).zip(ends) {
             let body = &bodies[place];
             let (m, i) = (body.inverse_mass.sqrt(), body.inverse_inertia.sqrt());
-            unit[3 * place] = sign * along.x * m;
-            unit[3 * place + 1] = sign * along.y * m;
-            unit[3 * place + 2] = sign * cross(point - body.centre, along) * i;
+            to[0] = sign * along.x * m;
+            to[1] = sign * along.y * m;
+            to[2] = sign * cross(point - body.centre, along) * i;
         }
         let length = dot(&unit, &unit).sqrt();
         if length > 0.0 {
-            unit.iter_mut().for_each(|x| *x /= length);
+            unit = unit.map(|x| x / length);
         }
         Self {
+            places: ends.map(|(place, _)| place),
             unit,
             length,
             bend: 0.0,
         }
     }
 
+    /// Its numbers, and where they stand in a state.
+    fn numbers(&self) -> impl Iterator<Item = (usize, f64)> {
+        (0..6).map(|k| (3 * self.places[k / 3] + k % 3, self.unit[k]))
+    }
+
     pub(super) fn rate(&self, state: &[f64]) -> f64 {
-        dot(&self.unit, state)
+        self.numbers().map(|(k, x)| x * state[k]).sum()
+    }
+
+    pub(super) fn add_to(&self, state: &mut [f64], factor: f64) {
+        for (k, x) in self.numbers() {
+            state[k] += factor * x;
+        }
     }
 
     /// [`Self::rate`] of accelerations, with what velocities add.
@@ -214,21 +226,17 @@ pub(super) fn held(
     touches: &[&Touch],
     sticks: impl Fn(&Touch) -> bool,
 ) -> Vec<(Vec2, f64)> {
-    let rows: Vec<Vec<f64>> = touches
-        .iter()
-        .flat_map(|touch| {
-            let row = |point: &Vec2, along| Row::new(bodies, touch.bodies, *point, along).unit;
-            let normals = touch
-                .points
-                .iter()
-                .map(move |point| row(point, touch.normal));
-            let held = touch.points.iter().take(usize::from(sticks(touch)));
-            normals.chain(held.map(move |point| row(point, perp(touch.normal))))
-        })
-        .collect();
-    let rows: Vec<&[f64]> = rows.iter().map(Vec::as_slice).collect();
+    let rows = touches.iter().flat_map(|touch| {
+        let row = |point: &Vec2, along| Row::new(bodies, touch.bodies, *point, along);
+        let normals = touch
+            .points
+            .iter()
+            .map(move |point| row(point, touch.normal));
+        let held = touch.points.iter().take(usize::from(sticks(touch)));
+        normals.chain(held.map(move |point| row(point, perp(touch.normal))))
+    });
     let mut state = scaled(bodies, |body| (body.velocity, body.spin));
-    Stops::of(&rows).apply(&mut state);
+    Stops::of(rows, state.len()).apply(&mut state);
     let unscaled = |(k, body): (usize, &ModeBody)| {
         let (m, i) = (body.inverse_mass.sqrt(), body.inverse_inertia.sqrt());
         let velocity = vec2(state[3 * k] * m, state[3 * k + 1] * m);
@@ -245,9 +253,13 @@ struct Stops {
 }
 
 impl Stops {
-    fn of(rows: &[&[f64]]) -> Self {
-        let basis = Basis::independent(rows, DEPENDENT);
-        let size = rows.first().map_or(0, |row| row.len());
+    fn of(rows: impl Iterator<Item = Row>, size: usize) -> Self {
+        let whole = rows.map(|row| {
+            let mut whole = vec![0.0; size];
+            row.add_to(&mut whole, 1.0);
+            whole
+        });
+        let basis = Basis::independent(whole, DEPENDENT);
         let determined = (0..size).map(|k| basis.touches(k).then(|| basis.determines(k)));
         Self {
             determined: determined.collect(),
@@ -258,13 +270,12 @@ impl Stops {
     /// Takes out what the rows stop; a coordinate that nothing is left of is exactly 0, and so is one with less than
     /// the rounding of a rounding.
     fn apply(&self, state: &mut [f64]) {
-        let (_, rest) = self.basis.reduce(state);
         let size = state.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
         let none = f64::EPSILON * f64::EPSILON * size;
-        for ((to, rest), determined) in state.iter_mut().zip(rest).zip(&self.determined) {
-            if let Some(determined) = determined {
-                let stopped = *determined || rest.abs() <= none;
-                *to = if stopped { 0.0 } else { rest };
+        self.basis.reduce(state);
+        for (rest, determined) in state.iter_mut().zip(&self.determined) {
+            if determined.is_some_and(|determined| determined || rest.abs() <= none) {
+                *rest = 0.0;
             }
         }
     }

@@ -24,7 +24,7 @@ use crate::ContactMode;
 use crate::model::approach::{CLOSED, RigidState};
 use crate::model::edges::Feature;
 use crate::model::graph::ROWS;
-use balance::{Balance, Tangent, balance};
+use balance::{Balance, Reaction, Tangent, balance};
 use faces::Faces;
 
 /// Slip below this part of the speeds that it is the difference of is none.
@@ -188,16 +188,12 @@ pub(crate) fn solve_modes(
 /// How an island with rows that turn begins to move.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Begun {
-    /// Points that do not open.
-    pub(crate) closed: Vec<[bool; 2]>,
-    /// Touches that friction holds.
-    pub(crate) sticks: Vec<bool>,
+    /// Of each touch.
+    pub(crate) reactions: Vec<Reaction>,
     /// Exactly 0 where they are no more than rounding, in m/s.
     pub(crate) slips: Vec<f64>,
-    /// In N.
-    pub(crate) tangential: Vec<f64>,
-    /// What was given, without the roundings against the rows, in m/s and rad/s.
-    pub(crate) velocities: Vec<(Vec2, f64)>,
+    /// Of each body.
+    pub(crate) moves: Vec<BodyMove>,
 }
 
 /// Modes at an instant of an island with rows that turn; `bends` is what velocities add to the rates of each touch's
@@ -224,14 +220,9 @@ pub(crate) fn begin(
     let found = balance(&faces, &tangents(touches, &slips))?;
     let moves = faces.moves(bodies, &found, &slips);
     Ok(Begun {
-        closed: found.closed,
-        sticks: found.sticks,
+        reactions: found.reactions,
         slips,
-        tangential: found.tangential,
-        velocities: moves
-            .iter()
-            .map(|body| (body.velocity, body.spin))
-            .collect(),
+        moves,
     })
 }
 
@@ -317,8 +308,8 @@ fn turns(bodies: &[ModeBody], touches: &[Touch], speed: f64) -> bool {
 
 /// Whether the rows of all closed touches keep their numbers, as far as accelerations feel them.
 fn rows_stay(touches: &[Touch], moves: &[BodyMove], found: &Balance) -> Result<(), NotMine> {
-    for (touch, closed) in touches.iter().zip(&found.closed) {
-        if !closed.contains(&true) {
+    for (touch, reaction) in touches.iter().zip(&found.reactions) {
+        if !reaction.closed.contains(&true) {
             continue;
         }
         let (a, b) = touch.bodies;
@@ -346,7 +337,7 @@ fn touch_move(
     slips: &[f64],
     i: usize,
 ) -> TouchMove {
-    let touch = &touches[i];
+    let (touch, reaction) = (&touches[i], &found.reactions[i]);
     let (a, b) = (&moves[touch.bodies.0], &moves[touch.bodies.1]);
     let still = |body: &BodyMove| *body == BodyMove::default();
     let round = |(place, feature): (usize, Feature)| {
@@ -357,9 +348,9 @@ fn touch_move(
         (touch.bodies.0, touch.features.0),
         (touch.bodies.1, touch.features.1),
     ];
-    let mode = if !found.closed[i].contains(&true) {
+    let mode = if !reaction.closed.contains(&true) {
         ContactMode::Open
-    } else if slips[i] != 0.0 || slip_rate(bodies, touch, moves) != 0.0 && !found.sticks[i] {
+    } else if slips[i] != 0.0 || slip_rate(bodies, touch, moves) != 0.0 && !reaction.sticks {
         ContactMode::Slide
     } else if ends.into_iter().any(round) {
         ContactMode::Roll
@@ -370,8 +361,8 @@ fn touch_move(
     };
     TouchMove {
         mode,
-        normal: found.normal[i],
-        tangential: found.tangential[i],
+        normal: reaction.normal,
+        tangential: reaction.tangential,
         slip: slips[i],
     }
 }

@@ -40,8 +40,9 @@ pub(super) fn rest(
             };
             for &sign in signs {
                 let along = sign * face.friction * face.tangent.length;
-                let both = normal.unit.iter().zip(&face.tangent.unit);
-                let mut edge: Vec<f64> = both.map(|(n, t)| normal.length * n + along * t).collect();
+                let mut edge = vec![0.0; faces.free.len()];
+                normal.add_to(&mut edge, normal.length);
+                face.tangent.add_to(&mut edge, along);
                 let length = dot(&edge, &edge).sqrt();
                 edge.iter_mut().for_each(|x| *x /= length);
                 edges.push(edge);

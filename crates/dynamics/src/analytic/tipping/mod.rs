@@ -115,9 +115,9 @@ impl Tip {
         for (body, place) in bodies.iter_mut().zip(&places) {
             (body.centre, body.velocity, body.spin) = (place.centre, place.velocity, place.spin);
         }
-        let contacts = self.equations.contacts.clone();
+        let (reaches, contacts) = (self.reaches.clone(), self.equations.contacts.clone());
         let start = self.path.start() + self.after;
-        let next = tip(&bodies, &places, &self.reaches, contacts, start, speed).ok()?;
+        let next = tip(bodies, places, reaches, contacts, start, speed).ok()?;
         (next.equations.holds == self.equations.holds).then_some(next)
     }
 
@@ -180,9 +180,9 @@ impl Tip {
 /// The given velocities may be roundings of speeds up to `speed`, in m/s; `reaches` are those of the bodies, in m, and
 /// 0 of those of infinite mass.
 pub(crate) fn tip(
-    bodies: &[ModeBody],
-    places: &[Place],
-    reaches: &[f64],
+    mut bodies: Vec<ModeBody>,
+    mut places: Vec<Place>,
+    reaches: Vec<f64>,
     contacts: Vec<Contact>,
     start: SimTime,
     speed: f64,
@@ -191,16 +191,14 @@ pub(crate) fn tip(
     if contacts.iter().map(rows).sum::<usize>() > ROWS {
         return Err(NotMine::TooLarge);
     }
-    let mut bodies = bodies.to_vec();
-    let mut places = places.to_vec();
-    let (holds, velocities) = modes(&bodies, &places, &contacts, speed)?;
+    let (holds, moves) = modes(&bodies, &places, &contacts, speed)?;
     let mut fastest = speed;
-    for ((place, body), (velocity, spin)) in places.iter_mut().zip(&mut bodies).zip(velocities) {
-        (place.velocity, place.spin) = (velocity, spin);
-        (body.velocity, body.spin) = (velocity, spin);
-        fastest = fastest.max(velocity.length());
+    for ((place, body), moved) in places.iter_mut().zip(&mut bodies).zip(moves) {
+        (place.velocity, place.spin) = (moved.velocity, moved.spin);
+        (body.velocity, body.spin) = (moved.velocity, moved.spin);
+        fastest = fastest.max(moved.velocity.length());
     }
-    let moving = bodies.iter().zip(reaches);
+    let moving = bodies.iter().zip(&reaches);
     let moving = moving.filter(|(body, _)| body.inverse_mass > 0.0);
     let size = moving
         .map(|(_, reach)| *reach)
@@ -211,10 +209,10 @@ pub(crate) fn tip(
         holds,
     };
     for _ in 0..TRIES {
-        let swing = swing(&equations, &places, reaches, start, size);
+        let swing = swing(&equations, &places, &reaches, start, size);
         let found = match swing {
             Some(found) => Some(found),
-            None => follow(&equations, &places, reaches, start, (size, fastest)),
+            None => follow(&equations, &places, &reaches, start, (size, fastest)),
         };
         let Some((path, end)) = found else {
             // A touch that fades while it slides has no path of its own: it opens.
@@ -252,7 +250,7 @@ pub(crate) fn tip(
         return Ok(Tip {
             path: Arc::new(path),
             equations,
-            reaches: reaches.to_vec(),
+            reaches,
             after,
             ends,
         });
@@ -318,7 +316,7 @@ fn amend(equations: &mut Equations, limit: Limit) -> Result<(), NotMine> {
 }
 
 /// Modes by the complementarity problem of this instant, and the velocities without the roundings against them.
-type Modes = (Vec<Hold>, Vec<(Vec2, f64)>);
+type Modes = (Vec<Hold>, Vec<BodyMove>);
 
 fn modes(
     bodies: &[ModeBody],
@@ -347,18 +345,18 @@ fn modes(
     }
     let begun = begin(bodies, &touches, &bends, speed)?;
     let hold = |(i, touch): (usize, &Touch)| Hold {
-        closed: begun.closed[i],
+        closed: begun.reactions[i].closed,
         over: [false; 2],
         rub: if touch.friction == 0.0 {
             Rub::Smooth
-        } else if begun.sticks[i] {
+        } else if begun.reactions[i].sticks {
             Rub::Sticks
         } else if begun.slips[i] != 0.0 {
             Rub::Slides(begun.slips[i].signum())
         } else {
-            Rub::Slides(-begun.tangential[i].signum())
+            Rub::Slides(-begun.reactions[i].tangential.signum())
         },
     };
     let holds = touches.iter().enumerate().map(hold).collect();
-    Ok((holds, begun.velocities))
+    Ok((holds, begun.moves))
 }

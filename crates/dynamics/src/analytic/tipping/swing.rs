@@ -153,7 +153,8 @@ impl<'a> Pivot<'a> {
             edge_turns: false,
         };
         let point = self.point;
-        let mut list = vec![of_force(normal, Limit::Press { contact, point })];
+        let mut list = Vec::with_capacity(8);
+        list.push(of_force(normal, Limit::Press { contact, point }));
         for sign in [-1.0, 1.0] {
             let grip = normal * of.friction + tangential * sign;
             list.push(of_force(grip, Limit::Grip { contact, sign }));

@@ -74,13 +74,13 @@ fn run(start: Place, friction: f64, seconds: f64) -> (Place, Vec<(f64, Tip)>) {
     let mut place = start;
     let (mut now, mut found) = (0.0, Vec::new());
     while now < seconds {
-        let bodies = [floor_body, body(1.0, 1.0 / 3.0, &place)];
+        let bodies = vec![floor_body, body(1.0, 1.0 / 3.0, &place)];
         let contacts = vec![on_floor(vec2(0.0, -1.0), friction)];
-        let places = [floor_place, place];
+        let places = vec![floor_place, place];
         let tip = tip(
-            &bodies,
-            &places,
-            &[0.0, 1.0],
+            bodies,
+            places,
+            vec![0.0, 1.0],
             contacts,
             SimTime::from_secs(now),
             1.0,
@@ -193,12 +193,12 @@ fn a_disc_leaves_a_disc_where_the_textbook_says() {
             }]),
             friction: 0.0,
         };
-        let bodies = [floor_body, body(2.0, 0.25, &place)];
+        let bodies = vec![floor_body, body(2.0, 0.25, &place)];
         let time = SimTime::from_secs(now);
         let tip = tip(
-            &bodies,
-            &[floor_place, place],
-            &[0.0, 0.5],
+            bodies,
+            vec![floor_place, place],
+            vec![0.0, 0.5],
             vec![contact],
             time,
             1.0,
