@@ -171,12 +171,17 @@ impl Gathered {
 
 fn mode_body(bodies: &Bodies, state: &BodyState, time: SimTime) -> ModeBody {
     let dynamic = state.is_dynamic();
+    let RigidState {
+        centre,
+        velocity,
+        spin,
+    } = RigidState::of(state, time);
     ModeBody {
         inverse_mass: state.inverse_mass,
         inverse_inertia: state.inverse_inertia,
-        centre: state.centre_at(time),
-        velocity: state.velocity_at(time),
-        spin: state.spin_at(time),
+        centre,
+        velocity,
+        spin,
         pull: if dynamic {
             state.gravity_scale() * bodies.pull.gravity + state.force() * state.inverse_mass
         } else {

@@ -19,11 +19,19 @@ pub(crate) struct RigidState {
 }
 
 impl RigidState {
+    /// A law of flight costs elliptic functions, or a sum of polynomials: it is asked once.
     pub(crate) fn of(state: &BodyState, time: SimTime) -> Self {
+        let (centre, velocity, spin) = if let Some(flight) = &state.flight {
+            let (centre, velocity, _, spin) = flight.all_at(time);
+            (centre, velocity, spin)
+        } else {
+            let (centre, velocity) = (state.centre_at(time), state.velocity_at(time));
+            (centre, velocity, state.spin_at(time))
+        };
         Self {
-            centre: state.centre_at(time),
-            velocity: state.velocity_at(time),
-            spin: state.spin_at(time),
+            centre,
+            velocity,
+            spin,
         }
     }
 

@@ -37,41 +37,32 @@ impl Narrow {
         h: f64,
     ) {
         let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
-        let apart = b.centre_at(time) - a.centre_at(time);
-        let near = a.reach + b.reach + margin(a, b, time, h);
-        if apart.length_squared() > near * near {
+        let (from, to) = (RigidState::of(a, time), RigidState::of(b, time));
+        let closing =
+            (to.velocity - from.velocity).length() + rim_speed(a, time) + rim_speed(b, time);
+        let margin = MARGIN * a.reach.min(b.reach) + h * closing;
+        let near = a.reach + b.reach + margin;
+        if (to.centre - from.centre).length_squared() > near * near {
             pair.contacts = Vec::new();
             pair.touching = false;
             pair.buried = false;
             return;
         }
-        pair.contacts = self.contacts(bodies, colliders, pair, time, h);
-        note_touch(bodies, colliders, pair, time, h);
-    }
-
-    /// The contacts of a pair at `time`, of all that may touch within `h` seconds; impulses go over by feature.
-    pub(crate) fn contacts(
-        &mut self,
-        bodies: &Bodies,
-        colliders: &[Collider],
-        pair: &Pair,
-        time: SimTime,
-        h: f64,
-    ) -> Vec<PairContact> {
-        let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
-        // Rotations cost more than all that a look asks before.
+        // Rotations cost more than all that is asked before.
         let (pose_a, pose_b) = (a.centre_pose(time), b.centre_pose(time));
         self.found.clear();
         contacts(
             &colliders[pair.colliders.0 as usize].solid,
             &colliders[pair.colliders.1 as usize].solid,
             pose_b.seen_from(pose_a),
-            margin(a, b, time, h),
+            margin,
             &mut self.found,
         );
+        // Impulses go over by feature.
         let found = self.found.iter();
         let carried = found.map(|new| carried(new, pose_a, &pair.contacts));
-        carried.collect()
+        pair.contacts = carried.collect();
+        note_touch(bodies, colliders, pair, time, h);
     }
 }
 
@@ -95,11 +86,6 @@ pub(crate) fn note_touch(
     if pair.touching {
         pair.turning_rest = turning_rest(bodies, colliders, pair, time, h);
     }
-}
-
-/// How far from touch contacts are looked for, for `h` seconds, in m.
-fn margin(a: &BodyState, b: &BodyState, time: SimTime, h: f64) -> f64 {
-    MARGIN * a.reach.min(b.reach) + h * closing_bound(a, b, time)
 }
 
 /// The largest [`Spot::turning_rest`] of all touches of a pair, in m/s.
@@ -152,11 +138,6 @@ pub(crate) fn carried(new: &PartManifold, pose_a: Pose, old: &[PairContact]) -> 
         points,
         tangent_impulse: kept.map_or(0.0, |contact| contact.tangent_impulse),
     }
-}
-
-/// Fastest that any two points of the bodies can approach, in m/s.
-fn closing_bound(a: &BodyState, b: &BodyState, time: SimTime) -> f64 {
-    (b.velocity_at(time) - a.velocity_at(time)).length() + rim_speed(a, time) + rim_speed(b, time)
 }
 
 /// Fastest that a point of the body moves about its centre, in m/s.

@@ -1,11 +1,12 @@
 //! How hard two bodies press where they touch: by what moves them, and by turning alone.
 
-use carom_collision::{Hull, Motion, Side, part};
+use carom_collision::{Motion, Side, part};
 use carom_geometry::Shape;
-use carom_math::{SimTime, Vec2, cross_scalar, perp};
+use carom_math::{SimTime, Vec2, perp};
 
 use super::edges::{Feature, feature};
 use super::gap::{Touching, gap_acceleration};
+use super::narrow::opening_speed;
 use crate::store::bodies::Bodies;
 use crate::store::pairs::{Pair, PairContact};
 use crate::store::state::{BodyState, Collider};
@@ -63,8 +64,7 @@ impl Spot<'_> {
     /// than [`STEADY`], and in less than four sub-steps of `h` seconds, in m/s; 0 where turning does not press.
     pub(crate) fn turning_rest(&self, time: SimTime, h: f64) -> f64 {
         let (a, b) = self.bodies;
-        let spins = (a.spin_at(time), b.spin_at(time));
-        let fastest = spins.0.abs().max(spins.1.abs());
+        let fastest = a.spin_at(time).abs().max(b.spin_at(time).abs());
         if fastest == 0.0 {
             return 0.0;
         }
@@ -74,49 +74,35 @@ impl Spot<'_> {
             angular_acceleration: 0.0,
             ..state.at(time)
         };
-        let press = self.press_of([a, b].map(unforced), time);
-        let of = |state: &BodyState, spin: f64| {
-            state.velocity_at(time) + cross_scalar(spin, self.point - state.centre_at(time))
-        };
-        let slip = (of(b, spins.1) - of(a, spins.0)).dot(perp(self.normal));
+        let press = self.press_of([unforced(a), unforced(b)], time);
+        if press <= 0.0 {
+            return 0.0;
+        }
+        let slip = opening_speed(a, b, time, self.point, perp(self.normal));
         let size = a.reach.min(b.reach);
         let wait = STEADY / (fastest + slip.abs() / size);
-        let speed = press.max(0.0) * wait.min(2.0 * h);
+        let speed = press * wait.min(2.0 * h);
         // Until the solver holds the pair, it goes on closing.
         speed.min(STEADY * size / h)
     }
 
     fn press_of(&self, motions: [Motion; 2], time: SimTime) -> f64 {
-        let face = if self.is_edge(0, time) {
+        let hull = |k: usize, at: u32| part(self.solids[k], at as usize);
+        let hulls = [hull(0, self.parts.0), hull(1, self.parts.1)];
+        // Whether an edge of one of the two lies along the contact.
+        let is_edge = |k: usize, outward: Vec2| {
+            let pose = motions[k].pose_at(time);
+            let found = feature(&hulls[k], pose, outward, self.normal, self.point);
+            matches!(found, Feature::Edge { .. })
+        };
+        let face = if is_edge(0, self.normal) {
             Some(Side::A)
-        } else if self.is_edge(1, time) {
+        } else if is_edge(1, -self.normal) {
             Some(Side::B)
         } else {
             None
         };
-        let of = |k: usize| Touching::of(&motions[k], &self.hull(k), self.point, time);
-        let (a, b) = (of(0), of(1));
-        -gap_acceleration(&a, &b, self.normal, face)
-    }
-
-    fn hull(&self, k: usize) -> Hull<'_> {
-        let at = if k == 0 { self.parts.0 } else { self.parts.1 };
-        part(self.solids[k], at as usize)
-    }
-
-    /// Whether an edge of one of the two lies along the contact.
-    fn is_edge(&self, k: usize, time: SimTime) -> bool {
-        let (state, outward) = match k {
-            0 => (self.bodies.0, self.normal),
-            _ => (self.bodies.1, -self.normal),
-        };
-        let found = feature(
-            &self.hull(k),
-            state.centre_pose(time),
-            outward,
-            self.normal,
-            self.point,
-        );
-        matches!(found, Feature::Edge { .. })
+        let of = |k: usize| Touching::of(&motions[k], &hulls[k], self.point, time);
+        -gap_acceleration(&of(0), &of(1), self.normal, face)
     }
 }
