@@ -53,12 +53,9 @@ impl Clock {
             reason = "the cast saturates; time is not negative"
         )]
         let near = (time.as_secs() / self.h) as u64;
-        let mut begun = near.saturating_sub(2);
-        while SimTime::multiple(begun, self.h) < time {
-            begun += 1;
-        }
-        if begun > self.begun {
-            self.begun = begun;
+        self.begun = self.begun.max(near.saturating_sub(2));
+        while self.next() < time {
+            self.begun += 1;
         }
     }
 
