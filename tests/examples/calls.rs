@@ -15,12 +15,13 @@ use carom_dynamics::Mode;
 use carom_tests::checks::Fault;
 use carom_tests::scripts::{End, play};
 
-const CLASSES: [&str; 6] = [
+const CLASSES: [&str; 7] = [
     "over the time limit",
     "escapes",
     "missed, and called exact",
     "gains of energy",
     "losses of momentum",
+    "standstills",
     "panics",
 ];
 
@@ -82,11 +83,12 @@ fn first_fault(mode: Mode, seed: u64, limit: Duration) -> Option<(usize, String)
                 Fault::Missed(_) => 2,
                 Fault::Gain(_) => 3,
                 Fault::Momentum(_) => 4,
+                Fault::Stands(_) => 5,
             };
             Some((class, format!("call {call}: {fault:?}")))
         }
         Ok(End::Stopped) => Some((0, "stopped".to_owned())),
-        Err(RecvTimeoutError::Disconnected) => Some((5, "it panicked".to_owned())),
+        Err(RecvTimeoutError::Disconnected) => Some((6, "it panicked".to_owned())),
         Err(RecvTimeoutError::Timeout) => {
             // Between two calls it listens.
             stop.store(true, Ordering::Relaxed);

@@ -26,6 +26,30 @@ pub enum Fault {
     Gain(String),
     /// Momentum went nowhere.
     Momentum(String),
+    /// Time goes on no more.
+    Stands(String),
+}
+
+/// So many steps at one instant are too many: a body that a paddle squeezes may use up the work of some.
+const MOST: usize = 16;
+
+/// Steps in a row that ended where they began: nothing breaks another law in a world that stands still.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Standing(usize);
+
+impl Standing {
+    /// Counts a step of some length.
+    ///
+    /// # Errors
+    /// If too many in a row did not go on.
+    pub fn after(&mut self, world: &World, report: &StepReport) -> Result<(), Fault> {
+        self.0 = if report.advanced > 0.0 { 0 } else { self.0 + 1 };
+        if self.0 < MOST {
+            return Ok(());
+        }
+        let now = world.time().as_secs();
+        Err(Fault::Stands(format!("stands at {now} s: {report:?}")))
+    }
 }
 
 /// All overlaps of bodies of which one moves: the pairs, and how deep in m.

@@ -12,7 +12,7 @@ use carom_dynamics::{
 use carom_geometry::HalfPlane;
 use carom_math::{SimTime, Vec2, vec2};
 
-use crate::checks::{self, Closed, Fault, Moment};
+use crate::checks::{self, Closed, Fault, Moment, Standing};
 use crate::draw::{self, Dice};
 
 /// How a script ended.
@@ -46,6 +46,7 @@ struct Script {
     at_event: bool,
     /// Reports of steps and when they ended: a sub-step may have begun in any of the last tick.
     reports: Vec<(SimTime, StepReport)>,
+    standing: Standing,
 }
 
 /// Plays a script of 60 calls; `stop` is asked before each.
@@ -91,6 +92,7 @@ impl Script {
             size,
             at_event: false,
             reports: Vec::new(),
+            standing: Standing::default(),
         };
         script.fill();
         script
@@ -244,6 +246,9 @@ impl Script {
         } else {
             self.world.step(dt)
         };
+        if !self.at_event && dt > 0.0 {
+            self.standing.after(&self.world, &now)?;
+        }
         self.reports.push((self.world.time(), now));
         let mut report = StepReport::default();
         for (_, part) in &self.reports {
