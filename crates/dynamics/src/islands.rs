@@ -44,7 +44,7 @@ impl World {
                 && !state.is_asleep()
                 && !state.in_engine()
                 && !state.membership.is_closed()
-                && (joins.contains(&true) || state.membership.waits(time).is_none())
+                && (joins.contains(&true) || !state.membership.has_failed(time))
             {
                 self.solve_modes_around(index, time, 0.0, Looks::Fresh);
             }
@@ -180,7 +180,7 @@ impl World {
     pub(crate) fn solve_modes_of(&mut self, members: &[u32], time: SimTime, speed: f64) {
         if self.stalls(members, time) {
             // Solved for again at this instant it would go on in circles.
-            self.wait_around(members, time);
+            self.fail(members, time);
         } else {
             for &index in members {
                 if !self.bodies.get(index).membership.is_closed() {
@@ -220,7 +220,7 @@ impl World {
     fn solve_modes_around(&mut self, index: u32, time: SimTime, speed: f64, looks: Looks) {
         self.report.modes_solved += 1;
         let mut found = self.gather_touching(index, time, looks);
-        while let Err(Refused { seen, .. }) = &found {
+        while let Err(Refused(seen)) = &found {
             let leaves = |index: &u32| {
                 let state = self.bodies.get(*index);
                 state.rests_analytically() || state.moves_analytically()
@@ -235,17 +235,11 @@ impl World {
         }
         let mut gathered = match found {
             Ok(gathered) => gathered,
-            Err(Refused { seen, until }) => {
+            Err(Refused(seen)) => {
                 for &index in &seen {
                     self.dissolve(self.bodies.get(index).membership.group, time);
                 }
-                let Some(until) = until else {
-                    return self.wait_around(&seen, time);
-                };
-                for &index in &seen {
-                    self.bodies.get_mut(index).membership.wait_until(until);
-                }
-                return;
+                return self.fail(&seen, time);
             }
         };
         let mut speed = speed;
@@ -263,13 +257,13 @@ impl World {
             return;
         }
         if gathered.closing > gathered.rest {
-            return self.wait_around(&gathered.dynamic(), time);
+            return self.fail(&gathered.dynamic(), time);
         }
         let arrived = (gathered.closing > 0.0).then(|| gathered.clone());
         if gathered.closing > 0.0 {
             match land(&gathered.bodies, &gathered.touches) {
                 Ok(landed) => gathered.landed(&landed),
-                Err(_) => return self.wait_around(&gathered.dynamic(), time),
+                Err(_) => return self.fail(&gathered.dynamic(), time),
             }
         }
         // What is slower than rest by all digits is still.
@@ -307,7 +301,7 @@ impl World {
                     {
                         self.end_rocking(arrived, &gathered, time, speed);
                     }
-                    Err(_) => self.wait_around(&gathered.dynamic(), time),
+                    Err(_) => self.fail(&gathered.dynamic(), time),
                 }
             }
         }
@@ -386,18 +380,17 @@ impl World {
         gathered.stand(landed);
         match solve_modes(&gathered.bodies, &gathered.touches, speed) {
             Ok(moves) => self.close(&gathered, &moves, time, speed),
-            Err(_) => self.wait_around(&gathered.dynamic(), time),
+            Err(_) => self.fail(&gathered.dynamic(), time),
         }
     }
 
-    /// A mode solve failed: the next one is later, and later each time.
-    fn wait_around(&mut self, members: &[u32], time: SimTime) {
+    /// A mode solve failed: none is made again at this instant, unless something happens.
+    fn fail(&mut self, members: &[u32], time: SimTime) {
         self.charge(members, time);
         for &index in members {
-            let h = self.clock.h;
             let membership = &mut self.bodies.get_mut(index).membership;
             if !membership.is_closed() {
-                membership.wait(time, h);
+                membership.fail(time);
             }
         }
     }

@@ -24,14 +24,9 @@ pub(crate) enum Looks {
     Old,
 }
 
-/// No group for closed forms.
+/// No group for closed forms: the dynamic bodies that were seen.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Refused {
-    /// Dynamic bodies that were seen.
-    pub(crate) seen: Vec<u32>,
-    /// One of them waits so long.
-    pub(crate) until: Option<SimTime>,
-}
+pub(crate) struct Refused(pub(crate) Vec<u32>);
 
 /// All that hangs together by touch around a body.
 #[derive(Clone, Debug, Default)]
@@ -62,10 +57,7 @@ impl Gathered {
     }
 
     fn refused(&self) -> Refused {
-        Refused {
-            seen: self.dynamic(),
-            until: None,
-        }
+        Refused(self.dynamic())
     }
 
     /// Velocities after a landing; what opens then is let go.
@@ -206,7 +198,7 @@ impl Around<'_> {
     ///
     /// # Errors
     /// If these are too many for closed forms, or a body is asleep, penetrates another by more than
-    /// rounding, or waits after a mode solve that failed.
+    /// rounding, or a mode solve of it failed at this instant.
     pub(crate) fn gather(
         &mut self,
         index: u32,
@@ -231,11 +223,8 @@ impl Around<'_> {
                 return Err(found.refused());
             }
             let pairs = state.pairs.clone();
-            if let Some(until) = self.neighbour_waits(index, &pairs, time) {
-                return Err(Refused {
-                    until: Some(until),
-                    ..found.refused()
-                });
+            if self.touches_failed(&pairs, index, time) {
+                return Err(found.refused());
             }
             for place in pairs {
                 if looked.contains(&place) {
@@ -254,11 +243,13 @@ impl Around<'_> {
         Ok(found)
     }
 
-    /// Until when a body in contact with this one waits after a mode solve that failed.
-    fn neighbour_waits(&self, index: u32, pairs: &[u32], time: SimTime) -> Option<SimTime> {
+    /// Whether a mode solve of a body in contact with this one failed at this instant.
+    fn touches_failed(&self, pairs: &[u32], index: u32, time: SimTime) -> bool {
         let near = pairs.iter().map(|place| self.pairs.get(*place));
-        near.filter(|pair| pair.touching)
-            .find_map(|pair| self.bodies.get(pair.other(index)).membership.waits(time))
+        let mut others = near
+            .filter(|pair| pair.touching)
+            .map(|pair| pair.other(index));
+        others.any(|other| self.bodies.get(other).membership.has_failed(time))
     }
 
     /// Adds the touches of a pair; returns how many rows they have.
