@@ -336,7 +336,8 @@ impl Piece {
                 let (reach, extent) = if half_plane {
                     (f64::INFINITY, f64::INFINITY)
                 } else {
-                    (reach, extent(&hull) + 2.0 * rounding)
+                    let (width, least) = widths(&hull);
+                    (reach, width.max(least) + 2.0 * rounding)
                 };
                 Self {
                     body,
@@ -365,10 +366,15 @@ impl Piece {
     pub(crate) fn hull(&self) -> Hull<'_> {
         part(&self.shape, self.part)
     }
+
+    /// How thick it is, in m: the extent, but of what is thin.
+    pub(crate) fn width(&self) -> f64 {
+        widths(&self.hull()).0 + 2.0 * self.rounding
+    }
 }
 
-/// Twice the distance from the middle of the corners to the nearest side.
-fn extent(hull: &Hull<'_>) -> f64 {
+/// Twice the distance from the middle of the corners to the nearest side, in m, and an eighth of that to the farthest corner.
+fn widths(hull: &Hull<'_>) -> (f64, f64) {
     let mut middle = Vec2::ZERO;
     let mut count = 0.0;
     for v in hull.vertices {
@@ -381,9 +387,11 @@ fn extent(hull: &Hull<'_>) -> f64 {
     let inner = inner.fold(f64::INFINITY, f64::min);
     let around = hull.vertices.iter().map(|v| (*v - middle).length());
     let outer = around.fold(0.0, f64::max);
-    if hull.normals.is_empty() {
-        2.0 * hull.radius
+    let (inner, outer) = if hull.normals.is_empty() {
+        (0.0, 0.0)
     } else {
-        2.0 * inner.max(0.125 * outer) + 2.0 * hull.radius
-    }
+        (inner, 0.125 * outer)
+    };
+    let round = 2.0 * hull.radius;
+    (2.0 * inner + round, 2.0 * outer + round)
 }

@@ -16,7 +16,7 @@ use carom_collision::Motion;
 use carom_geometry::Aabb;
 use carom_math::{Pose, SimTime, Vec2};
 
-use crate::bodies::Bodies;
+use crate::bodies::{Bodies, Limit};
 use crate::rows::{Quad, turn_shifted};
 use crate::{BodyId, BodyKind, Engine, EngineError, PairRules, Settings};
 use touching::Touching;
@@ -151,7 +151,8 @@ pub(crate) fn note_fast(
 }
 
 impl Engine {
-    /// Notes that a body moves from this pose to its present one, as a caller moved it: see [`Self::stop_fast`].
+    /// Notes that a body, if it goes far for its width, moves from this pose to its present one, as a caller moved it: see
+    /// [`Self::stop_fast`].
     ///
     /// # Errors
     /// [`EngineError::Stale`] if the body is not in this engine.
@@ -171,18 +172,28 @@ impl Engine {
         if record.kind != BodyKind::Dynamic {
             return Ok(());
         }
-        let base = &self.bodies.base[record.line as usize];
+        let at = record.line as usize;
+        let (line, base) = (&self.bodies.lines[at], &self.bodies.base[at]);
         let d = from.position - base.position;
         let turn = (from.rotation * base.rotation.inverse()).angle();
+        let square = (line.d() - d).length_squared();
         self.fast_bodies.retain(|body| body.slot != id.slot);
-        // However little it goes: no rows hold it.
-        self.fast_bodies.push(FastBody {
-            slot: id.slot,
-            from: (d, turn),
-            turns: false,
-            deviates: true,
-            carried: true,
-        });
+        // No rows hold it: what is thin is fast where it goes by less than an extent allows.
+        let pieces = record.first_piece..record.first_piece + record.pieces;
+        let widths = pieces.map(|piece| self.pieces.list[piece as usize].width());
+        let limit = Limit {
+            extent: widths.fold(f64::INFINITY, f64::min),
+            ..self.bodies.limits[at]
+        };
+        if limit.is_far(square, line.turn() - turn) {
+            self.fast_bodies.push(FastBody {
+                slot: id.slot,
+                from: (d, turn),
+                turns: false,
+                deviates: true,
+                carried: true,
+            });
+        }
         Ok(())
     }
 
