@@ -114,11 +114,11 @@ fn keep_side(scene: &Scene<'_>, block: &Block, pair: [u32; 2], lane: usize, foun
     let overlaps = found.s1[lane].min(found.s2[lane]) < 0.0;
     let pushes = block.j1[lane] + block.j2[lane] > 0.0;
     let came = block.normal(lane);
-    let radii = pair.map(|piece| scene.pieces.outlines[piece as usize].radius());
-    let of_corners = block.s2[lane] == OPEN && radii.iter().all(|radius| *radius == 0.0);
+    let is_sharp = |piece: u32| scene.pieces.outlines[piece as usize].radius() == 0.0;
+    let of_corners = || block.s2[lane] == OPEN && pair.into_iter().all(is_sharp);
     if (overlaps || pushes)
-        && !of_corners
         && came.dot(vec2(found.nx[lane], found.ny[lane])) < TURNED_OVER
+        && !of_corners()
         && let Some(manifold) = scene.contact_on(came, pair, KEPT)
     {
         found.set(lane, &manifold);
