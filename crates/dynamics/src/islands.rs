@@ -145,15 +145,6 @@ impl World {
         }
     }
 
-    /// A body that moved by events has landed; the modes of an island that moved are solved for with what it came to touch.
-    pub(crate) fn landed(&mut self, index: u32, time: SimTime) {
-        if self.bodies.get(index).membership.is_closed() {
-            self.solve_modes_anew(index, time);
-        } else {
-            self.deflected(index, time);
-        }
-    }
-
     /// A body that goes on as before has one contact more: the modes of its island are solved for anew.
     pub(crate) fn gain_contact(&mut self, index: u32, time: SimTime) {
         if self.bodies.get(index).membership.is_closed() {

@@ -20,10 +20,10 @@ impl World {
             let state = self.bodies.get(index);
             let group = self.closed.get(state.membership.group);
             let circles = state.moves_analytically() && group.is_some_and(|at| at.since == time);
-            if !circles {
-                self.land(index, time);
-            } else if self.hand_back_of(index, time) {
+            if circles {
                 self.join(index, time);
+            } else {
+                self.land(index, time);
             }
         }
     }
@@ -104,7 +104,8 @@ impl World {
     pub(crate) fn land(&mut self, index: u32, time: SimTime) -> bool {
         let lands = self.leave_flight(index, time);
         if lands {
-            self.landed(index, time);
+            self.redirect(index, time);
+            self.gain_contact(index, time);
         }
         lands
     }
