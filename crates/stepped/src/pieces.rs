@@ -373,7 +373,7 @@ impl Piece {
     }
 }
 
-/// Twice the distance from the middle of the corners to the nearest side, in m, and an eighth of that to the farthest corner.
+/// Twice the distance from the middle of the corners to the nearest side, and an eighth of twice that to the farthest corner, in m.
 fn widths(hull: &Hull<'_>) -> (f64, f64) {
     let mut middle = Vec2::ZERO;
     let mut count = 0.0;
