@@ -8,6 +8,7 @@ mod a_changed_free_body_keeps_its_law;
 mod a_clamped_body_is_not_struck_for_ever;
 mod a_crushed_body_is_struck_for_a_while;
 mod a_disc_rolls_over_a_tip;
+mod a_disc_rolls_over_hills;
 mod a_driver_that_is_let_go_falls_on_the_floor;
 mod a_few_heavy_bodies_push_no_light_ones_out;
 mod a_field_beside_a_large_island_keeps_the_ledger;

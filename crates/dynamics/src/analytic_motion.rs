@@ -12,9 +12,12 @@ use crate::World;
 use crate::events::free::Cause;
 
 impl World {
-    /// Islands that came to move since the last time begin their motion; what goes otherwise than they say joins the engine.
-    pub(crate) fn begin_analytic_motion(&mut self, time: SimTime) {
-        for place in self.closed.take_moving() {
+    /// Islands that came to move since the last time begin their motion; what goes otherwise than they say joins the engine. Whether
+    /// there were some.
+    pub(crate) fn begin_analytic_motion(&mut self, time: SimTime) -> bool {
+        let moving = self.closed.take_moving();
+        let some = !moving.is_empty();
+        for place in moving {
             if self.may_move_analytically(place) {
                 self.move_analytically(place, time);
             } else if let Some(group) = self.closed.get(place) {
@@ -24,6 +27,7 @@ impl World {
                 }
             }
         }
+        some
     }
 
     fn may_move_analytically(&self, place: u32) -> bool {

@@ -88,6 +88,9 @@ impl World {
         }
         self.solve_modes_of(&members, time, speed);
         if moves_analytically {
+            if members.len() == 1 {
+                self.drop_unheld(&members, time);
+            }
             // Within an instant that others come from, too, it goes on at once.
             self.begin_analytic_rest(time);
             self.begin_analytic_motion(time);

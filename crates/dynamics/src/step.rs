@@ -114,6 +114,7 @@ impl World {
                 }
                 continue;
             }
+            debug_assert!(next <= reached || self.closed.have_begun());
             reached = next.max(reached);
             let time = if let Some(time) = change
                 && flight.is_none_or(|flight| time <= flight)

@@ -29,9 +29,10 @@ impl World {
         self.drop_alone(time);
         self.join_unsolved(time);
         self.begin_analytic_rest(time);
-        self.begin_analytic_motion(time);
+        // What touches something more as it begins its motion waits again.
+        let began = self.begin_analytic_motion(time);
         self.tell_waiting(time);
-        !waiting.is_empty() || !are_known || self.unsettled.len() < before
+        began || !waiting.is_empty() || !are_known || self.unsettled.len() < before
     }
 
     /// Contacts of all that waits for its method; begins and ends of touch, and overlaps. Places of the pairs.

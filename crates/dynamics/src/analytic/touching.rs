@@ -6,7 +6,7 @@ use carom_math::{SimTime, Vec2};
 
 use crate::analytic::modes::{ModeBody, Touch, hold, stand};
 use crate::model::approach::{Approach, RigidState, approach, opening};
-use crate::model::edges::{Feature, at_the_end, feature};
+use crate::model::edges::{Feature, at_the_end, corner_under_disc, feature};
 use crate::model::graph::ROWS;
 use crate::model::narrow::{Narrow, TOUCH, rest_speed};
 use crate::store::bodies::Bodies;
@@ -295,17 +295,22 @@ impl Around<'_> {
         found.rest = if rest > found.rest { rest } else { found.rest };
         let mut rows = 0;
         for (number, contact) in pair.contacts.iter().enumerate() {
+            let (hull_a, hull_b) = hulls(contact.parts);
+            let poses = (a.centre_pose(time), b.centre_pose(time));
+            let corner = corner_under_disc((&hull_a, &hull_b), poses, ends, contact.normal);
+            let normal = corner.map_or(contact.normal, |(normal, _)| normal);
             let mut points: ArrayVec<Vec2, 2> = ArrayVec::new();
             for point in contact
                 .points
                 .iter()
                 .filter(|point| point.separation <= gap)
             {
-                match approach(ends, point.position, contact.normal, rest) {
+                let at = corner.map_or(point.position, |(_, at)| at);
+                match approach(ends, at, normal, rest) {
                     Approach::Leaves(_) => {}
-                    Approach::Stays => points.push(point.position),
+                    Approach::Stays => points.push(at),
                     Approach::Closes(speed) => {
-                        points.push(point.position);
+                        points.push(at);
                         found.closing = if speed > found.closing {
                             speed
                         } else {
@@ -317,18 +322,16 @@ impl Around<'_> {
             let Some(&origin) = points.first() else {
                 continue;
             };
-            let (hull_a, hull_b) = hulls(contact.parts);
-            let pose = |state: &BodyState| state.centre_pose(time);
             let mut features = (
-                feature(&hull_a, pose(a), contact.normal, contact.normal, origin),
-                feature(&hull_b, pose(b), -contact.normal, contact.normal, origin),
+                feature(&hull_a, poses.0, normal, normal, origin),
+                feature(&hull_b, poses.1, -normal, normal, origin),
             );
             let edge = |feature| matches!(feature, Feature::Edge { .. });
             if points.len() == 2 && !(edge(features.0) && edge(features.1)) {
                 // Not flush: it may rest, but not slide.
                 features = (Feature::Corner, Feature::Corner);
             }
-            let Some(features) = at_the_end(features, ends, contact.normal) else {
+            let Some(features) = at_the_end(features, ends, normal) else {
                 continue;
             };
             // A surface that runs is no body that moves.
@@ -343,7 +346,7 @@ impl Around<'_> {
             let points_of = points.clone();
             found.touches.push(Touch {
                 bodies: ends,
-                normal: contact.normal,
+                normal,
                 points,
                 features,
                 friction: pair.material.friction,

@@ -54,6 +54,45 @@ pub(crate) fn at_the_end(
     }
 }
 
+/// The normal from A to B and the point of a corner that a disc touches but for rounding: it goes over the end of an edge, and an impact
+/// on another corner in the same place is found that much too soon.
+pub(crate) fn corner_under_disc(
+    hulls: (&Hull<'_>, &Hull<'_>),
+    poses: (Pose, Pose),
+    states: (RigidState, RigidState),
+    normal: Vec2,
+) -> Option<(Vec2, Vec2)> {
+    let of_disc = |own: usize, outward: Vec2| {
+        let both = [(hulls.0, poses.0, states.0), (hulls.1, poses.1, states.1)];
+        let ((hull, pose, moves), (disc, at, rolls)) = (both[own], both[1 - own]);
+        let edge = flush_edge(hull, pose, outward).filter(|_| !hull.is_half_plane())?;
+        let (centre, t) = (at.point(disc.vertices[0]), perp(outward));
+        let slip = t.dot(rolls.velocity_of(centre) - moves.velocity_of(centre));
+        let (from, to) = hull.edge(edge);
+        let ends = [from, to].map(|vertex| pose.point(vertex));
+        let ahead = usize::from((t.dot(ends[1] - ends[0]) > 0.0) == (slip > 0.0));
+        let corner = ends[ahead];
+        let near = t.dot(corner - centre).abs() <= disc_room(disc.radius, pose, at);
+        (near && slip != 0.0).then(|| ((centre - corner).normalize(), corner))
+    };
+    match (hulls.0.normals.is_empty(), hulls.1.normals.is_empty()) {
+        (false, true) => of_disc(0, normal),
+        (true, false) => of_disc(1, -normal).map(|(outward, at)| (-outward, at)),
+        _ => None,
+    }
+}
+
+/// How near to the end of an edge a disc touches the corner there but for rounding, in m: d²/2r is no more than that.
+pub(crate) fn disc_room(radius: f64, edge: Pose, disc: Pose) -> f64 {
+    (2.0 * radius * end_room(edge.position, disc.position)).sqrt()
+}
+
+/// The edge of a hull that lies along a contact; `outward` is the way out of it.
+pub(crate) fn flush_edge(hull: &Hull<'_>, pose: Pose, outward: Vec2) -> Option<usize> {
+    let local = pose.inverse_vector(outward);
+    (0..hull.normals.len()).find(|edge| (hull.normals[*edge] - local).length() <= FLUSH)
+}
+
 /// How near to the end of an edge is at its end but for the rounding of where both bodies are, in m.
 pub(crate) fn end_room(a: Vec2, b: Vec2) -> f64 {
     16.0 * f64::EPSILON * (a.length() + b.length())
@@ -74,9 +113,7 @@ pub(crate) fn feature(
             Feature::Corner
         };
     }
-    let local = pose.inverse_vector(outward);
-    let flush = |edge: &usize| (hull.normals[*edge] - local).length() <= FLUSH;
-    let Some(edge) = (0..hull.normals.len()).find(flush) else {
+    let Some(edge) = flush_edge(hull, pose, outward) else {
         return Feature::Corner;
     };
     if hull.is_half_plane() {

@@ -6,7 +6,7 @@ use carom_math::{Pose, Vec2, perp};
 
 use crate::analytic::tipping::{End, Joint};
 use crate::model::approach::RigidState;
-use crate::model::edges::end_room;
+use crate::model::edges::{disc_room, end_room, flush_edge};
 
 /// Sine of the angle up to which an edge lies along a contact: far above rounding.
 const FLUSH: f64 = 1e-9;
@@ -25,9 +25,7 @@ impl Held<'_> {
 
     /// The edge that lies along a contact; the normal `outward` points out of the part.
     fn flush_edge(&self, outward: Vec2) -> Option<usize> {
-        let local = self.pose.inverse_vector(outward);
-        (0..self.hull.normals.len())
-            .find(|edge| (self.hull.normals[*edge] - local).length() <= FLUSH)
+        flush_edge(&self.hull, self.pose, outward)
     }
 
     /// The vertex next to a point, and how far it is, in m.
@@ -88,12 +86,11 @@ fn goes_over(
     (own, other): (&Held<'_>, &Held<'_>),
     (normal, ends): (Vec2, [f64; 2]),
     point: Vec2,
-    near: f64,
+    room: f64,
 ) -> bool {
     let t = own.pose.vector(perp(normal));
     let along = t.dot(point - own.pose.position);
     let slip = t.dot(other.moves.velocity_of(point) - own.moves.velocity_of(point));
-    let room = near * FLUSH + end_room(own.pose.position, other.pose.position);
     along <= ends[0] + room && slip < 0.0 || along >= ends[1] - room && slip > 0.0
 }
 
@@ -103,7 +100,8 @@ fn disc_on(own: &Held<'_>, disc: &Held<'_>, owner: End, outward: Vec2, near: f64
     let centre = disc.pose.point(tip);
     if let Some(edge) = own.flush_edge(outward) {
         let (normal, height, ends) = own.edge_line(edge);
-        if !goes_over((own, disc), (normal, ends), centre, near) {
+        let room = near * FLUSH + disc_room(radius, own.pose, disc.pose);
+        if !goes_over((own, disc), (normal, ends), centre, room) {
             return Some(Joint::Line {
                 owner,
                 normal,
@@ -174,7 +172,8 @@ fn corner_on(
         }
     }
     let tip = other.hull.vertices[vertex];
-    let over = goes_over((own, other), (normal, ends), other.pose.point(tip), near);
+    let room = near * FLUSH + end_room(own.pose.position, other.pose.position);
+    let over = goes_over((own, other), (normal, ends), other.pose.point(tip), room);
     let joint = Joint::Line {
         owner,
         normal,

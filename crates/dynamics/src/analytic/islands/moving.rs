@@ -33,6 +33,16 @@ impl Group {
             .filter(move |touch| touch.pair == place && touch.moved.mode != ContactMode::Open)
             .filter_map(|touch| Some(pair.contacts.get(touch.contact)?.parts))
     }
+
+    /// Whether its mode lets a contact of two parts of a pair open.
+    pub(crate) fn opens(&self, place: u32, pair: &Pair, (a, b): (usize, usize)) -> bool {
+        self.touches.iter().any(|touch| {
+            let contact = pair.contacts.get(touch.contact);
+            let parts = contact.map(|contact| contact.parts);
+            let same = parts.is_some_and(|parts| (parts.0 as usize, parts.1 as usize) == (a, b));
+            touch.pair == place && touch.moved.mode == ContactMode::Open && same
+        })
+    }
 }
 
 impl Closed {

@@ -244,6 +244,11 @@ impl Closed {
         }
     }
 
+    /// Whether no group is to begin its motion.
+    pub(crate) fn have_begun(&self) -> bool {
+        self.that_are_there(self.moving.clone()).is_empty()
+    }
+
     /// Places of the groups that are to begin their motion, and are still there.
     pub(crate) fn take_moving(&mut self) -> Vec<u32> {
         let moving = core::mem::take(&mut self.moving);

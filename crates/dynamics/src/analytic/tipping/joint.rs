@@ -170,6 +170,39 @@ impl Joint {
         }
     }
 
+    /// The body with the corner that is in touch, where in its frame, and what of the other body touches it: the normal and height of an
+    /// edge, or the middle and radius of a disc.
+    pub(super) fn corner(&self) -> Option<(End, Vec2, (Vec2, f64))> {
+        match *self {
+            Self::Line {
+                owner: End::A,
+                normal,
+                height,
+                tip,
+                radius: 0.0,
+                ..
+            } => Some((End::B, tip, (normal, height))),
+            Self::Line {
+                owner: End::B,
+                normal,
+                height,
+                tip,
+                radius: 0.0,
+                ..
+            } => Some((End::A, tip, (normal, height))),
+            Self::Points {
+                a,
+                b,
+                radii,
+                cone: Some((owner, _)),
+            } => Some(match owner {
+                End::A => (owner, a, (b, radii.1)),
+                End::B => (owner, b, (a, radii.0)),
+            }),
+            _ => None,
+        }
+    }
+
     /// What ends the joint when it falls to 0.
     pub(crate) fn margins(&self, a: &Place, b: &Place) -> ArrayVec<Margin, 4> {
         let mut margins = ArrayVec::new();

@@ -8,6 +8,7 @@
 mod equations;
 mod joint;
 mod roots;
+mod shared;
 mod swing;
 #[cfg(test)]
 mod tests;
@@ -27,6 +28,7 @@ use crate::model::graph::ROWS;
 pub(crate) use equations::{Equations, Forces, Workspace};
 pub(crate) use joint::{End, Joint};
 use roots::{Limit, faint, first, heat};
+use shared::share_corners;
 use swing::swing;
 
 /// Longest stretch of a path, in s.
@@ -73,6 +75,8 @@ pub(crate) struct Hold {
     /// Points that have come over the end of an edge: there is no line under them any more.
     pub(crate) over: [bool; 2],
     pub(crate) rub: Rub,
+    /// The contact whose corner is in the same place, as at the tip between two segments: it has the forces of both.
+    pub(crate) shares: Option<usize>,
 }
 
 /// Why a path ends.
@@ -158,7 +162,9 @@ impl Tip {
     }
 
     fn mode(&self, i: usize) -> ContactMode {
-        let (contact, hold) = (&self.equations.contacts[i], &self.equations.holds[i]);
+        let hold = &self.equations.holds[i];
+        let hold = hold.shares.map_or(hold, |k| &self.equations.holds[k]);
+        let contact = &self.equations.contacts[i];
         let round = |joint: &Joint| match joint {
             Joint::Line { radius, .. } => *radius > 0.0,
             Joint::Points { .. } => true,
@@ -191,7 +197,7 @@ pub(crate) fn tip(
     if contacts.iter().map(rows).sum::<usize>() > ROWS {
         return Err(NotMine::TooLarge);
     }
-    let (holds, moves) = modes(&bodies, &places, &contacts, speed)?;
+    let (mut holds, moves) = modes(&bodies, &places, &contacts, speed)?;
     let mut fastest = speed;
     for ((place, body), moved) in places.iter_mut().zip(&mut bodies).zip(moves) {
         (place.velocity, place.spin) = (moved.velocity, moved.spin);
@@ -203,6 +209,7 @@ pub(crate) fn tip(
     let size = moving
         .map(|(_, reach)| *reach)
         .fold(f64::INFINITY, f64::min);
+    share_corners(&contacts, &places, size, &mut holds);
     let mut equations = Equations {
         bodies,
         contacts,
@@ -356,6 +363,7 @@ fn modes(
         } else {
             Rub::Slides(-begun.reactions[i].tangential.signum())
         },
+        shares: None,
     };
     let holds = touches.iter().enumerate().map(hold).collect();
     Ok((holds, begun.moves))

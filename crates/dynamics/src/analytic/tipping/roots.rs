@@ -119,7 +119,20 @@ impl Margins<'_> {
             let mut pressed = 0.0;
             for (point, joint) in of.joints.iter().enumerate() {
                 let seen = joint.seen(a, b);
+                let ends = |margin| match margin {
+                    Margin::Way(_) => Limit::Way { contact, point },
+                    Margin::Corner { at, .. } => Limit::Corner {
+                        contact,
+                        normal: seen.normal,
+                        at,
+                    },
+                };
                 if hold.over[point] {
+                    if hold.shares.is_some() {
+                        for margin in joint.margins(a, b) {
+                            add(ends(margin), margin.value(), size);
+                        }
+                    }
                     continue;
                 }
                 if !hold.closed[point] {
@@ -136,15 +149,7 @@ impl Margins<'_> {
                 pressed += force;
                 add(Limit::Press { contact, point }, force, most);
                 for margin in joint.margins(a, b) {
-                    let limit = match margin {
-                        Margin::Way(_) => Limit::Way { contact, point },
-                        Margin::Corner { at, .. } => Limit::Corner {
-                            contact,
-                            normal: seen.normal,
-                            at,
-                        },
-                    };
-                    add(limit, margin.value(), size);
+                    add(ends(margin), margin.value(), size);
                 }
             }
             match (hold.rub, slips) {

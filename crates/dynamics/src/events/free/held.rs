@@ -5,27 +5,16 @@ use carom_math::SimTime;
 use super::{Cause, Foreseen};
 use crate::events::resolve::{BUDGET, PairImpact};
 use crate::model::graph::pair_of;
-use crate::model::narrow::{NOISE, opening_speed, pace};
+use crate::model::narrow::{NOISE, TOUCH, opening_speed, pace};
 use crate::motion::flight::fly;
 use crate::store::pairs::PairContact;
 use crate::{BodyKind, Mode, World};
 
 impl World {
-    /// What is pressed together and does not bounce stays in contact from now on. Modes that were solved for at this instant say nothing
-    /// of it, as at the tip between two segments, which both touch there: solved for again they would go on in circles, and the engine
-    /// takes their island.
+    /// What is pressed together and does not bounce stays in contact from now on.
     pub(super) fn begins_to_last(&mut self, impact: &Foreseen, time: SimTime) {
-        let (a, b) = impact.bodies;
-        for index in [a, b] {
-            let state = self.bodies.get(index);
-            let group = self.closed.get(state.membership.group);
-            let circles = state.moves_analytically() && group.is_some_and(|at| at.since == time);
-            if circles {
-                self.join(index, time);
-            } else {
-                self.land(index, time);
-            }
-        }
+        self.land(impact.bodies.0, time);
+        self.land(impact.bodies.1, time);
     }
 
     /// Impacts that outrun their budget have come to their limit: a common stop of all that touches, at this instant.
@@ -200,11 +189,12 @@ impl World {
                 self.bodies.get(pair.bodies.0),
                 self.bodies.get(pair.bodies.1),
             );
-            let rounding = NOISE * pace(a, b, time);
+            let (rounding, touch) = (NOISE * pace(a, b, time), TOUCH * a.reach.min(b.reach));
             let holds = |contact: &PairContact| {
                 let mut points = contact.points.iter();
                 points.any(|point| {
-                    opening_speed(a, b, time, point.position, contact.normal) <= rounding
+                    point.separation <= touch
+                        && opening_speed(a, b, time, point.position, contact.normal) <= rounding
                 })
             };
             if pair.contacts.iter().any(holds) {

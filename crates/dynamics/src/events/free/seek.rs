@@ -25,6 +25,9 @@ use crate::motion::first_touch::{first_touch, first_touch_of_parts};
 /// How far a search goes beyond its end, as a fraction.
 const BEYOND: f64 = 1e-6;
 
+/// Part of a sub-step after which a contact that opens with t³ has a gap that a search sees, of some 1e-13 of a size.
+const OPENED: f64 = 1.0 / 64.0;
+
 /// A gap that is rounding, as a fraction of the largest coordinate: each of two centres is off by half a unit.
 const BLUR: f64 = 2.0 * f64::EPSILON;
 
@@ -321,10 +324,19 @@ impl World {
         held
     }
 
+    /// Whether a contact of two parts opens in a mode that begins now: where no force is left it does so with t³ alone.
+    fn opens_now(&self, place: u32, parts: (usize, usize), time: SimTime) -> bool {
+        let pair = self.pairs.get(place);
+        [pair.bodies.0, pair.bodies.1].into_iter().any(|index| {
+            let group = self.closed.get(self.bodies.get(index).membership.group);
+            group.is_some_and(|group| group.since == time && group.opens(place, pair, parts))
+        })
+    }
+
     /// Time of impact of what an island's mode does not hold of a pair, within `length` seconds; whether there is one.
     ///
     /// What closes by rounding alone, or is a hidden side of what bears it, is none. A search that ends with it is made again a sub-step
-    /// later.
+    /// later; one that sees no end of a contact that begins to open sooner, once that has a gap.
     fn seek_beside_mode(&mut self, place: u32, time: SimTime, length: f64) -> bool {
         let (solids, held) = (self.solids_of(place), self.held_parts(place));
         if is_all_held(&solids, &held) {
@@ -342,7 +354,7 @@ impl World {
             let closes = |point: &Vec2| opening_speed(one, two, at, *point, impact.normal) < -least;
             !impact.points.iter().any(closes)
         };
-        let (mut first, mut is_over) = (TimeOfImpact::Clear, false);
+        let (mut first, mut again) = (TimeOfImpact::Clear, f64::INFINITY);
         for i in 0..part_count(&solids[0]) {
             for j in 0..part_count(&solids[1]) {
                 if held
@@ -362,7 +374,10 @@ impl World {
                     TimeOfImpact::Hit(found) | TimeOfImpact::Touching(found)
                         if is_slow(&found) || self.passes(ends, shapes, &found, time) =>
                     {
-                        is_over = true;
+                        again = self.clock.h.min(again);
+                    }
+                    TimeOfImpact::Unresolved { .. } if self.opens_now(place, (i, j), time) => {
+                        again = OPENED * self.clock.h;
                     }
                     next => first = earlier(first, next),
                 }
@@ -370,8 +385,8 @@ impl World {
         }
         let (wait, impact) = match first {
             TimeOfImpact::Clear => {
-                if is_over && self.clock.h < length {
-                    self.look_again_at(ends, shapes, time + self.clock.h);
+                if again < length {
+                    self.look_again_at(ends, shapes, time + again);
                 }
                 return false;
             }
