@@ -225,9 +225,9 @@ fn is_hidden(rows: &Rows, pieces: &Pieces, k: usize, o: usize) -> bool {
         })
 }
 
-/// Whether other pieces may hide sides of a piece: of discs and segments they hide none.
+/// Whether other pieces may hide sides of a piece: of discs they hide none.
 const fn has_sides(piece: Turned<'_>) -> bool {
-    piece.corners() >= 3
+    piece.corners() >= 2
 }
 
 impl Rows {
