@@ -15,6 +15,7 @@ mod a_field_beside_a_large_island_keeps_the_ledger;
 mod a_field_finds_bodies_that_are_held;
 mod a_flat_leg_of_an_h_is_not_pushed_sideways;
 mod a_floor_bears_any_number_of_landings;
+mod a_force_acts_for_all_of_its_step;
 mod a_force_that_ends_leaves_the_acceleration_as_it_was;
 mod a_gap_that_rounds_to_the_tolerance_closes;
 mod a_grain_far_out_parts_from_what_it_touches;

@@ -37,7 +37,9 @@ impl World {
             } else if self.bodies.history.is_kept() {
                 stepping.write_all(&mut self.bodies, &self.clock);
             }
-            stepping.book_pulls(&mut self.bodies, &self.forced, &self.clock, first);
+            let forced = self.all_forced();
+            stepping.book_pulls(&mut self.bodies, &forced, &self.clock, first);
+            self.push_in_substep(stepping, self.clock.next());
             first = false;
             self.clock.begin();
             self.report.substeps += 1;

@@ -1,14 +1,25 @@
 //! Forces that a caller applied act for one step.
+//!
+//! What flies, or goes by events, is accelerated for as long as the step lasts. The engine has sub-steps of its own, which neither begin
+//! nor end with a step: in each a body with contacts is pulled by the mean of what acts in it, as far as that is known where it begins,
+//! and of what was applied since within the one before.
 
-use carom_math::Vec2;
+use carom_math::{SimTime, Vec2};
 
 use crate::World;
+use crate::stepping::Stepping;
 
 impl World {
-    /// Forces of the step that begins.
-    pub(crate) fn begin_forces(&mut self) {
+    /// Forces of the step that begins, and would end at `end`.
+    pub(crate) fn begin_forces(&mut self, end: SimTime) {
         let now = self.clock.now;
-        let forced = self.forced.clone();
+        self.joins.forced_until = end;
+        let (pushed, forced): (Vec<u32>, Vec<u32>) =
+            (self.forced.iter()).partition(|index| self.has_rows(**index));
+        for index in pushed {
+            self.bodies.get_mut(index).uncommon_mut().acted = now;
+            self.joins.push(index);
+        }
         for &index in &forced {
             // An analytic body is handed back first, since that assumes the motion stored for its island.
             self.hand_back_of(index, now);
@@ -29,6 +40,13 @@ impl World {
     pub(crate) fn end_forces(&mut self) {
         let now = self.clock.now;
         let forced = core::mem::take(&mut self.forced);
+        let waits = |index: &u32| self.bodies.get(*index).pending() != (Vec2::ZERO, 0.0);
+        let (pushed, forced): (Vec<u32>, Vec<u32>) = forced.into_iter().partition(waits);
+        for index in pushed {
+            let acts = self.bodies.get_mut(index).uncommon_mut();
+            acts.owe_until(now);
+            acts.pending = (Vec2::ZERO, 0.0);
+        }
         for &index in &forced {
             self.hand_back_of(index, now);
             self.bodies.change(index, now, |_| {});
@@ -55,6 +73,41 @@ impl World {
                 self.wake_around(index, now);
             }
             self.deflected(index, now);
+        }
+    }
+
+    /// Bodies that forces act on in this step, or did in the last sub-step of the engine, in order.
+    pub(crate) fn all_forced(&self) -> Vec<u32> {
+        let mut all = [&self.forced[..], &self.joins.pushed].concat();
+        all.sort_unstable();
+        all.dedup();
+        all.retain(|index| self.bodies.is_alive(*index));
+        all
+    }
+
+    /// Whether the engine moves a body that touches something there, or did when forces began to act on it.
+    fn has_rows(&self, index: u32) -> bool {
+        let touches = || {
+            let stepping = self.stepping.as_ref()?;
+            let mut contacts = stepping.engine.contacts_of(stepping.id(index)?).ok()?;
+            contacts.next()
+        };
+        self.is_engines(index) && (self.joins.is_pushed(index) || touches().is_some())
+    }
+
+    /// Forces of the sub-step of the engine from `start` on.
+    pub(crate) fn push_in_substep(&mut self, stepping: &mut Stepping, start: SimTime) {
+        let (end, h) = (self.joins.forced_until, self.clock.h);
+        for index in core::mem::take(&mut self.joins.pushed) {
+            if !self.bodies.is_alive(index) || !self.is_engines(index) {
+                continue;
+            }
+            let acts = self.bodies.get_mut(index).uncommon_mut();
+            acts.act(start, end, h);
+            if acts.force != Vec2::ZERO || acts.torque != 0.0 {
+                self.joins.push(index);
+            }
+            stepping.pull_one(&self.bodies, index);
         }
     }
 }

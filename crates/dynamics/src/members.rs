@@ -103,6 +103,7 @@ impl World {
             self.search_contacts(&mut stepping);
             self.tell_sleep(&mut stepping, time);
         }
+        self.push_in_substep(&mut stepping, time);
         stepping.pull(&self.bodies);
         let forced = self.forced_members(&stepping);
         // `begin` was called: the clock is at the end of this sub-step.
@@ -187,16 +188,13 @@ impl World {
 
     /// Places and turns of members that a caller's force acts on.
     fn forced_members(&self, stepping: &Stepping) -> Vec<(u32, Vec2, f64)> {
-        let members = self
-            .forced
-            .iter()
-            .filter(|index| self.bodies.get(**index).in_engine());
-        members
-            .filter_map(|index| {
-                let state = stepping.state(*index)?;
-                Some((*index, state.pose.position, state.turned))
-            })
-            .collect()
+        let mut members = self.all_forced();
+        members.retain(|index| self.bodies.get(*index).in_engine());
+        let place = |index: u32| {
+            let state = stepping.state(index)?;
+            Some((index, state.pose.position, state.turned))
+        };
+        members.into_iter().filter_map(place).collect()
     }
 
     /// What the caller's forces and kinematic bodies did in the last sub-step.

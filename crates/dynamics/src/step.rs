@@ -42,7 +42,7 @@ impl World {
         let end = start + dt;
         self.unseen_until = if stop_at_event { start } else { end };
         if dt > 0.0 {
-            self.begin_forces();
+            self.begin_forces(end);
             // What the solver gave them lasts to the end of its sub-step, in whichever step that is.
             if self.is_substepping() && self.clock.next() - start > 1e-9 * self.clock.h {
                 self.report.handed_over += self.handed_over;

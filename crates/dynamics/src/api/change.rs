@@ -170,6 +170,9 @@ impl World {
 
     /// Adds a force that acts during the next step (of any length above 0) and is gone after it.
     ///
+    /// Of bodies in contact that the engine moves, a step that ends within a sub-step leaves what is not known where that begins to the
+    /// next one.
+    ///
     /// # Errors
     /// If the body is not there, a number is not finite, or all its forces would accelerate the body by more than
     /// [`WORLD_LIMIT`](crate::WORLD_LIMIT), in m/s² and rad/s².

@@ -155,6 +155,15 @@ impl Stepping {
         self.pull(bodies);
     }
 
+    /// What pulls a body where it is.
+    pub(crate) fn pull_one(&mut self, bodies: &Bodies, index: u32) {
+        if let Some(state) = self.state(index) {
+            let (pull, twist) = bodies.pull_on(index, state.pose.position);
+            let told = self.engine.set_pull(state.id, pull, twist);
+            debug_assert!(told.is_ok(), "{told:?}");
+        }
+    }
+
     /// What fields do to bodies where they are.
     pub(crate) fn pull(&mut self, bodies: &Bodies) {
         if !bodies.pull.fields.is_empty() {

@@ -58,6 +58,10 @@ pub(crate) struct Joins {
     pub(crate) unwritten: bool,
     /// Where the engine's last sub-step ended.
     pub(crate) reached: SimTime,
+    /// Bodies of the engine that a caller's forces act on, or did in its last sub-step, in order.
+    pub(crate) pushed: Vec<u32>,
+    /// Until when forces of the present step are known.
+    pub(crate) forced_until: SimTime,
     pub(crate) rush: Rush,
     /// Energy of all bodies that left less that of all that joined, in J.
     pub(crate) balance: Sum,
@@ -67,6 +71,17 @@ pub(crate) struct Joins {
 }
 
 impl Joins {
+    /// A caller's force acts on a body of the engine.
+    pub(crate) fn push(&mut self, index: u32) {
+        if let Err(at) = self.pushed.binary_search(&index) {
+            self.pushed.insert(at, index);
+        }
+    }
+
+    pub(crate) fn is_pushed(&self, index: u32) -> bool {
+        self.pushed.binary_search(&index).is_ok()
+    }
+
     /// Notes that a body flies.
     pub(crate) fn note_flight(&mut self, bodies: &Bodies, mode: Mode, index: u32) {
         let most = 2 * bodies.places() + 64;
@@ -192,6 +207,7 @@ impl World {
         let (kinetic, potential) = self.bodies.energy_of(index, time);
         self.joins.balance.add(-(kinetic + potential));
         self.bodies.join(index);
+        self.take_force(index, time);
         let state = self.bodies.get_mut(index);
         state.member = false;
         self.bodies.touch(index);
@@ -274,6 +290,43 @@ impl World {
         let state = self.bodies.get_mut(index);
         state.member = false;
         self.bodies.renew(index);
+        self.release_force(index, time);
+    }
+
+    /// The engine will not move a body any more, which flies from `time` on: forces go on as those of a free body.
+    fn release_force(&mut self, index: u32, time: SimTime) {
+        let Ok(at) = self.joins.pushed.binary_search(&index) else {
+            return;
+        };
+        self.joins.pushed.remove(at);
+        let (before, _) = self.bodies.energy_of(index, time);
+        let state = self.bodies.get_mut(index);
+        let (inverse_mass, inverse_inertia) = (state.inverse_mass, state.inverse_inertia);
+        let centre = state.centre_at(time);
+        let acts = state.uncommon_mut();
+        acts.owe_until(time);
+        (acts.force, acts.torque) = core::mem::take(&mut acts.pending);
+        let (owed, turning) = core::mem::take(&mut acts.owed);
+        let (pull, twist) = self.bodies.pull_on(index, centre);
+        self.bodies.change(index, time, |motion| {
+            motion.velocity += owed * inverse_mass;
+            motion.spin += turning * inverse_inertia;
+            (motion.acceleration, motion.angular_acceleration) = (pull, twist);
+        });
+        let (after, _) = self.bodies.energy_of(index, time);
+        self.bodies.book.forces.add(after - before);
+    }
+
+    /// The engine moves a body from `time` on that was free: a force goes on as in its sub-steps.
+    fn take_force(&mut self, index: u32, time: SimTime) {
+        let state = self.bodies.get_mut(index);
+        if state.force() == Vec2::ZERO && state.torque() == 0.0 {
+            return;
+        }
+        let acts = state.uncommon_mut();
+        acts.pending = (acts.force, acts.torque);
+        acts.acted = time;
+        self.joins.push(index);
     }
 
     /// Members that nothing touches or nears for a while fly from here on. At the start of a tick.

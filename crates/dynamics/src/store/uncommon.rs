@@ -13,11 +13,14 @@ pub(crate) struct Uncommon {
     pub(crate) damping: (f64, f64),
     /// Its island may fall asleep.
     pub(crate) sleep_allowed: bool,
-    /// Force and torque of the present step.
+    /// Force and torque of the present step; of what the engine moves their means over its sub-step.
     pub(crate) force: Vec2,
     pub(crate) torque: f64,
-    /// Force and torque that the next step begins with.
+    /// Force and torque that the next step begins with; of what the engine moves those of the present one, too.
     pub(crate) pending: (Vec2, f64),
+    /// Until when these have acted in the engine, and what it still owes of earlier ones, in N·s and N·m·s.
+    pub(crate) acted: SimTime,
+    pub(crate) owed: (Vec2, f64),
     /// What the velocity has beyond the motion's along its present piece.
     pub(crate) lag: Lag,
 }
@@ -31,9 +34,38 @@ impl Uncommon {
         force: Vec2::ZERO,
         torque: 0.0,
         pending: (Vec2::ZERO, 0.0),
+        acted: SimTime::ZERO,
+        owed: (Vec2::ZERO, 0.0),
         lag: Lag::NONE,
     };
+
+    /// The engine owes what acted until `time`, and is as if it had acted.
+    pub(crate) fn owe_until(&mut self, time: SimTime) {
+        let (force, torque) = self.pending;
+        let since = time - self.acted;
+        self.owed.0 += force * since;
+        self.owed.1 += torque * since;
+        self.acted = time;
+    }
+
+    /// Means over the sub-step of `h` seconds from `start` on of what acts in it up to `end`, and of what is owed.
+    pub(crate) fn act(&mut self, start: SimTime, end: SimTime, h: f64) {
+        let exact = |time: f64| if time.abs() <= ROUNDED * h { 0.0 } else { time };
+        self.acted = start + -exact(start - self.acted);
+        self.owe_until(start);
+        let left = h - exact((h - (end - start)).max(0.0));
+        let (owed, turning) = core::mem::take(&mut self.owed);
+        (self.force, self.torque) = self.pending;
+        if left < h || owed != Vec2::ZERO || turning != 0.0 {
+            self.force = (owed + self.force * left) / h;
+            self.torque = (turning + self.torque * left) / h;
+        }
+        self.acted = start + left;
+    }
 }
+
+/// Part of a sub-step by which a step that ends with it may miss that end: sums of `dt` are rounded.
+const ROUNDED: f64 = 1e-9;
 
 /// What a velocity has beyond that of the motion, which tells the place.
 ///
