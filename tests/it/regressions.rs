@@ -47,6 +47,7 @@ mod a_stop_within_a_sub_step_is_booked_once;
 mod a_stopped_body_comes_from_where_it_was;
 mod a_touch_that_opens_hides_no_other;
 mod a_velocity_that_is_set_is_not_thrown_on;
+mod a_wedge_stays_in_a_valley_of_one_polygon;
 mod a_wedged_body_is_not_shot_out;
 mod an_approach_hidden_by_a_slip_ends;
 mod an_impact_approaches;

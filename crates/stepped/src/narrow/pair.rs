@@ -37,6 +37,11 @@ pub(crate) fn collide(
     };
     // B overlaps a piece by no more than across its cuts: the rest lies in other pieces, and leaves this one without a jump.
     let crossed = cut_a.max(cut_b) - radii;
+    // Far behind the face it came across the cut, as the tip of a wedge does through a valley: other pieces have faces there.
+    let behind = sa.max(sb) - radii;
+    if behind < -past && behind < crossed {
+        return None;
+    }
     found.gaps = found.gaps.map(|gap| gap.max(crossed));
     Some(found)
 }

@@ -243,6 +243,9 @@ fn part<S: Simd, V: Wide<S>, const N: usize, const BOXES: bool>(
     let closes = (-(opens + pulled)).max(zero) * tick - went;
     // B overlaps a piece by no more than across its cuts: the rest lies in other pieces, and leaves this one without a jump.
     let crossed = of_a.cut.max(of_b.cut) - radii;
+    // Far behind the face it came across the cut, as the tip of a wedge does through a valley: other pieces have faces there.
+    let behind = of_a.separation.max(of_b.separation) - radii;
+    let passes = passes | (behind.simd_lt(-near) & behind.simd_lt(crossed));
     let (s1, s2) = (s1.max(crossed), s2.max(crossed));
     let gap = s2.min(s1);
     let goes = (wx * wx + wy * wy).sqrt();
