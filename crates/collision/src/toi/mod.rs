@@ -91,15 +91,20 @@ impl ImpactFeature {
     }
 }
 
-impl Impact {
-    /// The same impact, of parts `a` and `b` of their shapes.
-    fn of_parts(mut self, parts: (u32, u32)) -> Self {
-        for feature in &mut self.features {
-            feature.parts = parts;
+impl TimeOfImpact {
+    /// The same of two convex parts by their numbers in their shapes: see [`time_of_impact_of_parts`].
+    #[must_use]
+    pub fn of_parts(mut self, parts: (u32, u32)) -> Self {
+        if let Self::Hit(impact) | Self::Touching(impact) = &mut self {
+            for feature in &mut impact.features {
+                feature.parts = parts;
+            }
         }
         self
     }
+}
 
+impl Impact {
     /// The point of contact, in the world, in m: the middle of a common stretch.
     #[must_use]
     pub fn point(&self) -> Vec2 {
@@ -195,7 +200,7 @@ pub fn time_of_impact_beside(
 }
 
 /// [`time_of_impact`] of two convex parts, which count as part 0 of their shapes in
-/// [`Impact::features`].
+/// [`Impact::features`]: [`TimeOfImpact::of_parts`] says otherwise.
 #[must_use]
 pub fn time_of_impact_of_parts(
     a: &Hull<'_>,

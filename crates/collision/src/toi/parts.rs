@@ -40,12 +40,7 @@ pub(super) fn first_of_parts(
             TimeOfImpact::Unresolved { safe_until } => *safe_until,
         };
         latest = latest.min(matters);
-        let next = match next {
-            TimeOfImpact::Hit(hit) => TimeOfImpact::Hit(hit.of_parts((i, j))),
-            TimeOfImpact::Touching(hit) => TimeOfImpact::Touching(hit.of_parts((i, j))),
-            nothing => nothing,
-        };
-        found.push((i, j, next));
+        found.push((i, j, next.of_parts((i, j))));
     }
     in_order(found)
 }

@@ -59,6 +59,8 @@ pub(crate) fn first_touch(
                 }
                 _ => first_touch_of_parts(bodies, parts, time, left),
             };
+            #[expect(clippy::cast_possible_truncation, reason = "parts of a shape")]
+            let next = next.of_parts((i as u32, j as u32));
             if let TimeOfImpact::Hit(impact) = &next {
                 // What is flush with it is one with it.
                 left = left.min(impact.time * (1.0 + BEYOND));

@@ -370,6 +370,8 @@ impl World {
                     let [a, b] = &motions;
                     time_of_impact_of_parts(&parts[0], a, &parts[1], b, length)
                 };
+                #[expect(clippy::cast_possible_truncation, reason = "parts of a shape")]
+                let next = next.of_parts((i as u32, j as u32));
                 match next {
                     TimeOfImpact::Hit(found) | TimeOfImpact::Touching(found)
                         if is_slow(&found) || self.passes(ends, shapes, &found, time) =>
