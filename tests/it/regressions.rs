@@ -66,6 +66,7 @@ mod parts_that_land_together_do_not_turn;
 mod tips_that_meet_do_not_spin;
 mod what_an_impact_takes_out_of_an_island_is_not_called_exact;
 mod what_bore_a_heavy_body_is_not_pushed_when_it_has_gone;
+mod what_hangs_on_a_peg_gains_no_speed;
 mod what_is_changed_within_a_sub_step_stands_until_it_ends;
 mod what_is_made_fixed_stands_in_the_way_at_once;
 mod what_is_thrown_within_a_sub_step_keeps_its_contacts;

@@ -58,6 +58,8 @@ pub struct Engine {
     pub(crate) ended: Vec<[u64; 2]>,
     /// Bodies that went far in the last sub-step, or were carried by a caller since.
     pub(crate) fast_bodies: Vec<FastBody>,
+    /// Bodies that continuous collision stopped where they stood in the last sub-step, and what stands in their way.
+    pub(crate) hanging: Vec<[u32; 2]>,
     /// Lines of bodies that went far in this sub-step, and their displacements before it.
     far: Vec<(u32, Quad)>,
     /// Pairs of pieces that were looked at by shape.
@@ -115,6 +117,7 @@ impl Engine {
             posed: None,
             ended: Vec::new(),
             fast_bodies: Vec::new(),
+            hanging: Vec::new(),
             far: Vec::new(),
             looks: 0,
             stopped: 0,

@@ -4,7 +4,8 @@
 //! the one after it, and its core polygon must be free along all of it: contacts that slide, roll or are held off by a row lie
 //! outside of the core. Where the core would touch another shape, the body is stopped short of the touch of its surface, and
 //! keeps its velocity; a contact row takes over in the next sub-step. If there is a row that did not hold it, the body goes on
-//! without what closes of its motion: no row takes the velocity along a wall, and what falls along it would hang there.
+//! without what closes of its motion: no row takes the velocity along a wall, and what falls along it would hang there. What is stopped
+//! where it stands in two sub-steps on end is held by no row, as in a notch that a peg has come into: it loses that velocity.
 
 mod cores;
 mod search;
@@ -23,6 +24,9 @@ use touching::Touching;
 
 /// A body stops so far before a touch, as a part of its reach: its contact is found open.
 const SHORT: f64 = 1e-7;
+
+/// A body that goes no farther than this part of its way hangs.
+const HANGS: f64 = 0.125;
 
 /// A body that touches so often within a sub-step is stopped there.
 const MOST: u8 = 3;
@@ -233,6 +237,12 @@ impl Engine {
 
     /// Stops fast bodies that would pass through others within the `left` seconds of their motions; which ones it stopped.
     pub fn stop_fast(&mut self, left: f64, rules: &dyn PairRules) -> Vec<BodyId> {
+        let is_whole = left >= self.law.h;
+        let hung = if is_whole {
+            core::mem::take(&mut self.hanging)
+        } else {
+            Vec::new()
+        };
         // Each motion is searched once.
         let mut noted = core::mem::take(&mut self.fast_bodies);
         noted.retain(|body| self.is_searched(body));
@@ -282,16 +292,53 @@ impl Engine {
         }
         let mut stopped = Vec::new();
         let mut shifted = Vec::new();
+        let mut hanging = Vec::new();
         let mut touched: Vec<Moving> = fast.moving.into_iter().flatten().collect();
         touched.retain(|body| body.touches > 0);
         touched.sort_unstable_by_key(|body| body.birth);
         for body in &touched {
             let shift = self.stop_at(body, left);
             shifted.extend(self.free_pair(body).map(|pair| (pair, shift)));
+            let from = fast
+                .noted
+                .binary_search_by_key(&body.slot, |noted| noted.slot);
+            let from = from.map_or(Vec2::ZERO, |k| fast.noted[k].from.0);
+            hanging.extend(self.hangs(body, from, shift, &hung));
             stopped.push(self.bodies.id(body.slot));
         }
         turn_shifted(&mut self.bodies, &shifted);
+        if is_whole {
+            self.hanging = hanging;
+        }
         stopped
+    }
+
+    /// A body and what stands that it hangs on, if it was stopped where it stands, by `shift`; if it `hung` there before it loses what its
+    /// motion lost.
+    fn hangs(
+        &mut self,
+        body: &Moving,
+        from: Vec2,
+        shift: Vec2,
+        hung: &[[u32; 2]],
+    ) -> Option<[u32; 2]> {
+        let pair = [body.slot, body.touched?];
+        let line = self.bodies.records[body.slot as usize].line;
+        let at = line as usize;
+        let went = (self.bodies.lines[at].d() - from).length();
+        if self.bodies.is_dynamic(pair[1]) || went > HANGS * (went + shift.length()) {
+            return None;
+        }
+        if hung.contains(&pair) {
+            let (known, motion) = (&self.bodies.lines[at], &body.motion);
+            if motion.velocity.length_squared() <= known.v().length_squared() {
+                let lost = Quad::new(motion.velocity - known.v(), -known.w());
+                self.bodies.lines[at].add(&lost);
+                self.bodies.start[at].add(&lost);
+                self.bodies.note_change(line);
+            }
+        }
+        Some(pair)
     }
 
     /// Lines of a body and of the one that it touched first, if both are free.
