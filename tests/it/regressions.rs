@@ -26,6 +26,7 @@ mod a_large_pile_that_is_woken_goes_on_from_then;
 mod a_light_body_keeps_a_heavy_one_off_the_floor;
 mod a_long_body_is_met_in_flight;
 mod a_long_flight_costs_no_more_than_what_it_meets;
+mod a_notch_on_a_spike_goes_on;
 mod a_nudged_stack_has_its_contact_modes_solved_a_few_times;
 mod a_place_used_again_inherits_nothing;
 mod a_plank_that_rolls_on_a_disc_stays_on_it;

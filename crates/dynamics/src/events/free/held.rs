@@ -10,11 +10,28 @@ use crate::motion::flight::fly;
 use crate::store::pairs::PairContact;
 use crate::{BodyKind, Mode, World};
 
+/// Landings of two bodies on each other at one instant.
+const LANDINGS: u32 = 16;
+
 impl World {
-    /// What is pressed together and does not bounce stays in contact from now on.
+    /// What is pressed together and does not bounce stays in contact from now on. What takes off and lands again at one instant, where
+    /// a search and the contacts that a look finds do not agree, is the engine's.
     pub(super) fn begins_to_last(&mut self, impact: &Foreseen, time: SimTime) {
-        self.land(impact.bodies.0, time);
-        self.land(impact.bodies.1, time);
+        let (a, b) = impact.bodies;
+        let (last, when, count) = self.free.lasting;
+        let count = if last == (a, b) && when == time {
+            count + 1
+        } else {
+            1
+        };
+        self.free.lasting = ((a, b), time, count);
+        if count > LANDINGS {
+            self.report.unresolved += 1;
+            self.join(a, time);
+            return self.join(b, time);
+        }
+        self.land(a, time);
+        self.land(b, time);
     }
 
     /// Impacts that outrun their budget have come to their limit: a common stop of all that touches, at this instant.

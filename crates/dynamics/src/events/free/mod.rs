@@ -100,6 +100,8 @@ pub(crate) struct FreeBodies {
     micro_bounce: Option<(f64, Foreseen)>,
     /// The shapes in the impact that is being resolved, and where they part.
     struck: Option<((u32, u32), ImpactFeature)>,
+    /// Bodies that began to last in contact, when, and how often at that instant.
+    lasting: ((u32, u32), SimTime, u32),
 }
 
 impl FreeBodies {
@@ -130,6 +132,7 @@ impl FreeBodies {
             shapes: Vec::new(),
             micro_bounce: None,
             struck: None,
+            lasting: ((0, 0), SimTime::NEVER, 0),
         }
     }
 
