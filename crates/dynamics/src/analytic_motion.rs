@@ -111,8 +111,7 @@ impl World {
         // Which sides its contacts hide is asked of where they are now.
         for touch in &group.touches {
             let pair = self.pairs.get_mut(touch.pair);
-            self.narrow
-                .look(&self.bodies, &self.colliders, pair, time, self.clock.h);
+            self.narrow.look(&self.bodies, pair, time, self.clock.h);
         }
         for &index in &members {
             self.bodies.get_mut(index).land();
@@ -122,10 +121,7 @@ impl World {
         for &index in &members {
             self.unsettle(index, time);
             // Its boxes are as long as its way was: narrow ones meet what is here.
-            for slot in 0..self.bodies.get(index).colliders.len() {
-                let at = self.bodies.get(index).colliders[slot];
-                self.colliders[at as usize].fat = Aabb::EMPTY;
-            }
+            self.bodies.set_boxes(index, Aabb::EMPTY);
         }
         self.closed.moves(place);
         members

@@ -46,14 +46,14 @@ impl World {
     pub(crate) fn show(&mut self, index: u32, time: SimTime) {
         let mut free = Vec::new();
         for &at in &self.bodies.get(index).colliders.clone() {
-            let bounds = self.colliders[at as usize].fat;
+            let bounds = self.bodies.colliders[at as usize].fat;
             self.free.overlapping(&self.bodies, bounds, &mut free);
             for &body in &free {
                 self.approach_shape(body, at, time, Cause::Arrived);
             }
             // Those in the tree are few and large.
-            for other in self.broad.in_tree(&self.colliders, bounds) {
-                let owner = self.colliders[other as usize].body;
+            for other in self.broad.in_tree(&self.bodies, bounds) {
+                let owner = self.bodies.colliders[other as usize].body;
                 if self.bodies.get(owner).goes_by_events() {
                     self.approach_shape(owner, at, time, Cause::Arrived);
                 }
@@ -73,8 +73,7 @@ impl World {
             }
             let pair = self.pairs.get_mut(place);
             pair.fresh = false;
-            self.narrow
-                .look(&self.bodies, &self.colliders, pair, time, self.clock.h);
+            self.narrow.look(&self.bodies, pair, time, self.clock.h);
         }
     }
 
@@ -166,14 +165,9 @@ impl World {
         };
         for slot in 0..self.bodies.get(index).colliders.len() {
             let at = self.bodies.get(index).colliders[slot];
-            if self.colliders[at as usize].node.is_some() {
-                self.broad.meet(
-                    &mut self.bodies,
-                    &self.colliders,
-                    &mut self.pairs,
-                    at,
-                    Some(&free),
-                );
+            if self.bodies.colliders[at as usize].node.is_some() {
+                self.broad
+                    .meet(&mut self.bodies, &mut self.pairs, at, Some(&free));
             }
         }
     }
@@ -183,7 +177,7 @@ impl World {
         for slot in 0..self.bodies.get(index).colliders.len() {
             let mine = self.bodies.get(index).colliders[slot];
             self.broad
-                .pair_up(&mut self.bodies, &self.colliders, &mut self.pairs, mine, at);
+                .pair_up(&mut self.bodies, &mut self.pairs, mine, at);
         }
     }
 
@@ -199,7 +193,6 @@ impl World {
         let free: &Overlapping<'_> = &free;
         self.broad.refit(
             &mut self.bodies,
-            &mut self.colliders,
             &mut self.pairs,
             index,
             time,

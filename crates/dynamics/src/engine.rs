@@ -88,7 +88,6 @@ impl World {
     pub(crate) fn search_contacts(&mut self, stepping: &mut Stepping) -> bool {
         stepping.search_contacts(
             &mut self.bodies,
-            &self.colliders,
             &self.broad,
             self.settings.mode,
             self.clock.now,
@@ -97,22 +96,20 @@ impl World {
 
     fn invite_ahead(&mut self, stepping: &mut Stepping, left: f64) {
         if self.may_join() {
-            let (colliders, broad) = (&self.colliders, &self.broad);
-            stepping.invite_ahead(&mut self.bodies, colliders, broad, self.clock.now, left);
+            stepping.invite_ahead(&mut self.bodies, &self.broad, self.clock.now, left);
         }
     }
 
     pub(crate) fn rules(&self) -> Rules<'_> {
         Rules {
             bodies: &self.bodies,
-            colliders: &self.colliders,
             broad: &self.broad,
         }
     }
 
     /// Enters bodies that came or were changed, before the sub-step from `time` on. Bodies that this wakes are reported at `told`.
     pub(crate) fn enter_changed(&mut self, stepping: &mut Stepping, time: SimTime, told: SimTime) {
-        stepping.enter_changed(&mut self.bodies, &self.colliders, self.settings.mode, time);
+        stepping.enter_changed(&mut self.bodies, self.settings.mode, time);
         self.tell_sleep(stepping, told);
         self.stopwatch.lap(|p| &mut p.contacts);
     }
@@ -144,19 +141,13 @@ impl World {
 
     /// Begins and ends of touch since this was last called, in order of shapes.
     pub(crate) fn tell_touches(&mut self, stepping: &mut Stepping, time: SimTime) {
-        stepping.tell_touches(
-            &self.bodies,
-            &self.colliders,
-            &mut self.joins.told,
-            &mut self.events,
-            time,
-        );
+        stepping.tell_touches(&self.bodies, &mut self.joins.told, &mut self.events, time);
     }
 
     /// Impacts that ended by `time`, the end of a sub-step.
     pub(crate) fn tell_impacts(&mut self, stepping: &mut Stepping, time: SimTime) {
         let (events, report) = (&mut self.events, &mut self.report);
-        stepping.tell_impacts(&self.bodies, &self.colliders, events, report, time);
+        stepping.tell_impacts(&self.bodies, events, report, time);
     }
 
     /// Tells of bodies that fell asleep or woke.

@@ -202,7 +202,6 @@ impl World {
     ) -> Result<Gathered, Refused> {
         let mut around = Around {
             bodies: &self.bodies,
-            colliders: &self.colliders,
             pairs: &mut self.pairs,
             narrow: &mut self.narrow,
             h: self.clock.h,

@@ -219,7 +219,6 @@ impl World {
     fn outsiders_near(&mut self, time: SimTime, asks_all: bool) -> BTreeSet<u32> {
         let rules = Rules {
             bodies: &self.bodies,
-            colliders: &self.colliders,
             broad: &self.broad,
         };
         let tick = self.clock.tick(self.settings.substeps_per_tick());

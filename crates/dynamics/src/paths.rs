@@ -30,7 +30,6 @@ impl World {
         let tip = path_of(
             &self.bodies,
             &self.pairs,
-            &self.colliders,
             gathered,
             (time, speed, self.settings.mode),
         )?;

@@ -105,7 +105,7 @@ impl World {
             };
             let due = |time: &SimTime| *time <= grid;
             let change = self.closed.next().filter(due);
-            let flight = self.free.next(&self.bodies, &self.colliders, grid);
+            let flight = self.free.next(&self.bodies, grid);
             let next = [change, flight].into_iter().flatten().min();
             let next = next.unwrap_or(grid).min(grid);
             if next > reached && self.settle(reached) {
@@ -144,7 +144,6 @@ impl World {
         let struck = strike(
             &self.settings,
             &mut self.bodies,
-            &self.colliders,
             &mut self.pairs,
             &mut self.narrow,
             impact,

@@ -76,7 +76,7 @@ mod tests {
         let state = world.bodies.get_mut(id.index);
         (state.motion.spin, state.turned) = (f64::NAN, f64::NAN);
         let now = world.clock.now;
-        world.bodies.stop(&world.colliders, id.index, now);
+        world.bodies.stop(id.index, now);
         let told = world.set_velocity(id, vec2(0.0, -5.0), 0.0);
         assert!(told.is_ok(), "{told:?}");
         world.step(2.0);

@@ -37,15 +37,13 @@ impl World {
 
     /// Contacts of all that waits for its method; begins and ends of touch, and overlaps. Places of the pairs.
     fn look_at_held(&mut self, time: SimTime) -> Vec<u32> {
-        let (bodies, colliders, h) = (&self.bodies, &self.colliders, self.clock.h);
+        let (bodies, h) = (&self.bodies, self.clock.h);
         let all = self.unsettled.iter();
         let all = all.flat_map(|index| &bodies.get(*index).pairs);
         let places = self.pairs.by_colliders(all.copied());
         for &place in &places {
             let pairs = &mut self.pairs;
-            let pair = self
-                .narrow
-                .look_at(bodies, colliders, pairs, place, time, h);
+            let pair = self.narrow.look_at(bodies, pairs, place, time, h);
             pair.fresh = false;
             let reach = |index: u32| bodies.get(index).reach;
             let (a, b) = pair.bodies;
@@ -121,11 +119,11 @@ impl World {
             let pose = self.bodies.get(standing).motion.pose_at(time);
             let (mut near, mut found) = (Vec::new(), Vec::new());
             for &at in &self.bodies.get(standing).colliders {
-                let bounds = self.colliders[at as usize].solid.aabb(pose);
+                let bounds = self.bodies.colliders[at as usize].solid.aabb(pose);
                 self.free.overlapping(&self.bodies, bounds, &mut found);
                 near.extend(&found);
-                let shapes = self.broad.in_tree(&self.colliders, bounds).into_iter();
-                near.extend(shapes.map(|at| self.colliders[at as usize].body));
+                let shapes = self.broad.in_tree(&self.bodies, bounds).into_iter();
+                near.extend(shapes.map(|at| self.bodies.colliders[at as usize].body));
             }
             near.sort_unstable();
             near.dedup();
@@ -168,9 +166,9 @@ impl World {
         let all = state.colliders.iter();
         let mut shapes = all.flat_map(|mine| other.colliders.iter().map(move |at| [*mine, *at]));
         shapes.any(|shapes| {
-            let [mine, theirs] = shapes.map(|at| &self.colliders[at as usize]);
+            let [mine, theirs] = shapes.map(|at| &self.bodies.colliders[at as usize]);
             let (one, two) = (&mine.solid, &theirs.solid);
-            self.broad.may_touch(&self.bodies, mine, theirs)
+            self.broad.may_touch(&self.bodies, shapes.into())
                 && time_of_impact(one, &motions[0], two, &motions[1], left) != TimeOfImpact::Clear
         })
     }

@@ -12,7 +12,6 @@ use crate::stepping::{Joins, Stepping};
 use crate::store::bodies::Bodies;
 use crate::store::clock::Clock;
 use crate::store::pairs::Pairs;
-use crate::store::state::Collider;
 use crate::values::profile::Stopwatch;
 use crate::work::Work;
 use crate::{Events, Settings, StepReport};
@@ -45,8 +44,6 @@ pub struct World {
     pub(crate) settings: Settings,
     pub(crate) clock: Clock,
     pub(crate) bodies: Bodies,
-    pub(crate) colliders: Vec<Collider>,
-    pub(crate) free_colliders: Vec<u32>,
     pub(crate) pairs: Pairs,
     pub(crate) broad: Broad,
     pub(crate) narrow: Narrow,

@@ -1,7 +1,6 @@
 //! Contacts at an instant, as plain data for the closed forms of islands.
 
 use arrayvec::ArrayVec;
-use carom_collision::part;
 use carom_math::{SimTime, Vec2};
 
 use crate::analytic::modes::{ModeBody, Touch, hold, stand};
@@ -11,7 +10,7 @@ use crate::model::graph::ROWS;
 use crate::model::narrow::{Narrow, TOUCH, rest_speed};
 use crate::store::bodies::Bodies;
 use crate::store::pairs::Pairs;
-use crate::store::state::{BodyState, Collider};
+use crate::store::state::BodyState;
 
 /// Overlap beyond which a pair is pushed apart first, as a part of the smaller reach: closed forms keep what
 /// overlap there is.
@@ -186,7 +185,6 @@ fn mode_body(bodies: &Bodies, state: &BodyState, time: SimTime) -> ModeBody {
 /// What the contacts around a body are read of, and looked at anew with.
 pub(crate) struct Around<'a> {
     pub(crate) bodies: &'a Bodies,
-    pub(crate) colliders: &'a [Collider],
     pub(crate) pairs: &'a mut Pairs,
     pub(crate) narrow: &'a mut Narrow,
     /// Of a sub-step, in s.
@@ -263,9 +261,7 @@ impl Around<'_> {
         let h = self.h;
         let mut touching = self.pairs.get(place).touching;
         if looks == Looks::Old {
-            let pair = self
-                .narrow
-                .look_at(self.bodies, self.colliders, self.pairs, place, time, h);
+            let pair = self.narrow.look_at(self.bodies, self.pairs, place, time, h);
             // Begins and ends of touch are told once all has its method.
             core::mem::swap(&mut touching, &mut pair.touching);
         }
@@ -285,17 +281,11 @@ impl Around<'_> {
         if !touching {
             return Some(0);
         }
-        let hulls = |parts: (u32, u32)| {
-            let solid = |collider: u32| &*self.colliders[collider as usize].solid;
-            (
-                part(solid(pair.colliders.0), parts.0 as usize),
-                part(solid(pair.colliders.1), parts.1 as usize),
-            )
-        };
         found.rest = if rest > found.rest { rest } else { found.rest };
         let mut rows = 0;
         for (number, contact) in pair.contacts.iter().enumerate() {
-            let (hull_a, hull_b) = hulls(contact.parts);
+            let hull_a = self.bodies.hull(pair.colliders.0, contact.parts.0);
+            let hull_b = self.bodies.hull(pair.colliders.1, contact.parts.1);
             let poses = (a.centre_pose(time), b.centre_pose(time));
             let corner = corner_under_disc((&hull_a, &hull_b), poses, ends, contact.normal);
             let normal = corner.map_or(contact.normal, |(normal, _)| normal);
@@ -352,10 +342,8 @@ impl Around<'_> {
                 friction: pair.material.friction,
             });
             found.pairs.push((place, number));
-            let press_at = |point: &Vec2| {
-                pair.spot(self.bodies, self.colliders, contact, *point)
-                    .turning_rest(time, h)
-            };
+            let press_at =
+                |point: &Vec2| pair.turning_rest_at(self.bodies, contact, *point, (time, h));
             let presses = points_of.iter().map(press_at);
             found.presses.push(presses.fold(f64::INFINITY, f64::min));
         }

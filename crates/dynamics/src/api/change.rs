@@ -103,7 +103,7 @@ impl World {
         }
         if kind != BodyKind::Fixed {
             let shapes = state.colliders.iter();
-            let mut solids = shapes.map(|at| &self.colliders[*at as usize].solid);
+            let mut solids = shapes.map(|at| &self.bodies.colliders[*at as usize].solid);
             if let Some(shape) = solids.position(|solid| !solid.is_bounded()) {
                 return Err(BodyError::HalfPlaneMoves { shape });
             }
@@ -126,7 +126,7 @@ impl World {
     pub fn set_filter(&mut self, id: BodyId, filter: Filter) -> Result<(), BodyError> {
         let index = self.bodies.find(id)?;
         for &at in &self.bodies.get(index).colliders.clone() {
-            self.colliders[at as usize].set_filter(filter);
+            self.bodies.colliders[at as usize].set_filter(filter);
         }
         self.remake(index, |_| {});
         Ok(())
@@ -143,7 +143,7 @@ impl World {
         filter: Filter,
     ) -> Result<(), BodyError> {
         let at = self.collider_of(id, shape)?;
-        self.colliders[at as usize].set_filter(filter);
+        self.bodies.colliders[at as usize].set_filter(filter);
         self.remake(id.index, |_| {});
         Ok(())
     }
@@ -325,12 +325,12 @@ impl World {
         let mut found = Vec::new();
         let state = self.bodies.get(index);
         for at in &state.colliders {
-            let mine = &self.colliders[*at as usize];
+            let mine = &self.bodies.colliders[*at as usize];
             let pose = state.motion.pose_at(time);
-            for other in self.broad.in_tree(&self.colliders, mine.solid.aabb(pose)) {
-                let theirs = &self.colliders[other as usize];
+            for other in self.broad.in_tree(&self.bodies, mine.solid.aabb(pose)) {
+                let theirs = &self.bodies.colliders[other as usize];
                 let partner = self.bodies.get(theirs.body);
-                if !partner.is_asleep() || !self.broad.may_touch(&self.bodies, mine, theirs) {
+                if !partner.is_asleep() || !self.broad.may_touch(&self.bodies, (*at, other)) {
                     continue;
                 }
                 // What fell asleep on it may have sunk in, or hover within the solver's margin.

@@ -38,9 +38,7 @@ impl World {
         for place in self.bodies.get(ends[0]).pairs.clone() {
             let pair = self.pairs.get_mut(place);
             if pair.bodies == (a.index, b.index) {
-                let [one, two] = [pair.colliders.0, pair.colliders.1]
-                    .map(|collider| &self.colliders[collider as usize]);
-                pair.material = self.broad.material(a, b, one, two);
+                pair.material = self.broad.material(&self.bodies, pair.colliders);
             }
         }
         for index in ends {

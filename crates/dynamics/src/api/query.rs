@@ -371,7 +371,7 @@ impl Filtered<'_> {
             .flat_map(|body| &self.world.bodies.get(*body).colliders);
         let members = in_engine.into_iter();
         let is_member = |at: &u32| {
-            let owner = self.world.colliders[*at as usize].body;
+            let owner = self.world.bodies.colliders[*at as usize].body;
             let state = self.world.bodies.get(owner);
             state.in_engine() && !state.is_asleep()
         };
@@ -385,7 +385,7 @@ impl Filtered<'_> {
 
     /// A shape that the tree named, with its body and its place there.
     fn shape_at(&self, at: u32) -> (&BodyState, usize, &Collider) {
-        let collider = &self.world.colliders[at as usize];
+        let collider = &self.world.bodies.colliders[at as usize];
         let body = self.world.bodies.get(collider.body);
         (body, body.shape_of(at), collider)
     }

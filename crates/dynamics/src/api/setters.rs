@@ -27,7 +27,7 @@ impl World {
     ) -> Result<(), BodyError> {
         material.check()?;
         let at = self.collider_of(id, shape)?;
-        self.colliders[at as usize].set_material(material);
+        self.bodies.colliders[at as usize].set_material(material);
         self.remake(id.index, |_| {});
         Ok(())
     }
@@ -131,9 +131,11 @@ impl World {
         let reaches = shapes.iter();
         let reaches = reaches.map(|(shape, _)| shape.reach_about(mass.centroid));
         let reach = reaches.fold(0.0, f64::max);
-        let filter = self.colliders[state.colliders[0] as usize].surface.filter;
+        let filter = self.bodies.colliders[state.colliders[0] as usize]
+            .surface
+            .filter;
         self.leave_all(index);
-        self.broad.forget(&self.bodies, &mut self.colliders, index);
+        self.broad.forget(&mut self.bodies, index);
         self.free_shapes(index);
         let add = |(shape, material)| {
             let surface = Surface { material, filter };
@@ -230,7 +232,7 @@ impl World {
         self.leave_all(index);
         self.alter(index, change);
         // Pairs are made by kind and surface: boxes that are new find them anew.
-        self.broad.forget(&self.bodies, &mut self.colliders, index);
+        self.broad.forget(&mut self.bodies, index);
         self.arrive(index);
         self.unsettle_on(index, self.clock.now);
         self.bodies.check_regime(index, self.settings.mode);

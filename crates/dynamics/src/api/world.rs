@@ -42,8 +42,6 @@ impl World {
                 settings.history,
                 settings.mode == Mode::Stepped,
             ),
-            colliders: Vec::new(),
-            free_colliders: Vec::new(),
             pairs: Pairs::default(),
             broad: Broad::new(settings.pair_search),
             narrow: Narrow::default(),
@@ -91,7 +89,6 @@ impl World {
     /// to twice as large as it need be, and leaves holes.
     pub fn reserve(&mut self, bodies: usize) {
         self.bodies.reserve(bodies);
-        self.colliders.reserve_exact(bodies);
         self.free.reserve(bodies);
     }
 
@@ -180,7 +177,7 @@ impl World {
         }
         self.free.vanish(&mut self.bodies, index);
         self.end_unsettled(index);
-        self.broad.forget(&self.bodies, &mut self.colliders, index);
+        self.broad.forget(&mut self.bodies, index);
         self.free_shapes(index);
         self.forced.retain(|i| *i != index);
         self.broad
@@ -209,8 +206,7 @@ impl World {
         let places = self.pairs.in_order().into_iter();
         let touching = places.filter(|place| self.pairs.get(*place).told);
         let stepped = self.stepping.iter();
-        let stepped =
-            stepped.flat_map(|stepping| stepping.contacts(&self.bodies, &self.colliders, None));
+        let stepped = stepped.flat_map(|stepping| stepping.contacts(&self.bodies, None));
         touching
             .flat_map(|place| self.contacts_at(place))
             .chain(stepped)
@@ -227,9 +223,8 @@ impl World {
         touching.sort_unstable_by_key(|place| self.pairs.shapes(*place));
         let index = self.bodies.find(id).ok();
         let stepped = self.stepping.iter().zip(index);
-        let stepped = stepped.flat_map(|(stepping, index)| {
-            stepping.contacts(&self.bodies, &self.colliders, Some(index))
-        });
+        let stepped =
+            stepped.flat_map(|(stepping, index)| stepping.contacts(&self.bodies, Some(index)));
         touching
             .into_iter()
             .flat_map(|place| self.contacts_at(place))
@@ -239,9 +234,7 @@ impl World {
     fn contacts_at(&self, place: u32) -> Vec<Contact> {
         let pair = self.pairs.get(place);
         let at = (self.clock.now, self.clock.h);
-        let now = self
-            .closed
-            .moving_pair_at(&self.bodies, &self.colliders, pair, place, at);
+        let now = self.closed.moving_pair_at(&self.bodies, pair, place, at);
         let pair = now.as_ref().unwrap_or(pair);
         Contact::of(&self.bodies, pair).collect()
     }
@@ -350,7 +343,7 @@ impl World {
     pub(crate) fn view<'w>(&'w self, state: &'w BodyState) -> Body<'w> {
         Body {
             state,
-            colliders: &self.colliders,
+            colliders: &self.bodies.colliders,
             version: self.bodies.version(state.id.index),
             now: self.clock.now,
         }
@@ -358,8 +351,8 @@ impl World {
 
     /// Gives the places of a body's shapes to those that come next.
     pub(crate) fn free_shapes(&mut self, index: u32) {
-        let colliders = &self.bodies.get(index).colliders;
-        self.free_colliders.extend(colliders);
+        let freed = self.bodies.get(index).colliders.clone();
+        self.bodies.free_colliders.extend(&freed);
     }
 
     /// Puts a shape of a body among all shapes, and returns its place there.
@@ -384,16 +377,16 @@ impl World {
             node: None,
             fat: Aabb::EMPTY,
         };
-        if let Some(at) = self.free_colliders.pop() {
-            self.colliders[at as usize] = collider;
+        if let Some(at) = self.bodies.free_colliders.pop() {
+            self.bodies.colliders[at as usize] = collider;
             at
         } else {
-            self.colliders.push(collider);
+            self.bodies.colliders.push(collider);
             #[expect(
                 clippy::cast_possible_truncation,
                 reason = "fewer than 2^32 fit in memory"
             )]
-            let at = (self.colliders.len() - 1) as u32;
+            let at = (self.bodies.colliders.len() - 1) as u32;
             at
         }
     }
@@ -421,6 +414,6 @@ impl World {
 
     /// The shapes that came last: many bodies are alike.
     fn latest(&self) -> impl Iterator<Item = &Collider> {
-        self.colliders.iter().rev().take(LATEST)
+        self.bodies.colliders.iter().rev().take(LATEST)
     }
 }

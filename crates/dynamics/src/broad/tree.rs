@@ -51,14 +51,9 @@ impl Broad {
 
     /// Brings the boxes of a body up to date for its motion between `time` and `time + h`, and
     /// finds the partners it did not have.
-    #[expect(
-        clippy::too_many_arguments,
-        reason = "a motion over time, and the stores that a search for partners goes through"
-    )]
     pub(crate) fn refit(
         &mut self,
         bodies: &mut Bodies,
-        colliders: &mut [Collider],
         pairs: &mut Pairs,
         index: u32,
         time: SimTime,
@@ -68,8 +63,8 @@ impl Broad {
         for slot in 0..bodies.get(index).colliders.len() {
             let body = bodies.get(index);
             let at = body.colliders[slot];
-            let swept = swept_box(&colliders[at as usize], &body.motion, time, h);
-            let collider = &colliders[at as usize];
+            let swept = swept_box(&bodies.colliders[at as usize], &body.motion, time, h);
+            let collider = &bodies.colliders[at as usize];
             if collider.node.is_some() && collider.fat.contains(swept) {
                 continue;
             }
@@ -81,23 +76,23 @@ impl Broad {
                 0.0
             };
             let fat = swept.union(ahead).grown(padding);
-            self.put(colliders, at, fat, time);
-            self.meet(bodies, colliders, pairs, at, free);
+            self.put(bodies, at, fat, time);
+            self.meet(bodies, pairs, at, free);
         }
     }
 
     /// Takes the boxes of a body out of the trees.
-    pub(crate) fn forget(&mut self, bodies: &Bodies, colliders: &mut [Collider], index: u32) {
-        for &at in &bodies.get(index).colliders {
-            if let Some(node) = colliders[at as usize].node.take() {
+    pub(crate) fn forget(&mut self, bodies: &mut Bodies, index: u32) {
+        for &at in &bodies.get(index).colliders.clone() {
+            if let Some(node) = bodies.colliders[at as usize].node.take() {
                 self.tree.remove(node);
             }
         }
     }
 
     /// Gives a collider a new box.
-    pub(crate) fn put(&mut self, colliders: &mut [Collider], at: u32, fat: Aabb, time: SimTime) {
-        let collider = &mut colliders[at as usize];
+    pub(crate) fn put(&mut self, bodies: &mut Bodies, at: u32, fat: Aabb, time: SimTime) {
+        let collider = &mut bodies.colliders[at as usize];
         collider.fat = fat;
         // The tree is asked where a body is at instants in between, too.
         let kept = fat.grown(roundable(fat));
@@ -110,40 +105,37 @@ impl Broad {
     }
 
     /// Boxes of a free body that is too large for the grid, over its motion up to its horizon.
-    pub(crate) fn follow(
-        &mut self,
-        bodies: &Bodies,
-        colliders: &mut [Collider],
-        index: u32,
-        time: SimTime,
-        seconds: f64,
-    ) {
-        let body = bodies.get(index);
-        for &at in &body.colliders {
-            let fat = swept_box(&colliders[at as usize], &body.motion, time, seconds);
-            self.put(colliders, at, fat, time);
+    pub(crate) fn follow(&mut self, bodies: &mut Bodies, index: u32, time: SimTime, seconds: f64) {
+        let motion = bodies.get(index).motion;
+        for &at in &bodies.get(index).colliders.clone() {
+            let fat = swept_box(&bodies.colliders[at as usize], &motion, time, seconds);
+            self.put(bodies, at, fat, time);
         }
     }
 
     /// Colliders in the trees with boxes that overlap `bounds`, in order.
-    pub(crate) fn in_tree(&self, colliders: &[Collider], bounds: Aabb) -> Vec<u32> {
+    pub(crate) fn in_tree(&self, bodies: &Bodies, bounds: Aabb) -> Vec<u32> {
         let mut near = Vec::new();
-        self.search_tree(colliders, bounds, &mut near);
+        self.search_tree(bodies, bounds, &mut near);
         near
     }
 
     /// [`Self::in_tree`], in the memory of an earlier search.
-    pub(crate) fn search_tree(&self, colliders: &[Collider], bounds: Aabb, near: &mut Vec<u32>) {
+    pub(crate) fn search_tree(&self, bodies: &Bodies, bounds: Aabb, near: &mut Vec<u32>) {
         near.clear();
         match self.search {
             PairSearch::None => {}
             PairSearch::AllPairs => {
-                let all = (0_u32..).zip(colliders);
+                let all = (0_u32..).zip(&bodies.colliders);
                 near.extend(all.filter(|(_, c)| c.node.is_some()).map(|(at, _)| at));
             }
             PairSearch::Indexed => {
-                self.tree
-                    .query(bounds, overlapping(colliders, bounds, near));
+                // The boxes of the tree are rounded: a shape counts by its own.
+                self.tree.query(bounds, |at| {
+                    if bodies.colliders[at as usize].fat.overlaps(bounds) {
+                        near.push(at);
+                    }
+                });
                 near.sort_unstable();
             }
         }
@@ -153,29 +145,24 @@ impl Broad {
     pub(crate) fn meet(
         &mut self,
         bodies: &mut Bodies,
-        colliders: &[Collider],
         pairs: &mut Pairs,
         at: u32,
         free: Option<&Overlapping<'_>>,
     ) {
-        let mine = &colliders[at as usize];
+        let bounds = bodies.colliders[at as usize].fat;
         let mut near = core::mem::take(&mut self.near);
         near.clear();
         match self.search {
             PairSearch::None => {}
             PairSearch::AllPairs => {
                 let there = |c: &Collider| c.node.is_some() || bodies.get(c.body).goes_by_events();
-                near.extend(
-                    (0u32..)
-                        .zip(colliders)
-                        .filter(|(_, c)| there(c))
-                        .map(|(i, _)| i),
-                );
+                let all = (0_u32..).zip(&bodies.colliders);
+                near.extend(all.filter(|(_, c)| there(c)).map(|(at, _)| at));
             }
             PairSearch::Indexed => {
-                self.tree.query(mine.fat, |other| near.push(other));
+                self.tree.query(bounds, |other| near.push(other));
                 if let Some(free) = free {
-                    free(bodies, mine.fat, &mut self.free);
+                    free(bodies, bounds, &mut self.free);
                     let shapes = |body: &u32| &bodies.get(*body).colliders;
                     near.extend(self.free.iter().flat_map(shapes));
                 }
@@ -183,24 +170,17 @@ impl Broad {
         }
         near.sort_unstable();
         for &other in &near {
-            let theirs = &colliders[other as usize];
-            if self.search == PairSearch::Indexed && !theirs.fat.overlaps(mine.fat) {
+            let theirs = bodies.colliders[other as usize].fat;
+            if self.search == PairSearch::Indexed && !theirs.overlaps(bounds) {
                 continue;
             }
-            self.pair_up(bodies, colliders, pairs, at, other);
+            self.pair_up(bodies, pairs, at, other);
         }
         self.near = near;
     }
 
-    pub(crate) fn pair_up(
-        &self,
-        bodies: &mut Bodies,
-        colliders: &[Collider],
-        pairs: &mut Pairs,
-        one: u32,
-        two: u32,
-    ) {
-        let key = |i: u32| (colliders[i as usize].body, i);
+    pub(crate) fn pair_up(&self, bodies: &mut Bodies, pairs: &mut Pairs, one: u32, two: u32) {
+        let key = |i: u32| (bodies.colliders[i as usize].body, i);
         let (first, second) = if key(one) < key(two) {
             (one, two)
         } else {
@@ -218,11 +198,7 @@ impl Broad {
         if a.kind != BodyKind::Dynamic && b.kind != BodyKind::Dynamic {
             return;
         }
-        if !self.may_touch(
-            bodies,
-            &colliders[first as usize],
-            &colliders[second as usize],
-        ) {
+        if !self.may_touch(bodies, (first, second)) {
             return;
         }
         let known = if a.pairs.len() < b.pairs.len() {
@@ -233,12 +209,7 @@ impl Broad {
         if known.iter().any(|&p| pairs.shapes(p) == (first, second)) {
             return;
         }
-        let material = self.material(
-            a.id,
-            b.id,
-            &colliders[first as usize],
-            &colliders[second as usize],
-        );
+        let material = self.material(bodies, (first, second));
         let place = pairs.insert(Pair {
             colliders: (first, second),
             bodies: ends,
@@ -260,46 +231,31 @@ impl Broad {
     }
 
     /// Whether filters and the caller let two shapes touch.
-    pub(crate) fn may_touch(&self, bodies: &Bodies, one: &Collider, other: &Collider) -> bool {
-        let id = |of: &Collider| bodies.get(of.body).id;
-        let excluded = || {
-            let (a, b) = (id(one), id(other));
-            self.excluded.contains(&(a.min(b), a.max(b)))
-        };
-        one.surface.filter.touches(other.surface.filter)
-            && (self.excluded.is_empty() || !excluded())
+    pub(crate) fn may_touch(&self, bodies: &Bodies, shapes: (u32, u32)) -> bool {
+        let [one, other] =
+            [shapes.0, shapes.1].map(|at| bodies.colliders[at as usize].surface.filter);
+        one.touches(other)
+            && (self.excluded.is_empty() || !self.excluded.contains(&ids_of(bodies, shapes)))
     }
 
-    pub(crate) fn material(
-        &self,
-        a: BodyId,
-        b: BodyId,
-        first: &Collider,
-        second: &Collider,
-    ) -> PairMaterial {
-        let key = if a < b { (a, b) } else { (b, a) };
-        let given = self.overrides.get(&key).copied();
-        given.unwrap_or_else(|| first.surface.material.against(&second.surface.material))
+    /// How the surfaces of two shapes meet.
+    pub(crate) fn material(&self, bodies: &Bodies, shapes: (u32, u32)) -> PairMaterial {
+        let given = self.overrides.get(&ids_of(bodies, shapes)).copied();
+        let of = |at: u32| &bodies.colliders[at as usize].surface.material;
+        given.unwrap_or_else(|| of(shapes.0).against(of(shapes.1)))
     }
 
     /// Whether the boxes that a pair of shapes was found with still overlap.
-    pub(crate) fn keeps(&self, colliders: &[Collider], (one, two): (u32, u32)) -> bool {
-        let [one, two] = [one, two].map(|at| colliders[at as usize].fat);
+    pub(crate) fn keeps(&self, bodies: &Bodies, (one, two): (u32, u32)) -> bool {
+        let [one, two] = [one, two].map(|at| bodies.colliders[at as usize].fat);
         self.search == PairSearch::AllPairs || one.overlaps(two)
     }
 }
 
-/// Takes the colliders from a tree if their own boxes overlap `bounds`: the boxes of the tree are rounded.
-fn overlapping<'a>(
-    colliders: &'a [Collider],
-    bounds: Aabb,
-    near: &'a mut Vec<u32>,
-) -> impl FnMut(u32) + 'a {
-    move |at| {
-        if colliders[at as usize].fat.overlaps(bounds) {
-            near.push(at);
-        }
-    }
+/// The bodies of two shapes, in order.
+fn ids_of(bodies: &Bodies, (one, other): (u32, u32)) -> (BodyId, BodyId) {
+    let [a, b] = [one, other].map(|at| bodies.get(bodies.colliders[at as usize].body).id);
+    (a.min(b), a.max(b))
 }
 
 /// Takes a pair out of the store and out of its bodies' lists.

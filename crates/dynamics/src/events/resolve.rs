@@ -8,7 +8,6 @@ use crate::impact::{ImpactContact, resolve};
 use crate::model::narrow::{NOISE, Narrow, opening_speed, pace, rest_speed};
 use crate::store::bodies::Bodies;
 use crate::store::pairs::{Pair, Pairs};
-use crate::store::state::Collider;
 use crate::values::event::EventKind;
 use crate::{Events, PairMaterial, Settings, StepReport};
 
@@ -60,7 +59,6 @@ pub(crate) enum Struck {
 pub(crate) fn strike(
     settings: &Settings,
     bodies: &mut Bodies,
-    colliders: &[Collider],
     pairs: &mut Pairs,
     narrow: &mut Narrow,
     due: &PairImpact,
@@ -121,8 +119,8 @@ pub(crate) fn strike(
             (outcome.normal_impulse, outcome.tangential_impulse),
         );
     }
-    if !single || shock.spread(bodies, colliders, pairs, narrow) {
-        shock.solve(settings, bodies, colliders, pairs, narrow);
+    if !single || shock.spread(bodies, pairs, narrow) {
+        shock.solve(settings, bodies, pairs, narrow);
     }
     shock.hold(pairs);
     for strike in shock.squeezed() {

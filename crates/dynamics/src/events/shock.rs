@@ -20,7 +20,6 @@ use crate::impact::{
 use crate::model::narrow::{Narrow, TOUCH, rest_speed};
 use crate::store::bodies::Bodies;
 use crate::store::pairs::Pairs;
-use crate::store::state::Collider;
 
 /// Sweeps before the rest is left to the next look: what still closes then is struck again.
 const SWEEPS: usize = 300;
@@ -199,7 +198,6 @@ impl Shock {
     pub(crate) fn spread(
         &mut self,
         bodies: &Bodies,
-        colliders: &[Collider],
         pairs: &mut Pairs,
         narrow: &mut Narrow,
     ) -> bool {
@@ -213,20 +211,13 @@ impl Shock {
             }
             for slot in 0..bodies.get(shaken.index).pairs.len() {
                 let place = bodies.get(shaken.index).pairs[slot];
-                self.spread_to(bodies, colliders, pairs, narrow, place);
+                self.spread_to(bodies, pairs, narrow, place);
             }
         }
         self.strikes.len() > known
     }
 
-    fn spread_to(
-        &mut self,
-        bodies: &Bodies,
-        colliders: &[Collider],
-        pairs: &mut Pairs,
-        narrow: &mut Narrow,
-        place: u32,
-    ) {
+    fn spread_to(&mut self, bodies: &Bodies, pairs: &mut Pairs, narrow: &mut Narrow, place: u32) {
         let mut pair = pairs.get(place);
         // What bounces on its own will be struck in its turn; what lasts is part of this, and what collapses with it.
         let lasts = pair.lasting
@@ -239,7 +230,7 @@ impl Shock {
         let rest = if let Some((_, rest)) = looked {
             *rest
         } else {
-            pair = narrow.look_at(bodies, colliders, pairs, place, self.time, self.h);
+            pair = narrow.look_at(bodies, pairs, place, self.time, self.h);
             let rest = rest_speed(bodies, pair, self.h);
             self.operations += LOOK;
             self.looked.push((place, rest));
@@ -292,17 +283,16 @@ impl Shock {
         &mut self,
         settings: &Settings,
         bodies: &Bodies,
-        colliders: &[Collider],
         pairs: &mut Pairs,
         narrow: &mut Narrow,
     ) {
         while self.is_few() {
             self.solve_exactly(settings);
-            if !self.spread(bodies, colliders, pairs, narrow) {
+            if !self.spread(bodies, pairs, narrow) {
                 return;
             }
         }
-        self.solve_swept(bodies, colliders, pairs, narrow);
+        self.solve_swept(bodies, pairs, narrow);
     }
 
     fn is_few(&self) -> bool {
@@ -337,21 +327,14 @@ impl Shock {
     ///
     /// Where bodies are squeezed between others that do not yield the impulses of the sweeps grow without end. They are
     /// begun anew there, with contacts that yield and give nothing back.
-    fn solve_swept(
-        &mut self,
-        bodies: &Bodies,
-        colliders: &[Collider],
-        pairs: &mut Pairs,
-        narrow: &mut Narrow,
-    ) {
+    fn solve_swept(&mut self, bodies: &Bodies, pairs: &mut Pairs, narrow: &mut Narrow) {
         let struck = self
             .strikes
             .iter()
             .map(|strike| strike.speed)
             .fold(0.0, f64::max);
         let settled = (CONVERGED * struck).max(SETTLED * self.rest);
-        let mut sweep =
-            |shock: &mut Self, by| shock.sweep(by, settled, bodies, colliders, pairs, narrow);
+        let mut sweep = |shock: &mut Self, by| shock.sweep(by, settled, bodies, pairs, narrow);
         let driven = is_driven(self.bodies.iter().map(|shaken| &shaken.before));
         if sweep(self, Sweeper::default()).is_steady() && driven {
             self.squeezed = true;
@@ -369,7 +352,6 @@ impl Shock {
         mut sweeper: Sweeper,
         settled: f64,
         bodies: &Bodies,
-        colliders: &[Collider],
         pairs: &mut Pairs,
         narrow: &mut Narrow,
     ) -> Growth {
@@ -384,7 +366,7 @@ impl Shock {
                 continue;
             }
             self.take_over(&sweeper);
-            let grew = self.spread(bodies, colliders, pairs, narrow);
+            let grew = self.spread(bodies, pairs, narrow);
             if converged && !grew {
                 break;
             }

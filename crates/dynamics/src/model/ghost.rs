@@ -9,13 +9,13 @@
 //! A piece that stands out of the plane by more than [`TOUCH`] is no ghost: steps of a micrometre, inner corners and ramps
 //! stay. So do the ends of a floor: a body that tips over them is behind the plane.
 
-use carom_collision::{Hull, contacts, part};
+use carom_collision::{Hull, contacts};
 use carom_math::{Pose, SimTime, Vec2, cross};
 
 use super::narrow::{Narrow, TOUCH, note_touch};
 use crate::store::bodies::Bodies;
 use crate::store::pairs::{Pair, Pairs};
-use crate::store::state::{BodyState, Collider};
+use crate::store::state::BodyState;
 
 /// Sine of the angle up to which two normals are one.
 const ALONG: f64 = 1e-6;
@@ -43,44 +43,30 @@ impl Meeting {
     ) -> Option<Self> {
         let (a, b) = (bodies.get(ends.0), bodies.get(ends.1));
         let (first, second) = ((colliders.0, parts.0), (colliders.1, parts.1));
-        if stands(a) && b.is_dynamic() {
-            let (body, own, piece, out) = (ends.1, second, first, normal);
-            Some(Self {
-                body,
-                own,
-                piece,
-                out,
-            })
+        let (body, own, piece, out) = if stands(a) && b.is_dynamic() {
+            (ends.1, second, first, normal)
         } else if stands(b) && a.is_dynamic() {
-            let (body, own, piece, out) = (ends.0, first, second, -normal);
-            Some(Self {
-                body,
-                own,
-                piece,
-                out,
-            })
+            (ends.0, first, second, -normal)
         } else {
-            None
-        }
+            return None;
+        };
+        Some(Self {
+            body,
+            own,
+            piece,
+            out,
+        })
     }
 
     /// Whether a face of another piece, which the body touches at `time`, parts the two along another normal.
-    pub(crate) fn is_ghost(
-        &self,
-        bodies: &Bodies,
-        colliders: &[Collider],
-        pairs: &Pairs,
-        time: SimTime,
-    ) -> bool {
+    pub(crate) fn is_ghost(&self, bodies: &Bodies, pairs: &Pairs, time: SimTime) -> bool {
         let body = bodies.get(self.body);
-        let hull = |(collider, number): (u32, u32)| {
-            part(&colliders[collider as usize].solid, number as usize)
-        };
+        let hull = |(collider, number): (u32, u32)| bodies.hull(collider, number);
         let pose_of = |collider: u32| {
-            let owner = colliders[collider as usize].body;
+            let owner = bodies.colliders[collider as usize].body;
             bodies.get(owner).centre_pose(time)
         };
-        let owner = bodies.get(colliders[self.piece.0 as usize].body);
+        let owner = bodies.get(bodies.colliders[self.piece.0 as usize].body);
         let touch = TOUCH * body.reach.min(owner.reach);
         let bears = |pair: &Pair| {
             stands(bodies.get(pair.other(self.body))) && !self.is_along_all(pair, bodies)
@@ -93,7 +79,7 @@ impl Meeting {
             }
             let (mine, base) = pair.shapes_from(self.body);
             let (pose, base_pose) = (pose_of(mine), pose_of(base));
-            let solid = |collider: u32| &*colliders[collider as usize].solid;
+            let solid = |collider: u32| &*bodies.colliders[collider as usize].solid;
             found.clear();
             let seen = pose.seen_from(base_pose);
             contacts(solid(base), solid(mine), seen, touch, &mut found);
@@ -134,19 +120,18 @@ impl Narrow {
     pub(crate) fn look_at<'a>(
         &mut self,
         bodies: &Bodies,
-        colliders: &[Collider],
         pairs: &'a mut Pairs,
         place: u32,
         time: SimTime,
         h: f64,
     ) -> &'a mut Pair {
-        self.look(bodies, colliders, pairs.get_mut(place), time, h);
+        self.look(bodies, pairs.get_mut(place), time, h);
         let pair = pairs.get(place);
         let is_ghost = |k: usize| {
             let contact = &pair.contacts[k];
             let (ends, shapes) = (pair.bodies, pair.colliders);
             Meeting::of(bodies, ends, shapes, contact.parts, contact.normal)
-                .is_some_and(|meeting| meeting.is_ghost(bodies, colliders, pairs, time))
+                .is_some_and(|meeting| meeting.is_ghost(bodies, pairs, time))
         };
         let ghosts: Vec<usize> = (0..pair.contacts.len()).filter(|k| is_ghost(*k)).collect();
         let pair = pairs.get_mut(place);
@@ -156,7 +141,7 @@ impl Narrow {
         for k in ghosts.into_iter().rev() {
             pair.contacts.remove(k);
         }
-        note_touch(bodies, colliders, pair, time, h);
+        note_touch(bodies, pair, time, h);
         pair
     }
 }

@@ -7,7 +7,7 @@ use carom_math::{Pose, SimTime, Vec2};
 use super::approach::RigidState;
 use crate::store::bodies::Bodies;
 use crate::store::pairs::{Pair, PairContact, PairPoint};
-use crate::store::state::{BodyState, Collider};
+use crate::store::state::BodyState;
 
 /// Contacts are looked for this far beyond a sub-step's travel, as a fraction of the smaller reach.
 const MARGIN: f64 = 1.0 / 1024.0;
@@ -28,14 +28,7 @@ pub(crate) struct Narrow {
 
 impl Narrow {
     /// Looks at a pair at `time` and replaces its contacts; impulses go over by feature.
-    pub(crate) fn look(
-        &mut self,
-        bodies: &Bodies,
-        colliders: &[Collider],
-        pair: &mut Pair,
-        time: SimTime,
-        h: f64,
-    ) {
+    pub(crate) fn look(&mut self, bodies: &Bodies, pair: &mut Pair, time: SimTime, h: f64) {
         let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
         let (from, to) = (RigidState::of(a, time), RigidState::of(b, time));
         let closing =
@@ -52,8 +45,8 @@ impl Narrow {
         let (pose_a, pose_b) = (a.centre_pose(time), b.centre_pose(time));
         self.found.clear();
         contacts(
-            &colliders[pair.colliders.0 as usize].solid,
-            &colliders[pair.colliders.1 as usize].solid,
+            &bodies.colliders[pair.colliders.0 as usize].solid,
+            &bodies.colliders[pair.colliders.1 as usize].solid,
             pose_b.seen_from(pose_a),
             margin,
             &mut self.found,
@@ -62,18 +55,12 @@ impl Narrow {
         let found = self.found.iter();
         let carried = found.map(|new| carried(new, pose_a, &pair.contacts));
         pair.contacts = carried.collect();
-        note_touch(bodies, colliders, pair, time, h);
+        note_touch(bodies, pair, time, h);
     }
 }
 
 /// What the contacts of a pair say of it: whether it touches, and how deep it overlaps.
-pub(crate) fn note_touch(
-    bodies: &Bodies,
-    colliders: &[Collider],
-    pair: &mut Pair,
-    time: SimTime,
-    h: f64,
-) {
+pub(crate) fn note_touch(bodies: &Bodies, pair: &mut Pair, time: SimTime, h: f64) {
     let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
     let size = a.reach.min(b.reach);
     let points = pair.contacts.iter().flat_map(|contact| &contact.points);
@@ -84,18 +71,12 @@ pub(crate) fn note_touch(
         .iter()
         .any(|contact| contact.points.iter().any(|p| p.separation <= TOUCH * size));
     if pair.touching {
-        pair.turning_rest = turning_rest(bodies, colliders, pair, time, h);
+        pair.turning_rest = turning_rest(bodies, pair, time, h);
     }
 }
 
-/// The largest [`Spot::turning_rest`] of all touches of a pair, in m/s.
-fn turning_rest(
-    bodies: &Bodies,
-    colliders: &[Collider],
-    pair: &Pair,
-    time: SimTime,
-    h: f64,
-) -> f64 {
+/// The largest [`Pair::turning_rest_at`] of all touches of a pair, in m/s.
+fn turning_rest(bodies: &Bodies, pair: &Pair, time: SimTime, h: f64) -> f64 {
     let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
     if pair.material.restitution >= 1.0 || a.motion.spin == 0.0 && b.motion.spin == 0.0 {
         return 0.0;
@@ -104,9 +85,7 @@ fn turning_rest(
     let mut fastest = 0.0;
     for contact in &pair.contacts {
         for point in contact.points.iter().filter(|p| p.separation <= touch) {
-            let speed = pair
-                .spot(bodies, colliders, contact, point.position)
-                .turning_rest(time, h);
+            let speed = pair.turning_rest_at(bodies, contact, point.position, (time, h));
             fastest = if speed > fastest { speed } else { fastest };
         }
     }

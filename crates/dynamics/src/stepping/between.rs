@@ -35,13 +35,13 @@ impl Stepping {
             shapes.dedup();
             let pose = body.centre_pose(time);
             for &own in body.colliders.iter() {
-                let mine = &rules.colliders[own as usize];
+                let mine = &bodies.colliders[own as usize];
                 for &at in &shapes {
-                    let theirs = &rules.colliders[at as usize];
+                    let theirs = &bodies.colliders[at as usize];
                     let other = bodies.get(theirs.body);
                     if theirs.body == index
                         || !(body.is_dynamic() || other.is_dynamic())
-                        || !rules.broad.may_touch(bodies, mine, theirs)
+                        || !rules.broad.may_touch(bodies, (own, at))
                     {
                         continue;
                     }

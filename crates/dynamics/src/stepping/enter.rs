@@ -9,7 +9,7 @@ use carom_stepped::{BodyInput, PieceInput};
 use super::{Stepping, place};
 use crate::store::bodies::Bodies;
 use crate::store::clock::Clock;
-use crate::store::state::{BodyState, Collider};
+use crate::store::state::BodyState;
 use crate::{BodyKind, Mode};
 
 /// A place that differs by less, as a part of the reach, is the same but for rounding: what was only looked at stays.
@@ -20,13 +20,7 @@ const FAR: f64 = 0.05;
 
 impl Stepping {
     /// Enters bodies that came or were changed, before the sub-step from `time` on.
-    pub(crate) fn enter_changed(
-        &mut self,
-        bodies: &mut Bodies,
-        colliders: &[Collider],
-        mode: Mode,
-        time: SimTime,
-    ) {
+    pub(crate) fn enter_changed(&mut self, bodies: &mut Bodies, mode: Mode, time: SimTime) {
         let mut touched = core::mem::take(&mut bodies.touched);
         touched.sort_unstable();
         touched.dedup();
@@ -36,7 +30,7 @@ impl Stepping {
             }
             match (self.id(index), belongs(bodies.get_mut(index), mode)) {
                 (Some(id), true) => self.tell(bodies, index, id, time),
-                (None, true) => self.enter(bodies, colliders, index, time),
+                (None, true) => self.enter(bodies, index, time),
                 (Some(_), false) => self.remove(index),
                 (None, false) => {}
             }
@@ -45,13 +39,7 @@ impl Stepping {
         bodies.touched = touched;
     }
 
-    pub(super) fn enter(
-        &mut self,
-        bodies: &Bodies,
-        colliders: &[Collider],
-        index: u32,
-        time: SimTime,
-    ) {
+    pub(super) fn enter(&mut self, bodies: &Bodies, index: u32, time: SimTime) {
         let state = bodies.get(index);
         // A body that joined within a sub-step waited there.
         let at = if state.in_engine() {
@@ -64,7 +52,7 @@ impl Stepping {
             .colliders
             .iter()
             .map(|at| {
-                let solid = Arc::clone(&colliders[*at as usize].solid);
+                let solid = Arc::clone(&bodies.colliders[*at as usize].solid);
                 PieceInput::shared(solid).tagged(u64::from(*at))
             })
             .collect();
@@ -76,7 +64,7 @@ impl Stepping {
         let widths = state
             .colliders
             .iter()
-            .map(|at| &colliders[*at as usize].solid)
+            .map(|at| &bodies.colliders[*at as usize].solid)
             .filter(|solid| part_count(solid) > 1)
             .map(|solid| solid.aabb(Pose::IDENTITY).extents().length());
         self.widest = widths.fold(self.widest, f64::max);

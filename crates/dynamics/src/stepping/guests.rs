@@ -12,7 +12,6 @@ use super::Stepping;
 use super::rules::Rules;
 use crate::broad::tree::Broad;
 use crate::store::bodies::Bodies;
-use crate::store::state::Collider;
 use crate::{BodyKind, Mode};
 
 /// Members are searched around this far beyond their boxes, as a part of these: what moves on is not searched around each tick. 0.5:
@@ -37,7 +36,6 @@ impl Stepping {
     pub(crate) fn search_contacts(
         &mut self,
         bodies: &mut Bodies,
-        colliders: &[Collider],
         broad: &Broad,
         mode: Mode,
         time: SimTime,
@@ -45,33 +43,27 @@ impl Stepping {
         if mode != Mode::Stepped {
             self.engine.pose_boxes();
             let boxes = self.uncovered(|engine, found| engine.new_boxes(found));
-            self.invite_in(bodies, colliders, broad, boxes, time);
+            self.invite_in(bodies, broad, boxes, time);
         }
-        self.engine.find_contacts(&Rules {
-            bodies,
-            colliders,
-            broad,
-        })
+        self.engine.find_contacts(&Rules { bodies, broad })
     }
 
     /// What rests where fast members go within the `left` seconds of a sub-step is known to the engine.
     pub(crate) fn invite_ahead(
         &mut self,
         bodies: &mut Bodies,
-        colliders: &[Collider],
         broad: &Broad,
         time: SimTime,
         left: f64,
     ) {
         let boxes = self.uncovered(|engine, found| engine.fast_boxes(left, found));
-        self.invite_in(bodies, colliders, broad, boxes, time);
+        self.invite_in(bodies, broad, boxes, time);
     }
 
     /// Bodies at rest in these boxes of members, and fixed bodies beside such that sleep, enter the engine.
     fn invite_in(
         &mut self,
         bodies: &mut Bodies,
-        colliders: &[Collider],
         broad: &Broad,
         boxes: Vec<(u64, Aabb)>,
         time: SimTime,
@@ -82,9 +74,9 @@ impl Stepping {
                         is_asked: fn(BodyKind) -> bool,
                         guests: &mut Vec<u32>,
                         bodies: &mut Bodies| {
-            broad.search_tree(colliders, bounds, &mut near);
+            broad.search_tree(bodies, bounds, &mut near);
             for at in &near {
-                let index = colliders[*at as usize].body;
+                let index = bodies.colliders[*at as usize].body;
                 let state = bodies.get_mut(index);
                 let is_new = !state.is_guest && !state.in_engine() && state.rests_or_drives();
                 if is_new && is_asked(state.kind) {
@@ -110,7 +102,12 @@ impl Stepping {
             if bodies.get(index).kind == BodyKind::Dynamic {
                 for &at in &bodies.get(index).colliders.clone() {
                     let is_fixed = |kind| kind == BodyKind::Fixed;
-                    note(colliders[at as usize].fat, is_fixed, &mut guests, bodies);
+                    note(
+                        bodies.colliders[at as usize].fat,
+                        is_fixed,
+                        &mut guests,
+                        bodies,
+                    );
                 }
             }
         }
@@ -119,7 +116,7 @@ impl Stepping {
             (kind != BodyKind::Fixed, *index)
         });
         for index in guests {
-            self.enter(bodies, colliders, index, time);
+            self.enter(bodies, index, time);
         }
     }
 }

@@ -263,10 +263,8 @@ impl World {
                 self.joins.told.push(shapes);
             }
         }
-        self.broad.forget(&self.bodies, &mut self.colliders, index);
-        for &at in &self.bodies.get(index).colliders {
-            self.colliders[at as usize].fat = Aabb::EMPTY;
-        }
+        self.broad.forget(&mut self.bodies, index);
+        self.bodies.set_boxes(index, Aabb::EMPTY);
     }
 
     /// A member leaves, with the motion that it has at `time`: its next regime is for the caller to choose.

@@ -190,7 +190,7 @@ impl Stepping {
         /// What is nearer than this joins however it moves, as a fraction of the smaller reach.
         const MARGIN: f64 = 1.0 / 128.0;
         let bodies = rules.bodies;
-        let owner = rules.colliders[at as usize].body;
+        let owner = bodies.colliders[at as usize].body;
         if owner == index || !bodies.get(owner).in_engine() {
             return false;
         }
@@ -222,11 +222,11 @@ impl Stepping {
         let turning = rim(state.spin_at(time), state.reach) + rim(theirs.velocity.1, other.reach);
         let margin = margin + closing.length() * left + turning;
         let mut found = Vec::new();
-        for mine in &state.colliders {
-            let [mine, their] = [*mine, at].map(|at| &rules.colliders[at as usize]);
-            if rules.broad.may_touch(bodies, mine, their) {
+        for &mine in &state.colliders {
+            if rules.broad.may_touch(bodies, (mine, at)) {
+                let [mine, their] = [mine, at].map(|at| &bodies.colliders[at as usize].solid);
                 let seen = pose.seen_from(own);
-                carom_collision::contacts(&mine.solid, &their.solid, seen, margin, &mut found);
+                carom_collision::contacts(mine, their, seen, margin, &mut found);
             }
         }
         !found.is_empty()

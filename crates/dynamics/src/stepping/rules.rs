@@ -6,13 +6,11 @@ use super::Stepping;
 use crate::PairSearch;
 use crate::broad::tree::Broad;
 use crate::store::bodies::Bodies;
-use crate::store::state::Collider;
 
 /// Bodies and their shapes, and what a caller said of filters, materials and pairs of bodies.
 #[derive(Clone, Copy)]
 pub(crate) struct Rules<'a> {
     pub(crate) bodies: &'a Bodies,
-    pub(crate) colliders: &'a [Collider],
     pub(crate) broad: &'a Broad,
 }
 
@@ -28,12 +26,11 @@ impl Stepping {
 
 impl PairRules for Rules<'_> {
     fn surface(&self, tags: [u64; 2], _: [Material; 2]) -> Option<Surface> {
-        let [a, b] = tags.map(|tag| &self.colliders[super::collider(tag) as usize]);
-        if self.broad.search == PairSearch::None || !self.broad.may_touch(self.bodies, a, b) {
+        let shapes = tags.map(super::collider).into();
+        if self.broad.search == PairSearch::None || !self.broad.may_touch(self.bodies, shapes) {
             return None;
         }
-        let [one, other] = [a, b].map(|collider| self.bodies.get(collider.body).id);
-        let pair = self.broad.material(one, other, a, b);
+        let pair = self.broad.material(self.bodies, shapes);
         Some(Surface {
             friction: pair.friction,
             restitution: pair.restitution,

@@ -6,7 +6,6 @@ use carom_math::SimTime;
 
 use super::{Shapes, Stepping, collider};
 use crate::store::bodies::Bodies;
-use crate::store::state::Collider;
 use crate::{Contact, ContactPoint, EventKind, Events, StepReport};
 
 impl Stepping {
@@ -16,7 +15,6 @@ impl Stepping {
     pub(crate) fn tell_touches(
         &mut self,
         bodies: &Bodies,
-        colliders: &[Collider],
         told: &mut Vec<Shapes>,
         events: &mut Events,
         time: SimTime,
@@ -26,7 +24,7 @@ impl Stepping {
         let mut changed: Vec<(Shapes, i32, bool)> = Vec::with_capacity(self.changes.len());
         for change in self.changes.drain(..) {
             let gained = if change.begins { 1 } else { -1 };
-            changed.push((shapes_of(colliders, change.tags), gained, false));
+            changed.push((shapes_of(bodies, change.tags), gained, false));
         }
         changed.extend(told.drain(..).map(|shapes| (shapes, 0, true)));
         changed.sort_unstable();
@@ -34,7 +32,8 @@ impl Stepping {
             let shapes = of_pair[0].0;
             let gained: i32 = of_pair.iter().map(|change| change.1).sum();
             let was_told = of_pair.iter().any(|change| change.2);
-            let several = |(_, at): (u32, u32)| part_count(&colliders[at as usize].solid) > 1;
+            let several =
+                |(_, at): (u32, u32)| part_count(&bodies.colliders[at as usize].solid) > 1;
             // Pieces of a pair of single ones touch or do not: there is nothing to count.
             let (before, now) = if shapes.into_iter().any(several) {
                 let count = self.touching.entry(shapes).or_default();
@@ -59,7 +58,6 @@ impl Stepping {
     pub(crate) fn tell_impacts(
         &mut self,
         bodies: &Bodies,
-        colliders: &[Collider],
         events: &mut Events,
         report: &mut StepReport,
         time: SimTime,
@@ -70,7 +68,7 @@ impl Stepping {
         for impact in self.impacts.drain(..) {
             let [a, b] = impact
                 .tags
-                .map(|tag| bodies.get(colliders[collider(tag) as usize].body).id);
+                .map(|tag| bodies.get(bodies.colliders[collider(tag) as usize].body).id);
             events.push(
                 time + -impact.since,
                 EventKind::Impact {
@@ -103,12 +101,7 @@ impl Stepping {
     }
 
     /// All contacts that push, in order of shapes; those of one body if one is asked for.
-    pub(crate) fn contacts(
-        &self,
-        bodies: &Bodies,
-        colliders: &[Collider],
-        of: Option<u32>,
-    ) -> Vec<Contact> {
+    pub(crate) fn contacts(&self, bodies: &Bodies, of: Option<u32>) -> Vec<Contact> {
         let all = match of.map(|index| self.id(index)) {
             None => self.engine.contacts().collect(),
             Some(Some(id)) => self
@@ -120,7 +113,7 @@ impl Stepping {
         let mut found: Vec<_> = all
             .into_iter()
             .filter(|contact| contact.touching)
-            .map(|contact| (shapes_of(colliders, contact.tags), contact.pieces, contact))
+            .map(|contact| (shapes_of(bodies, contact.tags), contact.pieces, contact))
             .collect();
         found.sort_unstable_by_key(|(shapes, pieces, _)| (*shapes, *pieces));
         found
@@ -131,10 +124,10 @@ impl Stepping {
 }
 
 /// Bodies and colliders of two pieces, in order.
-fn shapes_of(colliders: &[Collider], tags: [u64; 2]) -> Shapes {
+fn shapes_of(bodies: &Bodies, tags: [u64; 2]) -> Shapes {
     let mut shapes = tags.map(|tag| {
         let at = collider(tag);
-        (colliders[at as usize].body, at)
+        (bodies.colliders[at as usize].body, at)
     });
     shapes.sort_unstable();
     shapes

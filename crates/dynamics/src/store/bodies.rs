@@ -1,6 +1,7 @@
 //! The store of bodies, and the one door through which a motion changes.
 
-use carom_collision::Motion;
+use carom_collision::{Hull, Motion, part};
+use carom_geometry::Aabb;
 use carom_math::{SimTime, Sum, Vec2};
 
 use super::damping::damping_loss;
@@ -35,6 +36,9 @@ pub(crate) struct Bodies {
     versions: Vec<u32>,
     alive: Vec<bool>,
     free: Vec<u32>,
+    /// The shapes of all bodies, and places among them that are free.
+    pub(crate) colliders: Vec<Collider>,
+    pub(crate) free_colliders: Vec<u32>,
     pub(crate) history: History,
     pub(crate) book: EnergyBook,
     pub(crate) pull: Pull,
@@ -55,6 +59,8 @@ impl Bodies {
             versions: Vec::new(),
             alive: Vec::new(),
             free: Vec::new(),
+            colliders: Vec::new(),
+            free_colliders: Vec::new(),
             history: History::new(history),
             book: EnergyBook::default(),
             pull: Pull {
@@ -75,6 +81,7 @@ impl Bodies {
         self.list.reserve_exact(more);
         self.versions.reserve_exact(more);
         self.alive.reserve_exact(more);
+        self.colliders.reserve_exact(more);
     }
 
     /// The id that the next body gets.
@@ -196,6 +203,18 @@ impl Bodies {
         state.set_lag(Lag::NONE);
     }
 
+    /// A convex part of a shape.
+    pub(crate) fn hull(&self, collider: u32, number: u32) -> Hull<'_> {
+        part(&self.colliders[collider as usize].solid, number as usize)
+    }
+
+    /// Gives all shapes of a body the same box.
+    pub(crate) fn set_boxes(&mut self, index: u32, bounds: Aabb) {
+        for &at in &self.list[index as usize].colliders {
+            self.colliders[at as usize].fat = bounds;
+        }
+    }
+
     /// What was predicted with a body's motion is stale from now on.
     pub(crate) fn renew(&mut self, index: u32) {
         let version = &mut self.versions[index as usize];
@@ -204,10 +223,10 @@ impl Bodies {
     }
 
     /// Stops a body with numbers that are no longer finite at its last known place.
-    pub(crate) fn stop(&mut self, colliders: &[Collider], index: u32, time: SimTime) {
+    pub(crate) fn stop(&mut self, index: u32, time: SimTime) {
         // Its last box is the only record of where it was.
         let known = self.get(index).colliders.iter();
-        let mut boxes = known.map(|at| colliders[*at as usize].fat.centre());
+        let mut boxes = known.map(|at| self.colliders[*at as usize].fat.centre());
         let last = boxes.find(|centre| centre.is_finite());
         let state = self.get_mut(index);
         let motion = &mut state.motion;

@@ -12,7 +12,6 @@ use crate::model::narrow::Narrow;
 use crate::motion::flight::begin_held_piece;
 use crate::store::bodies::Bodies;
 use crate::store::pairs::{Pair, Pairs};
-use crate::store::state::Collider;
 
 impl Group {
     /// Whether its members go on as its mode says, and nothing lies deep in one of them.
@@ -75,7 +74,6 @@ impl Closed {
     pub(crate) fn moving_pair_at(
         &self,
         bodies: &Bodies,
-        colliders: &[Collider],
         pair: &Pair,
         place: u32,
         (time, h): (SimTime, f64),
@@ -88,7 +86,7 @@ impl Closed {
             .index;
         let group = self.get(bodies.get(index).membership.group)?;
         let mut now = pair.clone();
-        Narrow::default().look(bodies, colliders, &mut now, time, h);
+        Narrow::default().look(bodies, &mut now, time, h);
         let mut group = group.clone();
         group.move_touches(group.moved_at(time));
         for touch in group.touches.iter().filter(|touch| touch.pair == place) {

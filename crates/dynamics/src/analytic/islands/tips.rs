@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use arrayvec::ArrayVec;
-use carom_collision::part;
 use carom_math::SimTime;
 
 use super::joints::{Held, joint};
@@ -14,7 +13,6 @@ use crate::analytic::touching::Gathered;
 use crate::law::path::Place;
 use crate::store::bodies::Bodies;
 use crate::store::pairs::Pairs;
-use crate::store::state::Collider;
 
 /// A corner this near to a point of contact is what touches there, as a part of the smaller reach.
 const NEAR: f64 = 1e-6;
@@ -38,7 +36,6 @@ pub(crate) struct Tipping {
 pub(crate) fn path_of(
     bodies: &Bodies,
     pairs: &Pairs,
-    colliders: &[Collider],
     gathered: &Gathered,
     (time, speed, mode): (SimTime, f64, Mode),
 ) -> Result<Tip, NotMine> {
@@ -50,7 +47,7 @@ pub(crate) fn path_of(
     if gathered.places.iter().any(is_free) {
         return Err(NotMine::Turns);
     }
-    let contacts = joints(bodies, pairs, colliders, gathered, time).ok_or(NotMine::Curved)?;
+    let contacts = joints(bodies, pairs, gathered, time).ok_or(NotMine::Curved)?;
     let both = gathered.places.iter().zip(&gathered.bodies);
     let (mut places, mut reaches) = (Vec::new(), Vec::new());
     for (&index, body) in both {
@@ -88,7 +85,6 @@ fn is_too_large(gathered: &Gathered, mode: Mode) -> bool {
 fn joints(
     bodies: &Bodies,
     pairs: &Pairs,
-    colliders: &[Collider],
     gathered: &Gathered,
     time: SimTime,
 ) -> Option<Vec<Contact>> {
@@ -97,7 +93,6 @@ fn joints(
         let pair = pairs.get(place);
         let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
         let parts = pair.contacts.get(number)?.parts;
-        let hull = |collider: u32, at: u32| part(&colliders[collider as usize].solid, at as usize);
         let side = |k: usize, hull, pose| Held {
             hull,
             pose,
@@ -106,12 +101,12 @@ fn joints(
         let ends = (
             side(
                 touch.bodies.0,
-                hull(pair.colliders.0, parts.0),
+                bodies.hull(pair.colliders.0, parts.0),
                 a.centre_pose(time),
             ),
             side(
                 touch.bodies.1,
-                hull(pair.colliders.1, parts.1),
+                bodies.hull(pair.colliders.1, parts.1),
                 b.centre_pose(time),
             ),
         );

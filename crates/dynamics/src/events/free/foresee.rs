@@ -39,7 +39,7 @@ impl World {
         self.follow_law(index, time);
         if !self.bodies.get(index).motion.is_finite() {
             self.report.stopped += 1;
-            self.bodies.stop(&self.colliders, index, time);
+            self.bodies.stop(index, time);
         }
         self.free.resize(&mut self.bodies, time);
         // A body that does not fall leaves the free-fall frame ever faster.
@@ -49,7 +49,7 @@ impl World {
             self.meet_free_bodies(index, time, cause, but);
             return self.meet_members(index, time);
         } else {
-            self.broad.forget(&self.bodies, &mut self.colliders, index);
+            self.broad.forget(&mut self.bodies, index);
             self.look_down(index, time, self.first_span(index, time));
         }
         self.meet_free_bodies(index, time, cause, but);
@@ -66,10 +66,7 @@ impl World {
         let seconds = at_most(seen.seconds_for(way));
         let horizon = (time + seconds).min(state.piece());
         state.course.swept = Sides::around(swept(state, &seen, seconds));
-        if !self
-            .free
-            .enter(&mut self.bodies, &self.colliders, index, horizon)
-        {
+        if !self.free.enter(&mut self.bodies, index, horizon) {
             return false;
         }
         self.queue_end(index, Ahead::Horizon);
@@ -91,8 +88,7 @@ impl World {
         state.course.ground = (time + seconds).min(state.piece());
         state.course.span = seconds;
         state.course.reached = Sides::around(swept(state, &track, seconds));
-        self.broad
-            .follow(&self.bodies, &mut self.colliders, index, time, seconds);
+        self.broad.follow(&mut self.bodies, index, time, seconds);
         self.queue_end(index, Ahead::Ground);
         self.look_down_first(time);
     }
@@ -206,7 +202,7 @@ impl World {
             return;
         }
         if let ([one], [two]) = (&*a.colliders, &*b.colliders)
-            && !self.may_touch((*one, *two))
+            && !self.broad.may_touch(&self.bodies, (*one, *two))
         {
             return;
         }
@@ -245,7 +241,7 @@ impl World {
             time,
             a: index,
             b: at,
-            stamp: self.stamp(index, self.colliders[at as usize].body),
+            stamp: self.stamp(index, self.bodies.colliders[at as usize].body),
             what: Ahead::NearShape.into(),
         };
         self.free.queue.push(entry);
@@ -322,7 +318,7 @@ impl World {
                 }
             }
             Ahead::NearShape => {
-                let owner = self.colliders[entry.b as usize].body;
+                let owner = self.bodies.colliders[entry.b as usize].body;
                 let state = self.bodies.get(owner);
                 let rests = !state.goes_by_events() && !state.is_active();
                 if self.stamp(index, owner) == entry.stamp
@@ -333,7 +329,7 @@ impl World {
                 }
             }
             Ahead::Collapse => {
-                if !is_stale(entry, &self.bodies, &self.colliders) {
+                if !is_stale(entry, &self.bodies) {
                     self.report_collapse((index, entry.b), 0.0, time);
                 }
             }

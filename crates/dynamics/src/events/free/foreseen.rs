@@ -8,7 +8,6 @@ use super::FreeBodies;
 use super::queue::{Ahead, Entry};
 use crate::BodyId;
 use crate::store::bodies::Bodies;
-use crate::store::state::Collider;
 
 /// An impact ahead: all that its response needs.
 #[derive(Clone, Debug)]
@@ -46,28 +45,17 @@ impl Foreseen {
 
 impl FreeBodies {
     /// When the next entry is due, if that is by `limit`.
-    pub(crate) fn next(
-        &mut self,
-        bodies: &Bodies,
-        colliders: &[Collider],
-        limit: SimTime,
-    ) -> Option<SimTime> {
+    pub(crate) fn next(&mut self, bodies: &Bodies, limit: SimTime) -> Option<SimTime> {
         let aside = self.aside.first().map(|entry| entry.time);
         let aside = aside.filter(|time| *time <= limit);
-        self.next_queued(bodies, colliders, aside.unwrap_or(limit))
-            .or(aside)
+        self.next_queued(bodies, aside.unwrap_or(limit)).or(aside)
     }
 
     /// The same, of all entries not laid aside.
-    fn next_queued(
-        &mut self,
-        bodies: &Bodies,
-        colliders: &[Collider],
-        limit: SimTime,
-    ) -> Option<SimTime> {
+    fn next_queued(&mut self, bodies: &Bodies, limit: SimTime) -> Option<SimTime> {
         let (impacts, vacant) = (&mut self.impacts, &mut self.vacant);
         self.queue.next(limit, |entry| {
-            let stale = is_stale(entry, bodies, colliders);
+            let stale = is_stale(entry, bodies);
             if let (true, Ahead::Impact { slot }) = (stale, entry.ahead()) {
                 impacts[slot as usize] = None;
                 vacant.push(slot);
@@ -90,13 +78,8 @@ impl FreeBodies {
     }
 
     /// Takes the next entry not laid aside out, if it is due by `limit`.
-    pub(super) fn pop_queued(
-        &mut self,
-        bodies: &Bodies,
-        colliders: &[Collider],
-        limit: SimTime,
-    ) -> Option<Entry> {
-        self.next_queued(bodies, colliders, limit)?;
+    pub(super) fn pop_queued(&mut self, bodies: &Bodies, limit: SimTime) -> Option<Entry> {
+        self.next_queued(bodies, limit)?;
         self.queue.pop()
     }
 
@@ -155,7 +138,7 @@ impl FreeBodies {
 }
 
 /// Whether an entry is for nothing: a motion has changed since it was made, or another one comes before it.
-pub(super) fn is_stale(entry: &Entry, bodies: &Bodies, colliders: &[Collider]) -> bool {
+pub(super) fn is_stale(entry: &Entry, bodies: &Bodies) -> bool {
     let version = |index: u32| bodies.version(index);
     let other = match entry.ahead() {
         Ahead::Collapse => {
@@ -165,7 +148,7 @@ pub(super) fn is_stale(entry: &Entry, bodies: &Bodies, colliders: &[Collider]) -
         }
         Ahead::Horizon => return bodies.get(entry.a).course.entered.0 != entry.time,
         Ahead::Ground => return bodies.get(entry.a).course.entered.1 != entry.time,
-        Ahead::NearShape => colliders[entry.b as usize].body,
+        Ahead::NearShape => bodies.colliders[entry.b as usize].body,
         _ => entry.b,
     };
     version(entry.a).wrapping_add(version(other)) != entry.stamp

@@ -30,10 +30,7 @@ impl World {
             let state = self.bodies.get_mut(index);
             state.course.ground = SimTime::NEVER;
             state.course.reached = Sides::NOTHING;
-            for &at in &state.colliders {
-                self.colliders[at as usize].fat = Aabb::EMPTY;
-            }
-            return;
+            return self.bodies.set_boxes(index, Aabb::EMPTY);
         }
         let span = at_most(span);
         let room = if self.clears() {
@@ -48,9 +45,8 @@ impl World {
         let way = swept(state, &Track::of(&state.motion, time), span).grown(room);
         state.course.reached = Sides::around(way);
         self.free.lift(&state.course, index);
-        for &at in &state.colliders {
-            self.colliders[at as usize].fat = state.course.reached.bounds();
-        }
+        let bounds = state.course.reached.bounds();
+        self.bodies.set_boxes(index, bounds);
         self.queue_end(index, Ahead::Ground);
     }
 
@@ -94,9 +90,7 @@ impl World {
             }
             let way = swept(state, &Track::of(&state.motion, time), at_most(left));
             state.course.reached = Sides::around(way);
-            for &at in &state.colliders {
-                self.colliders[at as usize].fat = way;
-            }
+            self.bodies.set_boxes(index, way);
         }
     }
 
@@ -123,17 +117,17 @@ impl World {
     /// and of free bodies too large for the grid.
     pub(super) fn meet_shapes(&mut self, index: u32, time: SimTime, cause: Cause) {
         let mut near = core::mem::take(&mut self.free.shapes);
-        let course = &mut self.bodies.get_mut(index).course;
-        let reached = course.reached.bounds();
-        self.broad.search_tree(&self.colliders, reached, &mut near);
+        let reached = self.bodies.get(index).course.reached.bounds();
+        self.broad.search_tree(&self.bodies, reached, &mut near);
         let overlaps = |at: &u32| {
-            let collider = &self.colliders[*at as usize];
+            let collider = &self.bodies.colliders[*at as usize];
             collider.body != index && collider.fat.overlaps(reached)
         };
         let clear = !near.iter().any(overlaps);
         // The box of a half-plane that leans is all of the plane: it is there however short a free body looks.
-        let bounded = |at: &u32| self.colliders[*at as usize].solid.is_bounded();
+        let bounded = |at: &u32| self.bodies.colliders[*at as usize].solid.is_bounded();
         let found = near.iter().filter(|at| overlaps(at) && bounded(at)).count();
+        let course = &mut self.bodies.get_mut(index).course;
         course.alone = found == 0;
         if found > MANY {
             course.look = (course.look * MANY as f64 / found as f64).max(SHORTEST);
@@ -142,7 +136,7 @@ impl World {
         }
         course.clear_at = if clear { time } else { SimTime::NEVER };
         for &at in &near {
-            let owner = self.colliders[at as usize].body;
+            let owner = self.bodies.colliders[at as usize].body;
             if owner == index {
                 continue;
             }
@@ -165,7 +159,7 @@ impl World {
     /// A free body and a shape that rests.
     pub(crate) fn approach_shape(&mut self, index: u32, at: u32, time: SimTime, cause: Cause) {
         let body = self.bodies.get(index);
-        let owner = self.bodies.get(self.colliders[at as usize].body);
+        let owner = self.bodies.get(self.bodies.colliders[at as usize].body);
         if body.kind != BodyKind::Dynamic && owner.kind != BodyKind::Dynamic {
             return;
         }
@@ -181,7 +175,7 @@ impl World {
             motion.velocity_at(time),
             motion.acceleration,
             body.reach + motion.left_out,
-            self.colliders[at as usize].fat,
+            self.bodies.colliders[at as usize].fat,
         );
         let left = body.course.ground - time;
         if from > left {

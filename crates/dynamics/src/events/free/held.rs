@@ -78,13 +78,8 @@ impl World {
             return self.join(b, time);
         }
         let (first, second) = impact.colliders;
-        self.broad.pair_up(
-            &mut self.bodies,
-            &self.colliders,
-            &mut self.pairs,
-            first,
-            second,
-        );
+        self.broad
+            .pair_up(&mut self.bodies, &mut self.pairs, first, second);
         let Some(place) = self.pair_of(impact) else {
             return;
         };
@@ -126,7 +121,7 @@ impl World {
 
     /// Forgets the pairs of a body that its boxes have left: a free body's reach farther.
     fn part_far(&mut self, index: u32, time: SimTime) {
-        let keeps = |place: &u32| self.broad.keeps(&self.colliders, self.pairs.shapes(*place));
+        let keeps = |place: &u32| self.broad.keeps(&self.bodies, self.pairs.shapes(*place));
         let pairs = self.bodies.get(index).pairs.iter();
         let far: Vec<u32> = pairs.filter(|place| !keeps(place)).copied().collect();
         for place in far {
@@ -199,8 +194,7 @@ impl World {
                 continue;
             }
             if pair.fresh {
-                self.narrow
-                    .look(&self.bodies, &self.colliders, pair, time, self.clock.h);
+                self.narrow.look(&self.bodies, pair, time, self.clock.h);
             }
             let (a, b) = (
                 self.bodies.get(pair.bodies.0),

@@ -1,6 +1,5 @@
 //! Micro-bounces: the contact acceleration brings two bodies back before a search could tell when.
 
-use carom_collision::part;
 use carom_math::SimTime;
 
 use super::Foreseen;
@@ -8,7 +7,7 @@ use super::strike::approach_speed;
 use crate::model::gap::{Touching, gap_acceleration};
 use crate::store::bodies::Bodies;
 use crate::store::mass::CENTRED;
-use crate::store::state::{BodyState, Collider};
+use crate::store::state::BodyState;
 
 /// Height of a bounce below which it is timed by its speeds, as a fraction of the smaller reach, where
 /// the normal turns: rounding of the gap is 1e-6 of it.
@@ -23,19 +22,15 @@ const FLAT: f64 = 1e-4;
 /// one that does is a disc about its centre of mass, else less than the spin times the bounce, which is why that must be lower.
 pub(super) fn micro_bounce(
     bodies: &Bodies,
-    colliders: &[Collider],
     impact: &Foreseen,
     time: SimTime,
 ) -> Option<(f64, Foreseen)> {
     let (a, b) = impact.bodies;
     let after = [a, b].map(|index| bodies.get(index).in_impact(time));
-    let (rise, pressed) = (
-        -approach_speed(impact, &after),
-        press(bodies, colliders, impact, time),
-    );
+    let (rise, pressed) = (-approach_speed(impact, &after), press(bodies, impact, time));
     let (one, two) = (bodies.get(a), bodies.get(b));
     let steady = |state: &BodyState, at: u32| {
-        let vertices = colliders[at as usize].solid.vertices();
+        let vertices = bodies.colliders[at as usize].solid.vertices();
         let round = matches!(vertices, [centre] if centre.length() <= CENTRED * state.reach);
         state.motion.spin == 0.0 || round
     };
@@ -87,12 +82,7 @@ pub(super) fn bounces_high(bodies: &Bodies, impact: &Foreseen, time: SimTime, sp
 }
 
 /// How fast two bodies are pressed together where they touch, in m/s²; negative: pulled apart.
-pub(super) fn press(
-    bodies: &Bodies,
-    colliders: &[Collider],
-    impact: &Foreseen,
-    time: SimTime,
-) -> f64 {
+pub(super) fn press(bodies: &Bodies, impact: &Foreseen, time: SimTime) -> f64 {
     let feature = |index: u32, at: u32, number: u32| {
         let mut motion = bodies.get(index).motion;
         if bodies.bends(index) {
@@ -100,12 +90,7 @@ pub(super) fn press(
             let freely = bodies.freely(index, time);
             (motion.acceleration, motion.angular_acceleration) = freely;
         }
-        Touching::of(
-            &motion,
-            &part(&colliders[at as usize].solid, number as usize),
-            impact.points[0],
-            time,
-        )
+        Touching::of(&motion, &bodies.hull(at, number), impact.points[0], time)
     };
     let parts = impact.feature.parts;
     let a = feature(impact.bodies.0, impact.colliders.0, parts.0);

@@ -31,7 +31,7 @@ use crate::broad::free_fall_frame::{Frame, Track};
 use crate::broad::grid::{Grid, SweptBox};
 use crate::store::bodies::Bodies;
 use crate::store::course::Course;
-use crate::store::state::{BodyState, Collider};
+use crate::store::state::BodyState;
 use aside::Aside;
 use circle::Registered;
 pub(crate) use foresee::Cause;
@@ -170,13 +170,7 @@ impl FreeBodies {
     }
 
     /// Puts a body into the grid, if it fits, or where it belongs there by now.
-    fn enter(
-        &mut self,
-        bodies: &mut Bodies,
-        colliders: &[Collider],
-        index: u32,
-        horizon: SimTime,
-    ) -> bool {
+    fn enter(&mut self, bodies: &mut Bodies, index: u32, horizon: SimTime) -> bool {
         let course = &mut bodies.get_mut(index).course;
         let cells = self.grid.cells(course.swept.bounds());
         if !course.swept.is_finite() || cells.count() > MOST_CELLS {
@@ -197,7 +191,7 @@ impl FreeBodies {
             self.horizons.resize(place + 1, SimTime::ZERO);
         }
         let state = bodies.get(index);
-        self.circles[place] = Registered::of(state, colliders, &self.frame);
+        self.circles[place] = Registered::of(state, &bodies.colliders, &self.frame);
         self.horizons[place] = horizon;
         true
     }

@@ -62,7 +62,7 @@ impl World {
             window.to.min(self.free.common_horizon_of(one, two) - time)
         };
         let ends = (one.colliders.len(), two.colliders.len());
-        let (apart, length) = first_piece(&self.bodies, &self.colliders, (a, b), time, end);
+        let (apart, length) = first_piece(&self.bodies, (a, b), time, end);
         if apart > 0.0 {
             if apart < end {
                 self.queue_near(a, b, time + apart);
@@ -93,9 +93,9 @@ impl World {
 
     /// Time of impact of a free body and a shape that rests, from now to the free body's horizon.
     pub(super) fn seek_shape(&mut self, index: u32, at: u32, time: SimTime, cause: Cause) {
-        let owner = self.colliders[at as usize].body;
+        let owner = self.bodies.colliders[at as usize].body;
         let end = self.bodies.get(index).course.ground - time;
-        let (apart, length) = first_piece(&self.bodies, &self.colliders, (index, owner), time, end);
+        let (apart, length) = first_piece(&self.bodies, (index, owner), time, end);
         if apart > 0.0 {
             if apart < end {
                 self.queue_near_shape(index, at, time + apart);
@@ -126,7 +126,7 @@ impl World {
         length: f64,
         cause: Cause,
     ) -> bool {
-        if !self.may_touch(shapes) {
+        if !self.broad.may_touch(&self.bodies, shapes) {
             return false;
         }
         if let Some(place) = self.moving_pair((a, b), shapes) {
@@ -140,8 +140,8 @@ impl World {
         }
         let (one, two) = (self.bodies.get(a), self.bodies.get(b));
         let (first, second) = (
-            &self.colliders[shapes.0 as usize],
-            &self.colliders[shapes.1 as usize],
+            &self.bodies.colliders[shapes.0 as usize],
+            &self.bodies.colliders[shapes.1 as usize],
         );
         // A little beyond: an impact at the very end is found to its last digit, too.
         let end = length * (1.0 + BEYOND);
@@ -202,8 +202,8 @@ impl World {
             return;
         }
         let (first, second) = (
-            &self.colliders[touch.colliders.0 as usize].solid,
-            &self.colliders[touch.colliders.1 as usize].solid,
+            &self.bodies.colliders[touch.colliders.0 as usize].solid,
+            &self.bodies.colliders[touch.colliders.1 as usize].solid,
         );
         let from = (time, slow);
         let next = time_of_impact_beside(from, first, &one.motion, second, &two.motion, length);
@@ -241,7 +241,7 @@ impl World {
         let parts = impact.features[0].parts;
         Meeting::of(&self.bodies, ends, shapes, parts, impact.normal).is_some_and(|meeting| {
             let at = time + impact.time;
-            meeting.is_ghost(&self.bodies, &self.colliders, &self.pairs, at)
+            meeting.is_ghost(&self.bodies, &self.pairs, at)
         })
     }
 
@@ -265,12 +265,6 @@ impl World {
             && self.material_of(impact).restitution < 1.0
     }
 
-    /// Whether filters and the caller let two shapes touch.
-    pub(super) fn may_touch(&self, shapes: (u32, u32)) -> bool {
-        let [one, other] = [shapes.0, shapes.1].map(|at| &self.colliders[at as usize]);
-        self.broad.may_touch(&self.bodies, one, other)
-    }
-
     /// Whether two shapes that the caller put where they are overlap by more than rounding, or rest on
     /// each other.
     fn holds(&self, (a, b): (u32, u32), shapes: (u32, u32), time: SimTime) -> bool {
@@ -279,8 +273,8 @@ impl World {
         let touch = TOUCH * one.reach.min(two.reach);
         let mut found = Vec::new();
         contacts(
-            &self.colliders[shapes.0 as usize].solid,
-            &self.colliders[shapes.1 as usize].solid,
+            &self.bodies.colliders[shapes.0 as usize].solid,
+            &self.bodies.colliders[shapes.1 as usize].solid,
             pose_b.seen_from(pose_a),
             touch,
             &mut found,
@@ -309,7 +303,7 @@ impl World {
 
     fn solids_of(&self, place: u32) -> [Arc<Shape>; 2] {
         let (first, second) = self.pairs.shapes(place);
-        [first, second].map(|at| Arc::clone(&self.colliders[at as usize].solid))
+        [first, second].map(|at| Arc::clone(&self.bodies.colliders[at as usize].solid))
     }
 
     /// Parts of a pair in contacts that change with the mode of an island alone.

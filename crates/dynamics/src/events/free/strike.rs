@@ -59,7 +59,7 @@ impl World {
         let press = if keeps && speed > rounding {
             0.0
         } else {
-            low::press(&self.bodies, &self.colliders, impact, time)
+            low::press(&self.bodies, impact, time)
         };
         // What is pressed together gains as much as the rounding of instants hides of each bounce: it would bounce for ever.
         let slow = rounding + NOISE * SimTime::UNIT * press.max(0.0);
@@ -94,8 +94,7 @@ impl World {
         }
         if keeps {
             if !low::bounces_high(&self.bodies, impact, time, speed) {
-                self.free.micro_bounce =
-                    low::micro_bounce(&self.bodies, &self.colliders, impact, time);
+                self.free.micro_bounce = low::micro_bounce(&self.bodies, impact, time);
             }
             self.deflect_both(impact, time);
             self.free.micro_bounce = None;
@@ -108,7 +107,7 @@ impl World {
             }
             self.begins_to_last(impact, time);
         } else {
-            self.free.micro_bounce = low::micro_bounce(&self.bodies, &self.colliders, impact, time);
+            self.free.micro_bounce = low::micro_bounce(&self.bodies, impact, time);
             self.deflect_both(impact, time);
             self.free.micro_bounce = None;
         }
@@ -129,14 +128,7 @@ impl World {
 
     /// How the two surfaces meet.
     pub(super) fn material_of(&self, impact: &Foreseen) -> PairMaterial {
-        let (a, b) = impact.bodies;
-        let (first, second) = impact.colliders;
-        self.broad.material(
-            self.bodies.get(a).id,
-            self.bodies.get(b).id,
-            &self.colliders[first as usize],
-            &self.colliders[second as usize],
-        )
+        self.broad.material(&self.bodies, impact.colliders)
     }
 
     /// Whether the approach of an impact is more than rounding.
@@ -229,7 +221,6 @@ impl World {
         shock.solve(
             &self.settings,
             &self.bodies,
-            &self.colliders,
             &mut self.pairs,
             &mut self.narrow,
         );

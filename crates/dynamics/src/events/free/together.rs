@@ -108,7 +108,7 @@ impl World {
 
     /// Lays all impacts aside that are due by `limit`, once all searches due by then are done.
     fn lay_aside(&mut self, limit: SimTime) {
-        while let Some(entry) = self.free.pop_queued(&self.bodies, &self.colliders, limit) {
+        while let Some(entry) = self.free.pop_queued(&self.bodies, limit) {
             if matches!(entry.ahead(), Ahead::Impact { .. }) {
                 self.free.aside.lay(entry);
             } else {

@@ -12,7 +12,6 @@ use carom_math::SimTime;
 
 use crate::motion::first_touch::first_touch;
 use crate::store::bodies::Bodies;
-use crate::store::state::Collider;
 
 /// Largest turn that one search for a time of impact goes through, in rad.
 const TURN: f64 = 8.0;
@@ -27,14 +26,13 @@ const RIM: f64 = 1.0 + 1.0 / (1_u64 << 20) as f64;
 /// touches; where that is 0, the search goes up to the second.
 pub(super) fn first_piece(
     bodies: &Bodies,
-    colliders: &[Collider],
     pair: (u32, u32),
     time: SimTime,
     length: f64,
 ) -> (f64, f64) {
-    let piece = length_by_turn(bodies, colliders, pair, time, length);
+    let piece = length_by_turn(bodies, pair, time, length);
     if length / piece >= PIECES {
-        let apart = apart_however_turned(bodies, colliders, pair, time, length);
+        let apart = apart_however_turned(bodies, pair, time, length);
         if apart > piece {
             return (apart, piece);
         }
@@ -43,13 +41,7 @@ pub(super) fn first_piece(
 }
 
 /// As much of `length` seconds as the bodies of a pair turn by at most [`TURN`] in.
-fn length_by_turn(
-    bodies: &Bodies,
-    colliders: &[Collider],
-    (a, b): (u32, u32),
-    time: SimTime,
-    length: f64,
-) -> f64 {
+fn length_by_turn(bodies: &Bodies, (a, b): (u32, u32), time: SimTime, length: f64) -> f64 {
     let spin = |index: u32| {
         let motion = &bodies.get(index).motion;
         motion.spin_at(time).abs() + motion.angular_acceleration.abs() * length
@@ -58,7 +50,7 @@ fn length_by_turn(
         return length;
     }
     let seen = |index: u32| {
-        if bodies.get(index).turns_in_place(colliders) {
+        if bodies.get(index).turns_in_place(&bodies.colliders) {
             0.0
         } else {
             spin(index)
@@ -69,17 +61,11 @@ fn length_by_turn(
 
 /// How long two bodies surely do not touch, at most `length` seconds, whatever those of them turn by that turn by more
 /// than [`TURN`] in it: the circles about these have not met the other one by then.
-fn apart_however_turned(
-    bodies: &Bodies,
-    colliders: &[Collider],
-    (a, b): (u32, u32),
-    time: SimTime,
-    length: f64,
-) -> f64 {
+fn apart_however_turned(bodies: &Bodies, (a, b): (u32, u32), time: SimTime, length: f64) -> f64 {
     let (one, two) = (bodies.get(a), bodies.get(b));
     let (of_one, of_two) = (
-        shapes_however_turned(bodies, colliders, a, time, length),
-        shapes_however_turned(bodies, colliders, b, time, length),
+        shapes_however_turned(bodies, a, time, length),
+        shapes_however_turned(bodies, b, time, length),
     );
     let seen = two.centre_pose(time).seen_from(one.centre_pose(time));
     let mut first = length;
@@ -117,7 +103,6 @@ fn apart_however_turned(
 /// The shapes of a body about its centre; the one circle about them, where it turns by more than [`TURN`].
 fn shapes_however_turned(
     bodies: &Bodies,
-    colliders: &[Collider],
     index: u32,
     time: SimTime,
     length: f64,
@@ -129,7 +114,7 @@ fn shapes_however_turned(
     match Circle::new(about) {
         Ok(circle) if spin * length > TURN => vec![Arc::new(circle.into())],
         _ => {
-            let solid = |at: &u32| Arc::clone(&colliders[*at as usize].solid);
+            let solid = |at: &u32| Arc::clone(&bodies.colliders[*at as usize].solid);
             state.colliders.iter().map(solid).collect()
         }
     }
