@@ -6,7 +6,7 @@ use carom_collision::Motion;
 use carom_math::{Rot, SimTime, Vec2};
 
 use super::damped::damped;
-use super::integrate::{Rim, Stretch};
+use super::integrate::Stretch;
 use super::kepler::Conic;
 use super::osculating::{Jerk, Osculating};
 use super::path::Path;
@@ -29,11 +29,16 @@ enum Law {
         damping: f64,
     },
     /// With the radius of the core, where it comes so near.
-    Conic { conic: Conic, core: Option<f64> },
-    /// One after the other.
-    Stretches(Vec<Stretch>),
+    Conic {
+        conic: Conic,
+        core: Option<f64>,
+    },
+    Stretch(Stretch),
     /// Held by contacts: the path of an island, and which of its bodies this is.
-    Held { path: Arc<Path>, body: usize },
+    Held {
+        path: Arc<Path>,
+        body: usize,
+    },
 }
 
 /// How the body turns.
@@ -75,9 +80,9 @@ impl Flight {
         turn: Turn,
     ) -> Option<Self> {
         let core = (conic.nearest() <= core).then_some(core);
+        let outside = core.is_none_or(|core| conic.time_outside(0.0, core) > h);
         let law = Law::Conic { conic, core };
-        let flight = Self { start, law, turn };
-        flight.holds(start, h).then_some(flight)
+        outside.then_some(Self { start, law, turn })
     }
 
     /// Of a body of an island that turns about its contacts.
@@ -95,50 +100,10 @@ impl Flight {
         }
     }
 
-    /// Under any law, for at least `h` seconds or one stretch, leaving out `error` metres a second. No stretch is
-    /// planned for more than the longest, and none is shorter than the shortest: that steps over an edge of a field.
-    pub(crate) fn integrated(
-        start: SimTime,
-        (mut place, mut velocity): (Vec2, Vec2),
-        law: &impl Fn(Vec2, Vec2) -> Vec2,
-        h: f64,
-        (shortest, longest): (f64, f64),
-        (error, rims): (f64, &[Rim]),
-        turn: Turn,
-    ) -> Self {
-        let mut stretches = Vec::with_capacity(1);
-        let (mut left, mut reach) = (h, longest);
-        // Rounding leaves no stretch of its own.
-        while left > 1e-12 * h || stretches.is_empty() {
-            let lengths = (shortest, reach);
-            let stretch = Stretch::follow(law, place, velocity, lengths, error, rims);
-            (place, velocity) = stretch.at(stretch.length);
-            left -= stretch.length;
-            reach = left;
-            stretches.push(stretch);
-        }
-        Self {
-            start,
-            law: Law::Stretches(stretches),
-            turn,
-        }
-    }
-
-    /// Whether the law is known from `time` on for `h` seconds.
-    pub(crate) fn holds(&self, time: SimTime, h: f64) -> bool {
-        let t = time - self.start;
-        match &self.law {
-            Law::Damped { .. } | Law::Conic { core: None, .. } => true,
-            Law::Conic {
-                conic,
-                core: Some(core),
-            } => conic.time_outside(t, *core) > h,
-            Law::Stretches(stretches) => {
-                let whole: f64 = stretches.iter().map(|stretch| stretch.length).sum();
-                t + h <= whole * (1.0 + 1e-12)
-            }
-            Law::Held { path, .. } => t + h <= path.length() * (1.0 + 1e-12),
-        }
+    /// Under any law, for one stretch of the integrator.
+    pub(crate) const fn integrated(start: SimTime, stretch: Stretch, turn: Turn) -> Self {
+        let law = Law::Stretch(stretch);
+        Self { start, law, turn }
     }
 
     /// Seconds from `time` on for which the law is surely known, at most `longest`.
@@ -150,7 +115,7 @@ impl Flight {
                 conic,
                 core: Some(core),
             } => conic.time_outside(t, *core),
-            Law::Stretches(stretches) => stretches.iter().map(|s| s.length).sum::<f64>() - t,
+            Law::Stretch(stretch) => stretch.length - t,
             Law::Held { path, .. } => path.length() - t,
         };
         if known < longest { known } else { longest }
@@ -158,7 +123,7 @@ impl Flight {
 
     /// Whether some of it leaves out more than the world's error for fields.
     pub(crate) fn misses(&self) -> bool {
-        matches!(&self.law, Law::Stretches(all) if all.iter().any(|stretch| stretch.misses))
+        matches!(&self.law, Law::Stretch(stretch) if stretch.misses)
     }
 
     /// Whether nothing holds the body.
@@ -180,15 +145,10 @@ impl Flight {
                 (acceleration, Jerk::Most(damping * acceleration.length()))
             }
             Law::Conic { conic, .. } => conic.bends(x, v),
-            Law::Stretches(stretches) => {
-                let (mut t, last) = (time - self.start, stretches.len() - 1);
-                let mut k = 0;
-                while k < last && t > stretches[k].length {
-                    t -= stretches[k].length;
-                    k += 1;
-                }
-                let most = stretches.iter().map(Stretch::jerk).fold(0.0, f64::max);
-                (stretches[k].acceleration(t), Jerk::Most(most))
+            Law::Stretch(stretch) => {
+                // A jerk that is no number bounds nothing.
+                let jerk = Jerk::Most(stretch.jerk().max(0.0));
+                (stretch.acceleration(time - self.start), jerk)
             }
             Law::Held { path, body } => {
                 let jerk;
@@ -230,16 +190,7 @@ impl Flight {
                 (*place + Vec2::new(x, y), Vec2::new(along, up))
             }
             Law::Conic { conic, .. } => conic.at(t),
-            Law::Stretches(stretches) => {
-                let (mut t, last) = (t, stretches.len() - 1);
-                for stretch in &stretches[..last] {
-                    if t <= stretch.length {
-                        return stretch.at(t);
-                    }
-                    t -= stretch.length;
-                }
-                stretches[last].at(t)
-            }
+            Law::Stretch(stretch) => stretch.at(t),
             Law::Held { path, body } => {
                 let (place, velocity, ..) = path.body_after(*body, t);
                 (place, velocity)

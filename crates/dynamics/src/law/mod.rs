@@ -7,7 +7,7 @@
 pub(crate) mod collocated;
 pub(crate) mod damped;
 pub(crate) mod flight;
-mod integrate;
+pub(crate) mod integrate;
 pub(crate) mod kepler;
 pub(crate) mod osculating;
 pub(crate) mod path;

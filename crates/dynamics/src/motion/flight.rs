@@ -5,6 +5,7 @@ use std::sync::Arc;
 use carom_math::{SimTime, Vec2};
 
 use crate::law::flight::{Flight, Turn};
+use crate::law::integrate::Stretch;
 use crate::law::kepler::Conic;
 use crate::store::bodies::Bodies;
 use crate::store::uncommon::Lag;
@@ -59,7 +60,11 @@ pub(crate) fn begin_piece(bodies: &mut Bodies, index: u32, time: SimTime, h: f64
     let shortest = SHORTEST * h;
     let flight = match known {
         Some(flight) if flight.is_free() && flight.lasts(time, h) > shortest => flight,
-        _ => Arc::new(new_law(bodies, index, time, h, 0.0)),
+        _ => {
+            let flight = law_of(bodies, index, time, h);
+            bodies.inaccurate += u64::from(flight.misses());
+            Arc::new(flight)
+        }
     };
     let end = lay_piece(bodies, index, &flight, time, shortest);
     let state = bodies.get_mut(index);
@@ -113,15 +118,8 @@ fn lay_piece(
 /// Shortest piece of a flight, and shortest stretch of the integrator, as a part of a sub-step.
 const SHORTEST: f64 = 1.0 / 1_048_576.0;
 
-/// [`law_of`] a body, counted where it is not as near as the world asks for.
-fn new_law(bodies: &mut Bodies, index: u32, time: SimTime, h: f64, cover: f64) -> Flight {
-    let flight = law_of(bodies, index, time, h, cover);
-    bodies.inaccurate += u64::from(flight.misses());
-    flight
-}
-
-/// The law that a body flies by from `time` on, for `cover` seconds or more; `h` is what counts as short.
-fn law_of(bodies: &Bodies, index: u32, time: SimTime, h: f64, cover: f64) -> Flight {
+/// The law that a body flies by from `time` on; `h` is what counts as short.
+fn law_of(bodies: &Bodies, index: u32, time: SimTime, h: f64) -> Flight {
     let (state, pull) = (bodies.get(index), &bodies.pull);
     let (x, v) = (state.centre_at(time), state.velocity_at(time));
     let (linear, angular) = state.damping();
@@ -142,7 +140,7 @@ fn law_of(bodies: &Bodies, index: u32, time: SimTime, h: f64, cover: f64) -> Fli
         && uniform == Vec2::ZERO
         && linear == 0.0
         && let Some(conic) = Conic::through(centre.centre, scale * centre.strength, x, v)
-        && let Some(flight) = Flight::conic(time, conic, centre.core, cover.max(h / 64.0), turn)
+        && let Some(flight) = Flight::conic(time, conic, centre.core, h / 64.0, turn)
     {
         return flight;
     }
@@ -150,8 +148,8 @@ fn law_of(bodies: &Bodies, index: u32, time: SimTime, h: f64, cover: f64) -> Fli
     let lengths = (SHORTEST * h, longest(bodies, index, (x, v), h));
     let centres = pull.fields.iter().filter_map(|field| field.newtonian());
     let rims: Vec<_> = centres.map(|c| (c.centre, c.core)).collect();
-    let errors = (pull.error, rims.as_slice());
-    Flight::integrated(time, (x, v), &law, cover, lengths, errors, turn)
+    let stretch = Stretch::follow(&law, x, v, lengths, pull.error, &rims);
+    Flight::integrated(time, stretch, turn)
 }
 
 /// How far a stretch of the integrator may go, by what the fields say of themselves, in s.
