@@ -8,7 +8,7 @@ use crate::analytic::islands::give_motions;
 use crate::analytic::islands::store::{Group, Kept};
 use crate::analytic::islands::tips::{Tipping, path_of};
 use crate::analytic::modes::{NotMine, TouchMove};
-use crate::analytic::tipping::Ends;
+use crate::analytic::tipping::Limit;
 use crate::analytic::touching::Gathered;
 use crate::{Mode, World};
 
@@ -33,7 +33,7 @@ impl World {
             gathered,
             (time, speed, self.settings.mode),
         )?;
-        let lands = matches!(tip.ends, Ends::Lands { .. });
+        let lands = matches!(tip.ends, Some(Limit::Corner { .. }));
         if landed && lands && tip.after < BACK * self.clock.h && self.settings.mode == Mode::Hybrid
         {
             return Err(NotMine::Returns);

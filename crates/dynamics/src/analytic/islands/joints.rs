@@ -121,20 +121,9 @@ fn disc_on(own: &Held<'_>, disc: &Held<'_>, owner: End, outward: Vec2, near: f64
         own.hull.normals[vertex],
     ];
     let cone = Some((owner, normals));
-    Some(match owner {
-        End::A => Joint::Points {
-            a: corner,
-            b: tip,
-            radii: (0.0, radius),
-            cone,
-        },
-        End::B => Joint::Points {
-            a: tip,
-            b: corner,
-            radii: (radius, 0.0),
-            cone,
-        },
-    })
+    let (a, b) = owner.first(corner, tip);
+    let radii = owner.first(0.0, radius);
+    Some(Joint::Points { a, b, radii, cone })
 }
 
 /// A corner of `other` on an edge of `own`, and whether it goes over its end; `outward` points from `own` to `other`.

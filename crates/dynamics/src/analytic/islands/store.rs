@@ -8,7 +8,7 @@ use carom_math::{SimTime, Vec2};
 use super::mode_budget::ModeBudget;
 use super::tips::Tipping;
 use crate::analytic::modes::TouchMove;
-use crate::analytic::tipping::Ends;
+use crate::analytic::tipping::Limit;
 use crate::model::narrow::TOUCH;
 use crate::store::bodies::Bodies;
 use crate::store::membership::Membership;
@@ -114,14 +114,15 @@ impl Group {
 
     /// The pair with a corner that lands at the next change, the normal from A to B, and the point.
     pub(crate) fn landing(&self) -> Option<(u32, Vec2, Vec2)> {
-        match self.tipping.as_ref()?.tip.ends {
-            Ends::Known | Ends::Changes => None,
-            Ends::Lands {
-                contact,
-                normal,
-                at,
-            } => Some((self.touches.get(contact)?.pair, normal, at)),
-        }
+        let Some(Limit::Corner {
+            contact,
+            normal,
+            at,
+        }) = self.tipping.as_ref()?.tip.ends
+        else {
+            return None;
+        };
+        Some((self.touches.get(contact)?.pair, normal, at))
     }
 }
 

@@ -67,24 +67,12 @@ pub(crate) struct Seen {
     pub(crate) drift: f64,
 }
 
-/// What must stay positive as long as a joint lasts.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Margin {
-    /// Way left on the edge, in m; for a disc on a corner, on the arc.
-    Way(f64),
-    /// Gap of a corner beside the tip, in m: it lands.
-    Corner {
-        gap: f64,
-        /// Where it would land, in m.
-        at: Vec2,
-    },
-}
-
-impl Margin {
-    pub(crate) const fn value(self) -> f64 {
+impl End {
+    /// Of what belongs to A and B: that of this body, and that of the other one.
+    pub(crate) fn first<T>(self, a: T, b: T) -> (T, T) {
         match self {
-            Self::Way(left) => left,
-            Self::Corner { gap, .. } => gap,
+            Self::A => (a, b),
+            Self::B => (b, a),
         }
     }
 }
@@ -101,10 +89,7 @@ impl Joint {
                 radius,
                 ..
             } => {
-                let (own, other) = match owner {
-                    End::A => (a, b),
-                    End::B => (b, a),
-                };
+                let (own, other) = owner.first(a, b);
                 let n = own.rotation * normal;
                 let t = perp(n);
                 let q = other.point(tip);
@@ -124,7 +109,7 @@ impl Joint {
                     );
                 Seen {
                     // Seen from A; both rates are the same from either side.
-                    normal: if owner == End::A { n } else { -n },
+                    normal: owner.first(n, -n).0,
                     point,
                     gap: n.dot(way) - height - radius,
                     slip: t.dot(slip),
@@ -203,8 +188,9 @@ impl Joint {
         }
     }
 
-    /// What ends the joint when it falls to 0.
-    pub(crate) fn margins(&self, a: &Place, b: &Place) -> ArrayVec<Margin, 4> {
+    /// What ends the joint when it falls to 0, in m: the way left on an edge, or for a disc on a corner on its arc, and the gap of a
+    /// corner beside the tip, with where it would land.
+    pub(crate) fn margins(&self, a: &Place, b: &Place) -> ArrayVec<(f64, Option<Vec2>), 4> {
         let mut margins = ArrayVec::new();
         match self {
             Self::Line {
@@ -216,21 +202,18 @@ impl Joint {
                 beside,
                 ..
             } => {
-                let (own, other) = match owner {
-                    End::A => (a, b),
-                    End::B => (b, a),
-                };
+                let (own, other) = owner.first(a, b);
                 let n = own.rotation * *normal;
                 let along = perp(n).dot(other.point(*tip) - own.centre);
                 for left in [along - ends[0], ends[1] - along] {
                     if left.is_finite() {
-                        margins.push(Margin::Way(left));
+                        margins.push((left, None));
                     }
                 }
                 for corner in beside {
                     let at = other.point(*corner);
                     let gap = n.dot(at - own.centre) - height;
-                    margins.push(Margin::Corner { gap, at });
+                    margins.push((gap, Some(at)));
                 }
             }
             Self::Points { cone: None, .. } => {}
@@ -241,14 +224,11 @@ impl Joint {
                 cone: Some((owner, normals)),
             } => {
                 let n = (b.point(*of_b) - a.point(*of_a)).normalize();
-                let (own, outward) = match owner {
-                    End::A => (a, n),
-                    End::B => (b, -n),
-                };
+                let (own, outward) = owner.first((a, n), (b, -n)).0;
                 let arc = radii.0 + radii.1;
                 let (low, high) = (own.rotation * normals[0], own.rotation * normals[1]);
-                margins.push(Margin::Way(cross(low, outward) * arc));
-                margins.push(Margin::Way(cross(outward, high) * arc));
+                margins.push((cross(low, outward) * arc, None));
+                margins.push((cross(outward, high) * arc, None));
             }
         }
         margins

@@ -17,7 +17,7 @@ mod wave;
 use std::sync::Arc;
 
 use arrayvec::ArrayVec;
-use carom_math::{SimTime, Vec2};
+use carom_math::SimTime;
 
 use crate::ContactMode;
 use crate::analytic::modes::{BodyMove, ModeBody, NotMine, Touch, TouchMove, begin};
@@ -27,7 +27,8 @@ use crate::model::edges::Feature;
 use crate::model::graph::ROWS;
 pub(crate) use equations::{Equations, Forces, Workspace};
 pub(crate) use joint::{End, Joint};
-use roots::{Limit, faint, first, heat};
+pub(crate) use roots::Limit;
+use roots::{faint, first, heat};
 use shared::share_corners;
 use swing::swing;
 
@@ -79,23 +80,6 @@ pub(crate) struct Hold {
     pub(crate) shares: Option<usize>,
 }
 
-/// Why a path ends.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Ends {
-    /// The path is known no further.
-    Known,
-    /// A mode changes: the group's modes are solved for anew.
-    Changes,
-    /// A corner comes down on the edge of a contact.
-    Lands {
-        contact: usize,
-        /// From A to B.
-        normal: Vec2,
-        /// In m.
-        at: Vec2,
-    },
-}
-
 /// How a group moves until its next change.
 #[derive(Clone, Debug)]
 pub(crate) struct Tip {
@@ -105,13 +89,14 @@ pub(crate) struct Tip {
     reaches: Vec<f64>,
     /// In s from the start of the path.
     pub(crate) after: f64,
-    pub(crate) ends: Ends,
+    /// What ends the mode; `None`: the path is known no further.
+    pub(crate) ends: Option<Limit>,
 }
 
 impl Tip {
     /// The next stretch of a path that is known no further, while all modes go on.
     pub(crate) fn next(&self, speed: f64) -> Option<Self> {
-        if self.ends != Ends::Known {
+        if self.ends.is_some() {
             return None;
         }
         let places = self.path.places_after(self.after);
@@ -227,7 +212,7 @@ pub(crate) fn tip(
             amend(&mut equations, limit)?;
             continue;
         };
-        let (after, limit) = match end {
+        let (after, ends) = match end {
             roots::End::Open => (path.length(), None),
             roots::End::After(after, limit)
                 if after > AT_ONCE || matches!(limit, Limit::Corner { .. }) =>
@@ -240,19 +225,6 @@ pub(crate) fn tip(
                 continue;
             }
             roots::End::Lost => return Err(NotMine::Unsolved),
-        };
-        let ends = match limit {
-            Some(Limit::Corner {
-                contact,
-                normal,
-                at,
-            }) => Ends::Lands {
-                contact,
-                normal,
-                at,
-            },
-            Some(_) => Ends::Changes,
-            None => Ends::Known,
         };
         return Ok(Tip {
             path: Arc::new(path),

@@ -3,7 +3,6 @@
 use carom_math::{Vec2, falling_root};
 
 use super::equations::{Equations, Workspace};
-use super::joint::Margin;
 use super::{AT_ONCE, Rub};
 use crate::law::path::Path;
 use crate::law::path::Place;
@@ -20,7 +19,7 @@ const FAINT: f64 = 1e-12;
 
 /// What a margin belongs to.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Limit {
+pub(crate) enum Limit {
     /// A normal force: the point opens.
     Press { contact: usize, point: usize },
     /// What friction could hold beyond what it does: it begins to slip, with this sign.
@@ -119,18 +118,18 @@ impl Margins<'_> {
             let mut pressed = 0.0;
             for (point, joint) in of.joints.iter().enumerate() {
                 let seen = joint.seen(a, b);
-                let ends = |margin| match margin {
-                    Margin::Way(_) => Limit::Way { contact, point },
-                    Margin::Corner { at, .. } => Limit::Corner {
+                let ends = |lands: Option<Vec2>| {
+                    let corner = |at| Limit::Corner {
                         contact,
                         normal: seen.normal,
                         at,
-                    },
+                    };
+                    lands.map_or(Limit::Way { contact, point }, corner)
                 };
                 if hold.over[point] {
                     if hold.shares.is_some() {
-                        for margin in joint.margins(a, b) {
-                            add(ends(margin), margin.value(), size);
+                        for (left, lands) in joint.margins(a, b) {
+                            add(ends(lands), left, size);
                         }
                     }
                     continue;
@@ -148,8 +147,8 @@ impl Margins<'_> {
                 let force = forces.normal[contact][point];
                 pressed += force;
                 add(Limit::Press { contact, point }, force, most);
-                for margin in joint.margins(a, b) {
-                    add(ends(margin), margin.value(), size);
+                for (left, lands) in joint.margins(a, b) {
+                    add(ends(lands), left, size);
                 }
             }
             match (hold.rub, slips) {

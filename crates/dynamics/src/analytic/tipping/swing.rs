@@ -128,7 +128,7 @@ impl<'a> Pivot<'a> {
     /// Whether the edge of a joint is the body's own.
     fn has_edge(&self, contact: &Contact, owner: End) -> bool {
         let (a, b) = contact.bodies;
-        self.body == if owner == End::A { a } else { b }
+        self.body == owner.first(a, b).0
     }
 
     /// All that must stay above 0; `None` where a gap is no polynomial.
@@ -211,10 +211,7 @@ impl<'a> Pivot<'a> {
         };
         let of = &self.equations.contacts[contact];
         let (a, b) = (&self.places[of.bodies.0], &self.places[of.bodies.1]);
-        let (own, other) = match owner {
-            End::A => (a, b),
-            End::B => (b, a),
-        };
+        let (own, other) = owner.first(a, b);
         let (n, at) = (own.rotation * *normal, other.point(corner));
         let way = at - self.at;
         let edge_turns = self.has_edge(of, *owner);
@@ -225,7 +222,7 @@ impl<'a> Pivot<'a> {
             n.dot(perp(way))
         };
         let now = n.dot(at - own.centre) - height;
-        let normal = if *owner == End::A { n } else { -n };
+        let normal = owner.first(n, -n).0;
         Some(Margin {
             wave: Wave::new(now - cos, cos, sin),
             nothing: NOTHING * size,
