@@ -95,7 +95,10 @@ impl<'a> Problem<'a> {
                 return Err(NotMine::Painleve);
             }
         }
-        let q = unknowns.iter().map(|row| growth(faces, *row, &faces.free));
+        let growth = |unknown: &Unknown| {
+            row(faces, *unknown).map_or(0.0, |(row, sign)| sign * row.growth(&faces.free))
+        };
+        let q = unknowns.iter().map(growth);
         Ok(Self {
             q: q.collect(),
             faces,
@@ -216,33 +219,24 @@ fn add_column(faces: &Faces, tangents: &[Tangent], unknown: Unknown, column: &mu
     }
 }
 
-/// The rate that is complementary to an unknown, in a state.
-fn rate(faces: &Faces, row: Unknown, state: &[f64]) -> f64 {
-    match row {
-        Unknown::Normal { face, point } => faces.list[face].normals[point].rate(state),
-        Unknown::Friction { face, sign } => sign * faces.list[face].tangent.rate(state),
-        Unknown::Rate { .. } => 0.0,
+/// The row with the rate that is complementary to an unknown, and the sign that it counts with; none for a rate itself.
+fn row(faces: &Faces, unknown: Unknown) -> Option<(&Row, f64)> {
+    match unknown {
+        Unknown::Normal { face, point } => Some((&faces.list[face].normals[point], 1.0)),
+        Unknown::Friction { face, sign } => Some((&faces.list[face].tangent, sign)),
+        Unknown::Rate { .. } => None,
     }
 }
 
-/// [`rate`] of accelerations, with what velocities add.
-fn growth(faces: &Faces, row: Unknown, state: &[f64]) -> f64 {
-    match row {
-        Unknown::Normal { face, point } => faces.list[face].normals[point].growth(state),
-        Unknown::Friction { face, sign } => sign * faces.list[face].tangent.growth(state),
-        Unknown::Rate { .. } => 0.0,
-    }
-}
-
-fn entry(faces: &Faces, row: Unknown, of: Unknown, column: &[f64]) -> f64 {
-    match (row, of) {
+fn entry(faces: &Faces, to: Unknown, of: Unknown, column: &[f64]) -> f64 {
+    match (to, of) {
         (Unknown::Friction { face, .. }, Unknown::Rate { face: other }) if face == other => 1.0,
         (Unknown::Rate { face }, Unknown::Normal { face: other, point }) if face == other => {
             let face = &faces.list[face];
             face.friction * face.tangent.length / face.normals[point].length
         }
         (Unknown::Rate { face }, Unknown::Friction { face: other, .. }) if face == other => -1.0,
-        _ => rate(faces, row, column),
+        _ => row(faces, to).map_or(0.0, |(row, sign)| sign * row.rate(column)),
     }
 }
 

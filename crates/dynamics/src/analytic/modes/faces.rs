@@ -89,13 +89,6 @@ impl Faces {
             begins.as_ref().unwrap_or(&stops).apply(&mut velocities);
             Some(velocities)
         };
-        let unscaled = |state: &[f64], k: usize, body: &ModeBody| {
-            let (m, i) = (body.inverse_mass.sqrt(), body.inverse_inertia.sqrt());
-            (
-                vec2(state[3 * k] * m, state[3 * k + 1] * m),
-                state[3 * k + 2] * i,
-            )
-        };
         let one = |(k, body): (usize, &ModeBody)| {
             let (acceleration, angular_acceleration) = unscaled(&accelerations, k, body);
             let (velocity, spin) = match &velocities {
@@ -220,6 +213,13 @@ fn scaled(bodies: &[ModeBody], of: impl Fn(&ModeBody) -> (Vec2, f64)) -> Vec<f64
     state
 }
 
+/// Numbers of the k-th body, from scaled ones of all.
+fn unscaled(state: &[f64], k: usize, body: &ModeBody) -> (Vec2, f64) {
+    let (m, i) = (body.inverse_mass.sqrt(), body.inverse_inertia.sqrt());
+    let linear = vec2(state[3 * k] * m, state[3 * k + 1] * m);
+    (linear, state[3 * k + 2] * i)
+}
+
 /// Velocities and spins with which no point of any touch opens or closes, nor slips where it `sticks`: the nearest, by energy.
 pub(super) fn held(
     bodies: &[ModeBody],
@@ -237,12 +237,8 @@ pub(super) fn held(
     });
     let mut state = scaled(bodies, |body| (body.velocity, body.spin));
     Stops::of(rows, state.len()).apply(&mut state);
-    let unscaled = |(k, body): (usize, &ModeBody)| {
-        let (m, i) = (body.inverse_mass.sqrt(), body.inverse_inertia.sqrt());
-        let velocity = vec2(state[3 * k] * m, state[3 * k + 1] * m);
-        (velocity, state[3 * k + 2] * i)
-    };
-    bodies.iter().enumerate().map(unscaled).collect()
+    let all = bodies.iter().enumerate();
+    all.map(|(k, body)| unscaled(&state, k, body)).collect()
 }
 
 /// Rows that are held at 0.
