@@ -156,29 +156,29 @@ impl World {
 
     /// Motions and touches of all members, where a caller may read them.
     pub(crate) fn write_members(&mut self, time: SimTime) {
-        if core::mem::take(&mut self.joins.unwritten)
-            && let Some(mut stepping) = self.stepping.take()
-        {
-            if !self.bodies.history.is_kept() && !self.clock.is_within(time) {
-                // No pose is read within the last sub-step.
-                stepping.note_places(false);
-            }
-            stepping.write_all(&mut self.bodies, &self.clock);
-            if !self.clock.is_within(time) {
-                self.tell_sleep(&mut stepping, time);
-                self.tell_impacts(&mut stepping, time);
-            }
-            self.tell_touches(&mut stepping, time);
-            self.stepping = Some(stepping);
-        } else if self.joins.has_guests
-            && !self.clock.is_within(time)
-            && let Some(mut stepping) = self.stepping.take()
-        {
-            stepping.end_motions(&mut self.bodies, &self.clock);
-            self.tell_sleep(&mut stepping, time);
-            self.tell_impacts(&mut stepping, time);
-            self.stepping = Some(stepping);
+        let unwritten = core::mem::take(&mut self.joins.unwritten);
+        let is_within = self.clock.is_within(time);
+        if !unwritten && (is_within || !self.joins.has_guests) {
+            return;
         }
+        self.with_engine(|world, stepping| {
+            if unwritten {
+                if !world.bodies.history.is_kept() && !is_within {
+                    // No pose is read within the last sub-step.
+                    stepping.note_places(false);
+                }
+                stepping.write_all(&mut world.bodies, &world.clock);
+            } else {
+                stepping.end_motions(&mut world.bodies, &world.clock);
+            }
+            if !is_within {
+                world.tell_sleep(stepping, time);
+                world.tell_impacts(stepping, time);
+            }
+            if unwritten {
+                world.tell_touches(stepping, time);
+            }
+        });
     }
 
     /// Begins and ends of touch of members since this was last called.
@@ -289,11 +289,7 @@ impl World {
         if self.settings.mode != Mode::Hybrid || bodies.is_empty() {
             return;
         }
-        #[expect(
-            clippy::cast_possible_truncation,
-            reason = "the cast saturates; a tick more or less in a budget is no matter"
-        )]
-        let tick = (time.as_secs() / self.settings.tick) as i64;
+        let tick = self.settings.tick_at(time);
         if self.joins.rush.is_before(tick) {
             self.end_rush(time);
         }

@@ -6,9 +6,10 @@
 use carom_geometry::Shape;
 use carom_math::Vec2;
 
+use super::world::check_shapes;
 use crate::stepping::threads::Threads;
 use crate::store::mass::mass_of;
-use crate::store::state::{BodyState, Surface};
+use crate::store::state::BodyState;
 use crate::values::error::{check_finite, check_vec2};
 use crate::{BodyDef, BodyError, BodyId, BodyKind, Material, Settings, SettingsError, World};
 
@@ -118,12 +119,7 @@ impl World {
         shapes: Vec<(Shape, Material)>,
     ) -> Result<(), BodyError> {
         let index = self.bodies.find(id)?;
-        if shapes.is_empty() {
-            return Err(BodyError::NoShape);
-        }
-        for (_, material) in &shapes {
-            material.check()?;
-        }
+        check_shapes(&shapes)?;
         let state = self.bodies.get(index);
         let mut def = BodyDef::new(state.kind);
         def.locked_rotation = state.locked_rotation;
@@ -137,12 +133,7 @@ impl World {
         self.leave_all(index);
         self.broad.forget(&mut self.bodies, index);
         self.free_shapes(index);
-        let add = |(shape, material)| {
-            let surface = Surface { material, filter };
-            self.add_collider(index, shape, surface, mass.centroid)
-        };
-        let colliders = shapes.into_iter().map(add).collect();
-        self.bodies.get_mut(index).colliders = colliders;
+        self.add_shapes(index, shapes, filter, mass.centroid);
         self.remake(index, |state| {
             let moved = state.motion.rotation * (mass.centroid - state.mass.centroid);
             state.motion.centre += moved;

@@ -18,8 +18,8 @@ use crate::store::state::{BodyState, Collider, Surface, drawn_at};
 use crate::values::profile::Stopwatch;
 use crate::work::Work;
 use crate::{
-    Body, BodyDef, BodyError, BodyId, BodyKind, Contact, EnergyLedger, Events, Material, Mode,
-    Momentum, Settings, SettingsError, StepProfile, StepReport, World,
+    Body, BodyDef, BodyError, BodyId, BodyKind, Contact, EnergyLedger, Events, Filter, Material,
+    Mode, Momentum, Settings, SettingsError, StepProfile, StepReport, World,
 };
 
 /// So many of the shapes that came last are looked through for one that is alike.
@@ -115,12 +115,7 @@ impl World {
         shapes: Vec<(Shape, Material)>,
     ) -> Result<BodyId, BodyError> {
         def.check()?;
-        if shapes.is_empty() {
-            return Err(BodyError::NoShape);
-        }
-        for (_, material) in &shapes {
-            material.check()?;
-        }
+        check_shapes(&shapes)?;
         let id = self.bodies.next_id()?;
         let now = self.clock.now;
         let state = BodyState::new(id, &def, &shapes, now, self.settings.mode)?;
@@ -131,15 +126,7 @@ impl World {
             self.bodies.fall_asleep(id.index);
         }
         self.closed.reset_budget(id.index);
-        let add = |(shape, material)| {
-            let surface = Surface {
-                material,
-                filter: def.filter,
-            };
-            self.add_collider(id.index, shape, surface, centroid)
-        };
-        let colliders = shapes.into_iter().map(add).collect();
-        self.bodies.get_mut(id.index).colliders = colliders;
+        self.add_shapes(id.index, shapes, def.filter, centroid);
         let (kinetic, potential) = self.bodies.energy_of(id.index, now);
         self.bodies.book.external.add(kinetic + potential);
         if self.settings.mode == Mode::Stepped {
@@ -355,14 +342,23 @@ impl World {
         self.bodies.free_colliders.extend(&freed);
     }
 
-    /// Puts a shape of a body among all shapes, and returns its place there.
-    pub(crate) fn add_collider(
+    /// Gives a body its shapes.
+    pub(crate) fn add_shapes(
         &mut self,
-        body: u32,
-        shape: Shape,
-        surface: Surface,
+        index: u32,
+        shapes: Vec<(Shape, Material)>,
+        filter: Filter,
         centroid: Vec2,
-    ) -> u32 {
+    ) {
+        let add = |(shape, material)| {
+            self.add_collider(index, shape, Surface { material, filter }, centroid)
+        };
+        let colliders = shapes.into_iter().map(add).collect();
+        self.bodies.get_mut(index).colliders = colliders;
+    }
+
+    /// Puts a shape of a body among all shapes, and returns its place there.
+    fn add_collider(&mut self, body: u32, shape: Shape, surface: Surface, centroid: Vec2) -> u32 {
         let (drawn, solid) = self.shape_like(shape, centroid);
         let alike = self.latest().find(|known| *known.surface == surface);
         let surface = match alike {
@@ -416,4 +412,12 @@ impl World {
     fn latest(&self) -> impl Iterator<Item = &Collider> {
         self.bodies.colliders.iter().rev().take(LATEST)
     }
+}
+
+/// Whether a body may have these shapes, as far as each tells alone.
+pub(crate) fn check_shapes(shapes: &[(Shape, Material)]) -> Result<(), BodyError> {
+    if shapes.is_empty() {
+        return Err(BodyError::NoShape);
+    }
+    shapes.iter().try_for_each(|(_, material)| material.check())
 }

@@ -1,6 +1,6 @@
 //! How a world computes.
 
-use carom_math::{Vec2, vec2};
+use carom_math::{SimTime, Vec2, vec2};
 
 use super::error::{SettingsError, WORLD_LIMIT};
 use crate::impact::{ImpactLaw, Several};
@@ -288,22 +288,25 @@ impl Settings {
         count.max(1.0) as u32
     }
 
+    /// Number of the tick that an instant is in.
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "the cast saturates; a tick more or less in a budget is no matter"
+    )]
+    pub(crate) fn tick_at(&self, time: SimTime) -> i64 {
+        (time.as_secs() / self.tick) as i64
+    }
+
     /// Length of a sub-step, in s.
     pub(crate) fn h(&self) -> f64 {
         self.tick / f64::from(self.substeps_per_tick())
     }
 }
 
-fn finite(field: &'static str, value: f64) -> Result<(), SettingsError> {
-    if value.is_finite() {
-        Ok(())
-    } else {
-        Err(SettingsError::NotFinite { field, value })
-    }
-}
-
 fn range(field: &'static str, value: f64, low: f64, high: f64) -> Result<(), SettingsError> {
-    finite(field, value)?;
+    if !value.is_finite() {
+        return Err(SettingsError::NotFinite { field, value });
+    }
     if value <= 0.0 && low > 0.0 {
         return Err(SettingsError::NotPositive { field, value });
     }
