@@ -12,8 +12,9 @@ use crate::analytic::islands::mode_budget::changes_motion;
 use crate::analytic::islands::store::Group;
 use crate::analytic::islands::{give_motions, kept};
 use crate::analytic::modes::{BodyMove, GroupMove, NotMine, TouchMove, land, solve_modes};
-use crate::analytic::touching::{Around, Gathered, Looks, Refused};
+use crate::analytic::touching::{Gathered, Looks, Refused};
 use crate::events::resolve::PairImpact;
+use crate::model::narrow::Around;
 use crate::{BodyKind, ContactMode, Mode, World};
 
 impl World {
@@ -24,7 +25,7 @@ impl World {
         for place in places {
             self.close_group_of(place, time);
         }
-        self.keep_closed(|group| group.since == time);
+        self.keep_closed(time);
     }
 
     /// A closed form for the group of a pair that touches.
@@ -51,12 +52,16 @@ impl World {
         }
     }
 
-    /// Contacts of groups that are `new` last, and carry what the group says.
-    fn keep_closed(&mut self, new: impl Fn(&Group) -> bool) {
+    /// Contacts of groups that are new at `time` last, and carry what the group says.
+    fn keep_closed(&mut self, time: SimTime) {
         let (h, bodies) = (self.clock.h, &self.bodies);
-        for group in self.closed.iter().filter(|group| {
-            new(group) && !(group.rests_analytically(bodies) || group.moves_analytically(bodies))
-        }) {
+        let goes =
+            |group: &Group| group.rests_analytically(bodies) || group.moves_analytically(bodies);
+        let new = self
+            .closed
+            .iter()
+            .filter(|group| group.since == time && !goes(group));
+        for group in new {
             for touch in &group.touches {
                 touch.carry(&self.bodies, self.pairs.get_mut(touch.pair), h);
             }
@@ -201,7 +206,7 @@ impl World {
         looks: Looks,
     ) -> Result<Gathered, Refused> {
         let mut around = Around {
-            bodies: &self.bodies,
+            bodies: &mut self.bodies,
             pairs: &mut self.pairs,
             narrow: &mut self.narrow,
             h: self.clock.h,
@@ -238,11 +243,7 @@ impl World {
         let mut speed = speed;
         for place in gathered.groups.clone() {
             if let Some(group) = self.closed.get(place) {
-                speed = if group.speed > speed {
-                    group.speed
-                } else {
-                    speed
-                };
+                speed = speed.max(group.speed);
             }
             self.dissolve(place, time);
         }
@@ -260,11 +261,7 @@ impl World {
             }
         }
         // What is slower than rest by all digits is still.
-        let speed = if gathered.rest > speed {
-            gathered.rest
-        } else {
-            speed
-        };
+        let speed = speed.max(gathered.rest);
         match solve_modes(&gathered.bodies, &gathered.touches, speed) {
             Ok(moves) => {
                 // What flies, and touches what belongs to an island, is the island's from now on.

@@ -3,6 +3,7 @@
 use carom_math::SimTime;
 
 use crate::events::resolve::{PairImpact, Struck, strike};
+use crate::model::narrow::Around;
 use crate::{Mode, Refusal, StepReport, World};
 
 /// More ticks than this in one step are refused.
@@ -143,11 +144,13 @@ impl World {
         let (a, b) = self.pairs.get(impact.pair).bodies;
         let struck = strike(
             &self.settings,
-            &mut self.bodies,
-            &mut self.pairs,
-            &mut self.narrow,
+            &mut Around {
+                bodies: &mut self.bodies,
+                pairs: &mut self.pairs,
+                narrow: &mut self.narrow,
+                h: self.clock.h,
+            },
             impact,
-            self.clock.h,
             &mut self.events,
             &mut self.report,
         );

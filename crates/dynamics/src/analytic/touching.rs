@@ -7,9 +7,8 @@ use crate::analytic::modes::{ModeBody, Touch, hold, stand};
 use crate::model::approach::{Approach, RigidState, approach, opening};
 use crate::model::edges::{Feature, at_the_end, corner_under_disc, feature};
 use crate::model::graph::ROWS;
-use crate::model::narrow::{Narrow, TOUCH, rest_speed};
+use crate::model::narrow::{Around, TOUCH, rest_speed};
 use crate::store::bodies::Bodies;
-use crate::store::pairs::Pairs;
 use crate::store::state::BodyState;
 
 /// Overlap beyond which a pair is pushed apart first, as a part of the smaller reach: closed forms keep what
@@ -65,11 +64,7 @@ impl Gathered {
         self.end_series();
         let (bodies, rest) = (&self.bodies, self.rest);
         for touch in &mut self.touches {
-            let ends = (
-                bodies[touch.bodies.0].state(),
-                bodies[touch.bodies.1].state(),
-            );
-            let normal = touch.normal;
+            let (ends, normal) = (ends_of(bodies, touch), touch.normal);
             let leaves =
                 |point: &Vec2| matches!(approach(ends, *point, normal, rest), Approach::Leaves(_));
             let two = touch.points.len() == 2;
@@ -79,13 +74,10 @@ impl Gathered {
                 touch.features = (Feature::Corner, Feature::Corner);
             }
         }
-        let kept: Vec<bool> = self.touches.iter().map(|t| !t.points.is_empty()).collect();
-        let mut keeps = kept.iter();
-        self.touches
-            .retain(|_| keeps.next().copied().unwrap_or(false));
-        let mut keeps = kept.iter();
+        let mut touches = self.touches.iter();
         self.pairs
-            .retain(|_| keeps.next().copied().unwrap_or(false));
+            .retain(|_| touches.next().is_some_and(|touch| !touch.points.is_empty()));
+        self.touches.retain(|touch| !touch.points.is_empty());
     }
 
     /// Kinetic energy that the bodies have in the world, in J.
@@ -103,8 +95,8 @@ impl Gathered {
     /// Whether a landing opens none of its touches faster than rest.
     pub(crate) fn opens_slowly(&self, landed: &Self) -> bool {
         let opens = |touch: &Touch| {
-            let ends = [touch.bodies.0, touch.bodies.1].map(|place| landed.bodies[place].state());
-            let rate = |point: &Vec2| opening((ends[0], ends[1]), *point, touch.normal).0;
+            let ends = ends_of(&landed.bodies, touch);
+            let rate = |point: &Vec2| opening(ends, *point, touch.normal).0;
             touch.points.iter().map(rate).fold(0.0, f64::max)
         };
         self.touches.iter().all(|touch| opens(touch) <= self.rest)
@@ -120,10 +112,7 @@ impl Gathered {
     fn end_series(&mut self) {
         let (bodies, rest) = (&self.bodies, self.rest);
         let opens = |touch: &Touch| {
-            let ends = (
-                bodies[touch.bodies.0].state(),
-                bodies[touch.bodies.1].state(),
-            );
+            let ends = ends_of(bodies, touch);
             let rate = |point: &Vec2| match approach(ends, *point, touch.normal, rest) {
                 Approach::Leaves(rate) => rate,
                 _ => 0.0,
@@ -160,6 +149,11 @@ impl Gathered {
     }
 }
 
+fn ends_of(bodies: &[ModeBody], touch: &Touch) -> (RigidState, RigidState) {
+    let (a, b) = touch.bodies;
+    (bodies[a].state(), bodies[b].state())
+}
+
 fn mode_body(bodies: &Bodies, state: &BodyState, time: SimTime) -> ModeBody {
     let dynamic = state.is_dynamic();
     let RigidState {
@@ -180,15 +174,6 @@ fn mode_body(bodies: &Bodies, state: &BodyState, time: SimTime) -> ModeBody {
         },
         twist: state.torque() * state.inverse_inertia,
     }
-}
-
-/// What the contacts around a body are read of, and looked at anew with.
-pub(crate) struct Around<'a> {
-    pub(crate) bodies: &'a Bodies,
-    pub(crate) pairs: &'a mut Pairs,
-    pub(crate) narrow: &'a mut Narrow,
-    /// Of a sub-step, in s.
-    pub(crate) h: f64,
 }
 
 impl Around<'_> {
@@ -281,7 +266,7 @@ impl Around<'_> {
         if !touching {
             return Some(0);
         }
-        found.rest = if rest > found.rest { rest } else { found.rest };
+        found.rest = found.rest.max(rest);
         let mut rows = 0;
         for (number, contact) in pair.contacts.iter().enumerate() {
             let hull_a = self.bodies.hull(pair.colliders.0, contact.parts.0);
@@ -301,11 +286,7 @@ impl Around<'_> {
                     Approach::Stays => points.push(at),
                     Approach::Closes(speed) => {
                         points.push(at);
-                        found.closing = if speed > found.closing {
-                            speed
-                        } else {
-                            found.closing
-                        };
+                        found.closing = found.closing.max(speed);
                     }
                 }
             }

@@ -4,10 +4,10 @@ use arrayvec::ArrayVec;
 use carom_math::{SimTime, Vec2};
 
 use crate::events::shock::Shock;
-use crate::impact::{ImpactContact, resolve};
-use crate::model::narrow::{NOISE, Narrow, opening_speed, pace, rest_speed};
+use crate::impact::resolve;
+use crate::model::narrow::{Around, NOISE, opening_speed, pace, rest_speed};
 use crate::store::bodies::Bodies;
-use crate::store::pairs::{Pair, Pairs};
+use crate::store::pairs::Pair;
 use crate::values::event::EventKind;
 use crate::{Events, PairMaterial, Settings, StepReport};
 
@@ -52,44 +52,33 @@ pub(crate) enum Struck {
 /// Resolves an impact of a pair.
 ///
 /// A single contact follows the impact law; one that runs into others is resolved with them.
-#[expect(
-    clippy::too_many_arguments,
-    reason = "what an impact reads, and the stores it writes"
-)]
 pub(crate) fn strike(
     settings: &Settings,
-    bodies: &mut Bodies,
-    pairs: &mut Pairs,
-    narrow: &mut Narrow,
+    around: &mut Around<'_>,
     due: &PairImpact,
-    h: f64,
     events: &mut Events,
     report: &mut StepReport,
 ) -> Struck {
-    let ends = pairs.get(due.pair).bodies;
+    let bodies = &*around.bodies;
+    let pair = around.pairs.get_mut(due.pair);
+    let (ends, material) = (pair.bodies, pair.material);
     let (a, b) = (bodies.get(ends.0), bodies.get(ends.1));
-    touch(bodies, pairs, due, events);
-    pairs.get_mut(due.pair).begin_budget(due.time, h);
-    let rest = rest_speed(bodies, pairs.get(due.pair), h);
+    // A touch that begins here is an event.
+    pair.touching = true;
+    events.tell_touch(bodies, pair, due.time);
+    pair.begin_budget(due.time, around.h);
+    let rest = rest_speed(bodies, pair, around.h);
     let rounding = NOISE * pace(a, b, due.time);
-    let mut shock = Shock::new(due.time, h);
+    let mut shock = Shock::new(due.time);
     for &point in &due.points {
         let speed = -opening_speed(a, b, due.time, point, due.normal);
         // At exactly zero pull there is no rest: an approach is an approach, unless rounding made it.
         if speed > rest && speed > rounding {
-            let material = pairs.get(due.pair).material;
-            let contact = ImpactContact {
-                point,
-                normal: due.normal,
-                restitution: material.restitution,
-                friction: material.friction,
-            };
-            let struck = (contact, material.tangent_speed);
-            shock.add(bodies, due.pair, ends, struck, rest);
+            let at = (point, due.normal);
+            shock.add(bodies, due.pair, ends, at, material, rest);
         }
     }
     if shock.strikes.is_empty() {
-        let pair = pairs.get_mut(due.pair);
         pair.lasting = true;
         // A group with modes that are solved for anew each time comes to an end, too.
         return if outruns(pair, 1.0) {
@@ -99,7 +88,7 @@ pub(crate) fn strike(
             Struck::Rests
         };
     }
-    match spend(bodies, pairs, due, &shock, events, report) {
+    match spend(bodies, pair, due, &shock, events, report) {
         Budget::Left => {}
         Budget::Outrun => shock.collapse(),
         Budget::Gone => return Struck::Exhausted,
@@ -119,25 +108,18 @@ pub(crate) fn strike(
             (outcome.normal_impulse, outcome.tangential_impulse),
         );
     }
-    if !single || shock.spread(bodies, pairs, narrow) {
-        shock.solve(settings, bodies, pairs, narrow);
+    if !single || shock.spread(around) {
+        shock.solve(settings, around);
     }
-    shock.hold(pairs);
+    shock.hold(around.pairs);
     for strike in shock.squeezed() {
         report.collapsed += 1;
-        pairs.get_mut(strike.pair).lasting = true;
+        around.pairs.get_mut(strike.pair).lasting = true;
     }
     Struck::Impact {
-        changed: apply(bodies, due.time, &shock, events, report),
+        changed: apply(around.bodies, due.time, &shock, events, report),
         operations: shock.operations,
     }
-}
-
-/// A touch that begins here is an event.
-fn touch(bodies: &Bodies, pairs: &mut Pairs, due: &PairImpact, events: &mut Events) {
-    let pair = pairs.get_mut(due.pair);
-    pair.touching = true;
-    events.tell_touch(bodies, pair, due.time);
 }
 
 /// What is left of a pair's budget after an impact.
@@ -165,13 +147,12 @@ fn outruns(pair: &mut Pair, losses: f64) -> bool {
 /// Counts the impact among those of this sub-step.
 fn spend(
     bodies: &Bodies,
-    pairs: &mut Pairs,
+    pair: &mut Pair,
     due: &PairImpact,
     shock: &Shock,
     events: &mut Events,
     report: &mut StepReport,
 ) -> Budget {
-    let pair = pairs.get_mut(due.pair);
     let ends = [pair.bodies.0, pair.bodies.1].map(|index| bodies.get(index));
     // Struck on both sides at once it goes to and fro, and time does not pass: no bounces, whatever they give back.
     let again = pair.impacts > 0 && ends.iter().any(|body| body.motion.start == due.time);
@@ -235,11 +216,7 @@ pub(crate) fn apply(
     bodies.book.external.add(driven);
     let mut changed = Vec::new();
     for shaken in &shock.bodies {
-        if shaken.after.inverse_mass > 0.0 {
-            bodies.change(shaken.index, time, |motion| {
-                motion.velocity = shaken.after.velocity;
-                motion.spin = shaken.after.spin;
-            });
+        if bodies.end_impact(shaken.index, time, &shaken.after) {
             changed.push(shaken.index);
         }
     }

@@ -13,13 +13,13 @@ mod loss;
 
 use carom_math::{SimTime, Vec2, perp};
 
-use crate::Settings;
 use crate::impact::{
     Growth, ImpactBody, ImpactContact, SharedContact, Sweeper, is_driven, several,
 };
-use crate::model::narrow::{Narrow, TOUCH, rest_speed};
+use crate::model::narrow::{Around, TOUCH, rest_speed};
 use crate::store::bodies::Bodies;
 use crate::store::pairs::Pairs;
+use crate::{PairMaterial, Settings};
 
 /// Sweeps before the rest is left to the next look: what still closes then is struck again.
 const SWEEPS: usize = 300;
@@ -87,7 +87,6 @@ pub(crate) struct Shaken {
 #[derive(Clone, Debug)]
 pub(crate) struct Shock {
     time: SimTime,
-    h: f64,
     pub(crate) strikes: Vec<Strike>,
     pub(crate) bodies: Vec<Shaken>,
     /// Pairs with contacts updated at this instant, and the speeds that count as rest there.
@@ -103,10 +102,9 @@ pub(crate) struct Shock {
 }
 
 impl Shock {
-    pub(crate) fn new(time: SimTime, h: f64) -> Self {
+    pub(crate) fn new(time: SimTime) -> Self {
         Self {
             time,
-            h,
             strikes: Vec::new(),
             bodies: Vec::new(),
             looked: Vec::new(),
@@ -155,11 +153,13 @@ impl Shock {
         bodies: &Bodies,
         pair: u32,
         (i, j): (u32, u32),
-        (contact, belt): (ImpactContact, f64),
+        (point, normal): (Vec2, Vec2),
+        material: PairMaterial,
         rest: f64,
     ) {
         self.rest = self.rest.min(rest);
-        let run = perp(contact.normal) * belt;
+        let contact = material.contact(point, normal);
+        let run = perp(normal) * material.tangent_speed;
         let ends = (self.place(bodies, i, run), self.place(bodies, j, -run));
         let (a, b) = (&self.bodies[ends.0].before, &self.bodies[ends.1].before);
         let opening = b.velocity_of(contact.point) - a.velocity_of(contact.point);
@@ -195,12 +195,7 @@ impl Shock {
     }
 
     /// Adds every touching contact of the shaken bodies that the shock closes; whether there is one.
-    pub(crate) fn spread(
-        &mut self,
-        bodies: &Bodies,
-        pairs: &mut Pairs,
-        narrow: &mut Narrow,
-    ) -> bool {
+    pub(crate) fn spread(&mut self, around: &mut Around<'_>) -> bool {
         let known = self.strikes.len();
         let mut k = 0;
         while k < self.bodies.len() && self.strikes.len() < STRIKES {
@@ -209,16 +204,16 @@ impl Shock {
             if shaken.after.inverse_mass == 0.0 || shaken.after == shaken.before {
                 continue;
             }
-            for slot in 0..bodies.get(shaken.index).pairs.len() {
-                let place = bodies.get(shaken.index).pairs[slot];
-                self.spread_to(bodies, pairs, narrow, place);
+            for slot in 0..around.bodies.get(shaken.index).pairs.len() {
+                self.spread_to(around, around.bodies.get(shaken.index).pairs[slot]);
             }
         }
         self.strikes.len() > known
     }
 
-    fn spread_to(&mut self, bodies: &Bodies, pairs: &mut Pairs, narrow: &mut Narrow, place: u32) {
-        let mut pair = pairs.get(place);
+    fn spread_to(&mut self, around: &mut Around<'_>, place: u32) {
+        let bodies = &*around.bodies;
+        let mut pair = around.pairs.get(place);
         // What bounces on its own will be struck in its turn; what lasts is part of this, and what collapses with it.
         let lasts = pair.lasting
             || pair.touching && pair.material.restitution == 0.0
@@ -230,22 +225,18 @@ impl Shock {
         let rest = if let Some((_, rest)) = looked {
             *rest
         } else {
-            pair = narrow.look_at(bodies, pairs, place, self.time, self.h);
-            let rest = rest_speed(bodies, pair, self.h);
+            let narrow = &mut around.narrow;
+            pair = narrow.look_at(bodies, around.pairs, place, self.time, around.h);
+            let rest = rest_speed(bodies, pair, around.h);
             self.operations += LOOK;
             self.looked.push((place, rest));
             rest
         };
-        let size = bodies
-            .get(pair.bodies.0)
-            .reach
-            .min(bodies.get(pair.bodies.1).reach);
+        let [a, b] = [pair.bodies.0, pair.bodies.1].map(|index| bodies.get(index));
+        let size = a.reach.min(b.reach);
         for contact in &pair.contacts {
-            for point in contact
-                .points
-                .iter()
-                .filter(|p| p.separation <= TOUCH * size)
-            {
+            let points = contact.points.iter();
+            for point in points.filter(|p| p.separation <= TOUCH * size) {
                 let same = |strike: &Strike| {
                     strike.pair == place
                         && (strike.contact.point - point.position).length() <= 1e-6 * size
@@ -261,38 +252,26 @@ impl Shock {
                 let closing = (a.velocity_of(point.position) - b.velocity_of(point.position))
                     .dot(contact.normal);
                 if closing > rest {
-                    let contact = ImpactContact {
-                        point: point.position,
-                        normal: contact.normal,
-                        restitution: if self.collapses {
-                            0.0
-                        } else {
-                            pair.material.restitution
-                        },
-                        friction: pair.material.friction,
-                    };
-                    let belt = pair.material.tangent_speed;
-                    self.add(bodies, place, pair.bodies, (contact, belt), rest);
+                    let mut material = pair.material;
+                    if self.collapses {
+                        material.restitution = 0.0;
+                    }
+                    let at = (point.position, contact.normal);
+                    self.add(bodies, place, pair.bodies, at, material, rest);
                 }
             }
         }
     }
 
     /// Solves for all contacts at once; they grow in number as the shock spreads.
-    pub(crate) fn solve(
-        &mut self,
-        settings: &Settings,
-        bodies: &Bodies,
-        pairs: &mut Pairs,
-        narrow: &mut Narrow,
-    ) {
+    pub(crate) fn solve(&mut self, settings: &Settings, around: &mut Around<'_>) {
         while self.is_few() {
             self.solve_exactly(settings);
-            if !self.spread(bodies, pairs, narrow) {
+            if !self.spread(around) {
                 return;
             }
         }
-        self.solve_swept(bodies, pairs, narrow);
+        self.solve_swept(around);
     }
 
     fn is_few(&self) -> bool {
@@ -327,14 +306,14 @@ impl Shock {
     ///
     /// Where bodies are squeezed between others that do not yield the impulses of the sweeps grow without end. They are
     /// begun anew there, with contacts that yield and give nothing back.
-    fn solve_swept(&mut self, bodies: &Bodies, pairs: &mut Pairs, narrow: &mut Narrow) {
+    fn solve_swept(&mut self, around: &mut Around<'_>) {
         let struck = self
             .strikes
             .iter()
             .map(|strike| strike.speed)
             .fold(0.0, f64::max);
         let settled = (CONVERGED * struck).max(SETTLED * self.rest);
-        let mut sweep = |shock: &mut Self, by| shock.sweep(by, settled, bodies, pairs, narrow);
+        let mut sweep = |shock: &mut Self, by| shock.sweep(by, settled, around);
         let driven = is_driven(self.bodies.iter().map(|shaken| &shaken.before));
         if sweep(self, Sweeper::default()).is_steady() && driven {
             self.squeezed = true;
@@ -347,14 +326,7 @@ impl Shock {
     }
 
     /// Sweeps until `settled` m/s are left, or for a bounded time; how the pushes grew.
-    fn sweep(
-        &mut self,
-        mut sweeper: Sweeper,
-        settled: f64,
-        bodies: &Bodies,
-        pairs: &mut Pairs,
-        narrow: &mut Narrow,
-    ) -> Growth {
+    fn sweep(&mut self, mut sweeper: Sweeper, settled: f64, around: &mut Around<'_>) -> Growth {
         let mut growth = Growth::default();
         for sweep in 1..=SWEEPS {
             self.hand_over(&mut sweeper);
@@ -366,7 +338,7 @@ impl Shock {
                 continue;
             }
             self.take_over(&sweeper);
-            let grew = self.spread(bodies, pairs, narrow);
+            let grew = self.spread(around);
             if converged && !grew {
                 break;
             }
@@ -443,21 +415,19 @@ impl Shock {
         if run != Vec2::ZERO && bodies.get(index).inverse_mass == 0.0 {
             let mut state = bodies.get(index).in_impact(self.time);
             state.velocity += run;
-            self.bodies.push(Shaken {
-                index,
-                before: state,
-                after: state,
-            });
-            return self.bodies.len() - 1;
+            return self.shake(index, state);
         }
         if let Some(known) = self.bodies.iter().position(|shaken| shaken.index == index) {
             return known;
         }
-        let state = bodies.get(index).in_impact(self.time);
+        self.shake(index, bodies.get(index).in_impact(self.time))
+    }
+
+    fn shake(&mut self, index: u32, before: ImpactBody) -> usize {
         self.bodies.push(Shaken {
             index,
-            before: state,
-            after: state,
+            before,
+            after: before,
         });
         self.bodies.len() - 1
     }

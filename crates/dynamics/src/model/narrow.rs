@@ -6,7 +6,7 @@ use carom_math::{Pose, SimTime, Vec2};
 
 use super::approach::RigidState;
 use crate::store::bodies::Bodies;
-use crate::store::pairs::{Pair, PairContact, PairPoint};
+use crate::store::pairs::{Pair, PairContact, PairPoint, Pairs};
 use crate::store::state::BodyState;
 
 /// Contacts are looked for this far beyond a sub-step's travel, as a fraction of the smaller reach.
@@ -24,6 +24,15 @@ pub(crate) const BURIED: f64 = 1.0 / 16.0;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Narrow {
     found: Vec<PartManifold>,
+}
+
+/// Bodies, and the contacts around them, which are looked at anew where they are asked for.
+pub(crate) struct Around<'a> {
+    pub(crate) bodies: &'a mut Bodies,
+    pub(crate) pairs: &'a mut Pairs,
+    pub(crate) narrow: &'a mut Narrow,
+    /// Of a sub-step, in s.
+    pub(crate) h: f64,
 }
 
 impl Narrow {

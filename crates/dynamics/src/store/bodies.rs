@@ -13,6 +13,7 @@ use super::pull::Pull;
 use super::regime::Members;
 use super::state::{BodyState, Collider};
 use super::uncommon::Lag;
+use crate::impact::ImpactBody;
 use crate::{BodyError, BodyId, EnergyLedger};
 
 /// Running sums of the energy ledger's columns, with twice the digits.
@@ -206,6 +207,17 @@ impl Bodies {
     /// A convex part of a shape.
     pub(crate) fn hull(&self, collider: u32, number: u32) -> Hull<'_> {
         part(&self.colliders[collider as usize].solid, number as usize)
+    }
+
+    /// Gives a body its velocities after an impact; whether it has a mass that moves.
+    pub(crate) fn end_impact(&mut self, index: u32, time: SimTime, after: &ImpactBody) -> bool {
+        let moves = after.inverse_mass > 0.0;
+        if moves {
+            self.change(index, time, |motion| {
+                (motion.velocity, motion.spin) = (after.velocity, after.spin);
+            });
+        }
+        moves
     }
 
     /// Gives all shapes of a body the same box.

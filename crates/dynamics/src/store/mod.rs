@@ -11,7 +11,7 @@ pub(crate) mod bodies;
 pub(crate) mod clock;
 pub(crate) mod course;
 mod damping;
-mod few;
+pub(crate) mod few;
 mod history;
 pub(crate) mod mass;
 pub(crate) mod membership;

@@ -1,6 +1,9 @@
 //! What a surface is made of.
 
+use carom_math::Vec2;
+
 use super::error::{BodyError, check_finite};
+use crate::impact::ImpactContact;
 
 /// Density and surface of a shape.
 ///
@@ -113,6 +116,16 @@ pub struct PairMaterial {
 }
 
 impl PairMaterial {
+    /// A contact of such surfaces for the impact laws.
+    pub(crate) const fn contact(self, point: Vec2, normal: Vec2) -> ImpactContact {
+        ImpactContact {
+            point,
+            normal,
+            restitution: self.restitution,
+            friction: self.friction,
+        }
+    }
+
     pub(crate) fn check(self) -> Result<(), BodyError> {
         check_finite("friction", self.friction)?;
         check_finite("restitution", self.restitution)?;

@@ -6,7 +6,7 @@
 use carom_math::{SimTime, perp};
 
 use crate::analytic::touching::Gathered;
-use crate::impact::{ImpactContact, resolve};
+use crate::impact::resolve;
 use crate::store::bodies::Bodies;
 use crate::store::pairs::Pairs;
 use crate::{EventKind, ImpactLaw};
@@ -46,12 +46,7 @@ pub(crate) fn jam(
     let moves = usize::from(before[0].inverse_mass < before[1].inverse_mass);
     let excess = touch.normal * (opening + NUDGE * slip.abs());
     before[moves].velocity += if moves == 1 { -excess } else { excess };
-    let contact = ImpactContact {
-        point,
-        normal: touch.normal,
-        restitution: pairs.get(*place).material.restitution,
-        friction: touch.friction,
-    };
+    let contact = pairs.get(*place).material.contact(point, touch.normal);
     let outcome = resolve(law, &before[0], &before[1], &contact);
     let after = [outcome.a, outcome.b];
     let left = (after[1].velocity_of(point) - after[0].velocity_of(point)).dot(tangent);
@@ -64,12 +59,7 @@ pub(crate) fn jam(
     };
     let had = energy(bodies);
     for (index, body) in ends.into_iter().zip(after) {
-        if body.inverse_mass > 0.0 {
-            bodies.change(index, time, |motion| {
-                motion.velocity = body.velocity;
-                motion.spin = body.spin;
-            });
-        }
+        bodies.end_impact(index, time, &body);
     }
     let lost = had - energy(bodies);
     bodies.book.impacts.add(lost);

@@ -2,9 +2,9 @@
 
 use carom_math::SimTime;
 
+use super::drift;
 use super::foreseen::is_stale;
 use super::queue::{Ahead, Entry};
-use super::{Foreseen, drift};
 use crate::broad::free_fall_frame::Track;
 use crate::broad::grid::SweptBox;
 use crate::broad::window::{Window, swept};
@@ -248,11 +248,7 @@ impl World {
     }
 
     /// Another look at a pair of bodies that a free body belongs to, at `time`.
-    pub(super) fn look_again(&mut self, impact: &Foreseen, time: SimTime) {
-        self.look_again_at(impact.bodies, impact.colliders, time);
-    }
-
-    pub(super) fn look_again_at(&mut self, (a, b): (u32, u32), shapes: (u32, u32), time: SimTime) {
+    pub(super) fn look_again(&mut self, (a, b): (u32, u32), shapes: (u32, u32), time: SimTime) {
         if self.both_fly(a, b) {
             self.queue_near(a, b, time);
         } else if self.bodies.get(a).goes_by_events() {

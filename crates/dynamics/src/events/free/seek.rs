@@ -21,6 +21,7 @@ use crate::model::ghost::Meeting;
 use crate::model::graph::pair_of;
 use crate::model::narrow::{TOUCH, opening_speed, pace, rest_speed, rest_speed_between};
 use crate::motion::first_touch::{first_touch, first_touch_of_parts};
+use crate::store::few::Few;
 
 /// How far a search goes beyond its end, as a fraction.
 const BEYOND: f64 = 1e-6;
@@ -61,27 +62,8 @@ impl World {
         } else {
             window.to.min(self.free.common_horizon_of(one, two) - time)
         };
-        let ends = (one.colliders.len(), two.colliders.len());
-        let (apart, length) = first_piece(&self.bodies, (a, b), time, end);
-        if apart > 0.0 {
-            if apart < end {
-                self.queue_near(a, b, time + apart);
-            }
-            return;
-        }
-        let mut met = false;
-        for i in 0..ends.0 {
-            for j in 0..ends.1 {
-                let shapes = (
-                    self.bodies.get(a).colliders[i],
-                    self.bodies.get(b).colliders[j],
-                );
-                met |= self.seek_shapes((a, b), shapes, time, length, cause);
-            }
-        }
-        if length < end && !met {
-            self.queue_near(a, b, time + length);
-        }
+        let shapes = (one.colliders.clone(), two.colliders.clone());
+        self.seek_all((a, b), shapes, time, end, cause);
     }
 
     /// Whether `a` is the first body of the pair: by how both began, so that roundings do not depend on the
@@ -94,26 +76,39 @@ impl World {
     /// Time of impact of a free body and a shape that rests, from now to the free body's horizon.
     pub(super) fn seek_shape(&mut self, index: u32, at: u32, time: SimTime, cause: Cause) {
         let owner = self.bodies.colliders[at as usize].body;
-        let end = self.bodies.get(index).course.ground - time;
-        let (apart, length) = first_piece(&self.bodies, (index, owner), time, end);
-        if apart > 0.0 {
-            if apart < end {
-                self.queue_near_shape(index, at, time + apart);
-            }
-            return;
-        }
+        let body = self.bodies.get(index);
+        let (end, mine) = (body.course.ground - time, body.colliders.clone());
+        self.seek_all((index, owner), (mine, Few::One(at)), time, end, cause);
+    }
+
+    /// Time of impact of these shapes of two bodies within `end` seconds; what is left of a long search is made later.
+    fn seek_all(
+        &mut self,
+        (a, b): (u32, u32),
+        shapes: (Few, Few),
+        time: SimTime,
+        end: f64,
+        cause: Cause,
+    ) {
+        let (apart, length) = first_piece(&self.bodies, (a, b), time, end);
         let mut met = false;
-        for slot in 0..self.bodies.get(index).colliders.len() {
-            let mine = self.bodies.get(index).colliders[slot];
-            let (ends, shapes) = if self.goes_first(index, owner) {
-                ((index, owner), (mine, at))
-            } else {
-                ((owner, index), (at, mine))
-            };
-            met |= self.seek_shapes(ends, shapes, time, length, cause);
+        if apart <= 0.0 {
+            let is_first = self.goes_first(a, b);
+            for (&i, &j) in shapes
+                .0
+                .iter()
+                .flat_map(|i| shapes.1.iter().map(move |j| (i, j)))
+            {
+                met |= if is_first {
+                    self.seek_shapes((a, b), (i, j), time, length, cause)
+                } else {
+                    self.seek_shapes((b, a), (j, i), time, length, cause)
+                };
+            }
         }
-        if length < end && !met {
-            self.queue_near_shape(index, at, time + length);
+        let looked = if apart > 0.0 { apart } else { length };
+        if looked < end && !met {
+            self.look_again((a, b), (shapes.0[0], shapes.1[0]), time + looked);
         }
     }
 
@@ -382,7 +377,7 @@ impl World {
         let (wait, impact) = match first {
             TimeOfImpact::Clear => {
                 if again < length {
-                    self.look_again_at(ends, shapes, time + again);
+                    self.look_again(ends, shapes, time + again);
                 }
                 return false;
             }

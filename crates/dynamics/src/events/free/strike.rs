@@ -7,6 +7,7 @@ use super::{Cause, Foreseen, low};
 use crate::events::resolve::{apply, price};
 use crate::events::shock::Shock;
 use crate::impact::{ImpactBody, ImpactContact, resolve};
+use crate::model::narrow::Around;
 use crate::store::zeno::ZenoSeries;
 use crate::{BodyKind, EventKind, Mode, PairMaterial, World};
 
@@ -86,44 +87,32 @@ impl World {
         };
         self.strike_at(impact, time, &before, material);
         // What it leaves squeezed has landed.
-        if [a, b]
-            .iter()
-            .any(|index| self.bodies.get(*index).is_stepped())
-        {
+        let is_stepped = |index: &u32| self.bodies.get(*index).is_stepped();
+        if [a, b].iter().any(is_stepped) {
             return;
         }
-        if keeps {
-            if !low::bounces_high(&self.bodies, impact, time, speed) {
-                self.free.micro_bounce = low::micro_bounce(&self.bodies, impact, time);
-            }
-            self.deflect_both(impact, time);
-            self.free.micro_bounce = None;
-        } else if press <= 0.0 {
-            self.deflect_both(impact, time);
-        } else if e == 0.0 {
+        if !keeps && press > 0.0 && e == 0.0 {
             if ends {
                 let ids = [a, b].map(|index| self.bodies.get(index).id);
                 self.free.announce(series.limit(left), ids);
             }
             self.begins_to_last(impact, time);
         } else {
-            self.free.micro_bounce = low::micro_bounce(&self.bodies, impact, time);
+            let comes_back = if keeps {
+                !low::bounces_high(&self.bodies, impact, time, speed)
+            } else {
+                press > 0.0
+            };
+            if comes_back {
+                self.free.micro_bounce = low::micro_bounce(&self.bodies, impact, time);
+            }
             self.deflect_both(impact, time);
             self.free.micro_bounce = None;
         }
-        self.count_strike(impact, lost, time);
-    }
-
-    /// Counts an impact of free bodies among those of the tick.
-    fn count_strike(&mut self, impact: &Foreseen, lost: f64, time: SimTime) {
-        let (a, b) = impact.bodies;
-        let [one, two] = [a, b].map(|index| self.bodies.get(index).is_dynamic());
-        match (one, two) {
-            (true, true) => self.rush(&[a, b], lost, time),
-            (true, false) => self.rush(&[a], lost, time),
-            (false, true) => self.rush(&[b], lost, time),
-            _ => {}
-        }
+        let moving = [a, b].into_iter();
+        let moving = moving.filter(|index| self.bodies.get(*index).is_dynamic());
+        let moving: ArrayVec<u32, 2> = moving.collect();
+        self.rush(&moving, lost, time);
     }
 
     /// How the two surfaces meet.
@@ -175,42 +164,22 @@ impl World {
         before: &[ImpactBody; 2],
         material: PairMaterial,
     ) {
-        let PairMaterial {
-            restitution,
-            friction,
-            tangent_speed,
-        } = material;
-        let struck: ArrayVec<ImpactContact, 2> = impact
-            .points
-            .iter()
-            .filter(|point| opening(before, **point, impact.normal) < 0.0)
-            .map(|point| ImpactContact {
-                point: *point,
-                normal: impact.normal,
-                restitution,
-                friction,
-            })
-            .collect();
+        let struck = contacts_of(impact, before, material);
         if let [contact] = struck.as_slice()
-            && tangent_speed == 0.0
+            && material.tangent_speed == 0.0
         {
             return self.strike_once(impact, contact, before, time);
         }
         if let [first, last] = struck.as_slice()
-            && friction == 0.0
+            && material.friction == 0.0
             && let Some(point) = common_point(impact, (first, last), before)
         {
             return self.strike_once(impact, &ImpactContact { point, ..*first }, before, time);
         }
-        let mut shock = Shock::new(time, self.clock.h);
+        let mut shock = Shock::new(time);
         for contact in struck {
-            shock.add(
-                &self.bodies,
-                u32::MAX,
-                impact.bodies,
-                (contact, tangent_speed),
-                0.0,
-            );
+            let at = (contact.point, contact.normal);
+            shock.add(&self.bodies, u32::MAX, impact.bodies, at, material, 0.0);
         }
         self.strike_together(shock, time);
     }
@@ -218,20 +187,16 @@ impl World {
     /// Resolves a shock of several contacts; returns the bodies with a new motion. Free bodies that it leaves squeezed land: no
     /// impulses stop them.
     pub(super) fn strike_together(&mut self, mut shock: Shock, time: SimTime) -> Vec<u32> {
-        shock.solve(
-            &self.settings,
-            &self.bodies,
-            &mut self.pairs,
-            &mut self.narrow,
-        );
+        let mut around = Around {
+            bodies: &mut self.bodies,
+            pairs: &mut self.pairs,
+            narrow: &mut self.narrow,
+            h: self.clock.h,
+        };
+        shock.solve(&self.settings, &mut around);
         self.work.impact(shock.operations);
-        let changed = apply(
-            &mut self.bodies,
-            time,
-            &shock,
-            &mut self.events,
-            &mut self.report,
-        );
+        let (events, report) = (&mut self.events, &mut self.report);
+        let changed = apply(&mut self.bodies, time, &shock, events, report);
         for (a, b) in shock.squeezed().map(|strike| shock.ends(strike)) {
             self.report.collapsed += 1;
             self.report_collapse((a, b), 0.0, time);
@@ -266,7 +231,7 @@ impl World {
         let deeper = if speed > 0.0 { slack / speed } else { left };
         let wait = deeper.min(time_to_open(slack, -speed, pull).unwrap_or(left));
         let wait = wait.clamp(1e-9 * left, left);
-        self.look_again(impact, time + wait);
+        self.look_again(impact.bodies, impact.colliders, time + wait);
         self.seek_beside(impact, time, wait, 4.0 * slow);
     }
 
@@ -318,12 +283,7 @@ impl World {
             self.book_drive(&before[k], &after[k], contact, impulse * sign);
         }
         for (index, body) in [a, b].into_iter().zip(after) {
-            if body.inverse_mass > 0.0 {
-                self.bodies.change(index, time, |motion| {
-                    motion.velocity = body.velocity;
-                    motion.spin = body.spin;
-                });
-            }
+            self.bodies.end_impact(index, time, &body);
         }
     }
 
@@ -380,11 +340,7 @@ impl World {
             Mode::Exact => (price(material).max(EXACT_PRICE), EXACT_BUDGET),
             _ => (price(material), BUDGET),
         };
-        #[expect(
-            clippy::cast_possible_truncation,
-            reason = "the cast saturates; a tick more or less in a budget is no matter"
-        )]
-        let tick = (time.as_secs() / self.settings.tick) as i64;
+        let tick = self.settings.tick_at(time);
         let mut spent = false;
         for index in [impact.bodies.0, impact.bodies.1] {
             // A floor is not charged for all that lands on it.
@@ -413,7 +369,7 @@ pub(super) fn pace(body: &ImpactBody, reach: f64) -> f64 {
 }
 
 /// Normal velocity of a point of contact: positive opens.
-pub(super) fn opening(bodies: &[ImpactBody; 2], point: Vec2, normal: Vec2) -> f64 {
+fn opening(bodies: &[ImpactBody; 2], point: Vec2, normal: Vec2) -> f64 {
     (bodies[1].velocity_of(point) - bodies[0].velocity_of(point)).dot(normal)
 }
 
@@ -427,6 +383,18 @@ fn time_to_open(slack: f64, speed: f64, pull: f64) -> Option<f64> {
     } else {
         (pull > 0.0).then(|| (root - speed) / pull)
     }
+}
+
+/// Contacts of the points of an impact that approach.
+pub(super) fn contacts_of(
+    impact: &Foreseen,
+    bodies: &[ImpactBody; 2],
+    material: PairMaterial,
+) -> ArrayVec<ImpactContact, 2> {
+    let points = impact.points.iter();
+    let struck = points.filter(|point| opening(bodies, **point, impact.normal) < 0.0);
+    let contacts = struck.map(|point| material.contact(*point, impact.normal));
+    contacts.collect()
 }
 
 /// Fastest approach of the points of an impact, in m/s.

@@ -6,11 +6,11 @@ use carom_math::SimTime;
 
 use super::Foreseen;
 use super::queue::{Ahead, Entry};
-use super::strike::{approach_speed, opening, pace};
+use super::strike::{approach_speed, contacts_of, pace};
 use crate::World;
 use crate::events::free::Cause;
 use crate::events::shock::Shock;
-use crate::impact::{ImpactBody, ImpactContact};
+use crate::impact::ImpactBody;
 use crate::store::state::BodyState;
 
 /// Instants that differ by less are one, as a fraction of the way to them over the speed: impacts make
@@ -192,27 +192,14 @@ impl World {
         if outrun {
             return;
         }
-        let mut shock = Shock::new(time, self.clock.h);
+        let mut shock = Shock::new(time);
         for (pair, impact) in (0..u32::MAX).rev().zip(impacts) {
             let before = self.ends_of(impact, time);
             self.count_in_series(impact, time, approach_speed(impact, &before), 0.0);
             let material = self.material_of(impact);
-            for &point in &impact.points {
-                if opening(&before, point, impact.normal) < 0.0 {
-                    let contact = ImpactContact {
-                        point,
-                        normal: impact.normal,
-                        restitution: material.restitution,
-                        friction: material.friction,
-                    };
-                    shock.add(
-                        &self.bodies,
-                        pair,
-                        impact.bodies,
-                        (contact, material.tangent_speed),
-                        0.0,
-                    );
-                }
+            for contact in contacts_of(impact, &before, material) {
+                let at = (contact.point, contact.normal);
+                shock.add(&self.bodies, pair, impact.bodies, at, material, 0.0);
             }
         }
         for index in self.strike_together(shock, time) {
