@@ -7,6 +7,7 @@ use carom_math::{SimTime, Vec2};
 use crate::stepping::Stepping;
 use crate::stepping::rules::Rules;
 use crate::stepping::rush::Haste;
+use crate::store::clock::whole;
 use crate::{BodyKind, Mode, World};
 
 impl World {
@@ -289,7 +290,7 @@ impl World {
         if self.settings.mode != Mode::Hybrid || bodies.is_empty() {
             return;
         }
-        let tick = self.settings.tick_at(time);
+        let tick = whole(time, self.settings.tick);
         if self.joins.rush.is_before(tick) {
             self.end_rush(time);
         }

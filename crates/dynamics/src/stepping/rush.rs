@@ -24,7 +24,7 @@ const AT_ONCE: f64 = 16.0;
 /// Bodies that struck each other within the present tick, as trees.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Rush {
-    tick: i64,
+    tick: u64,
     /// By body; those of [`Self::known`] only.
     nodes: Vec<Node>,
     known: Vec<u32>,
@@ -53,7 +53,7 @@ impl Rush {
         !self.due.is_empty()
     }
 
-    fn turn_to(&mut self, tick: i64) {
+    fn turn_to(&mut self, tick: u64) {
         if self.tick == tick {
             return;
         }
@@ -100,13 +100,13 @@ impl Rush {
     }
 
     /// Whether impacts of an earlier tick were counted last.
-    pub(crate) const fn is_before(&self, tick: i64) -> bool {
+    pub(crate) const fn is_before(&self, tick: u64) -> bool {
         self.tick != tick
     }
 
     /// Counts an impact in a tick that changed the motions of `bodies`, at the price of `lost`: whether there are too many now among
     /// the bodies that struck each other.
-    pub(crate) fn count(&mut self, bodies: &[u32], lost: f64, tick: i64) -> Haste {
+    pub(crate) fn count(&mut self, bodies: &[u32], lost: f64, tick: u64) -> Haste {
         let Some((&first, others)) = bodies.split_first() else {
             return Haste::None;
         };

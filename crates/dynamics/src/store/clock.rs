@@ -47,12 +47,7 @@ impl Clock {
 
     /// Moves on to the first instant of the grid at or after `time`.
     pub(crate) fn catch_up(&mut self, time: SimTime) {
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "the cast saturates; time is not negative"
-        )]
-        let near = (time.as_secs() / self.h) as u64;
+        let near = whole(time, self.h);
         self.begun = self.begun.max(near.saturating_sub(2));
         while self.next() < time {
             self.begun += 1;
@@ -77,4 +72,14 @@ impl Clock {
     pub(crate) fn begin(&mut self) {
         self.begun += 1;
     }
+}
+
+/// How many whole spans of so many seconds there are until an instant.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "the cast saturates; time is not negative"
+)]
+pub(crate) fn whole(time: SimTime, span: f64) -> u64 {
+    (time.as_secs() / span) as u64
 }

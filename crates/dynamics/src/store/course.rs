@@ -28,7 +28,7 @@ pub(crate) struct Course {
     /// When it found nothing there; never, if there was something.
     pub(crate) clear_at: SimTime,
     /// The tick in which it last struck, and what its impacts spent in it.
-    pub(crate) tick: i64,
+    pub(crate) tick: u64,
     pub(crate) spent: f64,
     /// Its last impacts, while they come ever faster.
     pub(crate) series: ZenoSeries,

@@ -1,6 +1,6 @@
 //! How a world computes.
 
-use carom_math::{SimTime, Vec2, vec2};
+use carom_math::{Vec2, vec2};
 
 use super::error::{SettingsError, WORLD_LIMIT};
 use crate::impact::{ImpactLaw, Several};
@@ -286,15 +286,6 @@ impl Settings {
         // 1/60 over 1/240 may come out a rounding above 4.
         let count = (self.tick / self.substep * (1.0 - 1e-12)).ceil();
         count.max(1.0) as u32
-    }
-
-    /// Number of the tick that an instant is in.
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "the cast saturates; a tick more or less in a budget is no matter"
-    )]
-    pub(crate) fn tick_at(&self, time: SimTime) -> i64 {
-        (time.as_secs() / self.tick) as i64
     }
 
     /// Length of a sub-step, in s.

@@ -8,6 +8,7 @@ use crate::events::resolve::{apply, price};
 use crate::events::shock::Shock;
 use crate::impact::{ImpactBody, ImpactContact, resolve};
 use crate::model::narrow::Around;
+use crate::store::clock::whole;
 use crate::store::zeno::ZenoSeries;
 use crate::{BodyKind, EventKind, Mode, PairMaterial, World};
 
@@ -340,7 +341,7 @@ impl World {
             Mode::Exact => (price(material).max(EXACT_PRICE), EXACT_BUDGET),
             _ => (price(material), BUDGET),
         };
-        let tick = self.settings.tick_at(time);
+        let tick = whole(time, self.settings.tick);
         let mut spent = false;
         for index in [impact.bodies.0, impact.bodies.1] {
             // A floor is not charged for all that lands on it.
