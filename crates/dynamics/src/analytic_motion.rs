@@ -18,21 +18,18 @@ impl World {
         let moving = self.closed.take_moving();
         let some = !moving.is_empty();
         for place in moving {
-            if self.may_move_analytically(place) {
+            let Some(group) = self.closed.get(place) else {
+                continue;
+            };
+            if group.may_move(&self.bodies, &self.pairs) {
                 self.move_analytically(place, time);
-            } else if let Some(group) = self.closed.get(place) {
-                let members = group.indices();
-                for index in members {
+            } else {
+                for index in group.indices() {
                     self.join(index, time);
                 }
             }
         }
         some
-    }
-
-    fn may_move_analytically(&self, place: u32) -> bool {
-        let group = self.closed.get(place);
-        group.is_some_and(|group| group.may_move(&self.bodies, &self.pairs))
     }
 
     /// The next piece of the path of a member of a group that turns.

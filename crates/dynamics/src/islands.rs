@@ -9,9 +9,9 @@ use carom_math::{SimTime, Vec2};
 
 use crate::analytic::islands::jam::jam;
 use crate::analytic::islands::mode_budget::changes_motion;
-use crate::analytic::islands::store::Group;
+use crate::analytic::islands::store::{Group, Kept};
 use crate::analytic::islands::{give_motions, kept};
-use crate::analytic::modes::{BodyMove, GroupMove, NotMine, TouchMove, land, solve_modes};
+use crate::analytic::modes::{BodyMove, GroupMove, NotMine, land, solve_modes};
 use crate::analytic::touching::{Gathered, Looks, Refused};
 use crate::events::resolve::PairImpact;
 use crate::model::narrow::Around;
@@ -314,7 +314,7 @@ impl World {
     }
 
     /// Charges an island for a new mode, unless its motion is as before.
-    pub(crate) fn charge_change(&mut self, gathered: &Gathered, moves: &[BodyMove], time: SimTime) {
+    fn charge_change(&mut self, gathered: &Gathered, moves: &[BodyMove], time: SimTime) {
         if self.settings.mode == Mode::Hybrid && changes_motion(&self.bodies, gathered, moves, time)
         {
             self.charge(&gathered.dynamic(), time);
@@ -385,14 +385,11 @@ impl World {
         }
     }
 
-    /// Gives all members their motions, and enters the next change.
+    /// The group of a mode, and when it changes next.
     fn close(&mut self, gathered: &Gathered, moves: &GroupMove, time: SimTime, speed: f64) {
-        self.charge_change(gathered, &moves.bodies, time);
-        let now = (time, speed);
-        let (members, fastest) = give_motions(&mut self.bodies, gathered, &moves.bodies, now, true);
         let still = moves.bodies.iter().all(|body| *body == BodyMove::default());
-        let may_sleep = |(index, _): &(u32, u32)| self.bodies.get(*index).sleep_allowed();
-        let sleeps = still && members.iter().all(may_sleep);
+        let may_sleep = |index: &u32| self.bodies.get(*index).sleep_allowed();
+        let sleeps = still && gathered.dynamic().iter().all(may_sleep);
         let sleep = self.settings.sleep.filter(|_| sleeps);
         let change = match (moves.change, sleep) {
             (Some(change), _) => Some(time + change.after),
@@ -402,36 +399,46 @@ impl World {
         let group = Group {
             since: time,
             touches: kept(gathered, moves),
-            members: members.clone(),
-            speed: fastest,
+            members: Vec::new(),
+            speed,
             sleeps: sleep.is_some(),
             until: change,
             tipping: None,
         };
-        let place = self.closed.insert(&mut self.bodies, group, change);
+        self.begin_group(gathered, &moves.bodies, group);
+    }
+
+    /// Gives all members of a group their motions, and enters its next change.
+    pub(crate) fn begin_group(&mut self, gathered: &Gathered, moves: &[BodyMove], group: Group) {
+        let (time, mut group) = (group.since, group);
+        self.charge_change(gathered, moves, time);
+        let (now, turns) = ((time, group.speed), group.tipping.is_some());
+        (group.members, group.speed) = give_motions(&mut self.bodies, gathered, moves, now, !turns);
+        self.tell_modes(&group.touches, time);
+        let members = group.indices();
+        let place = self.closed.insert(&mut self.bodies, group);
         // What is driven begins to move without a touch.
         let drives = |index: &u32| self.bodies.get(*index).kind == BodyKind::Kinematic;
+        let still = !turns && moves.iter().all(|body| *body == BodyMove::default());
         if still && !gathered.places.iter().any(drives) {
             self.closed.stands_still(place);
         } else {
             self.closed.moves(place);
         }
-        self.tell_modes(gathered, &moves.touches, time);
-        for (index, _) in members {
+        for index in members {
             self.redirect(index, time);
         }
     }
 
     /// A mode that is new is an event.
-    pub(crate) fn tell_modes(&mut self, gathered: &Gathered, touches: &[TouchMove], time: SimTime) {
-        let pairs = &gathered.pairs;
-        for (&(place, contact), moved) in pairs.iter().zip(touches) {
-            let pair = self.pairs.get_mut(place);
-            pair.lasting = moved.mode != ContactMode::Open;
+    fn tell_modes(&mut self, touches: &[Kept], time: SimTime) {
+        for touch in touches {
+            let (pair, mode) = (self.pairs.get_mut(touch.pair), touch.moved.mode);
+            pair.lasting = mode != ContactMode::Open;
             // A pair of several contacts moves as its first.
-            let first = pairs.iter().find(|other| other.0 == place);
-            if first == Some(&(place, contact)) {
-                self.events.tell_mode(&self.bodies, pair, moved.mode, time);
+            let first = touches.iter().find(|other| other.pair == touch.pair);
+            if first.is_some_and(|first| first.contact == touch.contact) {
+                self.events.tell_mode(&self.bodies, pair, mode, time);
             }
         }
     }

@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use carom_math::SimTime;
 
-use crate::analytic::islands::give_motions;
 use crate::analytic::islands::store::{Group, Kept};
 use crate::analytic::islands::tips::{Tipping, path_of};
 use crate::analytic::modes::{NotMine, TouchMove};
@@ -39,9 +38,6 @@ impl World {
             return Err(NotMine::Returns);
         }
         let (moves, touches) = tip.moves_after(0.0).ok_or(NotMine::Unsolved)?;
-        self.charge_change(gathered, &moves, time);
-        let now = (time, speed);
-        let (members, fastest) = give_motions(&mut self.bodies, gathered, &moves, now, false);
         let moved = gathered.places.iter().enumerate();
         let moved = moved.filter(|(_, index)| self.bodies.get(**index).inverse_mass != 0.0);
         let slots = moved.map(|(slot, _)| slot).collect();
@@ -52,25 +48,19 @@ impl World {
             slip_rate: 0.0,
             driven: 0.0,
         };
-        let change = time + tip.after;
         let group = Group {
             since: time,
             touches: gathered.pairs.iter().zip(&touches).map(kept).collect(),
-            members: members.clone(),
-            speed: fastest,
+            members: Vec::new(),
+            speed,
             sleeps: false,
-            until: Some(change),
+            until: Some(time + tip.after),
             tipping: Some(Tipping {
                 tip: Arc::new(tip),
                 slots,
             }),
         };
-        let place = self.closed.insert(&mut self.bodies, group, Some(change));
-        self.closed.moves(place);
-        self.tell_modes(gathered, &touches, time);
-        for (index, _) in members {
-            self.redirect(index, time);
-        }
+        self.begin_group(gathered, &moves, group);
         Ok(())
     }
 

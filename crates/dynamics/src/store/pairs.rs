@@ -4,6 +4,8 @@ use arrayvec::ArrayVec;
 use carom_collision::FeatureId;
 use carom_math::{SimTime, Vec2};
 
+use super::clock::whole;
+use super::slots::Slots;
 use crate::{ContactMode, PairMaterial};
 
 /// Two colliders of different bodies with overlapping boxes; the lower body comes first.
@@ -39,12 +41,7 @@ pub(crate) struct Pair {
 impl Pair {
     /// An impact in another sub-step of `h` seconds than the last one has a new budget.
     pub(crate) fn begin_budget(&mut self, time: SimTime, h: f64) {
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "the cast saturates; time is not negative"
-        )]
-        let substep = (time.as_secs() / h) as u64;
+        let substep = whole(time, h);
         if self.struck_in != substep {
             (self.struck_in, self.impacts, self.spent) = (substep, 0, 0.0);
         }
@@ -102,65 +99,43 @@ pub(crate) struct PairPoint {
 /// The pairs of a world.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Pairs {
-    list: Vec<Option<Pair>>,
+    list: Slots<Pair>,
     /// By place: shapes of pairs, to be read without the rest.
     shapes: Vec<(u32, u32)>,
-    free: Vec<u32>,
     /// Places of pairs that have not been looked at yet.
     pub(crate) fresh: Vec<u32>,
 }
 
 impl Pairs {
     pub(crate) fn insert(&mut self, pair: Pair) -> u32 {
-        let place = self.place_for(pair);
+        let shapes = pair.colliders;
+        let place = self.list.insert(pair);
+        let at = place as usize;
+        self.shapes.resize(self.shapes.len().max(at + 1), shapes);
+        self.shapes[at] = shapes;
         self.fresh.push(place);
         place
     }
 
-    fn place_for(&mut self, pair: Pair) -> u32 {
-        let shapes = pair.colliders;
-        if let Some(place) = self.free.pop() {
-            self.list[place as usize] = Some(pair);
-            self.shapes[place as usize] = shapes;
-            return place;
-        }
-        self.list.push(Some(pair));
-        self.shapes.push(shapes);
-        #[expect(
-            clippy::cast_possible_truncation,
-            reason = "four billion pairs fill 500 GB long before"
-        )]
-        let place = (self.list.len() - 1) as u32;
-        place
-    }
-
     pub(crate) fn remove(&mut self, place: u32) -> Option<Pair> {
-        let pair = self.list[place as usize].take();
-        if pair.is_some() {
-            self.free.push(place);
-        }
-        pair
+        self.list.remove(place)
     }
 
     /// The pair of a place, if there is one.
     pub(crate) fn find(&self, place: u32) -> Option<&Pair> {
-        self.list[place as usize].as_ref()
+        self.list.get(place)
     }
 
     /// # Panics
     /// If the place is empty: lists of places and the store have parted.
     pub(crate) fn get(&self, place: u32) -> &Pair {
-        self.list[place as usize]
-            .as_ref()
-            .expect("a listed pair is there")
+        self.list.get(place).expect("a listed pair is there")
     }
 
     /// # Panics
     /// If the place is empty: lists of places and the store have parted.
     pub(crate) fn get_mut(&mut self, place: u32) -> &mut Pair {
-        self.list[place as usize]
-            .as_mut()
-            .expect("a listed pair is there")
+        self.list.get_mut(place).expect("a listed pair is there")
     }
 
     /// What a pair is of, without the rest of it.
@@ -181,8 +156,6 @@ impl Pairs {
 
     /// Places of all pairs in order of colliders.
     pub(crate) fn in_order(&self) -> Vec<u32> {
-        let places = (0u32..).zip(&self.list);
-        let alive = places.filter_map(|(place, pair)| pair.as_ref().map(|_| place));
-        self.by_colliders(alive)
+        self.by_colliders(self.list.iter().map(|(place, _)| place))
     }
 }

@@ -13,6 +13,7 @@ use crate::model::narrow::TOUCH;
 use crate::store::bodies::Bodies;
 use crate::store::membership::Membership;
 use crate::store::pairs::Pair;
+use crate::store::slots::Slots;
 use crate::{ContactMode, Mode};
 
 /// What is no longer than this is one instant, in s.
@@ -36,8 +37,7 @@ const OFTEN_EXACT: u32 = 4096;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Closed {
     /// With the stamp that tells a group from those that had its place before.
-    groups: Vec<Option<(u64, Group)>>,
-    free: Vec<u32>,
+    groups: Slots<(u64, Group)>,
     /// Stale entries are dropped when they come up: a group's stamp tells.
     changes: BinaryHeap<Reverse<(SimTime, u32, u64)>>,
     stamp: u64,
@@ -168,7 +168,7 @@ impl Closed {
     pub(crate) fn next(&mut self) -> Option<SimTime> {
         loop {
             let &Reverse((time, group, stamp)) = self.changes.peek()?;
-            let held = self.groups[group as usize].as_ref();
+            let held = self.groups.get(group);
             if held.is_some_and(|(held, _)| *held == stamp) {
                 return Some(time);
             }
@@ -184,36 +184,22 @@ impl Closed {
     }
 
     pub(crate) fn get(&self, place: u32) -> Option<&Group> {
-        let (_, group) = self.groups.get(place as usize)?.as_ref()?;
-        Some(group)
+        self.groups.get(place).map(|(_, group)| group)
     }
 
     pub(crate) fn iter(&self) -> impl Iterator<Item = &Group> {
-        self.groups.iter().flatten().map(|(_, group)| group)
+        self.groups.iter().map(|(_, (_, group))| group)
     }
 
     /// Enters a group, and its members into it; its place.
-    pub(crate) fn insert(
-        &mut self,
-        bodies: &mut Bodies,
-        group: Group,
-        change: Option<SimTime>,
-    ) -> u32 {
+    pub(crate) fn insert(&mut self, bodies: &mut Bodies, group: Group) -> u32 {
         self.stamp += 1;
-        let place = self.free.pop().unwrap_or_else(|| {
-            self.groups.push(None);
-            #[expect(
-                clippy::cast_possible_truncation,
-                reason = "fewer than there are bodies"
-            )]
-            let place = (self.groups.len() - 1) as u32;
-            place
-        });
-        for &(index, _) in &group.members {
+        let (members, until) = (group.indices(), group.until);
+        let place = self.groups.insert((self.stamp, group));
+        for index in members {
             bodies.get_mut(index).enter_island(Membership::of(place));
         }
-        self.groups[place as usize] = Some((self.stamp, group));
-        if let Some(time) = change {
+        if let Some(time) = until {
             self.changes_at(place, time);
         }
         place
@@ -221,7 +207,7 @@ impl Closed {
 
     /// When a group changes next.
     pub(crate) fn changes_at(&mut self, place: u32, change: SimTime) {
-        if let Some((stamp, group)) = &mut self.groups[place as usize] {
+        if let Some((stamp, group)) = self.groups.get_mut(place) {
             group.until = Some(change);
             self.changes.push(Reverse((change, place, *stamp)));
         }
@@ -240,7 +226,7 @@ impl Closed {
 
     /// A group begins its motion before time goes on.
     pub(crate) fn moves(&mut self, place: u32) {
-        if let Some(Some((stamp, _))) = self.groups.get(place as usize) {
+        if let Some((stamp, _)) = self.groups.get(place) {
             self.moving.push((place, *stamp));
         }
     }
@@ -258,21 +244,18 @@ impl Closed {
 
     fn that_are_there(&self, stamped: Vec<(u32, u64)>) -> Vec<u32> {
         let stands = |(place, stamp): (u32, u64)| {
-            let (held, _) = self.groups.get(place as usize)?.as_ref()?;
+            let (held, _) = self.groups.get(place)?;
             (*held == stamp).then_some(place)
         };
         stamped.into_iter().filter_map(stands).collect()
     }
 
     pub(crate) fn get_mut(&mut self, place: u32) -> Option<&mut Group> {
-        let (_, group) = self.groups.get_mut(place as usize)?.as_mut()?;
-        Some(group)
+        self.groups.get_mut(place).map(|(_, group)| group)
     }
 
     pub(crate) fn remove(&mut self, place: u32) -> Option<Group> {
-        let (_, group) = self.groups.get_mut(place as usize)?.take()?;
-        self.free.push(place);
-        Some(group)
+        self.groups.remove(place).map(|(_, group)| group)
     }
 
     /// Friction's heat, and the work of driven partners, not booked yet, in J.

@@ -53,12 +53,11 @@ impl FreeBodies {
 
     /// The same, of all entries not laid aside.
     fn next_queued(&mut self, bodies: &Bodies, limit: SimTime) -> Option<SimTime> {
-        let (impacts, vacant) = (&mut self.impacts, &mut self.vacant);
+        let impacts = &mut self.impacts;
         self.queue.next(limit, |entry| {
             let stale = is_stale(entry, bodies);
             if let (true, Ahead::Impact { slot }) = (stale, entry.ahead()) {
-                impacts[slot as usize] = None;
-                vacant.push(slot);
+                impacts.remove(slot);
             }
             stale
         })
@@ -97,22 +96,12 @@ impl FreeBodies {
         let Ahead::Impact { slot } = entry.ahead() else {
             return None;
         };
-        self.vacant.push(slot);
-        self.impacts[slot as usize].take()
+        self.impacts.remove(slot)
     }
 
     pub(super) fn push_impact(&mut self, time: SimTime, stamp: u32, impact: Foreseen) {
         let (a, b) = impact.bodies;
-        let slot = self.vacant.pop().unwrap_or_else(|| {
-            self.impacts.push(None);
-            #[expect(
-                clippy::cast_possible_truncation,
-                reason = "fewer than 2^32 fit in memory"
-            )]
-            let slot = (self.impacts.len() - 1) as u32;
-            slot
-        });
-        self.impacts[slot as usize] = Some(impact);
+        let slot = self.impacts.insert(impact);
         let ahead = Ahead::Impact { slot };
         self.queue.push(Entry {
             time,

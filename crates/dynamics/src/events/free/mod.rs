@@ -31,6 +31,7 @@ use crate::broad::free_fall_frame::{Frame, Track};
 use crate::broad::grid::{Grid, SweptBox};
 use crate::store::bodies::Bodies;
 use crate::store::course::Course;
+use crate::store::slots::Slots;
 use crate::store::state::BodyState;
 use aside::Aside;
 use circle::Registered;
@@ -82,8 +83,7 @@ pub(crate) struct FreeBodies {
     horizons: Vec<SimTime>,
     queue: Queue,
     aside: Aside,
-    impacts: Vec<Option<Foreseen>>,
-    vacant: Vec<u32>,
+    impacts: Slots<Foreseen>,
     /// Mark of the last search that met a body.
     seen: Vec<u32>,
     mark: u32,
@@ -120,8 +120,7 @@ impl FreeBodies {
             horizons: Vec::new(),
             queue: Queue::default(),
             aside: Aside::default(),
-            impacts: Vec::new(),
-            vacant: Vec::new(),
+            impacts: Slots::default(),
             seen: Vec::new(),
             mark: 0,
             searches: 0,
