@@ -46,7 +46,7 @@ impl Block {
             a: 0,
             b: 0,
             stamp: 0,
-            what: What::FIRST,
+            what: What::HORIZON,
         }; BLOCK],
         len: 0,
         next: NONE,
@@ -165,7 +165,6 @@ impl Days {
 
 #[cfg(test)]
 mod tests {
-    use super::super::queue::Ahead;
     use super::*;
     use proptest::prelude::*;
 
@@ -189,7 +188,7 @@ mod tests {
                     found.sort_unstable();
                     prop_assert_eq!(found, core::mem::take(&mut twin[day]));
                 } else {
-                    let (time, what) = (SimTime::of_parts(3, 1e-3), Ahead::Horizon.into());
+                    let (time, what) = (SimTime::of_parts(3, 1e-3), What::HORIZON);
                     let entry = Entry { time, a, b: a, stamp: 0, what };
                     days.push(day, entry);
                     twin[day].push(entry);
@@ -207,7 +206,7 @@ mod tests {
             days.give_back();
             prop_assert_eq!(days.chunks.len(), most.div_ceil(CHUNK));
             for a in 0..7 {
-                let (time, what) = (SimTime::of_parts(3, 1e-3), Ahead::Horizon.into());
+                let (time, what) = (SimTime::of_parts(3, 1e-3), What::HORIZON);
                 days.push(2, Entry { time, a, b: a, stamp: 0, what });
             }
             let mut found = 0;

@@ -4,7 +4,7 @@ use carom_math::SimTime;
 
 use super::drift;
 use super::foreseen::is_stale;
-use super::queue::{Ahead, Entry};
+use super::queue::{Entry, What};
 use crate::broad::free_fall_frame::Track;
 use crate::broad::grid::SweptBox;
 use crate::broad::window::{Window, swept};
@@ -69,7 +69,7 @@ impl World {
         if !self.free.enter(&mut self.bodies, index, horizon) {
             return false;
         }
-        self.queue_end(index, Ahead::Horizon);
+        self.queue_end(index, What::HORIZON);
         true
     }
 
@@ -89,16 +89,16 @@ impl World {
         state.course.span = seconds;
         state.course.reached = Sides::around(swept(state, &track, seconds));
         self.broad.follow(&mut self.bodies, index, time, seconds);
-        self.queue_end(index, Ahead::Ground);
+        self.queue_end(index, What::GROUND);
         self.look_down_first(time);
     }
 
     /// Enters the end of a search, unless an earlier entry will come to it: a motion changes more often
     /// than its searches end.
-    pub(super) fn queue_end(&mut self, index: u32, ahead: Ahead) {
+    pub(super) fn queue_end(&mut self, index: u32, what: What) {
         let state = self.bodies.get_mut(index);
-        let end = self.free.end(state, ahead);
-        let entered = state.course.entered(ahead);
+        let end = self.free.end(state, what);
+        let entered = state.course.entered(what);
         if *entered <= end {
             return;
         }
@@ -108,7 +108,7 @@ impl World {
             a: index,
             b: index,
             stamp: 0,
-            what: ahead.into(),
+            what,
         });
     }
 
@@ -227,7 +227,7 @@ impl World {
             a,
             b,
             stamp: self.stamp(a, b),
-            what: Ahead::Near.into(),
+            what: What::NEAR,
         };
         self.free.queue.push(entry);
     }
@@ -242,7 +242,7 @@ impl World {
             a: index,
             b: at,
             stamp: self.stamp(index, self.bodies.colliders[at as usize].body),
-            what: Ahead::NearShape.into(),
+            what: What::NEAR_SHAPE,
         };
         self.free.queue.push(entry);
     }
@@ -286,13 +286,13 @@ impl World {
         if self.free.drifts {
             self.retune(time);
         }
-        match entry.ahead() {
-            Ahead::Horizon | Ahead::Ground if self.piece_ends(index, time) => {
+        match entry.what {
+            What::HORIZON | What::GROUND if self.piece_ends(index, time) => {
                 if self.ends_now(entry) {
                     self.foresee(index, time, Cause::Deflected, None);
                 }
             }
-            Ahead::Horizon => {
+            What::HORIZON => {
                 if self.ends_now(entry) {
                     self.free.resize(&mut self.bodies, time);
                     if self.look_round(index, time) {
@@ -303,17 +303,17 @@ impl World {
                     }
                 }
             }
-            Ahead::Ground => {
+            What::GROUND => {
                 if self.ends_now(entry) {
                     self.look_down_again(index, time);
                 }
             }
-            Ahead::Near => {
+            What::NEAR => {
                 if self.stamp(index, entry.b) == entry.stamp && self.both_fly(index, entry.b) {
                     self.come_near(index, entry.b, time);
                 }
             }
-            Ahead::NearShape => {
+            What::NEAR_SHAPE => {
                 let owner = self.bodies.colliders[entry.b as usize].body;
                 let state = self.bodies.get(owner);
                 let rests = !state.goes_by_events() && !state.is_active();
@@ -324,31 +324,31 @@ impl World {
                     self.seek_shape(index, entry.b, time, Cause::Deflected);
                 }
             }
-            Ahead::Collapse => {
+            What::COLLAPSE => {
                 if !is_stale(entry, &self.bodies) {
                     self.report_collapse((index, entry.b), 0.0, time);
                 }
             }
-            Ahead::Impact { .. } => {}
+            _ => {}
         }
     }
 
     /// Whether the search that an entry is for ends now; if it ends later, that is entered.
     fn ends_now(&mut self, entry: &Entry) -> bool {
         let state = self.bodies.get_mut(entry.a);
-        let end = self.free.end(state, entry.ahead());
+        let end = self.free.end(state, entry.what);
         let goes = state.goes_by_events();
         let course = &mut state.course;
-        let entered = course.entered(entry.ahead());
+        let entered = course.entered(entry.what);
         if *entered != entry.time {
             return false;
         }
         *entered = SimTime::NEVER;
-        if !goes || entry.ahead() == Ahead::Horizon && course.cells.is_none() {
+        if !goes || entry.what == What::HORIZON && course.cells.is_none() {
             return false;
         }
         if end > entry.time {
-            self.queue_end(entry.a, entry.ahead());
+            self.queue_end(entry.a, entry.what);
         }
         end == entry.time
     }

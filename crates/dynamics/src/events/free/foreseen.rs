@@ -5,7 +5,7 @@ use carom_collision::{AxisFeature, Impact, ImpactFeature, Side};
 use carom_math::{SimTime, Vec2};
 
 use super::FreeBodies;
-use super::queue::{Ahead, Entry};
+use super::queue::{Entry, What};
 use crate::BodyId;
 use crate::store::bodies::Bodies;
 
@@ -56,7 +56,7 @@ impl FreeBodies {
         let impacts = &mut self.impacts;
         self.queue.next(limit, |entry| {
             let stale = is_stale(entry, bodies);
-            if let (true, Ahead::Impact { slot }) = (stale, entry.ahead()) {
+            if let (true, Some(slot)) = (stale, entry.what.slot()) {
                 impacts.remove(slot);
             }
             stale
@@ -93,35 +93,30 @@ impl FreeBodies {
     }
 
     pub(super) fn release(&mut self, entry: &Entry) -> Option<Foreseen> {
-        let Ahead::Impact { slot } = entry.ahead() else {
-            return None;
-        };
-        self.impacts.remove(slot)
+        self.impacts.remove(entry.what.slot()?)
     }
 
     pub(super) fn push_impact(&mut self, time: SimTime, stamp: u32, impact: Foreseen) {
         let (a, b) = impact.bodies;
         let slot = self.impacts.insert(impact);
-        let ahead = Ahead::Impact { slot };
         self.queue.push(Entry {
             time,
             a,
             b,
             stamp,
-            what: ahead.into(),
+            what: What::impact(slot),
         });
     }
 
     /// Reports the end of infinitely many impacts at its instant, if both bodies are still there.
     pub(super) fn announce(&mut self, time: SimTime, ids: [BodyId; 2]) {
-        let ahead = Ahead::Collapse;
         let [a, b] = ids.map(|id| id.index);
         self.queue.push(Entry {
             time,
             a,
             b,
             stamp: generations(ids),
-            what: ahead.into(),
+            what: What::COLLAPSE,
         });
     }
 }
@@ -129,15 +124,15 @@ impl FreeBodies {
 /// Whether an entry is for nothing: a motion has changed since it was made, or another one comes before it.
 pub(super) fn is_stale(entry: &Entry, bodies: &Bodies) -> bool {
     let version = |index: u32| bodies.version(index);
-    let other = match entry.ahead() {
-        Ahead::Collapse => {
+    let other = match entry.what {
+        What::COLLAPSE => {
             let ids = [entry.a, entry.b].map(|index| bodies.get(index).id);
             let alive = bodies.is_alive(entry.a) && bodies.is_alive(entry.b);
             return !alive || generations(ids) != entry.stamp;
         }
-        Ahead::Horizon => return bodies.get(entry.a).course.entered.0 != entry.time,
-        Ahead::Ground => return bodies.get(entry.a).course.entered.1 != entry.time,
-        Ahead::NearShape => bodies.colliders[entry.b as usize].body,
+        What::HORIZON => return bodies.get(entry.a).course.entered.0 != entry.time,
+        What::GROUND => return bodies.get(entry.a).course.entered.1 != entry.time,
+        What::NEAR_SHAPE => bodies.colliders[entry.b as usize].body,
         _ => entry.b,
     };
     version(entry.a).wrapping_add(version(other)) != entry.stamp

@@ -5,7 +5,7 @@ use carom_math::SimTime;
 
 use super::circle::Circle;
 use super::foresee::{Cause, at_most};
-use super::queue::Ahead;
+use super::queue::What;
 use crate::broad::free_fall_frame::Track;
 use crate::broad::window::{self, room_about, swept};
 use crate::store::swept::Sides;
@@ -47,7 +47,7 @@ impl World {
         self.free.lift(&state.course, index);
         let bounds = state.course.reached.bounds();
         self.bodies.set_boxes(index, bounds);
-        self.queue_end(index, Ahead::Ground);
+        self.queue_end(index, What::GROUND);
     }
 
     /// Whether a free body with a new motion stays in a clearing for as long as it has looked round: where it looked down
@@ -68,7 +68,7 @@ impl World {
         let span = at_most(stays);
         state.course.span = span;
         state.course.ground = (time + span).min(state.piece());
-        self.queue_end(index, Ahead::Ground);
+        self.queue_end(index, What::GROUND);
         true
     }
 

@@ -38,13 +38,13 @@ use circle::Registered;
 pub(crate) use foresee::Cause;
 pub(crate) use foreseen::Foreseen;
 
-use queue::{Ahead, Queue};
+use queue::{Queue, What};
 
 impl Course {
     /// The earliest entry for the end of a search.
-    fn entered(&mut self, ahead: Ahead) -> &mut SimTime {
-        match ahead {
-            Ahead::Ground => &mut self.entered.1,
+    fn entered(&mut self, what: What) -> &mut SimTime {
+        match what {
+            What::GROUND => &mut self.entered.1,
             _ => &mut self.entered.0,
         }
     }
@@ -161,9 +161,9 @@ impl FreeBodies {
     }
 
     /// When a search ends.
-    fn end(&self, state: &BodyState, ahead: Ahead) -> SimTime {
-        match ahead {
-            Ahead::Ground => state.course.ground,
+    fn end(&self, state: &BodyState, what: What) -> SimTime {
+        match what {
+            What::GROUND => state.course.ground,
             _ => self.horizon(state),
         }
     }

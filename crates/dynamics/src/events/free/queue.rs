@@ -7,65 +7,31 @@ use carom_math::SimTime;
 
 use super::days::Days;
 
-/// What happens at an entry's time, if the bodies still move as they did.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Ahead {
-    /// The search for free bodies that `a` meets reaches no further.
-    Horizon,
-    /// The search for what does not fly reaches no further.
-    Ground,
-    /// From now on free bodies `a` and `b` are near enough to meet.
-    Near,
-    /// From now on free body `a` is near enough to meet shape `b` of a body that does not fly.
-    NearShape,
-    /// The impacts of bodies `a` and `b`, ever faster, end here.
-    Collapse,
-    /// Body `a` strikes body `b`, as slot says.
-    Impact { slot: u32 },
-}
-
-/// [`Ahead`] in four bytes, in the same order.
+/// What happens at an entry's time, if the bodies still move as they did; at equal times in this order, impacts by their slots.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct What(u32);
 
 impl What {
-    /// What fills room for others.
-    pub(super) const FIRST: Self = Self(0);
+    /// The search for free bodies that `a` meets reaches no further.
+    pub(super) const HORIZON: Self = Self(0);
+    /// The search for what does not fly reaches no further.
+    pub(super) const GROUND: Self = Self(1);
+    /// From now on free bodies `a` and `b` are near enough to meet.
+    pub(super) const NEAR: Self = Self(2);
+    /// From now on free body `a` is near enough to meet shape `b` of a body that does not fly.
+    pub(super) const NEAR_SHAPE: Self = Self(3);
+    /// The impacts of bodies `a` and `b`, ever faster, end here.
+    pub(super) const COLLAPSE: Self = Self(4);
+    /// Body `a` strikes body `b`, as the first slot says.
+    const IMPACT: Self = Self(5);
 
-    /// Bits of a slot: half a thousand million impacts ahead fill 50 GB.
-    const SLOT: u32 = (1 << 29) - 1;
-
-    const fn kind(kind: u32) -> Self {
-        Self(kind << Self::SLOT.count_ones())
+    pub(super) const fn impact(slot: u32) -> Self {
+        Self(Self::IMPACT.0 + slot)
     }
 
-    pub(crate) const fn read(self) -> Ahead {
-        match self.0 >> Self::SLOT.count_ones() {
-            0 => Ahead::Horizon,
-            1 => Ahead::Ground,
-            2 => Ahead::Near,
-            3 => Ahead::NearShape,
-            4 => Ahead::Collapse,
-            _ => Ahead::Impact {
-                slot: self.0 & Self::SLOT,
-            },
-        }
-    }
-}
-
-impl From<Ahead> for What {
-    fn from(ahead: Ahead) -> Self {
-        match ahead {
-            Ahead::Horizon => Self::kind(0),
-            Ahead::Ground => Self::kind(1),
-            Ahead::Near => Self::kind(2),
-            Ahead::NearShape => Self::kind(3),
-            Ahead::Collapse => Self::kind(4),
-            Ahead::Impact { slot } => {
-                debug_assert!(slot <= Self::SLOT, "{slot} impacts are ahead");
-                Self(Self::kind(5).0 | slot & Self::SLOT)
-            }
-        }
+    /// Of an impact.
+    pub(super) const fn slot(self) -> Option<u32> {
+        self.0.checked_sub(Self::IMPACT.0)
     }
 }
 
@@ -78,12 +44,6 @@ pub(crate) struct Entry {
     /// Sum of the two bodies' versions: versions only grow, so that it is equal only if both are.
     pub(crate) stamp: u32,
     pub(crate) what: What,
-}
-
-impl Entry {
-    pub(crate) const fn ahead(&self) -> Ahead {
-        self.what.read()
-    }
 }
 
 impl Ord for Entry {
@@ -300,7 +260,7 @@ mod tests {
     const POWERS: [f64; 6] = [1.0, 1e1, 1e2, 1e3, 1e4, 1e6];
 
     fn entry(time: f64, a: u32) -> Entry {
-        let (time, what) = (SimTime::from_secs(time), Ahead::Horizon.into());
+        let (time, what) = (SimTime::from_secs(time), What::HORIZON);
         Entry {
             time,
             a,
@@ -312,11 +272,12 @@ mod tests {
 
     #[test]
     fn four_bytes_hold_whatever_is_ahead_and_its_order() {
-        let slots = [0, 1, What::SLOT].map(|slot| Ahead::Impact { slot });
-        let all = [Ahead::Horizon, Ahead::Ground, Ahead::Near, Ahead::NearShape];
-        let all = [&all[..], &[Ahead::Collapse], &slots].concat();
-        assert!(all.is_sorted() && all.iter().map(|a| What::from(*a)).is_sorted());
-        assert!(all.iter().all(|ahead| What::from(*ahead).read() == *ahead));
+        let all = [What::HORIZON, What::GROUND, What::NEAR, What::NEAR_SHAPE];
+        let slots = [0, 1, (1 << 29) - 1];
+        let all = [&all[..], &[What::COLLAPSE], &slots.map(What::impact)].concat();
+        assert!(all.is_sorted() && all.windows(2).all(|two| two[0] != two[1]));
+        assert!(all[..5].iter().all(|what| what.slot().is_none()));
+        assert_eq!(slots.map(|slot| What::impact(slot).slot()), slots.map(Some));
         assert_eq!(size_of::<Entry>(), 32);
     }
 

@@ -5,7 +5,7 @@
 use carom_math::SimTime;
 
 use super::Foreseen;
-use super::queue::{Ahead, Entry};
+use super::queue::Entry;
 use super::strike::{approach_speed, contacts_of, pace};
 use crate::World;
 use crate::events::free::Cause;
@@ -109,7 +109,7 @@ impl World {
     /// Lays all impacts aside that are due by `limit`, once all searches due by then are done.
     fn lay_aside(&mut self, limit: SimTime) {
         while let Some(entry) = self.free.pop_queued(&self.bodies, limit) {
-            if matches!(entry.ahead(), Ahead::Impact { .. }) {
+            if entry.what.slot().is_some() {
                 self.free.aside.lay(entry);
             } else {
                 self.run_search(&entry);
