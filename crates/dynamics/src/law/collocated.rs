@@ -5,7 +5,7 @@
 use carom_math::{Rot, SimTime, Vec2, vec2};
 
 use super::integrate::{ALL, NODES, ROUNDS, through};
-use super::path::Place;
+use super::path::{Path, Place};
 
 /// First guess of how far a body turns in a stretch, in rad.
 const TURN: f64 = 1.0 / 12.0;
@@ -20,9 +20,9 @@ const STANDS: f64 = 1e-13;
 /// Where bodies are for a while, as polynomials of degree 9.
 #[derive(Clone, Debug)]
 pub(crate) struct Collocated {
-    pub(crate) start: SimTime,
+    start: SimTime,
     /// In s.
-    pub(crate) length: f64,
+    length: f64,
     rotations: Vec<Rot>,
     /// Bodies that do not move.
     stays: Vec<bool>,
@@ -171,8 +171,30 @@ impl Collocated {
         most.fold(0.0, f64::max) * self.length * self.length / 72.0
     }
 
-    /// All bodies `t` seconds after the start, into `places`.
-    pub(crate) fn write_places(&self, t: f64, places: &mut Vec<Place>) {
+    fn coordinate(&self, k: usize, t: f64) -> (f64, f64) {
+        let tau = t / self.length;
+        let (mut v, mut x) = (0.0, 0.0);
+        for [once, twice] in self.integrals[k].iter().rev() {
+            v = v * tau + once;
+            x = x * tau + twice;
+        }
+        (
+            self.place[k] + (self.velocity[k] + x * t) * t,
+            self.velocity[k] + v * t,
+        )
+    }
+}
+
+impl Path for Collocated {
+    fn start(&self) -> SimTime {
+        self.start
+    }
+
+    fn length(&self) -> f64 {
+        self.length
+    }
+
+    fn write_places(&self, t: f64, places: &mut Vec<Place>) {
         places.clear();
         places.extend((0..self.rotations.len()).map(|body| {
             let (centre, velocity, angle, spin) = self.body_after(body, t);
@@ -185,13 +207,11 @@ impl Collocated {
         }));
     }
 
-    /// Rotation of a body at the start.
-    pub(crate) fn rotation(&self, body: usize) -> Rot {
+    fn rotation(&self, body: usize) -> Rot {
         self.rotations[body]
     }
 
-    /// Centre, velocity, angle since the start, and spin of a body `t` seconds after it.
-    pub(crate) fn body_after(&self, body: usize, t: f64) -> (Vec2, Vec2, f64, f64) {
+    fn body_after(&self, body: usize, t: f64) -> (Vec2, Vec2, f64, f64) {
         if self.stays[body] {
             return (
                 vec2(self.place[3 * body], self.place[3 * body + 1]),
@@ -204,8 +224,7 @@ impl Collocated {
         (vec2(x, y), vec2(u, v), angle, spin)
     }
 
-    /// Acceleration of a body's centre, in m/s², and of its angle, in rad/s², `t` seconds after the start.
-    pub(crate) fn acceleration_after(&self, body: usize, t: f64) -> (Vec2, f64) {
+    fn acceleration_after(&self, body: usize, t: f64) -> (Vec2, f64) {
         let tau = t / self.length;
         let of = |k: usize| {
             let terms = self.terms[3 * body + k].iter().rev();
@@ -214,8 +233,7 @@ impl Collocated {
         (vec2(of(0), of(1)), of(2))
     }
 
-    /// Bound on the third derivative of a body's path, in m/s³, and of its angle, in rad/s³.
-    pub(crate) fn jerk(&self, body: usize) -> (f64, f64) {
+    fn jerk(&self, body: usize) -> (f64, f64) {
         let of = |k: usize| {
             let mut sum = 0.0;
             for (power, term) in (0_u32..).zip(self.terms[3 * body + k]) {
@@ -224,19 +242,6 @@ impl Collocated {
             sum / self.length
         };
         (of(0) + of(1), of(2))
-    }
-
-    fn coordinate(&self, k: usize, t: f64) -> (f64, f64) {
-        let tau = t / self.length;
-        let (mut v, mut x) = (0.0, 0.0);
-        for [once, twice] in self.integrals[k].iter().rev() {
-            v = v * tau + once;
-            x = x * tau + twice;
-        }
-        (
-            self.place[k] + (self.velocity[k] + x * t) * t,
-            self.velocity[k] + v * t,
-        )
     }
 }
 

@@ -36,7 +36,7 @@ enum Law {
     Stretch(Stretch),
     /// Held by contacts: the path of an island, and which of its bodies this is.
     Held {
-        path: Arc<Path>,
+        path: Arc<dyn Path>,
         body: usize,
     },
 }
@@ -86,7 +86,7 @@ impl Flight {
     }
 
     /// Of a body of an island that turns about its contacts.
-    pub(crate) fn held(path: Arc<Path>, body: usize) -> Self {
+    pub(crate) fn held(path: Arc<dyn Path>, body: usize) -> Self {
         let turn = Turn {
             rotation: path.rotation(body),
             spin: 0.0,

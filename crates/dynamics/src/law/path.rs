@@ -1,8 +1,9 @@
 //! Paths of islands that contacts hold: where each of their bodies is for a while.
 
+use core::fmt::Debug;
+
 use carom_math::{Rot, SimTime, Vec2, perp};
 
-use super::collocated::Collocated;
 use super::pendulum::Pendulum;
 
 /// Where a body is and how it moves at an instant.
@@ -28,10 +29,33 @@ impl Place {
 }
 
 /// Where bodies are for a while.
-#[derive(Clone, Debug)]
-pub(crate) enum Path {
-    Collocated(Collocated),
-    Swing(Swing),
+pub(crate) trait Path: Debug + Send + Sync {
+    fn start(&self) -> SimTime;
+
+    /// In s.
+    fn length(&self) -> f64;
+
+    /// All bodies `t` seconds after the start, into `places`.
+    fn write_places(&self, t: f64, places: &mut Vec<Place>);
+
+    /// Rotation of a body at the start.
+    fn rotation(&self, body: usize) -> Rot;
+
+    /// Centre, velocity, angle since the start, and spin of a body `t` seconds after it.
+    fn body_after(&self, body: usize, t: f64) -> (Vec2, Vec2, f64, f64);
+
+    /// Acceleration of a body's centre, in m/s², and of its angle, in rad/s², `t` seconds after the start.
+    fn acceleration_after(&self, body: usize, t: f64) -> (Vec2, f64);
+
+    /// Bound on the third derivative of a body's path, in m/s³, and of its angle, in rad/s³.
+    fn jerk(&self, body: usize) -> (f64, f64);
+
+    /// All bodies `t` seconds after the start.
+    fn places_after(&self, t: f64) -> Vec<Place> {
+        let mut places = Vec::new();
+        self.write_places(t, &mut places);
+        places
+    }
 }
 
 /// One body turns about a point that stays; all others stay.
@@ -51,85 +75,37 @@ pub(crate) struct Swing {
     pub(crate) bounds: [f64; 3],
 }
 
-impl Path {
-    pub(crate) const fn start(&self) -> SimTime {
-        match self {
-            Self::Collocated(path) => path.start,
-            Self::Swing(swing) => swing.start,
-        }
-    }
-
-    /// In s.
-    pub(crate) const fn length(&self) -> f64 {
-        match self {
-            Self::Collocated(path) => path.length,
-            Self::Swing(swing) => swing.length,
-        }
-    }
-
-    /// All bodies `t` seconds after the start.
-    pub(crate) fn places_after(&self, t: f64) -> Vec<Place> {
-        let mut places = Vec::new();
-        self.write_places(t, &mut places);
-        places
-    }
-
-    /// [`Self::places_after`] into `places`.
-    pub(crate) fn write_places(&self, t: f64, places: &mut Vec<Place>) {
-        match self {
-            Self::Collocated(path) => path.write_places(t, places),
-            Self::Swing(swing) => {
-                places.clear();
-                places.extend_from_slice(&swing.places);
-                let (centre, velocity, angle, spin) = swing.body_after(swing.body, t);
-                let rotation = swing.places[swing.body].rotation.turned(angle);
-                places[swing.body] = Place {
-                    centre,
-                    rotation,
-                    velocity,
-                    spin,
-                };
-            }
-        }
-    }
-
-    /// Rotation of a body at the start.
-    pub(crate) fn rotation(&self, body: usize) -> Rot {
-        match self {
-            Self::Collocated(path) => path.rotation(body),
-            Self::Swing(swing) => swing.places[body].rotation,
-        }
-    }
-
-    /// Centre, velocity, angle since the start, and spin of a body `t` seconds after it.
-    pub(crate) fn body_after(&self, body: usize, t: f64) -> (Vec2, Vec2, f64, f64) {
-        match self {
-            Self::Collocated(path) => path.body_after(body, t),
-            Self::Swing(swing) => swing.body_after(body, t),
-        }
-    }
-
-    /// Acceleration of a body's centre, in m/s², and of its angle, in rad/s², `t` seconds after the start.
-    pub(crate) fn acceleration_after(&self, body: usize, t: f64) -> (Vec2, f64) {
-        match self {
-            Self::Collocated(path) => path.acceleration_after(body, t),
-            Self::Swing(swing) => swing.acceleration_after(body, t),
-        }
-    }
-
-    /// Bound on the third derivative of a body's path, in m/s³, and of its angle, in rad/s³.
-    pub(crate) fn jerk(&self, body: usize) -> (f64, f64) {
-        match self {
-            Self::Collocated(path) => path.jerk(body),
-            Self::Swing(swing) => swing.jerk(body),
-        }
-    }
-}
-
 impl Swing {
     /// From the pivot to the centre of mass at the start.
     fn arm(&self) -> Vec2 {
         self.places[self.body].centre - self.pivot
+    }
+}
+
+impl Path for Swing {
+    fn start(&self) -> SimTime {
+        self.start
+    }
+
+    fn length(&self) -> f64 {
+        self.length
+    }
+
+    fn write_places(&self, t: f64, places: &mut Vec<Place>) {
+        places.clear();
+        places.extend_from_slice(&self.places);
+        let (centre, velocity, angle, spin) = self.body_after(self.body, t);
+        let rotation = self.places[self.body].rotation.turned(angle);
+        places[self.body] = Place {
+            centre,
+            rotation,
+            velocity,
+            spin,
+        };
+    }
+
+    fn rotation(&self, body: usize) -> Rot {
+        self.places[body].rotation
     }
 
     fn body_after(&self, body: usize, t: f64) -> (Vec2, Vec2, f64, f64) {

@@ -83,7 +83,7 @@ pub(crate) struct Hold {
 /// How a group moves until its next change.
 #[derive(Clone, Debug)]
 pub(crate) struct Tip {
-    pub(crate) path: Arc<Path>,
+    pub(crate) path: Arc<dyn Path>,
     pub(crate) equations: Equations,
     /// Of the bodies, in m; 0 of those of infinite mass.
     reaches: Vec<f64>,
@@ -112,7 +112,7 @@ impl Tip {
 
     /// Heat by friction in the first `elapsed` seconds, in J.
     pub(crate) fn heat(&self, elapsed: f64) -> f64 {
-        heat(&self.equations, &self.path, elapsed)
+        heat(&self.equations, &*self.path, elapsed)
     }
 
     /// Motions of all bodies and modes of all contacts `t` seconds after the start; `None` where there are no forces.
@@ -227,7 +227,7 @@ pub(crate) fn tip(
             roots::End::Lost => return Err(NotMine::Unsolved),
         };
         return Ok(Tip {
-            path: Arc::new(path),
+            path,
             equations,
             reaches,
             after,
@@ -245,7 +245,7 @@ fn follow(
     reaches: &[f64],
     start: SimTime,
     sizes: (f64, f64),
-) -> Option<(Path, roots::End)> {
+) -> Option<(Arc<dyn Path>, roots::End)> {
     let mut workspace = Workspace::default();
     let accelerations = |places: &[Place], to: &mut Vec<f64>| {
         let Some(forces) = equations.forces(places, &mut workspace) else {
@@ -259,9 +259,8 @@ fn follow(
     let lengths = (LONGEST, SHORTEST);
     let error = ERROR * sizes.0;
     let path = Collocated::follow(accelerations, start, places, reaches, lengths, error)?;
-    let path = Path::Collocated(path);
     let end = first(equations, &path, sizes);
-    Some((path, end))
+    Some((Arc::new(path), end))
 }
 
 /// A contact is in the next mode already if its margin is 0 and falls.

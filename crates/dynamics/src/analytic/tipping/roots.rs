@@ -79,7 +79,7 @@ pub(super) fn faint(equations: &Equations, places: &[Place]) -> Option<Limit> {
 /// The margins of a path.
 struct Margins<'a> {
     equations: &'a Equations,
-    path: &'a Path,
+    path: &'a dyn Path,
     /// A length in m and a speed in m/s that roundings are measured by.
     sizes: (f64, f64),
     workspace: Workspace,
@@ -175,7 +175,7 @@ impl Margins<'_> {
 }
 
 /// The first margin to fall to 0.
-pub(super) fn first(equations: &Equations, path: &Path, sizes: (f64, f64)) -> End {
+pub(super) fn first(equations: &Equations, path: &dyn Path, sizes: (f64, f64)) -> End {
     let mut margins = Margins {
         equations,
         path,
@@ -265,7 +265,7 @@ fn fall(
 }
 
 /// Heat by friction in the first `elapsed` seconds, in J: Gauss–Legendre in two halves.
-pub(super) fn heat(equations: &Equations, path: &Path, elapsed: f64) -> f64 {
+pub(super) fn heat(equations: &Equations, path: &dyn Path, elapsed: f64) -> f64 {
     /// Points and weights of (−1, 1), mirrored.
     const POINTS: [(f64, f64); 3] = [
         (0.238_619_186_083_196_9, 0.467_913_934_572_691_05),

@@ -10,6 +10,8 @@
 //! So the forces of a contact, and the gaps of all corners, are trigonometric polynomials of δ: their first zeros are found without
 //! asking when.
 
+use std::sync::Arc;
+
 use carom_math::{Rot, SimTime, Vec2, cross, perp, trig};
 
 use super::equations::Equations;
@@ -54,7 +56,7 @@ pub(super) fn swing(
     reaches: &[f64],
     start: SimTime,
     size: f64,
-) -> Option<(Path, roots::End)> {
+) -> Option<(Arc<dyn Path>, roots::End)> {
     let pivot = Pivot::of(equations, places, reaches)?;
     let pendulum = pivot.pendulum()?;
     let margins = pivot.margins(&pendulum, size)?;
@@ -72,7 +74,7 @@ pub(super) fn swing(
         pendulum,
         bounds,
     };
-    Some((Path::Swing(swing), end))
+    Some((Arc::new(swing), end))
 }
 
 impl<'a> Pivot<'a> {
