@@ -5,7 +5,8 @@ use carom_math::SimTime;
 
 use crate::broad::tree::{Overlapping, part};
 use crate::events::free::Cause;
-use crate::events::wake::{wake, wake_around};
+use crate::events::wake::wake;
+use crate::model::graph::neighbours;
 use crate::store::bodies::Bodies;
 use crate::store::pairs::Pair;
 use crate::{Mode, World};
@@ -90,29 +91,25 @@ impl World {
             return Vec::new();
         }
         self.look_at_fresh(time);
-        let mut woken = Vec::new();
-        wake(
-            &mut self.bodies,
-            &self.pairs,
-            index,
-            time,
-            &mut self.events,
-            &mut woken,
-        );
-        self.wake_members(&mut woken, time);
-        woken
+        self.wake_all(vec![index], time)
     }
 
-    /// Takes those out of bodies that wake which the engine has: it wakes them.
-    fn wake_members(&mut self, woken: &mut Vec<u32>, time: SimTime) {
+    /// Ends the sleep of bodies, the last one first, and of what they touch: those that the engine has it wakes, all others are
+    /// returned.
+    fn wake_all(&mut self, waking: Vec<u32>, time: SimTime) -> Vec<u32> {
+        let woken = wake(
+            &mut self.bodies,
+            &self.pairs,
+            waking,
+            time,
+            &mut self.events,
+        );
         let has = |index: &u32| self.bodies.get(*index).in_engine();
-        let (members, others) = core::mem::take(woken)
-            .into_iter()
-            .partition::<Vec<_>, _>(has);
-        *woken = others;
+        let (members, others) = woken.into_iter().partition::<Vec<_>, _>(has);
         for index in members {
             self.wake_in_engine(index, time);
         }
+        others
     }
 
     /// Wakes all sleepers that touch a body, and itself: what held them has changed.
@@ -122,16 +119,10 @@ impl World {
         }
         self.hand_back_around(index, time);
         self.look_at_fresh(time);
-        let mut woken = Vec::new();
-        wake_around(
-            &mut self.bodies,
-            &self.pairs,
-            index,
-            time,
-            &mut self.events,
-            &mut woken,
-        );
-        self.wake_members(&mut woken, time);
+        let mut waking: Vec<u32> = neighbours(&self.bodies, &self.pairs, index).collect();
+        waking.reverse();
+        waking.push(index);
+        let woken = self.wake_all(waking, time);
         self.resume_woken(&woken, time);
     }
 

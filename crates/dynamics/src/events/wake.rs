@@ -8,16 +8,16 @@ use crate::store::bodies::Bodies;
 use crate::store::pairs::Pairs;
 use crate::values::event::EventKind;
 
-/// Wakes a body and all sleepers that it touches, and so on; those that the engine has are for the engine to wake.
+/// Wakes these bodies, the last one first, and all sleepers that they touch, and so on; those that the engine has are for the engine to
+/// wake. All of them.
 pub(crate) fn wake(
     bodies: &mut Bodies,
     pairs: &Pairs,
-    index: u32,
+    mut waking: Vec<u32>,
     time: SimTime,
     events: &mut Events,
-    woken: &mut Vec<u32>,
-) {
-    let mut waking = vec![index];
+) -> Vec<u32> {
+    let mut woken = Vec::new();
     while let Some(index) = waking.pop() {
         let state = bodies.get_mut(index);
         if !state.is_asleep() {
@@ -33,20 +33,5 @@ pub(crate) fn wake(
         }
         waking.extend(neighbours(bodies, pairs, index));
     }
-}
-
-/// Wakes all sleepers that touch a body: what held them has changed.
-pub(crate) fn wake_around(
-    bodies: &mut Bodies,
-    pairs: &Pairs,
-    index: u32,
-    time: SimTime,
-    events: &mut Events,
-    woken: &mut Vec<u32>,
-) {
-    wake(bodies, pairs, index, time, events, woken);
-    let around: Vec<u32> = neighbours(bodies, pairs, index).collect();
-    for other in around {
-        wake(bodies, pairs, other, time, events, woken);
-    }
+    woken
 }
