@@ -155,24 +155,20 @@ fn ends_of(bodies: &[ModeBody], touch: &Touch) -> (RigidState, RigidState) {
 }
 
 fn mode_body(bodies: &Bodies, state: &BodyState, time: SimTime) -> ModeBody {
-    let dynamic = state.is_dynamic();
     let RigidState {
         centre,
         velocity,
         spin,
     } = RigidState::of(state, time);
+    let (pull, twist) = bodies.pull_on(state.id.index, centre);
     ModeBody {
         inverse_mass: state.inverse_mass,
         inverse_inertia: state.inverse_inertia,
         centre,
         velocity,
         spin,
-        pull: if dynamic {
-            state.gravity_scale() * bodies.pull.gravity + state.force() * state.inverse_mass
-        } else {
-            Vec2::ZERO
-        },
-        twist: state.torque() * state.inverse_inertia,
+        pull,
+        twist,
     }
 }
 

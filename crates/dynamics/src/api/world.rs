@@ -190,32 +190,30 @@ impl World {
 
     /// All pairs that touch, as of the last sub-step, in order of their shapes; of what moves without sub-steps, as of now.
     pub fn contacts(&self) -> impl Iterator<Item = Contact> + use<'_> {
-        let places = self.pairs.in_order().into_iter();
-        let touching = places.filter(|place| self.pairs.get(*place).told);
-        let stepped = self.stepping.iter();
-        let stepped = stepped.flat_map(|stepping| stepping.contacts(&self.bodies, None));
-        touching
-            .flat_map(|place| self.contacts_at(place))
-            .chain(stepped)
+        self.contacts_in(self.pairs.in_order(), None)
     }
 
     /// What a body touches: [`Self::contacts`] of one body, in order of the shapes; empty if it is not there.
     pub fn contacts_of(&self, id: BodyId) -> impl Iterator<Item = Contact> + use<'_> {
-        let pairs = self
-            .bodies
-            .find(id)
-            .map(|index| &self.bodies.get(index).pairs);
-        let mut touching: Vec<u32> = pairs.into_iter().flatten().copied().collect();
-        touching.retain(|place| self.pairs.get(*place).told);
-        touching.sort_unstable_by_key(|place| self.pairs.shapes(*place));
         let index = self.bodies.find(id).ok();
-        let stepped = self.stepping.iter().zip(index);
-        let stepped =
-            stepped.flat_map(|(stepping, index)| stepping.contacts(&self.bodies, Some(index)));
-        touching
-            .into_iter()
-            .flat_map(|place| self.contacts_at(place))
-            .chain(stepped)
+        index.into_iter().flat_map(|index| {
+            let places = self.bodies.get(index).pairs.iter().copied();
+            self.contacts_in(self.pairs.by_colliders(places), Some(index))
+        })
+    }
+
+    /// Contacts of pairs in these places, and those that the engine has: all, or those of a body.
+    fn contacts_in(
+        &self,
+        mut places: Vec<u32>,
+        of: Option<u32>,
+    ) -> impl Iterator<Item = Contact> + use<'_> {
+        places.retain(|place| self.pairs.get(*place).told);
+        let stepped = self.stepping.iter();
+        let stepped = stepped.flat_map(move |stepping| stepping.contacts(&self.bodies, of));
+        let touching = places.into_iter();
+        let touching = touching.flat_map(|place| self.contacts_at(place));
+        touching.chain(stepped)
     }
 
     fn contacts_at(&self, place: u32) -> Vec<Contact> {

@@ -30,14 +30,9 @@ const APART: f64 = 1.0 / 32.0;
 )]
 pub(crate) fn fly(bodies: &mut Bodies, index: u32, time: SimTime) {
     let state = bodies.get(index);
-    let free = if state.inverse_mass > 0.0 {
-        state.gravity_scale() * bodies.pull.gravity + state.force() * state.inverse_mass
-    } else {
-        Vec2::ZERO
-    };
-    let turning = state.torque() * state.inverse_inertia;
     if !state.is_dynamic() || !bodies.bends(index) {
         let motion = &state.motion;
+        let (free, turning) = bodies.pull_on(index, motion.centre);
         let curves = state.flight.is_some();
         if curves || motion.acceleration != free || motion.angular_acceleration != turning {
             bodies.change(index, time, |motion| {

@@ -126,8 +126,15 @@ impl World {
 
     /// Bodies in touch of which one has no solution of its contact modes join.
     pub(crate) fn join_unsolved(&mut self, time: SimTime) {
-        if self.may_join() {
-            self.join_islands(self.unsolved_islands(), time);
+        let mut joining: Vec<u32> = self.unsolved_islands().into_iter().flatten().collect();
+        if joining.is_empty() {
+            return;
+        }
+        joining.sort_unstable();
+        self.unsettled
+            .retain(|index| joining.binary_search(index).is_err());
+        for index in joining {
+            self.join(index, time);
         }
     }
 
@@ -155,19 +162,6 @@ impl World {
             islands.push(island);
         }
         islands
-    }
-
-    fn join_islands(&mut self, islands: Vec<Vec<u32>>, time: SimTime) {
-        let mut joining: Vec<u32> = islands.into_iter().flatten().collect();
-        if joining.is_empty() {
-            return;
-        }
-        joining.sort_unstable();
-        self.unsettled
-            .retain(|index| joining.binary_search(index).is_err());
-        for index in joining {
-            self.join(index, time);
-        }
     }
 
     /// Bodies that woke together join if they are many; whether they did.
