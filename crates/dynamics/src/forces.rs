@@ -40,7 +40,7 @@ impl World {
     pub(crate) fn end_forces(&mut self) {
         let now = self.clock.now;
         let forced = core::mem::take(&mut self.forced);
-        let waits = |index: &u32| self.bodies.get(*index).pending() != (Vec2::ZERO, 0.0);
+        let waits = |index: &u32| self.bodies.get(*index).uncommon().pending != (Vec2::ZERO, 0.0);
         let (pushed, forced): (Vec<u32>, Vec<u32>) = forced.into_iter().partition(waits);
         for index in pushed {
             let acts = self.bodies.get_mut(index).uncommon_mut();

@@ -181,7 +181,7 @@ impl World {
         force.check()?;
         let now = self.clock.now;
         let state = self.bodies.get(index);
-        let (linear, torque) = state.pending();
+        let (linear, torque) = state.uncommon().pending;
         let all = (
             linear + force.linear,
             torque + force.about(state.centre_at(now)),

@@ -256,7 +256,7 @@ impl Bodies {
         if !state.turned.is_finite() {
             state.turned = 0.0;
         }
-        state.float();
+        state.uncommon_mut().gravity_scale = 0.0;
         state.flight = None;
         state.set_piece(SimTime::NEVER);
         self.renew(index);

@@ -185,11 +185,6 @@ impl BodyState {
             .count()
     }
 
-    /// Force (N) and torque (N·m) that wait for the next step.
-    pub(crate) fn pending(&self) -> (Vec2, f64) {
-        self.uncommon().pending
-    }
-
     /// Force of the present step, in N.
     pub(crate) fn force(&self) -> Vec2 {
         self.uncommon().force
@@ -203,11 +198,6 @@ impl BodyState {
     /// How gravity and fields act on it, as a factor.
     pub(crate) fn gravity_scale(&self) -> f64 {
         self.uncommon().gravity_scale
-    }
-
-    /// From now on neither gravity nor a field acts on it.
-    pub(crate) fn float(&mut self) {
-        self.uncommon_mut().gravity_scale = 0.0;
     }
 
     /// Until when the motion of a free body stands for the law that it flies by; for ever where it is the law.
@@ -226,7 +216,7 @@ impl BodyState {
         self.uncommon().damping
     }
 
-    fn uncommon(&self) -> &Uncommon {
+    pub(crate) fn uncommon(&self) -> &Uncommon {
         self.uncommon.as_deref().unwrap_or(&Uncommon::NONE)
     }
 

@@ -214,7 +214,8 @@ mod tests {
                 touches: &self.touches,
                 moves: &self.moves,
                 found: &self.found,
-                tangents: self.tangents.clone(),
+                slips: &self.slips,
+                tangents: &self.tangents,
             }
         }
 
@@ -281,7 +282,7 @@ mod tests {
         let is_borne = |after: f64| {
             let faces = load.faces_at(after);
             let mut edges = Vec::new();
-            for (face, tangent) in faces.list.iter().zip(&load.tangents) {
+            for (face, tangent) in faces.list.iter().zip(load.tangents) {
                 let sign = match tangent {
                     Tangent::Slides(sign) => *sign,
                     _ => 0.0,

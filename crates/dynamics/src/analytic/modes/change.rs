@@ -3,7 +3,7 @@
 use super::alone;
 use super::balance::{Balance, Basic, Problem, Tangent, balance};
 use super::faces::Faces;
-use super::{BodyMove, Cause, Change, Feature, ModeBody, NotMine, Touch, slip_rate, tangents};
+use super::{BodyMove, Cause, Change, Feature, ModeBody, Touch, slip_rate};
 use carom_math::{falling_root, perp};
 
 /// How far ahead a load that shifts is looked at where nothing else ends the mode, in s.
@@ -29,73 +29,6 @@ const MARGINS: u32 = 4;
 
 /// How far beyond the end of a basis, as a part of the stretch, another one is sought.
 const BEYOND: f64 = 1e-6;
-
-/// The first instant at which something changes.
-pub(super) fn next(
-    bodies: &[ModeBody],
-    touches: &[Touch],
-    moves: &[BodyMove],
-    found: &Balance,
-    slips: &[f64],
-) -> Result<Option<Change>, NotMine> {
-    let mut first: Option<Change> = None;
-    let mut shifts = None;
-    for (i, touch) in touches.iter().enumerate() {
-        if !found.reactions[i].closed.contains(&true) {
-            continue;
-        }
-        let mut offer = |after: f64, cause: Cause| {
-            if first.is_none_or(|known| after < known.after) {
-                first = Some(Change {
-                    after,
-                    touch: i,
-                    cause,
-                });
-            }
-        };
-        if touch.friction > 0.0 {
-            let rate = slip_rate(bodies, touch, moves);
-            if slips[i] * rate < 0.0 {
-                offer(-slips[i] / rate, Cause::SlipStops);
-            }
-        }
-        let slide = Slide::of(touch, moves);
-        if let Some(after) = slide.ends() {
-            offer(after, Cause::EdgeEnds);
-        }
-        let bears = |place: usize, feature: Feature| {
-            feature != Feature::Round && bodies[place].inverse_inertia > 0.0
-        };
-        let ends = touch.bodies;
-        if slide.moves() && (bears(ends.0, touch.features.0) || bears(ends.1, touch.features.1)) {
-            shifts.get_or_insert(i);
-        }
-    }
-    if let Some(touch) = shifts {
-        let end = first.map_or(LOOK, |change| change.after);
-        let load = Load {
-            bodies,
-            touches,
-            moves,
-            found,
-            tangents: tangents(touches, slips),
-        };
-        if let Some(after) = load.tips(end) {
-            first = Some(Change {
-                after,
-                touch,
-                cause: Cause::Tips,
-            });
-        } else if first.is_none() {
-            first = Some(Change {
-                after: end,
-                touch,
-                cause: Cause::Look,
-            });
-        }
-    }
-    Ok(first)
-}
 
 /// How B slides along A: `speed τ + ½ rate τ²` along the tangent, and the stretches that each touches with.
 pub(super) struct Slide {
@@ -176,16 +109,69 @@ pub(super) fn falls_to_zero(gap: f64, speed: f64, rate: f64) -> Option<f64> {
     Some((speed + root) / -rate)
 }
 
-/// A load that shifts on what bears it.
+/// A mode of a group: the load that shifts on what bears it.
 pub(super) struct Load<'a> {
     pub(super) bodies: &'a [ModeBody],
     pub(super) touches: &'a [Touch],
     pub(super) moves: &'a [BodyMove],
     pub(super) found: &'a Balance,
-    pub(super) tangents: Vec<Tangent>,
+    pub(super) slips: &'a [f64],
+    pub(super) tangents: &'a [Tangent],
 }
 
 impl Load<'_> {
+    /// The first instant at which something changes.
+    pub(super) fn next(&self) -> Option<Change> {
+        let mut first: Option<Change> = None;
+        let mut shifts = None;
+        for (i, touch) in self.touches.iter().enumerate() {
+            if !self.found.reactions[i].closed.contains(&true) {
+                continue;
+            }
+            let mut offer = |after: f64, cause: Cause| {
+                if first.is_none_or(|known| after < known.after) {
+                    first = Some(Change {
+                        after,
+                        touch: i,
+                        cause,
+                    });
+                }
+            };
+            if touch.friction > 0.0 {
+                let (slip, rate) = (self.slips[i], slip_rate(self.bodies, touch, self.moves));
+                if slip * rate < 0.0 {
+                    offer(-slip / rate, Cause::SlipStops);
+                }
+            }
+            let slide = Slide::of(touch, self.moves);
+            if let Some(after) = slide.ends() {
+                offer(after, Cause::EdgeEnds);
+            }
+            let bears = |place: usize, feature: Feature| {
+                feature != Feature::Round && self.bodies[place].inverse_inertia > 0.0
+            };
+            let ends = touch.bodies;
+            if slide.moves() && (bears(ends.0, touch.features.0) || bears(ends.1, touch.features.1))
+            {
+                shifts.get_or_insert(i);
+            }
+        }
+        let Some(touch) = shifts else {
+            return first;
+        };
+        let end = first.map_or(LOOK, |change| change.after);
+        let (after, cause) = match self.tips(end) {
+            Some(after) => (after, Cause::Tips),
+            None if first.is_none() => (end, Cause::Look),
+            None => return first,
+        };
+        Some(Change {
+            after,
+            touch,
+            cause,
+        })
+    }
+
     /// The first instant before `end` from which on the forces need another motion.
     fn tips(&self, end: f64) -> Option<f64> {
         if let Some(ways) = alone::ways(self) {
@@ -254,14 +240,14 @@ impl Load<'_> {
 
     fn margins(&self, after: f64, basis: &[bool]) -> Option<Vec<f64>> {
         let faces = self.faces_at(after);
-        let problem = Problem::of(&faces, &self.tangents).ok()?;
+        let problem = Problem::of(&faces, self.tangents).ok()?;
         Some(problem.with_basis(basis)?.margins)
     }
 
     /// Whether the accelerations are the same where the load is then: with this basis, or with the one that takes its place.
     fn goes_on(&self, after: f64, basis: &mut Vec<bool>) -> bool {
         let faces = self.faces_at(after);
-        let Ok(problem) = Problem::of(&faces, &self.tangents) else {
+        let Ok(problem) = Problem::of(&faces, self.tangents) else {
             return false;
         };
         if let Some(Basic { margins, state }) = problem.with_basis(basis)
@@ -284,7 +270,7 @@ impl Load<'_> {
     fn parts_from(&self, from: f64, mut after: f64) -> Option<f64> {
         for _ in 0..PARTINGS {
             let faces = self.faces_at(after);
-            let then = balance(&faces, &self.tangents).ok()?;
+            let then = balance(&faces, self.tangents).ok()?;
             let differs = self.differs(&faces, &then.state);
             if differs <= SAME {
                 return None;

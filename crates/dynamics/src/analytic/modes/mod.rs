@@ -25,6 +25,7 @@ use crate::model::approach::{CLOSED, RigidState};
 use crate::model::edges::Feature;
 use crate::model::graph::ROWS;
 use balance::{Balance, Reaction, Tangent, balance};
+use change::Load;
 use faces::Faces;
 
 /// Slip below this part of the speeds that it is the difference of is none.
@@ -176,11 +177,17 @@ pub(crate) fn solve_modes(
     let found = balance(&faces, &tangents)?;
     let moves = faces.moves(bodies, &found, &slips);
     rows_stay(touches, &moves, &found)?;
+    let load = Load {
+        bodies,
+        touches,
+        moves: &moves,
+        found: &found,
+        slips: &slips,
+        tangents: &tangents,
+    };
     Ok(GroupMove {
-        touches: (0..touches.len())
-            .map(|i| touch_move(bodies, touches, &moves, &found, &slips, i))
-            .collect(),
-        change: change::next(bodies, touches, &moves, &found, &slips)?,
+        touches: (0..touches.len()).map(|i| load.touch_move(i)).collect(),
+        change: load.next(),
         bodies: moves,
     })
 }
@@ -329,41 +336,39 @@ fn rows_stay(touches: &[Touch], moves: &[BodyMove], found: &Balance) -> Result<(
     Ok(())
 }
 
-fn touch_move(
-    bodies: &[ModeBody],
-    touches: &[Touch],
-    moves: &[BodyMove],
-    found: &Balance,
-    slips: &[f64],
-    i: usize,
-) -> TouchMove {
-    let (touch, reaction) = (&touches[i], &found.reactions[i]);
-    let (a, b) = (&moves[touch.bodies.0], &moves[touch.bodies.1]);
-    let still = |body: &BodyMove| *body == BodyMove::default();
-    let round = |(place, feature): (usize, Feature)| {
-        let body = &moves[place];
-        feature == Feature::Round && (body.spin != 0.0 || body.angular_acceleration != 0.0)
-    };
-    let ends = [
-        (touch.bodies.0, touch.features.0),
-        (touch.bodies.1, touch.features.1),
-    ];
-    let mode = if !reaction.closed.contains(&true) {
-        ContactMode::Open
-    } else if slips[i] != 0.0 || slip_rate(bodies, touch, moves) != 0.0 && !reaction.sticks {
-        ContactMode::Slide
-    } else if ends.into_iter().any(round) {
-        ContactMode::Roll
-    } else if still(a) && still(b) {
-        ContactMode::Rest
-    } else {
-        ContactMode::Stick
-    };
-    TouchMove {
-        mode,
-        normal: reaction.normal,
-        tangential: reaction.tangential,
-        slip: slips[i],
+impl Load<'_> {
+    /// What a touch does.
+    fn touch_move(&self, i: usize) -> TouchMove {
+        let (touch, reaction, slip) = (&self.touches[i], &self.found.reactions[i], self.slips[i]);
+        let (a, b) = (&self.moves[touch.bodies.0], &self.moves[touch.bodies.1]);
+        let still = |body: &BodyMove| *body == BodyMove::default();
+        let round = |(place, feature): (usize, Feature)| {
+            let body = &self.moves[place];
+            feature == Feature::Round && (body.spin != 0.0 || body.angular_acceleration != 0.0)
+        };
+        let ends = [
+            (touch.bodies.0, touch.features.0),
+            (touch.bodies.1, touch.features.1),
+        ];
+        let mode = if !reaction.closed.contains(&true) {
+            ContactMode::Open
+        } else if slip != 0.0
+            || slip_rate(self.bodies, touch, self.moves) != 0.0 && !reaction.sticks
+        {
+            ContactMode::Slide
+        } else if ends.into_iter().any(round) {
+            ContactMode::Roll
+        } else if still(a) && still(b) {
+            ContactMode::Rest
+        } else {
+            ContactMode::Stick
+        };
+        TouchMove {
+            mode,
+            normal: reaction.normal,
+            tangential: reaction.tangential,
+            slip,
+        }
     }
 }
 
