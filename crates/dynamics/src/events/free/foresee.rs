@@ -287,25 +287,31 @@ impl World {
             self.retune(time);
         }
         match entry.what {
-            What::HORIZON | What::GROUND
-                if self.piece_ends(index, time) && self.ends_now(entry) =>
-            {
-                self.foresee(index, time, Cause::Deflected, None);
-            }
-            What::HORIZON if self.ends_now(entry) => {
-                self.free.resize(&mut self.bodies, time);
-                if self.look_round(index, time) {
-                    self.meet_free_bodies(index, time, Cause::Horizon, None);
-                } else {
-                    self.free.vanish(&mut self.bodies, index);
-                    self.foresee(index, time, Cause::Horizon, None);
+            What::HORIZON | What::GROUND if self.piece_ends(index, time) => {
+                if self.ends_now(entry) {
+                    self.foresee(index, time, Cause::Deflected, None);
                 }
             }
-            What::GROUND if self.ends_now(entry) => self.look_down_again(index, time),
-            What::NEAR
-                if self.stamp(index, entry.b) == entry.stamp && self.both_fly(index, entry.b) =>
-            {
-                self.come_near(index, entry.b, time);
+            What::HORIZON => {
+                if self.ends_now(entry) {
+                    self.free.resize(&mut self.bodies, time);
+                    if self.look_round(index, time) {
+                        self.meet_free_bodies(index, time, Cause::Horizon, None);
+                    } else {
+                        self.free.vanish(&mut self.bodies, index);
+                        self.foresee(index, time, Cause::Horizon, None);
+                    }
+                }
+            }
+            What::GROUND => {
+                if self.ends_now(entry) {
+                    self.look_down_again(index, time);
+                }
+            }
+            What::NEAR => {
+                if self.stamp(index, entry.b) == entry.stamp && self.both_fly(index, entry.b) {
+                    self.come_near(index, entry.b, time);
+                }
             }
             What::NEAR_SHAPE => {
                 let owner = self.bodies.colliders[entry.b as usize].body;
@@ -318,10 +324,12 @@ impl World {
                     self.seek_shape(index, entry.b, time, Cause::Deflected);
                 }
             }
-            What::COLLAPSE if !is_stale(entry, &self.bodies) => {
-                self.report_collapse((index, entry.b), 0.0, time);
+            _ => {
+                // Impacts are run elsewhere.
+                if entry.what == What::COLLAPSE && !is_stale(entry, &self.bodies) {
+                    self.report_collapse((index, entry.b), 0.0, time);
+                }
             }
-            _ => {}
         }
     }
 
