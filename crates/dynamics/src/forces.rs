@@ -44,7 +44,7 @@ impl World {
         let (pushed, forced): (Vec<u32>, Vec<u32>) = forced.into_iter().partition(waits);
         for index in pushed {
             let acts = self.bodies.get_mut(index).uncommon_mut();
-            acts.owe_until(now);
+            acts.owe_until(now, self.clock.h);
             acts.pending = (Vec2::ZERO, 0.0);
         }
         for &index in &forced {
@@ -99,10 +99,16 @@ impl World {
     pub(crate) fn push_in_substep(&mut self, stepping: &mut Stepping, start: SimTime) {
         let (end, h) = (self.joins.forced_until, self.clock.h);
         for index in core::mem::take(&mut self.joins.pushed) {
-            if !self.bodies.is_alive(index) || !self.is_engines(index) {
+            if !self.bodies.is_alive(index) {
                 continue;
             }
+            let is_engines = self.is_engines(index);
             let acts = self.bodies.get_mut(index).uncommon_mut();
+            if !is_engines {
+                // It fell asleep.
+                acts.owed = (Vec2::ZERO, 0.0);
+                continue;
+            }
             acts.act(start, end, h);
             if acts.force != Vec2::ZERO || acts.torque != 0.0 {
                 self.joins.push(index);

@@ -296,7 +296,7 @@ impl World {
         let (inverse_mass, inverse_inertia) = (state.inverse_mass, state.inverse_inertia);
         let centre = state.centre_at(time);
         let acts = state.uncommon_mut();
-        acts.owe_until(time);
+        acts.owe_until(time, self.clock.h);
         (acts.force, acts.torque) = core::mem::take(&mut acts.pending);
         let (owed, turning) = core::mem::take(&mut acts.owed);
         let (pull, twist) = self.bodies.pull_on(index, centre);

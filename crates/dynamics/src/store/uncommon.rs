@@ -39,21 +39,22 @@ impl Uncommon {
         lag: Lag::NONE,
     };
 
-    /// The engine owes what acted until `time`, and is as if it had acted.
-    pub(crate) fn owe_until(&mut self, time: SimTime) {
+    /// The engine, with sub-steps of `h` seconds, owes what acted until `time`.
+    pub(crate) fn owe_until(&mut self, time: SimTime, h: f64) {
         let (force, torque) = self.pending;
         let since = time - self.acted;
-        self.owed.0 += force * since;
-        self.owed.1 += torque * since;
+        if since.abs() > ROUNDED * h {
+            self.owed.0 += force * since;
+            self.owed.1 += torque * since;
+        }
         self.acted = time;
     }
 
     /// Means over the sub-step of `h` seconds from `start` on of what acts in it up to `end`, and of what is owed.
     pub(crate) fn act(&mut self, start: SimTime, end: SimTime, h: f64) {
-        let exact = |time: f64| if time.abs() <= ROUNDED * h { 0.0 } else { time };
-        self.acted = start + -exact(start - self.acted);
-        self.owe_until(start);
-        let left = h - exact((h - (end - start)).max(0.0));
+        self.owe_until(start, h);
+        let left = end - start;
+        let left = if left < h * (1.0 - ROUNDED) { left } else { h };
         let (owed, turning) = core::mem::take(&mut self.owed);
         (self.force, self.torque) = self.pending;
         if left < h || owed != Vec2::ZERO || turning != 0.0 {
@@ -64,7 +65,7 @@ impl Uncommon {
     }
 }
 
-/// Part of a sub-step by which a step that ends with it may miss that end: sums of `dt` are rounded.
+/// Part of a sub-step by which steps may miss its ends: sums of `dt` are rounded.
 const ROUNDED: f64 = 1e-9;
 
 /// What a velocity has beyond that of the motion, which tells the place.
