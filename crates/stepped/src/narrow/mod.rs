@@ -13,7 +13,7 @@ use carom_math::{Vec2, cross};
 
 pub(crate) use eight::{Eight, Found};
 pub(crate) use hulls::collide_any;
-pub(crate) use pair::collide;
+pub(crate) use pair::{Going, collide};
 use scene::HYSTERESIS;
 pub(crate) use scene::{Scene, arc};
 pub(crate) use wide::collide_eight;

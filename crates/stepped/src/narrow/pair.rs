@@ -6,18 +6,40 @@ use carom_math::{Vec2, perp};
 use super::Manifold;
 use crate::outline::Turned;
 
-/// Two outlines, both turned, with the centre of mass of B at `d` from that of A; `None` if they stay farther apart than
-/// `limit` while B goes `way` against A.
+/// Where B is from A, and what they do until the next tick.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Going {
+    /// From the centre of mass of A to that of B, and how far it goes against it, in m.
+    pub(crate) d: Vec2,
+    pub(crate) way: Vec2,
+    /// Angles that A and B turn by.
+    pub(crate) turns: [f64; 2],
+}
+
+impl Going {
+    /// The same from B.
+    fn back(self) -> Self {
+        let [a, b] = self.turns;
+        Self {
+            d: -self.d,
+            way: -self.way,
+            turns: [b, a],
+        }
+    }
+}
+
+/// Two outlines, both turned; `None` if they stay farther apart than `limit` until the next tick.
 ///
 /// A's face is preferred unless B's separates by `hysteresis` more. Beyond a cut they may be by `past` less. All in m. Faces
 /// that separate them against `side`, if that is not zero, are none.
 pub(crate) fn collide(
     a: Turned<'_>,
     b: Turned<'_>,
-    [d, way, side]: [Vec2; 3],
-    [limit, past]: [f64; 2],
-    hysteresis: f64,
+    going: Going,
+    side: Vec2,
+    [limit, past, hysteresis]: [f64; 3],
 ) -> Option<Manifold> {
+    let Going { d, way, .. } = going;
     let radii = a.radius() + b.radius();
     let limits = [limit + radii, limit + radii - past];
     let (sa, ia, cut_a) = best_face(a, b, [d, way, side], limits)?;
@@ -31,9 +53,9 @@ pub(crate) fn collide(
         return None;
     }
     let mut found = if sb > sa + hysteresis {
-        face(b, a, -d, ib, true)
+        face([b, a], going.back(), ib, hysteresis, true)
     } else {
-        face(a, b, d, ia, false)
+        face([a, b], going, ia, hysteresis, false)
     };
     // B overlaps a piece by no more than across its cuts: the rest lies in other pieces, and leaves this one without a jump.
     let crossed = cut_a.max(cut_b) - radii;
@@ -81,8 +103,14 @@ fn best_face(
     Some(best)
 }
 
-/// Clips the edge of `other` that faces edge `i` of `owner` to it; `d` goes from the owner's centre to the other's.
-fn face(owner: Turned<'_>, other: Turned<'_>, d: Vec2, i: usize, flipped: bool) -> Manifold {
+/// Clips the edge of `other` that faces edge `i` of `owner` to it. What is apart by no more than `hysteresis` is at one place.
+fn face(
+    [owner, other]: [Turned<'_>; 2],
+    Going { d, way, turns }: Going,
+    i: usize,
+    hysteresis: f64,
+    flipped: bool,
+) -> Manifold {
     let n = owner.normal(i);
     let t = perp(n);
     let i_next = owner.next(i);
@@ -99,6 +127,28 @@ fn face(owner: Turned<'_>, other: Turned<'_>, d: Vec2, i: usize, flipped: bool) 
     } else {
         face_high
     };
+    // Beyond the end of the face an edge has no point, but for its nearer corner if that comes onto the face by the next tick:
+    // what is at the end now closes slower.
+    let spin = turns[1] - turns[0];
+    let comes = |out: f64, onto: f64, [x, z, other]: [f64; 3]| {
+        let along = t.dot(way) + (spin * (z + owner.off(i)) - turns[1] * n.dot(d));
+        let up = n.dot(way) - (spin * x - turns[1] * t.dot(d));
+        let (goes, over) = (onto * along, z + hysteresis);
+        let there = out > 0.0 && goes >= out && over * goes + out * up >= 0.0;
+        there && z < other && start <= end
+    };
+    let (start, end) = (
+        if comes(face_low - x_low, 1.0, [x_low, z_low, z_high]) {
+            x_low
+        } else {
+            start
+        },
+        if comes(x_high - face_high, -1.0, [x_high, z_high, z_low]) {
+            x_high
+        } else {
+            end
+        },
+    );
     let flat = owner.corners() > 2 && other.corners() > 2 && z_low.min(z_high) <= 0.0;
     // Beyond one end of the face: corner on corner.
     let meet = |mine: usize, theirs: usize| {

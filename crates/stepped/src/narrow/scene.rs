@@ -2,7 +2,7 @@
 
 use carom_math::Vec2;
 
-use super::{Manifold, collide, collide_any};
+use super::{Going, Manifold, collide, collide_any};
 use crate::Settings;
 use crate::bodies::Bodies;
 use crate::pieces::Pieces;
@@ -25,6 +25,8 @@ pub(crate) struct Meeting {
     /// How far B goes against A until the next tick, in m, and what they may close by besides.
     way: Vec2,
     closing: f64,
+    /// Angles that both turn by until then.
+    turns: [f64; 2],
     /// The most that they moved by against each other since their base poses, in m.
     moved: f64,
 }
@@ -44,10 +46,14 @@ impl Scene<'_> {
         let [pose_a, pose_b] = [a.body, b.body].map(|slot| self.bodies.base_of(slot));
         let limit = margin + meeting.closing + meeting.moved;
         let found = if turned_a.corners() > 0 && turned_b.corners() > 0 {
-            let d = pose_b.position - pose_a.position;
+            let going = Going {
+                d: pose_b.position - pose_a.position,
+                way: meeting.way,
+                turns: meeting.turns,
+            };
             let hysteresis = HYSTERESIS * meeting.margin;
-            let ways = [d, meeting.way, side];
-            collide(turned_a, turned_b, ways, [limit, margin], hysteresis)
+            let limits = [limit, margin, hysteresis];
+            collide(turned_a, turned_b, going, side, limits)
         } else {
             collide_any((a, pose_a), (b, pose_b), limit + meeting.way.length())
         }?;
@@ -86,6 +92,7 @@ impl Scene<'_> {
             margin: margin.max(self.seen([line_a, line_b])),
             way: (body_b.v() - body_a.v()) * tick,
             closing: (turning + pull) * tick,
+            turns: [body_a.w() * tick, body_b.w() * tick],
             moved: (body_b.d() - body_a.d()).length() + turned,
         }
     }

@@ -155,9 +155,25 @@ fn part<S: Simd, V: Wide<S>, const N: usize, const BOXES: bool>(
     let z_high = nx * at_high_x + ny * at_high_y - off;
     let start = x_low.max(face_low);
     let last = x_high.min(face_high);
+    let apart = start.simd_gt(last);
+    // Beyond the end of the face an edge has no point, but for its nearer corner if that comes onto the face by the next tick:
+    // what is at the end now closes slower.
+    let (wx_o, wy_o) = (flip.select(-wx, wx), flip.select(-wy, wy));
+    let turns = flip.select(aw, bw) * tick;
+    let spin = flip.select(aw - bw, bw - aw) * tick;
+    let (n_d, t_d) = (nx * dx_o + ny * dy_o, tx * dx_o + ty * dy_o);
+    let (along_w, up_w) = (tx * wx_o + ty * wy_o, nx * wx_o + ny * wy_o);
+    let comes = |out: V, onto: V, [x, z, other]: [V; 3]| {
+        let along = along_w + (spin * (z + off) - turns * n_d);
+        let up = up_w - (spin * x - turns * t_d);
+        let (goes, over) = (onto * along, z + hysteresis);
+        let there = out.simd_gt(zero) & goes.simd_ge(out);
+        there & (over * goes + out * up).simd_ge(zero) & z.simd_lt(other) & !apart
+    };
+    let start = comes(face_low - x_low, one, [x_low, z_low, z_high]).select(x_low, start);
+    let last = comes(x_high - face_high, -one, [x_high, z_high, z_low]).select(x_high, last);
     let two = V::splat(simd, 2.0);
     let polygons = own_count.simd_gt(two) & other_count.simd_gt(two);
-    let apart = start.simd_gt(last);
     // Of two discs neither has a face.
     let discs = a_count.max(b_count).simd_eq(one);
     let beyond = (apart & !(polygons & z_low.min(z_high).simd_le(zero))) | discs;
@@ -172,8 +188,7 @@ fn part<S: Simd, V: Wide<S>, const N: usize, const BOXES: bool>(
     let nearest = (single | gap_low.simd_lt(gap_high)).select(gap_low, gap_high);
 
     let height = off + flip.select(b_radius, a_radius) + half * nearest;
-    let beyond_height = height - (nx * dx_o + ny * dy_o);
-    let t_d = tx * dx_o + ty * dy_o;
+    let beyond_height = height - n_d;
     // Where B owns the face the normal from A to B is −n, and the lower end is farther along it turned by +90°.
     let mut n_x = flip.select(-nx, nx);
     let mut n_y = flip.select(-ny, ny);

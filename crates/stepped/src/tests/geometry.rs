@@ -3,7 +3,7 @@
 use carom_math::{Vec2, vec2};
 
 use super::Random;
-use crate::narrow::{Manifold, collide, collide_any};
+use crate::narrow::{Going, Manifold, collide, collide_any};
 use crate::pieces::Piece;
 
 /// Both ends of a manifold as places relative to the centre of A, from its arms.
@@ -32,15 +32,12 @@ fn outlines_that_touch_agree_with_hulls() {
             pieces
         });
         let [turned_a, turned_b] = posed.each_ref().map(|pieces| pieces.turned(0));
-        let d = pose_b.position - pose_a.position;
-        let ours = collide(
-            turned_a,
-            turned_b,
-            [d, Vec2::ZERO, Vec2::ZERO],
-            [0.0; 2],
-            0.0,
-        )
-        .filter(|ours| ours.gap() <= 0.0);
+        let going = Going {
+            d: pose_b.position - pose_a.position,
+            ..Going::default()
+        };
+        let ours = collide(turned_a, turned_b, going, Vec2::ZERO, [0.0; 3])
+            .filter(|ours| ours.gap() <= 0.0);
         let theirs = collide_any((&a, pose_a), (&b, pose_b), 0.0);
         // Cores apart, roundings in touch: there the hulls' normal is that of the nearest points.
         let cores = a.rounding + b.rounding == 0.0;
@@ -95,9 +92,11 @@ fn no_cut_is_touched() {
         for part in &parts {
             let a = posed(part, pose_a);
             let (turned, other) = (a.turned(0), b.turned(0));
-            let d = pose_b.position - pose_a.position;
-            let none = [0.0; 2];
-            let Some(found) = collide(turned, other, [d, Vec2::ZERO, Vec2::ZERO], none, 0.0) else {
+            let going = Going {
+                d: pose_b.position - pose_a.position,
+                ..Going::default()
+            };
+            let Some(found) = collide(turned, other, going, Vec2::ZERO, [0.0; 3]) else {
                 continue;
             };
             touching += 1;
