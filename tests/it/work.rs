@@ -177,7 +177,12 @@ fn an_impact_of_many_contacts_is_charged_by_its_operations() {
             (one.centre() - other.centre()).length(),
             one.velocity().length(),
         );
-        assert!(off <= 2.0 * late * speed, "{off:e} m at {speed:e} m/s");
+        // A place rounds as well.
+        let rounding = f64::EPSILON * one.centre().length();
+        assert!(
+            off <= 2.0 * late * speed + rounding,
+            "{off:e} m at {speed:e} m/s"
+        );
     }
 }
 

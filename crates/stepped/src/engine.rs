@@ -463,7 +463,9 @@ impl Engine {
         free.turn_back_late(*level, graph, bodies, law.h);
         impacts.note_hits(law, bodies, graph, true);
         impacts.add_rows(bodies, graph);
-        bounce(bodies, graph, arrived, before);
+        let [heat, given] = bounce(bodies, graph, arrived, before);
+        self.heat += heat;
+        self.belts += given;
         impacts.end(law, arrived, bodies, graph, pieces);
         let borne = hard.part(law, bodies, (graph, free), settings, false);
         self.least_gap = seen.least_gap.min(gap).min(borne);

@@ -140,9 +140,7 @@ impl Impacts {
         for run in &mut self.runs {
             if graph.has(run.contact, run.pieces) {
                 let (block, _, lane) = graph.lane(run.contact);
-                let [j1, j2, jt] = block.impulses(lane);
-                run.add(bodies, graph, [j1, j2]);
-                run.impulse += perp(block.normal(lane)) * jt;
+                run.add(bodies, graph, block.impulses(lane));
             }
         }
     }
@@ -161,9 +159,7 @@ impl Impacts {
         }
         for arrival in arrived {
             if let Some(run) = self.run_of(arrival.contact) {
-                let mut j = [0.0; 2];
-                j[arrival.point] = arrival.impulse;
-                run.add(bodies, graph, j);
+                run.add(bodies, graph, arrival.impulses);
             }
         }
         let least = REST * law.h * law.gravity;
@@ -228,8 +224,8 @@ impl Impacts {
 }
 
 impl Run {
-    /// Adds normal impulses of both points.
-    fn add(&mut self, bodies: &Bodies, graph: &Graph, j: [f64; 2]) {
+    /// Adds normal impulses of both points, and that of friction.
+    fn add(&mut self, bodies: &Bodies, graph: &Graph, j: [f64; 3]) {
         let (block, _, lane) = graph.lane(self.contact);
         let normal = block.normal(lane);
         let sum = j[0] + j[1];
@@ -245,7 +241,7 @@ impl Run {
         let first = centre + normal * height - perp(normal) * arm;
         self.weight += sum;
         self.normal += normal * sum;
-        self.impulse += normal * sum;
+        self.impulse += normal * sum + perp(normal) * j[2];
         self.moment += first * sum - perp(normal) * (block.l[lane] * j[1]);
     }
 }

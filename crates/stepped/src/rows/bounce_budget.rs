@@ -4,6 +4,7 @@
 //! (Kane's example: a rod that strikes the ground aslant). Then the impulses of all points that hang together by bodies are
 //! made smaller by one factor.
 
+use super::bounce::Bounce;
 use super::integrate::velocity_before;
 use super::line::{Line, Quad};
 use super::restitution::Arrival;
@@ -44,7 +45,7 @@ pub(crate) fn note(bodies: &Bodies, lines: &[[u32; 2]], h: f64, before: &mut Vec
 pub(super) fn keep(
     bodies: &mut Bodies,
     arrived: &mut [Arrival],
-    pushes: &[[Quad; 2]],
+    bounces: &[Bounce],
     before: &[Before],
 ) {
     // Points are one group that share a body which can be moved.
@@ -63,9 +64,10 @@ pub(super) fn keep(
         }
     }
     let mut pushed = Vec::with_capacity(2 * arrived.len());
-    for (k, (arrival, pushes)) in arrived.iter().zip(pushes).enumerate() {
+    for (k, (arrival, bounce)) in arrived.iter().zip(bounces).enumerate() {
         let group = groups.find(k);
-        for (line, push) in arrival.lines.into_iter().zip(*pushes) {
+        let pushes = bounce.pushes(arrival.impulses);
+        for (line, push) in arrival.lines.into_iter().zip(pushes) {
             let birth = bodies.birth_of_line(line);
             pushed.push(Pushed {
                 group,
@@ -97,7 +99,8 @@ pub(super) fn keep(
         }
     }
     for (k, arrival) in arrived.iter_mut().enumerate() {
-        arrival.impulse *= 1.0 - back[groups.find(k)];
+        let kept = 1.0 - back[groups.find(k)];
+        arrival.impulses = arrival.impulses.map(|impulse| impulse * kept);
     }
 }
 

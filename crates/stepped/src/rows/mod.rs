@@ -1,6 +1,7 @@
 //! What is solved: contacts in blocks of eight, bodies in lines.
 
 mod block;
+mod bounce;
 mod bounce_budget;
 #[cfg(test)]
 mod check;

@@ -4,18 +4,21 @@
 //! faster than what counts as rest, then opens: with the speed that it had there on its way back from the surface, which
 //! it left at e times its arrival speed. That impulse is no part of the warm start, and what stopped
 //! the body is taken out of it: it is no guess for the next sub-step.
+//!
+//! How much of a blow the rows stop is a matter of where in the sub-step it falls. So the bounce goes on from what they did,
+//! friction included ([`Bounce`]).
 
 #![allow(clippy::inline_always, reason = "the wide instructions end at a call")]
 
-use carom_math::Vec2;
 use fearless_simd::{Level, Simd, SimdBase, SimdMask, dispatch, f64x4};
 
 use super::block::{Block, LANES};
+use super::bounce::Bounce;
 use super::bounce_budget::{Before, keep, note};
 use super::colour::Colour;
 use super::graph::Graph;
 use super::law::Law;
-use super::line::{Line, Quad};
+use super::line::Line;
 use super::transpose::Wide;
 use crate::bodies::Bodies;
 
@@ -28,20 +31,20 @@ const SWEEPS: usize = 8;
 /// What may be met is looked for over so many sub-steps: those two that are asked for, and some rounding.
 const SOON: f64 = 2.001;
 
-/// A point that is met.
+/// A contact of which a point is met, or both.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Arrival {
     pub(crate) contact: u32,
     pub(super) lines: [u32; 2],
-    pub(crate) point: usize,
-    /// Speed of arrival, in m/s, and when, in s from the beginning of the sub-step on.
+    /// Speed of the faster point, in m/s, and when the first one is met, in s from the beginning of the sub-step on.
     pub(crate) speed: f64,
     pub(crate) met: f64,
-    /// Speed with which the surface is left, in m/s.
-    leaves: f64,
-    /// Acceleration that opens the point, in m/s².
+    /// Speed with which each point leaves the surface, in m/s; what is not met may leave with any.
+    pub(super) leaves: [f64; 2],
+    /// Acceleration that opens the points, in m/s².
     pull: f64,
-    pub(crate) impulse: f64,
+    /// What the bounce adds at both points along the normal, and across, in N·s.
+    pub(crate) impulses: [f64; 3],
 }
 
 /// Finds what is met within this sub-step or the next, once the warm start acts.
@@ -71,6 +74,15 @@ pub(crate) fn arrivals(
                 continue;
             }
             let [v, gaps, pull] = motion(bodies, block, lane);
+            let mut arrival = Arrival {
+                contact: cold.contact[lane],
+                lines: [block.a[lane], block.b[lane]],
+                speed: 0.0,
+                met: f64::INFINITY,
+                leaves: [f64::NEG_INFINITY; 2],
+                pull: pull[0],
+                impulses: [0.0; 3],
+            };
             for point in 0..block.points(lane) {
                 let (v, gap, a) = (v[point], gaps[point], pull[0]);
                 // Speed before this sub-step's pull, and what the pull adds to it on the way to the surface.
@@ -79,17 +91,13 @@ pub(crate) fn arrivals(
                 let speed = if before < 0.0 { square.sqrt() } else { 0.0 };
                 let met = gap > 0.0 && gap + 2.0 * v * law.h < 0.0;
                 if met && speed > least {
-                    found.push(Arrival {
-                        contact: cold.contact[lane],
-                        lines: [block.a[lane], block.b[lane]],
-                        point,
-                        speed,
-                        met: gap / speed,
-                        leaves: cold.restitution[lane] * speed,
-                        pull: a,
-                        impulse: 0.0,
-                    });
+                    arrival.speed = arrival.speed.max(speed);
+                    arrival.met = arrival.met.min(gap / speed);
+                    arrival.leaves[point] = cold.restitution[lane] * speed;
                 }
+            }
+            if arrival.speed > 0.0 {
+                found.push(arrival);
             }
         }
     }
@@ -162,93 +170,60 @@ fn motion(bodies: &Bodies, block: &Block, lane: usize) -> [[f64; 2]; 3] {
     [block.opening(lane, a, b), block.gaps(lane, a, b), [pull; 2]]
 }
 
-/// See [`Block::meet`].
-fn meet(block: &mut Block, lane: usize, bodies: &Bodies) {
+/// See [`Block::meet`]; false of what meets what cannot be moved.
+fn meet(block: &mut Block, lane: usize, bodies: &Bodies) -> bool {
     let ends = [block.a[lane], block.b[lane]].map(|line| {
         let at = line as usize;
         (&bodies.lines[at], bodies.base[at].position)
     });
-    if ends.iter().all(|(line, _)| line.inverse_mass() > 0.0) {
+    let free = ends.iter().all(|(line, _)| line.inverse_mass() > 0.0);
+    if free {
         block.meet(lane, ends);
     }
+    free
 }
 
-/// Lets what arrived leave again; v and start change alike, and the rows start cold.
+/// Lets what arrived leave again; v and start change alike, and the rows start cold. The heat of friction, and what belts gave
+/// for it, in J.
 pub(crate) fn bounce(
     bodies: &mut Bodies,
     graph: &mut Graph,
     arrived: &mut [Arrival],
     before: &[Before],
-) {
+) -> [f64; 2] {
     if arrived.is_empty() {
-        return;
+        return [0.0; 2];
     }
     for line in arrived.iter().flat_map(|arrival| arrival.lines) {
         bodies.note_change(line);
     }
-    let mut pushes = vec![[Quad::default(); 2]; arrived.len()];
-    let mut points = Vec::with_capacity(arrived.len());
+    let mut bounces = Vec::with_capacity(arrived.len());
     for arrival in &mut *arrived {
-        graph.clear_warm_start(bodies, arrival.contact);
-        let (block, _, lane) = graph.lane(arrival.contact);
-        let [a, b] = [block.a[lane], block.b[lane]].map(|line| &bodies.lines[line as usize]);
-        let height = block.gaps(lane, a, b)[arrival.point].max(0.0);
-        let square = arrival.leaves * arrival.leaves + 2.0 * arrival.pull.min(0.0) * height;
-        arrival.leaves = square.max(0.0).sqrt();
-        points.push(Point::new(block, lane, arrival.point, bodies));
-    }
-    for _ in 0..SWEEPS {
-        for ((arrival, point), pushed) in arrived.iter_mut().zip(&points).zip(&mut pushes) {
-            let v = point.opening(&bodies.lines);
-            let impulse = (arrival.impulse + (arrival.leaves - v) / point.response).max(0.0);
-            let change = impulse - arrival.impulse;
-            arrival.impulse = impulse;
-            for ((line, push), pushed) in point.lines.iter().zip(&point.push).zip(pushed) {
-                let push = Quad(push.0.map(|x| x * change));
-                bodies.start[*line].add(&push);
-                bodies.lines[*line].add(&push);
-                pushed.add(&push);
+        let (block, cold, lane) = graph.lane(arrival.contact);
+        let [a, b] = arrival.lines.map(|line| &bodies.lines[line as usize]);
+        for (leaves, gap) in arrival.leaves.iter_mut().zip(block.gaps(lane, a, b)) {
+            if *leaves >= 0.0 {
+                let square = *leaves * *leaves + 2.0 * arrival.pull.min(0.0) * gap.max(0.0);
+                *leaves = square.max(0.0).sqrt();
             }
         }
-    }
-    keep(bodies, arrived, &pushes, before);
-}
-
-/// A point that bounces, where its bodies are.
-#[derive(Clone, Copy, Debug)]
-struct Point {
-    lines: [usize; 2],
-    n: Vec2,
-    /// Levers of both bodies about the normal, to the first point, and how much longer they are to this one.
-    arms: [f64; 2],
-    longer: f64,
-    /// What an impulse of 1 N s adds to the velocities of A and of B, and what it opens the point by.
-    push: [Quad; 2],
-    response: f64,
-}
-
-impl Point {
-    fn new(block: &Block, lane: usize, point: usize, bodies: &Bodies) -> Self {
         let mut met = *block;
-        meet(&mut met, lane, bodies);
-        let lines = [met.a[lane], met.b[lane]].map(|line| line as usize);
-        let [a, b] = lines.map(|line| &bodies.lines[line]);
-        met.set_impulses(lane, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]][point]);
-        let push = met.push(lane, a, b);
-        Self {
-            lines,
-            n: met.normal(lane),
-            arms: [met.a1[lane], met.b1[lane]],
-            longer: if point == 0 { 0.0 } else { met.l[lane] },
-            push,
-            response: met.response(lane, point, &push[0], &push[1]),
+        if !meet(&mut met, lane, bodies) {
+            met.touch(lane);
+        }
+        bounces.push(Bounce::new((&met, cold, lane), arrival.lines, bodies));
+        graph.clear_warm_start(bodies, arrival.contact);
+    }
+    for _ in 0..SWEEPS {
+        for (arrival, bounce) in arrived.iter_mut().zip(&mut bounces) {
+            bounce.solve(bodies, arrival);
         }
     }
-
-    /// Normal velocity, in m/s.
-    fn opening(&self, lines: &[Line]) -> f64 {
-        let [a, b] = self.lines.map(|line| &lines[line]);
-        let first = self.n.dot(b.v() - a.v()) + self.arms[1] * b.w() - self.arms[0] * a.w();
-        first + self.longer * (b.w() - a.w())
+    keep(bodies, arrived, &bounces, before);
+    let mut work = [0.0; 2];
+    for (arrival, bounce) in arrived.iter().zip(&bounces) {
+        let [heat, given] = bounce.work(&bodies.lines, arrival.impulses[2]);
+        work = [work[0] + heat, work[1] + given];
     }
+    work
 }

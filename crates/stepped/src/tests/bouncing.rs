@@ -1,9 +1,9 @@
 //! Restitution.
 
-use carom_geometry::Circle;
-use carom_math::{Vec2, vec2};
+use carom_geometry::{Circle, HalfPlane};
+use carom_math::{Pose, Rot, Vec2, trig, vec2};
 
-use super::{floor, pyramid, unit_box, weightless};
+use super::{Random, floor, pyramid, unit_box, weightless};
 use crate::{BodyInput, Engine, Material, PieceInput, Settings};
 
 fn elastic(restitution: f64) -> Material {
@@ -57,6 +57,97 @@ fn equal_balls_exchange_their_speeds() {
     let speeds = [first, second].map(|id| engine.velocity(id).unwrap().0);
     assert!(speeds[0].length() < 1e-12, "{speeds:?}");
     assert!((speeds[1] - vec2(3.0, 0.0)).length() < 1e-12, "{speeds:?}");
+}
+
+/// Whatever part of a blow falls into the rows: Newton's restitution, and Coulomb's friction of the whole blow, which stops the
+/// slip or is µ times the blow.
+#[test]
+fn friction_of_a_bounce_is_that_of_the_whole_blow() {
+    let mut dice = Random::new(11);
+    let (mut told, mut sum) = (0, 0.0);
+    for k in 0..400 {
+        let (e, mu) = (0.2 + 0.8 * dice.next(), 0.8 * dice.next());
+        let surface = Material {
+            friction: mu,
+            restitution: e,
+        };
+        // A disc with spin, or a box that falls on its corner: as it does not turn, the lever is known.
+        let (piece, angle, spin) = if k % 2 == 0 {
+            let disc = PieceInput::new(Circle::new(0.5).unwrap());
+            (disc, 0.0, 20.0 * dice.signed())
+        } else {
+            (unit_box(), 0.45 + 0.15 * dice.signed(), 0.0)
+        };
+        let (sin, cos) = trig::sin_cos(angle);
+        let [height, lever] = if k % 2 == 0 {
+            [0.5, 0.0]
+        } else {
+            [0.5 * (sin + cos), 0.5 * (sin - cos)]
+        };
+        let (m, i) = (2.0, 0.3);
+        let came = vec2(6.0 * dice.signed(), -1.0 - 4.0 * dice.next());
+
+        let mut engine = Engine::new(weightless()).unwrap();
+        let floor = HalfPlane::new(Vec2::ZERO, Vec2::Y).unwrap();
+        let floor = PieceInput::new(floor).with_material(surface);
+        engine.insert(BodyInput::fixed(), &[floor]).unwrap();
+        let mut body = BodyInput::dynamic(m, i).at(vec2(0.0, height + dice.next()));
+        body.pose = Pose::new(body.pose.position, Rot::from_angle(angle));
+        let id = engine
+            .insert(body.moving(came, spin), &[piece.with_material(surface)])
+            .unwrap();
+        let mut speed = engine.velocity(id).unwrap();
+        for _ in 0..200 {
+            engine.tick();
+            speed = engine.velocity(id).unwrap();
+            if speed.0.y > came.y + 1e-9 {
+                break;
+            }
+        }
+
+        // Responses at the corner, whose place is (lever, −height) from the centre.
+        let (normal, across, both) = (
+            1.0 / m + lever * lever / i,
+            1.0 / m + height * height / i,
+            lever * height / i,
+        );
+        let (closing, slip) = (came.y + spin * lever, came.x + spin * height);
+        let opens = -(1.0 + e) * closing;
+        let determinant = normal * across - both * both;
+        let stick = [
+            (opens * across + slip * both) / determinant,
+            -(slip * normal + opens * both) / determinant,
+        ];
+        let slide = |part: f64| {
+            let blow = opens / (normal + part * both);
+            [blow, part * blow]
+        };
+        let ends = |[j, t]: [f64; 2]| slip + both * j + across * t;
+        let [j, t] = if stick[1].abs() <= mu * stick[0] {
+            stick
+        } else if ends(slide(-mu)) >= 0.0 {
+            slide(-mu)
+        } else {
+            slide(mu)
+        };
+        let expected = (came + vec2(t, j) / m, spin + (lever * j + height * t) / i);
+        let energy = |(v, w): (Vec2, f64)| 0.5 * (m * v.length_squared() + i * w * w);
+        // Kane: what would gain is made smaller.
+        if energy(expected) > energy((came, spin)) {
+            continue;
+        }
+        let off = (speed.0 - expected.0).length() + (speed.1 - expected.1).abs();
+        let blow = (expected.0 - came).length() + (expected.1 - spin).abs();
+        told += 1;
+        sum += off / blow;
+        assert!(
+            off <= 0.03 * blow,
+            "{k}: {speed:?}, not {expected:?}; e = {e}, µ = {mu}"
+        );
+    }
+    // Rows act before the gap closes, with levers that are longer by up to half of it.
+    let mean = sum / f64::from(told);
+    assert!(told > 300 && mean < 5e-3, "{mean} in {told} of 400");
 }
 
 /// A box that lands flat leaves flat.

@@ -209,7 +209,7 @@ fn hard_rows_add_no_energy() {
                 };
                 let light = put(1.0, vec2(0.0, 0.5));
                 put(load, vec2(x, 2.5));
-                let gain = gain(&mut engine, 180);
+                let gain = gain(&mut engine, 240);
                 assert!(gain < 1e-9, "{load} kg, e = {restitution}, {x} m: {gain}");
                 let bottom = at(&engine, light).y - 0.5;
                 assert!(bottom > -1e-4, "{load} kg, e = {restitution}: {bottom} m");
