@@ -12,7 +12,7 @@
 #![allow(clippy::inline_always, reason = "the wide instructions end at a call")]
 
 use carom_math::{Vec2, perp};
-use fearless_simd::{Level, Select, Simd};
+use fearless_simd::{Level, Select, Simd, SimdMask};
 
 use super::block::{Block, LANES, flags};
 use super::colour::Colour;
@@ -27,8 +27,12 @@ use crate::bodies::Bodies;
 pub(crate) struct FreePairs {
     /// In the order of colours.
     blocks: Vec<FreeBlock>,
-    /// Those with displacements that came after velocities had been found.
+    /// Of each line: where its body's centre is, in m, the angle that it turned by since its base pose, and 1 if it is free.
+    centres: Vec<Quad>,
+    /// Blocks with displacements that came after velocities had been found.
     late: Vec<usize>,
+    /// Scratch.
+    turns: Vec<Turn>,
 }
 
 /// Those in one block.
@@ -38,15 +42,18 @@ struct FreeBlock {
     at: (usize, usize),
     /// A bit for each lane of a free pair.
     lanes: u8,
-    /// From the base position of A to that of B, in m.
-    x: [f64; LANES],
-    y: [f64; LANES],
     /// Impulses that displaced the bodies, along the normal and across, in N·s.
     along: [f64; LANES],
     across: [f64; LANES],
-    /// What each pair is to have more of angular momentum, in N·m·s, and whether one is.
+}
+
+/// How the pairs of a block turn back.
+#[derive(Clone, Copy, Debug)]
+struct Turn {
+    /// Colour and number of the block.
+    at: (usize, usize),
+    /// What each pair is to have more of angular momentum, in N·m·s.
     moment: [f64; LANES],
-    acts: bool,
     /// The square of the greatest speed that B may have against A, in m²/s².
     limit: [f64; LANES],
 }
@@ -58,8 +65,23 @@ impl FreePairs {
         if !bodies.any_is_free() {
             return;
         }
-        let (colours, blocks) = (graph.awake(), &mut self.blocks);
-        widest!(level => meet_all(colours, bodies, blocks));
+        self.note_centres(bodies);
+        let (colours, centres, blocks) = (graph.awake(), &self.centres[..], &mut self.blocks);
+        widest!(level => meet_all(colours, centres, bodies, blocks));
+    }
+
+    fn note_centres(&mut self, bodies: &Bodies) {
+        self.centres.clear();
+        let bodies = bodies
+            .lines
+            .iter()
+            .zip(&bodies.base)
+            .zip(&bodies.free_lines);
+        self.centres.extend(bodies.map(|((line, base), is_free)| {
+            let centre = base.position + line.d();
+            let free = if *is_free { 1.0 } else { 0.0 };
+            Quad([centre.x, centre.y, line.turn(), free])
+        }));
     }
 
     /// Notes the impulses that bodies are displaced by.
@@ -96,8 +118,7 @@ impl FreePairs {
 
     /// Gives back the angular momentum that displacements added within `h` seconds, before rows are rotated.
     pub(crate) fn turn_back(&mut self, level: Level, graph: &Graph, bodies: &mut Bodies, h: f64) {
-        let (blocks, colours) = (&mut self.blocks[..], &graph.colours);
-        widest!(level => turn_all(colours, bodies, blocks, None, h));
+        self.turn_all(level, &graph.colours, bodies, None, h);
     }
 
     /// The same of displacements that came afterwards.
@@ -109,10 +130,12 @@ impl FreePairs {
         h: f64,
     ) {
         let mut late = core::mem::take(&mut self.late);
+        if late.is_empty() {
+            return;
+        }
         late.sort_unstable();
         late.dedup();
-        let (blocks, colours) = (&mut self.blocks[..], &graph.colours);
-        widest!(level => turn_all(colours, bodies, blocks, Some(&late), h));
+        self.turn_all(level, &graph.colours, bodies, Some(&late), h);
         for known in late {
             let block = self.blocks[known].of(graph);
             for line in block.a.into_iter().chain(block.b) {
@@ -120,88 +143,89 @@ impl FreePairs {
             }
         }
     }
+
+    /// All blocks, or those of these numbers. All moments are those of the velocities that the displacements came with.
+    fn turn_all(
+        &mut self,
+        level: Level,
+        colours: &[Colour],
+        bodies: &mut Bodies,
+        which: Option<&[usize]>,
+        h: f64,
+    ) {
+        if self.blocks.is_empty() {
+            return;
+        }
+        self.turns.clear();
+        let (blocks, turns) = (&mut self.blocks[..], &mut self.turns);
+        widest!(level => all_moments(colours, bodies, blocks, which, h, turns));
+        if self.turns.is_empty() {
+            return;
+        }
+        self.note_centres(bodies);
+        let (centres, turns) = (&self.centres[..], &self.turns[..]);
+        widest!(level => turn_back_all(colours, centres, bodies, turns));
+    }
 }
 
 #[inline(always)]
 fn meet_all<S: Simd, V: Wide<S>>(
     simd: S,
     colours: &mut [Colour],
+    centres: &[Quad],
     bodies: &mut Bodies,
     blocks: &mut Vec<FreeBlock>,
 ) {
     for (colour, c) in colours.iter_mut().zip(0..) {
         for (block, k) in colour.blocks.iter_mut().zip(0..) {
-            let lanes = free_lanes(block, bodies);
-            if lanes == 0 {
-                continue;
+            let lanes = meet::<S, V>(simd, block, centres, bodies);
+            if lanes != 0 {
+                blocks.push(FreeBlock {
+                    at: (c, k),
+                    lanes,
+                    along: [0.0; LANES],
+                    across: [0.0; LANES],
+                });
             }
-            let mut free = FreeBlock {
-                at: (c, k),
-                lanes,
-                ..FreeBlock::NONE
-            };
-            free.find_arms(block, bodies);
-            meet::<S, V>(simd, block, &free, bodies);
-            blocks.push(free);
         }
     }
 }
 
-/// All blocks, or those of these numbers. All moments are those of the velocities that the displacements came with.
 #[inline(always)]
-fn turn_all<S: Simd, V: Wide<S>>(
+fn all_moments<S: Simd, V: Wide<S>>(
     simd: S,
     colours: &[Colour],
-    bodies: &mut Bodies,
+    bodies: &Bodies,
     blocks: &mut [FreeBlock],
     which: Option<&[usize]>,
     h: f64,
+    turns: &mut Vec<Turn>,
 ) {
-    let count = which.map_or(blocks.len(), <[usize]>::len);
-    for n in 0..count {
-        let known = which.map_or(n, |which| which[n]);
-        let free = &mut blocks[known];
+    // No closure: what it calls would not be compiled for wide registers.
+    for n in 0..which.map_or(blocks.len(), <[usize]>::len) {
+        let free = &mut blocks[which.map_or(n, |which| which[n])];
         let block = &colours[free.at.0].blocks[free.at.1];
-        moments::<S, V>(simd, block, free, bodies, h);
-    }
-    for n in 0..count {
-        let free = &blocks[which.map_or(n, |which| which[n])];
-        if free.acts {
-            let block = &colours[free.at.0].blocks[free.at.1];
-            turn_back::<S, V>(simd, block, free, bodies);
+        if let Some(turn) = moments::<S, V>(simd, block, free, bodies, h) {
+            turns.push(turn);
         }
     }
 }
 
-/// A bit for each lane of a free pair.
-fn free_lanes(block: &Block, bodies: &Bodies) -> u8 {
-    let is = |lane: &usize| bodies.is_free(block.a[*lane]) && bodies.is_free(block.b[*lane]);
-    (0..LANES)
-        .filter(is)
-        .fold(0, |lanes, lane| lanes | 1 << lane)
+#[inline(always)]
+fn turn_back_all<S: Simd, V: Wide<S>>(
+    simd: S,
+    colours: &[Colour],
+    centres: &[Quad],
+    bodies: &mut Bodies,
+    turns: &[Turn],
+) {
+    for turn in turns {
+        let block = &colours[turn.at.0].blocks[turn.at.1];
+        turn_back::<S, V>(simd, block, turn, centres, bodies);
+    }
 }
 
 impl FreeBlock {
-    const NONE: Self = Self {
-        at: (0, 0),
-        lanes: 0,
-        x: [0.0; LANES],
-        y: [0.0; LANES],
-        along: [0.0; LANES],
-        across: [0.0; LANES],
-        moment: [0.0; LANES],
-        acts: false,
-        limit: [0.0; LANES],
-    };
-
-    /// Finds where the base positions are against each other.
-    fn find_arms(&mut self, block: &Block, bodies: &Bodies) {
-        for lane in 0..LANES {
-            let [a, b] = [block.a[lane], block.b[lane]].map(|at| bodies.base[at as usize].position);
-            (self.x[lane], self.y[lane]) = (b.x - a.x, b.y - a.y);
-        }
-    }
-
     fn note_impulses(&mut self, block: &Block) {
         for lane in 0..LANES {
             self.along[lane] = block.j1[lane] + block.j2[lane];
@@ -214,20 +238,30 @@ impl FreeBlock {
     }
 }
 
-/// [`Block::meet`] of the lanes of free pairs: v stays, and what contacts did to it changes.
+/// [`Block::meet`] of the lanes of free pairs, which have a bit in what is returned: v stays, and what contacts did to it changes.
 #[inline(always)]
-fn meet<S: Simd, V: Wide<S>>(simd: S, block: &mut Block, free: &FreeBlock, bodies: &mut Bodies) {
-    let chosen = flags(free.lanes);
+fn meet<S: Simd, V: Wide<S>>(
+    simd: S,
+    block: &mut Block,
+    centres: &[Quad],
+    bodies: &mut Bodies,
+) -> u8 {
     let (zero, half) = (V::splat(simd, 0.0), V::splat(simd, 0.5));
+    let mut lanes = 0;
     for at in (0..LANES).step_by(V::LANES) {
         let end = at + V::LANES;
-        let chosen = V::from_slice(simd, &chosen[at..end]).simd_gt(zero);
         let (a, b) = (&block.a[at..end], &block.b[at..end]);
-        let [adx, ady, aturn, ia] = V::columns(simd, &bodies.lines, a, 4);
-        let [bdx, bdy, bturn, ib] = V::columns(simd, &bodies.lines, b, 4);
+        let [ax, ay, aturn, a_free] = V::columns(simd, centres, a, 0);
+        let [bx, by, bturn, b_free] = V::columns(simd, centres, b, 0);
+        let chosen = a_free.min(b_free).simd_gt(zero);
+        #[expect(clippy::cast_possible_truncation, reason = "eight lanes")]
+        let bits = chosen.to_bitmask() as u8;
+        if bits == 0 {
+            continue;
+        }
+        lanes |= bits << at;
         // From B to A.
-        let x = (adx - bdx) - V::from_slice(simd, &free.x[at..end]);
-        let y = (ady - bdy) - V::from_slice(simd, &free.y[at..end]);
+        let (x, y) = (ax - bx, ay - by);
         let nx = V::from_slice(simd, &block.nx[at..end]);
         let ny = V::from_slice(simd, &block.ny[at..end]);
         let a1 = V::from_slice(simd, &block.a1[at..end]);
@@ -248,6 +282,8 @@ fn meet<S: Simd, V: Wide<S>>(simd: S, block: &mut Block, free: &FreeBlock, bodie
         s1.store_slice(&mut block.s1[at..end]);
         s2.store_slice(&mut block.s2[at..end]);
         if any(moment.abs().simd_gt(zero)) {
+            let [_, _, _, ia] = V::columns(simd, &bodies.lines, &block.a[at..end], 4);
+            let [_, _, _, ib] = V::columns(simd, &bodies.lines, &block.b[at..end], 4);
             // One body after the other: an empty lane names one line twice.
             for (ends, inertia) in [
                 (&block.a[at..end], moment * ia),
@@ -258,9 +294,10 @@ fn meet<S: Simd, V: Wide<S>>(simd: S, block: &mut Block, free: &FreeBlock, bodie
             }
         }
     }
+    lanes
 }
 
-/// What both bodies of each free pair are to have more of angular momentum. Displacements that come later count from here.
+/// How the free pairs of a block turn back, if one does. Displacements that come later count from here.
 #[inline(always)]
 fn moments<S: Simd, V: Wide<S>>(
     simd: S,
@@ -268,10 +305,15 @@ fn moments<S: Simd, V: Wide<S>>(
     free: &mut FreeBlock,
     bodies: &Bodies,
     h: f64,
-) {
+) -> Option<Turn> {
     let chosen = flags(free.lanes);
     let zero = V::splat(simd, 0.0);
-    free.acts = false;
+    let mut acts = false;
+    let mut turn = Turn {
+        at: free.at,
+        moment: [0.0; LANES],
+        limit: [0.0; LANES],
+    };
     for at in (0..LANES).step_by(V::LANES) {
         let end = at + V::LANES;
         let chosen = V::from_slice(simd, &chosen[at..end]).simd_gt(zero);
@@ -282,10 +324,9 @@ fn moments<S: Simd, V: Wide<S>>(
         let across = V::from_slice(simd, &free.across[at..end]) - rubs;
         let chosen = chosen & (along.abs() + across.abs()).simd_gt(zero);
         if !any(chosen) {
-            zero.store_slice(&mut free.moment[at..end]);
             continue;
         }
-        free.acts = true;
+        acts = true;
         let [avx, avy, _, ma] = V::columns(simd, &bodies.lines, &block.a[at..end], 0);
         let [bvx, bvy, _, mb] = V::columns(simd, &bodies.lines, &block.b[at..end], 0);
         let nx = V::from_slice(simd, &block.nx[at..end]);
@@ -296,21 +337,28 @@ fn moments<S: Simd, V: Wide<S>>(
         let moment = chosen.select(-added, zero);
         let (ux, uy) = (vx + px * m, vy + py * m);
         let limit = (vx * vx + vy * vy).max(ux * ux + uy * uy);
-        limit.store_slice(&mut free.limit[at..end]);
-        moment.store_slice(&mut free.moment[at..end]);
+        limit.store_slice(&mut turn.limit[at..end]);
+        moment.store_slice(&mut turn.moment[at..end]);
         lasting.store_slice(&mut free.along[at..end]);
         rubs.store_slice(&mut free.across[at..end]);
     }
+    acts.then_some(turn)
 }
 
 /// Turns the velocity of B against A so that both have the moments more. It is as long as before, or as what displaced them if that was
 /// faster and no turn is enough, and on which side of the line between both it points stays. What no turn gives their spins get.
 #[inline(always)]
-fn turn_back<S: Simd, V: Wide<S>>(simd: S, block: &Block, free: &FreeBlock, bodies: &mut Bodies) {
+fn turn_back<S: Simd, V: Wide<S>>(
+    simd: S,
+    block: &Block,
+    turn: &Turn,
+    centres: &[Quad],
+    bodies: &mut Bodies,
+) {
     let (zero, one) = (V::splat(simd, 0.0), V::splat(simd, 1.0));
     for at in (0..LANES).step_by(V::LANES) {
         let end = at + V::LANES;
-        let moment = V::from_slice(simd, &free.moment[at..end]);
+        let moment = V::from_slice(simd, &turn.moment[at..end]);
         let chosen = moment.abs().simd_gt(zero);
         if !any(chosen) {
             continue;
@@ -318,20 +366,19 @@ fn turn_back<S: Simd, V: Wide<S>>(simd: S, block: &Block, free: &FreeBlock, bodi
         let (a, b) = (&block.a[at..end], &block.b[at..end]);
         let [avx, avy, aw, ma] = V::columns(simd, &bodies.lines, a, 0);
         let [bvx, bvy, bw, mb] = V::columns(simd, &bodies.lines, b, 0);
-        let [adx, ady, _, ia] = V::columns(simd, &bodies.lines, a, 4);
-        let [bdx, bdy, _, ib] = V::columns(simd, &bodies.lines, b, 4);
+        let [ax, ay, ..] = V::columns(simd, centres, a, 0);
+        let [bx, by, ..] = V::columns(simd, centres, b, 0);
         let (vx, vy) = (bvx - avx, bvy - avy);
         let m = ma + mb;
         // By which arm × v is to change.
         let more = moment * m;
-        let x = V::from_slice(simd, &free.x[at..end]) + (bdx - adx);
-        let y = V::from_slice(simd, &free.y[at..end]) + (bdy - ady);
+        let (x, y) = (bx - ax, by - ay);
         let square = x * x + y * y;
         let (turns, parts) = (x * vy - y * vx, x * vx + y * vy);
         // (arm · v)² + (arm × v)² stays.
         let left = parts * parts - more * (turns + turns + more);
         // What displaced them may have been faster: that energy is there.
-        let limit = V::from_slice(simd, &free.limit[at..end]);
+        let limit = V::from_slice(simd, &turn.limit[at..end]);
         let most = (square * limit).max(parts * parts + turns * turns).sqrt();
         let wanted = turns + more;
         let most = wanted.simd_lt(zero).select(-most, most);
@@ -345,11 +392,17 @@ fn turn_back<S: Simd, V: Wide<S>>(simd: S, block: &Block, free: &FreeBlock, bodi
             (x * parting - y * change) * scale,
             (y * parting + x * change) * scale,
         );
-        let rest = (more - acts.select(change, zero)) / m;
-        let [own_a, own_b] = [ia, ib].map(|i| i.simd_gt(zero).select(one / i, zero));
-        let spins = chosen & (own_a + own_b).simd_gt(zero);
-        let spin = spins.select(rest / (own_a + own_b), zero);
-        let [spin_a, spin_b] = [ia, ib].map(|i| i.simd_gt(zero).select(spin, zero));
+        let rest = chosen.select((more - acts.select(change, zero)) / m, zero);
+        let (mut spin_a, mut spin_b) = (zero, zero);
+        if any(rest.abs().simd_gt(zero)) {
+            let [_, _, _, ia] = V::columns(simd, &bodies.lines, a, 4);
+            let [_, _, _, ib] = V::columns(simd, &bodies.lines, b, 4);
+            let [own_a, own_b] = [ia, ib].map(|i| i.simd_gt(zero).select(one / i, zero));
+            let own = own_a + own_b;
+            let spin = own.simd_gt(zero).select(rest / own, zero);
+            spin_a = ia.simd_gt(zero).select(spin, zero);
+            spin_b = ib.simd_gt(zero).select(spin, zero);
+        }
         let lines = &mut bodies.lines;
         V::write(lines, a, [avx - cx * ma, avy - cy * ma, aw + spin_a, ma]);
         V::write(lines, b, [bvx + cx * mb, bvy + cy * mb, bw + spin_b, mb]);
