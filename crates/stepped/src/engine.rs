@@ -462,7 +462,7 @@ impl Engine {
         let gap = hard.part(law, bodies, (graph, free), settings, true);
         free.turn_back_late(*level, graph, bodies, law.h);
         impacts.note_hits(law, bodies, graph, true);
-        impacts.add_rows(bodies, graph);
+        impacts.add_rows(arrived, bodies, graph);
         let [heat, given] = bounce(bodies, graph, arrived, before);
         self.heat += heat;
         self.belts += given;

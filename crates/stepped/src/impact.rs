@@ -135,17 +135,17 @@ impl Impacts {
         run.filter(|run| run.contact == id)
     }
 
-    /// Adds what the rows of all runs did in this sub-step.
-    pub(crate) fn add_rows(&mut self, bodies: &Bodies, graph: &Graph) {
-        for run in &mut self.runs {
-            if graph.has(run.contact, run.pieces) {
-                let (block, _, lane) = graph.lane(run.contact);
+    /// Adds what the rows did in this sub-step of what will bounce, which clears them.
+    pub(crate) fn add_rows(&mut self, arrived: &[Arrival], bodies: &Bodies, graph: &Graph) {
+        for arrival in arrived {
+            if let Some(run) = self.run_of(arrival.contact) {
+                let (block, _, lane) = graph.lane(arrival.contact);
                 run.add(bodies, graph, block.impulses(lane));
             }
         }
     }
 
-    /// Adds what bounces did, and ends the runs of what closes no more.
+    /// Adds what bounces did, and what the rows of all others did, and ends the runs of what closes no more.
     pub(crate) fn end(
         &mut self,
         law: &Law,
@@ -170,6 +170,7 @@ impl Impacts {
             let there = graph.has(run.contact, run.pieces);
             let closes = there && {
                 let (block, _, lane) = graph.lane(run.contact);
+                run.add(bodies, graph, block.impulses(lane));
                 let [a, b] =
                     [block.a[lane], block.b[lane]].map(|line| &bodies.lines[line as usize]);
                 let (v, gaps) = (block.opening(lane, a, b), block.gaps(lane, a, b));
