@@ -259,15 +259,25 @@ impl Rows {
             // r · n = a_t, r × n = a: so r = n a_t − t a.
             let arm = n * block.at[lane] - perp(n) * block.a1[lane];
             let normal = n * sign;
-            // Points lie midway between the surfaces: half a gap against the normal is the piece's own.
+            // Points lie midway between the surfaces where these are nearest: half that gap against the normal is the piece's own.
             let first = pieces.outlines[pair[0] as usize].centre() + arm;
-            let first = first - normal * (0.5 * block.s1[lane]);
             let two = block.points(lane) == 2;
+            let gaps = [block.s1[lane], block.s2[lane]];
+            let first = first - normal * (0.5 * gaps[0].min(gaps[1]));
             let last = first - perp(n) * if two { block.l[lane] } else { 0.0 };
+            let mut points = [first, last];
+            // Where a side of the piece slants away from a face of the body it meets that with its near end alone.
+            let flush = FLUSH * pieces.outlines[pair[side] as usize].extent();
+            let piece = pieces.turned(pair[side]);
+            let is_face = |i: usize| piece.normal(i).dot(normal) > 1.0 - LEANS * LEANS;
+            if two && (gaps[0] - gaps[1]).abs() > flush && !(0..piece.corners()).any(is_face) {
+                points = [points[usize::from(gaps[1] < gaps[0])]; 2];
+            }
+            let [first, last] = points;
             (self.nx[k], self.ny[k]) = (normal.x, normal.y);
             (self.x1[k], self.y1[k]) = (first.x, first.y);
             (self.x2[k], self.y2[k]) = (last.x, last.y);
-            self.flush[k] = FLUSH * pieces.outlines[pair[side] as usize].extent();
+            self.flush[k] = flush;
             (self.pieces[k], self.contacts[k]) = (pair[side], *id);
         }
         // What is beyond the last of the lanes is flush with nothing.

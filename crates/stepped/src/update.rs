@@ -79,7 +79,7 @@ pub(crate) fn update(
                 }
             }
         }
-        for lane in lanes(near & found.short) {
+        for lane in lanes(near & (found.short | found.slants)) {
             let lines = [block.a[lane], block.b[lane]];
             suspects.add_short(&scene, lines, cold.pieces[lane], cold.contact[lane]);
         }

@@ -74,8 +74,9 @@ pub(crate) struct Found {
     pub(crate) bt: [f64; LANES],
     /// A bit for each pair that is near.
     pub(crate) near: u8,
-    /// A bit for each of these that is so short that it may be a ghost.
+    /// A bit for each of these that is so short that it may be a ghost, and for each with a side that slants away from a face.
     pub(crate) short: u8,
+    pub(crate) slants: u8,
     /// A bit for each of these between pieces that may be flush.
     pub(crate) seam: u8,
     /// A bit for each of these that lies on a face of A, and of B: corner on corner has none, nor has what was found otherwise.
@@ -96,6 +97,7 @@ impl Found {
         bt: [0.0; LANES],
         near: 0,
         short: 0,
+        slants: 0,
         seam: 0,
         of_a: 0,
         of_b: 0,
@@ -128,6 +130,7 @@ impl Found {
         let bit = |bits: u8| (bits >> from & 1) << to;
         self.near |= bit(other.near);
         self.short |= bit(other.short);
+        self.slants |= bit(other.slants);
         self.seam |= bit(other.seam);
         self.of_a |= bit(other.of_a);
         self.of_b |= bit(other.of_b);

@@ -28,7 +28,7 @@ pub(crate) fn collide_eight(
     eight: &Eight<'_>,
     found: &mut Found,
 ) {
-    (found.near, found.short, found.seam) = (0, 0, 0);
+    (found.near, found.short, found.slants, found.seam) = (0, 0, 0, 0);
     (found.of_a, found.of_b) = (0, 0);
     widest!(level => parts(scene, factor, eight, found));
     found.near &= eight.used;
@@ -76,9 +76,9 @@ fn part<S: Simd, V: Wide<S>, const N: usize, const BOXES: bool>(
     let (line_a, line_b) = (&eight.lines[0][at..end], &eight.lines[1][at..end]);
 
     // What the pair does within the tick.
-    let [avx, avy, aw, _] = V::columns(simd, lines, line_a, 0);
+    let [avx, avy, aw, am] = V::columns(simd, lines, line_a, 0);
     let [adx, ady, aturn, _] = V::columns(simd, lines, line_a, 4);
-    let [bvx, bvy, bw, _] = V::columns(simd, lines, line_b, 0);
+    let [bvx, bvy, bw, bm] = V::columns(simd, lines, line_b, 0);
     let [bdx, bdy, bturn, _] = V::columns(simd, lines, line_b, 4);
     let [agx, agy, _, _] = V::columns(simd, pulls, line_a, 0);
     let [bgx, bgy, _, _] = V::columns(simd, pulls, line_b, 0);
@@ -264,8 +264,12 @@ fn part<S: Simd, V: Wide<S>, const N: usize, const BOXES: bool>(
     let (s1, s2) = (s1.max(crossed), s2.max(crossed));
     let gap = s2.min(s1);
     let goes = (wx * wx + wy * wy).sqrt();
-    // A ghost that is far, and does not come near, does nothing.
-    let short = short & gap.simd_lt(V::splat(simd, NEAR) * margin + closes);
+    // A ghost that is far, and does not come near, does nothing. How long it is says nothing where a side that lies flush in a
+    // floor slants away from a face of what moves.
+    let acts = gap.simd_lt(V::splat(simd, NEAR) * margin + closes);
+    let stands = flip.select(am, bm).simd_eq(zero);
+    let slants = stands & (s1 - s2).abs().simd_gt(aligned) & acts & !short;
+    let short = short & acts;
     let kept = gap.simd_lt(near + closes) & !passes & (!discs | gap.simd_le(limit + goes));
 
     n_x.store_slice(&mut found.nx[at..end]);
@@ -278,15 +282,17 @@ fn part<S: Simd, V: Wide<S>, const N: usize, const BOXES: bool>(
     at_.store_slice(&mut found.at[at..end]);
     bt.store_slice(&mut found.bt[at..end]);
     #[expect(clippy::cast_possible_truncation, reason = "eight lanes")]
-    let (near, short, seam, of_a, of_b) = (
+    let (near, short, slants, seam, of_a, of_b) = (
         kept.to_bitmask() as u8,
         (kept & short).to_bitmask() as u8,
+        (kept & slants).to_bitmask() as u8,
         (kept & seam).to_bitmask() as u8,
         (kept & on_face & !flip).to_bitmask() as u8,
         (kept & on_face & flip).to_bitmask() as u8,
     );
     found.near |= near << at;
     found.short |= short << at;
+    found.slants |= slants << at;
     found.seam |= seam << at;
     found.of_a |= of_a << at;
     found.of_b |= of_b << at;
