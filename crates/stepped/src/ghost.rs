@@ -259,11 +259,13 @@ impl Rows {
             // r · n = a_t, r × n = a: so r = n a_t − t a.
             let arm = n * block.at[lane] - perp(n) * block.a1[lane];
             let normal = n * sign;
-            // Points lie midway between the surfaces where these are nearest: half that gap against the normal is the piece's own.
+            // Points lie on the surface of A where both are nearest, or midway in what overlaps: from there to the piece's own.
             let first = pieces.outlines[pair[0] as usize].centre() + arm;
             let two = block.points(lane) == 2;
             let gaps = [block.s1[lane], block.s2[lane]];
-            let first = first - normal * (0.5 * gaps[0].min(gaps[1]));
+            let near = gaps[0].min(gaps[1]);
+            let apart = if side == 1 { near.max(0.0) } else { 0.0 };
+            let first = first - normal * (apart + 0.5 * near.min(0.0));
             let last = first - perp(n) * if two { block.l[lane] } else { 0.0 };
             let mut points = [first, last];
             // Where a side of the piece slants away from a face of the body it meets that with its near end alone.

@@ -230,13 +230,14 @@ impl Run {
         let (block, _, lane) = graph.lane(self.contact);
         let normal = block.normal(lane);
         let sum = j[0] + j[1];
-        // Arms go to points midway between the surfaces at the base poses: from the centre of a body that has a line of its own.
+        // Midway between the surfaces: from the centre of a body that has a line of its own.
         let [a, b] = [block.a[lane], block.b[lane]].map(|line| line as usize);
-        let [opened, _] = block.opened(lane, &bodies.lines[a], &bodies.lines[b]);
+        let [gap, second] = block.gaps(lane, &bodies.lines[a], &bodies.lines[b]);
+        let half = 0.5 * gap.min(second).max(0.0);
         let (line, height, arm) = if block.a[lane] == Bodies::GROUND {
-            (b, block.bt[lane] - 0.5 * opened, block.b1[lane])
+            (b, block.bt[lane] - half, block.b1[lane])
         } else {
-            (a, block.at[lane] + 0.5 * opened, block.a1[lane])
+            (a, block.at[lane] + half, block.a1[lane])
         };
         let centre = bodies.base[line].position + bodies.lines[line].d();
         let first = centre + normal * height - perp(normal) * arm;

@@ -32,15 +32,15 @@ pub(crate) fn collide_any(a: (&Piece, Pose), b: (&Piece, Pose), limit: f64) -> O
             let along = |k: usize| perp(n).dot(arm(k));
             let (first, second) = if along(0) >= along(1) { (0, 1) } else { (1, 0) };
             let nearest = if gap(1) < gap(0) { 1 } else { 0 };
-            let height = arm(nearest).dot(n);
+            let (height, half) = (arm(nearest).dot(n), 0.5 * gap(nearest).max(0.0));
             Some(Manifold {
                 normal: n,
                 arm_a: cross(arm(first), n),
                 arm_b: cross(arm(first) - d, n),
                 length: along(first) - along(second),
                 points: 2,
-                tangent_a: height,
-                tangent_b: height - d.dot(n),
+                tangent_a: height - half,
+                tangent_b: height + half - d.dot(n),
                 gaps: [gap(first), gap(second)],
             })
         }

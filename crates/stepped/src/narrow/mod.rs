@@ -30,7 +30,8 @@ pub(crate) struct Manifold {
     pub(crate) length: f64,
     /// 1 or 2.
     pub(crate) points: u8,
-    /// `r_A · n` and `r_B · n`, midway between the surfaces.
+    /// `r_A · n` and `r_B · n` where friction acts, at the nearer point: on either surface, as midway between what touches later
+    /// would be far off where a small body is fast; midway between surfaces that overlap.
     pub(crate) tangent_a: f64,
     pub(crate) tangent_b: f64,
     /// Gaps at the poses given, in m; below zero the pieces overlap.
@@ -54,8 +55,8 @@ impl Manifold {
             arm_b: cross(arms[1], normal),
             length: 0.0,
             points: 1,
-            tangent_a: arms[0].dot(normal),
-            tangent_b: arms[1].dot(normal),
+            tangent_a: arms[0].dot(normal) - 0.5 * gap.max(0.0),
+            tangent_b: arms[1].dot(normal) + 0.5 * gap.max(0.0),
             gaps: [gap; 2],
         }
     }

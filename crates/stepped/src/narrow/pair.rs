@@ -202,10 +202,10 @@ fn face(
             return found;
         }
     }
-    let height = owner.off(i) + owner.radius() + 0.5 * nearest;
+    let height = owner.off(i) + owner.radius() + 0.5 * nearest.min(0.0);
     let mine = |x: f64| -x;
     let theirs = |x: f64| t.dot(d) - x;
-    let beyond = height - n.dot(d);
+    let beyond = height + nearest.max(0.0) - n.dot(d);
     let points = if single { 1 } else { 2 };
     if flipped {
         // The owner is B: the normal from A to B is −n, and the lower end is farther along it turned by +90°.

@@ -187,8 +187,8 @@ fn part<S: Simd, V: Wide<S>, const N: usize, const BOXES: bool>(
     let single = length.simd_le(V::splat(simd, 1e-9) * (face_high - face_low));
     let nearest = (single | gap_low.simd_lt(gap_high)).select(gap_low, gap_high);
 
-    let height = off + flip.select(b_radius, a_radius) + half * nearest;
-    let beyond_height = height - n_d;
+    let height = off + flip.select(b_radius, a_radius) + half * nearest.min(zero);
+    let beyond_height = height + nearest.max(zero) - n_d;
     // Where B owns the face the normal from A to B is −n, and the lower end is farther along it turned by +90°.
     let mut n_x = flip.select(-nx, nx);
     let mut n_y = flip.select(-ny, ny);
@@ -240,8 +240,13 @@ fn part<S: Simd, V: Wide<S>, const N: usize, const BOXES: bool>(
         a1 = instead.select(arm_x * m_y - arm_y * m_x, a1);
         b1 = instead.select(other_arm_x * m_y - other_arm_y * m_x, b1);
         l = instead.select(one, l);
-        at_ = instead.select(arm_x * m_x + arm_y * m_y, at_);
-        bt = instead.select(other_arm_x * m_x + other_arm_y * m_y, bt);
+        let (own, other) = (
+            arm_x * m_x + arm_y * m_y,
+            other_arm_x * m_x + other_arm_y * m_y,
+        );
+        let apart = half * gap.max(zero);
+        at_ = instead.select(own - apart, at_);
+        bt = instead.select(other + apart, bt);
         s1 = instead.select(gap, s1);
         s2 = instead.select(V::splat(simd, OPEN), s2);
         twice = instead.select(zero, twice);

@@ -167,17 +167,6 @@ impl Block {
         (self.s1[lane], self.s2[lane]) = (self.s1[lane] - turned, self.s2[lane] - turned);
     }
 
-    /// Has friction act on the surfaces, as where they touch, and not midway between them. Against what cannot be moved.
-    pub(super) fn touch(&mut self, lane: usize) {
-        let gap = if self.points(lane) == 2 {
-            self.s1[lane].min(self.s2[lane])
-        } else {
-            self.s1[lane]
-        };
-        self.at[lane] -= 0.5 * gap;
-        self.bt[lane] += 0.5 * gap;
-    }
-
     pub(crate) const fn points(&self, lane: usize) -> usize {
         if self.s2[lane] < OPEN { 2 } else { 1 }
     }

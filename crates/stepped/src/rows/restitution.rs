@@ -170,17 +170,15 @@ fn motion(bodies: &Bodies, block: &Block, lane: usize) -> [[f64; 2]; 3] {
     [block.opening(lane, a, b), block.gaps(lane, a, b), [pull; 2]]
 }
 
-/// See [`Block::meet`]; false of what meets what cannot be moved.
-fn meet(block: &mut Block, lane: usize, bodies: &Bodies) -> bool {
+/// See [`Block::meet`].
+fn meet(block: &mut Block, lane: usize, bodies: &Bodies) {
     let ends = [block.a[lane], block.b[lane]].map(|line| {
         let at = line as usize;
         (&bodies.lines[at], bodies.base[at].position)
     });
-    let free = ends.iter().all(|(line, _)| line.inverse_mass() > 0.0);
-    if free {
+    if ends.iter().all(|(line, _)| line.inverse_mass() > 0.0) {
         block.meet(lane, ends);
     }
-    free
 }
 
 /// Lets what arrived leave again; v and start change alike, and the rows start cold. The heat of friction, and what belts gave
@@ -208,9 +206,7 @@ pub(crate) fn bounce(
             }
         }
         let mut met = *block;
-        if !meet(&mut met, lane, bodies) {
-            met.touch(lane);
-        }
+        meet(&mut met, lane, bodies);
         bounces.push(Bounce::new((&met, cold, lane), arrival.lines, bodies));
         graph.clear_warm_start(bodies, arrival.contact);
     }

@@ -142,7 +142,7 @@ impl Seen {
 
     /// The row at displacements and rotations since the base poses.
     fn turned(&self, side: Side, [a, b]: [(Vec2, f64); 2]) -> Turned {
-        // Arms end midway in the smaller gap.
+        // Arms end on the surfaces, in the smaller gap, or midway in an overlap.
         let [gap, second] = self.gaps;
         let nearest = gap.min(second);
         let (of_face, of_corner, outwards) = if side.of_b {
@@ -155,18 +155,24 @@ impl Seen {
         } else {
             (self.a, self.b)
         };
-        let face = own.x + outwards * 0.5 * nearest;
-        let corner = vec2(other.x + outwards * (0.5 * nearest - gap), other.y);
+        let overlap = 0.5 * nearest.min(0.0);
+        let face = own.x + outwards * overlap;
+        let corner = vec2(other.x + outwards * (nearest - overlap - gap), other.y);
         // In the frame of the face, from the face's body to the corner's.
         let went = vec2(self.n.dot(b.0 - a.0), perp(self.n).dot(b.0 - a.0));
         let turned = Rot::from_angle(of_face);
-        let apart = turned.inverse() * ((self.a - self.b + went) * -outwards);
+        let between = self.a - self.b + vec2(nearest.max(0.0), 0.0);
+        let apart = turned.inverse() * ((between + went) * -outwards);
         let core = vec2(outwards * -side.radius, 0.0);
         let corner = Rot::from_angle(of_corner - of_face) * (corner + core) - core;
         let gap_now = outwards * (face - apart.x - corner.x);
         let nearest = nearest + gap_now - gap;
-        let own = vec2(face - outwards * 0.5 * nearest, (apart + corner).y);
-        let other = vec2(corner.x + outwards * (gap_now - 0.5 * nearest), corner.y);
+        let overlap = 0.5 * nearest.min(0.0);
+        let own = vec2(face - outwards * overlap, (apart + corner).y);
+        let other = vec2(
+            corner.x + outwards * (gap_now - nearest + overlap),
+            corner.y,
+        );
         let (a, b) = if side.of_b {
             (other, own)
         } else {
@@ -227,12 +233,10 @@ mod tests {
             let nearest = gap.min(gap + second);
             let along = perp(self.normal);
             let tip = self.corner.dot(self.normal) - self.radius;
-            // Midway between the face and a point as near as the nearest one.
-            let own = vec2(
-                self.face + 0.5 * nearest,
-                (self.between + self.corner).dot(along),
-            );
-            let other = vec2(tip - gap + 0.5 * nearest, self.corner.dot(along));
+            // On the face, and on a point as near as the nearest one; midway in what overlaps.
+            let overlap = 0.5 * nearest.min(0.0);
+            let own = vec2(self.face + overlap, (self.between + self.corner).dot(along));
+            let other = vec2(tip - gap + nearest - overlap, self.corner.dot(along));
             let mut block = Block::EMPTY;
             let n = if of_b { -self.normal } else { self.normal };
             // Against −n and −t both components change their sign.

@@ -6,12 +6,13 @@ use super::Random;
 use crate::narrow::{Going, Manifold, collide, collide_any};
 use crate::pieces::Piece;
 
-/// Both ends of a manifold as places relative to the centre of A, from its arms.
+/// Both ends of a manifold, midway between the surfaces, as places relative to the centre of A, from its arms.
 fn places(found: &Manifold) -> [Vec2; 2] {
     let n = found.normal;
     // r · n is the tangential arm, and r × n = −r · t.
     let t = vec2(-n.y, n.x);
-    let at = |arm: f64| n * found.tangent_a - t * arm;
+    let height = found.tangent_a + 0.5 * found.gap().max(0.0);
+    let at = |arm: f64| n * height - t * arm;
     [at(found.arm_a), at(found.arm_a + found.length)]
 }
 
