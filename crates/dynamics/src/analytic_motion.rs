@@ -10,6 +10,7 @@ use carom_math::SimTime;
 
 use crate::World;
 use crate::events::free::Cause;
+use crate::model::narrow::look;
 
 impl World {
     /// Islands that came to move since the last time begin their motion; what goes otherwise than they say joins the engine. Whether
@@ -34,8 +35,7 @@ impl World {
 
     /// The next piece of the path of a member of a group that turns.
     pub(crate) fn begin_next_piece(&mut self, index: u32, time: SimTime) {
-        self.closed
-            .begin_next_piece(&mut self.bodies, index, time, self.clock.h);
+        self.closed.begin_next_piece(&mut self.bodies, index, time);
     }
 
     /// An island moves by events until its next mode change.
@@ -45,7 +45,7 @@ impl World {
         };
         let until = group.until.unwrap_or(SimTime::NEVER);
         for touch in &group.touches {
-            touch.carry(&self.bodies, self.pairs.get_mut(touch.pair), self.clock.h);
+            touch.carry(&self.bodies, self.pairs.get_mut(touch.pair));
         }
         let members = group.indices();
         let touches: Vec<u32> = group.touches.iter().map(|touch| touch.pair).collect();
@@ -108,7 +108,7 @@ impl World {
         // Which sides its contacts hide is asked of where they are now.
         for touch in &group.touches {
             let pair = self.pairs.get_mut(touch.pair);
-            self.narrow.look(&self.bodies, pair, time, self.clock.h);
+            look(&self.bodies, pair, time);
         }
         for &index in &members {
             self.bodies.get_mut(index).land();

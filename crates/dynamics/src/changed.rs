@@ -7,6 +7,7 @@ use crate::broad::tree::{Overlapping, part};
 use crate::events::free::Cause;
 use crate::events::wake::wake;
 use crate::model::graph::neighbours;
+use crate::model::narrow::look;
 use crate::store::bodies::Bodies;
 use crate::store::pairs::Pair;
 use crate::{Mode, World};
@@ -74,7 +75,7 @@ impl World {
             }
             let pair = self.pairs.get_mut(place);
             pair.fresh = false;
-            self.narrow.look(&self.bodies, pair, time, self.clock.h);
+            look(&self.bodies, pair, time);
         }
     }
 

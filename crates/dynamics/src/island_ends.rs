@@ -65,7 +65,7 @@ impl World {
                 continue;
             };
             for touch in &group.touches {
-                touch.carry(&self.bodies, self.pairs.get_mut(touch.pair), self.clock.h);
+                touch.carry(&self.bodies, self.pairs.get_mut(touch.pair));
             }
             for &(index, _) in &group.members {
                 self.bodies.get_mut(index).begin_analytic_rest();

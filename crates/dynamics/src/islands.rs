@@ -12,9 +12,8 @@ use crate::analytic::islands::mode_budget::changes_motion;
 use crate::analytic::islands::store::{Group, Kept};
 use crate::analytic::islands::{give_motions, kept};
 use crate::analytic::modes::{BodyMove, GroupMove, NotMine, land, solve_modes};
-use crate::analytic::touching::{Gathered, Looks, Refused};
+use crate::analytic::touching::{Gathered, Looks, Refused, gather};
 use crate::events::resolve::PairImpact;
-use crate::model::narrow::Around;
 use crate::{BodyKind, ContactMode, Mode, World};
 
 impl World {
@@ -54,7 +53,7 @@ impl World {
 
     /// Contacts of groups that are new at `time` last, and carry what the group says.
     fn keep_closed(&mut self, time: SimTime) {
-        let (h, bodies) = (self.clock.h, &self.bodies);
+        let bodies = &self.bodies;
         let goes =
             |group: &Group| group.rests_analytically(bodies) || group.moves_analytically(bodies);
         let new = self
@@ -63,7 +62,7 @@ impl World {
             .filter(|group| group.since == time && !goes(group));
         for group in new {
             for touch in &group.touches {
-                touch.carry(&self.bodies, self.pairs.get_mut(touch.pair), h);
+                touch.carry(&self.bodies, self.pairs.get_mut(touch.pair));
             }
         }
     }
@@ -198,26 +197,10 @@ impl World {
         members.iter().filter(stalls).count() > 0
     }
 
-    /// The contacts around a body, as they are at `time`.
-    fn gather_touching(
-        &mut self,
-        index: u32,
-        time: SimTime,
-        looks: Looks,
-    ) -> Result<Gathered, Refused> {
-        let mut around = Around {
-            bodies: &mut self.bodies,
-            pairs: &mut self.pairs,
-            narrow: &mut self.narrow,
-            h: self.clock.h,
-        };
-        around.gather(index, time, looks)
-    }
-
     /// Solves for the modes of the island around a body.
     fn solve_modes_around(&mut self, index: u32, time: SimTime, speed: f64, looks: Looks) {
         self.report.modes_solved += 1;
-        let mut found = self.gather_touching(index, time, looks);
+        let mut found = gather(&self.bodies, &mut self.pairs, index, time, looks);
         while let Err(Refused(seen)) = &found {
             let leaves = |index: &u32| {
                 let state = self.bodies.get(*index);
@@ -229,7 +212,7 @@ impl World {
             if !self.hand_back_of(index, time) {
                 self.wake(index, time);
             }
-            found = self.gather_touching(index, time, looks);
+            found = gather(&self.bodies, &mut self.pairs, index, time, looks);
         }
         let mut gathered = match found {
             Ok(gathered) => gathered,

@@ -3,7 +3,6 @@
 use carom_math::SimTime;
 
 use crate::events::resolve::{PairImpact, Struck, strike};
-use crate::model::narrow::Around;
 use crate::{Mode, Refusal, StepReport, World};
 
 /// More ticks than this in one step are refused.
@@ -144,12 +143,8 @@ impl World {
         let (a, b) = self.pairs.get(impact.pair).bodies;
         let struck = strike(
             &self.settings,
-            &mut Around {
-                bodies: &mut self.bodies,
-                pairs: &mut self.pairs,
-                narrow: &mut self.narrow,
-                h: self.clock.h,
-            },
+            &mut self.bodies,
+            &mut self.pairs,
             impact,
             &mut self.events,
             &mut self.report,

@@ -8,6 +8,7 @@ use carom_math::{SimTime, Vec2};
 use crate::World;
 use crate::broad::window::box_ahead;
 use crate::events::resolve::PairImpact;
+use crate::model::ghost::look_at;
 use crate::model::narrow::{NOISE, TOUCH, opening_speed, pace, rest_speed};
 use crate::store::pairs::PairPoint;
 
@@ -37,13 +38,13 @@ impl World {
 
     /// Contacts of all that waits for its method; begins and ends of touch, and overlaps. Places of the pairs.
     fn look_at_held(&mut self, time: SimTime) -> Vec<u32> {
-        let (bodies, h) = (&self.bodies, self.clock.h);
+        let bodies = &self.bodies;
         let all = self.unsettled.iter();
         let all = all.flat_map(|index| &bodies.get(*index).pairs);
         let places = self.pairs.by_colliders(all.copied());
         for &place in &places {
             let pairs = &mut self.pairs;
-            let pair = self.narrow.look_at(bodies, pairs, place, time, h);
+            let pair = look_at(bodies, pairs, place, time);
             pair.fresh = false;
             let reach = |index: u32| bodies.get(index).reach;
             let (a, b) = pair.bodies;
@@ -76,7 +77,7 @@ impl World {
             return None;
         }
         let touch = TOUCH * a.reach.min(b.reach);
-        let rest = rest_speed(&self.bodies, pair, self.clock.h).max(NOISE * pace(a, b, time));
+        let rest = rest_speed(&self.bodies, pair).max(NOISE * pace(a, b, time));
         pair.contacts.iter().find_map(|contact| {
             let closes = |point: &&PairPoint| {
                 point.separation <= touch

@@ -6,7 +6,6 @@ use carom_math::SimTime;
 use crate::analytic::islands::store::Closed;
 use crate::broad::tree::Broad;
 use crate::events::free::FreeBodies;
-use crate::model::narrow::Narrow;
 use crate::stepping::threads::Threads;
 use crate::stepping::{Joins, Stepping};
 use crate::store::bodies::Bodies;
@@ -46,7 +45,6 @@ pub struct World {
     pub(crate) bodies: Bodies,
     pub(crate) pairs: Pairs,
     pub(crate) broad: Broad,
-    pub(crate) narrow: Narrow,
     pub(crate) closed: Closed,
     pub(crate) free: FreeBodies,
     /// Bodies that get their method before time goes on, in order.

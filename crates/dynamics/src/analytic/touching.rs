@@ -6,9 +6,11 @@ use carom_math::{SimTime, Vec2};
 use crate::analytic::modes::{ModeBody, Touch, hold, stand};
 use crate::model::approach::{Approach, RigidState, approach, opening};
 use crate::model::edges::{Feature, at_the_end, corner_under_disc, feature};
-use crate::model::graph::ROWS;
-use crate::model::narrow::{Around, TOUCH, rest_speed};
+use crate::model::ghost::look_at;
+use crate::model::graph::{ROWS, neighbours};
+use crate::model::narrow::{TOUCH, rest_speed};
 use crate::store::bodies::Bodies;
+use crate::store::pairs::Pairs;
 use crate::store::state::BodyState;
 
 /// Overlap beyond which a pair is pushed apart first, as a part of the smaller reach: closed forms keep what
@@ -172,158 +174,150 @@ fn mode_body(bodies: &Bodies, state: &BodyState, time: SimTime) -> ModeBody {
     }
 }
 
-impl Around<'_> {
-    /// All that hangs together by touch around a dynamic body.
-    ///
-    /// # Errors
-    /// If these are too many for closed forms, or a body is asleep, penetrates another by more than
-    /// rounding, or a mode solve of it failed at this instant.
-    pub(crate) fn gather(
-        &mut self,
-        index: u32,
-        time: SimTime,
-        looks: Looks,
-    ) -> Result<Gathered, Refused> {
-        let mut found = Gathered::default();
-        found.place_of(self.bodies, index, time);
-        let (mut next, mut rows) = (0, 0);
-        let mut looked = Vec::new();
-        while next < found.places.len() {
-            let index = found.places[next];
-            next += 1;
-            let state = self.bodies.get(index);
-            if !state.is_dynamic() {
-                if state.motion.acceleration != Vec2::ZERO {
-                    return Err(found.refused());
-                }
+/// All that hangs together by touch around a dynamic body.
+///
+/// # Errors
+/// If these are too many for closed forms, or a body is asleep, penetrates another by more than
+/// rounding, or a mode solve of it failed at this instant.
+pub(crate) fn gather(
+    bodies: &Bodies,
+    pairs: &mut Pairs,
+    index: u32,
+    time: SimTime,
+    looks: Looks,
+) -> Result<Gathered, Refused> {
+    let mut found = Gathered::default();
+    found.place_of(bodies, index, time);
+    let (mut next, mut rows) = (0, 0);
+    let mut looked = Vec::new();
+    while next < found.places.len() {
+        let index = found.places[next];
+        next += 1;
+        let state = bodies.get(index);
+        if !state.is_dynamic() {
+            if state.motion.acceleration != Vec2::ZERO {
+                return Err(found.refused());
+            }
+            continue;
+        }
+        if state.is_asleep() || state.is_damped() || state.in_engine() {
+            return Err(found.refused());
+        }
+        let near = state.pairs.clone();
+        if touches_failed(bodies, pairs, index, time) {
+            return Err(found.refused());
+        }
+        for place in near {
+            if looked.contains(&place) {
                 continue;
             }
-            if state.is_asleep() || state.is_damped() || state.in_engine() {
+            looked.push(place);
+            let Some(more) = touches_of(bodies, pairs, &mut found, place, time, looks) else {
+                return Err(found.refused());
+            };
+            rows += more;
+            if rows > ROWS {
                 return Err(found.refused());
             }
-            let pairs = state.pairs.clone();
-            if self.touches_failed(&pairs, index, time) {
-                return Err(found.refused());
-            }
-            for place in pairs {
-                if looked.contains(&place) {
-                    continue;
-                }
-                looked.push(place);
-                let Some(more) = self.touches_of(&mut found, place, time, looks) else {
-                    return Err(found.refused());
-                };
-                rows += more;
-                if rows > ROWS {
-                    return Err(found.refused());
+        }
+    }
+    Ok(found)
+}
+
+/// Whether a mode solve of a body in contact with this one failed at this instant.
+fn touches_failed(bodies: &Bodies, pairs: &Pairs, index: u32, time: SimTime) -> bool {
+    let mut others = neighbours(bodies, pairs, index);
+    others.any(|other| bodies.get(other).membership.has_failed(time))
+}
+
+/// Adds the touches of a pair; returns how many rows they have.
+fn touches_of(
+    bodies: &Bodies,
+    pairs: &mut Pairs,
+    found: &mut Gathered,
+    place: u32,
+    time: SimTime,
+    looks: Looks,
+) -> Option<usize> {
+    let mut touching = pairs.get(place).touching;
+    if looks == Looks::Old {
+        let pair = look_at(bodies, pairs, place, time);
+        // Begins and ends of touch are told once all has its method.
+        core::mem::swap(&mut touching, &mut pair.touching);
+    }
+    let pair = pairs.get(place);
+    let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
+    let size = a.reach.min(b.reach);
+    let gap = TOUCH * size;
+    let mut points = pair.contacts.iter().flat_map(|contact| &contact.points);
+    if points.any(|point| point.separation < -SUNK * size) {
+        return None;
+    }
+    let rest = rest_speed(bodies, pair);
+    let ends = (RigidState::of(a, time), RigidState::of(b, time));
+    if !touching {
+        return Some(0);
+    }
+    found.rest = found.rest.max(rest);
+    let mut rows = 0;
+    for (number, contact) in pair.contacts.iter().enumerate() {
+        let hull_a = bodies.hull(pair.colliders.0, contact.parts.0);
+        let hull_b = bodies.hull(pair.colliders.1, contact.parts.1);
+        let poses = (a.centre_pose(time), b.centre_pose(time));
+        let corner = corner_under_disc((&hull_a, &hull_b), poses, ends, contact.normal);
+        let normal = corner.map_or(contact.normal, |(normal, _)| normal);
+        let mut points: ArrayVec<Vec2, 2> = ArrayVec::new();
+        for point in contact
+            .points
+            .iter()
+            .filter(|point| point.separation <= gap)
+        {
+            let at = corner.map_or(point.position, |(_, at)| at);
+            match approach(ends, at, normal, rest) {
+                Approach::Leaves(_) => {}
+                Approach::Stays => points.push(at),
+                Approach::Closes(speed) => {
+                    points.push(at);
+                    found.closing = found.closing.max(speed);
                 }
             }
         }
-        Ok(found)
-    }
-
-    /// Whether a mode solve of a body in contact with this one failed at this instant.
-    fn touches_failed(&self, pairs: &[u32], index: u32, time: SimTime) -> bool {
-        let near = pairs.iter().map(|place| self.pairs.get(*place));
-        let mut others = near
-            .filter(|pair| pair.touching)
-            .map(|pair| pair.other(index));
-        others.any(|other| self.bodies.get(other).membership.has_failed(time))
-    }
-
-    /// Adds the touches of a pair; returns how many rows they have.
-    fn touches_of(
-        &mut self,
-        found: &mut Gathered,
-        place: u32,
-        time: SimTime,
-        looks: Looks,
-    ) -> Option<usize> {
-        let h = self.h;
-        let mut touching = self.pairs.get(place).touching;
-        if looks == Looks::Old {
-            let pair = self.narrow.look_at(self.bodies, self.pairs, place, time, h);
-            // Begins and ends of touch are told once all has its method.
-            core::mem::swap(&mut touching, &mut pair.touching);
-        }
-        let pair = self.pairs.get(place);
-        let (a, b) = (
-            self.bodies.get(pair.bodies.0),
-            self.bodies.get(pair.bodies.1),
+        let Some(&origin) = points.first() else {
+            continue;
+        };
+        let mut features = (
+            feature(&hull_a, poses.0, normal, normal, origin),
+            feature(&hull_b, poses.1, -normal, normal, origin),
         );
-        let size = a.reach.min(b.reach);
-        let gap = TOUCH * size;
-        let mut points = pair.contacts.iter().flat_map(|contact| &contact.points);
-        if points.any(|point| point.separation < -SUNK * size) {
+        let edge = |feature| matches!(feature, Feature::Edge { .. });
+        if points.len() == 2 && !(edge(features.0) && edge(features.1)) {
+            // Not flush: it may rest, but not slide.
+            features = (Feature::Corner, Feature::Corner);
+        }
+        let Some(features) = at_the_end(features, ends, normal) else {
+            continue;
+        };
+        // A surface that runs is no body that moves.
+        if pair.material.tangent_speed != 0.0 {
             return None;
         }
-        let rest = rest_speed(self.bodies, pair, h);
-        let ends = (RigidState::of(a, time), RigidState::of(b, time));
-        if !touching {
-            return Some(0);
-        }
-        found.rest = found.rest.max(rest);
-        let mut rows = 0;
-        for (number, contact) in pair.contacts.iter().enumerate() {
-            let hull_a = self.bodies.hull(pair.colliders.0, contact.parts.0);
-            let hull_b = self.bodies.hull(pair.colliders.1, contact.parts.1);
-            let poses = (a.centre_pose(time), b.centre_pose(time));
-            let corner = corner_under_disc((&hull_a, &hull_b), poses, ends, contact.normal);
-            let normal = corner.map_or(contact.normal, |(normal, _)| normal);
-            let mut points: ArrayVec<Vec2, 2> = ArrayVec::new();
-            for point in contact
-                .points
-                .iter()
-                .filter(|point| point.separation <= gap)
-            {
-                let at = corner.map_or(point.position, |(_, at)| at);
-                match approach(ends, at, normal, rest) {
-                    Approach::Leaves(_) => {}
-                    Approach::Stays => points.push(at),
-                    Approach::Closes(speed) => {
-                        points.push(at);
-                        found.closing = found.closing.max(speed);
-                    }
-                }
-            }
-            let Some(&origin) = points.first() else {
-                continue;
-            };
-            let mut features = (
-                feature(&hull_a, poses.0, normal, normal, origin),
-                feature(&hull_b, poses.1, -normal, normal, origin),
-            );
-            let edge = |feature| matches!(feature, Feature::Edge { .. });
-            if points.len() == 2 && !(edge(features.0) && edge(features.1)) {
-                // Not flush: it may rest, but not slide.
-                features = (Feature::Corner, Feature::Corner);
-            }
-            let Some(features) = at_the_end(features, ends, normal) else {
-                continue;
-            };
-            // A surface that runs is no body that moves.
-            if pair.material.tangent_speed != 0.0 {
-                return None;
-            }
-            rows += points.len() + usize::from(pair.material.friction > 0.0);
-            let ends = (
-                found.place_of(self.bodies, pair.bodies.0, time),
-                found.place_of(self.bodies, pair.bodies.1, time),
-            );
-            let points_of = points.clone();
-            found.touches.push(Touch {
-                bodies: ends,
-                normal,
-                points,
-                features,
-                friction: pair.material.friction,
-            });
-            found.pairs.push((place, number));
-            let press_at =
-                |point: &Vec2| pair.turning_rest_at(self.bodies, contact, *point, (time, h));
-            let presses = points_of.iter().map(press_at);
-            found.presses.push(presses.fold(f64::INFINITY, f64::min));
-        }
-        Some(rows)
+        rows += points.len() + usize::from(pair.material.friction > 0.0);
+        let ends = (
+            found.place_of(bodies, pair.bodies.0, time),
+            found.place_of(bodies, pair.bodies.1, time),
+        );
+        let points_of = points.clone();
+        found.touches.push(Touch {
+            bodies: ends,
+            normal,
+            points,
+            features,
+            friction: pair.material.friction,
+        });
+        found.pairs.push((place, number));
+        let press_at = |point: &Vec2| pair.turning_rest_at(bodies, contact, *point, time);
+        let presses = points_of.iter().map(press_at);
+        found.presses.push(presses.fold(f64::INFINITY, f64::min));
     }
+    Some(rows)
 }

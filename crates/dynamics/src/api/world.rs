@@ -8,7 +8,6 @@ use carom_math::{Pose, SimTime, StateHash, Sum, Vec2, cross};
 use crate::analytic::islands::store::Closed;
 use crate::broad::tree::Broad;
 use crate::events::free::FreeBodies;
-use crate::model::narrow::Narrow;
 use crate::stepping::threads::Threads;
 use crate::stepping::{Joins, Stepping};
 use crate::store::bodies::Bodies;
@@ -39,12 +38,12 @@ impl World {
             bodies: Bodies::new(
                 settings.gravity,
                 settings.field_error,
+                h,
                 settings.history,
                 settings.mode == Mode::Stepped,
             ),
             pairs: Pairs::default(),
             broad: Broad::new(settings.pair_search),
-            narrow: Narrow::default(),
             closed: Closed::default(),
             free: FreeBodies::under(settings.gravity),
             unsettled: Vec::new(),
@@ -218,8 +217,7 @@ impl World {
 
     fn contacts_at(&self, place: u32) -> Vec<Contact> {
         let pair = self.pairs.get(place);
-        let at = (self.clock.now, self.clock.h);
-        let now = self.closed.moving_pair_at(&self.bodies, pair, place, at);
+        let now = (self.closed).moving_pair_at(&self.bodies, pair, place, self.clock.now);
         let pair = now.as_ref().unwrap_or(pair);
         Contact::of(&self.bodies, pair).collect()
     }

@@ -5,9 +5,9 @@ use carom_math::{SimTime, Vec2};
 
 use crate::events::shock::Shock;
 use crate::impact::resolve;
-use crate::model::narrow::{Around, NOISE, opening_speed, pace, rest_speed};
+use crate::model::narrow::{NOISE, opening_speed, pace, rest_speed};
 use crate::store::bodies::Bodies;
-use crate::store::pairs::Pair;
+use crate::store::pairs::{Pair, Pairs};
 use crate::values::event::EventKind;
 use crate::{Events, PairMaterial, Settings, StepReport};
 
@@ -54,20 +54,20 @@ pub(crate) enum Struck {
 /// A single contact follows the impact law; one that runs into others is resolved with them.
 pub(crate) fn strike(
     settings: &Settings,
-    around: &mut Around<'_>,
+    bodies: &mut Bodies,
+    pairs: &mut Pairs,
     due: &PairImpact,
     events: &mut Events,
     report: &mut StepReport,
 ) -> Struck {
-    let bodies = &*around.bodies;
-    let pair = around.pairs.get_mut(due.pair);
+    let pair = pairs.get_mut(due.pair);
     let (ends, material) = (pair.bodies, pair.material);
     let (a, b) = (bodies.get(ends.0), bodies.get(ends.1));
     // A touch that begins here is an event.
     pair.touching = true;
     events.tell_touch(bodies, pair, due.time);
-    pair.begin_budget(due.time, around.h);
-    let rest = rest_speed(bodies, pair, around.h);
+    pair.begin_budget(due.time, bodies.h);
+    let rest = rest_speed(bodies, pair);
     let rounding = NOISE * pace(a, b, due.time);
     let mut shock = Shock::new(due.time);
     for &point in &due.points {
@@ -108,16 +108,16 @@ pub(crate) fn strike(
             (outcome.normal_impulse, outcome.tangential_impulse),
         );
     }
-    if !single || shock.spread(around) {
-        shock.solve(settings, around);
+    if !single || shock.spread(bodies, pairs) {
+        shock.solve(settings, bodies, pairs);
     }
-    shock.hold(around.pairs);
+    shock.hold(pairs);
     for strike in shock.squeezed() {
         report.collapsed += 1;
-        around.pairs.get_mut(strike.pair).lasting = true;
+        pairs.get_mut(strike.pair).lasting = true;
     }
     Struck::Impact {
-        changed: apply(around.bodies, due.time, &shock, events, report),
+        changed: apply(bodies, due.time, &shock, events, report),
         operations: shock.operations,
     }
 }

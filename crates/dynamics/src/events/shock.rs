@@ -16,7 +16,8 @@ use carom_math::{SimTime, Vec2, perp};
 use crate::impact::{
     Growth, ImpactBody, ImpactContact, SharedContact, Sweeper, is_driven, several,
 };
-use crate::model::narrow::{Around, TOUCH, rest_speed};
+use crate::model::ghost::look_at;
+use crate::model::narrow::{TOUCH, rest_speed};
 use crate::store::bodies::Bodies;
 use crate::store::pairs::Pairs;
 use crate::{PairMaterial, Settings};
@@ -195,7 +196,7 @@ impl Shock {
     }
 
     /// Adds every touching contact of the shaken bodies that the shock closes; whether there is one.
-    pub(crate) fn spread(&mut self, around: &mut Around<'_>) -> bool {
+    pub(crate) fn spread(&mut self, bodies: &Bodies, pairs: &mut Pairs) -> bool {
         let known = self.strikes.len();
         let mut k = 0;
         while k < self.bodies.len() && self.strikes.len() < STRIKES {
@@ -204,16 +205,15 @@ impl Shock {
             if shaken.after.inverse_mass == 0.0 || shaken.after == shaken.before {
                 continue;
             }
-            for slot in 0..around.bodies.get(shaken.index).pairs.len() {
-                self.spread_to(around, around.bodies.get(shaken.index).pairs[slot]);
+            for &place in &bodies.get(shaken.index).pairs {
+                self.spread_to(bodies, pairs, place);
             }
         }
         self.strikes.len() > known
     }
 
-    fn spread_to(&mut self, around: &mut Around<'_>, place: u32) {
-        let bodies = &*around.bodies;
-        let mut pair = around.pairs.get(place);
+    fn spread_to(&mut self, bodies: &Bodies, pairs: &mut Pairs, place: u32) {
+        let mut pair = pairs.get(place);
         // What bounces on its own will be struck in its turn; what lasts is part of this, and what collapses with it.
         let lasts = pair.lasting
             || pair.touching && pair.material.restitution == 0.0
@@ -225,9 +225,8 @@ impl Shock {
         let rest = if let Some((_, rest)) = looked {
             *rest
         } else {
-            let narrow = &mut around.narrow;
-            pair = narrow.look_at(bodies, around.pairs, place, self.time, around.h);
-            let rest = rest_speed(bodies, pair, around.h);
+            pair = look_at(bodies, pairs, place, self.time);
+            let rest = rest_speed(bodies, pair);
             self.operations += LOOK;
             self.looked.push((place, rest));
             rest
@@ -264,14 +263,14 @@ impl Shock {
     }
 
     /// Solves for all contacts at once; they grow in number as the shock spreads.
-    pub(crate) fn solve(&mut self, settings: &Settings, around: &mut Around<'_>) {
+    pub(crate) fn solve(&mut self, settings: &Settings, bodies: &Bodies, pairs: &mut Pairs) {
         while self.is_few() {
             self.solve_exactly(settings);
-            if !self.spread(around) {
+            if !self.spread(bodies, pairs) {
                 return;
             }
         }
-        self.solve_swept(around);
+        self.solve_swept(bodies, pairs);
     }
 
     fn is_few(&self) -> bool {
@@ -306,14 +305,14 @@ impl Shock {
     ///
     /// Where bodies are squeezed between others that do not yield the impulses of the sweeps grow without end. They are
     /// begun anew there, with contacts that yield and give nothing back.
-    fn solve_swept(&mut self, around: &mut Around<'_>) {
+    fn solve_swept(&mut self, bodies: &Bodies, pairs: &mut Pairs) {
         let struck = self
             .strikes
             .iter()
             .map(|strike| strike.speed)
             .fold(0.0, f64::max);
         let settled = (CONVERGED * struck).max(SETTLED * self.rest);
-        let mut sweep = |shock: &mut Self, by| shock.sweep(by, settled, around);
+        let mut sweep = |shock: &mut Self, by| shock.sweep(by, settled, bodies, pairs);
         let driven = is_driven(self.bodies.iter().map(|shaken| &shaken.before));
         if sweep(self, Sweeper::default()).is_steady() && driven {
             self.squeezed = true;
@@ -326,7 +325,13 @@ impl Shock {
     }
 
     /// Sweeps until `settled` m/s are left, or for a bounded time; how the pushes grew.
-    fn sweep(&mut self, mut sweeper: Sweeper, settled: f64, around: &mut Around<'_>) -> Growth {
+    fn sweep(
+        &mut self,
+        mut sweeper: Sweeper,
+        settled: f64,
+        bodies: &Bodies,
+        pairs: &mut Pairs,
+    ) -> Growth {
         let mut growth = Growth::default();
         for sweep in 1..=SWEEPS {
             self.hand_over(&mut sweeper);
@@ -338,7 +343,7 @@ impl Shock {
                 continue;
             }
             self.take_over(&sweeper);
-            let grew = self.spread(around);
+            let grew = self.spread(bodies, pairs);
             if converged && !grew {
                 break;
             }

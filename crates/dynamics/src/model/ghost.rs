@@ -12,7 +12,7 @@
 use carom_collision::{Hull, contacts};
 use carom_math::{Pose, SimTime, Vec2, cross};
 
-use super::narrow::{Narrow, TOUCH, note_touch};
+use super::narrow::{TOUCH, look, note_touch};
 use crate::store::bodies::Bodies;
 use crate::store::pairs::{Pair, Pairs};
 use crate::store::state::BodyState;
@@ -115,35 +115,31 @@ impl Meeting {
     }
 }
 
-impl Narrow {
-    /// [`Self::look`], and what it found but for ghosts.
-    pub(crate) fn look_at<'a>(
-        &mut self,
-        bodies: &Bodies,
-        pairs: &'a mut Pairs,
-        place: u32,
-        time: SimTime,
-        h: f64,
-    ) -> &'a mut Pair {
-        self.look(bodies, pairs.get_mut(place), time, h);
-        let pair = pairs.get(place);
-        let is_ghost = |k: usize| {
-            let contact = &pair.contacts[k];
-            let (ends, shapes) = (pair.bodies, pair.colliders);
-            Meeting::of(bodies, ends, shapes, contact.parts, contact.normal)
-                .is_some_and(|meeting| meeting.is_ghost(bodies, pairs, time))
-        };
-        let ghosts: Vec<usize> = (0..pair.contacts.len()).filter(|k| is_ghost(*k)).collect();
-        let pair = pairs.get_mut(place);
-        if ghosts.is_empty() {
-            return pair;
-        }
-        for k in ghosts.into_iter().rev() {
-            pair.contacts.remove(k);
-        }
-        note_touch(bodies, pair, time, h);
-        pair
+/// [`look`], and what it found but for ghosts.
+pub(crate) fn look_at<'a>(
+    bodies: &Bodies,
+    pairs: &'a mut Pairs,
+    place: u32,
+    time: SimTime,
+) -> &'a mut Pair {
+    look(bodies, pairs.get_mut(place), time);
+    let pair = pairs.get(place);
+    let is_ghost = |k: usize| {
+        let contact = &pair.contacts[k];
+        let (ends, shapes) = (pair.bodies, pair.colliders);
+        Meeting::of(bodies, ends, shapes, contact.parts, contact.normal)
+            .is_some_and(|meeting| meeting.is_ghost(bodies, pairs, time))
+    };
+    let ghosts: Vec<usize> = (0..pair.contacts.len()).filter(|k| is_ghost(*k)).collect();
+    let pair = pairs.get_mut(place);
+    if ghosts.is_empty() {
+        return pair;
     }
+    for k in ghosts.into_iter().rev() {
+        pair.contacts.remove(k);
+    }
+    note_touch(bodies, pair, time);
+    pair
 }
 
 /// Whether a body does not move, nor will before the caller moves it.

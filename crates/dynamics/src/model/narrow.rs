@@ -6,7 +6,7 @@ use carom_math::{Pose, SimTime, Vec2};
 
 use super::approach::RigidState;
 use crate::store::bodies::Bodies;
-use crate::store::pairs::{Pair, PairContact, PairPoint, Pairs};
+use crate::store::pairs::{Pair, PairContact, PairPoint};
 use crate::store::state::BodyState;
 
 /// Contacts are looked for this far beyond a sub-step's travel, as a fraction of the smaller reach.
@@ -20,56 +20,37 @@ pub(crate) const TOUCH: f64 = 1e-9;
 /// Impacts leave none, and the lowest contact of a stack of ten such boxes 0.8 mm.
 pub(crate) const BURIED: f64 = 1.0 / 16.0;
 
-/// Scratch of the narrow phase, kept between pairs.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Narrow {
-    found: Vec<PartManifold>,
-}
-
-/// Bodies, and the contacts around them, which are looked at anew where they are asked for.
-pub(crate) struct Around<'a> {
-    pub(crate) bodies: &'a mut Bodies,
-    pub(crate) pairs: &'a mut Pairs,
-    pub(crate) narrow: &'a mut Narrow,
-    /// Of a sub-step, in s.
-    pub(crate) h: f64,
-}
-
-impl Narrow {
-    /// Looks at a pair at `time` and replaces its contacts; impulses go over by feature.
-    pub(crate) fn look(&mut self, bodies: &Bodies, pair: &mut Pair, time: SimTime, h: f64) {
-        let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
-        let (from, to) = (RigidState::of(a, time), RigidState::of(b, time));
-        let closing =
-            (to.velocity - from.velocity).length() + rim_speed(a, time) + rim_speed(b, time);
-        let margin = MARGIN * a.reach.min(b.reach) + h * closing;
-        let near = a.reach + b.reach + margin;
-        if (to.centre - from.centre).length_squared() > near * near {
-            pair.contacts = Vec::new();
-            pair.touching = false;
-            pair.buried = false;
-            return;
-        }
-        // Rotations cost more than all that is asked before.
-        let (pose_a, pose_b) = (a.centre_pose(time), b.centre_pose(time));
-        self.found.clear();
-        contacts(
-            &bodies.colliders[pair.colliders.0 as usize].solid,
-            &bodies.colliders[pair.colliders.1 as usize].solid,
-            pose_b.seen_from(pose_a),
-            margin,
-            &mut self.found,
-        );
-        // Impulses go over by feature.
-        let found = self.found.iter();
-        let carried = found.map(|new| carried(new, pose_a, &pair.contacts));
-        pair.contacts = carried.collect();
-        note_touch(bodies, pair, time, h);
+/// Looks at a pair at `time` and replaces its contacts; impulses go over by feature.
+pub(crate) fn look(bodies: &Bodies, pair: &mut Pair, time: SimTime) {
+    let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
+    let (from, to) = (RigidState::of(a, time), RigidState::of(b, time));
+    let closing = (to.velocity - from.velocity).length() + rim_speed(a, time) + rim_speed(b, time);
+    let margin = MARGIN * a.reach.min(b.reach) + bodies.h * closing;
+    let near = a.reach + b.reach + margin;
+    if (to.centre - from.centre).length_squared() > near * near {
+        pair.contacts = Vec::new();
+        pair.touching = false;
+        pair.buried = false;
+        return;
     }
+    // Rotations cost more than all that is asked before.
+    let (pose_a, pose_b) = (a.centre_pose(time), b.centre_pose(time));
+    let mut found = Vec::new();
+    contacts(
+        &bodies.colliders[pair.colliders.0 as usize].solid,
+        &bodies.colliders[pair.colliders.1 as usize].solid,
+        pose_b.seen_from(pose_a),
+        margin,
+        &mut found,
+    );
+    // Impulses go over by feature.
+    let carried = found.iter().map(|new| carried(new, pose_a, &pair.contacts));
+    pair.contacts = carried.collect();
+    note_touch(bodies, pair, time);
 }
 
 /// What the contacts of a pair say of it: whether it touches, and how deep it overlaps.
-pub(crate) fn note_touch(bodies: &Bodies, pair: &mut Pair, time: SimTime, h: f64) {
+pub(crate) fn note_touch(bodies: &Bodies, pair: &mut Pair, time: SimTime) {
     let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
     let size = a.reach.min(b.reach);
     let points = pair.contacts.iter().flat_map(|contact| &contact.points);
@@ -80,12 +61,12 @@ pub(crate) fn note_touch(bodies: &Bodies, pair: &mut Pair, time: SimTime, h: f64
         .iter()
         .any(|contact| contact.points.iter().any(|p| p.separation <= TOUCH * size));
     if pair.touching {
-        pair.turning_rest = turning_rest(bodies, pair, time, h);
+        pair.turning_rest = turning_rest(bodies, pair, time);
     }
 }
 
 /// The largest [`Pair::turning_rest_at`] of all touches of a pair, in m/s.
-fn turning_rest(bodies: &Bodies, pair: &Pair, time: SimTime, h: f64) -> f64 {
+fn turning_rest(bodies: &Bodies, pair: &Pair, time: SimTime) -> f64 {
     let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
     if pair.material.restitution >= 1.0 || a.motion.spin == 0.0 && b.motion.spin == 0.0 {
         return 0.0;
@@ -94,7 +75,7 @@ fn turning_rest(bodies: &Bodies, pair: &Pair, time: SimTime, h: f64) -> f64 {
     let mut fastest = 0.0;
     for contact in &pair.contacts {
         for point in contact.points.iter().filter(|p| p.separation <= touch) {
-            let speed = pair.turning_rest_at(bodies, contact, point.position, (time, h));
+            let speed = pair.turning_rest_at(bodies, contact, point.position, time);
             fastest = if speed > fastest { speed } else { fastest };
         }
     }
@@ -161,12 +142,12 @@ pub(crate) fn opening_speed(
 /// Two sub-steps' worth of what presses the pair together: a bounce that is over within a few
 /// sub-steps cannot be told from rest by a scheme that looks once a sub-step. Two free bodies under one
 /// gravity press with nothing, so they always bounce but where turning presses them.
-pub(crate) fn rest_speed(bodies: &Bodies, pair: &Pair, h: f64) -> f64 {
-    rest_speed_between(bodies, pair.bodies, h) + pair.turning_rest
+pub(crate) fn rest_speed(bodies: &Bodies, pair: &Pair) -> f64 {
+    rest_speed_between(bodies, pair.bodies) + pair.turning_rest
 }
 
 /// [`rest_speed`] of two bodies that turn about nothing.
-pub(crate) fn rest_speed_between(bodies: &Bodies, (a, b): (u32, u32), h: f64) -> f64 {
+pub(crate) fn rest_speed_between(bodies: &Bodies, (a, b): (u32, u32)) -> f64 {
     let (a, b) = (bodies.get(a), bodies.get(b));
     let pull = |body: &BodyState| {
         if body.is_dynamic() {
@@ -182,5 +163,5 @@ pub(crate) fn rest_speed_between(bodies: &Bodies, (a, b): (u32, u32), h: f64) ->
     } else {
         (pull_b - pull_a).length()
     };
-    2.0 * h * press
+    2.0 * bodies.h * press
 }

@@ -16,13 +16,13 @@ const STEADY: f64 = 1.0 / 256.0;
 
 impl Pair {
     /// Speed of an approach that turning brings back at a point of a contact, were it given back, before its bodies have turned or
-    /// slid by more than [`STEADY`], and in less than four sub-steps of `h` seconds, in m/s; 0 where turning does not press.
+    /// slid by more than [`STEADY`], and in less than four sub-steps, in m/s; 0 where turning does not press.
     pub(crate) fn turning_rest_at(
         &self,
         bodies: &Bodies,
         contact: &PairContact,
         point: Vec2,
-        (time, h): (SimTime, f64),
+        time: SimTime,
     ) -> f64 {
         let (a, b) = (bodies.get(self.bodies.0), bodies.get(self.bodies.1));
         let fastest = a.spin_at(time).abs().max(b.spin_at(time).abs());
@@ -47,9 +47,9 @@ impl Pair {
         let slip = opening_speed(a, b, time, point, perp(contact.normal));
         let size = a.reach.min(b.reach);
         let wait = STEADY / (fastest + slip.abs() / size);
-        let speed = press * wait.min(2.0 * h);
+        let speed = press * wait.min(2.0 * bodies.h);
         // Until the solver holds the pair, it goes on closing.
-        speed.min(STEADY * size / h)
+        speed.min(STEADY * size / bodies.h)
     }
 }
 

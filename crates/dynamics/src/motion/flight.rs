@@ -49,19 +49,19 @@ pub(crate) fn fly(bodies: &mut Bodies, index: u32, time: SimTime) {
 /// Gives a free body in a field or with damping the next piece of its flight: the parabola that touches its law at `time`, for as
 /// long as that stays near. When it ends.
 ///
-/// `h` is what counts as short, in s: where a field has an edge, or a centre is near.
-pub(crate) fn begin_piece(bodies: &mut Bodies, index: u32, time: SimTime, h: f64) -> SimTime {
+/// A sub-step is what counts as short: where a field has an edge, or a centre is near.
+pub(crate) fn begin_piece(bodies: &mut Bodies, index: u32, time: SimTime) -> SimTime {
+    let h = bodies.h;
     let known = bodies.get(index).flight.clone();
-    let shortest = SHORTEST * h;
     let flight = match known {
-        Some(flight) if flight.is_free() && flight.lasts(time, h) > shortest => flight,
+        Some(flight) if flight.is_free() && flight.lasts(time, h) > SHORTEST * h => flight,
         _ => {
-            let flight = law_of(bodies, index, time, h);
+            let flight = law_of(bodies, index, time);
             bodies.inaccurate += u64::from(flight.misses());
             Arc::new(flight)
         }
     };
-    let end = lay_piece(bodies, index, &flight, time, shortest);
+    let end = lay_piece(bodies, index, &flight, time);
     let state = bodies.get_mut(index);
     state.member = false;
     state.flight = Some(flight);
@@ -74,10 +74,9 @@ pub(crate) fn begin_held_piece(
     index: u32,
     flight: Arc<Flight>,
     time: SimTime,
-    h: f64,
 ) -> SimTime {
     let left = flight.lasts(time, LONGEST);
-    let end = lay_piece(bodies, index, &flight, time, SHORTEST * h);
+    let end = lay_piece(bodies, index, &flight, time);
     let state = bodies.get_mut(index);
     state.member = true;
     state.set_lag(Lag::NONE);
@@ -90,13 +89,8 @@ pub(crate) fn begin_held_piece(
 }
 
 /// The parabola that touches a flight at `time`, for as long as it stays near: when that ends.
-fn lay_piece(
-    bodies: &mut Bodies,
-    index: u32,
-    flight: &Flight,
-    time: SimTime,
-    shortest: f64,
-) -> SimTime {
+fn lay_piece(bodies: &mut Bodies, index: u32, flight: &Flight, time: SimTime) -> SimTime {
+    let shortest = SHORTEST * bodies.h;
     let reach = bodies.get(index).reach;
     let touching = flight.osculating(time, reach);
     let mut span = flight.lasts(time, LONGEST);
@@ -113,9 +107,9 @@ fn lay_piece(
 /// Shortest piece of a flight, and shortest stretch of the integrator, as a part of a sub-step.
 const SHORTEST: f64 = 1.0 / 1_048_576.0;
 
-/// The law that a body flies by from `time` on; `h` is what counts as short.
-fn law_of(bodies: &Bodies, index: u32, time: SimTime, h: f64) -> Flight {
-    let (state, pull) = (bodies.get(index), &bodies.pull);
+/// The law that a body flies by from `time` on.
+fn law_of(bodies: &Bodies, index: u32, time: SimTime) -> Flight {
+    let (state, pull, h) = (bodies.get(index), &bodies.pull, bodies.h);
     let (x, v) = (state.centre_at(time), state.velocity_at(time));
     let (linear, angular) = state.damping();
     let turn = Turn {
@@ -140,7 +134,7 @@ fn law_of(bodies: &Bodies, index: u32, time: SimTime, h: f64) -> Flight {
         return flight;
     }
     let law = |x: Vec2, v: Vec2| scale * pull.at(x) + push - v * linear;
-    let lengths = (SHORTEST * h, longest(bodies, index, (x, v), h));
+    let lengths = (SHORTEST * h, longest(bodies, index, (x, v)));
     let centres = pull.fields.iter().filter_map(|field| field.newtonian());
     let rims: Vec<_> = centres.map(|c| (c.centre, c.core)).collect();
     let stretch = Stretch::follow(&law, x, v, lengths, pull.error, &rims);
@@ -148,8 +142,8 @@ fn law_of(bodies: &Bodies, index: u32, time: SimTime, h: f64) -> Flight {
 }
 
 /// How far a stretch of the integrator may go, by what the fields say of themselves, in s.
-fn longest(bodies: &Bodies, index: u32, (x, v): (Vec2, Vec2), h: f64) -> f64 {
-    let (state, pull) = (bodies.get(index), &bodies.pull);
+fn longest(bodies: &Bodies, index: u32, (x, v): (Vec2, Vec2)) -> f64 {
+    let (state, pull, h) = (bodies.get(index), &bodies.pull, bodies.h);
     let scale = state.gravity_scale().abs();
     let push = state.gravity_scale() * pull.at(x) + state.force() * state.inverse_mass;
     let (speed, push) = (v.length(), (push - v * state.damping().0).length());

@@ -43,6 +43,8 @@ pub(crate) struct Bodies {
     pub(crate) history: History,
     pub(crate) book: EnergyBook,
     pub(crate) pull: Pull,
+    /// Length of a sub-step, in s: what counts as short where no sub-steps are made, too.
+    pub(crate) h: f64,
     /// Flights since the last report that leave out more than [`Pull::error`], as short as their stretches are.
     pub(crate) inaccurate: u64,
     /// Bodies that came, went, woke or were changed since the last sub-step; only where the list is
@@ -54,7 +56,13 @@ pub(crate) struct Bodies {
 }
 
 impl Bodies {
-    pub(crate) fn new(gravity: Vec2, error: f64, history: usize, notes_touched: bool) -> Self {
+    pub(crate) fn new(
+        gravity: Vec2,
+        error: f64,
+        h: f64,
+        history: usize,
+        notes_touched: bool,
+    ) -> Self {
         Self {
             list: Vec::new(),
             versions: Vec::new(),
@@ -69,6 +77,7 @@ impl Bodies {
                 fields: Vec::new(),
                 error,
             },
+            h,
             inaccurate: 0,
             touched: Vec::new(),
             notes_touched,

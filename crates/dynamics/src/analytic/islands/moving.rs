@@ -8,7 +8,7 @@ use super::store::{Closed, Group};
 use super::tips::Tipping;
 use crate::ContactMode;
 use crate::law::flight::Flight;
-use crate::model::narrow::Narrow;
+use crate::model::narrow::look;
 use crate::motion::flight::begin_held_piece;
 use crate::store::bodies::Bodies;
 use crate::store::pairs::{Pair, Pairs};
@@ -46,13 +46,7 @@ impl Group {
 
 impl Closed {
     /// The next piece of the path of a member of a group that turns.
-    pub(crate) fn begin_next_piece(
-        &mut self,
-        bodies: &mut Bodies,
-        index: u32,
-        time: SimTime,
-        h: f64,
-    ) {
+    pub(crate) fn begin_next_piece(&mut self, bodies: &mut Bodies, index: u32, time: SimTime) {
         let place = bodies.get(index).membership.group;
         let Some(group) = self.get_mut(place) else {
             return;
@@ -65,18 +59,18 @@ impl Closed {
         };
         let flight = Arc::new(Flight::held(tip.path.clone(), slots[k]));
         let until = group.until.unwrap_or(SimTime::NEVER);
-        let end = begin_held_piece(bodies, index, flight, time, h);
+        let end = begin_held_piece(bodies, index, flight, time);
         group.members[k].1 = bodies.version(index);
         bodies.get_mut(index).set_piece(end.min(until));
     }
 
-    /// A pair of an island in analytic motion, with its contacts where they are at `time`, as of a sub-step of `h` seconds.
+    /// A pair of an island in analytic motion, with its contacts where they are at `time`.
     pub(crate) fn moving_pair_at(
         &self,
         bodies: &Bodies,
         pair: &Pair,
         place: u32,
-        (time, h): (SimTime, f64),
+        time: SimTime,
     ) -> Option<Pair> {
         let ends = [pair.bodies.0, pair.bodies.1].map(|index| bodies.get(index));
         let index = ends
@@ -86,11 +80,11 @@ impl Closed {
             .index;
         let group = self.get(bodies.get(index).membership.group)?;
         let mut now = pair.clone();
-        Narrow::default().look(bodies, &mut now, time, h);
+        look(bodies, &mut now, time);
         let mut group = group.clone();
         group.move_touches(group.moved_at(time));
         for touch in group.touches.iter().filter(|touch| touch.pair == place) {
-            touch.carry(bodies, &mut now, h);
+            touch.carry(bodies, &mut now);
         }
         Some(now)
     }

@@ -139,20 +139,20 @@ pub(crate) struct Kept {
 }
 
 impl Kept {
-    /// The contact of a pair carries what the touch says, in sub-steps of `h` seconds.
-    pub(crate) fn carry(&self, bodies: &Bodies, pair: &mut Pair, h: f64) {
+    /// The contact of a pair carries what the touch says, in impulses of a sub-step.
+    pub(crate) fn carry(&self, bodies: &Bodies, pair: &mut Pair) {
         let reach = |index| bodies.get(index).reach;
         let gap = TOUCH * reach(pair.bodies.0).min(reach(pair.bodies.1));
         pair.lasting = self.moved.mode != ContactMode::Open;
         if let Some(contact) = pair.contacts.get_mut(self.contact) {
-            contact.tangent_impulse = self.moved.tangential * h;
+            contact.tangent_impulse = self.moved.tangential * bodies.h;
             let mut forces = self.moved.normal.iter();
             for point in &mut contact.points {
                 let mut force = 0.0;
                 if point.separation <= gap {
                     force = *forces.next().unwrap_or(&0.0);
                 }
-                point.impulse = force * h;
+                point.impulse = force * bodies.h;
             }
         }
     }

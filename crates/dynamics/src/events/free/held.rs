@@ -5,7 +5,7 @@ use carom_math::SimTime;
 use super::{Cause, Foreseen};
 use crate::events::resolve::{BUDGET, PairImpact};
 use crate::model::graph::pair_of;
-use crate::model::narrow::{NOISE, TOUCH, opening_speed, pace};
+use crate::model::narrow::{NOISE, TOUCH, look, opening_speed, pace};
 use crate::motion::flight::fly;
 use crate::store::pairs::PairContact;
 use crate::{BodyKind, Mode, World};
@@ -194,7 +194,7 @@ impl World {
                 continue;
             }
             if pair.fresh {
-                self.narrow.look(&self.bodies, pair, time, self.clock.h);
+                look(&self.bodies, pair, time);
             }
             let (a, b) = (
                 self.bodies.get(pair.bodies.0),

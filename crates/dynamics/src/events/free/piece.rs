@@ -23,7 +23,7 @@ impl World {
         }
         let state = self.bodies.get(index);
         if state.flight.is_none() || self.piece_ends(index, time) {
-            let end = begin_piece(&mut self.bodies, index, time, self.clock.h);
+            let end = begin_piece(&mut self.bodies, index, time);
             self.bodies.get_mut(index).set_piece(end);
             self.work.piece();
         }

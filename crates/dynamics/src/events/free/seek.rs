@@ -274,7 +274,7 @@ impl World {
             touch,
             &mut found,
         );
-        let rest = rest_speed_between(&self.bodies, (a, b), self.clock.h);
+        let rest = rest_speed_between(&self.bodies, (a, b));
         found.iter().any(|part| {
             let normal = pose_a.vector(part.manifold.normal);
             part.manifold.points.iter().any(|point| {
@@ -336,7 +336,7 @@ impl World {
         let (ends, shapes) = (pair.bodies, pair.colliders);
         let (one, two) = (self.bodies.get(ends.0), self.bodies.get(ends.1));
         let motions = [one, two].map(|state| state.motion.rebased(time));
-        let rest = rest_speed(&self.bodies, pair, self.clock.h);
+        let rest = rest_speed(&self.bodies, pair);
         let is_slow = |impact: &Impact| {
             let at = time + impact.time;
             let least = CLOSED * (pace(one, two, at) + rest);

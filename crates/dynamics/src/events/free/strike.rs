@@ -7,7 +7,6 @@ use super::{Cause, Foreseen, low};
 use crate::events::resolve::{apply, price};
 use crate::events::shock::Shock;
 use crate::impact::{ImpactBody, ImpactContact, resolve};
-use crate::model::narrow::Around;
 use crate::store::clock::whole;
 use crate::store::zeno::ZenoSeries;
 use crate::{BodyKind, EventKind, Mode, PairMaterial, World};
@@ -188,13 +187,7 @@ impl World {
     /// Resolves a shock of several contacts; returns the bodies with a new motion. Free bodies that it leaves squeezed land: no
     /// impulses stop them.
     pub(super) fn strike_together(&mut self, mut shock: Shock, time: SimTime) -> Vec<u32> {
-        let mut around = Around {
-            bodies: &mut self.bodies,
-            pairs: &mut self.pairs,
-            narrow: &mut self.narrow,
-            h: self.clock.h,
-        };
-        shock.solve(&self.settings, &mut around);
+        shock.solve(&self.settings, &self.bodies, &mut self.pairs);
         self.work.impact(shock.operations);
         let (events, report) = (&mut self.events, &mut self.report);
         let changed = apply(&mut self.bodies, time, &shock, events, report);
