@@ -51,15 +51,6 @@ impl Grid {
         }
     }
 
-    /// Takes all out, for so many bodies in cells of another size.
-    pub(crate) fn clear(&mut self, side: f64, bodies: usize) {
-        if self.room() < bodies {
-            *self = Self::new(side, bodies);
-        }
-        self.side = side;
-        self.lists.iter_mut().for_each(Vec::clear);
-    }
-
     /// Side of a cell, in m.
     pub(crate) const fn side(&self) -> f64 {
         self.side

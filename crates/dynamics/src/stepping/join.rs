@@ -9,13 +9,12 @@
 
 use std::collections::BTreeSet;
 
-use carom_collision::Motion;
+use carom_collision::{BoxTree, Motion};
 use carom_geometry::Aabb;
 use carom_math::{SimTime, Sum, Vec2};
 use carom_stepped::State;
 
 use super::Shapes;
-use super::near::Ahead;
 use super::rush::Rush;
 use crate::model::graph::neighbours;
 use crate::store::bodies::Bodies;
@@ -53,7 +52,9 @@ pub(crate) struct Joins {
     pub(crate) aloft: Vec<u32>,
     /// Bodies outside with motions that are newer than the last search for bodies that join.
     pub(crate) restless: Vec<u32>,
-    pub(super) ahead: Ahead,
+    /// Where bodies outside go until the tick of this number ends: what comes to the engine in it, or goes elsewhere, asks for them
+    /// there. Of those with newer motions there are boxes of the older ones, too. None if some took to flight that are not in it.
+    pub(super) ahead: Option<(u64, BoxTree)>,
     /// Motions are older than the engine.
     pub(crate) unwritten: bool,
     /// Where the engine's last sub-step ended.
@@ -88,7 +89,7 @@ impl Joins {
         if bodies.member_count() > 0 {
             self.restless.push(index);
         } else {
-            self.ahead.forget();
+            self.ahead = None;
         }
         if mode != Mode::Stepped {
             self.aloft.push(index);

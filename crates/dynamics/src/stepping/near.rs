@@ -2,96 +2,13 @@
 
 use std::collections::BTreeSet;
 
+use carom_collision::BoxTree;
 use carom_geometry::Aabb;
 use carom_math::SimTime;
 
 use super::rules::Rules;
 use super::{Joins, Stepping};
-use crate::broad::grid::{Grid, SweptBox};
 use crate::broad::window::box_ahead;
-use crate::store::swept::Sides;
-
-/// Cells that a box may cover before its body is asked about in each query.
-const MOST_CELLS: u64 = 64;
-
-/// Where bodies outside go until a tick ends: what comes to the engine in it, or goes elsewhere, asks for them there.
-#[derive(Clone, Debug)]
-pub(crate) struct Ahead {
-    /// Number of the tick; none before the first one, or if bodies took to flight that are not in it.
-    tick: Option<u64>,
-    /// Of those with newer motions there are boxes of the older ones, too.
-    grid: Grid,
-    /// Where they all are.
-    bounds: Aabb,
-    /// Bodies with boxes that are too large for the grid.
-    large: Vec<u32>,
-    /// What a query found: kept for its memory.
-    found: Vec<u32>,
-}
-
-impl Default for Ahead {
-    fn default() -> Self {
-        Self {
-            tick: None,
-            bounds: Aabb::EMPTY,
-            grid: Grid::new(1.0, 0),
-            large: Vec::new(),
-            found: Vec::new(),
-        }
-    }
-}
-
-impl Ahead {
-    /// A body took to flight, and is not in it.
-    pub(crate) const fn forget(&mut self) {
-        self.tick = None;
-    }
-
-    /// Forgets all, and takes these: most of them cover four cells at most.
-    fn fill(&mut self, boxes: &[(Aabb, u32)]) {
-        let size = |bounds: Aabb| bounds.extents().max_element();
-        let sizes = boxes.iter().map(|known| size(known.0));
-        let sum: f64 = sizes.filter(|size| size.is_finite()).sum();
-        #[expect(clippy::cast_precision_loss, reason = "fewer than 2^32 bodies")]
-        let side = (2.0 * sum / boxes.len() as f64).max(f64::MIN_POSITIVE);
-        self.grid.clear(side, boxes.len());
-        self.large.clear();
-        self.bounds = Aabb::EMPTY;
-        self.extend(boxes);
-    }
-
-    fn extend(&mut self, boxes: &[(Aabb, u32)]) {
-        for &(bounds, index) in boxes {
-            let cells = self.grid.cells(bounds);
-            self.bounds = self.bounds.union(bounds);
-            if bounds.is_finite() && cells.count() <= MOST_CELLS {
-                let swept_box = SweptBox::new(index, Sides::around(bounds));
-                self.grid.insert(swept_box, cells);
-            } else {
-                self.large.push(index);
-            }
-        }
-    }
-
-    /// Bodies with boxes that may overlap one, each once; `all`: those that it knows, and perhaps more.
-    fn query(&mut self, all: &[u32], bounds: Aabb) -> &[u32] {
-        self.found.clear();
-        if !self.bounds.overlaps(bounds) {
-            return &[];
-        }
-        let cells = self.grid.cells(bounds);
-        if cells.count() > all.len() as u64 {
-            self.found.extend(all);
-        } else {
-            self.found.extend(&self.large);
-            let swept_box = SweptBox::new(u32::MAX, Sides::around(bounds));
-            self.grid.gather(&swept_box, cells, &mut self.found);
-        }
-        self.found.sort_unstable();
-        self.found.dedup();
-        &self.found
-    }
-}
 
 impl Joins {
     /// Bodies outside that may meet members before the next tick, in order: of what flies as it did when this was last called only
@@ -121,32 +38,35 @@ impl Joins {
         let with_boxes = |some: &[u32]| -> Vec<(Aabb, u32)> {
             some.iter().map(|index| (box_of(*index), *index)).collect()
         };
-        if asks_all || self.ahead.tick != Some(tick) {
+        let known = self.ahead.take();
+        let known = known.filter(|(of, _)| *of == tick && !asks_all);
+        let (_, tree) = self.ahead.insert(known.unwrap_or_else(|| {
             self.aloft.sort_unstable();
             self.aloft.dedup();
             self.aloft.retain(is_aloft);
-            self.ahead.fill(&with_boxes(&self.aloft));
-            self.ahead.tick = Some(tick);
-        }
+            let mut tree = BoxTree::new();
+            tree.extend(with_boxes(&self.aloft));
+            (tick, tree)
+        }));
         let mut near = BTreeSet::new();
         let mut asked: Vec<u32> = held.to_vec();
         let meet = |tag: u64, bounds: Aabb| {
             let at = super::collider(tag);
-            for &index in self.ahead.query(&self.aloft, bounds) {
+            tree.query(bounds, |index| {
                 if is_aloft(&index)
                     && box_of(index).overlaps(bounds)
                     && stepping.nears(rules, self.reached, index, at, (time, left))
                 {
                     near.insert(index);
                 }
-            }
+            });
         };
         if asks_all {
             stepping.engine.movers(meet);
         } else {
             stepping.engine.news(meet);
             restless.retain(is_aloft);
-            self.ahead.extend(&with_boxes(&restless));
+            tree.extend(with_boxes(&restless));
             asked.append(&mut restless);
         }
         near.extend(asked.into_iter().filter(|index| {
@@ -230,41 +150,5 @@ impl Stepping {
             }
         }
         !found.is_empty()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use carom_math::{Vec2, vec2};
-    use proptest::prelude::*;
-
-    proptest! {
-        #[test]
-        fn bodies_with_boxes_that_overlap_are_found(
-            boxes in proptest::collection::vec((-1e2..1e2_f64, -1e2..1e2_f64, 0.1..3.0_f64, 0..9_u32), 1..60),
-        ) {
-            let boxed = |(x, y, size, kind): (f64, f64, f64, u32)| {
-                let factor = match kind {
-                    0 => f64::INFINITY,
-                    1 => 40.0,
-                    _ => 1.0,
-                };
-                Aabb::from_points([vec2(x, y)]).grown(factor * size)
-            };
-            let boxes: Vec<(Aabb, u32)> = boxes.into_iter().map(boxed).zip(0..).collect();
-            let mut ahead = Ahead::default();
-            let (early, late) = boxes.split_at(boxes.len() / 2);
-            ahead.fill(&[(Aabb::from_points([Vec2::ZERO]), 7)]);
-            ahead.fill(early);
-            ahead.extend(late);
-            let all: Vec<u32> = (0..60).collect();
-            for (bounds, _) in &boxes {
-                let found = ahead.query(&all, *bounds);
-                for (other, index) in &boxes {
-                    prop_assert!(found.contains(index) || !other.overlaps(*bounds), "{index}");
-                }
-            }
-        }
     }
 }
