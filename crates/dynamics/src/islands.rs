@@ -375,7 +375,7 @@ impl World {
         let sleeps = still && gathered.dynamic().iter().all(may_sleep);
         let sleep = self.settings.sleep.filter(|_| sleeps);
         let change = match (moves.change, sleep) {
-            (Some(change), _) => Some(time + change.after),
+            (Some(change), _) => Some(time + change),
             (None, Some(sleep)) => Some(time + sleep.time),
             (None, None) => None,
         };

@@ -3,7 +3,7 @@
 use super::alone;
 use super::balance::{Balance, Basic, Problem, Tangent, balance};
 use super::faces::Faces;
-use super::{BodyMove, Cause, Change, Feature, ModeBody, Touch, slip_rate};
+use super::{BodyMove, Feature, ModeBody, Touch, slip_rate};
 use carom_math::{falling_root, perp};
 
 /// How far ahead a load that shifts is looked at where nothing else ends the mode, in s.
@@ -120,56 +120,33 @@ pub(super) struct Load<'a> {
 }
 
 impl Load<'_> {
-    /// The first instant at which something changes.
-    pub(super) fn next(&self) -> Option<Change> {
-        let mut first: Option<Change> = None;
-        let mut shifts = None;
+    /// The first instant at which something changes: a slip comes to 0, what slides or rolls comes to the end of an edge, or the load
+    /// has moved so far that the forces need another motion. Where nothing is known to end the mode what was looked at ends.
+    pub(super) fn next(&self) -> Option<f64> {
+        let (mut first, mut shifts) = (None, false);
         for (i, touch) in self.touches.iter().enumerate() {
             if !self.found.reactions[i].closed.contains(&true) {
                 continue;
             }
-            let mut offer = |after: f64, cause: Cause| {
-                if first.is_none_or(|known| after < known.after) {
-                    first = Some(Change {
-                        after,
-                        touch: i,
-                        cause,
-                    });
-                }
-            };
-            if touch.friction > 0.0 {
-                let (slip, rate) = (self.slips[i], slip_rate(self.bodies, touch, self.moves));
-                if slip * rate < 0.0 {
-                    offer(-slip / rate, Cause::SlipStops);
-                }
-            }
+            let (slip, rate) = (self.slips[i], slip_rate(self.bodies, touch, self.moves));
+            let stops = touch.friction > 0.0 && slip * rate < 0.0;
             let slide = Slide::of(touch, self.moves);
-            if let Some(after) = slide.ends() {
-                offer(after, Cause::EdgeEnds);
+            for after in stops.then(|| -slip / rate).into_iter().chain(slide.ends()) {
+                if first.is_none_or(|known| after < known) {
+                    first = Some(after);
+                }
             }
             let bears = |place: usize, feature: Feature| {
                 feature != Feature::Round && self.bodies[place].inverse_inertia > 0.0
             };
-            let ends = touch.bodies;
-            if slide.moves() && (bears(ends.0, touch.features.0) || bears(ends.1, touch.features.1))
-            {
-                shifts.get_or_insert(i);
-            }
+            let (ends, features) = (touch.bodies, touch.features);
+            shifts |= slide.moves() && (bears(ends.0, features.0) || bears(ends.1, features.1));
         }
-        let Some(touch) = shifts else {
+        if !shifts {
             return first;
-        };
-        let end = first.map_or(LOOK, |change| change.after);
-        let (after, cause) = match self.tips(end) {
-            Some(after) => (after, Cause::Tips),
-            None if first.is_none() => (end, Cause::Look),
-            None => return first,
-        };
-        Some(Change {
-            after,
-            touch,
-            cause,
-        })
+        }
+        let end = first.unwrap_or(LOOK);
+        Some(self.tips(end).unwrap_or(end))
     }
 
     /// The first instant before `end` from which on the forces need another motion.

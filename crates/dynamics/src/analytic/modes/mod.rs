@@ -100,36 +100,13 @@ pub(crate) struct TouchMove {
     pub(crate) slip: f64,
 }
 
-/// Why the present mode ends.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Cause {
-    /// The slip of a touch comes to 0.
-    SlipStops,
-    /// What slides or rolls has come to the end of an edge.
-    EdgeEnds,
-    /// The load has moved: from here on the forces need another motion.
-    Tips,
-    /// Nothing is known to end it, but what was looked at ends here.
-    Look,
-}
-
-/// The next change of a mode.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Change {
-    /// In s from the mode solve.
-    pub(crate) after: f64,
-    /// Which touch; of several at one instant the first.
-    pub(crate) touch: usize,
-    pub(crate) cause: Cause,
-}
-
 /// How a group moves.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct GroupMove {
     pub(crate) bodies: Vec<BodyMove>,
     pub(crate) touches: Vec<TouchMove>,
-    /// `None`: never.
-    pub(crate) change: Option<Change>,
+    /// In s from the mode solve; `None`: never.
+    pub(crate) change: Option<f64>,
 }
 
 /// Why a group is not for closed forms.
