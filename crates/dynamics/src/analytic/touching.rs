@@ -4,7 +4,8 @@ use arrayvec::ArrayVec;
 use carom_math::{SimTime, Vec2};
 
 use crate::analytic::modes::{ModeBody, Touch, hold, stand};
-use crate::model::approach::{Approach, RigidState, approach, opening};
+use crate::impact::ImpactBody;
+use crate::model::approach::{Approach, approach, opening};
 use crate::model::edges::{Feature, at_the_end, corner_under_disc, feature};
 use crate::model::ghost::look_at;
 use crate::model::graph::{ROWS, neighbours};
@@ -151,21 +152,23 @@ impl Gathered {
     }
 }
 
-fn ends_of(bodies: &[ModeBody], touch: &Touch) -> (RigidState, RigidState) {
+fn ends_of(bodies: &[ModeBody], touch: &Touch) -> (ImpactBody, ImpactBody) {
     let (a, b) = touch.bodies;
     (bodies[a].state(), bodies[b].state())
 }
 
 fn mode_body(bodies: &Bodies, state: &BodyState, time: SimTime) -> ModeBody {
-    let RigidState {
+    let ImpactBody {
+        inverse_mass,
+        inverse_inertia,
         centre,
         velocity,
         spin,
-    } = RigidState::of(state, time);
+    } = state.in_impact(time);
     let (pull, twist) = bodies.pull_on(state.id.index, centre);
     ModeBody {
-        inverse_mass: state.inverse_mass,
-        inverse_inertia: state.inverse_inertia,
+        inverse_mass,
+        inverse_inertia,
         centre,
         velocity,
         spin,
@@ -254,7 +257,7 @@ fn touches_of(
         return None;
     }
     let rest = rest_speed(bodies, pair);
-    let ends = (RigidState::of(a, time), RigidState::of(b, time));
+    let ends = (a.in_impact(time), b.in_impact(time));
     if !touching {
         return Some(0);
     }

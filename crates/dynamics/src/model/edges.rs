@@ -3,7 +3,7 @@
 use carom_collision::Hull;
 use carom_math::{Pose, Vec2, perp};
 
-use super::approach::RigidState;
+use crate::impact::ImpactBody;
 
 /// What a body touches with.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,7 +28,7 @@ const FLUSH: f64 = 1e-9;
 /// corner, and a common stretch of two edges that is over is no contact. Otherwise they would leave it a rounding later.
 pub(crate) fn at_the_end(
     features: (Feature, Feature),
-    (a, b): (RigidState, RigidState),
+    (a, b): (ImpactBody, ImpactBody),
     normal: Vec2,
 ) -> Option<(Feature, Feature)> {
     let slip = (b.velocity - a.velocity).dot(perp(normal));
@@ -59,7 +59,7 @@ pub(crate) fn at_the_end(
 pub(crate) fn corner_under_disc(
     hulls: (&Hull<'_>, &Hull<'_>),
     poses: (Pose, Pose),
-    states: (RigidState, RigidState),
+    states: (ImpactBody, ImpactBody),
     normal: Vec2,
 ) -> Option<(Vec2, Vec2)> {
     let of_disc = |own: usize, outward: Vec2| {

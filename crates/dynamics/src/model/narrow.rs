@@ -4,7 +4,6 @@ use arrayvec::ArrayVec;
 use carom_collision::{PartManifold, contacts};
 use carom_math::{Pose, SimTime, Vec2};
 
-use super::approach::RigidState;
 use crate::store::bodies::Bodies;
 use crate::store::pairs::{Pair, PairContact, PairPoint};
 use crate::store::state::BodyState;
@@ -23,7 +22,7 @@ pub(crate) const BURIED: f64 = 1.0 / 16.0;
 /// Looks at a pair at `time` and replaces its contacts; impulses go over by feature.
 pub(crate) fn look(bodies: &Bodies, pair: &mut Pair, time: SimTime) {
     let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
-    let (from, to) = (RigidState::of(a, time), RigidState::of(b, time));
+    let (from, to) = (a.in_impact(time), b.in_impact(time));
     let closing = (to.velocity - from.velocity).length() + rim_speed(a, time) + rim_speed(b, time);
     let margin = MARGIN * a.reach.min(b.reach) + bodies.h * closing;
     let near = a.reach + b.reach + margin;
@@ -133,7 +132,7 @@ pub(crate) fn opening_speed(
     point: Vec2,
     normal: Vec2,
 ) -> f64 {
-    let of = |body: &BodyState| RigidState::of(body, time).velocity_of(point);
+    let of = |body: &BodyState| body.in_impact(time).velocity_of(point);
     (of(b) - of(a)).dot(normal)
 }
 

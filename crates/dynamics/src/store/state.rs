@@ -386,14 +386,21 @@ impl BodyState {
         self.colliders.iter().all(is_disc) && self.inner(colliders) >= self.reach
     }
 
-    /// The body as the impact laws see it.
+    /// The body as the impact laws see it. A law of flight costs elliptic functions, or a sum of polynomials: it is asked once.
     pub(crate) fn in_impact(&self, time: SimTime) -> ImpactBody {
+        let (centre, velocity, spin) = if let Some(flight) = &self.flight {
+            let (centre, velocity, _, spin) = flight.all_at(time);
+            (centre, velocity, spin)
+        } else {
+            let (centre, velocity) = (self.centre_at(time), self.velocity_at(time));
+            (centre, velocity, self.spin_at(time))
+        };
         ImpactBody {
             inverse_mass: self.inverse_mass,
             inverse_inertia: self.inverse_inertia,
-            centre: self.centre_at(time),
-            velocity: self.velocity_at(time),
-            spin: self.spin_at(time),
+            centre,
+            velocity,
+            spin,
         }
     }
 }

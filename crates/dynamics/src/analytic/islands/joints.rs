@@ -5,7 +5,7 @@ use carom_collision::Hull;
 use carom_math::{Pose, Vec2, perp};
 
 use crate::analytic::tipping::{End, Joint};
-use crate::model::approach::RigidState;
+use crate::impact::ImpactBody;
 use crate::model::edges::{disc_room, end_room, flush_edge};
 
 /// Sine of the angle up to which an edge lies along a contact: far above rounding.
@@ -15,7 +15,7 @@ const FLUSH: f64 = 1e-9;
 pub(super) struct Held<'a> {
     pub(super) hull: Hull<'a>,
     pub(super) pose: Pose,
-    pub(super) moves: RigidState,
+    pub(super) moves: ImpactBody,
 }
 
 impl Held<'_> {

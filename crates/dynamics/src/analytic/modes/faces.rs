@@ -5,11 +5,12 @@
 //! ```
 
 use arrayvec::ArrayVec;
-use carom_math::{Vec2, cross, cross_scalar, perp, vec2};
+use carom_math::{Vec2, cross, perp, vec2};
 
 use super::balance::Balance;
 use super::{BodyMove, CLOSED, ModeBody, NotMine, STILL, Touch};
 use crate::impact::project::Basis;
+use crate::model::approach::relative;
 
 /// A row counts as dependent on others if less than this part of its length is its own.
 const DEPENDENT: f64 = 1e-10;
@@ -322,16 +323,9 @@ fn still(along: f64, scale: f64) -> f64 {
 
 /// Velocity of B against A at a point, and what its roundings are measured by, in m/s.
 fn between(bodies: &[ModeBody], touch: &Touch, point: Vec2, speed: f64) -> (Vec2, f64) {
-    let of = |place: usize| {
-        let body = &bodies[place];
-        let turning = cross_scalar(body.spin, point - body.centre);
-        (
-            body.velocity + turning,
-            body.velocity.length() + turning.length(),
-        )
-    };
-    let ((a, scale_a), (b, scale_b)) = (of(touch.bodies.0), of(touch.bodies.1));
-    (b - a, scale_a + scale_b + speed)
+    let [a, b] = [touch.bodies.0, touch.bodies.1].map(|place| bodies[place].state());
+    let (velocity, scale) = relative((a, b), point);
+    (velocity, scale + speed)
 }
 
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {

@@ -21,7 +21,8 @@ use arrayvec::ArrayVec;
 use carom_math::{Vec2, cross_scalar, perp};
 
 use crate::ContactMode;
-use crate::model::approach::{CLOSED, RigidState};
+use crate::impact::ImpactBody;
+use crate::model::approach::CLOSED;
 use crate::model::edges::Feature;
 use crate::model::graph::ROWS;
 use balance::{Balance, Reaction, Tangent, balance};
@@ -51,8 +52,10 @@ pub(crate) struct ModeBody {
 }
 
 impl ModeBody {
-    pub(crate) const fn state(&self) -> RigidState {
-        RigidState {
+    pub(crate) const fn state(&self) -> ImpactBody {
+        ImpactBody {
+            inverse_mass: self.inverse_mass,
+            inverse_inertia: self.inverse_inertia,
             centre: self.centre,
             velocity: self.velocity,
             spin: self.spin,

@@ -7,6 +7,7 @@ use super::{Cause, Foreseen, low};
 use crate::events::resolve::{apply, price};
 use crate::events::shock::Shock;
 use crate::impact::{ImpactBody, ImpactContact, resolve};
+use crate::model::narrow::NOISE;
 use crate::store::clock::whole;
 use crate::store::zeno::ZenoSeries;
 use crate::{BodyKind, EventKind, Mode, PairMaterial, World};
@@ -24,9 +25,6 @@ const EXACT_PRICE: f64 = 1.0 / 64.0;
 
 /// Speeds of the ends of a flat landing that differ by less, as a fraction, are one: roundings of a spin.
 const ALIKE: f64 = 1e-12;
-
-/// Speed of an approach that rounding alone can make, as a fraction of the bodies' speeds.
-const NOISE: f64 = 8.0 * f64::EPSILON;
 
 /// Overlap that is looked at again, as a fraction of the smaller reach: what an impact leaves.
 const SLACK: f64 = 1e-12;
