@@ -157,24 +157,11 @@ impl Filtered<'_> {
         if !origin.is_finite() || max.is_nan() {
             return None;
         }
-        let mut best: Option<((f64, Place), RayHit)> = None;
-        let mut meet = |at| {
-            let reach = best.map_or(max, |(_, hit)| hit.distance);
-            if let Some(hit) = self.ray_hit(at, origin, direction, reach) {
-                let order = (hit.distance, (hit.body.index, hit.shape));
-                if best.is_none_or(|(known, _)| order < known) {
-                    best = Some((order, hit));
-                }
-            }
-            best.map_or(f64::INFINITY, |(_, hit)| hit.distance)
-        };
-        let mut reach = max;
-        for at in self.shapes_outside_trees(ray_box(origin, direction, max)) {
-            reach = reach.min(meet(at));
-        }
-        let bounds = Aabb::new(origin, origin);
-        self.world.broad.tree.sweep(bounds, direction, reach, meet);
-        best.map(|(_, hit)| hit)
+        let start = Aabb::new(origin, origin);
+        self.first_on_way(start, direction, max, |at, reach| {
+            let hit = self.ray_hit(at, origin, direction, reach)?;
+            Some(((hit.distance, (hit.body.index, hit.shape)), hit))
+        })
     }
 
     /// All shapes on a ray from `origin` along `direction` (any length above 0), up to `max` m, the nearest first: where the ray
@@ -194,11 +181,11 @@ impl Filtered<'_> {
             hits.extend(self.ray_hit(at, origin, direction, max));
             f64::INFINITY
         };
-        for at in self.shapes_outside_trees(ray_box(origin, direction, max)) {
+        let start = Aabb::new(origin, origin);
+        for at in self.shapes_outside_trees(box_of_way(start, direction, max)) {
             meet(at);
         }
-        let bounds = Aabb::new(origin, origin);
-        self.world.broad.tree.sweep(bounds, direction, max, meet);
+        self.world.broad.tree.sweep(start, direction, max, meet);
         hits.sort_by(|a, b| {
             let key = |hit: &RayHit| (hit.body.index, hit.shape);
             a.distance.total_cmp(&b.distance).then(key(a).cmp(&key(b)))
@@ -287,33 +274,47 @@ impl Filtered<'_> {
         }
         let start = shape.aabb(pose);
         let start = start.grown(roundable(start));
-        let mut best: Option<((f64, Place), ShapeHit)> = None;
-        let mut meet = |at| {
+        self.first_on_way(start, translation, 1.0, |at, _| {
             let (body, index, collider) = self.shape_at(at);
             let target = body.centre_pose(self.world.clock.now);
-            if self.sees(collider)
-                && let Some(hit) = cast(shape, pose, translation, &collider.solid, target)
-            {
-                let order = (hit.fraction, (body.id.index, index));
-                if best.is_none_or(|(known, _)| order < known) {
-                    let hit = ShapeHit {
-                        body: body.id,
-                        shape: index,
-                        fraction: hit.fraction,
-                        point: hit.point,
-                        normal: hit.normal,
-                    };
-                    best = Some((order, hit));
-                }
+            if !self.sees(collider) {
+                return None;
             }
-            best.map_or(f64::INFINITY, |(_, hit)| hit.fraction)
+            let hit = cast(shape, pose, translation, &collider.solid, target)?;
+            let told = ShapeHit {
+                body: body.id,
+                shape: index,
+                fraction: hit.fraction,
+                point: hit.point,
+                normal: hit.normal,
+            };
+            Some(((hit.fraction, (body.id.index, index)), told))
+        })
+    }
+
+    /// The first hit of a box on its way, up to `max` lengths of it. `hit`: that of a shape, if it comes before so many lengths, and how
+    /// far it is.
+    fn first_on_way<T: Copy>(
+        &self,
+        start: Aabb,
+        way: Vec2,
+        max: f64,
+        hit: impl Fn(u32, f64) -> Option<((f64, Place), T)>,
+    ) -> Option<T> {
+        let mut best: Option<((f64, Place), T)> = None;
+        let mut meet = |at| {
+            if let Some((order, hit)) = hit(at, best.map_or(max, |((far, _), _)| far))
+                && best.is_none_or(|(known, _)| order < known)
+            {
+                best = Some((order, hit));
+            }
+            best.map_or(f64::INFINITY, |((far, _), _)| far)
         };
-        let end = Aabb::new(start.min + translation, start.max + translation);
-        let mut reach = 1.0_f64;
-        for at in self.shapes_outside_trees(start.union(end)) {
+        let mut reach = max;
+        for at in self.shapes_outside_trees(box_of_way(start, way, max)) {
             reach = reach.min(meet(at));
         }
-        self.world.broad.tree.sweep(start, translation, reach, meet);
+        self.world.broad.tree.sweep(start, way, reach, meet);
         best.map(|(_, hit)| hit)
     }
 
@@ -391,15 +392,11 @@ impl Filtered<'_> {
     }
 }
 
-/// Box around a ray of `max` m along a unit vector.
-fn ray_box(origin: Vec2, direction: Vec2, max: f64) -> Aabb {
+/// Box around the way of a box, of `max` lengths.
+fn box_of_way(start: Aabb, way: Vec2, max: f64) -> Aabb {
     // Along an axis 0 · ∞ is no number.
-    let end = Vec2::select(
-        direction.cmpeq(Vec2::ZERO),
-        origin,
-        origin + direction * max,
-    );
-    Aabb::from_points([origin, end])
+    let end = Vec2::select(way.cmpeq(Vec2::ZERO), Vec2::ZERO, way * max);
+    start.union(Aabb::new(start.min + end, start.max + end))
 }
 
 /// A body and which of its shapes.
