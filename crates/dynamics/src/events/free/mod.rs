@@ -8,7 +8,6 @@
 
 mod aside;
 mod circle;
-mod days;
 mod foresee;
 mod foreseen;
 mod ground;

@@ -5,8 +5,6 @@ use std::collections::BinaryHeap;
 
 use carom_math::SimTime;
 
-use super::days::Days;
-
 /// What happens at an entry's time, if the bodies still move as they did; at equal times in this order, impacts by their slots.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct What(u32);
@@ -86,7 +84,10 @@ pub(crate) struct Queue {
     /// The last day of the year.
     last: u64,
     due: BinaryHeap<Reverse<Entry>>,
-    days: Days,
+    /// Unordered. A day that is over leaves no memory: there is room for what waits, not for the fullest that every day has been.
+    days: Vec<Vec<Entry>>,
+    /// Entries of all days.
+    waiting: usize,
     later: Vec<Entry>,
     /// Entries of the days that came this year, stale or not.
     come: u64,
@@ -99,7 +100,8 @@ impl Default for Queue {
             today: 0,
             last: YEAR - 1,
             due: BinaryHeap::new(),
-            days: Days::new(slot(YEAR - 1) + 1),
+            days: vec![Vec::new(); slot(YEAR - 1) + 1],
+            waiting: 0,
             later: Vec::new(),
             come: 0,
         }
@@ -112,7 +114,8 @@ impl Queue {
         if day <= self.today {
             self.due.push(Reverse(entry));
         } else if day <= self.last {
-            self.days.push(slot(day), entry);
+            self.waiting += 1;
+            self.days[slot(day)].push(entry);
         } else {
             self.later.push(entry);
         }
@@ -127,10 +130,10 @@ impl Queue {
     ) -> Option<SimTime> {
         while self.due.is_empty() {
             let end = limit.bin(self.shift);
-            if self.today >= end || self.days.count() == 0 && self.later.is_empty() {
+            if self.today >= end || self.waiting == 0 && self.later.is_empty() {
                 return None;
             }
-            if self.days.count() == 0 {
+            if self.waiting == 0 {
                 self.turn_the_year(end, &mut stale);
             } else if self.today == self.last {
                 self.turn_the_year(self.last + 1, &mut stale);
@@ -158,19 +161,11 @@ impl Queue {
 
     /// Today's list becomes the heap.
     fn open(&mut self, stale: &mut impl FnMut(&Entry) -> bool) {
-        let Self {
-            days, due, come, ..
-        } = self;
-        days.take(
-            slot(self.today),
-            units_of(self.today, self.shift),
-            |entry| {
-                *come += 1;
-                if !stale(&entry) {
-                    due.push(Reverse(entry));
-                }
-            },
-        );
+        let list = core::mem::take(&mut self.days[slot(self.today)]);
+        self.waiting -= list.len();
+        self.come += list.len() as u64;
+        let fresh = list.into_iter().filter(|entry| !stale(entry));
+        self.due.extend(fresh.map(Reverse));
     }
 
     /// A new year begins on the first day with an entry, or on `day` if that is earlier; its days are
@@ -214,13 +209,8 @@ impl Queue {
     fn begin_year(&mut self, day: u64, shift: u32) {
         let (old, mut later) = (self.shift, core::mem::take(&mut self.later));
         self.shift = shift;
-        // The days of the old year, which began after the last of the one before.
-        let begin = (self.last + 1).saturating_sub(YEAR);
-        for day in begin..begin + YEAR {
-            self.days
-                .take(slot(day), units_of(day, old), |entry| later.push(entry));
-        }
-        self.days.give_back();
+        later.extend(self.days.iter_mut().flat_map(core::mem::take));
+        self.waiting = 0;
         self.come = 0;
         let renamed = if shift >= old {
             day << (shift - old)
@@ -234,18 +224,14 @@ impl Queue {
             let day = entry.time.bin(shift);
             let waits = day > self.last;
             if !waits {
-                self.days.push(slot(day), *entry);
+                self.waiting += 1;
+                self.days[slot(day)].push(*entry);
             }
             waits
         });
         later.shrink_to(2 * later.len());
         self.later = later;
     }
-}
-
-/// Whole units of 2⁻⁶ s before a day that is the `2^shift`-th part of one.
-const fn units_of(day: u64, shift: u32) -> i64 {
-    (day >> shift).cast_signed()
 }
 
 const fn slot(day: u64) -> usize {
