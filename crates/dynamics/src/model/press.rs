@@ -33,7 +33,7 @@ impl Pair {
         let unforced = |state: &BodyState| Motion {
             acceleration: Vec2::ZERO,
             angular_acceleration: 0.0,
-            ..state.at(time)
+            ..state.at(time).0
         };
         let hulls = [
             bodies.hull(self.colliders.0, contact.parts.0),

@@ -8,7 +8,6 @@ use super::damping::damping_loss;
 use super::few::Few;
 use super::history::History;
 use super::moved::{Moved, moves};
-use super::now::Now;
 use super::pull::Pull;
 use super::regime::Members;
 use super::state::{BodyState, Collider};
@@ -324,20 +323,18 @@ impl Bodies {
     pub(crate) fn change(&mut self, index: u32, time: SimTime, change: impl FnOnce(&mut Motion)) {
         self.touch(index);
         let state = &self.list[index as usize];
-        let now = state.by_law(time);
-        if let Some(piece) = self.piece(state, time, now.as_ref()) {
+        let now = state.at(time);
+        if let Some(piece) = self.piece(state, time, || now) {
             self.book.forces.add(piece.forces);
             self.book.scheme.add(piece.scheme);
         }
         let state = &mut self.list[index as usize];
-        let old = state.motion;
         self.history
-            .replaced(index, &old, state.flight.as_ref(), time);
-        state.turned += now.map_or_else(|| old.turn(time - old.start), |now| now.turn);
-        state.motion = old.rebased(time);
-        if let Some(now) = now {
-            state.close(&now);
-        }
+            .replaced(index, &state.motion, state.flight.as_ref(), time);
+        state.motion = now.0;
+        state.turned += now.1;
+        state.flight = None;
+        state.set_lag(Lag::NONE);
         if state.in_engine() {
             let before = state.kinetic_energy(time);
             change(&mut state.motion);
@@ -351,8 +348,14 @@ impl Bodies {
 
     /// What forces and the scheme did along the present piece of a motion up to `time`.
     ///
-    /// Along a quadratic piece the kinetic energy changes by exactly `m a·Δx + I α Δθ`. None where gravity is all.
-    fn piece(&self, state: &BodyState, time: SimTime, now: Option<&Now>) -> Option<Piece> {
+    /// Along a quadratic piece the kinetic energy changes by exactly `m a·Δx + I α Δθ`. None where gravity is all. `now`: what
+    /// [`BodyState::at`] says of that instant.
+    fn piece(
+        &self,
+        state: &BodyState,
+        time: SimTime,
+        now: impl FnOnce() -> (Motion, f64),
+    ) -> Option<Piece> {
         let motion = &state.motion;
         let free = state.gravity_scale() * self.pull.gravity;
         // The account of members is kept in `stepping::join`.
@@ -367,26 +370,21 @@ impl Bodies {
         }
         let elapsed = time - motion.start;
         let mass = state.mass.mass;
-        let (turn, travel, straight, turning) = match now {
-            None => {
-                let (turn, travel) = (motion.turn(elapsed), motion.travel(elapsed));
-                let along = motion.acceleration.dot(travel);
-                (turn, travel, along, motion.angular_acceleration * turn)
+        let (now, turn) = now();
+        let (mut travel, lag) = (motion.travel(elapsed), state.lag());
+        let (straight, turning) = if state.flight.is_none() && *lag == Lag::NONE {
+            let along = motion.acceleration.dot(travel);
+            (along, motion.angular_acceleration * turn)
+        } else {
+            if state.flight.is_some() {
+                travel = now.centre - motion.centre;
             }
-            Some(now) => {
-                let travel = if state.flight.is_some() {
-                    now.centre - motion.centre
-                } else {
-                    motion.travel(elapsed)
-                };
-                let (velocity, spin) = (
-                    motion.velocity + state.lag().at(0.0),
-                    motion.spin + state.lag().spin_at(0.0),
-                );
-                let along = (now.velocity - velocity).dot(0.5 * (now.velocity + velocity));
-                let round = (now.spin - spin) * (0.5 * (now.spin + spin));
-                (now.turn, travel, along, round)
-            }
+            let (velocity, spin) = (
+                motion.velocity + lag.at(0.0),
+                motion.spin + lag.spin_at(0.0),
+            );
+            let along = (now.velocity - velocity).dot(0.5 * (now.velocity + velocity));
+            (along, (now.spin - spin) * (0.5 * (now.spin + spin)))
         };
         let kinetic = mass * straight + state.turning_inertia() * turning;
         let mut potential = -mass * free.dot(travel);
@@ -421,7 +419,7 @@ impl Bodies {
             kinetic.add(k);
             potential.add(p);
             let state = self.get(index);
-            if let Some(piece) = self.piece(state, time, state.by_law(time).as_ref()) {
+            if let Some(piece) = self.piece(state, time, || state.at(time)) {
                 book.forces.add(piece.forces);
                 book.scheme.add(piece.scheme);
             }

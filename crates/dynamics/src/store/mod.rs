@@ -16,7 +16,6 @@ mod history;
 pub(crate) mod mass;
 pub(crate) mod membership;
 mod moved;
-mod now;
 pub(crate) mod pairs;
 pub(crate) mod pull;
 pub(crate) mod regime;

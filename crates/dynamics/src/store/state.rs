@@ -297,15 +297,23 @@ impl BodyState {
         self.damping() != (0.0, 0.0)
     }
 
-    /// The motion told from `time` on, by the law of its flight.
-    pub(crate) fn at(&self, time: SimTime) -> Motion {
+    /// The motion told from `time` on, free of its law, and the angle that it has turned by since it began, in rad: a law costs elliptic
+    /// functions, or a sum of polynomials, and is asked once.
+    pub(crate) fn at(&self, time: SimTime) -> (Motion, f64) {
         let mut motion = self.motion.rebased(time);
         if let Some(flight) = &self.flight {
             let angle;
             (motion.centre, motion.velocity, angle, motion.spin) = flight.all_at(time);
             motion.rotation = flight.turned_by(angle);
+            motion.left_out = 0.0;
+            return (motion, angle - flight.angle_at(self.motion.start).0);
         }
-        motion
+        let (lag, elapsed) = (self.lag(), time - self.motion.start);
+        if *lag != Lag::NONE {
+            motion.velocity += lag.at(elapsed);
+            motion.spin += lag.spin_at(elapsed);
+        }
+        (motion, self.motion.turn(elapsed))
     }
 
     /// Angle that the body turned by since its motion's start, in rad, whole turns included.

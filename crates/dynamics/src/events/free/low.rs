@@ -86,7 +86,7 @@ pub(super) fn press(bodies: &Bodies, impact: &Foreseen, time: SimTime) -> f64 {
     let feature = |index: u32, at: u32, number: u32| {
         let mut motion = bodies.get(index).motion;
         if bodies.bends(index) {
-            motion = bodies.get(index).at(time);
+            motion = bodies.get(index).at(time).0;
             let freely = bodies.freely(index, time);
             (motion.acceleration, motion.angular_acceleration) = freely;
         }
