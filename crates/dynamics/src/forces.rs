@@ -4,6 +4,8 @@
 //! nor end with a step: in each a body with contacts is pulled by the mean of what acts in it, as far as that is known where it begins,
 //! and of what was applied since within the one before.
 
+use std::collections::BTreeSet;
+
 use carom_math::{SimTime, Vec2};
 
 use crate::World;
@@ -18,7 +20,7 @@ impl World {
             (self.forced.iter()).partition(|index| self.has_rows(**index));
         for index in pushed {
             self.bodies.get_mut(index).uncommon_mut().acted = now;
-            self.joins.push(index);
+            self.joins.pushed.insert(index);
         }
         for &index in &forced {
             // An analytic body is handed back first, since that assumes the motion stored for its island.
@@ -76,13 +78,10 @@ impl World {
         }
     }
 
-    /// Bodies that forces act on in this step, or did in the last sub-step of the engine, in order.
-    pub(crate) fn all_forced(&self) -> Vec<u32> {
-        let mut all = [&self.forced[..], &self.joins.pushed].concat();
-        all.sort_unstable();
-        all.dedup();
-        all.retain(|index| self.bodies.is_alive(*index));
-        all
+    /// Bodies that forces act on in this step, or did in the last sub-step of the engine.
+    pub(crate) fn all_forced(&self) -> BTreeSet<u32> {
+        let all = self.forced.iter().chain(&self.joins.pushed).copied();
+        all.filter(|index| self.bodies.is_alive(*index)).collect()
     }
 
     /// Whether the engine moves a body that touches something there, or did when forces began to act on it.
@@ -92,7 +91,7 @@ impl World {
             let mut contacts = stepping.engine.contacts_of(stepping.id(index)?).ok()?;
             contacts.next()
         };
-        self.is_engines(index) && (self.joins.is_pushed(index) || touches().is_some())
+        self.is_engines(index) && (self.joins.pushed.contains(&index) || touches().is_some())
     }
 
     /// Forces of the sub-step of the engine from `start` on.
@@ -111,7 +110,7 @@ impl World {
             }
             acts.act(start, end, h);
             if acts.force != Vec2::ZERO || acts.torque != 0.0 {
-                self.joins.push(index);
+                self.joins.pushed.insert(index);
             }
             stepping.pull_one(&self.bodies, index);
         }

@@ -1,6 +1,8 @@
 //! Analytic islands that end, or come to rest: their members go on as they are, without the forces of the island, or rest
 //! at once and fall asleep after a while.
 
+use std::collections::BTreeSet;
+
 use carom_math::SimTime;
 
 use crate::analytic::islands::store::Group;
@@ -59,7 +61,7 @@ impl World {
         if still.is_empty() {
             return;
         }
-        let mut lying = Vec::new();
+        let mut lying = BTreeSet::new();
         for place in still {
             let Some(group) = self.closed.get(place) else {
                 continue;
@@ -69,12 +71,10 @@ impl World {
             }
             for &(index, _) in &group.members {
                 self.bodies.get_mut(index).begin_analytic_rest();
-                lying.push(index);
+                lying.insert(index);
             }
         }
-        lying.sort_unstable();
-        self.unsettled
-            .retain(|index| lying.binary_search(index).is_err());
+        self.unsettled.retain(|index| !lying.contains(index));
         for index in lying {
             self.lie_down(index, time);
         }

@@ -1,6 +1,8 @@
 //! The world: what is kept of bodies and pairs, and what each method keeps. A step moves it; `api` has what a caller makes, changes
 //! and reads.
 
+use std::collections::BTreeSet;
+
 use carom_math::SimTime;
 
 use crate::analytic::islands::store::Closed;
@@ -47,8 +49,8 @@ pub struct World {
     pub(crate) broad: Broad,
     pub(crate) closed: Closed,
     pub(crate) free: FreeBodies,
-    /// Bodies that get their method before time goes on, in order.
-    pub(crate) unsettled: Vec<u32>,
+    /// Bodies that get their method before time goes on.
+    pub(crate) unsettled: BTreeSet<u32>,
     pub(crate) events: Events,
     pub(crate) report: StepReport,
     pub(crate) work: Work,

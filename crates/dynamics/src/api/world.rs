@@ -1,5 +1,6 @@
 //! Bodies in, bodies out, what the caller changes and reads. No mechanics here.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use carom_geometry::{Aabb, Shape};
@@ -46,7 +47,7 @@ impl World {
             broad: Broad::new(settings.pair_search),
             closed: Closed::default(),
             free: FreeBodies::under(settings.gravity),
-            unsettled: Vec::new(),
+            unsettled: BTreeSet::new(),
             events: Events::new(settings.events),
             report: StepReport::default(),
             work: Work::default(),

@@ -1,5 +1,6 @@
 //! What a caller changed enters the engine before the next sub-step.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use carom_collision::part_count;
@@ -129,7 +130,7 @@ impl Stepping {
     pub(crate) fn book_pulls(
         &mut self,
         bodies: &mut Bodies,
-        forced: &[u32],
+        forced: &BTreeSet<u32>,
         clock: &Clock,
         first: bool,
     ) {

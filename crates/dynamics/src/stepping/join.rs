@@ -7,7 +7,7 @@
 //! Kinematic bodies are its guests, and so are fixed ones and those that sleep outside of the engine where members are near
 //! (`guests`): it knows them, and moves only members that meet them.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use carom_collision::{BoxTree, Motion};
 use carom_geometry::Aabb;
@@ -46,10 +46,10 @@ pub(crate) struct Joins {
     pub(crate) known: usize,
     /// Shapes that touched when one of their bodies joined: the caller was told.
     pub(crate) told: Vec<Shapes>,
-    /// Members that had no contact at the last ticks, and at how many; in order of bodies.
-    idle: Vec<(u32, u8)>,
+    /// Members that had no contact at the last ticks, and at how many.
+    idle: BTreeMap<u32, u8>,
     /// Bodies that took to flight, and some that landed since.
-    pub(crate) aloft: Vec<u32>,
+    pub(crate) aloft: BTreeSet<u32>,
     /// Bodies outside with motions that are newer than the last search for bodies that join.
     pub(crate) restless: Vec<u32>,
     /// Where bodies outside go until the tick of this number ends: what comes to the engine in it, or goes elsewhere, asks for them
@@ -59,8 +59,8 @@ pub(crate) struct Joins {
     pub(crate) unwritten: bool,
     /// Where the engine's last sub-step ended.
     pub(crate) reached: SimTime,
-    /// Bodies of the engine that a caller's forces act on, or did in its last sub-step, in order.
-    pub(crate) pushed: Vec<u32>,
+    /// Bodies of the engine that a caller's forces act on, or did in its last sub-step.
+    pub(crate) pushed: BTreeSet<u32>,
     /// Until when forces of the present step are known.
     pub(crate) forced_until: SimTime,
     pub(crate) rush: Rush,
@@ -72,31 +72,15 @@ pub(crate) struct Joins {
 }
 
 impl Joins {
-    /// A caller's force acts on a body of the engine.
-    pub(crate) fn push(&mut self, index: u32) {
-        if let Err(at) = self.pushed.binary_search(&index) {
-            self.pushed.insert(at, index);
-        }
-    }
-
-    pub(crate) fn is_pushed(&self, index: u32) -> bool {
-        self.pushed.binary_search(&index).is_ok()
-    }
-
     /// Notes that a body flies.
     pub(crate) fn note_flight(&mut self, bodies: &Bodies, mode: Mode, index: u32) {
-        let most = 2 * bodies.places() + 64;
         if bodies.member_count() > 0 {
             self.restless.push(index);
         } else {
             self.ahead = None;
         }
         if mode != Mode::Stepped {
-            self.aloft.push(index);
-            if self.aloft.len() > most {
-                self.aloft.sort_unstable();
-                self.aloft.dedup();
-            }
+            self.aloft.insert(index);
         }
     }
 
@@ -127,13 +111,8 @@ impl World {
 
     /// Bodies in touch of which one has no solution of its contact modes join.
     pub(crate) fn join_unsolved(&mut self, time: SimTime) {
-        let mut joining: Vec<u32> = self.unsolved_islands().into_iter().flatten().collect();
-        if joining.is_empty() {
-            return;
-        }
-        joining.sort_unstable();
-        self.unsettled
-            .retain(|index| joining.binary_search(index).is_err());
+        let joining: BTreeSet<u32> = self.unsolved_islands().into_iter().flatten().collect();
+        self.unsettled.retain(|index| !joining.contains(index));
         for index in joining {
             self.join(index, time);
         }
@@ -288,10 +267,9 @@ impl World {
 
     /// The engine will not move a body any more, which flies from `time` on: forces go on as those of a free body.
     fn release_force(&mut self, index: u32, time: SimTime) {
-        let Ok(at) = self.joins.pushed.binary_search(&index) else {
+        if !self.joins.pushed.remove(&index) {
             return;
-        };
-        self.joins.pushed.remove(at);
+        }
         let (before, _) = self.bodies.energy_of(index, time);
         let state = self.bodies.get_mut(index);
         let (inverse_mass, inverse_inertia) = (state.inverse_mass, state.inverse_inertia);
@@ -319,7 +297,7 @@ impl World {
         let acts = state.uncommon_mut();
         acts.pending = (acts.force, acts.torque);
         acts.acted = time;
-        self.joins.push(index);
+        self.joins.pushed.insert(index);
     }
 
     /// Members that nothing touches or nears for a while fly from here on. At the start of a tick.
@@ -329,14 +307,13 @@ impl World {
         };
         stepping.engine.prepare_queries();
         let before = core::mem::take(&mut self.joins.idle);
-        let (mut idle, mut gone) = (Vec::new(), Vec::new());
+        let mut gone = BTreeSet::new();
         for state in stepping.engine.without_contact() {
             let index = super::place(&state);
             if !self.bodies.get(index).in_engine() {
                 continue;
             }
-            let last = before.binary_search_by_key(&index, |known| known.0);
-            let ticks = last.map_or(0, |at| before[at].1) + 1;
+            let ticks = before.get(&index).map_or(1, |ticks| ticks + 1);
             let ahead = (time, 2.0 * self.settings.tick);
             let leaves = ticks > IDLE && {
                 // What a long step has not written yet is as old as the step.
@@ -344,14 +321,11 @@ impl World {
                 !self.nears_member(&stepping, index, ahead)
             };
             if leaves {
-                gone.push(index);
+                gone.insert(index);
             } else {
-                idle.push((index, ticks.min(IDLE)));
+                self.joins.idle.insert(index, ticks.min(IDLE));
             }
         }
-        idle.sort_unstable();
-        self.joins.idle = idle;
-        gone.sort_unstable();
         self.stepping = Some(stepping);
         for &index in &gone {
             // What it touched is told below.

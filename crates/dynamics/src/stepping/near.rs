@@ -18,7 +18,7 @@ impl Joins {
         &mut self,
         stepping: &mut Stepping,
         rules: Rules<'_>,
-        held: &[u32],
+        held: &BTreeSet<u32>,
         (time, tick): (SimTime, u64),
         asks_all: bool,
     ) -> BTreeSet<u32> {
@@ -35,21 +35,17 @@ impl Joins {
         stepping.engine.prepare_queries();
         let left = stepping.engine.left();
         let box_of = |index: u32| box_ahead(bodies.get(index), time, left);
-        let with_boxes = |some: &[u32]| -> Vec<(Aabb, u32)> {
-            some.iter().map(|index| (box_of(*index), *index)).collect()
-        };
+        let with_box = |index: &u32| (box_of(*index), *index);
         let known = self.ahead.take();
         let known = known.filter(|(of, _)| *of == tick && !asks_all);
         let (_, tree) = self.ahead.insert(known.unwrap_or_else(|| {
-            self.aloft.sort_unstable();
-            self.aloft.dedup();
             self.aloft.retain(is_aloft);
             let mut tree = BoxTree::new();
-            tree.extend(with_boxes(&self.aloft));
+            tree.extend(self.aloft.iter().map(with_box));
             (tick, tree)
         }));
         let mut near = BTreeSet::new();
-        let mut asked: Vec<u32> = held.to_vec();
+        let mut asked: Vec<u32> = held.iter().copied().collect();
         let meet = |tag: u64, bounds: Aabb| {
             let at = super::collider(tag);
             tree.query(bounds, |index| {
@@ -66,7 +62,7 @@ impl Joins {
         } else {
             stepping.engine.news(meet);
             restless.retain(is_aloft);
-            tree.extend(with_boxes(&restless));
+            tree.extend(restless.iter().map(with_box));
             asked.append(&mut restless);
         }
         near.extend(asked.into_iter().filter(|index| {

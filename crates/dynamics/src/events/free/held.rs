@@ -236,9 +236,7 @@ impl World {
             self.clock.catch_up(time);
         }
         self.raise_free(time);
-        if let Err(at) = self.unsettled.binary_search(&index) {
-            self.unsettled.insert(at, index);
-        }
+        self.unsettled.insert(index);
     }
 
     /// Bodies look for free bodies by boxes in the world from now on.
@@ -252,8 +250,7 @@ impl World {
 
     /// A body has its method.
     pub(crate) fn end_unsettled(&mut self, index: u32) {
-        if let Ok(at) = self.unsettled.binary_search(&index) {
-            self.unsettled.remove(at);
+        if self.unsettled.remove(&index) {
             self.lower_free_boxes_later();
         }
     }
