@@ -111,8 +111,9 @@ struct Rows {
     y1: [f64; MOST],
     x2: [f64; MOST],
     y2: [f64; MOST],
-    /// What is flush with the piece, in m.
+    /// What is flush with the piece, and how much farther apart they are at the second point, in m.
     flush: [f64; MOST],
+    slope: [f64; MOST],
     pieces: [u32; MOST],
     contacts: [u32; MOST],
     len: usize,
@@ -150,14 +151,17 @@ pub(crate) fn hide(
         }
         if (2..=MOST).contains(&ids.len()) {
             rows.fill(graph, pieces, &ids, &its);
-            let hides = |k: usize| dispatch!(level, simd => is_row_hidden(simd, &rows, pieces, k));
-            let asked = asked.iter().filter(|(_, contact)| {
+            for &(_, contact) in asked {
                 let place = rows.contacts[..rows.len]
                     .iter()
-                    .position(|id| id == contact);
-                place.is_some_and(hides)
-            });
-            ghosts.extend(asked.map(|(_, contact)| *contact));
+                    .position(|id| *id == contact);
+                if let Some(k) = place {
+                    rows.end_near(pieces, k);
+                    if dispatch!(level, simd => is_row_hidden(simd, &rows, pieces, k)) {
+                        ghosts.push(contact);
+                    }
+                }
+            }
         }
     }
     // Impulses of several are taken out of one body in an order that other islands do not change.
@@ -239,6 +243,7 @@ impl Rows {
         x2: [0.0; MOST],
         y2: [0.0; MOST],
         flush: [0.0; MOST],
+        slope: [0.0; MOST],
         pieces: [0; MOST],
         contacts: [0; MOST],
         len: 0,
@@ -267,24 +272,29 @@ impl Rows {
             let apart = if side == 1 { near.max(0.0) } else { 0.0 };
             let first = first - normal * (apart + 0.5 * near.min(0.0));
             let last = first - perp(n) * if two { block.l[lane] } else { 0.0 };
-            let mut points = [first, last];
-            // Where a side of the piece slants away from a face of the body it meets that with its near end alone.
-            let flush = FLUSH * pieces.outlines[pair[side] as usize].extent();
-            let piece = pieces.turned(pair[side]);
-            let is_face = |i: usize| piece.normal(i).dot(normal) > 1.0 - LEANS * LEANS;
-            if two && (gaps[0] - gaps[1]).abs() > flush && !(0..piece.corners()).any(is_face) {
-                points = [points[usize::from(gaps[1] < gaps[0])]; 2];
-            }
-            let [first, last] = points;
             (self.nx[k], self.ny[k]) = (normal.x, normal.y);
             (self.x1[k], self.y1[k]) = (first.x, first.y);
             (self.x2[k], self.y2[k]) = (last.x, last.y);
-            self.flush[k] = flush;
+            self.flush[k] = FLUSH * pieces.outlines[pair[side] as usize].extent();
+            self.slope[k] = if two { gaps[1] - gaps[0] } else { 0.0 };
             (self.pieces[k], self.contacts[k]) = (pair[side], *id);
         }
         // What is beyond the last of the lanes is flush with nothing.
         let end = self.len.next_multiple_of(4);
         self.flush[self.len..end].fill(f64::NEG_INFINITY);
+    }
+
+    /// Where a side of the piece slants away from a face of the body it meets that with its near end alone.
+    fn end_near(&mut self, pieces: &Pieces, k: usize) {
+        if self.slope[k].abs() > self.flush[k] {
+            let (piece, normal) = (pieces.turned(self.pieces[k]), self.normal(k));
+            let is_face = |i: usize| piece.normal(i).dot(normal) > 1.0 - LEANS * LEANS;
+            if !(0..piece.corners()).any(is_face) {
+                let near = self.points(k)[usize::from(self.slope[k] < 0.0)];
+                (self.x1[k], self.y1[k]) = (near.x, near.y);
+                (self.x2[k], self.y2[k]) = (near.x, near.y);
+            }
+        }
     }
 
     const fn normal(&self, k: usize) -> Vec2 {
