@@ -73,6 +73,7 @@ mod what_is_changed_within_a_sub_step_stands_until_it_ends;
 mod what_is_made_fixed_stands_in_the_way_at_once;
 mod what_is_thrown_within_a_sub_step_keeps_its_contacts;
 mod what_lands_again_begins_a_mode_anew;
+mod what_lands_flat_in_the_end_falls_asleep;
 mod what_leaves_a_turning_group_is_not_called_exact;
 mod what_meets_in_months_does_not_meet_now;
 mod what_moves_does_not_fall_asleep;

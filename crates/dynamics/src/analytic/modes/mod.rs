@@ -146,9 +146,13 @@ pub(crate) fn solve_modes(
         return Err(NotMine::TooLarge);
     }
     let slips = faces::slips(bodies, touches, speed)?;
-    if turns(bodies, touches, speed) {
-        return Err(NotMine::Turns);
-    }
+    let without;
+    let bodies = if turns(bodies, touches, speed) {
+        without = without_roundings(bodies, touches, speed).ok_or(NotMine::Turns)?;
+        &without
+    } else {
+        bodies
+    };
     let faces = Faces::new(bodies, touches);
     if let Some(moves) = rest::rest(bodies, touches, &faces, speed) {
         return Ok(moves);
@@ -291,6 +295,26 @@ fn turns(bodies: &[ModeBody], touches: &[Touch], speed: f64) -> bool {
                     && turning > STILL * (body.velocity.length() + turning + speed)
             })
     })
+}
+
+/// The bodies as their touches let them move, where none turns then; `None` where one does.
+///
+/// A touch counts as closed up to [`CLOSED`], and turning from [`STILL`] on: an edge flush on another one that turns by something in
+/// between is at the end of a series of landings, and turns by their roundings. A path would take them out, too, and never end.
+fn without_roundings(bodies: &[ModeBody], touches: &[Touch], speed: f64) -> Option<Vec<ModeBody>> {
+    if bodies.iter().any(faces::is_driven) {
+        return None;
+    }
+    let held = stand(bodies, touches, speed);
+    let both = bodies.iter().zip(held);
+    let without: Vec<ModeBody> = both
+        .map(|(body, (velocity, spin))| ModeBody {
+            velocity,
+            spin,
+            ..*body
+        })
+        .collect();
+    (!turns(&without, touches, speed)).then_some(without)
 }
 
 /// Whether the rows of all closed touches keep their numbers, as far as accelerations feel them.
