@@ -3,11 +3,10 @@
 use carom_math::{SimTime, Vec2};
 
 use super::FreeBodies;
-use crate::Filter;
 use crate::broad::free_fall_frame::{Frame, Track};
 use crate::broad::window::{self, Window};
 use crate::store::bodies::Bodies;
-use crate::store::state::{BodyState, Collider};
+use crate::store::state::BodyState;
 
 /// The bounding circle of a body at an instant, in motion.
 #[derive(Clone, Copy, Debug)]
@@ -49,8 +48,6 @@ pub(super) struct Look {
     circle: Circle,
     /// It falls as the frame does.
     falls: bool,
-    /// Until when it looks for others of the grid, if it touches whatever is usual.
-    horizon: Option<SimTime>,
 }
 
 /// The circle of a free body with the motion that it looked round with: 64 bytes, where the body has ten times as many.
@@ -63,12 +60,10 @@ pub(super) struct Registered {
     reach: f64,
     /// It falls as the frame does.
     falls: bool,
-    /// It has one shape, which touches all that have the usual filter.
-    plain: bool,
 }
 
 impl Registered {
-    pub(super) fn of(state: &BodyState, colliders: &[Collider], frame: &Frame) -> Self {
+    pub(super) fn of(state: &BodyState, frame: &Frame) -> Self {
         let motion = &state.motion;
         Self {
             since: motion.start,
@@ -76,14 +71,12 @@ impl Registered {
             velocity: motion.velocity,
             reach: state.reach,
             falls: motion.acceleration == frame.acceleration() && state.flight.is_none(),
-            plain: state.is_dynamic()
-                && matches!(&*state.colliders, [one] if colliders[*one as usize].surface.filter == Filter::default()),
         }
     }
 }
 
 impl FreeBodies {
-    /// Of a body that looks round: its circle, and until when it looks, if it is in the grid and touches whatever is usual.
+    /// Of a body that looks round: its circle, and whether it falls as the frame does, if it is in the grid.
     pub(super) fn looks(&self, bodies: &Bodies, body: u32, time: SimTime) -> Look {
         let state = bodies.get(body);
         let known = self.circles.get(body as usize);
@@ -91,9 +84,6 @@ impl FreeBodies {
         Look {
             circle: Circle::of(state, time),
             falls: known.is_some_and(|known| known.falls),
-            horizon: known
-                .filter(|known| known.plain)
-                .map(|_| self.horizon(state)),
         }
     }
 
@@ -124,20 +114,12 @@ impl FreeBodies {
     }
 
     /// Until when two free bodies have looked for each other.
-    pub(super) fn common_horizon_of(&self, a: &BodyState, b: &BodyState) -> SimTime {
+    pub(super) fn common_horizon(&self, a: &BodyState, b: &BodyState) -> SimTime {
         if a.course.cells.is_some() && b.course.cells.is_some() {
             self.horizon(a).min(self.horizon(b))
         } else {
             // The larger one is in the tree, and met where the other looks down.
             a.course.ground.min(b.course.ground)
         }
-    }
-
-    /// Until when a body looks for one of the grid that looks for it, if both touch whatever is usual.
-    #[inline]
-    pub(super) fn common_horizon(&self, look: &Look, body: u32) -> Option<SimTime> {
-        let (body, horizon) = (body as usize, look.horizon?);
-        let plain = self.circles.get(body)?.plain;
-        plain.then(|| horizon.min(self.horizons[body]))
     }
 }

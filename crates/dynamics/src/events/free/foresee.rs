@@ -174,16 +174,7 @@ impl World {
             let Some(window) = self.free.window(&self.bodies, &look, other, time) else {
                 continue;
             };
-            // Most come near later, and nothing else is asked of them now.
-            match self.free.common_horizon(&look, other) {
-                Some(horizon) if window.from > 0.0 => {
-                    let meet = time + window.from;
-                    if meet <= horizon {
-                        self.queue_near(index, other, meet);
-                    }
-                }
-                _ => self.approach(index, other, window, time, cause),
-            }
+            self.approach(index, other, window, time, cause);
         }
         self.free.near = near;
     }
@@ -208,7 +199,7 @@ impl World {
         }
         if window.from > 0.0 {
             let meet = time + window.from;
-            if meet <= self.free.common_horizon_of(a, b) {
+            if meet <= self.free.common_horizon(a, b) {
                 self.queue_near(index, other, meet);
             }
             return;

@@ -189,7 +189,7 @@ impl FreeBodies {
             self.horizons.resize(place + 1, SimTime::ZERO);
         }
         let state = bodies.get(index);
-        self.circles[place] = Registered::of(state, &bodies.colliders, &self.frame);
+        self.circles[place] = Registered::of(state, &self.frame);
         self.horizons[place] = horizon;
         true
     }

@@ -60,7 +60,7 @@ impl World {
         let end = if window.to.is_finite() && both_in_grid(one, two) {
             window.to
         } else {
-            window.to.min(self.free.common_horizon_of(one, two) - time)
+            window.to.min(self.free.common_horizon(one, two) - time)
         };
         let shapes = (one.colliders.clone(), two.colliders.clone());
         self.seek_all((a, b), shapes, time, end, cause);
