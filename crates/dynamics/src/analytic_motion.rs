@@ -16,7 +16,7 @@ impl World {
     /// Islands that came to move since the last time begin their motion; what goes otherwise than they say joins the engine. Whether
     /// there were some.
     pub(crate) fn begin_analytic_motion(&mut self, time: SimTime) -> bool {
-        let moving = self.closed.take_moving();
+        let moving = self.closed.take_begun(false);
         let some = !moving.is_empty();
         for place in moving {
             let Some(group) = self.closed.get(place) else {
@@ -120,7 +120,7 @@ impl World {
             // Its boxes are as long as its way was: narrow ones meet what is here.
             self.bodies.set_boxes(index, Aabb::EMPTY);
         }
-        self.closed.moves(place);
+        self.closed.begins(place, false);
         members
     }
 

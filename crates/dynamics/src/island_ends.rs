@@ -57,7 +57,7 @@ impl World {
 
     /// Islands that came to rest since the last time: a body that meets one wakes it, as if it slept.
     pub(crate) fn begin_analytic_rest(&mut self, time: SimTime) {
-        let still = self.closed.take_still();
+        let still = self.closed.take_begun(true);
         if still.is_empty() {
             return;
         }

@@ -403,11 +403,8 @@ impl World {
         // What is driven begins to move without a touch.
         let drives = |index: &u32| self.bodies.get(*index).kind == BodyKind::Kinematic;
         let still = !turns && moves.iter().all(|body| *body == BodyMove::default());
-        if still && !gathered.places.iter().any(drives) {
-            self.closed.stands_still(place);
-        } else {
-            self.closed.moves(place);
-        }
+        let rests = still && !gathered.places.iter().any(drives);
+        self.closed.begins(place, rests);
         for index in members {
             self.redirect(index, time);
         }

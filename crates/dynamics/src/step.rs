@@ -114,7 +114,7 @@ impl World {
                 }
                 continue;
             }
-            debug_assert!(next <= reached || self.closed.have_begun());
+            debug_assert!(next <= reached || self.closed.to_begin(false).is_empty());
             reached = next.max(reached);
             let time = if let Some(time) = change
                 && flight.is_none_or(|flight| time <= flight)

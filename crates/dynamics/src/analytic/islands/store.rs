@@ -41,10 +41,8 @@ pub(crate) struct Closed {
     /// Stale entries are dropped when they come up: a group's stamp tells.
     changes: BinaryHeap<Reverse<(SimTime, u32, u64)>>,
     stamp: u64,
-    /// Groups that came to rest at this instant, with their stamps.
-    still: Vec<(u32, u64)>,
-    /// Groups that are to begin their motion, with their stamps.
-    moving: Vec<(u32, u64)>,
+    /// Groups that are to begin their rest (`true`) or their motion at this instant, with their stamps.
+    begun: Vec<(bool, u32, u64)>,
     /// By place of a body: when its mode solves of one instant began, and how many they were; the same of those
     /// in the time of a sub-step.
     stalls: Vec<[(SimTime, u32); 2]>,
@@ -213,41 +211,27 @@ impl Closed {
         }
     }
 
-    /// A group rests before time goes on.
-    pub(crate) fn stands_still(&mut self, place: u32) {
-        self.still.push((place, self.stamp));
-    }
-
-    /// Places of the groups that came to rest since the last time, and still do.
-    pub(crate) fn take_still(&mut self) -> Vec<u32> {
-        let still = core::mem::take(&mut self.still);
-        self.that_are_there(still)
-    }
-
-    /// A group begins its motion before time goes on.
-    pub(crate) fn moves(&mut self, place: u32) {
+    /// A group rests, or begins its motion, before time goes on.
+    pub(crate) fn begins(&mut self, place: u32, rests: bool) {
         if let Some((stamp, _)) = self.groups.get(place) {
-            self.moving.push((place, *stamp));
+            self.begun.push((rests, place, *stamp));
         }
     }
 
-    /// Whether no group is to begin its motion.
-    pub(crate) fn have_begun(&self) -> bool {
-        self.that_are_there(self.moving.clone()).is_empty()
-    }
-
-    /// Places of the groups that are to begin their motion, and are still there.
-    pub(crate) fn take_moving(&mut self) -> Vec<u32> {
-        let moving = core::mem::take(&mut self.moving);
-        self.that_are_there(moving)
-    }
-
-    fn that_are_there(&self, stamped: Vec<(u32, u64)>) -> Vec<u32> {
-        let stands = |(place, stamp): (u32, u64)| {
+    /// Places of the groups that are to begin their rest, or their motion, and are still there.
+    pub(crate) fn to_begin(&self, rest: bool) -> Vec<u32> {
+        let stands = |&(rests, place, stamp): &(bool, u32, u64)| {
             let (held, _) = self.groups.get(place)?;
-            (*held == stamp).then_some(place)
+            (rests == rest && *held == stamp).then_some(place)
         };
-        stamped.into_iter().filter_map(stands).collect()
+        self.begun.iter().filter_map(stands).collect()
+    }
+
+    /// The same, once.
+    pub(crate) fn take_begun(&mut self, rest: bool) -> Vec<u32> {
+        let places = self.to_begin(rest);
+        self.begun.retain(|(rests, ..)| *rests != rest);
+        places
     }
 
     pub(crate) fn get_mut(&mut self, place: u32) -> Option<&mut Group> {
