@@ -154,7 +154,7 @@ impl World {
     /// If the body is not there, a number is not finite, or the body would be faster than [`WORLD_LIMIT`](crate::WORLD_LIMIT).
     pub fn apply(&mut self, id: BodyId, impulse: Impulse) -> Result<(), BodyError> {
         let index = self.bodies.find(id)?;
-        impulse.check()?;
+        let impulse = impulse.checked()?;
         let (now, state) = (self.clock.now, self.bodies.get(index));
         let angular = impulse.about(state.centre_at(now));
         let velocity = state.velocity_at(now) + impulse.linear * state.inverse_mass;
@@ -178,7 +178,7 @@ impl World {
     /// [`WORLD_LIMIT`](crate::WORLD_LIMIT), in m/s² and rad/s².
     pub fn apply_force(&mut self, id: BodyId, force: Force) -> Result<(), BodyError> {
         let index = self.bodies.find(id)?;
-        force.check()?;
+        let force = force.checked()?;
         let now = self.clock.now;
         let state = self.bodies.get(index);
         let (linear, torque) = state.uncommon().pending;

@@ -4,13 +4,43 @@ use carom_math::{Vec2, cross};
 
 use super::error::{BodyError, check_finite, check_vec2};
 
+/// What acts on a body: an impulse in N·s and N·m·s, or a force in N and N·m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Push {
+    pub(crate) linear: Vec2,
+    angular: f64,
+    /// Where it acts; `None`: at the centre of mass.
+    point: Option<Vec2>,
+}
+
+impl Push {
+    const fn new(linear: Vec2, angular: f64, point: Option<Vec2>) -> Self {
+        Self {
+            linear,
+            angular,
+            point,
+        }
+    }
+
+    /// Angular part about `centre`.
+    pub(crate) fn about(&self, centre: Vec2) -> f64 {
+        self.angular
+            + self
+                .point
+                .map_or(0.0, |point| cross(point - centre, self.linear))
+    }
+
+    fn checked(self, [x, y, angular]: [&'static str; 3]) -> Result<Self, BodyError> {
+        check_vec2(x, y, self.linear)?;
+        check_finite(angular, self.angular)?;
+        check_vec2("point.x", "point.y", self.point.unwrap_or_default())?;
+        Ok(self)
+    }
+}
+
 /// A change of momentum, acting at once.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Impulse {
-    pub(crate) linear: Vec2,
-    pub(crate) angular: f64,
-    pub(crate) point: Option<Vec2>,
-}
+pub struct Impulse(Push);
 
 impl Impulse {
     /// `impulse` in N·s at the world point `point` in m: `v += J/m`, `ω += (r × J)/I`.
@@ -33,98 +63,51 @@ impl Impulse {
     /// ```
     #[must_use]
     pub const fn at(point: Vec2, impulse: Vec2) -> Self {
-        Self {
-            linear: impulse,
-            angular: 0.0,
-            point: Some(point),
-        }
+        Self(Push::new(impulse, 0.0, Some(point)))
     }
 
     /// `impulse` in N·s at the centre of mass.
     #[must_use]
     pub const fn central(impulse: Vec2) -> Self {
-        Self {
-            linear: impulse,
-            angular: 0.0,
-            point: None,
-        }
+        Self(Push::new(impulse, 0.0, None))
     }
 
     /// An angular impulse in N·m·s, counter-clockwise.
     #[must_use]
     pub const fn angular(impulse: f64) -> Self {
-        Self {
-            linear: Vec2::ZERO,
-            angular: impulse,
-            point: None,
-        }
+        Self(Push::new(Vec2::ZERO, impulse, None))
     }
 
-    /// Angular part about `centre`, in N·m·s.
-    pub(crate) fn about(&self, centre: Vec2) -> f64 {
-        self.angular
-            + self
-                .point
-                .map_or(0.0, |point| cross(point - centre, self.linear))
-    }
-
-    pub(crate) fn check(&self) -> Result<(), BodyError> {
-        check_vec2("impulse.x", "impulse.y", self.linear)?;
-        check_finite("angular impulse", self.angular)?;
-        check_vec2("point.x", "point.y", self.point.unwrap_or_default())
+    pub(crate) fn checked(self) -> Result<Push, BodyError> {
+        let names = ["impulse.x", "impulse.y", "angular impulse"];
+        self.0.checked(names)
     }
 }
 
 /// A force or torque that acts during the next step and is gone after it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Force {
-    pub(crate) linear: Vec2,
-    pub(crate) torque: f64,
-    pub(crate) point: Option<Vec2>,
-}
+pub struct Force(Push);
 
 impl Force {
     /// `force` in N at the world point `point` in m: adds the torque `r × F` of this instant.
     #[must_use]
     pub const fn at(point: Vec2, force: Vec2) -> Self {
-        Self {
-            linear: force,
-            torque: 0.0,
-            point: Some(point),
-        }
+        Self(Push::new(force, 0.0, Some(point)))
     }
 
     /// `force` in N at the centre of mass.
     #[must_use]
     pub const fn central(force: Vec2) -> Self {
-        Self {
-            linear: force,
-            torque: 0.0,
-            point: None,
-        }
+        Self(Push::new(force, 0.0, None))
     }
 
     /// A torque in N·m, counter-clockwise.
     #[must_use]
     pub const fn torque(torque: f64) -> Self {
-        Self {
-            linear: Vec2::ZERO,
-            torque,
-            point: None,
-        }
+        Self(Push::new(Vec2::ZERO, torque, None))
     }
 
-    /// Torque about `centre`, in N·m.
-    pub(crate) fn about(&self, centre: Vec2) -> f64 {
-        self.torque
-            + self
-                .point
-                .map_or(0.0, |point| cross(point - centre, self.linear))
-    }
-
-    pub(crate) fn check(&self) -> Result<(), BodyError> {
-        check_vec2("force.x", "force.y", self.linear)?;
-        check_finite("torque", self.torque)?;
-        check_vec2("point.x", "point.y", self.point.unwrap_or_default())
+    pub(crate) fn checked(self) -> Result<Push, BodyError> {
+        self.0.checked(["force.x", "force.y", "torque"])
     }
 }
