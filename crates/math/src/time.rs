@@ -59,30 +59,6 @@ impl SimTime {
         Self::ZERO + upper + product + (error + upper_error)
     }
 
-    /// The instant `rest` seconds after `units` whole units of 2⁻⁶ s. A rest outside 0..2⁻⁶ s counts as the nearest in it.
-    ///
-    /// # Examples
-    /// ```
-    /// use carom_math::SimTime;
-    /// let late = SimTime::from_secs(10_000.01);
-    /// assert_eq!(SimTime::of_parts(late.units(), late.rest()), late);
-    /// assert_eq!(SimTime::of_parts(64, 0.0), SimTime::from_secs(1.0));
-    /// ```
-    #[must_use]
-    pub const fn of_parts(units: i64, rest: f64) -> Self {
-        // A rest that is no number is none.
-        let rest = if rest > 0.0 { rest } else { 0.0 };
-        if units == i64::MAX {
-            return Self::NEVER;
-        }
-        let rest = if rest < Self::UNIT {
-            rest
-        } else {
-            Self::UNIT.next_down()
-        };
-        Self { units, rest }
-    }
-
     /// Whole units of 2⁻⁶ s since the start.
     #[must_use]
     pub const fn units(self) -> i64 {
@@ -267,8 +243,11 @@ mod tests {
         ] {
             assert_eq!(never + secs, never, "{secs} s");
         }
-        assert_eq!(SimTime::of_parts(i64::MAX, 0.01), never);
-        assert_eq!(SimTime::of_parts(i64::MAX - 1, 0.015) + 0.015, never);
+        let last = SimTime {
+            units: i64::MAX - 1,
+            rest: 0.015,
+        };
+        assert_eq!(last + 0.015, never);
         assert!(SimTime::from_secs(1e17) < never);
         assert!(SimTime::from_secs(f64::NEG_INFINITY) <= SimTime::from_secs(-1e300));
     }
