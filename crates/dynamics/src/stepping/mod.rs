@@ -9,7 +9,7 @@
 //! motions are written once at the end of a step, or of each sub-step for a log.
 //!
 //! A world goes through its sub-steps in [`crate::engine`] and [`crate::members`]. To read in this order: this file, [`enter`], [`rules`],
-//! [`write`], [`touch`], [`rest`]; then, for members, [`join`] (which bodies the engine moves: [`near`], [`rush`] and [`heap`] say which
+//! [`write`], [`touch`], [`rest`]; then, for members, [`join`] (which bodies the engine moves: [`near`] and [`rush`] say which
 //! join) and [`guests`] (which others it knows).
 
 mod between;
