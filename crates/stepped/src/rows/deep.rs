@@ -143,9 +143,7 @@ impl Move {
 
 /// Shows the sweeps a contact as deep as it is, but no deeper than they may see it.
 fn show(graph: &mut Graph, bodies: &Bodies, id: u32) {
-    let contact = &graph.contacts[id as usize];
-    let (k, lane) = contact.place();
-    let colour = &mut graph.colours[contact.colour as usize];
+    let (colour, k, lane) = graph.colour_mut(id);
     let (block, cold) = (&mut colour.blocks[k], &colour.cold[k]);
     let [a, b] = [block.a[lane], block.b[lane]].map(|line| &bodies.lines[line as usize]);
     let opened = block.opened(lane, a, b);

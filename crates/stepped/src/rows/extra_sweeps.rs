@@ -141,8 +141,7 @@ impl ExtraSweeps {
                     let belt = cold.belt[lane];
                     let contact = &graph.contacts[*id as usize];
                     debug_assert!(!contact.is_hard(), "a hard row is swept");
-                    let k = contact.place().0;
-                    let block = &mut graph.colours[contact.colour as usize].blocks[k];
+                    let (block, lane) = graph.block_mut(*id);
                     let [j1, j2, jt] = block.impulses(lane);
                     row_again(pass, law, &mut bodies.lines, block, lane, belt, omega);
                     let [new1, new2, new_t] = block.impulses(lane);

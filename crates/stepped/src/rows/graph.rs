@@ -229,17 +229,15 @@ impl Graph {
             (contact.colour, contact.index) = (colour as u32, index as u32);
         }
         let (k, lane) = contact.place();
-        let block = &mut self.colours[colour].blocks[k];
+        let colour = &mut self.colours[colour];
+        let block = &mut colour.blocks[k];
         block.a[lane] = bodies.records[ends[0] as usize].line;
         block.b[lane] = bodies.records[ends[1] as usize].line;
         block.mu[lane] = surface.friction;
-        let colour = &mut self.colours[colour];
-        colour.blocks[k].put(lane, manifold);
+        block.put(lane, manifold);
         let deep = colour.cold[k].note_depth(lane, manifold.gaps, deepest, true);
         if deep {
-            colour.blocks[k].show(lane, deepest);
-        }
-        if deep {
+            block.show(lane, deepest);
             self.deep.push(id);
         }
         colour.cold[k].restitution[lane] = surface.restitution;
@@ -331,10 +329,9 @@ impl Graph {
         let line = bodies.records[slot as usize].line;
         let mut at = bodies.records[slot as usize].contacts;
         while at != END {
-            let (id, side) = ((at >> 1) as usize, (at & 1) as usize);
-            let contact = self.contacts[id];
-            let (k, lane) = contact.place();
-            let block = &mut self.colours[contact.colour as usize].blocks[k];
+            let (id, side) = (at >> 1, (at & 1) as usize);
+            let contact = self.contacts[id as usize];
+            let (block, lane) = self.block_mut(id);
             let end = if side == 0 {
                 &mut block.a
             } else {

@@ -31,18 +31,22 @@ impl Graph {
         self.cold(id).is_some() && self.contacts[id as usize].pieces == pieces
     }
 
-    pub(crate) fn block_mut(&mut self, id: u32) -> (&mut Block, usize) {
+    /// The colour of a contact, and its block and lane there.
+    pub(super) fn colour_mut(&mut self, id: u32) -> (&mut Colour, usize, usize) {
         let contact = &self.contacts[id as usize];
         let (k, lane) = contact.place();
-        let colour = &mut self.colours[contact.colour as usize];
+        (&mut self.colours[contact.colour as usize], k, lane)
+    }
+
+    pub(crate) fn block_mut(&mut self, id: u32) -> (&mut Block, usize) {
+        let (colour, k, lane) = self.colour_mut(id);
         (&mut colour.blocks[k], lane)
     }
 
     /// Notes that an impact begins in the row of a contact; whether none went on.
     pub(crate) fn begin_run(&mut self, id: u32) -> bool {
-        let contact = &self.contacts[id as usize];
-        let (k, lane) = contact.place();
-        let runs = &mut self.colours[contact.colour as usize].cold[k].runs;
+        let (colour, k, lane) = self.colour_mut(id);
+        let runs = &mut colour.cold[k].runs;
         let fresh = *runs >> lane & 1 == 0;
         *runs |= 1 << lane;
         fresh
@@ -50,9 +54,8 @@ impl Graph {
 
     /// It is over, if the contact is still one of these pieces.
     pub(crate) fn end_run(&mut self, id: u32, pieces: [u32; 2]) {
-        let contact = &self.contacts[id as usize];
-        let (k, lane) = contact.place();
-        if let Some(cold) = self.colours[contact.colour as usize].cold.get_mut(k)
+        let (colour, k, lane) = self.colour_mut(id);
+        if let Some(cold) = colour.cold.get_mut(k)
             && cold.contact[lane] == id
             && cold.pieces[lane] == pieces
         {
@@ -136,9 +139,7 @@ impl Graph {
 
     /// Gives a contact another surface; its impulses stay.
     pub(crate) fn resurface(&mut self, id: u32, surface: Surface) {
-        let contact = &self.contacts[id as usize];
-        let (k, lane) = contact.place();
-        let colour = &mut self.colours[contact.colour as usize];
+        let (colour, k, lane) = self.colour_mut(id);
         colour.discount(k, lane);
         colour.blocks[k].mu[lane] = surface.friction;
         colour.cold[k].restitution[lane] = surface.restitution;
@@ -148,9 +149,7 @@ impl Graph {
 
     /// Lets a contact start the next sub-step without impulses; velocities stay.
     pub(crate) fn clear_warm_start(&mut self, bodies: &mut Bodies, id: u32) {
-        let contact = &self.contacts[id as usize];
-        let (k, lane) = contact.place();
-        let block = &mut self.colours[contact.colour as usize].blocks[k];
+        let (block, lane) = self.block_mut(id);
         let (a, b) = (block.a[lane] as usize, block.b[lane] as usize);
         let [push_a, push_b] = block.push(lane, &bodies.lines[a], &bodies.lines[b]);
         bodies.start[a].add(&push_a);
@@ -161,9 +160,7 @@ impl Graph {
     /// Notes whether a contact pushes that other than the last sweep changed.
     pub(super) fn note_pushing(&mut self, id: u32) {
         if self.cold(id).is_some() {
-            let contact = &self.contacts[id as usize];
-            let (k, _) = contact.place();
-            let colour = &mut self.colours[contact.colour as usize];
+            let (colour, k, _) = self.colour_mut(id);
             colour.pushes[k] = colour.blocks[k].pushing();
         }
     }
@@ -181,11 +178,10 @@ impl Graph {
     /// Lets a contact do nothing until it is computed anew.
     pub(crate) fn hide(&mut self, bodies: &mut Bodies, id: u32) {
         self.clear_warm_start(bodies, id);
-        let contact = &self.contacts[id as usize];
-        let (k, lane) = contact.place();
-        let block = &mut self.colours[contact.colour as usize].blocks[k];
+        let (colour, k, lane) = self.colour_mut(id);
+        let block = &mut colour.blocks[k];
         (block.s1[lane], block.s2[lane]) = (OPEN, OPEN);
-        self.colours[contact.colour as usize].cold[k].deep &= !(1 << lane);
+        colour.cold[k].deep &= !(1 << lane);
     }
 }
 

@@ -71,8 +71,7 @@ impl Graph {
     pub(crate) fn set_hard(&mut self, id: u32, hard: bool) {
         let contact = self.contacts[id as usize];
         if contact.is_hard() != hard {
-            let (k, lane) = contact.place();
-            let block = &self.colours[contact.colour as usize].blocks[k];
+            let (block, _, lane) = self.lane(id);
             let lines = [block.a[lane], block.b[lane]];
             let to = soft(contact.colour) as usize + if hard { HARD } else { 0 };
             self.transfer(id, to, lines);
