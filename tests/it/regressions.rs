@@ -43,6 +43,7 @@ mod a_sleeper_of_the_engine_that_is_touched_wakes;
 mod a_sleeper_that_is_neared_does_not_fall;
 mod a_slider_stays_on_its_floor_when_a_force_ends;
 mod a_slow_slider_stops_at_a_wall;
+mod a_stack_rides_a_driven_platform;
 mod a_step_in_which_bodies_sink_is_not_exact;
 mod a_step_within_a_sub_step_of_the_solver_is_not_exact;
 mod a_stop_within_a_sub_step_is_booked_once;

@@ -13,7 +13,7 @@ pub(crate) mod tips;
 
 use carom_math::{SimTime, Vec2, cross_scalar, perp};
 
-use crate::analytic::modes::{BodyMove, GroupMove};
+use crate::analytic::modes::{BodyMove, GroupMove, carrier};
 use crate::analytic::touching::Gathered;
 use crate::store::bodies::Bodies;
 use store::Kept;
@@ -28,7 +28,9 @@ pub(crate) fn give_motions(
     accelerates: bool,
 ) -> (Vec<(u32, u32)>, f64) {
     let lost = gathered.kinetic(bodies, time) - kinetic(gathered, moves);
-    bodies.book.impacts.add(lost);
+    let driven = driven(bodies, gathered, moves, time);
+    bodies.book.impacts.add(lost + driven);
+    bodies.book.external.add(driven);
     let (mut members, mut fastest) = (Vec::new(), speed);
     for (&index, moved) in gathered.places.iter().zip(moves) {
         if bodies.get(index).inverse_mass == 0.0 {
@@ -51,6 +53,19 @@ pub(crate) fn give_motions(
         }
     }
     (members, fastest)
+}
+
+/// The work of what carries a group in a landing, in J: all its impulses come from bodies of one velocity.
+fn driven(bodies: &Bodies, gathered: &Gathered, moves: &[BodyMove], time: SimTime) -> f64 {
+    let carrier = carrier(&gathered.bodies);
+    let both = gathered.places.iter().zip(moves);
+    let work = |(index, moved): (&u32, &BodyMove)| {
+        let state = bodies.get(*index);
+        let came = state.at(time).0.velocity;
+        let free = state.inverse_mass > 0.0;
+        free.then(|| (moved.velocity - came).dot(carrier) / state.inverse_mass)
+    };
+    both.filter_map(work).sum()
 }
 
 /// The touches of a group with what they do while its mode lasts.

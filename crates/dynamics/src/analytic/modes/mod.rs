@@ -223,13 +223,16 @@ pub(crate) fn begin(
 /// The same problem as that of the accelerations, with impulses for forces; it has a solution where
 /// accelerations have none (Painlevé).
 pub(crate) fn land(bodies: &[ModeBody], touches: &[Touch]) -> Result<Vec<(Vec2, f64)>, NotMine> {
-    if bodies.iter().any(faces::is_driven) {
+    let carrier = carrier(bodies);
+    let alike =
+        |body: &ModeBody| body.inverse_mass > 0.0 || body.velocity == carrier && body.spin == 0.0;
+    if !bodies.iter().all(alike) {
         return Err(NotMine::Approaches);
     }
     let arriving: Vec<ModeBody> = bodies
         .iter()
         .map(|body| ModeBody {
-            pull: body.velocity,
+            pull: body.velocity - carrier,
             twist: body.spin,
             ..*body
         })
@@ -240,7 +243,7 @@ pub(crate) fn land(bodies: &[ModeBody], touches: &[Touch]) -> Result<Vec<(Vec2, 
     let moves = faces.moves(&arriving, &found, &none);
     Ok(moves
         .iter()
-        .map(|body| (body.acceleration, body.angular_acceleration))
+        .map(|body| (body.acceleration + carrier, body.angular_acceleration))
         .collect())
 }
 
@@ -315,6 +318,12 @@ fn without_roundings(bodies: &[ModeBody], touches: &[Touch], speed: f64) -> Opti
         })
         .collect();
     (!turns(&without, touches, speed)).then_some(without)
+}
+
+/// Velocity of what carries a group, in m/s: of the first body that impulses do not move.
+pub(crate) fn carrier(bodies: &[ModeBody]) -> Vec2 {
+    let mut bearers = bodies.iter().filter(|body| body.inverse_mass == 0.0);
+    bearers.next().map_or(Vec2::ZERO, |body| body.velocity)
 }
 
 /// Whether the rows of all closed touches keep their numbers, as far as accelerations feel them.
