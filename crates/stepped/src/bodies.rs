@@ -40,7 +40,7 @@ pub(crate) struct Bodies {
     pub(crate) damped: usize,
     /// Whether they can be moved, and nothing accelerates them but contacts; and of how many that is so. Each row is asked for it in each
     /// sub-step: told from pull and mass it took 5 % of a weightless smash.
-    pub(crate) free_lines: Vec<bool>,
+    free_lines: Vec<bool>,
     free_count: usize,
     /// Lines of bodies that may deviate from their predicted motions, perhaps more than once: see [`Self::rebase_deviating`].
     pub(crate) deviating: Vec<u32>,

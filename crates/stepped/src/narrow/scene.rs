@@ -22,11 +22,9 @@ pub(crate) struct Scene<'a> {
 pub(crate) struct Meeting {
     /// Gaps below it make a contact, in m.
     pub(crate) margin: f64,
-    /// How far B goes against A until the next tick, in m, and what they may close by besides.
-    way: Vec2,
+    going: Going,
+    /// What they may close by until the next tick beside that, in m.
     closing: f64,
-    /// Angles that both turn by until then.
-    turns: [f64; 2],
     /// The most that they moved by against each other since their base poses, in m.
     moved: f64,
 }
@@ -46,16 +44,11 @@ impl Scene<'_> {
         let [pose_a, pose_b] = [a.body, b.body].map(|slot| self.bodies.base_of(slot));
         let limit = margin + meeting.closing + meeting.moved;
         let found = if turned_a.corners() > 0 && turned_b.corners() > 0 {
-            let going = Going {
-                d: pose_b.position - pose_a.position,
-                way: meeting.way,
-                turns: meeting.turns,
-            };
             let hysteresis = HYSTERESIS * meeting.margin;
             let limits = [limit, margin, hysteresis];
-            collide(turned_a, turned_b, going, side, limits)
+            collide(turned_a, turned_b, meeting.going, side, limits)
         } else {
-            collide_any((a, pose_a), (b, pose_b), limit + meeting.way.length())
+            collide_any((a, pose_a), (b, pose_b), limit + meeting.going.way.length())
         }?;
         (found.gap() < margin + self.closes(pair, &found)).then_some(found)
     }
@@ -83,6 +76,7 @@ impl Scene<'_> {
         let [a, b] = pair.map(|piece| &self.pieces.list[piece as usize]);
         let [line_a, line_b] = pair.map(|piece| self.line_of(piece));
         let (body_a, body_b) = (&self.bodies.lines[line_a], &self.bodies.lines[line_b]);
+        let [base_a, base_b] = [a.body, b.body].map(|slot| self.bodies.base_of(slot));
         let turning = arc(body_a.w(), a.reach) + arc(body_b.w(), b.reach);
         let turned = arc(body_a.turn(), a.reach) + arc(body_b.turn(), b.reach);
         let margin = self.settings.margin * a.extent.min(b.extent);
@@ -90,9 +84,12 @@ impl Scene<'_> {
         let pull = self.settings.gravity.length() * tick;
         Meeting {
             margin: margin.max(self.seen([line_a, line_b])),
-            way: (body_b.v() - body_a.v()) * tick,
+            going: Going {
+                d: base_b.position - base_a.position,
+                way: (body_b.v() - body_a.v()) * tick,
+                turns: [body_a.w() * tick, body_b.w() * tick],
+            },
             closing: (turning + pull) * tick,
-            turns: [body_a.w() * tick, body_b.w() * tick],
             moved: (body_b.d() - body_a.d()).length() + turned,
         }
     }

@@ -249,7 +249,8 @@ impl Bounce {
 }
 
 /// The solution of three equations, rows of coefficients and what they are equal to: by elimination with row pivots; none of a
-/// matrix that is singular but for rounding.
+/// matrix that is singular but for rounding. Without memory of its own, as `carom_impact::Factored` has: each sweep tries
+/// several.
 fn solution(mut rows: [[f64; 4]; 3]) -> Option<[f64; 3]> {
     for k in 0..3 {
         let pivot = (k..3).max_by(|&i, &j| rows[i][k].abs().total_cmp(&rows[j][k].abs()))?;

@@ -72,14 +72,10 @@ impl FreePairs {
 
     fn note_centres(&mut self, bodies: &Bodies) {
         self.centres.clear();
-        let bodies = bodies
-            .lines
-            .iter()
-            .zip(&bodies.base)
-            .zip(&bodies.free_lines);
-        self.centres.extend(bodies.map(|((line, base), is_free)| {
+        let lines = bodies.lines.iter().zip(&bodies.base).zip(0..);
+        self.centres.extend(lines.map(|((line, base), at)| {
             let centre = base.position + line.d();
-            let free = if *is_free { 1.0 } else { 0.0 };
+            let free = if bodies.is_free(at) { 1.0 } else { 0.0 };
             Quad([centre.x, centre.y, line.turn(), free])
         }));
     }

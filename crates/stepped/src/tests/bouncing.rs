@@ -110,7 +110,7 @@ fn friction_of_a_bounce_is_that_of_the_whole_blow() {
             }
         }
 
-        // Responses at the corner, whose place is (lever, −height) from the centre.
+        // Responses at the corner: its arm from the centre of mass is (lever, −height).
         let (normal, across, both) = (
             1.0 / m + lever * lever / i,
             1.0 / m + height * height / i,

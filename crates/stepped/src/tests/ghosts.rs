@@ -14,7 +14,7 @@ fn tiles(speed: f64, count: u32, step: f64) -> (Engine, BodyId) {
     on_tiles(slider, 0.5 + 2.6 * step, speed, (count, step))
 }
 
-/// The same of a polygon whose centre of mass is at `height`.
+/// The same of a polygon, with its centre of mass at `height`.
 fn on_tiles(
     slider: ConvexPolygon,
     height: f64,
