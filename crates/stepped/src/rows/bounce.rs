@@ -136,21 +136,27 @@ impl Bounce {
         self.axes.pushes(impulses, self.inverse)
     }
 
-    /// Changes the impulses to those that fit the velocities of all bodies but for these two; v and start change alike.
-    pub(super) fn solve(&self, bodies: &mut Bodies, arrival: &mut Arrival) {
+    /// Changes the impulses to those that fit the velocities of all bodies but for these two; v and start change alike. Whether they
+    /// do so by more than rounding.
+    pub(super) fn solve(&self, bodies: &mut Bodies, arrival: &mut Arrival) -> bool {
         let done: [f64; 3] = core::array::from_fn(|k| self.rows[k] + arrival.impulses[k]);
         let speeds = self.speeds(&bodies.lines);
         let pushed = self.opened(done);
         let free = core::array::from_fn(|k| speeds[k] - pushed[k]);
         let Some(all) = self.answer(free, arrival.leaves) else {
-            return;
+            return false;
         };
         let change = core::array::from_fn(|k| all[k] - done[k]);
+        let most = |of: [f64; 3]| of.into_iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        if most(change) <= ROUNDING * most(all) {
+            return false;
+        }
         arrival.impulses = core::array::from_fn(|k| all[k] - self.rows[k]);
         for (line, push) in self.lines.into_iter().zip(self.pushes(change)) {
             bodies.start[line].add(&push);
             bodies.lines[line].add(&push);
         }
+        true
     }
 
     /// R j.

@@ -41,26 +41,34 @@ pub(crate) fn note(bodies: &Bodies, lines: &[[u32; 2]], h: f64, before: &mut Vec
     }
 }
 
+/// Where those two bodies of each arrival are in `before` that contacts move.
+pub(super) fn places(bodies: &Bodies, arrived: &[Arrival], before: &[Before]) -> Vec<Places> {
+    let place = |line: u32| {
+        let is_moved = bodies.lines[line as usize].inverse_mass() > 0.0;
+        is_moved.then(|| place(before, line)).flatten()
+    };
+    let places = arrived.iter().map(|arrival| arrival.lines.map(place));
+    places.collect()
+}
+
+pub(super) type Places = [Option<usize>; 2];
+
 /// Makes bounces smaller that leave their bodies with more energy than these had.
 pub(super) fn keep(
     bodies: &mut Bodies,
     arrived: &mut [Arrival],
     bounces: &[Bounce],
-    before: &[Before],
+    (before, places): (&[Before], &[Places]),
 ) {
     // Points are one group that share a body which can be moved.
     let mut groups = Groups::new(arrived.len());
     let mut first = vec![usize::MAX; before.len()];
-    for (k, arrival) in arrived.iter().enumerate() {
-        for line in arrival.lines {
-            if bodies.lines[line as usize].inverse_mass() > 0.0
-                && let Some(at) = place(before, line)
-            {
-                if first[at] == usize::MAX {
-                    first[at] = k;
-                }
-                groups.join(first[at], k);
+    for (k, places) in places.iter().enumerate() {
+        for &at in places.iter().flatten() {
+            if first[at] == usize::MAX {
+                first[at] = k;
             }
+            groups.join(first[at], k);
         }
     }
     let mut pushed = Vec::with_capacity(2 * arrived.len());

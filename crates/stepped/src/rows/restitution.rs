@@ -14,7 +14,7 @@ use fearless_simd::{Level, Simd, SimdBase, SimdMask, dispatch, f64x4};
 
 use super::block::{Block, LANES};
 use super::bounce::Bounce;
-use super::bounce_budget::{Before, keep, note};
+use super::bounce_budget::{Before, Places, keep, note, places};
 use super::colour::Colour;
 use super::graph::Graph;
 use super::law::Law;
@@ -210,16 +210,42 @@ pub(crate) fn bounce(
         bounces.push(Bounce::new((&met, cold, lane), arrival.lines, bodies));
         graph.clear_warm_start(bodies, arrival.contact);
     }
-    for _ in 0..SWEEPS {
-        for (arrival, bounce) in arrived.iter_mut().zip(&mut bounces) {
-            bounce.solve(bodies, arrival);
-        }
-    }
-    keep(bodies, arrived, &bounces, before);
+    let places = places(bodies, arrived, before);
+    solve(bodies, arrived, &bounces, (before.len(), &places));
+    keep(bodies, arrived, &bounces, (before, &places));
     let mut work = [0.0; 2];
     for (arrival, bounce) in arrived.iter().zip(&bounces) {
         let [heat, given] = bounce.work(&bodies.lines, arrival.impulses[2]);
         work = [work[0] + heat, work[1] + given];
     }
     work
+}
+
+/// Sweeps over all bounces; one is solved for again where others changed its bodies since.
+fn solve(
+    bodies: &mut Bodies,
+    arrived: &mut [Arrival],
+    bounces: &[Bounce],
+    (count, places): (usize, &[Places]),
+) {
+    let mut changes = vec![0u32; count];
+    let mut seen = vec![None; arrived.len()];
+    for _ in 0..SWEEPS {
+        let mut is_settled = true;
+        for (k, (arrival, bounce)) in arrived.iter_mut().zip(bounces).enumerate() {
+            let own = || places[k].into_iter().flatten();
+            let now = Some(own().map(|at| changes[at]).sum::<u32>());
+            if seen[k] == now {
+                continue;
+            }
+            if bounce.solve(bodies, arrival) {
+                own().for_each(|at| changes[at] += 1);
+                is_settled = false;
+            }
+            seen[k] = Some(own().map(|at| changes[at]).sum());
+        }
+        if is_settled {
+            return;
+        }
+    }
 }

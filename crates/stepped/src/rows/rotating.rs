@@ -160,11 +160,12 @@ impl Seen {
         let corner = vec2(other.x + outwards * (nearest - overlap - gap), other.y);
         // In the frame of the face, from the face's body to the corner's.
         let went = vec2(self.n.dot(b.0 - a.0), perp(self.n).dot(b.0 - a.0));
-        let turned = Rot::from_angle(of_face);
+        let turned = Rot::IDENTITY.turned_slightly(of_face);
         let between = self.a - self.b + vec2(nearest.max(0.0), 0.0);
         let apart = turned.inverse() * ((between + went) * -outwards);
         let core = vec2(outwards * -side.radius, 0.0);
-        let corner = Rot::from_angle(of_corner - of_face) * (corner + core) - core;
+        let back = Rot::IDENTITY.turned_slightly(of_corner - of_face);
+        let corner = back * (corner + core) - core;
         let gap_now = outwards * (face - apart.x - corner.x);
         let nearest = nearest + gap_now - gap;
         let overlap = 0.5 * nearest.min(0.0);
