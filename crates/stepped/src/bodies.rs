@@ -16,6 +16,8 @@ pub(crate) struct Bodies {
     pub(crate) records: Vec<Record>,
     free: Vec<u32>,
     births: u64,
+    /// Counts updates of contacts.
+    pub(crate) updates: u64,
     pub(crate) lines: Vec<Line>,
     /// Velocities before contacts acted: v − start = Σ M⁻¹ Jᵀ j.
     pub(crate) start: Vec<Quad>,
@@ -69,6 +71,7 @@ impl Bodies {
             records: Vec::new(),
             free: Vec::new(),
             births: 0,
+            updates: 0,
             lines: vec![Line::EMPTY, Line::GROUND],
             start: vec![Quad([0.0, 0.0, 0.0, 1.0]), Quad::default()],
             pull: vec![Quad::default(); 2],
@@ -120,6 +123,7 @@ impl Bodies {
             live: true,
             sleep_allowed: input.sleep_allowed,
             birth: input.order.unwrap_or(self.births),
+            placed: self.updates,
             pose: input.pose,
             mass: if dynamic { input.mass } else { f64::INFINITY },
             inertia: if dynamic {

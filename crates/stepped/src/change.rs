@@ -52,6 +52,7 @@ impl Engine {
         self.wake_around(id.slot);
         let record = *self.bodies.get(id)?;
         self.drop_contacts(id.slot);
+        self.bodies.records[id.slot as usize].placed = self.bodies.updates;
         if record.kind == BodyKind::Fixed {
             self.bodies.records[id.slot as usize].pose = pose;
             for number in record.first_piece..record.first_piece + record.pieces {

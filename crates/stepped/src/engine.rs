@@ -392,6 +392,7 @@ impl Engine {
             &self.known,
         );
         self.bodies.moved.fill(false);
+        self.bodies.updates += 1;
     }
 
     /// Takes a contact out.

@@ -21,6 +21,8 @@ pub(crate) struct Record {
     pub(crate) pieces: u32,
     /// Counts insertions: the order of bodies that recycled slots cannot change.
     pub(crate) birth: u64,
+    /// Which update of contacts was the next when it was put where it is or was: see [`Bodies::updates`].
+    pub(crate) placed: u64,
     /// Head of the list of its contacts.
     pub(crate) contacts: u32,
     /// A bit for each colour that has a contact of it.
@@ -133,6 +135,7 @@ impl Record {
         first_piece: 0,
         pieces: 0,
         birth: 0,
+        placed: 0,
         contacts: u32::MAX,
         colours: 0,
         pose: Pose::IDENTITY,

@@ -9,7 +9,7 @@ use crate::broad::Pairs;
 use crate::narrow::{Eight, Found, Manifold, Scene, collide_eight};
 use crate::pieces::Pieces;
 use crate::rows::{
-    Block, Cold, Colour, Graph, HARD, LANES, Law, OPEN, RotatingRows, Side, Touched, renew,
+    Block, Cold, Colour, Graph, HARD, LANES, Law, OPEN, Pressed, RotatingRows, Side, Touched, renew,
 };
 use crate::{PairRules, Settings};
 
@@ -33,6 +33,7 @@ pub(crate) fn update(
     let touched = graph.touched(bodies);
     graph.suspects.clear();
     graph.suspects.cover(bodies.lines.len());
+    let displaced = graph.displaced(bodies);
     let (colours, suspects) = graph.awake_and_suspects();
     // Rows are renewed, and all else of the bodies stays.
     let mut start = core::mem::take(&mut bodies.start);
@@ -73,8 +74,14 @@ pub(crate) fn update(
             if gap < 0.0 || cold.is_deep(lane) {
                 least = least.min(gap);
                 let deepest = deepest(law, pieces, cold.pieces[lane]);
-                if cold.note_depth(lane, gaps, deepest, false) {
-                    block.show(lane, deepest);
+                let mut ends = [block.a[lane], block.b[lane]].into_iter();
+                let by = if !displaced.is_empty() && ends.any(|line| displaced[line as usize]) {
+                    Pressed::ByDisplacement
+                } else {
+                    Pressed::ByRows
+                };
+                if cold.note_depth(lane, gaps, deepest, by) {
+                    block.show(lane, cold.shown[lane]);
                     deep.push(cold.contact[lane]);
                 }
             }

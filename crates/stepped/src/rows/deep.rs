@@ -149,7 +149,7 @@ fn show(graph: &mut Graph, bodies: &Bodies, id: u32) {
     let opened = block.opened(lane, a, b);
     let shown = [0, 1].map(|i| {
         let gap = cold.depths[lane][i] + opened[i];
-        gap.max(cold.deepest[lane]) - opened[i]
+        gap.max(cold.shown[lane]) - opened[i]
     });
     block.s1[lane] = shown[0];
     if block.points(lane) == 2 {

@@ -1,7 +1,7 @@
 //! The constraint graph: contacts, the colour and lane of each, and the list of each body's contacts.
 
 use super::block::Block;
-use super::block::LANES;
+use super::block::{LANES, Pressed};
 use super::colour::Colour;
 use crate::Surface;
 use crate::bodies::{Bodies, BodyKind};
@@ -235,9 +235,17 @@ impl Graph {
         block.b[lane] = bodies.records[ends[1] as usize].line;
         block.mu[lane] = surface.friction;
         block.put(lane, manifold);
-        let deep = colour.cold[k].note_depth(lane, manifold.gaps, deepest, true);
+        let was_put = ends
+            .iter()
+            .any(|slot| bodies.records[*slot as usize].placed == bodies.updates);
+        let by = if was_put {
+            Pressed::ByCaller
+        } else {
+            Pressed::ByDisplacement
+        };
+        let deep = colour.cold[k].note_depth(lane, manifold.gaps, deepest, by);
         if deep {
-            block.show(lane, deepest);
+            block.show(lane, colour.cold[k].shown[lane]);
             self.deep.push(id);
         }
         colour.cold[k].restitution[lane] = surface.restitution;

@@ -103,6 +103,21 @@ impl Graph {
         ids.sort_by_cached_key(|id| self.order(bodies, *id));
     }
 
+    /// By line: whether a body is displaced out of another one that it was put into; nothing if none is.
+    pub(crate) fn displaced(&self, bodies: &Bodies) -> Vec<bool> {
+        let mut displaced = Vec::new();
+        for &id in &self.deep {
+            if self.cold(id).is_some_and(|(cold, lane)| cold.was_put(lane)) {
+                displaced.resize(bodies.lines.len(), false);
+                let (block, _, lane) = self.lane(id);
+                for line in [block.a[lane] as usize, block.b[lane] as usize] {
+                    displaced[line] = bodies.lines[line].inverse_mass() > 0.0;
+                }
+            }
+        }
+        displaced
+    }
+
     /// Whether there is such a contact, and it is too deep for the sweeps.
     pub(super) fn is_deep(&self, id: u32) -> bool {
         self.cold(id).is_some_and(|(cold, lane)| cold.is_deep(lane))

@@ -144,20 +144,23 @@ fn rounded_shapes_lie_on_a_wall_without_thickness() {
     assert!((height(second) - 0.75).abs() < 2e-3, "{}", height(second));
 }
 
-/// A hundred boxes put at one place part, with the energy of a body at 90 m/s: far too much, but bounded.
+/// A hundred boxes put at one place part within ten seconds, with little energy: at 0.7 m/s each at most.
 #[test]
 fn boxes_at_one_place_part() {
-    let mut engine = Engine::new(super::weightless()).unwrap();
-    let mut random = Random::new(5);
-    for _ in 0..100 {
-        let at = vec2(random.signed(), random.signed()) * 1e-3;
-        let body = BodyInput::dynamic(1.0, 1.0 / 6.0).at(at);
-        engine.insert(body, &[unit_box()]).unwrap();
+    for seed in 1..9 {
+        let mut engine = Engine::new(super::weightless()).unwrap();
+        let mut random = Random::new(seed);
+        for _ in 0..100 {
+            let at = vec2(random.signed(), random.signed()) * 1e-3;
+            let body = BodyInput::dynamic(1.0, 1.0 / 6.0).at(at);
+            engine.insert(body, &[unit_box()]).unwrap();
+        }
+        let mut most = 0.0f64;
+        for _ in 0..600 {
+            engine.tick();
+            most = most.max(engine.energy().0);
+        }
+        assert!(most < 25.0, "{seed}: {most} J");
+        assert!(engine.deepest_overlap() < 1e-3, "{seed}");
     }
-    let mut most = 0.0f64;
-    for _ in 0..300 {
-        engine.tick();
-        most = most.max(engine.energy().0);
-    }
-    assert!(most.is_finite() && most < 1e4, "{most} J");
 }
