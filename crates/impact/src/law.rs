@@ -1,7 +1,7 @@
 //! The three laws of a single impact with friction.
 
 use super::body::{ImpactBody, ImpactContact, Outcome, Response};
-use super::routh::{EndRule, follow, jams};
+use super::routh::{EndRule, follow};
 
 /// Which law turns the velocities before an impact into those after.
 ///
@@ -114,34 +114,6 @@ pub fn poisson(a: &ImpactBody, b: &ImpactBody, contact: &ImpactContact) -> Outco
 pub fn stronge(a: &ImpactBody, b: &ImpactBody, contact: &ImpactContact) -> Outcome {
     let k = Response::of(a, b, contact);
     Outcome::of(a, b, contact, follow(&k, contact, EndRule::Work))
-}
-
-/// The impact without collision of a contact that slips and jams; `None` where a force can hold it.
-///
-/// Where `µ |K_nt| > K_nn` friction presses bodies together that only slide on each other: no acceleration
-/// meets Coulomb's law, or two do (P. Painlevé 1895). The impulse does what forces cannot: it grows until
-/// the slip has ended. It never gains energy. A rigid rod of even mass with an end that drags over the floor jams at µ > 4/3.
-///
-/// # Examples
-/// ```
-/// use carom_impact::{ImpactBody, ImpactContact, jam};
-/// use carom_math::{Rot, Vec2, vec2};
-/// let floor = ImpactBody::immovable(Vec2::ZERO, Vec2::ZERO, 0.0);
-/// // A slender rod of 2 m and 1 kg slides to the right on its lower end, leaning forward over it.
-/// let rod = ImpactBody {
-///     inverse_mass: 1.0, inverse_inertia: 3.0,
-///     centre: Rot::from_degrees(120.0) * Vec2::X, velocity: vec2(1.0, 0.0), spin: 0.0,
-/// };
-/// let end = |friction| ImpactContact { point: Vec2::ZERO, normal: Vec2::Y, restitution: 0.0, friction };
-/// assert!(jam(&floor, &rod, &end(1.0)).is_none());
-/// let after = jam(&floor, &rod, &end(2.0)).unwrap();
-/// assert!(after.normal_impulse > 0.0 && after.loss > 0.0);
-/// assert!(after.b.velocity_of(Vec2::ZERO).length() < 1e-15);       // m/s: the end has stopped
-/// ```
-#[must_use]
-pub fn jam(a: &ImpactBody, b: &ImpactBody, contact: &ImpactContact) -> Option<Outcome> {
-    let k = Response::of(a, b, contact);
-    jams(&k, contact).then(|| Outcome::of(a, b, contact, follow(&k, contact, EndRule::Work)))
 }
 
 /// Stick if the cone allows it, else the slip in the direction that its own friction opposes.

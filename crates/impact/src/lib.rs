@@ -2,7 +2,7 @@
 //!
 //! One contact follows a law ([`resolve`]: Stronge's, Poisson's or Newton's restitution, with Coulomb friction along
 //! Routh's path); several at one instant share it ([`several`]). Beneath are the methods that other contact problems
-//! ask for, too: contacts that are [`held`] at velocity level, projected Gauss–Seidel sweeps ([`Sweeper`]), linear
+//! ask for, too: faces that are held at velocity level ([`held_faces`]), projected Gauss–Seidel sweeps ([`Sweeper`]), linear
 //! complementarity ([`lemke`]), projection on cones ([`project`]) and small dense systems ([`dense`]).
 //!
 //! SI units; a normal points from A to B; impulses act on B, and on A with the opposite sign.
@@ -52,12 +52,12 @@ mod swept_faces;
 mod tests;
 
 pub use body::{ImpactBody, ImpactContact, Outcome, is_driven};
-pub use held::{Friction, Held, HeldFace, HeldFaces, HeldPoint, held, held_faces};
-pub use law::{ImpactLaw, jam, newton, poisson, resolve, stronge};
+pub use held::{Friction, HeldFace, HeldFaces, HeldPoint, held_faces};
+pub use law::{ImpactLaw, newton, poisson, resolve, stronge};
 pub use several::{
     Several, SharedContact, SharedOutcome, blend, generalised_reflections, newton_lcp, several,
 };
-pub use sweeps::{Growth, Moving, Sweeper, Swept};
+pub use sweeps::{Growth, Sweeper};
 pub use swept_faces::swept_faces;
 
 #[cfg(doctest)]

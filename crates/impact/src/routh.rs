@@ -31,7 +31,7 @@ struct Piece {
 
 /// Whether friction presses a contact that slips together faster than its normal force pushes it apart:
 /// no force holds it (Painlevé 1895), only an impulse that ends the slip.
-pub(super) fn jams(k: &Response, contact: &ImpactContact) -> bool {
+fn jams(k: &Response, contact: &ImpactContact) -> bool {
     k.u_n <= 0.0 && k.u_t != 0.0 && k.k_nn < contact.friction * k.k_nt * k.u_t.signum()
 }
 

@@ -127,64 +127,64 @@ const OVER_RELAXATION: f64 = 1.3;
 #[derive(Clone, Debug, Default)]
 pub struct Sweeper {
     /// In the order in which they came.
-    pub bodies: Vec<Moving>,
+    pub(super) bodies: Vec<Moving>,
     /// In the order in which they came.
-    pub contacts: Vec<Swept>,
+    pub(super) contacts: Vec<Swept>,
     /// How much a contact goes on closing under its impulse, as a part of what that impulse alone would change.
-    pub compliance: f64,
+    pub(super) compliance: f64,
 }
 
 /// A body's velocity.
 #[derive(Clone, Copy, Debug)]
-pub struct Moving {
+pub(super) struct Moving {
     /// Of the centre of mass, in m/s.
-    pub velocity: Vec2,
+    pub(super) velocity: Vec2,
     /// In rad/s.
-    pub spin: f64,
+    pub(super) spin: f64,
     /// In 1/kg; 0 of what does not yield.
-    pub inverse_mass: f64,
+    pub(super) inverse_mass: f64,
     /// In 1/(kg·m²).
-    pub inverse_inertia: f64,
+    pub(super) inverse_inertia: f64,
 }
 
 /// A contact with the arms of its normal and its tangent about both centres.
 #[derive(Clone, Copy, Debug)]
-pub struct Swept {
+pub(super) struct Swept {
     /// Number of the body that the normal points away from.
-    pub a: usize,
+    pub(super) a: usize,
     /// Number of the body that it points to.
-    pub b: usize,
+    pub(super) b: usize,
     /// Unit normal from A to B.
-    pub normal: Vec2,
+    pub(super) normal: Vec2,
     /// r × n of A and of B, in m.
-    pub arms_n: (f64, f64),
+    pub(super) arms_n: (f64, f64),
     /// r × t of A and of B, in m; t is the normal turned by +90 degrees.
-    pub arms_t: (f64, f64),
+    pub(super) arms_t: (f64, f64),
     /// Effective mass along the normal, in kg; 0 if nothing yields.
-    pub m_n: f64,
+    pub(super) m_n: f64,
     /// Effective mass along the tangent, in kg.
-    pub m_t: f64,
+    pub(super) m_t: f64,
     /// Coulomb's coefficient.
-    pub friction: f64,
+    pub(super) friction: f64,
     /// Opening speed to reach, in m/s.
-    pub target: f64,
+    pub(super) target: f64,
     /// Slip at which both surfaces run along with each other, in m/s.
-    pub belt: f64,
+    pub(super) belt: f64,
     /// Impulse along the normal, in N·s.
-    pub j_n: f64,
+    pub(super) j_n: f64,
     /// Impulse along the tangent, in N·s.
-    pub j_t: f64,
+    pub(super) j_t: f64,
 }
 
 impl Swept {
     /// Opening speed of two bodies that move like this, in m/s.
-    pub fn opening(&self, a: (Vec2, f64), b: (Vec2, f64)) -> f64 {
+    pub(super) fn opening(&self, a: (Vec2, f64), b: (Vec2, f64)) -> f64 {
         let (arm_a, arm_b) = self.arms_n;
         (b.0 - a.0).dot(self.normal) + b.1 * arm_b - a.1 * arm_a
     }
 
     /// Slip of the surfaces of two bodies that move like this, in m/s.
-    pub fn slip(&self, a: (Vec2, f64), b: (Vec2, f64)) -> f64 {
+    pub(super) fn slip(&self, a: (Vec2, f64), b: (Vec2, f64)) -> f64 {
         let (arm_a, arm_b) = self.arms_t;
         let of_bodies = (b.0 - a.0).dot(perp(self.normal)) + b.1 * arm_b - a.1 * arm_a;
         of_bodies - self.belt
