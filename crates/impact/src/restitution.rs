@@ -36,7 +36,7 @@ pub(super) struct Return<'a> {
 pub(super) fn give_back(
     stopped: &[ImpactBody],
     contacts: &[SharedContact],
-    presses: &[f64],
+    presses: &Impulses,
     how: &Return<'_>,
 ) -> (Vec<ImpactBody>, Impulses, u64) {
     let e = how.restitution;
@@ -91,7 +91,7 @@ struct Piece {
 
 struct Path<'a> {
     contacts: &'a [SharedContact],
-    presses: &'a [f64],
+    presses: &'a Impulses,
     zero: &'a [f64],
     bodies: Vec<ImpactBody>,
     operations: u64,
@@ -115,10 +115,10 @@ impl Path<'_> {
     fn piece(&mut self) -> Piece {
         self.operations += (self.contacts.len() * PIECE) as u64;
         let mut rates: Vec<ImpactBody> = self.bodies.iter().map(ImpactBody::at_rest).collect();
-        let mut impulses: Impulses = self.presses.iter().map(|press| (*press, 0.0)).collect();
+        let mut impulses: Impulses = self.presses.iter().map(|press| (press.0, 0.0)).collect();
         let mut slips = vec![true; self.contacts.len()];
         let (mut rows, mut places) = (Vec::new(), Vec::new());
-        for (k, (shared, press)) in self.contacts.iter().zip(self.presses).enumerate() {
+        for (k, (shared, (press, _))) in self.contacts.iter().zip(self.presses).enumerate() {
             let limit = shared.contact.friction * press;
             let slip = self.slip(k);
             if slip == 0.0 && limit > 0.0 {
@@ -139,7 +139,7 @@ impl Path<'_> {
             self.operations += operations;
             for (k, hold) in places.into_iter().zip(holds) {
                 let shared = &self.contacts[k];
-                slips[k] = hold.abs() >= shared.contact.friction * self.presses[k];
+                slips[k] = hold.abs() >= shared.contact.friction * self.presses[k].0;
                 impulses[k].1 = hold;
                 push(&mut rates, shared, (0.0, hold));
             }
@@ -168,7 +168,7 @@ impl Path<'_> {
         for (k, shared) in self.contacts.iter().enumerate() {
             let slip = self.slip(k);
             let rate = tangential(&piece.rates, shared);
-            if self.presses[k] > 0.0 && slip * rate < 0.0 {
+            if self.presses[k].0 > 0.0 && slip * rate < 0.0 {
                 first = first.min(-tangential(&self.bodies, shared) / rate);
             }
         }

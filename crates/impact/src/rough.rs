@@ -12,7 +12,7 @@ use super::law::{ImpactLaw, poisson, stronge};
 use super::restitution::{Impulses, Return, gathered, give_back, power, push};
 use super::routh::EndRule;
 use super::rows::{Bound, Row, Rows, contact_rows};
-use super::several::{SharedContact, SharedOutcome, with_restitution};
+use super::several::{SharedContact, SharedOutcome, mean_restitution, with_restitution};
 use super::sweeps::swept;
 
 /// Rows that are solved for exactly; above, sweeps end in bounded time.
@@ -71,7 +71,7 @@ pub(super) fn newton_rough(bodies: &[ImpactBody], contacts: &[SharedContact]) ->
         stop(&rows)
     };
     let impulses = by_contact(&rows, &stop.impulses);
-    outcome(bodies, contacts, &impulses, !stop.sure, stop.operations)
+    outcome(bodies, contacts, impulses, !stop.sure, stop.operations)
 }
 
 /// Reflections of all approaching contacts together, again and again until none approaches.
@@ -100,45 +100,37 @@ pub(super) fn reflections(
         let some: Vec<SharedContact> = places.iter().map(|&k| contacts[k]).collect();
         let known = stop.take().filter(|_| places.len() == contacts.len());
         let next = reflected(law, &now, &some, common, zero, known);
-        for (&k, pushed) in places.iter().zip(&next.pushes) {
+        for (&k, pushed) in places.iter().zip(&next.impulses) {
             total[k].0 += pushed.0;
             total[k].1 += pushed.1;
         }
         now = next.bodies;
-        unsure |= !next.sure;
+        unsure |= next.exhausted;
         operations += next.operations;
-        if next.pushes.iter().all(|pushed| *pushed == (0.0, 0.0)) {
+        if next.impulses.iter().all(|pushed| *pushed == (0.0, 0.0)) {
             // All further reflections would be this one. Beside a fast slip an approach below the rounding of the stop is no
             // approach: `opened` ends it. Any other is one that nothing stops.
             let yields = |shared: &SharedContact| {
                 let (a, b) = (&bodies[shared.a], &bodies[shared.b]);
                 Response::of(a, b, &shared.contact).k_nn > 0.0
             };
-            exhausted = !(next.sure && some.iter().all(yields));
+            exhausted = next.exhausted || !some.iter().all(yields);
             break;
         }
     }
     if exhausted {
         let stopped = newton_rough(&now, &with_restitution(contacts, 0.0));
-        for (sum, k) in total.iter_mut().zip(0..) {
-            sum.0 += stopped.normal_impulses[k];
-            sum.1 += stopped.tangential_impulses[k];
+        for (sum, more) in total.iter_mut().zip(stopped.impulses) {
+            sum.0 += more.0;
+            sum.1 += more.1;
         }
         operations += stopped.operations;
     }
-    outcome(bodies, contacts, &total, exhausted || unsure, operations)
+    outcome(bodies, contacts, total, exhausted || unsure, operations)
 }
 
-/// What a reflection did.
-struct Reflected {
-    bodies: Vec<ImpactBody>,
-    pushes: Impulses,
-    /// Whether the stop that it began with meets its conditions.
-    sure: bool,
-    operations: u64,
-}
-
-/// One reflection: compression of all contacts to a stop, then restitution along Routh's path.
+/// One reflection: compression of all contacts to a stop, then restitution along Routh's path. It is exhausted where the stop that it
+/// began with does not meet its conditions.
 fn reflected(
     law: ImpactLaw,
     bodies: &[ImpactBody],
@@ -146,7 +138,7 @@ fn reflected(
     common: Option<f64>,
     zero: f64,
     known: Option<SharedOutcome>,
-) -> Reflected {
+) -> SharedOutcome {
     let rule = match law {
         ImpactLaw::Poisson => EndRule::Impulse,
         ImpactLaw::Stronge | ImpactLaw::Newton => EndRule::Work,
@@ -161,11 +153,10 @@ fn reflected(
         };
         let mut after = bodies.to_vec();
         (after[only.a], after[only.b]) = (outcome.a, outcome.b);
-        let impulses = vec![(outcome.normal_impulse, outcome.tangential_impulse)];
-        return Reflected {
+        return SharedOutcome {
             bodies: after,
-            pushes: impulses,
-            sure: true,
+            impulses: vec![(outcome.normal_impulse, outcome.tangential_impulse)],
+            exhausted: false,
             operations: SINGLE,
         };
     }
@@ -177,18 +168,13 @@ fn reflected(
             (stopped, operations)
         }
     };
-    let presses = &stopped.normal_impulses;
-    let restitution = common.unwrap_or_else(|| super::several::mean_restitution(contacts, presses));
-    let impulses: Impulses = presses
-        .iter()
-        .copied()
-        .zip(stopped.tangential_impulses.iter().copied())
-        .collect();
+    let impulses = &stopped.impulses;
+    let restitution = common.unwrap_or_else(|| mean_restitution(contacts, impulses));
     // Work of the normal impulses on the way to the stop, and all energy that went: friction that
     // turned a slip round has given some back.
-    let given = gathered(bodies, contacts, &impulses);
+    let given = gathered(bodies, contacts, impulses);
     let loss = -0.5 * (power(bodies, &given) + power(&stopped.bodies, &given));
-    let noise = noise(bodies, contacts, &impulses, zero);
+    let noise = noise(bodies, contacts, impulses, zero);
     let mut work = loss;
     for (k, shared) in contacts.iter().enumerate() {
         let slip = |bodies: &[ImpactBody]| {
@@ -203,15 +189,15 @@ fn reflected(
         work: work.min(loss).max(0.0),
         zero: &noise,
     };
-    let (after, mut pushes, operations) = give_back(&stopped.bodies, contacts, presses, &how);
+    let (after, mut pushes, operations) = give_back(&stopped.bodies, contacts, impulses, &how);
     for (pushed, (n, t)) in pushes.iter_mut().zip(impulses) {
         pushed.0 += n;
         pushed.1 += t;
     }
-    Reflected {
+    SharedOutcome {
         bodies: after,
-        pushes,
-        sure: !stopped.exhausted,
+        impulses: pushes,
+        exhausted: stopped.exhausted,
         operations: counted + operations,
     }
 }
@@ -233,18 +219,17 @@ fn by_contact(rows: &Rows, impulses: &[f64]) -> Impulses {
 fn outcome(
     bodies: &[ImpactBody],
     contacts: &[SharedContact],
-    impulses: &Impulses,
+    impulses: Impulses,
     exhausted: bool,
     operations: u64,
 ) -> SharedOutcome {
     let mut after = bodies.to_vec();
-    for (shared, impulse) in contacts.iter().zip(impulses) {
+    for (shared, impulse) in contacts.iter().zip(&impulses) {
         push(&mut after, shared, *impulse);
     }
     SharedOutcome {
         bodies: after,
-        normal_impulses: impulses.iter().map(|impulse| impulse.0).collect(),
-        tangential_impulses: impulses.iter().map(|impulse| impulse.1).collect(),
+        impulses,
         exhausted,
         operations,
     }
@@ -280,7 +265,7 @@ pub(super) fn opened(mut found: SharedOutcome, contacts: &[SharedContact]) -> Sh
         found.operations += stopped.operations;
         for (k, impulse) in places.into_iter().zip(stopped.impulses) {
             push(&mut found.bodies, &contacts[k], (impulse, 0.0));
-            found.normal_impulses[k] += impulse;
+            found.impulses[k].0 += impulse;
         }
     }
     found

@@ -67,7 +67,7 @@ proptest! {
         for choice in CHOICES {
             let after = several(ImpactLaw::Stronge, choice, &bodies, &contacts);
             let (left, more) = momentum(&after.bodies);
-            let pushes = after.normal_impulses.iter().chain(&after.tangential_impulses);
+            let pushes = after.impulses.iter().flat_map(|(n, t)| [n, t]);
             let pushed: f64 = pushes.map(|j| 4.0 * j.abs()).sum();
             for (one, other) in before.iter().zip(left) {
                 prop_assert!((one - other).abs() <= 1e-13 * (scale + more + pushed), "{choice:?}");
@@ -79,9 +79,9 @@ proptest! {
     fn friction_stays_in_its_cone((bodies, contacts) in heap(3.0, 8)) {
         for choice in CHOICES {
             let after = several(ImpactLaw::Stronge, choice, &bodies, &contacts);
-            let most = after.normal_impulses.iter().fold(0.0, |m: f64, j| m.max(*j));
+            let most = after.impulses.iter().fold(0.0, |m: f64, j| m.max(j.0));
             for (k, shared) in contacts.iter().enumerate() {
-                let (n, t) = (after.normal_impulses[k], after.tangential_impulses[k]);
+                let (n, t) = after.impulses[k];
                 prop_assert!(n >= 0.0);
                 let limit = shared.contact.friction * (n + 1e-9 * most);
                 prop_assert!(t.abs() <= limit + 1e-9 * most, "{choice:?}: {t:e} of {limit:e}");
@@ -136,7 +136,7 @@ fn a_rough_box_that_lands_flat_rises_straight() {
         let after = several(ImpactLaw::Stronge, Several::Blend, &bodies, &contacts);
         assert!((after.bodies[1].velocity - vec2(0.0, 2.0)).length() < 1e-14);
         assert!(after.bodies[1].spin.abs() < 1e-14);
-        let [left, right] = [after.normal_impulses[0], after.normal_impulses[1]];
+        let [left, right] = [after.impulses[0].0, after.impulses[1].0];
         assert!((left - right).abs() < 1e-9, "{left} and {right} N·s");
     }
 }
@@ -408,7 +408,7 @@ fn squeezed_bodies_are_driven_no_faster_than_what_squeezes_them() {
             for choice in CHOICES {
                 let after = several(ImpactLaw::Stronge, choice, &bodies, &contacts);
                 let speed = fastest(&after.bodies[1..after.bodies.len() - 1]);
-                let most = after.normal_impulses.iter().copied().fold(0.0, f64::max);
+                let most = after.impulses.iter().map(|j| j.0).fold(0.0, f64::max);
 
                 assert!(after.exhausted);
                 assert!(

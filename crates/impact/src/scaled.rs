@@ -110,8 +110,7 @@ impl Scaled {
         }
         SharedOutcome {
             bodies: after,
-            tangential_impulses: vec![0.0; found.multipliers.len()],
-            normal_impulses: found.multipliers,
+            impulses: found.multipliers.into_iter().map(|j| (j, 0.0)).collect(),
             exhausted: false,
             operations: found.operations,
         }

@@ -8,6 +8,7 @@
 
 use super::body::{ImpactBody, ImpactContact, Response, is_driven};
 use super::law::{ImpactLaw, resolve};
+use super::restitution::Impulses;
 use super::rough::{SINGLE, is_large, is_rough, newton_rough, opened, opening, reflections};
 use super::scaled::Scaled;
 
@@ -31,10 +32,8 @@ pub struct SharedContact {
 pub struct SharedOutcome {
     /// The bodies after it, in their order.
     pub bodies: Vec<ImpactBody>,
-    /// Impulse on B along the normal, for each contact, in N·s, ≥ 0.
-    pub normal_impulses: Vec<f64>,
-    /// Impulse on B along the normal turned by +90 degrees, for each contact, in N·s.
-    pub tangential_impulses: Vec<f64>,
+    /// Impulses on B along the normal, ≥ 0, and along the normal turned by +90 degrees, for each contact, in N·s.
+    pub impulses: Vec<(f64, f64)>,
     /// Whether the law was not followed to its end: a thousand reflections (200 with friction) were not enough,
     /// and what still approached was stopped with a loss that e = 1 would not have had; or bodies are
     /// squeezed so that nothing meets all conditions, or by driven bodies so that only more than sixteen times the speed
@@ -143,13 +142,11 @@ fn single(
     }
     let mut found = SharedOutcome {
         bodies: after,
-        normal_impulses: vec![0.0; contacts.len()],
-        tangential_impulses: vec![0.0; contacts.len()],
+        impulses: vec![(0.0, 0.0); contacts.len()],
         exhausted: false,
         operations: SINGLE,
     };
-    found.normal_impulses[only] = outcome.normal_impulse;
-    found.tangential_impulses[only] = outcome.tangential_impulse;
+    found.impulses[only] = (outcome.normal_impulse, outcome.tangential_impulse);
     Some(found)
 }
 
@@ -193,7 +190,7 @@ pub fn generalised_reflections(bodies: &[ImpactBody], contacts: &[SharedContact]
         );
     }
     let tolerance = tolerance(&opening_speeds(bodies, contacts));
-    let mut impulses = vec![0.0; contacts.len()];
+    let mut impulses = vec![(0.0, 0.0); contacts.len()];
     let mut now = bodies.to_vec();
     let mut operations = 0;
     for _ in 0..REFLECTIONS {
@@ -204,28 +201,28 @@ pub fn generalised_reflections(bodies: &[ImpactBody], contacts: &[SharedContact]
         if approaching.is_empty() {
             return SharedOutcome {
                 bodies: now,
-                tangential_impulses: vec![0.0; contacts.len()],
-                normal_impulses: impulses,
+                impulses,
                 exhausted: false,
                 operations,
             };
         }
         let some: Vec<SharedContact> = approaching.iter().map(|&k| contacts[k]).collect();
         let next = reflected(&now, &some, tolerance);
-        for (&k, j) in approaching.iter().zip(next.normal_impulses) {
-            impulses[k] += j;
+        for (&k, (j, _)) in approaching.iter().zip(next.impulses) {
+            impulses[k].0 += j;
         }
         now = next.bodies;
         operations += next.operations;
     }
     let stopped = newton_lcp(&now, &with_restitution(contacts, 0.0));
-    let all = impulses.iter().zip(stopped.normal_impulses);
+    for (before, (j, _)) in impulses.iter_mut().zip(&stopped.impulses) {
+        before.0 += j;
+    }
     SharedOutcome {
-        bodies: stopped.bodies,
-        normal_impulses: all.map(|(before, j)| before + j).collect(),
-        tangential_impulses: vec![0.0; contacts.len()],
+        impulses,
         exhausted: true,
         operations: operations + stopped.operations,
+        ..stopped
     }
 }
 
@@ -235,11 +232,10 @@ fn reflected(bodies: &[ImpactBody], contacts: &[SharedContact], tolerance: f64) 
         // j = −2 u / K has the fewest roundings.
         let (a, b) = (&bodies[only.a], &bodies[only.b]);
         let response = Response::of(a, b, &only.contact);
-        let impulses = vec![-2.0 * response.u_n / response.k_nn];
+        let push = -2.0 * response.u_n / response.k_nn;
         return SharedOutcome {
-            bodies: pushed(bodies, contacts, &impulses),
-            normal_impulses: impulses,
-            tangential_impulses: vec![0.0],
+            bodies: pushed(bodies, only, push),
+            impulses: vec![(push, 0.0)],
             exhausted: false,
             operations: SINGLE,
         };
@@ -252,7 +248,7 @@ fn reflected(bodies: &[ImpactBody], contacts: &[SharedContact], tolerance: f64) 
         ..*body
     };
     stop.bodies = bodies.iter().zip(&stop.bodies).map(onward).collect();
-    stop.normal_impulses.iter_mut().for_each(|j| *j *= 2.0);
+    stop.impulses.iter_mut().for_each(|j| j.0 *= 2.0);
     stop
 }
 
@@ -313,7 +309,7 @@ fn blend_by(
         Some(stop) => opened(stop.clone(), &still),
         None => newton_lcp(bodies, &still),
     };
-    let e = mean_restitution(contacts, &stuck.normal_impulses);
+    let e = mean_restitution(contacts, &stuck.impulses);
     // What nothing stops gives nothing back; every reflection would ask for that stop again.
     if e <= 0.0 || stuck.exhausted {
         return stuck;
@@ -324,9 +320,6 @@ fn blend_by(
         generalised_reflections(bodies, contacts)
     };
     let mix = |at_0: f64, at_1: f64| (1.0 - e) * at_0 + e * at_1;
-    let mix_all = |at_0: &[f64], at_1: &[f64]| -> Vec<f64> {
-        at_0.iter().zip(at_1).map(|(s, t)| mix(*s, *t)).collect()
-    };
     let operations = stuck.operations + thrown.operations;
     let mixed = if e >= 1.0 {
         SharedOutcome {
@@ -335,9 +328,11 @@ fn blend_by(
         }
     } else {
         let both = stuck.bodies.iter().zip(&thrown.bodies);
+        let impulses = stuck.impulses.iter().zip(&thrown.impulses);
         SharedOutcome {
-            normal_impulses: mix_all(&stuck.normal_impulses, &thrown.normal_impulses),
-            tangential_impulses: mix_all(&stuck.tangential_impulses, &thrown.tangential_impulses),
+            impulses: impulses
+                .map(|(s, t)| (mix(s.0, t.0), mix(s.1, t.1)))
+                .collect(),
             bodies: both
                 .map(|(s, t)| ImpactBody {
                     velocity: s.velocity * (1.0 - e) + t.velocity * e,
@@ -356,8 +351,8 @@ fn blend_by(
     }
 }
 
-pub(super) fn mean_restitution(contacts: &[SharedContact], impulses: &[f64]) -> f64 {
-    let all: f64 = impulses.iter().sum();
+pub(super) fn mean_restitution(contacts: &[SharedContact], impulses: &Impulses) -> f64 {
+    let all: f64 = impulses.iter().map(|(j, _)| j).sum();
     if all <= 0.0 {
         return 0.0;
     }
@@ -374,7 +369,7 @@ pub(super) fn mean_restitution(contacts: &[SharedContact], impulses: &[f64]) -> 
     }
     let weighted = contacts.iter().zip(impulses);
     let sum: f64 = weighted
-        .map(|(shared, j)| shared.contact.restitution * j)
+        .map(|(shared, (j, _))| shared.contact.restitution * j)
         .sum();
     sum / all
 }
@@ -390,12 +385,10 @@ fn tolerance(speeds: &[f64]) -> f64 {
 }
 
 /// ±j applied once for all contacts of a body together.
-fn pushed(bodies: &[ImpactBody], contacts: &[SharedContact], impulses: &[f64]) -> Vec<ImpactBody> {
+fn pushed(bodies: &[ImpactBody], shared: &SharedContact, push: f64) -> Vec<ImpactBody> {
     let mut after = bodies.to_vec();
-    for (shared, j) in contacts.iter().zip(impulses) {
-        let (impulse, point) = (shared.contact.normal * *j, shared.contact.point);
-        after[shared.a] = after[shared.a].pushed(-impulse, point);
-        after[shared.b] = after[shared.b].pushed(impulse, point);
-    }
+    let (impulse, point) = (shared.contact.normal * push, shared.contact.point);
+    after[shared.a] = after[shared.a].pushed(-impulse, point);
+    after[shared.b] = after[shared.b].pushed(impulse, point);
     after
 }

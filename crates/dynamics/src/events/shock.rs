@@ -292,12 +292,8 @@ impl Shock {
         for (shaken, after) in self.bodies.iter_mut().zip(found.bodies) {
             shaken.after = after;
         }
-        let impulses = found
-            .normal_impulses
-            .into_iter()
-            .zip(found.tangential_impulses);
-        for (strike, (normal, tangential)) in self.strikes.iter_mut().zip(impulses) {
-            (strike.normal_impulse, strike.tangential_impulse) = (normal, tangential);
+        for (strike, impulses) in self.strikes.iter_mut().zip(found.impulses) {
+            (strike.normal_impulse, strike.tangential_impulse) = impulses;
         }
     }
 
