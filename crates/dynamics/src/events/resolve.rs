@@ -4,7 +4,6 @@ use arrayvec::ArrayVec;
 use carom_math::{SimTime, Vec2};
 
 use crate::events::shock::Shock;
-use crate::impact::resolve;
 use crate::model::narrow::{NOISE, opening_speed, pace, rest_speed};
 use crate::store::bodies::Bodies;
 use crate::store::pairs::{Pair, Pairs};
@@ -93,24 +92,7 @@ pub(crate) fn strike(
         Budget::Outrun => shock.collapse(),
         Budget::Gone => return Struck::Exhausted,
     }
-    let single = shock.strikes.len() == 1;
-    if single {
-        let before = shock.ends_of_single();
-        let outcome = resolve(
-            settings.impact_law,
-            &before.0,
-            &before.1,
-            &shock.strikes[0].contact,
-        );
-        shock.set(
-            outcome.a,
-            outcome.b,
-            (outcome.normal_impulse, outcome.tangential_impulse),
-        );
-    }
-    if !single || shock.spread(bodies, pairs) {
-        shock.solve(settings, bodies, pairs);
-    }
+    shock.solve(settings, bodies, pairs);
     shock.hold(pairs);
     for strike in shock.squeezed() {
         report.collapsed += 1;
@@ -170,21 +152,28 @@ fn spend(
         (false, true) => {}
     }
     report.collapsed += 1;
-    let [a, b] = ends;
-    let reduced = match (a.inverse_mass, b.inverse_mass) {
-        (x, y) if x + y > 0.0 => (x + y).recip(),
-        _ => 0.0,
-    };
     let speed = shock.strikes[0].speed;
-    events.push(
-        due.time,
-        EventKind::Collapse {
-            a: a.id,
-            b: b.id,
-            energy: 0.5 * reduced * speed * speed,
-        },
-    );
+    tell_collapse(bodies, pair.bodies, 0.5 * speed * speed, due.time, events);
     Budget::Outrun
+}
+
+/// Says that infinitely many impacts of two bodies have ended, with their energy per kg of reduced mass, in J/kg.
+pub(crate) fn tell_collapse(
+    bodies: &Bodies,
+    (a, b): (u32, u32),
+    energy: f64,
+    time: SimTime,
+    events: &mut Events,
+) {
+    let (one, two) = (bodies.get(a), bodies.get(b));
+    let inverse = one.inverse_mass + two.inverse_mass;
+    let kind = EventKind::Collapse {
+        a: one.id,
+        b: two.id,
+        // Between bodies that nothing moves there is no energy to lose.
+        energy: if inverse > 0.0 { energy / inverse } else { 0.0 },
+    };
+    events.push(time, kind);
 }
 
 /// New motions for all that were shaken, events for all that pushed, losses to the ledger.

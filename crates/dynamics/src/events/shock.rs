@@ -14,7 +14,7 @@ mod loss;
 use carom_math::{SimTime, Vec2, perp};
 
 use crate::impact::{
-    Growth, ImpactBody, ImpactContact, SharedContact, Sweeper, is_driven, several,
+    Growth, ImpactBody, ImpactContact, SharedContact, Sweeper, is_driven, resolve, several,
 };
 use crate::model::ghost::look_at;
 use crate::model::narrow::{TOUCH, rest_speed};
@@ -181,20 +181,6 @@ impl Shock {
         });
     }
 
-    /// The two bodies of a single impact.
-    pub(crate) fn ends_of_single(&self) -> (ImpactBody, ImpactBody) {
-        let (a, b) = self.strikes[0].ends;
-        (self.bodies[a].after, self.bodies[b].after)
-    }
-
-    /// Velocities after a single impact, by whatever law gave them.
-    pub(crate) fn set(&mut self, a: ImpactBody, b: ImpactBody, impulses: (f64, f64)) {
-        let strike = &mut self.strikes[0];
-        self.bodies[strike.ends.0].after = a;
-        self.bodies[strike.ends.1].after = b;
-        (strike.normal_impulse, strike.tangential_impulse) = impulses;
-    }
-
     /// Adds every touching contact of the shaken bodies that the shock closes; whether there is one.
     pub(crate) fn spread(&mut self, bodies: &Bodies, pairs: &mut Pairs) -> bool {
         let known = self.strikes.len();
@@ -279,6 +265,15 @@ impl Shock {
     }
 
     fn solve_exactly(&mut self, settings: &Settings) {
+        if let [strike] = self.strikes.as_mut_slice() {
+            let (a, b) = strike.ends;
+            let (one, two) = (self.bodies[a].before, self.bodies[b].before);
+            let alone = resolve(settings.impact_law, &one, &two, &strike.contact);
+            (self.bodies[a].after, self.bodies[b].after) = (alone.a, alone.b);
+            (strike.normal_impulse, strike.tangential_impulse) =
+                (alone.normal_impulse, alone.tangential_impulse);
+            return;
+        }
         let shared = |strike: &Strike| SharedContact {
             a: strike.ends.0,
             b: strike.ends.1,

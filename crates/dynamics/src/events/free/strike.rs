@@ -4,7 +4,7 @@ use arrayvec::ArrayVec;
 use carom_math::{SimTime, Vec2};
 
 use super::{Cause, Foreseen, low};
-use crate::events::resolve::{apply, price};
+use crate::events::resolve::{apply, price, tell_collapse};
 use crate::events::shock::Shock;
 use crate::impact::{ImpactBody, ImpactContact, resolve};
 use crate::model::narrow::NOISE;
@@ -229,17 +229,8 @@ impl World {
 
     /// Says that infinitely many impacts of two bodies have ended, with their energy per kg of reduced
     /// mass, in J/kg.
-    pub(super) fn report_collapse(&mut self, (a, b): (u32, u32), energy: f64, time: SimTime) {
-        let (one, two) = (self.bodies.get(a), self.bodies.get(b));
-        let inverse = one.inverse_mass + two.inverse_mass;
-        // Between bodies that nothing moves there is no energy to lose.
-        let energy = if inverse > 0.0 { energy / inverse } else { 0.0 };
-        let kind = EventKind::Collapse {
-            a: one.id,
-            b: two.id,
-            energy,
-        };
-        self.events.push(time, kind);
+    pub(super) fn report_collapse(&mut self, ends: (u32, u32), energy: f64, time: SimTime) {
+        tell_collapse(&self.bodies, ends, energy, time, &mut self.events);
     }
 
     /// The impact law at one point.
@@ -271,25 +262,15 @@ impl World {
         let after = [outcome.a, outcome.b];
         let impulse = contact.normal * outcome.normal_impulse
             + carom_math::perp(contact.normal) * outcome.tangential_impulse;
-        for (k, sign) in [(0, 1.0), (1, -1.0)] {
-            self.book_drive(&before[k], &after[k], contact, impulse * sign);
+        for (body, impulse) in before.iter().zip([impulse, -impulse]) {
+            // What a driven body put in: it keeps its velocity whatever the impulse on it.
+            if body.inverse_mass == 0.0 {
+                let work = impulse.dot(body.velocity_of(contact.point));
+                self.bodies.book.external.add(work);
+            }
         }
         for (index, body) in [a, b].into_iter().zip(after) {
             self.bodies.end_impact(index, time, &body);
-        }
-    }
-
-    /// What a driven body put in: it keeps its velocity whatever the impulse on it.
-    fn book_drive(
-        &mut self,
-        before: &ImpactBody,
-        after: &ImpactBody,
-        contact: &ImpactContact,
-        impulse: Vec2,
-    ) {
-        if before.inverse_mass == 0.0 {
-            let mean = 0.5 * (before.velocity_of(contact.point) + after.velocity_of(contact.point));
-            self.bodies.book.external.add(impulse.dot(mean));
         }
     }
 
