@@ -39,7 +39,7 @@ fn near(state: &BodyState, time: SimTime) -> Osculating {
     }
 }
 
-/// When two shapes first touch within `length` seconds of `time`; they may have just struck each other at `last`.
+/// When two shapes first touch within `length` seconds of `time`. `last`: where they have just struck each other, if they have: a hint.
 pub(crate) fn first_touch(
     bodies: [&BodyState; 2],
     shapes: [&Shape; 2],
@@ -47,18 +47,18 @@ pub(crate) fn first_touch(
     length: f64,
     last: Option<ImpactFeature>,
 ) -> TimeOfImpact {
+    let [one, two] = bodies;
+    if one.flight.is_none() && two.flight.is_none() {
+        // A little beyond: an impact at the very end is found to its last digit, too.
+        let (end, [first, second]) = (length * (1.0 + BEYOND), shapes);
+        return time_of_impact_from(time, last, first, &one.motion, second, &two.motion, end);
+    }
     let mut first = TimeOfImpact::Clear;
     let mut left = length;
     for i in 0..part_count(shapes[0]) {
         for j in 0..part_count(shapes[1]) {
             let parts = [part(shapes[0], i), part(shapes[1], j)];
-            let next = match last {
-                Some(last) if shapes.iter().all(|shape| part_count(shape) == 1) => {
-                    let struck = Some((last, shapes));
-                    Search::new(bodies, parts, time).first(left, struck)
-                }
-                _ => first_touch_of_parts(bodies, parts, time, left),
-            };
+            let next = first_touch_of_parts(bodies, parts, time, left);
             #[expect(clippy::cast_possible_truncation, reason = "parts of a shape")]
             let next = next.of_parts((i as u32, j as u32));
             if let TimeOfImpact::Hit(impact) = &next {
@@ -78,7 +78,18 @@ pub(crate) fn first_touch_of_parts(
     time: SimTime,
     length: f64,
 ) -> TimeOfImpact {
-    Search::new(bodies, parts, time).first(length, None)
+    if bodies.iter().all(|body| body.flight.is_none()) {
+        let [a, b] = bodies.map(|body| body.motion.rebased(time));
+        return time_of_impact_of_parts(&parts[0], &a, &parts[1], &b, length);
+    }
+    let size = bodies[0].reach.min(bodies[1].reach);
+    let search = Search {
+        bodies,
+        parts,
+        size,
+        time,
+    };
+    search.first(length)
 }
 
 /// Two convex parts, from an instant on.
@@ -90,21 +101,8 @@ struct Search<'a> {
     time: SimTime,
 }
 
-/// Where two shapes have just struck each other, and which.
-type Struck<'a> = (ImpactFeature, [&'a Shape; 2]);
-
-impl<'a> Search<'a> {
-    fn new(bodies: [&'a BodyState; 2], parts: [Hull<'a>; 2], time: SimTime) -> Self {
-        let size = bodies[0].reach.min(bodies[1].reach);
-        Self {
-            bodies,
-            parts,
-            size,
-            time,
-        }
-    }
-
-    fn first(&self, length: f64, last: Option<Struck<'_>>) -> TimeOfImpact {
+impl Search<'_> {
+    fn first(&self, length: f64) -> TimeOfImpact {
         let (exact, close) = (EXACT * self.size, NEAR * self.size);
         let (mut at, mut hint) = (0.0, f64::INFINITY);
         for _ in 0..PIECES {
@@ -124,8 +122,10 @@ impl<'a> Search<'a> {
             let (off, motions) = (left_out(span), paths.map(|path| path.motion));
             hint = f64::INFINITY;
             if off <= exact {
-                let next = self.of_parabolas(&motions, span, last.filter(|_| at == 0.0));
-                match next {
+                // A little beyond: an impact at the very end is found to its last digit, too.
+                let [a, b] = &motions;
+                let end = span * (1.0 + BEYOND);
+                match time_of_impact_of_parts(&self.parts[0], a, &self.parts[1], b, end) {
                     TimeOfImpact::Clear => at += span,
                     TimeOfImpact::Touching(impact) if at == 0.0 => {
                         return TimeOfImpact::Touching(impact);
@@ -166,23 +166,6 @@ impl<'a> Search<'a> {
             .each_ref()
             .map(|path| path.motion.pose_at(path.motion.start));
         separating_axis(&self.parts[0], &self.parts[1], b.seen_from(a)).separation
-    }
-
-    fn of_parabolas(
-        &self,
-        motions: &[Motion; 2],
-        span: f64,
-        last: Option<Struck<'_>>,
-    ) -> TimeOfImpact {
-        // A little beyond: an impact at the very end is found to its last digit, too.
-        let (span, [a, b]) = (span * (1.0 + BEYOND), motions);
-        match last {
-            Some((last, shapes)) => {
-                let start = a.start.max(b.start);
-                time_of_impact_from(start, Some(last), shapes[0], a, shapes[1], b, span)
-            }
-            None => time_of_impact_of_parts(&self.parts[0], a, &self.parts[1], b, span),
-        }
     }
 
     /// The same of shapes of which one is grown by `room` metres. A cut between parts counts as outline: early is safe.

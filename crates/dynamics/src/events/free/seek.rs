@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use carom_collision::{
     Impact, TimeOfImpact, contacts, earlier, part, part_count, time_of_impact_beside,
-    time_of_impact_from, time_of_impact_of_parts,
 };
 use carom_geometry::Shape;
 use carom_math::{SimTime, Vec2};
@@ -22,9 +21,6 @@ use crate::model::graph::pair_of;
 use crate::model::narrow::{TOUCH, opening_speed, pace, rest_speed, rest_speed_between};
 use crate::motion::first_touch::{first_touch, first_touch_of_parts};
 use crate::store::few::Few;
-
-/// How far a search goes beyond its end, as a fraction.
-const BEYOND: f64 = 1e-6;
 
 /// Part of a sub-step after which a contact that opens with t³ has a gap that a search sees, of some 1e-13 of a size.
 const OPENED: f64 = 1.0 / 64.0;
@@ -138,20 +134,19 @@ impl World {
             &self.bodies.colliders[shapes.0 as usize],
             &self.bodies.colliders[shapes.1 as usize],
         );
-        // A little beyond: an impact at the very end is found to its last digit, too.
-        let end = length * (1.0 + BEYOND);
         // Beyond the end of a micro-bounce there is nothing to ask.
         let back = self.free.micro_bounce.as_ref();
         let back = back.filter(|(_, next)| next.colliders == shapes);
-        let end = back.map_or(end, |(back, _)| end.min(back * (1.0 + BEYOND)));
-        let (first, second) = (&first.solid, &second.solid);
+        let length = back.map_or(length, |(back, _)| length.min(*back));
         let struck = self.free.struck.filter(|(struck, _)| *struck == shapes);
         let last = struck.map(|(_, last)| last);
-        let next = if one.flight.is_some() || two.flight.is_some() {
-            first_touch([one, two], [&**first, &**second], time, length, last)
-        } else {
-            time_of_impact_from(time, last, first, &one.motion, second, &two.motion, end)
-        };
+        let next = first_touch(
+            [one, two],
+            [&first.solid, &second.solid],
+            time,
+            length,
+            last,
+        );
         let (wait, impact) = match next {
             TimeOfImpact::Clear => (f64::INFINITY, None),
             TimeOfImpact::Hit(impact) => (impact.time, Some(impact)),
@@ -335,7 +330,6 @@ impl World {
         let pair = self.pairs.get(place);
         let (ends, shapes) = (pair.bodies, pair.colliders);
         let (one, two) = (self.bodies.get(ends.0), self.bodies.get(ends.1));
-        let motions = [one, two].map(|state| state.motion.rebased(time));
         let rest = rest_speed(&self.bodies, pair);
         let is_slow = |impact: &Impact| {
             let at = time + impact.time;
@@ -353,12 +347,7 @@ impl World {
                     continue;
                 }
                 let parts = [part(&solids[0], i), part(&solids[1], j)];
-                let next = if one.flight.is_some() || two.flight.is_some() {
-                    first_touch_of_parts([one, two], parts, time, length)
-                } else {
-                    let [a, b] = &motions;
-                    time_of_impact_of_parts(&parts[0], a, &parts[1], b, length)
-                };
+                let next = first_touch_of_parts([one, two], parts, time, length);
                 #[expect(clippy::cast_possible_truncation, reason = "parts of a shape")]
                 let next = next.of_parts((i as u32, j as u32));
                 match next {

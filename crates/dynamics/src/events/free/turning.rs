@@ -6,7 +6,7 @@
 
 use std::sync::Arc;
 
-use carom_collision::{TimeOfImpact, shape_distance, time_of_impact_from};
+use carom_collision::{TimeOfImpact, shape_distance};
 use carom_geometry::{Circle, Shape};
 use carom_math::SimTime;
 
@@ -75,20 +75,7 @@ fn apart_however_turned(bodies: &Bodies, (a, b): (u32, u32), time: SimTime, leng
             if shape_distance(first_shape, second_shape, seen).distance <= 0.0 {
                 return 0.0;
             }
-            let next = if one.flight.is_some() || two.flight.is_some() {
-                first_touch([one, two], [first_shape, second_shape], time, first, None)
-            } else {
-                let motions = (&one.motion, &two.motion);
-                time_of_impact_from(
-                    time,
-                    None,
-                    first_shape,
-                    motions.0,
-                    second_shape,
-                    motions.1,
-                    first,
-                )
-            };
+            let next = first_touch([one, two], [first_shape, second_shape], time, first, None);
             first = match next {
                 TimeOfImpact::Clear => first,
                 TimeOfImpact::Hit(impact) => first.min(impact.time),
