@@ -224,7 +224,11 @@ impl World {
             }
         };
         let mut speed = speed;
-        for place in gathered.groups.clone() {
+        let groups = gathered.places.iter();
+        let groups: Vec<u32> = groups
+            .map(|index| self.bodies.get(*index).membership.group)
+            .collect();
+        for place in groups {
             if let Some(group) = self.closed.get(place) {
                 speed = speed.max(group.speed);
             }
@@ -386,7 +390,7 @@ impl World {
             speed,
             sleeps: sleep.is_some(),
             until: change,
-            tipping: None,
+            tip: None,
         };
         self.begin_group(gathered, &moves.bodies, group);
     }
@@ -395,7 +399,7 @@ impl World {
     pub(crate) fn begin_group(&mut self, gathered: &Gathered, moves: &[BodyMove], group: Group) {
         let (time, mut group) = (group.since, group);
         self.charge_change(gathered, moves, time);
-        let (now, turns) = ((time, group.speed), group.tipping.is_some());
+        let (now, turns) = ((time, group.speed), group.tip.is_some());
         (group.members, group.speed) = give_motions(&mut self.bodies, gathered, moves, now, !turns);
         self.tell_modes(&group.touches, time);
         let members = group.indices();

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use carom_math::SimTime;
 
 use crate::analytic::islands::store::{Group, Kept};
-use crate::analytic::islands::tips::{Tipping, path_of};
+use crate::analytic::islands::tips::path_of;
 use crate::analytic::modes::{NotMine, TouchMove};
 use crate::analytic::tipping::Limit;
 use crate::analytic::touching::Gathered;
@@ -38,9 +38,6 @@ impl World {
             return Err(NotMine::Returns);
         }
         let (moves, touches) = tip.moves_after(0.0).ok_or(NotMine::Unsolved)?;
-        let moved = gathered.places.iter().enumerate();
-        let moved = moved.filter(|(_, index)| self.bodies.get(**index).inverse_mass != 0.0);
-        let slots = moved.map(|(slot, _)| slot).collect();
         let kept = |(&(pair, contact), moved): (&(u32, usize), &TouchMove)| Kept {
             pair,
             contact,
@@ -55,10 +52,7 @@ impl World {
             speed,
             sleeps: false,
             until: Some(time + tip.after),
-            tipping: Some(Tipping {
-                tip: Arc::new(tip),
-                slots,
-            }),
+            tip: Some(Arc::new(tip)),
         };
         self.begin_group(gathered, &moves, group);
         Ok(())
@@ -70,7 +64,7 @@ impl World {
             return false;
         };
         let stands = |&(index, version): &(u32, u32)| self.bodies.version(index) == version;
-        let Some(Tipping { tip, slots }) = &group.tipping else {
+        let Some(tip) = &group.tip else {
             return false;
         };
         if !group.members.iter().all(stands) {
@@ -81,7 +75,7 @@ impl World {
         };
         // The modes take roundings out of the velocities.
         let (mut lost, mut fastest) = (0.0, group.speed);
-        for (&(index, _), &slot) in group.members.iter().zip(slots) {
+        for (&(index, _), slot) in group.members.iter().zip(tip.movers()) {
             let (_, velocity, _, spin) = next.path.body_after(slot, 0.0);
             let state = self.bodies.get(index);
             let linear = state.mass.mass * velocity.length_squared();
@@ -104,9 +98,7 @@ impl World {
         let change = time + next.after;
         if let Some(group) = self.closed.get_mut(place) {
             (group.since, group.speed) = (time, fastest);
-            if let Some(tipping) = &mut group.tipping {
-                tipping.tip = Arc::new(next);
-            }
+            group.tip = Some(Arc::new(next));
         }
         self.closed.changes_at(place, change);
         if moves_analytically {

@@ -40,8 +40,6 @@ pub(crate) struct Gathered {
     pub(crate) pairs: Vec<(u32, usize)>,
     /// Speed below which what opens there comes back at once, because turning presses, for each touch, in m/s.
     presses: Vec<f64>,
-    /// Groups in closed form that some member belongs to.
-    pub(crate) groups: Vec<u32>,
     /// Fastest approach of a touch, in m/s; 0 if it is no more than rounding.
     pub(crate) closing: f64,
     /// Approach below which a touch rests, the largest of all pairs, in m/s.
@@ -144,10 +142,6 @@ impl Gathered {
         let state = bodies.get(index);
         self.places.push(index);
         self.bodies.push(mode_body(bodies, state, time));
-        let group = state.membership.group;
-        if state.membership.is_closed() && !self.groups.contains(&group) {
-            self.groups.push(group);
-        }
         self.places.len() - 1
     }
 }

@@ -5,7 +5,6 @@ use std::sync::Arc;
 use carom_math::SimTime;
 
 use super::store::{Closed, Group};
-use super::tips::Tipping;
 use crate::ContactMode;
 use crate::law::flight::Flight;
 use crate::model::narrow::look;
@@ -51,16 +50,17 @@ impl Closed {
         let Some(group) = self.get_mut(place) else {
             return;
         };
-        let Some(Tipping { tip, slots }) = &group.tipping else {
+        let Some(tip) = &group.tip else {
             return;
         };
-        let Some(k) = group.members.iter().position(|member| member.0 == index) else {
+        let mut members = group.members.iter_mut().zip(tip.movers());
+        let Some((member, slot)) = members.find(|(member, _)| member.0 == index) else {
             return;
         };
-        let flight = Arc::new(Flight::held(tip.path.clone(), slots[k]));
+        let flight = Arc::new(Flight::held(tip.path.clone(), slot));
         let until = group.until.unwrap_or(SimTime::NEVER);
         let end = begin_held_piece(bodies, index, flight, time);
-        group.members[k].1 = bodies.version(index);
+        member.1 = bodies.version(index);
         bodies.get_mut(index).set_piece(end.min(until));
     }
 
@@ -81,9 +81,8 @@ impl Closed {
         let group = self.get(bodies.get(index).membership.group)?;
         let mut now = pair.clone();
         look(bodies, &mut now, time);
-        let mut group = group.clone();
-        group.move_touches(group.moved_at(time));
-        for touch in group.touches.iter().filter(|touch| touch.pair == place) {
+        let touches = group.touches_at(time).into_iter();
+        for touch in touches.filter(|touch| touch.pair == place) {
             touch.carry(bodies, &mut now);
         }
         Some(now)

@@ -2,13 +2,13 @@
 
 use core::cmp::Reverse;
 use std::collections::BinaryHeap;
+use std::sync::Arc;
 
 use carom_math::{SimTime, Vec2};
 
 use super::mode_budget::ModeBudget;
-use super::tips::Tipping;
 use crate::analytic::modes::TouchMove;
-use crate::analytic::tipping::Limit;
+use crate::analytic::tipping::{Limit, Tip};
 use crate::model::narrow::TOUCH;
 use crate::store::bodies::Bodies;
 use crate::store::membership::Membership;
@@ -64,7 +64,7 @@ pub(crate) struct Group {
     /// When it changes by itself.
     pub(crate) until: Option<SimTime>,
     /// The path of one that turns.
-    pub(crate) tipping: Option<Tipping>,
+    pub(crate) tip: Option<Arc<Tip>>,
 }
 
 impl Group {
@@ -87,8 +87,8 @@ impl Group {
 
     /// Heat by friction, and the work of driven partners, in the first `elapsed` seconds, in J.
     pub(crate) fn works(&self, elapsed: f64) -> (f64, f64) {
-        if let Some(tipping) = &self.tipping {
-            return (tipping.tip.heat(elapsed), 0.0);
+        if let Some(tip) = &self.tip {
+            return (tip.heat(elapsed), 0.0);
         }
         let touches = self.touches.iter();
         touches.fold((0.0, 0.0), |(heat, driven), touch| {
@@ -96,18 +96,18 @@ impl Group {
         })
     }
 
-    /// What the touches of a group that turns do at `time`: forces change along its path.
-    pub(crate) fn moved_at(&self, time: SimTime) -> Option<Vec<TouchMove>> {
-        let Tipping { tip, .. } = self.tipping.as_ref()?;
-        let (_, touches) = tip.moves_after(time - tip.path.start())?;
-        Some(touches)
-    }
-
-    /// Its touches do this from now on, if there is anything new.
-    pub(crate) fn move_touches(&mut self, moved: Option<Vec<TouchMove>>) {
-        for (kept, moved) in self.touches.iter_mut().zip(moved.into_iter().flatten()) {
+    /// Its touches, with what they do at `time` where it turns.
+    pub(crate) fn touches_at(&self, time: SimTime) -> Vec<Kept> {
+        let mut touches = self.touches.clone();
+        let tip = self.tip.as_ref();
+        let now = tip.and_then(|tip| tip.moves_after(time - tip.path.start()));
+        for (kept, moved) in touches
+            .iter_mut()
+            .zip(now.into_iter().flat_map(|now| now.1))
+        {
             kept.moved = moved;
         }
+        touches
     }
 
     /// The pair with a corner that lands at the next change, the normal from A to B, and the point.
@@ -116,7 +116,7 @@ impl Group {
             contact,
             normal,
             at,
-        }) = self.tipping.as_ref()?.tip.ends
+        }) = self.tip.as_ref()?.ends
         else {
             return None;
         };

@@ -1,7 +1,5 @@
 //! Groups that turn about their contacts: which shapes touch, and which bodies the path moves.
 
-use std::sync::Arc;
-
 use arrayvec::ArrayVec;
 use carom_math::SimTime;
 
@@ -23,14 +21,6 @@ const MOST: usize = 4;
 /// The same where the engine takes what has no path: a path of several bodies takes 120 µs for a 30th of a second, the engine 7 µs
 /// (1,000 seesaws: 15.8 and 4.5 ms a step, and 255 and 8 the worst one).
 const MOST_BESIDE_ENGINE: usize = 1;
-
-/// A group that turns.
-#[derive(Clone, Debug)]
-pub(crate) struct Tipping {
-    pub(crate) tip: Arc<Tip>,
-    /// Place of each member in the group's list of bodies.
-    pub(crate) slots: Vec<usize>,
-}
 
 /// The path that its contacts leave a group.
 pub(crate) fn path_of(

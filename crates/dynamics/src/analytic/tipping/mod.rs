@@ -94,6 +94,12 @@ pub(crate) struct Tip {
 }
 
 impl Tip {
+    /// Places of the bodies that it moves: of the members of a group, in their order.
+    pub(crate) fn movers(&self) -> impl Iterator<Item = usize> {
+        let bodies = &self.equations.bodies;
+        (0..bodies.len()).filter(|place| bodies[*place].inverse_mass > 0.0)
+    }
+
     /// The next stretch of a path that is known no further, while all modes go on.
     pub(crate) fn next(&self, speed: f64) -> Option<Self> {
         if self.ends.is_some() {
