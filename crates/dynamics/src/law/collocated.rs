@@ -194,17 +194,8 @@ impl Path for Collocated {
         self.length
     }
 
-    fn write_places(&self, t: f64, places: &mut Vec<Place>) {
-        places.clear();
-        places.extend((0..self.rotations.len()).map(|body| {
-            let (centre, velocity, angle, spin) = self.body_after(body, t);
-            Place {
-                centre,
-                rotation: self.rotations[body].turned(angle),
-                velocity,
-                spin,
-            }
-        }));
+    fn bodies(&self) -> usize {
+        self.rotations.len()
     }
 
     fn rotation(&self, body: usize) -> Rot {

@@ -35,8 +35,22 @@ pub(crate) trait Path: Debug + Send + Sync {
     /// In s.
     fn length(&self) -> f64;
 
+    /// How many bodies it has.
+    fn bodies(&self) -> usize;
+
     /// All bodies `t` seconds after the start, into `places`.
-    fn write_places(&self, t: f64, places: &mut Vec<Place>);
+    fn write_places(&self, t: f64, places: &mut Vec<Place>) {
+        places.clear();
+        places.extend((0..self.bodies()).map(|body| {
+            let (centre, velocity, angle, spin) = self.body_after(body, t);
+            Place {
+                centre,
+                rotation: self.rotation(body).turned(angle),
+                velocity,
+                spin,
+            }
+        }));
+    }
 
     /// Rotation of a body at the start.
     fn rotation(&self, body: usize) -> Rot;
@@ -91,17 +105,8 @@ impl Path for Swing {
         self.length
     }
 
-    fn write_places(&self, t: f64, places: &mut Vec<Place>) {
-        places.clear();
-        places.extend_from_slice(&self.places);
-        let (centre, velocity, angle, spin) = self.body_after(self.body, t);
-        let rotation = self.places[self.body].rotation.turned(angle);
-        places[self.body] = Place {
-            centre,
-            rotation,
-            velocity,
-            spin,
-        };
+    fn bodies(&self) -> usize {
+        self.places.len()
     }
 
     fn rotation(&self, body: usize) -> Rot {
