@@ -19,7 +19,7 @@ const ROUNDING: f64 = 1e-11;
 
 /// What friction does at a touch.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Tangent {
+pub(crate) enum Tangent {
     /// There is none.
     Smooth,
     /// It opposes a slip of this sign.

@@ -25,7 +25,8 @@ use crate::impact::ImpactBody;
 use crate::model::approach::CLOSED;
 use crate::model::edges::Feature;
 use crate::model::graph::ROWS;
-use balance::{Balance, Reaction, Tangent, balance};
+pub(crate) use balance::Tangent;
+use balance::{Balance, Reaction, balance};
 use change::Load;
 use faces::Faces;
 

@@ -10,7 +10,7 @@
 use carom_math::{Vec2, cross, perp};
 
 use super::joint::Seen;
-use super::{Contact, Hold, Rub};
+use super::{Contact, Hold, Tangent};
 use crate::analytic::modes::ModeBody;
 use crate::impact::dense::Factored;
 use crate::law::path::Place;
@@ -119,7 +119,7 @@ impl Equations {
             match unknown.point {
                 Some(point) => {
                     forces.normal[unknown.contact][point] = size;
-                    if let Rub::Slides(sign) = self.holds[unknown.contact].rub {
+                    if let Tangent::Slides(sign) = self.holds[unknown.contact].rub {
                         forces.tangential[unknown.contact] -=
                             sign * self.contacts[unknown.contact].friction * size;
                     }
@@ -178,7 +178,7 @@ impl Equations {
         unknowns.clear();
         for (i, (contact, hold)) in self.contacts.iter().zip(&self.holds).enumerate() {
             let (a, b) = (&places[contact.bodies.0], &places[contact.bodies.1]);
-            let mut holds_slip = hold.rub == Rub::Sticks;
+            let mut holds_slip = hold.rub == Tangent::Holds;
             for (k, joint) in contact.joints.iter().enumerate() {
                 if !hold.closed[k] {
                     continue;
@@ -200,8 +200,8 @@ impl Equations {
                     });
                 };
                 let force = match hold.rub {
-                    Rub::Slides(sign) => seen.normal - t * (sign * contact.friction),
-                    Rub::Smooth | Rub::Sticks => seen.normal,
+                    Tangent::Slides(sign) => seen.normal - t * (sign * contact.friction),
+                    Tangent::Smooth | Tangent::Holds => seen.normal,
                 };
                 add(Some(k), seen.normal, force, seen.bend);
                 // Both ends of a face rub along one line.

@@ -20,7 +20,7 @@ use arrayvec::ArrayVec;
 use carom_math::SimTime;
 
 use crate::ContactMode;
-use crate::analytic::modes::{BodyMove, ModeBody, NotMine, Touch, TouchMove, begin};
+use crate::analytic::modes::{BodyMove, ModeBody, NotMine, Tangent, Touch, TouchMove, begin};
 use crate::law::collocated::Collocated;
 use crate::law::path::{Path, Place};
 use crate::model::edges::Feature;
@@ -57,17 +57,6 @@ pub(crate) struct Contact {
     pub(crate) friction: f64,
 }
 
-/// Friction while a mode lasts.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Rub {
-    /// There is none.
-    Smooth,
-    /// The points in touch move alike.
-    Sticks,
-    /// It opposes a slip of this sign.
-    Slides(f64),
-}
-
 /// Mode of a contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Hold {
@@ -75,7 +64,7 @@ pub(crate) struct Hold {
     pub(crate) closed: [bool; 2],
     /// Points that have come over the end of an edge: there is no line under them any more.
     pub(crate) over: [bool; 2],
-    pub(crate) rub: Rub,
+    pub(crate) rub: Tangent,
     /// The contact whose corner is in the same place, as at the tip between two segments: it has the forces of both.
     pub(crate) shares: Option<usize>,
 }
@@ -145,8 +134,8 @@ impl Tip {
             normal: forces.normal[i],
             tangential: forces.tangential[i],
             slip: match hold.rub {
-                Rub::Slides(_) => seen[i][0].map_or(0.0, |seen| seen.slip),
-                Rub::Smooth | Rub::Sticks => 0.0,
+                Tangent::Slides(_) => seen[i][0].map_or(0.0, |seen| seen.slip),
+                Tangent::Smooth | Tangent::Holds => 0.0,
             },
         })
         .collect()
@@ -162,7 +151,7 @@ impl Tip {
         };
         if !hold.closed.contains(&true) {
             ContactMode::Open
-        } else if hold.rub != Rub::Sticks {
+        } else if hold.rub != Tangent::Holds {
             ContactMode::Slide
         } else if contact.joints.iter().any(round) {
             ContactMode::Roll
@@ -278,11 +267,11 @@ fn amend(equations: &mut Equations, limit: Limit) -> Result<(), NotMine> {
             Ok(())
         }
         Limit::Grip { contact, sign } => {
-            holds[contact].rub = Rub::Slides(sign);
+            holds[contact].rub = Tangent::Slides(sign);
             Ok(())
         }
         Limit::Slip { contact } => {
-            holds[contact].rub = Rub::Sticks;
+            holds[contact].rub = Tangent::Holds;
             Ok(())
         }
         // A corner that slides over the end of an edge moves on along that edge's line, and what follows it rises: it
@@ -332,13 +321,13 @@ fn modes(
         closed: begun.reactions[i].closed,
         over: [false; 2],
         rub: if touch.friction == 0.0 {
-            Rub::Smooth
+            Tangent::Smooth
         } else if begun.reactions[i].sticks {
-            Rub::Sticks
+            Tangent::Holds
         } else if begun.slips[i] != 0.0 {
-            Rub::Slides(begun.slips[i].signum())
+            Tangent::Slides(begun.slips[i].signum())
         } else {
-            Rub::Slides(-begun.reactions[i].tangential.signum())
+            Tangent::Slides(-begun.reactions[i].tangential.signum())
         },
         shares: None,
     };

@@ -3,7 +3,7 @@
 use carom_math::{Vec2, falling_root};
 
 use super::equations::{Equations, Workspace};
-use super::{AT_ONCE, Rub};
+use super::{AT_ONCE, Tangent};
 use crate::law::path::Path;
 use crate::law::path::Place;
 
@@ -152,7 +152,7 @@ impl Margins<'_> {
                 }
             }
             match (hold.rub, slips) {
-                (Rub::Sticks, Some(_)) => {
+                (Tangent::Holds, Some(_)) => {
                     let pull = forces.tangential[contact];
                     let limit = Limit::Grip {
                         contact,
@@ -160,7 +160,7 @@ impl Margins<'_> {
                     };
                     add(limit, of.friction * pressed - pull.abs(), most);
                 }
-                (Rub::Slides(sign), Some(slip)) => {
+                (Tangent::Slides(sign), Some(slip)) => {
                     add(Limit::Slip { contact }, slip * sign, speed);
                 }
                 _ => {}
@@ -272,7 +272,7 @@ pub(super) fn heat(equations: &Equations, path: &dyn Path, elapsed: f64) -> f64 
         (0.661_209_386_466_264_5, 0.360_761_573_048_138_6),
         (0.932_469_514_203_152, 0.171_324_492_379_170_35),
     ];
-    let slides = |hold: &super::Hold| matches!(hold.rub, Rub::Slides(_));
+    let slides = |hold: &super::Hold| matches!(hold.rub, Tangent::Slides(_));
     if !equations.holds.iter().any(slides) {
         return 0.0;
     }

@@ -3,7 +3,7 @@
 use carom_math::Vec2;
 
 use super::joint::End;
-use super::{Contact, Hold, Rub};
+use super::{Contact, Hold, Tangent};
 use crate::law::path::Place;
 
 /// Corners this near to each other are in one place, as a part of the smallest reach.
@@ -29,7 +29,7 @@ pub(super) fn share_corners(contacts: &[Contact], places: &[Place], size: f64, h
         let Some(first) = corners[..k].iter().position(is_same) else {
             continue;
         };
-        if holds[k].closed[0] && (!holds[first].closed[0] || holds[k].rub == Rub::Sticks) {
+        if holds[k].closed[0] && (!holds[first].closed[0] || holds[k].rub == Tangent::Holds) {
             holds[first] = holds[k];
         }
         if holds[first].closed[0] {

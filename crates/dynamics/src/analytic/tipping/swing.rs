@@ -18,7 +18,7 @@ use super::equations::Equations;
 use super::joint::{End, Joint};
 use super::roots::{self, Limit, NOTHING};
 use super::wave::{Course, Wave};
-use super::{Contact, Rub};
+use super::{Contact, Tangent};
 use crate::law::path::{Path, Place, Swing};
 use crate::law::pendulum::Pendulum;
 
@@ -97,7 +97,7 @@ impl<'a> Pivot<'a> {
         let (contact, point, rub) = closed.next()?;
         let joint = &equations.contacts[contact].joints[point];
         let is_corner = matches!(joint, Joint::Line { radius: 0.0, .. });
-        if closed.next().is_some() || rub != Rub::Sticks || !is_corner {
+        if closed.next().is_some() || rub != Tangent::Holds || !is_corner {
             return None;
         }
         let (a, b) = equations.contacts[contact].bodies;

@@ -141,7 +141,7 @@ fn what_friction_takes_is_heat() {
     let lost = energy(&start) - energy(&place);
     assert!(heat > 0.1, "{heat}");
     assert!((lost - heat).abs() < 1e-12, "{lost} not {heat}");
-    let slides = |tip: &Tip| matches!(tip.equations.holds[0].rub, Rub::Slides(_));
+    let slides = |tip: &Tip| matches!(tip.equations.holds[0].rub, Tangent::Slides(_));
     assert!(found.iter().any(|(_, tip)| slides(tip)));
 }
 
@@ -152,7 +152,7 @@ fn friction_holds_until_its_cone_is_left() {
     let (_, found) = run(start, 0.2, 1.6);
     let first = found
         .iter()
-        .find(|(_, tip)| matches!(tip.equations.holds[0].rub, Rub::Slides(_)));
+        .find(|(_, tip)| matches!(tip.equations.holds[0].rub, Tangent::Slides(_)));
     let (_, tip) = first.expect("it slips");
     let (sin, cos) = {
         let rotation = tip.path.places_after(0.0)[1].rotation;
