@@ -5,14 +5,14 @@
 //! as long as its mode lasts. What does not qualify is the engine's.
 
 use arrayvec::ArrayVec;
-use carom_math::{SimTime, Vec2};
+use carom_math::SimTime;
 
 use crate::analytic::islands::jam::jam;
 use crate::analytic::islands::mode_budget::changes_motion;
 use crate::analytic::islands::store::{Group, Kept};
 use crate::analytic::islands::{give_motions, kept};
 use crate::analytic::modes::{BodyMove, GroupMove, NotMine, land, solve_modes};
-use crate::analytic::touching::{Gathered, Looks, Refused, gather};
+use crate::analytic::touching::{Gathered, Looks, gather};
 use crate::events::resolve::PairImpact;
 use crate::{BodyKind, ContactMode, Mode, World};
 
@@ -87,8 +87,15 @@ impl World {
             return;
         }
         let members = self.dissolve(place, time);
-        if let Some((pair, normal, at)) = landing {
-            self.comes_down(pair, normal, at, time);
+        // A corner of a group that turned comes down on an edge that it touched already.
+        if let Some((pair, normal, at)) = landing.filter(|at| self.pairs.find(at.0).is_some()) {
+            let points = ArrayVec::from_iter([at]);
+            self.strike_pair(&PairImpact {
+                time,
+                pair,
+                normal,
+                points,
+            });
         }
         self.solve_modes_of(&members, time, speed);
         if moves_analytically {
@@ -99,19 +106,6 @@ impl World {
             self.begin_analytic_rest(time);
             self.begin_analytic_motion(time);
         }
-    }
-
-    /// A corner of a group that turned comes down on an edge that it touched already.
-    fn comes_down(&mut self, place: u32, normal: Vec2, at: Vec2, time: SimTime) {
-        if self.pairs.find(place).is_none() {
-            return;
-        }
-        self.strike_pair(&PairImpact {
-            time,
-            pair: place,
-            normal,
-            points: ArrayVec::from_iter([at]),
-        });
     }
 
     /// A member of a group has another motion: the group's modes are solved for anew, with the contacts that it has now.
@@ -201,7 +195,7 @@ impl World {
     fn solve_modes_around(&mut self, index: u32, time: SimTime, speed: f64, looks: Looks) {
         self.report.modes_solved += 1;
         let mut found = gather(&self.bodies, &mut self.pairs, index, time, looks);
-        while let Err(Refused(seen)) = &found {
+        while let Err(seen) = &found {
             let leaves = |index: &u32| {
                 let state = self.bodies.get(*index);
                 state.rests_analytically() || state.moves_analytically()
@@ -216,7 +210,7 @@ impl World {
         }
         let mut gathered = match found {
             Ok(gathered) => gathered,
-            Err(Refused(seen)) => {
+            Err(seen) => {
                 for &index in &seen {
                     self.dissolve(self.bodies.get(index).membership.group, time);
                 }
@@ -300,14 +294,6 @@ impl World {
         true
     }
 
-    /// Charges an island for a new mode, unless its motion is as before.
-    fn charge_change(&mut self, gathered: &Gathered, moves: &[BodyMove], time: SimTime) {
-        if self.settings.mode == Mode::Hybrid && changes_motion(&self.bodies, gathered, moves, time)
-        {
-            self.charge(&gathered.dynamic(), time);
-        }
-    }
-
     /// Charges each body of an island for a mode solve.
     fn charge(&mut self, members: &[u32], time: SimTime) {
         if self.settings.mode != Mode::Hybrid {
@@ -385,7 +371,7 @@ impl World {
         };
         let group = Group {
             since: time,
-            touches: kept(gathered, moves),
+            touches: kept(gathered, &moves.bodies, &moves.touches),
             members: Vec::new(),
             speed,
             sleeps: sleep.is_some(),
@@ -398,7 +384,11 @@ impl World {
     /// Gives all members of a group their motions, and enters its next change.
     pub(crate) fn begin_group(&mut self, gathered: &Gathered, moves: &[BodyMove], group: Group) {
         let (time, mut group) = (group.since, group);
-        self.charge_change(gathered, moves, time);
+        // A new mode is charged for, unless the motion is as before.
+        if self.settings.mode == Mode::Hybrid && changes_motion(&self.bodies, gathered, moves, time)
+        {
+            self.charge(&gathered.dynamic(), time);
+        }
         let (now, turns) = ((time, group.speed), group.tip.is_some());
         (group.members, group.speed) = give_motions(&mut self.bodies, gathered, moves, now, !turns);
         self.tell_modes(&group.touches, time);

@@ -4,9 +4,10 @@ use std::sync::Arc;
 
 use carom_math::SimTime;
 
-use crate::analytic::islands::store::{Group, Kept};
+use crate::analytic::islands::kept;
+use crate::analytic::islands::store::Group;
 use crate::analytic::islands::tips::path_of;
-use crate::analytic::modes::{NotMine, TouchMove};
+use crate::analytic::modes::NotMine;
 use crate::analytic::tipping::Limit;
 use crate::analytic::touching::Gathered;
 use crate::{Mode, World};
@@ -38,16 +39,9 @@ impl World {
             return Err(NotMine::Returns);
         }
         let (moves, touches) = tip.moves_after(0.0).ok_or(NotMine::Unsolved)?;
-        let kept = |(&(pair, contact), moved): (&(u32, usize), &TouchMove)| Kept {
-            pair,
-            contact,
-            moved: *moved,
-            slip_rate: 0.0,
-            driven: 0.0,
-        };
         let group = Group {
             since: time,
-            touches: gathered.pairs.iter().zip(&touches).map(kept).collect(),
+            touches: kept(gathered, &moves, &touches),
             members: Vec::new(),
             speed,
             sleeps: false,

@@ -25,10 +25,6 @@ pub(crate) enum Looks {
     Old,
 }
 
-/// No group for closed forms: the dynamic bodies that were seen.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Refused(pub(crate) Vec<u32>);
-
 /// All that hangs together by touch around a body.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Gathered {
@@ -53,10 +49,6 @@ impl Gathered {
         all.filter(|(_, body)| body.inverse_mass > 0.0)
             .map(|(index, _)| *index)
             .collect()
-    }
-
-    fn refused(&self) -> Refused {
-        Refused(self.dynamic())
     }
 
     /// Velocities after a landing; what opens then is let go.
@@ -175,14 +167,14 @@ fn mode_body(bodies: &Bodies, state: &BodyState, time: SimTime) -> ModeBody {
 ///
 /// # Errors
 /// If these are too many for closed forms, or a body is asleep, penetrates another by more than
-/// rounding, or a mode solve of it failed at this instant.
+/// rounding, or a mode solve of it failed at this instant: the dynamic bodies that were seen.
 pub(crate) fn gather(
     bodies: &Bodies,
     pairs: &mut Pairs,
     index: u32,
     time: SimTime,
     looks: Looks,
-) -> Result<Gathered, Refused> {
+) -> Result<Gathered, Vec<u32>> {
     let mut found = Gathered::default();
     found.place_of(bodies, index, time);
     let (mut next, mut rows) = (0, 0);
@@ -193,16 +185,16 @@ pub(crate) fn gather(
         let state = bodies.get(index);
         if !state.is_dynamic() {
             if state.motion.acceleration != Vec2::ZERO {
-                return Err(found.refused());
+                return Err(found.dynamic());
             }
             continue;
         }
         if state.is_asleep() || state.is_damped() || state.in_engine() {
-            return Err(found.refused());
+            return Err(found.dynamic());
         }
         let near = state.pairs.clone();
         if touches_failed(bodies, pairs, index, time) {
-            return Err(found.refused());
+            return Err(found.dynamic());
         }
         for place in near {
             if looked.contains(&place) {
@@ -210,11 +202,11 @@ pub(crate) fn gather(
             }
             looked.push(place);
             let Some(more) = touches_of(bodies, pairs, &mut found, place, time, looks) else {
-                return Err(found.refused());
+                return Err(found.dynamic());
             };
             rows += more;
             if rows > ROWS {
-                return Err(found.refused());
+                return Err(found.dynamic());
             }
         }
     }

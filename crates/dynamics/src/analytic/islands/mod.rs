@@ -13,7 +13,7 @@ pub(crate) mod tips;
 
 use carom_math::{SimTime, Vec2, cross_scalar, perp};
 
-use crate::analytic::modes::{BodyMove, GroupMove, carrier};
+use crate::analytic::modes::{BodyMove, TouchMove, carrier};
 use crate::analytic::touching::Gathered;
 use crate::store::bodies::Bodies;
 use store::Kept;
@@ -69,18 +69,14 @@ fn driven(bodies: &Bodies, gathered: &Gathered, moves: &[BodyMove], time: SimTim
 }
 
 /// The touches of a group with what they do while its mode lasts.
-pub(crate) fn kept(gathered: &Gathered, moves: &GroupMove) -> Vec<Kept> {
-    let sources = gathered
-        .pairs
-        .iter()
-        .zip(&gathered.touches)
-        .zip(&moves.touches);
+pub(crate) fn kept(gathered: &Gathered, moves: &[BodyMove], touches: &[TouchMove]) -> Vec<Kept> {
+    let sources = gathered.pairs.iter().zip(&gathered.touches).zip(touches);
     sources
         .map(|((&(pair, contact), touch), moved)| {
             let t = perp(touch.normal);
             let (a, b) = touch.bodies;
             let rate = |place: usize| {
-                let body = &moves.bodies[place];
+                let body = &moves[place];
                 let arm = touch.points[0] - gathered.bodies[place].centre;
                 (body.acceleration + cross_scalar(body.angular_acceleration, arm)).dot(t)
             };
