@@ -422,3 +422,45 @@ fn queries_name_all_that_is_asked_for() {
     let inside = world.nearest(vec2(6.1, 0.0), 1.0).expect("some body");
     assert_eq!((inside.body, inside.distance), (ids[3], 0.0));
 }
+
+/// The end was told with the next sub-step: for the body that had got the place meanwhile, or after a second begin.
+#[test]
+fn a_touch_ends_where_its_body_leaves_before_the_engine_knows_it() {
+    for mode in [Mode::Hybrid, Mode::Exact] {
+        let mut world = world(mode, vec2(0.0, -10.0));
+        put(
+            &mut world,
+            BodyDef::fixed().at(vec2(0.0, -0.5)),
+            block(20.0, 1.0),
+            surface(0.5, 0.0),
+        );
+        let sunken = |world: &mut World, x: f64| {
+            let def = BodyDef::dynamic().at(vec2(x, 0.45));
+            put(world, def, block(1.0, 1.0), surface(0.5, 0.0))
+        };
+        let member = sunken(&mut world, 5.0);
+        world.step(1e-3);
+        let [goes, stays] = [0.0, 2.0].map(|x| sunken(&mut world, x));
+        world.step(1e-4);
+        let told = |world: &World| {
+            let mut found = Vec::new();
+            for event in world.events() {
+                match event.kind {
+                    EventKind::Begin { b, .. } => found.push((b, true)),
+                    EventKind::End { b, .. } => found.push((b, false)),
+                    _ => {}
+                }
+            }
+            found
+        };
+        assert_eq!(told(&world), [(goes, true), (stays, true)], "{mode:?}");
+        world.remove(goes).expect("it is there");
+        world.remove(member).expect("it is there");
+        world.step(1e-4);
+        let mut ends = told(&world);
+        ends.sort_unstable();
+        assert_eq!(ends, [(member, false), (goes, false)], "{mode:?}");
+        world.step(0.05);
+        assert_eq!(told(&world), [], "{mode:?}: the last one goes on to touch");
+    }
+}

@@ -246,8 +246,22 @@ impl World {
         if self.leave_engine(index, time) {
             self.tell_members_touches(time);
         }
+        self.end_told(index, time);
         self.take_woken(time);
         self.end_membership(index, time);
+    }
+
+    /// A body that joined within a sub-step and leaves in it touches nothing any more: the engine, which would say so, never knew it.
+    fn end_told(&mut self, index: u32, time: SimTime) {
+        let events = &mut self.events;
+        self.joins.told.retain(|shapes| {
+            let stays = shapes.iter().all(|shape| shape.0 != index);
+            if !stays {
+                let [ends, colliders] = [shapes.map(|shape| shape.0), shapes.map(|shape| shape.1)];
+                events.push_touch(&self.bodies, ends, colliders, false, time);
+            }
+            stays
+        });
     }
 
     /// A body that the engine does not know any more is no member.

@@ -26,7 +26,10 @@ impl Stepping {
             let gained = if change.begins { 1 } else { -1 };
             changed.push((shapes_of(bodies, change.tags), gained, false));
         }
-        changed.extend(told.drain(..).map(|shapes| (shapes, 0, true)));
+        // What joined within a sub-step waits to be entered: the engine cannot say yet whether it still touches.
+        let waits = |index: u32| self.id(index).is_none() && bodies.get(index).in_engine();
+        let known = told.extract_if(.., |shapes| !shapes.iter().any(|shape| waits(shape.0)));
+        changed.extend(known.map(|shapes| (shapes, 0, true)));
         changed.sort_unstable();
         for of_pair in changed.chunk_by(|one, other| one.0 == other.0) {
             let shapes = of_pair[0].0;
