@@ -464,3 +464,26 @@ fn a_touch_ends_where_its_body_leaves_before_the_engine_knows_it() {
         assert_eq!(told(&world), [], "{mode:?}: the last one goes on to touch");
     }
 }
+
+/// It flew within the floor as if nothing were there, and the steps were called exact.
+#[test]
+fn what_is_put_into_a_floor_is_parted_whatever_its_velocity() {
+    for mode in MODES {
+        let mut world = world(mode, vec2(0.0, -10.0));
+        let floor = BodyDef::fixed().at(vec2(0.0, -2.0));
+        put(&mut world, floor, block(10.0, 4.0), surface(0.5, 0.0));
+        let rises = BodyDef::dynamic().at(vec2(0.0, 5.0)).moving(vec2(0.0, 1.0));
+        let id = put(&mut world, rises, block(1.0, 1.0), surface(0.5, 0.0));
+        let there = Pose::at(vec2(0.0, 0.1));
+        world.teleport(id, there).expect("it is there");
+        let report = world.step(0.05);
+        assert!(!report.is_exact(), "{mode:?}: {report:?}");
+        assert!(report.deepest_overlap > 0.1, "{mode:?}: {report:?}");
+        world.step(0.25);
+        assert!(
+            height(&world, id) > 0.495,
+            "{mode:?}: {}",
+            height(&world, id)
+        );
+    }
+}

@@ -9,14 +9,10 @@ use crate::model::approach::{Approach, approach, opening};
 use crate::model::edges::{Feature, at_the_end, corner_under_disc, feature};
 use crate::model::ghost::look_at;
 use crate::model::graph::{ROWS, neighbours};
-use crate::model::narrow::{TOUCH, rest_speed};
+use crate::model::narrow::{SUNK, TOUCH, rest_speed};
 use crate::store::bodies::Bodies;
 use crate::store::pairs::Pairs;
 use crate::store::state::BodyState;
-
-/// Overlap beyond which a pair is pushed apart first, as a part of the smaller reach: closed forms keep what
-/// overlap there is.
-const SUNK: f64 = 1e-6;
 
 /// Whether the contacts of all pairs are those of this instant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

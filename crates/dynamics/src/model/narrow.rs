@@ -15,6 +15,10 @@ const MARGIN: f64 = 1.0 / 1024.0;
 /// an impact (1e-12), far below what the eye or the solver's softness can see.
 pub(crate) const TOUCH: f64 = 1e-9;
 
+/// Overlap beyond which a pair is pushed apart first, as a part of the smaller reach: flight and closed forms keep what
+/// overlap there is.
+pub(crate) const SUNK: f64 = 1e-6;
+
 /// Overlap beyond which a pair is buried, as a fraction of the smaller reach: 44 mm for boxes of 1 m.
 /// Impacts leave none, and the lowest contact of a stack of ten such boxes 0.8 mm.
 pub(crate) const BURIED: f64 = 1.0 / 16.0;

@@ -5,7 +5,7 @@ use carom_math::SimTime;
 use super::{Cause, Foreseen};
 use crate::events::resolve::{BUDGET, PairImpact};
 use crate::model::graph::pair_of;
-use crate::model::narrow::{NOISE, TOUCH, look, opening_speed, pace};
+use crate::model::narrow::{NOISE, SUNK, TOUCH, look, opening_speed, pace};
 use crate::motion::flight::fly;
 use crate::store::pairs::PairContact;
 use crate::{BodyKind, Mode, World};
@@ -179,7 +179,7 @@ impl World {
         }
     }
 
-    /// Whether a body has no method yet, and nothing near that does not fly.
+    /// Whether a body has no method yet, and nothing that does not fly holds it or overlaps it.
     fn hangs(&mut self, index: u32, time: SimTime) -> bool {
         let state = self.bodies.get(index);
         let stepped = self.settings.mode == Mode::Stepped;
@@ -200,12 +200,13 @@ impl World {
                 self.bodies.get(pair.bodies.0),
                 self.bodies.get(pair.bodies.1),
             );
-            let (rounding, touch) = (NOISE * pace(a, b, time), TOUCH * a.reach.min(b.reach));
+            let (rounding, size) = (NOISE * pace(a, b, time), a.reach.min(b.reach));
             let holds = |contact: &PairContact| {
                 let mut points = contact.points.iter();
                 points.any(|point| {
-                    point.separation <= touch
-                        && opening_speed(a, b, time, point.position, contact.normal) <= rounding
+                    point.separation < -SUNK * size
+                        || point.separation <= TOUCH * size
+                            && opening_speed(a, b, time, point.position, contact.normal) <= rounding
                 })
             };
             if pair.contacts.iter().any(holds) {
