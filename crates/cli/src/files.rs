@@ -8,10 +8,17 @@ use serde::Serialize;
 
 use crate::exit::{Failure, fail};
 
-/// Makes the folder of a file to come, and refuses a place that is a folder itself.
+/// Makes the folder of a file to come, and refuses a place that is a folder itself, a pipe or a device: the file would take its place.
 pub fn prepare(place: &Path) -> Result<(), Failure> {
-    if place.is_dir() {
-        fail!("cannot write {}: it is a directory", place.display());
+    if let Ok(about) = fs::metadata(place)
+        && !about.is_file()
+    {
+        let kind = if about.is_dir() {
+            "a directory"
+        } else {
+            "a pipe or a device, not a file"
+        };
+        fail!("cannot write {}: it is {kind}", place.display());
     }
     match place.parent() {
         Some(folder) => make_folder(folder),

@@ -55,7 +55,7 @@ pub fn open_file(path: impl AsRef<Path>) -> Result<(File, u64), ReadError> {
     Ok((file, length))
 }
 
-fn plain(about: &fs::Metadata) -> Result<u64, ReadError> {
+pub(crate) fn plain(about: &fs::Metadata) -> Result<u64, ReadError> {
     if about.is_dir() {
         return Err(io::Error::from(io::ErrorKind::IsADirectory).into());
     }

@@ -1,12 +1,14 @@
 //! Files that appear whole or not at all.
 
 use std::ffi::OsString;
+use std::fs;
 use std::hash::{BuildHasher as _, Hasher as _, RandomState};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use crate::RenderError;
 use crate::disk::{self, DiskFile};
+use crate::input::plain;
 
 /// A file under a temporary name beside its place: [`Draft::finish`] gives it its name, dropping it removes it.
 ///
@@ -62,7 +64,8 @@ impl Draft {
     /// Opens the file that will become `place`.
     ///
     /// # Errors
-    /// [`RenderError::Io`] if the folder cannot be written to or a folder has the name, [`RenderError::Name`] if there is no name.
+    /// [`RenderError::Io`] if the folder cannot be written to, or a folder, a pipe or a device has the name, [`RenderError::Name`] if
+    /// there is no name.
     pub fn create(place: impl AsRef<Path>) -> Result<Self, RenderError> {
         let place = place.as_ref();
         if place.file_name().is_none() {
@@ -71,9 +74,10 @@ impl Draft {
             });
         }
         let temporary = temporary_name(place);
-        if place.is_dir() {
-            let source = io::Error::from(io::ErrorKind::IsADirectory);
-            return Err(RenderError::io("write", place)(source));
+        // What is whole takes the place of what was there: of a pipe or a device nothing would be left.
+        if let Ok(about) = fs::metadata(place) {
+            let told = plain(&about).map_err(io::Error::from);
+            told.map_err(RenderError::io("write", place))?;
         }
         let file = disk::create(&temporary).map_err(RenderError::io("write", place))?;
         Ok(Self {
@@ -151,7 +155,6 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), RenderError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::fs;
 
     fn names(folder: &Path) -> Vec<String> {
         let mut names: Vec<_> = fs::read_dir(folder)
@@ -251,5 +254,24 @@ mod tests {
         let error = write_file(&place, b"x").unwrap_err().to_string();
         assert!(error.contains("film.png"), "{error}");
         assert_eq!(names(folder.path()), ["film.png"]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_pipe_in_the_place_of_a_file_stays() {
+        use std::os::unix::fs::FileTypeExt as _;
+        let folder = tempfile::tempdir().unwrap();
+        let pipe = folder.path().join("pipe");
+        let made = std::process::Command::new("mkfifo").arg(&pipe).status();
+        assert!(made.unwrap().success());
+        let link = folder.path().join("link");
+        std::os::unix::fs::symlink(&pipe, &link).unwrap();
+        for place in [&pipe, &link] {
+            let error = write_file(place, b"x").unwrap_err().to_string();
+            assert!(error.contains("a pipe or a device"), "{error}");
+        }
+        assert_eq!(names(folder.path()), ["link", "pipe"]);
+        assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+        assert!(fs::metadata(&pipe).unwrap().file_type().is_fifo());
     }
 }

@@ -89,3 +89,34 @@ fn a_name_that_is_too_long_is_refused_in_one_line() {
     }
     assert!(names(folder.path()).is_empty(), "nothing was written");
 }
+
+/// What is written is whole before it gets its name: a device of that name was replaced by a file.
+#[cfg(unix)]
+#[test]
+fn a_pipe_in_the_place_of_a_file_is_named_and_stays() {
+    use std::os::unix::fs::FileTypeExt as _;
+    let folder = tempfile::tempdir().unwrap();
+    let pipe = folder.path().join("pipe.csv");
+    let made = Command::new("mkfifo").arg(&pipe).status();
+    assert!(made.unwrap().success());
+    for command in [
+        &["simulate", "bounce", "--seconds", "0", "--out"][..],
+        &["simulate", "bounce", "--seconds", "0", "--json"],
+        &["sweep", "bounce", "--seconds", "0", "--out"],
+        &["merge", "a.csv", "--out"],
+        &["render", "bounce", "--out"],
+    ] {
+        let ran = Command::new(crate::CAROM)
+            .args(command)
+            .arg("pipe.csv")
+            .current_dir(folder.path())
+            .output()
+            .expect("the binary was built");
+        let said = String::from_utf8_lossy(&ran.stderr);
+        assert_eq!(ran.status.code(), Some(2), "{command:?}: {said}");
+        assert!(said.contains("pipe.csv"), "{command:?}: {said}");
+        assert_eq!(names(folder.path()), ["pipe.csv"], "{command:?}");
+        let about = std::fs::metadata(&pipe).unwrap();
+        assert!(about.file_type().is_fifo(), "{command:?}");
+    }
+}
