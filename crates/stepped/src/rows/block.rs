@@ -299,16 +299,19 @@ impl Cold {
         deepest: f64,
         by: Pressed,
     ) -> bool {
-        let put = by == Pressed::ByCaller || self.was_put(lane);
-        let shown = if put { PUT * deepest } else { deepest };
-        let least = if self.is_deep(lane) || by != Pressed::ByRows {
-            shown
+        let was_put = self.was_put(lane);
+        let least = if was_put {
+            PUT * deepest
+        } else if self.is_deep(lane) || by != Pressed::ByRows {
+            deepest
         } else {
             CRUSHED * deepest
         };
         let deep = gaps[0].min(gaps[1]) < least;
+        let put = deep && (was_put || by == Pressed::ByCaller);
         let set = |bits: u8, is: bool| bits & !(1 << lane) | u8::from(is) << lane;
-        (self.deep, self.put) = (set(self.deep, deep), set(self.put, deep && put));
+        (self.deep, self.put) = (set(self.deep, deep), set(self.put, put));
+        let shown = if put { PUT * deepest } else { deepest };
         (self.depths[lane], self.shown[lane]) = (gaps, shown);
         deep
     }
