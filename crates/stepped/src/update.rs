@@ -71,16 +71,18 @@ pub(crate) fn update(
         for lane in lanes(near) {
             let gaps = [found.s1[lane], found.s2[lane]];
             let gap = gaps[0].min(gaps[1]);
-            if gap < 0.0 || cold.is_deep(lane) {
+            let ends = [block.a[lane], block.b[lane]];
+            let beside = !displaced.is_empty() && ends.iter().any(|line| displaced[*line as usize]);
+            if gap < 0.0 || cold.is_deep(lane) || beside {
                 least = least.min(gap);
                 let deepest = deepest(law, pieces, cold.pieces[lane]);
-                let mut ends = [block.a[lane], block.b[lane]].into_iter();
-                let by = if !displaced.is_empty() && ends.any(|line| displaced[line as usize]) {
+                let by = if beside {
                     Pressed::ByDisplacement
                 } else {
                     Pressed::ByRows
                 };
-                if cold.note_depth(lane, gaps, deepest, by) {
+                let are_free = ends.iter().all(|line| scene.bodies.is_free(*line));
+                if cold.note_depth(lane, gaps, deepest, (by, are_free)) {
                     block.show(lane, cold.shown[lane]);
                     deep.push(cold.contact[lane]);
                 }

@@ -22,7 +22,7 @@ pub(super) fn flags(lanes: u8) -> [f64; LANES] {
 const CRUSHED: f64 = 10.0;
 
 /// What was put into each other is parted by displacement until it is no deeper than this part of what sweeps may see: their pushes
-/// would leave as velocity. A hundred boxes at one place part with 15 J of kinetic energy; 0.5: 30 J; 1: 36 J.
+/// would leave as velocity. A hundred boxes at one place part with 3 J of kinetic energy; 0.5: 10 J; 1: 32 J.
 const PUT: f64 = 0.2;
 
 /// By what two bodies may have come to overlap.
@@ -30,8 +30,10 @@ const PUT: f64 = 0.2;
 pub(crate) enum Pressed {
     /// One of them was put there.
     ByCaller,
-    /// One of them is displaced out of a third one, by no velocity that rows could stop; or their contact is new.
+    /// One of them is displaced out of a third one, by no velocity that rows could stop.
     ByDisplacement,
+    /// Their contact is new.
+    New,
     ByRows,
 }
 
@@ -91,6 +93,8 @@ pub(crate) struct Cold {
     pub(super) deep: u8,
     /// A bit for each of these that came so, and was not crushed.
     pub(super) put: u8,
+    /// A bit for each of these that rows did not press together, and that bear no load.
+    pub(super) unloaded: u8,
     /// A bit for each lane that holds a contact.
     pub(crate) used: u8,
 }
@@ -272,6 +276,7 @@ impl Cold {
         runs: 0,
         deep: 0,
         put: 0,
+        unloaded: 0,
         used: 0,
     };
 
@@ -285,19 +290,25 @@ impl Cold {
         self.put >> lane & 1 == 1
     }
 
+    /// Whether it is, rows did not press it together, and it bears no load.
+    pub(crate) const fn is_unloaded(&self, lane: usize) -> bool {
+        self.unloaded >> lane & 1 == 1
+    }
+
     /// A bit for each lane that is.
     pub(crate) const fn deep(&self) -> u8 {
         self.deep
     }
 
     /// Notes how deep a contact is, if it is too deep for the sweeps, and whether that is so: if it was so or became so otherwise than
-    /// `by` rows from `deepest` on, else if it is [`CRUSHED`] times as deep. What was put so stays so down to a [`PUT`] of that.
+    /// `by` rows from `deepest` on, else if it is [`CRUSHED`] times as deep. What was put so stays so down to a [`PUT`] of that; and
+    /// what displacement presses is, however deep, if nothing but contacts moves the two: no row bears a load there.
     pub(crate) fn note_depth(
         &mut self,
         lane: usize,
         gaps: [f64; 2],
         deepest: f64,
-        by: Pressed,
+        (by, are_free): (Pressed, bool),
     ) -> bool {
         let was_put = self.was_put(lane);
         let least = if was_put {
@@ -307,11 +318,14 @@ impl Cold {
         } else {
             CRUSHED * deepest
         };
-        let deep = gaps[0].min(gaps[1]) < least;
+        let is_displaced = are_free && by == Pressed::ByDisplacement;
+        let deep = gaps[0].min(gaps[1]) < least || is_displaced;
         let put = deep && (was_put || by == Pressed::ByCaller);
+        let parts = put || is_displaced;
         let set = |bits: u8, is: bool| bits & !(1 << lane) | u8::from(is) << lane;
         (self.deep, self.put) = (set(self.deep, deep), set(self.put, put));
-        let shown = if put { PUT * deepest } else { deepest };
+        self.unloaded = set(self.unloaded, are_free && parts);
+        let shown = if parts { PUT * deepest } else { deepest };
         (self.depths[lane], self.shown[lane]) = (gaps, shown);
         deep
     }
@@ -328,5 +342,6 @@ impl Cold {
         self.runs = bit(self.runs, other.runs);
         self.deep = bit(self.deep, other.deep);
         self.put = bit(self.put, other.put);
+        self.unloaded = bit(self.unloaded, other.unloaded);
     }
 }

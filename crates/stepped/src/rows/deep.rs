@@ -94,7 +94,12 @@ impl Deep {
                 first
             };
             self.least_gap = self.least_gap.min(gap);
-            let push = (-gap).max(0.0).min(most);
+            // What bears a load is parted slowly, but whole: it comes back.
+            let push = if cold.is_unloaded(lane) {
+                (cold.shown[lane] - gap).max(0.0)
+            } else {
+                (-gap).max(0.0).min(most)
+            };
             let (ma, mb) = (a.inverse_mass(), b.inverse_mass());
             // Hard rows part what is deep by themselves.
             let soft = !graph.contacts[id as usize].is_hard();

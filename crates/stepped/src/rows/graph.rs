@@ -235,15 +235,16 @@ impl Graph {
         block.b[lane] = bodies.records[ends[1] as usize].line;
         block.mu[lane] = surface.friction;
         block.put(lane, manifold);
-        let was_put = ends
-            .iter()
-            .any(|slot| bodies.records[*slot as usize].placed == bodies.updates);
+        let records = ends.map(|slot| &bodies.records[slot as usize]);
+        let was_put = records.iter().any(|record| record.placed == bodies.updates);
         let by = if was_put {
             Pressed::ByCaller
         } else {
-            Pressed::ByDisplacement
+            Pressed::New
         };
-        let deep = colour.cold[k].note_depth(lane, manifold.gaps, deepest, by);
+        let are_free = records.iter().all(|record| bodies.is_free(record.line));
+        let cold = &mut colour.cold[k];
+        let deep = cold.note_depth(lane, manifold.gaps, deepest, (by, are_free));
         if deep {
             block.show(lane, colour.cold[k].shown[lane]);
             self.deep.push(id);
