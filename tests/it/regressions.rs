@@ -62,6 +62,7 @@ mod begins_and_ends_of_touch_take_turns;
 mod driven_bodies_do_not_hurl_what_they_squeeze;
 mod few_bodies_that_rattle_join_the_engine;
 mod how_a_heap_is_cut_changes_nothing;
+mod momentum_is_kept_within_a_sub_step;
 mod no_event_lies_before_its_step;
 mod nothing_falls_through_the_wall_of_a_turning_drum;
 mod nothing_leaves_a_spinning_ring_through_its_seams;

@@ -2,6 +2,7 @@
 
 use carom_math::Pose;
 
+use crate::bodies::Bodies;
 use crate::pieces::{Disc, Piece};
 use crate::{BodyId, BodyInput, BodyKind, Engine, EngineError, PieceInput};
 
@@ -76,6 +77,7 @@ impl Engine {
     pub fn remove(&mut self, id: BodyId) -> Result<(), EngineError> {
         self.wake(id)?;
         let record = *self.bodies.get(id)?;
+        self.leave_ways(id.slot);
         self.drop_contacts(id.slot);
         self.impacts.forget(id.slot);
         for number in record.first_piece..record.first_piece + record.pieces {
@@ -89,6 +91,18 @@ impl Engine {
         }
         self.bodies.remove(id.slot);
         Ok(())
+    }
+
+    /// See [`Ways::leave`](crate::rows::Ways::leave).
+    fn leave_ways(&mut self, slot: u32) {
+        let contacts = self.graph.of_body(&self.bodies, slot);
+        let others = contacts.map(|(id, side)| self.graph.contacts[id as usize].bodies[1 - side]);
+        let is_awake = |other: &u32| self.bodies.records[*other as usize].line != Bodies::NONE;
+        let moves = |other: &u32| self.bodies.is_dynamic(*other) && is_awake(other);
+        let mut partners: Vec<u32> = others.filter(moves).collect();
+        partners.sort_unstable();
+        partners.dedup();
+        self.ways.leave(&mut self.bodies, slot, &partners);
     }
 
     pub(crate) fn drop_contacts(&mut self, slot: u32) {

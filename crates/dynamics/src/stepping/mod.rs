@@ -55,6 +55,8 @@ pub(crate) struct Stepping {
     impacts: Vec<Impact>,
     /// Where bodies were before the last sub-step, where that is asked for: body, pose and turn.
     places: Vec<(u32, Pose, f64)>,
+    /// Poses may be read within the sub-step.
+    asked: bool,
 }
 
 /// Two shapes that touch, the one of the earlier body first: (body, collider) of both.
@@ -90,6 +92,7 @@ impl Stepping {
                     changes: Vec::new(),
                     impacts: Vec::new(),
                     places: Vec::new(),
+                    asked: false,
                 }))
             }
             Err(refused) => Err(SettingsError::Stepped { refused }),

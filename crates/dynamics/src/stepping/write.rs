@@ -19,6 +19,7 @@ impl Stepping {
     /// Notes all poses before a sub-step within which a pose may be read, and forgets them before any other.
     pub(crate) fn note_places(&mut self, asked: bool) {
         self.places.clear();
+        self.asked = asked;
         self.engine.note_ways(asked);
         if asked {
             let states = self.engine.awake();
@@ -31,7 +32,7 @@ impl Stepping {
     /// Motions of the last sub-step for all that moved in it.
     pub(crate) fn write_all(&self, bodies: &mut Bodies, clock: &Clock) {
         let span = (clock.last(), clock.h);
-        if !self.places.is_empty() {
+        if self.asked {
             for state in self.engine.awake() {
                 self.write_one(bodies, &state, span);
             }
@@ -56,7 +57,7 @@ impl Stepping {
 
     /// Writes the end of a sub-step within which poses were read: with the bits that it has if none was.
     pub(crate) fn end_motions(&mut self, bodies: &mut Bodies, clock: &Clock) {
-        if self.places.is_empty() || bodies.history.is_kept() {
+        if !self.asked || bodies.history.is_kept() {
             return;
         }
         self.note_places(false);
@@ -87,7 +88,13 @@ impl Stepping {
             .places
             .binary_search_by_key(&index, |noted| noted.0)
             .map(|k| self.places[k]);
-        if let Ok((_, from, turned)) = noted {
+        // What slept as the sub-step began, and was met in it, is where it lay.
+        let lay = |_| {
+            let body = bodies.get(index);
+            let turned = body.turned + body.turn_by(start);
+            state.lack.map(|_| (index, body.centre_pose(start), turned))
+        };
+        if let Some((_, from, turned)) = noted.map_or_else(lay, Some) {
             let reach = bodies.get(index).reach;
             let left = state.turned - turned;
             let (motion, way) = (&ending.motion, ending.way);

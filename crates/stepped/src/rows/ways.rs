@@ -2,6 +2,7 @@
 
 use carom_math::Vec2;
 
+use super::bounce_budget::quotient;
 use super::line::{Line, Quad};
 use crate::bodies::Bodies;
 
@@ -62,6 +63,33 @@ impl Ways {
     /// Forgets how bodies went through the last sub-step.
     pub(crate) fn forget(&mut self) {
         self.note(self.noted);
+    }
+
+    /// A body that goes leaves what its velocity lacks to those that it is in contact with, by equal parts, as a push at its centre and a
+    /// turn: what is left of them keeps the momentum and angular momentum that a caller sees.
+    pub(crate) fn leave(&mut self, bodies: &mut Bodies, slot: u32, partners: &[u32]) {
+        let Some((v, w)) = self.lack(slot) else {
+            return;
+        };
+        let own = &bodies.lines[bodies.line_of(slot)];
+        let part = (partners.len() as f64).recip();
+        let push = v * (part / own.inverse_mass());
+        let turn = w * quotient(part, own.inverse_inertia());
+        let from = bodies.pose_of(slot).position;
+        for &partner in partners {
+            let arm = from - bodies.pose_of(partner).position;
+            let at = bodies.line_of(partner);
+            let line = &mut bodies.lines[at];
+            let change = Quad::new(
+                push * line.inverse_mass(),
+                (turn + arm.perp_dot(push)) * line.inverse_inertia(),
+            );
+            line.add(&change);
+            bodies.start[at].add(&change);
+            if let Ok(known) = self.lack.binary_search_by_key(&partner, |lack| lack.0) {
+                self.lack[known].1.add(&change);
+            }
+        }
     }
 
     pub(crate) fn came(&self, slot: u32) -> Option<(Vec2, f64)> {
