@@ -48,6 +48,7 @@ mod a_step_in_which_bodies_sink_is_not_exact;
 mod a_step_within_a_sub_step_of_the_solver_is_not_exact;
 mod a_stop_within_a_sub_step_is_booked_once;
 mod a_stopped_body_comes_from_where_it_was;
+mod a_touch_ends_where_it_opens;
 mod a_touch_that_opens_hides_no_other;
 mod a_velocity_that_is_set_is_not_thrown_on;
 mod a_wedge_stays_in_a_valley_of_one_polygon;

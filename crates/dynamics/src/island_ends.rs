@@ -6,6 +6,7 @@ use std::collections::BTreeSet;
 use carom_math::SimTime;
 
 use crate::analytic::islands::store::Group;
+use crate::model::narrow::look;
 use crate::{EventKind, World};
 
 impl World {
@@ -27,6 +28,35 @@ impl World {
             self.redirect(index, time);
         }
         members
+    }
+
+    /// Ends the touches of what the mode of a group opened: it goes on in the group, and is searched for
+    /// impacts there, until this changes.
+    ///
+    /// What opens with t³ is looked at again, after twice the time.
+    pub(crate) fn tell_opened(&mut self, place: u32, time: SimTime) {
+        let Some(group) = self.closed.get(place) else {
+            return;
+        };
+        let again = time + (time - group.since).max(self.clock.h);
+        let mut stays = false;
+        for place in group.opened() {
+            let Some(pair) = self.pairs.find(place).filter(|pair| pair.told) else {
+                continue;
+            };
+            // Contacts stay as they are: the group knows them by their numbers.
+            let mut now = pair.clone();
+            look(&self.bodies, &mut now, time);
+            stays |= now.touching;
+            if !now.touching {
+                let pair = self.pairs.get_mut(place);
+                pair.touching = false;
+                self.events.tell_touch(&self.bodies, pair, time);
+            }
+        }
+        if stays {
+            self.closed.looks_at(place, again);
+        }
     }
 
     /// A body is free from here on; the modes of its group are solved for without it.

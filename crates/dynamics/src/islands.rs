@@ -75,6 +75,9 @@ impl World {
         let Some(group) = self.closed.get(place) else {
             return;
         };
+        if group.until.is_none_or(|until| time < until) {
+            return self.tell_opened(place, time);
+        }
         if group.sleeps {
             return self.fall_asleep(place, time);
         }

@@ -38,7 +38,7 @@ const OFTEN_EXACT: u32 = 4096;
 pub(crate) struct Closed {
     /// With the stamp that tells a group from those that had its place before.
     groups: Slots<(u64, Group)>,
-    /// Stale entries are dropped when they come up: a group's stamp tells.
+    /// Stale entries are dropped when they come up: a group's stamp tells. Before a group changes they are looks at what it opened.
     changes: BinaryHeap<Reverse<(SimTime, u32, u64)>>,
     stamp: u64,
     /// Groups that are to begin their rest (`true`) or their motion at this instant, with their stamps.
@@ -94,6 +94,25 @@ impl Group {
         touches.fold((0.0, 0.0), |(heat, driven), touch| {
             (heat + touch.heat(elapsed), driven + touch.driven * elapsed)
         })
+    }
+
+    /// Pairs of which its mode holds no contact.
+    pub(crate) fn opened(&self) -> Vec<u32> {
+        let is_open = |touch: &&Kept| touch.moved.mode == ContactMode::Open;
+        let holds = |pair: u32| {
+            self.touches
+                .iter()
+                .any(|touch| touch.pair == pair && !is_open(&touch))
+        };
+        let mut pairs: Vec<u32> = self
+            .touches
+            .iter()
+            .filter(is_open)
+            .map(|touch| touch.pair)
+            .collect();
+        pairs.dedup();
+        pairs.retain(|pair| !holds(*pair));
+        pairs
     }
 
     /// Its touches, with what they do at `time` where it turns.
@@ -192,7 +211,8 @@ impl Closed {
     /// Enters a group, and its members into it; its place.
     pub(crate) fn insert(&mut self, bodies: &mut Bodies, group: Group) -> u32 {
         self.stamp += 1;
-        let (members, until) = (group.indices(), group.until);
+        let (members, since, until) = (group.indices(), group.since, group.until);
+        let opens = !group.opened().is_empty();
         let place = self.groups.insert((self.stamp, group));
         for index in members {
             bodies.get_mut(index).enter_island(Membership::of(place));
@@ -200,7 +220,19 @@ impl Closed {
         if let Some(time) = until {
             self.changes_at(place, time);
         }
+        if opens {
+            self.looks_at(place, since + bodies.h);
+        }
         place
+    }
+
+    /// When a group has a look at what its mode opened, unless it changes before.
+    pub(crate) fn looks_at(&mut self, place: u32, time: SimTime) {
+        if let Some((stamp, group)) = self.groups.get(place)
+            && group.until.is_none_or(|until| time < until)
+        {
+            self.changes.push(Reverse((time, place, *stamp)));
+        }
     }
 
     /// When a group changes next.
