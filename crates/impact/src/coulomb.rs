@@ -12,6 +12,8 @@
 //! contacts that is θ rad off its dead point is driven out at u/θ by impulses of m u/θ², and a body that is driven
 //! through dead points at random would in the mean give infinite energy to what it passes.
 
+use carom_math::within;
+
 use super::body::ImpactBody;
 use super::equations::Equations;
 use super::pivots::pivoted;
@@ -306,7 +308,7 @@ impl<'a> Solver<'a> {
             } else {
                 -limit
             };
-            best[r] = best[r].clamp(least, limit);
+            best[r] = within(best[r], least, limit);
         }
         self.answers(&best).then_some(best)
     }

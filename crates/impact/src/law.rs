@@ -1,5 +1,7 @@
 //! The three laws of a single impact with friction.
 
+use carom_math::within;
+
 use super::body::{ImpactBody, ImpactContact, Outcome, Response};
 use super::routh::{EndRule, follow};
 
@@ -25,6 +27,8 @@ pub enum ImpactLaw {
 }
 
 /// What the impact of `a` and `b` at `contact` does under `law`.
+///
+/// Where a number is NaN or infinite the answer means nothing.
 #[must_use]
 pub fn resolve(law: ImpactLaw, a: &ImpactBody, b: &ImpactBody, contact: &ImpactContact) -> Outcome {
     if contact.friction == 0.0 {
@@ -145,5 +149,6 @@ fn newton_impulses(k: &Response, contact: &ImpactContact) -> (f64, f64) {
         }
     }
     // Neither holds only where rounding blurs the border of the cone: there slip and stick agree.
-    (jn.max(0.0), jt.clamp(-mu * jn.max(0.0), mu * jn.max(0.0)))
+    let jn = jn.max(0.0);
+    (jn, within(jt, -mu * jn, mu * jn))
 }

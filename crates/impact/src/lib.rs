@@ -34,6 +34,8 @@ mod heaps;
 mod held;
 mod law;
 pub mod lemke;
+#[cfg(test)]
+mod odd_tests;
 mod pivots;
 pub mod project;
 mod restitution;

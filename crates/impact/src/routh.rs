@@ -16,6 +16,10 @@ pub(super) enum EndRule {
     Work,
 }
 
+/// Pieces of compression, and of restitution, before the path is given up. There are two of each at most, and no end where numbers
+/// are none: then the impulse up to here is the answer.
+const PIECES: usize = 8;
+
 /// One straight piece: rates per unit of normal impulse, and how long it lasts.
 #[derive(Clone, Copy, Debug)]
 struct Piece {
@@ -50,7 +54,7 @@ pub(super) fn follow(k: &Response, contact: &ImpactContact, rule: EndRule) -> (f
     };
     // Compression: until the normal velocity is zero. A slip can first make it worse (jam).
     let mut work = 0.0;
-    loop {
+    for _ in 0..PIECES {
         let piece = path.piece();
         let to_zero = if piece.normal > 0.0 {
             -path.k.u_n / piece.normal
@@ -71,7 +75,9 @@ pub(super) fn follow(k: &Response, contact: &ImpactContact, rule: EndRule) -> (f
         EndRule::Work => e * e * work,
     };
     // Restitution: the rest of the impulse, or of the work, piece by piece.
-    while left > 0.0 {
+    let mut pieces = 0;
+    while left > 0.0 && pieces < PIECES {
+        pieces += 1;
         let piece = path.piece();
         let u = path.k.u_n;
         let whole = match rule {

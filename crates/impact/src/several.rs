@@ -73,6 +73,7 @@ pub enum Several {
 /// What an impact at several contacts does under the world's choices.
 ///
 /// One contact follows `law`, and so does one that approaches alone and closes no other.
+/// Where a number is NaN or infinite the answer means nothing.
 ///
 /// # Examples
 /// A box lands flat on a rough floor, without restitution, while it slides: it neither turns nor

@@ -1,6 +1,6 @@
 //! Projected Gauss–Seidel: bounded in time whatever the contacts, and as exact as its sweeps.
 
-use carom_math::{Vec2, cross, perp};
+use carom_math::{Vec2, cross, perp, within};
 
 use super::body::{ImpactBody, ImpactContact, Response};
 use super::rows::{Bound, Rows};
@@ -68,7 +68,7 @@ fn compliant(rows: &Rows, compliance: f64) -> Found {
             let limit = rows.limit(r, &impulses);
             let next = match rows.rows[r].bound {
                 Bound::Push => wanted.max(0.0),
-                Bound::Friction(..) | Bound::Limit(_) => wanted.clamp(-limit, limit),
+                Bound::Friction(..) | Bound::Limit(_) => within(wanted, -limit, limit),
             };
             let more = next - impulses[r];
             rows.rows[r].push(&mut bodies, more / rows.scales[r]);
@@ -301,8 +301,8 @@ impl Sweeper {
             let (at, bt) = contact.arms_t;
             let u_t = contact.slip(a.moves(), b.moves());
             let limit = contact.friction * j_n;
-            let j_t = (contact.j_t - part * u_t * contact.m_t - yields * contact.j_t)
-                .clamp(-limit, limit);
+            let wanted = contact.j_t - part * u_t * contact.m_t - yields * contact.j_t;
+            let j_t = within(wanted, -limit, limit);
             let more_t = j_t - contact.j_t;
             a.push(t, at, -more_t);
             b.push(t, bt, more_t);

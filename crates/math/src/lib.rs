@@ -28,6 +28,7 @@ mod time;
 pub mod trig;
 #[cfg(feature = "serde")]
 mod wire;
+mod within;
 
 pub use cross::{cross, cross_scalar, perp};
 pub use elliptic::Elliptic;
@@ -40,6 +41,7 @@ pub use roots::falling_root;
 pub use rot::Rot;
 pub use sum::{Sum, two_product, two_sum};
 pub use time::SimTime;
+pub use within::within;
 
 #[cfg(test)]
 mod conversions;
