@@ -1,7 +1,7 @@
 //! Where two convex hulls touch: a normal and up to two points.
 
 use arrayvec::ArrayVec;
-use carom_math::{Pose, Vec2, perp};
+use carom_math::{Pose, Vec2, perp, within};
 
 use crate::distance::apart;
 use crate::outline::{Pair, nearest_boundary};
@@ -458,7 +458,7 @@ impl<'a, 'b> Faces<'a, 'b> {
         let i = usize::from(self.other[1] == self.face.vertex);
         let along = (self.points[i] - self.origin).dot(self.along);
         let point = self.point(End {
-            along: along.clamp(self.span[0], self.span[1]),
+            along: within(along, self.span[0], self.span[1]),
             height: self.face.separation,
             vertices: (self.own[i], self.other[i]),
         });

@@ -121,6 +121,7 @@ impl Impact {
 /// Each shape is given about the centre of its motion. A hit is right to a few roundings of
 /// (sizes + distance + travel) over the gap rate. Concave polygons are searched piece by piece;
 /// a cut between pieces can separate but never touch. Two half-planes never meet: neither can move.
+/// Of motions with numbers that are not finite the answer means nothing.
 ///
 /// # Examples
 /// ```
@@ -152,6 +153,14 @@ pub fn time_of_impact(
     first_of_parts(a, motion_a, b, motion_b, (horizon, f64::NEG_INFINITY))
 }
 
+/// Whether an axis is of an edge that there is: a feature may be of other shapes, or of numbers that are none.
+fn is_there(axis: Axis, shapes: [&Shape; 2]) -> bool {
+    match axis {
+        Axis::Edge { owner, edge } => edge < part(shapes[owner], 0).normals.len(),
+        Axis::World { .. } => true,
+    }
+}
+
 /// [`time_of_impact`] from `start` on: [`Impact::time`] is in seconds after `start`, and neither motion begins later than that.
 ///
 /// `last`: a feature of the impact just resolved, if any. A hint: it changes the speed, not the answer.
@@ -166,6 +175,7 @@ pub fn time_of_impact_from(
     horizon: f64,
 ) -> TimeOfImpact {
     let struck = last.and_then(|last| Axis::of(last.feature));
+    let struck = struck.filter(|axis| is_there(*axis, [a, b]));
     let (motions, span) = ((motion_a, motion_b), (start, horizon));
     match even::first_contact_of_shapes(Level::new(), (a, b), motions, span, struck) {
         Some(found) => found.into(),

@@ -1,7 +1,7 @@
 //! The search: advance along an axis until it closes, look again, until all are closed.
 
 use arrayvec::ArrayVec;
-use carom_math::{Vec2, perp};
+use carom_math::{Vec2, perp, within};
 
 use super::approach::{Approach, Axis, Bend, Instant, Window};
 use super::facing::{Facing, Gap};
@@ -276,7 +276,7 @@ impl Search<'_> {
                 return None;
             }
             let step = 2.0 * gap.gap / (square.sqrt() - gap.rate);
-            tau = (tau + step).clamp(self.tau, latest);
+            tau = within(tau + step, self.tau, latest);
             // The third derivative is at most 3 ω M: this is what the step leaves of the gap.
             if 0.5 * fastest * bend.most * step.abs() * step * step <= fine {
                 let open = facing.others_stay_open(approach, least, bend.down, tau - self.tau);

@@ -1,5 +1,7 @@
 //! What touches at the instant: the ends of a common stretch, and their features.
 
+use carom_math::within;
+
 use super::approach::{Approach, Axis};
 use crate::{AxisFeature, Hull, Side};
 
@@ -50,7 +52,7 @@ impl Stretch {
         let (own, other) = (&approach.hulls[owner], &approach.hulls[1 - owner]);
         let [low, high] = self.ends;
         let (e0, e1) = (face.0.min(face.1), face.0.max(face.1));
-        let stretch = [low.along.clamp(e0, e1), high.along.clamp(e0, e1)];
+        let stretch = [low, high].map(|end| within(end.along, e0, e1));
         let corners = if face.0 <= face.1 {
             [edge, own.next(edge)]
         } else {
