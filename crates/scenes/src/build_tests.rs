@@ -56,11 +56,23 @@ fn wrong_values_are_named_with_their_place() {
         ),
         (
             body("material = 'rubber'\n[materials.rubber]\nrestitution = 2"),
-            "bad.toml:7:15: materials.rubber.restitution: restitution is 2, outside 0..1 (body \"ball\")",
+            "bad.toml:7:15: materials.rubber.restitution: restitution is 2, outside 0..1",
         ),
         (
             body("position = [1e13, 0]"),
             "bad.toml:5:12: body.position: position.x is 1e13, beyond the limit of 1e12 (body \"ball\")",
+        ),
+        (
+            body("[materials.rubber]\nfriction = -1"),
+            "bad.toml:6:12: materials.rubber.friction: friction is -1, below 0",
+        ),
+        (
+            body("angle_deg = 1e15"),
+            "bad.toml:5:13: body.angle_deg: angle_deg is 1e15, beyond the limit of 1e12 rad",
+        ),
+        (
+            body("[[body]]\nname = 'wall'\nkind = 'fixed'\nposition = [9, 0]\nshape = { circle = 1 }\n[[pair]]\nbodies = ['ball', 'wall']\nfriction = 1\n[[pair]]\nbodies = ['wall', 'ball']\nfriction = 0"),
+            "bad.toml:14:10: pair.bodies: \"wall\" and \"ball\" are already a pair: pair.bodies in line 11",
         ),
         (body("angle = 1\nangle_deg = 3"), "bad.toml:5:9: body.angle: both angle and angle_deg are given"),
         (body("colour = 'red'"), "bad.toml:5:10: body.colour: 'red' is no colour: write #rrggbb or #rrggbbaa"),

@@ -82,7 +82,11 @@ impl Material {
         }
     }
 
-    pub(crate) fn check(&self) -> Result<(), BodyError> {
+    /// Whether a world takes it, as it asks on insertion.
+    ///
+    /// # Errors
+    /// If density or friction is below 0, restitution outside 0..1, or a number is not finite or beyond [`WORLD_LIMIT`](crate::WORLD_LIMIT).
+    pub fn check(&self) -> Result<(), BodyError> {
         check_finite("density", self.density)?;
         if self.density < 0.0 {
             return Err(BodyError::Negative {

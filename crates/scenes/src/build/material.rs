@@ -1,7 +1,8 @@
 //! Materials by value or by name.
 
-use carom_dynamics::{Filter, Material};
+use carom_dynamics::{BodyError, Filter, Material};
 
+use super::field_of;
 use crate::document::Document;
 use crate::error::{Problem, SceneError, nearest};
 use crate::model::{FilterTable, MaterialChoice, MaterialTable, SceneFile};
@@ -55,6 +56,22 @@ pub(crate) fn filter(
     })
 }
 
+/// Whether the engine takes all of `[materials]`, those that no body has, too.
+pub(crate) fn check_all(document: &Document, file: &SceneFile) -> Result<(), SceneError> {
+    for (name, table) in &file.materials {
+        let field = FieldPath::root("materials").key(name);
+        let named = filled(*table, field);
+        named.material.check().map_err(|error| {
+            let key = match &error {
+                BodyError::Restitution { .. } => "restitution",
+                other => field_of(other).unwrap_or("friction"),
+            };
+            document.error(&named.field.key(key), Problem::Refused(error.to_string()))
+        })?;
+    }
+    Ok(())
+}
+
 /// The material that is chosen at `field`.
 pub(crate) fn resolve(
     document: &Document,
@@ -82,7 +99,7 @@ pub(crate) fn resolve(
     }
 }
 
-/// The engine's default for what is not given. Values are checked by the engine, on insertion.
+/// The engine's default for what is not given. Inline values are checked by the engine, on insertion.
 fn filled(table: MaterialTable, field: FieldPath) -> Resolved {
     let default = Material::default();
     Resolved {

@@ -41,6 +41,7 @@ pub(crate) fn build(scene: &Scene) -> Result<Built, SceneError> {
     let document = &scene.document;
     let mut file = with_parameters(document, &scene.file)?;
     check_times(document, &file)?;
+    material::check_all(document, &file)?;
     let plain = plain::lay_under(document, &mut file)?;
     let planned = plan(document, &file, plain.as_ref())?;
     let mut world = new_world(document, &file)?;
@@ -235,6 +236,7 @@ fn pairs(
             ids.entry(name.as_str()).or_insert(*id);
         }
     }
+    let mut known_pairs: BTreeMap<(BodyId, BodyId), FieldPath> = BTreeMap::new();
     for (index, table) in file.pair.iter().enumerate() {
         let field = FieldPath::root("pair").index(index);
         let id = |k: usize| {
@@ -249,21 +251,29 @@ fn pairs(
                 document.error(&field.key("bodies").index(k), problem)
             })
         };
+        let (a, b) = (id(0)?, id(1)?);
+        if let Some(first) = known_pairs.get(&(a.min(b), a.max(b))) {
+            let [one, other] = &table.bodies;
+            let reason = format!(
+                "\"{one}\" and \"{other}\" are already a pair: {}",
+                document.words_for(first)
+            );
+            return Err(document.error(&field.key("bodies"), Problem::Refused(reason)));
+        }
+        known_pairs.insert((a.min(b), a.max(b)), field.key("bodies"));
         let material = PairMaterial {
             friction: table.friction,
             restitution: table.restitution,
             tangent_speed: table.tangent_speed,
         };
-        world
-            .set_pair_material(id(0)?, id(1)?, material)
-            .map_err(|error| {
-                let key = match &error {
-                    BodyError::Restitution { .. } => "restitution",
-                    BodyError::SameBody(_) => "bodies",
-                    other => field_of(other).unwrap_or("friction"),
-                };
-                document.error(&field.key(key), Problem::Refused(error.to_string()))
-            })?;
+        world.set_pair_material(a, b, material).map_err(|error| {
+            let key = match &error {
+                BodyError::Restitution { .. } => "restitution",
+                BodyError::SameBody(_) => "bodies",
+                other => field_of(other).unwrap_or("friction"),
+            };
+            document.error(&field.key(key), Problem::Refused(error.to_string()))
+        })?;
     }
     Ok(())
 }

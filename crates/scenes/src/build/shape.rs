@@ -2,6 +2,7 @@
 
 use core::fmt;
 
+use carom_dynamics::WORLD_LIMIT;
 use carom_geometry::{Circle, ConvexPolygon, Polygon, Segment, Shape};
 use carom_math::{Pose, Rot, Vec2};
 
@@ -108,6 +109,13 @@ pub(crate) fn angle(
     match (radians, degrees) {
         (None, None) => Ok(0.0),
         (Some(radians), None) => Ok(radians),
+        // The engine would name the angle in rad, which nobody wrote.
+        (None, Some(degrees)) if degrees.to_radians().abs() > WORLD_LIMIT => {
+            let reason =
+                format!("{key}_deg is {degrees:e}, beyond the limit of {WORLD_LIMIT:e} rad");
+            let field = field.key(&format!("{key}_deg"));
+            Err(document.error(&field, Problem::Refused(reason)))
+        }
         (None, Some(degrees)) => Ok(degrees.to_radians()),
         (Some(_), Some(_)) => {
             let problem = format!("both {key} and {key}_deg are given");
