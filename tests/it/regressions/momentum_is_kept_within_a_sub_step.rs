@@ -4,7 +4,7 @@
 
 use carom_dynamics::{BodyDef, BodyId, Material, Mode, Settings, World};
 use carom_geometry::{Circle, ConvexPolygon};
-use carom_math::{Vec2, vec2};
+use carom_math::{Rot, Vec2, vec2};
 
 fn weightless() -> World {
     let settings = Settings {
@@ -34,8 +34,7 @@ fn off(world: &World, then: (Vec2, f64)) -> (f64, f64) {
 fn ring(world: &mut World, count: u32) -> Vec<BodyId> {
     let mut ids = Vec::new();
     for k in 0..count {
-        let (sin, cos) = (f64::from(k) * 6.0 / f64::from(count)).sin_cos();
-        let out = vec2(cos, sin);
+        let out = Rot::from_angle(f64::from(k) * 6.0 / f64::from(count)) * Vec2::X;
         let material = Material {
             density: 1.0 + f64::from(k % 5),
             restitution: 0.25 * f64::from(k % 3),
