@@ -1,25 +1,28 @@
-//! Several contacts that act at one instant, with friction.
+//! Several contacts that act at one instant: a common stop with friction, and reflections.
 //!
 //! The two ends of the [blend](super::blend): at e = 0 Signorini's condition and Coulomb's law for all
-//! impulses at once, at e = 1 reflections with a restitution along Routh's path. Both keep momentum to
-//! rounding, keep friction in its cone, never gain energy and leave no contact closing, so every mean of them does.
+//! impulses at once, at e = 1 reflections with a restitution along Routh's path, which is straight without friction. Both keep
+//! momentum to rounding, keep friction in its cone, never gain energy and leave no contact closing, so every mean of them does.
 
 use carom_math::Vec2;
 
 use super::body::{ImpactBody, Response};
 use super::coulomb::{Stop, stop};
-use super::law::{ImpactLaw, poisson, stronge};
+use super::law::{ImpactLaw, resolve};
 use super::restitution::{Impulses, Return, gathered, give_back, power, push};
 use super::routh::EndRule;
 use super::rows::{Bound, Row, Rows, contact_rows};
-use super::several::{SharedContact, SharedOutcome, mean_restitution, with_restitution};
+use super::several::{SharedContact, SharedOutcome, mean_restitution, newton, with_restitution};
 use super::sweeps::swept;
 
 /// Rows that are solved for exactly; above, sweeps end in bounded time.
 const ROWS: usize = 64;
 
-/// Reflections before the rest is stopped.
+/// Reflections with friction before the rest is stopped.
 const REFLECTIONS: u32 = 200;
+
+/// The same without: a wedge of angle θ takes π/θ of them, a row of a hundred discs a hundred.
+const SMOOTH_REFLECTIONS: u32 = 1000;
 
 /// Operations of an impact at one contact.
 pub(super) const SINGLE: u64 = 256;
@@ -71,7 +74,16 @@ pub(super) fn newton_rough(bodies: &[ImpactBody], contacts: &[SharedContact]) ->
         stop(&rows)
     };
     let impulses = by_contact(&rows, &stop.impulses);
-    outcome(bodies, contacts, impulses, !stop.sure, stop.operations)
+    let mut after = bodies.to_vec();
+    for (shared, impulse) in contacts.iter().zip(&impulses) {
+        push(&mut after, shared, *impulse);
+    }
+    SharedOutcome {
+        bodies: after,
+        impulses,
+        exhausted: !stop.sure,
+        operations: stop.operations,
+    }
 }
 
 /// Reflections of all approaching contacts together, again and again until none approaches.
@@ -86,10 +98,15 @@ pub(super) fn reflections(
     mut stop: Option<SharedOutcome>,
 ) -> SharedOutcome {
     let zero = rounding(bodies, contacts);
+    let most = if is_rough(contacts) {
+        REFLECTIONS
+    } else {
+        SMOOTH_REFLECTIONS
+    };
     let mut total: Impulses = vec![(0.0, 0.0); contacts.len()];
     let mut now = bodies.to_vec();
     let (mut exhausted, mut unsure, mut operations) = (true, false, 0);
-    for _ in 0..REFLECTIONS {
+    for _ in 0..most {
         let places: Vec<usize> = (0..contacts.len())
             .filter(|&k| opening(&now, &contacts[k]) < -zero)
             .collect();
@@ -119,18 +136,24 @@ pub(super) fn reflections(
         }
     }
     if exhausted {
-        let stopped = newton_rough(&now, &with_restitution(contacts, 0.0));
+        let stopped = newton(&now, &with_restitution(contacts, 0.0));
         for (sum, more) in total.iter_mut().zip(stopped.impulses) {
             sum.0 += more.0;
             sum.1 += more.1;
         }
+        now = stopped.bodies;
         operations += stopped.operations;
     }
-    outcome(bodies, contacts, total, exhausted || unsure, operations)
+    SharedOutcome {
+        bodies: now,
+        impulses: total,
+        exhausted: exhausted || unsure,
+        operations,
+    }
 }
 
-/// One reflection: compression of all contacts to a stop, then restitution along Routh's path. It is exhausted where the stop that it
-/// began with does not meet its conditions.
+/// One reflection: compression of all contacts to a stop, then restitution along Routh's path; a contact alone follows its law. It is
+/// exhausted where the stop that it began with does not meet its conditions.
 fn reflected(
     law: ImpactLaw,
     bodies: &[ImpactBody],
@@ -139,18 +162,15 @@ fn reflected(
     zero: f64,
     known: Option<SharedOutcome>,
 ) -> SharedOutcome {
-    let rule = match law {
-        ImpactLaw::Poisson => EndRule::Impulse,
-        ImpactLaw::Stronge | ImpactLaw::Newton => EndRule::Work,
+    // Newton's law may gain energy.
+    let (law, rule) = match law {
+        ImpactLaw::Poisson => (law, EndRule::Impulse),
+        ImpactLaw::Stronge | ImpactLaw::Newton => (ImpactLaw::Stronge, EndRule::Work),
     };
     if let [only] = contacts {
         let mut contact = only.contact;
         contact.restitution = common.unwrap_or(contact.restitution);
-        let (a, b) = (&bodies[only.a], &bodies[only.b]);
-        let outcome = match rule {
-            EndRule::Impulse => poisson(a, b, &contact),
-            EndRule::Work => stronge(a, b, &contact),
-        };
+        let outcome = resolve(law, &bodies[only.a], &bodies[only.b], &contact);
         let mut after = bodies.to_vec();
         (after[only.a], after[only.b]) = (outcome.a, outcome.b);
         return SharedOutcome {
@@ -163,13 +183,28 @@ fn reflected(
     let (stopped, counted) = match known {
         Some(stopped) => (stopped, 0),
         None => {
-            let stopped = newton_rough(bodies, &with_restitution(contacts, 0.0));
+            let stopped = newton(bodies, &with_restitution(contacts, 0.0));
             let operations = stopped.operations;
             (stopped, operations)
         }
     };
     let impulses = &stopped.impulses;
     let restitution = common.unwrap_or_else(|| mean_restitution(contacts, impulses));
+    if !is_rough(contacts) {
+        // The way back is straight, and by e as long.
+        let back = 1.0 + restitution;
+        let onward = |(body, stop): (&ImpactBody, &ImpactBody)| ImpactBody {
+            velocity: back * stop.velocity - restitution * body.velocity,
+            spin: back * stop.spin - restitution * body.spin,
+            ..*body
+        };
+        return SharedOutcome {
+            bodies: bodies.iter().zip(&stopped.bodies).map(onward).collect(),
+            impulses: impulses.iter().map(|(n, _)| (back * n, 0.0)).collect(),
+            operations: counted,
+            ..stopped
+        };
+    }
     // Work of the normal impulses on the way to the stop, and all energy that went: friction that
     // turned a slip round has given some back.
     let given = gathered(bodies, contacts, impulses);
@@ -215,33 +250,13 @@ fn by_contact(rows: &Rows, impulses: &[f64]) -> Impulses {
     all
 }
 
-/// ±J of every contact applied once.
-fn outcome(
-    bodies: &[ImpactBody],
-    contacts: &[SharedContact],
-    impulses: Impulses,
-    exhausted: bool,
-    operations: u64,
-) -> SharedOutcome {
-    let mut after = bodies.to_vec();
-    for (shared, impulse) in contacts.iter().zip(&impulses) {
-        push(&mut after, shared, *impulse);
-    }
-    SharedOutcome {
-        bodies: after,
-        impulses,
-        exhausted,
-        operations,
-    }
-}
-
 /// Takes away what rounding has left of an approach, so that what is resolved is not struck at once.
 ///
 /// Such contacts are stopped once more, and open as slowly as numbers can tell. Where no impulses stop all of them, because
 /// a body is squeezed between others that do not yield, what closes is no rounding: stopped without friction it would be shot
 /// out of a wedge of 1e-5 rad at 1e5 times the speed that closes it.
 pub(super) fn opened(mut found: SharedOutcome, contacts: &[SharedContact]) -> SharedOutcome {
-    if is_large(contacts) || found.exhausted {
+    if is_large(contacts) || !is_rough(contacts) || found.exhausted {
         return found;
     }
     let mut closing = vec![false; contacts.len()];
@@ -283,12 +298,17 @@ pub(super) fn velocity(bodies: &[ImpactBody], shared: &SharedContact) -> (f64, f
 }
 
 /// What counts as rounding of a speed: friction makes one of slip as well as of approach.
-fn rounding(bodies: &[ImpactBody], contacts: &[SharedContact]) -> f64 {
+pub(super) fn rounding(bodies: &[ImpactBody], contacts: &[SharedContact]) -> f64 {
+    let (part, slips) = if is_rough(contacts) {
+        (64.0, 1.0)
+    } else {
+        (16.0, 0.0)
+    };
     let fastest = contacts.iter().fold(0.0, |most: f64, shared| {
         let u = velocity(bodies, shared);
-        most.max(u.0.abs()).max(u.1.abs())
+        most.max(u.0.abs()).max(slips * u.1.abs())
     });
-    64.0 * f64::EPSILON * fastest
+    part * f64::EPSILON * fastest
 }
 
 /// The same for each contact where impulses have made velocities: no less than what the rounding of the

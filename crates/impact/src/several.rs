@@ -3,18 +3,15 @@
 //! No law of a single impact says what happens then, and no answer is unique. Ours keeps momentum to
 //! rounding, never gains energy, leaves no contact closing, gives symmetric answers to symmetric
 //! questions, does not depend on the order of contacts, and is the single law for one contact.
-//! This file is for contacts without friction, where all of it holds to rounding; for those with it see
-//! `rough`.
+//! Without friction all of it holds to rounding; for contacts with it see `rough`.
 
-use super::body::{ImpactBody, ImpactContact, Response, is_driven};
+use super::body::{ImpactBody, ImpactContact, is_driven};
 use super::law::{ImpactLaw, resolve};
 use super::restitution::Impulses;
-use super::rough::{SINGLE, is_large, is_rough, newton_rough, opened, opening, reflections};
+use super::rough::{
+    SINGLE, is_large, is_rough, newton_rough, opened, opening, reflections, rounding,
+};
 use super::scaled::Scaled;
-
-/// Reflections before the rest is stopped: a wedge of angle θ takes π/θ of them, a row of a hundred
-/// discs a hundred.
-const REFLECTIONS: u32 = 1000;
 
 /// A contact of two bodies of a list.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -161,16 +158,19 @@ fn single(
 /// If a contact names a body that is not in the list.
 #[must_use]
 pub fn newton_lcp(bodies: &[ImpactBody], contacts: &[SharedContact]) -> SharedOutcome {
+    opened(newton(bodies, contacts), contacts)
+}
+
+/// The same, before contacts with friction that rounding left closing are opened.
+pub(super) fn newton(bodies: &[ImpactBody], contacts: &[SharedContact]) -> SharedOutcome {
     if is_rough(contacts) {
-        return opened(newton_rough(bodies, contacts), contacts);
+        return newton_rough(bodies, contacts);
     }
-    let scaled = Scaled::of(bodies, contacts);
-    let speeds = opening_speeds(bodies, contacts);
-    let wanted = speeds.iter().zip(contacts);
-    let wanted: Vec<f64> = wanted
-        .map(|(speed, shared)| -shared.contact.restitution * speed)
-        .collect();
-    scaled.reach(bodies, &wanted, tolerance(&speeds))
+    let wanted = contacts
+        .iter()
+        .map(|shared| -shared.contact.restitution * opening(bodies, shared));
+    let (wanted, zero): (Vec<f64>, f64) = (wanted.collect(), rounding(bodies, contacts));
+    Scaled::of(bodies, contacts).reach(bodies, &wanted, zero)
 }
 
 /// Reflections of all approaching contacts together, again and again until none approaches.
@@ -184,73 +184,8 @@ pub fn newton_lcp(bodies: &[ImpactBody], contacts: &[SharedContact]) -> SharedOu
 /// If a contact names a body that is not in the list.
 #[must_use]
 pub fn generalised_reflections(bodies: &[ImpactBody], contacts: &[SharedContact]) -> SharedOutcome {
-    if is_rough(contacts) {
-        return opened(
-            reflections(ImpactLaw::Stronge, bodies, contacts, Some(1.0), None),
-            contacts,
-        );
-    }
-    let tolerance = tolerance(&opening_speeds(bodies, contacts));
-    let mut impulses = vec![(0.0, 0.0); contacts.len()];
-    let mut now = bodies.to_vec();
-    let mut operations = 0;
-    for _ in 0..REFLECTIONS {
-        let speeds = opening_speeds(&now, contacts);
-        let approaching: Vec<usize> = (0..speeds.len())
-            .filter(|&k| speeds[k] < -tolerance)
-            .collect();
-        if approaching.is_empty() {
-            return SharedOutcome {
-                bodies: now,
-                impulses,
-                exhausted: false,
-                operations,
-            };
-        }
-        let some: Vec<SharedContact> = approaching.iter().map(|&k| contacts[k]).collect();
-        let next = reflected(&now, &some, tolerance);
-        for (&k, (j, _)) in approaching.iter().zip(next.impulses) {
-            impulses[k].0 += j;
-        }
-        now = next.bodies;
-        operations += next.operations;
-    }
-    let stopped = newton_lcp(&now, &with_restitution(contacts, 0.0));
-    for (before, (j, _)) in impulses.iter_mut().zip(&stopped.impulses) {
-        before.0 += j;
-    }
-    SharedOutcome {
-        impulses,
-        exhausted: true,
-        operations: operations + stopped.operations,
-        ..stopped
-    }
-}
-
-/// Stops the contacts and goes on as far again.
-fn reflected(bodies: &[ImpactBody], contacts: &[SharedContact], tolerance: f64) -> SharedOutcome {
-    if let [only] = contacts {
-        // j = −2 u / K has the fewest roundings.
-        let (a, b) = (&bodies[only.a], &bodies[only.b]);
-        let response = Response::of(a, b, &only.contact);
-        let push = -2.0 * response.u_n / response.k_nn;
-        return SharedOutcome {
-            bodies: pushed(bodies, only, push),
-            impulses: vec![(push, 0.0)],
-            exhausted: false,
-            operations: SINGLE,
-        };
-    }
-    let still = vec![0.0; contacts.len()];
-    let mut stop = Scaled::of(bodies, contacts).reach(bodies, &still, tolerance);
-    let onward = |(body, stop): (&ImpactBody, &ImpactBody)| ImpactBody {
-        velocity: 2.0 * stop.velocity - body.velocity,
-        spin: 2.0 * stop.spin - body.spin,
-        ..*body
-    };
-    stop.bodies = bodies.iter().zip(&stop.bodies).map(onward).collect();
-    stop.impulses.iter_mut().for_each(|j| j.0 *= 2.0);
-    stop
+    let found = reflections(ImpactLaw::Stronge, bodies, contacts, Some(1.0), None);
+    opened(found, contacts)
 }
 
 pub(super) fn with_restitution(contacts: &[SharedContact], restitution: f64) -> Vec<SharedContact> {
@@ -303,23 +238,17 @@ fn blend_by(
     stop: Option<SharedOutcome>,
 ) -> SharedOutcome {
     let still = with_restitution(contacts, 0.0);
-    let rough = is_rough(contacts);
     // Reflections begin with the same stop, before it is opened.
-    let stop = rough.then(|| stop.unwrap_or_else(|| newton_rough(bodies, &still)));
-    let stuck = match &stop {
-        Some(stop) => opened(stop.clone(), &still),
-        None => newton_lcp(bodies, &still),
-    };
+    let stop = stop
+        .filter(|_| is_rough(contacts))
+        .unwrap_or_else(|| newton(bodies, &still));
+    let stuck = opened(stop.clone(), &still);
     let e = mean_restitution(contacts, &stuck.impulses);
     // What nothing stops gives nothing back; every reflection would ask for that stop again.
     if e <= 0.0 || stuck.exhausted {
         return stuck;
     }
-    let thrown = if rough {
-        reflections(law, bodies, contacts, Some(1.0), stop)
-    } else {
-        generalised_reflections(bodies, contacts)
-    };
+    let thrown = reflections(law, bodies, contacts, Some(1.0), Some(stop));
     let mix = |at_0: f64, at_1: f64| (1.0 - e) * at_0 + e * at_1;
     let operations = stuck.operations + thrown.operations;
     let mixed = if e >= 1.0 {
@@ -345,11 +274,7 @@ fn blend_by(
             operations,
         }
     };
-    if rough {
-        opened(mixed, contacts)
-    } else {
-        mixed
-    }
+    opened(mixed, contacts)
 }
 
 pub(super) fn mean_restitution(contacts: &[SharedContact], impulses: &Impulses) -> f64 {
@@ -373,23 +298,4 @@ pub(super) fn mean_restitution(contacts: &[SharedContact], impulses: &Impulses) 
         .map(|(shared, (j, _))| shared.contact.restitution * j)
         .sum();
     sum / all
-}
-
-fn opening_speeds(bodies: &[ImpactBody], contacts: &[SharedContact]) -> Vec<f64> {
-    let speeds = contacts.iter().map(|shared| opening(bodies, shared));
-    speeds.collect()
-}
-
-/// What counts as rounding of a speed.
-fn tolerance(speeds: &[f64]) -> f64 {
-    16.0 * f64::EPSILON * speeds.iter().fold(0.0, |most: f64, u| most.max(u.abs()))
-}
-
-/// ±j applied once for all contacts of a body together.
-fn pushed(bodies: &[ImpactBody], shared: &SharedContact, push: f64) -> Vec<ImpactBody> {
-    let mut after = bodies.to_vec();
-    let (impulse, point) = (shared.contact.normal * push, shared.contact.point);
-    after[shared.a] = after[shared.a].pushed(-impulse, point);
-    after[shared.b] = after[shared.b].pushed(impulse, point);
-    after
 }
