@@ -8,11 +8,13 @@ use carom_math::Vec2;
 
 use super::body::{ImpactBody, Response};
 use super::coulomb::{Stop, stop};
-use super::law::{ImpactLaw, resolve};
+use super::law::ImpactLaw;
 use super::restitution::{Impulses, Return, gathered, give_back, power, push};
 use super::routh::EndRule;
 use super::rows::{Bound, Row, Rows, contact_rows};
-use super::several::{SharedContact, SharedOutcome, mean_restitution, newton, with_restitution};
+use super::several::{
+    SharedContact, SharedOutcome, mean_restitution, newton, single, with_restitution,
+};
 use super::sweeps::swept;
 
 /// Rows that are solved for exactly; above, sweeps end in bounded time.
@@ -23,9 +25,6 @@ const REFLECTIONS: u32 = 200;
 
 /// The same without: a wedge of angle θ takes π/θ of them, a row of a hundred discs a hundred.
 const SMOOTH_REFLECTIONS: u32 = 1000;
-
-/// Operations of an impact at one contact.
-pub(super) const SINGLE: u64 = 256;
 
 /// Whether friction has a part in it.
 pub(super) fn is_rough(contacts: &[SharedContact]) -> bool {
@@ -168,17 +167,10 @@ fn reflected(
         ImpactLaw::Stronge | ImpactLaw::Newton => (ImpactLaw::Stronge, EndRule::Work),
     };
     if let [only] = contacts {
-        let mut contact = only.contact;
-        contact.restitution = common.unwrap_or(contact.restitution);
-        let outcome = resolve(law, &bodies[only.a], &bodies[only.b], &contact);
-        let mut after = bodies.to_vec();
-        (after[only.a], after[only.b]) = (outcome.a, outcome.b);
-        return SharedOutcome {
-            bodies: after,
-            impulses: vec![(outcome.normal_impulse, outcome.tangential_impulse)],
-            exhausted: false,
-            operations: SINGLE,
-        };
+        let restitution = common.unwrap_or(only.contact.restitution);
+        if let Some(found) = single(law, bodies, &with_restitution(contacts, restitution)) {
+            return found;
+        }
     }
     let (stopped, counted) = match known {
         Some(stopped) => (stopped, 0),

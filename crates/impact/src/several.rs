@@ -8,10 +8,11 @@
 use super::body::{ImpactBody, ImpactContact, is_driven};
 use super::law::{ImpactLaw, resolve};
 use super::restitution::Impulses;
-use super::rough::{
-    SINGLE, is_large, is_rough, newton_rough, opened, opening, reflections, rounding,
-};
+use super::rough::{is_large, is_rough, newton_rough, opened, opening, reflections, rounding};
 use super::scaled::Scaled;
+
+/// Operations of an impact at one contact.
+const SINGLE: u64 = 256;
 
 /// A contact of two bodies of a list.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -120,7 +121,7 @@ pub fn several(
 }
 
 /// The only contact that approaches, if no other closes by it.
-fn single(
+pub(super) fn single(
     law: ImpactLaw,
     bodies: &[ImpactBody],
     contacts: &[SharedContact],
