@@ -1,11 +1,34 @@
-//! Paths of several bodies that contacts hold, `y″ = f(y, y′)`: the collocation of [`super::integrate`] for any number of coordinates.
+//! Paths of bodies by any law, `x″ = f(x, x′)`: Gauss–Radau collocation of order 15 with dense output.
 //!
 //! Three coordinates a body: both of its centre in m, and the angle since the start of the path in rad.
+//! Over a stretch of h seconds the acceleration of each is a polynomial in τ = t/h that agrees with f at the eight
+//! Gauss–Radau points; velocity and place are its integrals:
+//!
+//! ```text
+//! a(τ) = Σ b_k τ^k      v(τ) = v₀ + h Σ b_k τ^(k+1)/(k+1)      x(τ) = x₀ + h τ v₀ + h² Σ b_k τ^(k+2)/((k+1)(k+2))
+//! ```
+//!
+//! Source: E. Everhart 1985; H. Rein and D. S. Spiegel, *IAS15*, 2015. The last coefficient is what the next lower
+//! order would lack: h² b₇/72 bounds, generously, what a stretch leaves out, at its end and everywhere in it.
 
 use carom_math::{Rot, SimTime, Vec2, vec2};
 
-use super::integrate::{ALL, NODES, ROUNDS, through};
 use super::path::{Path, Place};
+
+/// Gauss–Radau points of (0, 1], with 0 the first: roots of `P₇(s) + P₈(s)` for s = 2 τ − 1.
+pub(super) const NODES: [f64; 8] = [
+    0.0,
+    0.056_262_560_536_922_15,
+    0.180_240_691_736_892_36,
+    0.352_624_717_113_169_6,
+    0.547_153_626_330_555_4,
+    0.734_210_177_215_410_5,
+    0.885_320_946_839_095_8,
+    0.977_520_613_561_287_5,
+];
+
+/// Rounds of correction at most; a stretch that needs more is too long.
+const ROUNDS: u32 = 12;
 
 /// First guess of how far a body turns in a stretch, in rad.
 const TURN: f64 = 1.0 / 12.0;
@@ -24,12 +47,12 @@ pub(crate) struct Collocated {
     /// In s.
     length: f64,
     rotations: Vec<Rot>,
-    /// Bodies that do not move.
-    stays: Vec<bool>,
+    /// What a coordinate counts for, in m: that of an angle the way at the body's reach, and 0 if the body does not move.
+    scales: Vec<f64>,
     place: Vec<f64>,
     velocity: Vec<f64>,
     /// b₀ … b₇ of each coordinate.
-    terms: Vec<[f64; 8]>,
+    pub(super) terms: Vec<[f64; 8]>,
     /// The same integrated once and twice: bₙ/(n + 1), and bₙ/((n + 1)(n + 2)). A path is evaluated far more often than made.
     integrals: Vec<[[f64; 2]; 8]>,
 }
@@ -51,71 +74,83 @@ impl Collocated {
         if !f(places, &mut first) {
             return None;
         }
-        let flat = |of: fn(&Place) -> [f64; 3]| places.iter().flat_map(of).collect::<Vec<f64>>();
-        let mut path = Self {
-            start,
-            length: longest,
-            rotations: places.iter().map(|place| place.rotation).collect(),
-            stays: reaches.iter().map(|reach| *reach == 0.0).collect(),
-            place: flat(|place| [place.centre.x, place.centre.y, 0.0]),
-            velocity: flat(|place| [place.velocity.x, place.velocity.y, place.spin]),
-            terms: Vec::new(),
-            integrals: Vec::new(),
-        };
         // In 1/12 of a radian by what turns fastest the polynomials are as right as is asked for. 1/7: nearly always too long.
         let mut rate = 0.0_f64;
         for (place, turn) in places.iter().zip(first.iter().skip(2).step_by(3)) {
             rate = rate.max(place.spin.abs().max(turn.abs().sqrt()));
         }
-        if rate * path.length > TURN {
-            path.length = TURN / rate;
-        }
-        let scale = |k: usize| if k % 3 == 2 { reaches[k / 3] } else { 1.0 };
-        let mut values: Vec<[f64; 8]> = first.iter().map(|x| [*x; 8]).collect();
-        let mut places = Vec::with_capacity(places.len());
+        let length = if rate * longest > TURN {
+            TURN / rate
+        } else {
+            longest
+        };
+        let mut path = Self::new(start, length, places, reaches);
         while path.length >= shortest {
             let allowed = error * path.length;
-            let left_out = path.collocate(&mut f, (&mut values, &mut places), &scale, allowed);
+            let left_out = path.collocate(&mut f, &first, allowed);
             if left_out.is_some_and(|left_out| left_out <= allowed) {
                 return Some(path);
             }
-            let ratio = left_out.map_or(0.0, |left_out| allowed / left_out);
-            let shrink = if ratio > 0.0 && ratio.is_finite() {
-                (0.9 * ratio.sqrt().sqrt().sqrt()).clamp(0.1, 0.8)
-            } else {
-                0.25
-            };
-            path.length *= shrink;
+            path.length = shrunk(path.length, left_out, allowed);
         }
         None
     }
 
+    /// From these places on; nothing is known of it yet.
+    pub(super) fn new(start: SimTime, length: f64, places: &[Place], reaches: &[f64]) -> Self {
+        let flat = |of: fn(&Place) -> [f64; 3]| places.iter().flat_map(of).collect();
+        let scale = |reach: &f64| {
+            if *reach == 0.0 {
+                [0.0; 3]
+            } else {
+                [1.0, 1.0, *reach]
+            }
+        };
+        Self {
+            start,
+            length,
+            rotations: places.iter().map(|place| place.rotation).collect(),
+            scales: reaches.iter().flat_map(scale).collect(),
+            place: flat(|place| [place.centre.x, place.centre.y, 0.0]),
+            velocity: flat(|place| [place.velocity.x, place.velocity.y, place.spin]),
+            terms: Vec::new(),
+            integrals: Vec::new(),
+        }
+    }
+
+    pub(super) const fn set_length(&mut self, length: f64) {
+        self.length = length;
+    }
+
     /// Rounds of fixed-point iteration from constant accelerations: what the path leaves out, in m; `None` where they do not
     /// converge. They end as soon as it is more than `allowed`: the first round with all nodes knows it to a factor of two.
-    /// `values`: accelerations at the nodes, those at the first given.
-    fn collocate(
+    /// `first`: accelerations at the start.
+    pub(super) fn collocate(
         &mut self,
         f: &mut impl FnMut(&[Place], &mut Vec<f64>) -> bool,
-        (values, places): (&mut [[f64; 8]], &mut Vec<Place>),
-        scale: &impl Fn(usize) -> f64,
+        first: &[f64],
         allowed: f64,
     ) -> Option<f64> {
-        let begins = |values: &[f64; 8]| [values[0], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+        let mut values: Vec<[f64; 8]> = first.iter().map(|x| [*x; 8]).collect();
         self.terms.clear();
-        self.terms.extend(values.iter().map(begins));
+        self.terms.extend(
+            first
+                .iter()
+                .map(|x| [*x, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
+        );
         self.integrals.clear();
         self.integrals.extend(self.terms.iter().map(integrated));
-        let sizes = values.iter().enumerate();
-        let sizes = sizes.map(|(k, values)| (values[0] * scale(k)).abs());
+        let sizes = first.iter().zip(&self.scales);
+        let sizes = sizes.map(|(x, scale)| (x * scale).abs());
         let size = sizes.fold(f64::MIN_POSITIVE, f64::max);
-        let mut found = Vec::with_capacity(values.len());
+        let (mut places, mut found) = (Vec::new(), Vec::with_capacity(first.len()));
         for nodes in STAGES {
-            self.round(f, (values, places, &mut found), scale, nodes)?;
+            self.round(f, (&mut values, &mut places, &mut found), nodes)?;
         }
         let mut before = f64::INFINITY;
         for _ in 0..ROUNDS {
-            let change = self.round(f, (values, places, &mut found), scale, &ALL)?;
-            let left_out = self.left_out(scale);
+            let change = self.round(f, (&mut values, &mut places, &mut found), &ALL)?;
+            let left_out = self.left_out();
             // The next round changes less by the same factor, until rounding is all that changes.
             let factor = change / before;
             let converges = factor > 0.0 && factor < 0.1 && change * factor <= STANDS * size;
@@ -137,7 +172,6 @@ impl Collocated {
         &mut self,
         f: &mut impl FnMut(&[Place], &mut Vec<f64>) -> bool,
         (values, places, found): (&mut [[f64; 8]], &mut Vec<Place>, &mut Vec<f64>),
-        scale: &impl Fn(usize) -> f64,
         nodes: &[usize],
     ) -> Option<f64> {
         for &k in &nodes[1..] {
@@ -151,12 +185,13 @@ impl Collocated {
         }
         let mut change = 0.0_f64;
         for (k, values) in values.iter().enumerate() {
-            if self.stays[k / 3] {
+            let scale = self.scales[k];
+            if scale == 0.0 {
                 continue;
             }
             let new = through(values, nodes);
             for (new, old) in new.iter().zip(&self.terms[k]) {
-                change = change.max((new - old).abs() * scale(k));
+                change = change.max((new - old).abs() * scale);
             }
             self.terms[k] = new;
             self.integrals[k] = integrated(&new);
@@ -165,9 +200,9 @@ impl Collocated {
     }
 
     /// What the path lacks, at most, in m.
-    fn left_out(&self, scale: &impl Fn(usize) -> f64) -> f64 {
-        let last = self.terms.iter().enumerate();
-        let most = last.map(|(k, terms)| (terms[7] * scale(k)).abs());
+    fn left_out(&self) -> f64 {
+        let last = self.terms.iter().zip(&self.scales);
+        let most = last.map(|(terms, scale)| (terms[7] * scale).abs());
         most.fold(0.0, f64::max) * self.length * self.length / 72.0
     }
 
@@ -203,7 +238,7 @@ impl Path for Collocated {
     }
 
     fn body_after(&self, body: usize, t: f64) -> (Vec2, Vec2, f64, f64) {
-        if self.stays[body] {
+        if self.scales[3 * body] == 0.0 {
             return (
                 vec2(self.place[3 * body], self.place[3 * body + 1]),
                 Vec2::ZERO,
@@ -243,4 +278,60 @@ fn integrated(terms: &[f64; 8]) -> [[f64; 2]; 8] {
         n += 1.0;
         [term / n, term / (n * (n + 1.0))]
     })
+}
+
+/// How long a path is to be next that left out more than is allowed, or was not found: the term of order 9 in its length tells.
+pub(super) fn shrunk(length: f64, left_out: Option<f64>, allowed: f64) -> f64 {
+    let ratio = left_out.map_or(0.0, |left_out| allowed / left_out);
+    length
+        * if ratio > 0.0 && ratio.is_finite() {
+            (0.9 * ratio.sqrt().sqrt().sqrt()).clamp(0.1, 0.8)
+        } else {
+            0.25
+        }
+}
+
+/// All nodes.
+const ALL: [usize; 8] = [0, 1, 2, 3, 4, 5, 6, 7];
+
+/// Coefficients of the polynomial through the values at these nodes: Newton's divided differences, multiplied out.
+fn through(values: &[f64; 8], nodes: &[usize]) -> [f64; 8] {
+    let mut differences = [0.0; 8];
+    for (difference, &node) in differences.iter_mut().zip(nodes) {
+        *difference = values[node];
+    }
+    for order in 1..nodes.len() {
+        for k in (order..nodes.len()).rev() {
+            let span = NODES[nodes[k]] - NODES[nodes[k - order]];
+            differences[k] = (differences[k] - differences[k - 1]) / span;
+        }
+    }
+    let mut terms = [0.0; 8];
+    for (difference, &node) in differences.iter().zip(nodes).rev() {
+        // p ← p (τ − node) + difference
+        for k in (0..8).rev() {
+            let below = if k > 0 { terms[k - 1] } else { 0.0 };
+            terms[k] = below - terms[k] * NODES[node];
+        }
+        terms[0] += *difference;
+    }
+    terms
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_nodes_are_those_of_gauss_and_radau() {
+        for node in NODES {
+            let s = 2.0 * node - 1.0;
+            let (mut low, mut high) = (1.0, s);
+            for n in 1..8_i32 {
+                let n = f64::from(n);
+                (low, high) = (high, ((2.0 * n + 1.0) * s * high - n * low) / (n + 1.0));
+            }
+            assert!((low + high).abs() < 2e-14, "{node}: {:e}", low + high);
+        }
+    }
 }

@@ -101,7 +101,7 @@ impl Flight {
     }
 
     /// Under any law, for one stretch of the integrator.
-    pub(crate) const fn integrated(start: SimTime, stretch: Stretch, turn: Turn) -> Self {
+    pub(crate) fn integrated(start: SimTime, stretch: Stretch, turn: Turn) -> Self {
         let law = Law::Stretch(stretch);
         Self { start, law, turn }
     }
@@ -115,7 +115,7 @@ impl Flight {
                 conic,
                 core: Some(core),
             } => conic.time_outside(t, *core),
-            Law::Stretch(stretch) => stretch.length - t,
+            Law::Stretch(stretch) => stretch.length() - t,
             Law::Held { path, .. } => path.length() - t,
         };
         if known < longest { known } else { longest }

@@ -2,7 +2,7 @@
 //! Newtonian centre, and of what turns about a corner; by an integrator of order 15 in any other field, and where contacts hold several bodies.
 //!
 //! To read in this order: [`flight`] (the law that is kept beside a motion, whichever it is), [`damped`], [`kepler`], [`pendulum`],
-//! [`integrate`], [`collocated`] and [`path`] (the laws themselves), [`osculating`] (the parabola that touches a law, and how far it is off).
+//! [`collocated`], [`integrate`] and [`path`] (the laws themselves), [`osculating`] (the parabola that touches a law, and how far it is off).
 
 pub(crate) mod collocated;
 pub(crate) mod damped;
