@@ -129,6 +129,7 @@ impl World {
         going.extend(&self.bodies.touched);
         going.sort_unstable();
         going.dedup();
+        stepping.leave_ways(&self.bodies);
         self.enter_changed(stepping, end, now);
         stepping.carry(&self.bodies, &going, now);
         let left = end - now;

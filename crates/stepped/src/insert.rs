@@ -93,6 +93,19 @@ impl Engine {
         Ok(())
     }
 
+    /// Says that a caller moves a body within a sub-step: its velocity gets no more what it lacks ([`State::lack`](crate::State::lack));
+    /// those that it is in contact with answer for that.
+    ///
+    /// # Errors
+    /// [`EngineError::Stale`] if it is not in this engine.
+    pub fn leave_way(&mut self, id: BodyId) -> Result<(), EngineError> {
+        let record = *self.bodies.get(id)?;
+        if record.line != Bodies::NONE {
+            self.leave_ways(id.slot);
+        }
+        Ok(())
+    }
+
     /// See [`Ways::leave`](crate::rows::Ways::leave).
     fn leave_ways(&mut self, slot: u32) {
         let contacts = self.graph.of_body(&self.bodies, slot);

@@ -78,6 +78,35 @@ fn a_removed_body_takes_no_momentum_of_others() {
 }
 
 #[test]
+fn a_body_that_a_caller_moves_takes_no_momentum_of_others() {
+    for count in 8..20 {
+        let mut world = weightless();
+        let ids = ring(&mut world, count);
+        let mut ids = ids.into_iter().cycle();
+        for step in 0..400 {
+            if step % 10 == 9
+                && let Some(id) = ids.next()
+            {
+                let velocity = world.body(id).expect("it is there").velocity();
+                world
+                    .set_velocity(id, velocity * -0.5, 1.0)
+                    .expect("it is there");
+            }
+            let momentum = world.momentum();
+            world.step(1.1e-3);
+            let (linear, angular) = off(&world, (momentum.linear, momentum.angular));
+            assert!(linear < 1e-12, "{count} {step}: {linear:e} of the momentum");
+            assert!(angular < 1e-12, "{count} {step}: {angular:e} of its moment");
+            let energy = world.energy();
+            assert!(
+                energy.residual().abs() < 1e-12 * energy.kinetic,
+                "{count} {step}: {energy:?}"
+            );
+        }
+    }
+}
+
+#[test]
 fn what_is_met_asleep_gets_what_is_lost() {
     let mut world = weightless();
     for k in 0..5 {

@@ -8,6 +8,16 @@ use super::{Stepping, place};
 use crate::store::bodies::Bodies;
 
 impl Stepping {
+    /// Bodies that a caller changed go as they do, and what their velocities lacked stays with those they touch.
+    pub(crate) fn leave_ways(&mut self, bodies: &Bodies) {
+        for &index in &bodies.touched {
+            if let Some(id) = self.id(index).filter(|_| bodies.is_alive(index)) {
+                let told = self.engine.leave_way(id);
+                debug_assert!(told.is_ok(), "{told:?}");
+            }
+        }
+    }
+
     /// Bodies that are changed or fast go on from where they are now.
     pub(crate) fn carry(&mut self, bodies: &Bodies, going: &[u32], now: SimTime) {
         for &index in going {

@@ -65,18 +65,32 @@ impl Ways {
         self.note(self.noted);
     }
 
-    /// A body that goes leaves what its velocity lacks to those that it is in contact with, by equal parts, as a push at its centre and a
-    /// turn: what is left of them keeps the momentum and angular momentum that a caller sees.
+    /// A body that goes, or that a caller moves, leaves what its velocity lacks to those that it is in contact with, as a push at its
+    /// centre and a turn: all keep the momentum and angular momentum that a caller sees. Each partner gets as large a part as its own
+    /// velocity lacks of momentum: what both exchanged is in that.
     pub(crate) fn leave(&mut self, bodies: &mut Bodies, slot: u32, partners: &[u32]) {
-        let Some((v, w)) = self.lack(slot) else {
+        let lacks = |ways: &Self, slot: u32| {
+            let inverse = bodies.lines[bodies.line_of(slot)].inverse_mass();
+            ways.lack(slot).map_or(0.0, |(v, _)| v.length() / inverse)
+        };
+        let parts: Vec<f64> = partners.iter().map(|slot| lacks(self, *slot)).collect();
+        let sum: f64 = parts.iter().sum();
+        let Ok(known) = self.lack.binary_search_by_key(&slot, |lack| lack.0) else {
             return;
         };
+        if sum <= 0.0 {
+            return;
+        }
+        let lack = core::mem::take(&mut self.lack[known].1);
         let own = &bodies.lines[bodies.line_of(slot)];
-        let part = (partners.len() as f64).recip();
-        let push = v * (part / own.inverse_mass());
-        let turn = w * quotient(part, own.inverse_inertia());
+        let (mass, inertia) = (
+            1.0 / own.inverse_mass(),
+            quotient(1.0, own.inverse_inertia()),
+        );
         let from = bodies.pose_of(slot).position;
-        for &partner in partners {
+        for (&partner, part) in partners.iter().zip(parts) {
+            let part = part / sum;
+            let (push, turn) = (lack.v() * (part * mass), lack.w() * (part * inertia));
             let arm = from - bodies.pose_of(partner).position;
             let at = bodies.line_of(partner);
             let line = &mut bodies.lines[at];
