@@ -196,7 +196,8 @@ impl Graph {
         let (colour, k, lane) = self.colour_mut(id);
         let block = &mut colour.blocks[k];
         (block.s1[lane], block.s2[lane]) = (OPEN, OPEN);
-        colour.cold[k].deep &= !(1 << lane);
+        let cold = &mut colour.cold[k];
+        (cold.deep, cold.put) = (cold.deep & !(1 << lane), cold.put & !(1 << lane));
     }
 }
 
