@@ -24,6 +24,7 @@ mod lasting;
 mod laws;
 mod moved;
 mod observing;
+mod odd;
 mod readme;
 mod regressions;
 mod rocking;

@@ -40,8 +40,6 @@ mod lanes;
 mod manifold;
 mod motion;
 mod nearest;
-#[cfg(test)]
-mod odd_tests;
 mod outline;
 mod overlap;
 mod parts;

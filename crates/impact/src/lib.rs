@@ -34,8 +34,6 @@ mod heaps;
 mod held;
 mod law;
 pub mod lemke;
-#[cfg(test)]
-mod odd_tests;
 mod pivots;
 pub mod project;
 mod restitution;

@@ -1,58 +1,15 @@
 //! Whatever numbers come in, an answer comes out: `resolve` and `several` panicked where one was NaN.
 
-use carom_math::{Vec2, vec2};
+use carom_math::Vec2;
 
-use crate::{
+use carom_impact::{
     Friction, HeldFace, HeldPoint, ImpactBody, ImpactContact, ImpactLaw, Several, SharedContact,
     blend, generalised_reflections, held_faces, newton_lcp, resolve, several, swept_faces,
 };
 
-/// Numbers by chance, some of them none.
-struct Odd(u64);
+use super::Odd;
 
 impl Odd {
-    fn below(&mut self, n: usize) -> usize {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        usize::try_from(self.0 >> 33).expect("31 bits") % n
-    }
-
-    fn number(&mut self) -> f64 {
-        const ODD: [f64; 20] = [
-            0.0,
-            -0.0,
-            1.0,
-            -1.0,
-            f64::NAN,
-            f64::INFINITY,
-            f64::NEG_INFINITY,
-            1e308,
-            -1e308,
-            5e-324,
-            1e-300,
-            1e12,
-            0.1,
-            1e-30,
-            1e154,
-            2.0,
-            -3.0,
-            f64::MAX,
-            f64::MIN_POSITIVE,
-            0.5,
-        ];
-        const PLAIN: [f64; 8] = [0.0, 1.0, -1.0, 0.5, 2.0, -0.3, 0.1, 3.0];
-        if self.below(6) == 0 {
-            ODD[self.below(ODD.len())]
-        } else {
-            PLAIN[self.below(PLAIN.len())]
-        }
-    }
-
-    fn vector(&mut self) -> Vec2 {
-        vec2(self.number(), self.number())
-    }
-
     fn body(&mut self) -> ImpactBody {
         ImpactBody {
             inverse_mass: self.number(),
@@ -101,7 +58,7 @@ impl Odd {
 #[test]
 fn no_number_makes_an_impact_panic() {
     for seed in 1..4000_u64 {
-        let mut odd = Odd(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1);
+        let mut odd = Odd::new(seed, 6);
         let count = 2 + odd.below(3);
         let bodies: Vec<ImpactBody> = (0..count).map(|_| odd.body()).collect();
         let contacts: Vec<SharedContact> = (0..=odd.below(5))
