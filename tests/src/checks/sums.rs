@@ -37,6 +37,21 @@ impl Moment {
         sum
     }
 
+    /// How much of the momentum and of the angular momentum is missing afterwards, each with the scale that it rounds on.
+    #[must_use]
+    pub fn missing(&self, after: &Self) -> [(f64, f64); 2] {
+        [
+            (
+                (after.linear - self.linear).length(),
+                self.push.max(after.push),
+            ),
+            (
+                (after.angular - self.angular).abs(),
+                self.turn.max(after.turn),
+            ),
+        ]
+    }
+
     /// Whether a step of a free system, with no fixed or driven body, field, gravity, damping or locked rotation, kept both.
     ///
     /// # Errors
@@ -45,9 +60,7 @@ impl Moment {
         // Each impulse rounds once at either body, by no more than what flows; a row of a sub-step is swept some ten times.
         let sums = 64.0 + 16.0 * (report.impacts + 32 * report.rows) as f64;
         let part = f64::EPSILON * sums;
-        let (push, turn) = (self.push.max(after.push), self.turn.max(after.turn));
-        let linear = (after.linear - self.linear).length();
-        let angular = (after.angular - self.angular).abs();
+        let [(linear, push), (angular, turn)] = self.missing(after);
         if linear > part * push {
             return Err(Fault::Momentum(format!(
                 "{linear:e} kg m/s of {push:e} are missing, {:.1e} of them by rounding at most; exact: {}",

@@ -108,7 +108,7 @@ fn registers_of_all_widths_turn_free_pairs_alike() {
 #[test]
 fn momentum_and_angular_momentum_are_kept_within_a_sub_step() {
     let mut asked = 0;
-    for seed in 0..20 {
+    for seed in 0..24 {
         let (mut engine, swarm) = swarm(without_sleep(), seed, (7, 2.0));
         engine.note_ways(true);
         let (pushes, turns, size) = motion(&engine, &swarm);
@@ -138,7 +138,7 @@ fn momentum_and_angular_momentum_are_kept_within_a_sub_step() {
         }
     }
     // The rest has bodies that were put into each other.
-    assert!(asked > 6500, "{asked} of 8000");
+    assert!(asked > 7000, "{asked} of 9600");
 }
 
 /// The wide pass and [`Block::meet`], contact by contact.
