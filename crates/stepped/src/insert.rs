@@ -108,6 +108,9 @@ impl Engine {
 
     /// See [`Ways::leave`](crate::rows::Ways::leave).
     fn leave_ways(&mut self, slot: u32) {
+        if self.ways.lack(slot).is_none() {
+            return;
+        }
         let contacts = self.graph.of_body(&self.bodies, slot);
         let others = contacts.map(|(id, side)| self.graph.contacts[id as usize].bodies[1 - side]);
         let is_awake = |other: &u32| self.bodies.records[*other as usize].line != Bodies::NONE;

@@ -109,7 +109,7 @@ pub(crate) fn angle(
     match (radians, degrees) {
         (None, None) => Ok(0.0),
         (Some(radians), None) => Ok(radians),
-        // The engine would name the angle in rad, which nobody wrote.
+        // In degrees, as written: the engine's error has it in rad.
         (None, Some(degrees)) if degrees.to_radians().abs() > WORLD_LIMIT => {
             let reason =
                 format!("{key}_deg is {degrees:e}, beyond the limit of {WORLD_LIMIT:e} rad");

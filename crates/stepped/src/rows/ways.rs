@@ -69,24 +69,22 @@ impl Ways {
     /// centre and a turn: all keep the momentum and angular momentum that a caller sees. Each partner gets as large a part as its own
     /// velocity lacks of momentum: what both exchanged is in that.
     pub(crate) fn leave(&mut self, bodies: &mut Bodies, slot: u32, partners: &[u32]) {
-        let lacks = |ways: &Self, slot: u32| {
-            let inverse = bodies.lines[bodies.line_of(slot)].inverse_mass();
-            ways.lack(slot).map_or(0.0, |(v, _)| v.length() / inverse)
-        };
-        let parts: Vec<f64> = partners.iter().map(|slot| lacks(self, *slot)).collect();
-        let sum: f64 = parts.iter().sum();
         let Ok(known) = self.lack.binary_search_by_key(&slot, |lack| lack.0) else {
             return;
         };
+        let lacks = |slot: &u32| {
+            let mass = quotient(1.0, bodies.lines[bodies.line_of(*slot)].inverse_mass());
+            self.lack(*slot).map_or(0.0, |(v, _)| v.length() * mass)
+        };
+        let parts: Vec<f64> = partners.iter().map(lacks).collect();
+        let sum: f64 = parts.iter().sum();
         if sum <= 0.0 {
             return;
         }
         let lack = core::mem::take(&mut self.lack[known].1);
         let own = &bodies.lines[bodies.line_of(slot)];
-        let (mass, inertia) = (
-            1.0 / own.inverse_mass(),
-            quotient(1.0, own.inverse_inertia()),
-        );
+        let mass = quotient(1.0, own.inverse_mass());
+        let inertia = quotient(1.0, own.inverse_inertia());
         let from = bodies.pose_of(slot).position;
         for (&partner, part) in partners.iter().zip(parts) {
             let part = part / sum;
