@@ -61,7 +61,7 @@ pub struct Engine {
     /// Bodies that continuous collision stopped where they stood in the last sub-step, and what stands in their way.
     pub(crate) hanging: Vec<[u32; 2]>,
     /// Lines of bodies that went far in this sub-step, and their displacements before it.
-    far: Vec<(u32, Quad)>,
+    pub(crate) far: Vec<(u32, Quad)>,
     /// Pairs of pieces that were looked at by shape.
     pub(crate) looks: u64,
     /// Bodies that were stopped since a number was no longer finite.
@@ -262,6 +262,7 @@ impl Engine {
     /// [`Self::fast_boxes`]; and sleep, where a tick ends.
     pub fn finish(&mut self, rules: &dyn PairRules) {
         self.stop_fast(self.law.h, rules);
+        self.measure_far();
         if self.done == self.settings.substeps {
             self.done = 0;
             self.stop_non_finite();
@@ -469,7 +470,8 @@ impl Engine {
         self.belts += given;
         impacts.end(law, arrived, bodies, graph, pieces);
         let borne = hard.part(law, bodies, (graph, free), settings, false);
-        self.least_gap = seen.least_gap.min(gap).min(borne);
+        let least = seen.least_gap.min(self.deep.least_gap());
+        self.least_gap = least.min(gap).min(borne);
         ways.end(bodies, law.h);
     }
 }

@@ -40,6 +40,7 @@ mod insert;
 mod naive;
 mod narrow;
 mod outline;
+mod overlap;
 mod pieces;
 mod read;
 mod record;

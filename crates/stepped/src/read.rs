@@ -184,8 +184,7 @@ impl Engine {
     /// How deep the deepest contact overlapped in the last sub-step, as it began or ended, in m; 0 if none did.
     #[must_use]
     pub fn deepest_overlap(&self) -> f64 {
-        let least = self.least_gap.min(self.deep.least_gap());
-        (-least.min(self.least_found)).max(0.0)
+        (-self.least_gap.min(self.least_found)).max(0.0)
     }
 
     /// Pairs of pieces that were looked at by shape so far.

@@ -69,9 +69,10 @@ pub(crate) fn update(
         }
         renew(level, &scene.bodies.lines, &mut start, block, found, near);
         for lane in lanes(near) {
-            let gaps = [found.s1[lane], found.s2[lane]];
-            let gap = gaps[0].min(gaps[1]);
             let ends = [block.a[lane], block.b[lane]];
+            let [a, b] = ends.map(|line| &scene.bodies.lines[line as usize]);
+            let [first, second] = block.gaps(lane, a, b);
+            let gap = first.min(second);
             let beside = !displaced.is_empty() && ends.iter().any(|line| displaced[*line as usize]);
             if gap < 0.0 || cold.is_deep(lane) || beside {
                 least = least.min(gap);
@@ -82,8 +83,7 @@ pub(crate) fn update(
                     Pressed::ByRows
                 };
                 let are_free = ends.iter().all(|line| scene.bodies.is_free(*line));
-                if cold.note_depth(lane, gaps, deepest, (by, are_free)) {
-                    block.show(lane, cold.shown[lane]);
+                if cold.note_depth((block, lane), [a, b], deepest, (by, are_free)) {
                     deep.push(cold.contact[lane]);
                 }
             }
@@ -120,13 +120,15 @@ pub(crate) fn update(
 /// without thickness by more than half of its own would go through. A corner beside a corner is on no side: beyond the end of a wall
 /// it may be below the one that its body then lies on.
 fn keep_side(scene: &Scene<'_>, block: &Block, pair: [u32; 2], lane: usize, found: &mut Found) {
-    let overlaps = found.s1[lane].min(found.s2[lane]) < 0.0;
+    let [a, b] = [block.a[lane], block.b[lane]].map(|line| &scene.bodies.lines[line as usize]);
+    let normal = vec2(found.nx[lane], found.ny[lane]);
+    let overlaps = found.s1[lane].min(found.s2[lane]) + normal.dot(b.d() - a.d()) < 0.0;
     let pushes = block.j1[lane] + block.j2[lane] > 0.0;
     let came = block.normal(lane);
     let is_sharp = |piece: u32| scene.pieces.outlines[piece as usize].radius() == 0.0;
     let of_corners = || block.s2[lane] == OPEN && pair.into_iter().all(is_sharp);
     if (overlaps || pushes)
-        && came.dot(vec2(found.nx[lane], found.ny[lane])) < TURNED_OVER
+        && came.dot(normal) < TURNED_OVER
         && !of_corners()
         && let Some(manifold) = scene.contact_on(came, pair, KEPT)
     {
@@ -339,8 +341,9 @@ pub(crate) fn create(
         let [a, b] = pair.map(|piece| &pieces.list[piece as usize]);
         let ends = [a.body, b.body];
         let deepest = deepest(law, pieces, pair);
-        least = least.min(manifold.gaps[0]).min(manifold.gaps[1]);
         let id = graph.insert(bodies, ends, pair, (&manifold, deepest), surface);
+        let [first, second] = graph.gaps(bodies, id);
+        least = least.min(first).min(second);
         known.insert(pair, id);
         if let Some(side) = face {
             let (block, cold, lane) = graph.lane(id);

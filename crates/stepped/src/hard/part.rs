@@ -19,8 +19,8 @@ use crate::Settings;
 use crate::bodies::Bodies;
 use crate::rows::{FreePairs, Graph, Law, Quad};
 
-/// Contacts of an island are computed anew once one of its bodies turned so far, in rad: rows are straight. A ring at 14.7 rad/s lets
-/// a pentagon out by 20 mm where as much may turn as in soft rows.
+/// A body's contacts are computed anew once it turned so far, in rad: rows are straight. A ring at 14.7 rad/s lets a hexagon out by
+/// 22 mm where as much may turn as in soft rows.
 const STALE: f64 = 0.02;
 
 /// Overlap that is left as it is where sweeps hold an island, as a part of the smallest extent: what is parted opens other contacts, and
@@ -280,14 +280,12 @@ impl Island {
         }
     }
 
-    /// Where one body turned, contacts of all are computed anew, from where all are: a corner seen where it was some sub-steps ago may
-    /// be on another face, or deep in this one.
+    /// Notes the bodies that turned so far that their contacts are computed anew.
     fn note_turned(&self, bodies: &mut Bodies, settings: &Settings) {
-        let turn = |line: u32| bodies.lines[line as usize].turn();
-        let is_stale = self.lines.iter().any(|line| turn(*line).abs() > STALE);
         for &line in self.lines.iter().filter(|line| **line > Bodies::GROUND) {
             let at = line as usize;
             let turn = bodies.lines[at].turn();
+            let is_stale = turn.abs() > STALE;
             if is_stale || bodies.limits[at].deviates(settings.margin, 0.0, turn) {
                 bodies.deviating.push(line);
             }

@@ -73,7 +73,7 @@ impl Island {
         let mut are_free = true;
         for &id in &found.contacts {
             let (block, cold, lane) = graph.lane(id);
-            let gaps = gaps(graph, bodies, id);
+            let gaps = graph.gaps(bodies, id);
             // Hidden ones push nothing.
             let points = if gaps[0] < 0.5 * OPEN {
                 block.points(lane)
@@ -278,7 +278,7 @@ impl Island {
     pub(super) fn least_gap(&mut self, bodies: &Bodies, graph: &Graph) -> f64 {
         let mut least = OPEN;
         for contact in &mut self.contacts {
-            contact.gaps = gaps(graph, bodies, contact.id);
+            contact.gaps = graph.gaps(bodies, contact.id);
             for gap in &contact.gaps[..contact.points] {
                 least = least.min(*gap);
             }
@@ -314,19 +314,5 @@ impl Island {
             -0.5 * (rubbed[0] + rubbed[1])
         };
         self.contacts.iter().map(of).sum()
-    }
-}
-
-/// Gaps of both points of a contact where its bodies are, in m.
-fn gaps(graph: &Graph, bodies: &Bodies, id: u32) -> [f64; 2] {
-    let (block, cold, lane) = graph.lane(id);
-    let [a, b] = [block.a[lane], block.b[lane]].map(|line| &bodies.lines[line as usize]);
-    let gaps = block.gaps(lane, a, b);
-    if cold.is_deep(lane) {
-        // Sweeps are shown less.
-        let opened = block.opened(lane, a, b);
-        [0, 1].map(|point| gaps[point].min(cold.depths[lane][point] + opened[point]))
-    } else {
-        gaps
     }
 }

@@ -25,7 +25,8 @@ pub(crate) struct Meeting {
     going: Going,
     /// What they may close by until the next tick beside that, in m.
     closing: f64,
-    /// The most that they moved by against each other since their base poses, in m.
+    /// How far B went from A since their base poses, and the most that they moved by against each other, in m.
+    gone: Vec2,
     moved: f64,
 }
 
@@ -41,15 +42,19 @@ impl Scene<'_> {
         let margin = factor * meeting.margin;
         let [a, b] = pair.map(|piece| &self.pieces.list[piece as usize]);
         let [turned_a, turned_b] = pair.map(|piece| self.pieces.turned(piece));
-        let [pose_a, pose_b] = [a.body, b.body].map(|slot| self.bodies.base_of(slot));
         let limit = margin + meeting.closing + meeting.moved;
-        let found = if turned_a.corners() > 0 && turned_b.corners() > 0 {
+        let mut found = if turned_a.corners() > 0 && turned_b.corners() > 0 {
             let hysteresis = HYSTERESIS * meeting.margin;
             let limits = [limit, margin, hysteresis];
             collide(turned_a, turned_b, meeting.going, side, limits)
         } else {
+            let [pose_a, mut pose_b] = [a.body, b.body].map(|slot| self.bodies.base_of(slot));
+            pose_b.position += meeting.gone;
             collide_any((a, pose_a), (b, pose_b), limit + meeting.going.way.length())
         }?;
+        // Rows count from the base poses.
+        let gone = found.normal.dot(meeting.gone);
+        found.gaps = found.gaps.map(|gap| gap - gone);
         (found.gap() < margin + self.closes(pair, &found)).then_some(found)
     }
 
@@ -82,15 +87,18 @@ impl Scene<'_> {
         let margin = self.settings.margin * a.extent.min(b.extent);
         let tick = self.settings.tick;
         let pull = self.settings.gravity.length() * tick;
+        // Within a tick one may have gone from its base pose, and the other, rebased, not.
+        let gone = body_b.d() - body_a.d();
         Meeting {
             margin: margin.max(self.seen([line_a, line_b])),
             going: Going {
-                d: base_b.position - base_a.position,
+                d: base_b.position - base_a.position + gone,
                 way: (body_b.v() - body_a.v()) * tick,
                 turns: [body_a.w() * tick, body_b.w() * tick],
             },
             closing: (turning + pull) * tick,
-            moved: (body_b.d() - body_a.d()).length() + turned,
+            moved: gone.length() + turned,
+            gone,
         }
     }
 

@@ -86,9 +86,10 @@ fn part<S: Simd, V: Wide<S>, const N: usize, const BOXES: bool>(
     let [bx, by, b_reach, b_extent] = V::columns_of(simd, out_b, 0);
     let [a_radius, a_count, a_l, a_m] = V::columns_of(simd, out_a, 4);
     let [b_radius, b_count, b_l, b_m] = V::columns_of(simd, out_b, 4);
-    let (dx, dy) = (bx - ax, by - ay);
     let (vx, vy) = (bvx - avx, bvy - avy);
+    // Within a tick one may have gone from its base pose, and the other, rebased, not.
     let (gone_x, gone_y) = (bdx - adx, bdy - ady);
+    let (dx, dy) = (bx - ax + gone_x, by - ay + gone_y);
     let (wx, wy) = (vx * tick, vy * tick);
     let margin = V::splat(simd, scene.settings.margin) * a_extent.min(b_extent);
     let margin = margin.max(V::from_slice(simd, &eight.least[at..end]));
@@ -258,7 +259,8 @@ fn part<S: Simd, V: Wide<S>, const N: usize, const BOXES: bool>(
     let opens = n_x * vx + n_y * vy + b1 * bw - a1 * aw;
     let opens = (opens + twice * (bw - aw)).min(opens);
     let pulled = (n_x * (bgx - agx) + n_y * (bgy - agy)).min(zero) * tick;
-    let went = n_x * gone_x + n_y * gone_y + b1 * bturn - a1 * aturn;
+    let gone = n_x * gone_x + n_y * gone_y;
+    let went = gone + b1 * bturn - a1 * aturn;
     let went = (went + twice * (bturn - aturn)).min(went);
     let closes = (-(opens + pulled)).max(zero) * tick - went;
     // B overlaps a piece by no more than across its cuts: the rest lies in other pieces, and leaves this one without a jump.
@@ -266,7 +268,8 @@ fn part<S: Simd, V: Wide<S>, const N: usize, const BOXES: bool>(
     // Far behind the face it came across the cut, as the tip of a wedge does through a valley: other pieces have faces there.
     let behind = of_a.separation.max(of_b.separation) - radii;
     let passes = passes | (behind.simd_lt(-near) & behind.simd_lt(crossed));
-    let (s1, s2) = (s1.max(crossed), s2.max(crossed));
+    // Rows count from the base poses.
+    let (s1, s2) = (s1.max(crossed) - gone, s2.max(crossed) - gone);
     let gap = s2.min(s1);
     let goes = (wx * wx + wy * wy).sqrt();
     // A ghost that is far, and does not come near, does nothing. How long it is says nothing where a side that lies flush in a

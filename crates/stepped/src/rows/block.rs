@@ -119,12 +119,6 @@ impl Block {
         jt: [0.0; LANES],
     };
 
-    /// Lets the sweeps see no gap below `least`, in m.
-    pub(crate) fn show(&mut self, lane: usize, least: f64) {
-        self.s1[lane] = self.s1[lane].max(least);
-        self.s2[lane] = self.s2[lane].max(least);
-    }
-
     /// Writes where a contact is; impulses and friction stay.
     pub(crate) fn put(&mut self, lane: usize, manifold: &Manifold) {
         (self.nx[lane], self.ny[lane]) = (manifold.normal.x, manifold.normal.y);
@@ -305,11 +299,12 @@ impl Cold {
     /// what displacement presses is, however deep, if nothing but contacts moves the two: no row bears a load there.
     pub(crate) fn note_depth(
         &mut self,
-        lane: usize,
-        gaps: [f64; 2],
+        (block, lane): (&mut Block, usize),
+        [a, b]: [&Line; 2],
         deepest: f64,
         (by, are_free): (Pressed, bool),
     ) -> bool {
+        let [first, second] = block.gaps(lane, a, b);
         let was_put = self.was_put(lane);
         let least = if was_put {
             PUT * deepest
@@ -319,15 +314,28 @@ impl Cold {
             CRUSHED * deepest
         };
         let is_displaced = are_free && by == Pressed::ByDisplacement;
-        let deep = gaps[0].min(gaps[1]) < least || is_displaced;
+        let deep = first.min(second) < least || is_displaced;
         let put = deep && (was_put || by == Pressed::ByCaller);
         let parts = put || is_displaced;
         let set = |bits: u8, is: bool| bits & !(1 << lane) | u8::from(is) << lane;
         (self.deep, self.put) = (set(self.deep, deep), set(self.put, put));
         self.unloaded = set(self.unloaded, are_free && parts);
-        let shown = if parts { PUT * deepest } else { deepest };
-        (self.depths[lane], self.shown[lane]) = (gaps, shown);
+        self.depths[lane] = [block.s1[lane], block.s2[lane]];
+        self.shown[lane] = if parts { PUT * deepest } else { deepest };
+        if deep {
+            self.show(block, lane, block.opened(lane, a, b));
+        }
         deep
+    }
+
+    /// Shows the sweeps a contact as deep as it is, opened so far since the base poses, but no deeper than they may see it.
+    pub(super) fn show(&self, block: &mut Block, lane: usize, opened: [f64; 2]) {
+        let depths = self.depths[lane];
+        let seen = |i: usize| (depths[i] + opened[i]).max(self.shown[lane]) - opened[i];
+        block.s1[lane] = seen(0);
+        if block.points(lane) == 2 {
+            block.s2[lane] = seen(1);
+        }
     }
 
     pub(crate) fn copy_lane(&mut self, to: usize, other: &Self, from: usize) {

@@ -146,18 +146,10 @@ impl Move {
     }
 }
 
-/// Shows the sweeps a contact as deep as it is, but no deeper than they may see it.
+/// Shows the sweeps a contact as deep as it is now.
 fn show(graph: &mut Graph, bodies: &Bodies, id: u32) {
     let (colour, k, lane) = graph.colour_mut(id);
     let (block, cold) = (&mut colour.blocks[k], &colour.cold[k]);
     let [a, b] = [block.a[lane], block.b[lane]].map(|line| &bodies.lines[line as usize]);
-    let opened = block.opened(lane, a, b);
-    let shown = [0, 1].map(|i| {
-        let gap = cold.depths[lane][i] + opened[i];
-        gap.max(cold.shown[lane]) - opened[i]
-    });
-    block.s1[lane] = shown[0];
-    if block.points(lane) == 2 {
-        block.s2[lane] = shown[1];
-    }
+    cold.show(block, lane, block.opened(lane, a, b));
 }

@@ -244,9 +244,8 @@ impl Graph {
         };
         let are_free = records.iter().all(|record| bodies.is_free(record.line));
         let cold = &mut colour.cold[k];
-        let deep = cold.note_depth(lane, manifold.gaps, deepest, (by, are_free));
-        if deep {
-            block.show(lane, colour.cold[k].shown[lane]);
+        let lines = records.map(|record| &bodies.lines[record.line as usize]);
+        if cold.note_depth((block, lane), lines, deepest, (by, are_free)) {
             self.deep.push(id);
         }
         colour.cold[k].restitution[lane] = surface.restitution;

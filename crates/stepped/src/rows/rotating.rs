@@ -29,10 +29,12 @@ struct Row {
     seen: Seen,
 }
 
-/// A row at the base poses: normal, gaps, and the arms of its first point along normal and tangent, in m.
+/// A row as it was found, at base poses but for how far B had `gone` from A since these: normal, gaps, and the arms of its first
+/// point along normal and tangent, in m.
 #[derive(Clone, Copy, Debug)]
 struct Seen {
     n: Vec2,
+    gone: Vec2,
     gaps: [f64; 2],
     a: Vec2,
     b: Vec2,
@@ -66,7 +68,7 @@ impl RotatingRows {
         (tick, extent): (f64, f64),
     ) {
         let [a, b] = [block.a[lane], block.b[lane]].map(|line| &bodies.lines[line as usize]);
-        let seen = Seen::of(block, lane);
+        let seen = Seen::of(block, lane, b.d() - a.d());
         let closes = block
             .opening(lane, a, b)
             .map(|rate| (-rate * tick).max(0.0));
@@ -119,10 +121,12 @@ struct Turned {
 }
 
 impl Seen {
-    fn of(block: &Block, lane: usize) -> Self {
+    fn of(block: &Block, lane: usize, gone: Vec2) -> Self {
+        let n = block.normal(lane);
         Self {
-            n: block.normal(lane),
-            gaps: [block.s1[lane], block.s2[lane]],
+            n,
+            gone,
+            gaps: [block.s1[lane], block.s2[lane]].map(|gap| gap + n.dot(gone)),
             // r × n = −r · t.
             a: vec2(block.at[lane], -block.a1[lane]),
             b: vec2(block.bt[lane], -block.b1[lane]),
@@ -159,7 +163,8 @@ impl Seen {
         let face = own.x + outwards * overlap;
         let corner = vec2(other.x + outwards * (nearest - overlap - gap), other.y);
         // In the frame of the face, from the face's body to the corner's.
-        let went = vec2(self.n.dot(b.0 - a.0), perp(self.n).dot(b.0 - a.0));
+        let went = b.0 - a.0 - self.gone;
+        let went = vec2(self.n.dot(went), perp(self.n).dot(went));
         let turned = Rot::IDENTITY.turned_slightly(of_face);
         let between = self.a - self.b + vec2(nearest.max(0.0), 0.0);
         let apart = turned.inverse() * ((between + went) * -outwards);
@@ -189,13 +194,13 @@ impl Seen {
 }
 
 impl Turned {
-    /// Writes the row, with what its gaps were at the base poses.
+    /// Writes the row, with what its gaps were when it was found.
     fn write(&self, block: &mut Block, lane: usize, [a, b]: &[Line; 2], gaps: [f64; 2]) {
         (block.nx[lane], block.ny[lane]) = (self.n.x, self.n.y);
         (block.at[lane], block.a1[lane]) = (self.a.x, -self.a.y);
         (block.bt[lane], block.b1[lane]) = (self.b.x, -self.b.y);
         block.s1[lane] = self.gap - block.opened(lane, a, b)[0];
-        // The second point differs by what it differed at the base poses; the relative rotation since is in its arms.
+        // The second point differs by what it differed then; the relative rotation since is in its arms.
         if gaps[1] < OPEN {
             block.s2[lane] = block.s1[lane] + gaps[1] - gaps[0];
         }
@@ -285,7 +290,7 @@ mod tests {
             } else {
                 ([face, corner], speeds)
             };
-            let seen = Seen::of(&block, 0);
+            let seen = Seen::of(&block, 0, Vec2::ZERO);
             let row = seen.turned(Side { of_b, radius }, went);
             let lines = went.map(|(d, turn)| {
                 let mut line = Line::EMPTY;

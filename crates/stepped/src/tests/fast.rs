@@ -135,3 +135,35 @@ fn a_fast_body_meets_what_comes_to_stand_before_it_is_stopped() {
     let x = engine.pose(id).unwrap().position.x;
     assert!(x < 0.2, "through the wall, to {x} m");
 }
+
+/// Contacts of a body that deviates are computed anew within a tick, where the others are then: against where the plate was as the
+/// tick began the box stopped in the air below it, and carried it along.
+#[test]
+fn what_deviates_within_a_tick_passes_where_others_were() {
+    let mut engine = Engine::new(Settings {
+        gravity: Vec2::ZERO,
+        ..without_sleep()
+    })
+    .unwrap();
+    let plate = PieceInput::new(ConvexPolygon::rectangle(1.0, 0.4).unwrap());
+    let flies = BodyInput::dynamic(1.0, 1.0).moving(vec2(90.0, 0.0), 0.0);
+    let plate = engine.insert(flies, &[plate]).unwrap();
+    let block = PieceInput::new(ConvexPolygon::rectangle(0.4, 0.4).unwrap());
+    let waits = BodyInput::dynamic(1.0, 1.0).at(vec2(0.0, -0.6));
+    let block = engine.insert(waits, &[block]).unwrap();
+    for _ in 0..3 {
+        engine.substep(&Mixed);
+    }
+    let gone = at(&engine, plate).x;
+    assert!(gone > 0.7, "{gone}");
+    let up = vec2(0.0, 100.0);
+    engine.set_velocity(block, up, 0.0).unwrap();
+    while !engine.is_at_tick() {
+        engine.substep(&Mixed);
+    }
+    assert_eq!(engine.velocity(plate).unwrap().0, vec2(90.0, 0.0));
+    assert_eq!(engine.velocity(block).unwrap().0, up);
+    let risen = at(&engine, block).y;
+    assert!(risen > 0.0, "{risen}");
+    assert!(engine.deepest_overlap() < 1e-12);
+}
