@@ -328,6 +328,18 @@ impl Cold {
         deep
     }
 
+    /// Gaps of both points with the bodies where their lines say, in m.
+    pub(crate) fn gaps(&self, block: &Block, lane: usize, [a, b]: [&Line; 2]) -> [f64; 2] {
+        let gaps = block.gaps(lane, a, b);
+        if self.is_deep(lane) {
+            // Sweeps are shown less.
+            let opened = block.opened(lane, a, b);
+            [0, 1].map(|point| gaps[point].min(self.depths[lane][point] + opened[point]))
+        } else {
+            gaps
+        }
+    }
+
     /// Shows the sweeps a contact as deep as it is, opened so far since the base poses, but no deeper than they may see it.
     pub(super) fn show(&self, block: &mut Block, lane: usize, opened: [f64; 2]) {
         let depths = self.depths[lane];

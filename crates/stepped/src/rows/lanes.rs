@@ -66,15 +66,8 @@ impl Graph {
     /// Gaps of both points of a contact where its bodies are, in m.
     pub(crate) fn gaps(&self, bodies: &Bodies, id: u32) -> [f64; 2] {
         let (block, cold, lane) = self.lane(id);
-        let [a, b] = [block.a[lane], block.b[lane]].map(|line| &bodies.lines[line as usize]);
-        let gaps = block.gaps(lane, a, b);
-        if cold.is_deep(lane) {
-            // Sweeps are shown less.
-            let opened = block.opened(lane, a, b);
-            [0, 1].map(|point| gaps[point].min(cold.depths[lane][point] + opened[point]))
-        } else {
-            gaps
-        }
+        let lines = [block.a[lane], block.b[lane]].map(|line| &bodies.lines[line as usize]);
+        cold.gaps(block, lane, lines)
     }
 
     /// Both points of a contact, midway between the surfaces, in m.
@@ -96,11 +89,6 @@ impl Graph {
     /// Numbers of all contacts, colour by colour.
     pub(crate) fn ids(&self) -> impl Iterator<Item = u32> {
         ids_in(&self.colours)
-    }
-
-    /// Those of what is awake.
-    pub(crate) fn awake_ids(&self) -> impl Iterator<Item = u32> {
-        ids_in(&self.colours[..ASLEEP])
     }
 
     /// Those in hard rows.
