@@ -147,8 +147,6 @@ impl Island {
         faces
     }
 
-    /// What overlapped as the sub-step began, at those gaps, parts at the fastest push-out; what did not parts at once: as a face turns
-    /// that a plate runs along at 400 m/s it comes to lie 19 mm deep.
     /// How deep contacts may stay, in m.
     fn slop(&self, bodies: &Bodies) -> f64 {
         if !self.is_swept {
@@ -160,6 +158,8 @@ impl Island {
         SLOP * extents.fold(f64::INFINITY, f64::min)
     }
 
+    /// What overlapped as the sub-step began, at those gaps, parts at the fastest push-out; what did not parts at once: as a face turns
+    /// that a plate runs along at 400 m/s it comes to lie 19 mm deep.
     fn parting_speeds(&self, law: &Law, begun: &[[f64; 2]], slop: f64) -> Parting {
         let mut parts = Parting {
             opens: Vec::with_capacity(begun.len()),
@@ -183,8 +183,8 @@ impl Island {
         parts
     }
 
-    /// The velocities, of bodies at rest, that part faces within a sub-step, and the part of them by which none is faster than the
-    /// fastest push-out, or than one that is not fast but for what it went in by: what is wedged in goes a long way for a little room,
+    /// The velocities, of bodies at rest, that part faces within a sub-step, and the part of them by which none goes or turns faster than
+    /// the fastest push-out, or than one that is not fast but for what it went in by: what is wedged in goes a long way for a little room,
     /// past the ends of faces that it slides along.
     fn parted(
         &self,
@@ -201,8 +201,10 @@ impl Island {
         let held = self.held(&at_rest.collect::<Vec<_>>(), faces);
         let made = parts.fastest - law.push_out;
         let share = |(line, by): (&u32, &ImpactBody)| {
-            let slow = bodies.limits[*line as usize].near() * law.inverse_h;
-            (made + law.push_out.min(slow)) / by.velocity.length()
+            let limit = &bodies.limits[*line as usize];
+            let slow = limit.near() * law.inverse_h;
+            let fastest = by.velocity.length().max(by.spin.abs() * limit.reach);
+            (made + law.push_out.min(slow)) / fastest
         };
         let shares = self.lines.iter().zip(&held.bodies).map(share);
         let part = shares.fold(1.0, f64::min);
