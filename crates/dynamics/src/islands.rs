@@ -11,7 +11,7 @@ use crate::analytic::islands::jam::jam;
 use crate::analytic::islands::mode_budget::changes_motion;
 use crate::analytic::islands::store::{Group, Kept};
 use crate::analytic::islands::{give_motions, kept};
-use crate::analytic::modes::{BodyMove, GroupMove, NotMine, land, solve_modes};
+use crate::analytic::modes::{BodyMove, GroupMove, NotMine, land};
 use crate::analytic::touching::{Gathered, Looks, gather};
 use crate::events::resolve::PairImpact;
 use crate::{BodyKind, ContactMode, Mode, World};
@@ -246,7 +246,7 @@ impl World {
         }
         // What is slower than rest by all digits is still.
         let speed = speed.max(gathered.rest);
-        match solve_modes(&gathered.bodies, &gathered.touches, speed) {
+        match gathered.solve_modes(speed) {
             Ok(moves) => {
                 // What flies, and touches what belongs to an island, is the island's from now on.
                 for &index in &gathered.places {
@@ -344,7 +344,7 @@ impl World {
             return;
         };
         gathered.stand(landed);
-        match solve_modes(&gathered.bodies, &gathered.touches, speed) {
+        match gathered.solve_modes(speed) {
             Ok(moves) => self.close(&gathered, &moves, time, speed),
             Err(_) => self.fail(&gathered.dynamic(), time),
         }

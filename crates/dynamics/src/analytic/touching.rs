@@ -3,7 +3,7 @@
 use arrayvec::ArrayVec;
 use carom_math::{SimTime, Vec2};
 
-use crate::analytic::modes::{ModeBody, Touch, hold, stand};
+use crate::analytic::modes::{GroupMove, NotMine, Touch, hold, solve_modes, stand};
 use crate::impact::ImpactBody;
 use crate::model::approach::{Approach, approach, opening};
 use crate::model::edges::{Feature, at_the_end, corner_under_disc, feature};
@@ -12,7 +12,6 @@ use crate::model::graph::{ROWS, neighbours};
 use crate::model::narrow::{SUNK, TOUCH, rest_speed};
 use crate::store::bodies::Bodies;
 use crate::store::pairs::Pairs;
-use crate::store::state::BodyState;
 
 /// Whether the contacts of all pairs are those of this instant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,7 +25,9 @@ pub(crate) enum Looks {
 pub(crate) struct Gathered {
     /// Bodies of the world, in the order of `bodies`.
     pub(crate) places: Vec<u32>,
-    pub(crate) bodies: Vec<ModeBody>,
+    pub(crate) bodies: Vec<ImpactBody>,
+    /// Their accelerations by all that is no contact, in m/s² and rad/s².
+    pub(crate) pulls: Vec<(Vec2, f64)>,
     pub(crate) touches: Vec<Touch>,
     /// Pair and contact of each touch.
     pub(crate) pairs: Vec<(u32, usize)>,
@@ -45,6 +46,10 @@ impl Gathered {
         all.filter(|(_, body)| body.inverse_mass > 0.0)
             .map(|(index, _)| *index)
             .collect()
+    }
+
+    pub(crate) fn solve_modes(&self, speed: f64) -> Result<GroupMove, NotMine> {
+        solve_modes(&self.bodies, &self.pulls, &self.touches, speed)
     }
 
     /// Velocities after a landing; what opens then is let go.
@@ -127,36 +132,17 @@ impl Gathered {
         if let Some(place) = self.places.iter().position(|known| *known == index) {
             return place;
         }
-        let state = bodies.get(index);
+        let body = bodies.get(index).in_impact(time);
         self.places.push(index);
-        self.bodies.push(mode_body(bodies, state, time));
+        self.pulls.push(bodies.pull_on(index, body.centre));
+        self.bodies.push(body);
         self.places.len() - 1
     }
 }
 
-fn ends_of(bodies: &[ModeBody], touch: &Touch) -> (ImpactBody, ImpactBody) {
+fn ends_of(bodies: &[ImpactBody], touch: &Touch) -> (ImpactBody, ImpactBody) {
     let (a, b) = touch.bodies;
-    (bodies[a].state(), bodies[b].state())
-}
-
-fn mode_body(bodies: &Bodies, state: &BodyState, time: SimTime) -> ModeBody {
-    let ImpactBody {
-        inverse_mass,
-        inverse_inertia,
-        centre,
-        velocity,
-        spin,
-    } = state.in_impact(time);
-    let (pull, twist) = bodies.pull_on(state.id.index, centre);
-    ModeBody {
-        inverse_mass,
-        inverse_inertia,
-        centre,
-        velocity,
-        spin,
-        pull,
-        twist,
-    }
+    (bodies[a], bodies[b])
 }
 
 /// All that hangs together by touch around a dynamic body.

@@ -86,7 +86,7 @@ pub(crate) fn kept(gathered: &Gathered, moves: &[BodyMove], touches: &[TouchMove
                 if body.inverse_mass > 0.0 {
                     0.0
                 } else {
-                    force.dot(body.state().velocity_of(touch.points[0]))
+                    force.dot(body.velocity_of(touch.points[0]))
                 }
             };
             Kept {

@@ -56,6 +56,7 @@ pub(crate) fn path_of(
     }
     tip(
         gathered.bodies.clone(),
+        gathered.pulls.clone(),
         places,
         reaches,
         contacts,
@@ -86,7 +87,7 @@ fn joints(
         let side = |k: usize, hull, pose| Held {
             hull,
             pose,
-            moves: gathered.bodies[k].state(),
+            moves: gathered.bodies[k],
         };
         let ends = (
             side(

@@ -18,7 +18,8 @@ use carom_math::{Vec2, perp};
 
 use super::balance::Tangent;
 use super::change::{Load, SAME, Slide, falls_to_zero, stretch};
-use super::{BodyMove, Feature, ModeBody, Touch};
+use super::{BodyMove, Feature, Touch};
+use crate::impact::ImpactBody;
 
 /// Unit normals that differ by no more bear as one: another direction would be another acceleration.
 const PARALLEL: f64 = SAME;
@@ -45,7 +46,7 @@ struct Alone<'a> {
     touches: &'a [Touch],
     /// Its place in the list of bodies.
     at: usize,
-    body: ModeBody,
+    body: ImpactBody,
     /// n.
     normal: Vec2,
     friction: f64,
@@ -66,7 +67,7 @@ impl<'a> Alone<'a> {
         let (Some(at), None) = (moving.next(), moving.next()) else {
             return None;
         };
-        let (body, moved) = (bodies[at], moves[at]);
+        let (body, moved, (pull, twist)) = (bodies[at], moves[at], load.pulls[at]);
         let rests =
             |(other, moved): (usize, &BodyMove)| other == at || *moved == BodyMove::default();
         let turns = moved.spin != 0.0 || moved.angular_acceleration != 0.0;
@@ -75,7 +76,7 @@ impl<'a> Alone<'a> {
             (up(touch, at) - normal).length() <= PARALLEL
                 && (touch.friction - friction).abs() <= SAME * friction
         };
-        let press = -body.pull.dot(normal) / body.inverse_mass;
+        let press = -pull.dot(normal) / body.inverse_mass;
         let bears = body.inverse_inertia > 0.0 && press > 0.0;
         if !moves.iter().enumerate().all(rests) || turns || !touches.iter().all(alike) || !bears {
             return None;
@@ -94,9 +95,9 @@ impl<'a> Alone<'a> {
             return None;
         }
         let scaled = [
-            mass.sqrt() * body.pull.x,
-            mass.sqrt() * body.pull.y,
-            inertia.sqrt() * body.twist,
+            mass.sqrt() * pull.x,
+            mass.sqrt() * pull.y,
+            inertia.sqrt() * twist,
         ];
         let larger = |most: f64, x: &f64| if x.abs() > most { x.abs() } else { most };
         Some(Self {
@@ -107,7 +108,7 @@ impl<'a> Alone<'a> {
             friction,
             sign,
             press,
-            arm: inertia * body.twist / press,
+            arm: inertia * twist / press,
             size: load.found.state.iter().chain(&scaled).fold(0.0, larger),
         })
     }
@@ -180,9 +181,13 @@ mod tests {
     use super::*;
     use crate::impact::project;
 
+    /// Bodies, their accelerations by all that is no contact, and touches.
+    type Group = (Vec<ImpactBody>, Vec<(Vec2, f64)>, Vec<Touch>);
+
     /// How a group moves, as the load that shifts on it sees that, and its slips.
     struct Found {
-        bodies: Vec<ModeBody>,
+        bodies: Vec<ImpactBody>,
+        pulls: Vec<(Vec2, f64)>,
         touches: Vec<Touch>,
         moves: Vec<BodyMove>,
         found: Balance,
@@ -191,8 +196,8 @@ mod tests {
     }
 
     impl Found {
-        fn of((bodies, touches): (Vec<ModeBody>, Vec<Touch>)) -> Option<Self> {
-            let faces = Faces::new(&bodies, &touches);
+        fn of((bodies, pulls, touches): Group) -> Option<Self> {
+            let faces = Faces::new(&bodies, &pulls, &touches);
             let speed = bodies.iter().map(|body| body.velocity.length());
             let slips = faces::slips(&bodies, &touches, speed.sum()).expect("it slides");
             let tangents = tangents(&touches, &slips);
@@ -200,6 +205,7 @@ mod tests {
             let moves = faces.moves(&bodies, &found, &slips);
             Some(Self {
                 bodies,
+                pulls,
                 touches,
                 moves,
                 found,
@@ -211,6 +217,7 @@ mod tests {
         fn load(&self) -> Load<'_> {
             Load {
                 bodies: &self.bodies,
+                pulls: &self.pulls,
                 touches: &self.touches,
                 moves: &self.moves,
                 found: &self.found,
@@ -252,29 +259,21 @@ mod tests {
     }
 
     /// A box 1 m wide slides on two floors at rest, at these heights and up to and from these ends.
-    fn slider(
-        speed: f64,
-        pull: Vec2,
-        ends: [f64; 2],
-        step: f64,
-        friction: f64,
-    ) -> (Vec<ModeBody>, Vec<Touch>) {
-        let body = |inverse_mass: f64, centre: Vec2, velocity: Vec2, pull: Vec2| ModeBody {
-            inverse_mass,
-            inverse_inertia: 3.0 * inverse_mass,
-            centre,
-            velocity,
+    fn slider(speed: f64, pull: Vec2, ends: [f64; 2], step: f64, friction: f64) -> Group {
+        let ground = ImpactBody::immovable(Vec2::ZERO, Vec2::ZERO, 0.0);
+        let slides = ImpactBody {
+            inverse_mass: 1.0,
+            inverse_inertia: 3.0,
+            centre: vec2(0.0, 1.0),
+            velocity: vec2(speed, 0.0),
             spin: 0.0,
-            pull,
-            twist: 0.0,
         };
-        let ground = body(0.0, Vec2::ZERO, Vec2::ZERO, Vec2::ZERO);
-        let slides = body(1.0, vec2(0.0, 1.0), vec2(speed, 0.0), pull);
+        let pulls = vec![(Vec2::ZERO, 0.0), (Vec2::ZERO, 0.0), (pull, 0.0)];
         let touches = vec![
             flat(0, [-9.0, ends[0]], 0.0, [-0.5, 0.0], friction),
             flat(1, [ends[1], 9.0], step, [0.0, 0.5], friction),
         ];
-        (vec![ground, ground, slides], touches)
+        (vec![ground, ground, slides], pulls, touches)
     }
 
     /// The first instant from which on no forces leave these accelerations, by the nearest point of the cone of all forces.
@@ -395,8 +394,8 @@ mod tests {
                 touch.features = (mirrored(features.1), mirrored(features.0));
                 touch.normal = -touch.normal;
             }
-            let (bodies, _) = slider(2.0 * side, vec2(0.0, -10.0), ends, 0.0, 0.0);
-            let found = Found::of((bodies, vec![touch])).expect("it slides");
+            let (bodies, pulls, _) = slider(2.0 * side, vec2(0.0, -10.0), ends, 0.0, 0.0);
+            let found = Found::of((bodies, pulls, vec![touch])).expect("it slides");
             let load = found.load();
             let ways = ways(&load).expect("it slides alone");
             let after = tips(&load, ways, found.lasts()).expect("it tips");

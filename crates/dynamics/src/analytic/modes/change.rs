@@ -3,8 +3,9 @@
 use super::alone;
 use super::balance::{Balance, Basic, Problem, Tangent, balance};
 use super::faces::Faces;
-use super::{BodyMove, Feature, ModeBody, Touch, slip_rate};
-use carom_math::{falling_root, perp};
+use super::{BodyMove, Feature, Touch, slip_rate};
+use crate::impact::ImpactBody;
+use carom_math::{Vec2, falling_root, perp};
 
 /// How far ahead a load that shifts is looked at where nothing else ends the mode, in s.
 const LOOK: f64 = 64.0;
@@ -111,7 +112,9 @@ pub(super) fn falls_to_zero(gap: f64, speed: f64, rate: f64) -> Option<f64> {
 
 /// A mode of a group: the load that shifts on what bears it.
 pub(super) struct Load<'a> {
-    pub(super) bodies: &'a [ModeBody],
+    pub(super) bodies: &'a [ImpactBody],
+    /// Their accelerations by all that is no contact.
+    pub(super) pulls: &'a [(Vec2, f64)],
     pub(super) touches: &'a [Touch],
     pub(super) moves: &'a [BodyMove],
     pub(super) found: &'a Balance,
@@ -270,17 +273,17 @@ impl Load<'_> {
 
     pub(super) fn faces_at(&self, after: f64) -> Faces {
         let (bodies, touches) = self.at(after);
-        Faces::new(&bodies, &touches)
+        Faces::new(&bodies, self.pulls, &touches)
     }
 
     /// Bodies and touches where the present motions lead.
-    fn at(&self, after: f64) -> (Vec<ModeBody>, Vec<Touch>) {
+    fn at(&self, after: f64) -> (Vec<ImpactBody>, Vec<Touch>) {
         let travel = |body: &BodyMove| (body.velocity + body.acceleration * (0.5 * after)) * after;
         let bodies = self
             .bodies
             .iter()
             .zip(self.moves)
-            .map(|(body, moved)| ModeBody {
+            .map(|(body, moved)| ImpactBody {
                 centre: body.centre + travel(moved),
                 ..*body
             });

@@ -8,7 +8,8 @@ use arrayvec::ArrayVec;
 use carom_math::{Vec2, cross, perp, vec2};
 
 use super::balance::Balance;
-use super::{BodyMove, CLOSED, ModeBody, NotMine, STILL, Touch};
+use super::{BodyMove, CLOSED, NotMine, STILL, Touch};
+use crate::impact::ImpactBody;
 use crate::impact::project::Basis;
 use crate::model::approach::relative;
 
@@ -44,7 +45,7 @@ pub(super) struct Faces {
 }
 
 impl Faces {
-    pub(super) fn new(bodies: &[ModeBody], touches: &[Touch]) -> Self {
+    pub(super) fn new(bodies: &[ImpactBody], pulls: &[(Vec2, f64)], touches: &[Touch]) -> Self {
         let list = touches.iter().map(|touch| Face {
             normals: touch
                 .points
@@ -56,14 +57,14 @@ impl Faces {
         });
         Self {
             list: list.collect(),
-            free: scaled(bodies, |body| (body.pull, body.twist)),
+            free: scaled(bodies, pulls.iter().copied()),
         }
     }
 
     /// Motions from scaled accelerations; what the closed rows stop is exactly still.
     pub(super) fn moves(
         &self,
-        bodies: &[ModeBody],
+        bodies: &[ImpactBody],
         found: &Balance,
         slips: &[f64],
     ) -> Vec<BodyMove> {
@@ -86,11 +87,11 @@ impl Faces {
         let velocities = if bodies.iter().any(is_driven) {
             None
         } else {
-            let mut velocities = scaled(bodies, |body| (body.velocity, body.spin));
+            let mut velocities = scaled(bodies, velocities_of(bodies));
             begins.as_ref().unwrap_or(&stops).apply(&mut velocities);
             Some(velocities)
         };
-        let one = |(k, body): (usize, &ModeBody)| {
+        let one = |(k, body): (usize, &ImpactBody)| {
             let (acceleration, angular_acceleration) = unscaled(&accelerations, k, body);
             let (velocity, spin) = match &velocities {
                 Some(all) if body.inverse_mass > 0.0 => {
@@ -133,7 +134,7 @@ impl Faces {
 }
 
 /// Of infinite mass, and on the move.
-pub(super) fn is_driven(body: &ModeBody) -> bool {
+pub(super) fn is_driven(body: &ImpactBody) -> bool {
     body.inverse_mass == 0.0 && (body.velocity != Vec2::ZERO || body.spin != 0.0)
 }
 
@@ -151,7 +152,7 @@ fn kept_one(given: f64, found: f64) -> f64 {
 }
 
 impl Row {
-    fn new(bodies: &[ModeBody], ends: (usize, usize), point: Vec2, along: Vec2) -> Self {
+    fn new(bodies: &[ImpactBody], ends: (usize, usize), point: Vec2, along: Vec2) -> Self {
         let mut ends = [(ends.0, -1.0), (ends.1, 1.0)];
         ends.sort_unstable_by_key(|(place, _)| *place);
         let mut unit = [0.0; 6];
@@ -196,10 +197,9 @@ impl Row {
 }
 
 /// Scaled numbers of all bodies; those of infinite mass have none.
-fn scaled(bodies: &[ModeBody], of: impl Fn(&ModeBody) -> (Vec2, f64)) -> Vec<f64> {
+fn scaled(bodies: &[ImpactBody], numbers: impl Iterator<Item = (Vec2, f64)>) -> Vec<f64> {
     let mut state = Vec::with_capacity(3 * bodies.len());
-    for body in bodies {
-        let (linear, angular) = of(body);
+    for (body, (linear, angular)) in bodies.iter().zip(numbers) {
         let over = |x: f64, inverse: f64| {
             if inverse > 0.0 {
                 x / inverse.sqrt()
@@ -214,8 +214,12 @@ fn scaled(bodies: &[ModeBody], of: impl Fn(&ModeBody) -> (Vec2, f64)) -> Vec<f64
     state
 }
 
+fn velocities_of(bodies: &[ImpactBody]) -> impl Iterator<Item = (Vec2, f64)> {
+    bodies.iter().map(|body| (body.velocity, body.spin))
+}
+
 /// Numbers of the k-th body, from scaled ones of all.
-fn unscaled(state: &[f64], k: usize, body: &ModeBody) -> (Vec2, f64) {
+fn unscaled(state: &[f64], k: usize, body: &ImpactBody) -> (Vec2, f64) {
     let (m, i) = (body.inverse_mass.sqrt(), body.inverse_inertia.sqrt());
     let linear = vec2(state[3 * k] * m, state[3 * k + 1] * m);
     (linear, state[3 * k + 2] * i)
@@ -223,7 +227,7 @@ fn unscaled(state: &[f64], k: usize, body: &ModeBody) -> (Vec2, f64) {
 
 /// Velocities and spins with which no point of any touch opens or closes, nor slips where it `sticks`: the nearest, by energy.
 pub(super) fn held(
-    bodies: &[ModeBody],
+    bodies: &[ImpactBody],
     touches: &[&Touch],
     sticks: impl Fn(&Touch) -> bool,
 ) -> Vec<(Vec2, f64)> {
@@ -236,7 +240,7 @@ pub(super) fn held(
         let held = touch.points.iter().take(usize::from(sticks(touch)));
         normals.chain(held.map(move |point| row(point, perp(touch.normal))))
     });
-    let mut state = scaled(bodies, |body| (body.velocity, body.spin));
+    let mut state = scaled(bodies, velocities_of(bodies));
     Stops::of(rows, state.len()).apply(&mut state);
     let all = bodies.iter().enumerate();
     all.map(|(k, body)| unscaled(&state, k, body)).collect()
@@ -283,7 +287,7 @@ impl Stops {
 /// # Errors
 /// If a touch opens or closes.
 pub(super) fn slips(
-    bodies: &[ModeBody],
+    bodies: &[ImpactBody],
     touches: &[Touch],
     speed: f64,
 ) -> Result<Vec<f64>, NotMine> {
@@ -308,7 +312,7 @@ pub(super) fn slips(
 }
 
 /// Slip of a touch at a point, exactly 0 where it is no more than rounding.
-pub(super) fn slip(bodies: &[ModeBody], touch: &Touch, point: Vec2, speed: f64) -> f64 {
+pub(super) fn slip(bodies: &[ImpactBody], touch: &Touch, point: Vec2, speed: f64) -> f64 {
     let (velocity, scale) = between(bodies, touch, point, speed);
     still(velocity.dot(perp(touch.normal)), scale)
 }
@@ -322,9 +326,9 @@ fn still(along: f64, scale: f64) -> f64 {
 }
 
 /// Velocity of B against A at a point, and what its roundings are measured by, in m/s.
-fn between(bodies: &[ModeBody], touch: &Touch, point: Vec2, speed: f64) -> (Vec2, f64) {
-    let [a, b] = [touch.bodies.0, touch.bodies.1].map(|place| bodies[place].state());
-    let (velocity, scale) = relative((a, b), point);
+fn between(bodies: &[ImpactBody], touch: &Touch, point: Vec2, speed: f64) -> (Vec2, f64) {
+    let (a, b) = touch.bodies;
+    let (velocity, scale) = relative((bodies[a], bodies[b]), point);
     (velocity, scale + speed)
 }
 

@@ -33,37 +33,6 @@ use faces::Faces;
 /// Slip below this part of the speeds that it is the difference of is none.
 const STILL: f64 = 1e-12;
 
-/// A body of a group at the instant of the mode solve; one of infinite mass moves uniformly.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct ModeBody {
-    /// In 1/kg.
-    pub(crate) inverse_mass: f64,
-    /// In 1/(kg·m²).
-    pub(crate) inverse_inertia: f64,
-    /// Centre of mass, in m.
-    pub(crate) centre: Vec2,
-    /// In m/s.
-    pub(crate) velocity: Vec2,
-    /// In rad/s.
-    pub(crate) spin: f64,
-    /// Acceleration by all that is no contact, in m/s².
-    pub(crate) pull: Vec2,
-    /// Angular acceleration by all that is no contact, in rad/s².
-    pub(crate) twist: f64,
-}
-
-impl ModeBody {
-    pub(crate) const fn state(&self) -> ImpactBody {
-        ImpactBody {
-            inverse_mass: self.inverse_mass,
-            inverse_inertia: self.inverse_inertia,
-            centre: self.centre,
-            velocity: self.velocity,
-            spin: self.spin,
-        }
-    }
-}
-
 /// A lasting contact of two bodies: one point, or both ends of a stretch.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Touch {
@@ -133,12 +102,14 @@ pub(crate) enum NotMine {
     Returns,
 }
 
-/// Modes and motions of a group from now on.
+/// Modes and motions of a group from now on. A body of infinite mass moves uniformly; `pulls`: accelerations of the bodies by all that is
+/// no contact, in m/s² and rad/s².
 ///
 /// The given velocities may be roundings of speeds up to `speed`, in m/s: a body that stopped just
 /// now is not exactly still.
 pub(crate) fn solve_modes(
-    bodies: &[ModeBody],
+    bodies: &[ImpactBody],
+    pulls: &[(Vec2, f64)],
     touches: &[Touch],
     speed: f64,
 ) -> Result<GroupMove, NotMine> {
@@ -154,7 +125,7 @@ pub(crate) fn solve_modes(
     } else {
         bodies
     };
-    let faces = Faces::new(bodies, touches);
+    let faces = Faces::new(bodies, pulls, touches);
     if let Some(moves) = rest::rest(bodies, touches, &faces, speed) {
         return Ok(moves);
     }
@@ -164,6 +135,7 @@ pub(crate) fn solve_modes(
     rows_stay(touches, &moves, &found)?;
     let load = Load {
         bodies,
+        pulls,
         touches,
         moves: &moves,
         found: &found,
@@ -191,7 +163,8 @@ pub(crate) struct Begun {
 /// Modes at an instant of an island with rows that turn; `bends` is what velocities add to the rates of each touch's
 /// points, and of its tangent, in m/s².
 pub(crate) fn begin(
-    bodies: &[ModeBody],
+    bodies: &[ImpactBody],
+    pulls: &[(Vec2, f64)],
     touches: &[Touch],
     bends: &[([f64; 2], f64)],
     speed: f64,
@@ -199,7 +172,7 @@ pub(crate) fn begin(
     if bodies.iter().any(faces::is_driven) {
         return Err(NotMine::Turns);
     }
-    let mut faces = Faces::new(bodies, touches);
+    let mut faces = Faces::new(bodies, pulls, touches);
     for (face, (points, tangent)) in faces.list.iter_mut().zip(bends) {
         for (row, bend) in face.normals.iter_mut().zip(points) {
             row.bend = bend / row.length;
@@ -223,25 +196,20 @@ pub(crate) fn begin(
 ///
 /// The same problem as that of the accelerations, with impulses for forces; it has a solution where
 /// accelerations have none (Painlevé).
-pub(crate) fn land(bodies: &[ModeBody], touches: &[Touch]) -> Result<Vec<(Vec2, f64)>, NotMine> {
+pub(crate) fn land(bodies: &[ImpactBody], touches: &[Touch]) -> Result<Vec<(Vec2, f64)>, NotMine> {
     let carrier = carrier(bodies);
     let alike =
-        |body: &ModeBody| body.inverse_mass > 0.0 || body.velocity == carrier && body.spin == 0.0;
+        |body: &ImpactBody| body.inverse_mass > 0.0 || body.velocity == carrier && body.spin == 0.0;
     if !bodies.iter().all(alike) {
         return Err(NotMine::Approaches);
     }
-    let arriving: Vec<ModeBody> = bodies
+    let arriving = bodies
         .iter()
-        .map(|body| ModeBody {
-            pull: body.velocity - carrier,
-            twist: body.spin,
-            ..*body
-        })
-        .collect();
-    let faces = Faces::new(&arriving, touches);
+        .map(|body| (body.velocity - carrier, body.spin));
+    let faces = Faces::new(bodies, &arriving.collect::<Vec<_>>(), touches);
     let none = vec![0.0; touches.len()];
     let found = balance(&faces, &tangents(touches, &none))?;
-    let moves = faces.moves(&arriving, &found, &none);
+    let moves = faces.moves(bodies, &found, &none);
     Ok(moves
         .iter()
         .map(|body| (body.acceleration + carrier, body.angular_acceleration))
@@ -253,7 +221,7 @@ pub(crate) fn land(bodies: &[ModeBody], touches: &[Touch]) -> Result<Vec<(Vec2, 
 /// What a blow opens a little, where turning presses it together again, comes back, and what comes back opens another one:
 /// a disc in an obtuse corner goes from wall to wall, each time `cos` of the angle between them slower. All of it takes no
 /// more than [`crate::model::press`] lets it, and no more energy than these bounces had.
-pub(crate) fn hold(bodies: &[ModeBody], touches: &[&Touch]) -> Vec<(Vec2, f64)> {
+pub(crate) fn hold(bodies: &[ImpactBody], touches: &[&Touch]) -> Vec<(Vec2, f64)> {
     if bodies.iter().any(faces::is_driven) {
         return bodies
             .iter()
@@ -265,7 +233,7 @@ pub(crate) fn hold(bodies: &[ModeBody], touches: &[&Touch]) -> Vec<(Vec2, f64)> 
 
 /// The same where what sticks after a landing goes on to stick: `bodies` have the velocities after it; `speed`, in m/s, is the
 /// largest that their roundings are measured by.
-pub(crate) fn stand(bodies: &[ModeBody], touches: &[Touch], speed: f64) -> Vec<(Vec2, f64)> {
+pub(crate) fn stand(bodies: &[ImpactBody], touches: &[Touch], speed: f64) -> Vec<(Vec2, f64)> {
     let all: Vec<&Touch> = touches.iter().collect();
     faces::held(bodies, &all, |touch| {
         touch.friction > 0.0 && faces::slip(bodies, touch, touch.points[0], speed) == 0.0
@@ -287,7 +255,7 @@ fn tangents(touches: &[Touch], slips: &[f64]) -> Vec<Tangent> {
 }
 
 /// Whether a body turns that has a corner or an edge in touch, by more than rounding: rows, once they turn, have other accelerations.
-fn turns(bodies: &[ModeBody], touches: &[Touch], speed: f64) -> bool {
+fn turns(bodies: &[ImpactBody], touches: &[Touch], speed: f64) -> bool {
     touches.iter().any(|touch| {
         let (a, b) = touch.bodies;
         [(a, touch.features.0), (b, touch.features.1)]
@@ -305,14 +273,18 @@ fn turns(bodies: &[ModeBody], touches: &[Touch], speed: f64) -> bool {
 ///
 /// A touch counts as closed up to [`CLOSED`], and turning from [`STILL`] on: an edge flush on another one that turns by something in
 /// between is at the end of a series of landings, and turns by their roundings. A path would take them out, too, and never end.
-fn without_roundings(bodies: &[ModeBody], touches: &[Touch], speed: f64) -> Option<Vec<ModeBody>> {
+fn without_roundings(
+    bodies: &[ImpactBody],
+    touches: &[Touch],
+    speed: f64,
+) -> Option<Vec<ImpactBody>> {
     if bodies.iter().any(faces::is_driven) {
         return None;
     }
     let held = stand(bodies, touches, speed);
     let both = bodies.iter().zip(held);
-    let without: Vec<ModeBody> = both
-        .map(|(body, (velocity, spin))| ModeBody {
+    let without: Vec<ImpactBody> = both
+        .map(|(body, (velocity, spin))| ImpactBody {
             velocity,
             spin,
             ..*body
@@ -322,7 +294,7 @@ fn without_roundings(bodies: &[ModeBody], touches: &[Touch], speed: f64) -> Opti
 }
 
 /// Velocity of what carries a group, in m/s: of the first body that impulses do not move.
-pub(crate) fn carrier(bodies: &[ModeBody]) -> Vec2 {
+pub(crate) fn carrier(bodies: &[ImpactBody]) -> Vec2 {
     let mut bearers = bodies.iter().filter(|body| body.inverse_mass == 0.0);
     bearers.next().map_or(Vec2::ZERO, |body| body.velocity)
 }
@@ -387,7 +359,7 @@ impl Load<'_> {
 }
 
 /// How fast the slip of B against A grows, in m/s².
-fn slip_rate(bodies: &[ModeBody], touch: &Touch, moves: &[BodyMove]) -> f64 {
+fn slip_rate(bodies: &[ImpactBody], touch: &Touch, moves: &[BodyMove]) -> f64 {
     let point = touch.points[0];
     let of = |place: usize| {
         let arm = point - bodies[place].centre;

@@ -1,13 +1,13 @@
 //! The slow twin: every combination of modes of a few touches, tried one by one.
 
-use super::{ModeBody, Touch};
+use super::{ImpactBody, Touch};
 use carom_math::{Vec2, cross, perp};
 
 /// Accelerations `(x, y, angle)` of every body, for every combination of modes that meets all conditions.
 ///
 /// `slides`: sign of the slip of each touch, 0 where there is none yet.
 pub(super) fn all_balances(
-    bodies: &[ModeBody],
+    (bodies, pulls): (&[ImpactBody], &[(Vec2, f64)]),
     touches: &[Touch],
     slides: &[f64],
 ) -> Vec<Vec<f64>> {
@@ -31,7 +31,14 @@ pub(super) fn all_balances(
                 (touch.friction > 0.0 && *slide == 0.0) || *mode == 0
             };
             if modes.iter().zip(touches.iter().zip(slides)).all(fits) {
-                found.extend(one(bodies, touches, slides, &points, closed, &modes));
+                found.extend(one(
+                    (bodies, pulls),
+                    touches,
+                    slides,
+                    &points,
+                    closed,
+                    &modes,
+                ));
             }
         }
     }
@@ -40,7 +47,7 @@ pub(super) fn all_balances(
 
 /// One combination. Modes: 0 as the slip says (or holds), 1 and 2 begins to slip up or down.
 fn one(
-    bodies: &[ModeBody],
+    (bodies, pulls): (&[ImpactBody], &[(Vec2, f64)]),
     touches: &[Touch],
     slides: &[f64],
     points: &[(usize, usize)],
@@ -65,7 +72,7 @@ fn one(
             x[3 * k + c] = if body.inverse_mass == 0.0 {
                 0.0
             } else {
-                [body.pull.x, body.pull.y, body.twist][c]
+                [pulls[k].0.x, pulls[k].0.y, pulls[k].1][c]
             };
         }
     }
@@ -149,7 +156,7 @@ fn one(
     Some(x[..size].to_vec())
 }
 
-fn rate_row(bodies: &[ModeBody], row: &mut [f64], touch: &Touch, point: Vec2, along: Vec2) {
+fn rate_row(bodies: &[ImpactBody], row: &mut [f64], touch: &Touch, point: Vec2, along: Vec2) {
     for (place, side) in [(touch.bodies.0, -1.0), (touch.bodies.1, 1.0)] {
         row[3 * place] = side * along.x;
         row[3 * place + 1] = side * along.y;

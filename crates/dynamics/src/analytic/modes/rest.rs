@@ -1,8 +1,9 @@
 //! Rest: what friction and support can hold stays where it is.
 
 use super::faces::{Faces, dot};
-use super::{BodyMove, GroupMove, ModeBody, STILL, Touch, TouchMove};
+use super::{BodyMove, GroupMove, STILL, Touch, TouchMove};
 use crate::ContactMode;
+use crate::impact::ImpactBody;
 use crate::impact::project::balance;
 
 /// Unbalanced acceleration below which a group is held, as a part of the largest.
@@ -13,12 +14,12 @@ const HELD: f64 = 1e-12;
 /// Where friction could hold it or not (a wedge), it is held. One cone is spanned by n ± µt of each
 /// point; the nearest point of what they can reach is 0 if they can balance all that pulls.
 pub(super) fn rest(
-    bodies: &[ModeBody],
+    bodies: &[ImpactBody],
     touches: &[Touch],
     faces: &Faces,
     speed: f64,
 ) -> Option<GroupMove> {
-    let still = |body: &ModeBody| {
+    let still = |body: &ImpactBody| {
         let reach = if body.inverse_inertia > 0.0 && body.inverse_mass > 0.0 {
             (body.inverse_mass / body.inverse_inertia).sqrt()
         } else {

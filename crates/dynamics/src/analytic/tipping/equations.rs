@@ -11,7 +11,7 @@ use carom_math::{Vec2, cross, perp};
 
 use super::joint::Seen;
 use super::{Contact, Hold, Tangent};
-use crate::analytic::modes::ModeBody;
+use crate::impact::ImpactBody;
 use crate::impact::dense::Factored;
 use crate::law::path::Place;
 
@@ -21,7 +21,9 @@ const DEPENDENT: f64 = 1e-11;
 /// Bodies, contacts and modes: all that the accelerations follow from.
 #[derive(Clone, Debug)]
 pub(crate) struct Equations {
-    pub(crate) bodies: Vec<ModeBody>,
+    pub(crate) bodies: Vec<ImpactBody>,
+    /// Their accelerations by all that is no contact, in m/s² and rad/s².
+    pub(crate) pulls: Vec<(Vec2, f64)>,
     pub(crate) contacts: Vec<Contact>,
     pub(crate) holds: Vec<Hold>,
 }
@@ -96,9 +98,7 @@ impl Equations {
             forces,
             ..
         } = workspace;
-        let free = self.bodies.iter().map(|body| (body.pull, body.twist));
-        forces.accelerations.clear();
-        forces.accelerations.extend(free);
+        forces.accelerations.clone_from(&self.pulls);
         forces.normal.clear();
         forces.normal.resize(self.contacts.len(), [0.0; 2]);
         forces.tangential.clear();
@@ -232,8 +232,8 @@ impl Equations {
     /// The rate of a row without contacts.
     fn free_rate(&self, row: &Unknown) -> f64 {
         let of = |k: usize| {
-            let body = &self.bodies[row.bodies[k]];
-            body.pull.dot(row.row) + body.twist * row.turns[k]
+            let (pull, twist) = self.pulls[row.bodies[k]];
+            pull.dot(row.row) + twist * row.turns[k]
         };
         of(1) - of(0) + row.bend
     }

@@ -17,10 +17,11 @@ mod wave;
 use std::sync::Arc;
 
 use arrayvec::ArrayVec;
-use carom_math::SimTime;
+use carom_math::{SimTime, Vec2};
 
 use crate::ContactMode;
-use crate::analytic::modes::{BodyMove, ModeBody, NotMine, Tangent, Touch, TouchMove, begin};
+use crate::analytic::modes::{BodyMove, NotMine, Tangent, Touch, TouchMove, begin};
+use crate::impact::ImpactBody;
 use crate::law::collocated::Collocated;
 use crate::law::path::{Path, Place};
 use crate::model::edges::Feature;
@@ -101,7 +102,8 @@ impl Tip {
         }
         let (reaches, contacts) = (self.reaches.clone(), self.equations.contacts.clone());
         let start = self.path.start() + self.after;
-        let next = tip(bodies, places, reaches, contacts, start, speed).ok()?;
+        let pulls = self.equations.pulls.clone();
+        let next = tip(bodies, pulls, places, reaches, contacts, start, speed).ok()?;
         (next.equations.holds == self.equations.holds).then_some(next)
     }
 
@@ -163,10 +165,12 @@ impl Tip {
 
 /// The path of a group from `start` on.
 ///
+/// `pulls`: accelerations of the bodies by all that is no contact, in m/s² and rad/s².
 /// The given velocities may be roundings of speeds up to `speed`, in m/s; `reaches` are those of the bodies, in m, and
 /// 0 of those of infinite mass.
 pub(crate) fn tip(
-    mut bodies: Vec<ModeBody>,
+    mut bodies: Vec<ImpactBody>,
+    pulls: Vec<(Vec2, f64)>,
     mut places: Vec<Place>,
     reaches: Vec<f64>,
     contacts: Vec<Contact>,
@@ -177,7 +181,7 @@ pub(crate) fn tip(
     if contacts.iter().map(rows).sum::<usize>() > ROWS {
         return Err(NotMine::TooLarge);
     }
-    let (mut holds, moves) = modes(&bodies, &places, &contacts, speed)?;
+    let (mut holds, moves) = modes(&bodies, &pulls, &places, &contacts, speed)?;
     let mut fastest = speed;
     for ((place, body), moved) in places.iter_mut().zip(&mut bodies).zip(moves) {
         (place.velocity, place.spin) = (moved.velocity, moved.spin);
@@ -192,6 +196,7 @@ pub(crate) fn tip(
     share_corners(&contacts, &places, size, &mut holds);
     let mut equations = Equations {
         bodies,
+        pulls,
         contacts,
         holds,
     };
@@ -292,7 +297,8 @@ fn amend(equations: &mut Equations, limit: Limit) -> Result<(), NotMine> {
 type Modes = (Vec<Hold>, Vec<BodyMove>);
 
 fn modes(
-    bodies: &[ModeBody],
+    bodies: &[ImpactBody],
+    pulls: &[(Vec2, f64)],
     places: &[Place],
     contacts: &[Contact],
     speed: f64,
@@ -316,7 +322,7 @@ fn modes(
             friction: contact.friction,
         });
     }
-    let begun = begin(bodies, &touches, &bends, speed)?;
+    let begun = begin(bodies, pulls, &touches, &bends, speed)?;
     let hold = |(i, touch): (usize, &Touch)| Hold {
         closed: begun.reactions[i].closed,
         over: [false; 2],

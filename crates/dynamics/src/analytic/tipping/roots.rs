@@ -62,11 +62,9 @@ pub(super) enum End {
 pub(super) fn faint(equations: &Equations, places: &[Place]) -> Option<Limit> {
     let mut workspace = Workspace::default();
     let forces = equations.forces(places, &mut workspace)?;
-    let pulls = equations
-        .bodies
-        .iter()
-        .filter(|body| body.inverse_mass > 0.0);
-    let weights = pulls.map(|body| body.pull.length() / body.inverse_mass);
+    let pulled = equations.bodies.iter().zip(&equations.pulls);
+    let pulled = pulled.filter(|(body, _)| body.inverse_mass > 0.0);
+    let weights = pulled.map(|(body, (pull, _))| pull.length() / body.inverse_mass);
     let least = FAINT * weights.fold(0.0, f64::max);
     let all = equations.holds.iter().zip(&forces.normal).enumerate();
     let mut points = all.flat_map(|(contact, (hold, normal))| {

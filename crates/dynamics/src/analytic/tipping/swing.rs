@@ -84,7 +84,7 @@ impl<'a> Pivot<'a> {
         let stays = |k: usize| places[k].velocity == Vec2::ZERO && places[k].spin == 0.0;
         if movers.next().is_some()
             || equations.bodies[body].inverse_inertia == 0.0
-            || equations.bodies[body].twist != 0.0
+            || equations.pulls[body].1 != 0.0
             || !(0..places.len()).all(|k| k == body || stays(k))
         {
             return None;
@@ -122,8 +122,9 @@ impl<'a> Pivot<'a> {
     fn pendulum(&self) -> Option<Pendulum> {
         let (arm, of) = (self.arm(), &self.equations.bodies[self.body]);
         let square = arm.length_squared() + of.inverse_mass / of.inverse_inertia;
-        let angle = trig::atan2(cross(of.pull, arm), of.pull.dot(arm));
-        let k = of.pull.length() * arm.length() / square;
+        let (pull, _) = self.equations.pulls[self.body];
+        let angle = trig::atan2(cross(pull, arm), pull.dot(arm));
+        let k = pull.length() * arm.length() / square;
         Pendulum::new(k, angle, self.places[self.body].spin)
     }
 
@@ -181,7 +182,7 @@ impl<'a> Pivot<'a> {
     /// Force on the body along a direction that stays, or that turns with it, in N.
     fn force_along(&self, along: Vec2, turns: bool, pendulum: &Pendulum) -> Wave {
         let (arm, of) = (self.arm(), &self.equations.bodies[self.body]);
-        let (length, g) = (arm.length(), of.pull.length());
+        let (length, g) = (arm.length(), self.equations.pulls[self.body].0.length());
         let (angle, k) = pendulum.start();
         let (sin, cos) = trig::sin_cos(angle);
         let mass = of.inverse_mass.recip();

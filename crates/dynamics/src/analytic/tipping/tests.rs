@@ -6,37 +6,35 @@ use arrayvec::ArrayVec;
 use carom_math::{Rot, SimTime, Vec2, cross, perp, vec2};
 
 use super::*;
-use crate::analytic::modes::ModeBody;
 use crate::law::pendulum::tests::integrate;
 
 const G: f64 = 9.81;
 
-fn body(mass: f64, inertia: f64, place: &Place) -> ModeBody {
-    ModeBody {
+fn body(mass: f64, inertia: f64, place: &Place) -> ImpactBody {
+    ImpactBody {
         inverse_mass: mass.recip(),
         inverse_inertia: inertia.recip(),
         centre: place.centre,
         velocity: place.velocity,
         spin: place.spin,
-        pull: vec2(0.0, -G),
-        twist: 0.0,
     }
 }
 
-fn floor() -> (ModeBody, Place) {
+/// Accelerations of bodies: a floor has none.
+fn pulls_on(bodies: &[ImpactBody]) -> Vec<(Vec2, f64)> {
+    let gravity = |body: &ImpactBody| if body.inverse_mass > 0.0 { -G } else { 0.0 };
+    let pulls = bodies.iter().map(|body| (vec2(0.0, gravity(body)), 0.0));
+    pulls.collect()
+}
+
+fn floor() -> (ImpactBody, Place) {
     let place = Place {
         centre: Vec2::ZERO,
         rotation: Rot::IDENTITY,
         velocity: Vec2::ZERO,
         spin: 0.0,
     };
-    let body = ModeBody {
-        inverse_mass: 0.0,
-        inverse_inertia: 0.0,
-        pull: Vec2::ZERO,
-        ..body(1.0, 1.0, &place)
-    };
-    (body, place)
+    (ImpactBody::immovable(Vec2::ZERO, Vec2::ZERO, 0.0), place)
 }
 
 /// A corner at `tip` of body 1 on the floor's line y = 0.
@@ -75,10 +73,12 @@ fn run(start: Place, friction: f64, seconds: f64) -> (Place, Vec<(f64, Tip)>) {
     let (mut now, mut found) = (0.0, Vec::new());
     while now < seconds {
         let bodies = vec![floor_body, body(1.0, 1.0 / 3.0, &place)];
+        let pulls = pulls_on(&bodies);
         let contacts = vec![on_floor(vec2(0.0, -1.0), friction)];
         let places = vec![floor_place, place];
         let tip = tip(
             bodies,
+            pulls,
             places,
             vec![0.0, 1.0],
             contacts,
@@ -194,9 +194,11 @@ fn a_disc_leaves_a_disc_where_the_textbook_says() {
             friction: 0.0,
         };
         let bodies = vec![floor_body, body(2.0, 0.25, &place)];
+        let pulls = pulls_on(&bodies);
         let time = SimTime::from_secs(now);
         let tip = tip(
             bodies,
+            pulls,
             vec![floor_place, place],
             vec![0.0, 0.5],
             vec![contact],
@@ -300,10 +302,11 @@ mod swings {
                 reaches.reverse();
                 contact.bodies = (1 - contact.bodies.0, 1 - contact.bodies.1);
             }
-            let holds = modes(&bodies, &places, std::slice::from_ref(&contact), 1.0);
+            let pulls = pulls_on(&bodies);
+            let holds = modes(&bodies, &pulls, &places, std::slice::from_ref(&contact), 1.0);
             prop_assume!(holds.is_ok());
             let (holds, _) = holds.expect("it is");
-            let equations = Equations { bodies, contacts: vec![contact], holds };
+            let equations = Equations { bodies, pulls, contacts: vec![contact], holds };
             let start = SimTime::from_secs(1.0);
             let size = half.length();
             let found = swing(&equations, &places, &reaches, start, size);
