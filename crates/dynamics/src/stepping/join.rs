@@ -14,10 +14,10 @@ use carom_geometry::Aabb;
 use carom_math::{SimTime, Sum, Vec2};
 use carom_stepped::State;
 
-use super::Shapes;
 use super::rush::Rush;
 use crate::model::graph::neighbours;
 use crate::store::bodies::Bodies;
+use crate::store::pairs::Shapes;
 use crate::store::state::BodyState;
 use crate::store::uncommon::Lag;
 use crate::{EnergyLedger, Mode, World};
@@ -232,9 +232,7 @@ impl World {
                 continue;
             };
             if pair.told {
-                let [a, b] = [pair.bodies.0, pair.bodies.1];
-                let shapes = [(a, pair.colliders.0), (b, pair.colliders.1)];
-                self.joins.told.push(shapes);
+                self.joins.told.push(pair.shapes());
             }
         }
         self.broad.forget(&mut self.bodies, index);
@@ -257,8 +255,7 @@ impl World {
         self.joins.told.retain(|shapes| {
             let stays = shapes.iter().all(|shape| shape.0 != index);
             if !stays {
-                let [ends, colliders] = [shapes.map(|shape| shape.0), shapes.map(|shape| shape.1)];
-                events.push_touch(&self.bodies, ends, colliders, false, time);
+                events.push_touch(&self.bodies, *shapes, false, time);
             }
             stays
         });

@@ -31,6 +31,7 @@ use carom_geometry::Aabb;
 use carom_math::Pose;
 use carom_stepped::{Engine, Impact, Relaxation, Softness, State, Touch};
 
+use crate::store::pairs::Shapes;
 use crate::values::error::SettingsError;
 use crate::{Mode, Settings};
 
@@ -46,7 +47,7 @@ pub(crate) struct Stepping {
     covered: Vec<Aabb>,
     /// Greatest width of a shape of several convex pieces that the engine was given, in m: its box may be where no piece is.
     pub(crate) widest: f64,
-    /// Shapes of several convex pieces that touch: how many pairs of theirs.
+    /// Shapes of several convex pieces that touch, the one of the earlier body first: how many pairs of theirs.
     touching: BTreeMap<Shapes, u32>,
     /// Bodies that fell asleep or woke since that was told.
     slept: Vec<carom_stepped::BodyId>,
@@ -58,9 +59,6 @@ pub(crate) struct Stepping {
     /// Poses may be read within the sub-step.
     asked: bool,
 }
-
-/// Two shapes that touch, the one of the earlier body first: (body, collider) of both.
-type Shapes = [(u32, u32); 2];
 
 impl Stepping {
     /// The engine of a world with these settings.

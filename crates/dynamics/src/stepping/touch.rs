@@ -4,8 +4,9 @@ use carom_collision::part_count;
 use carom_geometry::Aabb;
 use carom_math::SimTime;
 
-use super::{Shapes, Stepping, collider};
+use super::{Stepping, collider};
 use crate::store::bodies::Bodies;
+use crate::store::pairs::Shapes;
 use crate::{Contact, ContactPoint, EventKind, Events, StepReport};
 
 impl Stepping {
@@ -51,8 +52,7 @@ impl Stepping {
                 (was_told || gained < 0, gained > 0)
             };
             if now != before {
-                let [ends, colliders] = [shapes.map(|shape| shape.0), shapes.map(|shape| shape.1)];
-                events.push_touch(bodies, ends, colliders, now, time);
+                events.push_touch(bodies, shapes, now, time);
             }
         }
     }

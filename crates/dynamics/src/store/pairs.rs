@@ -38,7 +38,16 @@ pub(crate) struct Pair {
     pub(crate) spent: f64,
 }
 
+/// Two shapes of two bodies: (body, collider) of both.
+pub(crate) type Shapes = [(u32, u32); 2];
+
 impl Pair {
+    /// Its bodies, each with its shape.
+    pub(crate) const fn shapes(&self) -> Shapes {
+        let ((a, b), (first, second)) = (self.bodies, self.colliders);
+        [(a, first), (b, second)]
+    }
+
     /// An impact in another sub-step of `h` seconds than the last one has a new budget.
     pub(crate) fn begin_budget(&mut self, time: SimTime, h: f64) {
         let substep = whole(time, h);

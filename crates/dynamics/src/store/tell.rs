@@ -3,7 +3,7 @@
 use carom_math::SimTime;
 
 use super::bodies::Bodies;
-use super::pairs::Pair;
+use super::pairs::{Pair, Shapes};
 use crate::{ContactMode, EventKind, Events};
 
 impl Events {
@@ -13,13 +13,11 @@ impl Events {
             return;
         }
         pair.told = pair.touching;
-        let ends = [pair.bodies.0, pair.bodies.1];
         // Torn off, or left at the very end of a path, it opened without a mode solve; and what lands again begins a mode anew.
         if !pair.touching && pair.mode.is_some() {
             self.tell_mode(bodies, pair, ContactMode::Open, time);
         }
-        let colliders = [pair.colliders.0, pair.colliders.1];
-        self.push_touch(bodies, ends, colliders, pair.touching, time);
+        self.push_touch(bodies, pair.shapes(), pair.touching, time);
     }
 
     /// Tells how a contact in closed form moves from now on, if that is new.
@@ -37,18 +35,17 @@ impl Events {
         }
     }
 
-    /// Tells that two colliders of two bodies began or ceased to touch.
+    /// Tells that two shapes began or ceased to touch.
     pub(crate) fn push_touch(
         &mut self,
         bodies: &Bodies,
-        ends: [u32; 2],
-        colliders: [u32; 2],
+        shapes: Shapes,
         begins: bool,
         time: SimTime,
     ) {
-        let [one, other] = ends.map(|index| bodies.get(index));
+        let [one, other] = shapes.map(|(index, _)| bodies.get(index));
         let (a, b) = (one.id, other.id);
-        let shapes = (one.shape_of(colliders[0]), other.shape_of(colliders[1]));
+        let shapes = (one.shape_of(shapes[0].1), other.shape_of(shapes[1].1));
         let kind = if begins {
             EventKind::Begin { a, b, shapes }
         } else {
