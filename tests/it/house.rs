@@ -37,7 +37,7 @@ const FOLDERS: [&[&str]; 8] = [
 
 /// Arrows of `dynamics` that point back or aside: from, to, and how many names of `to` are used in files of `from`.
 const BACK: &[(&str, &str, usize)] = &[
-    ("events", "step", 20),
+    ("events", "step", 19),
     ("events", "stepping", 2),
     ("stepping", "events", 2),
     ("stepping", "step", 8),

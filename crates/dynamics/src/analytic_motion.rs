@@ -33,11 +33,6 @@ impl World {
         some
     }
 
-    /// The next piece of the path of a member of a group that turns.
-    pub(crate) fn begin_next_piece(&mut self, index: u32, time: SimTime) {
-        self.closed.begin_next_piece(&mut self.bodies, index, time);
-    }
-
     /// An island moves by events until its next mode change.
     fn move_analytically(&mut self, place: u32, time: SimTime) {
         let Some(group) = self.closed.get(place) else {
@@ -61,8 +56,7 @@ impl World {
             let state = self.bodies.get_mut(index);
             state.begin_analytic_motion();
             state.set_piece(until);
-            self.joins
-                .note_flight(&self.bodies, self.settings.mode, index);
+            self.joins.note_flight(&self.bodies, index);
         }
         self.begin_next_pieces(place, time);
     }
@@ -74,18 +68,11 @@ impl World {
         };
         let members = group.indices();
         for &index in &members {
-            self.begin_next_piece(index, time);
+            self.closed.begin_next_piece(&mut self.bodies, index, time);
         }
         self.closed.renew_members(&mut self.bodies, place);
         for index in members {
             self.foresee(index, time, Cause::Deflected, None);
-        }
-    }
-
-    /// Gives an island in analytic motion back: its motions stand, and its mode.
-    pub(crate) fn hand_back(&mut self, place: u32, time: SimTime) {
-        for index in self.land_group(place, time) {
-            self.redirect(index, time);
         }
     }
 
@@ -124,11 +111,13 @@ impl World {
         members
     }
 
-    /// Gives the island of a body back, if it is in analytic motion; whether it was.
+    /// Gives the island of a body back, if it is in analytic motion: its motions stand, and its mode; whether it was.
     pub(crate) fn hand_back_of(&mut self, index: u32, time: SimTime) -> bool {
         let moves_analytically = self.bodies.get(index).moves_analytically();
         if moves_analytically {
-            self.hand_back(self.bodies.get(index).membership.group, time);
+            for index in self.land_group(self.bodies.get(index).membership.group, time) {
+                self.redirect(index, time);
+            }
         }
         moves_analytically
     }

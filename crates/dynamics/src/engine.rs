@@ -95,7 +95,7 @@ impl World {
     }
 
     fn invite_ahead(&mut self, stepping: &mut Stepping, left: f64) {
-        if self.may_join() {
+        if self.settings.mode != Mode::Stepped {
             stepping.invite_ahead(&mut self.bodies, &self.broad, self.clock.now, left);
         }
     }

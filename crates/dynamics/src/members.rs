@@ -21,7 +21,7 @@ impl World {
             self.tell_members_touches(time);
             self.disperse(time);
         }
-        let mut searches = self.find_contacts(time) || at_tick || self.joins.is_restless();
+        let mut searches = self.find_contacts(time) || at_tick || !self.joins.restless.is_empty();
         let mut asks_all = at_tick;
         while searches {
             let near = self.outsiders_near(time, asks_all);
@@ -273,9 +273,8 @@ impl World {
 
     /// Has the engine know a body that rests or drives.
     pub(crate) fn show_engine(&mut self, index: u32) {
-        let may_join = self.may_join();
         let state = self.bodies.get_mut(index);
-        if may_join && state.kind == BodyKind::Kinematic {
+        if state.kind == BodyKind::Kinematic {
             self.joins.drivers.insert(index);
         }
         if !self.joins.has_guests || state.in_engine() || !state.rests_or_drives() {

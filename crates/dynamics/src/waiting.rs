@@ -16,7 +16,7 @@ impl World {
     /// Gives all that waits at an instant its method, once all that happens at that instant has happened; whether something waited.
     pub(crate) fn settle(&mut self, time: SimTime) -> bool {
         let are_known = self.joins.known == self.joins.waiting.len();
-        if self.unsettled.is_empty() && are_known || !self.may_join() {
+        if self.unsettled.is_empty() && are_known {
             return false;
         }
         let before = self.unsettled.len();

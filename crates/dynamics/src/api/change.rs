@@ -379,8 +379,7 @@ impl World {
         }
         let (moves, is_dynamic) = (state.kind != BodyKind::Fixed, state.is_dynamic());
         if moves {
-            self.joins
-                .note_flight(&self.bodies, self.settings.mode, index);
+            self.joins.note_flight(&self.bodies, index);
         }
         if is_dynamic && !self.bodies.bends(index) {
             fly(&mut self.bodies, index, now);

@@ -73,20 +73,13 @@ pub(crate) struct Joins {
 
 impl Joins {
     /// Notes that a body flies.
-    pub(crate) fn note_flight(&mut self, bodies: &Bodies, mode: Mode, index: u32) {
+    pub(crate) fn note_flight(&mut self, bodies: &Bodies, index: u32) {
         if bodies.member_count() > 0 {
             self.restless.push(index);
         } else {
             self.ahead = None;
         }
-        if mode != Mode::Stepped {
-            self.aloft.insert(index);
-        }
-    }
-
-    /// Whether a body outside has a motion that is newer than the last search for bodies that join.
-    pub(crate) const fn is_restless(&self) -> bool {
-        !self.restless.is_empty()
+        self.aloft.insert(index);
     }
 }
 
@@ -94,19 +87,6 @@ impl World {
     /// Whether the engine has members, or will with its next sub-step.
     pub(crate) const fn is_substepping(&self) -> bool {
         self.bodies.member_count() > 0 || self.joins.rush.is_due() || self.closed.has_exhausted()
-    }
-
-    /// Whether bodies may join the engine.
-    pub(crate) const fn may_join(&self) -> bool {
-        !matches!(self.settings.mode, Mode::Stepped)
-    }
-
-    /// If more bodies wake together, or land, they join before closed forms are tried.
-    pub(crate) const fn few(&self) -> usize {
-        match self.settings.mode {
-            Mode::Exact => MANY,
-            Mode::Hybrid | Mode::Stepped => FEW,
-        }
     }
 
     /// Bodies in touch of which one has no solution of its contact modes join.
@@ -144,9 +124,10 @@ impl World {
         islands
     }
 
-    /// Bodies that woke together join if they are many; whether they did.
+    /// Bodies that woke together join if they are many, before closed forms are tried; whether they did.
     pub(crate) fn many_woke(&mut self, woken: &[u32], time: SimTime) -> bool {
-        if woken.len() <= self.few() || !self.may_join() {
+        let exact = self.settings.mode == Mode::Exact;
+        if woken.len() <= if exact { MANY } else { FEW } {
             return false;
         }
         for &index in woken {

@@ -163,8 +163,7 @@ impl World {
         state.take_off();
         state.set_piece(if bends { time } else { SimTime::NEVER });
         self.bodies.renew(index);
-        self.joins
-            .note_flight(&self.bodies, self.settings.mode, index);
+        self.joins.note_flight(&self.bodies, index);
         self.foresee(index, time, Cause::Deflected, None);
     }
 

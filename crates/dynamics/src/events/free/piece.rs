@@ -13,7 +13,7 @@ impl World {
         // Its law is its group's.
         if self.bodies.get(index).moves_analytically() {
             if self.piece_ends(index, time) {
-                self.begin_next_piece(index, time);
+                self.closed.begin_next_piece(&mut self.bodies, index, time);
             }
             return;
         }
