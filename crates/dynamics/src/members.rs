@@ -243,21 +243,16 @@ impl World {
             && (self.meets_waiting(index, (time, left))
                 || self.stepping.as_ref().is_some_and(|stepping| {
                     self.joins.reached == self.clock.next()
-                        && self.nears_member(stepping, index, (time, left))
+                        && stepping.nears_member(
+                            self.rules(),
+                            self.joins.reached,
+                            index,
+                            (time, left),
+                        )
                 }));
         if near {
             self.join(index, time);
         }
-    }
-
-    /// Whether a body may meet a member within `left` seconds.
-    pub(crate) fn nears_member(
-        &self,
-        stepping: &Stepping,
-        index: u32,
-        ahead: (SimTime, f64),
-    ) -> bool {
-        stepping.nears_member(self.rules(), self.joins.reached, index, ahead)
     }
 
     /// Kinematic bodies are known to the engine from its first member on.

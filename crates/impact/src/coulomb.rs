@@ -77,10 +77,10 @@ pub(super) fn stop(rows: &Rows) -> Stop {
 /// The same, which begins with impulses in N·s that may be near an answer.
 pub(super) fn stop_near(rows: &Rows, near: Option<&[f64]>) -> Stop {
     let mut solver = Solver::new(rows);
-    let found = if solver.fastest_scaled() == 0.0 {
-        Ok(vec![0.0; rows.len()])
-    } else {
+    let found = if solver.start.iter().any(|u| u.abs() > 0.0) {
         solver.stop(near).and_then(|found| solver.plausible(found))
+    } else {
+        Ok(vec![0.0; rows.len()])
     };
     let (impulses, sure) = match found {
         Ok(impulses) => (rows.unscaled(&impulses).collect(), true),
@@ -129,12 +129,6 @@ impl<'a> Solver<'a> {
         let all = solver.start.iter().zip(&rows.scales);
         solver.fastest = all.fold(0.0, |most: f64, (u, scale)| most.max((u * scale).abs()));
         solver
-    }
-
-    fn fastest_scaled(&self) -> f64 {
-        self.start
-            .iter()
-            .fold(0.0, |most: f64, u| most.max(u.abs()))
     }
 
     /// Scaled impulses that meet the conditions; or else some that come near.

@@ -175,7 +175,9 @@ pub(crate) fn gather(
             return Err(found.dynamic());
         }
         let near = state.pairs.clone();
-        if touches_failed(bodies, pairs, index, time) {
+        // A mode solve of a body in contact with this one failed at this instant.
+        let has_failed = |other| bodies.get(other).membership.has_failed(time);
+        if neighbours(bodies, pairs, index).any(has_failed) {
             return Err(found.dynamic());
         }
         for place in near {
@@ -193,12 +195,6 @@ pub(crate) fn gather(
         }
     }
     Ok(found)
-}
-
-/// Whether a mode solve of a body in contact with this one failed at this instant.
-fn touches_failed(bodies: &Bodies, pairs: &Pairs, index: u32, time: SimTime) -> bool {
-    let mut others = neighbours(bodies, pairs, index);
-    others.any(|other| bodies.get(other).membership.has_failed(time))
 }
 
 /// Adds the touches of a pair; returns how many rows they have.

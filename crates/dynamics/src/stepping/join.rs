@@ -310,7 +310,7 @@ impl World {
             let leaves = ticks > IDLE && {
                 // What a long step has not written yet is as old as the step.
                 self.write_flight(&state, time);
-                !self.nears_member(&stepping, index, ahead)
+                !stepping.nears_member(self.rules(), self.joins.reached, index, ahead)
             };
             if leaves {
                 gone.insert(index);

@@ -78,7 +78,9 @@ impl World {
             self.strike_all(&impacts, time);
         } else {
             let rest = struck.split_off(1);
-            self.put_back(rest);
+            for (entry, impact) in rest {
+                self.free.push_impact(entry.time, entry.stamp, impact);
+            }
             self.strike_free_body(&struck[0].1, time);
         }
     }
@@ -114,12 +116,6 @@ impl World {
             } else {
                 self.run_search(&entry);
             }
-        }
-    }
-
-    fn put_back(&mut self, due: Vec<Due>) {
-        for (entry, impact) in due {
-            self.free.push_impact(entry.time, entry.stamp, impact);
         }
     }
 
