@@ -15,6 +15,7 @@ use carom_math::{SimTime, Vec2, cross_scalar, perp};
 
 use crate::analytic::modes::{BodyMove, TouchMove, carrier};
 use crate::analytic::touching::Gathered;
+use crate::impact::ImpactBody;
 use crate::store::bodies::Bodies;
 use store::Kept;
 
@@ -102,18 +103,11 @@ pub(crate) fn kept(gathered: &Gathered, moves: &[BodyMove], touches: &[TouchMove
 
 /// Kinetic energy of all dynamic bodies of a group, in J.
 fn kinetic(gathered: &Gathered, moves: &[BodyMove]) -> f64 {
-    let bodies = gathered.bodies.iter().zip(moves);
-    let half = |speed2: f64, inverse: f64| {
-        if inverse > 0.0 {
-            0.5 * speed2 / inverse
-        } else {
-            0.0
-        }
-    };
-    bodies
-        .map(|(body, moved)| {
-            half(moved.velocity.length_squared(), body.inverse_mass)
-                + half(moved.spin * moved.spin, body.inverse_inertia)
-        })
-        .sum()
+    let both = gathered.bodies.iter().zip(moves);
+    let moving = both.map(|(body, moved)| ImpactBody {
+        velocity: moved.velocity,
+        spin: moved.spin,
+        ..*body
+    });
+    moving.map(|body| body.kinetic_energy()).sum()
 }
