@@ -311,13 +311,15 @@ fn lowest(hull: &Hull<'_>, direction: Vec2, hint: Option<usize>) -> (usize, f64)
             // Heights fall and then rise once around a convex outline.
             let mut best = (start, height(start));
             for step in [Hull::next, Hull::previous] {
-                loop {
-                    let i = step(hull, best.0);
-                    let h = height(i);
-                    if h >= best.1 {
-                        break;
-                    }
-                    best = (i, h);
+                let beside = |i: usize| {
+                    let i = step(hull, i);
+                    (i, height(i))
+                };
+                let mut next = beside(best.0);
+                // It ends where a height is no number, too.
+                while next.1 < best.1 {
+                    best = next;
+                    next = beside(best.0);
                 }
             }
             best

@@ -89,3 +89,19 @@ fn a_cast_ball_is_as_far_as_it_is_however_large_the_wall() {
         assert_eq!(way.distance, 0.75);
     }
 }
+
+/// The walk to the lowest of more than twelve corners did not end.
+#[test]
+fn a_pose_without_numbers_has_an_answer() {
+    let wheel: Shape = ConvexPolygon::regular(17, 1.0).unwrap().into();
+    let triangle: Shape = ConvexPolygon::regular(3, 1.0).unwrap().into();
+    for pose in [
+        Pose::at(vec2(f64::NAN, 0.0)),
+        Pose::new(vec2(0.5, 0.0), Rot::from_angle(f64::NAN)),
+        Pose::new(vec2(0.5, 0.0), Rot::from_cos_sin(1.0, f64::INFINITY)),
+    ] {
+        for (a, b) in [(&wheel, &triangle), (&triangle, &wheel), (&wheel, &wheel)] {
+            let _means_nothing = shape_distance(a, b, pose);
+        }
+    }
+}
