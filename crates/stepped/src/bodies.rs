@@ -125,6 +125,7 @@ impl Bodies {
             birth: input.order.unwrap_or(self.births),
             placed: self.updates,
             pose: input.pose,
+            turned: input.turned,
             mass: if dynamic { input.mass } else { f64::INFINITY },
             inertia: if dynamic {
                 input.inertia
@@ -216,7 +217,9 @@ impl Bodies {
     /// Takes the line of a body out, to be put back as it is but for a velocity of 0; which body moved to its place.
     pub(crate) fn lay(&mut self, slot: u32) -> (Sleeper, Option<u32>) {
         let at = self.records[slot as usize].line as usize;
-        self.records[slot as usize].pose = self.pose_of(slot);
+        let (pose, turned) = (self.pose_of(slot), self.turned_at(at));
+        let record = &mut self.records[slot as usize];
+        (record.pose, record.turned) = (pose, turned);
         let (mut line, mut start) = (self.lines[at], self.start[at]);
         // What contacts do in a sub-step stays.
         start.add(&Quad::new(-line.v(), -line.w()));
@@ -232,6 +235,11 @@ impl Bodies {
             moved: self.moved[at],
         };
         (sleeper, self.take_line(slot))
+    }
+
+    /// Angle by which the body of a line has turned, in rad, whole turns included.
+    pub(crate) fn turned_at(&self, at: usize) -> f64 {
+        self.turned[at] + self.lines[at].turn()
     }
 
     /// Gives a body its line again.

@@ -3,9 +3,17 @@
 use carom_math::{Pose, Vec2};
 
 use crate::bodies::Bodies;
-use crate::error::finite;
+use crate::error::{finite, finite_pose};
 use crate::rows::{Law, Quad};
 use crate::{BodyId, BodyKind, Engine, EngineError, PairRules, Settings, Sleep, Softness};
+
+/// Numbers of a pose, as errors name them.
+const POSE: [&str; 4] = [
+    "pose.position.x",
+    "pose.position.y",
+    "pose.rotation.cos",
+    "pose.rotation.sin",
+];
 
 impl Engine {
     /// Sets the velocity of the centre of mass, in m/s, and the spin, in rad/s; a fixed body stays at rest.
@@ -47,8 +55,7 @@ impl Engine {
     /// [`EngineError::Stale`] if the body is not in this engine, [`EngineError::Value`] if a number is not finite.
     pub fn set_pose(&mut self, id: BodyId, pose: Pose) -> Result<(), EngineError> {
         self.bodies.get(id)?;
-        finite("pose.position.x", pose.position.x)?;
-        finite("pose.position.y", pose.position.y)?;
+        finite_pose(POSE, pose)?;
         self.wake_around(id.slot);
         let record = *self.bodies.get(id)?;
         self.drop_contacts(id.slot);
@@ -78,8 +85,7 @@ impl Engine {
         if record.line == Bodies::NONE || record.kind == BodyKind::Fixed {
             return self.set_pose(id, pose);
         }
-        finite("pose.position.x", pose.position.x)?;
-        finite("pose.position.y", pose.position.y)?;
+        finite_pose(POSE, pose)?;
         let at = record.line as usize;
         let base = self.bodies.base[at];
         let turn = (pose.rotation * base.rotation.inverse()).angle();
@@ -95,7 +101,10 @@ impl Engine {
     pub fn set_turned(&mut self, id: BodyId, turned: f64) -> Result<(), EngineError> {
         let record = *self.bodies.get(id)?;
         finite("turned", turned)?;
-        if record.line != Bodies::NONE && record.kind != BodyKind::Fixed {
+        if record.line == Bodies::NONE || record.kind == BodyKind::Fixed {
+            self.bodies.records[id.slot as usize].turned = turned;
+            self.islands.set_turned(record.island, id.slot, turned);
+        } else {
             let at = record.line as usize;
             self.bodies.turned[at] = turned - self.bodies.lines[at].turn();
         }

@@ -1,5 +1,6 @@
 //! What can be wrong with what enters.
 
+use carom_math::Pose;
 use thiserror::Error;
 
 use crate::BodyId;
@@ -31,6 +32,13 @@ pub enum EngineError {
 /// Refuses what is not a finite number.
 pub(crate) fn finite(field: &'static str, value: f64) -> Result<(), EngineError> {
     check(field, value, value.is_finite(), "finite")
+}
+
+/// Refuses a pose with what is not a finite number; `fields` are those of x, y, cosine and sine.
+pub(crate) fn finite_pose(fields: [&'static str; 4], pose: Pose) -> Result<(), EngineError> {
+    let (at, turn) = (pose.position, pose.rotation);
+    let values = [at.x, at.y, turn.cos(), turn.sin()];
+    (fields.into_iter().zip(values)).try_for_each(|(field, value)| finite(field, value))
 }
 
 /// Refuses what is not a finite number above zero.

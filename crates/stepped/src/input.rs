@@ -3,7 +3,7 @@
 use carom_math::{Pose, Vec2};
 
 use crate::EngineError;
-use crate::error::{finite, not_negative, positive};
+use crate::error::{finite, finite_pose, not_negative, positive};
 
 /// Name of a body in its engine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -108,8 +108,13 @@ impl BodyInput {
     }
 
     pub(crate) fn check(&self) -> Result<(), EngineError> {
-        finite("BodyInput::pose.position.x", self.pose.position.x)?;
-        finite("BodyInput::pose.position.y", self.pose.position.y)?;
+        let fields = [
+            "BodyInput::pose.position.x",
+            "BodyInput::pose.position.y",
+            "BodyInput::pose.rotation.cos",
+            "BodyInput::pose.rotation.sin",
+        ];
+        finite_pose(fields, self.pose)?;
         finite("BodyInput::velocity.x", self.velocity.x)?;
         finite("BodyInput::velocity.y", self.velocity.y)?;
         finite("BodyInput::spin", self.spin)?;

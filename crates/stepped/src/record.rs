@@ -29,6 +29,8 @@ pub(crate) struct Record {
     pub(crate) colours: u64,
     /// Where a fixed body is; others have theirs by line.
     pub(crate) pose: Pose,
+    /// Angle by which it has turned, in rad, whole turns included: of what has no line of its own.
+    pub(crate) turned: f64,
     pub(crate) mass: f64,
     pub(crate) inertia: f64,
     pub(crate) gravity_scale: f64,
@@ -139,6 +141,7 @@ impl Record {
         contacts: u32::MAX,
         colours: 0,
         pose: Pose::IDENTITY,
+        turned: 0.0,
         mass: f64::INFINITY,
         inertia: f64::INFINITY,
         gravity_scale: 0.0,

@@ -38,6 +38,15 @@ impl Islands {
     pub(crate) const fn any_asleep(&self) -> bool {
         self.asleep.len() > self.free.len()
     }
+
+    /// What a sleeper goes on with once it wakes.
+    pub(crate) fn set_turned(&mut self, island: u32, slot: u32, turned: f64) {
+        let sleepers = self.asleep.get_mut(island as usize);
+        let mut sleepers = sleepers.into_iter().flatten().flatten();
+        if let Some(sleeper) = sleepers.find(|sleeper| sleeper.slot == slot) {
+            sleeper.turned = turned - sleeper.line.turn();
+        }
+    }
 }
 
 impl Engine {

@@ -1,10 +1,13 @@
 //! What a caller does between sub-steps, and what it asks for.
 
 use carom_geometry::{Circle, ConvexPolygon, HalfPlane, Segment};
-use carom_math::{Pose, Vec2, vec2};
+use carom_math::{Pose, Rot, Vec2, vec2};
 
 use super::{floor, pyramid, unit_box};
-use crate::{BodyInput, Engine, Material, Mixed, PairRules, PieceInput, Settings, Surface, Touch};
+use crate::{
+    BodyInput, Engine, EngineError, Material, Mixed, PairRules, PieceInput, Settings, Surface,
+    Touch,
+};
 
 fn weightless() -> Engine {
     let settings = Settings {
@@ -396,4 +399,26 @@ fn bodies_that_turn_to_each_other_in_different_sub_steps_of_a_tick_meet() {
         "{} m deep in each other at the tick",
         1.0 - (b - a)
     );
+}
+
+/// Such a body was taken, and a tick did not end where a piece of it has more than twelve corners.
+#[test]
+fn a_pose_that_is_turned_by_no_number_is_refused() {
+    let mut engine = weightless();
+    let pose = Pose::new(Vec2::ZERO, Rot::from_angle(f64::NAN));
+    let mut body = BodyInput::dynamic(1.0, 1.0);
+    let id = engine.insert(body, &[unit_box()]).unwrap();
+    body.pose = pose;
+    let refused = [
+        engine.insert(body, &[unit_box()]).map(|_| ()),
+        engine.set_pose(id, pose),
+        engine.shift(id, pose),
+    ];
+    for result in refused {
+        assert!(matches!(result, Err(EngineError::Value { .. })));
+    }
+    engine.sleep(id).unwrap();
+    assert!(engine.shift(id, pose).is_err());
+    assert!(engine.is_asleep(id).unwrap());
+    assert_eq!(engine.pose(id).unwrap(), Pose::IDENTITY);
 }

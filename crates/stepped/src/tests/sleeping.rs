@@ -313,3 +313,33 @@ fn what_lies_near_a_sleeper_is_met_once_it_wakes() {
         assert!(apart > 0.999, "{apart} m at tick {tick}");
     }
 }
+
+/// It was 0 while it slept, and what a caller set then was forgotten.
+#[test]
+fn what_sleeps_has_turned_as_far_as_before() {
+    let mut engine = Engine::new(Settings::default()).unwrap();
+    let mut still = BodyInput::fixed();
+    still.turned = 3.0;
+    let still = engine.insert(still, &[]).unwrap();
+    let mut body = BodyInput::dynamic(1.0, 1.0).moving(Vec2::ZERO, 5.0);
+    body.turned = 7.0;
+    let body = engine.insert(body, &[unit_box()]).unwrap();
+    engine.tick();
+    let of = |engine: &Engine, id| engine.state(id).unwrap().turned;
+    let is = |engine: &Engine, wanted: f64| {
+        let off = of(engine, body) - wanted;
+        assert!(off.abs() < 1e-12, "{off} rad off {wanted}");
+    };
+    let before = 7.0 + 5.0 / 60.0;
+    is(&engine, before);
+    engine.sleep(body).unwrap();
+    is(&engine, before);
+    engine.wake(body).unwrap();
+    is(&engine, before);
+    engine.sleep(body).unwrap();
+    engine.set_turned(body, 20.0).unwrap();
+    is(&engine, 20.0);
+    engine.wake(body).unwrap();
+    is(&engine, 20.0);
+    assert!((of(&engine, still) - 3.0).abs() < 1e-12);
+}
