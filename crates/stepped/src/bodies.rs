@@ -377,7 +377,9 @@ impl Bodies {
             let far = |v: Vec2, w: f64| v.x.abs().max(v.y.abs()) + w.abs() * limit.reach;
             let went = far(line.d(), line.turn());
             let goes = far(line.v(), line.w()) * tick;
-            self.moved[at] |= went > limit.tolerance || goes > limit.tolerance;
+            // What waits for contacts is looked for again.
+            let waits = self.records[self.slot_of[at] as usize].placed == self.updates;
+            self.moved[at] |= waits || went > limit.tolerance || goes > limit.tolerance;
             self.foreseen[at] = Quad::new(line.v(), line.w());
             if self.moved[at] {
                 self.rebase_one(at);

@@ -366,6 +366,7 @@ impl Engine {
             known,
             graph,
             rotating,
+            deep,
             ..
         } = self;
         let found = &broad.found;
@@ -376,7 +377,7 @@ impl Engine {
             bodies,
             pieces,
             settings,
-            (known, found),
+            (known, found, deep),
             rules,
         );
         self.least_found = self.least_found.min(least);

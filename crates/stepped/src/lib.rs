@@ -28,6 +28,7 @@ mod broad;
 mod change;
 mod continuous;
 mod engine;
+mod enough;
 mod error;
 mod finite;
 mod ghost;

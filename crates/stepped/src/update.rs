@@ -6,10 +6,12 @@ use fearless_simd::Level;
 
 use crate::bodies::{Bodies, BodyKind};
 use crate::broad::Pairs;
+use crate::enough::{DeepCounts, take_many};
 use crate::narrow::{Eight, Found, Manifold, Scene, collide_eight};
 use crate::pieces::Pieces;
 use crate::rows::{
-    Block, Cold, Colour, Graph, HARD, LANES, Law, OPEN, Pressed, RotatingRows, Side, Touched, renew,
+    Block, Cold, Colour, Deep, Graph, HARD, LANES, Law, OPEN, Pressed, RotatingRows, Side, Touched,
+    renew,
 };
 use crate::{PairRules, Settings};
 
@@ -306,9 +308,10 @@ pub(crate) fn create(
     bodies: &mut Bodies,
     pieces: &Pieces,
     settings: &Settings,
-    (known, candidates): (&mut Pairs, &[[u32; 2]]),
+    (known, candidates, deep): (&mut Pairs, &[[u32; 2]], &Deep),
     rules: &dyn PairRules,
 ) -> f64 {
+    let mut deep = DeepCounts::of(deep, graph, bodies);
     let scene = Scene {
         bodies,
         pieces,
@@ -316,15 +319,34 @@ pub(crate) fn create(
     };
     graph.suspects.cover(bodies.lines.len());
     let unknown = candidates.iter().filter(|pair| !known.contains(**pair));
-    let mut news = unknown.filter_map(|pair| New::of(bodies, pieces, *pair));
-    let (mut eight_news, mut fresh) = (Vec::with_capacity(LANES), Vec::new());
-    loop {
-        eight_news.clear();
-        eight_news.extend(news.by_ref().take(LANES));
-        if eight_news.is_empty() {
-            break;
+    let news = unknown.filter_map(|pair| New::of(bodies, pieces, *pair));
+    let mut waits = Vec::new();
+    let mut news: Vec<New> = news
+        .filter(|new| deep.asks(new.slots(pieces), &mut waits))
+        .collect();
+    let many = take_many(bodies, pieces, &mut news);
+    let mut fresh = Vec::new();
+    for eight in news.chunks(LANES) {
+        add_near(level, &scene, eight, &mut fresh);
+    }
+    for eight in many.chunks(LANES) {
+        let asks = |new: &&New| deep.asks(new.slots(pieces), &mut waits);
+        let eight: Vec<New> = eight.iter().filter(asks).copied().collect();
+        let before = fresh.len();
+        add_near(level, &scene, &eight, &mut fresh);
+        for Fresh { new, manifold, .. } in &fresh[before..] {
+            if manifold.gap() < deepest(law, pieces, new.pieces)
+                && pieces.surface(new.pieces, rules).is_some()
+            {
+                deep.add(bodies, new.slots(pieces));
+            }
         }
-        add_near(level, &scene, &eight_news, &mut fresh);
+    }
+    for (record, waits) in bodies.records.iter_mut().zip(waits) {
+        if waits {
+            // It was put there until then.
+            record.placed = bodies.updates + 1;
+        }
     }
     fresh.sort_by_cached_key(|fresh| fresh.new.pieces.map(|piece| place(bodies, pieces, piece)));
     let mut least = OPEN;
@@ -405,12 +427,17 @@ struct Fresh {
 
 /// A pair that may become a contact: it begins with what was inserted first.
 #[derive(Clone, Copy, Debug)]
-struct New {
-    pieces: [u32; 2],
+pub(crate) struct New {
+    pub(crate) pieces: [u32; 2],
     lines: [u32; 2],
 }
 
 impl New {
+    /// Slots of both bodies.
+    pub(crate) fn slots(&self, pieces: &Pieces) -> [u32; 2] {
+        self.pieces.map(|piece| pieces.owners[piece as usize].body)
+    }
+
     /// Two pieces of bodies that are awake or fixed, and that contacts move at least one of.
     fn of(bodies: &Bodies, pieces: &Pieces, pair: [u32; 2]) -> Option<Self> {
         let pair = in_order(bodies, pieces, pair);
@@ -431,7 +458,7 @@ impl New {
 }
 
 /// Place of a piece in an order that memory does not change: birth of its body, and index of the piece.
-fn place(bodies: &Bodies, pieces: &Pieces, piece: u32) -> (u64, u32) {
+pub(crate) fn place(bodies: &Bodies, pieces: &Pieces, piece: u32) -> (u64, u32) {
     let owner = pieces.owners[piece as usize];
     (bodies.records[owner.body as usize].birth, owner.ordinal)
 }

@@ -59,6 +59,12 @@ impl Deep {
         graph.deep = contacts;
     }
 
+    /// Slots of the bodies of each of them.
+    pub(crate) fn pairs(&self, graph: &Graph) -> impl Iterator<Item = [u32; 2]> {
+        let deep = self.contacts.iter().filter(|id| graph.is_deep(**id));
+        deep.map(|id| graph.contacts[*id as usize].bodies)
+    }
+
     pub(crate) const fn least_gap(&self) -> f64 {
         self.least_gap
     }
