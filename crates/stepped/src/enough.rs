@@ -70,13 +70,13 @@ pub(crate) fn take_many(bodies: &Bodies, pieces: &Pieces, pairs: &mut Vec<New>) 
     ranked.sort_unstable();
     ranked.dedup();
     ranked.sort_by_cached_key(|piece| place(bodies, pieces, *piece));
-    let mut ranks = vec![0; pieces.list.len()];
-    for (piece, rank) in ranked.iter().zip(0..) {
+    let mut ranks = vec![0_usize; pieces.list.len()];
+    for (rank, piece) in ranked.iter().enumerate() {
         ranks[*piece as usize] = rank;
     }
     for side in [1, 0] {
         let mut ends = vec![0; ranked.len() + 1];
-        let rank = |new: &New| ranks[new.pieces[side] as usize] as usize;
+        let rank = |new: &New| ranks[new.pieces[side] as usize];
         many.iter().for_each(|new| ends[rank(new) + 1] += 1);
         (1..ends.len()).for_each(|k| ends[k] += ends[k - 1]);
         let mut sorted = many.clone();

@@ -434,7 +434,7 @@ pub(crate) struct New {
 
 impl New {
     /// Slots of both bodies.
-    pub(crate) fn slots(&self, pieces: &Pieces) -> [u32; 2] {
+    pub(crate) fn slots(self, pieces: &Pieces) -> [u32; 2] {
         self.pieces.map(|piece| pieces.owners[piece as usize].body)
     }
 
