@@ -10,6 +10,7 @@ use crate::continuous::{FastBody, note_fast};
 use crate::ghost::hide;
 use crate::hard::HardRows;
 use crate::impact::Impacts;
+use crate::narrow::Scene;
 use crate::pieces::{Disc, Pieces};
 use crate::rows::{
     Arrival, Before, Deep, ExtraSweeps, FreePairs, Graph, Law, Pass, Quad, RotatingRows, Ways,
@@ -193,17 +194,11 @@ impl Engine {
             return false;
         };
         self.found = true;
-        let Self {
-            bodies,
-            pieces,
-            broad,
-            settings,
-            ..
-        } = self;
-        if !(posed.at_tick || posed.deviates || broad.has_arrivals()) {
+        if !(posed.at_tick || posed.deviates || self.broad.has_arrivals()) {
             return false;
         }
-        broad.find(bodies, pieces, settings.tick, posed.at_tick);
+        let (tick, at_tick) = (self.settings.tick, posed.at_tick);
+        self.broad.find(&self.bodies, &self.pieces, tick, at_tick);
         self.update_contacts(rules);
         !posed.at_tick
     }
@@ -297,26 +292,20 @@ impl Engine {
 
     /// Poses the pieces of the body of a line, and makes their boxes.
     pub(crate) fn pose_pieces(&mut self, line: usize) {
-        let Self {
-            bodies,
-            pieces,
-            settings,
-            ..
-        } = self;
-        let record = &bodies.records[bodies.slot_of[line] as usize];
+        let (bodies, pieces) = (&self.bodies, &mut self.pieces);
         let (body, limit) = (&bodies.lines[line], bodies.limits[line]);
-        let pose = bodies.base[line];
-        for number in record.first_piece..record.first_piece + record.pieces {
+        let (pose, tick) = (bodies.base[line], self.settings.tick);
+        for number in bodies.pieces_of_line(line) {
             let tight = pieces.pose(number, pose);
             let outline = &pieces.outlines[number as usize];
             let (reach, extent) = (outline.reach(), outline.extent());
             // Half of a pair's margin, and what the body may go unseen.
-            let slack = 0.5 * settings.margin * extent + 2.0 * limit.tolerance;
-            let turn = body.w().abs() * settings.tick * reach;
+            let slack = 0.5 * self.settings.margin * extent + 2.0 * limit.tolerance;
+            let turn = body.w().abs() * tick * reach;
             let around = Aabb::new(pose.position, pose.position).grown(reach);
             let box_ = intersection(tight.grown(turn), around.union(tight));
-            let goes = body.v() * settings.tick;
-            let falls = bodies.pull[line].v() * (settings.tick * settings.tick);
+            let goes = body.v() * tick;
+            let falls = bodies.pull[line].v() * (tick * tick);
             let swept = stretched(stretched(box_, goes), falls);
             pieces.boxes[number as usize] = swept.grown(slack);
             pieces.discs[number as usize] = Disc {
@@ -330,54 +319,28 @@ impl Engine {
 
     /// Contacts of moved bodies anew, then those that came, then without those that went.
     fn update_contacts(&mut self, rules: &dyn PairRules) {
-        let Self {
-            settings,
-            level,
-            law,
-            bodies,
-            pieces,
-            broad,
-            graph,
-            rotating,
-            parted,
-            ..
-        } = self;
-        parted.clear();
+        self.parted.clear();
         let least = update(
-            (*level, law),
-            (graph, rotating),
-            bodies,
-            pieces,
-            settings,
-            parted,
+            (self.level, &self.law),
+            (&mut self.graph, &mut self.rotating),
+            &mut self.bodies,
+            &self.pieces,
+            &self.settings,
+            &mut self.parted,
         );
         self.least_found = self.least_found.min(least);
         if self.islands.any_asleep() {
-            let met = met_asleep(bodies, pieces, settings, &broad.found, rules);
+            let met = met_asleep(&self.scene(), &self.broad.found, rules);
             self.wake_all(&met);
         }
-        let Self {
-            settings,
-            level,
-            law,
-            bodies,
-            pieces,
-            broad,
-            known,
-            graph,
-            rotating,
-            deep,
-            ..
-        } = self;
-        let found = &broad.found;
-        self.looks += found.len() as u64;
+        self.looks += self.broad.found.len() as u64;
         let least = create(
-            (*level, law),
-            (graph, rotating),
-            bodies,
-            pieces,
-            settings,
-            (known, found, deep),
+            (self.level, &self.law),
+            (&mut self.graph, &mut self.rotating),
+            &mut self.bodies,
+            &self.pieces,
+            &self.settings,
+            (&mut self.known, &self.broad.found, &self.deep),
             rules,
         );
         self.least_found = self.least_found.min(least);
@@ -395,6 +358,16 @@ impl Engine {
         );
         self.bodies.moved.fill(false);
         self.bodies.updates += 1;
+    }
+
+    /// What the narrow phase reads.
+    pub(crate) const fn scene(&self) -> Scene<'_> {
+        Scene {
+            level: self.level,
+            bodies: &self.bodies,
+            pieces: &self.pieces,
+            settings: &self.settings,
+        }
     }
 
     /// Takes a contact out.

@@ -6,7 +6,7 @@
 use crate::bodies::Bodies;
 use crate::pieces::Pieces;
 use crate::rows::{Deep, Graph};
-use crate::update::{New, place};
+use crate::update::{Pair, place};
 
 /// Contacts of a body that are too deep for the sweeps, from which on it needs no more of them with what has as many.
 const ENOUGH: u32 = 64;
@@ -50,23 +50,23 @@ impl DeepCounts {
 }
 
 /// Takes those pairs out that may make one deep contact too many for both of their bodies, in the order of [`place`].
-pub(crate) fn take_many(bodies: &Bodies, pieces: &Pieces, pairs: &mut Vec<New>) -> Vec<New> {
+pub(crate) fn take_many(bodies: &Bodies, pieces: &Pieces, pairs: &mut Vec<Pair>) -> Vec<Pair> {
     if pairs.len() < PAIRS {
         return Vec::new();
     }
-    let slots = |new: &New| new.slots(pieces);
+    let slots = |pair: &Pair| pair.slots(pieces);
     let mut counts = vec![0_u32; bodies.records.len()];
     for slot in pairs.iter().flat_map(slots) {
         counts[slot as usize] += 1;
     }
-    let is_of_many = |new: &mut New| {
-        slots(new)
+    let is_of_many = |pair: &mut Pair| {
+        slots(pair)
             .iter()
             .all(|slot| counts[*slot as usize] > ENOUGH)
     };
-    let mut many: Vec<New> = pairs.extract_if(.., is_of_many).collect();
+    let mut many: Vec<Pair> = pairs.extract_if(.., is_of_many).collect();
     // By the later piece, then by the earlier one.
-    let mut ranked: Vec<u32> = many.iter().flat_map(|new| new.pieces).collect();
+    let mut ranked: Vec<u32> = many.iter().flat_map(|pair| pair.pieces).collect();
     ranked.sort_unstable();
     ranked.dedup();
     ranked.sort_by_cached_key(|piece| place(bodies, pieces, *piece));
@@ -76,13 +76,13 @@ pub(crate) fn take_many(bodies: &Bodies, pieces: &Pieces, pairs: &mut Vec<New>) 
     }
     for side in [1, 0] {
         let mut ends = vec![0; ranked.len() + 1];
-        let rank = |new: &New| ranks[new.pieces[side] as usize];
-        many.iter().for_each(|new| ends[rank(new) + 1] += 1);
+        let rank = |pair: &Pair| ranks[pair.pieces[side] as usize];
+        many.iter().for_each(|pair| ends[rank(pair) + 1] += 1);
         (1..ends.len()).for_each(|k| ends[k] += ends[k - 1]);
         let mut sorted = many.clone();
-        for new in &many {
-            let end: &mut usize = &mut ends[rank(new)];
-            sorted[*end] = *new;
+        for pair in &many {
+            let end: &mut usize = &mut ends[rank(pair)];
+            sorted[*end] = *pair;
             *end += 1;
         }
         many = sorted;

@@ -14,7 +14,6 @@ use fearless_simd::{Level, Simd, SimdBase, SimdMask, dispatch, f64x4};
 
 use crate::bodies::{Bodies, BodyKind};
 use crate::broad::Pairs;
-use crate::narrow::Scene;
 use crate::outline::Turned;
 use crate::pieces::Pieces;
 use crate::rows::Graph;
@@ -64,17 +63,17 @@ impl Suspects {
     /// Adds a short contact of two pieces of the bodies of two lines.
     pub(crate) fn add_short(
         &mut self,
-        scene: &Scene<'_>,
+        (bodies, pieces): (&Bodies, &Pieces),
         [a, b]: [u32; 2],
-        pieces: [u32; 2],
+        pair: [u32; 2],
         contact: u32,
     ) {
-        for (body, other, piece) in [(a, b, pieces[1]), (b, a, pieces[0])] {
-            if scene.bodies.moved[body as usize] && has_sides(scene.pieces.turned(piece)) {
-                let driven = scene.bodies.lines[other as usize].inverse_mass() == 0.0;
+        for (body, other, piece) in [(a, b, pair[1]), (b, a, pair[0])] {
+            if bodies.moved[body as usize] && has_sides(pieces.turned(piece)) {
+                let driven = bodies.lines[other as usize].inverse_mass() == 0.0;
                 // The seams of what did not move are those of before.
-                let stays = !scene.bodies.moved[other as usize];
-                let is_flush = stays || driven || scene.pieces.owners[piece as usize].several;
+                let stays = !bodies.moved[other as usize];
+                let is_flush = stays || driven || pieces.owners[piece as usize].several;
                 self.short.push(Short {
                     body,
                     contact,

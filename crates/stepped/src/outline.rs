@@ -220,20 +220,6 @@ impl Turned<'_> {
         height > distance + self.radius()
     }
 
-    /// Whether edge `i` is a cut through a concave polygon, beyond which another piece goes on.
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "eight bits"
-    )]
-    pub(crate) fn is_cut(self, i: usize) -> bool {
-        !self.outline.is_box() && self.outline.0[7] as u8 >> i & 1 == 1
-    }
-
-    pub(crate) const fn next(self, i: usize) -> usize {
-        if i + 1 == self.corners() { 0 } else { i + 1 }
-    }
-
     /// The box around it.
     pub(crate) fn aabb(self) -> Aabb {
         let (mut low, mut high) = (self.corner(0), self.corner(0));
@@ -247,5 +233,23 @@ impl Turned<'_> {
             high = high.max(self.corner(i));
         }
         Aabb::new(self.centre() + low, self.centre() + high).grown(self.radius())
+    }
+}
+
+/// For [`crate::narrow::naive`].
+#[cfg(test)]
+impl Turned<'_> {
+    /// Whether edge `i` is a cut through a concave polygon, beyond which another piece goes on.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "eight bits"
+    )]
+    pub(crate) fn is_cut(self, i: usize) -> bool {
+        !self.outline.is_box() && self.outline.0[7] as u8 >> i & 1 == 1
+    }
+
+    pub(crate) const fn next(self, i: usize) -> usize {
+        if i + 1 == self.corners() { 0 } else { i + 1 }
     }
 }

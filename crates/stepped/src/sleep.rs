@@ -248,8 +248,7 @@ impl Engine {
                 let island = self.bodies.records[theirs as usize].island;
                 if island != Bodies::NONE
                     && theirs != slot
-                    && nearness(&self.bodies, &self.pieces, &self.settings, [piece, other])
-                        .is_some_and(|gap| gap <= margins)
+                    && nearness(&self.scene(), [piece, other]).is_some_and(|gap| gap <= margins)
                 {
                     found.push(island);
                 }

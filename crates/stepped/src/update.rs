@@ -1,7 +1,7 @@
 //! The contact update, once a tick: contacts of bodies that moved are computed anew, straight into their rows; new pairs
 //! get a contact, pairs that parted lose theirs.
 
-use carom_math::{Vec2, vec2};
+use carom_math::Vec2;
 use fearless_simd::Level;
 
 use crate::bodies::{Bodies, BodyKind};
@@ -40,6 +40,7 @@ pub(crate) fn update(
     // Rows are renewed, and all else of the bodies stays.
     let mut start = core::mem::take(&mut bodies.start);
     let scene = Scene {
+        level,
         bodies,
         pieces,
         settings,
@@ -47,7 +48,7 @@ pub(crate) fn update(
     // To pack all blocks takes 1.04 of the instructions of a drum; to pack none 1.06 of those of a bin that is stirred.
     let count: u32 = touched.iter().map(|block| block.lanes.count_ones()).sum();
     let mut packed = (0 < count && 2 * count as usize <= LANES * touched.len())
-        .then(|| packed(level, &scene, colours, &touched));
+        .then(|| packed(&scene, colours, &touched));
     let mut own = Found::NONE;
     let mut deep = Vec::new();
     let mut least = OPEN;
@@ -62,14 +63,22 @@ pub(crate) fn update(
         let found = if let Some(packed) = &mut packed {
             &mut packed[at]
         } else {
-            manifolds(level, &scene, block, cold, moved, &mut own);
+            let pairs = lanes(moved).map(|lane| (lane, Pair::of_lane(block, cold, lane)));
+            manifolds(&scene, KEPT, pairs, &mut own);
             &mut own
         };
         let near = moved & found.near;
         for lane in lanes(near) {
             keep_side(&scene, block, cold.pieces[lane], lane, found);
         }
-        renew(level, &scene.bodies.lines, &mut start, block, found, near);
+        renew(
+            level,
+            &scene.bodies.lines,
+            &mut start,
+            block,
+            &found.rows,
+            near,
+        );
         for lane in lanes(near) {
             let ends = [block.a[lane], block.b[lane]];
             let [a, b] = ends.map(|line| &scene.bodies.lines[line as usize]);
@@ -92,7 +101,12 @@ pub(crate) fn update(
         }
         for lane in lanes(near & (found.short | found.slants)) {
             let lines = [block.a[lane], block.b[lane]];
-            suspects.add_short(&scene, lines, cold.pieces[lane], cold.contact[lane]);
+            suspects.add_short(
+                (scene.bodies, pieces),
+                lines,
+                cold.pieces[lane],
+                cold.contact[lane],
+            );
         }
         for lane in lanes(near & (found.of_a | found.of_b)) {
             let pair = cold.pieces[lane];
@@ -123,8 +137,8 @@ pub(crate) fn update(
 /// it may be below the one that its body then lies on.
 fn keep_side(scene: &Scene<'_>, block: &Block, pair: [u32; 2], lane: usize, found: &mut Found) {
     let [a, b] = [block.a[lane], block.b[lane]].map(|line| &scene.bodies.lines[line as usize]);
-    let normal = vec2(found.nx[lane], found.ny[lane]);
-    let overlaps = found.s1[lane].min(found.s2[lane]) + normal.dot(b.d() - a.d()) < 0.0;
+    let normal = found.rows.normal(lane);
+    let overlaps = found.rows.s1[lane].min(found.rows.s2[lane]) + normal.dot(b.d() - a.d()) < 0.0;
     let pushes = block.j1[lane] + block.j2[lane] > 0.0;
     let came = block.normal(lane);
     let is_sharp = |piece: u32| scene.pieces.outlines[piece as usize].radius() == 0.0;
@@ -138,40 +152,23 @@ fn keep_side(scene: &Scene<'_>, block: &Block, pair: [u32; 2], lane: usize, foun
     }
 }
 
-/// [`manifolds`] of blocks in which few lanes moved: the pairs of several fill a register.
-fn packed(level: Level, scene: &Scene<'_>, colours: &[Colour], touched: &[Touched]) -> Vec<Found> {
+/// Manifolds of blocks in which few lanes moved: the pairs of several fill a register.
+fn packed(scene: &Scene<'_>, colours: &[Colour], touched: &[Touched]) -> Vec<Found> {
     let mut all = vec![Found::NONE; touched.len()];
     let mut found = Found::NONE;
-    let mut places = Vec::with_capacity(LANES);
     let each = |(at, block): (usize, &Touched)| lanes(block.lanes).map(move |lane| (at, lane));
-    let mut pairs = touched.iter().enumerate().flat_map(each);
-    loop {
-        let mut eight = Eight::new(scene.pieces, [[0; LANES]; 2]);
-        places.clear();
-        while places.len() < LANES
-            && let Some((at, lane)) = pairs.next()
-        {
-            let colour = &colours[touched[at].colour];
-            let (block, pair) = (
-                &colour.blocks[touched[at].block],
-                colour.cold[touched[at].block].pieces[lane],
-            );
-            let free = places.len();
-            if eight.set_pieces(scene.pieces, free, pair) {
-                (eight.lines[0][free], eight.lines[1][free]) = (block.a[lane], block.b[lane]);
-                places.push((at, lane));
-            } else if let Some(manifold) = scene.contact(pair, KEPT) {
-                all[at].set(lane, &manifold);
-            }
-        }
-        if places.is_empty() {
-            return all;
-        }
-        collide_eight(level, scene, KEPT, &eight, &mut found);
+    let places: Vec<(usize, usize)> = touched.iter().enumerate().flat_map(each).collect();
+    for places in places.chunks(LANES) {
+        let pairs = places.iter().map(|&(at, lane)| {
+            let (colour, k) = (&colours[touched[at].colour], touched[at].block);
+            Pair::of_lane(&colour.blocks[k], &colour.cold[k], lane)
+        });
+        manifolds(scene, KEPT, (0..).zip(pairs), &mut found);
         for (from, &(at, lane)) in places.iter().enumerate() {
             all[at].copy_lane(lane, &found, from);
         }
     }
+    all
 }
 
 /// Which body of a lane has the face, if its row may be rotated.
@@ -198,7 +195,7 @@ fn deepest(law: &Law, pieces: &Pieces, pair: [u32; 2]) -> f64 {
 }
 
 /// Those lanes that have a bit.
-fn lanes(mut bits: u8) -> impl Iterator<Item = usize> {
+fn lanes(mut bits: u8) -> impl Iterator<Item = usize> + Clone {
     core::iter::from_fn(move || {
         let lane = bits.trailing_zeros() as usize;
         bits &= bits.wrapping_sub(1);
@@ -206,22 +203,23 @@ fn lanes(mut bits: u8) -> impl Iterator<Item = usize> {
     })
 }
 
-/// Manifolds of the lanes of a block that have a bit in `moved`: pieces without outlines one by one.
+/// Manifolds of pairs, each in its lane: pieces without outlines one by one.
 fn manifolds(
-    level: Level,
     scene: &Scene<'_>,
-    block: &Block,
-    cold: &Cold,
-    moved: u8,
+    factor: f64,
+    pairs: impl Iterator<Item = (usize, Pair)> + Clone,
     found: &mut Found,
 ) {
-    let mut eight = Eight::new(scene.pieces, [block.a, block.b]);
-    for lane in lanes(moved) {
-        eight.set_pieces(scene.pieces, lane, cold.pieces[lane]);
+    let mut eight = Eight::new(scene.pieces, [[0; LANES]; 2]);
+    for (lane, pair) in pairs.clone() {
+        if eight.set_pieces(scene.pieces, lane, pair.pieces) {
+            (eight.lines[0][lane], eight.lines[1][lane]) = (pair.lines[0], pair.lines[1]);
+            eight.least[lane] = scene.seen(pair.lines);
+        }
     }
-    collide_eight(level, scene, KEPT, &eight, found);
-    for lane in lanes(moved & !eight.used) {
-        if let Some(manifold) = scene.contact(cold.pieces[lane], KEPT) {
+    collide_eight(scene, factor, &eight, found);
+    for (lane, pair) in pairs.filter(|(lane, _)| eight.used >> lane & 1 == 0) {
+        if let Some(manifold) = scene.contact(pair.pieces, factor) {
             found.set(lane, &manifold);
         }
     }
@@ -229,17 +227,11 @@ fn manifolds(
 
 /// Islands asleep that some candidate reaches before the next tick: its gap may come below 0 until then.
 pub(crate) fn met_asleep(
-    bodies: &Bodies,
-    pieces: &Pieces,
-    settings: &Settings,
+    scene: &Scene<'_>,
     candidates: &[[u32; 2]],
     rules: &dyn PairRules,
 ) -> Vec<u32> {
-    let scene = Scene {
-        bodies,
-        pieces,
-        settings,
-    };
+    let (bodies, pieces) = (scene.bodies, scene.pieces);
     let mut islands = Vec::new();
     for &pair in candidates {
         let slots = pair.map(|piece| pieces.list[piece as usize].body);
@@ -274,20 +266,10 @@ pub(crate) fn met_asleep(
 }
 
 /// How near two pieces are where their bodies are based, in margins of theirs, at most one; `None` if they are farther apart.
-pub(crate) fn nearness(
-    bodies: &Bodies,
-    pieces: &Pieces,
-    settings: &Settings,
-    pair: [u32; 2],
-) -> Option<f64> {
-    let scene = Scene {
-        bodies,
-        pieces,
-        settings,
-    };
-    let pair = in_order(bodies, pieces, pair);
+pub(crate) fn nearness(scene: &Scene<'_>, pair: [u32; 2]) -> Option<f64> {
+    let pair = in_order(scene.bodies, scene.pieces, pair);
     let gap = scene.contact(pair, 1.0)?.gap();
-    Some(gap / scene.meeting(pair).margin)
+    Some(gap / scene.margin(pair))
 }
 
 /// Two pieces in the order in which their bodies were inserted: a manifold depends on which one is A, and neither the numbers
@@ -313,32 +295,33 @@ pub(crate) fn create(
 ) -> f64 {
     let mut deep = DeepCounts::of(deep, graph, bodies);
     let scene = Scene {
+        level,
         bodies,
         pieces,
         settings,
     };
     graph.suspects.cover(bodies.lines.len());
     let unknown = candidates.iter().filter(|pair| !known.contains(**pair));
-    let news = unknown.filter_map(|pair| New::of(bodies, pieces, *pair));
+    let news = unknown.filter_map(|pair| Pair::new(bodies, pieces, *pair));
     let mut waits = Vec::new();
-    let mut news: Vec<New> = news
-        .filter(|new| deep.asks(new.slots(pieces), &mut waits))
+    let mut news: Vec<Pair> = news
+        .filter(|pair| deep.asks(pair.slots(pieces), &mut waits))
         .collect();
     let many = take_many(bodies, pieces, &mut news);
     let mut fresh = Vec::new();
     for eight in news.chunks(LANES) {
-        add_near(level, &scene, eight, &mut fresh);
+        add_near(&scene, eight, &mut fresh);
     }
     for eight in many.chunks(LANES) {
-        let asks = |new: &&New| deep.asks(new.slots(pieces), &mut waits);
-        let eight: Vec<New> = eight.iter().filter(asks).copied().collect();
+        let asks = |pair: &&Pair| deep.asks(pair.slots(pieces), &mut waits);
+        let eight: Vec<Pair> = eight.iter().filter(asks).copied().collect();
         let before = fresh.len();
-        add_near(level, &scene, &eight, &mut fresh);
-        for Fresh { new, manifold, .. } in &fresh[before..] {
-            if manifold.gap() < deepest(law, pieces, new.pieces)
-                && pieces.surface(new.pieces, rules).is_some()
+        add_near(&scene, &eight, &mut fresh);
+        for Fresh { pair, manifold, .. } in &fresh[before..] {
+            if manifold.gap() < deepest(law, pieces, pair.pieces)
+                && pieces.surface(pair.pieces, rules).is_some()
             {
-                deep.add(bodies, new.slots(pieces));
+                deep.add(bodies, pair.slots(pieces));
             }
         }
     }
@@ -348,10 +331,10 @@ pub(crate) fn create(
             record.placed = bodies.updates + 1;
         }
     }
-    fresh.sort_by_cached_key(|fresh| fresh.new.pieces.map(|piece| place(bodies, pieces, piece)));
+    fresh.sort_by_cached_key(|fresh| fresh.pair.pieces.map(|piece| place(bodies, pieces, piece)));
     let mut least = OPEN;
     for Fresh {
-        new: New { pieces: pair, .. },
+        pair: Pair { pieces: pair, .. },
         manifold,
         face,
     } in fresh
@@ -375,12 +358,8 @@ pub(crate) fn create(
             }
         }
         let lines = ends.map(|slot| bodies.records[slot as usize].line);
-        let scene = Scene {
-            bodies,
-            pieces,
-            settings,
-        };
-        graph.suspects.add_short(&scene, lines, pair, id);
+        let parts = (&*bodies, pieces);
+        graph.suspects.add_short(parts, lines, pair, id);
         graph.suspects.add_seam(lines);
         narrow_tolerances(bodies, settings, ends, a.extent.min(b.extent));
     }
@@ -388,29 +367,15 @@ pub(crate) fn create(
 }
 
 /// Adds those of at most eight pairs that are near enough, with their manifolds.
-fn add_near(level: Level, scene: &Scene<'_>, news: &[New], fresh: &mut Vec<Fresh>) {
-    let pieces = scene.pieces;
-    let mut eight = Eight::new(pieces, [[0; LANES]; 2]);
-    for (lane, new) in news.iter().enumerate() {
-        if eight.set_pieces(pieces, lane, new.pieces) {
-            (eight.lines[0][lane], eight.lines[1][lane]) = (new.lines[0], new.lines[1]);
-            eight.least[lane] = scene.seen(new.lines.map(|line| line as usize));
-        } else if let Some(manifold) = scene.contact(new.pieces, 1.0) {
-            fresh.push(Fresh {
-                new: *new,
-                manifold,
-                face: None,
-            });
-        }
-    }
+fn add_near(scene: &Scene<'_>, news: &[Pair], fresh: &mut Vec<Fresh>) {
     let mut found = Found::NONE;
-    collide_eight(level, scene, 1.0, &eight, &mut found);
+    manifolds(scene, 1.0, (0..).zip(news.iter().copied()), &mut found);
     fresh.extend(lanes(found.near).map(|lane| {
-        let new = news[lane];
+        let pair = news[lane];
         // A corner may leave its face before it comes near; a disc keeps to it.
-        let side = face(&found, lane, pieces, new.pieces, false);
+        let side = face(&found, lane, scene.pieces, pair.pieces, false);
         Fresh {
-            new,
+            pair,
             manifold: found.manifold(lane),
             face: side.filter(|side| side.radius > 0.0),
         }
@@ -419,27 +384,34 @@ fn add_near(level: Level, scene: &Scene<'_>, news: &[New], fresh: &mut Vec<Fresh
 
 /// A pair that is near enough.
 struct Fresh {
-    new: New,
+    pair: Pair,
     manifold: Manifold,
     /// Which body has the face, if its row may be rotated.
     face: Option<Side>,
 }
 
-/// A pair that may become a contact: it begins with what was inserted first.
+/// Two pieces, beginning with what was inserted first, and the lines of their bodies.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct New {
+pub(crate) struct Pair {
     pub(crate) pieces: [u32; 2],
     lines: [u32; 2],
 }
 
-impl New {
+impl Pair {
     /// Slots of both bodies.
     pub(crate) fn slots(self, pieces: &Pieces) -> [u32; 2] {
         self.pieces.map(|piece| pieces.owners[piece as usize].body)
     }
 
+    const fn of_lane(block: &Block, cold: &Cold, lane: usize) -> Self {
+        Self {
+            pieces: cold.pieces[lane],
+            lines: [block.a[lane], block.b[lane]],
+        }
+    }
+
     /// Two pieces of bodies that are awake or fixed, and that contacts move at least one of.
-    fn of(bodies: &Bodies, pieces: &Pieces, pair: [u32; 2]) -> Option<Self> {
+    fn new(bodies: &Bodies, pieces: &Pieces, pair: [u32; 2]) -> Option<Self> {
         let pair = in_order(bodies, pieces, pair);
         let records = pair.map(|piece| {
             let slot = pieces.owners[piece as usize].body;

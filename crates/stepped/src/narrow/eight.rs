@@ -1,11 +1,11 @@
 //! Eight pairs, and their manifolds in columns.
 
-use carom_math::vec2;
+use carom_math::Vec2;
 
 use super::Manifold;
 use crate::outline::{Outline, Rest};
 use crate::pieces::Pieces;
-use crate::rows::{LANES, OPEN};
+use crate::rows::{Block, LANES};
 
 /// Which pairs: pieces that have outlines, and the lines of their bodies.
 #[derive(Clone, Copy, Debug)]
@@ -15,6 +15,8 @@ pub(crate) struct Eight<'a> {
     pub(crate) lines: [[u32; LANES]; 2],
     /// What the margin is at least, in m.
     pub(crate) least: [f64; LANES],
+    /// Faces that separate them against it are none, if it is there: a normal from A to B.
+    pub(crate) side: Option<Vec2>,
     /// A bit for each lane that has a pair.
     pub(crate) used: u8,
     /// All outlines are boxes.
@@ -33,6 +35,7 @@ impl<'a> Eight<'a> {
             rests: [[&pieces.rests[0]; LANES]; 2],
             lines,
             least: [0.0; LANES],
+            side: None,
             used: 0,
             boxes: true,
             four: true,
@@ -59,19 +62,11 @@ impl<'a> Eight<'a> {
     }
 }
 
-/// Manifolds in the columns of a [`crate::rows::Block`].
+/// Manifolds of eight pairs.
 #[derive(Clone, Copy, Debug)]
-#[repr(C, align(64))]
 pub(crate) struct Found {
-    pub(crate) nx: [f64; LANES],
-    pub(crate) ny: [f64; LANES],
-    pub(crate) a1: [f64; LANES],
-    pub(crate) b1: [f64; LANES],
-    pub(crate) l: [f64; LANES],
-    pub(crate) s1: [f64; LANES],
-    pub(crate) s2: [f64; LANES],
-    pub(crate) at: [f64; LANES],
-    pub(crate) bt: [f64; LANES],
+    /// Without bodies, impulses and friction.
+    pub(crate) rows: Block,
     /// A bit for each pair that is near.
     pub(crate) near: u8,
     /// A bit for each of these that is so short that it may be a ghost, and for each with a side that slants away from a face.
@@ -86,15 +81,7 @@ pub(crate) struct Found {
 
 impl Found {
     pub(crate) const NONE: Self = Self {
-        nx: [0.0; LANES],
-        ny: [0.0; LANES],
-        a1: [0.0; LANES],
-        b1: [0.0; LANES],
-        l: [0.0; LANES],
-        s1: [0.0; LANES],
-        s2: [0.0; LANES],
-        at: [0.0; LANES],
-        bt: [0.0; LANES],
+        rows: Block::EMPTY,
         near: 0,
         short: 0,
         slants: 0,
@@ -105,13 +92,7 @@ impl Found {
 
     /// Puts a manifold that was found otherwise into a lane.
     pub(crate) fn set(&mut self, lane: usize, manifold: &Manifold) {
-        let two = manifold.points == 2;
-        (self.nx[lane], self.ny[lane]) = (manifold.normal.x, manifold.normal.y);
-        (self.a1[lane], self.b1[lane]) = (manifold.arm_a, manifold.arm_b);
-        (self.at[lane], self.bt[lane]) = (manifold.tangent_a, manifold.tangent_b);
-        self.l[lane] = if two { manifold.length } else { 1.0 };
-        self.s1[lane] = manifold.gaps[0];
-        self.s2[lane] = if two { manifold.gaps[1] } else { OPEN };
+        self.rows.put(lane, manifold);
         let bit = 1 << lane;
         self.near |= bit;
         self.short |= bit;
@@ -122,11 +103,7 @@ impl Found {
 
     /// Copies a lane of another one, into one that has no manifold yet.
     pub(crate) fn copy_lane(&mut self, to: usize, other: &Self, from: usize) {
-        (self.nx[to], self.ny[to]) = (other.nx[from], other.ny[from]);
-        (self.a1[to], self.b1[to]) = (other.a1[from], other.b1[from]);
-        (self.at[to], self.bt[to]) = (other.at[from], other.bt[from]);
-        (self.s1[to], self.s2[to]) = (other.s1[from], other.s2[from]);
-        self.l[to] = other.l[from];
+        self.rows.copy_lane(to, &other.rows, from);
         let bit = |bits: u8| (bits >> from & 1) << to;
         self.near |= bit(other.near);
         self.short |= bit(other.short);
@@ -137,17 +114,18 @@ impl Found {
     }
 
     pub(crate) fn manifold(&self, lane: usize) -> Manifold {
-        let two = self.s2[lane] < OPEN;
-        let second = if two { self.s2[lane] } else { self.s1[lane] };
+        let rows = &self.rows;
+        let two = rows.points(lane) == 2;
+        let second = if two { rows.s2[lane] } else { rows.s1[lane] };
         Manifold {
-            normal: vec2(self.nx[lane], self.ny[lane]),
-            arm_a: self.a1[lane],
-            arm_b: self.b1[lane],
-            length: if two { self.l[lane] } else { 0.0 },
+            normal: rows.normal(lane),
+            arm_a: rows.a1[lane],
+            arm_b: rows.b1[lane],
+            length: if two { rows.l[lane] } else { 0.0 },
             points: if two { 2 } else { 1 },
-            tangent_a: self.at[lane],
-            tangent_b: self.bt[lane],
-            gaps: [self.s1[lane], second],
+            tangent_a: rows.at[lane],
+            tangent_b: rows.bt[lane],
+            gaps: [rows.s1[lane], second],
         }
     }
 }

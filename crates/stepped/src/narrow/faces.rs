@@ -101,7 +101,7 @@ pub(super) fn cuts<S: Simd, V: Wide<S>, const N: usize>(simd: S, [l, m]: [V; 2])
 }
 
 /// The edge of A that separates best, with the centre of B at d, going w against A. A cut is no face, but it separates: what
-/// stays beyond it is met by another piece, however `near`.
+/// stays beyond it is met by another piece, however `near`. Nor is a face what separates against the `side` that B is on.
 #[inline(always)]
 pub(super) fn best<S: Simd, V: Wide<S>, const N: usize, const BOXES: bool>(
     simd: S,
@@ -109,6 +109,7 @@ pub(super) fn best<S: Simd, V: Wide<S>, const N: usize, const BOXES: bool>(
     b: &Corners<V, N>,
     [dx, dy, wx, wy]: [V; 4],
     cuts: Option<([V; N], V)>,
+    side: Option<[V; 2]>,
 ) -> Face<V> {
     let zero = V::splat(simd, 0.0);
     let none = V::splat(simd, f64::NEG_INFINITY);
@@ -139,6 +140,10 @@ pub(super) fn best<S: Simd, V: Wide<S>, const N: usize, const BOXES: bool>(
             separation += cuts[i] * faceless;
         }
         face.stays = stays.max(face.stays);
+        if let Some([x, y]) = side {
+            let is_against = (nx * x + ny * y).simd_lt(zero);
+            separation = is_against.select(V::splat(simd, FACELESS), separation);
+        }
         let better = separation.simd_gt(face.separation);
         face.separation = better.select(separation, face.separation);
         face.nx = better.select(nx, face.nx);

@@ -5,7 +5,8 @@
 mod eight;
 mod faces;
 mod hulls;
-mod pair;
+#[cfg(test)]
+pub(crate) mod naive;
 mod scene;
 mod wide;
 
@@ -13,7 +14,6 @@ use carom_math::{Vec2, cross};
 
 pub(crate) use eight::{Eight, Found};
 pub(crate) use hulls::collide_any;
-pub(crate) use pair::{Going, collide};
 use scene::HYSTERESIS;
 pub(crate) use scene::{Scene, arc};
 pub(crate) use wide::collide_eight;

@@ -1,11 +1,13 @@
 //! What is near: a pair's margin, and how far it closes until the next tick.
 
 use carom_math::Vec2;
+use fearless_simd::Level;
 
-use super::{Going, Manifold, collide, collide_any};
+use super::{Eight, Found, Manifold, collide_any, collide_eight};
 use crate::Settings;
 use crate::bodies::Bodies;
 use crate::pieces::Pieces;
+use crate::rows::LANES;
 
 /// Part of a margin by which B's face must separate better than A's: flush faces keep one owner.
 pub(super) const HYSTERESIS: f64 = 0.1;
@@ -13,21 +15,21 @@ pub(super) const HYSTERESIS: f64 = 0.1;
 /// What the narrow phase reads.
 #[derive(Clone, Copy)]
 pub(crate) struct Scene<'a> {
+    pub(crate) level: Level,
     pub(crate) bodies: &'a Bodies,
     pub(crate) pieces: &'a Pieces,
     pub(crate) settings: &'a Settings,
 }
 
 /// What two pieces are to each other within a tick.
-pub(crate) struct Meeting {
+pub(super) struct Meeting {
     /// Gaps below it make a contact, in m.
-    pub(crate) margin: f64,
-    going: Going,
-    /// What they may close by until the next tick beside that, in m.
-    closing: f64,
-    /// How far B went from A since their base poses, and the most that they moved by against each other, in m.
-    gone: Vec2,
-    moved: f64,
+    pub(super) margin: f64,
+    /// What they may close by until the next tick beside the way that B goes against A, in m.
+    pub(super) beside: f64,
+    pub(super) way: Vec2,
+    /// How far B went from A since their base poses, in m: within a tick one may have gone, and the other, rebased, not.
+    pub(super) gone: Vec2,
 }
 
 impl Scene<'_> {
@@ -38,35 +40,40 @@ impl Scene<'_> {
 
     /// The same with B on that `side` of A, as a normal from A to B. On any if it is zero, or a piece has no outline.
     pub(crate) fn contact_on(&self, side: Vec2, pair: [u32; 2], factor: f64) -> Option<Manifold> {
+        let mut eight = Eight::new(self.pieces, pair.map(|piece| [self.line_of(piece); LANES]));
+        if eight.set_pieces(self.pieces, 0, pair) {
+            eight.least[0] = self.seen(pair.map(|piece| self.line_of(piece)));
+            eight.side = (side != Vec2::ZERO).then_some(side);
+            let mut found = Found::NONE;
+            collide_eight(self, factor, &eight, &mut found);
+            return (found.near & 1 == 1).then(|| found.manifold(0));
+        }
         let meeting = self.meeting(pair);
         let margin = factor * meeting.margin;
         let [a, b] = pair.map(|piece| &self.pieces.list[piece as usize]);
-        let [turned_a, turned_b] = pair.map(|piece| self.pieces.turned(piece));
-        let limit = margin + meeting.closing + meeting.moved;
-        let mut found = if turned_a.corners() > 0 && turned_b.corners() > 0 {
-            let hysteresis = HYSTERESIS * meeting.margin;
-            let limits = [limit, margin, hysteresis];
-            collide(turned_a, turned_b, meeting.going, side, limits)
-        } else {
-            let [pose_a, mut pose_b] = [a.body, b.body].map(|slot| self.bodies.base_of(slot));
-            pose_b.position += meeting.gone;
-            collide_any((a, pose_a), (b, pose_b), limit + meeting.going.way.length())
-        }?;
+        let [pose_a, mut pose_b] = [a.body, b.body].map(|slot| self.bodies.base_of(slot));
+        pose_b.position += meeting.gone;
+        let limit = margin + meeting.beside + meeting.way.length();
+        let mut found = collide_any((a, pose_a), (b, pose_b), limit)?;
         // Rows count from the base poses.
         let gone = found.normal.dot(meeting.gone);
         found.gaps = found.gaps.map(|gap| gap - gone);
         (found.gap() < margin + self.closes(pair, &found)).then_some(found)
     }
 
-    /// The line of a piece's body.
-    fn line_of(&self, piece: u32) -> usize {
-        self.bodies.line_of(self.pieces.list[piece as usize].body)
+    /// The line of a piece's body; that of fixed ones if it sleeps.
+    fn line_of(&self, piece: u32) -> u32 {
+        let slot = self.pieces.list[piece as usize].body;
+        match self.bodies.records[slot as usize].line {
+            Bodies::NONE => Bodies::GROUND,
+            line => line,
+        }
     }
 
     /// What the bodies of two lines may close by unseen, in m: each may be a tolerance off its base pose, and go as far again.
-    pub(crate) fn seen(&self, lines: [usize; 2]) -> f64 {
+    pub(crate) fn seen(&self, lines: [u32; 2]) -> f64 {
         let [a, b] = lines.map(|line| {
-            let tolerance = self.bodies.limits[line].tolerance;
+            let tolerance = self.bodies.limits[line as usize].tolerance;
             // What is fixed has no tolerance yet.
             if tolerance < f64::INFINITY {
                 tolerance
@@ -77,34 +84,32 @@ impl Scene<'_> {
         2.0 * (a + b)
     }
 
-    pub(crate) fn meeting(&self, pair: [u32; 2]) -> Meeting {
-        let [a, b] = pair.map(|piece| &self.pieces.list[piece as usize]);
-        let [line_a, line_b] = pair.map(|piece| self.line_of(piece));
-        let (body_a, body_b) = (&self.bodies.lines[line_a], &self.bodies.lines[line_b]);
-        let [base_a, base_b] = [a.body, b.body].map(|slot| self.bodies.base_of(slot));
-        let turning = arc(body_a.w(), a.reach) + arc(body_b.w(), b.reach);
-        let turned = arc(body_a.turn(), a.reach) + arc(body_b.turn(), b.reach);
-        let margin = self.settings.margin * a.extent.min(b.extent);
+    /// Gaps of two pieces below it make a contact, in m.
+    pub(crate) fn margin(&self, pair: [u32; 2]) -> f64 {
+        let [a, b] = pair.map(|piece| self.pieces.list[piece as usize].extent);
+        let seen = self.seen(pair.map(|piece| self.line_of(piece)));
+        seen.max(self.settings.margin * a.min(b))
+    }
+
+    pub(super) fn meeting(&self, pair: [u32; 2]) -> Meeting {
+        let [a, b] = pair.map(|piece| self.pieces.list[piece as usize].reach);
+        let [line_a, line_b] = pair.map(|piece| &self.bodies.lines[self.line_of(piece) as usize]);
+        let turning = arc(line_a.w(), a) + arc(line_b.w(), b);
+        let turned = arc(line_a.turn(), a) + arc(line_b.turn(), b);
         let tick = self.settings.tick;
         let pull = self.settings.gravity.length() * tick;
-        // Within a tick one may have gone from its base pose, and the other, rebased, not.
-        let gone = body_b.d() - body_a.d();
+        let gone = line_b.d() - line_a.d();
         Meeting {
-            margin: margin.max(self.seen([line_a, line_b])),
-            going: Going {
-                d: base_b.position - base_a.position + gone,
-                way: (body_b.v() - body_a.v()) * tick,
-                turns: [body_a.w() * tick, body_b.w() * tick],
-            },
-            closing: (turning + pull) * tick,
-            moved: gone.length() + turned,
+            margin: self.margin(pair),
+            beside: (turning + pull) * tick + gone.length() + turned,
+            way: (line_b.v() - line_a.v()) * tick,
             gone,
         }
     }
 
     /// How far the nearer point closes from the base poses until the next tick, in m, if velocities stay but for gravity.
     pub(crate) fn closes(&self, pair: [u32; 2], found: &Manifold) -> f64 {
-        let lines = pair.map(|piece| self.line_of(piece));
+        let lines = pair.map(|piece| self.line_of(piece) as usize);
         let [a, b] = lines.map(|line| &self.bodies.lines[line]);
         let pull: Vec2 = self.bodies.pull[lines[1]].v() - self.bodies.pull[lines[0]].v();
         let n = found.normal;
@@ -120,7 +125,7 @@ impl Scene<'_> {
 
     /// The least gap at the next tick, in m, if velocities stay but, if it `falls`, for gravity: each point goes its own way.
     pub(crate) fn gap_ahead(&self, pair: [u32; 2], found: &Manifold, falls: bool) -> f64 {
-        let lines = pair.map(|piece| self.line_of(piece));
+        let lines = pair.map(|piece| self.line_of(piece) as usize);
         let [a, b] = lines.map(|line| &self.bodies.lines[line]);
         let pull = if falls {
             self.bodies.pull[lines[1]].v() - self.bodies.pull[lines[0]].v()

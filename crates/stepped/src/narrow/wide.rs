@@ -5,7 +5,7 @@
 
 #![allow(clippy::inline_always, reason = "the wide instructions end at a call")]
 
-use fearless_simd::{Level, Select, Simd, SimdMask};
+use fearless_simd::{Select, Simd, SimdMask};
 
 use super::faces::{FACELESS, best, choose, corners, cuts};
 use super::{Eight, Found, Scene};
@@ -21,16 +21,10 @@ const SEAM: f64 = 0.05;
 const NEAR: f64 = 0.25;
 
 /// Finds manifolds of eight pairs, and which gaps are below `factor` margins, or may be until the next tick.
-pub(crate) fn collide_eight(
-    level: Level,
-    scene: &Scene<'_>,
-    factor: f64,
-    eight: &Eight<'_>,
-    found: &mut Found,
-) {
+pub(crate) fn collide_eight(scene: &Scene<'_>, factor: f64, eight: &Eight<'_>, found: &mut Found) {
     (found.near, found.short, found.slants, found.seam) = (0, 0, 0, 0);
     (found.of_a, found.of_b) = (0, 0);
-    widest!(level => parts(scene, factor, eight, found));
+    widest!(scene.level => parts(scene, factor, eight, found));
     found.near &= eight.used;
     found.of_a &= eight.used;
     found.of_b &= eight.used;
@@ -106,8 +100,15 @@ fn part<S: Simd, V: Wide<S>, const N: usize, const BOXES: bool>(
     let b = corners::<S, V, N, BOXES>(simd, out_b, rest_b, [b_l, b_m]);
     // Boxes have no cuts.
     let cuts = |lengths| (!BOXES && eight.cuts).then(|| (cuts(simd, lengths), near));
-    let mut of_a = best::<S, V, N, BOXES>(simd, &a, &b, [dx, dy, wx, wy], cuts([a_l, a_m]));
-    let mut of_b = best::<S, V, N, BOXES>(simd, &b, &a, [-dx, -dy, -wx, -wy], cuts([b_l, b_m]));
+    let (side, back) = if let Some(side) = eight.side {
+        let (x, y) = (V::splat(simd, side.x), V::splat(simd, side.y));
+        (Some([x, y]), Some([-x, -y]))
+    } else {
+        (None, None)
+    };
+    let (cuts_a, cuts_b) = (cuts([a_l, a_m]), cuts([b_l, b_m]));
+    let mut of_a = best::<S, V, N, BOXES>(simd, &a, &b, [dx, dy, wx, wy], cuts_a, side);
+    let mut of_b = best::<S, V, N, BOXES>(simd, &b, &a, [-dx, -dy, -wx, -wy], cuts_b, back);
     let faceless = V::splat(simd, FACELESS);
     of_a.separation = a_count.simd_gt(one).select(of_a.separation, faceless);
     of_b.separation = b_count.simd_gt(one).select(of_b.separation, faceless);
@@ -280,15 +281,15 @@ fn part<S: Simd, V: Wide<S>, const N: usize, const BOXES: bool>(
     let short = short & acts;
     let kept = gap.simd_lt(near + closes) & !passes & (!discs | gap.simd_le(limit + goes));
 
-    n_x.store_slice(&mut found.nx[at..end]);
-    n_y.store_slice(&mut found.ny[at..end]);
-    a1.store_slice(&mut found.a1[at..end]);
-    b1.store_slice(&mut found.b1[at..end]);
-    l.store_slice(&mut found.l[at..end]);
-    s1.store_slice(&mut found.s1[at..end]);
-    s2.store_slice(&mut found.s2[at..end]);
-    at_.store_slice(&mut found.at[at..end]);
-    bt.store_slice(&mut found.bt[at..end]);
+    n_x.store_slice(&mut found.rows.nx[at..end]);
+    n_y.store_slice(&mut found.rows.ny[at..end]);
+    a1.store_slice(&mut found.rows.a1[at..end]);
+    b1.store_slice(&mut found.rows.b1[at..end]);
+    l.store_slice(&mut found.rows.l[at..end]);
+    s1.store_slice(&mut found.rows.s1[at..end]);
+    s2.store_slice(&mut found.rows.s2[at..end]);
+    at_.store_slice(&mut found.rows.at[at..end]);
+    bt.store_slice(&mut found.rows.bt[at..end]);
     #[expect(clippy::cast_possible_truncation, reason = "eight lanes")]
     let (near, short, slants, seam, of_a, of_b) = (
         kept.to_bitmask() as u8,

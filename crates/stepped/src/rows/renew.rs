@@ -8,7 +8,6 @@ use super::block::{Block, LANES, OPEN, flags};
 use super::line::{Line, Quad};
 use super::transpose::{Wide, any};
 use super::widest::widest;
-use crate::narrow::Found;
 
 /// Cosine of 25°: beyond it what pushed along the old normal is no guess for what will along the new one.
 const SAME_NORMAL: f64 = 0.9;
@@ -19,7 +18,7 @@ pub(crate) fn renew(
     lines: &[Line],
     start: &mut [Quad],
     block: &mut Block,
-    new: &Found,
+    new: &Block,
     lanes: u8,
 ) {
     let chosen = flags(lanes);
@@ -32,7 +31,7 @@ fn parts<S: Simd, V: Wide<S>>(
     lines: &[Line],
     start: &mut [Quad],
     block: &mut Block,
-    new: &Found,
+    new: &Block,
     chosen: &[f64; LANES],
 ) {
     for at in (0..LANES).step_by(V::LANES) {
@@ -49,7 +48,7 @@ fn part<S: Simd, V: Wide<S>>(
     lines: &[Line],
     start: &mut [Quad],
     block: &mut Block,
-    new: &Found,
+    new: &Block,
     chosen: &[f64; LANES],
     at: usize,
 ) {

@@ -3,7 +3,8 @@
 use carom_math::{Vec2, vec2};
 
 use super::Random;
-use crate::narrow::{Going, Manifold, collide, collide_any};
+use crate::narrow::naive::{Going, collide};
+use crate::narrow::{Manifold, collide_any};
 use crate::pieces::Piece;
 
 /// Both ends of a manifold, midway between the surfaces, as places relative to the centre of A, from its arms.

@@ -4,7 +4,6 @@ use carom_geometry::ConvexPolygon;
 use carom_math::{Rot, Vec2, vec2};
 
 use super::{Random, floor, pyramid, unit_box};
-use crate::narrow::Scene;
 use crate::{BodyInput, BodyKind, Engine, Material, PieceInput, Settings};
 
 #[test]
@@ -112,11 +111,7 @@ fn the_gap_ahead_is_that_of_a_point_and_its_own_way() {
         let (way, turn) = (1e-3 * random.signed(), 4e-3 * random.signed());
         engine.bodies.lines[line].set_displacement(vec2(0.0, way), turn);
         let pair = [low, high].map(|id| engine.bodies.records[id.slot as usize].first_piece);
-        let scene = Scene {
-            bodies: &engine.bodies,
-            pieces: &engine.pieces,
-            settings: &engine.settings,
-        };
+        let scene = engine.scene();
         let found = scene.contact(pair, 1.0).expect("near");
         let right = gap + way - 0.5 * turn.abs();
         let ahead = scene.gap_ahead(pair, &found, false);

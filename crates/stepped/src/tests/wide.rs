@@ -2,10 +2,9 @@
 
 use carom_geometry::Polygon;
 use carom_math::{Vec2, vec2};
-use fearless_simd::Level;
 
 use super::{Random, levels};
-use crate::narrow::{Eight, Found, Manifold, Scene, collide_eight};
+use crate::narrow::{Eight, Found, Manifold, Scene, collide_eight, naive};
 use crate::rows::LANES;
 use crate::{Engine, PieceInput, Settings};
 
@@ -50,14 +49,14 @@ fn eight<'a>(scene: &Scene<'a>, pairs: &[[u32; 2]]) -> Eight<'a> {
         let body = |piece: u32| scene.pieces.list[piece as usize].body;
         let line = |piece: u32| scene.bodies.records[body(piece) as usize].line;
         (eight.lines[0][lane], eight.lines[1][lane]) = (line(pair[0]), line(pair[1]));
-        eight.least[lane] = scene.seen(pair.map(|piece| line(piece) as usize));
+        eight.least[lane] = scene.seen(pair.map(line));
     }
     eight
 }
 
-fn found(level: Level, scene: &Scene<'_>, eight: &Eight<'_>) -> Found {
+fn found(scene: &Scene<'_>, eight: &Eight<'_>) -> Found {
     let mut found = Found::NONE;
-    collide_eight(level, scene, 1.0, eight, &mut found);
+    collide_eight(scene, 1.0, eight, &mut found);
     found
 }
 
@@ -83,17 +82,13 @@ fn eight_at_once_agree_with_one_by_one() {
     for seed in 0..60u32 {
         let spread = [0.3, 1.0, 3.0][seed as usize % 3];
         let engine = random_bodies(u64::from(seed), spread);
-        let scene = Scene {
-            bodies: &engine.bodies,
-            pieces: &engine.pieces,
-            settings: &engine.settings,
-        };
+        let scene = engine.scene();
         for pairs in pairs(&scene).chunks(LANES) {
             let eight = eight(&scene, pairs);
-            let found = found(engine.level, &scene, &eight);
+            let found = found(&scene, &eight);
             for (lane, pair) in pairs.iter().enumerate() {
                 let ours = (found.near >> lane & 1 == 1).then(|| found.manifold(lane));
-                let theirs = scene.contact(*pair, 1.0);
+                let theirs = naive::contact_on(&scene, Vec2::ZERO, *pair, 1.0);
                 near += usize::from(theirs.is_some());
                 ties += usize::from(!agree(ours.as_ref(), theirs.as_ref()));
             }
@@ -101,6 +96,25 @@ fn eight_at_once_agree_with_one_by_one() {
     }
     assert!(near > 10_000, "{near}");
     assert!(ties * 1000 <= near, "{ties} of {near} differ");
+}
+
+#[test]
+fn a_pair_that_stays_on_a_side_agrees_with_its_slow_twin() {
+    let (mut turned, mut ties) = (0, 0);
+    let mut random = Random::new(3);
+    for seed in 0..20u32 {
+        let engine = random_bodies(u64::from(seed), [0.3, 1.0][seed as usize % 2]);
+        let scene = engine.scene();
+        for pair in pairs(&scene) {
+            let side = vec2(random.signed(), random.signed());
+            let ours = scene.contact_on(side, pair, 1.0);
+            let theirs = naive::contact_on(&scene, side, pair, 1.0);
+            turned += usize::from(!agree(ours.as_ref(), scene.contact(pair, 1.0).as_ref()));
+            ties += usize::from(!agree(ours.as_ref(), theirs.as_ref()));
+        }
+    }
+    assert!(turned > 1000, "{turned}");
+    assert!(ties * 100 <= turned, "{ties} of {turned} differ");
 }
 
 #[test]
@@ -114,16 +128,12 @@ fn all_widths_find_the_same_bits() {
     };
     for seed in 0..6 {
         let engine = random_bodies(seed, 1.0);
-        let scene = Scene {
-            bodies: &engine.bodies,
-            pieces: &engine.pieces,
-            settings: &engine.settings,
-        };
+        let scene = engine.scene();
         for pairs in pairs(&scene).chunks(LANES) {
             let eight = eight(&scene, pairs);
-            let first = found(engine.level, &scene, &eight);
+            let first = found(&scene, &eight);
             for level in levels() {
-                let found = found(level, &scene, &eight);
+                let found = found(&Scene { level, ..scene }, &eight);
                 assert_eq!(bits(&first), bits(&found), "{level:?}");
             }
         }
@@ -149,20 +159,16 @@ fn a_pair_has_the_bits_that_it_has_alone_whatever_its_first_edge_is() {
                 .unwrap();
         }
         engine.pose_boxes();
-        let scene = Scene {
-            bodies: &engine.bodies,
-            pieces: &engine.pieces,
-            settings: &engine.settings,
-        };
+        let scene = engine.scene();
         let (mut near, mut ties) = (0, 0);
         for pairs in pairs(&scene).chunks(LANES) {
-            let all = found(engine.level, &scene, &eight(&scene, pairs));
+            let all = found(&scene, &eight(&scene, pairs));
             for (lane, pair) in pairs.iter().enumerate() {
-                let alone = found(engine.level, &scene, &eight(&scene, &[*pair]));
+                let alone = found(&scene, &eight(&scene, &[*pair]));
                 let ours = (all.near >> lane & 1 == 1).then(|| all.manifold(lane));
                 let its = (alone.near & 1 == 1).then(|| alone.manifold(0));
                 assert_eq!(format!("{ours:?}"), format!("{its:?}"), "{pair:?}");
-                let theirs = scene.contact(*pair, 1.0);
+                let theirs = naive::contact_on(&scene, Vec2::ZERO, *pair, 1.0);
                 near += usize::from(theirs.is_some());
                 ties += usize::from(!agree(ours.as_ref(), theirs.as_ref()));
             }

@@ -1,9 +1,8 @@
-//! Two outlines to their manifold, one pair at a time: the slow twin of [`super::wide`], and what sleeping islands are
-//! asked by.
+//! Two outlines to their manifold, one pair at a time: the slow twin of [`super::wide`].
 
 use carom_math::{Vec2, perp};
 
-use super::Manifold;
+use super::{HYSTERESIS, Manifold, Scene};
 use crate::outline::Turned;
 
 /// Where B is from A, and what they do until the next tick.
@@ -26,6 +25,31 @@ impl Going {
             turns: [b, a],
         }
     }
+}
+
+/// [`Scene::contact_on`] of two pieces with outlines.
+pub(crate) fn contact_on(
+    scene: &Scene<'_>,
+    side: Vec2,
+    pair: [u32; 2],
+    factor: f64,
+) -> Option<Manifold> {
+    let meeting = scene.meeting(pair);
+    let [slot_a, slot_b] = pair.map(|piece| scene.pieces.list[piece as usize].body);
+    let turns = [slot_a, slot_b].map(|slot| scene.bodies.velocity_of(slot).1 * scene.settings.tick);
+    let [base_a, base_b] = [slot_a, slot_b].map(|slot| scene.bodies.base_of(slot).position);
+    let going = Going {
+        d: base_b - base_a + meeting.gone,
+        way: meeting.way,
+        turns,
+    };
+    let margin = factor * meeting.margin;
+    let limits = [margin + meeting.beside, margin, HYSTERESIS * meeting.margin];
+    let [a, b] = pair.map(|piece| scene.pieces.turned(piece));
+    let mut found = collide(a, b, going, side, limits)?;
+    let gone = found.normal.dot(meeting.gone);
+    found.gaps = found.gaps.map(|gap| gap - gone);
+    (found.gap() < margin + scene.closes(pair, &found)).then_some(found)
 }
 
 /// Two outlines, both turned; `None` if they stay farther apart than `limit` until the next tick.
