@@ -402,15 +402,15 @@ impl Engine {
         } = self;
         let every = settings.relaxation == Relaxation::EverySubstep;
         ways.start(bodies);
-        free.meet(*level, graph, bodies);
+        free.meet(graph, bodies);
         warm_start(*level, bodies, law.h);
         hard.free(bodies, graph);
-        arrivals(*level, law, bodies, graph, arrived, before);
+        arrivals(law, bodies, graph, arrived, before);
         impacts.note_arrivals(arrived, graph);
         if hard.solve(law, bodies, graph) {
             // Islands without an answer are swept instead.
             extra.gather(graph, bodies);
-            free.meet(*level, graph, bodies);
+            free.meet(graph, bodies);
         }
         let solve = if every {
             Pass::Solve
@@ -429,14 +429,14 @@ impl Engine {
             seen = sweep(*level, Pass::Relax, law, &mut bodies.lines, graph.soft());
             extra.sweep(Pass::Relax, law, bodies, graph);
         }
-        free.turn_back(*level, graph, bodies, law.h);
+        free.turn_back(graph, bodies, law.h);
         self.heat += seen.heat + hard.heat;
         self.belts += graph.belt_work();
         let rest = f64::from(settings.substeps - self.done) * law.h;
         correct(*level, bodies, settings, law.h, rest);
         self.rotating.rotate(graph, bodies);
         let gap = hard.part(law, bodies, (graph, free), settings, true);
-        free.turn_back_late(*level, graph, bodies, law.h);
+        free.turn_back_late(graph, bodies, law.h);
         impacts.note_hits(law, bodies, graph, true);
         impacts.add_rows(arrived, bodies, graph);
         let [heat, given] = bounce(bodies, graph, arrived, before);

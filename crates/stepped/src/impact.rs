@@ -255,10 +255,9 @@ const fn number(at: usize) -> u32 {
 
 /// Adds numbers of contacts that push and did not when this was last asked.
 fn begins(colour: &mut Colour, new: &mut Vec<u32>) {
-    let pairs = colour.pushes.iter().zip(&mut colour.pushed);
-    for ((now, before), cold) in pairs.zip(&colour.cold) {
-        let mut begins = now & !*before;
-        *before = *now;
+    for (now, cold) in colour.pushes.iter().zip(&mut colour.cold) {
+        let mut begins = now & !cold.pushed;
+        cold.pushed = *now;
         while begins != 0 {
             new.push(cold.contact[begins.trailing_zeros() as usize]);
             begins &= begins - 1;

@@ -3,19 +3,11 @@
 use carom_math::{Vec2, perp};
 
 use super::line::{Line, Quad};
+use crate::bodies::Bodies;
 use crate::narrow::Manifold;
 
 /// Contacts in a block.
 pub(crate) const LANES: usize = 8;
-
-/// 1 for each lane that has a bit, else 0: a mask is made of it by comparison.
-pub(super) fn flags(lanes: u8) -> [f64; LANES] {
-    let mut flags = [0.0; LANES];
-    for (lane, flag) in flags.iter_mut().enumerate() {
-        *flag = f64::from(lanes >> lane & 1);
-    }
-    flags
-}
 
 /// A contact that sinks in under a load is held by the sweeps until it is so many times as deep as one that was put so. 5: a
 /// smash takes a fifth longer.
@@ -87,6 +79,8 @@ pub(crate) struct Cold {
     pub(crate) shown: [f64; LANES],
     /// A bit for each lane that pushed when it was last asked.
     pub(crate) touching: u8,
+    /// A bit for each lane that pushed when impacts were last looked for.
+    pub(crate) pushed: u8,
     /// A bit for each lane that an impact goes on in.
     pub(super) runs: u8,
     /// A bit for each lane that was too deep for the sweeps when it was last computed.
@@ -168,17 +162,19 @@ impl Block {
     }
 
     /// Has impulses act at one point, midway between where either body took the one of the base poses, so that they change no angular
-    /// momentum: `b1 − a1 = (c_A − c_B) × n`, and likewise along the normal. Gaps stay. Of bodies that can be moved, with these
-    /// base positions.
-    pub(crate) fn meet(&mut self, lane: usize, [a, b]: [(&Line, Vec2); 2]) {
-        let n = self.normal(lane);
-        let away = (a.1 + a.0.d()) - (b.1 + b.0.d());
+    /// momentum: `b1 − a1 = (c_A − c_B) × n`, and likewise along the normal. Gaps stay. Of bodies that can be moved; by how much arms
+    /// changed, across and along the normal.
+    pub(crate) fn meet(&mut self, lane: usize, bodies: &Bodies) -> (f64, f64) {
+        let [a, b] = [self.a[lane] as usize, self.b[lane] as usize];
+        let centre = |at: usize| bodies.base[at].position + bodies.lines[at].d();
+        let (n, away) = (self.normal(lane), centre(a) - centre(b));
         let lever = 0.5 * (away.perp_dot(n) - (self.b1[lane] - self.a1[lane]));
         let height = 0.5 * (away.dot(n) - (self.bt[lane] - self.at[lane]));
         (self.a1[lane], self.b1[lane]) = (self.a1[lane] - lever, self.b1[lane] + lever);
         (self.at[lane], self.bt[lane]) = (self.at[lane] - height, self.bt[lane] + height);
-        let turned = lever * (a.0.turn() + b.0.turn());
+        let turned = lever * (bodies.lines[a].turn() + bodies.lines[b].turn());
         (self.s1[lane], self.s2[lane]) = (self.s1[lane] - turned, self.s2[lane] - turned);
+        (lever, height)
     }
 
     pub(crate) const fn points(&self, lane: usize) -> usize {
@@ -267,6 +263,7 @@ impl Cold {
         depths: [[0.0; 2]; LANES],
         shown: [0.0; LANES],
         touching: 0,
+        pushed: 0,
         runs: 0,
         deep: 0,
         put: 0,
@@ -359,6 +356,7 @@ impl Cold {
         self.shown[to] = other.shown[from];
         let bit = |mine: u8, theirs: u8| mine & !(1 << to) | (theirs >> from & 1) << to;
         self.touching = bit(self.touching, other.touching);
+        self.pushed = bit(self.pushed, other.pushed);
         self.runs = bit(self.runs, other.runs);
         self.deep = bit(self.deep, other.deep);
         self.put = bit(self.put, other.put);

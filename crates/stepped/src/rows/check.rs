@@ -11,10 +11,11 @@ impl Graph {
         let mut sums = vec![super::Quad::default(); bodies.lines.len()];
         let mut count = 0;
         for (c, colour) in self.colours.iter().enumerate() {
+            let restitutions = colour.cold.iter().flat_map(|cold| cold.restitution);
+            let bouncing = restitutions.filter(|e| *e > 0.0);
+            assert_eq!(colour.bouncing, bouncing.count());
             for (k, (block, cold)) in colour.blocks.iter().zip(&colour.cold).enumerate() {
                 let mut seen = Vec::new();
-                let bounces = (0..LANES).filter(|lane| cold.restitution[*lane] > 0.0);
-                assert_eq!(usize::from(colour.bounces[k]), bounces.count());
                 for lane in 0..LANES {
                     if cold.used >> lane & 1 == 0 {
                         assert_eq!((block.a[lane], block.b[lane]), (0, 0));

@@ -7,11 +7,9 @@ use super::block::{Block, Cold, LANES};
 pub(crate) struct Colour {
     pub(crate) blocks: Vec<Block>,
     pub(crate) cold: Vec<Cold>,
-    /// A bit for each lane that pushes, as sweeps leave them, and as they were when impacts were last looked for.
+    /// A bit for each lane that pushes, as sweeps leave them.
     pub(crate) pushes: Vec<u8>,
-    pub(crate) pushed: Vec<u8>,
-    /// How many contacts of each block have restitution, and all of them.
-    pub(crate) bounces: Vec<u8>,
+    /// How many contacts have restitution.
     pub(crate) bouncing: usize,
     /// How many contacts have a belt.
     pub(crate) belts: usize,
@@ -25,7 +23,6 @@ pub(crate) struct Colour {
 pub(super) struct Lane {
     block: Block,
     cold: Cold,
-    pushed: bool,
     lane: usize,
 }
 
@@ -33,7 +30,6 @@ impl Lane {
     const EMPTY: Self = Self {
         block: Block::EMPTY,
         cold: Cold::EMPTY,
-        pushed: false,
         lane: 0,
     };
 }
@@ -56,8 +52,6 @@ impl Colour {
             self.blocks.push(Block::EMPTY);
             self.cold.push(Cold::EMPTY);
             self.pushes.push(0);
-            self.pushed.push(0);
-            self.bounces.push(0);
         }
         let cold = &mut self.cold[k];
         cold.used |= 1 << lane;
@@ -68,17 +62,13 @@ impl Colour {
 
     /// A lane came that may have restitution or a belt.
     pub(super) fn count(&mut self, k: usize, lane: usize) {
-        let bounces = self.cold[k].restitution[lane] > 0.0;
-        self.bounces[k] += u8::from(bounces);
-        self.bouncing += usize::from(bounces);
+        self.bouncing += usize::from(self.cold[k].restitution[lane] > 0.0);
         self.belts += usize::from(self.cold[k].belt[lane].abs() > 0.0);
     }
 
     /// A lane that may have restitution or a belt goes.
     pub(super) fn discount(&mut self, k: usize, lane: usize) {
-        let bounces = self.cold[k].restitution[lane] > 0.0;
-        self.bounces[k] -= u8::from(bounces);
-        self.bouncing -= usize::from(bounces);
+        self.bouncing -= usize::from(self.cold[k].restitution[lane] > 0.0);
         self.belts -= usize::from(self.cold[k].belt[lane].abs() > 0.0);
     }
 
@@ -87,7 +77,6 @@ impl Colour {
         Lane {
             block: self.blocks[k],
             cold: self.cold[k],
-            pushed: self.pushed[k] >> lane & 1 == 1,
             lane,
         }
     }
@@ -96,7 +85,6 @@ impl Colour {
     pub(super) fn paste(&mut self, k: usize, lane: usize, from: &Lane) {
         self.blocks[k].copy_lane(lane, &from.block, from.lane);
         self.cold[k].copy_lane(lane, &from.cold, from.lane);
-        self.pushed[k] = self.pushed[k] & !(1 << lane) | u8::from(from.pushed) << lane;
         self.count(k, lane);
     }
 
@@ -108,7 +96,6 @@ impl Colour {
         self.discount(k, 0);
         self.blocks[k] = Block::EMPTY;
         self.cold[k] = Cold::EMPTY;
-        self.pushed[k] = 0;
         self.holes += 1;
         4 * self.holes > self.blocks.len()
     }
@@ -123,8 +110,6 @@ impl Colour {
             if count < k {
                 self.blocks[count] = self.blocks[k];
                 self.cold[count] = self.cold[k];
-                self.pushed[count] = self.pushed[k];
-                self.bounces[count] = self.bounces[k];
                 moved(self.cold[count].contact[0], count);
             }
             count += 1;
@@ -132,8 +117,6 @@ impl Colour {
         self.blocks.truncate(count);
         self.cold.truncate(count);
         self.pushes.truncate(count);
-        self.pushed.truncate(count);
-        self.bounces.truncate(count);
         self.holes = 0;
     }
 
@@ -154,8 +137,6 @@ impl Colour {
             self.blocks.pop();
             self.cold.pop();
             self.pushes.pop();
-            self.pushed.pop();
-            self.bounces.pop();
         }
         moves.then(|| self.cold[k].contact[lane])
     }

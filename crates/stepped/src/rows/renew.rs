@@ -4,7 +4,7 @@
 
 use fearless_simd::{Level, Select, Simd};
 
-use super::block::{Block, LANES, OPEN, flags};
+use super::block::{Block, LANES, OPEN};
 use super::line::{Line, Quad};
 use super::transpose::{Wide, any};
 use super::widest::widest;
@@ -21,7 +21,8 @@ pub(crate) fn renew(
     new: &Block,
     lanes: u8,
 ) {
-    let chosen = flags(lanes);
+    // A mask is made of it by comparison.
+    let chosen = core::array::from_fn(|lane| f64::from(lanes >> lane & 1));
     widest!(level => parts(lines, start, block, new, &chosen));
 }
 
