@@ -10,6 +10,12 @@ use crate::record::{UNDAMPED, drag};
 use crate::rows::{Line, Quad, velocity_before};
 use crate::{EngineError, Settings};
 
+/// A place in a list, or the length of one, as it is stored: what is counted so takes dozens of bytes each.
+#[expect(clippy::cast_possible_truncation, reason = "fewer than 2^32")]
+pub(crate) const fn number(at: usize) -> u32 {
+    at as u32
+}
+
 /// All bodies. The lists by line hold awake bodies only.
 #[derive(Clone, Debug)]
 pub(crate) struct Bodies {
@@ -96,7 +102,7 @@ impl Bodies {
     /// The pieces of the body of a line.
     pub(crate) fn pieces_of_line(&self, line: usize) -> Range<u32> {
         let record = &self.records[self.slot_of[line] as usize];
-        record.first_piece..record.first_piece + record.pieces
+        record.pieces()
     }
 
     /// Number of the insertion of the body of a line; 0 for the lines of empty lanes and of fixed bodies.
@@ -110,10 +116,8 @@ impl Bodies {
     pub(crate) fn insert(&mut self, input: &BodyInput, settings: &Settings) -> BodyId {
         let dynamic = input.kind == BodyKind::Dynamic;
         let slot = self.free.pop().unwrap_or_else(|| {
-            #[expect(clippy::cast_possible_truncation, reason = "hundreds of bytes each")]
-            let slot = self.records.len() as u32;
             self.records.push(Record::NONE);
-            slot
+            number(self.records.len() - 1)
         });
         self.births += 1;
         let record = &mut self.records[slot as usize];
@@ -151,8 +155,7 @@ impl Bodies {
 
     /// Gives a body a line at the end.
     fn give_line(&mut self, slot: u32, v: Vec2, w: f64, settings: &Settings) {
-        #[expect(clippy::cast_possible_truncation, reason = "hundreds of bytes each")]
-        let line = self.lines.len() as u32;
+        let line = number(self.lines.len());
         let record = &mut self.records[slot as usize];
         record.line = line;
         let (m, i) = (record.mass.recip(), record.inertia.recip());

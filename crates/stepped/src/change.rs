@@ -62,7 +62,7 @@ impl Engine {
         self.bodies.records[id.slot as usize].placed = self.bodies.updates;
         if record.kind == BodyKind::Fixed {
             self.bodies.records[id.slot as usize].pose = pose;
-            for number in record.first_piece..record.first_piece + record.pieces {
+            for number in record.pieces() {
                 self.broad.leave(number);
                 self.stand(number, pose);
             }

@@ -136,7 +136,7 @@ pub(crate) fn hide(
         if record.kind != BodyKind::Dynamic {
             continue;
         }
-        let its = record.first_piece..record.first_piece + record.pieces;
+        let its = record.pieces();
         ids.clear();
         let all = its.clone().all(|piece| {
             let contacts = known.contacts(piece);

@@ -8,7 +8,7 @@
 
 use carom_math::{Vec2, perp};
 
-use crate::bodies::Bodies;
+use crate::bodies::{Bodies, number};
 use crate::pieces::Pieces;
 use crate::rows::{Arrival, Block, Colour, Graph, Law, REST};
 use crate::{BodyId, Engine};
@@ -246,11 +246,6 @@ impl Run {
         self.impulse += normal * sum + perp(normal) * j[2];
         self.moment += first * sum - perp(normal) * (block.l[lane] * j[1]);
     }
-}
-
-#[expect(clippy::cast_possible_truncation, reason = "fewer than 2^32 contacts")]
-const fn number(at: usize) -> u32 {
-    at as u32
 }
 
 /// Adds numbers of contacts that push and did not when this was last asked.

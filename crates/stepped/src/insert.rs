@@ -2,7 +2,7 @@
 
 use carom_math::Pose;
 
-use crate::bodies::Bodies;
+use crate::bodies::{Bodies, number};
 use crate::pieces::{Disc, Piece};
 use crate::{BodyId, BodyInput, BodyKind, Engine, EngineError, PieceInput};
 
@@ -26,18 +26,15 @@ impl Engine {
         let id = self.bodies.insert(&body, &self.settings);
         let mut list = Vec::new();
         for piece in pieces {
-            #[expect(clippy::cast_possible_truncation, reason = "hundreds of bytes each")]
-            let first = list.len() as u32;
-            list.extend(Piece::of(piece, id.slot, first));
+            list.extend(Piece::of(piece, id.slot, number(list.len())));
         }
         let reach = list.iter().map(|piece| piece.reach).fold(0.0, f64::max);
         let extent = list.iter().map(|piece| piece.extent);
         let extent = extent.fold(f64::INFINITY, f64::min);
-        #[expect(clippy::cast_possible_truncation, reason = "hundreds of bytes each")]
-        let count = list.len() as u32;
+        let count = number(list.len());
         let first = self.pieces.insert(list);
         let record = &mut self.bodies.records[id.slot as usize];
-        (record.first_piece, record.pieces, record.reach) = (first, count, reach);
+        (record.first_piece, record.count, record.reach) = (first, count, reach);
         if body.kind == BodyKind::Fixed {
             for number in first..first + count {
                 self.stand(number, body.pose);
@@ -80,10 +77,10 @@ impl Engine {
         self.leave_ways(id.slot);
         self.drop_contacts(id.slot);
         self.impacts.forget(id.slot);
-        for number in record.first_piece..record.first_piece + record.pieces {
+        for number in record.pieces() {
             self.broad.leave(number);
         }
-        self.pieces.remove(record.first_piece, record.pieces);
+        self.pieces.remove(record.first_piece, record.count);
         if record.kind != BodyKind::Fixed
             && let Some(moved) = self.bodies.take_line(id.slot)
         {

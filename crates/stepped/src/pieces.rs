@@ -6,6 +6,7 @@ use carom_collision::{Hull, part, part_count};
 use carom_geometry::{Aabb, Shape};
 use carom_math::{Pose, Vec2};
 
+use crate::bodies::number;
 use crate::error::{check, finite, not_negative};
 use crate::outline::{CORNERS, Outline, Rest, Turned, outline_of};
 use crate::{EngineError, PairRules, Surface};
@@ -206,8 +207,7 @@ impl Pieces {
 
     /// Numbers the pieces of a body; gives the first number.
     pub(crate) fn insert(&mut self, pieces: Vec<Piece>) -> u32 {
-        #[expect(clippy::cast_possible_truncation, reason = "hundreds of bytes each")]
-        let (end, count) = (self.list.len() as u32, pieces.len() as u32);
+        let (end, count) = (number(self.list.len()), number(pieces.len()));
         let again = self.free.iter().rposition(|free| free.1 == count);
         let first = again.map_or(end, |k| self.free.swap_remove(k).0);
         for (number, piece) in (first as usize..).zip(pieces) {

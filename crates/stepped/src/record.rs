@@ -1,5 +1,7 @@
 //! What is kept of a body beside its line.
 
+use core::ops::Range;
+
 use carom_math::{Pose, trig};
 
 use crate::bodies::Bodies;
@@ -16,9 +18,9 @@ pub(crate) struct Record {
     pub(crate) sleep_allowed: bool,
     /// Its line: [`Bodies::GROUND`] if fixed.
     pub(crate) line: u32,
-    /// Pieces are numbered from here on.
+    /// Number of its first piece, and how many it has.
     pub(crate) first_piece: u32,
-    pub(crate) pieces: u32,
+    pub(crate) count: u32,
     /// Counts insertions: the order of bodies that recycled slots cannot change.
     pub(crate) birth: u64,
     /// Which update of contacts was the next when it was put where it is or was: see [`Bodies::updates`].
@@ -128,6 +130,11 @@ pub(crate) fn drag(rates: [f64; 2], h: f64) -> [Quad; 2] {
 pub(crate) const UNDAMPED: [Quad; 2] = [Quad([1.0; 4]); 2];
 
 impl Record {
+    /// Numbers of its pieces.
+    pub(crate) const fn pieces(&self) -> Range<u32> {
+        self.first_piece..self.first_piece + self.count
+    }
+
     pub(crate) const NONE: Self = Self {
         generation: 0,
         kind: BodyKind::Fixed,
@@ -135,7 +142,7 @@ impl Record {
         sleep_allowed: true,
         line: Bodies::NONE,
         first_piece: 0,
-        pieces: 0,
+        count: 0,
         birth: 0,
         placed: 0,
         contacts: u32::MAX,

@@ -6,7 +6,7 @@
 
 use carom_math::Vec2;
 
-use crate::bodies::{Bodies, Sleeper};
+use crate::bodies::{Bodies, Sleeper, number};
 use crate::update::nearness;
 use crate::{BodyId, BodyKind, Engine, EngineError};
 
@@ -153,9 +153,7 @@ impl Engine {
     fn lay(&mut self, island: &[u32]) {
         let number = self.islands.free.pop().unwrap_or_else(|| {
             self.islands.asleep.push(None);
-            #[expect(clippy::cast_possible_truncation, reason = "fewer than bodies")]
-            let last = self.islands.asleep.len() as u32 - 1;
-            last
+            number(self.islands.asleep.len() - 1)
         });
         for &slot in island {
             self.bodies.records[slot as usize].island = number;
@@ -188,7 +186,7 @@ impl Engine {
             }
             // Others meet it where it lies: it has no line to tell how far that is from its base pose.
             let record = &self.bodies.records[slot as usize];
-            for piece in record.first_piece..record.first_piece + record.pieces {
+            for piece in record.pieces() {
                 self.pieces.pose(piece, record.pose);
                 self.broad.stand(piece, self.pieces.boxes[piece as usize]);
             }
@@ -222,7 +220,7 @@ impl Engine {
             self.islands.changed.push(sleeper.slot);
             let record = &mut self.bodies.records[sleeper.slot as usize];
             record.island = Bodies::NONE;
-            for piece in record.first_piece..record.first_piece + record.pieces {
+            for piece in record.pieces() {
                 self.pieces.pose(piece, sleeper.base);
                 self.broad.wake(piece);
             }
@@ -241,7 +239,7 @@ impl Engine {
     fn sleepers_at(&self, slot: u32, margins: f64) -> Vec<u32> {
         let record = &self.bodies.records[slot as usize];
         let mut found = Vec::new();
-        for piece in record.first_piece..record.first_piece + record.pieces {
+        for piece in record.pieces() {
             let bounds = self.pieces.boxes[piece as usize];
             self.broad.standing_in(bounds, |other| {
                 let theirs = self.pieces.list[other as usize].body;

@@ -168,7 +168,7 @@ impl Engine {
         // Queries find it along all of its motion.
         let ends = [from.position, self.bodies.pose_of(id.slot).position];
         let around = Aabb::from_points(ends).grown(record.reach);
-        for piece in record.first_piece..record.first_piece + record.pieces {
+        for piece in record.pieces() {
             let bounds = &mut self.pieces.boxes[piece as usize];
             *bounds = bounds.union(around);
             self.broad.enter(piece);
@@ -183,7 +183,7 @@ impl Engine {
         let square = (line.d() - d).length_squared();
         self.fast_bodies.retain(|body| body.slot != id.slot);
         // No rows hold it: what is thin is fast where it goes by less than an extent allows.
-        let pieces = record.first_piece..record.first_piece + record.pieces;
+        let pieces = record.pieces();
         let widths = pieces.map(|piece| self.pieces.list[piece as usize].width());
         let limit = Limit {
             extent: widths.fold(f64::INFINITY, f64::min),
@@ -429,7 +429,7 @@ impl Engine {
     /// Whether a fast body leaves the swept boxes of the tick.
     fn leaves_boxes(&self, body: &FastBody, left: f64) -> bool {
         let record = &self.bodies.records[body.slot as usize];
-        let boxes = record.first_piece..record.first_piece + record.pieces;
+        let boxes = record.pieces();
         let boxes = boxes.map(|piece| self.pieces.boxes[piece as usize]);
         let (from, velocity) = self.way(body, left);
         let way = way_box(from, velocity, left);
@@ -439,7 +439,7 @@ impl Engine {
     /// Whether a search for the touches of a fast body that stays in its boxes may find something.
     fn may_touch(&self, body: &FastBody) -> bool {
         let record = &self.bodies.records[body.slot as usize];
-        let mut pieces = record.first_piece..record.first_piece + record.pieces;
+        let mut pieces = record.pieces();
         let beside = |piece: u32| {
             self.broad.is_by_standing(piece) || body.turns && self.broad.is_by_moving(piece)
         };

@@ -8,7 +8,7 @@ use carom_math::{SimTime, Vec2};
 use super::cores::{depth, parts};
 use super::touching::Touching;
 use super::{Fast, Moving, SHORT};
-use crate::bodies::Bodies;
+use crate::bodies::{Bodies, number};
 use crate::narrow::arc;
 use crate::{Engine, PairRules};
 
@@ -36,7 +36,7 @@ impl Engine {
         for &other in leaving {
             let record = &self.bodies.records[fast.noted[other].slot as usize];
             if fast.bounds(self, other, span.1).overlaps(bounds) {
-                others.extend(record.first_piece..record.first_piece + record.pieces);
+                others.extend(record.pieces());
             }
         }
         self.first_parts(&mut others);
@@ -98,8 +98,7 @@ impl Engine {
             {
                 continue;
             }
-            let mut pieces: Vec<u32> =
-                (record.first_piece..record.first_piece + record.pieces).collect();
+            let mut pieces: Vec<u32> = record.pieces().collect();
             self.first_parts(&mut pieces);
             for piece in pieces {
                 self.search_piece(fast, (k, Some(changed)), piece, span, rules, touches);
@@ -110,11 +109,7 @@ impl Engine {
     /// A shape is searched whole, from its first part on.
     fn first_parts(&self, pieces: &mut Vec<u32>) {
         for piece in &mut *pieces {
-            let part = self.pieces.list[*piece as usize].part();
-            #[expect(clippy::cast_possible_truncation, reason = "parts are pieces")]
-            {
-                *piece -= part as u32;
-            }
+            *piece -= number(self.pieces.list[*piece as usize].part());
         }
         pieces.sort_unstable();
         pieces.dedup();
@@ -181,7 +176,7 @@ impl Engine {
         let turns = arc(own.spin, mine.reach) + arc(other.spin, reach);
         let nearing = ((own.velocity - other.velocity).length() + turns) * (to - from);
         let mut first: Option<(f64, Option<Vec2>)> = None;
-        for number in mine.first_piece..mine.first_piece + mine.pieces {
+        for number in mine.pieces() {
             let piece_of_mine = &self.pieces.list[number as usize];
             if piece_of_mine.part() != 0
                 || self.is_held([number, piece], body.slot)

@@ -4,7 +4,7 @@ use super::block::Block;
 use super::block::{LANES, Pressed};
 use super::colour::Colour;
 use crate::Surface;
-use crate::bodies::{Bodies, BodyKind};
+use crate::bodies::{Bodies, BodyKind, number};
 use crate::ghost::Suspects;
 use crate::narrow::Manifold;
 
@@ -16,8 +16,7 @@ pub(crate) const COLOURS: usize = 64;
 pub(crate) const HARD: usize = COLOURS + 1;
 
 /// The same number.
-#[expect(clippy::cast_possible_truncation, reason = "dozens")]
-pub(super) const FIRST_HARD: u32 = HARD as u32;
+pub(super) const FIRST_HARD: u32 = number(HARD);
 
 /// Where contacts of sleeping islands lie, with all their fields: no pass reads it.
 pub(crate) const ASLEEP: usize = HARD + COLOURS;
@@ -168,8 +167,7 @@ impl Graph {
         (manifold, deepest): (&Manifold, f64),
         surface: Surface,
     ) -> u32 {
-        #[expect(clippy::cast_possible_truncation, reason = "dozens of bytes each")]
-        let id = self.free.pop().unwrap_or(self.contacts.len() as u32);
+        let id = self.free.pop().unwrap_or(number(self.contacts.len()));
         let mut contact = Contact {
             bodies: ends,
             pieces,
@@ -224,10 +222,7 @@ impl Graph {
             }
         }
         let index = self.colours[colour].push(colour == COLOURS, id, contact.pieces);
-        #[expect(clippy::cast_possible_truncation, reason = "fewer than 2^32 contacts")]
-        {
-            (contact.colour, contact.index) = (colour as u32, index as u32);
-        }
+        (contact.colour, contact.index) = (number(colour), number(index));
         let (k, lane) = contact.place();
         let colour = &mut self.colours[colour];
         let block = &mut colour.blocks[k];
@@ -285,22 +280,14 @@ impl Graph {
                 self.close_up();
             }
         } else if let Some(moved) = self.colours[colour].pull(k, lane) {
-            #[expect(clippy::cast_possible_truncation, reason = "fewer than 2^32 contacts")]
-            let index = (k * LANES + lane) as u32;
-            self.contacts[moved as usize].index = index;
+            self.contacts[moved as usize].index = number(k * LANES + lane);
         }
     }
 
     /// Takes blocks without a contact out of the overflow colour; the others keep their order.
     fn close_up(&mut self) {
-        let Self {
-            colours, contacts, ..
-        } = self;
-        colours[COLOURS].close_up(|id, k| {
-            #[expect(clippy::cast_possible_truncation, reason = "fewer than 2^32 contacts")]
-            let index = (k * LANES) as u32;
-            contacts[id as usize].index = index;
-        });
+        let contacts = &mut self.contacts;
+        self.colours[COLOURS].close_up(|id, k| contacts[id as usize].index = number(k * LANES));
     }
 
     /// Takes a contact out of the lists of its bodies.

@@ -11,7 +11,7 @@ use fearless_simd::{
 use super::line::{Line, Quad};
 use super::transpose::{Numbers, Wide, rows_of};
 use crate::Settings;
-use crate::bodies::{BEND, Bodies, FAST, Limit};
+use crate::bodies::{BEND, Bodies, FAST, Limit, number};
 
 /// Damping that leaves less than this of a velocity in a sub-step makes its change no smooth one. From 1/32 on the velocity at the end
 /// tells the way better than the trapezoid: of `v h` it tells f, the trapezoid `(1 + f)/2`, and the truth is `(1 − f)/(−ln f)`.
@@ -182,8 +182,7 @@ fn correct_all<S: Simd, const DAMPED: bool>(
             drag: &filled(&bodies.drag, first_of_last),
             limits: &filled(&bodies.limits, first_of_last),
         };
-        #[expect(clippy::cast_possible_truncation, reason = "hundreds of bytes each")]
-        let first = first_of_last as u32;
+        let first = number(first_of_last);
         correct_four::<_, DAMPED>(simd, (&mut lines, &four), first, &span, &mut seen);
         last.copy_from_slice(&lines[..last.len()]);
     }

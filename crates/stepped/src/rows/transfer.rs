@@ -2,7 +2,7 @@
 
 use super::block::LANES;
 use super::graph::{ASLEEP, COLOURS, Contact, FIRST_HARD, Graph, HARD};
-use crate::bodies::{Bodies, BodyKind};
+use crate::bodies::{Bodies, BodyKind, number};
 
 impl Contact {
     pub(crate) const fn sleeps(&self) -> bool {
@@ -90,10 +90,7 @@ impl Graph {
         let block = &mut other.blocks[place.0];
         (block.a[place.1], block.b[place.1]) = (lines[0], lines[1]);
         let contact = &mut self.contacts[id as usize];
-        #[expect(clippy::cast_possible_truncation, reason = "fewer than 2^32 contacts")]
-        {
-            (contact.colour, contact.index) = (to as u32, index as u32);
-        }
+        (contact.colour, contact.index) = (number(to), number(index));
         self.hard += usize::from(contact.is_hard());
     }
 }
