@@ -4,9 +4,12 @@ use crate::Engine;
 use crate::narrow::collide_any;
 use crate::rows::{LANES, OPEN};
 
+/// As many times as far as a fast body goes at least.
+const FAR: f64 = 2.0;
+
 impl Engine {
-    /// Rows know gaps to first order in how their bodies turn, and as if faces had no ends. Of bodies that go or turn as far as fast
-    /// ones do gaps are those of their pieces instead, where continuous collision left them.
+    /// Rows know gaps to first order in how their bodies turn, and as if faces had no ends. Of bodies that went or turned by more than
+    /// half of their least half width gaps are those of their pieces instead, where continuous collision left them.
     pub(crate) fn measure_far(&mut self) {
         let Self {
             bodies,
@@ -15,16 +18,20 @@ impl Engine {
             far,
             ..
         } = self;
-        let in_touch = |(line, _): &_| {
-            let slot = bodies.slot_of[*line as usize];
-            graph.of_body(bodies, slot).next().is_some()
-        };
-        if self.least_gap >= 0.0 || !far.iter().any(in_touch) {
+        if self.least_gap >= 0.0 {
             return;
         }
         let mut is_far = vec![false; bodies.lines.len()];
-        for (line, _) in far {
-            is_far[*line as usize] = true;
+        for &(line, before) in &*far {
+            let at = line as usize;
+            let (went, limit) = (&bodies.lines[at], &bodies.limits[at]);
+            let way = went.d() - before.v();
+            let turn = went.turn() - before.w();
+            is_far[at] = limit.is_far(way.length_squared() / (FAR * FAR), turn / FAR)
+                && graph.of_body(bodies, bodies.slot_of[at]).next().is_some();
+        }
+        if !is_far.contains(&true) {
+            return;
         }
         let mut least = OPEN;
         for colour in graph.awake() {
