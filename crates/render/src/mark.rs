@@ -229,7 +229,7 @@ fn line(points: &[Vec2]) -> Option<(Vec2, Vec2)> {
     })
 }
 
-/// The box around a closed ring; `None` without points or where one is not a number.
+/// The box around a closed ring; `None` without points, or where one is not finite or far away: such a ring is left out.
 fn hull(points: &[Vec2]) -> Option<(Vec2, Vec2)> {
     let first = *points.first()?;
     let (mut min, mut max) = (first, first);
@@ -240,7 +240,7 @@ fn hull(points: &[Vec2]) -> Option<(Vec2, Vec2)> {
         max = vec2(greater(point.x, max.x), greater(point.y, max.y));
         sum += point;
     }
-    (!sum.is_nan()).then_some((min, max))
+    (!sum.is_nan() && is_near(min) && is_near(max)).then_some((min, max))
 }
 
 #[cfg(test)]

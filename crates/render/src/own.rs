@@ -243,14 +243,16 @@ impl Hand<'_, '_> {
         }
     }
 
-    /// The line around a ring.
+    /// The line around a ring, which is left out where one of its points is.
     fn outline(&mut self, points: &[Vec2], width: f64, colour: Colour) {
         let Some(width) = usable_width(width) else {
             return;
         };
+        if !points.iter().all(|&p| crate::clip::is_near(p)) {
+            return;
+        }
         let mut outliner = core::mem::take(&mut self.own.outliner);
-        let near = points.iter().all(|&p| crate::clip::is_near(p));
-        match near.then(|| outliner.band(points, 0.5 * width)).flatten() {
+        match outliner.band(points, 0.5 * width) {
             Some(borders) => self.fill(borders.into_iter(), colour),
             None => self.general(|pen| pen.outline_ring(points, width, colour)),
         }

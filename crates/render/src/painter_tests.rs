@@ -260,3 +260,43 @@ fn a_new_size_is_a_new_picture() {
     }
     assert_eq!(painter.differing(), 0);
 }
+
+#[test]
+fn ring_that_is_left_out_is_left_out_with_its_outline() {
+    let size = Size::new(64, 64).unwrap();
+    let paint = Paint::flat(BODY_COLOURS[0]);
+    let square = |at: f64| -> Vec<Vec2> {
+        let corners = [(0.0, 0.0), (8.0, 0.0), (8.0, 8.0), (0.0, 8.0)];
+        corners.map(|(x, y)| vec2(at + x, at + y)).to_vec()
+    };
+    for far in [f64::NAN, f64::INFINITY, 1e13] {
+        // Its other four points are seen.
+        let mut bad = square(40.0);
+        bad.push(vec2(far, 44.0));
+        for engine in [Engine::Own, Engine::TinySkia] {
+            let shown = |rings: &[Vec<Vec2>]| {
+                let mut painter = Painter::new(Style::light()).with_engine(engine);
+                let mut frame = Frame::new(size);
+                let rings = rings.to_vec();
+                frame.push(Op::Region { rings, paint });
+                let mut picture = Picture::new(size, Colour::WHITE);
+                painter.paint(&frame, &mut picture);
+                picture
+            };
+            let one = shown(&[square(4.0)]);
+            assert!(
+                shown(&[square(4.0), bad.clone()]) == one,
+                "{engine:?}, {far}"
+            );
+        }
+        // What was painted is painted over, too.
+        let mut painter = Painter::new(Style::light()).checking();
+        let mut picture = Picture::new(size, Colour::WHITE);
+        for rings in [vec![square(4.0), bad], vec![square(5.0)]] {
+            let mut frame = Frame::new(size);
+            frame.push(Op::Region { rings, paint });
+            painter.paint(&frame, &mut picture);
+        }
+        assert_eq!(painter.differing(), 0, "{far}");
+    }
+}

@@ -199,6 +199,9 @@ impl<'a, G: Ground> Pen<'a, G> {
     }
 
     pub(crate) fn outline_ring(&mut self, points: &[Vec2], width: f64, colour: Colour) {
+        if !points.iter().all(|&p| crate::clip::is_near(p)) {
+            return;
+        }
         let mut line = core::mem::take(&mut self.paths.line);
         line.clear();
         line.extend_from_slice(points);
