@@ -142,7 +142,9 @@ impl Broad {
     fn moves_in(&self, pieces: &Pieces, piece: u32, bounds: Aabb) -> bool {
         // Most are elsewhere.
         let its = pieces.boxes[piece as usize];
+        // What was removed has the empty box, which overlaps one without end.
         its.overlaps(bounds)
+            && its.is_valid()
             && self.nodes.get(piece as usize).is_none_or(Option::is_none)
             && (its.is_finite() || !self.endless.contains(&piece))
     }

@@ -338,6 +338,23 @@ fn a_query_finds_what_is_near_and_not_what_is_far() {
     assert!((2..8).contains(&found), "{found} of 101 pieces");
 }
 
+#[test]
+fn a_query_without_end_finds_nothing_that_was_removed() {
+    let mut engine = Engine::new(Settings::default()).unwrap();
+    let [kept, gone] = [0.0, 3.0].map(|x| {
+        let input = BodyInput::dynamic(1.0, 1.0 / 6.0).at(vec2(x, 5.0));
+        let tag = if x == 0.0 { 7 } else { 8 };
+        engine.insert(input, &[unit_box().tagged(tag)]).unwrap()
+    });
+    engine.tick();
+    engine.remove(gone).unwrap();
+    let everywhere = carom_geometry::Aabb::new(Vec2::NEG_INFINITY, Vec2::INFINITY);
+    let mut found = Vec::new();
+    engine.query(everywhere, |tag| found.push(tag));
+    assert_eq!(found, [7]);
+    assert!(engine.pose(kept).is_ok());
+}
+
 /// Before, each of the queries after bodies came, went or woke looked at all bodies awake.
 #[test]
 fn prepared_queries_find_what_others_find() {
