@@ -127,6 +127,35 @@ fn a_look_back_is_what_was_seen() {
     );
 }
 
+/// Before, frames from before the change were those of the new centre of mass: 0.3 m off.
+#[test]
+fn a_look_back_past_a_change_of_shapes_sees_the_old_frame() {
+    for mode in [Mode::Exact, Mode::Hybrid, Mode::Stepped] {
+        let mut world = World::new(Settings {
+            history: 100,
+            mode,
+            ..Settings::default()
+        })
+        .expect("valid");
+        let ball = Shape::from(Circle::new(0.2).expect("a ball"));
+        let def = BodyDef::dynamic().at(vec2(0.0, 2.0)).spinning(3.0);
+        let body = world
+            .insert(def, ball.clone(), Material::default())
+            .expect("valid");
+        world.step(0.1);
+        let (then, pose) = (world.time(), world.body(body).expect("it stays").pose());
+        world.step(0.1);
+        let moved = ball.translated(vec2(0.3, 0.0));
+        world
+            .set_shapes(body, vec![(moved, Material::default())])
+            .expect("valid");
+        world.step(0.1);
+        let back = world.pose_at(body, then).expect("within the log");
+        let off = (back.position - pose.position).length();
+        assert!(off < 1e-12, "{mode:?}: {off} m");
+    }
+}
+
 #[test]
 fn without_a_log_only_the_present_piece_is_known() {
     let mut world = thesis();

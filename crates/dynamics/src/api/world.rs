@@ -14,7 +14,7 @@ use crate::stepping::{Joins, Stepping};
 use crate::store::bodies::Bodies;
 use crate::store::clock::Clock;
 use crate::store::pairs::Pairs;
-use crate::store::state::{BodyState, Collider, Surface, drawn_at};
+use crate::store::state::{BodyState, Collider, Surface};
 use crate::values::profile::Stopwatch;
 use crate::work::Work;
 use crate::{
@@ -235,8 +235,7 @@ impl World {
         if time >= state.motion.start {
             return Some(state.pose(time));
         }
-        let frame = self.bodies.history.pose_at(id.index, time)?;
-        Some(drawn_at(frame, state.mass.centroid))
+        self.bodies.history.pose_at(id.index, time)
     }
 
     /// Frames of all bodies in the order of [`Self::bodies`]; `poses` is cleared first.

@@ -206,8 +206,9 @@ impl Bodies {
     /// The motion of a body from `motion.start` on, turned by `angle` in all; the log keeps what it did till then.
     pub(crate) fn go_on_as(&mut self, index: u32, motion: &Motion, angle: f64) {
         let state = &mut self.list[index as usize];
+        let whose = (index, state.mass.centroid);
         self.history
-            .replaced(index, &state.motion, None, motion.start);
+            .replaced(whose, &state.motion, None, motion.start);
         (state.motion, state.turned) = (*motion, angle);
         state.set_lag(Lag::NONE);
     }
@@ -329,8 +330,9 @@ impl Bodies {
             self.book.scheme.add(piece.scheme);
         }
         let state = &mut self.list[index as usize];
+        let whose = (index, state.mass.centroid);
         self.history
-            .replaced(index, &state.motion, state.flight.as_ref(), time);
+            .replaced(whose, &state.motion, state.flight.as_ref(), time);
         state.motion = now.0;
         state.turned += now.1;
         state.flight = None;

@@ -4,17 +4,26 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 
 use carom_collision::Motion;
-use carom_math::{Pose, SimTime};
+use carom_math::{Pose, SimTime, Vec2};
 
+use super::state::drawn_at;
 use crate::law::flight::Flight;
 
-/// A motion, and the law that it stood for.
-pub(crate) type Followed = (Motion, Option<Arc<Flight>>);
+/// What a body did until its motion was replaced.
+#[derive(Clone, Debug)]
+struct Entry {
+    body: u32,
+    motion: Motion,
+    /// The law that the motion stood for.
+    flight: Option<Arc<Flight>>,
+    /// Where its centre of mass lay in its shapes' own frame, in m: other shapes have another one.
+    centroid: Vec2,
+}
 
 /// A bounded log: the oldest entries go first, and a look beyond them finds nothing.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct History {
-    log: VecDeque<(u32, Followed)>,
+    log: VecDeque<Entry>,
     capacity: usize,
     /// Before this instant something may be missing.
     complete_since: SimTime,
@@ -44,14 +53,14 @@ impl History {
         let beyond = self.log.len().saturating_sub(capacity);
         if beyond > 0 {
             self.log.drain(..beyond);
-            self.complete_since = (self.log.front()).map_or(now, |(_, (oldest, _))| oldest.start);
+            self.complete_since = (self.log.front()).map_or(now, |oldest| oldest.motion.start);
         }
     }
 
-    /// Keeps the motion that body `index` followed until `until`.
+    /// Keeps the motion that body `index`, with its centre of mass at `centroid`, followed until `until`.
     pub(crate) fn replaced(
         &mut self,
-        index: u32,
+        (index, centroid): (u32, Vec2),
         motion: &Motion,
         flight: Option<&Arc<Flight>>,
         until: SimTime,
@@ -66,31 +75,32 @@ impl History {
         if self.log.len() == self.capacity {
             self.log.pop_front();
             // What went may have lasted until the start of what is oldest now.
-            self.complete_since = self
-                .log
-                .front()
-                .map_or(until, |(_, (oldest, _))| oldest.start);
+            self.complete_since = self.log.front().map_or(until, |oldest| oldest.motion.start);
         }
-        self.log.push_back((index, (*motion, flight.cloned())));
+        self.log.push_back(Entry {
+            body: index,
+            motion: *motion,
+            flight: flight.cloned(),
+            centroid,
+        });
     }
 
-    /// Frame of the centre of mass of body `index` at `time`.
+    /// Frame of the shapes that body `index` had at `time`.
     pub(crate) fn pose_at(&self, index: u32, time: SimTime) -> Option<Pose> {
         if time < self.complete_since {
             return None;
         }
-        self.log
-            .iter()
-            .rev()
-            .find(|(of, (motion, _))| *of == index && motion.start <= time)
-            .map(|(_, (motion, flight))| match flight {
-                Some(flight) => Pose::new(flight.at(time).0, flight.turn_at(time).0),
-                None => motion.pose_at(time),
-            })
+        let then = |entry: &&Entry| entry.body == index && entry.motion.start <= time;
+        let entry = self.log.iter().rev().find(then)?;
+        let frame = match &entry.flight {
+            Some(flight) => Pose::new(flight.at(time).0, flight.turn_at(time).0),
+            None => entry.motion.pose_at(time),
+        };
+        Some(drawn_at(frame, entry.centroid))
     }
 
     /// Forgets a body: another one takes its place.
     pub(crate) fn forget(&mut self, index: u32) {
-        self.log.retain(|(of, _)| *of != index);
+        self.log.retain(|entry| entry.body != index);
     }
 }
