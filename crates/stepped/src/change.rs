@@ -103,7 +103,9 @@ impl Engine {
         finite("turned", turned)?;
         if record.line == Bodies::NONE || record.kind == BodyKind::Fixed {
             self.bodies.records[id.slot as usize].turned = turned;
-            self.islands.set_turned(record.island, id.slot, turned);
+            if let Some(sleeper) = self.islands.sleeper_mut(record.island, id.slot) {
+                sleeper.turned = turned - sleeper.line.turn();
+            }
         } else {
             let at = record.line as usize;
             self.bodies.turned[at] = turned - self.bodies.lines[at].turn();
@@ -113,7 +115,7 @@ impl Engine {
 
     /// Sets what accelerates a dynamic body besides contacts, in m/s² and rad/s²: gravity, fields and forces together.
     ///
-    /// A body that sleeps sleeps on.
+    /// A body that sleeps sleeps on, and is pulled so once it wakes.
     ///
     /// # Errors
     /// [`EngineError::Stale`] if the body is not in this engine, [`EngineError::Value`] if a number is not finite.
@@ -122,8 +124,13 @@ impl Engine {
         finite("pull.x", pull.x)?;
         finite("pull.y", pull.y)?;
         finite("twist", twist)?;
-        if record.kind == BodyKind::Dynamic && record.line != Bodies::NONE {
-            self.bodies.set_pull(record.line, Quad::new(pull, twist));
+        if record.kind == BodyKind::Dynamic {
+            let pull = Quad::new(pull, twist);
+            if record.line != Bodies::NONE {
+                self.bodies.set_pull(record.line, pull);
+            } else if let Some(sleeper) = self.islands.sleeper_mut(record.island, id.slot) {
+                sleeper.pull = pull;
+            }
         }
         Ok(())
     }

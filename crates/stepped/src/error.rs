@@ -24,7 +24,7 @@ pub enum EngineError {
         /// Index of the piece.
         piece: usize,
     },
-    /// The body was removed, or is of another engine.
+    /// No body has this id: it was removed. An id of another engine is refused only where no body here has an equal one.
     #[error("{0:?} is not in this engine")]
     Stale(BodyId),
 }

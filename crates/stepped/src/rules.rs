@@ -17,6 +17,9 @@ pub struct Surface {
 /// Asked of pieces that come near and have no contact yet, and of contacts again by [`Engine::resurface`](crate::Engine::resurface).
 pub trait PairRules {
     /// How two pieces meet, by their tags and materials; `None`: they pass through each other.
+    ///
+    /// Nothing checks the answer: friction must be finite and at least 0, restitution in 0..=1, the speed finite. Equal questions must have
+    /// equal answers, until [`Engine::resurface`](crate::Engine::resurface) asks anew.
     fn surface(&self, tags: [u64; 2], materials: [Material; 2]) -> Option<Surface>;
 }
 

@@ -39,13 +39,11 @@ impl Islands {
         self.asleep.len() > self.free.len()
     }
 
-    /// What a sleeper goes on with once it wakes.
-    pub(crate) fn set_turned(&mut self, island: u32, slot: u32, turned: f64) {
+    /// What a sleeper goes on with once it wakes; `None` if it is awake.
+    pub(crate) fn sleeper_mut(&mut self, island: u32, slot: u32) -> Option<&mut Sleeper> {
         let sleepers = self.asleep.get_mut(island as usize);
         let mut sleepers = sleepers.into_iter().flatten().flatten();
-        if let Some(sleeper) = sleepers.find(|sleeper| sleeper.slot == slot) {
-            sleeper.turned = turned - sleeper.line.turn();
-        }
+        sleepers.find(|sleeper| sleeper.slot == slot)
     }
 }
 

@@ -338,3 +338,24 @@ fn what_sleeps_has_turned_as_far_as_before() {
     is(&engine, 20.0);
     assert!((of(&engine, still) - 3.0).abs() < 1e-12);
 }
+
+#[test]
+fn a_pull_that_is_set_on_a_sleeper_acts_once_it_wakes() {
+    let settings = Settings {
+        gravity: Vec2::ZERO,
+        ..Settings::default()
+    };
+    let mut engine = Engine::new(settings).unwrap();
+    let input = BodyInput::dynamic(1.0, 1.0 / 6.0);
+    let body = engine.insert(input, &[unit_box()]).unwrap();
+    engine.tick();
+    engine.sleep(body).unwrap();
+    engine.set_pull(body, vec2(0.0, 6.0), 0.0).unwrap();
+    engine.tick();
+    assert!(engine.is_asleep(body).unwrap());
+    engine.wake(body).unwrap();
+    engine.tick();
+    // 6 m/s² for 1/60 s.
+    let rise = engine.state(body).unwrap().velocity.0.y;
+    assert!((rise - 0.1).abs() < 1e-9, "{rise} m/s");
+}
