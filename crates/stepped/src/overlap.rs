@@ -4,7 +4,8 @@ use crate::Engine;
 use crate::narrow::collide_any;
 use crate::rows::{LANES, OPEN};
 
-/// As many times as far as a fast body goes at least.
+/// As many times as far as a fast body goes at least. 1: a smash takes 1.04 of the time; 2: 1.00 to 1.02, and the second order of a
+/// turn by that is 3 % of an extent.
 const FAR: f64 = 2.0;
 
 impl Engine {
