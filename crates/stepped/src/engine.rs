@@ -256,8 +256,8 @@ impl Engine {
     /// What [`Self::substep`] ends with: continuous collision for what [`Self::advance`] moved far, which is searched for in
     /// [`Self::fast_boxes`]; and sleep, where a tick ends.
     pub fn finish(&mut self, rules: &dyn PairRules) {
-        self.stop_fast(self.law.h, rules);
-        self.measure_far();
+        let stopped = self.stop_fast(self.law.h, rules);
+        self.measure_far(&stopped);
         if self.done == self.settings.substeps {
             self.done = 0;
             self.stop_non_finite();

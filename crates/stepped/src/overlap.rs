@@ -1,8 +1,8 @@
 //! Overlaps of what goes far in a sub-step.
 
-use crate::Engine;
 use crate::narrow::collide_any;
 use crate::rows::{LANES, OPEN};
+use crate::{BodyId, Engine};
 
 /// As many times as far as a fast body goes at least. 1: a smash takes 1.04 of the time; 2: 1.00 to 1.02, and the second order of a
 /// turn by that is 3 % of an extent.
@@ -10,8 +10,9 @@ const FAR: f64 = 2.0;
 
 impl Engine {
     /// Rows know gaps to first order in how their bodies turn, and as if faces had no ends. Of bodies that went or turned by more than
-    /// half of their least half width gaps are those of their pieces instead, where continuous collision left them.
-    pub(crate) fn measure_far(&mut self) {
+    /// half of their least half width, or that continuous collision `stopped`, gaps are those of their pieces instead, where it left
+    /// them: rows that rotated are those of where it found them.
+    pub(crate) fn measure_far(&mut self, stopped: &[BodyId]) {
         let Self {
             bodies,
             pieces,
@@ -30,6 +31,9 @@ impl Engine {
             let turn = went.turn() - before.w();
             is_far[at] = limit.is_far(way.length_squared() / (FAR * FAR), turn / FAR)
                 && graph.of_body(bodies, bodies.slot_of[at]).next().is_some();
+        }
+        for id in stopped {
+            is_far[bodies.line_of(id.slot)] = true;
         }
         if !is_far.contains(&true) {
             return;

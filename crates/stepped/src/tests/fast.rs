@@ -1,9 +1,11 @@
 //! Hard rows: few bodies, of which one is fast.
 
-use carom_geometry::{Circle, ConvexPolygon};
+use carom_geometry::{Circle, ConvexPolygon, HalfPlane};
 use carom_math::{Rot, Vec2, vec2};
 
+use super::Random;
 use super::hard::{at, without_sleep};
+use crate::narrow::collide_any;
 use crate::{BodyInput, BodyKind, Engine, Material, Mixed, PieceInput, Settings};
 
 const SIDES: u32 = 8;
@@ -166,4 +168,49 @@ fn what_deviates_within_a_tick_passes_where_others_were() {
     let risen = at(&engine, block).y;
     assert!(risen > 0.0, "{risen}");
     assert!(engine.deepest_overlap() < 1e-12);
+}
+
+/// Rows that rotated with bodies that were stopped are those of where these would have been: 4.4 m were reported of what lay apart.
+#[test]
+fn what_was_stopped_overlaps_as_its_shape_does() {
+    let settings = Settings {
+        gravity: Vec2::ZERO,
+        ..without_sleep()
+    };
+    for seed in 0..150 {
+        let mut random = Random::new(seed);
+        let substeps = [1, 2, 3, 4][random.below(4)];
+        let mut engine = Engine::new(Settings {
+            substeps,
+            ..settings
+        })
+        .unwrap();
+        for k in 0..4 {
+            let normal = Rot::from_angle(core::f64::consts::FRAC_PI_2 * f64::from(k)) * Vec2::X;
+            let wall = PieceInput::new(HalfPlane::new(normal * -4.0, normal).unwrap());
+            engine.insert(BodyInput::fixed(), &[wall]).unwrap();
+        }
+        for at in 0..6u32 {
+            let place = vec2(f64::from(at % 3), f64::from(at / 3)) * 1.6;
+            let velocity = vec2(random.signed(), random.signed()) * 2000.0;
+            let body = BodyInput::dynamic(1.0, 0.1).at(place);
+            let body = body.moving(velocity, 700.0 * random.signed());
+            engine.insert(body, &[random.piece()]).unwrap();
+        }
+        for _ in 0..20 {
+            engine.substep(&Mixed);
+            let depths = engine.graph.ids().filter_map(|id| {
+                let pair = engine.graph.contacts[id as usize].pieces;
+                let [a, b] = pair.map(|number| {
+                    let piece = &engine.pieces.list[number as usize];
+                    (piece, engine.bodies.pose_of(piece.body))
+                });
+                collide_any(a, b, 0.0).map(|found| -found.gap())
+            });
+            let deepest = depths.fold(0.0, f64::max);
+            // What was pressed through another one is as deep as both are wide: 1.4 m at most.
+            let told = -engine.least_gap;
+            assert!(told < deepest + 1.4, "{told} m of {deepest}, seed {seed}");
+        }
+    }
 }
