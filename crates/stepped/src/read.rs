@@ -320,17 +320,8 @@ impl Engine {
 
     fn contact(&self, id: u32) -> Contact {
         let contact = &self.graph.contacts[id as usize];
-        let (block, cold, lane) = self.graph.lane(id);
-        let [a, b] = [block.a[lane], block.b[lane]].map(|line| &self.bodies.lines[line as usize]);
+        let (block, _, lane) = self.graph.lane(id);
         let [j1, j2, friction] = block.impulses(lane);
-        // The sweeps see deep overlaps as less.
-        let gaps = if cold.is_deep(lane) {
-            let opened = block.opened(lane, a, b);
-            [0, 1].map(|point| cold.depths[lane][point] + opened[point])
-        } else {
-            block.gaps(lane, a, b)
-        };
-        let normal = block.normal(lane);
         Contact {
             bodies: contact.bodies.map(|slot| self.bodies.id(slot)),
             pieces: contact
@@ -339,9 +330,9 @@ impl Engine {
             tags: self.pieces.tags(contact.pieces),
             touching: self.graph.is_touching(id),
             places: self.graph.places(&self.bodies, id),
-            normal,
+            normal: block.normal(lane),
             points: block.points(lane),
-            gaps,
+            gaps: self.graph.gaps(&self.bodies, id),
             impulses: [j1, j2],
             friction,
         }

@@ -73,8 +73,8 @@ pub(crate) struct Cold {
     pub(crate) restitution: [f64; LANES],
     /// How fast the surfaces run, together, in m/s.
     pub(crate) belt: [f64; LANES],
-    /// Gaps at the base poses of what is too deep for the sweeps, in m.
-    pub(crate) depths: [[f64; 2]; LANES],
+    /// By how much both points of what is too deep for the sweeps are deeper than these see, in m.
+    pub(super) hidden: [[f64; 2]; LANES],
     /// The least gap that the sweeps see of it, in m.
     pub(crate) shown: [f64; LANES],
     /// A bit for each lane that pushed when it was last asked.
@@ -260,7 +260,7 @@ impl Cold {
         pieces: [[u32::MAX; 2]; LANES],
         restitution: [0.0; LANES],
         belt: [0.0; LANES],
-        depths: [[0.0; 2]; LANES],
+        hidden: [[0.0; 2]; LANES],
         shown: [0.0; LANES],
         touching: 0,
         pushed: 0,
@@ -317,34 +317,28 @@ impl Cold {
         let set = |bits: u8, is: bool| bits & !(1 << lane) | u8::from(is) << lane;
         (self.deep, self.put) = (set(self.deep, deep), set(self.put, put));
         self.unloaded = set(self.unloaded, are_free && parts);
-        self.depths[lane] = [block.s1[lane], block.s2[lane]];
+        self.hidden[lane] = [0.0; 2];
         self.shown[lane] = if parts { PUT * deepest } else { deepest };
         if deep {
-            self.show(block, lane, block.opened(lane, a, b));
+            self.show((block, lane), [a, b]);
         }
         deep
     }
 
     /// Gaps of both points with the bodies where their lines say, in m.
     pub(crate) fn gaps(&self, block: &Block, lane: usize, [a, b]: [&Line; 2]) -> [f64; 2] {
-        let gaps = block.gaps(lane, a, b);
-        if self.is_deep(lane) {
-            // Sweeps are shown less.
-            let opened = block.opened(lane, a, b);
-            [0, 1].map(|point| gaps[point].min(self.depths[lane][point] + opened[point]))
-        } else {
-            gaps
-        }
+        let [first, second] = block.gaps(lane, a, b);
+        let hidden = self.hidden[lane];
+        [first - hidden[0], second - hidden[1]]
     }
 
-    /// Shows the sweeps a contact as deep as it is, opened so far since the base poses, but no deeper than they may see it.
-    pub(super) fn show(&self, block: &mut Block, lane: usize, opened: [f64; 2]) {
-        let depths = self.depths[lane];
-        let seen = |i: usize| (depths[i] + opened[i]).max(self.shown[lane]) - opened[i];
-        block.s1[lane] = seen(0);
-        if block.points(lane) == 2 {
-            block.s2[lane] = seen(1);
-        }
+    /// Shows the sweeps a contact as deep as it is with the bodies where their lines say, but no deeper than they may see it.
+    pub(super) fn show(&mut self, (block, lane): (&mut Block, usize), [a, b]: [&Line; 2]) {
+        let gaps = self.gaps(block, lane, [a, b]);
+        let hidden = gaps.map(|gap| (self.shown[lane] - gap).max(0.0));
+        block.s1[lane] += hidden[0] - self.hidden[lane][0];
+        block.s2[lane] += hidden[1] - self.hidden[lane][1];
+        self.hidden[lane] = hidden;
     }
 
     pub(crate) fn copy_lane(&mut self, to: usize, other: &Self, from: usize) {
@@ -352,7 +346,7 @@ impl Cold {
         self.pieces[to] = other.pieces[from];
         self.restitution[to] = other.restitution[from];
         self.belt[to] = other.belt[from];
-        self.depths[to] = other.depths[from];
+        self.hidden[to] = other.hidden[from];
         self.shown[to] = other.shown[from];
         let bit = |mine: u8, theirs: u8| mine & !(1 << to) | (theirs >> from & 1) << to;
         self.touching = bit(self.touching, other.touching);

@@ -91,14 +91,8 @@ impl Deep {
             let (at, bt) = (block.a[lane], block.b[lane]);
             let [a, b] = [at, bt].map(|line| &bodies.lines[line as usize]);
             let n = block.normal(lane);
-            let opened = block.opened(lane, a, b);
-            let gaps = cold.depths[lane];
-            let first = gaps[0] + opened[0];
-            let gap = if block.points(lane) == 2 {
-                first.min(gaps[1] + opened[1])
-            } else {
-                first
-            };
+            let [first, second] = cold.gaps(block, lane, [a, b]);
+            let gap = first.min(second);
             self.least_gap = self.least_gap.min(gap);
             // What bears a load is parted slowly, but whole: it comes back.
             let push = if cold.is_unloaded(lane) {
@@ -155,7 +149,7 @@ impl Move {
 /// Shows the sweeps a contact as deep as it is now.
 fn show(graph: &mut Graph, bodies: &Bodies, id: u32) {
     let (colour, k, lane) = graph.colour_mut(id);
-    let (block, cold) = (&mut colour.blocks[k], &colour.cold[k]);
-    let [a, b] = [block.a[lane], block.b[lane]].map(|line| &bodies.lines[line as usize]);
-    cold.show(block, lane, block.opened(lane, a, b));
+    let (block, cold) = (&mut colour.blocks[k], &mut colour.cold[k]);
+    let lines = [block.a[lane], block.b[lane]].map(|line| &bodies.lines[line as usize]);
+    cold.show((block, lane), lines);
 }

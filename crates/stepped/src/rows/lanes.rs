@@ -205,6 +205,7 @@ impl Graph {
         (block.s1[lane], block.s2[lane]) = (OPEN, OPEN);
         let cold = &mut colour.cold[k];
         (cold.deep, cold.put) = (cold.deep & !(1 << lane), cold.put & !(1 << lane));
+        cold.hidden[lane] = [0.0; 2];
     }
 }
 
