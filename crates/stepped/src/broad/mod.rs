@@ -5,7 +5,6 @@ mod keys;
 mod lists;
 mod pairs;
 mod sweep;
-mod table;
 
 use carom_collision::{BoxTree, NodeId};
 use carom_geometry::Aabb;

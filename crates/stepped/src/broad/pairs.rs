@@ -1,6 +1,6 @@
 //! Which pairs of pieces have a contact.
 
-use super::table::Table;
+use std::collections::BTreeSet;
 
 /// Partners in a list. Boxes in a pile have six, and rarely more than eight.
 const ROOM: usize = 14;
@@ -13,8 +13,8 @@ const NONE: u32 = u32::MAX;
 #[derive(Clone, Debug)]
 pub(crate) struct Pairs {
     lists: Vec<Partners>,
-    /// Pairs that neither of the two lists had room for.
-    rest: Table,
+    /// Pairs that neither of the two lists had room for, the lesser piece first.
+    rest: BTreeSet<[u32; 2]>,
 }
 
 /// Two cache lines: pieces are compared all at once.
@@ -81,7 +81,7 @@ impl Pairs {
     pub(crate) fn new() -> Self {
         Self {
             lists: Vec::new(),
-            rest: Table::new(),
+            rest: BTreeSet::new(),
         }
     }
 
@@ -97,7 +97,7 @@ impl Pairs {
     fn contains_otherwise(&self, [a, b]: [u32; 2]) -> bool {
         // A piece that never had a contact has no list.
         self.lists.get(b as usize).is_some_and(|of_b| {
-            of_b.contains(a) || of_b.missing > 0 && self.rest.get([a, b]).is_some()
+            of_b.contains(a) || of_b.missing > 0 && self.rest.contains(&in_order([a, b]))
         })
     }
 
@@ -119,7 +119,7 @@ impl Pairs {
         let in_a = self.lists[a as usize].insert(b, contact);
         let in_b = self.lists[b as usize].insert(a, contact);
         if !in_a && !in_b {
-            self.rest.insert([a, b], contact);
+            self.rest.insert(in_order([a, b]));
         }
     }
 
@@ -128,9 +128,13 @@ impl Pairs {
         let in_a = self.lists[a as usize].remove(b);
         let in_b = self.lists[b as usize].remove(a);
         if !in_a && !in_b {
-            self.rest.remove([a, b]);
+            self.rest.remove(&in_order([a, b]));
         }
     }
+}
+
+fn in_order([a, b]: [u32; 2]) -> [u32; 2] {
+    [a.min(b), a.max(b)]
 }
 
 #[cfg(test)]
@@ -147,7 +151,7 @@ mod tests {
         for step in 0..40_000 {
             random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
             let (a, b) = (random >> 27, random >> 22 & 31);
-            let pair = [a.min(b), a.max(b)];
+            let pair = in_order([a, b]);
             // Lists fill, and empty again.
             let inserts = (random >> 8 & 63) < if step / 2000 % 2 == 0 { 48 } else { 16 };
             if a == b {
@@ -166,7 +170,7 @@ mod tests {
             }
             full += usize::from(pairs.contacts(a).is_none());
             let probe = [random >> 10 & 31, random >> 5 & 31];
-            let key = [probe[0].min(probe[1]), probe[0].max(probe[1])];
+            let key = in_order(probe);
             assert_eq!(pairs.contains(probe), map.contains_key(&key));
             if let Some(contacts) = pairs.contacts(probe[0]) {
                 let mut contacts = contacts.to_vec();
