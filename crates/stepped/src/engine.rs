@@ -18,7 +18,7 @@ use crate::rows::{
 };
 use crate::sleep::Islands;
 use crate::update::{create, met_asleep, update};
-use crate::{EngineError, Mixed, PairRules, Relaxation, Settings};
+use crate::{EngineError, Mixed, PairRules, Settings};
 
 /// Bodies in contact, moved one sub-step after the other.
 ///
@@ -71,7 +71,7 @@ pub struct Engine {
     pub(crate) heat: f64,
     /// What belts gave, in J.
     pub(crate) belts: f64,
-    /// The least gap of a contact in the last sub-step that was relaxed, in m.
+    /// The least gap of a contact in the last sub-step, in m.
     pub(crate) least_gap: f64,
     /// The same of those that were computed as the sub-step began, at the poses there.
     pub(crate) least_found: f64,
@@ -249,8 +249,7 @@ impl Engine {
             .gather(&self.settings, &mut self.graph, &mut self.bodies);
         self.extra.gather(&mut self.graph, &self.bodies);
         self.deep.gather(&mut self.graph, &self.bodies);
-        let last = self.done == self.settings.substeps;
-        self.move_bodies(last);
+        self.move_bodies();
     }
 
     /// What [`Self::substep`] ends with: continuous collision for what [`Self::advance`] moved far, which is searched for in
@@ -381,7 +380,7 @@ impl Engine {
     }
 
     /// One sub-step of the soft law.
-    fn move_bodies(&mut self, last: bool) {
+    fn move_bodies(&mut self) {
         let Self {
             settings,
             level,
@@ -400,7 +399,6 @@ impl Engine {
             far,
             ..
         } = self;
-        let every = settings.relaxation == Relaxation::EverySubstep;
         ways.start(bodies);
         free.meet(graph, bodies);
         warm_start(*level, bodies, law.h);
@@ -412,23 +410,16 @@ impl Engine {
             extra.gather(graph, bodies);
             free.meet(graph, bodies);
         }
-        let solve = if every {
-            Pass::Solve
-        } else {
-            Pass::SolveWithFriction
-        };
-        let mut seen = sweep(*level, solve, law, &mut bodies.lines, graph.soft());
-        extra.sweep(solve, law, bodies, graph);
+        sweep(*level, Pass::Solve, law, &mut bodies.lines, graph.soft());
+        extra.sweep(Pass::Solve, law, bodies, graph);
         impacts.note_hits(law, bodies, graph, false);
         free.note_impulses(graph);
         displace(*level, bodies, law.h, far);
         ways.begin(bodies);
         note_fast(bodies, settings, law.h, far, fast_bodies);
         self.deep.part(law, bodies, graph, free);
-        if every || last {
-            seen = sweep(*level, Pass::Relax, law, &mut bodies.lines, graph.soft());
-            extra.sweep(Pass::Relax, law, bodies, graph);
-        }
+        let seen = sweep(*level, Pass::Relax, law, &mut bodies.lines, graph.soft());
+        extra.sweep(Pass::Relax, law, bodies, graph);
         free.turn_back(graph, bodies, law.h);
         self.heat += seen.heat + hard.heat;
         self.belts += graph.belt_work();

@@ -61,7 +61,7 @@ pub use input::{BodyId, BodyInput, BodyKind};
 pub use pieces::{Material, PieceInput};
 pub use read::{Contact, State};
 pub use rules::{Mixed, PairRules, Surface};
-pub use settings::{Relaxation, Settings, Sleep, Softness};
+pub use settings::{Settings, Sleep, Softness};
 pub use touch::Touch;
 
 /// The README's example is a test.

@@ -5,7 +5,7 @@
 
 use carom_math::{Vec2, cross, cross_scalar, perp};
 
-use crate::{Engine, Relaxation};
+use crate::Engine;
 
 /// A body as the twin sees it.
 #[derive(Clone, Copy)]
@@ -69,9 +69,7 @@ impl State {
             mut rows,
         } = self;
         let law = Law::new(engine);
-        let every = engine.settings.relaxation == Relaxation::EverySubstep;
-        let count = engine.settings.substeps;
-        for k in 0..count {
+        for _ in 0..engine.settings.substeps {
             let before = bodies.clone();
             for body in &mut bodies {
                 body.v += body.pull * law.h;
@@ -80,16 +78,14 @@ impl State {
                 row.act(&mut bodies);
             }
             for row in &mut rows {
-                row.solve(&mut bodies, &law, true, !every);
+                row.solve(&mut bodies, &law, true);
             }
             for body in &mut bodies {
                 body.d += body.v * law.h;
                 body.turn += body.w * law.h;
             }
-            if every || k + 1 == count {
-                for row in &mut rows {
-                    row.solve(&mut bodies, &law, false, true);
-                }
+            for row in &mut rows {
+                row.solve(&mut bodies, &law, false);
             }
             for (body, before) in bodies.iter_mut().zip(before) {
                 let change = (body.v - before.v, body.w - before.w);
@@ -171,7 +167,7 @@ impl Row {
         push(bodies, self.ends, self.middle, perp(self.normal) * self.jt);
     }
 
-    fn solve(&mut self, bodies: &mut [Body], law: &Law, bias: bool, friction: bool) {
+    fn solve(&mut self, bodies: &mut [Body], law: &Law, bias: bool) {
         let [a, b] = self.ends.map(|end| bodies[end]);
         let n = self.normal;
         let ground = a.inverse_mass == 0.0 || b.inverse_mass == 0.0;
@@ -240,7 +236,7 @@ impl Row {
             self.points[i].2 = j[i];
             push(bodies, self.ends, self.points[i].0, n * (j[i] - old));
         }
-        if friction {
+        if !bias {
             let [a, b] = self.ends.map(|end| bodies[end]);
             let t = perp(n);
             let k = a.inverse_mass

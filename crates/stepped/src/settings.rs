@@ -5,16 +5,6 @@ use carom_math::{Vec2, vec2};
 use crate::EngineError;
 use crate::error::{check, finite, not_negative, positive};
 
-/// How often rows are relaxed: swept without the bias that pushes overlaps out.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Relaxation {
-    /// After each sub-step; friction acts there alone. Calm, and a sweep dearer.
-    EverySubstep,
-    /// After the last sub-step of a tick; friction acts in all sweeps. A tenth to a fifth sooner, but calm only in small
-    /// piles: a pyramid of 100 rows hums at 4 m/s².
-    AtTick,
-}
-
 /// The soft law of contacts.
 ///
 /// A contact at rest sinks in by `compliance × load / (m ω²)` with ω = 2π `frequency`: overlap at rest is
@@ -29,7 +19,7 @@ pub struct Softness {
     pub frequency: f64,
     /// Damping ratio. 5, 2, 1 make the pyramid hum 1.3, 3, 6 times as much.
     pub damping_ratio: f64,
-    /// ω of sweeps with bias, over rows that already push. 1.0 hums; 1.7 hums with one relaxation a tick.
+    /// ω of sweeps with bias, over rows that already push. 1.0 hums.
     pub over_relaxation: f64,
     /// Fastest push-out of an overlap, in m/s.
     pub push_out: f64,
@@ -59,8 +49,6 @@ pub struct Settings {
     pub substeps: u32,
     /// The soft law of contacts.
     pub softness: Softness,
-    /// How often rows are relaxed.
-    pub relaxation: Relaxation,
     /// Contacts are kept while the gap is smaller, as a part of the smaller piece's extent.
     ///
     /// Half of it: a tenth sooner in a drum, up to twice the deepest overlap; twice: a tenth dearer.
@@ -114,7 +102,6 @@ impl Default for Settings {
             tick: 1.0 / 60.0,
             substeps: 5,
             softness: Softness::default(),
-            relaxation: Relaxation::EverySubstep,
             margin: 0.06,
             tolerance: 0.005,
             sleep: Some(Sleep::default()),

@@ -29,7 +29,7 @@ use std::collections::BTreeMap;
 
 use carom_geometry::Aabb;
 use carom_math::Pose;
-use carom_stepped::{Engine, Impact, Relaxation, Softness, State, Touch};
+use carom_stepped::{Engine, Impact, Softness, State, Touch};
 
 use crate::store::pairs::Shapes;
 use crate::values::error::SettingsError;
@@ -68,7 +68,6 @@ impl Stepping {
             tick: settings.tick,
             substeps: settings.substeps_per_tick(),
             softness: softness_of(settings),
-            relaxation: Relaxation::EverySubstep,
             sleep: sleep_of(settings),
             hard_discs: if settings.mode == Mode::Exact {
                 MANY

@@ -24,8 +24,6 @@ pub(super) const REGULAR: f64 = 1.0 - 1e-12;
 pub(crate) enum Pass {
     /// Overlaps are pushed out, softly; gaps may close.
     Solve,
-    /// The same, then friction.
-    SolveWithFriction,
     /// Normals without bias, then friction.
     Relax,
 }
@@ -75,14 +73,13 @@ fn all<S: Simd, V: Wide<S>>(
     seen: &mut SeenBy,
 ) {
     match pass {
-        Pass::Solve => blocks::<S, V, true, false>(simd, law, lines, colours, seen),
-        Pass::SolveWithFriction => blocks::<S, V, true, true>(simd, law, lines, colours, seen),
-        Pass::Relax => blocks::<S, V, false, true>(simd, law, lines, colours, seen),
+        Pass::Solve => blocks::<S, V, true>(simd, law, lines, colours, seen),
+        Pass::Relax => blocks::<S, V, false>(simd, law, lines, colours, seen),
     }
 }
 
 #[inline(always)]
-fn blocks<S: Simd, V: Wide<S>, const BIAS: bool, const FRICTION: bool>(
+fn blocks<S: Simd, V: Wide<S>, const BIAS: bool>(
     simd: S,
     law: &Law,
     lines: &mut [Line],
@@ -91,7 +88,7 @@ fn blocks<S: Simd, V: Wide<S>, const BIAS: bool, const FRICTION: bool>(
 ) {
     let still = V::splat(simd, 0.0);
     for colour in colours {
-        let belts = FRICTION && colour.belts > 0;
+        let belts = !BIAS && colour.belts > 0;
         let pushes = colour.pushes.iter_mut();
         for ((block, cold), pushes) in colour.blocks.iter_mut().zip(&colour.cold).zip(pushes) {
             let mut at = 0;
@@ -102,8 +99,7 @@ fn blocks<S: Simd, V: Wide<S>, const BIAS: bool, const FRICTION: bool>(
                 } else {
                     still
                 };
-                *pushes |=
-                    part::<S, V, BIAS, FRICTION>(simd, law, lines, block, at, belt, seen) << at;
+                *pushes |= part::<S, V, BIAS>(simd, law, lines, block, at, belt, seen) << at;
                 at += V::LANES;
             }
         }
@@ -112,7 +108,7 @@ fn blocks<S: Simd, V: Wide<S>, const BIAS: bool, const FRICTION: bool>(
 
 /// The lanes of a block from `at` on that fill a register; a bit for each that pushes.
 #[inline(always)]
-fn part<S: Simd, V: Wide<S>, const BIAS: bool, const FRICTION: bool>(
+fn part<S: Simd, V: Wide<S>, const BIAS: bool>(
     simd: S,
     law: &Law,
     lines: &mut [Line],
@@ -159,7 +155,7 @@ fn part<S: Simd, V: Wide<S>, const BIAS: bool, const FRICTION: bool>(
         .min(v2 + counts2 * reach)
         .simd_lt(zero);
     let mut pushes = j1 + j2;
-    if FRICTION {
+    if !BIAS {
         pushes += V::from_slice(simd, &block.jt[at..end]).abs();
     }
     if !any(closes | pushes.simd_gt(zero)) {
@@ -239,7 +235,7 @@ fn part<S: Simd, V: Wide<S>, const BIAS: bool, const FRICTION: bool>(
     aw -= (a1 * sum + bend) * ia;
     bw += (b1 * sum + bend) * ib;
 
-    if FRICTION {
+    if !BIAS {
         let at_ = V::from_slice(simd, &block.at[at..end]);
         let bt = V::from_slice(simd, &block.bt[at..end]);
         let jt = V::from_slice(simd, &block.jt[at..end]);

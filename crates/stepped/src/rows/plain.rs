@@ -61,7 +61,7 @@ fn row(
     extra: Option<f64>,
 ) -> f64 {
     let mut heat = 0.0;
-    let (bias, friction) = (pass != Pass::Relax, pass != Pass::Solve);
+    let bias = pass == Pass::Solve;
     let (ia, ib) = (block.a[lane] as usize, block.b[lane] as usize);
     let Line([mut avx, mut avy, mut aw, ma, adx, ady, aturn, i_a]) = lines[ia];
     let Line([mut bvx, mut bvy, mut bw, mb, bdx, bdy, bturn, i_b]) = lines[ib];
@@ -157,7 +157,7 @@ fn row(
     aw -= (a1 * sum + bend) * i_a;
     bw += (b1 * sum + bend) * i_b;
 
-    if friction {
+    if !bias {
         let (at, bt, jt) = (block.at[lane], block.bt[lane], block.jt[lane]);
         let (eases_a, eases_b) = (i_a * at, i_b * bt);
         let k = m + (eases_a * at + eases_b * bt);

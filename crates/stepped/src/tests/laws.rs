@@ -4,7 +4,7 @@ use carom_geometry::ConvexPolygon;
 use carom_math::{Pose, Rot, Vec2, cross, vec2};
 
 use super::{Random, floor, pyramid, unit_box, weightless, with_friction};
-use crate::{BodyId, BodyInput, Engine, EngineError, PieceInput, Relaxation, Settings};
+use crate::{BodyId, BodyInput, Engine, EngineError, PieceInput, Settings};
 
 fn cloud(settings: Settings, seed: u64, count: usize, spread: f64) -> (Engine, Vec<BodyId>) {
     let mut random = Random::new(seed);
@@ -151,9 +151,7 @@ fn friction_stays_in_its_cone() {
 #[test]
 fn warm_start_is_kept_by_every_change() {
     for seed in 0..8u32 {
-        let relaxation = [Relaxation::EverySubstep, Relaxation::AtTick][(seed % 2) as usize];
         let settings = Settings {
-            relaxation,
             sleep: None,
             ..Settings::default()
         };
