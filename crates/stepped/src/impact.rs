@@ -171,9 +171,10 @@ impl Impacts {
             let closes = there && {
                 let (block, _, lane) = graph.lane(run.contact);
                 run.add(bodies, graph, block.impulses(lane));
-                let [a, b] =
-                    [block.a[lane], block.b[lane]].map(|line| &bodies.lines[line as usize]);
-                let (v, gaps) = (block.opening(lane, a, b), block.gaps(lane, a, b));
+                let (v, gaps) = (
+                    block.opening(lane, &bodies.lines),
+                    block.gaps(lane, &bodies.lines),
+                );
                 (0..block.points(lane)).any(|k| v[k] < -least && gaps[k] + 2.0 * v[k] * law.h < 0.0)
             };
             let goes_on = closes && run.age < LONGEST;
@@ -232,7 +233,7 @@ impl Run {
         let sum = j[0] + j[1];
         // Midway between the surfaces: from the centre of a body that has a line of its own.
         let [a, b] = [block.a[lane], block.b[lane]].map(|line| line as usize);
-        let [gap, second] = block.gaps(lane, &bodies.lines[a], &bodies.lines[b]);
+        let [gap, second] = block.gaps(lane, &bodies.lines);
         let half = 0.5 * gap.min(second).max(0.0);
         let (line, height, arm) = if block.a[lane] == Bodies::GROUND {
             (b, block.bt[lane] - half, block.b1[lane])
@@ -270,10 +271,7 @@ fn arrival(
     moved: bool,
 ) -> Option<[f64; 2]> {
     let ends = [block.a[lane] as usize, block.b[lane] as usize];
-    let mut gaps = {
-        let [a, b] = ends.map(|line| &bodies.lines[line]);
-        block.gaps(lane, a, b)
-    };
+    let mut gaps = block.gaps(lane, &bodies.lines);
     let (points, j) = (block.points(lane), block.impulses(lane));
     let is_apart = |gaps: [f64; 2], point: &usize| j[*point] > 0.0 && gaps[*point] > 0.0;
     if !moved && !(0..points).any(|point| is_apart(gaps, &point)) {

@@ -43,8 +43,7 @@ impl Engine {
             for (block, cold) in colour.blocks.iter().zip(&colour.cold) {
                 for lane in 0..LANES {
                     let ends = [block.a[lane], block.b[lane]].map(|line| line as usize);
-                    let [a, b] = ends.map(|line| &bodies.lines[line]);
-                    let [first, second] = cold.gaps(block, lane, [a, b]);
+                    let [first, second] = cold.gaps(block, lane, &bodies.lines);
                     let gap = first.min(second);
                     if gap >= least {
                         continue;

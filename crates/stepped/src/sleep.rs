@@ -142,8 +142,7 @@ impl Engine {
     /// Whether the bodies of a contact hang together: it pushes or overlaps.
     fn hold_together(&self, id: u32) -> bool {
         let (block, _, lane) = self.graph.lane(id);
-        let [a, b] = [block.a[lane], block.b[lane]].map(|line| &self.bodies.lines[line as usize]);
-        let gaps = block.gaps(lane, a, b);
+        let gaps = block.gaps(lane, &self.bodies.lines);
         block.j1[lane] + block.j2[lane] > 0.0 || gaps[0].min(gaps[1]) <= 0.0
     }
 

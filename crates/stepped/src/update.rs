@@ -81,8 +81,8 @@ pub(crate) fn update(
         );
         for lane in lanes(near) {
             let ends = [block.a[lane], block.b[lane]];
-            let [a, b] = ends.map(|line| &scene.bodies.lines[line as usize]);
-            let [first, second] = block.gaps(lane, a, b);
+            let lines = &scene.bodies.lines;
+            let [first, second] = block.gaps(lane, lines);
             let gap = first.min(second);
             let beside = !displaced.is_empty() && ends.iter().any(|line| displaced[*line as usize]);
             if gap < 0.0 || cold.is_deep(lane) || beside {
@@ -94,7 +94,7 @@ pub(crate) fn update(
                     Pressed::ByRows
                 };
                 let are_free = ends.iter().all(|line| scene.bodies.is_free(*line));
-                if cold.note_depth((block, lane), [a, b], deepest, (by, are_free)) {
+                if cold.note_depth((block, lane), lines, deepest, (by, are_free)) {
                     deep.push(cold.contact[lane]);
                 }
             }

@@ -46,18 +46,20 @@ pub(super) fn answers(
 ) -> bool {
     island.contacts.iter().all(|contact| {
         let (block, lane) = lane_of(graph, contact.id);
-        let ends = island.ends(bodies, contact);
-        let opens = block.opening(lane, ends[0], ends[1]);
+        let opens = block.opening(lane, &bodies.lines);
         let [j1, j2, jt] = block.impulses(lane);
         let impulse = j1.abs() + j2.abs() + jt.abs();
-        let sizes = ends.map(|end| end.v().length() + impulse * end.inverse_mass());
+        let sizes = contact.ends.map(|end| {
+            let line = &bodies.lines[island.lines[end] as usize];
+            line.v().length() + impulse * line.inverse_mass()
+        });
         let zero = rest + ROUNDINGS * (sizes[0] + sizes[1]);
         let holds = |point: usize| {
             let left = opens[point] - island.closes(law, contact.gaps[point]);
             left.abs() <= zero || left > 0.0 && [j1, j2][point] <= 0.0
         };
         let limit = block.mu[lane] * (j1 + j2);
-        let slip = block.slip(lane, ends) - contact.belt;
+        let slip = block.slip(lane, &bodies.lines) - contact.belt;
         let rubs = jt.abs() <= limit * (1.0 + LIMIT);
         let sticks = slip.abs() <= zero;
         let slides = jt * slip <= 0.0 && jt.abs() >= limit * (1.0 - LIMIT);

@@ -6,7 +6,7 @@ use carom_math::{Vec2, perp, vec2};
 use super::conditions::{answers, centre, justified, rest};
 use super::islands::Found;
 use crate::bodies::Bodies;
-use crate::rows::{Block, Graph, Law, Line, OPEN, Quad};
+use crate::rows::{Block, Graph, Law, OPEN, Quad};
 
 /// Gap or overlap that counts as 0, as a part of how far pull moves a body in a sub-step: closing what rounding left open, a column
 /// at rest would be solved for in every sub-step.
@@ -136,12 +136,6 @@ impl Island {
         lines.filter(|(_, body)| body.inverse_mass > 0.0)
     }
 
-    pub(super) fn ends<'b>(&self, bodies: &'b Bodies, contact: &HardContact) -> [&'b Line; 2] {
-        contact
-            .ends
-            .map(|end| &bodies.lines[self.lines[end] as usize])
-    }
-
     /// Velocities before contacts act.
     pub(super) fn free(&self, contact: &HardContact) -> [&ImpactBody; 2] {
         contact.ends.map(|end| &self.bodies[end])
@@ -196,8 +190,7 @@ impl Island {
         }
         for contact in &self.contacts {
             let (block, lane) = lane_of(graph, contact.id);
-            let [a, b] = self.ends(bodies, contact);
-            let pushes = block.push(lane, a, b);
+            let pushes = block.push(lane, &bodies.lines);
             for (end, push) in contact.ends.into_iter().zip(&pushes) {
                 bodies.lines[self.lines[end] as usize].add(push);
             }
@@ -306,10 +299,7 @@ impl Island {
         let of = |contact: &HardContact| {
             let (block, lane) = lane_of(graph, contact.id);
             let [a, b] = contact.ends.map(|end| self.came[end]);
-            let slips = [
-                block.across(lane, a, b),
-                block.slip(lane, self.ends(bodies, contact)),
-            ];
+            let slips = [block.across(lane, a, b), block.slip(lane, &bodies.lines)];
             let rubbed = slips.map(|slip| (block.jt[lane] * (slip - contact.belt)).min(0.0));
             -0.5 * (rubbed[0] + rubbed[1])
         };

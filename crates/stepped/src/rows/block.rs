@@ -146,10 +146,16 @@ impl Block {
         [self.j1[lane], self.j2[lane], self.jt[lane]] = j;
     }
 
+    /// The bodies of a lane.
+    fn ends<'l>(&self, lane: usize, lines: &'l [Line]) -> [&'l Line; 2] {
+        [self.a[lane], self.b[lane]].map(|line| &lines[line as usize])
+    }
+
     /// M⁻¹ Jᵀ j of a lane: what its impulses add to the velocities of A and of B.
-    pub(crate) fn push(&self, lane: usize, a: &Line, b: &Line) -> [Quad; 2] {
+    pub(crate) fn push(&self, lane: usize, lines: &[Line]) -> [Quad; 2] {
+        let [a, b] = self.ends(lane, lines);
         let [j1, j2, jt] = self.impulses(lane);
-        let n = Vec2::new(self.nx[lane], self.ny[lane]);
+        let n = self.normal(lane);
         let sum = j1 + j2;
         let impulse = n * sum + perp(n) * jt;
         let bend = self.l[lane] * j2;
@@ -182,7 +188,8 @@ impl Block {
     }
 
     /// Normal velocities of both points, in m/s.
-    pub(crate) fn opening(&self, lane: usize, a: &Line, b: &Line) -> [f64; 2] {
+    pub(crate) fn opening(&self, lane: usize, lines: &[Line]) -> [f64; 2] {
+        let [a, b] = self.ends(lane, lines);
         self.along(lane, (a.v(), a.w()), (b.v(), b.w()))
     }
 
@@ -193,7 +200,8 @@ impl Block {
     }
 
     /// Speed of B along t less that of A where they meet, in m/s: the slip, but for the speed of a belt.
-    pub(crate) fn slip(&self, lane: usize, [a, b]: [&Line; 2]) -> f64 {
+    pub(crate) fn slip(&self, lane: usize, lines: &[Line]) -> f64 {
+        let [a, b] = self.ends(lane, lines);
         self.across(lane, (a.v(), a.w()), (b.v(), b.w()))
     }
 
@@ -204,19 +212,19 @@ impl Block {
 
     /// What two motions open both points by.
     pub(crate) fn along(&self, lane: usize, a: (Vec2, f64), b: (Vec2, f64)) -> [f64; 2] {
-        let n = Vec2::new(self.nx[lane], self.ny[lane]);
-        let first = n.dot(b.0 - a.0) + self.b1[lane] * b.1 - self.a1[lane] * a.1;
+        let first = self.normal(lane).dot(b.0 - a.0) + self.b1[lane] * b.1 - self.a1[lane] * a.1;
         [first, first + self.l[lane] * (b.1 - a.1)]
     }
 
     /// Both gaps with the bodies where their lines say, in m.
-    pub(crate) fn gaps(&self, lane: usize, a: &Line, b: &Line) -> [f64; 2] {
-        let [first, second] = self.opened(lane, a, b);
+    pub(crate) fn gaps(&self, lane: usize, lines: &[Line]) -> [f64; 2] {
+        let [first, second] = self.opened(lane, lines);
         [self.s1[lane] + first, self.s2[lane] + second]
     }
 
     /// What both points of a lane opened by since the base poses, in m.
-    pub(crate) fn opened(&self, lane: usize, a: &Line, b: &Line) -> [f64; 2] {
+    pub(crate) fn opened(&self, lane: usize, lines: &[Line]) -> [f64; 2] {
+        let [a, b] = self.ends(lane, lines);
         self.along(lane, (a.d(), a.turn()), (b.d(), b.turn()))
     }
 
@@ -297,11 +305,11 @@ impl Cold {
     pub(crate) fn note_depth(
         &mut self,
         (block, lane): (&mut Block, usize),
-        [a, b]: [&Line; 2],
+        lines: &[Line],
         deepest: f64,
         (by, are_free): (Pressed, bool),
     ) -> bool {
-        let [first, second] = block.gaps(lane, a, b);
+        let [first, second] = block.gaps(lane, lines);
         let was_put = self.was_put(lane);
         let least = if was_put {
             PUT * deepest
@@ -320,21 +328,21 @@ impl Cold {
         self.hidden[lane] = [0.0; 2];
         self.shown[lane] = if parts { PUT * deepest } else { deepest };
         if deep {
-            self.show((block, lane), [a, b]);
+            self.show((block, lane), lines);
         }
         deep
     }
 
     /// Gaps of both points with the bodies where their lines say, in m.
-    pub(crate) fn gaps(&self, block: &Block, lane: usize, [a, b]: [&Line; 2]) -> [f64; 2] {
-        let [first, second] = block.gaps(lane, a, b);
+    pub(crate) fn gaps(&self, block: &Block, lane: usize, lines: &[Line]) -> [f64; 2] {
+        let [first, second] = block.gaps(lane, lines);
         let hidden = self.hidden[lane];
         [first - hidden[0], second - hidden[1]]
     }
 
     /// Shows the sweeps a contact as deep as it is with the bodies where their lines say, but no deeper than they may see it.
-    pub(super) fn show(&mut self, (block, lane): (&mut Block, usize), [a, b]: [&Line; 2]) {
-        let gaps = self.gaps(block, lane, [a, b]);
+    pub(super) fn show(&mut self, (block, lane): (&mut Block, usize), lines: &[Line]) {
+        let gaps = self.gaps(block, lane, lines);
         let hidden = gaps.map(|gap| (self.shown[lane] - gap).max(0.0));
         block.s1[lane] += hidden[0] - self.hidden[lane][0];
         block.s2[lane] += hidden[1] - self.hidden[lane][1];

@@ -30,8 +30,7 @@ impl Graph {
                         assert_eq!(lines, [0, 0]);
                         continue;
                     }
-                    let [a, b] = lines.map(|line| &bodies.lines[line as usize]);
-                    let pushes = block.push(lane, a, b);
+                    let pushes = block.push(lane, &bodies.lines);
                     for side in [0, 1] {
                         let slot = contact.bodies[side];
                         assert_eq!(bodies.records[slot as usize].line, lines[side]);

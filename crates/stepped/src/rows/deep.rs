@@ -91,7 +91,7 @@ impl Deep {
             let (at, bt) = (block.a[lane], block.b[lane]);
             let [a, b] = [at, bt].map(|line| &bodies.lines[line as usize]);
             let n = block.normal(lane);
-            let [first, second] = cold.gaps(block, lane, [a, b]);
+            let [first, second] = cold.gaps(block, lane, &bodies.lines);
             let gap = first.min(second);
             self.least_gap = self.least_gap.min(gap);
             // What bears a load is parted slowly, but whole: it comes back.
@@ -150,6 +150,5 @@ impl Move {
 fn show(graph: &mut Graph, bodies: &Bodies, id: u32) {
     let (colour, k, lane) = graph.colour_mut(id);
     let (block, cold) = (&mut colour.blocks[k], &mut colour.cold[k]);
-    let lines = [block.a[lane], block.b[lane]].map(|line| &bodies.lines[line as usize]);
-    cold.show((block, lane), lines);
+    cold.show((block, lane), &bodies.lines);
 }

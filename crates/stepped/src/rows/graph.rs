@@ -239,8 +239,7 @@ impl Graph {
         };
         let are_free = records.iter().all(|record| bodies.is_free(record.line));
         let cold = &mut colour.cold[k];
-        let lines = records.map(|record| &bodies.lines[record.line as usize]);
-        if cold.note_depth((block, lane), lines, deepest, (by, are_free)) {
+        if cold.note_depth((block, lane), &bodies.lines, deepest, (by, are_free)) {
             self.deep.push(id);
         }
         colour.cold[k].restitution[lane] = surface.restitution;

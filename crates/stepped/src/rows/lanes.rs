@@ -66,8 +66,7 @@ impl Graph {
     /// Gaps of both points of a contact where its bodies are, in m.
     pub(crate) fn gaps(&self, bodies: &Bodies, id: u32) -> [f64; 2] {
         let (block, cold, lane) = self.lane(id);
-        let lines = [block.a[lane], block.b[lane]].map(|line| &bodies.lines[line as usize]);
-        cold.gaps(block, lane, lines)
+        cold.gaps(block, lane, &bodies.lines)
     }
 
     /// Both points of a contact, midway between the surfaces, in m.
@@ -173,7 +172,7 @@ impl Graph {
     pub(crate) fn clear_warm_start(&mut self, bodies: &mut Bodies, id: u32) {
         let (block, lane) = self.block_mut(id);
         let (a, b) = (block.a[lane] as usize, block.b[lane] as usize);
-        let [push_a, push_b] = block.push(lane, &bodies.lines[a], &bodies.lines[b]);
+        let [push_a, push_b] = block.push(lane, &bodies.lines);
         bodies.start[a].add(&push_a);
         bodies.start[b].add(&push_b);
         block.set_impulses(lane, [0.0; 3]);

@@ -76,14 +76,13 @@ fn arrival(
     (block, cold, lane): (&Block, &Cold, usize),
 ) -> Option<Arrival> {
     let lines = [block.a[lane], block.b[lane]];
-    let [a, b] = lines.map(|line| &bodies.lines[line as usize]);
-    let v = block.opening(lane, a, b);
+    let v = block.opening(lane, &bodies.lines);
     if v[0].min(v[1]) >= -least {
         return None;
     }
     let [pull_a, pull_b] = lines.map(|line| bodies.pull[line as usize].v());
     let pull = block.normal(lane).dot(pull_b - pull_a);
-    let gaps = block.gaps(lane, a, b);
+    let gaps = block.gaps(lane, &bodies.lines);
     let mut arrival = Arrival {
         contact: cold.contact[lane],
         lines,
@@ -137,8 +136,7 @@ pub(crate) fn bounce(
     let mut bounces = Vec::with_capacity(arrived.len());
     for arrival in &mut *arrived {
         let (block, cold, lane) = graph.lane(arrival.contact);
-        let [a, b] = arrival.lines.map(|line| &bodies.lines[line as usize]);
-        for (leaves, gap) in arrival.leaves.iter_mut().zip(block.gaps(lane, a, b)) {
+        for (leaves, gap) in (arrival.leaves.iter_mut()).zip(block.gaps(lane, &bodies.lines)) {
             if *leaves >= 0.0 {
                 let square = *leaves * *leaves + 2.0 * arrival.pull.min(0.0) * gap.max(0.0);
                 *leaves = square.max(0.0).sqrt();

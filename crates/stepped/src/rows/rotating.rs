@@ -69,9 +69,8 @@ impl RotatingRows {
     ) {
         let [a, b] = [block.a[lane], block.b[lane]].map(|line| &bodies.lines[line as usize]);
         let seen = Seen::of(block, lane, b.d() - a.d());
-        let closes = block
-            .opening(lane, a, b)
-            .map(|rate| (-rate * tick).max(0.0));
+        let opening = block.opening(lane, &bodies.lines);
+        let closes = opening.map(|rate| (-rate * tick).max(0.0));
         let change = seen.second_order(side, [a, b].map(|line| (line.v() * tick, line.w() * tick)));
         let pushes = |k: usize| seen.gaps[k] < closes[k] + 2.0 * change;
         if change > SECOND_ORDER * extent && (pushes(0) || pushes(1)) {
@@ -96,13 +95,12 @@ impl RotatingRows {
                 continue;
             }
             let ends = [block.a[lane], block.b[lane]].map(|line| line as usize);
-            let lines = ends.map(|line| bodies.lines[line]);
-            let before = block.push(lane, &lines[0], &lines[1]);
-            let went = lines.map(|line| (line.d(), line.turn()));
+            let before = block.push(lane, &bodies.lines);
+            let went = ends.map(|line| (bodies.lines[line].d(), bodies.lines[line].turn()));
             let turned = row.seen.turned(row.side, went);
-            turned.write(block, lane, &lines, row.seen.gaps);
+            turned.write(block, lane, &bodies.lines, row.seen.gaps);
             // v − start is what the impulses of all rows give: these push along another normal now.
-            let after = block.push(lane, &lines[0], &lines[1]);
+            let after = block.push(lane, &bodies.lines);
             for (line, (before, after)) in ends.into_iter().zip(before.into_iter().zip(after)) {
                 let change = Quad::new(before.v() - after.v(), before.w() - after.w());
                 bodies.start[line].add(&change);
@@ -195,11 +193,11 @@ impl Seen {
 
 impl Turned {
     /// Writes the row, with what its gaps were when it was found.
-    fn write(&self, block: &mut Block, lane: usize, [a, b]: &[Line; 2], gaps: [f64; 2]) {
+    fn write(&self, block: &mut Block, lane: usize, lines: &[Line], gaps: [f64; 2]) {
         (block.nx[lane], block.ny[lane]) = (self.n.x, self.n.y);
         (block.at[lane], block.a1[lane]) = (self.a.x, -self.a.y);
         (block.bt[lane], block.b1[lane]) = (self.b.x, -self.b.y);
-        block.s1[lane] = self.gap - block.opened(lane, a, b)[0];
+        block.s1[lane] = self.gap - block.opened(lane, lines)[0];
         // The second point differs by what it differed then; the relative rotation since is in its arms.
         if gaps[1] < OPEN {
             block.s2[lane] = block.s1[lane] + gaps[1] - gaps[0];
@@ -302,7 +300,7 @@ mod tests {
                 let d = corner.0 - face.0 + (speeds[1].0 - speeds[0].0) * t;
                 plain.gap(d, [face.1 + speeds[0].1 * t, corner.1 + speeds[1].1 * t])
             };
-            let [shown, _] = block.gaps(0, &lines[0], &lines[1]);
+            let [shown, _] = block.gaps(0, &lines);
             assert!(
                 (shown - exact(0.0)).abs() < 1e-12,
                 "{case}: {shown} {}",
