@@ -3,7 +3,7 @@
 use carom_math::SimTime;
 
 use crate::stepping::rules::Rules;
-use crate::stepping::{Stepping, place};
+use crate::stepping::{Stepping, accepted, place};
 use crate::{EventKind, Mode, World};
 
 impl World {
@@ -175,8 +175,7 @@ impl World {
     pub(crate) fn wake_in_engine(&mut self, index: u32, time: SimTime) {
         let there = self.with_engine(|world, stepping| {
             if let Some(id) = stepping.id(index) {
-                let told = stepping.engine.wake(id);
-                debug_assert!(told.is_ok(), "{told:?}");
+                accepted(stepping.engine.wake(id));
                 world.tell_sleep(stepping, time);
                 for woken in world.joins.woken.clone() {
                     world.wait(woken, time);

@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use carom_collision::part_count;
 use carom_math::{Pose, SimTime, Vec2};
-use carom_stepped::{BodyInput, PieceInput};
+use carom_stepped::{BodyId, BodyInput, PieceInput, State};
 
-use super::{Stepping, place};
+use super::{Stepping, accepted, place};
 use crate::store::bodies::Bodies;
 use crate::store::clock::Clock;
 use crate::store::state::BodyState;
@@ -74,24 +74,20 @@ impl Stepping {
             self.ids.resize(at + 1, None);
         }
         self.ids[at] = Some(id);
-        let (pull, twist) = bodies.pull_on(index, state.centre_at(time));
-        let told = self.engine.set_pull(id, pull, twist);
-        debug_assert!(told.is_ok(), "{told:?}");
+        self.set_pull(bodies, (index, id), state.centre_at(time));
         if bodies.get(index).is_asleep() {
-            let told = self.engine.sleep(id);
-            debug_assert!(told.is_ok(), "{told:?}");
+            accepted(self.engine.sleep(id));
         }
     }
 
     /// Takes over velocity, place and pull.
-    fn tell(&mut self, bodies: &Bodies, index: u32, id: carom_stepped::BodyId, time: SimTime) {
+    fn tell(&mut self, bodies: &Bodies, index: u32, id: BodyId, time: SimTime) {
         let state = bodies.get(index);
         let Ok(known) = self.engine.state(id) else {
             return;
         };
         if !state.is_asleep() && self.engine.is_asleep(id) == Ok(true) {
-            let told = self.engine.wake(id);
-            debug_assert!(told.is_ok(), "{told:?}");
+            accepted(self.engine.wake(id));
         }
         let frame = state.centre_pose(time);
         let lack = known.lack.unwrap_or_default();
@@ -106,24 +102,27 @@ impl Stepping {
         let off = size((d, turn));
         let goes = (size(motion) + size(known.velocity)) * self.engine.settings().substep();
         let engine = &mut self.engine;
-        let mut told = Ok(());
         if state.kind == BodyKind::Fixed {
             // It may reach without end: any move counts.
             if frame != known.pose {
-                told = told.and(engine.set_pose(id, frame));
+                accepted(engine.set_pose(id, frame));
             }
         } else if off > FAR * reach + goes {
-            told = told.and(engine.set_pose(id, frame));
+            accepted(engine.set_pose(id, frame));
         } else if off > SAME * (reach + frame.position.length()) {
-            told = told.and(engine.shift(id, frame));
+            accepted(engine.shift(id, frame));
         }
-        told = told.and(engine.set_turned(id, state.turned + state.turn_by(time)));
+        accepted(engine.set_turned(id, state.turned + state.turn_by(time)));
         if motion != known.velocity && state.kind != BodyKind::Fixed {
-            told = told.and(engine.set_velocity(id, motion.0, motion.1));
+            accepted(engine.set_velocity(id, motion.0, motion.1));
         }
-        let (pull, twist) = bodies.pull_on(index, frame.position);
-        told = told.and(engine.set_pull(id, pull, twist));
-        debug_assert!(told.is_ok(), "{told:?}");
+        self.set_pull(bodies, (index, id), frame.position);
+    }
+
+    /// What pulls a body at a place, from now on.
+    fn set_pull(&mut self, bodies: &Bodies, (index, id): (u32, BodyId), at: Vec2) {
+        let (pull, twist) = bodies.pull_on(index, at);
+        accepted(self.engine.set_pull(id, pull, twist));
     }
 
     /// Pulls of the sub-step that begins now; the work of `forced` bodies' forces since motions were last written is booked.
@@ -147,21 +146,16 @@ impl Stepping {
     /// What pulls a body where it is.
     pub(crate) fn pull_one(&mut self, bodies: &Bodies, index: u32) {
         if let Some(state) = self.state(index) {
-            let (pull, twist) = bodies.pull_on(index, state.pose.position);
-            let told = self.engine.set_pull(state.id, pull, twist);
-            debug_assert!(told.is_ok(), "{told:?}");
+            self.set_pull(bodies, (index, state.id), state.pose.position);
         }
     }
 
     /// What fields do to bodies where they are.
     pub(crate) fn pull(&mut self, bodies: &Bodies) {
         if !bodies.pull.fields.is_empty() {
-            let pulls: Vec<_> = (self.engine.awake())
-                .map(|state| (state.id, bodies.pull_on(place(&state), state.pose.position)))
-                .collect();
-            for (id, (pull, twist)) in pulls {
-                let told = self.engine.set_pull(id, pull, twist);
-                debug_assert!(told.is_ok(), "{told:?}");
+            let awake: Vec<State> = self.engine.awake().collect();
+            for state in awake {
+                self.set_pull(bodies, (place(&state), state.id), state.pose.position);
             }
         }
     }

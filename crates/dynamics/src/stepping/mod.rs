@@ -29,7 +29,7 @@ use std::collections::BTreeMap;
 
 use carom_geometry::Aabb;
 use carom_math::Pose;
-use carom_stepped::{Engine, Impact, Softness, State, Touch};
+use carom_stepped::{Engine, EngineError, Impact, Softness, State, Touch};
 
 use crate::store::pairs::Shapes;
 use crate::values::error::SettingsError;
@@ -97,21 +97,17 @@ impl Stepping {
     }
 
     pub(crate) fn set_gravity(&mut self, gravity: carom_math::Vec2) {
-        let told = self.engine.set_gravity(gravity);
-        debug_assert!(told.is_ok(), "{told:?}");
+        accepted(self.engine.set_gravity(gravity));
     }
 
     /// Takes over what may change of a world's settings, but for gravity.
     pub(crate) fn set_settings(&mut self, old: &Settings, new: &Settings) {
-        let mut told = Ok(());
         if old.contact != new.contact {
-            told = told.and(self.engine.set_softness(softness_of(new)));
+            accepted(self.engine.set_softness(softness_of(new)));
         }
         if old.sleep != new.sleep {
-            told = told.and(self.engine.set_sleep(sleep_of(new)));
+            accepted(self.engine.set_sleep(sleep_of(new)));
         }
-        // All numbers were checked where they entered the world.
-        debug_assert!(told.is_ok(), "{told:?}");
         if (old.events > 0) != (new.events > 0) {
             self.engine.note_impacts(new.events > 0);
         }
@@ -120,8 +116,7 @@ impl Stepping {
     /// Takes a body out of the engine.
     pub(crate) fn remove(&mut self, index: u32) {
         if let Some(id) = self.id(index) {
-            let told = self.engine.remove(id);
-            debug_assert!(told.is_ok(), "{told:?}");
+            accepted(self.engine.remove(id));
             self.ids[index as usize] = None;
         }
     }
@@ -135,6 +130,11 @@ impl Stepping {
     pub(crate) fn state(&self, index: u32) -> Option<State> {
         self.engine.state(self.id(index)?).ok()
     }
+}
+
+/// The engine refuses nothing that it is told: all numbers were checked where they entered the world.
+pub(crate) fn accepted(told: Result<(), EngineError>) {
+    debug_assert!(told.is_ok(), "{told:?}");
 }
 
 const fn softness_of(settings: &Settings) -> Softness {

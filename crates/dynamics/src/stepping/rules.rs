@@ -2,7 +2,7 @@
 
 use carom_stepped::{Material, PairRules, Surface};
 
-use super::Stepping;
+use super::{Stepping, accepted};
 use crate::PairSearch;
 use crate::broad::tree::Broad;
 use crate::store::bodies::Bodies;
@@ -18,8 +18,7 @@ impl Stepping {
     /// Asks anew how the contacts of a body meet.
     pub(crate) fn resurface(&mut self, index: u32, rules: Rules<'_>) {
         if let Some(id) = self.id(index) {
-            let told = self.engine.resurface(id, &rules);
-            debug_assert!(told.is_ok(), "{told:?}");
+            accepted(self.engine.resurface(id, &rules));
         }
     }
 }

@@ -4,7 +4,7 @@ use carom_math::SimTime;
 use carom_stepped::BodyId;
 
 use super::write::go_evenly;
-use super::{Stepping, place};
+use super::{Stepping, accepted, place};
 use crate::store::bodies::Bodies;
 
 impl Stepping {
@@ -12,8 +12,7 @@ impl Stepping {
     pub(crate) fn leave_ways(&mut self, bodies: &Bodies) {
         for &index in &bodies.touched {
             if let Some(id) = self.id(index).filter(|_| bodies.is_alive(index)) {
-                let told = self.engine.leave_way(id);
-                debug_assert!(told.is_ok(), "{told:?}");
+                accepted(self.engine.leave_way(id));
             }
         }
     }
@@ -22,8 +21,7 @@ impl Stepping {
     pub(crate) fn carry(&mut self, bodies: &Bodies, going: &[u32], now: SimTime) {
         for &index in going {
             if let Some(id) = self.id(index).filter(|_| bodies.is_alive(index)) {
-                let told = self.engine.carry(id, bodies.get(index).centre_pose(now));
-                debug_assert!(told.is_ok(), "{told:?}");
+                accepted(self.engine.carry(id, bodies.get(index).centre_pose(now)));
             }
         }
     }
