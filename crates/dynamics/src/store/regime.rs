@@ -217,11 +217,9 @@ impl BodyState {
     /// What is new where it is flies if it moves; in [`Mode::Stepped`] the engine has it, asleep or awake.
     pub(crate) fn arrive(&mut self, mode: Mode) {
         let next = match (self.kind, mode) {
-            (BodyKind::Fixed, _) => Regime::Fixed,
-            (BodyKind::Kinematic, _) => Regime::Kinematic,
             (BodyKind::Dynamic, Mode::Stepped) if self.is_asleep() => return,
-            (BodyKind::Dynamic, Mode::Stepped) => Regime::Stepped(Scope::All),
-            (BodyKind::Dynamic, _) => Regime::Free,
+            (BodyKind::Dynamic, Mode::Hybrid | Mode::Exact) => Regime::Free,
+            (kind, mode) => Regime::at_birth(kind, mode),
         };
         self.pass_to(next);
     }

@@ -110,39 +110,27 @@ impl BodyState {
         mode: Mode,
     ) -> Result<Self, BodyError> {
         let mass = mass_of(def, shapes)?;
-        let moving = def.kind == BodyKind::Dynamic;
         let frame = Pose::new(def.position, Rot::from_angle(def.angle));
-        let still = def.kind == BodyKind::Fixed;
-        let spin = if def.locked_rotation || still {
-            0.0
-        } else {
-            def.spin
-        };
         let (damping, gravity_scale) =
             ((def.linear_damping, def.angular_damping), def.gravity_scale);
         let is_uncommon = damping != (0.0, 0.0)
             || gravity_scale.to_bits() != 1_f64.to_bits()
             || !def.sleep_allowed;
-        let inverse = |x: f64| if moving && x > 0.0 { x.recip() } else { 0.0 };
-        Ok(Self {
+        let mut state = Self {
             id,
             rank: rank_of(def),
             kind: def.kind,
             motion: Motion {
                 start: now,
-                velocity: if still { Vec2::ZERO } else { def.velocity },
+                velocity: def.velocity,
                 rotation: frame.rotation,
-                spin,
+                spin: if def.locked_rotation { 0.0 } else { def.spin },
                 ..Motion::resting(frame.point(mass.centroid))
             },
             turned: def.angle,
             mass,
-            inverse_mass: inverse(mass.mass),
-            inverse_inertia: if def.locked_rotation {
-                0.0
-            } else {
-                inverse(mass.inertia)
-            },
+            inverse_mass: 0.0,
+            inverse_inertia: 0.0,
             locked_rotation: def.locked_rotation,
             tag: def.tag,
             uncommon: is_uncommon.then(|| {
@@ -165,7 +153,9 @@ impl BodyState {
                 .fold(0.0, f64::max),
             colliders: Few::default(),
             pairs: Vec::new(),
-        })
+        };
+        state.set_kind(def.kind);
+        Ok(state)
     }
 
     pub(crate) const fn regime(&self) -> Regime {
