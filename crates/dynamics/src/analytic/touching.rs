@@ -213,7 +213,7 @@ fn touches_of(
         core::mem::swap(&mut touching, &mut pair.touching);
     }
     let pair = pairs.get(place);
-    let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
+    let (a, b) = bodies.both(pair.bodies);
     let size = a.reach.min(b.reach);
     let gap = TOUCH * size;
     let mut points = pair.contacts.iter().flat_map(|contact| &contact.points);

@@ -190,7 +190,7 @@ impl Broad {
         if ends.0 == ends.1 {
             return;
         }
-        let (a, b) = (bodies.get(ends.0), bodies.get(ends.1));
+        let (a, b) = bodies.both(ends);
         // Impacts of a free body with free bodies, and with bodies at rest, are events of the calendar queue.
         if a.goes_by_events() && !b.is_stepped() || b.goes_by_events() && !a.is_stepped() {
             return;

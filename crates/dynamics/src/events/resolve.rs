@@ -61,7 +61,7 @@ pub(crate) fn strike(
 ) -> Struck {
     let pair = pairs.get_mut(due.pair);
     let (ends, material) = (pair.bodies, pair.material);
-    let (a, b) = (bodies.get(ends.0), bodies.get(ends.1));
+    let (a, b) = bodies.both(ends);
     // A touch that begins here is an event.
     pair.touching = true;
     events.tell_touch(bodies, pair, due.time);

@@ -41,7 +41,7 @@ impl Meeting {
         parts: (u32, u32),
         normal: Vec2,
     ) -> Option<Self> {
-        let (a, b) = (bodies.get(ends.0), bodies.get(ends.1));
+        let (a, b) = bodies.both(ends);
         let (first, second) = ((colliders.0, parts.0), (colliders.1, parts.1));
         let (body, own, piece, out) = if stands(a) && b.is_dynamic() {
             (ends.1, second, first, normal)

@@ -25,7 +25,7 @@ pub(crate) const BURIED: f64 = 1.0 / 16.0;
 
 /// Looks at a pair at `time` and replaces its contacts; impulses go over by feature.
 pub(crate) fn look(bodies: &Bodies, pair: &mut Pair, time: SimTime) {
-    let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
+    let (a, b) = bodies.both(pair.bodies);
     let (from, to) = (a.in_impact(time), b.in_impact(time));
     let closing = (to.velocity - from.velocity).length() + rim_speed(a, time) + rim_speed(b, time);
     let margin = MARGIN * a.reach.min(b.reach) + bodies.h * closing;
@@ -39,13 +39,9 @@ pub(crate) fn look(bodies: &Bodies, pair: &mut Pair, time: SimTime) {
     // Rotations cost more than all that is asked before.
     let (pose_a, pose_b) = (a.centre_pose(time), b.centre_pose(time));
     let mut found = Vec::new();
-    contacts(
-        &bodies.colliders[pair.colliders.0 as usize].solid,
-        &bodies.colliders[pair.colliders.1 as usize].solid,
-        pose_b.seen_from(pose_a),
-        margin,
-        &mut found,
-    );
+    let [solid_a, solid_b] = bodies.solids(pair.colliders);
+    let seen = pose_b.seen_from(pose_a);
+    contacts(solid_a, solid_b, seen, margin, &mut found);
     // Impulses go over by feature.
     let carried = found.iter().map(|new| carried(new, pose_a, &pair.contacts));
     pair.contacts = carried.collect();
@@ -54,7 +50,7 @@ pub(crate) fn look(bodies: &Bodies, pair: &mut Pair, time: SimTime) {
 
 /// What the contacts of a pair say of it: whether it touches, and how deep it overlaps.
 pub(crate) fn note_touch(bodies: &Bodies, pair: &mut Pair, time: SimTime) {
-    let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
+    let (a, b) = bodies.both(pair.bodies);
     let size = a.reach.min(b.reach);
     let points = pair.contacts.iter().flat_map(|contact| &contact.points);
     let deepest = points.map(|p| p.separation).fold(0.0, f64::min);
@@ -70,7 +66,7 @@ pub(crate) fn note_touch(bodies: &Bodies, pair: &mut Pair, time: SimTime) {
 
 /// The largest [`Pair::turning_rest_at`] of all touches of a pair, in m/s.
 fn turning_rest(bodies: &Bodies, pair: &Pair, time: SimTime) -> f64 {
-    let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
+    let (a, b) = bodies.both(pair.bodies);
     if pair.material.restitution >= 1.0 || a.motion.spin == 0.0 && b.motion.spin == 0.0 {
         return 0.0;
     }

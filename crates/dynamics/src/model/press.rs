@@ -24,7 +24,7 @@ impl Pair {
         point: Vec2,
         time: SimTime,
     ) -> f64 {
-        let (a, b) = (bodies.get(self.bodies.0), bodies.get(self.bodies.1));
+        let (a, b) = bodies.both(self.bodies);
         let fastest = a.spin_at(time).abs().max(b.spin_at(time).abs());
         if fastest == 0.0 {
             return 0.0;

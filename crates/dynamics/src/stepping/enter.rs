@@ -10,6 +10,7 @@ use carom_stepped::{BodyId, BodyInput, PieceInput, State};
 use super::{Stepping, accepted, place};
 use crate::store::bodies::Bodies;
 use crate::store::clock::Clock;
+use crate::store::slots::grown;
 use crate::store::state::BodyState;
 use crate::{BodyKind, Mode};
 
@@ -69,11 +70,7 @@ impl Stepping {
             .filter(|solid| part_count(solid) > 1)
             .map(|solid| solid.aabb(Pose::IDENTITY).extents().length());
         self.widest = widths.fold(self.widest, f64::max);
-        let at = index as usize;
-        if self.ids.len() <= at {
-            self.ids.resize(at + 1, None);
-        }
-        self.ids[at] = Some(id);
+        *grown(&mut self.ids, index, None) = Some(id);
         self.set_pull(bodies, (index, id), state.centre_at(time));
         if bodies.get(index).is_asleep() {
             accepted(self.engine.sleep(id));

@@ -12,6 +12,7 @@ use super::Stepping;
 use super::rules::Rules;
 use crate::broad::tree::Broad;
 use crate::store::bodies::Bodies;
+use crate::store::slots::grown;
 use crate::{BodyKind, Mode};
 
 /// Members are searched around this far beyond their boxes, as a part of these: what moves on is not searched around each tick. 0.5:
@@ -86,13 +87,9 @@ impl Stepping {
             }
         };
         for (tag, bounds) in boxes {
-            let at = super::collider(tag) as usize;
-            if self.covered.len() <= at {
-                self.covered.resize(at + 1, Aabb::EMPTY);
-            }
             let size = bounds.extents();
             let around = bounds.grown(AROUND * size.x.max(size.y));
-            self.covered[at] = around;
+            *grown(&mut self.covered, super::collider(tag), Aabb::EMPTY) = around;
             note(around, |_| true, &mut guests, bodies);
         }
         // The engine wakes sleepers that a fixed body is put into: one that always was there comes first.

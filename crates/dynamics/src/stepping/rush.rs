@@ -1,5 +1,7 @@
 //! Impacts within a tick: bodies that strike each other too often join the engine.
 
+use crate::store::slots::grown;
+
 /// So many bodies that strike each other stay with their exact impacts up to [`SERIES`].
 const HANDFUL: f64 = 6.0;
 
@@ -65,12 +67,10 @@ impl Rush {
     }
 
     fn root(&mut self, index: u32) -> u32 {
-        if self.nodes.len() <= index as usize {
-            self.nodes.resize(index as usize + 1, NONE);
-        }
-        if self.nodes[index as usize].parent == u32::MAX {
+        let node = grown(&mut self.nodes, index, NONE);
+        if node.parent == u32::MAX {
             self.known.push(index);
-            self.nodes[index as usize] = Node {
+            *node = Node {
                 parent: index,
                 size: 1,
                 ..NONE

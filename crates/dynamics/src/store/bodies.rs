@@ -1,7 +1,9 @@
 //! The store of bodies, and the one door through which a motion changes.
 
+use std::sync::Arc;
+
 use carom_collision::{Hull, Motion, part};
-use carom_geometry::Aabb;
+use carom_geometry::{Aabb, Shape};
 use carom_math::{SimTime, Sum, Vec2};
 
 use super::damping::damping_loss;
@@ -211,6 +213,16 @@ impl Bodies {
             .replaced(whose, &state.motion, None, motion.start);
         (state.motion, state.turned) = (*motion, angle);
         state.set_lag(Lag::NONE);
+    }
+
+    /// Two bodies.
+    pub(crate) fn both(&self, (a, b): (u32, u32)) -> (&BodyState, &BodyState) {
+        (self.get(a), self.get(b))
+    }
+
+    /// Two shapes.
+    pub(crate) fn solids(&self, (a, b): (u32, u32)) -> [&Arc<Shape>; 2] {
+        [a, b].map(|at| &self.colliders[at as usize].solid)
     }
 
     /// A convex part of a shape.

@@ -2,6 +2,7 @@
 
 use carom_math::Vec2;
 
+use super::slots::grown;
 use super::state::BodyState;
 
 /// No place in the list.
@@ -23,12 +24,8 @@ pub(crate) struct Moved {
 impl Moved {
     /// A body has another motion.
     pub(crate) fn note(&mut self, index: u32) {
-        let at = index as usize;
-        if at >= self.place.len() {
-            self.place.resize(at + 1, NONE);
-            self.is_changed.resize(at + 1, false);
-        }
-        if !core::mem::replace(&mut self.is_changed[at], true) {
+        grown(&mut self.place, index, NONE);
+        if !core::mem::replace(grown(&mut self.is_changed, index, false), true) {
             self.changed.push(index);
         }
     }

@@ -16,6 +16,15 @@ impl<T> Default for Slots<T> {
     }
 }
 
+/// The value at a place of a list, which grows as far as that.
+pub(crate) fn grown<T: Clone>(list: &mut Vec<T>, place: u32, fill: T) -> &mut T {
+    let at = place as usize;
+    if list.len() <= at {
+        list.resize(at + 1, fill);
+    }
+    &mut list[at]
+}
+
 impl<T> Slots<T> {
     pub(crate) fn insert(&mut self, value: T) -> u32 {
         let place = self.free.pop().unwrap_or_else(|| {

@@ -9,6 +9,7 @@ use super::store::Closed;
 use crate::analytic::modes::BodyMove;
 use crate::analytic::touching::Gathered;
 use crate::store::bodies::Bodies;
+use crate::store::slots::grown;
 use crate::store::state::BodyState;
 
 /// Size of a budget, in mode solves of one body. 16: boxes that rock to rest (`tests/it/rocking.rs`) join before, and part from the
@@ -59,7 +60,8 @@ impl Closed {
     pub(crate) fn charge(&mut self, members: &[u32], time: SimTime, tick: f64) {
         let cost = members.len() as f64;
         for &index in members {
-            if self.budget(index).charge(cost, time, tick) {
+            let budget = grown(&mut self.budgets, index, ModeBudget::default());
+            if budget.charge(cost, time, tick) {
                 self.exhausted.push(index);
             }
         }
@@ -71,14 +73,6 @@ impl Closed {
         exhausted.sort_unstable();
         exhausted.dedup();
         exhausted
-    }
-
-    fn budget(&mut self, index: u32) -> &mut ModeBudget {
-        let at = index as usize;
-        if at >= self.budgets.len() {
-            self.budgets.resize(at + 1, ModeBudget::default());
-        }
-        &mut self.budgets[at]
     }
 }
 

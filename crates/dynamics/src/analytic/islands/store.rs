@@ -13,7 +13,7 @@ use crate::model::narrow::TOUCH;
 use crate::store::bodies::Bodies;
 use crate::store::membership::Membership;
 use crate::store::pairs::Pair;
-use crate::store::slots::Slots;
+use crate::store::slots::{Slots, grown};
 use crate::{ContactMode, Mode};
 
 /// What is no longer than this is one instant, in s.
@@ -295,13 +295,10 @@ impl Closed {
             Mode::Exact => (OFTEN_EXACT, 1),
             Mode::Hybrid | Mode::Stepped => (OFTEN, bodies.saturating_pow(3)),
         };
-        let at = index as usize;
-        if at >= self.stalls.len() {
-            self.stalls.resize(at + 1, [(SimTime::ZERO, 0); 2]);
-        }
+        let known = grown(&mut self.stalls, index, [(SimTime::ZERO, 0); 2]);
         let mut stalls = false;
         let limits = [(INSTANT, STALLED, 1), (h, often, cost)];
-        for ((since, count), (span, most, cost)) in self.stalls[at].iter_mut().zip(limits) {
+        for ((since, count), (span, most, cost)) in known.iter_mut().zip(limits) {
             if time - *since < span {
                 *count = count.saturating_add(cost);
             } else {

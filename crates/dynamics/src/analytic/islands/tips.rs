@@ -82,7 +82,7 @@ fn joints(
     let all = gathered.pairs.iter().zip(&gathered.touches);
     all.map(|(&(place, number), touch)| {
         let pair = pairs.get(place);
-        let (a, b) = (bodies.get(pair.bodies.0), bodies.get(pair.bodies.1));
+        let (a, b) = bodies.both(pair.bodies);
         let parts = pair.contacts.get(number)?.parts;
         let side = |k: usize, hull, pose| Held {
             hull,

@@ -195,10 +195,7 @@ impl World {
             if pair.fresh {
                 look(&self.bodies, pair, time);
             }
-            let (a, b) = (
-                self.bodies.get(pair.bodies.0),
-                self.bodies.get(pair.bodies.1),
-            );
+            let (a, b) = self.bodies.both(pair.bodies);
             let (rounding, size) = (NOISE * pace(a, b, time), a.reach.min(b.reach));
             let holds = |contact: &PairContact| {
                 let mut points = contact.points.iter();

@@ -61,7 +61,7 @@ pub(super) fn bounces_high(bodies: &Bodies, impact: &Foreseen, time: SimTime, sp
     if impact.points.len() > 1 || impact.face().is_none() {
         return false;
     }
-    let (one, two) = (bodies.get(impact.bodies.0), bodies.get(impact.bodies.1));
+    let (one, two) = bodies.both(impact.bodies);
     let (a, b) = (&one.motion, &two.motion);
     if a.angular_acceleration != 0.0 || b.angular_acceleration != 0.0 {
         return false;

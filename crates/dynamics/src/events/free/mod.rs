@@ -30,7 +30,7 @@ use crate::broad::free_fall_frame::{Frame, Track};
 use crate::broad::grid::{Grid, SweptBox};
 use crate::store::bodies::Bodies;
 use crate::store::course::Course;
-use crate::store::slots::Slots;
+use crate::store::slots::{Slots, grown};
 use crate::store::state::BodyState;
 use aside::Aside;
 use circle::Registered;
@@ -183,14 +183,9 @@ impl FreeBodies {
                 self.in_grid.insert(index);
             }
         }
-        let place = index as usize;
-        if self.circles.len() <= place {
-            self.circles.resize(place + 1, Registered::default());
-            self.horizons.resize(place + 1, SimTime::ZERO);
-        }
-        let state = bodies.get(index);
-        self.circles[place] = Registered::of(state, &self.frame);
-        self.horizons[place] = horizon;
+        let circle = Registered::of(bodies.get(index), &self.frame);
+        *grown(&mut self.circles, index, Registered::default()) = circle;
+        *grown(&mut self.horizons, index, SimTime::ZERO) = horizon;
         true
     }
 

@@ -8,6 +8,7 @@ use super::FreeBodies;
 use crate::broad::grid::SweptBox;
 use crate::store::bodies::Bodies;
 use crate::store::course::Course;
+use crate::store::slots::grown;
 use crate::store::swept::{Cells, Sides};
 
 impl FreeBodies {
@@ -122,15 +123,11 @@ impl FreeBodies {
             return;
         };
         let bounds = box_aloft(course);
-        let at = index as usize;
-        if self.nodes.len() <= at {
-            self.nodes.resize(at + 1, None);
-        }
-        match self.nodes[at] {
+        match grown(&mut self.nodes, index, None) {
             Some(node) => {
-                tree.update(node, bounds);
+                tree.update(*node, bounds);
             }
-            None => self.nodes[at] = Some(tree.insert(bounds, index)),
+            none => *none = Some(tree.insert(bounds, index)),
         }
     }
 

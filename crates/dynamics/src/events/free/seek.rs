@@ -130,23 +130,14 @@ impl World {
             return true;
         }
         let (one, two) = (self.bodies.get(a), self.bodies.get(b));
-        let (first, second) = (
-            &self.bodies.colliders[shapes.0 as usize],
-            &self.bodies.colliders[shapes.1 as usize],
-        );
         // Beyond the end of a micro-bounce there is nothing to ask.
         let back = self.free.micro_bounce.as_ref();
         let back = back.filter(|(_, next)| next.colliders == shapes);
         let length = back.map_or(length, |(back, _)| length.min(*back));
         let struck = self.free.struck.filter(|(struck, _)| *struck == shapes);
         let last = struck.map(|(_, last)| last);
-        let next = first_touch(
-            [one, two],
-            [&first.solid, &second.solid],
-            time,
-            length,
-            last,
-        );
+        let [first, second] = self.bodies.solids(shapes);
+        let next = first_touch([one, two], [first, second], time, length, last);
         let (wait, impact) = match next {
             TimeOfImpact::Clear => (f64::INFINITY, None),
             TimeOfImpact::Hit(impact) => (impact.time, Some(impact)),
@@ -191,10 +182,7 @@ impl World {
         if one.flight.is_some() || two.flight.is_some() {
             return;
         }
-        let (first, second) = (
-            &self.bodies.colliders[touch.colliders.0 as usize].solid,
-            &self.bodies.colliders[touch.colliders.1 as usize].solid,
-        );
+        let [first, second] = self.bodies.solids(touch.colliders);
         let from = (time, slow);
         let next = time_of_impact_beside(from, first, &one.motion, second, &two.motion, length);
         match next {
@@ -240,10 +228,7 @@ impl World {
     /// Where impacts of a cluster come ever faster, a gap of one rounding lasts as long as all that were before when its
     /// approach has faded: at 20 m from the origin and 1 nm/s for 3.5 µs.
     fn is_blurred(&self, impact: &Foreseen, time: SimTime, wait: f64) -> bool {
-        let (one, two) = (
-            self.bodies.get(impact.bodies.0),
-            self.bodies.get(impact.bodies.1),
-        );
+        let (one, two) = self.bodies.both(impact.bodies);
         let approach = |at: SimTime| -opening_speed(one, two, at, impact.points[0], impact.normal);
         // What falls from rest approaches faster at the end of its way than now.
         let (now, then) = (approach(time), approach(time + wait));
@@ -262,13 +247,9 @@ impl World {
         let (pose_a, pose_b) = (one.centre_pose(time), two.centre_pose(time));
         let touch = TOUCH * one.reach.min(two.reach);
         let mut found = Vec::new();
-        contacts(
-            &self.bodies.colliders[shapes.0 as usize].solid,
-            &self.bodies.colliders[shapes.1 as usize].solid,
-            pose_b.seen_from(pose_a),
-            touch,
-            &mut found,
-        );
+        let [first, second] = self.bodies.solids(shapes);
+        let seen = pose_b.seen_from(pose_a);
+        contacts(first, second, seen, touch, &mut found);
         let rest = rest_speed_between(&self.bodies, (a, b));
         found.iter().any(|part| {
             let normal = pose_a.vector(part.manifold.normal);
@@ -292,8 +273,7 @@ impl World {
     }
 
     fn solids_of(&self, place: u32) -> [Arc<Shape>; 2] {
-        let (first, second) = self.pairs.shapes(place);
-        [first, second].map(|at| Arc::clone(&self.bodies.colliders[at as usize].solid))
+        self.bodies.solids(self.pairs.shapes(place)).map(Arc::clone)
     }
 
     /// Parts of a pair in contacts that change with the mode of an island alone.
@@ -329,7 +309,7 @@ impl World {
         self.report.pairs += 1;
         let pair = self.pairs.get(place);
         let (ends, shapes) = (pair.bodies, pair.colliders);
-        let (one, two) = (self.bodies.get(ends.0), self.bodies.get(ends.1));
+        let (one, two) = self.bodies.both(ends);
         let rest = rest_speed(&self.bodies, pair);
         let is_slow = |impact: &Impact| {
             let at = time + impact.time;

@@ -243,8 +243,7 @@ impl World {
     ) {
         let (a, b) = impact.bodies;
         let outcome = resolve(self.settings.impact_law, &before[0], &before[1], contact);
-        let speed = (before[0].velocity_of(contact.point) - before[1].velocity_of(contact.point))
-            .dot(contact.normal);
+        let speed = -opening(before, contact.point, contact.normal);
         self.report.impacts += 1;
         self.events.push(
             time,

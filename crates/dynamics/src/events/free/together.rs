@@ -87,10 +87,7 @@ impl World {
 
     /// How much later an impact may be that happens at the same instant but for rounding, in s.
     fn instant(&self, impact: &Foreseen, time: SimTime) -> f64 {
-        let (a, b) = (
-            self.bodies.get(impact.bodies.0),
-            self.bodies.get(impact.bodies.1),
-        );
+        let (a, b) = self.bodies.both(impact.bodies);
         let way = impact.points[0].abs().max_element() + a.reach.min(b.reach);
         let speed = pace(&a.in_impact(time), a.reach) + pace(&b.in_impact(time), b.reach);
         if speed > 0.0 {
