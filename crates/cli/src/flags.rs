@@ -149,7 +149,7 @@ pub struct SweepArgs {
     /// Runs at a time [default: one a core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub jobs: Option<u16>,
-    /// Go on with the rows that an interrupted sweep left in FILE.csv.part
+    /// Go on with the rows that an interrupted sweep of the same runs left in FILE.csv.part; the last one is computed anew, and compared
     #[arg(long, requires = "out", conflicts_with = "force")]
     pub resume: bool,
     /// Begin anew, whatever an interrupted sweep left

@@ -22,7 +22,7 @@ use crate::values::Shard;
 
 pub use axis::Axis;
 pub use column::Column;
-use table::{Earlier, Table};
+use table::{Earlier, Rows, Table};
 
 pub(crate) fn run(args: &SweepArgs) -> Outcome {
     let scene = scene::open(&args.scene, &[], args.mode)?;
@@ -34,11 +34,19 @@ pub(crate) fn run(args: &SweepArgs) -> Outcome {
     };
     // Before anything is written.
     plan.check()?;
-    let (mut table, known) = Table::open(args.out.as_deref(), &plan.heading(), earlier)?;
+    let expected = Rows {
+        heading: &plan.heading(),
+        begins: &|row| plan.begins(row),
+    };
+    let (mut table, (known, last)) = Table::open(args.out.as_deref(), &expected, earlier)?;
     interrupt::watch("finishing the runs in hand")?;
     let left = plan.mine.start + known..plan.mine.end;
-    if left.start > left.end {
-        fail!("there are more rows than runs: --force begins anew");
+    if let Some(last) = last {
+        // Scene, seconds and mode are in no row, but in what comes of them.
+        let Some(row) = plan.play(left.start - 1)? else {
+            return Ok(End::Interrupted);
+        };
+        table.check(&last, &row)?;
     }
     let mut progress = Progress::new("sweep", left.end - left.start, "runs");
     let (mut next, mut written, mut ended) = (left.start, known, false);
@@ -139,6 +147,22 @@ impl<'a> Plan<'a> {
         (values, self.args.seeds.map(|_| seed.to_string()))
     }
 
+    /// The cells of run `k` that are known before it: its number, `runs`, what is set, and the seed.
+    fn cells(&self, k: u64) -> Vec<String> {
+        let (values, seed) = self.settings(k);
+        let mut cells = vec![k.to_string(), self.runs.to_string()];
+        cells.extend(values.into_iter().map(field));
+        cells.extend(seed);
+        cells
+    }
+
+    /// What the row of this shard's `row`-th run begins with; `None` if there is none.
+    fn begins(&self, row: u64) -> Option<String> {
+        let run = self.mine.start.checked_add(row)?;
+        let cells = self.mine.contains(&run).then(|| self.cells(run))?;
+        Some(cells.join(",") + ",")
+    }
+
     /// Run `k` at its start.
     fn build(&self, k: u64) -> Result<Built, Failure> {
         let (values, seed) = self.settings(k);
@@ -171,10 +195,7 @@ impl<'a> Plan<'a> {
             Reached::Interrupted => return Ok(None),
             Reached::Refused(why) => fail!("run {k} was refused: {why}"),
         }
-        let (values, seed) = self.settings(k);
-        let mut row = vec![k.to_string(), self.runs.to_string()];
-        row.extend(values.into_iter().map(field));
-        row.extend(seed);
+        let mut row = self.cells(k);
         for column in &self.args.report {
             row.push(column.read(&built, &report)?);
         }

@@ -1,7 +1,7 @@
 //! The table of a sweep while it grows: `FILE.part`, which a later run goes on with, and which gets its name when it is whole.
 
 use std::fmt::Display;
-use std::fs::{self, File, OpenOptions};
+use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, BufWriter, Stdout, Write};
 use std::path::{Path, PathBuf};
 
@@ -28,39 +28,50 @@ pub(super) enum Earlier {
     Replace,
 }
 
+/// What a table has already, and what a row of it must begin with.
+pub(super) struct Rows<'a> {
+    pub(super) heading: &'a str,
+    /// What the k-th row of the table, from 0, begins with; `None` beyond its end.
+    pub(super) begins: &'a dyn Fn(u64) -> Option<String>,
+}
+
+/// Rows that an earlier run left: how many, and the last of them.
+pub(super) type Known = (u64, Option<String>);
+
 impl Table {
-    /// A table at `place`, or on stdout, with its heading; how many rows it has already.
+    /// A table at `place`, or on stdout, with its heading, and the rows that it has already.
     pub(super) fn open(
         place: Option<&Path>,
-        heading: &str,
+        expected: &Rows<'_>,
         earlier: Earlier,
-    ) -> Result<(Self, u64), Failure> {
+    ) -> Result<(Self, Known), Failure> {
+        let heading = expected.heading;
         let Some(place) = place else {
             let mut rows = BufWriter::new(io::stdout());
             writeln!(rows, "{heading}").or_else(|error| lost(&error))?;
-            return Ok((Self::Stdout(rows), 0));
+            return Ok((Self::Stdout(rows), (0, None)));
         };
         files::prepare(place)?;
         let mut name = place.as_os_str().to_owned();
         name.push(".part");
         let part = PathBuf::from(name);
-        let shown = part.display();
-        let (file, rows) = match earlier {
-            Earlier::Resume if part.exists() => kept(&part, heading)?,
+        let (file, known) = match earlier {
+            Earlier::Resume if part.exists() => kept(&part, expected)?,
             Earlier::Refuse if part.exists() => {
                 fail!(
-                    "{shown} is there from an earlier sweep: --resume goes on with it, --force begins anew"
+                    "{} is there from an earlier sweep: --resume goes on with it, --force begins anew",
+                    part.display()
                 )
             }
-            _ => {
-                if earlier == Earlier::Replace && part.exists() {
-                    fs::remove_file(&part).map_err(|error| cannot("replace", &part, &error))?;
-                }
-                let begun = OpenOptions::new().write(true).create_new(true).open(&part);
-                let mut file = begun.map_err(|error| cannot("write", &part, &error))?;
-                writeln!(file, "{heading}").map_err(|error| cannot("write", &part, &error))?;
-                (file, 0)
+            Earlier::Replace if part.exists() => {
+                // Held until the new file has the name: a sweep that goes on would give its rows the other's name.
+                let held = lock(&part, File::open(&part))?;
+                fs::remove_file(&part).map_err(|error| cannot("replace", &part, &error))?;
+                let begun = begin(&part, heading)?;
+                drop(held);
+                (begun, (0, None))
             }
+            _ => (begin(&part, heading)?, (0, None)),
         };
         let place = place.to_path_buf();
         let table = Self::File {
@@ -68,7 +79,7 @@ impl Table {
             part,
             rows: BufWriter::new(file),
         };
-        Ok((table, rows))
+        Ok((table, known))
     }
 
     /// Writes a row; `false` where the reader of stdout went away.
@@ -85,6 +96,14 @@ impl Table {
                 written.map_err(|error| cannot("write", part, &error))?;
                 Ok(true)
             }
+        }
+    }
+
+    /// Whether this sweep wrote what was there: `row` is what it makes of the run of the last row there.
+    pub(super) fn check(&self, last: &str, row: &str) -> Result<(), Failure> {
+        match self {
+            Self::File { part, .. } if last != row => Err(other_sweep(part)),
+            _ => Ok(()),
         }
     }
 
@@ -108,26 +127,64 @@ impl Table {
 /// Largest table that is gone on with, in bytes.
 const LARGEST: u64 = 1 << 32;
 
+/// A new file with a heading, locked.
+fn begin(part: &Path, heading: &str) -> Result<File, Failure> {
+    let begun = OpenOptions::new().write(true).create_new(true).open(part);
+    let mut file = lock(part, begun)?;
+    writeln!(file, "{heading}").map_err(|error| cannot("write", part, &error))?;
+    Ok(file)
+}
+
+/// The file, if no other sweep holds it; a file system without locks is no reason to refuse.
+fn lock(part: &Path, opened: io::Result<File>) -> Result<File, Failure> {
+    let file = opened.map_err(|error| cannot("write", part, &error))?;
+    let shown = part.display();
+    if matches!(file.try_lock(), Err(TryLockError::WouldBlock)) {
+        fail!("{shown} is in use by another sweep");
+    }
+    // Between the two it may have got its name.
+    if !part.exists() {
+        fail!("{shown} was just finished by another sweep");
+    }
+    Ok(file)
+}
+
 /// What an interrupted sweep left behind, cut after its last whole row.
-fn kept(part: &Path, heading: &str) -> Result<(File, u64), Failure> {
+fn kept(part: &Path, expected: &Rows<'_>) -> Result<(File, Known), Failure> {
+    let opened = OpenOptions::new().append(true).open(part);
+    let file = lock(part, opened)?;
     let text = read_file(part, LARGEST).map_err(|error| cannot("read", part, &error))?;
     let whole = text
         .iter()
         .rposition(|byte| *byte == b'\n')
         .map_or(0, |at| at + 1);
-    let mut lines = text[..whole].split(|byte| *byte == b'\n');
-    if lines.next() != Some(heading.as_bytes()) {
-        fail!(
-            "{} belongs to another sweep: --force begins anew",
-            part.display()
-        );
+    let mut lines = text[..whole].split_inclusive(|byte| *byte == b'\n');
+    let mut next = || Some(lines.next()?.strip_suffix(b"\n").unwrap_or_default());
+    let other = || other_sweep(part);
+    if next() != Some(expected.heading.as_bytes()) {
+        return Err(other());
     }
-    let rows = text[..whole].iter().filter(|byte| **byte == b'\n').count() - 1;
-    let opened = OpenOptions::new().append(true).open(part);
-    let file = opened.map_err(|error| cannot("write", part, &error))?;
+    let (mut rows, mut last) = (0, None);
+    while let Some(row) = next() {
+        let begins = (expected.begins)(rows).ok_or_else(other)?;
+        if !row.starts_with(begins.as_bytes()) {
+            return Err(other());
+        }
+        rows += 1;
+        last = Some(row);
+    }
+    let last = last.map(|row| String::from_utf8_lossy(row).into_owned());
     file.set_len(whole as u64)
         .map_err(|error| cannot("write", part, &error))?;
-    Ok((file, rows as u64))
+    Ok((file, (rows, last)))
+}
+
+/// What is said of rows that this sweep would not have written.
+fn other_sweep(part: &Path) -> Failure {
+    Failure::new(format!(
+        "{} belongs to another sweep: --force begins anew",
+        part.display()
+    ))
 }
 
 fn lost(error: &io::Error) -> Result<(), Failure> {

@@ -102,3 +102,50 @@ fn what_is_wrong_gets_one_line() {
     }
     assert_eq!(names(folder.path()), ["other.csv", "throw.toml"]);
 }
+
+#[test]
+fn rows_of_another_sweep_are_not_gone_on_with() {
+    let folder = folder();
+    let place = |name: &str| folder.path().join(name);
+    sweep(folder.path(), &["--out", "one.csv"]).done();
+    let whole = fs::read_to_string(place("one.csv")).unwrap();
+    let ten: String = whole.split_inclusive('\n').take(10).collect();
+    let refused = |part: &str, more: &[&str]| {
+        fs::write(place("cut.csv.part"), part).unwrap();
+        let args = [&["--out", "cut.csv", "--resume"][..], more].concat();
+        sweep(folder.path(), &args).refused(&["cut.csv.part", "another sweep", "--force"]);
+        assert_eq!(fs::read_to_string(place("cut.csv.part")).unwrap(), part);
+    };
+    // Other values, another number of them, other rows, more of them.
+    refused(&ten.replace("\n8,24,2,", "\n8,24,3,"), &[]);
+    refused(&ten, &["--set", "body.ball.spin=1,2"]);
+    refused(&ten, &["--shard", "2/2"]);
+    refused(&ten.replace("\n4,", "\n40,"), &[]);
+    refused(&(whole.clone() + "24,24,"), &["--shard", "1/2"]);
+    // What is in no row.
+    refused(&ten, &["--seconds", "0.25"]);
+    fs::write(place("throw.toml"), THROW.replace("[1, 5]", "[1, 6]")).unwrap();
+    refused(&ten, &[]);
+    fs::write(place("throw.toml"), THROW).unwrap();
+    sweep(folder.path(), &["--out", "cut.csv", "--resume"]).done();
+    assert_eq!(fs::read_to_string(place("cut.csv")).unwrap(), whole);
+}
+
+#[test]
+fn a_table_in_use_is_refused_to_a_second_sweep() {
+    let folder = folder();
+    let part = folder.path().join("a.csv.part");
+    let heading = "run,runs,body.ball.mass,gravity,seed,body.ball.y,energy,exact\n";
+    fs::write(&part, heading).unwrap();
+    let held = fs::File::open(&part).unwrap();
+    held.try_lock().unwrap();
+    for flag in ["--resume", "--force"] {
+        sweep(folder.path(), &["--out", "a.csv", flag]).refused(&["a.csv.part", "in use"]);
+        assert_eq!(fs::read_to_string(&part).unwrap(), heading);
+    }
+    drop(held);
+    for flag in ["--resume", "--force"] {
+        sweep(folder.path(), &["--out", "a.csv", flag]).done();
+        fs::rename(folder.path().join("a.csv"), &part).unwrap();
+    }
+}
