@@ -1,15 +1,18 @@
 //! Files beside the pictures: their place is looked at before a run, not after it.
 
 use std::fs;
-use std::path::Path;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
 
-use carom_render::write_file;
+use carom_render::Draft;
 use serde::Serialize;
 
 use crate::exit::{Failure, fail};
 
 /// Makes the folder of a file to come, and refuses a place that is a folder itself, a pipe or a device: the file would take its place.
-pub fn prepare(place: &Path) -> Result<(), Failure> {
+///
+/// Gives the place where a link leads: what is renamed to a link's name would take the place of the link.
+pub fn prepare(place: &Path) -> Result<PathBuf, Failure> {
     if let Ok(about) = fs::metadata(place)
         && !about.is_file()
     {
@@ -20,10 +23,53 @@ pub fn prepare(place: &Path) -> Result<(), Failure> {
         };
         fail!("cannot write {}: it is {kind}", place.display());
     }
-    match place.parent() {
-        Some(folder) => make_folder(folder),
-        None => Ok(()),
+    let place = followed(place)?;
+    if let Some(folder) = place.parent() {
+        make_folder(folder)?;
     }
+    Ok(place)
+}
+
+/// Most links that lead to each other, as on Linux.
+const MOST_LINKS: usize = 40;
+
+/// Where a link leads, also to what is not there yet.
+fn followed(place: &Path) -> Result<PathBuf, Failure> {
+    let mut here = place.to_path_buf();
+    for _ in 0..MOST_LINKS {
+        match fs::read_link(&here) {
+            Ok(to) => here = here.with_file_name("").join(to),
+            Err(_) => return Ok(here),
+        }
+    }
+    fail!("cannot write {}: its links have no end", place.display())
+}
+
+/// Refuses a run of which one file would take the place of another: each is told as the flag that asks for it.
+pub(crate) fn apart(files: &[(&str, &Path)]) -> Result<(), Failure> {
+    for (k, (flag, place)) in files.iter().enumerate() {
+        for (other, taken) in &files[..k] {
+            if is_same(place, taken) {
+                fail!("{flag} {} is {other}, too", place.display());
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Whether two paths lead to one place, which need not be there.
+pub(crate) fn is_same(a: &Path, b: &Path) -> bool {
+    let whole = |path: &Path| {
+        let path = followed(path).ok()?;
+        fs::canonicalize(&path).ok().or_else(|| {
+            let folder = match path.parent()? {
+                here if here.as_os_str().is_empty() => Path::new("."),
+                folder => folder,
+            };
+            Some(fs::canonicalize(folder).ok()?.join(path.file_name()?))
+        })
+    };
+    whole(a).is_some_and(|a| Some(a) == whole(b))
 }
 
 /// Makes a folder and those above it.
@@ -36,8 +82,29 @@ pub fn make_folder(folder: &Path) -> Result<(), Failure> {
     })
 }
 
-/// Writes a value as JSON, whole or not at all.
-pub fn write_json(place: &Path, value: &impl Serialize) -> Result<(), Failure> {
-    let text = serde_json::to_string_pretty(value)? + "\n";
-    Ok(write_file(place, text.as_bytes())?)
+/// A file for JSON that is to come: where it cannot be written a run does not begin.
+#[derive(Debug)]
+pub struct Json {
+    place: PathBuf,
+    draft: Draft,
+}
+
+impl Json {
+    /// Opens the file that will become `place`.
+    pub fn create(place: &Path) -> Result<Self, Failure> {
+        let place = prepare(place)?;
+        Ok(Self {
+            draft: Draft::create(&place)?,
+            place,
+        })
+    }
+
+    /// Writes a value, whole or not at all.
+    pub fn finish(mut self, value: &impl Serialize) -> Result<(), Failure> {
+        let text = serde_json::to_string_pretty(value)? + "\n";
+        self.draft.write_all(text.as_bytes()).map_err(|error| {
+            Failure::new(format!("cannot write {}: {error}", self.place.display()))
+        })?;
+        Ok(self.draft.finish()?)
+    }
 }

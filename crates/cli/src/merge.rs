@@ -1,6 +1,5 @@
 //! `merge`: the slices that `render --shard` wrote, joined into one folder.
 
-use std::fs;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -28,8 +27,12 @@ pub(crate) fn run(args: &MergeArgs) -> Outcome {
     let is_table = |path: &PathBuf| path.extension().is_some_and(|end| end == "csv");
     if args.dirs.iter().all(is_table) {
         let out = args.out.as_deref().unwrap_or(Path::new("out/merged.csv"));
-        files::prepare(out)?;
-        return join::run(&args.dirs, out);
+        for table in &args.dirs {
+            if files::is_same(table, out) {
+                fail!("--out {} is one of the slices", out.display());
+            }
+        }
+        return join::run(&args.dirs, &files::prepare(out)?);
     }
     let place = args.out.as_deref().unwrap_or(Path::new("out/merged"));
     let slices = ordered(
@@ -44,7 +47,7 @@ pub(crate) fn run(args: &MergeArgs) -> Outcome {
     };
     for slice in &slices {
         check(slice)?;
-        if same_place(&slice.folder, place) {
+        if files::is_same(&slice.folder, place) {
             fail!("--out {} is one of the slices", place.display());
         }
     }
@@ -186,11 +189,4 @@ fn changed(path: &Path) -> Failure {
         "{} is not what its manifest says: draw it again with render --resume",
         path.display()
     ))
-}
-
-fn same_place(a: &Path, b: &Path) -> bool {
-    match (fs::canonicalize(a), fs::canonicalize(b)) {
-        (Ok(a), Ok(b)) => a == b,
-        _ => false,
-    }
 }

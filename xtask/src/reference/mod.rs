@@ -26,7 +26,7 @@ use carom_math::Vec2;
 
 use crate::clock::Clock;
 use crate::exit::{End, Outcome};
-use crate::files;
+use crate::files::Json;
 use crate::flags::ReferenceArgs;
 use crate::out::say;
 
@@ -54,7 +54,7 @@ struct Asked {
 }
 
 pub(crate) fn run(args: &ReferenceArgs) -> Outcome {
-    args.json.as_deref().map_or(Ok(()), files::prepare)?;
+    let json = args.json.as_deref().map(Json::create).transpose()?;
     let books = book::read_folder(&args.dir)?;
     let asked = Asked {
         seed: args.transform,
@@ -82,12 +82,12 @@ pub(crate) fn run(args: &ReferenceArgs) -> Outcome {
         total += book.cases.len();
     }
     say!("{passed} of {total} reference cases pass");
-    if let Some(path) = &args.json {
+    if let (Some(json), Some(path)) = (json, &args.json) {
         let results = Results {
             engine: "carom",
             cases: answers,
         };
-        files::write_json(path, &results)?;
+        json.finish(&results)?;
         say!("answers in {}", path.display());
     }
     Ok(if passed == total {

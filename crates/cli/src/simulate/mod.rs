@@ -2,12 +2,14 @@
 
 mod table;
 
+use std::path::Path;
+
 use carom_dynamics::{Body, BodyKind, World};
 use carom_math::SimTime;
 
 use crate::clock::Clock;
 use crate::exit::{End, Failure, Outcome, fail};
-use crate::files;
+use crate::files::{self, Json};
 use crate::flags::SimulateArgs;
 use crate::interrupt;
 use crate::out::{say, tell};
@@ -50,17 +52,22 @@ pub(crate) fn run(args: &SimulateArgs) -> Outcome {
             "--seconds {seconds} every {every} s are {samples} samples of {bodies} bodies: {rows:e} rows, more than {MAX_ROWS:e}"
         );
     }
-    args.json.as_deref().map_or(Ok(()), files::prepare)?;
+    let (out, json) = (args.out.as_deref(), args.json.as_deref());
+    let scene_file = ("the scene", Path::new(&args.scene));
+    let asked = [("--out", out), ("--json", json)];
+    let asked = asked
+        .iter()
+        .filter_map(|(flag, place)| Some((*flag, (*place)?)));
+    files::apart(&[scene_file].into_iter().chain(asked).collect::<Vec<_>>())?;
+    let json = json.map(Json::create).transpose()?;
     interrupt::watch("finishing the sample")?;
-    let mut table = Table::open(args.out.as_deref(), &built)?;
+    let mut table = Table::open(out, &built)?;
     let run = sample(&mut built.world, (seconds, every, steps), &mut table)?;
     table.finish()?;
 
     let summary = run.watch.finish(&built.world, scene.name());
     report(args, &summary, &run);
-    if let Some(path) = &args.json {
-        files::write_json(path, &summary)?;
-    }
+    json.map_or(Ok(()), |json| json.finish(&summary))?;
     Ok(if run.interrupted {
         End::Interrupted
     } else {

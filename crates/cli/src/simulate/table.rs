@@ -20,6 +20,8 @@ pub(super) struct Table {
     /// The bodies that can move, by their names.
     bodies: Vec<(String, BodyId)>,
     started: bool,
+    /// Where it goes, for an error.
+    place: String,
 }
 
 enum Target {
@@ -32,10 +34,7 @@ impl Table {
     pub(super) fn open(place: Option<&Path>, built: &Built) -> Result<Self, Failure> {
         let target = match place {
             None => Target::Stdout(BufWriter::new(io::stdout())),
-            Some(place) => {
-                files::prepare(place)?;
-                Target::File(Draft::create(place)?)
-            }
+            Some(place) => Target::File(Draft::create(files::prepare(place)?)?),
         };
         let moves = |id: BodyId| {
             built
@@ -48,6 +47,7 @@ impl Table {
             target,
             bodies: bodies.map(|(name, id)| (field(name), *id)).collect(),
             started: false,
+            place: place.map_or_else(|| "stdout".to_owned(), |place| place.display().to_string()),
         })
     }
 
@@ -57,7 +57,8 @@ impl Table {
             Ok(()) => Ok(true),
             Err(error) if is_closed_pipe(&error) => Ok(false),
             Err(error) => Err(Failure::new(format!(
-                "cannot write the trajectories: {error}"
+                "cannot write the trajectories to {}: {error}",
+                self.place
             ))),
         }
     }

@@ -51,7 +51,7 @@ impl Table {
             writeln!(rows, "{heading}").or_else(|error| lost(&error))?;
             return Ok((Self::Stdout(rows), (0, None)));
         };
-        files::prepare(place)?;
+        let place = files::prepare(place)?;
         let mut name = place.as_os_str().to_owned();
         name.push(".part");
         let part = PathBuf::from(name);
@@ -73,7 +73,6 @@ impl Table {
             }
             _ => (begin(&part, heading)?, (0, None)),
         };
-        let place = place.to_path_buf();
         let table = Self::File {
             place,
             part,

@@ -147,3 +147,91 @@ fn a_flight_past_the_core_of_a_strong_field_is_called_inaccurate() {
     let counts = told.is_some_and(|line| !line.contains("inaccurate 0"));
     assert!(counts, "{}", ran.err);
 }
+
+#[test]
+fn one_file_is_not_two() {
+    let folder = tempfile::tempdir().unwrap();
+    let place = |name: &str| folder.path().join(name);
+    let scene = "version = 1\n[[body]]\nshape = { circle = 0.1 }\n";
+    std::fs::write(place("a.toml"), scene).unwrap();
+    let refused = |args: &[&str], parts: &[&str]| {
+        let common = ["simulate", "a.toml", "--seconds", "0.1"];
+        carom_in(folder.path(), &[&common, args].concat()).refused(parts);
+    };
+    // The summary took the place of the table, and either that of the scene.
+    refused(
+        &["--out", "b.csv", "--json", "./b.csv"],
+        &["--json ./b.csv is --out, too"],
+    );
+    refused(&["--out", "a.toml"], &["--out a.toml is the scene, too"]);
+    refused(&["--json", "a.toml"], &["--json a.toml is the scene, too"]);
+    carom_in(folder.path(), &["sweep", "a.toml", "--out", "./a.toml"])
+        .refused(&["--out ./a.toml is the scene, too"]);
+    assert_eq!(names(folder.path()), ["a.toml"]);
+    assert_eq!(std::fs::read_to_string(place("a.toml")).unwrap(), scene);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_summary_that_cannot_be_written_is_told_before_the_run() {
+    use std::os::unix::fs::PermissionsExt as _;
+    let folder = tempfile::tempdir().unwrap();
+    // A name that is too long is refused to everybody; a folder without rights not to root.
+    let long = "j".repeat(255);
+    let run = |json: &str| {
+        let out = ["--out", "a.csv", "--json", json];
+        // So much takes hours.
+        let common = ["simulate", "flying-balls", "--seconds", "1e5"];
+        carom_in(folder.path(), &[&common[..], &out].concat()).refused(&[json, "cannot"]);
+    };
+    run(&long);
+    let closed = folder.path().join("closed");
+    std::fs::create_dir(&closed).unwrap();
+    std::fs::set_permissions(&closed, std::fs::Permissions::from_mode(0o555)).unwrap();
+    if std::fs::write(closed.join("probe"), "").is_err() {
+        run("closed/a.json");
+    } else {
+        std::fs::remove_file(closed.join("probe")).unwrap();
+    }
+    assert_eq!(names(folder.path()), ["closed"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_stays_and_the_file_it_leads_to_is_replaced() {
+    use std::os::unix::fs::symlink;
+    let folder = tempfile::tempdir().unwrap();
+    let place = |name: &str| folder.path().join(name);
+    std::fs::create_dir(place("big")).unwrap();
+    std::fs::write(place("big/old.csv"), "old").unwrap();
+    for (link, to) in [
+        ("old", "big/old.csv"),
+        ("new", "big/new.csv"),
+        ("twice", "old"),
+    ] {
+        symlink(to, place(link)).unwrap();
+    }
+    let run = |args: &[&str]| {
+        carom_in(folder.path(), args).done();
+    };
+    let heading = |name: &str| {
+        let text = std::fs::read_to_string(place(name)).unwrap();
+        text.split(',').next().unwrap().to_owned()
+    };
+    let simulate = ["simulate", "thesis", "--seconds", "0.1", "--out"];
+    run(&[&simulate[..], &["twice"]].concat());
+    assert_eq!(heading("big/old.csv"), "time");
+    run(&["sweep", "thesis", "--seconds", "0", "--out", "old"]);
+    assert_eq!(heading("big/old.csv"), "run");
+    run(&[&simulate[..], &["new", "--json", "old"]].concat());
+    assert_eq!(heading("big/new.csv"), "time");
+    assert!(heading("big/old.csv").starts_with('{'));
+    for link in ["old", "new", "twice"] {
+        let about = std::fs::symlink_metadata(place(link)).unwrap();
+        assert!(about.is_symlink(), "{link} was replaced");
+    }
+    assert_eq!(names(&place("big")), ["new.csv", "old.csv"]);
+    // A link that leads to itself.
+    symlink("loop", place("loop")).unwrap();
+    carom_in(folder.path(), &[&simulate[..], &["loop"]].concat()).refused(&["loop", "no end"]);
+}
