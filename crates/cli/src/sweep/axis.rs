@@ -49,6 +49,9 @@ fn range(text: &str) -> Result<Option<Vec<String>>, String> {
     if !from.is_finite() || !to.is_finite() {
         return Err("a range from or to what is not finite".to_owned());
     }
+    if !(to - from).is_finite() {
+        return Err("a range wider than any finite number".to_owned());
+    }
     let last = count.max(2) - 1;
     // The last one is as it was written; the others are rounded twice.
     let value = |k: u32| {
@@ -122,6 +125,7 @@ mod tests {
         assert_eq!(axis("name='a,b',c").values, ["'a,b'", "c"]);
         assert!("n=1:2:0".parse::<Axis>().is_err());
         assert!("n".parse::<Axis>().is_err());
+        assert!("n=-1e308:1e308:3".parse::<Axis>().is_err());
     }
 
     #[test]

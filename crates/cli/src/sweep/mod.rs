@@ -5,12 +5,15 @@ mod column;
 pub(crate) mod join;
 mod table;
 
+use std::path::Path;
+
 use carom_dynamics::StepReport;
 use carom_math::SimTime;
 use carom_scenes::{Built, Scene};
 
 use crate::exit::{End, Failure, Outcome, fail};
 use crate::field::field;
+use crate::files;
 use crate::flags::SweepArgs;
 use crate::interrupt;
 use crate::out::{say, tell};
@@ -27,6 +30,9 @@ use table::{Earlier, Rows, Table};
 pub(crate) fn run(args: &SweepArgs) -> Outcome {
     let scene = scene::open(&args.scene, &[], args.mode)?;
     let plan = Plan::new(args, &scene)?;
+    if let Some(out) = &args.out {
+        files::apart(&[("the scene", Path::new(&args.scene)), ("--out", out)])?;
+    }
     let earlier = match (args.resume, args.force) {
         (true, _) => Earlier::Resume,
         (_, true) => Earlier::Replace,
@@ -85,8 +91,10 @@ pub(crate) fn run(args: &SweepArgs) -> Outcome {
             if whole { "" } else { ".part" }
         );
     }
-    if interrupt::asked() {
-        tell!("INTERRUPTED  {written} runs are done; --resume goes on");
+    // With the last run in hand it came too late.
+    if interrupt::asked() && !whole {
+        let hint = args.out.as_ref().map_or("", |_| "; --resume goes on");
+        tell!("INTERRUPTED  {written} runs are done{hint}");
         return Ok(End::Interrupted);
     }
     Ok(End::Done)
@@ -105,6 +113,14 @@ struct Plan<'a> {
 
 impl<'a> Plan<'a> {
     fn new(args: &'a SweepArgs, scene: &'a Scene) -> Result<Self, Failure> {
+        for (k, Axis { key, .. }) in args.set.iter().enumerate() {
+            if args.set[..k].iter().any(|other| other.key == *key) {
+                fail!("--set {key} is given twice: its values go into one list, with commas");
+            }
+            if key == "seed" && args.seeds.is_some() {
+                fail!("--set seed and --seeds both say what the seed is");
+            }
+        }
         let seeds = args.seeds.unwrap_or(1);
         let runs = axis::runs(&args.set, seeds).map_err(Failure::new)?;
         let mine = args.shard.unwrap_or(Shard::WHOLE).range(runs);

@@ -128,3 +128,34 @@ fn ctrl_c_ends_a_step_of_very_many_impacts() {
         assert!(said.contains("INTERRUPTED"), "{args:?}: {said}");
     }
 }
+
+#[test]
+fn ctrl_c_that_ends_nothing_is_no_interruption() {
+    let folder = tempfile::tempdir().unwrap();
+    let child = Command::new(crate::CAROM)
+        // A run of one step, which takes some tenths of a second.
+        .args(["sweep", "flying-balls", "--set", "n=60", "--jobs", "1"])
+        .args(["--seconds", "40", "--out", "a.csv"])
+        .current_dir(folder.path())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let part = folder.path().join("a.csv.part");
+    while !part.exists() && !folder.path().join("a.csv").exists() {
+        std::thread::sleep(std::time::Duration::from_millis(1));
+    }
+    // The signal is listened for right after the table was made.
+    std::thread::sleep(std::time::Duration::from_millis(20));
+    let sent = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(sent.unwrap().success(), "the run was over too soon");
+    let output = child.wait_with_output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    // The step went to its end, so its row is there, and no run is left to go on with.
+    let whole = folder.path().join("a.csv").exists();
+    let code = if whole { 0 } else { 130 };
+    assert_eq!(output.status.code(), Some(code), "{said}");
+    assert_eq!(said.contains("--resume goes on"), !whole, "{said}");
+}

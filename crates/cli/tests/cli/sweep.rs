@@ -89,6 +89,10 @@ fn what_is_wrong_gets_one_line() {
         &["--seeds", "2", "--shard", "3/3", "--seconds", "-1"],
         &["below 0"],
     );
+    let twice = ["--set", "body.ball.mass=1,2", "--set", "body.ball.mass=3"];
+    refused(&twice, &["--set body.ball.mass is given twice"]);
+    refused(&["--set", "seed=1,2", "--seeds", "2"], &["seed", "--seeds"]);
+    refused(&["--set", "n=-1e308:1e308:3"], &["-1e308:1e308:3", "wider"]);
     fs::write(folder.path().join("other.csv"), "a,b\n1,2\n").unwrap();
     let merge = ["merge", "other.csv", "--out", "x.csv"];
     carom_in(folder.path(), &merge).refused(&["other.csv", "no table"]);
@@ -143,9 +147,24 @@ fn a_table_in_use_is_refused_to_a_second_sweep() {
         sweep(folder.path(), &["--out", "a.csv", flag]).refused(&["a.csv.part", "in use"]);
         assert_eq!(fs::read_to_string(&part).unwrap(), heading);
     }
-    drop(held);
+    // Not dropped: a process that another test just started may still share the lock.
+    held.unlock().unwrap();
     for flag in ["--resume", "--force"] {
         sweep(folder.path(), &["--out", "a.csv", flag]).done();
         fs::rename(folder.path().join("a.csv"), &part).unwrap();
     }
+}
+
+#[test]
+fn a_table_is_not_joined_into_a_slice() {
+    let folder = folder();
+    for (name, slice) in [("a.csv", "1/2"), ("b.csv", "2/2")] {
+        sweep(folder.path(), &["--out", name, "--shard", slice]).done();
+    }
+    let slice = fs::read(folder.path().join("a.csv")).unwrap();
+    for out in ["a.csv", "./b.csv"] {
+        let merge = ["merge", "a.csv", "b.csv", "--out", out];
+        carom_in(folder.path(), &merge).refused(&[out, "one of the slices"]);
+    }
+    assert_eq!(fs::read(folder.path().join("a.csv")).unwrap(), slice);
 }
