@@ -62,3 +62,13 @@ fn wrong_masses_are_refused_by_name() {
     carom(&["inertia", square, "--mass", "heavy"]).refused(&["--mass", "heavy"]);
     carom(&["inertia", "--file", "no-such-file.txt"]).refused(&["no-such-file.txt"]);
 }
+
+#[test]
+fn the_page_shows_what_is_printed() {
+    let page = include_str!("../../README.md");
+    let (_, rest) = page.split_once("```sh\n$ carom ").unwrap();
+    let (shown, _) = rest.split_once("```").unwrap();
+    let (_, lines) = shown.split_once('\n').unwrap();
+    let ran = carom(&["inertia", "0,0 2,0 2,1 0,1", "--density", "3"]).done();
+    assert_eq!(ran.out, lines);
+}
