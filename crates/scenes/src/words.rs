@@ -27,7 +27,8 @@ pub(crate) fn plain_words(message: &str) -> String {
         ("expected f64", "expected a number"),
         ("expected a sequence", "expected a list"),
         ("expected a boolean", "expected true or false"),
-        ("expected struct ", "expected a table for "),
+        ("an array of length ", "a list of "),
+        ("expected i32", "expected a whole number"),
         ("expected u64", "expected a whole number from 0 up"),
         ("expected usize", "expected a whole number from 0 up"),
         (
@@ -38,5 +39,38 @@ pub(crate) fn plain_words(message: &str) -> String {
     ] {
         words = words.replace(theirs, ours);
     }
-    words
+    // The name of a table is that of its field; the struct's says nothing more.
+    match words.split_once("expected struct ") {
+        Some((before, _)) => format!("{before}expected a table"),
+        None => words,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn types_of_rust_are_not_told() {
+        for (theirs, ours) in [
+            (
+                "invalid type: integer `5`, expected struct BodyTable",
+                "found the integer 5, expected a table",
+            ),
+            (
+                "invalid type: floating point `1.5`, expected i32",
+                "found the number 1.5, expected a whole number",
+            ),
+            (
+                "invalid type: boolean `true`, expected an array of length 2",
+                "found the boolean true, expected a list of 2",
+            ),
+            (
+                "invalid length 3, expected an array of length 2",
+                "found a list of 3, expected a list of 2",
+            ),
+        ] {
+            assert_eq!(plain_words(theirs), ours);
+        }
+    }
 }
