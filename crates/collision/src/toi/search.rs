@@ -319,8 +319,14 @@ impl Search<'_> {
         let mut stretch: Option<Stretch> = None;
         let mut rate = f64::INFINITY;
         let tangent = perp(normal);
+        let round = matches!(axis, Axis::World { .. });
+        if round {
+            // A disc touches one point: of the ends of an edge across the direction the one in front of its centre.
+            least = self.before_disc(&facing, least, near, tangent, &at);
+            rate = least.rate;
+        }
         facing.each_gap(approach, |gap| {
-            if gap.gap > least.gap + near {
+            if round || gap.gap > least.gap + near {
                 return;
             }
             rate = rate.min(gap.rate);
@@ -372,6 +378,30 @@ impl Search<'_> {
         } else {
             TimeOfImpact::Hit(impact)
         }
+    }
+
+    /// Of the vertices within `near` of the lowest the one nearest to the centre of the disc along the tangent.
+    fn before_disc(
+        &self,
+        facing: &Facing,
+        least: Gap,
+        near: f64,
+        tangent: Vec2,
+        at: &Instant,
+    ) -> Gap {
+        let hulls = &self.approach.hulls;
+        let aside = |gap: &Gap| {
+            let [a, b] = [0, 1].map(|k| at.rotation[k] * hulls[k].vertices[gap.vertices[k]]);
+            tangent.dot(at.d + b - a).abs()
+        };
+        let mut best = (aside(&least), least);
+        facing.each_gap(self.approach, |gap| {
+            let aside = aside(&gap);
+            if gap.gap <= least.gap + near && aside < best.0 {
+                best = (aside, gap);
+            }
+        });
+        best.1
     }
 
     /// The neighbour of an edge that the vertex touches beyond its end: at a nearly straight corner both are

@@ -3,7 +3,7 @@
 use carom_collision::{
     AxisFeature, Impact, ImpactFeature, Motion, Side, TimeOfImpact, part, time_of_impact,
 };
-use carom_geometry::{Circle, ConvexPolygon, HalfPlane, Polygon, Shape};
+use carom_geometry::{Circle, ConvexPolygon, HalfPlane, Polygon, Segment, Shape};
 use carom_math::{Pose, Rot, SimTime, Vec2, vec2};
 use proptest::prelude::*;
 
@@ -278,5 +278,35 @@ fn shapes_that_touch_or_overlap_and_do_not_approach_are_clear_and_those_that_app
             };
             assert!((impact.gap_rate + 1.0).abs() < 1e-14);
         }
+    }
+}
+
+#[test]
+fn a_disc_that_comes_down_on_a_corner_touches_one_point() {
+    // Its centre comes over the end of the edge, to rounding: along that way both ends of the edge are as low.
+    let bar = Shape::from(Segment::new(vec2(0.0, 0.0), vec2(-0.5, 0.0)).expect("a bar"));
+    let turned = Motion {
+        velocity: vec2(2.0, 0.0),
+        rotation: Rot::from_cos_sin(-1.0, 0.0),
+        ..Motion::resting(vec2(-1.0, -1.0))
+    };
+    let disc = Shape::from(Circle::at(vec2(1.0, 0.5), 0.75).expect("a disc"));
+    let flying = Motion {
+        velocity: vec2(-2.0, -2.0),
+        ..Motion::resting(Vec2::ZERO)
+    };
+    let end = vec2(0.25, -1.0);
+    for impact in [
+        hit(&disc, &flying, &bar, &turned),
+        hit(&bar, &turned, &disc, &flying),
+    ] {
+        assert!((impact.time - 0.375).abs() < 1e-15);
+        assert_eq!(impact.points.len(), 1, "{impact:?}");
+        assert!((impact.points[0] - end).length() < 1e-14, "{impact:?}");
+        let [AxisFeature::Vertices { a, b }] = features(&impact)[..] else {
+            panic!("a corner: {impact:?}");
+        };
+        // The bar is turned by half a turn.
+        assert_eq!(a + b, 1);
     }
 }
