@@ -14,7 +14,7 @@ use std::collections::{BTreeSet, BinaryHeap};
 
 use arrayvec::ArrayVec;
 use carom_geometry::Shape;
-use carom_math::{Pose, Vec2};
+use carom_math::{Pose, Vec2, vec2};
 
 use crate::cast::touch_point;
 use crate::manifold::{Faces, FeatureId, Manifold};
@@ -102,17 +102,18 @@ pub(crate) fn way_out<'a>(a: &'a Shape, b: &'a Shape, b_in_a: Pose) -> Option<Wa
         touch,
     };
     overlap.blocking(Vec2::ZERO)?;
-    // Past the bounding box along an axis nothing overlaps.
+    // Past the bounding box along an axis nothing overlaps. Half-planes end along one axis at most.
     let leave = [
-        Vec2::X * (box_a.max.x - box_b.min.x),
-        Vec2::X * (box_a.min.x - box_b.max.x),
-        Vec2::Y * (box_a.max.y - box_b.min.y),
-        Vec2::Y * (box_a.min.y - box_b.max.y),
+        vec2(box_a.max.x - box_b.min.x, 0.0),
+        vec2(box_a.min.x - box_b.max.x, 0.0),
+        vec2(0.0, box_a.max.y - box_b.min.y),
+        vec2(0.0, box_a.min.y - box_b.max.y),
     ];
+    let finite = leave.into_iter().filter(|way| way.is_finite());
     let shorter = |p: &Vec2, q: &Vec2| p.length_squared().total_cmp(&q.length_squared());
-    let longest = leave.into_iter().min_by(shorter)?;
-    let found = overlap.search(longest.length_squared());
-    let way = found.unwrap_or(longest);
+    let longest = finite.min_by(shorter);
+    let found = overlap.search(longest.map_or(f64::INFINITY, Vec2::length_squared));
+    let way = found.or(longest)?;
     way.is_finite().then_some(WayOut {
         overlap,
         way,

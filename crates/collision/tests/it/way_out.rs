@@ -1,7 +1,7 @@
 //! Overlaps of whole shapes: the shortest way out, and contacts however deep.
 
 use carom_collision::{PartManifold, contacts, hulls, separating_axis, shape_push};
-use carom_geometry::{Circle, Compound, ConvexPolygon, Polygon, Shape};
+use carom_geometry::{Circle, Compound, ConvexPolygon, HalfPlane, Polygon, Shape};
 use carom_math::{Pose, Rot, Vec2, vec2};
 use proptest::prelude::*;
 
@@ -54,6 +54,20 @@ proptest! {
         }
         let back = shape_push(&b, &a, pose.inverse()).expect("they overlap");
         prop_assert!((pose.vector(back).length() - push.length()).abs() < 1e-9);
+    }
+
+    #[test]
+    fn concave_shapes_are_pushed_out_of_half_planes_along_the_normal(a in concave(), turn in -4.0..4.0_f64, height in -1.0..1.0_f64) {
+        let a: Shape = a.into();
+        let normal = Rot::from_angle(turn).x_axis();
+        let pose = Pose::new(normal * height, Rot::from_angle(2.0 * turn));
+        let ground = Shape::from(HalfPlane::new(Vec2::ZERO, normal).expect("a normal"));
+        let heights = a.vertices().iter().map(|v| normal.dot(pose.point(*v)));
+        let depth = -heights.fold(f64::INFINITY, f64::min);
+        let push = shape_push(&ground, &a, pose).unwrap_or(Vec2::ZERO);
+        prop_assert!((push - normal * depth.max(0.0)).length() < 1e-11, "{push}, {depth} m deep");
+        let back = shape_push(&a, &ground, pose.inverse()).unwrap_or(Vec2::ZERO);
+        prop_assert!((pose.vector(back) + push).length() < 1e-11);
     }
 
     #[test]
