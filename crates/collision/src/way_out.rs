@@ -94,7 +94,14 @@ pub(crate) fn way_out<'a>(a: &'a Shape, b: &'a Shape, b_in_a: Pose) -> Option<Wa
         .extents()
         .max_element()
         .min(box_b.extents().max_element());
-    let touch = 1e-12 * if size.is_finite() { size } else { 0.0 };
+    // Heights of what lies far from the origins of both frames are rounded by more.
+    let corners = [box_a.min, box_a.max, box_b.min, box_b.max, b_in_a.position];
+    let coordinates = corners
+        .into_iter()
+        .flat_map(|corner| corner.abs().to_array());
+    let far = coordinates.filter(|x| x.is_finite()).fold(0.0, f64::max);
+    let rounding = 16.0 * f64::EPSILON * far;
+    let touch = rounding.max(1e-12 * if size.is_finite() { size } else { 0.0 });
     let overlap = Overlap {
         a,
         b,

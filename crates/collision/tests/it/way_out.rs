@@ -57,6 +57,16 @@ proptest! {
     }
 
     #[test]
+    fn the_push_is_the_same_far_from_the_frames(a in concave(), b in body(), x in -1.0..1.0_f64, y in -1.0..1.0_f64, turn in -4.0..4.0_f64) {
+        let a: Shape = a.into();
+        let pose = Pose::new(vec2(x, y), Rot::from_angle(turn));
+        let far = vec2(1e5, -7e4);
+        let near = shape_push(&a, &b, pose).map_or(0.0, |push| push.length());
+        let push = shape_push(&a.translated(far), &b, moved(pose, far)).map_or(0.0, |push| push.length());
+        prop_assert!((push - near).abs() < 1e-6, "{push} m, {near} m beside the frames");
+    }
+
+    #[test]
     fn concave_shapes_are_pushed_out_of_half_planes_along_the_normal(a in concave(), turn in -4.0..4.0_f64, height in -1.0..1.0_f64) {
         let a: Shape = a.into();
         let normal = Rot::from_angle(turn).x_axis();
