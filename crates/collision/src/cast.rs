@@ -153,8 +153,8 @@ struct Interval {
 #[derive(Clone, Copy)]
 enum Closed {
     Face(Side, Face),
-    /// A direction from a vertex of A.
-    Along(Vec2, usize),
+    /// A direction from a vertex of A to one of B.
+    Along(Vec2, [usize; 2]),
 }
 
 impl Interval {
@@ -215,9 +215,9 @@ fn cast_polygons(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose, step: Vec2) -> Option
     if lines {
         for direction in along_both(a, b, b_in_a) {
             let (vertex, of_a) = a.support(direction);
-            let (_, of_b) = b.support(b_in_a.inverse_vector(-direction));
+            let (other, of_b) = b.support(b_in_a.inverse_vector(-direction));
             let gap = direction.dot(b_in_a.position) - of_b - of_a;
-            let closed = Closed::Along(direction, vertex);
+            let closed = Closed::Along(direction, [vertex, other]);
             interval.add(gap, direction.dot(step), closed, || false)?;
         }
     }
@@ -233,7 +233,19 @@ fn cast_polygons(a: &Hull<'_>, b: &Hull<'_>, b_in_a: Pose, step: Vec2) -> Option
             let faces = Faces::new(&pair, owner, face);
             (faces.touch(), faces.normal_in_a())
         }
-        Closed::Along(direction, vertex) => (a.vertices[vertex], direction),
+        Closed::Along(direction, [vertex, other]) => {
+            /// Sine of the angle to the direction below which a segment lies across it.
+            const FLUSH: f64 = 1e-9;
+            // A segment across the direction is met by the end of the other one.
+            let along = a.vertices[a.next(vertex)] - a.vertices[vertex];
+            let across = direction.dot(along).abs() <= FLUSH * along.length();
+            let point = if across {
+                b_in_a.point(b.vertices[other]) + step * fraction
+            } else {
+                a.vertices[vertex]
+            };
+            (point, direction)
+        }
     };
     Some(Local {
         fraction,

@@ -160,3 +160,20 @@ fn parallel_segments_pass_beside_each_other() {
     );
     assert_eq!(slide.map(|h| (h.fraction, h.normal)), Some((0.5, Vec2::X)));
 }
+
+#[test]
+fn a_segment_met_by_the_end_of_another_is_touched_there() {
+    let upright = Shape::from(Segment::new(vec2(0.0, -0.5), vec2(0.0, 0.5)).expect("a segment"));
+    let level = Shape::from(Segment::new(vec2(1.0, 0.25), vec2(3.0, 0.25)).expect("a segment"));
+    let way = vec2(2.0, 0.125);
+    let there = cast(&upright, Pose::IDENTITY, way, &level, Pose::IDENTITY).expect("it is met");
+    let back = cast(&level, Pose::IDENTITY, -way, &upright, Pose::IDENTITY).expect("it is met");
+    assert!(
+        (there.point - vec2(1.0, 0.25)).length() < 1e-15,
+        "{there:?}"
+    );
+    assert!(
+        (back.point - vec2(0.0, 0.1875)).length() < 1e-15,
+        "{back:?}"
+    );
+}
