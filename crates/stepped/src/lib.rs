@@ -53,6 +53,7 @@ mod sleep;
 mod tests;
 mod touch;
 mod update;
+mod whole;
 
 pub use engine::Engine;
 pub use error::EngineError;

@@ -240,6 +240,11 @@ impl Pieces {
         rules.surface([a.tag, b.tag], [a.material, b.material])
     }
 
+    /// Slots of the bodies of two pieces.
+    pub(crate) fn bodies(&self, pair: [u32; 2]) -> [u32; 2] {
+        pair.map(|piece| self.owners[piece as usize].body)
+    }
+
     /// Whether they belong to two bodies.
     pub(crate) fn are_of_two(&self, a: u32, b: u32) -> bool {
         self.owners[a as usize].body != self.owners[b as usize].body

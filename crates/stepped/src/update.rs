@@ -13,6 +13,7 @@ use crate::rows::{
     Block, Cold, Colour, Deep, Graph, HARD, LANES, Law, OPEN, Pressed, RotatingRows, Side, Touched,
     renew,
 };
+use crate::whole::WholePairs;
 use crate::{PairRules, Settings};
 
 /// A kept contact may be so many margins wide, so that pairs do not come and go each tick.
@@ -36,6 +37,7 @@ pub(crate) fn update(
     graph.suspects.clear();
     graph.suspects.cover(bodies.lines.len());
     let displaced = graph.displaced(bodies);
+    let mut wholes = WholePairs::of(graph);
     let (colours, suspects) = graph.awake_and_suspects();
     // Rows are renewed, and all else of the bodies stays.
     let mut start = core::mem::take(&mut bodies.start);
@@ -67,8 +69,9 @@ pub(crate) fn update(
             manifolds(&scene, KEPT, pairs, &mut own);
             &mut own
         };
+        let whole = wholes.renew(&scene, (block, cold), moved, found);
         let near = moved & found.near;
-        for lane in lanes(near) {
+        for lane in lanes(near & !whole) {
             keep_side(&scene, block, cold.pieces[lane], lane, found);
         }
         renew(
@@ -88,7 +91,9 @@ pub(crate) fn update(
             if gap < 0.0 || cold.is_deep(lane) || beside {
                 least = least.min(gap);
                 let deepest = deepest(law, pieces, cold.pieces[lane]);
-                let by = if beside {
+                let by = if whole >> lane & 1 == 1 {
+                    Pressed::ByCaller
+                } else if beside {
                     Pressed::ByDisplacement
                 } else {
                     Pressed::ByRows
@@ -129,6 +134,7 @@ pub(crate) fn update(
     }
     bodies.start = start;
     graph.add_deep(&mut deep);
+    wholes.note(graph);
     least
 }
 
@@ -138,7 +144,7 @@ pub(crate) fn update(
 fn keep_side(scene: &Scene<'_>, block: &Block, pair: [u32; 2], lane: usize, found: &mut Found) {
     let [a, b] = [block.a[lane], block.b[lane]].map(|line| &scene.bodies.lines[line as usize]);
     let normal = found.rows.normal(lane);
-    let overlaps = found.rows.s1[lane].min(found.rows.s2[lane]) + normal.dot(b.d() - a.d()) < 0.0;
+    let overlaps = found.gap(lane, b.d() - a.d()) < 0.0;
     let pushes = block.j1[lane] + block.j2[lane] > 0.0;
     let came = block.normal(lane);
     let is_sharp = |piece: u32| scene.pieces.outlines[piece as usize].radius() == 0.0;
@@ -195,7 +201,7 @@ fn deepest(law: &Law, pieces: &Pieces, pair: [u32; 2]) -> f64 {
 }
 
 /// Those lanes that have a bit.
-fn lanes(mut bits: u8) -> impl Iterator<Item = usize> + Clone {
+pub(crate) fn lanes(mut bits: u8) -> impl Iterator<Item = usize> + Clone {
     core::iter::from_fn(move || {
         let lane = bits.trailing_zeros() as usize;
         bits &= bits.wrapping_sub(1);
@@ -294,6 +300,7 @@ pub(crate) fn create(
     rules: &dyn PairRules,
 ) -> f64 {
     let mut deep = DeepCounts::of(deep, graph, bodies);
+    let wholes = WholePairs::of(graph);
     let scene = Scene {
         level,
         bodies,
@@ -308,15 +315,15 @@ pub(crate) fn create(
         .filter(|pair| deep.asks(pair.slots(pieces), &mut waits))
         .collect();
     let many = take_many(bodies, pieces, &mut news);
-    let mut fresh = Vec::new();
+    let (mut fresh, mut cut) = (Vec::new(), Vec::new());
     for eight in news.chunks(LANES) {
-        add_near(&scene, eight, &mut fresh);
+        add_near(&scene, eight, &mut fresh, &mut cut);
     }
     for eight in many.chunks(LANES) {
         let asks = |pair: &&Pair| deep.asks(pair.slots(pieces), &mut waits);
         let eight: Vec<Pair> = eight.iter().filter(asks).copied().collect();
         let before = fresh.len();
-        add_near(&scene, &eight, &mut fresh);
+        add_near(&scene, &eight, &mut fresh, &mut cut);
         for Fresh { pair, manifold, .. } in &fresh[before..] {
             if manifold.gap() < deepest(law, pieces, pair.pieces)
                 && pieces.surface(pair.pieces, rules).is_some()
@@ -325,6 +332,7 @@ pub(crate) fn create(
             }
         }
     }
+    wholes.add(&scene, rules, cut, &mut fresh);
     for (record, waits) in bodies.records.iter_mut().zip(waits) {
         if waits {
             // It was put there until then.
@@ -337,6 +345,7 @@ pub(crate) fn create(
         pair: Pair { pieces: pair, .. },
         manifold,
         face,
+        is_whole,
     } in fresh
     {
         // Few of the candidates are near: so the rules are asked about these alone.
@@ -346,7 +355,7 @@ pub(crate) fn create(
         let [a, b] = pair.map(|piece| &pieces.list[piece as usize]);
         let ends = [a.body, b.body];
         let deepest = deepest(law, pieces, pair);
-        let id = graph.insert(bodies, ends, pair, (&manifold, deepest), surface);
+        let id = graph.insert(bodies, ends, pair, (&manifold, deepest, is_whole), surface);
         let [first, second] = graph.gaps(bodies, id);
         least = least.min(first).min(second);
         known.insert(pair, id);
@@ -357,19 +366,22 @@ pub(crate) fn create(
                 rotating.add((block, lane), (id, pair), (bodies, side), (tick, extent));
             }
         }
-        let lines = ends.map(|slot| bodies.records[slot as usize].line);
-        let parts = (&*bodies, pieces);
-        graph.suspects.add_short(parts, lines, pair, id);
-        graph.suspects.add_seam(lines);
+        if !is_whole {
+            let lines = ends.map(|slot| bodies.records[slot as usize].line);
+            let parts = (&*bodies, pieces);
+            graph.suspects.add_short(parts, lines, pair, id);
+            graph.suspects.add_seam(lines);
+        }
         narrow_tolerances(bodies, settings, ends, a.extent.min(b.extent));
     }
     least
 }
 
-/// Adds those of at most eight pairs that are near enough, with their manifolds.
-fn add_near(scene: &Scene<'_>, news: &[Pair], fresh: &mut Vec<Fresh>) {
+/// Adds those of at most eight pairs that are near enough, with their manifolds, and those that overlap across cuts alone.
+fn add_near(scene: &Scene<'_>, news: &[Pair], fresh: &mut Vec<Fresh>, cut: &mut Vec<Pair>) {
     let mut found = Found::NONE;
     manifolds(scene, 1.0, (0..).zip(news.iter().copied()), &mut found);
+    cut.extend(lanes(found.cut).map(|lane| news[lane]));
     fresh.extend(lanes(found.near).map(|lane| {
         let pair = news[lane];
         // A corner may leave its face before it comes near; a disc keeps to it.
@@ -378,16 +390,19 @@ fn add_near(scene: &Scene<'_>, news: &[Pair], fresh: &mut Vec<Fresh>) {
             pair,
             manifold: found.manifold(lane),
             face: side.filter(|side| side.radius > 0.0),
+            is_whole: false,
         }
     }));
 }
 
 /// A pair that is near enough.
-struct Fresh {
-    pair: Pair,
-    manifold: Manifold,
+pub(crate) struct Fresh {
+    pub(crate) pair: Pair,
+    pub(crate) manifold: Manifold,
     /// Which body has the face, if its row may be rotated.
-    face: Option<Side>,
+    pub(crate) face: Option<Side>,
+    /// The row is one of whole shapes.
+    pub(crate) is_whole: bool,
 }
 
 /// Two pieces, beginning with what was inserted first, and the lines of their bodies.
@@ -400,7 +415,7 @@ pub(crate) struct Pair {
 impl Pair {
     /// Slots of both bodies.
     pub(crate) fn slots(self, pieces: &Pieces) -> [u32; 2] {
-        self.pieces.map(|piece| pieces.owners[piece as usize].body)
+        pieces.bodies(self.pieces)
     }
 
     const fn of_lane(block: &Block, cold: &Cold, lane: usize) -> Self {

@@ -77,6 +77,8 @@ pub(crate) struct Found {
     /// A bit for each of these that lies on a face of A, and of B: corner on corner has none, nor has what was found otherwise.
     pub(crate) of_a: u8,
     pub(crate) of_b: u8,
+    /// A bit for each pair that overlaps by more than is near across a cut, and by more behind a face.
+    pub(crate) cut: u8,
 }
 
 impl Found {
@@ -88,6 +90,7 @@ impl Found {
         seam: 0,
         of_a: 0,
         of_b: 0,
+        cut: 0,
     };
 
     /// Puts a manifold that was found otherwise into a lane.
@@ -111,6 +114,12 @@ impl Found {
         self.seam |= bit(other.seam);
         self.of_a |= bit(other.of_a);
         self.of_b |= bit(other.of_b);
+    }
+
+    /// The gap of a pair with B gone so far from A since the base poses, in m.
+    pub(crate) fn gap(&self, lane: usize, gone: Vec2) -> f64 {
+        let rows = &self.rows;
+        rows.s1[lane].min(rows.s2[lane]) + rows.normal(lane).dot(gone)
     }
 
     pub(crate) fn manifold(&self, lane: usize) -> Manifold {

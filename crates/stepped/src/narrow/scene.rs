@@ -1,5 +1,7 @@
 //! What is near: a pair's margin, and how far it closes until the next tick.
 
+use carom_collision::{part_count, shape_push};
+use carom_geometry::Shape;
 use carom_math::Vec2;
 use fearless_simd::Level;
 
@@ -59,6 +61,34 @@ impl Scene<'_> {
         let gone = found.normal.dot(meeting.gone);
         found.gaps = found.gaps.map(|gap| gap - gone);
         (found.gap() < margin + self.closes(pair, &found)).then_some(found)
+    }
+
+    /// Whether a piece of a concave shape is in another one by more than a margin. Out of a half-plane all go one way.
+    pub(crate) fn is_entangled(&self, pair: [u32; 2], gap: f64) -> bool {
+        let shapes = pair.map(|piece| self.pieces.list[piece as usize].shape());
+        gap < -self.margin(pair)
+            && shapes.iter().any(|shape| part_count(shape) > 1)
+            && !shapes
+                .iter()
+                .any(|shape| matches!(shape, Shape::HalfPlane(_)))
+    }
+
+    /// The shortest way out of the whole shapes of two pieces, as a contact in the middle of what both boxes hold of these; `None` if they
+    /// are apart.
+    pub(crate) fn way_out(&self, pair: [u32; 2]) -> Option<Manifold> {
+        let [a, b] = pair.map(|piece| &self.pieces.list[piece as usize]);
+        let [pose_a, mut pose_b] = [a.body, b.body].map(|slot| self.bodies.base_of(slot));
+        let gone = self.meeting(pair).gone;
+        pose_b.position += gone;
+        let way = shape_push(a.shape(), b.shape(), pose_b.seen_from(pose_a))?;
+        let depth = way.length();
+        let normal = pose_a.vector(way / depth);
+        let [of_a, of_b] = [(a, pose_a), (b, pose_b)].map(|(piece, pose)| piece.hull().aabb(pose));
+        let middle = 0.5 * (of_a.min.max(of_b.min) + of_a.max.min(of_b.max));
+        // Rows count from the base poses.
+        let gap = -(depth + a.rounding + b.rounding) - normal.dot(gone);
+        let arms = [pose_a, pose_b].map(|pose| middle - pose.position);
+        Some(Manifold::single(normal, arms, gap))
     }
 
     /// The line of a piece's body; that of fixed ones if it sleeps.

@@ -89,6 +89,8 @@ pub(crate) struct Cold {
     pub(super) put: u8,
     /// A bit for each of these that rows did not press together, and that bear no load.
     pub(super) unloaded: u8,
+    /// A bit for each lane with a row of whole shapes.
+    pub(crate) whole: u8,
     /// A bit for each lane that holds a contact.
     pub(crate) used: u8,
 }
@@ -276,6 +278,7 @@ impl Cold {
         deep: 0,
         put: 0,
         unloaded: 0,
+        whole: 0,
         used: 0,
     };
 
@@ -287,6 +290,11 @@ impl Cold {
     /// Whether it is, and came so.
     pub(crate) const fn was_put(&self, lane: usize) -> bool {
         self.put >> lane & 1 == 1
+    }
+
+    /// A bit for each lane that is.
+    pub(crate) const fn put(&self) -> u8 {
+        self.put
     }
 
     /// Whether it is, rows did not press it together, and it bears no load.
@@ -363,5 +371,6 @@ impl Cold {
         self.deep = bit(self.deep, other.deep);
         self.put = bit(self.put, other.put);
         self.unloaded = bit(self.unloaded, other.unloaded);
+        self.whole = bit(self.whole, other.whole);
     }
 }

@@ -58,6 +58,8 @@ pub(crate) struct Graph {
     pub(super) deep: Vec<u32>,
     /// Contacts of two bodies of very different mass, and some that were, in no order.
     pub(super) unequal: Vec<u32>,
+    /// Contacts with rows of whole shapes, and their pieces; some were such.
+    pub(super) whole: Vec<(u32, [u32; 2])>,
     /// Behind those of masks the overflow colour, then those of hard rows, and last what sleeps.
     pub(super) colours: Vec<Colour>,
     /// Contacts in hard rows.
@@ -88,6 +90,7 @@ impl Graph {
             free: Vec::new(),
             deep: Vec::new(),
             unequal: Vec::new(),
+            whole: Vec::new(),
             colours: vec![Colour::default(); ASLEEP + 1],
             hard: 0,
         }
@@ -164,7 +167,7 @@ impl Graph {
         bodies: &mut Bodies,
         ends: [u32; 2],
         pieces: [u32; 2],
-        (manifold, deepest): (&Manifold, f64),
+        (manifold, deepest, is_whole): (&Manifold, f64, bool),
         surface: Surface,
     ) -> u32 {
         let id = self.free.pop().unwrap_or(number(self.contacts.len()));
@@ -191,9 +194,12 @@ impl Graph {
         } else {
             self.contacts[id as usize] = contact;
         }
-        self.colour(bodies, id, (manifold, deepest), surface);
+        self.colour(bodies, id, (manifold, deepest, is_whole), surface);
         if Self::is_unequal(bodies, ends) {
             self.unequal.push(id);
+        }
+        if is_whole {
+            self.whole.push((id, pieces));
         }
         id
     }
@@ -203,7 +209,7 @@ impl Graph {
         &mut self,
         bodies: &mut Bodies,
         id: u32,
-        (manifold, deepest): (&Manifold, f64),
+        (manifold, deepest, is_whole): (&Manifold, f64, bool),
         surface: Surface,
     ) {
         let contact = &mut self.contacts[id as usize];
@@ -232,7 +238,7 @@ impl Graph {
         block.put(lane, manifold);
         let records = ends.map(|slot| &bodies.records[slot as usize]);
         let was_put = records.iter().any(|record| record.placed == bodies.updates);
-        let by = if was_put {
+        let by = if was_put || is_whole {
             Pressed::ByCaller
         } else {
             Pressed::New
@@ -244,6 +250,8 @@ impl Graph {
         }
         colour.cold[k].restitution[lane] = surface.restitution;
         colour.cold[k].belt[lane] = surface.tangent_speed;
+        colour.cold[k].whole &= !(1 << lane);
+        colour.cold[k].whole |= u8::from(is_whole) << lane;
         colour.count(k, lane);
     }
 

@@ -69,6 +69,24 @@ impl Graph {
         cold.gaps(block, lane, &bodies.lines)
     }
 
+    /// Contacts got rows of whole shapes.
+    pub(crate) fn add_whole(&mut self, new: &[(u32, [u32; 2])]) {
+        self.whole.extend_from_slice(new);
+    }
+
+    /// Slots of the bodies of each row of whole shapes that is still there.
+    pub(crate) fn retain_whole(&mut self) -> impl Iterator<Item = [u32; 2]> {
+        let mut whole = core::mem::take(&mut self.whole);
+        whole.retain(|&(id, pieces)| {
+            self.has(id, pieces) && {
+                let (_, cold, lane) = self.lane(id);
+                cold.whole >> lane & 1 == 1
+            }
+        });
+        self.whole = whole;
+        (self.whole.iter()).map(|(id, _)| self.contacts[*id as usize].bodies)
+    }
+
     /// Both points of a contact, midway between the surfaces, in m.
     pub(crate) fn places(&self, bodies: &Bodies, id: u32) -> [Vec2; 2] {
         let (block, _, lane) = self.lane(id);

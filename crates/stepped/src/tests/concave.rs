@@ -2,7 +2,8 @@
 
 use core::f64::consts::FRAC_PI_2;
 
-use carom_geometry::{ConvexPolygon, Polygon};
+use carom_collision::shape_push;
+use carom_geometry::{Circle, ConvexPolygon, Polygon, Shape};
 use carom_math::{Pose, Rot, Vec2, vec2};
 
 use super::{Random, floor};
@@ -151,4 +152,63 @@ fn fastest_of_tall(seed: u64) -> [f64; 2] {
         let speed = |id: &BodyId| engine.velocity(*id).unwrap().0.length();
         ids.iter().map(speed).fold(0.0, f64::max)
     })
+}
+
+/// A star with `tips` tips at 0.5 m and as many corners at 0.25 m.
+fn star(tips: u32) -> Polygon {
+    let corner = |k: u32| {
+        let along =
+            Rot::from_angle(core::f64::consts::PI * f64::from(k) / f64::from(tips)) * Vec2::X;
+        along * [0.5, 0.25][k as usize % 2]
+    };
+    Polygon::new((0..2 * tips).map(corner).collect::<Vec<_>>()).unwrap()
+}
+
+/// Their pieces had no rows, or rows against each other: they lay in each other for ever, asleep, and no overlap was told.
+#[test]
+fn what_is_put_into_a_concave_body_comes_out() {
+    let (l, u) = (polygon(&L, 1.0), polygon(&U, 1.0));
+    let disc: Shape = Circle::new(0.3).unwrap().into();
+    let square: Shape = ConvexPolygon::rectangle(0.5, 0.5).unwrap().into();
+    let pairs: [(Shape, Shape); 5] = [
+        (l.clone().into(), l.into()),
+        (u.clone().into(), u.into()),
+        (star(5).into(), star(5).into()),
+        (star(7).into(), disc),
+        (star(5).into(), square),
+    ];
+    for (number, (one, other)) in pairs.iter().enumerate() {
+        for (gravity, at) in [0.0, 10.0]
+            .into_iter()
+            .flat_map(|g| [(0.0, 0.0), (0.01, 0.02), (0.1, 0.03), (-0.13, 0.1)].map(|at| (g, at)))
+        {
+            let mut engine = Engine::new(Settings {
+                gravity: vec2(0.0, -gravity),
+                ..Settings::default()
+            })
+            .unwrap();
+            floor(&mut engine);
+            let mut put = |shape: &Shape, at: Vec2| {
+                let body = BodyInput::dynamic(1.0, 0.1).at(at);
+                engine
+                    .insert(body, &[PieceInput::new(shape.clone())])
+                    .unwrap()
+            };
+            let ids = [put(one, vec2(0.0, 2.0)), put(other, vec2(at.0, 2.0 + at.1))];
+            let mut most: f64 = 0.0;
+            for _ in 0..300 {
+                engine.tick();
+                if gravity == 0.0 {
+                    most = most.max(engine.energy().0);
+                }
+            }
+            assert!(most < 0.1, "{most} J, pair {number} at {at:?}");
+            let [a, b] = ids.map(|id| engine.pose(id).unwrap());
+            let push = shape_push(one, other, b.seen_from(a)).map_or(0.0, Vec2::length);
+            assert!(
+                push < 5e-3,
+                "{push} m, pair {number} at {at:?}, {gravity} m/s²"
+            );
+        }
+    }
 }
