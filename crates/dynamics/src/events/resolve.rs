@@ -186,19 +186,11 @@ pub(crate) fn apply(
 ) -> Vec<u32> {
     for impact in shock.impacts() {
         report.impacts += 1;
-        let ends = shock.ends(&impact);
-        events.push(
-            time,
-            EventKind::Impact {
-                a: bodies.get(ends.0).id,
-                b: bodies.get(ends.1).id,
-                point: impact.contact.point,
-                normal: impact.contact.normal,
-                normal_impulse: impact.normal_impulse,
-                tangential_impulse: impact.tangential_impulse,
-                speed: impact.speed.max(0.0),
-            },
-        );
+        let (a, b) = shock.ends(&impact);
+        let ids = [a, b].map(|index| bodies.get(index).id);
+        let at = (impact.contact.point, impact.contact.normal);
+        let impulses = (impact.normal_impulse, impact.tangential_impulse);
+        events.push(time, EventKind::impact(ids, at, impulses, impact.speed));
     }
     let (loss, driven) = shock.works();
     bodies.book.impacts.add(loss);

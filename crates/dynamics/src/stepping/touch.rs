@@ -69,21 +69,12 @@ impl Stepping {
         let are_some = !self.impacts.is_empty();
         report.impacts += self.impacts.len() as u64;
         for impact in self.impacts.drain(..) {
-            let [a, b] = impact
-                .tags
-                .map(|tag| bodies.get(bodies.colliders[collider(tag) as usize].body).id);
-            events.push(
-                time + -impact.since,
-                EventKind::Impact {
-                    a,
-                    b,
-                    point: impact.place,
-                    normal: impact.normal,
-                    normal_impulse: impact.normal_impulse,
-                    tangential_impulse: impact.tangential_impulse,
-                    speed: impact.speed,
-                },
-            );
+            let owner = |tag: u64| bodies.colliders[collider(tag) as usize].body;
+            let ids = impact.tags.map(|tag| bodies.get(owner(tag)).id);
+            let at = (impact.place, impact.normal);
+            let impulses = (impact.normal_impulse, impact.tangential_impulse);
+            let told = EventKind::impact(ids, at, impulses, impact.speed);
+            events.push(time + -impact.since, told);
         }
         if are_some {
             events.sort();

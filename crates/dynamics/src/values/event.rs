@@ -95,6 +95,26 @@ pub enum EventKind {
     Awake(BodyId),
 }
 
+impl EventKind {
+    /// An impact of bodies A and B: where and along which normal, its impulses along that and across, and the speed of approach.
+    pub(crate) const fn impact(
+        [a, b]: [BodyId; 2],
+        (point, normal): (Vec2, Vec2),
+        (normal_impulse, tangential_impulse): (f64, f64),
+        speed: f64,
+    ) -> Self {
+        Self::Impact {
+            a,
+            b,
+            point,
+            normal,
+            normal_impulse,
+            tangential_impulse,
+            speed: speed.max(0.0),
+        }
+    }
+}
+
 /// The events of the last step, in order of time, up to a bound.
 #[derive(Clone, Debug, Default)]
 pub struct Events {

@@ -63,14 +63,8 @@ pub(crate) fn jam(
     }
     let lost = had - energy(bodies);
     bodies.book.impacts.add(lost);
-    let told = EventKind::Impact {
-        a: bodies.get(ends[0]).id,
-        b: bodies.get(ends[1]).id,
-        point,
-        normal: touch.normal,
-        normal_impulse: outcome.normal_impulse,
-        tangential_impulse: outcome.tangential_impulse,
-        speed: 0.0,
-    };
+    let ids = ends.map(|index| bodies.get(index).id);
+    let impulses = (outcome.normal_impulse, outcome.tangential_impulse);
+    let told = EventKind::impact(ids, (point, touch.normal), impulses, 0.0);
     Some(Jam { ends, told })
 }

@@ -245,18 +245,11 @@ impl World {
         let outcome = resolve(self.settings.impact_law, &before[0], &before[1], contact);
         let speed = -opening(before, contact.point, contact.normal);
         self.report.impacts += 1;
-        self.events.push(
-            time,
-            EventKind::Impact {
-                a: self.bodies.get(a).id,
-                b: self.bodies.get(b).id,
-                point: contact.point,
-                normal: contact.normal,
-                normal_impulse: outcome.normal_impulse,
-                tangential_impulse: outcome.tangential_impulse,
-                speed: speed.max(0.0),
-            },
-        );
+        let ids = [a, b].map(|index| self.bodies.get(index).id);
+        let at = (contact.point, contact.normal);
+        let impulses = (outcome.normal_impulse, outcome.tangential_impulse);
+        let told = EventKind::impact(ids, at, impulses, speed);
+        self.events.push(time, told);
         self.bodies.book.impacts.add(outcome.loss);
         let after = [outcome.a, outcome.b];
         let impulse = contact.normal * outcome.normal_impulse
