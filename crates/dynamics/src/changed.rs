@@ -5,12 +5,11 @@ use carom_math::SimTime;
 
 use crate::broad::tree::{Overlapping, part};
 use crate::events::free::Cause;
-use crate::events::wake::wake;
 use crate::model::graph::neighbours;
 use crate::model::narrow::look;
 use crate::store::bodies::Bodies;
 use crate::store::pairs::Pair;
-use crate::{Mode, World};
+use crate::{EventKind, Mode, World};
 
 impl World {
     /// A body with a new motion: its events are predicted again, and so are those of the contact group that it was or is in.
@@ -95,18 +94,26 @@ impl World {
         self.wake_all(vec![index], time)
     }
 
-    /// Ends the sleep of bodies, the last one first, and of what they touch: those that the engine has it wakes, all others are
-    /// returned.
-    fn wake_all(&mut self, waking: Vec<u32>, time: SimTime) -> Vec<u32> {
-        let woken = wake(
-            &mut self.bodies,
-            &self.pairs,
-            waking,
-            time,
-            &mut self.events,
-        );
-        let has = |index: &u32| self.bodies.get(*index).in_engine();
-        let (members, others) = woken.into_iter().partition::<Vec<_>, _>(has);
+    /// Ends the sleep of bodies, the last one first, and of all sleepers that they touch, and so on: those that the engine has it
+    /// wakes, all others are returned.
+    fn wake_all(&mut self, mut waking: Vec<u32>, time: SimTime) -> Vec<u32> {
+        let (mut members, mut others) = (Vec::new(), Vec::new());
+        while let Some(index) = waking.pop() {
+            let state = self.bodies.get(index);
+            if !state.is_asleep() {
+                continue;
+            }
+            if state.in_engine() {
+                members.push(index);
+                continue;
+            }
+            others.push(index);
+            let id = state.id;
+            if self.bodies.wake(index) {
+                self.events.push(time, EventKind::Awake(id));
+            }
+            waking.extend(neighbours(&self.bodies, &self.pairs, index));
+        }
         for index in members {
             self.wake_in_engine(index, time);
         }
