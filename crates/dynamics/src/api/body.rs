@@ -57,7 +57,7 @@ impl<'w> Body<'w> {
     #[must_use]
     pub fn angle(&self) -> f64 {
         const TURN: f64 = 2.0 * core::f64::consts::PI;
-        let counted = self.state.turned + self.state.turn_by(self.now);
+        let counted = self.state.turned_at(self.now);
         let principal = self.state.rotation_at(self.now).angle();
         principal + TURN * ((counted - principal) / TURN).round()
     }

@@ -109,7 +109,7 @@ impl Stepping {
         } else if off > SAME * (reach + frame.position.length()) {
             accepted(engine.shift(id, frame));
         }
-        accepted(engine.set_turned(id, state.turned + state.turn_by(time)));
+        accepted(engine.set_turned(id, state.turned_at(time)));
         if motion != known.velocity && state.kind != BodyKind::Fixed {
             accepted(engine.set_velocity(id, motion.0, motion.1));
         }
@@ -183,7 +183,7 @@ fn input_of(state: &BodyState, time: SimTime) -> BodyInput {
         };
     }
     let (linear, angular) = state.damping();
-    input.turned = state.turned + state.turn_by(time);
+    input.turned = state.turned_at(time);
     input.damping = [linear, angular];
     input.gravity_scale = state.gravity_scale();
     input.sleep_allowed = state.sleep_allowed();

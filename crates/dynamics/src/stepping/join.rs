@@ -185,7 +185,7 @@ impl World {
             rotation: state.rotation_at(time),
             ..Motion::resting(state.centre_at(time))
         };
-        let turned = state.turned + state.turn_by(time);
+        let turned = state.turned_at(time);
         self.bodies.go_on_as(index, &motion, turned);
         let lag = Lag::of_even((Vec2::ZERO, 0.0), velocity, velocity, self.clock.h);
         self.bodies.get_mut(index).set_lag(lag);

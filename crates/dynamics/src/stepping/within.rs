@@ -39,7 +39,7 @@ impl Stepping {
                 continue;
             };
             let state = bodies.get(place(&there));
-            let from = (state.centre_pose(now), state.turned + state.turn_by(now));
+            let from = (state.centre_pose(now), state.turned_at(now));
             let shown = [(state.velocity_at(now), state.spin_at(now)), there.velocity];
             go_evenly(bodies, now, from, shown, &there, left);
         }

@@ -91,8 +91,8 @@ impl Stepping {
         // What slept as the sub-step began, and was met in it, is where it lay.
         let lay = |_| {
             let body = bodies.get(index);
-            let turned = body.turned + body.turn_by(start);
-            state.lack.map(|_| (index, body.centre_pose(start), turned))
+            let lies = |_| (index, body.centre_pose(start), body.turned_at(start));
+            state.lack.map(lies)
         };
         if let Some((_, from, turned)) = noted.map_or_else(lay, Some) {
             let reach = bodies.get(index).reach;
@@ -185,10 +185,7 @@ pub(super) fn go_evenly(
 /// A body that fell asleep lies where the engine has it.
 pub(super) fn write_rest(bodies: &mut Bodies, state: &State, time: SimTime) {
     let index = place(state);
-    let turned = {
-        let known = bodies.get(index);
-        known.turned + known.turn_by(time)
-    };
+    let turned = bodies.get(index).turned_at(time);
     let motion = Motion {
         start: time,
         rotation: state.pose.rotation,

@@ -306,12 +306,13 @@ impl BodyState {
         (motion, self.motion.turn(elapsed))
     }
 
-    /// Angle that the body turned by since its motion's start, in rad, whole turns included.
-    pub(crate) fn turn_by(&self, time: SimTime) -> f64 {
-        match &self.flight {
-            Some(flight) => flight.angle_at(time).0 - flight.angle_at(self.motion.start).0,
-            None => self.motion.turn(time - self.motion.start),
-        }
+    /// Angle at `time` with all whole turns, in rad.
+    pub(crate) fn turned_at(&self, time: SimTime) -> f64 {
+        self.turned
+            + match &self.flight {
+                Some(flight) => flight.angle_at(time).0 - flight.angle_at(self.motion.start).0,
+                None => self.motion.turn(time - self.motion.start),
+            }
     }
 
     /// Centre of mass at `time`, in m, by the law of its flight.
