@@ -111,7 +111,7 @@ pub(crate) fn from_box(at: Vec2, v: Vec2, a: Vec2, reach: f64, bounds: Aabb) -> 
 }
 
 /// First root of `v t + a t²/2 = way` with `way` > 0.
-fn first_rise(way: f64, v: f64, a: f64) -> f64 {
+pub(crate) fn first_rise(way: f64, v: f64, a: f64) -> f64 {
     let square = v * v + 2.0 * a * way;
     if square < 0.0 {
         return f64::INFINITY;

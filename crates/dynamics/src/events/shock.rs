@@ -408,18 +408,16 @@ impl Shock {
 
     /// Place of a body; of one that nothing moves with its surface's speed `run`, a new one.
     fn place(&mut self, bodies: &Bodies, index: u32, run: Vec2) -> usize {
-        if run != Vec2::ZERO && bodies.get(index).inverse_mass == 0.0 {
-            let mut state = bodies.get(index).in_impact(self.time);
-            state.velocity += run;
-            return self.shake(index, state);
-        }
-        if let Some(known) = self.bodies.iter().position(|shaken| shaken.index == index) {
+        let state = bodies.get(index);
+        let runs = run != Vec2::ZERO && state.inverse_mass == 0.0;
+        let known = self.bodies.iter().position(|shaken| shaken.index == index);
+        if let Some(known) = known.filter(|_| !runs) {
             return known;
         }
-        self.shake(index, bodies.get(index).in_impact(self.time))
-    }
-
-    fn shake(&mut self, index: u32, before: ImpactBody) -> usize {
+        let mut before = state.in_impact(self.time);
+        if runs {
+            before.velocity += run;
+        }
         self.bodies.push(Shaken {
             index,
             before,

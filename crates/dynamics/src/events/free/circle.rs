@@ -3,6 +3,7 @@
 use carom_math::{SimTime, Vec2};
 
 use super::FreeBodies;
+use super::foresee::both_in_grid;
 use crate::broad::free_fall_frame::{Frame, Track};
 use crate::broad::window::{self, Window};
 use crate::store::bodies::Bodies;
@@ -115,7 +116,7 @@ impl FreeBodies {
 
     /// Until when two free bodies have looked for each other.
     pub(super) fn common_horizon(&self, a: &BodyState, b: &BodyState) -> SimTime {
-        if a.course.cells.is_some() && b.course.cells.is_some() {
+        if both_in_grid(a, b) {
             self.horizon(a).min(self.horizon(b))
         } else {
             // The larger one is in the tree, and met where the other looks down.

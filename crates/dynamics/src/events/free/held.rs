@@ -30,15 +30,13 @@ impl World {
             self.join(a, time);
             return self.join(b, time);
         }
-        self.land(a, time);
-        self.land(b, time);
+        self.land_both((a, b), time);
     }
 
     /// Impacts that outrun their budget have come to their limit: a common stop of all that touches, at this instant.
     pub(super) fn collapse(&mut self, impact: &Foreseen, time: SimTime) {
         let (a, b) = impact.bodies;
-        self.land(a, time);
-        self.land(b, time);
+        self.land_both((a, b), time);
         let Some(place) = self.pair_of(impact) else {
             let (one, two) = (self.bodies.get(a), self.bodies.get(b));
             let speed = opening_speed(one, two, time, impact.points[0], impact.normal);
@@ -109,6 +107,11 @@ impl World {
             self.gain_contact(index, time);
         }
         lands
+    }
+
+    pub(super) fn land_both(&mut self, (a, b): (u32, u32), time: SimTime) {
+        self.land(a, time);
+        self.land(b, time);
     }
 
     /// As [`Self::land`], of a body that is about to be solved for with the island that it touches.
@@ -214,13 +217,7 @@ impl World {
 
     /// Whether an impact is on an island in analytic motion.
     pub(super) fn strikes_moving_island(&self, impact: &Foreseen, time: SimTime) -> bool {
-        let ends = [impact.bodies.0, impact.bodies.1];
-        let moves_analytically = |index: u32| self.bodies.get(index).moves_analytically();
-        if !ends.iter().any(|index| moves_analytically(*index)) {
-            return false;
-        }
-        let before = ends.map(|index| self.bodies.get(index).in_impact(time));
-        self.approaches(impact, &before)
+        self.moving_end(impact.bodies).is_some() && self.approaches(impact, time)
     }
 
     /// A body gets its method before time goes on.

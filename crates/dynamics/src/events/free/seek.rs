@@ -125,8 +125,7 @@ impl World {
         }
         self.report.pairs += 1;
         if cause == Cause::Arrived && self.holds((a, b), shapes, time) {
-            self.land(a, time);
-            self.land(b, time);
+            self.land_both((a, b), time);
             return true;
         }
         let (one, two) = (self.bodies.get(a), self.bodies.get(b));
@@ -204,16 +203,14 @@ impl World {
     }
 
     /// A search that found no end leaves two bodies to the engine.
-    fn leave_unresolved(&mut self, (a, b): (u32, u32), time: SimTime) {
+    fn leave_unresolved(&mut self, ends: (u32, u32), time: SimTime) {
         self.report.unresolved += 1;
-        self.land(a, time);
-        self.land(b, time);
+        self.land_both(ends, time);
     }
 
     /// Whether one of two bodies slides over the side of the other that the impact is on: the side that bears it is flush with that.
     fn passes(&self, ends: (u32, u32), shapes: (u32, u32), impact: &Impact, time: SimTime) -> bool {
-        let moves_analytically = |index: u32| self.bodies.get(index).moves_analytically();
-        if !moves_analytically(ends.0) && !moves_analytically(ends.1) {
+        if self.moving_end(ends).is_none() {
             return false;
         }
         let parts = impact.features[0].parts;
@@ -261,10 +258,15 @@ impl World {
     }
 
     /// The pair of two shapes that an island in analytic motion has: that of a contact, or of one that is just over.
-    pub(super) fn moving_pair(&self, (a, b): (u32, u32), shapes: (u32, u32)) -> Option<u32> {
-        let moves = |index: &u32| self.bodies.get(*index).moves_analytically();
-        let index = [a, b].into_iter().find(moves)?;
+    pub(super) fn moving_pair(&self, ends: (u32, u32), shapes: (u32, u32)) -> Option<u32> {
+        let index = self.moving_end(ends)?;
         pair_of(&self.bodies, &self.pairs, index, shapes)
+    }
+
+    /// The first of two bodies that is in an island in analytic motion.
+    pub(super) fn moving_end(&self, (a, b): (u32, u32)) -> Option<u32> {
+        let moves = |index: &u32| self.bodies.get(*index).moves_analytically();
+        [a, b].into_iter().find(moves)
     }
 
     /// Whether a mode holds all that may touch of the shapes of a pair.
@@ -281,7 +283,7 @@ impl World {
         let pair = self.pairs.get(place);
         let mut held = Vec::new();
         for index in [pair.bodies.0, pair.bodies.1] {
-            if let Some(group) = self.closed.get(self.bodies.get(index).membership.group) {
+            if let Some(group) = self.closed.group_of(&self.bodies, index) {
                 held.extend(group.held_parts(place, pair));
             }
         }
@@ -292,7 +294,7 @@ impl World {
     fn opens_now(&self, place: u32, parts: (usize, usize), time: SimTime) -> bool {
         let pair = self.pairs.get(place);
         [pair.bodies.0, pair.bodies.1].into_iter().any(|index| {
-            let group = self.closed.get(self.bodies.get(index).membership.group);
+            let group = self.closed.group_of(&self.bodies, index);
             group.is_some_and(|group| group.since == time && group.opens(place, pair, parts))
         })
     }

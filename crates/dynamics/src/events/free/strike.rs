@@ -4,6 +4,7 @@ use arrayvec::ArrayVec;
 use carom_math::{SimTime, Vec2};
 
 use super::{Cause, Foreseen, low};
+use crate::broad::window::first_rise;
 use crate::events::resolve::{apply, price, tell_collapse};
 use crate::events::shock::Shock;
 use crate::impact::{ImpactBody, ImpactContact, resolve};
@@ -119,8 +120,9 @@ impl World {
     }
 
     /// Whether the approach of an impact is more than rounding.
-    pub(super) fn approaches(&self, impact: &Foreseen, before: &[ImpactBody; 2]) -> bool {
-        approach_speed(impact, before) > NOISE * self.scale(impact, before)
+    pub(super) fn approaches(&self, impact: &Foreseen, time: SimTime) -> bool {
+        let before = self.ends_of(impact, time);
+        approach_speed(impact, &before) > NOISE * self.scale(impact, &before)
     }
 
     /// Scale of the rounding of an approach, in m/s: the speed of the bodies, or that with which their
@@ -192,8 +194,7 @@ impl World {
         for (a, b) in shock.squeezed().map(|strike| shock.ends(strike)) {
             self.report.collapsed += 1;
             self.report_collapse((a, b), 0.0, time);
-            self.land(a, time);
-            self.land(b, time);
+            self.land_both((a, b), time);
         }
         changed
     }
@@ -221,7 +222,7 @@ impl World {
             .max(self.free.end_of_search(two));
         let left = (left - time).max(1e-9);
         let deeper = if speed > 0.0 { slack / speed } else { left };
-        let wait = deeper.min(time_to_open(slack, -speed, pull).unwrap_or(left));
+        let wait = deeper.min(first_rise(slack, -speed, pull));
         let wait = wait.clamp(1e-9 * left, left);
         self.look_again(impact.bodies, impact.colliders, time + wait);
         self.seek_beside(impact, time, wait, 4.0 * slow);
@@ -336,18 +337,6 @@ pub(super) fn pace(body: &ImpactBody, reach: f64) -> f64 {
 /// Normal velocity of a point of contact: positive opens.
 fn opening(bodies: &[ImpactBody; 2], point: Vec2, normal: Vec2) -> f64 {
     (bodies[1].velocity_of(point) - bodies[0].velocity_of(point)).dot(normal)
-}
-
-/// First instant at which a touch that opens at `speed` m/s and `pull` ≥ 0 m/s² has a gap of `slack` m,
-/// in s from now: the greater root of `½ pull t² + speed t = slack`, each sign of `speed` without
-/// cancellation. `None` if it does not open.
-fn time_to_open(slack: f64, speed: f64, pull: f64) -> Option<f64> {
-    let root = (speed * speed + 2.0 * pull * slack).sqrt();
-    if speed > 0.0 {
-        Some(2.0 * slack / (speed + root))
-    } else {
-        (pull > 0.0).then(|| (root - speed) / pull)
-    }
 }
 
 /// Contacts of the points of an impact that approach.

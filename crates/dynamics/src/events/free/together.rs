@@ -123,7 +123,7 @@ impl World {
             let is_free = |state: &&BodyState| {
                 !(state.is_asleep() || state.moves_analytically() || state.is_stepped())
             };
-            ends.iter().all(is_free) && self.approaches(impact, &self.ends_of(impact, time))
+            ends.iter().all(is_free) && self.approaches(impact, time)
         })
     }
 
