@@ -39,9 +39,7 @@ impl World {
             return;
         };
         let until = group.until.unwrap_or(SimTime::NEVER);
-        for touch in &group.touches {
-            touch.carry(&self.bodies, self.pairs.get_mut(touch.pair));
-        }
+        group.carry(&self.bodies, &mut self.pairs);
         let members = group.indices();
         let touches: Vec<u32> = group.touches.iter().map(|touch| touch.pair).collect();
         for &index in &members {
@@ -129,8 +127,8 @@ impl World {
             return;
         };
         for index in [ends.0, ends.1] {
-            let group = self.closed.get(self.bodies.get(index).membership.group);
-            if group.is_some_and(|group| group.touches.iter().any(|touch| touch.pair == pair)) {
+            let group = self.closed.group_of(&self.bodies, index);
+            if group.is_some_and(|group| group.touches_by(pair)) {
                 self.hand_back_of(index, time);
             }
         }

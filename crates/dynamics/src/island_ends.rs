@@ -5,7 +5,6 @@ use std::collections::BTreeSet;
 
 use carom_math::SimTime;
 
-use crate::analytic::islands::store::Group;
 use crate::model::narrow::look;
 use crate::{EventKind, World};
 
@@ -74,9 +73,7 @@ impl World {
     pub(crate) fn loosen(&mut self, pair: u32, bodies: (u32, u32), time: SimTime) {
         for index in [bodies.0, bodies.1] {
             let place = self.bodies.get(index).membership.group;
-            let group = self.closed.get(place);
-            let holds = |group: &Group| group.touches.iter().any(|touch| touch.pair == pair);
-            if group.is_some_and(holds) {
+            if (self.closed.get(place)).is_some_and(|group| group.touches_by(pair)) {
                 if self.bodies.get(index).is_asleep() {
                     self.wake(index, time);
                 }
@@ -96,9 +93,7 @@ impl World {
             let Some(group) = self.closed.get(place) else {
                 continue;
             };
-            for touch in &group.touches {
-                touch.carry(&self.bodies, self.pairs.get_mut(touch.pair));
-            }
+            group.carry(&self.bodies, &mut self.pairs);
             for &(index, _) in &group.members {
                 self.bodies.get_mut(index).begin_analytic_rest();
                 lying.insert(index);

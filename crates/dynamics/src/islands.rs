@@ -61,9 +61,7 @@ impl World {
             .iter()
             .filter(|group| group.since == time && !goes(group));
         for group in new {
-            for touch in &group.touches {
-                touch.carry(&self.bodies, self.pairs.get_mut(touch.pair));
-            }
+            group.carry(bodies, &mut self.pairs);
         }
     }
 
@@ -319,13 +317,11 @@ impl World {
             if !self.bodies.is_alive(index) || self.bodies.get(index).is_asleep() {
                 continue;
             }
-            let Some(group) = self.closed.get(self.bodies.get(index).membership.group) else {
-                continue;
-            };
-            if group.sleeps {
-                continue;
-            }
-            for index in group.indices() {
+            let group = self.closed.group_of(&self.bodies, index);
+            for index in group
+                .filter(|group| !group.sleeps)
+                .map_or_else(Vec::new, Group::indices)
+            {
                 self.join(index, time);
             }
         }

@@ -273,7 +273,9 @@ fn touches_of(
             found.place_of(bodies, pair.bodies.0, time),
             found.place_of(bodies, pair.bodies.1, time),
         );
-        let points_of = points.clone();
+        let press_at = |point: &Vec2| pair.turning_rest_at(bodies, contact, *point, time);
+        let presses = points.iter().map(press_at);
+        found.presses.push(presses.fold(f64::INFINITY, f64::min));
         found.touches.push(Touch {
             bodies: ends,
             normal,
@@ -282,9 +284,6 @@ fn touches_of(
             friction: pair.material.friction,
         });
         found.pairs.push((place, number));
-        let press_at = |point: &Vec2| pair.turning_rest_at(bodies, contact, *point, time);
-        let presses = points_of.iter().map(press_at);
-        found.presses.push(presses.fold(f64::INFINITY, f64::min));
     }
     Some(rows)
 }

@@ -72,13 +72,9 @@ impl Closed {
         place: u32,
         time: SimTime,
     ) -> Option<Pair> {
-        let ends = [pair.bodies.0, pair.bodies.1].map(|index| bodies.get(index));
-        let index = ends
-            .iter()
-            .find(|state| state.moves_analytically())?
-            .id
-            .index;
-        let group = self.get(bodies.get(index).membership.group)?;
+        let mut ends = [pair.bodies.0, pair.bodies.1].into_iter();
+        let index = ends.find(|index| bodies.get(*index).moves_analytically())?;
+        let group = self.group_of(bodies, index)?;
         let mut now = pair.clone();
         look(bodies, &mut now, time);
         let touches = group.touches_at(time).into_iter();

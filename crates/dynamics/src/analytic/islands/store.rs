@@ -12,7 +12,7 @@ use crate::analytic::tipping::{Limit, Tip};
 use crate::model::narrow::TOUCH;
 use crate::store::bodies::Bodies;
 use crate::store::membership::Membership;
-use crate::store::pairs::Pair;
+use crate::store::pairs::{Pair, Pairs};
 use crate::store::slots::{Slots, grown};
 use crate::{ContactMode, Mode};
 
@@ -115,6 +115,18 @@ impl Group {
         pairs
     }
 
+    /// Contacts of pairs carry what its touches say.
+    pub(crate) fn carry(&self, bodies: &Bodies, pairs: &mut Pairs) {
+        for touch in &self.touches {
+            touch.carry(bodies, pairs.get_mut(touch.pair));
+        }
+    }
+
+    /// Whether a pair is among its touches.
+    pub(crate) fn touches_by(&self, pair: u32) -> bool {
+        self.touches.iter().any(|touch| touch.pair == pair)
+    }
+
     /// Its touches, with what they do at `time` where it turns.
     pub(crate) fn touches_at(&self, time: SimTime) -> Vec<Kept> {
         let mut touches = self.touches.clone();
@@ -202,6 +214,11 @@ impl Closed {
 
     pub(crate) fn get(&self, place: u32) -> Option<&Group> {
         self.groups.get(place).map(|(_, group)| group)
+    }
+
+    /// The group of a body, if it has one.
+    pub(crate) fn group_of(&self, bodies: &Bodies, index: u32) -> Option<&Group> {
+        self.get(bodies.get(index).membership.group)
     }
 
     pub(crate) fn iter(&self) -> impl Iterator<Item = &Group> {
