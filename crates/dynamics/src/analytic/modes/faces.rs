@@ -214,7 +214,7 @@ fn scaled(bodies: &[ImpactBody], numbers: impl Iterator<Item = (Vec2, f64)>) -> 
     state
 }
 
-fn velocities_of(bodies: &[ImpactBody]) -> impl Iterator<Item = (Vec2, f64)> {
+pub(super) fn velocities_of(bodies: &[ImpactBody]) -> impl Iterator<Item = (Vec2, f64)> {
     bodies.iter().map(|body| (body.velocity, body.spin))
 }
 

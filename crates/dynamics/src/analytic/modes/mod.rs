@@ -223,10 +223,7 @@ pub(crate) fn land(bodies: &[ImpactBody], touches: &[Touch]) -> Result<Vec<(Vec2
 /// more than [`crate::model::press`] lets it, and no more energy than these bounces had.
 pub(crate) fn hold(bodies: &[ImpactBody], touches: &[&Touch]) -> Vec<(Vec2, f64)> {
     if bodies.iter().any(faces::is_driven) {
-        return bodies
-            .iter()
-            .map(|body| (body.velocity, body.spin))
-            .collect();
+        return faces::velocities_of(bodies).collect();
     }
     faces::held(bodies, touches, |_| false)
 }

@@ -160,30 +160,22 @@ impl Joint {
     pub(super) fn corner(&self) -> Option<(End, Vec2, (Vec2, f64))> {
         match *self {
             Self::Line {
-                owner: End::A,
+                owner,
                 normal,
                 height,
                 tip,
                 radius: 0.0,
                 ..
-            } => Some((End::B, tip, (normal, height))),
-            Self::Line {
-                owner: End::B,
-                normal,
-                height,
-                tip,
-                radius: 0.0,
-                ..
-            } => Some((End::A, tip, (normal, height))),
+            } => Some((owner.first(End::A, End::B).1, tip, (normal, height))),
             Self::Points {
                 a,
                 b,
                 radii,
                 cone: Some((owner, _)),
-            } => Some(match owner {
-                End::A => (owner, a, (b, radii.1)),
-                End::B => (owner, b, (a, radii.0)),
-            }),
+            } => {
+                let ((corner, _), by) = owner.first((a, radii.0), (b, radii.1));
+                Some((owner, corner, by))
+            }
             _ => None,
         }
     }

@@ -201,11 +201,8 @@ pub(crate) fn tip(
         holds,
     };
     for _ in 0..TRIES {
-        let swing = swing(&equations, &places, &reaches, start, size);
-        let found = match swing {
-            Some(found) => Some(found),
-            None => follow(&equations, &places, &reaches, start, (size, fastest)),
-        };
+        let found = swing(&equations, &places, &reaches, start, size)
+            .or_else(|| follow(&equations, &places, &reaches, start, (size, fastest)));
         let Some((path, end)) = found else {
             // A touch that fades while it slides has no path of its own: it opens.
             let limit = faint(&equations, &places).ok_or(NotMine::Unsolved)?;
@@ -267,30 +264,21 @@ fn follow(
 fn amend(equations: &mut Equations, limit: Limit) -> Result<(), NotMine> {
     let holds = &mut equations.holds;
     match limit {
-        Limit::Press { contact, point } => {
-            holds[contact].closed[point] = false;
-            Ok(())
-        }
-        Limit::Grip { contact, sign } => {
-            holds[contact].rub = Tangent::Slides(sign);
-            Ok(())
-        }
-        Limit::Slip { contact } => {
-            holds[contact].rub = Tangent::Holds;
-            Ok(())
-        }
+        Limit::Press { contact, point } => holds[contact].closed[point] = false,
+        Limit::Grip { contact, sign } => holds[contact].rub = Tangent::Slides(sign),
+        Limit::Slip { contact } => holds[contact].rub = Tangent::Holds,
         // A corner that slides over the end of an edge moves on along that edge's line, and what follows it rises: it
         // leaves. A disc rolls round the corner.
         Limit::Way { contact, point } => match equations.contacts[contact].joints[point] {
             Joint::Line { radius: 0.0, .. } => {
                 holds[contact].closed[point] = false;
                 holds[contact].over[point] = true;
-                Ok(())
             }
-            _ => Err(NotMine::Curved),
+            _ => return Err(NotMine::Curved),
         },
-        Limit::Corner { .. } => Err(NotMine::Unsolved),
+        Limit::Corner { .. } => return Err(NotMine::Unsolved),
     }
+    Ok(())
 }
 
 /// Modes by the complementarity problem of this instant, and the velocities without the roundings against them.

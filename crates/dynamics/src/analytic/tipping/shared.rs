@@ -2,7 +2,6 @@
 
 use carom_math::Vec2;
 
-use super::joint::End;
 use super::{Contact, Hold, Tangent};
 use crate::law::path::Place;
 
@@ -49,10 +48,7 @@ fn corner(contact: &Contact, places: &[Place]) -> Option<Corner> {
         return None;
     };
     let (end, corner, by) = joint.corner()?;
-    let (own, other) = match end {
-        End::A => contact.bodies,
-        End::B => (contact.bodies.1, contact.bodies.0),
-    };
+    let (own, other) = end.first(contact.bodies.0, contact.bodies.1);
     let place = &places[own];
     let stands = place.velocity == Vec2::ZERO && place.spin == 0.0;
     stands.then(|| Corner {
