@@ -14,6 +14,7 @@ use carom_math::{Pose, SimTime, Vec2, cross};
 
 use super::narrow::{TOUCH, look, note_touch};
 use crate::store::bodies::Bodies;
+use crate::store::moved::moves;
 use crate::store::pairs::{Pair, Pairs};
 use crate::store::state::BodyState;
 
@@ -144,12 +145,7 @@ pub(crate) fn look_at<'a>(
 
 /// Whether a body does not move, nor will before the caller moves it.
 fn stands(body: &BodyState) -> bool {
-    let motion = &body.motion;
-    body.inverse_mass == 0.0
-        && motion.velocity == Vec2::ZERO
-        && motion.acceleration == Vec2::ZERO
-        && motion.spin == 0.0
-        && motion.angular_acceleration == 0.0
+    body.inverse_mass == 0.0 && !moves(body)
 }
 
 /// How far out along `normal` the face of a hull lies that it belongs to, in m, if it is one's.

@@ -15,7 +15,7 @@ pub(crate) mod few;
 mod history;
 pub(crate) mod mass;
 pub(crate) mod membership;
-mod moved;
+pub(crate) mod moved;
 pub(crate) mod pairs;
 pub(crate) mod pull;
 pub(crate) mod regime;
