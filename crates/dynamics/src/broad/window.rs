@@ -39,34 +39,25 @@ impl Window {
 /// Without relative acceleration both times are exact roots; with it `from` is a bound:
 /// the centres approach by at most `|v| t + |a| t²/2`.
 pub(crate) fn of_circles(d: Vec2, v: Vec2, a: Vec2, reach: f64) -> Option<Window> {
-    let reach = reach * ROOM;
-    if a != Vec2::ZERO {
-        let apart = d.length();
-        if apart <= reach * MET {
-            return Some(Window {
-                from: 0.0,
-                to: f64::INFINITY,
-            });
-        }
+    if a == Vec2::ZERO {
+        return of_even_circles(d, v, reach);
+    }
+    let (reach, apart) = (reach * ROOM, d.length());
+    let from = if apart <= reach * MET {
+        0.0
+    } else {
         let gap = apart - reach;
         let (speed, pull) = (v.length(), a.length());
-        let from = 2.0 * gap / (speed + (speed * speed + 2.0 * pull * gap).sqrt());
-        return Some(Window {
-            from,
-            to: f64::INFINITY,
-        });
-    }
-    of_even(d, v, reach)
+        2.0 * gap / (speed + (speed * speed + 2.0 * pull * gap).sqrt())
+    };
+    let to = f64::INFINITY;
+    Some(Window { from, to })
 }
 
 /// [`of_circles`] without relative acceleration.
 #[inline]
 pub(crate) fn of_even_circles(d: Vec2, v: Vec2, reach: f64) -> Option<Window> {
-    of_even(d, v, reach * ROOM)
-}
-
-#[inline]
-fn of_even(d: Vec2, v: Vec2, reach: f64) -> Option<Window> {
+    let reach = reach * ROOM;
     let outside = d.length_squared() - reach * reach;
     let (closing, speed) = (-d.dot(v), v.length_squared());
     let discriminant = closing * closing - speed * outside;
