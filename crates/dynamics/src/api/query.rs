@@ -213,35 +213,29 @@ impl Filtered<'_> {
             return None;
         }
         let mut best: Option<((f64, Place), Nearest)> = None;
-        let mut look = |at| {
-            let (body, shape, collider) = self.shape_at(at);
-            if !self.sees(collider) {
-                return;
-            }
-            let pose = body.centre_pose(self.world.clock.now);
-            let local = pose.inverse_point(point);
-            let (distance, on) = if collider.solid.contains(local) {
-                (0.0, local)
-            } else {
-                let on = collider.solid.closest_point(local);
-                ((on - local).length(), on)
-            };
-            let order = (distance, (body.id.index, shape));
-            if distance <= max && best.is_none_or(|(known, _)| order < known) {
-                let found = Nearest {
-                    body: body.id,
-                    shape,
-                    distance,
-                    point: pose.point(on),
+        self.each_in(
+            Aabb::new(point, point).grown(max),
+            |body, shape, collider| {
+                let pose = body.centre_pose(self.world.clock.now);
+                let local = pose.inverse_point(point);
+                let (distance, on) = if collider.solid.contains(local) {
+                    (0.0, local)
+                } else {
+                    let on = collider.solid.closest_point(local);
+                    ((on - local).length(), on)
                 };
-                best = Some((order, found));
-            }
-        };
-        let bounds = Aabb::new(point, point).grown(max);
-        self.shapes_outside_trees(bounds)
-            .into_iter()
-            .for_each(&mut look);
-        self.world.broad.tree.query(bounds, look);
+                let order = (distance, (body.id.index, shape));
+                if distance <= max && best.is_none_or(|(known, _)| order < known) {
+                    let found = Nearest {
+                        body: body.id,
+                        shape,
+                        distance,
+                        point: pose.point(on),
+                    };
+                    best = Some((order, found));
+                }
+            },
+        );
         best.map(|(_, found)| found)
     }
 
@@ -275,11 +269,8 @@ impl Filtered<'_> {
         let start = shape.aabb(pose);
         let start = start.grown(roundable(start));
         self.first_on_way(start, translation, 1.0, |at, _| {
-            let (body, index, collider) = self.shape_at(at);
+            let (body, index, collider) = self.seen_at(at)?;
             let target = body.centre_pose(self.world.clock.now);
-            if !self.sees(collider) {
-                return None;
-            }
             let hit = cast(shape, pose, translation, &collider.solid, target)?;
             let told = ShapeHit {
                 body: body.id,
@@ -321,16 +312,11 @@ impl Filtered<'_> {
     /// Bodies with a shape near `bounds` that `matches` at its pose, in order.
     fn bodies_with(&self, bounds: Aabb, matches: impl Fn(Pose, &Collider) -> bool) -> Vec<BodyId> {
         let mut found: Vec<BodyId> = Vec::new();
-        let mut look = |at| {
-            let (body, _, collider) = self.shape_at(at);
-            if self.sees(collider) && matches(body.centre_pose(self.world.clock.now), collider) {
+        self.each_in(bounds, |body, _, collider| {
+            if matches(body.centre_pose(self.world.clock.now), collider) {
                 found.push(body.id);
             }
-        };
-        self.shapes_outside_trees(bounds)
-            .into_iter()
-            .for_each(&mut look);
-        self.world.broad.tree.query(bounds, look);
+        });
         found.sort_unstable();
         found.dedup();
         found
@@ -338,10 +324,7 @@ impl Filtered<'_> {
 
     /// Where a ray along a unit vector meets a shape first, up to `max` m.
     fn ray_hit(&self, at: u32, origin: Vec2, direction: Vec2, max: f64) -> Option<RayHit> {
-        let (body, shape, collider) = self.shape_at(at);
-        if !self.sees(collider) {
-            return None;
-        }
+        let (body, shape, collider) = self.seen_at(at)?;
         let pose = body.centre_pose(self.world.clock.now);
         let local = (pose.inverse_point(origin), pose.inverse_vector(direction));
         let hit = collider.solid.cast_ray(local.0, local.1, max)?;
@@ -352,6 +335,19 @@ impl Filtered<'_> {
             point: pose.point(hit.point),
             normal: pose.vector(hit.normal),
         })
+    }
+
+    /// Calls `look` with each shape near `bounds`, its body and its place there.
+    fn each_in(&self, bounds: Aabb, mut look: impl FnMut(&BodyState, usize, &Collider)) {
+        let mut look = |at| {
+            if let Some((body, shape, collider)) = self.seen_at(at) {
+                look(body, shape, collider);
+            }
+        };
+        self.shapes_outside_trees(bounds)
+            .into_iter()
+            .for_each(&mut look);
+        self.world.broad.tree.query(bounds, look);
     }
 
     /// Shapes that are in no tree and have a piece that may be in `bounds`: of free bodies in the grid, or of the engine where it moves
@@ -379,16 +375,13 @@ impl Filtered<'_> {
         shapes.copied().chain(members.filter(is_member)).collect()
     }
 
-    fn sees(&self, collider: &Collider) -> bool {
-        self.filter
-            .is_none_or(|filter| filter.touches(collider.surface.filter))
-    }
-
-    /// A shape that the tree named, with its body and its place there.
-    fn shape_at(&self, at: u32) -> (&BodyState, usize, &Collider) {
+    /// A shape that the tree named, with its body and its place there, if the filter touches it.
+    fn seen_at(&self, at: u32) -> Option<(&BodyState, usize, &Collider)> {
         let collider = &self.world.bodies.colliders[at as usize];
         let body = self.world.bodies.get(collider.body);
-        (body, body.shape_of(at), collider)
+        self.filter
+            .is_none_or(|filter| filter.touches(collider.surface.filter))
+            .then(|| (body, body.shape_of(at), collider))
     }
 }
 
