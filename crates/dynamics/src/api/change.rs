@@ -23,8 +23,7 @@ impl World {
     /// If the body is not there or a number is not finite.
     pub fn teleport(&mut self, id: BodyId, pose: Pose) -> Result<(), BodyError> {
         let index = self.bodies.find(id)?;
-        check_vec2("position.x", "position.y", pose.position)?;
-        check_finite("rotation", pose.rotation.angle())?;
+        check_pose(pose)?;
         self.disturb(index, |state| {
             let turned = (pose.rotation * state.motion.rotation.inverse()).angle();
             state.motion.rotation = pose.rotation;
@@ -67,8 +66,7 @@ impl World {
     /// If the body is not there or not kinematic, a number is not finite, or `seconds` is not above 0.
     pub fn drive_to(&mut self, id: BodyId, pose: Pose, seconds: f64) -> Result<(), BodyError> {
         let index = self.bodies.find(id)?;
-        check_vec2("position.x", "position.y", pose.position)?;
-        check_finite("rotation", pose.rotation.angle())?;
+        check_pose(pose)?;
         check_finite("seconds", seconds)?;
         if seconds <= 0.0 {
             return Err(BodyError::NotPositive {
@@ -84,10 +82,7 @@ impl World {
         let way = pose.point(state.mass.centroid) - state.centre_at(now);
         let turn = (pose.rotation * state.rotation_at(now).inverse()).angle();
         let turn = if state.locked_rotation { 0.0 } else { turn };
-        let (velocity, spin) = (way / seconds, turn / seconds);
-        check_vec2("velocity.x", "velocity.y", velocity)?;
-        check_finite("spin", spin)?;
-        self.set_velocity(id, velocity, spin)
+        self.set_velocity(id, way / seconds, turn / seconds)
     }
 
     /// Changes what moves a body; one of that kind already goes on as it does.
@@ -234,7 +229,8 @@ impl World {
     /// Changes what pulls at all bodies; what it adds to their potential energy is brought in from outside.
     pub(crate) fn change_pull(&mut self, change: impl FnOnce(&mut Pull)) {
         let now = self.clock.now;
-        for index in self.bodies.indices().collect::<Vec<_>>() {
+        let all: Vec<u32> = self.bodies.indices().collect();
+        for &index in &all {
             // No closed form holds in other fields than it was found in.
             let group = self.bodies.get(index).membership.group;
             self.dissolve(group, now);
@@ -250,7 +246,7 @@ impl World {
         self.joins.balance.add(-brought);
         if self.bodies.pull.gravity != gravity {
             // Bodies in flight look for each other in a frame that falls with them.
-            for index in self.bodies.indices().collect::<Vec<_>>() {
+            for &index in &all {
                 self.free.vanish(&mut self.bodies, index);
             }
             self.free = FreeBodies::under(self.bodies.pull.gravity);
@@ -258,7 +254,7 @@ impl World {
         if let Some(stepping) = &mut self.stepping {
             stepping.set_gravity(self.bodies.pull.gravity);
         }
-        for index in self.bodies.indices().collect::<Vec<_>>() {
+        for index in all {
             if !self.bodies.get(index).in_engine() {
                 self.arrive(index);
             }
@@ -393,4 +389,9 @@ impl World {
         }
         self.deflected(index, now);
     }
+}
+
+fn check_pose(pose: Pose) -> Result<(), BodyError> {
+    check_vec2("position.x", "position.y", pose.position)?;
+    check_finite("rotation", pose.rotation.angle())
 }

@@ -8,7 +8,7 @@ use carom_math::Vec2;
 
 use super::world::check_shapes;
 use crate::stepping::threads::Threads;
-use crate::store::mass::mass_of;
+use crate::store::mass::{mass_of, reach_of};
 use crate::store::state::BodyState;
 use crate::values::error::{check_finite, check_vec2};
 use crate::{BodyDef, BodyError, BodyId, BodyKind, Material, Settings, SettingsError, World};
@@ -124,9 +124,7 @@ impl World {
         let mut def = BodyDef::new(state.kind);
         def.locked_rotation = state.locked_rotation;
         let mass = mass_of(&def, &shapes)?;
-        let reaches = shapes.iter();
-        let reaches = reaches.map(|(shape, _)| shape.reach_about(mass.centroid));
-        let reach = reaches.fold(0.0, f64::max);
+        let reach = reach_of(&shapes, mass.centroid);
         let filter = self.bodies.colliders[state.colliders[0] as usize]
             .surface
             .filter;

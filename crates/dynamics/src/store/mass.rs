@@ -84,8 +84,17 @@ pub(crate) fn mass_of(
 /// Whether a centre of mass differs from the origin by roundings alone.
 fn is_centred(centroid: Vec2, shapes: &[(Shape, Material)]) -> bool {
     let bounded = shapes.iter().filter(|(shape, _)| shape.is_bounded());
-    let reaches = bounded.map(|(shape, _)| shape.reach_about(Vec2::ZERO));
-    centroid.length() <= CENTRED * reaches.fold(0.0, f64::max)
+    centroid.length() <= CENTRED * reach_of(bounded, Vec2::ZERO)
+}
+
+/// Largest distance of a point of shapes from a centre, in m.
+pub(crate) fn reach_of<'a>(
+    shapes: impl IntoIterator<Item = &'a (Shape, Material)>,
+    centre: Vec2,
+) -> f64 {
+    let reaches = shapes.into_iter();
+    let reaches = reaches.map(|(shape, _)| shape.reach_about(centre));
+    reaches.fold(0.0, f64::max)
 }
 
 /// Areas of the shapes that have one.

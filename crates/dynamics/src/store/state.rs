@@ -8,7 +8,7 @@ use carom_math::{Pose, Rot, SimTime, StateHash, Vec2};
 
 use super::course::Course;
 use super::few::Few;
-use super::mass::mass_of;
+use super::mass::{mass_of, reach_of};
 use super::membership::Membership;
 use super::regime::Regime;
 use super::uncommon::{Lag, Uncommon};
@@ -147,10 +147,7 @@ impl BodyState {
             is_guest: false,
             membership: Membership::default(),
             course: Course::default(),
-            reach: shapes
-                .iter()
-                .map(|(shape, _)| shape.reach_about(mass.centroid))
-                .fold(0.0, f64::max),
+            reach: reach_of(shapes, mass.centroid),
             colliders: Few::default(),
             pairs: Vec::new(),
         };

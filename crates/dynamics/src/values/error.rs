@@ -165,17 +165,7 @@ fn named(fields: &[&str]) -> String {
 pub const WORLD_LIMIT: f64 = 1e12;
 
 pub(crate) fn check_finite(field: &'static str, value: f64) -> Result<(), BodyError> {
-    if !value.is_finite() {
-        return Err(BodyError::NotFinite { field, value });
-    }
-    if value.abs() > WORLD_LIMIT {
-        return Err(BodyError::TooLarge {
-            field,
-            value,
-            limit: WORLD_LIMIT,
-        });
-    }
-    Ok(())
+    check_limit(field, value, WORLD_LIMIT)
 }
 
 /// Largest mass or moment of inertia that a world accepts, in kg or kg·m²: half a sun; energies stay
@@ -183,17 +173,21 @@ pub(crate) fn check_finite(field: &'static str, value: f64) -> Result<(), BodyEr
 const MASS_LIMIT: f64 = 1e30;
 
 pub(crate) fn check_mass(field: &'static str, value: f64) -> Result<(), BodyError> {
+    check_limit(field, value, MASS_LIMIT)
+}
+
+fn check_limit(field: &'static str, value: f64, limit: f64) -> Result<(), BodyError> {
     if !value.is_finite() {
-        return Err(BodyError::NotFinite { field, value });
-    }
-    if value > MASS_LIMIT {
-        return Err(BodyError::TooLarge {
+        Err(BodyError::NotFinite { field, value })
+    } else if value.abs() > limit {
+        Err(BodyError::TooLarge {
             field,
             value,
-            limit: MASS_LIMIT,
-        });
+            limit,
+        })
+    } else {
+        Ok(())
     }
-    Ok(())
 }
 
 pub(crate) fn check_vec2(
