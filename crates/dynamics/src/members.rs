@@ -223,11 +223,11 @@ impl World {
             broad: &self.broad,
         };
         let tick = self.clock.tick(self.settings.substeps_per_tick());
-        let stepping = self.stepping.as_mut();
-        stepping.map_or_else(BTreeSet::new, |stepping| {
-            self.joins
-                .outsiders_near(stepping, rules, &self.unsettled, (time, tick), asks_all)
-        })
+        let Some(stepping) = &mut self.stepping else {
+            return BTreeSet::new();
+        };
+        self.joins
+            .outsiders_near(stepping, rules, &self.unsettled, (time, tick), asks_all)
     }
 
     /// A free body with a new motion joins if it may meet a member before the next sub-step begins.

@@ -63,7 +63,7 @@ pub(crate) struct Stepping {
 impl Stepping {
     /// The engine of a world with these settings.
     pub(crate) fn of(settings: &Settings) -> Result<Box<Self>, SettingsError> {
-        let engine = Engine::new(carom_stepped::Settings {
+        let mut engine = Engine::new(carom_stepped::Settings {
             gravity: settings.gravity,
             tick: settings.tick,
             substeps: settings.substeps_per_tick(),
@@ -75,25 +75,21 @@ impl Stepping {
                 0
             },
             ..carom_stepped::Settings::default()
-        });
-        match engine {
-            Ok(mut engine) => {
-                engine.note_impacts(settings.events > 0);
-                Ok(Box::new(Self {
-                    engine,
-                    ids: Vec::new(),
-                    covered: Vec::new(),
-                    widest: 0.0,
-                    touching: BTreeMap::new(),
-                    slept: Vec::new(),
-                    changes: Vec::new(),
-                    impacts: Vec::new(),
-                    places: Vec::new(),
-                    asked: false,
-                }))
-            }
-            Err(refused) => Err(SettingsError::Stepped { refused }),
-        }
+        })
+        .map_err(|refused| SettingsError::Stepped { refused })?;
+        engine.note_impacts(settings.events > 0);
+        Ok(Box::new(Self {
+            engine,
+            ids: Vec::new(),
+            covered: Vec::new(),
+            widest: 0.0,
+            touching: BTreeMap::new(),
+            slept: Vec::new(),
+            changes: Vec::new(),
+            impacts: Vec::new(),
+            places: Vec::new(),
+            asked: false,
+        }))
     }
 
     pub(crate) fn set_gravity(&mut self, gravity: carom_math::Vec2) {

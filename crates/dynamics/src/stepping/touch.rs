@@ -96,13 +96,10 @@ impl Stepping {
 
     /// All contacts that push, in order of shapes; those of one body if one is asked for.
     pub(crate) fn contacts(&self, bodies: &Bodies, of: Option<u32>) -> Vec<Contact> {
-        let all = match of.map(|index| self.id(index)) {
+        let of_body = |index| self.engine.contacts_of(self.id(index)?).ok();
+        let all: Vec<_> = match of {
             None => self.engine.contacts().collect(),
-            Some(Some(id)) => self
-                .engine
-                .contacts_of(id)
-                .map_or_else(|_| Vec::new(), Iterator::collect),
-            Some(None) => Vec::new(),
+            Some(index) => of_body(index).into_iter().flatten().collect(),
         };
         let mut found: Vec<_> = all
             .into_iter()
