@@ -278,25 +278,22 @@ impl World {
             self.retune(time);
         }
         match entry.what {
-            What::HORIZON | What::GROUND if self.piece_ends(index, time) => {
-                if self.ends_now(entry) {
-                    self.foresee(index, time, Cause::Deflected, None);
+            What::HORIZON | What::GROUND => {
+                if !self.ends_now(entry) {
+                    return;
                 }
-            }
-            What::HORIZON => {
-                if self.ends_now(entry) {
-                    self.free.resize(&mut self.bodies, time);
-                    if self.look_round(index, time) {
-                        self.meet_free_bodies(index, time, Cause::Horizon, None);
-                    } else {
-                        self.free.vanish(&mut self.bodies, index);
-                        self.foresee(index, time, Cause::Horizon, None);
-                    }
+                if self.piece_ends(index, time) {
+                    return self.foresee(index, time, Cause::Deflected, None);
                 }
-            }
-            What::GROUND => {
-                if self.ends_now(entry) {
-                    self.look_down_again(index, time);
+                if entry.what == What::GROUND {
+                    return self.look_down_again(index, time);
+                }
+                self.free.resize(&mut self.bodies, time);
+                if self.look_round(index, time) {
+                    self.meet_free_bodies(index, time, Cause::Horizon, None);
+                } else {
+                    self.free.vanish(&mut self.bodies, index);
+                    self.foresee(index, time, Cause::Horizon, None);
                 }
             }
             What::NEAR => {

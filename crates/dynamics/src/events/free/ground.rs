@@ -193,17 +193,15 @@ impl World {
         let state = self.bodies.get(index);
         let course = &state.course;
         let factor = if course.alone { 2.0 } else { 1.0 };
-        if course.cells.is_none() {
+        if course.cells.is_some() {
+            self.look_down(index, time, factor * course.span);
+        } else {
             // Those in the grid would have to look at all of its way.
             let lone = course.alone && !state.moves_analytically() && self.free.in_grid.is_empty();
             let least = if lone { factor * course.span } else { 0.0 };
             self.follow(index, time, least);
             self.meet_free_bodies(index, time, Cause::Horizon, None);
-            self.meet_shapes(index, time, Cause::Horizon);
-            return;
         }
-        let span = factor * course.span;
-        self.look_down(index, time, span);
         self.meet_shapes(index, time, Cause::Horizon);
     }
 }
