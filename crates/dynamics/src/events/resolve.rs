@@ -142,19 +142,17 @@ fn spend(
     pair.impacts += 1;
     let collapsed = pair.spent > BUDGET;
     let outrun = outruns(pair, losses);
+    report.collapsed += u64::from(outrun);
     match (collapsed, outrun) {
-        (false, false) => return Budget::Left,
-        (true, false) => return Budget::Outrun,
-        (true, true) => {
-            report.collapsed += 1;
-            return Budget::Gone;
+        (false, false) => Budget::Left,
+        (true, true) => Budget::Gone,
+        (true, false) => Budget::Outrun,
+        (false, true) => {
+            let speed = shock.strikes[0].speed;
+            tell_collapse(bodies, pair.bodies, 0.5 * speed * speed, due.time, events);
+            Budget::Outrun
         }
-        (false, true) => {}
     }
-    report.collapsed += 1;
-    let speed = shock.strikes[0].speed;
-    tell_collapse(bodies, pair.bodies, 0.5 * speed * speed, due.time, events);
-    Budget::Outrun
 }
 
 /// Says that infinitely many impacts of two bodies have ended, with their energy per kg of reduced mass, in J/kg.
