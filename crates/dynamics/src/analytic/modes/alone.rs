@@ -171,12 +171,12 @@ fn up(touch: &Touch, body: usize) -> Vec2 {
 
 #[cfg(test)]
 mod tests {
-    use arrayvec::ArrayVec;
     use carom_math::{Vec2, vec2};
     use proptest::prelude::*;
 
     use super::super::balance::{Balance, balance};
     use super::super::faces::{self, Faces};
+    use super::super::tests::flat;
     use super::super::{slip_rate, tangents};
     use super::*;
     use crate::impact::project;
@@ -240,24 +240,6 @@ mod tests {
         }
     }
 
-    /// A foot of the box lies at height y on a floor; the tangent is perp(up): to the left, from the right end on.
-    fn flat(floor: usize, ends: [f64; 2], y: f64, foot: [f64; 2], friction: f64) -> Touch {
-        let smaller = |a: f64, b: f64| if a < b { a } else { b };
-        let from = smaller(ends[1], foot[1]);
-        let to = -smaller(-ends[0], -foot[0]);
-        let edge = |[low, high]: [f64; 2]| Feature::Edge {
-            low: from - high,
-            high: from - low,
-        };
-        Touch {
-            bodies: (floor, 2),
-            normal: Vec2::Y,
-            points: ArrayVec::from_iter([vec2(from, y), vec2(to, y)]),
-            features: (edge(ends), edge(foot)),
-            friction,
-        }
-    }
-
     /// A box 1 m wide slides on two floors at rest, at these heights and up to and from these ends.
     fn slider(speed: f64, pull: Vec2, ends: [f64; 2], step: f64, friction: f64) -> Group {
         let ground = ImpactBody::immovable(Vec2::ZERO, Vec2::ZERO, 0.0);
@@ -270,8 +252,8 @@ mod tests {
         };
         let pulls = vec![(Vec2::ZERO, 0.0), (Vec2::ZERO, 0.0), (pull, 0.0)];
         let touches = vec![
-            flat(0, [-9.0, ends[0]], 0.0, [-0.5, 0.0], friction),
-            flat(1, [ends[1], 9.0], step, [0.0, 0.5], friction),
+            flat((0, 2), 0.0, [-9.0, ends[0]], [-0.5, 0.0], friction),
+            flat((1, 2), step, [ends[1], 9.0], [0.0, 0.5], friction),
         ];
         (vec![ground, ground, slides], pulls, touches)
     }
@@ -378,7 +360,7 @@ mod tests {
     fn a_box_tips_where_its_centre_passes_the_end_of_a_floor() {
         for (side, swapped) in [(1.0, false), (-1.0, false), (1.0, true), (-1.0, true)] {
             let ends = if side > 0.0 { [-9.0, 0.3] } else { [-0.3, 9.0] };
-            let mut touch = flat(0, ends, 0.0, [-0.5, 0.5], 0.0);
+            let mut touch = flat((0, 2), 0.0, ends, [-0.5, 0.5], 0.0);
             if swapped {
                 let Touch {
                     bodies, features, ..

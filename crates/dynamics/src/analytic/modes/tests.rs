@@ -38,7 +38,13 @@ fn disc(radius: f64, share: f64, pull: Vec2) -> Pulled {
 }
 
 /// B lies flat on A from x₁ to x₂ at height y; A reaches over `under`, B over `over`.
-fn flat(bodies: (usize, usize), y: f64, under: [f64; 2], over: [f64; 2], friction: f64) -> Touch {
+pub(super) fn flat(
+    bodies: (usize, usize),
+    y: f64,
+    under: [f64; 2],
+    over: [f64; 2],
+    friction: f64,
+) -> Touch {
     let (low, high) = (under[0].max(over[0]), under[1].min(over[1]));
     // The tangent is perp(up): to the left.
     let edge = |x: [f64; 2]| Feature::Edge {
