@@ -52,12 +52,11 @@ impl ZenoSeries {
         let gap = time - self.last;
         let late = self.count > 1 && gap > 2.0 * f64::from(self.longest);
         if self.count == 0 || late || speed > self.top {
-            self.top = speed;
-            self.longest = 0.0;
-            self.count = 0;
-            self.gaps = [f64::INFINITY; 4];
-            self.predicted = time + left;
-            self.ended = false;
+            *self = Self {
+                top: speed,
+                predicted: time + left,
+                ..Self::default()
+            };
         }
         if self.count > 0 {
             self.gaps = [gap, self.gaps[0], self.gaps[1], self.gaps[2]];
