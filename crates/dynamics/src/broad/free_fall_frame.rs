@@ -8,7 +8,7 @@ use carom_geometry::Aabb;
 use carom_math::{SimTime, Vec2};
 
 /// A frame of reference with an origin that moves by `velocity u + acceleration u²/2` from `since` on.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Frame {
     since: SimTime,
     /// Where it is then, in m.
@@ -84,12 +84,10 @@ impl Frame {
     }
 
     /// A frame that falls by `acceleration` from rest at the start of time.
-    pub(crate) const fn falling(acceleration: Vec2) -> Self {
+    pub(crate) fn falling(acceleration: Vec2) -> Self {
         Self {
-            since: SimTime::ZERO,
-            origin: Vec2::ZERO,
-            velocity: Vec2::ZERO,
             acceleration,
+            ..Self::default()
         }
     }
 

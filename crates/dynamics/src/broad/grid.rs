@@ -42,6 +42,12 @@ pub(crate) struct Grid {
     lists: Vec<Vec<SweptBox>>,
 }
 
+impl Default for Grid {
+    fn default() -> Self {
+        Self::new(1.0, 0)
+    }
+}
+
 impl Grid {
     pub(crate) fn new(side: f64, bodies: usize) -> Self {
         let lists = (2 * bodies).next_power_of_two().max(64);

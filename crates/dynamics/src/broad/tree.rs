@@ -22,7 +22,7 @@ pub(crate) const PADDING: f64 = 0.05;
 pub(crate) type Overlapping<'a> = dyn Fn(&Bodies, Aabb, &mut Vec<u32>) + 'a;
 
 /// Everything a search for pairs reads and writes.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Broad {
     pub(crate) search: PairSearch,
     pub(crate) tree: BoxTree,
@@ -40,12 +40,7 @@ impl Broad {
     pub(crate) fn new(search: PairSearch) -> Self {
         Self {
             search,
-            tree: BoxTree::default(),
-            changed: SimTime::ZERO,
-            overrides: BTreeMap::new(),
-            excluded: BTreeSet::new(),
-            near: Vec::new(),
-            free: Vec::new(),
+            ..Self::default()
         }
     }
 
@@ -215,16 +210,7 @@ impl Broad {
             bodies: ends,
             material,
             fresh: true,
-            contacts: Vec::new(),
-            touching: false,
-            told: false,
-            turning_rest: 0.0,
-            lasting: false,
-            mode: None,
-            buried: false,
-            impacts: 0,
-            spent: 0.0,
-            struck_in: 0,
+            ..Pair::default()
         });
         bodies.get_mut(ends.0).pairs.push(place);
         bodies.get_mut(ends.1).pairs.push(place);

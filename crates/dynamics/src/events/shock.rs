@@ -85,7 +85,7 @@ pub(crate) struct Shaken {
 }
 
 /// All that an impact involves.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Shock {
     time: SimTime,
     pub(crate) strikes: Vec<Strike>,
@@ -106,13 +106,8 @@ impl Shock {
     pub(crate) fn new(time: SimTime) -> Self {
         Self {
             time,
-            strikes: Vec::new(),
-            bodies: Vec::new(),
-            looked: Vec::new(),
             rest: f64::INFINITY,
-            collapses: false,
-            squeezed: false,
-            operations: 0,
+            ..Self::default()
         }
     }
 

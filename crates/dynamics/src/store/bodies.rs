@@ -30,7 +30,7 @@ pub(crate) struct EnergyBook {
 }
 
 /// All bodies of a world, with the places that removed ones left.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Bodies {
     list: Vec<BodyState>,
     /// Raised by every change of a motion: what was predicted with another version is stale. Apart from the bodies, since
@@ -65,25 +65,15 @@ impl Bodies {
         notes_touched: bool,
     ) -> Self {
         Self {
-            list: Vec::new(),
-            versions: Vec::new(),
-            alive: Vec::new(),
-            free: Vec::new(),
-            colliders: Vec::new(),
-            free_colliders: Vec::new(),
             history: History::new(history),
-            book: EnergyBook::default(),
             pull: Pull {
                 gravity,
-                fields: Vec::new(),
                 error,
+                ..Pull::default()
             },
             h,
-            inaccurate: 0,
-            touched: Vec::new(),
             notes_touched,
-            moved: Moved::default(),
-            members: Members::default(),
+            ..Self::default()
         }
     }
 

@@ -32,9 +32,8 @@ pub(crate) struct History {
 impl History {
     pub(crate) fn new(capacity: usize) -> Self {
         Self {
-            log: VecDeque::new(),
             capacity,
-            complete_since: SimTime::ZERO,
+            ..Self::default()
         }
     }
 

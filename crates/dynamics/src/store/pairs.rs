@@ -9,7 +9,7 @@ use super::slots::Slots;
 use crate::{ContactMode, PairMaterial};
 
 /// Two colliders of different bodies with overlapping boxes; the lower body comes first.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Pair {
     pub(crate) colliders: (u32, u32),
     pub(crate) bodies: (u32, u32),

@@ -7,7 +7,7 @@ use carom_math::Vec2;
 use crate::Field;
 
 /// What pulls on every body.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Pull {
     pub(crate) gravity: Vec2,
     pub(crate) fields: Vec<Arc<dyn Field>>,

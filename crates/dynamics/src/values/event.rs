@@ -130,11 +130,8 @@ pub struct Events {
 impl Events {
     pub(crate) fn new(capacity: usize) -> Self {
         Self {
-            list: Vec::new(),
             capacity,
-            dropped: 0,
-            since: SimTime::ZERO,
-            delivered: (0, 0),
+            ..Self::default()
         }
     }
 

@@ -60,7 +60,7 @@ const FITS: usize = 8;
 const MOST_CELLS: u64 = 64;
 
 /// The free bodies of a world, and their calendar queue.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct FreeBodies {
     pub(crate) grid: Grid,
     frame: Frame,
@@ -107,30 +107,8 @@ impl FreeBodies {
     /// No free bodies yet, under uniform gravity.
     pub(crate) fn under(gravity: Vec2) -> Self {
         Self {
-            grid: Grid::new(1.0, 0),
             frame: Frame::falling(gravity),
-            drifts: false,
-            grounded: false,
-            aloft: None,
-            raised_until: SimTime::ZERO,
-            nodes: Vec::new(),
-            in_grid: BTreeSet::new(),
-            circles: Vec::new(),
-            horizons: Vec::new(),
-            queue: Queue::default(),
-            aside: Aside::default(),
-            impacts: Slots::default(),
-            seen: Vec::new(),
-            mark: 0,
-            searches: 0,
-            renewed: 0,
-            met: 0,
-            fits: false,
-            near: Vec::new(),
-            shapes: Vec::new(),
-            micro_bounce: None,
-            struck: None,
-            lasting: ((0, 0), SimTime::NEVER, 0),
+            ..Self::default()
         }
     }
 
