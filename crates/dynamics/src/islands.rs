@@ -282,12 +282,13 @@ impl World {
     /// Gives a group of one point the impulse of a jam; whether it jams.
     fn jams(&mut self, gathered: &Gathered, time: SimTime) -> bool {
         let law = self.settings.impact_law;
-        let Some(jam) = jam(&mut self.bodies, &self.pairs, gathered, law, time) else {
+        let jam = jam(&mut self.bodies, &self.pairs, gathered, law, time);
+        let Some((ends, told)) = jam else {
             return false;
         };
         self.report.impacts += 1;
-        self.events.push(time, jam.told);
-        for index in jam.ends {
+        self.events.push(time, told);
+        for index in ends {
             if self.bodies.get(index).inverse_mass > 0.0 {
                 self.deflected(index, time);
             }

@@ -17,20 +17,14 @@ const NUDGE: f64 = 1e-13;
 /// A slip that loses less than this part by the impulse did not jam.
 const JAMS: f64 = 1e-6;
 
-/// A jam: the bodies that it gave other motions, and how it is told.
-pub(crate) struct Jam {
-    pub(crate) ends: [u32; 2],
-    pub(crate) told: EventKind,
-}
-
-/// Gives the bodies of a group of one point the impulse of a jam; `None` if it does not jam.
+/// Gives the bodies of a group of one point the impulse of a jam: these bodies, and how it is told; `None` if it does not jam.
 pub(crate) fn jam(
     bodies: &mut Bodies,
     pairs: &Pairs,
     gathered: &Gathered,
     law: ImpactLaw,
     time: SimTime,
-) -> Option<Jam> {
+) -> Option<([u32; 2], EventKind)> {
     let ([touch], [(place, _)]) = (&*gathered.touches, &*gathered.pairs) else {
         return None;
     };
@@ -66,5 +60,5 @@ pub(crate) fn jam(
     let ids = ends.map(|index| bodies.get(index).id);
     let impulses = (outcome.normal_impulse, outcome.tangential_impulse);
     let told = EventKind::impact(ids, (point, touch.normal), impulses, 0.0);
-    Some(Jam { ends, told })
+    Some((ends, told))
 }

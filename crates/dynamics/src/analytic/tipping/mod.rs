@@ -282,15 +282,13 @@ fn amend(equations: &mut Equations, limit: Limit) -> Result<(), NotMine> {
 }
 
 /// Modes by the complementarity problem of this instant, and the velocities without the roundings against them.
-type Modes = (Vec<Hold>, Vec<BodyMove>);
-
 fn modes(
     bodies: &[ImpactBody],
     pulls: &[(Vec2, f64)],
     places: &[Place],
     contacts: &[Contact],
     speed: f64,
-) -> Result<Modes, NotMine> {
+) -> Result<(Vec<Hold>, Vec<BodyMove>), NotMine> {
     let mut touches = Vec::with_capacity(contacts.len());
     let mut bends = Vec::with_capacity(contacts.len());
     for contact in contacts {
