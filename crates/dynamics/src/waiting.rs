@@ -25,7 +25,8 @@ impl World {
         if self.strike_held_pairs(places, time) {
             return true;
         }
-        let waiting = self.unsolved();
+        let is_unsolved = |index: &u32| self.bodies.get(*index).is_unsolved();
+        let waiting: Vec<u32> = self.unsettled.iter().copied().filter(is_unsolved).collect();
         self.close_groups_within(&waiting, time);
         self.drop_alone(time);
         self.join_unsolved(time);

@@ -98,13 +98,6 @@ impl World {
         }
     }
 
-    /// Bodies in sub-steps that no method moves yet.
-    pub(crate) fn unsolved(&self) -> Vec<u32> {
-        let all = self.unsettled.iter().copied();
-        all.filter(|index| self.bodies.get(*index).is_unsolved())
-            .collect()
-    }
-
     /// Islands of bodies in touch in sub-steps of which one has no closed form.
     pub(crate) fn unsolved_islands(&self) -> Vec<Vec<u32>> {
         let (mut seen, mut islands) = (BTreeSet::new(), Vec::new());

@@ -52,10 +52,3 @@ impl Default for Course {
         }
     }
 }
-
-impl Course {
-    /// Ends of its searches that are entered are stale: a pile that landed leaves nothing in the calendar.
-    pub(crate) const fn void_searches(&mut self) {
-        self.entered = (SimTime::NEVER, SimTime::NEVER);
-    }
-}

@@ -28,6 +28,8 @@
 //! - Under another gravity bodies arrive one after the other. One that is in an island with earlier ones has left it when its
 //!   arrival is over.
 
+use carom_math::SimTime;
+
 use super::bodies::Bodies;
 use super::course::Course;
 use super::membership::Membership;
@@ -243,7 +245,8 @@ impl BodyState {
             Regime::Analytic(Form::Moves) => self.pass_to(Regime::Analytic(Form::Pending)),
             _ => {}
         }
-        self.course.void_searches();
+        // Ends of its searches that are entered are stale: a pile that landed leaves nothing in the calendar.
+        self.course.entered = (SimTime::NEVER, SimTime::NEVER);
     }
 
     /// It belongs to an analytic island.

@@ -264,7 +264,7 @@ impl World {
         if self.stamp(entry.a, entry.b) != entry.stamp {
             return;
         }
-        if self.strikes_moving_island(&impact, entry.time) {
+        if self.moving_end(impact.bodies).is_some() && self.approaches(&impact, entry.time) {
             self.strike_held(&impact, entry.time);
         } else {
             self.strike_with_others((entry, impact));

@@ -215,11 +215,6 @@ impl World {
         true
     }
 
-    /// Whether an impact is on an island in analytic motion.
-    pub(super) fn strikes_moving_island(&self, impact: &Foreseen, time: SimTime) -> bool {
-        self.moving_end(impact.bodies).is_some() && self.approaches(impact, time)
-    }
-
     /// A body gets its method before time goes on.
     pub(crate) fn unsettle(&mut self, index: u32, time: SimTime) {
         // A group that is taken apart may have met a member, and joined.
