@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 use std::io::{self, BufWriter, Write};
+use std::path::Path;
 
 use carom_render::{
     Animation, Chroma, Draft, Film, Frame, OutputFolder, Packing, Patch, RenderError, Sequence,
@@ -103,7 +104,7 @@ pub(super) fn apng(
 /// One uncompressed film.
 pub(super) fn y4m(built: &mut Built, plan: &Plan, folder: &OutputFolder, name: &str) -> Shot {
     let path = folder.claim(name)?;
-    let (footage, draft) = film(built, plan, Draft::create(&path)?)?;
+    let (footage, draft) = film(built, plan, Draft::create(&path)?, &path)?;
     if footage.drawn > 0 {
         draft.finish()?;
         folder.seal(name)?;
@@ -118,24 +119,43 @@ pub(super) fn y4m_to_stdout(built: &mut Built, plan: &Plan) -> Result<Option<Foo
         out: BufWriter::new(io::stdout().lock()),
         gone: &mut gone,
     };
-    match film(built, plan, out).map(|(footage, _)| footage) {
+    match film(built, plan, out, Path::new("stdout")).map(|(footage, _)| footage) {
         Ok(footage) => Ok(Some(footage)),
         Err(_) if gone => Ok(None),
         Err(failure) => Err(failure),
     }
 }
 
-fn film<W: Write>(built: &mut Built, plan: &Plan, out: W) -> Result<(Footage, W), Failure> {
-    let mut film = Film::new(out, built.camera.size(), plan.rate, Chroma::Quarter)?;
+fn film<W: Write>(
+    built: &mut Built,
+    plan: &Plan,
+    out: W,
+    place: &Path,
+) -> Result<(Footage, W), Failure> {
+    let named = |error| named(error, place);
+    let film = Film::new(out, built.camera.size(), plan.rate, Chroma::Quarter);
+    let mut film = film.map_err(named)?;
     let footage = shoot(
         built,
         plan,
         "render",
         |_| true,
         |easel, _, frame| Ok(easel.paint(&frame).clone()),
-        |_, picture| Ok(film.push(&picture)?),
+        |_, picture| Ok(film.push(&picture).map_err(named)?),
     )?;
-    Ok((footage, film.finish()?))
+    Ok((footage, film.finish().map_err(named)?))
+}
+
+/// An error of a film, which knows its stream alone, with the place that the stream leads to.
+fn named(error: RenderError, place: &Path) -> RenderError {
+    match error {
+        RenderError::Io { action, source, .. } => RenderError::Io {
+            action,
+            path: place.to_path_buf(),
+            source,
+        },
+        other => other,
+    }
 }
 
 /// A stream that remembers whether its reader went away.

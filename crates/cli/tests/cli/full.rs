@@ -57,3 +57,25 @@ fn an_error_that_finds_no_room_on_stderr_keeps_its_exit_code() {
     assert_eq!(code, Some(0));
     assert!(table.starts_with("time,body,"), "{table}");
 }
+
+/// A limit on the size of a file, and a full device, for a film of more than 100 kB.
+#[test]
+fn a_film_that_finds_no_room_names_its_place() {
+    let folder = tempfile::tempdir().unwrap();
+    let film = "render thesis --size 160x120 --seconds 0.2 --format y4m";
+    for (out, place) in [
+        (format!("--out {}", folder.path().display()), "thesis.y4m: "),
+        ("--out - > /dev/full".to_owned(), "stdout: "),
+    ] {
+        // The signal of the limit would end the program.
+        let line = format!("trap '' XFSZ; ulimit -f 32; exec \"$0\" {film} {out}");
+        let output = Command::new("sh")
+            .args(["-c", &line, crate::CAROM])
+            .output()
+            .unwrap();
+        let said = String::from_utf8(output.stderr).unwrap();
+        let error = said.lines().find(|line| line.starts_with("error: "));
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert!(error.is_some_and(|line| line.contains(place)), "{said}");
+    }
+}
