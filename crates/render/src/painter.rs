@@ -184,6 +184,10 @@ impl Painter {
     ) {
         let all = frame.ops().len();
         let ground = Base::Colour(self.ground());
+        // Without marks there was no layer, and marks of which nothing is seen make none.
+        if sunk == 0 {
+            self.layer.clear();
+        }
         let (style, sheets) = (&self.style, &mut self.sheets);
         let (below, tiles) = (&mut self.below, &mut self.tiles);
         below.start(frame.size());
@@ -201,8 +205,7 @@ impl Painter {
         let base = if beneath == 0 {
             ground
         } else {
-            // Without marks there was no layer.
-            if sunk == 0 || below.most() {
+            if self.layer.is_empty() || below.most() {
                 self.layer.resize(bytes.len(), 0);
                 sheets.paint(frame, 0..beneath, style, ground, &mut self.layer);
             } else {

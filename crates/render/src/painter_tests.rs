@@ -300,3 +300,43 @@ fn ring_that_is_left_out_is_left_out_with_its_outline() {
         assert_eq!(painter.differing(), 0, "{far}");
     }
 }
+
+/// Marks that do not move have a layer, but those of which nothing is seen made none, or left that of other marks.
+#[test]
+fn unseen_marks_that_rest_do_not_stand_for_a_layer() {
+    let size = Size::new(64, 64).unwrap();
+    let dot = |x: f64, radius: f64, awake: bool| {
+        let op = Op::Dot {
+            centre: vec2(x, 20.0),
+            radius,
+            ink: Ink::Text,
+        };
+        (Source { body: None, awake }, op)
+    };
+    let (unseen, seen) = (dot(f64::NAN, 9.0, false), dot(20.0, 9.0, false));
+    let (moving, moved) = (dot(24.0, 2.0, true), dot(25.0, 2.0, true));
+    for frames in [
+        vec![
+            vec![],
+            vec![unseen.clone()],
+            vec![unseen.clone(), seen.clone()],
+        ],
+        vec![
+            vec![seen.clone(), moving.clone()],
+            vec![moving.clone()],
+            vec![unseen.clone(), moving.clone()],
+            vec![unseen, moved],
+        ],
+    ] {
+        let mut painter = Painter::new(Style::light()).checking();
+        let mut picture = Picture::new(size, Colour::WHITE);
+        for marks in frames {
+            let mut frame = Frame::new(size);
+            for (source, op) in marks {
+                frame.push_from(source, op);
+            }
+            painter.paint(&frame, &mut picture);
+        }
+        assert_eq!(painter.differing(), 0);
+    }
+}
