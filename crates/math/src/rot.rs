@@ -100,8 +100,13 @@ impl Rot {
     /// The principal angle, in radians, in (−π, π].
     #[must_use]
     pub fn angle(self) -> f64 {
-        // −0 + 0 is +0: half a turn is +π from either side.
-        trig::atan2(self.sin + 0.0, self.cos)
+        // Half a turn is +π from either side: a sine of −0 or −1e-17 makes no other.
+        let angle = trig::atan2(self.sin + 0.0, self.cos);
+        if angle > -core::f64::consts::PI {
+            angle
+        } else {
+            angle.abs()
+        }
     }
 
     /// The principal angle, in degrees, in (−180, 180]; exact at multiples of 90.
@@ -129,7 +134,12 @@ impl Rot {
         } else {
             (-90.0, trig::atan2(cos, -sin))
         };
-        quarter + rest * (180.0 / core::f64::consts::PI)
+        let degrees = quarter + rest * (180.0 / core::f64::consts::PI);
+        if degrees > -180.0 {
+            degrees
+        } else {
+            degrees.abs()
+        }
     }
 
     /// The rotation a part of the way to `other`, by the shorter turn: 0 is this one, 1 the other; any `part` is allowed.
@@ -282,6 +292,17 @@ mod tests {
             ][quarters.rem_euclid(4) as usize];
             assert_eq!(turned, want, "{quarters} quarter turns");
         }
+    }
+
+    #[test]
+    fn half_a_turn_is_positive_from_either_side() {
+        for sine in [0.0, -0.0, 1e-17, -1e-17, 5e-324, -5e-324] {
+            let half = Rot::from_cos_sin(-1.0, sine);
+            let found = (half.angle(), half.degrees());
+            assert_eq!(found, (core::f64::consts::PI, 180.0), "sine {sine:e}");
+        }
+        let less = Rot::from_cos_sin(-1.0, -1e-12);
+        assert!(less.angle() < 0.0 && less.degrees() < 0.0, "{less:?}");
     }
 
     #[test]
