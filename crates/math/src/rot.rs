@@ -78,7 +78,13 @@ impl Rot {
     /// The rotation that takes the x axis to `direction`, or `None` if that has no direction.
     #[must_use]
     pub fn from_direction(direction: Vec2) -> Option<Self> {
-        let unit = direction.try_normalize()?;
+        // Beyond these the square of a length over- or underflows.
+        let largest = direction.abs().max_element();
+        let unit = if (1e-140..1e140).contains(&largest) {
+            direction.try_normalize()?
+        } else {
+            (direction / largest).try_normalize()?
+        };
         Some(Self {
             cos: unit.x,
             sin: unit.y,
@@ -303,6 +309,21 @@ mod tests {
         }
         let less = Rot::from_cos_sin(-1.0, -1e-12);
         assert!(less.angle() < 0.0 && less.degrees() < 0.0, "{less:?}");
+    }
+
+    #[test]
+    fn short_and_long_directions_are_directions() {
+        for length in [5e-324, 1e-310, 1e-170, 1e-155, 1.0, 1e155, 3e307] {
+            let found = Rot::from_direction(vec2(0.0, -length));
+            let down = Rot::from_degrees(-90.0);
+            assert_eq!(found, Some(down), "{length:e}");
+            let found = Rot::from_direction(vec2(3.0, 4.0) * length);
+            let off = found.map(|rot| (rot * Vec2::X - vec2(0.6, 0.8)).length());
+            assert!(off.is_some_and(|off| off < 1e-15), "{length:e}: {off:?}");
+        }
+        for none in [Vec2::ZERO, Vec2::NAN, vec2(f64::INFINITY, 0.0)] {
+            assert_eq!(Rot::from_direction(none), None, "{none}");
+        }
     }
 
     #[test]
