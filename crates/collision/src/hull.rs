@@ -44,8 +44,8 @@ impl<'a> Hull<'a> {
         self.normals.is_empty()
     }
 
-    /// The hull with all edges moved inwards by `depth` m; a sharp corner moves by twice that at most. `None` if nothing with an
-    /// area is left: of a segment or half-plane, too.
+    /// The hull with all edges moved inwards by `depth` m; a sharp corner moves by twice that at most. `None` where
+    /// an edge has no length left, as of a segment or half-plane.
     #[must_use]
     pub fn inset(&self, depth: f64) -> Option<Shape> {
         if self.is_disc() {
@@ -61,6 +61,16 @@ impl<'a> Hull<'a> {
             self.vertices[i] - way * depth
         };
         let corners: Vec<Vec2> = (0..self.vertices.len()).map(corner).collect();
+        // Beyond its middle a hull is turned round, or inside out, and makes a ring again: outside of itself in the end.
+        let keeps = |i: usize| {
+            let (from, to) = self.edge(i);
+            let edge = |i: usize| corners[self.next(i)] - corners[i];
+            let (edge, next) = (edge(i), edge(self.next(i)));
+            edge.dot(to - from) > 0.0 && cross(edge, next) > 0.0
+        };
+        if !(0..corners.len()).all(keeps) {
+            return None;
+        }
         ConvexPolygon::new(corners).ok().map(Shape::from)
     }
 
@@ -265,6 +275,7 @@ pub fn hulls(shape: &Shape) -> impl ExactSizeIterator<Item = Hull<'_>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use carom_math::vec2;
 
     #[test]
     fn edges_of_an_inset_hull_lie_deeper() {
@@ -279,5 +290,25 @@ mod tests {
         let smaller = Shape::from(Circle::new(0.4).expect("a disc"));
         assert_eq!(disc.hull().inset(0.1), Some(smaller));
         assert_eq!(disc.hull().inset(0.6), None);
+    }
+
+    #[test]
+    fn a_hull_that_is_moved_inwards_past_its_middle_is_gone() {
+        for sides in 3..9 {
+            let polygon = ConvexPolygon::regular(sides, 1.0).expect("regular");
+            let middle = polygon.normals()[0].dot(polygon.vertices()[0]);
+            for part in [1.01, 1.5, 3.0] {
+                assert_eq!(polygon.hull().inset(part * middle), None, "{sides}, {part}");
+            }
+            assert!(polygon.hull().inset(0.99 * middle).is_some(), "{sides}");
+        }
+        let wedge = ConvexPolygon::triangle(1.0, 1.0, 0.05).expect("a wedge");
+        assert_eq!(wedge.hull().inset(0.25), None);
+        // Its blunt corner passes the side opposite to it, which goes slowly: both ends of that are sharp.
+        let flat = ConvexPolygon::new([vec2(-1.0, 0.0), vec2(0.0, -0.3), vec2(1.0, 0.0)]);
+        let flat = flat.expect("a triangle");
+        for depth in [0.15, 0.2, 0.3] {
+            assert_eq!(flat.hull().inset(depth), None, "{depth}");
+        }
     }
 }
