@@ -82,5 +82,6 @@ mod what_meets_in_months_does_not_meet_now;
 mod what_moves_does_not_fall_asleep;
 mod what_opens_under_a_ceiling_comes_back_to_it;
 mod what_slides_on_one_slope_meets_the_other;
+mod what_strong_damping_takes_is_in_the_ledger;
 mod what_waits_for_the_engine_is_not_called_exact;
 mod what_wakes_in_the_engine_is_counted_once;
