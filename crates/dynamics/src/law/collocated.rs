@@ -8,11 +8,19 @@
 //! a(τ) = Σ b_k τ^k      v(τ) = v₀ + h Σ b_k τ^(k+1)/(k+1)      x(τ) = x₀ + h τ v₀ + h² Σ b_k τ^(k+2)/((k+1)(k+2))
 //! ```
 //!
+//! Where damping c takes velocity, x″ = f − c x′, it is taken as it is, and f alone is the polynomial: it is smooth however
+//! strong c is. With z = c h τ and mₙ of [`left_by_damping`]
+//!
+//! ```text
+//! v(τ) = v₀ m₀(z) + h Σ b_k τ^(k+1) m_(k+1)(z)/(k+1)      x(τ) = x₀ + h τ v₀ m₁(z) + h² Σ b_k τ^(k+2) m_(k+2)(z)/((k+1)(k+2))
+//! ```
+//!
 //! Source: E. Everhart 1985; H. Rein and D. S. Spiegel, *IAS15*, 2015. The last coefficient is what the next lower
 //! order would lack: h² b₇/72 bounds, generously, what a stretch leaves out, at its end and everywhere in it.
 
 use carom_math::{Rot, SimTime, Vec2, vec2};
 
+use super::damped::left_by_damping;
 use super::path::{Path, Place};
 
 /// Gauss–Radau points of (0, 1], with 0 the first: roots of `P₇(s) + P₈(s)` for s = 2 τ − 1.
@@ -51,6 +59,8 @@ pub(crate) struct Collocated {
     scales: Vec<f64>,
     place: Vec<f64>,
     velocity: Vec<f64>,
+    /// Of all coordinates, in 1/s.
+    damping: f64,
     /// b₀ … b₇ of each coordinate.
     pub(super) terms: Vec<[f64; 8]>,
     /// The same integrated once and twice: bₙ/(n + 1), and bₙ/((n + 1)(n + 2)). A path is evaluated far more often than made.
@@ -113,9 +123,19 @@ impl Collocated {
             scales: reaches.iter().flat_map(scale).collect(),
             place: flat(|place| [place.centre.x, place.centre.y, 0.0]),
             velocity: flat(|place| [place.velocity.x, place.velocity.y, place.spin]),
+            damping: 0.0,
             terms: Vec::new(),
             integrals: Vec::new(),
         }
+    }
+
+    /// The same with linear damping, in 1/s, beside the law.
+    pub(super) fn damped(self, damping: f64) -> Self {
+        Self { damping, ..self }
+    }
+
+    pub(super) const fn damping(&self) -> f64 {
+        self.damping
     }
 
     pub(super) const fn set_length(&mut self, length: f64) {
@@ -203,11 +223,19 @@ impl Collocated {
     fn left_out(&self) -> f64 {
         let last = self.terms.iter().zip(&self.scales);
         let most = last.map(|(terms, scale)| (terms[7] * scale).abs());
-        most.fold(0.0, f64::max) * self.length * self.length / 72.0
+        let most = most.fold(0.0, f64::max) * self.length * self.length / 72.0;
+        if self.damping == 0.0 {
+            most
+        } else {
+            most * left_by_damping(self.damping * self.length)[9]
+        }
     }
 
     fn coordinate(&self, k: usize, t: f64) -> (f64, f64) {
         let tau = t / self.length;
+        if self.damping != 0.0 {
+            return self.damped_coordinate(k, t, tau);
+        }
         let (mut v, mut x) = (0.0, 0.0);
         for [once, twice] in self.integrals[k].iter().rev() {
             v = v * tau + once;
@@ -216,6 +244,19 @@ impl Collocated {
         (
             self.place[k] + (self.velocity[k] + x * t) * t,
             self.velocity[k] + v * t,
+        )
+    }
+
+    fn damped_coordinate(&self, k: usize, t: f64, tau: f64) -> (f64, f64) {
+        let left = left_by_damping(self.damping * t);
+        let (mut v, mut x) = (0.0, 0.0);
+        for (n, [once, twice]) in self.integrals[k].iter().enumerate().rev() {
+            v = v * tau + once * left[n + 1];
+            x = x * tau + twice * left[n + 2];
+        }
+        (
+            self.place[k] + (self.velocity[k] * left[1] + x * t) * t,
+            self.velocity[k] * left[0] + v * t,
         )
     }
 }
@@ -254,7 +295,12 @@ impl Path for Collocated {
         let tau = t / self.length;
         let of = |k: usize| {
             let terms = self.terms[3 * body + k].iter().rev();
-            terms.fold(0.0, |sum, term| sum * tau + term)
+            let law = terms.fold(0.0, |sum, term| sum * tau + term);
+            if self.damping == 0.0 {
+                law
+            } else {
+                law - self.damping * self.coordinate(3 * body + k, t).1
+            }
         };
         (vec2(of(0), of(1)), of(2))
     }

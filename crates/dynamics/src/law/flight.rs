@@ -137,22 +137,35 @@ impl Flight {
         let turn = &self.turn;
         let rotation = self.turned_by(angle);
         let mut angular_acceleration = turn.pull - turn.damping * spin;
-        let mut twist = turn.damping * angular_acceleration.abs();
+        let mut twist = Jerk::Damped {
+            law: 0.0,
+            acceleration: angular_acceleration.abs() * reach,
+            damping: turn.damping,
+        };
         let (acceleration, jerk) = match &self.law {
-            // d³x/dt³ = −c a, and a falls off.
             Law::Damped { pull, damping, .. } => {
                 let acceleration = *pull - v * *damping;
-                (acceleration, Jerk::Most(damping * acceleration.length()))
+                let jerk = Jerk::Damped {
+                    law: 0.0,
+                    acceleration: acceleration.length(),
+                    damping: *damping,
+                };
+                (acceleration, jerk)
             }
             Law::Conic { conic, .. } => conic.bends(x, v),
             Law::Stretch(stretch) => {
-                // A jerk that is no number bounds nothing.
-                let jerk = Jerk::Most(stretch.jerk().max(0.0));
-                (stretch.acceleration(time - self.start), jerk)
+                let acceleration = stretch.acceleration(time - self.start);
+                // A number that is none bounds nothing.
+                let jerk = Jerk::Damped {
+                    law: stretch.jerk().max(0.0),
+                    acceleration: acceleration.length().max(0.0),
+                    damping: stretch.damping(),
+                };
+                (acceleration, jerk)
             }
             Law::Held { path, body } => {
-                let jerk;
-                (jerk, twist) = path.jerk(*body);
+                let (jerk, turning) = path.jerk(*body);
+                twist = Jerk::Most(turning * reach);
                 let acceleration;
                 (acceleration, angular_acceleration) =
                     path.acceleration_after(*body, time - self.start);
@@ -171,7 +184,7 @@ impl Flight {
                 left_out: 0.0,
             },
             jerk,
-            twist: twist * reach,
+            twist,
         }
     }
 

@@ -1,4 +1,4 @@
-//! Any other law of motion, `x'' = f(x, v)`: a flight by collocation, which the rims of fields end.
+//! Any other law of motion, `x'' = f(x) − c x'`: a flight by collocation, which the rims of fields end.
 
 use carom_math::{Rot, SimTime, Vec2, vec2};
 
@@ -21,18 +21,18 @@ pub(crate) struct Stretch {
 }
 
 impl Stretch {
-    /// The path under `f` from a place and a velocity on, for `longest` seconds or less: as far as it leaves out
+    /// The path under `f` and linear damping, in 1/s, from a place and a velocity on, for `longest` seconds or less: as far as it leaves out
     /// less than `error` metres a second, up to a rim at most, and no shorter than `shortest`: across an edge of a field.
     pub(crate) fn follow(
-        f: &impl Fn(Vec2, Vec2) -> Vec2,
-        place: Vec2,
-        velocity: Vec2,
+        f: &impl Fn(Vec2) -> Vec2,
+        damping: f64,
+        (place, velocity): (Vec2, Vec2),
         (shortest, longest): (f64, f64),
         error: f64,
         rims: &[Rim],
     ) -> Self {
         let mut law = |places: &[Place], to: &mut Vec<f64>| {
-            let a = f(places[0].centre, places[0].velocity);
+            let a = f(places[0].centre);
             to.clear();
             to.extend([a.x, a.y, 0.0]);
             true
@@ -45,7 +45,7 @@ impl Stretch {
         };
         let mut first = Vec::new();
         law(&[start], &mut first);
-        let mut path = Collocated::new(SimTime::ZERO, longest, &[start], &[1.0]);
+        let mut path = Collocated::new(SimTime::ZERO, longest, &[start], &[1.0]).damped(damping);
         let shortest = shortest.min(longest);
         loop {
             let is_last = path.length() <= shortest;
@@ -72,6 +72,11 @@ impl Stretch {
         self.path.length()
     }
 
+    /// Linear damping, in 1/s.
+    pub(crate) const fn damping(&self) -> f64 {
+        self.path.damping()
+    }
+
     /// Place in m and velocity in m/s after `t` seconds, 0 ≤ t ≤ `length`.
     pub(crate) fn at(&self, t: f64) -> (Vec2, Vec2) {
         let (place, velocity, ..) = self.path.body_after(0, t);
@@ -83,7 +88,7 @@ impl Stretch {
         self.path.acceleration_after(0, t).0
     }
 
-    /// Largest third derivative of the path, at most, in m/s³: the sum of `k |b_k|/h`.
+    /// How fast `f` changes along the path, at most, in m/s³: the sum of `k |b_k|/h`. Without damping that is its third derivative.
     pub(crate) fn jerk(&self) -> f64 {
         let both = self.path.terms[0].iter().zip(&self.path.terms[1]);
         let each = (0..8_i32).zip(both);
@@ -121,7 +126,8 @@ mod tests {
     use carom_math::trig;
 
     fn run(
-        f: impl Fn(Vec2, Vec2) -> Vec2,
+        f: impl Fn(Vec2) -> Vec2,
+        damping: f64,
         start: (Vec2, Vec2),
         seconds: f64,
         error: f64,
@@ -129,7 +135,7 @@ mod tests {
         let (mut x, mut v) = start;
         let mut left = seconds;
         while left > 0.0 {
-            let stretch = Stretch::follow(&f, x, v, (1e-6, left.min(1.0)), error, &[]);
+            let stretch = Stretch::follow(&f, damping, (x, v), (1e-6, left.min(1.0)), error, &[]);
             (x, v) = stretch.at(stretch.length());
             left -= stretch.length();
         }
@@ -139,7 +145,8 @@ mod tests {
     #[test]
     fn a_spring_swings_as_its_cosine() {
         let (x, _) = run(
-            |x, _| x * -4.0,
+            |x| x * -4.0,
+            0.0,
             (vec2(1.0, 0.0), vec2(0.0, 2.0)),
             50.0,
             1e-14,
@@ -151,9 +158,9 @@ mod tests {
     #[test]
     fn an_ellipse_is_keplers() {
         let start = (vec2(3.0, 0.0), vec2(0.3, 1.2));
-        let f = |x: Vec2, _| x * (-12.0 / (x.length() * x.length_squared()));
+        let f = |x: Vec2| x * (-12.0 / (x.length() * x.length_squared()));
         let conic = Conic::through(Vec2::ZERO, 12.0, start.0, start.1).unwrap();
-        let (x, _) = run(f, start, 40.0, 1e-14);
+        let (x, _) = run(f, 0.0, start, 40.0, 1e-14);
         let off = (x - conic.at(40.0).0).length();
         assert!(off < 1e-10, "{off:e} m");
     }
@@ -161,10 +168,10 @@ mod tests {
     #[test]
     fn the_error_is_what_was_asked_for() {
         let start = (vec2(3.0, 0.0), vec2(0.3, 1.2));
-        let f = |x: Vec2, _| x * (-12.0 / (x.length() * x.length_squared()));
+        let f = |x: Vec2| x * (-12.0 / (x.length() * x.length_squared()));
         let conic = Conic::through(Vec2::ZERO, 12.0, start.0, start.1).unwrap();
         for error in [1e-4, 1e-6, 1e-8, 1e-10] {
-            let stretch = Stretch::follow(&f, start.0, start.1, (1e-6, 10.0), error, &[]);
+            let stretch = Stretch::follow(&f, 0.0, start, (1e-6, 10.0), error, &[]);
             for part in [0.1, 0.37, 0.5, 0.81, 1.0] {
                 let t = part * stretch.length();
                 let off = (stretch.at(t).0 - conic.at(t).0).length();
@@ -179,7 +186,8 @@ mod tests {
     #[test]
     fn damping_is_part_of_the_law() {
         let (x, v) = run(
-            |_, v| vec2(0.0, -10.0) - v * 2.0,
+            |_| vec2(0.0, -10.0),
+            2.0,
             (Vec2::ZERO, vec2(3.0, 4.0)),
             2.0,
             1e-14,

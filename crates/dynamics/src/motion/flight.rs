@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use carom_math::{SimTime, Vec2};
 
+use crate::law::damped::decays;
 use crate::law::flight::{Flight, Turn};
 use crate::law::integrate::Stretch;
 use crate::law::kepler::Conic;
@@ -13,7 +14,7 @@ use crate::store::uncommon::Lag;
 /// Longest stretch of the integrator, in s.
 const LONGEST: f64 = 1024.0;
 
-/// Largest `|∇f| h²`, and damping times h, of a stretch: about a quarter of a turn about a centre. Eight points must see what the field is like.
+/// Largest `|∇f| h²` of a stretch, with damping `2 φ₂ |∇f| h²`: about a quarter of a turn about a centre. Eight points must see what the field is like.
 const BENT: f64 = 2.0;
 
 /// How far the parabola of a free body may be from its law, as a part of its reach: larger, and bodies that are not near
@@ -133,11 +134,11 @@ fn law_of(bodies: &Bodies, index: u32, time: SimTime) -> Flight {
     {
         return flight;
     }
-    let law = |x: Vec2, v: Vec2| scale * pull.at(x) + push - v * linear;
+    let law = |x: Vec2| scale * pull.at(x) + push;
     let lengths = (SHORTEST * h, longest(bodies, index, (x, v)));
     let centres = pull.fields.iter().filter_map(|field| field.newtonian());
     let rims: Vec<_> = centres.map(|c| (c.centre, c.core)).collect();
-    let stretch = Stretch::follow(&law, x, v, lengths, pull.error, &rims);
+    let stretch = Stretch::follow(&law, linear, (x, v), lengths, pull.error, &rims);
     Flight::integrated(time, stretch, turn)
 }
 
@@ -146,12 +147,14 @@ fn longest(bodies: &Bodies, index: u32, (x, v): (Vec2, Vec2)) -> f64 {
     let (state, pull, h) = (bodies.get(index), &bodies.pull, bodies.h);
     let scale = state.gravity_scale().abs();
     let push = state.gravity_scale() * pull.at(x) + state.force() * state.inverse_mass;
-    let (speed, push) = (v.length(), (push - v * state.damping().0).length());
+    let (speed, push, damping) = (v.length(), push.length(), state.damping().0);
     let mut span = LONGEST;
     while span > h {
-        let way = (speed + push * span) * span;
-        let bent = scale * pull.gradient_bound(x, way) * span * span;
-        if bent <= BENT && state.damping().0 * span <= BENT {
+        // Of a velocity damping leaves φ₁, of what an acceleration does 2 φ₂.
+        let (_, first, second) = decays(damping * span);
+        let way = (speed * first + push * span * (2.0 * second)) * span;
+        let bent = scale * pull.gradient_bound(x, way) * span * span * (2.0 * second);
+        if bent <= BENT {
             return span;
         }
         span *= 0.5;
