@@ -108,3 +108,8 @@ impl Json {
         Ok(self.draft.finish()?)
     }
 }
+
+/// Writes a value as JSON, whole or not at all.
+pub fn write_json(place: &Path, value: &impl Serialize) -> Result<(), Failure> {
+    Json::create(place)?.finish(value)
+}

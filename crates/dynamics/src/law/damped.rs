@@ -119,7 +119,9 @@ mod tests {
                 }
                 let term = |k: i32| {
                     let theta = f64::from(k) / f64::from(parts);
-                    f64::from(n) * theta.powi(n - 1) * trig::exp((theta - 1.0) * z)
+                    f64::from(n)
+                        * (1..n).map(|_| theta).product::<f64>()
+                        * trig::exp((theta - 1.0) * z)
                 };
                 let inner = (1..parts).map(|k| f64::from(2 + 2 * (k % 2)) * term(k));
                 let sum = (term(0) + term(parts) + inner.sum::<f64>()) / (3.0 * f64::from(parts));

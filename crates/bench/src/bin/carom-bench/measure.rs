@@ -47,7 +47,7 @@ impl Run<'_> {
         skip: impl Fn(&[Row], &Planned) -> bool,
     ) -> Result<Store, Failure> {
         files::make_folder(self.out)?;
-        self.how.json.as_deref().map_or(Ok(()), files::prepare)?;
+        self.how.json.as_deref().map(files::prepare).transpose()?;
         let executables =
             Executables::build(self.engines, self.threads, self.profile, Probe::machine())?;
         for (engine, why) in &executables.left_out {

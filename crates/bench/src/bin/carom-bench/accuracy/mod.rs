@@ -29,7 +29,7 @@ pub(crate) fn run(args: &AccuracyArgs) -> Outcome {
     };
     if args.from.is_some() {
         files::make_folder(&args.out)?;
-        args.how.json.as_deref().map_or(Ok(()), files::prepare)?;
+        args.how.json.as_deref().map(files::prepare).transpose()?;
     }
     write(args, &head, &rows)?;
     Ok(if interrupt::asked() {
