@@ -465,6 +465,35 @@ fn a_touch_ends_where_its_body_leaves_before_the_engine_knows_it() {
     }
 }
 
+/// What rested flew on within what left it, and the steps were called exact.
+#[test]
+fn what_is_put_into_a_flying_body_is_parted_whatever_its_velocity() {
+    for (mode, velocity) in MODES
+        .into_iter()
+        .flat_map(|mode| [(4.0, 0.0), (0.0, 4.0), (-3.0, 3.0)].map(|(x, y)| (mode, vec2(x, y))))
+    {
+        let mut world = world(mode, vec2(0.0, -10.0));
+        let floor = BodyDef::fixed().at(vec2(0.0, -2.0));
+        put(&mut world, floor, block(10.0, 4.0), surface(0.5, 0.0));
+        let rests = BodyDef::dynamic().at(vec2(0.0, 0.4));
+        let id = put(&mut world, rests, disc(0.4), surface(0.5, 0.0));
+        let flies = BodyDef::dynamic().at(vec2(0.0, 50.0)).moving(velocity);
+        let other = put(&mut world, flies, disc(0.4), surface(0.5, 0.0));
+        world.step(0.3);
+        let leaves = world.body(other).expect("it is there");
+        let away = leaves.velocity().normalize() * 0.1;
+        let there = Pose::at(leaves.centre() - away);
+        world.teleport(id, there).expect("it is there");
+        world.step(1.0 / 60.0);
+        let report = world.step(1.0 / 60.0);
+        assert!(!report.is_exact(), "{mode:?}, {velocity}: {report:?}");
+        assert!(
+            report.deepest_overlap > 0.1,
+            "{mode:?}, {velocity}: {report:?}"
+        );
+    }
+}
+
 /// It flew within the floor as if nothing were there, and the steps were called exact.
 #[test]
 fn what_is_put_into_a_floor_is_parted_whatever_its_velocity() {

@@ -191,20 +191,19 @@ impl World {
         for k in 0..self.bodies.get(index).pairs.len() {
             let place = self.bodies.get(index).pairs[k];
             let pair = self.pairs.get_mut(place);
-            if self.bodies.get(pair.other(index)).is_free() {
-                // Its impacts are those of a free body.
-                continue;
-            }
+            let flies = self.bodies.get(pair.other(index)).is_free();
             if pair.fresh {
                 look(&self.bodies, pair, time);
             }
             let (a, b) = self.bodies.both(pair.bodies);
             let (rounding, size) = (NOISE * pace(a, b, time), a.reach.min(b.reach));
+            // Impacts with what flies are those of a free body.
             let holds = |contact: &PairContact| {
                 let mut points = contact.points.iter();
                 points.any(|point| {
                     point.separation < -SUNK * size
-                        || point.separation <= TOUCH * size
+                        || !flies
+                            && point.separation <= TOUCH * size
                             && opening_speed(a, b, time, point.position, contact.normal) <= rounding
                 })
             };
