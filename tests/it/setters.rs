@@ -474,15 +474,16 @@ fn what_is_put_into_a_flying_body_is_parted_whatever_its_velocity() {
     {
         let mut world = world(mode, vec2(0.0, -10.0));
         let floor = BodyDef::fixed().at(vec2(0.0, -2.0));
-        put(&mut world, floor, block(10.0, 4.0), surface(0.5, 0.0));
+        put(&mut world, floor, block(10.0, 4.0), surface(0.0, 0.6));
         let rests = BodyDef::dynamic().at(vec2(0.0, 0.4));
-        let id = put(&mut world, rests, disc(0.4), surface(0.5, 0.0));
-        let flies = BodyDef::dynamic().at(vec2(0.0, 50.0)).moving(velocity);
-        let other = put(&mut world, flies, disc(0.4), surface(0.5, 0.0));
+        let id = put(&mut world, rests, disc(0.4), surface(0.0, 0.6));
+        let flies = BodyDef::dynamic()
+            .at(vec2(0.0, 50.0))
+            .moving(velocity + vec2(0.0, 3.0));
+        let other = put(&mut world, flies, disc(0.4), surface(0.0, 0.6));
         world.step(0.3);
-        let leaves = world.body(other).expect("it is there");
-        let away = leaves.velocity().normalize() * 0.1;
-        let there = Pose::at(leaves.centre() - away);
+        let there = world.body(other).expect("it is there").centre();
+        let there = Pose::at(there + vec2(0.1, 0.05));
         world.teleport(id, there).expect("it is there");
         world.step(1.0 / 60.0);
         let report = world.step(1.0 / 60.0);
