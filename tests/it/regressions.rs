@@ -75,6 +75,7 @@ mod what_bore_a_heavy_body_is_not_pushed_when_it_has_gone;
 mod what_hangs_on_a_peg_gains_no_speed;
 mod what_is_changed_within_a_sub_step_stands_until_it_ends;
 mod what_is_made_fixed_stands_in_the_way_at_once;
+mod what_is_put_into_others_is_parted;
 mod what_is_thrown_within_a_sub_step_keeps_its_contacts;
 mod what_lands_again_begins_a_mode_anew;
 mod what_lands_flat_in_the_end_falls_asleep;
