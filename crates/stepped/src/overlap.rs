@@ -20,7 +20,7 @@ impl Engine {
             far,
             ..
         } = self;
-        if self.least_gap >= 0.0 || far.is_empty() {
+        if self.least_gap >= 0.0 || far.is_empty() && stopped.is_empty() {
             return;
         }
         let mut is_far = vec![false; bodies.lines.len()];
