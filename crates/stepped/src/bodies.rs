@@ -410,6 +410,12 @@ impl Bodies {
         v.x.abs().max(v.y.abs()) + turns - self.pull[at].v().length() * tick
     }
 
+    /// Whether one of two bodies was put where it is since contacts were last found.
+    pub(crate) fn were_placed(&self, slots: [u32; 2]) -> bool {
+        let placed = |slot: u32| self.records[slot as usize].placed == self.updates;
+        slots.into_iter().any(placed)
+    }
+
     /// Slots of the bodies that go far within `h` seconds.
     pub(crate) fn fast(&self, h: f64) -> impl Iterator<Item = u32> + '_ {
         let noted = self.speedy.as_deref();

@@ -134,7 +134,6 @@ pub(crate) fn update(
     }
     bodies.start = start;
     graph.add_deep(&mut deep);
-    wholes.note(graph);
     least
 }
 

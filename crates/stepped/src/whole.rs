@@ -4,7 +4,7 @@
 //! outline is that piece's. Deep in a concave body that may be so of all its pieces, or two of them push against each other. The two
 //! bodies then have one row, along the shortest way out of the whole shapes, until these are apart.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use carom_math::Vec2;
 
@@ -13,22 +13,17 @@ use crate::narrow::{Found, Scene};
 use crate::rows::{Block, Cold, Graph};
 use crate::update::{Fresh, Pair, lanes, place};
 
-/// Cosine of the angle between the row of a piece and the way out of the whole shapes that it leads.
+/// Cosine of the angle between the row of a piece and the way out of the whole shapes that it leads. −2, so that any row does: two L
+/// shapes stay 0.20 m in each other. From 0 to 2 all pairs of concave bodies come out that are tried, and a hundred L shapes at one
+/// place but for at most 0.08 m.
 const LEADS: f64 = 0.5;
 
 /// Slots of two bodies each that have a row of whole shapes.
-pub(crate) struct WholePairs {
-    slots: BTreeSet<[u32; 2]>,
-    /// Contacts that got one, and their pieces.
-    new: Vec<(u32, [u32; 2])>,
-}
+pub(crate) struct WholePairs(BTreeSet<[u32; 2]>);
 
 impl WholePairs {
-    pub(crate) fn of(graph: &mut Graph) -> Self {
-        Self {
-            slots: graph.retain_whole().collect(),
-            new: Vec::new(),
-        }
+    pub(crate) fn of(graph: &Graph) -> Self {
+        Self(graph.whole().collect())
     }
 
     /// Rows of whole shapes go on as such, and no piece of their bodies has another one; rows of pieces of concave shapes that were put
@@ -40,50 +35,41 @@ impl WholePairs {
         moved: u8,
         found: &mut Found,
     ) -> u8 {
-        let mut whole = moved & cold.whole;
-        let asked = if self.slots.is_empty() {
-            cold.put()
-        } else {
-            !0
-        };
-        for lane in lanes(moved & found.near & asked & !whole) {
+        let known = moved & cold.whole;
+        let asked = if self.0.is_empty() { cold.put() } else { !0 };
+        for lane in lanes(moved & found.near & asked & !known) {
             let (pair, bit) = (cold.pieces[lane], 1 << lane);
             let slots = scene.pieces.bodies(pair);
             let [a, b] =
                 [block.a[lane], block.b[lane]].map(|line| scene.bodies.lines[line as usize].d());
-            if self.slots.contains(&slots) {
+            if self.0.contains(&slots) {
                 found.near &= !bit;
             } else if cold.was_put(lane)
                 && scene.is_entangled(pair, found.gap(lane, b - a))
                 && let Some(way) = scene.way_out(pair)
                 && !leads(found.rows.normal(lane), way.normal)
             {
-                whole |= bit;
-                self.slots.insert(slots);
-                self.new.push((cold.contact[lane], pair));
-            }
-        }
-        for lane in lanes(whole) {
-            let bit = 1 << lane;
-            let goes_on = cold.was_put(lane) || cold.whole & bit == 0;
-            if goes_on && let Some(manifold) = scene.way_out(cold.pieces[lane]) {
-                found.set(lane, &manifold);
+                found.set(lane, &way);
                 cold.whole |= bit;
-            } else {
-                found.near &= !bit;
-                cold.whole &= !bit;
+                self.0.insert(slots);
             }
         }
+        for lane in lanes(known) {
+            if cold.was_put(lane)
+                && let Some(manifold) = scene.way_out(cold.pieces[lane])
+            {
+                found.set(lane, &manifold);
+            } else {
+                found.near &= !(1 << lane);
+                cold.whole &= !(1 << lane);
+            }
+        }
+        let whole = moved & cold.whole;
         // No ghosts: these are rows of no sides.
         found.short &= !whole;
         found.slants &= !whole;
         found.seam &= !whole;
         whole
-    }
-
-    /// Notes the contacts that got one.
-    pub(crate) fn note(self, graph: &mut Graph) {
-        graph.add_whole(&self.new);
     }
 
     /// Gives bodies that were put into each other one row of their whole shapes instead of all others, if some pieces of theirs, `cut`,
@@ -95,40 +81,29 @@ impl WholePairs {
         mut cut: Vec<Pair>,
         fresh: &mut Vec<Fresh>,
     ) {
-        let (bodies, pieces) = (scene.bodies, scene.pieces);
-        let was_put = |pair: &Pair| {
-            let records = pair
-                .slots(pieces)
-                .map(|slot| &bodies.records[slot as usize]);
-            records.iter().any(|record| record.placed == bodies.updates)
-        };
+        let pieces = scene.pieces;
+        let was_put = |pair: &Pair| scene.bodies.were_placed(pair.slots(pieces));
         cut.retain(was_put);
         let entangled = fresh.iter().filter(|fresh| {
             was_put(&fresh.pair) && scene.is_entangled(fresh.pair.pieces, fresh.manifold.gap())
         });
         cut.extend(entangled.map(|fresh| fresh.pair));
         cut.retain(|pair| {
-            !self.slots.contains(&pair.slots(pieces))
-                && pieces.surface(pair.pieces, rules).is_some()
+            !self.0.contains(&pair.slots(pieces)) && pieces.surface(pair.pieces, rules).is_some()
         });
         cut.sort_by_cached_key(|pair| pair.pieces.map(|piece| place(scene.bodies, pieces, piece)));
         cut.dedup_by_key(|pair| pair.slots(pieces));
-        let normal = |fresh: &Fresh| (fresh.pair.slots(pieces), fresh.manifold.normal);
-        let mut normals: Vec<([u32; 2], Vec2)> = Vec::new();
+        let mut normals: BTreeMap<[u32; 2], Vec<Vec2>> = BTreeMap::new();
         if !cut.is_empty() {
-            let overlaps = fresh.iter().filter(|fresh| fresh.manifold.gap() < 0.0);
-            normals.extend(overlaps.map(normal));
-            normals.sort_by_key(|(slots, _)| *slots);
+            for fresh in fresh.iter().filter(|fresh| fresh.manifold.gap() < 0.0) {
+                let of_bodies = normals.entry(fresh.pair.slots(pieces)).or_default();
+                of_bodies.push(fresh.manifold.normal);
+            }
         }
         let way_out = |pair: Pair| {
-            let (slots, manifold) = (pair.slots(pieces), scene.way_out(pair.pieces)?);
-            let first = normals.partition_point(|(other, _)| *other < slots);
-            let of_bodies = normals[first..]
-                .iter()
-                .take_while(|(other, _)| *other == slots);
-            let mut known = of_bodies.map(|(_, normal)| *normal).peekable();
-            let is_known =
-                known.peek().is_some() && known.all(|normal| leads(normal, manifold.normal));
+            let manifold = scene.way_out(pair.pieces)?;
+            let known = normals.get(&pair.slots(pieces));
+            let is_known = known.is_some_and(|all| all.iter().all(|n| leads(*n, manifold.normal)));
             (!is_known).then_some(Fresh {
                 pair,
                 manifold,
@@ -137,9 +112,9 @@ impl WholePairs {
             })
         };
         let new: Vec<Fresh> = cut.into_iter().filter_map(way_out).collect();
-        self.slots
+        self.0
             .extend(new.iter().map(|fresh| fresh.pair.slots(pieces)));
-        fresh.retain(|fresh| !self.slots.contains(&fresh.pair.slots(pieces)));
+        fresh.retain(|fresh| !self.0.contains(&fresh.pair.slots(pieces)));
         fresh.extend(new);
     }
 }

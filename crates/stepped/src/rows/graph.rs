@@ -58,8 +58,6 @@ pub(crate) struct Graph {
     pub(super) deep: Vec<u32>,
     /// Contacts of two bodies of very different mass, and some that were, in no order.
     pub(super) unequal: Vec<u32>,
-    /// Contacts with rows of whole shapes, and their pieces; some were such.
-    pub(super) whole: Vec<(u32, [u32; 2])>,
     /// Behind those of masks the overflow colour, then those of hard rows, and last what sleeps.
     pub(super) colours: Vec<Colour>,
     /// Contacts in hard rows.
@@ -90,7 +88,6 @@ impl Graph {
             free: Vec::new(),
             deep: Vec::new(),
             unequal: Vec::new(),
-            whole: Vec::new(),
             colours: vec![Colour::default(); ASLEEP + 1],
             hard: 0,
         }
@@ -198,9 +195,6 @@ impl Graph {
         if Self::is_unequal(bodies, ends) {
             self.unequal.push(id);
         }
-        if is_whole {
-            self.whole.push((id, pieces));
-        }
         id
     }
 
@@ -237,8 +231,7 @@ impl Graph {
         block.mu[lane] = surface.friction;
         block.put(lane, manifold);
         let records = ends.map(|slot| &bodies.records[slot as usize]);
-        let was_put = records.iter().any(|record| record.placed == bodies.updates);
-        let by = if was_put || is_whole {
+        let by = if bodies.were_placed(ends) || is_whole {
             Pressed::ByCaller
         } else {
             Pressed::New

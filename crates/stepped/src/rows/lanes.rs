@@ -69,22 +69,14 @@ impl Graph {
         cold.gaps(block, lane, &bodies.lines)
     }
 
-    /// Contacts got rows of whole shapes.
-    pub(crate) fn add_whole(&mut self, new: &[(u32, [u32; 2])]) {
-        self.whole.extend_from_slice(new);
-    }
-
-    /// Slots of the bodies of each row of whole shapes that is still there.
-    pub(crate) fn retain_whole(&mut self) -> impl Iterator<Item = [u32; 2]> {
-        let mut whole = core::mem::take(&mut self.whole);
-        whole.retain(|&(id, pieces)| {
-            self.has(id, pieces) && {
-                let (_, cold, lane) = self.lane(id);
-                cold.whole >> lane & 1 == 1
-            }
+    /// Slots of the bodies of each row of whole shapes.
+    pub(crate) fn whole(&self) -> impl Iterator<Item = [u32; 2]> {
+        // All of them are deep.
+        let whole = self.deep.iter().filter(|id| {
+            self.cold(**id)
+                .is_some_and(|(cold, lane)| cold.whole >> lane & 1 == 1)
         });
-        self.whole = whole;
-        (self.whole.iter()).map(|(id, _)| self.contacts[*id as usize].bodies)
+        whole.map(|id| self.contacts[*id as usize].bodies)
     }
 
     /// Both points of a contact, midway between the surfaces, in m.

@@ -212,3 +212,24 @@ fn what_is_put_into_a_concave_body_comes_out() {
         }
     }
 }
+
+/// Piece by piece some stayed 0.19 m deep in each other. Other thresholds of what leads the way out leave up to 0.08 m.
+#[test]
+fn concave_bodies_at_one_place_part() {
+    let mut engine = Engine::new(super::weightless()).unwrap();
+    for k in 0..100 {
+        let mut body = BodyInput::dynamic(0.2, 0.012);
+        body.pose.rotation = Rot::from_angle(f64::from(k));
+        engine
+            .insert(body, &[PieceInput::new(polygon(&L, 0.8))])
+            .unwrap();
+    }
+    let mut most: f64 = 0.0;
+    for _ in 0..600 {
+        engine.tick();
+        most = most.max(engine.energy().0);
+    }
+    let deepest = engine.deepest_overlap();
+    assert!(most < 3.0, "{most} J");
+    assert!(deepest < 0.1, "{deepest} m");
+}
