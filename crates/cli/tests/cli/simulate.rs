@@ -176,7 +176,7 @@ fn one_file_is_not_two() {
 fn a_summary_that_cannot_be_written_is_told_before_the_run() {
     use std::os::unix::fs::PermissionsExt as _;
     let folder = tempfile::tempdir().unwrap();
-    // A name that is too long is refused to everybody; a folder without rights not to root.
+    // A name that is too long is refused whatever the rights; a folder without rights is not refused where root asks.
     let long = "j".repeat(255);
     let run = |json: &str| {
         let out = ["--out", "a.csv", "--json", json];

@@ -1,4 +1,4 @@
-//! Eight pairs of outlines to their manifolds, a register of pairs at a time. [`super::pair`] says the same pair by pair.
+//! Eight pairs of outlines to their manifolds, a register of pairs at a time. [`super::naive`] says the same pair by pair.
 //!
 //! All faces against all corners, and no branch but one around corners on corners. As in the sweeps everything is inlined
 //! into the dispatched function, and every width gives the same bits.

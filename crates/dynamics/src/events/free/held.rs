@@ -181,7 +181,7 @@ impl World {
         }
     }
 
-    /// Whether a body has no method yet, and nothing that does not fly holds it or overlaps it.
+    /// Whether a body has no method yet, nothing that does not fly holds it, and nothing overlaps it.
     fn hangs(&mut self, index: u32, time: SimTime) -> bool {
         let state = self.bodies.get(index);
         let stepped = self.settings.mode == Mode::Stepped;
