@@ -15,9 +15,11 @@ const CORE: f64 = 0.005;
 /// stop it there, 0.25 does, as both do; what is pressed in by less is stopped sooner by 0.05.
 const DEEPER: [f64; 2] = [0.05, 0.25];
 
-/// How deep inside a piece its core lies, in m.
-pub(super) fn depth(piece: &Piece) -> f64 {
-    CORE * 0.5 * piece.extent
+/// How much deeper a piece may go, in m, into what its core touches already: what a caller moves, by as much as its core lies inside; what
+/// its rows hold, by as much as the deepest of all.
+pub(super) fn depth(piece: &Piece, carried: bool) -> f64 {
+    let part = if carried { CORE } else { DEEPER[1] };
+    part * 0.5 * piece.extent
 }
 
 /// A convex part of the shape of a piece.

@@ -3,11 +3,13 @@
 //! A body is fast if it moves farther than a part of its width. Its motion is straight, from its pose before the sub-step to
 //! the one after it, and its core polygon must be free along all of it: contacts that slide, roll or are held off by a row lie
 //! outside of the core. Where the core would touch another shape, the body is stopped short of the touch of its surface, and
-//! keeps its velocity; a contact row takes over in the next sub-step. If there is a row that did not hold it, the body goes on
+//! keeps its velocity; a contact row takes over in the next sub-step. Stopped is what goes on as the other body does; two of them that
+//! touch go on as their centre of mass does. If there is a row that did not hold it, the body goes on
 //! without what closes of its motion: no row takes the velocity along a wall, and what falls along it would hang there. What is stopped
 //! where it stands in two sub-steps on end is held by no row, as in a notch that a peg has come into: it loses that velocity.
 
 mod cores;
+mod moving;
 mod search;
 mod touching;
 
@@ -15,11 +17,12 @@ use std::collections::BinaryHeap;
 
 use carom_collision::Motion;
 use carom_geometry::Aabb;
-use carom_math::{Pose, SimTime, Vec2};
+use carom_math::{Pose, Vec2};
 
 use crate::bodies::{Bodies, Limit};
 use crate::rows::{Quad, turn_shifted};
 use crate::{BodyId, BodyKind, Engine, EngineError, PairRules, Settings};
+use moving::{Fast, Moving};
 use touching::Touching;
 
 /// A body stops so far before a touch, as a part of its reach: its contact is found open.
@@ -28,8 +31,8 @@ const SHORT: f64 = 1e-7;
 /// A body that goes no farther than this part of its way hangs.
 const HANGS: f64 = 0.125;
 
-/// A body that touches so often within a sub-step is stopped there.
-const MOST: u8 = 3;
+/// A body that touches more often within a sub-step goes on as one with what it touches.
+const SLIDES: u8 = 2;
 
 /// The motion of a fast body through the rest of a sub-step.
 #[derive(Clone, Debug)]
@@ -49,84 +52,6 @@ impl FastBody {
     /// Rows do not know of it: touches with moving bodies are searched for, too.
     const fn is_unforeseen(&self) -> bool {
         self.turns || self.deviates
-    }
-}
-
-/// The same during the search.
-#[derive(Clone, Copy)]
-struct Moving {
-    slot: u32,
-    birth: u64,
-    motion: Motion,
-    carried: bool,
-    /// How often it touched so far, and the slot of the body that it touched first.
-    touches: u8,
-    touched: Option<u32>,
-}
-
-impl Moving {
-    const fn is_stopped(&self) -> bool {
-        self.touches >= MOST
-    }
-
-    /// It goes on `wait` seconds on, without this part of its velocity, and without turning; stopped if it has none or touches
-    /// too often.
-    fn deflect(&mut self, wait: f64, part: Option<Vec2>) {
-        self.touches = part.map_or(MOST, |_| self.touches + 1);
-        let there = self.motion.rebased(self.motion.start + wait);
-        let part = part.filter(|_| !self.is_stopped());
-        let velocity = part.map_or(Vec2::ZERO, |part| there.velocity - part);
-        self.motion = Motion {
-            start: SimTime::ZERO,
-            centre: there.centre - velocity * wait,
-            velocity,
-            spin: 0.0,
-            ..there
-        };
-    }
-}
-
-/// All of them. Most meet nothing: motions are made where one is asked for.
-struct Fast {
-    /// By slot, in order.
-    noted: Vec<FastBody>,
-    moving: Vec<Option<Moving>>,
-    /// Which of them are searched from.
-    searched: Vec<bool>,
-    /// Those that may be where no box of the tick is: they leave theirs, deviate, or touched something.
-    unboxed: Vec<usize>,
-    /// Seconds that the motions last.
-    left: f64,
-}
-
-impl Fast {
-    fn of(&mut self, engine: &Engine, k: usize) -> &mut Moving {
-        self.moving[k].get_or_insert_with(|| engine.moving(&self.noted[k], self.left))
-    }
-
-    fn find(&self, slot: u32) -> Option<usize> {
-        self.noted
-            .binary_search_by_key(&slot, |body| body.slot)
-            .ok()
-    }
-
-    fn is_stopped(&self, k: usize) -> bool {
-        self.moving[k].as_ref().is_some_and(Moving::is_stopped)
-    }
-
-    /// How often it touched so far.
-    fn touches(&self, k: usize) -> u8 {
-        self.moving[k].as_ref().map_or(0, |body| body.touches)
-    }
-
-    /// The box that it stays in for so long.
-    fn bounds(&self, engine: &Engine, k: usize, time: f64) -> Aabb {
-        let body = &self.noted[k];
-        let (from, velocity) = self.moving[k].as_ref().map_or_else(
-            || engine.way(body, self.left),
-            |body| (body.motion.centre, body.motion.velocity),
-        );
-        way_box(from, velocity, time).grown(engine.bodies.records[body.slot as usize].reach)
     }
 }
 
@@ -261,8 +186,10 @@ impl Engine {
             moving: vec![None; noted.len()],
             searched: may_touch,
             unboxed: (0..noted.len()).filter(is_unboxed).collect(),
+            in_order: noted.len(),
             noted,
             left,
+            shifted: Vec::new(),
         };
         let mut touches = BinaryHeap::new();
         for &k in &leaving {
@@ -273,14 +200,16 @@ impl Engine {
                 self.search(&mut fast, k, (0.0, left), &leaving, rules, &mut touches);
             }
         }
-        while let Some(touch) = touches.pop() {
-            let ends = [Some(touch.a), touch.b];
+        while let Some(mut touch) = touches.pop() {
+            let ends = [Some(touch.a), fast.find(touch.other)];
             let stale =
                 |(k, touches): (&Option<usize>, u8)| k.is_some_and(|k| fast.touches(k) != touches);
             if ends.iter().zip(touch.touches).any(stale) {
                 continue;
             }
+            self.share(&mut fast, &mut touch);
             self.deflect(&mut fast, &touch);
+            let ends = [Some(touch.a), touch.b];
             for &k in ends.iter().flatten() {
                 let rest = (touch.wait, left);
                 if !fast.is_stopped(k) {
@@ -291,22 +220,17 @@ impl Engine {
             }
         }
         let mut stopped = Vec::new();
-        let mut shifted = Vec::new();
         let mut hanging = Vec::new();
-        let mut touched: Vec<Moving> = fast.moving.into_iter().flatten().collect();
-        touched.retain(|body| body.touches > 0);
-        touched.sort_unstable_by_key(|body| body.birth);
-        for body in &touched {
+        let touched = fast.moving.iter().zip(&fast.noted);
+        let touched = touched.filter_map(|(body, noted)| Some((body.as_ref()?, noted.from.0)));
+        let mut touched: Vec<_> = touched.filter(|(body, _)| body.touches > 0).collect();
+        touched.sort_unstable_by_key(|(body, _)| body.birth);
+        for (body, from) in touched {
             let shift = self.stop_at(body, left);
-            shifted.extend(self.free_pair(body).map(|pair| (pair, shift)));
-            let from = fast
-                .noted
-                .binary_search_by_key(&body.slot, |noted| noted.slot);
-            let from = from.map_or(Vec2::ZERO, |k| fast.noted[k].from.0);
             hanging.extend(self.hangs(body, from, shift, &hung));
             stopped.push(self.bodies.id(body.slot));
         }
-        turn_shifted(&mut self.bodies, &shifted);
+        turn_shifted(&mut self.bodies, &fast.shifted);
         if is_whole {
             self.hanging = hanging;
         }
@@ -341,36 +265,57 @@ impl Engine {
         Some(pair)
     }
 
-    /// Lines of a body and of the one that it touched first, if both are free.
-    fn free_pair(&self, body: &Moving) -> Option<[u32; 2]> {
-        let lines = [Some(body.slot), body.touched].map(|slot| {
-            let line = self.bodies.records[slot? as usize].line;
-            (line != Bodies::NONE && self.bodies.is_free(line)).then_some(line)
-        });
-        Some([lines[0]?, lines[1]?])
+    /// Lines of two bodies, if contacts alone move both.
+    fn free_pair(&self, slots: [u32; 2]) -> Option<[u32; 2]> {
+        let lines = slots.map(|slot| self.bodies.records[slot as usize].line);
+        let is_free = |line: &u32| *line != Bodies::NONE && self.bodies.is_free(*line);
+        lines.iter().all(is_free).then_some(lines)
     }
 
-    /// Both bodies go on without what closes of their motions, which they share as an impact without restitution does.
+    /// Both bodies go on without what closes of their motions, which they share as an impact without restitution does; as one if no
+    /// normal is known, no row would hold them, or one of them touched often.
     fn deflect(&self, fast: &mut Fast, touch: &Touching) {
-        let inverse_mass = |k: usize| {
-            let line = self.bodies.line_of(fast.noted[k].slot);
-            self.bodies.lines[line].inverse_mass()
-        };
-        let of_a = touch.b.map_or(1.0, |b| {
-            let (a, b) = (inverse_mass(touch.a), inverse_mass(b));
+        let slots = [fast.noted[touch.a].slot, touch.other];
+        let inverse_mass = |slot: u32| self.bodies.lines[self.bodies.line_of(slot)].inverse_mass();
+        let of_a = touch.b.map_or(1.0, |_| {
+            let [a, b] = slots.map(inverse_mass);
             a / (a + b)
         });
-        let closing = touch.normal.map(|n| n * touch.against.dot(n).max(0.0));
-        fast.unboxed
-            .extend([Some(touch.a), touch.b].iter().flatten());
-        let a = fast.of(self, touch.a);
-        let slot = a.slot;
-        a.touched.get_or_insert(touch.other);
-        a.deflect(touch.wait, closing.map(|part| part * of_a));
-        if let Some(b) = touch.b {
-            let b = fast.of(self, b);
-            b.touched.get_or_insert(slot);
-            b.deflect(touch.wait, closing.map(|part| part * (of_a - 1.0)));
+        let slides = touch.touches.iter().all(|touches| *touches < SLIDES);
+        let normal = touch.normal.filter(|_| slides);
+        let closing = normal.map_or(touch.against, |n| n * touch.against.dot(n).max(0.0));
+        let rest = fast.left - touch.wait;
+        let mut shifts = [Vec2::ZERO; 2];
+        for (side, (k, part)) in [(Some(touch.a), of_a), (touch.b, of_a - 1.0)]
+            .into_iter()
+            .enumerate()
+        {
+            let Some(k) = k else { continue };
+            fast.unboxed.push(k);
+            let body = fast.of(self, k);
+            body.touched.get_or_insert(slots[1 - side]);
+            shifts[side] = body.deflect(touch.wait, closing * part) * -rest;
+        }
+        let pair = self.free_pair(slots);
+        fast.shifted.extend(pair.map(|lines| (lines, shifts)));
+    }
+
+    /// The other body of a free pair that touches, though not fast, has its share of what the first loses.
+    fn share(&self, fast: &mut Fast, touch: &mut Touching) {
+        let slots = [fast.noted[touch.a].slot, touch.other];
+        if fast.find(touch.other).is_none() && self.free_pair(slots).is_some() {
+            let line = &self.bodies.lines[self.bodies.line_of(touch.other)];
+            let from = (
+                line.d() - line.v() * fast.left,
+                line.turn() - line.w() * fast.left,
+            );
+            touch.b = Some(fast.push(FastBody {
+                slot: touch.other,
+                from,
+                turns: false,
+                deviates: true,
+                carried: false,
+            }));
         }
     }
 

@@ -151,7 +151,7 @@ impl Engine {
                 a: k,
                 b: moves,
                 other: theirs.body,
-                touches: [body.touches, moves.map_or(0, |other| fast.touches(other))],
+                touches: [body.touches, partner.map_or(0, |other| fast.touches(other))],
                 normal: normal.filter(|_| self.have_row(body.slot, theirs.body)),
                 against: body.motion.velocity - motion.velocity,
             });
@@ -195,10 +195,8 @@ impl Engine {
             for part in parts(piece_of_mine) {
                 let core = part.core(target, between);
                 let left = first.map_or(to, |first| first.0) - from;
-                // A way into what is touched already, deeper than a core lies.
-                let drives = |hit: &Impact| {
-                    body.carried && -hit.gap_rate * (to - from) > depth(piece_of_mine)
-                };
+                let deep = depth(piece_of_mine, body.carried);
+                let drives = |hit: &Impact| -hit.gap_rate * (to - from) > deep;
                 let met = match time_of_impact(&core, &own, target, &other, left) {
                     TimeOfImpact::Hit(hit) => (hit.time, Some(hit.normal)),
                     TimeOfImpact::Unresolved { safe_until } => (safe_until, None),

@@ -39,12 +39,12 @@ struct FreeRow {
 
 /// How a pair turns back.
 #[derive(Clone, Copy, Debug)]
-struct Turn {
-    lines: [u32; 2],
+pub(super) struct Turn {
+    pub(super) lines: [u32; 2],
     /// What it is to have more of angular momentum, in N·m·s.
-    moment: f64,
+    pub(super) moment: f64,
     /// The square of the greatest speed that B may have against A, in m²/s².
-    limit: f64,
+    pub(super) limit: f64,
 }
 
 impl FreePairs {
@@ -186,30 +186,9 @@ impl FreeRow {
     }
 }
 
-/// Gives back the angular momentum that shifts of the first of two free bodies each added. What no turn gives is lost: it may be that of
-/// a way at 1e5 m/s, and spins that gave it had 4e8 rad/s.
-pub(crate) fn turn_shifted(bodies: &mut Bodies, shifted: &[([u32; 2], Vec2)]) {
-    let turn = |&(lines, shift): &([u32; 2], Vec2)| {
-        let line = &bodies.lines[lines[0] as usize];
-        let added = shift.perp_dot(line.v()) / line.inverse_mass();
-        Turn {
-            lines,
-            moment: -added,
-            limit: 0.0,
-        }
-    };
-    let turns: Vec<Turn> = shifted.iter().map(turn).collect();
-    for turn in turns {
-        let _rest = turn_pair(bodies, &turn);
-        turn.lines
-            .into_iter()
-            .for_each(|line| bodies.note_change(line));
-    }
-}
-
 /// Turns the velocity of B against A so that both have the moment more. It is as long as before, or as what displaced them if that was
 /// faster and no turn is enough, and on which side of the line between both it points stays. What no turn gives, in N·m·s.
-fn turn_pair(bodies: &mut Bodies, turn: &Turn) -> f64 {
+pub(super) fn turn_pair(bodies: &mut Bodies, turn: &Turn) -> f64 {
     let [a, b] = turn.lines.map(|line| line as usize);
     let (first, second) = (&bodies.lines[a], &bodies.lines[b]);
     let (ma, mb) = (first.inverse_mass(), second.inverse_mass());

@@ -19,6 +19,7 @@ mod plain;
 mod renew;
 mod restitution;
 mod rotating;
+mod shifted;
 
 #[cfg(test)]
 mod tests;
@@ -32,7 +33,7 @@ pub(crate) use bounce_budget::Before;
 pub(crate) use colour::Colour;
 pub(crate) use deep::Deep;
 pub(crate) use extra_sweeps::ExtraSweeps;
-pub(crate) use free::{FreePairs, turn_shifted};
+pub(crate) use free::FreePairs;
 pub(crate) use graph::{Graph, HARD, Touched};
 pub(crate) use integrate::{correct, displace, velocity_before, warm_start};
 pub(crate) use kernel::{Pass, sweep};
@@ -41,6 +42,7 @@ pub(crate) use line::{Line, Quad};
 pub(crate) use renew::renew;
 pub(crate) use restitution::{Arrival, REST, arrivals, bounce};
 pub(crate) use rotating::{RotatingRows, Side};
+pub(crate) use shifted::turn_shifted;
 pub(crate) use transpose::{Numbers, Wide, any};
 pub(crate) use ways::Ways;
 pub(crate) use widest::widest;
