@@ -12,10 +12,11 @@ use carom_math::trig;
 /// e^(−z), φ₁(z) and φ₂(z) for z ≥ 0, right to rounding.
 pub(crate) fn decays(z: f64) -> (f64, f64, f64) {
     if z < 0.5 {
-        // φ₂ = Σ (−z)^n/(n + 2)!: 14 terms leave 1e-18.
+        // φ₂ = Σ (−z)^n/(n + 2)!: 14 terms leave 1e-18, and 8 of them 1e-21 for z below 1/64.
+        let terms = if z < 1.0 / 64.0 { 8 } else { 14 };
         let mut second = 0.0;
-        for n in (0..14_i32).rev() {
-            second = 1.0 - z * second / (f64::from(n) + 3.0);
+        for n in (0..terms).rev() {
+            second = 1.0 - z * second * INVERSE[n + 3];
         }
         let second = 0.5 * second;
         let first = 1.0 - z * second;
@@ -33,23 +34,35 @@ pub(crate) fn damped(v: f64, a: f64, c: f64, t: f64) -> (f64, f64) {
     ((v * first + a * t * second) * t, v * decay + a * t * first)
 }
 
+/// 1/n.
+const INVERSE: [f64; 34] = {
+    let mut inverse = [0.0; 34];
+    let mut n = 1;
+    while n < inverse.len() {
+        inverse[n] = 1.0 / n as f64;
+        n += 1;
+    }
+    inverse
+};
+
 /// m₀ … m₉ of z ≥ 0, right to rounding: `m_n(z) = n ∫₀¹ θ^(n−1) e^(−(1−θ) z) dθ = n! φ_n(z)`, and m₀ = e^(−z).
 ///
 /// They are what damping leaves of an acceleration t^(n−1), and all 1 where there is none: `m_n = 1 − z m_(n+1)/(n + 1)`.
 pub(crate) fn left_by_damping(z: f64) -> [f64; 10] {
     /// From here on up the recurrence is stable, and below it down.
     const TURNS: f64 = 4.0;
-    /// From m₃₃ = 1 down to m₉ the error falls by 4²⁴ 9!/33! = 1e-17.
-    const FIRST: i32 = 33;
+    /// From m₃₃ = 1 down to m₉ the error falls by 4²⁴ 9!/33! = 1e-17; from m₁₅ by 4e-18 for z below 1/64, as in most pieces of a flight.
+    const FIRST: [(f64, usize); 2] = [(1.0 / 64.0, 15), (TURNS, 33)];
     let mut left = [0.0; 10];
     left[0] = trig::exp(-z);
-    if z < TURNS {
+    if let Some((_, first)) = FIRST.iter().find(|(below, _)| z < *below) {
         let mut next = 1.0;
-        for n in (1..FIRST).rev() {
-            next = 1.0 - z * next / f64::from(n + 1);
-            if let Some(place) = left.get_mut(n.unsigned_abs() as usize) {
-                *place = next;
-            }
+        for n in (10..*first).rev() {
+            next = 1.0 - z * next * INVERSE[n + 1];
+        }
+        for n in (1..10).rev() {
+            next = 1.0 - z * next * INVERSE[n + 1];
+            left[n] = next;
         }
         return left;
     }
@@ -96,6 +109,8 @@ mod tests {
         assert_eq!(left_by_damping(0.0), [1.0; 10]);
         for z in [
             1e-9,
+            0.015_624_9,
+            0.015_625,
             0.3,
             1.0,
             3.999_999_9,
