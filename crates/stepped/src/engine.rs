@@ -18,6 +18,7 @@ use crate::rows::{
 };
 use crate::sleep::Islands;
 use crate::update::{create, met_asleep, update};
+use crate::whole::PutPairs;
 use crate::{EngineError, Mixed, PairRules, Settings};
 
 /// Bodies in contact, moved one sub-step after the other.
@@ -319,9 +320,10 @@ impl Engine {
     /// Contacts of moved bodies anew, then those that came, then without those that went.
     fn update_contacts(&mut self, rules: &dyn PairRules) {
         self.parted.clear();
+        let mut put = PutPairs::of(&self.graph);
         let least = update(
             (self.level, &self.law),
-            (&mut self.graph, &mut self.rotating),
+            (&mut self.graph, &mut self.rotating, &mut put),
             &mut self.bodies,
             &self.pieces,
             &self.settings,
@@ -337,9 +339,9 @@ impl Engine {
             (self.level, &self.law),
             (&mut self.graph, &mut self.rotating),
             &mut self.bodies,
-            &self.pieces,
-            &self.settings,
-            (&mut self.known, &self.broad.found, &self.deep),
+            (&self.pieces, &self.settings),
+            (&mut self.known, &self.broad.found),
+            (&self.deep, &mut put),
             rules,
         );
         self.least_found = self.least_found.min(least);

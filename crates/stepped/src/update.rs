@@ -13,7 +13,7 @@ use crate::rows::{
     Block, Cold, Colour, Deep, Graph, HARD, LANES, Law, OPEN, Pressed, RotatingRows, Side, Touched,
     renew,
 };
-use crate::whole::WholePairs;
+use crate::whole::PutPairs;
 use crate::{PairRules, Settings};
 
 /// A kept contact may be so many margins wide, so that pairs do not come and go each tick.
@@ -26,7 +26,7 @@ const TURNED_OVER: f64 = -0.5;
 /// Computes the contacts of moved bodies anew; those that parted are added to `parted`. The least gap of them, in m.
 pub(crate) fn update(
     (level, law): (Level, &Law),
-    (graph, rotating): (&mut Graph, &mut RotatingRows),
+    (graph, rotating, put): (&mut Graph, &mut RotatingRows, &mut PutPairs),
     bodies: &mut Bodies,
     pieces: &Pieces,
     settings: &Settings,
@@ -37,7 +37,6 @@ pub(crate) fn update(
     graph.suspects.clear();
     graph.suspects.cover(bodies.lines.len());
     let displaced = graph.displaced(bodies);
-    let mut wholes = WholePairs::of(graph);
     let (colours, suspects) = graph.awake_and_suspects();
     // Rows are renewed, and all else of the bodies stays.
     let mut start = core::mem::take(&mut bodies.start);
@@ -69,7 +68,7 @@ pub(crate) fn update(
             manifolds(&scene, KEPT, pairs, &mut own);
             &mut own
         };
-        let whole = wholes.renew(&scene, (block, cold), moved, found);
+        let whole = put.renew(&scene, (block, cold), moved, found);
         let near = moved & found.near;
         for lane in lanes(near & !whole) {
             keep_side(&scene, block, cold.pieces[lane], lane, found);
@@ -226,6 +225,8 @@ fn manifolds(
     for (lane, pair) in pairs.filter(|(lane, _)| eight.used >> lane & 1 == 0) {
         if let Some(manifold) = scene.contact(pair.pieces, factor) {
             found.set(lane, &manifold);
+        } else {
+            found.cut |= u8::from(scene.overlaps_across_cuts(pair.pieces)) << lane;
         }
     }
 }
@@ -293,13 +294,12 @@ pub(crate) fn create(
     (level, law): (Level, &Law),
     (graph, rotating): (&mut Graph, &mut RotatingRows),
     bodies: &mut Bodies,
-    pieces: &Pieces,
-    settings: &Settings,
-    (known, candidates, deep): (&mut Pairs, &[[u32; 2]], &Deep),
+    (pieces, settings): (&Pieces, &Settings),
+    (known, candidates): (&mut Pairs, &[[u32; 2]]),
+    (deep, put): (&Deep, &mut PutPairs),
     rules: &dyn PairRules,
 ) -> f64 {
     let mut deep = DeepCounts::of(deep, graph, bodies);
-    let wholes = WholePairs::of(graph);
     let scene = Scene {
         level,
         bodies,
@@ -331,7 +331,7 @@ pub(crate) fn create(
             }
         }
     }
-    wholes.add(&scene, rules, cut, &mut fresh);
+    put.add(&scene, rules, cut, &mut fresh);
     for (record, waits) in bodies.records.iter_mut().zip(waits) {
         if waits {
             // It was put there until then.
@@ -354,7 +354,13 @@ pub(crate) fn create(
         let [a, b] = pair.map(|piece| &pieces.list[piece as usize]);
         let ends = [a.body, b.body];
         let deepest = deepest(law, pieces, pair);
-        let id = graph.insert(bodies, ends, pair, (&manifold, deepest, is_whole), surface);
+        let by = if is_whole || put.contains(bodies, ends) {
+            Pressed::ByCaller
+        } else {
+            Pressed::New
+        };
+        let how = (&manifold, deepest, (by, is_whole));
+        let id = graph.insert(bodies, ends, pair, how, surface);
         let [first, second] = graph.gaps(bodies, id);
         least = least.min(first).min(second);
         known.insert(pair, id);

@@ -9,6 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use carom_math::Vec2;
 
 use crate::PairRules;
+use crate::bodies::Bodies;
 use crate::narrow::{Found, Scene};
 use crate::rows::{Block, Cold, Graph};
 use crate::update::{Fresh, Pair, lanes, place};
@@ -18,12 +19,26 @@ use crate::update::{Fresh, Pair, lanes, place};
 /// place but for at most 0.08 m.
 const LEADS: f64 = 0.5;
 
-/// Slots of two bodies each that have a row of whole shapes.
-pub(crate) struct WholePairs(BTreeSet<[u32; 2]>);
+/// Rows of pieces lead the way out if one of them goes at least so far of it. 0: of 8,000 random rings one more stays where it was put.
+const FAR: f64 = 0.5;
 
-impl WholePairs {
+/// Slots of two bodies each that were put into each other and are not apart.
+pub(crate) struct PutPairs {
+    put: BTreeSet<[u32; 2]>,
+    /// Those that have a row of whole shapes.
+    whole: BTreeSet<[u32; 2]>,
+}
+
+impl PutPairs {
     pub(crate) fn of(graph: &Graph) -> Self {
-        Self(graph.whole().collect())
+        Self {
+            put: graph.put().collect(),
+            whole: graph.whole().collect(),
+        }
+    }
+
+    pub(crate) fn contains(&self, bodies: &Bodies, slots: [u32; 2]) -> bool {
+        bodies.were_placed(slots) || self.put.contains(&slots)
     }
 
     /// Rows of whole shapes go on as such, and no piece of their bodies has another one; rows of pieces of concave shapes that were put
@@ -36,22 +51,28 @@ impl WholePairs {
         found: &mut Found,
     ) -> u8 {
         let known = moved & cold.whole;
-        let asked = if self.0.is_empty() { cold.put() } else { !0 };
-        for lane in lanes(moved & found.near & asked & !known) {
+        let asked = if self.put.is_empty() {
+            0
+        } else {
+            moved & !known
+        };
+        for lane in lanes(asked & (found.near | found.cut)) {
             let (pair, bit) = (cold.pieces[lane], 1 << lane);
             let slots = scene.pieces.bodies(pair);
             let [a, b] =
                 [block.a[lane], block.b[lane]].map(|line| scene.bodies.lines[line as usize].d());
-            if self.0.contains(&slots) {
+            let is_near = found.near & bit != 0;
+            if self.whole.contains(&slots) {
                 found.near &= !bit;
-            } else if cold.was_put(lane)
-                && scene.is_entangled(pair, found.gap(lane, b - a))
+            } else if self.put.contains(&slots)
+                && (!is_near || scene.is_entangled(pair, found.gap(lane, b - a)))
                 && let Some(way) = scene.way_out(pair)
-                && !leads(found.rows.normal(lane), way.normal)
+                && (!is_near || !leads(found.rows.normal(lane), way.normal))
+                && scene.is_entangled(pair, way.gap())
             {
                 found.set(lane, &way);
                 cold.whole |= bit;
-                self.0.insert(slots);
+                self.whole.insert(slots);
             }
         }
         for lane in lanes(known) {
@@ -75,35 +96,39 @@ impl WholePairs {
     /// Gives bodies that were put into each other one row of their whole shapes instead of all others, if some pieces of theirs, `cut`,
     /// have none though they overlap, or one of a concave shape is deeper than a margin.
     pub(crate) fn add(
-        mut self,
+        &mut self,
         scene: &Scene<'_>,
         rules: &dyn PairRules,
         mut cut: Vec<Pair>,
         fresh: &mut Vec<Fresh>,
     ) {
         let pieces = scene.pieces;
-        let was_put = |pair: &Pair| scene.bodies.were_placed(pair.slots(pieces));
+        let was_put = |pair: &Pair| self.contains(scene.bodies, pair.slots(pieces));
         cut.retain(was_put);
         let entangled = fresh.iter().filter(|fresh| {
             was_put(&fresh.pair) && scene.is_entangled(fresh.pair.pieces, fresh.manifold.gap())
         });
         cut.extend(entangled.map(|fresh| fresh.pair));
         cut.retain(|pair| {
-            !self.0.contains(&pair.slots(pieces)) && pieces.surface(pair.pieces, rules).is_some()
+            !self.whole.contains(&pair.slots(pieces))
+                && pieces.surface(pair.pieces, rules).is_some()
         });
         cut.sort_by_cached_key(|pair| pair.pieces.map(|piece| place(scene.bodies, pieces, piece)));
         cut.dedup_by_key(|pair| pair.slots(pieces));
-        let mut normals: BTreeMap<[u32; 2], Vec<Vec2>> = BTreeMap::new();
+        let mut rows: BTreeMap<[u32; 2], Vec<(Vec2, f64)>> = BTreeMap::new();
         if !cut.is_empty() {
             for fresh in fresh.iter().filter(|fresh| fresh.manifold.gap() < 0.0) {
-                let of_bodies = normals.entry(fresh.pair.slots(pieces)).or_default();
-                of_bodies.push(fresh.manifold.normal);
+                let of_bodies = rows.entry(fresh.pair.slots(pieces)).or_default();
+                of_bodies.push((fresh.manifold.normal, fresh.manifold.gap()));
             }
         }
         let way_out = |pair: Pair| {
             let manifold = scene.way_out(pair.pieces)?;
-            let known = normals.get(&pair.slots(pieces));
-            let is_known = known.is_some_and(|all| all.iter().all(|n| leads(*n, manifold.normal)));
+            let known = rows.get(&pair.slots(pieces));
+            let is_known = known.is_some_and(|all| {
+                all.iter().all(|(n, _)| leads(*n, manifold.normal))
+                    && all.iter().any(|(_, gap)| *gap < FAR * manifold.gap())
+            });
             (!is_known).then_some(Fresh {
                 pair,
                 manifold,
@@ -112,9 +137,9 @@ impl WholePairs {
             })
         };
         let new: Vec<Fresh> = cut.into_iter().filter_map(way_out).collect();
-        self.0
+        self.whole
             .extend(new.iter().map(|fresh| fresh.pair.slots(pieces)));
-        fresh.retain(|fresh| !self.0.contains(&fresh.pair.slots(pieces)));
+        fresh.retain(|fresh| !self.whole.contains(&fresh.pair.slots(pieces)));
         fresh.extend(new);
     }
 }

@@ -112,6 +112,7 @@ impl Found {
         self.short |= bit(other.short);
         self.slants |= bit(other.slants);
         self.seam |= bit(other.seam);
+        self.cut |= bit(other.cut);
         self.of_a |= bit(other.of_a);
         self.of_b |= bit(other.of_b);
     }

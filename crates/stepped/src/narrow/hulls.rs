@@ -46,3 +46,19 @@ pub(crate) fn collide_any(a: (&Piece, Pose), b: (&Piece, Pose), limit: f64) -> O
         }
     }
 }
+
+/// Whether two pieces, of which a cut bounds one, are in each other by more than a margin as convex shapes.
+pub(super) fn overlaps_across_cuts(a: (&Piece, Pose), b: (&Piece, Pose), margin: f64) -> bool {
+    let ((a, pose_a), (b, pose_b)) = (a, b);
+    let hulls = [a.hull(), b.hull()];
+    if hulls.iter().all(|hull| hull.boundary.is_none()) || hulls.iter().any(Hull::is_half_plane) {
+        return false;
+    }
+    let [first, second] = hulls.map(|hull| Hull {
+        boundary: None,
+        ..hull
+    });
+    let found = collide_within(&first, &second, pose_b.seen_from(pose_a), 0.0);
+    let deepest = a.rounding + b.rounding - margin;
+    found.points.iter().any(|point| point.separation < deepest)
+}

@@ -5,6 +5,7 @@ use carom_geometry::Shape;
 use carom_math::Vec2;
 use fearless_simd::Level;
 
+use super::hulls::overlaps_across_cuts;
 use super::{Eight, Found, Manifold, collide_any, collide_eight};
 use crate::Settings;
 use crate::bodies::Bodies;
@@ -61,6 +62,15 @@ impl Scene<'_> {
         let gone = found.normal.dot(meeting.gone);
         found.gaps = found.gaps.map(|gap| gap - gone);
         (found.gap() < margin + self.closes(pair, &found)).then_some(found)
+    }
+
+    /// Whether two pieces without a contact, of which one has no outline, are in each other by more than a margin: across cuts.
+    pub(crate) fn overlaps_across_cuts(&self, pair: [u32; 2]) -> bool {
+        let margin = self.margin(pair);
+        let [a, b] = pair.map(|piece| &self.pieces.list[piece as usize]);
+        let [pose_a, mut pose_b] = [a.body, b.body].map(|slot| self.bodies.base_of(slot));
+        pose_b.position += self.meeting(pair).gone;
+        overlaps_across_cuts((a, pose_a), (b, pose_b), margin)
     }
 
     /// Whether a piece of a concave shape is in another one by more than a margin. Out of a half-plane all go one way.

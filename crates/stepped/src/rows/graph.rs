@@ -164,7 +164,7 @@ impl Graph {
         bodies: &mut Bodies,
         ends: [u32; 2],
         pieces: [u32; 2],
-        (manifold, deepest, is_whole): (&Manifold, f64, bool),
+        (manifold, deepest, (by, is_whole)): (&Manifold, f64, (Pressed, bool)),
         surface: Surface,
     ) -> u32 {
         let id = self.free.pop().unwrap_or(number(self.contacts.len()));
@@ -191,7 +191,7 @@ impl Graph {
         } else {
             self.contacts[id as usize] = contact;
         }
-        self.colour(bodies, id, (manifold, deepest, is_whole), surface);
+        self.colour(bodies, id, (manifold, deepest, (by, is_whole)), surface);
         if Self::is_unequal(bodies, ends) {
             self.unequal.push(id);
         }
@@ -203,7 +203,7 @@ impl Graph {
         &mut self,
         bodies: &mut Bodies,
         id: u32,
-        (manifold, deepest, is_whole): (&Manifold, f64, bool),
+        (manifold, deepest, (by, is_whole)): (&Manifold, f64, (Pressed, bool)),
         surface: Surface,
     ) {
         let contact = &mut self.contacts[id as usize];
@@ -231,11 +231,6 @@ impl Graph {
         block.mu[lane] = surface.friction;
         block.put(lane, manifold);
         let records = ends.map(|slot| &bodies.records[slot as usize]);
-        let by = if bodies.were_placed(ends) || is_whole {
-            Pressed::ByCaller
-        } else {
-            Pressed::New
-        };
         let are_free = records.iter().all(|record| bodies.is_free(record.line));
         let cold = &mut colour.cold[k];
         if cold.note_depth((block, lane), &bodies.lines, deepest, (by, are_free)) {

@@ -69,14 +69,22 @@ impl Graph {
         cold.gaps(block, lane, &bodies.lines)
     }
 
-    /// Slots of the bodies of each row of whole shapes.
+    /// Slots of the bodies of each row of whole shapes: all of them are deep.
     pub(crate) fn whole(&self) -> impl Iterator<Item = [u32; 2]> {
-        // All of them are deep.
-        let whole = self.deep.iter().filter(|id| {
-            self.cold(**id)
-                .is_some_and(|(cold, lane)| cold.whole >> lane & 1 == 1)
-        });
-        whole.map(|id| self.contacts[*id as usize].bodies)
+        self.deep_with(|cold| cold.whole)
+    }
+
+    /// Slots of bodies that were put into each other and are not apart.
+    pub(crate) fn put(&self) -> impl Iterator<Item = [u32; 2]> {
+        self.deep_with(Cold::put)
+    }
+
+    /// Slots of the bodies of each deep contact that has a bit.
+    fn deep_with(&self, bits: fn(&Cold) -> u8) -> impl Iterator<Item = [u32; 2]> {
+        let has = move |(cold, lane): (&Cold, usize)| bits(cold) >> lane & 1 == 1;
+        let deep = self.deep.iter();
+        let deep = deep.filter(move |id| self.cold(**id).is_some_and(has));
+        deep.map(|id| self.contacts[*id as usize].bodies)
     }
 
     /// Both points of a contact, midway between the surfaces, in m.
