@@ -12,6 +12,7 @@ pub mod flights;
 pub mod gas;
 pub mod scenes;
 pub mod scripts;
+pub mod thrown_together;
 
 use checks::depth;
 

@@ -263,7 +263,10 @@ pub(crate) fn met_asleep(
         // What carries a body at rest goes on to.
         let pair = in_order(bodies, pieces, pair);
         let near = |found: &Manifold| scene.gap_ahead(pair, found, !rests) < seen;
-        let met = |pair| scene.contact(pair, 1.0).is_some_and(|found| near(&found));
+        let met = |pair| match scene.contact(pair, 1.0) {
+            Some(found) => near(&found),
+            None => bodies.were_placed(slots) && scene.overlaps_across_cuts(pair),
+        };
         if pieces.surface(pair, rules).is_some() && met(pair) {
             islands.push(island);
         }

@@ -64,7 +64,7 @@ impl Scene<'_> {
         (found.gap() < margin + self.closes(pair, &found)).then_some(found)
     }
 
-    /// Whether two pieces without a contact, of which one has no outline, are in each other by more than a margin: across cuts.
+    /// Whether two pieces without a contact are in each other by more than a margin: across cuts.
     pub(crate) fn overlaps_across_cuts(&self, pair: [u32; 2]) -> bool {
         let margin = self.margin(pair);
         let [a, b] = pair.map(|piece| &self.pieces.list[piece as usize]);

@@ -272,6 +272,35 @@ fn what_is_put_over_a_random_ring_comes_out() {
     assert!(stay.is_empty(), "{} stay: {stay:?}", stay.len());
 }
 
+/// What overlaps a sleeper across cuts alone has no row with any of its pieces: it did not wake, and nothing was told.
+#[test]
+fn what_is_put_into_a_sleeping_star_wakes_it() {
+    let (star, disc): (Shape, Shape) = (star(7).into(), Circle::new(0.3).unwrap().into());
+    let mut engine = Engine::new(Settings {
+        gravity: Vec2::ZERO,
+        ..Settings::default()
+    })
+    .unwrap();
+    let put = |engine: &mut Engine, shape: &Shape| {
+        let body = BodyInput::dynamic(1.0, 0.1);
+        engine
+            .insert(body, &[PieceInput::new(shape.clone())])
+            .unwrap()
+    };
+    let sleeper = put(&mut engine, &star);
+    for _ in 0..120 {
+        engine.tick();
+    }
+    assert!(engine.is_asleep(sleeper).unwrap(), "it is at rest");
+    let other = put(&mut engine, &disc);
+    for _ in 0..60 {
+        engine.tick();
+    }
+    let [a, b] = [sleeper, other].map(|id| engine.pose(id).unwrap());
+    let push = shape_push(&star, &disc, b.seen_from(a)).map_or(0.0, Vec2::length);
+    assert!(push < 5e-3, "{push} m");
+}
+
 /// Piece by piece some stayed 0.19 m deep in each other. Other thresholds of what leads the way out leave up to 0.08 m.
 #[test]
 fn concave_bodies_at_one_place_part() {
