@@ -61,6 +61,7 @@ mod an_impulse_beyond_the_largest_speed_is_refused;
 mod an_overlap_within_a_sub_step_is_told;
 mod begins_and_ends_of_touch_take_turns;
 mod driven_bodies_do_not_hurl_what_they_squeeze;
+mod elastic_blocks_do_not_stop;
 mod few_bodies_that_rattle_join_the_engine;
 mod how_a_heap_is_cut_changes_nothing;
 mod momentum_is_kept_within_a_sub_step;

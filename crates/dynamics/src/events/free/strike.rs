@@ -21,7 +21,7 @@ const BUDGET: f64 = 256.0;
 /// has used it up within a second.
 const EXACT_BUDGET: f64 = 4096.0;
 
-/// Least that an impact with a loss spends in [`Mode::Exact`]; one without, on what is not driven, spends nothing.
+/// Least that an impact with a loss spends in [`Mode::Exact`].
 const EXACT_PRICE: f64 = 1.0 / 64.0;
 
 /// Speeds of the ends of a flat landing that differ by less, as a fraction, are one: roundings of a spin.
@@ -290,7 +290,8 @@ impl World {
         })
     }
 
-    /// Counts an impact; whether one of the bodies has used up those of the present tick.
+    /// Counts an impact; whether one of the bodies has used up those of the present tick. One without a loss, on what is not driven,
+    /// spends nothing: no stop is the limit of these.
     pub(super) fn outruns(
         &mut self,
         impact: &Foreseen,
@@ -301,8 +302,10 @@ impl World {
         let keeps = material.restitution >= 1.0
             && material.friction == 0.0
             && !self.is_driven(impact.bodies, time);
+        if keeps {
+            return false;
+        }
         let (price, budget) = match self.settings.mode {
-            Mode::Exact if keeps => return false,
             Mode::Exact => (price(material).max(EXACT_PRICE), EXACT_BUDGET),
             _ => (price(material), BUDGET),
         };
