@@ -45,23 +45,14 @@ impl Broad {
 
     /// Notes which pieces a search is about, and which of them left their fat boxes.
     fn ask(&mut self, bodies: &Bodies, pieces: &Pieces) {
-        let Self {
-            lists,
-            asked,
-            by_standing,
-            by_moving,
-            ..
-        } = self;
+        let Self { lists, asked, .. } = self;
         let mut ask = |piece: u32| {
             let (k, state) = (piece as usize, lists.states[piece as usize]);
             if state & KNOWN != 0 && state & ASKED == 0 {
                 lists.states[piece as usize] |= ASKED;
                 asked.push(piece);
-                if is_mover(state) {
-                    (by_standing[k], by_moving[k]) = (false, false);
-                    if !lists.fat[k].contains(pieces.boxes[k]) {
-                        lists.enter(piece);
-                    }
+                if is_mover(state) && !lists.fat[k].contains(pieces.boxes[k]) {
+                    lists.enter(piece);
                 }
             }
         };
@@ -198,8 +189,6 @@ impl Broad {
             standing,
             lists,
             found,
-            by_standing,
-            by_moving,
             ..
         } = self;
         let (states, boxes, discs) = (&lists.states[..], &pieces.boxes[..], &pieces.discs[..]);
@@ -253,18 +242,9 @@ impl Broad {
         }
         let late = lists.apart.iter().copied();
         late.filter(|pair| is_asked(*pair, KNOWN)).for_each(note);
-        for pair in &*found {
-            let [a, b] = pair.map(|piece| piece as usize);
-            if states[b] & STANDS != 0 {
-                by_standing[a] = true;
-            } else {
-                (by_moving[a], by_moving[b]) = (true, true);
-            }
-        }
         for &endless in &self.endless {
             let mut note = |piece: u32| {
                 if !pieces.is_beyond_plane(piece, endless, tick) {
-                    by_standing[piece as usize] = true;
                     found.push([piece, endless]);
                 }
             };

@@ -31,10 +31,6 @@ pub(crate) struct Broad {
     woken: Vec<u32>,
     /// Movers that came or got other boxes since the last tick, and that a caller has not looked at.
     news: Vec<u32>,
-    /// Whether the last search of a piece found something that stands, by its number: true before the first one.
-    by_standing: Vec<bool>,
-    /// The same of what moves.
-    by_moving: Vec<bool>,
     /// Pairs of pieces with overlapping boxes, one of which moved.
     pub(crate) found: Vec<[u32; 2]>,
     /// Pieces that a search is about: scratch.
@@ -52,8 +48,6 @@ impl Broad {
             arrived: Vec::new(),
             woken: Vec::new(),
             news: Vec::new(),
-            by_standing: Vec::new(),
-            by_moving: Vec::new(),
             found: Vec::new(),
             asked: Vec::new(),
         }
@@ -79,24 +73,6 @@ impl Broad {
     pub(crate) fn enter(&mut self, piece: u32) {
         self.lists.enter(piece);
         self.news.push(piece);
-        let k = piece as usize;
-        for by in [&mut self.by_standing, &mut self.by_moving] {
-            if by.len() <= k {
-                by.resize(k + 1, true);
-            }
-            by[k] = true;
-        }
-    }
-
-    /// Whether something may stand where a piece is until the tick ends, unless it goes otherwise than was foreseen.
-    pub(crate) fn is_by_standing(&self, piece: u32) -> bool {
-        // What arrived since has asked for no piece yet.
-        !self.arrived.is_empty() || self.by_standing[piece as usize]
-    }
-
-    /// Whether another body may move where a piece is until the tick ends, unless one of them goes otherwise than was foreseen.
-    pub(crate) fn is_by_moving(&self, piece: u32) -> bool {
-        self.by_moving[piece as usize]
     }
 
     /// A piece that stood moves from now on, where it stood.

@@ -172,19 +172,15 @@ impl Engine {
         let mut noted = core::mem::take(&mut self.fast_bodies);
         noted.retain(|body| self.is_searched(body));
         noted.sort_unstable_by_key(|body| body.slot);
-        let leaves: Vec<bool> = (noted.iter())
-            .map(|body| self.leaves_boxes(body, left))
-            .collect();
-        let may_touch = |(body, leaves): (&FastBody, &bool)| *leaves || self.may_touch(body);
-        let may_touch: Vec<bool> = noted.iter().zip(&leaves).map(may_touch).collect();
-        if !may_touch.contains(&true) {
+        if noted.is_empty() {
             return Vec::new();
         }
-        let leaving: Vec<usize> = (0..noted.len()).filter(|k| leaves[*k]).collect();
-        let is_unboxed = |k: &usize| leaves[*k] || noted[*k].is_unforeseen();
+        let leaving: Vec<usize> = (0..noted.len())
+            .filter(|k| self.leaves_boxes(&noted[*k], left))
+            .collect();
+        let is_unboxed = |k: &usize| noted[*k].is_unforeseen() || leaving.binary_search(k).is_ok();
         let mut fast = Fast {
             moving: vec![None; noted.len()],
-            searched: may_touch,
             unboxed: (0..noted.len()).filter(is_unboxed).collect(),
             in_order: noted.len(),
             noted,
@@ -192,13 +188,8 @@ impl Engine {
             shifted: Vec::new(),
         };
         let mut touches = BinaryHeap::new();
-        for &k in &leaving {
-            self.note_beside(&mut fast, k);
-        }
         for k in 0..fast.noted.len() {
-            if fast.searched[k] {
-                self.search(&mut fast, k, (0.0, left), &leaving, rules, &mut touches);
-            }
+            self.search(&mut fast, k, (0.0, left), &leaving, rules, &mut touches);
         }
         while let Some(mut touch) = touches.pop() {
             let ends = [Some(touch.a), fast.find(touch.other)];
@@ -379,26 +370,6 @@ impl Engine {
         let (from, velocity) = self.way(body, left);
         let way = way_box(from, velocity, left);
         !boxes.fold(Aabb::EMPTY, Aabb::union).contains(way)
-    }
-
-    /// Whether a search for the touches of a fast body that stays in its boxes may find something.
-    fn may_touch(&self, body: &FastBody) -> bool {
-        let record = &self.bodies.records[body.slot as usize];
-        let mut pieces = record.pieces();
-        let beside = |piece: u32| {
-            self.broad.is_by_standing(piece) || body.turns && self.broad.is_by_moving(piece)
-        };
-        body.deviates || pieces.any(beside)
-    }
-
-    /// Fast bodies beside one that leaves its boxes may touch it.
-    fn note_beside(&self, fast: &mut Fast, leaving: usize) {
-        let bounds = fast.bounds(self, leaving, fast.left);
-        self.broad.movers_in(&self.pieces, bounds, |piece| {
-            if let Some(beside) = fast.find(self.pieces.list[piece as usize].body) {
-                fast.searched[beside] = true;
-            }
-        });
     }
 
     /// Where a fast body came from `left` seconds before, and its velocity.

@@ -54,8 +54,6 @@ pub(super) struct Fast {
     /// By slot, in order.
     pub(super) noted: Vec<FastBody>,
     pub(super) moving: Vec<Option<Moving>>,
-    /// Which of them are searched from.
-    pub(super) searched: Vec<bool>,
     /// Those that may be where no box of the tick is: they leave theirs, deviate, or touched something.
     pub(super) unboxed: Vec<usize>,
     /// Seconds that the motions last.
@@ -82,7 +80,6 @@ impl Fast {
     pub(super) fn push(&mut self, body: FastBody) -> usize {
         self.noted.push(body);
         self.moving.push(None);
-        self.searched.push(true);
         self.noted.len() - 1
     }
 

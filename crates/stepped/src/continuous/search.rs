@@ -45,9 +45,7 @@ impl Engine {
             let partner = fast.find(slot);
             // A pair of which both search among moving bodies is searched once.
             let earlier = self.bodies.records[slot as usize].birth < body.birth;
-            let again = partner.is_some_and(|other| {
-                earlier && fast.noted[other].is_unforeseen() && fast.searched[other]
-            });
+            let again = partner.is_some_and(|other| earlier && fast.noted[other].is_unforeseen());
             if slot != body.slot && !again {
                 self.search_piece(fast, (k, partner), piece, span, rules, touches);
             }
