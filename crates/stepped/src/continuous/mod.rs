@@ -31,9 +31,6 @@ const SHORT: f64 = 1e-7;
 /// A body that goes no farther than this part of its way hangs.
 const HANGS: f64 = 0.125;
 
-/// A body that touches more often within a sub-step goes on as one with what it touches.
-const SLIDES: u8 = 2;
-
 /// The motion of a fast body through the rest of a sub-step.
 #[derive(Clone, Debug)]
 pub(crate) struct FastBody {
@@ -264,7 +261,7 @@ impl Engine {
     }
 
     /// Both bodies go on without what closes of their motions, which they share as an impact without restitution does; as one if no
-    /// normal is known, no row would hold them, or one of them touched often.
+    /// normal is known, or no row would hold them.
     fn deflect(&self, fast: &mut Fast, touch: &Touching) {
         let slots = [fast.noted[touch.a].slot, touch.other];
         let inverse_mass = |slot: u32| self.bodies.lines[self.bodies.line_of(slot)].inverse_mass();
@@ -272,9 +269,9 @@ impl Engine {
             let [a, b] = slots.map(inverse_mass);
             a / (a + b)
         });
-        let slides = touch.touches.iter().all(|touches| *touches < SLIDES);
-        let normal = touch.normal.filter(|_| slides);
-        let closing = normal.map_or(touch.against, |n| n * touch.against.dot(n).max(0.0));
+        let closing = touch
+            .normal
+            .map_or(touch.against, |n| n * touch.against.dot(n).max(0.0));
         let rest = fast.left - touch.wait;
         let mut shifts = [Vec2::ZERO; 2];
         for (side, (k, part)) in [(Some(touch.a), of_a), (touch.b, of_a - 1.0)]

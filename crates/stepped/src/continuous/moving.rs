@@ -8,7 +8,7 @@ use super::{FastBody, way_box};
 use crate::Engine;
 
 /// A body that touches so often within a sub-step is stopped there.
-const MOST: u8 = 8;
+const MOST: u8 = 3;
 
 /// The motion of a fast body during the search.
 #[derive(Clone, Copy)]
