@@ -225,8 +225,6 @@ fn manifolds(
     for (lane, pair) in pairs.filter(|(lane, _)| eight.used >> lane & 1 == 0) {
         if let Some(manifold) = scene.contact(pair.pieces, factor) {
             found.set(lane, &manifold);
-        } else {
-            found.cut |= u8::from(scene.overlaps_across_cuts(pair.pieces)) << lane;
         }
     }
 }
@@ -319,13 +317,13 @@ pub(crate) fn create(
     let many = take_many(bodies, pieces, &mut news);
     let (mut fresh, mut cut) = (Vec::new(), Vec::new());
     for eight in news.chunks(LANES) {
-        add_near(&scene, eight, &mut fresh, &mut cut);
+        add_near(&scene, put, eight, (&mut fresh, &mut cut));
     }
     for eight in many.chunks(LANES) {
         let asks = |pair: &&Pair| deep.asks(pair.slots(pieces), &mut waits);
         let eight: Vec<Pair> = eight.iter().filter(asks).copied().collect();
         let before = fresh.len();
-        add_near(&scene, &eight, &mut fresh, &mut cut);
+        add_near(&scene, put, &eight, (&mut fresh, &mut cut));
         for Fresh { pair, manifold, .. } in &fresh[before..] {
             if manifold.gap() < deepest(law, pieces, pair.pieces)
                 && pieces.surface(pair.pieces, rules).is_some()
@@ -385,11 +383,24 @@ pub(crate) fn create(
     least
 }
 
-/// Adds those of at most eight pairs that are near enough, with their manifolds, and those that overlap across cuts alone.
-fn add_near(scene: &Scene<'_>, news: &[Pair], fresh: &mut Vec<Fresh>, cut: &mut Vec<Pair>) {
+/// Adds those of at most eight pairs that are near enough, with their manifolds, and those that were put into each other and overlap
+/// across cuts alone.
+fn add_near(
+    scene: &Scene<'_>,
+    put: &PutPairs,
+    news: &[Pair],
+    (fresh, cut): (&mut Vec<Fresh>, &mut Vec<Pair>),
+) {
     let mut found = Found::NONE;
     manifolds(scene, 1.0, (0..).zip(news.iter().copied()), &mut found);
-    cut.extend(lanes(found.cut).map(|lane| news[lane]));
+    let apart = news
+        .iter()
+        .zip(0..)
+        .filter(|(_, lane)| found.near >> lane & 1 == 0);
+    cut.extend(apart.map(|(pair, _)| *pair).filter(|pair| {
+        put.contains(scene.bodies, pair.slots(scene.pieces))
+            && scene.overlaps_across_cuts(pair.pieces)
+    }));
     fresh.extend(lanes(found.near).map(|lane| {
         let pair = news[lane];
         // A corner may leave its face before it comes near; a disc keeps to it.

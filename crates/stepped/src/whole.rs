@@ -56,16 +56,25 @@ impl PutPairs {
         } else {
             moved & !known
         };
-        for lane in lanes(asked & (found.near | found.cut)) {
+        for lane in lanes(asked) {
             let (pair, bit) = (cold.pieces[lane], 1 << lane);
             let slots = scene.pieces.bodies(pair);
-            let [a, b] =
-                [block.a[lane], block.b[lane]].map(|line| scene.bodies.lines[line as usize].d());
-            let is_near = found.near & bit != 0;
             if self.whole.contains(&slots) {
                 found.near &= !bit;
-            } else if self.put.contains(&slots)
-                && (!is_near || scene.is_entangled(pair, found.gap(lane, b - a)))
+                continue;
+            }
+            if !self.put.contains(&slots) {
+                continue;
+            }
+            let is_near = found.near & bit != 0;
+            let is_deep = if is_near {
+                let [a, b] = [block.a[lane], block.b[lane]]
+                    .map(|line| scene.bodies.lines[line as usize].d());
+                scene.is_entangled(pair, found.gap(lane, b - a))
+            } else {
+                scene.overlaps_across_cuts(pair)
+            };
+            if is_deep
                 && let Some(way) = scene.way_out(pair)
                 && (!is_near || !leads(found.rows.normal(lane), way.normal))
                 && scene.is_entangled(pair, way.gap())
@@ -104,7 +113,6 @@ impl PutPairs {
     ) {
         let pieces = scene.pieces;
         let was_put = |pair: &Pair| self.contains(scene.bodies, pair.slots(pieces));
-        cut.retain(was_put);
         let entangled = fresh.iter().filter(|fresh| {
             was_put(&fresh.pair) && scene.is_entangled(fresh.pair.pieces, fresh.manifold.gap())
         });

@@ -77,8 +77,6 @@ pub(crate) struct Found {
     /// A bit for each of these that lies on a face of A, and of B: corner on corner has none, nor has what was found otherwise.
     pub(crate) of_a: u8,
     pub(crate) of_b: u8,
-    /// A bit for each pair that overlaps by more than is near across a cut, and by more behind a face.
-    pub(crate) cut: u8,
 }
 
 impl Found {
@@ -90,7 +88,6 @@ impl Found {
         seam: 0,
         of_a: 0,
         of_b: 0,
-        cut: 0,
     };
 
     /// Puts a manifold that was found otherwise into a lane.
@@ -112,7 +109,6 @@ impl Found {
         self.short |= bit(other.short);
         self.slants |= bit(other.slants);
         self.seam |= bit(other.seam);
-        self.cut |= bit(other.cut);
         self.of_a |= bit(other.of_a);
         self.of_b |= bit(other.of_b);
     }

@@ -23,12 +23,11 @@ const NEAR: f64 = 0.25;
 /// Finds manifolds of eight pairs, and which gaps are below `factor` margins, or may be until the next tick.
 pub(crate) fn collide_eight(scene: &Scene<'_>, factor: f64, eight: &Eight<'_>, found: &mut Found) {
     (found.near, found.short, found.slants, found.seam) = (0, 0, 0, 0);
-    (found.of_a, found.of_b, found.cut) = (0, 0, 0);
+    (found.of_a, found.of_b) = (0, 0);
     widest!(scene.level => parts(scene, factor, eight, found));
     found.near &= eight.used;
     found.of_a &= eight.used;
     found.of_b &= eight.used;
-    found.cut &= eight.used;
 }
 
 #[inline(always)]
@@ -270,7 +269,6 @@ fn part<S: Simd, V: Wide<S>, const N: usize, const BOXES: bool>(
     // Far behind the face it came across the cut, as the tip of a wedge does through a valley: other pieces have faces there.
     let behind = of_a.separation.max(of_b.separation) - radii;
     let cut = behind.simd_lt(-near) & behind.simd_lt(crossed);
-    let overlaps = !passes & cut & crossed.simd_lt(-near);
     let passes = passes | cut;
     // Rows count from the base poses.
     let (s1, s2) = (s1.max(crossed) - gone, s2.max(crossed) - gone);
@@ -294,14 +292,13 @@ fn part<S: Simd, V: Wide<S>, const N: usize, const BOXES: bool>(
     at_.store_slice(&mut found.rows.at[at..end]);
     bt.store_slice(&mut found.rows.bt[at..end]);
     #[expect(clippy::cast_possible_truncation, reason = "eight lanes")]
-    let (near, short, slants, seam, of_a, of_b, cut) = (
+    let (near, short, slants, seam, of_a, of_b) = (
         kept.to_bitmask() as u8,
         (kept & short).to_bitmask() as u8,
         (kept & slants).to_bitmask() as u8,
         (kept & seam).to_bitmask() as u8,
         (kept & on_face & !flip).to_bitmask() as u8,
         (kept & on_face & flip).to_bitmask() as u8,
-        overlaps.to_bitmask() as u8,
     );
     found.near |= near << at;
     found.short |= short << at;
@@ -309,5 +306,4 @@ fn part<S: Simd, V: Wide<S>, const N: usize, const BOXES: bool>(
     found.seam |= seam << at;
     found.of_a |= of_a << at;
     found.of_b |= of_b << at;
-    found.cut |= cut << at;
 }

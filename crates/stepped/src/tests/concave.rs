@@ -213,7 +213,7 @@ fn what_is_put_into_a_concave_body_comes_out() {
     }
 }
 
-/// Star-like rings of 4 to 17 corners at random distances, put over discs, polygons and driven plates. Rows of pieces that came where a
+/// Star-like rings of 4 to 17 corners at random distances, put over discs, polygons and, of four corners, driven ones. Rows of pieces that came where a
 /// pair had been put into each other were held for such as sink in, and what overlaps a polygon of more than eight corners across cuts
 /// alone had none: 34 of these were still in each other after two seconds, by up to 0.56 m.
 #[test]
@@ -243,8 +243,8 @@ fn what_is_put_over_a_random_ring_comes_out() {
             }
         };
         let mut engine = Engine::new(super::weightless()).unwrap();
-        let is_plate = matches!(&other, Shape::Convex(convex) if convex.vertices().len() == 4);
-        let mut body = if is_plate {
+        let is_driven = matches!(&other, Shape::Convex(convex) if convex.vertices().len() == 4);
+        let mut body = if is_driven {
             BodyInput::new(BodyKind::Kinematic).moving(vec2(0.05, -0.05), 0.6 * random.signed())
         } else {
             BodyInput::dynamic(1.0, 0.1)
