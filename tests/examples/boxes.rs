@@ -9,6 +9,7 @@ use std::error::Error;
 use std::process::ExitCode;
 
 use carom_dynamics::Mode;
+use carom_tests::Runs;
 use carom_tests::boxes::{Extra, Kind, Seen, Walls, watch};
 
 const OPTIONS: &str = "--mode hybrid|exact|stepped --walls segments|blocks|half-planes|zigzag \
@@ -16,11 +17,9 @@ const OPTIONS: &str = "--mode hybrid|exact|stepped --walls segments|blocks|half-
     --plates --slivers --changes --paddles --fast --elastic --weightless --uneven";
 
 struct Options {
-    modes: Vec<Mode>,
+    runs: Runs,
     walls: Vec<Walls>,
     extras: Vec<Extra>,
-    first: u64,
-    count: u64,
     /// Print each step of the first seed, and no other.
     trace: bool,
 }
@@ -37,7 +36,7 @@ fn run() -> Result<bool, Box<dyn Error>> {
             walls: *walls,
             extras: &options.extras,
         };
-        for mode in &options.modes {
+        for mode in options.runs.modes() {
             sound &= count(*mode, kind, &options);
         }
     }
@@ -47,8 +46,7 @@ fn run() -> Result<bool, Box<dyn Error>> {
 /// Plays all seeds, and prints which lost a body; whether none did.
 fn count(mode: Mode, kind: Kind<'_>, options: &Options) -> bool {
     let (mut lost, mut exact) = (0, 0);
-    let count = if options.trace { 1 } else { options.count };
-    for seed in options.first..options.first.saturating_add(count) {
+    for seed in options.runs.seeds() {
         let look = |seen: &Seen<'_>| {
             if options.trace {
                 print(seen);
@@ -60,7 +58,10 @@ fn count(mode: Mode, kind: Kind<'_>, options: &Options) -> bool {
             println!("{mode:?} {kind:?} {seed}: {escape}");
         }
     }
-    println!("{mode:?} {kind:?}: {lost} of {count} lost a body, {exact} of them called exact");
+    println!(
+        "{mode:?} {kind:?}: {lost} of {} lost a body, {exact} of them called exact",
+        options.runs.count
+    );
     lost == 0
 }
 
@@ -97,27 +98,25 @@ fn print(seen: &Seen<'_>) {
 impl Options {
     fn read() -> Result<Self, Box<dyn Error>> {
         let mut options = Self {
-            modes: Vec::new(),
+            runs: Runs::new(100),
             walls: Vec::new(),
             extras: Vec::new(),
-            first: 1,
-            count: 100,
             trace: false,
         };
         let mut arguments = std::env::args().skip(1);
         while let Some(name) = arguments.next() {
             let mut value = || arguments.next().ok_or(format!("{name} has a value"));
             match name.as_str() {
-                "--mode" => options.modes.push(carom_tests::mode(&value()?)?),
+                "--mode" | "--first" | "--count" => {
+                    options.runs.set(&name, &value()?)?;
+                }
                 "--walls" => options.walls.push(walls(&value()?)?),
-                "--first" => options.first = value()?.parse()?,
-                "--count" => options.count = value()?.parse()?,
                 "--trace" => options.trace = true,
                 _ => options.extras.push(extra(&name)?),
             }
         }
-        if options.modes.is_empty() {
-            options.modes = vec![Mode::Hybrid, Mode::Exact, Mode::Stepped];
+        if options.trace {
+            options.runs.count = 1;
         }
         if options.walls.is_empty() {
             options.walls = Walls::ALL.to_vec();

@@ -12,6 +12,7 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
 
 use carom_dynamics::Mode;
+use carom_tests::Runs;
 use carom_tests::checks::Fault;
 use carom_tests::scripts::{End, play};
 
@@ -30,26 +31,21 @@ fn main() -> ExitCode {
 }
 
 fn run() -> Result<bool, Box<dyn Error>> {
-    let (mut modes, mut first, mut count, mut limit) = (Vec::new(), 1_u64, 100_u64, 2.0_f64);
+    let (mut runs, mut limit) = (Runs::new(100), 2.0_f64);
     let mut arguments = std::env::args().skip(1);
     while let Some(name) = arguments.next() {
         let value = arguments.next().ok_or("each option has a value")?;
         match name.as_str() {
-            "--mode" => modes.push(carom_tests::mode(&value)?),
-            "--first" => first = value.parse()?,
-            "--count" => count = value.parse()?,
             "--limit" => limit = value.parse()?,
+            _ if runs.set(&name, &value)? => {}
             _ => return Err(format!("no option '{name}': --mode --first --count --limit").into()),
         }
     }
-    if modes.is_empty() {
-        modes = vec![Mode::Hybrid, Mode::Exact, Mode::Stepped];
-    }
     let limit = Duration::try_from_secs_f64(limit)?;
     let mut sound = true;
-    for mode in modes {
+    for &mode in runs.modes() {
         let (mut passed, mut broken) = (0, [const { Vec::new() }; CLASSES.len()]);
-        for seed in first..first.saturating_add(count) {
+        for seed in runs.seeds() {
             match first_fault(mode, seed, limit) {
                 None => passed += 1,
                 Some((class, told)) => {
@@ -58,7 +54,7 @@ fn run() -> Result<bool, Box<dyn Error>> {
                 }
             }
         }
-        println!("{mode:?}: {passed} of {count} passed");
+        println!("{mode:?}: {passed} of {} passed", runs.count);
         for (class, seeds) in CLASSES.iter().zip(&broken) {
             println!("  {} {class} {seeds:?}", seeds.len());
         }

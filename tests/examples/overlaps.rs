@@ -7,7 +7,7 @@
 use std::error::Error;
 use std::process::ExitCode;
 
-use carom_dynamics::Mode;
+use carom_tests::Runs;
 use carom_tests::thrown_together::watch;
 
 /// What a step called exact may leave untold, and any other one, in m.
@@ -18,24 +18,18 @@ fn main() -> ExitCode {
 }
 
 fn run() -> Result<bool, Box<dyn Error>> {
-    let (mut modes, mut first, mut count) = (Vec::new(), 1_u64, 1_000_u64);
+    let mut runs = Runs::new(1_000);
     let mut arguments = std::env::args().skip(1);
     while let Some(name) = arguments.next() {
         let value = arguments.next().ok_or("each option has a value")?;
-        match name.as_str() {
-            "--mode" => modes.push(carom_tests::mode(&value)?),
-            "--first" => first = value.parse()?,
-            "--count" => count = value.parse()?,
-            _ => return Err(format!("no option '{name}': --mode --first --count").into()),
+        if !runs.set(&name, &value)? {
+            return Err(format!("no option '{name}': --mode --first --count").into());
         }
     }
-    if modes.is_empty() {
-        modes = vec![Mode::Hybrid, Mode::Exact, Mode::Stepped];
-    }
     let mut sound = true;
-    for mode in modes {
+    for &mode in runs.modes() {
         let (mut worlds, mut most) = ([0; 2], [0.0_f64; 2]);
-        for seed in first..first.saturating_add(count) {
+        for seed in runs.seeds() {
             let mut broke = [false; 2];
             watch(mode, seed, |found| {
                 let (k, off) = (usize::from(!found.exact), found.depth - found.told);
@@ -49,7 +43,7 @@ fn run() -> Result<bool, Box<dyn Error>> {
                 worlds[k] += u32::from(broke[k]);
             }
         }
-        println!("{mode:?}: {count} worlds");
+        println!("{mode:?}: {} worlds", runs.count);
         for (k, steps) in ["called exact", "not exact"].into_iter().enumerate() {
             println!(
                 "  steps {steps}: at most {:.1e} m untold, over {} m in {} worlds",

@@ -1,5 +1,6 @@
 //! Shared helpers of the integration tests.
 
+use core::ops::Range;
 use std::error::Error;
 use std::process::ExitCode;
 
@@ -39,6 +40,57 @@ pub fn exit(all_sound: Result<bool, Box<dyn Error>>) -> ExitCode {
             eprintln!("error: {error}");
             ExitCode::from(2)
         }
+    }
+}
+
+/// Which runs an example plays: `--mode`, if not all, `--first` seed and `--count` of seeds.
+#[derive(Clone, Debug)]
+pub struct Runs {
+    modes: Vec<Mode>,
+    first: u64,
+    /// How many seeds.
+    pub count: u64,
+}
+
+impl Runs {
+    /// So many seeds from 1 on, in each mode.
+    #[must_use]
+    pub const fn new(count: u64) -> Self {
+        Self {
+            modes: Vec::new(),
+            first: 1,
+            count,
+        }
+    }
+
+    /// Takes an option; whether it is one of these.
+    ///
+    /// # Errors
+    /// It is, and this is no value for it.
+    pub fn set(&mut self, name: &str, value: &str) -> Result<bool, Box<dyn Error>> {
+        match name {
+            "--mode" => self.modes.push(mode(value)?),
+            "--first" => self.first = value.parse()?,
+            "--count" => self.count = value.parse()?,
+            _ => return Ok(false),
+        }
+        Ok(true)
+    }
+
+    /// The modes that were asked for, or all.
+    #[must_use]
+    pub fn modes(&self) -> &[Mode] {
+        if self.modes.is_empty() {
+            &[Mode::Hybrid, Mode::Exact, Mode::Stepped]
+        } else {
+            &self.modes
+        }
+    }
+
+    /// All seeds.
+    #[must_use]
+    pub const fn seeds(&self) -> Range<u64> {
+        self.first..self.first.saturating_add(self.count)
     }
 }
 
