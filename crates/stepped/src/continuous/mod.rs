@@ -3,10 +3,10 @@
 //! A body is fast if it moves farther than a part of its width. Its motion is straight, from its pose before the sub-step to
 //! the one after it, and its core polygon must be free along all of it: contacts that slide, roll or are held off by a row lie
 //! outside of the core. Where the core would touch another shape, the body is stopped short of the touch of its surface, and
-//! keeps its velocity; a contact row takes over in the next sub-step. Stopped is what goes on as the other body does; two of them that
-//! touch go on as their centre of mass does. If there is a row that did not hold it, the body goes on
-//! without what closes of its motion: no row takes the velocity along a wall, and what falls along it would hang there. What is stopped
-//! where it stands in two sub-steps on end is held by no row, as in a notch that a peg has come into: it loses that velocity.
+//! keeps its velocity; a contact row takes over in the next sub-step. For the rest of this one it goes as the other body goes, and
+//! two that are both fast, or free, as their centre of mass. If there is a row that did not hold it, the body goes on without what
+//! closes of its motion: no row takes the velocity along a wall, and what falls along it would hang there. What is stopped where it
+//! stands in two sub-steps on end is held by no row, as in a notch that a peg has come into: it loses that velocity.
 
 mod cores;
 mod moving;
